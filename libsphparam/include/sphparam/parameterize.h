@@ -1,0 +1,73 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sphparam/curvilinear/date_line.h"
+#include "sphparam/curvilinear/poles.h"
+#include "sphparam/mesh/edge_weights.h"
+#include "sphparam/mesh/triangle_mesh.h"
+#include "sphparam/progress.h"
+#include "sphparam/sphere/certificate.h"
+#include "sphparam/sphere/distortion.h"
+#include "sphparam/sphere/sphere_map.h"
+
+namespace sphparam {
+
+enum class Method {
+  Paper,        // what the paper prints, folds and all
+  Curvilinear,  // the paper made sound: periodic θ, guarded relaxation, untangling, fallback
+};
+
+/// What only `Method::Paper` reads. The defaults are the paper's.
+struct PaperSettings {
+  double epsilon = 0.02;                       // ϕ of the northern link, π − ϕ of the southern
+  int iterations = 3;                          // of the quasi-harmonic improvement
+  int rings = 5;                               // neighbourhood of the date line that is smoothed
+  int sweeps = 3;                              // of tangential smoothing
+  WeightKind weights = WeightKind::MeanValue;  // or Cotangent
+};
+
+struct ParameterizeOptions {
+  Method method = Method::Curvilinear;
+  std::optional<Poles> poles = std::nullopt;  // chosen automatically when not given
+  PaperSettings paper = {};
+  double lambda = 1;   // weight of area against angle in the guarded relaxation
+  bool repair = true;  // untangle, and fall back; Method::Paper repairs only when `repair_paper`
+  bool repair_paper = false;
+  int threads = 0;              // 0: all cores. The result does not depend on it.
+  bool measure_stages = false;  // folds and distortion after every stage: costs a pass each
+  Progress progress = {};
+};
+
+/// What one stage did.
+struct StageRecord {
+  std::string name;        // "poles", "harmonic", "quasi-harmonic 1", "untangling", …
+  double seconds = 0;      // wall time
+  long planar_folds = -1;  // triangles not positive in (θ, ϕ); -1: not measured or no plane
+  long folds = -1;         // triangles not positive on the sphere; -1: not measured
+  std::optional<DistortionSummary> distortion = std::nullopt;  // with `measure_stages`
+};
+
+struct Parameterization {
+  SphereMap map;
+  Certificate certificate;     // of `map`
+  std::string made_by;         // the stage that produced the map: "relaxation", "untangling", …
+  std::optional<Poles> poles;  // vertices at ±z, where the map has such
+  std::optional<DateLine> date_line;  // where the method has one
+  std::vector<StageRecord> stages;    // in the order they ran
+  std::vector<std::string> warnings;  // "pole 17 moved to 23: its link has a chord", …
+};
+
+/// Maps a closed genus-0 mesh to the unit sphere: the paper's pipeline, one stage a line in the
+/// source file. The certificate is of the map returned, folded or not: look at it.
+///
+/// Ensures: with Method::Curvilinear and `repair`, a map that is not bijective is returned only
+///          after untangling and every fallback have failed.
+/// Throws: MeshError before any arithmetic if the mesh is not a closed genus-0 manifold or a pole
+///         is out of range; SolveError naming the system; Cancelled.
+/// Cost: a handful of sparse factorisations of #V unknowns.
+Parameterization parameterize(const TriangleMesh& mesh, const ParameterizeOptions& options = {});
+
+}  // namespace sphparam

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <functional>
+#include <string_view>
+
+#include "sphparam/errors.h"
+
+namespace sphparam {
+
+/// Told the stage and how much of it is done (0 to 1); returns false to cancel. May be empty.
+/// Called from the thread that called the library, never concurrently.
+using Progress = std::function<bool(std::string_view stage, double fraction)>;
+
+/// Throws: Cancelled, if the callback says so.
+inline void report(const Progress& progress, std::string_view stage, double fraction) {
+  if (progress && !progress(stage, fraction)) throw Cancelled();
+}
+
+}  // namespace sphparam

@@ -1,0 +1,463 @@
+#include "sphparam/mesh/mesh_defects.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <sstream>
+#include <tuple>
+
+// Everything is found by sorting: edges by their two vertices, faces by their three, vertices by
+// position. So the cost is the same however bad the mesh is, and no half-edge structure (which bad
+// meshes do not have) is needed. Components and fans of faces are counted by union–find.
+
+namespace sphparam {
+namespace {
+
+constexpr size_t listed = 10;  // how many ids of a defect are kept
+// A face is flat when its area is below this times the square of its longest edge: the double
+// computation of the area is then nothing but rounding.
+constexpr double flat_area = 1e-14;
+
+class UnionFind {
+ public:
+  explicit UnionFind(size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+  int find(int x) {
+    while (parent_[index(x)] != x) {
+      parent_[index(x)] = parent_[index(parent_[index(x)])];
+      x = parent_[index(x)];
+    }
+    return x;
+  }
+  bool unite(int a, int b) {
+    a = find(a);
+    b = find(b);
+    if (a == b) return false;
+    parent_[index(std::max(a, b))] = std::min(a, b);
+    return true;
+  }
+
+ private:
+  static size_t index(int x) { return static_cast<size_t>(x); }
+  std::vector<int> parent_;
+};
+
+/// A side of a face, with its vertices in increasing order.
+struct Side {
+  Vertex low, high;
+  Halfedge halfedge;
+  bool forward;  // the face runs from low to high
+};
+
+/// Collects the places of one kind of defect; keeps the first few.
+struct Places {
+  long count = 0;
+  std::vector<int> elements;
+
+  void add(std::initializer_list<int> ids) {
+    ++count;
+    if (elements.size() + ids.size() <= listed * ids.size()) {
+      elements.insert(elements.end(), ids.begin(), ids.end());
+    }
+  }
+};
+
+std::string plural(long count, const char* one, const char* many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+/// "first at vertices 4–17, 17–23" for edges, "first: 4, 17" otherwise.
+std::string place_list(const Places& places, const char* noun, size_t ids_per_place) {
+  if (places.elements.empty()) return {};
+  std::ostringstream text;
+  text << ": " << noun << " ";
+  for (size_t i = 0; i < places.elements.size(); i += ids_per_place) {
+    if (i > 0) text << ", ";
+    for (size_t k = 0; k < ids_per_place; ++k) text << (k ? "-" : "") << places.elements[i + k];
+  }
+  if (static_cast<long>(places.elements.size() / ids_per_place) < places.count) text << ", …";
+  return text.str();
+}
+
+class Inspector {
+ public:
+  explicit Inspector(const TriangleMesh& mesh)
+      : mesh_(mesh),
+        vertices_(static_cast<int>(mesh.vertex_count())),
+        faces_(static_cast<int>(mesh.face_count())),
+        sound_(static_cast<size_t>(faces_), true) {}
+
+  MeshInspection run() {
+    result_.vertices = vertices_;
+    result_.faces = faces_;
+    if (faces_ == 0) add_fatal(DefectKind::Empty, 1, {}, "the mesh has no faces", "");
+    check_indices();
+    check_positions();
+    collect_sides();
+    check_edges();
+    check_duplicate_faces();
+    check_fans();
+    count_components();
+    check_usage();
+    check_shape();
+    check_coincident();
+    std::stable_partition(result_.defects.begin(), result_.defects.end(),
+                          [](const MeshDefect& defect) { return defect.fatal; });
+    return std::move(result_);
+  }
+
+ private:
+  Vertex corner(Face f, int k) const { return mesh_.triangles(f, k); }
+  bool is_sound(Face f) const { return sound_[static_cast<size_t>(f)]; }
+
+  void add_fatal(DefectKind kind, long count, std::vector<int> elements, std::string message,
+                 std::string hint) {
+    result_.defects.push_back(
+        {kind, true, count, std::move(elements), std::move(message), std::move(hint)});
+  }
+  void add_remark(DefectKind kind, const Places& places, std::string message, std::string hint) {
+    result_.defects.push_back(
+        {kind, false, places.count, places.elements, std::move(message), std::move(hint)});
+  }
+
+  /// Faces with bad indices are reported and then left out of everything else.
+  void check_indices() {
+    Places out_of_range, repeated;
+    for (Face f = 0; f < faces_; ++f) {
+      const int a = corner(f, 0), b = corner(f, 1), c = corner(f, 2);
+      const bool inside = std::min({a, b, c}) >= 0 && std::max({a, b, c}) < vertices_;
+      if (!inside) out_of_range.add({f});
+      if (inside && (a == b || b == c || c == a)) repeated.add({f});
+      sound_[static_cast<size_t>(f)] = inside && a != b && b != c && c != a;
+    }
+    if (out_of_range.count > 0) {
+      add_fatal(DefectKind::IndexOutOfRange, out_of_range.count, out_of_range.elements,
+                plural(out_of_range.count, "face names a vertex", "faces name vertices") +
+                    " that do not exist" + place_list(out_of_range, "faces", 1),
+                "");
+    }
+    if (repeated.count > 0) {
+      add_fatal(DefectKind::RepeatedVertex, repeated.count, repeated.elements,
+                plural(repeated.count, "face names", "faces name") + " one vertex twice" +
+                    place_list(repeated, "faces", 1),
+                "remove degenerate faces");
+    }
+  }
+
+  void check_positions() {
+    Places places;
+    for (Vertex v = 0; v < vertices_; ++v) {
+      if (!mesh_.positions.row(v).allFinite()) places.add({v});
+    }
+    finite_ = places.count == 0;
+    if (finite_) return;
+    add_fatal(DefectKind::NonFinitePosition, places.count, places.elements,
+              plural(places.count, "vertex has", "vertices have") +
+                  " a coordinate that is not a finite number" + place_list(places, "vertices", 1),
+              "");
+  }
+
+  void collect_sides() {
+    sides_.reserve(static_cast<size_t>(faces_) * 3);
+    for (Face f = 0; f < faces_; ++f) {
+      if (!is_sound(f)) continue;
+      for (int k = 0; k < 3; ++k) {
+        const Vertex a = corner(f, k), b = corner(f, (k + 1) % 3);
+        sides_.push_back({std::min(a, b), std::max(a, b), 3 * f + k, a < b});
+      }
+    }
+    std::sort(sides_.begin(), sides_.end(), [](const Side& x, const Side& y) {
+      return std::tie(x.low, x.high, x.halfedge) < std::tie(y.low, y.high, y.halfedge);
+    });
+  }
+
+  /// Calls visit(first, last) for the sides of every edge.
+  template <class Visit>
+  void for_each_edge(Visit&& visit) const {
+    for (size_t i = 0; i < sides_.size();) {
+      size_t j = i + 1;
+      while (j < sides_.size() && sides_[j].low == sides_[i].low &&
+             sides_[j].high == sides_[i].high) {
+        ++j;
+      }
+      visit(i, j);
+      i = j;
+    }
+  }
+
+  void check_edges() {
+    Places boundary, crowded, misoriented;
+    UnionFind loops(static_cast<size_t>(vertices_));
+    std::vector<Vertex> on_boundary;
+    for_each_edge([&](size_t i, size_t j) {
+      ++result_.edges;
+      const Side& side = sides_[i];
+      if (j - i == 1) {
+        boundary.add({side.low, side.high});
+        loops.unite(side.low, side.high);
+        on_boundary.push_back(side.low);
+      }
+      if (j - i > 2) crowded.add({side.low, side.high});
+      if (j - i == 2 && side.forward == sides_[i + 1].forward)
+        misoriented.add({side.low, side.high});
+    });
+    std::vector<int> roots;
+    for (const Vertex v : on_boundary) roots.push_back(loops.find(v));
+    std::sort(roots.begin(), roots.end());
+    result_.boundary_loops = std::unique(roots.begin(), roots.end()) - roots.begin();
+    if (boundary.count > 0) {
+      add_fatal(DefectKind::BoundaryEdge, boundary.count, boundary.elements,
+                "not closed: " + plural(boundary.count, "boundary edge", "boundary edges") +
+                    " in " + plural(result_.boundary_loops, "loop", "loops") +
+                    place_list(boundary, "between vertices", 2),
+                "fill the holes, or weld vertices that lie at the same place");
+    }
+    if (crowded.count > 0) {
+      add_fatal(DefectKind::NonManifoldEdge, crowded.count, crowded.elements,
+                plural(crowded.count, "edge has", "edges have") + " three or more faces" +
+                    place_list(crowded, "between vertices", 2),
+                "remove inner or duplicate faces");
+    }
+    if (misoriented.count > 0) {
+      add_fatal(DefectKind::InconsistentOrientation, misoriented.count, misoriented.elements,
+                plural(misoriented.count, "edge is", "edges are") +
+                    " run through the same way by both faces" +
+                    place_list(misoriented, "between vertices", 2),
+                "orient the faces consistently; a one-sided surface cannot be mapped");
+    }
+  }
+
+  void check_duplicate_faces() {
+    std::vector<std::array<int, 4>> keys;  // three sorted vertices, the face
+    keys.reserve(static_cast<size_t>(faces_));
+    for (Face f = 0; f < faces_; ++f) {
+      if (!is_sound(f)) continue;
+      std::array<int, 4> key{corner(f, 0), corner(f, 1), corner(f, 2), f};
+      std::sort(key.begin(), key.begin() + 3);
+      keys.push_back(key);
+    }
+    std::sort(keys.begin(), keys.end());
+    Places places;
+    for (size_t i = 1; i < keys.size(); ++i) {
+      if (std::equal(keys[i].begin(), keys[i].begin() + 3, keys[i - 1].begin())) {
+        places.add({keys[i][3]});
+      }
+    }
+    if (places.count == 0) return;
+    add_fatal(DefectKind::DuplicateFace, places.count, places.elements,
+              plural(places.count, "face has", "faces have") +
+                  " the same three vertices as another" + place_list(places, "faces", 1),
+              "remove duplicate faces");
+  }
+
+  /// Corners of one vertex are joined when an edge connects their faces; a vertex whose corners
+  /// fall into several classes is where fans touch.
+  void check_fans() {
+    UnionFind fans(static_cast<size_t>(faces_) * 3);
+    for_each_edge([&](size_t i, size_t j) {
+      for (size_t s = i + 1; s < j; ++s) {
+        const auto corner_at = [&](size_t side, Vertex v) {
+          const Halfedge h = sides_[side].halfedge;
+          return corner(h / 3, h % 3) == v ? h : (h % 3 == 2 ? h - 2 : h + 1);
+        };
+        fans.unite(corner_at(i, sides_[i].low), corner_at(s, sides_[i].low));
+        fans.unite(corner_at(i, sides_[i].high), corner_at(s, sides_[i].high));
+      }
+    });
+    std::vector<int> fan_of(static_cast<size_t>(vertices_), -1);
+    std::vector<char> touching(static_cast<size_t>(vertices_), 0);
+    for (Face f = 0; f < faces_; ++f) {
+      for (int k = 0; is_sound(f) && k < 3; ++k) {
+        const auto v = static_cast<size_t>(corner(f, k));
+        const int fan = fans.find(3 * f + k);
+        if (fan_of[v] >= 0 && fan_of[v] != fan) touching[v] = 1;
+        fan_of[v] = fan;
+      }
+    }
+    Places places;
+    for (Vertex v = 0; v < vertices_; ++v) {
+      if (touching[static_cast<size_t>(v)]) places.add({v});
+    }
+    if (places.count == 0) return;
+    add_fatal(DefectKind::NonManifoldVertex, places.count, places.elements,
+              plural(places.count, "vertex joins", "vertices join") +
+                  " separate fans of faces (non-manifold)" + place_list(places, "vertices", 1),
+              "split the vertex, one copy for each fan");
+  }
+
+  void count_components() {
+    UnionFind parts(static_cast<size_t>(vertices_));
+    std::vector<char> used(static_cast<size_t>(vertices_), 0);
+    long joined = 0;
+    for (Face f = 0; f < faces_; ++f) {
+      if (!is_sound(f)) continue;
+      for (int k = 0; k < 3; ++k) {
+        used[static_cast<size_t>(corner(f, k))] = 1;
+        joined += parts.unite(corner(f, k), corner(f, (k + 1) % 3));
+      }
+    }
+    result_.used_vertices = std::count(used.begin(), used.end(), 1);
+    result_.components = result_.used_vertices - joined;
+    const long sound_faces = std::count(sound_.begin(), sound_.end(), true);
+    result_.euler_characteristic = result_.used_vertices - result_.edges + sound_faces;
+    used_ = std::move(used);
+    if (result_.components > 1) {
+      std::vector<long> size(static_cast<size_t>(vertices_), 0);
+      for (Face f = 0; f < faces_; ++f) {
+        if (is_sound(f)) ++size[static_cast<size_t>(parts.find(corner(f, 0)))];
+      }
+      add_fatal(DefectKind::SeveralComponents, result_.components, {},
+                std::to_string(result_.components) + " separate components; the largest has " +
+                    plural(*std::max_element(size.begin(), size.end()), "face", "faces"),
+                "keep one of them");
+    }
+    const bool clean = result_.defects.empty() && result_.components == 1;
+    if (!clean) return;
+    result_.genus = (2 - result_.euler_characteristic) / 2;
+    if (result_.genus != 0) {
+      add_fatal(DefectKind::WrongGenus, result_.genus, {},
+                "genus " + std::to_string(result_.genus) + " (Euler characteristic " +
+                    std::to_string(result_.euler_characteristic) +
+                    "): only surfaces without handles map to the sphere",
+                "cut and fill the " + plural(result_.genus, "handle", "handles"));
+    }
+  }
+
+  void check_usage() {
+    Places places;
+    for (Vertex v = 0; v < vertices_; ++v) {
+      if (!used_[static_cast<size_t>(v)]) places.add({v});
+    }
+    if (places.count == 0) return;
+    add_remark(DefectKind::UnusedVertex, places,
+               plural(places.count, "vertex is", "vertices are") + " used by no face" +
+                   place_list(places, "vertices", 1),
+               "");
+  }
+
+  void check_shape() {
+    if (!finite_ || faces_ == 0) return;
+    result_.lower = mesh_.positions.colwise().minCoeff();
+    result_.upper = mesh_.positions.colwise().maxCoeff();
+    // Scaled to the unit box, so that 1e±300 neither overflows nor vanishes.
+    const Vector3 centre = 0.5 * result_.lower + 0.5 * result_.upper;
+    const double extent = (result_.upper / 2 - result_.lower / 2).maxCoeff() * 2;
+    const double scale = extent > 0 ? extent : 1;
+    Places flat;
+    for (Face f = 0; f < faces_; ++f) {
+      if (!is_sound(f)) continue;
+      const auto point = [&](int k) -> Vector3 {
+        return (mesh_.position(corner(f, k)) - centre) / scale;
+      };
+      const Vector3 a = point(0), b = point(1), c = point(2);
+      const double area = (b - a).cross(c - a).norm() / 2;
+      const double longest =
+          std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+      result_.area += area;
+      result_.volume += a.dot(b.cross(c)) / 6;
+      if (area <= flat_area * longest) flat.add({f});
+    }
+    result_.area *= scale * scale;
+    result_.volume *= scale * scale * scale;
+    if (flat.count > 0) {
+      add_remark(
+          DefectKind::ZeroAreaFace, flat,
+          plural(flat.count, "face has", "faces have") + " no area" + place_list(flat, "faces", 1),
+          "");
+    }
+    if (result_.volume < 0 && result_.boundary_loops == 0) {
+      add_remark(DefectKind::InsideOut, {}, "inside out: the volume is negative",
+                 "the map is made all the same, with the faces as they are");
+    }
+  }
+
+  void check_coincident() {
+    if (!finite_) return;
+    std::vector<Vertex> order;
+    for (Vertex v = 0; v < vertices_; ++v) {
+      if (used_[static_cast<size_t>(v)]) order.push_back(v);
+    }
+    const auto key = [&](Vertex v) {
+      return std::make_tuple(mesh_.positions(v, 0), mesh_.positions(v, 1), mesh_.positions(v, 2));
+    };
+    std::sort(order.begin(), order.end(), [&](Vertex a, Vertex b) {
+      return std::make_pair(key(a), a) < std::make_pair(key(b), b);
+    });
+    Places places;
+    for (size_t i = 1; i < order.size(); ++i) {
+      if (key(order[i]) == key(order[i - 1])) places.add({order[i]});
+    }
+    if (places.count == 0) return;
+    add_remark(DefectKind::CoincidentVertices, places,
+               plural(places.count, "vertex lies", "vertices lie") + " exactly on another" +
+                   place_list(places, "vertices", 1),
+               "");
+  }
+
+  const TriangleMesh& mesh_;
+  const int vertices_;
+  const int faces_;
+  std::vector<bool> sound_;  // per face: indices in range and different
+  std::vector<char> used_;   // per vertex
+  std::vector<Side> sides_;  // sorted by edge
+  bool finite_ = true;
+  MeshInspection result_;
+};
+
+/// Whether every vertex is reached from the first. A closed mesh without handles has χ = 2 a
+/// component, so this and χ = 2 together mean genus 0.
+bool is_connected(const Topology& topology) {
+  std::vector<char> seen(static_cast<size_t>(topology.vertex_count()), 0);
+  std::vector<Vertex> stack{0};
+  seen[0] = 1;
+  long reached = 1;
+  while (!stack.empty()) {
+    const Vertex v = stack.back();
+    stack.pop_back();
+    topology.for_each_outgoing(v, [&](Halfedge h) {
+      char& mark = seen[static_cast<size_t>(topology.target(h))];
+      if (mark) return;
+      mark = 1;
+      ++reached;
+      stack.push_back(topology.target(h));
+    });
+  }
+  return reached == topology.vertex_count();
+}
+
+std::string joined_messages(const std::vector<MeshDefect>& defects) {
+  std::string text = "the mesh is not a closed genus-0 manifold";
+  for (const MeshDefect& defect : defects) text += "; " + defect.message;
+  return text;
+}
+
+}  // namespace
+
+bool MeshInspection::is_sphere() const {
+  return std::none_of(defects.begin(), defects.end(),
+                      [](const MeshDefect& defect) { return defect.fatal; });
+}
+
+MeshInspection inspect_mesh(const TriangleMesh& mesh) { return Inspector(mesh).run(); }
+
+MeshError::MeshError(std::vector<MeshDefect> defects)
+    : std::runtime_error(joined_messages(defects)), defects_(std::move(defects)) {}
+
+Topology require_sphere(const TriangleMesh& mesh) {
+  const auto refuse = [&] {
+    std::vector<MeshDefect> reasons;
+    for (MeshDefect& defect : inspect_mesh(mesh).defects) {
+      if (defect.fatal || defect.kind == DefectKind::UnusedVertex) reasons.push_back(defect);
+    }
+    throw MeshError(std::move(reasons));
+  };
+  if (mesh.face_count() == 0 || !mesh.positions.allFinite()) refuse();
+  Topology topology(mesh);
+  if (topology.vertex_count() - topology.edge_count() + topology.face_count() != 2) refuse();
+  if (!is_connected(topology)) refuse();  // e.g. a torus beside two spheres
+  return topology;
+}
+
+}  // namespace sphparam

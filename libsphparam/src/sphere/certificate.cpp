@@ -1,0 +1,180 @@
+#include "sphparam/sphere/certificate.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "sphparam/parallel.h"
+#include "sphparam/sphere/orientation.h"
+
+// Theorem. Let K be a closed oriented triangle mesh (every directed edge once, its opposite once:
+// what Topology guarantees), x_v a ray for each vertex, and f the map that sends the point
+// Σ λᵢ vᵢ of a triangle to Σ λᵢ xᵢ / |Σ λᵢ xᵢ|. Then f is an orientation-preserving homeomorphism
+// onto the sphere if and only if
+//   (a) det(x_a, x_b, x_c) > 0 for every triangle, and
+//   (b) some generic ray lies in the open cone of exactly one triangle.
+//
+// Proof. If: by (a) the rays of a triangle are independent, so f is defined and injective on each
+// closed triangle. It is an open map: inside a triangle that is clear; at an edge uv both triangles
+// have positive determinants while they run through uv in opposite directions, so their apexes lie
+// on opposite sides of the plane span(x_u, x_v); at a vertex the triangles' images are sectors with
+// angles in (0, π) that all turn the same way and close after 2πk, k ≥ 1. All local degrees are +1,
+// so a generic point has exactly deg f preimages, by (b) one. If f(p) = f(q) with p ≠ q, disjoint
+// neighbourhoods of p and q would both cover a neighbourhood of the image, and a generic point of
+// it would have two preimages: so f is injective. Its image is compact and open, hence all of S²,
+// and a continuous bijection from a compact space to a Hausdorff one is a homeomorphism. Only if:
+// injectivity excludes det = 0, orientation gives the sign, degree 1 gives (b).  ∎
+//
+// (a) alone is not enough: longitudes doubled around two poles leave every determinant positive and
+// cover the sphere twice. Signs are exact, rays may have any length. The solid angles sum to
+// 4π·degree; their floating-point sum is only a cross-check.
+
+namespace sphparam {
+namespace {
+
+constexpr std::int64_t chunk_size = 8192;
+constexpr double largest_coordinate = 0x1p64;  // what `orientation` promises to be exact for
+
+bool usable(const Vector3& x) {
+  return x.allFinite() && x.cwiseAbs().maxCoeff() <= largest_coordinate && !x.isZero(0);
+}
+
+/// Van Oosterom & Strackee (1983): tan(Ω/2) = det / (1 + a·b + b·c + c·a) for unit rays.
+double solid_angle(const Vector3& a, const Vector3& b, const Vector3& c) {
+  const double det = a.dot((b - a).cross(c - a));
+  return 2 * std::atan2(det, 1 + a.dot(b) + b.dot(c) + c.dot(a));
+}
+
+struct Findings {
+  std::vector<Face> folded, degenerate;
+  double solid_angle = 0;
+};
+
+Findings examine_faces(const Topology& topology, const SphereMap& map, Face first, Face last) {
+  Findings findings;
+  for (Face f = first; f < last; ++f) {
+    const Vector3 a = map.point(topology.vertex(f, 0));
+    const Vector3 b = map.point(topology.vertex(f, 1));
+    const Vector3 c = map.point(topology.vertex(f, 2));
+    const int sign = orientation(a, b, c);
+    if (sign < 0) findings.folded.push_back(f);
+    if (sign == 0) findings.degenerate.push_back(f);
+    // stableNormalized: rays may be tiny or huge, and this is only the cross-check.
+    findings.solid_angle +=
+        solid_angle(a.stableNormalized(), b.stableNormalized(), c.stableNormalized());
+  }
+  return findings;
+}
+
+/// Directions that no mesh made by people has on its edges; tried in order until one is generic.
+std::array<Vector3, 64> generic_rays() {
+  std::array<Vector3, 64> rays;
+  for (size_t i = 0; i < rays.size(); ++i) {
+    // Low-discrepancy points on the sphere, from multiples of two irrational numbers.
+    const double z = 2 * std::fmod(0.37 + static_cast<double>(i) * 0.7548776662466927, 1.0) - 1;
+    const double turn = std::fmod(0.61 + static_cast<double>(i) * 0.5698402909980532, 1.0);
+    const double r = std::sqrt(1 - z * z), theta = 2 * std::numbers::pi * turn;
+    rays[i] = {r * std::cos(theta), r * std::sin(theta), z};
+  }
+  return rays;
+}
+
+/// How many open cones hold the ray; nothing if the ray meets the boundary of one (not generic).
+/// Requires: all determinants positive.
+std::optional<int> count_cones(const Topology& topology, const SphereMap& map, const Vector3& ray,
+                               int threads) {
+  std::atomic<int> inside{0};
+  std::atomic<bool> generic{true};
+  parallel_for(topology.face_count(), chunk_size, threads,
+               [&](std::int64_t first, std::int64_t last) {
+                 for (auto f = static_cast<Face>(first); f < static_cast<Face>(last); ++f) {
+                   const Vector3 a = map.point(topology.vertex(f, 0));
+                   const Vector3 b = map.point(topology.vertex(f, 1));
+                   const int s1 = orientation(a, b, ray);
+                   if (s1 < 0) continue;
+                   const Vector3 c = map.point(topology.vertex(f, 2));
+                   const int s2 = orientation(b, c, ray);
+                   if (s2 < 0) continue;
+                   const int s3 = orientation(c, a, ray);
+                   if (s3 < 0) continue;
+                   if (s1 > 0 && s2 > 0 && s3 > 0) {
+                     ++inside;
+                   } else {
+                     generic = false;
+                   }
+                 }
+               });
+  if (!generic) return std::nullopt;
+  return inside;
+}
+
+int degree_by_ray(const Topology& topology, const SphereMap& map, int threads) {
+  for (const Vector3& ray : generic_rays()) {
+    if (const auto count = count_cones(topology, map, ray, threads)) return *count;
+  }
+  return 0;  // fails closed
+}
+
+/// How often the star of v winds around its ray, by the angles of its sectors.
+int winding(const Topology& topology, const SphereMap& map, Vertex v) {
+  const Vector3 x = map.point(v).stableNormalized();
+  double angle = 0;
+  topology.for_each_outgoing(v, [&](Halfedge h) {
+    const Vector3 a = map.point(topology.target(h)), b = map.point(topology.apex(h));
+    const Vector3 p = a - x * x.dot(a), q = b - x * x.dot(b);
+    angle += std::atan2(x.dot(p.cross(q)), p.dot(q));
+  });
+  return static_cast<int>(std::lround(angle / (2 * std::numbers::pi)));
+}
+
+std::vector<Vertex> branch_vertices(const Topology& topology, const SphereMap& map) {
+  std::vector<Vertex> result;
+  for (Vertex v = 0; v < topology.vertex_count(); ++v) {
+    if (winding(topology, map, v) != 1) result.push_back(v);
+  }
+  return result;
+}
+
+}  // namespace
+
+Certificate certify(const Topology& topology, const SphereMap& map, int threads) {
+  Certificate certificate;
+  for (Vertex v = 0; v < topology.vertex_count(); ++v) {
+    const Vector3 x = map.point(v);
+    if (!usable(x)) {
+      certificate.unusable_points.push_back(v);
+      continue;
+    }
+    certificate.max_length_error =
+        std::max(certificate.max_length_error, std::abs(x.stableNorm() - 1));
+  }
+  if (!certificate.unusable_points.empty()) return certificate;
+
+  const Face faces = topology.face_count();
+  std::vector<Findings> chunks(static_cast<size_t>((faces + chunk_size - 1) / chunk_size));
+  parallel_for(faces, chunk_size, threads, [&](std::int64_t first, std::int64_t last) {
+    chunks[static_cast<size_t>(first / chunk_size)] =
+        examine_faces(topology, map, static_cast<Face>(first), static_cast<Face>(last));
+  });
+  double solid_angle_sum = 0;
+  for (const Findings& chunk : chunks) {
+    const auto append = [](std::vector<Face>& to, const std::vector<Face>& from) {
+      to.insert(to.end(), from.begin(), from.end());
+    };
+    append(certificate.folded, chunk.folded);
+    append(certificate.degenerate, chunk.degenerate);
+    solid_angle_sum += chunk.solid_angle;
+  }
+  certificate.covering = solid_angle_sum / (4 * std::numbers::pi);
+  certificate.reversed = static_cast<Face>(certificate.folded.size()) == faces;
+  if (certificate.fold_count() > 0) return certificate;
+
+  certificate.degree = degree_by_ray(topology, map, threads);
+  if (certificate.degree != 1) certificate.branch_vertices = branch_vertices(topology, map);
+  return certificate;
+}
+
+}  // namespace sphparam

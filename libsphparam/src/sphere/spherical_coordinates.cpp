@@ -1,0 +1,30 @@
+#include "sphparam/sphere/spherical_coordinates.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "sphparam/sphere/sphere_map.h"
+
+namespace sphparam {
+
+Vector3 to_cartesian(SphericalCoordinates c) {
+  const double s = std::sin(c.phi);
+  return {std::cos(c.theta) * s, std::sin(c.theta) * s, std::cos(c.phi)};
+}
+
+SphericalCoordinates to_spherical(const Vector3& ray) {
+  constexpr double two_pi = 2 * std::numbers::pi;
+  double theta = std::atan2(ray.y(), ray.x());
+  if (ray.x() == 0 && ray.y() == 0) theta = 0;  // atan2(0, −0) is π
+  if (theta < 0) theta += two_pi;
+  if (theta >= two_pi) theta = 0;  // −1e-17 + 2π rounds to 2π
+  return {theta, std::atan2(std::hypot(ray.x(), ray.y()), ray.z())};
+}
+
+SphereMap normalised(Points rays) {
+  // stableNorm: the fallbacks make rays too long or too short to square.
+  for (Eigen::Index v = 0; v < rays.rows(); ++v) rays.row(v) /= rays.row(v).stableNorm();
+  return {std::move(rays)};
+}
+
+}  // namespace sphparam

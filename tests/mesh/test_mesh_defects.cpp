@@ -1,0 +1,175 @@
+#include <catch2/catch.hpp>
+#include <limits>
+
+#include "sphparam/mesh/mesh_defects.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+
+namespace {
+
+const MeshDefect* find(const MeshInspection& inspection, DefectKind kind) {
+  for (const MeshDefect& defect : inspection.defects) {
+    if (defect.kind == kind) return &defect;
+  }
+  return nullptr;
+}
+
+TriangleMesh joined(const TriangleMesh& a, const TriangleMesh& b) {
+  TriangleMesh mesh;
+  mesh.positions.resize(a.vertex_count() + b.vertex_count(), 3);
+  mesh.positions << a.positions, b.positions;
+  mesh.triangles.resize(a.face_count() + b.face_count(), 3);
+  mesh.triangles << a.triangles,
+      (b.triangles.array() + static_cast<int>(a.vertex_count())).matrix();
+  return mesh;
+}
+
+/// A grid of quads, periodic both ways.
+TriangleMesh torus(int n) {
+  TriangleMesh mesh;
+  mesh.positions.resize(n * n, 3);
+  mesh.triangles.resize(2 * n * n, 3);
+  const auto at = [n](int i, int j) { return (i % n) * n + j % n; };
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      const double a = 6.283185307179586 * i / n, b = 6.283185307179586 * j / n;
+      mesh.positions.row(at(i, j)) << (3 + std::cos(b)) * std::cos(a),
+          (3 + std::cos(b)) * std::sin(a), std::sin(b);
+      mesh.triangles.row(2 * at(i, j)) << at(i, j), at(i + 1, j), at(i + 1, j + 1);
+      mesh.triangles.row(2 * at(i, j) + 1) << at(i, j), at(i + 1, j + 1), at(i, j + 1);
+    }
+  }
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("mesh_defects: a sphere has none, genus 0, and the right size") {
+  const MeshInspection inspection = inspect_mesh(icosphere(3));
+  CHECK(inspection.defects.empty());
+  CHECK(inspection.is_sphere());
+  CHECK(inspection.genus == 0);
+  CHECK(inspection.components == 1);
+  CHECK(inspection.euler_characteristic == 2);
+  CHECK(inspection.edges == 3 * inspection.faces / 2);
+  CHECK(inspection.volume == Approx(4.0 / 3 * 3.14159265).epsilon(0.02));
+  CHECK(inspection.area == Approx(4 * 3.14159265).epsilon(0.02));
+}
+
+TEST_CASE("mesh_defects: a torus has genus 1 and nothing else wrong") {
+  const MeshInspection inspection = inspect_mesh(torus(8));
+  REQUIRE(inspection.defects.size() == 1);
+  CHECK(inspection.defects[0].kind == DefectKind::WrongGenus);
+  CHECK(inspection.genus == 1);
+  CHECK_THROWS_AS(require_sphere(torus(8)), MeshError);
+}
+
+TEST_CASE("mesh_defects: a torus beside two spheres has characteristic 4 and is still refused") {
+  TriangleMesh mesh = joined(joined(torus(8), octahedron()), tetrahedron());
+  CHECK_THROWS_AS(require_sphere(mesh), MeshError);
+  const MeshInspection inspection = inspect_mesh(mesh);
+  REQUIRE(find(inspection, DefectKind::SeveralComponents));
+  CHECK(find(inspection, DefectKind::SeveralComponents)->count == 3);
+}
+
+TEST_CASE("mesh_defects: a missing face is three boundary edges in one loop") {
+  TriangleMesh mesh = octahedron();
+  mesh.triangles.conservativeResize(7, 3);
+  const MeshInspection inspection = inspect_mesh(mesh);
+  const MeshDefect* defect = find(inspection, DefectKind::BoundaryEdge);
+  REQUIRE(defect);
+  CHECK(defect->fatal);
+  CHECK(defect->count == 3);
+  CHECK(inspection.boundary_loops == 1);
+  CHECK(defect->elements.size() == 6);  // pairs of vertices
+}
+
+TEST_CASE("mesh_defects: two spheres that share a vertex touch there") {
+  TriangleMesh mesh = joined(octahedron(), octahedron());
+  for (Eigen::Index i = 0; i < mesh.triangles.size(); ++i) {
+    int& v = mesh.triangles.data()[i];
+    if (v == 6) v = 0;
+  }
+  const MeshInspection inspection = inspect_mesh(mesh);
+  const MeshDefect* defect = find(inspection, DefectKind::NonManifoldVertex);
+  REQUIRE(defect);
+  CHECK(defect->elements == std::vector<int>{0});
+  CHECK(find(inspection, DefectKind::UnusedVertex)->elements == std::vector<int>{6});
+  CHECK_THROWS_AS(require_sphere(mesh), MeshError);
+}
+
+TEST_CASE("mesh_defects: every planted fault is named with its place") {
+  TriangleMesh mesh = icosphere(1);
+  SECTION("an index out of range") {
+    mesh.triangles(5, 1) = 4711;
+    const MeshInspection inspection = inspect_mesh(mesh);
+    REQUIRE(find(inspection, DefectKind::IndexOutOfRange));
+    CHECK(find(inspection, DefectKind::IndexOutOfRange)->elements == std::vector<int>{5});
+  }
+  SECTION("a face that names a vertex twice") {
+    mesh.triangles(5, 1) = mesh.triangles(5, 0);
+    const MeshInspection inspection = inspect_mesh(mesh);
+    REQUIRE(find(inspection, DefectKind::RepeatedVertex));
+    CHECK(find(inspection, DefectKind::RepeatedVertex)->elements == std::vector<int>{5});
+  }
+  SECTION("a face twice") {
+    mesh.triangles.conservativeResize(81, 3);
+    mesh.triangles.row(80) = mesh.triangles.row(3);
+    const MeshInspection inspection = inspect_mesh(mesh);
+    REQUIRE(find(inspection, DefectKind::DuplicateFace));
+    CHECK(find(inspection, DefectKind::DuplicateFace)->elements == std::vector<int>{80});
+    CHECK(find(inspection, DefectKind::NonManifoldEdge)->count == 3);
+  }
+  SECTION("a face turned over") {
+    std::swap(mesh.triangles(7, 0), mesh.triangles(7, 1));
+    const MeshInspection inspection = inspect_mesh(mesh);
+    REQUIRE(find(inspection, DefectKind::InconsistentOrientation));
+    CHECK(find(inspection, DefectKind::InconsistentOrientation)->count == 3);
+  }
+  SECTION("a position that is not a number") {
+    mesh.positions(9, 2) = std::numeric_limits<double>::quiet_NaN();
+    const MeshInspection inspection = inspect_mesh(mesh);
+    REQUIRE(find(inspection, DefectKind::NonFinitePosition));
+    CHECK(find(inspection, DefectKind::NonFinitePosition)->elements == std::vector<int>{9});
+  }
+  CHECK_FALSE(inspect_mesh(mesh).is_sphere());
+  CHECK_THROWS_AS(require_sphere(mesh), MeshError);
+}
+
+TEST_CASE("mesh_defects: what is odd but harmless is reported and does not stop the map") {
+  TriangleMesh mesh = icosphere(1);
+  SECTION("coincident vertices, and the faces between them without area") {
+    mesh.positions.row(1) = mesh.positions.row(mesh.triangles(0, 1));
+    const Vertex moved = 12;
+    mesh.positions.row(moved) = mesh.positions.row(mesh.triangles(0, 0));
+    const MeshInspection inspection = inspect_mesh(mesh);
+    CHECK(inspection.is_sphere());
+    CHECK(find(inspection, DefectKind::CoincidentVertices));
+    CHECK(find(inspection, DefectKind::ZeroAreaFace));
+  }
+  SECTION("inside out") {
+    mesh.triangles.col(0).swap(mesh.triangles.col(1));
+    const MeshInspection inspection = inspect_mesh(mesh);
+    CHECK(inspection.is_sphere());
+    CHECK(find(inspection, DefectKind::InsideOut));
+  }
+  CHECK_NOTHROW(require_sphere(mesh));
+}
+
+TEST_CASE("mesh_defects: huge and tiny coordinates are measured without overflow") {
+  for (const double scale : {1e300, 1e-300}) {
+    TriangleMesh mesh = icosphere(1);
+    mesh.positions *= scale;
+    const MeshInspection inspection = inspect_mesh(mesh);
+    CHECK(inspection.is_sphere());
+    CHECK_FALSE(find(inspection, DefectKind::ZeroAreaFace));
+    CHECK_FALSE(find(inspection, DefectKind::InsideOut));
+  }
+}
+
+TEST_CASE("mesh_defects: an empty mesh is refused") {
+  CHECK_FALSE(inspect_mesh(TriangleMesh{}).is_sphere());
+  CHECK_THROWS_AS(require_sphere(TriangleMesh{}), MeshError);
+}

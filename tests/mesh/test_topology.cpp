@@ -1,0 +1,103 @@
+#include <catch2/catch.hpp>
+
+#include "sphparam/mesh/mesh_defects.h"
+#include "sphparam/mesh/topology.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+
+namespace {
+
+TriangleMesh some_mesh(int which) {
+  switch (which) {
+    case 0:
+      return tetrahedron();
+    case 1:
+      return icosphere(2);
+    case 2:
+      return uv_sphere(40, 3);
+    default:
+      return random_sphere_mesh(200, 7);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("topology: twins pair up and run through the same edge the other way") {
+  const TriangleMesh mesh = some_mesh(GENERATE(0, 1, 2, 3));
+  const Topology topology(mesh);
+  for (Halfedge h = 0; h < topology.halfedge_count(); ++h) {
+    REQUIRE(topology.twin(h) != h);
+    REQUIRE(topology.twin(topology.twin(h)) == h);
+    REQUIRE(topology.origin(topology.twin(h)) == topology.target(h));
+    REQUIRE(topology.target(topology.twin(h)) == topology.origin(h));
+  }
+}
+
+TEST_CASE("topology: corners are the faces' own, and next goes around the face") {
+  const TriangleMesh mesh = icosphere(1);
+  const Topology topology(mesh);
+  for (Face f = 0; f < topology.face_count(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      const Halfedge h = 3 * f + k;
+      REQUIRE(topology.origin(h) == mesh.triangles(f, k));
+      REQUIRE(topology.target(h) == mesh.triangles(f, (k + 1) % 3));
+      REQUIRE(topology.apex(h) == mesh.triangles(f, (k + 2) % 3));
+      REQUIRE(Topology::previous(Topology::next(h)) == h);
+    }
+  }
+}
+
+TEST_CASE("topology: a vertex's half-edges are visited once, counter-clockwise") {
+  const TriangleMesh mesh = some_mesh(GENERATE(0, 1, 2, 3));
+  const Topology topology(mesh);
+  long visited = 0;
+  for (Vertex v = 0; v < topology.vertex_count(); ++v) {
+    topology.for_each_outgoing(v, [&](Halfedge h) {
+      ++visited;
+      REQUIRE(topology.origin(h) == v);
+      REQUIRE(topology.rotate_cw(topology.rotate_ccw(h)) == h);
+      // Counter-clockwise: the face between h and its successor is h's own.
+      REQUIRE(topology.target(topology.rotate_ccw(h)) == topology.apex(h));
+    });
+  }
+  CHECK(visited == topology.halfedge_count());
+}
+
+TEST_CASE("topology: find_halfedge finds edges and only edges") {
+  const TriangleMesh mesh = octahedron();
+  const Topology topology(mesh);
+  CHECK(topology.find_halfedge(0, 1) == -1);  // opposite corners
+  const Halfedge h = topology.find_halfedge(0, 2);
+  REQUIRE(h >= 0);
+  CHECK(topology.target(h) == 2);
+}
+
+TEST_CASE("topology: open, misoriented and non-manifold meshes are refused with their reasons") {
+  TriangleMesh open = octahedron();
+  open.triangles.conservativeResize(7, 3);
+  CHECK_THROWS_AS(Topology(open), MeshError);
+
+  TriangleMesh turned = octahedron();
+  std::swap(turned.triangles(0, 0), turned.triangles(0, 1));
+  CHECK_THROWS_AS(Topology(turned), MeshError);
+
+  TriangleMesh unused = octahedron();
+  unused.positions.conservativeResize(7, 3);
+  unused.positions.row(6).setZero();
+  try {
+    const Topology topology(unused);
+    FAIL("an unused vertex was accepted");
+  } catch (const MeshError& error) {
+    REQUIRE(error.defects().size() == 1);
+    CHECK(error.defects()[0].kind == DefectKind::UnusedVertex);
+    CHECK(error.defects()[0].elements == std::vector<int>{6});
+  }
+}
+
+TEST_CASE("topology: a fan of 100,000 faces is built at once") {
+  const TriangleMesh mesh = uv_sphere(100000, 1);
+  const Topology topology(mesh);
+  CHECK(topology.valence(0) == 100000);
+}
