@@ -6,6 +6,7 @@
 
 #include "sphparam/curvilinear/date_line.h"
 #include "sphparam/curvilinear/poles.h"
+#include "sphparam/embedding/distortion_energy.h"
 #include "sphparam/mesh/edge_weights.h"
 #include "sphparam/mesh/triangle_mesh.h"
 #include "sphparam/progress.h"
@@ -16,8 +17,9 @@
 namespace sphparam {
 
 enum class Method {
-  Paper,        // what the paper prints, folds and all
+  Progressive,  // coarse to fine, never folded, near the least distortion: the default
   Curvilinear,  // the paper made sound: periodic θ, guarded relaxation, untangling, fallback
+  Paper,        // what the paper prints, folds and all
 };
 
 /// What only `Method::Paper` reads. The defaults are the paper's.
@@ -30,10 +32,11 @@ struct PaperSettings {
 };
 
 struct ParameterizeOptions {
-  Method method = Method::Curvilinear;
+  Method method = Method::Progressive;
   std::optional<Poles> poles = std::nullopt;  // chosen automatically when not given
   PaperSettings paper = {};
-  double lambda = 1;   // weight of area against angle in the guarded relaxation
+  DistortionEnergy energy = {};  // what is minimised; `lambda` weighs area against angle
+  double sweeps = 2;             // of Method::Progressive on the finest level; more: slower, better
   bool repair = true;  // untangle, and fall back; Method::Paper repairs only when `repair_paper`
   bool repair_paper = false;
   int threads = 0;              // 0: all cores. The result does not depend on it.
@@ -63,8 +66,8 @@ struct Parameterization {
 /// Maps a closed genus-0 mesh to the unit sphere: the paper's pipeline, one stage a line in the
 /// source file. The certificate is of the map returned, folded or not: look at it.
 ///
-/// Ensures: with Method::Curvilinear and `repair`, a map that is not bijective is returned only
-///          after untangling and every fallback have failed.
+/// Ensures: with `repair`, a map that is not bijective is returned only after untangling and every
+///          fallback have failed (Method::Paper: only with `repair_paper`).
 /// Throws: MeshError before any arithmetic if the mesh is not a closed genus-0 manifold or a pole
 ///         is out of range; SolveError naming the system; Cancelled.
 /// Cost: a handful of sparse factorisations of #V unknowns.

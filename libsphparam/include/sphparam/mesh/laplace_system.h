@@ -33,7 +33,8 @@ class LaplaceSystem {
  public:
   /// roles: #V. Requires: at least one fixed vertex in every connected part of free ones; the
   /// topology outlives the system.
-  LaplaceSystem(const Topology& topology, std::vector<VertexRole> roles, bool symmetric);
+  LaplaceSystem(const Topology& topology, std::vector<VertexRole> roles, bool symmetric,
+                int threads = 0);
   ~LaplaceSystem();
   LaplaceSystem(LaplaceSystem&&) noexcept;
   LaplaceSystem& operator=(LaplaceSystem&&) noexcept;
@@ -55,8 +56,8 @@ class LaplaceSystem {
 
  private:
   struct Factor;
-  void number_unknowns();
-  void build_pattern();
+  void number_unknowns(int threads);
+  void build_pattern(bool upper_half, int threads);
   Eigen::VectorXd right_hand_side(const Eigen::Ref<const Eigen::VectorXd>& values,
                                   const std::vector<Jump>& jumps) const;
 

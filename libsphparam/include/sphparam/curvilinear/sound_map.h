@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include "sphparam/curvilinear/harmonic.h"
+#include "sphparam/progress.h"
+#include "sphparam/sphere/sphere_map.h"
+
+namespace sphparam {
+
+struct SoundOptions {
+  int iterations = 4;  // quasi-harmonic iterations, at most
+  double epsilon = 0;  // radians from the poles to the rims; 0: each cap gets its star's area
+  int threads = 0;     // 0: all cores
+};
+
+/// A chart that is one-to-one, and its lift, which need not be.
+struct SoundMap {
+  SphereMap map;
+  DateLine date_line;
+  long planar_folds = 0;                // 0 but for rounding: of the chart that was lifted
+  int iterations = 0;                   // quasi-harmonic iterations that were kept
+  std::vector<double> area_distortion;  // mean |ln κ| of the initial map and after each of them
+  long clamped_weights = 0;             // corner terms of degenerate triangles, see EdgeWeights
+};
+
+/// The paper made sound: θ periodic with a free date line, symmetrised mean value weights, κ
+/// accumulated (κ after the first map, √κ after the others: two such steps reach the area
+/// distortion of four with √κ alone); an iteration is kept only if its chart has no folds and the
+/// mean |ln area ratio| falls, else the map before it is the result. Our own, after the paper's
+/// Sections 3 and 4; bijective in the chart by Tutte's theorem on a cylinder. The lift's few folds
+/// are the business of certificate and untangling. Requires: usable poles; an induced date line
+/// from pole to pole. Throws: SolveError, Cancelled.
+SoundMap map_periodic(const TriangleMesh& mesh, const Topology& topology, DateLine date_line,
+                      const SoundOptions& options = {}, const Progress& progress = {});
+
+/// With the shortest date line, made an induced path.
+SoundMap map_periodic(const TriangleMesh& mesh, const Topology& topology, Poles poles,
+                      const SoundOptions& options = {}, const Progress& progress = {});
+
+}  // namespace sphparam

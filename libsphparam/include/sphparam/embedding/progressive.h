@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+
+#include "sphparam/embedding/distortion_energy.h"
+#include "sphparam/mesh/mesh_hierarchy.h"
+#include "sphparam/progress.h"
+
+namespace sphparam {
+
+struct ProgressiveOptions {
+  DistortionEnergy energy = {};  // ε is not used: the map is valid at every moment
+  double sweeps = 2;     // on the finest level; a level of n vertices gets √(N/n) times that
+  int most_sweeps = 60;  // on any level
+  double over_relaxation = 1.7;  // first step tried, in Newton steps
+  int retries = 5;               // of a level whose vertices found no room
+  int threads = 0;               // 0: all cores
+  Progress progress = {};
+};
+
+struct ProgressiveReport {
+  int levels = 0;
+  int retries = 0;             // levels that had to be relaxed again before vertices found room
+  long kernel_placements = 0;  // vertices for which the mean of their ring was not good enough
+};
+
+struct ProgressiveEmbedding {
+  std::optional<SphereMap> map;  // nothing, when a vertex found no room although retried
+  ProgressiveReport report;
+};
+
+/// Embeds a mesh on the sphere from coarse to fine: a tetrahedron first, then level by level the
+/// removed vertices inside the kernels of their rings, then guarded relaxation of the level.
+///
+/// In exact arithmetic a kernel is never empty, so the method cannot fail; in doubles limbs of
+/// extreme length can run out of room, hence the retries and the optional result. Every triangle's
+/// orientation is certain at every moment, none is ever folded.
+/// Requires: genus 0, finite positions. Ensures: unit points; same bits for any number of threads
+///           and any vector width of the machine. Cost: O(#F), no linear system.
+/// Paper: Praun and Hoppe, "Spherical parametrization and remeshing" (2003); whole levels instead
+/// of single vertices, the energy, the guard and the over-relaxed sweeps are our own.
+ProgressiveEmbedding embed_progressively(const TriangleMesh& mesh, const Topology& topology,
+                                         const ProgressiveOptions& options = {});
+
+}  // namespace sphparam

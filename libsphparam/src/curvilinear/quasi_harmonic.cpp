@@ -1,0 +1,88 @@
+#include "sphparam/curvilinear/quasi_harmonic.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sphparam/parallel.h"
+
+// The spherical area Ω of (a, b, c) is the solid angle of the three rays,
+//   tan(Ω/2) = det(a, b, c) / (1 + a·b + b·c + c·a),
+// with the determinant taken of a, b − a, c − a: that keeps its digits in small triangles.
+
+namespace sphparam {
+namespace {
+
+constexpr std::int64_t kGrain = 4096;
+constexpr double kSourceFloor = 1e-9;   // of the mean source area
+constexpr double kSphereFloor = 1e-18;  // of the mean area on the sphere
+
+double spherical_area(const Vector3& a, const Vector3& b, const Vector3& c) {
+  const double det = a.dot((b - a).cross(c - a));
+  return 2 * std::abs(std::atan2(det, 1 + a.dot(b) + b.dot(c) + c.dot(a)));
+}
+
+double triangle_area(const Vector3& a, const Vector3& b, const Vector3& c) {
+  return 0.5 * (b - a).cross(c - a).norm();
+}
+
+/// Fills values[f] = of_face(f) and returns their sum.
+template <class OfFace>
+double fill_and_sum(std::vector<double>& values, int threads, OfFace&& of_face) {
+  return parallel_sum(static_cast<std::int64_t>(values.size()), threads,
+                      [&](std::int64_t first, std::int64_t last) {
+                        double sum = 0;
+                        for (Face f = static_cast<Face>(first); f < last; ++f) {
+                          sum += values[static_cast<size_t>(f)] = of_face(f);
+                        }
+                        return sum;
+                      });
+}
+
+}  // namespace
+
+std::vector<double> area_distortion(const TriangleMesh& mesh, const SphereMap& map, int threads) {
+  const double faces = static_cast<double>(mesh.face_count());
+  std::vector<double> source(static_cast<size_t>(mesh.face_count())), kappa(source.size());
+  const double source_sum = fill_and_sum(source, threads, [&](Face f) {
+    const auto t = mesh.triangles.row(f);
+    return triangle_area(mesh.position(t[0]), mesh.position(t[1]), mesh.position(t[2]));
+  });
+  const double sphere_sum = fill_and_sum(kappa, threads, [&](Face f) {
+    const auto t = mesh.triangles.row(f);
+    return spherical_area(map.point(t[0]), map.point(t[1]), map.point(t[2]));
+  });
+  // κ_T = (Σ A / Σ A') A'_T / A_T
+  const double source_floor = kSourceFloor * source_sum / faces;
+  const double sphere_floor = kSphereFloor * sphere_sum / faces;
+  const double scale = source_sum / sphere_sum;
+  fill_and_sum(kappa, threads, [&](Face f) {
+    const size_t i = static_cast<size_t>(f);
+    return scale * std::max(kappa[i], sphere_floor) / std::max(source[i], source_floor);
+  });
+  return kappa;
+}
+
+void accumulate(std::vector<double>& accumulated, const std::vector<double>& kappa, double power,
+                int threads) {
+  if (accumulated.empty()) accumulated.assign(kappa.size(), 1);
+  const std::int64_t faces = static_cast<std::int64_t>(kappa.size());
+  parallel_for(faces, kGrain, threads, [&](std::int64_t first, std::int64_t last) {
+    for (size_t f = static_cast<size_t>(first); f < static_cast<size_t>(last); ++f) {
+      accumulated[f] *= std::pow(kappa[f], power);
+    }
+  });
+}
+
+double mean_abs_ln(const std::vector<double>& kappa, int threads) {
+  const double sum = parallel_sum(static_cast<std::int64_t>(kappa.size()), threads,
+                                  [&](std::int64_t first, std::int64_t last) {
+                                    double part = 0;
+                                    for (std::int64_t f = first; f < last; ++f) {
+                                      part += std::abs(std::log(kappa[static_cast<size_t>(f)]));
+                                    }
+                                    return part;
+                                  });
+  return sum / static_cast<double>(kappa.size());
+}
+
+}  // namespace sphparam

@@ -1,0 +1,64 @@
+#include "sphparam/curvilinear/tangential_smoothing.h"
+
+#include "sphparam/mesh/edge_weights.h"
+
+// Gauss–Seidel on the sphere: each vertex moves to the weighted mean of its neighbours, seen in the
+// tangent plane, and back to the sphere; vertices outside the patch stay.
+
+namespace sphparam {
+namespace {
+
+/// 𝓛(x_i) = Σ_j w_ij x_j / Σ_j w_ij − x_i
+Vector3 laplacian(const Topology& topology, const std::vector<double>& weights,
+                  const SphereMap& map, Vertex i) {
+  Vector3 sum = Vector3::Zero();
+  double total = 0;
+  topology.for_each_outgoing(i, [&](Halfedge h) {
+    const double w = weights.empty() ? 1 : weights[static_cast<size_t>(h)];
+    sum += w * map.point(topology.target(h));
+    total += w;
+  });
+  return sum / total - map.point(i);
+}
+
+}  // namespace
+
+std::vector<Vertex> date_line_patch(const Topology& topology, const DateLine& date_line,
+                                    int rings) {
+  std::vector<Vertex> patch = date_line.path;
+  std::vector<bool> seen(static_cast<size_t>(topology.vertex_count()), false);
+  for (const Vertex v : patch) seen[static_cast<size_t>(v)] = true;
+  size_t ring_begin = 0;
+  for (int ring = 0; ring < rings; ++ring) {
+    const size_t ring_end = patch.size();
+    for (; ring_begin < ring_end; ++ring_begin) {
+      topology.for_each_outgoing(patch[ring_begin], [&](Halfedge h) {
+        const Vertex v = topology.target(h);
+        if (!seen[static_cast<size_t>(v)]) patch.push_back(v);
+        seen[static_cast<size_t>(v)] = true;
+      });
+    }
+  }
+  return patch;
+}
+
+SphereMap smooth_date_line(const TriangleMesh& mesh, const Topology& topology,
+                           const DateLine& date_line, SphereMap map,
+                           const SmoothingOptions& options) {
+  std::vector<double> weights;  // empty: uniform
+  if (options.laplacian == SmoothingOptions::Operator::MeanValue) {
+    weights = EdgeWeights(mesh, topology, WeightKind::MeanValue).with(topology);
+  }
+  const std::vector<Vertex> patch = date_line_patch(topology, date_line, options.rings);
+  for (int sweep = 0; sweep < options.sweeps; ++sweep) {
+    for (const Vertex i : patch) {
+      const Vector3 x = map.point(i);
+      const Vector3 step = laplacian(topology, weights, map, i);
+      const Vector3 moved = x + (step - step.dot(x) * x);
+      map.points.row(i) = moved.normalized();
+    }
+  }
+  return map;
+}
+
+}  // namespace sphparam

@@ -1,0 +1,175 @@
+#include "sphparam/embedding/progressive.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "embedding/kernel_placement.h"
+#include "embedding/pack_kernel.h"
+#include "embedding/ring_packs.h"
+#include "sphparam/parallel.h"
+#include "sphparam/sphere/orientation.h"
+
+// From the tetrahedron up, level by level:
+//   1. vertices that are already there keep their points;
+//   2. each removed vertex goes to the mean of its ring, or, where that is not well inside, to the
+//      deepest point of the ring's kernel; then it makes one Newton step;
+//   3. sweeps of guarded Newton steps over all vertices, colour by colour. Coarse levels are cheap
+//      and get more of them.
+// A vertex without room (rounding on very long limbs) sends the level back: the coarser one is
+// relaxed again, which opens the rings, and the level is tried once more.
+
+namespace sphparam {
+namespace {
+
+constexpr std::int64_t pack_grain = 24;
+constexpr double area_floor = 1e-9;  // of the mean triangle, as everywhere
+
+size_t at(int i) { return static_cast<size_t>(i); }
+
+using Image = std::vector<ImagePoint>;
+
+class Embedder {
+ public:
+  Embedder(const MeshHierarchy& hierarchy, int face_count, const ProgressiveOptions& options)
+      : hierarchy_(hierarchy),
+        options_(options),
+        area_floor_(area_floor * 4 * std::numbers::pi / face_count) {}
+
+  ProgressiveEmbedding run() {
+    ProgressiveEmbedding result;
+    result.report.levels = static_cast<int>(hierarchy_.size());
+    image_ = tetrahedron_image(hierarchy_.back());
+    double done = 0, all = 0;
+    for (const HierarchyLevel& level : hierarchy_) all += level.vertex_count();
+    for (size_t l = hierarchy_.size() - 1; l-- > 0;) {
+      if (!refine(l, result.report)) return result;
+      done += hierarchy_[l].vertex_count();
+      report(options_.progress, "embedding", done / all);
+    }
+    SphereMap map;
+    map.points.resize(static_cast<Eigen::Index>(image_.size()), 3);
+    for (size_t v = 0; v < image_.size(); ++v) {
+      map.points.row(static_cast<Eigen::Index>(v)) = image_[v].vector();
+    }
+    result.map = std::move(map);
+    return result;
+  }
+
+ private:
+  static Image tetrahedron_image(const HierarchyLevel& level) {
+    const double q = 1 / std::sqrt(3.0);
+    Image image{{q, q, q, 0}, {-q, -q, q, 0}, {-q, q, -q, 0}, {q, -q, -q, 0}};
+    const Vertex* ring = level.ring_begin(0);
+    if (orientation(image[0].vector(), image[at(ring[0])].vector(), image[at(ring[1])].vector()) <
+        0) {
+      std::swap(image[0], image[1]);
+    }
+    return image;
+  }
+
+  /// Takes the image one level finer. False: some vertices found no room.
+  bool refine(size_t l, ProgressiveReport& report) {
+    const HierarchyLevel& level = hierarchy_[l];
+    const RingPacks packs = pack_rings(level, area_floor_, false, options_.threads);
+    for (int attempt = 0;; ++attempt) {
+      Image finer = prolong(level, hierarchy_[l + 1]);
+      if (insert(level, packs, finer, report)) {
+        image_ = std::move(finer);
+        break;
+      }
+      if (attempt == options_.retries) return false;
+      ++report.retries;
+      const RingPacks coarse = pack_rings(hierarchy_[l + 1], area_floor_, false, options_.threads);
+      for (int sweep = 0; sweep < 10 << attempt; ++sweep) sweep_colours(coarse, 0, 1.0);
+    }
+    const int sweeps = sweeps_on(level.vertex_count());
+    // The first sweep need not move the removed vertices: they have just made their step.
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
+      sweep_colours(packs, sweep == 0 ? 1 : 0, options_.over_relaxation);
+    }
+    return true;
+  }
+
+  int sweeps_on(int vertices) const {
+    const double finest = hierarchy_.front().vertex_count();
+    const double wanted = options_.sweeps * std::sqrt(finest / vertices);
+    return static_cast<int>(std::lround(std::min<double>(options_.most_sweeps, wanted)));
+  }
+
+  Image prolong(const HierarchyLevel& level, const HierarchyLevel& coarser) const {
+    Image finer(at(level.vertex_count()));
+    for (int v = 0; v < coarser.vertex_count(); ++v)
+      finer[at(coarser.finer[at(v)])] = image_[at(v)];
+    return finer;
+  }
+
+  /// Places the removed vertices (colour 0). False: some found no room.
+  bool insert(const HierarchyLevel& level, const RingPacks& packs, Image& image,
+              ProgressiveReport& report) const {
+    std::atomic<long> refused{0}, failed{0};
+    const int count = packs.colour_start[1];
+    std::vector<unsigned char> bits(at(count), 0);
+    parallel_for(count, pack_grain, options_.threads, [&](std::int64_t first, std::int64_t last) {
+      std::vector<LaneVectors> scratch(at(packs.largest_valence));
+      const int begin = static_cast<int>(first), end = static_cast<int>(last);
+      place_at_means(packs, begin, end, image.data(), bits.data(), scratch.data());
+      for (int p = begin; p < end; ++p) {
+        for (int lane = 0; lane < pack_width; ++lane) {
+          if (!(bits[at(p)] >> lane & 1)) continue;
+          ++refused;
+          if (!insert_in_kernel(level, packs.packs[at(p)].vertex[lane], image)) ++failed;
+        }
+      }
+      if (failed == 0) {
+        step_packs(packs, begin, end, image.data(), options_.energy, 1.0, scratch.data());
+      }
+    });
+    report.kernel_placements += refused;
+    return failed == 0;
+  }
+
+  static bool insert_in_kernel(const HierarchyLevel& level, Vertex v, Image& image) {
+    std::vector<Vector3> ring;
+    const Vertex* begin = level.ring_begin(v);
+    for (int i = 0; i < level.valence(v); ++i) ring.push_back(image[at(begin[i])].vector());
+    const auto point = place_in_kernel(ring);
+    if (point) image[at(v)] = image_point(*point);
+    return point.has_value();
+  }
+
+  void sweep_colours(const RingPacks& packs, int first_colour, double over_relaxation) {
+    sweep_image(packs, image_, first_colour, over_relaxation);
+  }
+
+  void sweep_image(const RingPacks& packs, Image& image, int first_colour,
+                   double over_relaxation) const {
+    for (int c = first_colour; c < packs.colours(); ++c) {
+      const int begin = packs.colour_start[at(c)], end = packs.colour_start[at(c) + 1];
+      parallel_for(
+          end - begin, pack_grain, options_.threads, [&](std::int64_t first, std::int64_t last) {
+            std::vector<LaneVectors> scratch(at(packs.largest_valence));
+            step_packs(packs, begin + static_cast<int>(first), begin + static_cast<int>(last),
+                       image.data(), options_.energy, over_relaxation, scratch.data());
+          });
+    }
+  }
+
+  const MeshHierarchy& hierarchy_;
+  const ProgressiveOptions& options_;
+  const double area_floor_;
+  Image image_;
+};
+
+}  // namespace
+
+ProgressiveEmbedding embed_progressively(const TriangleMesh& mesh, const Topology& topology,
+                                         const ProgressiveOptions& options) {
+  report(options.progress, "hierarchy", 0);
+  const MeshHierarchy hierarchy = build_hierarchy(mesh, topology, options.threads);
+  return Embedder(hierarchy, topology.face_count(), options).run();
+}
+
+}  // namespace sphparam

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include "sphparam/mesh/mesh_hierarchy.h"
+
+namespace sphparam {
+
+/// Vertices that one vector instruction moves together. The number is fixed, whatever the machine:
+/// narrower ones take several instructions, and the result has the same bits everywhere.
+inline constexpr int pack_width = 8;
+
+/// One triangle of the ring of each of a pack's vertices: the neighbour that begins it and what
+/// the energy needs of the source triangle (v, neighbour, next neighbour). See ring_packs.cpp.
+struct alignas(32) RingSlot {
+  Vertex neighbour[pack_width];
+  float alpha[pack_width];  // A² / 2|a|²
+  float beta[pack_width];   // |a|² / 8; zero marks a slot beyond the vertex's valence
+  float shear[pack_width];  // a·b / |a|²
+};
+
+/// Up to eight vertices of one colour (no two share an edge) and of similar valence.
+struct RingPack {
+  Vertex vertex[pack_width];  // −1: an empty lane
+  int valence;                // largest of the lanes: number of slots
+  size_t first_slot;
+};
+
+/// A level laid out for sweeps. Colour 0 holds the level's removed vertices, which are independent.
+struct RingPacks {
+  std::vector<RingPack> packs;  // colour by colour
+  std::vector<RingSlot> slots;
+  std::vector<int> colour_start;  // #colours + 1, into `packs`
+  int largest_valence = 0;
+
+  int colours() const { return static_cast<int>(colour_start.size()) - 1; }
+};
+
+/// Colours, sorts and packs the vertices of a level. Triangles smaller than `area_floor` count as
+/// equilateral ones of that area. `only_removed`: colour 0 alone.
+RingPacks pack_rings(const HierarchyLevel& level, double area_floor, bool only_removed,
+                     int threads);
+
+}  // namespace sphparam

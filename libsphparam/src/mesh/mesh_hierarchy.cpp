@@ -1,0 +1,318 @@
+#include "sphparam/mesh/mesh_hierarchy.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+#include "sphparam/parallel.h"
+
+// One batch: (1) every vertex v prices its cheapest half-edge collapse v → u: squared edge length
+// times penalties for valences that grow; (2) vertices are ordered by price, to 5 bits of mantissa;
+// (3) greedily, cheap vertices are removed that no removed neighbour has locked, if the link
+// condition holds: v and u have exactly two common neighbours, in the mesh as it is after the
+// batch's earlier collapses; (4) the survivors' rings are spliced. Only step (3) is serial.
+//
+// A legal collapse always exists: a triangulation with more than four vertices has a vertex of
+// valence at most five, and one of its edges is in no separating triangle (Euler; Whitney).
+
+namespace sphparam {
+namespace {
+
+constexpr std::int64_t grain = 1024;
+constexpr int largest_removed_valence = 24;  // rings that are placed later stay small
+constexpr double candidates = 0.6;  // the share of vertices, cheapest first, a batch looks at
+constexpr int attempts = 6;         // targets tried for one vertex before it is left alone
+
+size_t at(int i) { return static_cast<size_t>(i); }
+
+/// Removal of a vertex of this valence: low valences are easier to put back.
+double removal_penalty(int valence) {
+  const double excess = std::max(0, valence - 6);
+  return 1 + 0.1 * excess * excess;
+}
+
+/// A collapse that leaves its target with this valence.
+double target_penalty(int valence) {
+  const double excess = std::max(0, valence - 7);
+  return 1 + 0.15 * excess * excess;
+}
+
+class Batch {
+ public:
+  Batch(HierarchyLevel& fine, int threads)
+      : fine_(fine), count_(fine.vertex_count()), threads_(threads) {}
+
+  HierarchyLevel run() {
+    price();
+    order();
+    select();
+    return splice();
+  }
+
+ private:
+  struct Collapse {
+    int slot = -1;  // of the target in the ring
+    double cost = std::numeric_limits<double>::infinity();
+  };
+  /// An edge that a collapse of this batch makes, in a list per vertex.
+  struct NewEdge {
+    Vertex other;
+    int next;
+  };
+
+  Vertex ring(Vertex v, int i) const {  // i may run past the end once
+    const int k = fine_.valence(v);
+    return fine_.ring_begin(v)[i < k ? i : i - k];
+  }
+
+  /// The cheapest collapse of v among targets not yet tried.
+  Collapse cheapest(Vertex v, std::uint32_t tried) const {
+    Collapse best;
+    const int k = fine_.valence(v);
+    const Vector3 p = fine_.positions.row(v);
+    for (int i = 0; i < k; ++i) {
+      if (tried >> i & 1) continue;
+      const Vertex u = ring(v, i);
+      const double penalty = target_penalty(fine_.valence(u) + k - 4);
+      const double cost =
+          (fine_.positions.row(u).transpose() - p).squaredNorm() * penalty * penalty;
+      if (best.slot < 0 || cost < best.cost) best = {i, cost};
+    }
+    const double penalty = removal_penalty(k);
+    best.cost *= penalty * penalty;
+    return best;
+  }
+
+  void price() {
+    cost_.resize(at(count_));
+    slot_.resize(at(count_));
+    parallel_for(count_, grain, threads_, [&](std::int64_t first, std::int64_t last) {
+      for (auto v = static_cast<Vertex>(first); v < static_cast<Vertex>(last); ++v) {
+        const bool removable = fine_.valence(v) <= largest_removed_valence;
+        const Collapse collapse = removable ? cheapest(v, 0) : Collapse{};
+        cost_[at(v)] = static_cast<float>(collapse.cost);
+        slot_[at(v)] = static_cast<std::int8_t>(collapse.slot);
+      }
+    });
+  }
+
+  /// Counting sort on the top 14 bits of the price; a float ≥ 0 sorts like its bits.
+  void order() {
+    const auto key = [&](Vertex v) { return std::bit_cast<std::uint32_t>(cost_[at(v)]) >> 18; };
+    std::vector<int> place(1 << 14, 0);
+    for (Vertex v = 0; v < count_; ++v) ++place[key(v)];
+    int sum = 0;
+    for (int& p : place) {
+      const int bucket_size = p;
+      p = sum;
+      sum += bucket_size;
+    }
+    order_.resize(at(count_));
+    for (Vertex v = 0; v < count_; ++v) order_[at(place[key(v)]++)] = v;
+  }
+
+  bool has_new_edge(Vertex a, Vertex b) const {
+    for (int e = first_new_edge_[at(a)]; e >= 0; e = new_edges_[at(e)].next) {
+      if (new_edges_[at(e)].other == b) return true;
+    }
+    return false;
+  }
+
+  /// Whether an edge a–b exists after the collapses so far. Old edges die only with removed
+  /// vertices, which neither is. Searches the shorter ring: nothing is quadratic in a valence.
+  bool adjacent(Vertex a, Vertex b) const {
+    if (fine_.valence(a) > fine_.valence(b)) std::swap(a, b);
+    const Vertex* begin = fine_.ring_begin(a);
+    if (std::find(begin, begin + fine_.valence(a), b) != begin + fine_.valence(a)) return true;
+    return has_new_edge(a, b);
+  }
+
+  /// The link condition, and no valence may fall below three.
+  bool is_legal(Vertex v, int slot) const {
+    const int k = fine_.valence(v);
+    const Vertex u = ring(v, slot);
+    if (live_valence_[at(u)] + k - 4 < 3) return false;
+    if (live_valence_[at(ring(v, slot + 1))] <= 3) return false;
+    if (live_valence_[at(ring(v, slot + k - 1))] <= 3) return false;
+    for (int i = 2; i < k - 1; ++i) {
+      if (adjacent(u, ring(v, slot + i))) return false;
+    }
+    return true;
+  }
+
+  int legal_slot(Vertex v) const {
+    int slot = slot_[at(v)];
+    std::uint32_t tried = 0;
+    for (int attempt = 0; attempt < attempts && slot >= 0; ++attempt) {
+      if (is_legal(v, slot)) return slot;
+      tried |= 1u << slot;
+      slot = cheapest(v, tried).slot;
+    }
+    return -1;
+  }
+
+  void add_new_edge(Vertex a, Vertex b) {
+    new_edges_.push_back({b, first_new_edge_[at(a)]});
+    first_new_edge_[at(a)] = static_cast<int>(new_edges_.size()) - 1;
+  }
+
+  void remove(Vertex v, int slot) {
+    const int k = fine_.valence(v);
+    const Vertex u = ring(v, slot);
+    state_[at(v)] = State::Removed;
+    slot_[at(v)] = static_cast<std::int8_t>(slot);
+    for (int i = 0; i < k; ++i) state_[at(ring(v, i))] = State::Locked;
+    live_valence_[at(u)] += k - 4;
+    --live_valence_[at(ring(v, slot + 1))];
+    --live_valence_[at(ring(v, slot + k - 1))];
+    for (int i = 2; i < k - 1; ++i) {
+      add_new_edge(u, ring(v, slot + i));
+      add_new_edge(ring(v, slot + i), u);
+    }
+    ++removed_;
+  }
+
+  void select() {
+    state_.assign(at(count_), State::Free);
+    first_new_edge_.assign(at(count_), -1);
+    live_valence_.resize(at(count_));
+    for (Vertex v = 0; v < count_; ++v) live_valence_[at(v)] = fine_.valence(v);
+    const int look_at = std::max(8, static_cast<int>(candidates * count_));
+    for (int i = 0; i < count_ && count_ - removed_ > 4; ++i) {
+      if (i >= look_at && removed_ > 0) break;
+      const Vertex v = order_[at(i)];
+      if (state_[at(v)] != State::Free || slot_[at(v)] < 0) continue;
+      const int slot = legal_slot(v);
+      if (slot >= 0) remove(v, slot);
+    }
+    if (removed_ == 0) throw std::logic_error("mesh hierarchy: no vertex can be removed");
+  }
+
+  HierarchyLevel splice() {
+    HierarchyLevel coarse;
+    const int survivors = count_ - removed_;
+    std::vector<Vertex> name(at(count_), -1);  // in the coarse level
+    coarse.finer.resize(at(survivors));
+    coarse.start.resize(at(survivors) + 1);
+    fine_.removed.reserve(at(removed_));
+    int next = 0;
+    coarse.start[0] = 0;
+    for (Vertex v = 0; v < count_; ++v) {
+      if (state_[at(v)] == State::Removed) {
+        fine_.removed.push_back(v);
+        continue;
+      }
+      name[at(v)] = next;
+      coarse.finer[at(next)] = v;
+      coarse.start[at(next) + 1] = coarse.start[at(next)] + live_valence_[at(v)];
+      ++next;
+    }
+    coarse.ring.resize(at(coarse.start.back()));
+    coarse.positions.resize(survivors, 3);
+    parallel_for(survivors, grain, threads_, [&](std::int64_t first, std::int64_t last) {
+      for (auto c = static_cast<Vertex>(first); c < static_cast<Vertex>(last); ++c) {
+        const Vertex v = coarse.finer[at(c)];
+        coarse.positions.row(c) = fine_.positions.row(v);
+        splice_ring(v, name, coarse.ring.data() + coarse.start[at(c)]);
+      }
+    });
+    return coarse;
+  }
+
+  void splice_ring(Vertex v, const std::vector<Vertex>& name, Vertex* out) const {
+    const int k = fine_.valence(v);
+    for (int i = 0; i < k; ++i) {
+      const Vertex x = ring(v, i);
+      if (state_[at(x)] != State::Removed) {
+        *out++ = name[at(x)];
+        continue;
+      }
+      const int slot = slot_[at(x)], kx = fine_.valence(x);
+      const Vertex u = ring(x, slot);
+      if (u == v) {  // x's ring takes its place, without the two neighbours we have already
+        for (int j = 2; j < kx - 1; ++j) *out++ = name[at(ring(x, slot + j))];
+      } else if (ring(v, i + 1) != u && ring(v, i + k - 1) != u) {
+        *out++ = name[at(u)];
+      }  // else v is one of the two common neighbours: the edges v–x and v–u become one
+    }
+  }
+
+  enum class State : std::uint8_t { Free, Locked, Removed };
+
+  HierarchyLevel& fine_;
+  const int count_;
+  const int threads_;
+  std::vector<float> cost_;
+  std::vector<std::int8_t> slot_;  // of the collapse's target
+  std::vector<Vertex> order_;
+  std::vector<State> state_;
+  std::vector<int> live_valence_;
+  std::vector<int> first_new_edge_;
+  std::vector<NewEdge> new_edges_;
+  int removed_ = 0;
+};
+
+/// Centred, and scaled to area 4π without overflow or underflow on the way.
+Points scaled_positions(const TriangleMesh& mesh, int threads) {
+  const Vector3 lower = mesh.positions.colwise().minCoeff();
+  const Vector3 upper = mesh.positions.colwise().maxCoeff();
+  const Vector3 centre = 0.5 * lower + 0.5 * upper;
+  const double extent = 2 * (0.5 * upper - 0.5 * lower).maxCoeff();
+  if (!(extent > 0)) return Points::Zero(mesh.vertex_count(), 3);  // all in one place
+  Points points(mesh.vertex_count(), 3);
+  const auto place = [&](Vertex v) { return Vector3((mesh.position(v) - centre) / extent); };
+  const double area =
+      parallel_sum(mesh.face_count(), threads, [&](std::int64_t f0, std::int64_t f1) {
+        double sum = 0;
+        for (std::int64_t f = f0; f < f1; ++f) {
+          const Vector3 a = place(mesh.triangles(f, 0));
+          sum +=
+              (place(mesh.triangles(f, 1)) - a).cross(place(mesh.triangles(f, 2)) - a).norm() / 2;
+        }
+        return sum;
+      });
+  // A mesh without area (all points on a line) keeps its unit extent.
+  const double scale = area > 0 ? std::sqrt(4 * std::numbers::pi / area) : 1;
+  parallel_for(mesh.vertex_count(), grain, threads, [&](std::int64_t first, std::int64_t last) {
+    for (auto v = static_cast<Vertex>(first); v < static_cast<Vertex>(last); ++v) {
+      points.row(v) = scale * place(v);
+    }
+  });
+  return points;
+}
+
+HierarchyLevel finest_level(const TriangleMesh& mesh, const Topology& topology, int threads) {
+  HierarchyLevel level;
+  const int n = topology.vertex_count();
+  level.positions = scaled_positions(mesh, threads);
+  level.start.assign(at(n) + 1, 0);
+  for (Halfedge h = 0; h < topology.halfedge_count(); ++h)
+    ++level.start[at(topology.origin(h)) + 1];
+  for (int v = 0; v < n; ++v) level.start[at(v) + 1] += level.start[at(v)];
+  level.ring.resize(at(topology.halfedge_count()));
+  parallel_for(n, grain, threads, [&](std::int64_t first, std::int64_t last) {
+    for (auto v = static_cast<Vertex>(first); v < static_cast<Vertex>(last); ++v) {
+      Vertex* out = level.ring.data() + level.start[at(v)];
+      topology.for_each_outgoing(v, [&](Halfedge h) { *out++ = topology.target(h); });
+    }
+  });
+  return level;
+}
+
+}  // namespace
+
+MeshHierarchy build_hierarchy(const TriangleMesh& mesh, const Topology& topology, int threads) {
+  MeshHierarchy hierarchy;
+  hierarchy.push_back(finest_level(mesh, topology, threads));
+  while (hierarchy.back().vertex_count() > 4) {
+    HierarchyLevel coarser = Batch(hierarchy.back(), threads).run();
+    hierarchy.push_back(std::move(coarser));
+  }
+  return hierarchy;
+}
+
+}  // namespace sphparam

@@ -1,0 +1,234 @@
+#include "sphparam/sphere/distortion.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "sphparam/parallel.h"
+
+// One pass a triangle: source edges s0 s1 s2 (s_i faces corner i) and image chords e0 e1 e2. With
+// doubled areas 2A = |s1 × s2| and dots_i = −s_j·s_k, corner i's angle is atan2(2A, dots_i) and its
+// cotangent dots_i / 2A. From these follow, without any 2×2 frame,
+//   ‖J‖² = σ1² + σ2² = Σ cot_i |e_i|² / 2A      and      det J = σ1 σ2 = A_chord / A.
+// Two angles a triangle are computed, those at the ends of its longest side; the third, the
+// largest, is what is missing to π: cheaper, and exact to rounding because it is never small.
+
+namespace sphparam {
+namespace {
+
+constexpr double kSphereArea = 4 * std::numbers::pi;
+constexpr double kAreaFloor = 1e-9;  // of the mean source area
+constexpr std::int64_t kGrain = 4096;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// What the formulas need of a plane triangle.
+struct PlaneTriangle {
+  std::array<double, 3> squared;  // |s_i|², side i faces corner i
+  std::array<double, 3> dots;     // of the two sides that meet at corner i
+  double doubled_area;
+};
+
+PlaneTriangle plane_triangle(const Vector3& a, const Vector3& b, const Vector3& c) {
+  const Vector3 ab = b - a, bc = c - b, ca = a - c;
+  return {{bc.squaredNorm(), ca.squaredNorm(), ab.squaredNorm()},
+          {-ab.dot(ca), -bc.dot(ab), -ca.dot(bc)},
+          ab.cross(-ca).norm()};
+}
+
+std::array<double, 3> angles(const PlaneTriangle& t) {
+  const int largest =
+      static_cast<int>(std::max_element(t.squared.begin(), t.squared.end()) - t.squared.begin());
+  const int i = (largest + 1) % 3, j = (largest + 2) % 3;
+  std::array<double, 3> angle;
+  angle[i] = std::atan2(t.doubled_area, t.dots[i]);
+  angle[j] = std::atan2(t.doubled_area, t.dots[j]);
+  // At least π/3, as the largest must be: where the area is a floor the sum of the three is not π.
+  angle[largest] = std::max(std::numbers::pi / 3, std::numbers::pi - angle[i] - angle[j]);
+  return angle;
+}
+
+/// |Ω| = 2 |atan2(det(a, b, c), 1 + a·b + b·c + c·a)| (Van Oosterom and Strackee 1983); det from
+/// differences, which keeps its digits where the triangle is small.
+double absolute_solid_angle(const Vector3& a, const Vector3& b, const Vector3& c) {
+  const double det = a.dot((b - a).cross(c - a));
+  return std::abs(2 * std::atan2(det, 1 + a.dot(b) + b.dot(c) + c.dot(a)));
+}
+
+/// A power of two that brings the mesh to about unit size, so that no square overflows.
+double unit_scale(const TriangleMesh& mesh) {
+  const double extent = mesh.positions.cwiseAbs().maxCoeff();
+  return extent > 0 ? std::exp2(-std::ilogb(extent)) : 1;
+}
+
+/// The mesh, made about unit size.
+struct Source {
+  const TriangleMesh& mesh;
+  double scale = unit_scale(mesh);
+
+  PlaneTriangle triangle(Eigen::Index f) const {
+    const auto corner = [&](int k) -> Vector3 {
+      return scale * mesh.position(mesh.triangles(f, k));
+    };
+    return plane_triangle(corner(0), corner(1), corner(2));
+  }
+
+  double total_doubled_area(double floor, int threads) const {
+    return parallel_sum(mesh.face_count(), threads, [&](std::int64_t first, std::int64_t last) {
+      double sum = 0;
+      for (Eigen::Index f = first; f < last; ++f) sum += std::max(floor, triangle(f).doubled_area);
+      return sum;
+    });
+  }
+};
+
+/// Row f of the result. `to_sphere` scales source areas so that they sum to 4π.
+void measure_triangle(const PlaneTriangle& source, const Vector3& a, const Vector3& b,
+                      const Vector3& c, double to_sphere, Eigen::Index f, Distortion& result) {
+  const PlaneTriangle chord = plane_triangle(a, b, c);
+  const std::array<double, 3> before = angles(source), after = angles(chord);
+  for (int k = 0; k < 3; ++k) result.angle_ratio(f, k) = after[k] / before[k];
+
+  const double area = source.doubled_area * to_sphere / 2;
+  result.source_area[f] = area / kSphereArea;
+  result.area_ratio[f] = absolute_solid_angle(a, b, c) / area;
+
+  // σ1 σ2 = A_chord / A
+  const double det = chord.doubled_area / (2 * area);
+  // σ1² + σ2² = Σ cot_i |e_i|² / 2A; never less than 2 σ1 σ2 but for rounding and the area floor
+  double squares = 0;
+  for (int k = 0; k < 3; ++k) squares += source.dots[k] * chord.squared[k];
+  squares = std::max(squares / source.doubled_area / (2 * area), 2 * det);
+  // σ1,2 = (√(‖J‖² + 2 det) ± √(‖J‖² − 2 det)) / 2, the smaller one without cancellation
+  const double sigma_max = (std::sqrt(squares + 2 * det) + std::sqrt(squares - 2 * det)) / 2;
+  result.sigma_max[f] = sigma_max;
+  result.sigma_min[f] = sigma_max > 0 ? det / sigma_max : 0;
+}
+
+/// Sums and extremes over some triangles; they merge in a fixed order.
+struct Tally {
+  double ln_area = 0, ln_angle = 0, within_two = 0;
+  double log2_area = 0, dirichlet = 0, conformal = 0, stretch = 0, area = 0;
+  double area_min = kInfinity, area_max = 0, angle_max = 1, conformal_max = 1,
+         sigma_min = kInfinity;
+
+  void add(const Distortion& d, Eigen::Index f) {
+    const double ratio = d.area_ratio[f], share = d.source_area[f];
+    const double ln_ratio = std::abs(std::log(ratio));
+    ln_area += ln_ratio;
+    within_two += ratio >= 0.5 && ratio <= 2 ? 1 : 0;
+    area_min = std::min(area_min, ratio);
+    area_max = std::max(area_max, ratio);
+    for (int k = 0; k < 3; ++k) {
+      const double angle = d.angle_ratio(f, k);
+      ln_angle += std::abs(std::log(angle));
+      angle_max = std::max({angle_max, angle, 1 / angle});
+    }
+    const double s1 = d.sigma_max[f], s2 = d.sigma_min[f];
+    const double squeeze = 1 / (s1 * s1) + 1 / (s2 * s2);  // σ1⁻² + σ2⁻²
+    const double quasi_conformal = s2 > 0 ? s1 / s2 : kInfinity;
+    area += share;
+    log2_area += share * ln_ratio / std::numbers::ln2;
+    dirichlet += share * (s1 * s1 + s2 * s2 + squeeze);
+    stretch += share * squeeze / 2;
+    conformal += share * quasi_conformal;
+    conformal_max = std::max(conformal_max, quasi_conformal);
+    sigma_min = std::min(sigma_min, s2);
+  }
+
+  void merge(const Tally& other) {
+    ln_area += other.ln_area, ln_angle += other.ln_angle, within_two += other.within_two;
+    log2_area += other.log2_area, dirichlet += other.dirichlet, conformal += other.conformal;
+    stretch += other.stretch, area += other.area;
+    area_min = std::min(area_min, other.area_min), area_max = std::max(area_max, other.area_max);
+    angle_max = std::max(angle_max, other.angle_max);
+    conformal_max = std::max(conformal_max, other.conformal_max);
+    sigma_min = std::min(sigma_min, other.sigma_min);
+  }
+};
+
+Tally tally(const Distortion& distortion) {
+  const std::int64_t faces = distortion.area_ratio.size();
+  std::vector<Tally> partial(static_cast<size_t>((faces + kGrain - 1) / kGrain));
+  parallel_for(faces, kGrain, 0, [&](std::int64_t first, std::int64_t last) {
+    Tally local;
+    for (Eigen::Index f = first; f < last; ++f) local.add(distortion, f);
+    partial[static_cast<size_t>(first / kGrain)] = local;
+  });
+  Tally total;
+  for (const Tally& part : partial) total.merge(part);
+  return total;
+}
+
+/// The values at 1, 50 and 99 % of the sorted list, nearest rank.
+std::array<double, 3> percentiles(const Eigen::VectorXd& values) {
+  std::vector<double> v(values.begin(), values.end());
+  const auto begin = v.begin();
+  const auto select = [&](double share, auto first, auto last) {
+    const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(v.size() - 1) + 0.5);
+    std::nth_element(first, begin + rank, last);
+    return begin + rank;
+  };
+  const auto middle = select(0.5, begin, v.end());
+  const double median = *middle;  // read now: the next call may move it
+  const double low = *select(0.01, begin, middle + 1);
+  const double high = *select(0.99, middle, v.end());
+  return {low, median, high};
+}
+
+}  // namespace
+
+Distortion measure_distortion(const TriangleMesh& mesh, const SphereMap& map, int threads) {
+  const Eigen::Index faces = mesh.face_count();
+  Distortion result{Eigen::VectorXd(faces),
+                    {},
+                    Eigen::VectorXd(faces),
+                    Eigen::VectorXd(faces),
+                    Eigen::VectorXd(faces)};
+  result.angle_ratio.resize(faces, 3);
+  if (faces == 0) return result;
+
+  const Source source{mesh};
+  // A mesh of no area at all still gets finite figures: every triangle the same.
+  const double mean = source.total_doubled_area(0, threads) / static_cast<double>(faces);
+  const double floor = std::max(kAreaFloor * mean, std::numeric_limits<double>::min());
+  const double to_sphere = kSphereArea / (source.total_doubled_area(floor, threads) / 2);
+  parallel_for(faces, kGrain, threads, [&](std::int64_t first, std::int64_t last) {
+    for (Eigen::Index f = first; f < last; ++f) {
+      PlaneTriangle triangle = source.triangle(f);
+      triangle.doubled_area = std::max(triangle.doubled_area, floor);
+      const auto ray = [&](int k) { return map.point(mesh.triangles(f, k)); };
+      measure_triangle(triangle, ray(0), ray(1), ray(2), to_sphere, f, result);
+    }
+  });
+  return result;
+}
+
+DistortionSummary summarise(const Distortion& distortion) {
+  const auto faces = static_cast<double>(distortion.area_ratio.size());
+  if (faces == 0) return {};
+  const Tally total = tally(distortion);
+  const auto [p01, p50, p99] = percentiles(distortion.area_ratio);
+  return {
+      .mean_abs_ln_area = total.ln_area / faces,
+      .mean_abs_ln_angle = total.ln_angle / (3 * faces),
+      .area_within_two = total.within_two / faces,
+      .area_ratio_p01 = p01,
+      .area_ratio_p50 = p50,
+      .area_ratio_p99 = p99,
+      .area_ratio_min = total.area_min,
+      .area_ratio_max = total.area_max,
+      .angle_ratio_max = total.angle_max,
+      .weighted_abs_log2_area = total.log2_area / total.area,
+      .symmetric_dirichlet = total.dirichlet / total.area,
+      .quasi_conformal_mean = total.conformal / total.area,
+      .quasi_conformal_max = total.conformal_max,
+      .stretch_l2 = std::sqrt(total.stretch / total.area),
+      .stretch_linf = 1 / total.sigma_min,
+  };
+}
+
+}  // namespace sphparam
