@@ -1,6 +1,8 @@
 #include "sphparam/parameterize.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <utility>
 
 #include "sphparam/curvilinear/paper_map.h"
@@ -25,12 +27,29 @@ namespace {
 
 constexpr int date_line_rings = 5;    // the paper's five-neighbourhood (Section 5)
 constexpr int date_line_sweeps = 10;  // of guarded relaxation there
+constexpr double most_folds = 0.02;   // of the faces: beyond it nothing is local any more
 constexpr int pole_sweeps = 10;       // of pinned relaxation after poles were moved
+
+/// The mesh at about unit size, if its squares could overflow or vanish; nothing if it is fine.
+/// A power of two changes no bit of any mantissa, and maps do not depend on size.
+std::optional<TriangleMesh> rescaled(const TriangleMesh& mesh) {
+  constexpr int harmless = 100;  // binary orders of magnitude
+  const int exponent = std::ilogb(mesh.positions.cwiseAbs().maxCoeff());
+  if (exponent == FP_ILOGB0 || std::abs(exponent) <= harmless) return std::nullopt;
+  TriangleMesh result = mesh;
+  for (Eigen::Index i = 0; i < result.positions.size(); ++i) {
+    result.positions.data()[i] = std::ldexp(result.positions.data()[i], -exponent);
+  }
+  return result;
+}
 
 class Pipeline {
  public:
   Pipeline(const TriangleMesh& mesh, const ParameterizeOptions& options)
-      : mesh_(mesh), options_(options), topology_(require_sphere(mesh)) {
+      : topology_(require_sphere(mesh)),
+        rescaled_(rescaled(mesh)),
+        mesh_(rescaled_ ? *rescaled_ : mesh),
+        options_(options) {
     if (options.poles) require_poles_in_range(*options.poles);
     stopwatch_.lap();
   }
@@ -81,8 +100,13 @@ class Pipeline {
   void map_curvilinear() {
     const std::optional<Poles> poles = find_poles();
     if (!poles) return give_up("no usable pair of poles");
-    SoundMap sound =
-        map_periodic(mesh_, topology_, *poles, {.threads = options_.threads}, options_.progress);
+    SoundMap sound;
+    try {
+      sound =
+          map_periodic(mesh_, topology_, *poles, {.threads = options_.threads}, options_.progress);
+    } catch (const SolveError& error) {  // no area anywhere, or limbs where doubles underflow
+      return give_up(error.what());
+    }
     result_.poles = poles;
     result_.date_line = std::move(sound.date_line);
     if (sound.clamped_weights > 0) {
@@ -110,6 +134,8 @@ class Pipeline {
 
   void untangle_folds() {
     if (result_.map.points.rows() == 0) return;  // the method made no map
+    if (static_cast<double>(result_.certificate.fold_count()) > most_folds * topology_.face_count())
+      return;
     UntangleOptions untangling{.lambda = options_.energy.lambda,
                                .threads = options_.threads,
                                .progress = options_.progress};
@@ -256,9 +282,10 @@ class Pipeline {
     return found;
   }
 
+  const Topology topology_;
+  const std::optional<TriangleMesh> rescaled_;
   const TriangleMesh& mesh_;
   const ParameterizeOptions& options_;
-  const Topology topology_;
   SourceTriangles source_;  // measured when first needed
   Stopwatch stopwatch_;
   Parameterization result_;

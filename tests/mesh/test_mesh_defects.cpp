@@ -173,3 +173,24 @@ TEST_CASE("mesh_defects: an empty mesh is refused") {
   CHECK_FALSE(inspect_mesh(TriangleMesh{}).is_sphere());
   CHECK_THROWS_AS(require_sphere(TriangleMesh{}), MeshError);
 }
+
+TEST_CASE("mesh_defects: two faces back to back are no surface") {
+  TriangleMesh mesh;
+  mesh.positions = Points::Identity(3, 3);
+  mesh.triangles.resize(2, 3);
+  mesh.triangles << 0, 1, 2, 0, 2, 1;
+  CHECK_FALSE(inspect_mesh(mesh).is_sphere());
+  CHECK_THROWS_AS(require_sphere(mesh), MeshError);
+}
+
+TEST_CASE("mesh_defects: an unused vertex is a remark, and the surface is still seen as a sphere") {
+  TriangleMesh mesh = icosphere(1);
+  mesh.positions.conservativeResize(43, 3);
+  mesh.positions.row(42) << 7, 7, 7;
+  const MeshInspection inspection = inspect_mesh(mesh);
+  CHECK(inspection.is_sphere());
+  CHECK(inspection.genus == 0);
+  CHECK(inspection.used_vertices == 42);
+  REQUIRE(find(inspection, DefectKind::UnusedVertex));
+  CHECK(find(inspection, DefectKind::UnusedVertex)->elements == std::vector<int>{42});
+}

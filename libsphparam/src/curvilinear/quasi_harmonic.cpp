@@ -62,8 +62,8 @@ std::vector<double> area_distortion(const TriangleMesh& mesh, const SphereMap& m
   return kappa;
 }
 
-void accumulate(std::vector<double>& accumulated, const std::vector<double>& kappa, double power,
-                int threads) {
+void accumulate_kappa(std::vector<double>& accumulated, const std::vector<double>& kappa,
+                      double power, int threads) {
   if (accumulated.empty()) accumulated.assign(kappa.size(), 1);
   const std::int64_t faces = static_cast<std::int64_t>(kappa.size());
   parallel_for(faces, kGrain, threads, [&](std::int64_t first, std::int64_t last) {

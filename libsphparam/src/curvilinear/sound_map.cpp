@@ -72,14 +72,15 @@ SoundMap map_periodic(const TriangleMesh& mesh, const Topology& topology, DateLi
     SphereMap sphere = lift(cut_mesh, chart, threads);
     const std::vector<double> kappa = area_distortion(mesh, sphere, threads);
     const double distortion = mean_abs_ln(kappa, threads);
-    const bool better = iteration == 0 || (folds == 0 && distortion < best.area_distortion.back());
+    const bool better = iteration == 0 || folds < best.planar_folds ||
+                        (folds == best.planar_folds && distortion < best.area_distortion.back());
     if (!better) break;
     best.map = std::move(sphere);
     best.planar_folds = folds;
     best.iterations = iteration;
     best.area_distortion.push_back(distortion);
     if (iteration == options.iterations) break;
-    accumulate(accumulated, kappa, iteration == 0 ? kFirstPower : kPower, threads);
+    accumulate_kappa(accumulated, kappa, iteration == 0 ? kFirstPower : kPower, threads);
   }
   return best;
 }

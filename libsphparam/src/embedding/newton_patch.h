@@ -37,6 +37,9 @@ class NewtonPatch {
   int free_count() const { return static_cast<int>(free_.size()); }
   int face_count() const { return static_cast<int>(triangles_.size()); }
   void write_to(Points& points) const;
+  /// Of the free vertices and of those of their triangles that are fixed.
+  const Points& positions() const { return points_; }
+  void set_positions(const Points& positions) { points_ = positions; }
 
  private:
   using Frames = std::vector<TangentFrame>;

@@ -20,6 +20,7 @@
 //      and get more of them.
 // A vertex without room (rounding on very long limbs) sends the level back: the coarser one is
 // relaxed again, which opens the rings, and the level is tried once more.
+// Pins are placed on the coarsest level that has them all, and held from there on.
 
 namespace sphparam {
 namespace {
@@ -36,7 +37,14 @@ class Embedder {
   Embedder(const MeshHierarchy& hierarchy, int face_count, const ProgressiveOptions& options)
       : hierarchy_(hierarchy),
         options_(options),
-        area_floor_(area_floor * 4 * std::numbers::pi / face_count) {}
+        area_floor_(area_floor * 4 * std::numbers::pi / face_count) {
+    std::vector<Vertex> names;
+    for (const Pin& pin : options.pins) names.push_back(pin.vertex);
+    while (!names.empty() && std::count(names.begin(), names.end(), -1) == 0) {
+      pinned_.push_back(names);
+      for (Vertex& v : names) v = coarser_name(hierarchy[pinned_.size()], v);
+    }
+  }
 
   ProgressiveEmbedding run() {
     ProgressiveEmbedding result;
@@ -44,21 +52,26 @@ class Embedder {
     image_ = tetrahedron_image(hierarchy_.back());
     double done = 0, all = 0;
     for (const HierarchyLevel& level : hierarchy_) all += level.vertex_count();
-    for (size_t l = hierarchy_.size() - 1; l-- > 0;) {
-      if (!refine(l, result.report)) return result;
+    for (size_t l = hierarchy_.size(); l-- > 0;) {
+      if (l + 1 < hierarchy_.size() && !refine(l, result.report)) return result;
+      if (l + 1 <= pinned_.size() && !pins_are_exact(result.report.pin_residuals)) result.report.pin_residuals = place_pins(l);
       done += hierarchy_[l].vertex_count();
       report(options_.progress, "embedding", done / all);
     }
-    SphereMap map;
-    map.points.resize(static_cast<Eigen::Index>(image_.size()), 3);
-    for (size_t v = 0; v < image_.size(); ++v) {
-      map.points.row(static_cast<Eigen::Index>(v)) = image_[v].vector();
-    }
-    result.map = std::move(map);
+    result.map = map_of(image_);
     return result;
   }
 
  private:
+  static SphereMap map_of(const Image& image) {
+    SphereMap map;
+    map.points.resize(static_cast<Eigen::Index>(image.size()), 3);
+    for (size_t v = 0; v < image.size(); ++v) {
+      map.points.row(static_cast<Eigen::Index>(v)) = image[v].vector();
+    }
+    return map;
+  }
+
   static Image tetrahedron_image(const HierarchyLevel& level) {
     const double q = 1 / std::sqrt(3.0);
     Image image{{q, q, q, 0}, {-q, -q, q, 0}, {-q, q, -q, 0}, {q, -q, -q, 0}};
@@ -73,7 +86,7 @@ class Embedder {
   /// Takes the image one level finer. False: some vertices found no room.
   bool refine(size_t l, ProgressiveReport& report) {
     const HierarchyLevel& level = hierarchy_[l];
-    const RingPacks packs = pack_rings(level, area_floor_, false, options_.threads);
+    const RingPacks packs = pack(l, pins_placed_);
     for (int attempt = 0;; ++attempt) {
       Image finer = prolong(level, hierarchy_[l + 1]);
       if (insert(level, packs, finer, report)) {
@@ -82,7 +95,7 @@ class Embedder {
       }
       if (attempt == options_.retries) return false;
       ++report.retries;
-      const RingPacks coarse = pack_rings(hierarchy_[l + 1], area_floor_, false, options_.threads);
+      const RingPacks coarse = pack(l + 1, pins_placed_);
       for (int sweep = 0; sweep < 10 << attempt; ++sweep) sweep_colours(coarse, 0, 1.0);
     }
     const int sweeps = sweeps_on(level.vertex_count());
@@ -91,6 +104,35 @@ class Embedder {
       sweep_colours(packs, sweep == 0 ? 1 : 0, options_.over_relaxation);
     }
     return true;
+  }
+
+  static bool pins_are_exact(const std::vector<double>& r) { return !r.empty() && std::count(r.begin(), r.end(), 0.0) == std::ssize(r); }
+
+  RingPacks pack(size_t l, bool hold_pins) const {
+    return pack_rings(hierarchy_[l], area_floor_, false, options_.threads,
+                      hold_pins ? pinned_[l] : std::vector<Vertex>{});
+  }
+
+  /// Moves the pins of a level to their points, then relaxes the rest around them. Their distances
+  /// from the points.
+  std::vector<double> place_pins(size_t l) {
+    const TriangleMesh mesh = triangle_mesh(hierarchy_[l]);
+    const Topology topology(mesh);
+    std::vector<Pin> pins = options_.pins;
+    for (size_t i = 0; i < pins.size(); ++i) pins[i].vertex = pinned_[l][i];
+    const LandmarkPlacement placement =
+        place_landmarks(topology, measure_source(mesh), map_of(image_), pins,
+                        {.energy = options_.energy, .threads = options_.threads});
+    for (size_t v = 0; v < image_.size(); ++v) {
+      image_[v] = image_point(placement.map.point(static_cast<Vertex>(v)));
+    }
+    pins_placed_ = true;
+    const RingPacks packs = pack(l, true);
+    const int sweeps = sweeps_on(hierarchy_[l].vertex_count());
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
+      sweep_colours(packs, 0, options_.over_relaxation);
+    }
+    return placement.residuals;
   }
 
   int sweeps_on(int vertices) const {
@@ -160,6 +202,8 @@ class Embedder {
   const MeshHierarchy& hierarchy_;
   const ProgressiveOptions& options_;
   const double area_floor_;
+  std::vector<std::vector<Vertex>> pinned_;  // per level that has all pins: their names there
+  bool pins_placed_ = false;
   Image image_;
 };
 
@@ -168,7 +212,9 @@ class Embedder {
 ProgressiveEmbedding embed_progressively(const TriangleMesh& mesh, const Topology& topology,
                                          const ProgressiveOptions& options) {
   report(options.progress, "hierarchy", 0);
-  const MeshHierarchy hierarchy = build_hierarchy(mesh, topology, options.threads);
+  KeptVertices keep{{}, std::max(options.pin_level, 20 * static_cast<int>(options.pins.size()))};
+  for (const Pin& pin : options.pins) keep.vertices.push_back(pin.vertex);
+  const MeshHierarchy hierarchy = build_hierarchy(mesh, topology, options.threads, keep);
   return Embedder(hierarchy, topology.face_count(), options).run();
 }
 

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "sphparam/parallel.h"
 
@@ -35,11 +36,14 @@ int free_colour(const HierarchyLevel& level, Vertex v, const std::vector<int>& c
   }
 }
 
-std::vector<int> colour_vertices(const HierarchyLevel& level) {
+constexpr int no_colour = std::numeric_limits<int>::min() / 2;  // of pinned vertices
+
+std::vector<int> colour_vertices(const HierarchyLevel& level, const std::vector<Vertex>& pinned) {
   std::vector<int> colour(at(level.vertex_count()), -1);
   for (const Vertex v : level.removed) colour[at(v)] = 0;
+  for (const Vertex v : pinned) colour[at(v)] = no_colour;
   for (Vertex v = 0; v < level.vertex_count(); ++v) {
-    if (colour[at(v)] < 0) colour[at(v)] = free_colour(level, v, colour);
+    if (colour[at(v)] == -1) colour[at(v)] = free_colour(level, v, colour);
   }
   return colour;
 }
@@ -56,12 +60,17 @@ Order sort_vertices(const HierarchyLevel& level, const std::vector<int>& colour)
   const auto key = [&](Vertex v) {
     return at(colour[at(v)]) * 64 + at(std::min(level.valence(v), 63));
   };
-  for (Vertex v = 0; v < level.vertex_count(); ++v) ++place[key(v) + 1];
+  const auto each_vertex = [&](const auto& visit) {
+    for (Vertex v = 0; v < level.vertex_count(); ++v) {
+      if (colour[at(v)] != no_colour) visit(v);
+    }
+  };
+  each_vertex([&](Vertex v) { ++place[key(v) + 1]; });
   for (size_t i = 1; i < place.size(); ++i) place[i] += place[i - 1];
   Order order;
   for (int c = 0; c <= colours; ++c) order.colour_start.push_back(place[at(c) * 64]);
-  order.vertices.resize(at(level.vertex_count()));
-  for (Vertex v = 0; v < level.vertex_count(); ++v) order.vertices[at(place[key(v)]++)] = v;
+  order.vertices.resize(at(order.colour_start.back()));
+  each_vertex([&](Vertex v) { order.vertices[at(place[key(v)]++)] = v; });
   // Valences from 64 up share a bucket: sort them, so that packs are not padded far.
   for (int c = 0; c < colours; ++c) {
     const auto end = order.vertices.begin() + order.colour_start[at(c) + 1];
@@ -80,27 +89,27 @@ Order removed_only(const HierarchyLevel& level) {
   return order;
 }
 
+/// What a slot keeps of a source triangle.
+struct Corner {
+  double area, squared_base, shear;
+};
+
 /// The source part of one corner's triangle (v, p, q).
-void fill_corner(const HierarchyLevel& level, Vertex v, Vertex p, Vertex q, double area_floor,
-                 RingSlot& slot, int lane) {
+Corner measure_corner(const HierarchyLevel& level, Vertex v, Vertex p, Vertex q,
+                      double area_floor) {
   const Vector3 x = level.positions.row(v);
   const Vector3 a = level.positions.row(p).transpose() - x;
   const Vector3 b = level.positions.row(q).transpose() - x;
-  double area = a.cross(b).norm() / 2, base = a.squaredNorm(), shear = a.dot(b) / base;
-  if (!(area >= area_floor)) {
-    area = area_floor;
-    base = 4 / std::sqrt(3.0) * area;  // squared side of the equilateral triangle
-    shear = 0.5;
-  }
-  slot.neighbour[lane] = p;
-  slot.alpha[lane] = static_cast<float>(area * area / (2 * base));
-  slot.beta[lane] = static_cast<float>(base / 8);
-  slot.shear[lane] = static_cast<float>(shear);
+  const double area = a.cross(b).norm() / 2, base = a.squaredNorm();
+  if (area >= area_floor) return {area, base, a.dot(b) / base};
+  // the equilateral triangle of that area
+  return {area_floor, 4 / std::sqrt(3.0) * area_floor, 0.5};
 }
 
 /// Lanes without a vertex, or with fewer neighbours than the pack's longest, repeat a valid
 /// neighbour with zero weights: they compute something harmless.
-void fill_pack(const HierarchyLevel& level, double area_floor, const RingPack& pack,
+template <class MeasureCorner>
+void fill_pack(const HierarchyLevel& level, const MeasureCorner& measure, const RingPack& pack,
                RingSlot* slots) {
   for (int lane = 0; lane < pack_width; ++lane) {
     const bool empty = pack.vertex[lane] < 0;
@@ -108,22 +117,22 @@ void fill_pack(const HierarchyLevel& level, double area_floor, const RingPack& p
     const Vertex* ring = level.ring_begin(v);
     const int k = level.valence(v);
     for (int i = 0; i < pack.valence; ++i) {
-      if (!empty && i < k) {
-        fill_corner(level, v, ring[i], ring[i + 1 < k ? i + 1 : 0], area_floor, slots[i], lane);
-      } else {
-        slots[i].neighbour[lane] = ring[0];
-        slots[i].alpha[lane] = slots[i].beta[lane] = slots[i].shear[lane] = 0;
-      }
+      RingSlot& slot = slots[i];
+      slot.neighbour[lane] = ring[0];
+      slot.alpha[lane] = slot.beta[lane] = slot.shear[lane] = 0;
+      if (empty || i >= k) continue;
+      const Corner c = measure(v, i);
+      slot.neighbour[lane] = ring[i];
+      slot.alpha[lane] = static_cast<float>(c.area * c.area / (2 * c.squared_base));
+      slot.beta[lane] = static_cast<float>(c.squared_base / 8);
+      slot.shear[lane] = static_cast<float>(c.shear);
     }
   }
 }
 
-}  // namespace
-
-RingPacks pack_rings(const HierarchyLevel& level, double area_floor, bool only_removed,
-                     int threads) {
-  const Order order =
-      only_removed ? removed_only(level) : sort_vertices(level, colour_vertices(level));
+template <class MeasureCorner>
+RingPacks pack(const HierarchyLevel& level, const Order& order, const MeasureCorner& measure,
+               int threads) {
   RingPacks result;
   result.colour_start.push_back(0);
   size_t slots = 0;
@@ -148,10 +157,37 @@ RingPacks pack_rings(const HierarchyLevel& level, double area_floor, bool only_r
                [&](std::int64_t first, std::int64_t last) {
                  for (std::int64_t p = first; p < last; ++p) {
                    const RingPack& pack = result.packs[static_cast<size_t>(p)];
-                   fill_pack(level, area_floor, pack, &result.slots[pack.first_slot]);
+                   fill_pack(level, measure, pack, &result.slots[pack.first_slot]);
                  }
                });
   return result;
+}
+
+}  // namespace
+
+RingPacks pack_rings(const HierarchyLevel& level, double area_floor, bool only_removed,
+                     int threads, const std::vector<Vertex>& pinned) {
+  const Order order =
+      only_removed ? removed_only(level) : sort_vertices(level, colour_vertices(level, pinned));
+  const auto measure = [&](Vertex v, int i) {
+    const Vertex* ring = level.ring_begin(v);
+    return measure_corner(level, v, ring[i], ring[i + 1 < level.valence(v) ? i + 1 : 0],
+                          area_floor);
+  };
+  return pack(level, order, measure, threads);
+}
+
+RingPacks pack_rings(const std::vector<int>& start, const std::vector<Vertex>& ring,
+                     const std::function<SourceTriangle(Vertex v, int i)>& corner, int threads,
+                     const std::vector<Vertex>& pinned) {
+  HierarchyLevel level;
+  level.start = start;
+  level.ring = ring;
+  const auto measure = [&](Vertex v, int i) {
+    const SourceTriangle s = corner(v, i);
+    return Corner{s.area, 1 / (s.inverse_base * s.inverse_base), s.foot};
+  };
+  return pack(level, sort_vertices(level, colour_vertices(level, pinned)), measure, threads);
 }
 
 }  // namespace sphparam

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
+#include "sphparam/embedding/distortion_energy.h"
 #include "sphparam/mesh/mesh_hierarchy.h"
 
 namespace sphparam {
@@ -37,8 +39,14 @@ struct RingPacks {
 };
 
 /// Colours, sorts and packs the vertices of a level. Triangles smaller than `area_floor` count as
-/// equilateral ones of that area. `only_removed`: colour 0 alone.
+/// equilateral ones of that area. `only_removed`: colour 0 alone. `pinned`: vertices in no pack.
 RingPacks pack_rings(const HierarchyLevel& level, double area_floor, bool only_removed,
-                     int threads);
+                     int threads, const std::vector<Vertex>& pinned = {});
+
+/// The same for any rings (as in HierarchyLevel) and source triangles.
+/// `corner(v, i)`: the source triangle of v, its i-th neighbour and the next one; v first.
+RingPacks pack_rings(const std::vector<int>& start, const std::vector<Vertex>& ring,
+                     const std::function<SourceTriangle(Vertex v, int i)>& corner, int threads,
+                     const std::vector<Vertex>& pinned);
 
 }  // namespace sphparam

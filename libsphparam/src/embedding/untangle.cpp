@@ -1,6 +1,7 @@
 #include "sphparam/embedding/untangle.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 
@@ -9,7 +10,7 @@
 #include "sphparam/sphere/orientation.h"
 
 // A round: breadth-first rings around the corners of the folded triangles; the connected pieces of
-// what they reach are the patches. In a patch, ε² = (median |s| / 100)² + (min(0, s_min) / 5)²: the
+// what they reach are the patches. In a patch, ε² = (median |s| / 100)² + (min(0, s_min))²: the
 // barrier stands clear of the deepest fold and follows it down. Pieces that are not neighbours
 // share no triangle, so they are solved at the same time and in place.
 
@@ -17,10 +18,10 @@ namespace sphparam {
 namespace {
 
 constexpr double share_of_median = 0.01;
-constexpr double share_of_deepest = 0.2;
-constexpr int patience = 15;                   // steps without fewer or shallower folds
-constexpr double noticeably_shallower = 0.98;  // of the shallowest depth so far
-constexpr int steps_to_clear = 3;              // without regularisation, once there is no fold
+constexpr std::array shares_of_deepest{1.0, 2.0, 0.5};  // tried in turn
+constexpr int patience = 15;                            // steps without fewer or shallower folds
+constexpr double noticeably_shallower = 0.98;           // of the shallowest depth so far
+constexpr int steps_to_clear = 3;  // without regularisation, once there is no fold
 
 std::vector<Face> folded_faces(const Topology& topology, const Points& points, int threads) {
   std::vector<char> folded(static_cast<size_t>(topology.face_count()), 0);
@@ -119,14 +120,14 @@ Depth depth_of(const NewtonPatch& patch) {
   return {deepest, *middle};
 }
 
-/// Unfolds a patch as far as it goes. Returns the number of Newton steps.
-int unfold(NewtonPatch& patch, const UntangleOptions& options) {
-  patch.fit_source_area();
+/// Newton steps with a regularisation of `share` times the deepest fold, until there is no fold or
+/// no progress. Returns the number of steps.
+int unfold(NewtonPatch& patch, double share, const UntangleOptions& options) {
   DistortionEnergy energy{.lambda = options.lambda};
   int steps = 0, folds = patch.folds(), fewest = folds, waited = 0;
   Depth depth = depth_of(patch);
   for (double shallowest = depth.deepest; folds > 0 && waited < patience; ++steps) {
-    energy.epsilon = std::hypot(share_of_median * depth.median, share_of_deepest * depth.deepest);
+    energy.epsilon = std::hypot(share_of_median * depth.median, share * depth.deepest);
     if (steps == options.max_steps || !(energy.epsilon > 0) || !patch.step(energy).moved) break;
     folds = patch.folds();
     depth = depth_of(patch);
@@ -136,8 +137,28 @@ int unfold(NewtonPatch& patch, const UntangleOptions& options) {
     fewest = std::min(fewest, folds);
     shallowest = std::max(shallowest, depth.deepest);
   }
-  energy.epsilon = 0;
-  for (int i = 0; i < steps_to_clear && folds == 0; ++i, ++steps) {
+  return steps;
+}
+
+/// Unfolds a patch; leaves it at the best try if none gets rid of every fold. Returns the number of
+/// Newton steps.
+int unfold(NewtonPatch& patch, const UntangleOptions& options) {
+  int steps = 0, fewest = patch.folds();
+  const Points start = patch.positions();
+  Points best = start;
+  patch.fit_source_area();
+  for (const double share : shares_of_deepest) {
+    patch.set_positions(start);
+    steps += unfold(patch, share, options);
+    if (const int folds = patch.folds(); folds < fewest) {
+      fewest = folds;
+      best = patch.positions();
+    }
+    if (fewest == 0) break;
+  }
+  patch.set_positions(best);
+  const DistortionEnergy energy{.lambda = options.lambda};
+  for (int i = 0; i < steps_to_clear && fewest == 0; ++i, ++steps) {
     if (!std::isfinite(patch.energy(energy)) || !patch.step(energy).moved) break;
   }
   return steps;
@@ -163,7 +184,7 @@ void unfold_all(const Topology& topology, const SourceTriangles& source, const P
     const int before = patch.folds();
     if (before == 0) return;
     steps[i] = unfold(patch, options);
-    if (patch.folds() <= before) patch.write_to(points);
+    if (patch.folds() < before) patch.write_to(points);
   });
   for (size_t i = 0; i < patches.size(); ++i) {
     report.patches += steps[i] > 0;

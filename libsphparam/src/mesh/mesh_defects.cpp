@@ -2,14 +2,19 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
+#include <optional>
 #include <sstream>
 #include <tuple>
 
-// Everything is found by sorting: edges by their two vertices, faces by their three, vertices by
-// position. So the cost is the same however bad the mesh is, and no half-edge structure (which bad
-// meshes do not have) is needed. Components and fans of faces are counted by union–find.
+// A mesh that Topology accepts has no defect of connectivity: counting is all that is left, and the
+// cost is that of the map's own first step. Otherwise everything is found by sorting: edges by
+// their two vertices, faces by their three, so the cost is the same however bad the mesh is, and no
+// half-edge structure (which bad meshes do not have) is needed. Fans of faces are counted by
+// union-find.
 
 namespace sphparam {
 namespace {
@@ -95,10 +100,14 @@ class Inspector {
     if (faces_ == 0) add_fatal(DefectKind::Empty, 1, {}, "the mesh has no faces", "");
     check_indices();
     check_positions();
-    collect_sides();
-    check_edges();
-    check_duplicate_faces();
-    check_fans();
+    if (const auto topology = closed_manifold()) {
+      result_.edges = topology->edge_count();
+    } else {
+      collect_sides();
+      check_edges();
+      check_duplicate_faces();
+      check_fans();
+    }
     count_components();
     check_usage();
     check_shape();
@@ -144,6 +153,12 @@ class Inspector {
                     place_list(repeated, "faces", 1),
                 "remove degenerate faces");
     }
+  }
+
+  /// The topology, if there is nothing wrong with it at all.
+  std::optional<Topology> closed_manifold() const {
+    if (faces_ < 4) return std::nullopt;  // two faces back to back are closed, but no surface
+    return Topology::try_build(mesh_.triangles, vertices_);
   }
 
   void check_positions() {
@@ -375,25 +390,37 @@ class Inspector {
 
   void check_coincident() {
     if (!finite_) return;
-    std::vector<Vertex> order;
-    for (Vertex v = 0; v < vertices_; ++v) {
-      if (used_[static_cast<size_t>(v)]) order.push_back(v);
-    }
-    const auto key = [&](Vertex v) {
-      return std::make_tuple(mesh_.positions(v, 0), mesh_.positions(v, 1), mesh_.positions(v, 2));
-    };
-    std::sort(order.begin(), order.end(), [&](Vertex a, Vertex b) {
-      return std::make_pair(key(a), a) < std::make_pair(key(b), b);
-    });
+    // Open addressing: each vertex is looked up among those before it.
+    const size_t slots = std::bit_ceil(2 * static_cast<size_t>(vertices_) + 1);
+    std::vector<Vertex> table(slots, -1);
     Places places;
-    for (size_t i = 1; i < order.size(); ++i) {
-      if (key(order[i]) == key(order[i - 1])) places.add({order[i]});
+    for (Vertex v = 0; v < vertices_; ++v) {
+      if (!used_[static_cast<size_t>(v)]) continue;
+      size_t slot = hash_of_position(v) & (slots - 1);
+      while (table[slot] >= 0 && mesh_.position(table[slot]) != mesh_.position(v)) {
+        slot = (slot + 1) & (slots - 1);
+      }
+      if (table[slot] >= 0) {
+        places.add({v});
+      } else {
+        table[slot] = v;
+      }
     }
     if (places.count == 0) return;
     add_remark(DefectKind::CoincidentVertices, places,
                plural(places.count, "vertex lies", "vertices lie") + " exactly on another" +
                    place_list(places, "vertices", 1),
                "");
+  }
+
+  size_t hash_of_position(Vertex v) const {
+    std::uint64_t hash = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double x = mesh_.positions(v, k) + 0.0;  // −0 and 0 are the same place
+      hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0x9E3779B97F4A7C15u;
+      hash ^= hash >> 29;
+    }
+    return static_cast<size_t>(hash);
   }
 
   const TriangleMesh& mesh_;
@@ -453,7 +480,7 @@ Topology require_sphere(const TriangleMesh& mesh) {
     }
     throw MeshError(std::move(reasons));
   };
-  if (mesh.face_count() == 0 || !mesh.positions.allFinite()) refuse();
+  if (mesh.face_count() < 4 || !mesh.positions.allFinite()) refuse();
   Topology topology(mesh);
   if (topology.vertex_count() - topology.edge_count() + topology.face_count() != 2) refuse();
   if (!is_connected(topology)) refuse();  // e.g. a torus beside two spheres

@@ -46,10 +46,12 @@ class Batch {
   Batch(HierarchyLevel& fine, int threads)
       : fine_(fine), count_(fine.vertex_count()), threads_(threads) {}
 
-  HierarchyLevel run() {
-    price();
+  HierarchyLevel run(const std::vector<Vertex>& keep) {
+    price(keep);
     order();
     select();
+    if (removed_ == 0 && !keep.empty()) return run({});
+    if (removed_ == 0) throw std::logic_error("mesh hierarchy: no vertex can be removed");
     return splice();
   }
 
@@ -87,7 +89,7 @@ class Batch {
     return best;
   }
 
-  void price() {
+  void price(const std::vector<Vertex>& keep) {
     cost_.resize(at(count_));
     slot_.resize(at(count_));
     parallel_for(count_, grain, threads_, [&](std::int64_t first, std::int64_t last) {
@@ -98,6 +100,10 @@ class Batch {
         slot_[at(v)] = static_cast<std::int8_t>(collapse.slot);
       }
     });
+    for (const Vertex v : keep) {
+      cost_[at(v)] = std::numeric_limits<float>::infinity();
+      slot_[at(v)] = -1;
+    }
   }
 
   /// Counting sort on the top 14 bits of the price; a float ≥ 0 sorts like its bits.
@@ -189,7 +195,6 @@ class Batch {
       const int slot = legal_slot(v);
       if (slot >= 0) remove(v, slot);
     }
-    if (removed_ == 0) throw std::logic_error("mesh hierarchy: no vertex can be removed");
   }
 
   HierarchyLevel splice() {
@@ -305,14 +310,41 @@ HierarchyLevel finest_level(const TriangleMesh& mesh, const Topology& topology, 
 
 }  // namespace
 
-MeshHierarchy build_hierarchy(const TriangleMesh& mesh, const Topology& topology, int threads) {
+MeshHierarchy build_hierarchy(const TriangleMesh& mesh, const Topology& topology, int threads,
+                              const KeptVertices& keep) {
   MeshHierarchy hierarchy;
   hierarchy.push_back(finest_level(mesh, topology, threads));
+  std::vector<Vertex> kept = keep.vertices;
   while (hierarchy.back().vertex_count() > 4) {
-    HierarchyLevel coarser = Batch(hierarchy.back(), threads).run();
+    if (hierarchy.back().vertex_count() <= keep.until) kept.clear();
+    HierarchyLevel coarser = Batch(hierarchy.back(), threads).run(kept);
+    for (Vertex& v : kept) v = coarser_name(coarser, v);
+    std::erase(kept, -1);
     hierarchy.push_back(std::move(coarser));
   }
   return hierarchy;
+}
+
+Vertex coarser_name(const HierarchyLevel& coarser, Vertex v) {
+  const auto found = std::lower_bound(coarser.finer.begin(), coarser.finer.end(), v);
+  if (found == coarser.finer.end() || *found != v) return -1;
+  return static_cast<Vertex>(found - coarser.finer.begin());
+}
+
+TriangleMesh triangle_mesh(const HierarchyLevel& level) {
+  TriangleMesh mesh;
+  mesh.positions = level.positions;
+  mesh.triangles.resize(2 * level.vertex_count() - 4, 3);
+  Eigen::Index f = 0;
+  for (Vertex v = 0; v < level.vertex_count(); ++v) {
+    const Vertex* ring = level.ring_begin(v);
+    const int k = level.valence(v);
+    for (int i = 0; i < k; ++i) {
+      const Vertex p = ring[i], q = ring[i + 1 < k ? i + 1 : 0];
+      if (v < p && v < q) mesh.triangles.row(f++) << v, p, q;  // named by its least corner
+    }
+  }
+  return mesh;
 }
 
 }  // namespace sphparam

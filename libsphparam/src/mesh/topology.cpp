@@ -47,10 +47,23 @@ Topology::Topology(const TriangleMesh& mesh)
     : Topology(mesh.triangles, static_cast<int>(mesh.vertex_count())) {}
 
 Topology::Topology(const Triangles& triangles, int vertex_count) {
+  if (!build(triangles, vertex_count)) refuse(triangles, vertex_count);
+  for (const Halfedge h : outgoing_) {
+    if (h < 0) refuse(triangles, vertex_count);
+  }
+}
+
+std::optional<Topology> Topology::try_build(const Triangles& triangles, int vertex_count) {
+  Topology topology;
+  if (!topology.build(triangles, vertex_count)) return std::nullopt;
+  return topology;
+}
+
+bool Topology::build(const Triangles& triangles, int vertex_count) {
   const size_t halfedges = static_cast<size_t>(triangles.size());
   origin_.assign(triangles.data(), triangles.data() + halfedges);
   for (const Vertex v : origin_) {
-    if (v < 0 || v >= vertex_count) refuse(triangles, vertex_count);
+    if (v < 0 || v >= vertex_count) return false;
   }
   const Buckets buckets = bucket_by_origin(origin_, vertex_count);
   const auto bucket_size = [&](Vertex v) {
@@ -62,8 +75,9 @@ Topology::Topology(const Triangles& triangles, int vertex_count) {
   twin_.assign(halfedges, -1);
   for (Halfedge h = 0; h < static_cast<Halfedge>(halfedges); ++h) {
     const Vertex a = origin(h), b = target(h);
+    if (a == b) return false;
     const bool search_b = bucket_size(b) <= bucket_size(a);
-    const size_t bucket = static_cast<size_t>(search_b ? b : a);
+    const auto bucket = static_cast<size_t>(search_b ? b : a);
     int found = 0;
     for (int i = buckets.start[bucket]; i < buckets.start[bucket + 1]; ++i) {
       const Halfedge leaving = buckets.halfedges[static_cast<size_t>(i)];
@@ -73,27 +87,28 @@ Topology::Topology(const Triangles& triangles, int vertex_count) {
         ++found;
       }
     }
-    if (found != 1 || a == b) refuse(triangles, vertex_count);
+    if (found != 1) return false;
   }
 
   outgoing_.assign(static_cast<size_t>(vertex_count), -1);
   for (int v = 0; v < vertex_count; ++v) {
     const int faces_at_v = bucket_size(v);
-    if (faces_at_v == 0) refuse(triangles, vertex_count);
+    if (faces_at_v == 0) continue;
     const Halfedge first =
         buckets.halfedges[static_cast<size_t>(buckets.start[static_cast<size_t>(v)])];
     outgoing_[static_cast<size_t>(v)] = first;
-    // The twins form a permutation, or some edge has two equal half-edges and a walk can fall
-    // into a cycle that never returns; the bound on the steps ends it.
+    // Twins that are no permutation (some edge twice the same way) could lead the walk into a cycle
+    // without v; the bound on the steps ends it.
     int steps = 0;
     Halfedge h = first;
     do {
-      if (twin(twin(h)) != h) refuse(triangles, vertex_count);
+      if (twin(twin(h)) != h) return false;
       h = rotate_ccw(h);
       ++steps;
     } while (h != first && steps <= faces_at_v);
-    if (steps != faces_at_v) refuse(triangles, vertex_count);
+    if (steps != faces_at_v) return false;
   }
+  return true;
 }
 
 int Topology::valence(Vertex v) const {

@@ -44,11 +44,12 @@ ChartBoundary cylinder_boundary(const TriangleMesh& mesh, const CutMesh& cut_mes
 /// energy ½ Σ_edges w (Δθ)².
 class HarmonicSolver {
  public:
-  /// Requires: topology and cut mesh outlive the solver; usable poles; positive weights or luck.
+  /// Requires: topology and cut mesh outlive the solver; usable poles.
   HarmonicSolver(const Topology& topology, const CutMesh& cut_mesh, ChartBoundary boundary,
                  bool symmetric, int threads = 0);
 
-  /// weights: w[h] per half-edge, see EdgeWeights. Throws: SolveError.
+  /// weights: w[h] per half-edge, see EdgeWeights. Throws: SolveError; never for positive weights
+  /// of a reasonable range.
   CurvilinearMap solve(std::vector<double> weights, int threads = 0);
 
  private:

@@ -29,8 +29,8 @@ bool link_is_chord_free(const Topology& topology, Vertex v);
 bool poles_are_usable(const Topology& topology, Poles poles);
 
 /// The given pair, each pole moved to a nearby vertex where needed to make the pair usable; nothing
-/// where no such pair is found among the 64 nearest candidates a pole (every vertex of a small
-/// mesh; so never for a tetrahedron).
+/// where no such pair is found among the 64 nearest candidates a pole (all vertices of
+/// a small mesh): so nothing for a tetrahedron, an octahedron, a bipyramid.
 std::optional<Poles> nearest_usable_poles(const Topology& topology, Poles wanted);
 
 /// `farthest_poles`, made usable by `nearest_usable_poles`.

@@ -18,8 +18,8 @@ std::vector<double> area_distortion(const TriangleMesh& mesh, const SphereMap& m
 /// Our own: the paper's iteration, with κ of the last map alone, swings from one side of the
 /// solution to the other and diverges after two or three steps (its derivative in log κ is near −1
 /// there); accumulating κ does not forget what was reached, and with √κ each step goes half way.
-void accumulate(std::vector<double>& accumulated, const std::vector<double>& kappa, double power,
-                int threads = 0);
+void accumulate_kappa(std::vector<double>& accumulated, const std::vector<double>& kappa,
+                      double power, int threads = 0);
 
 /// The mean of |ln κ_T| over all triangles: the paper's area distortion (Section 6) as one figure.
 double mean_abs_ln(const std::vector<double>& kappa, int threads = 0);

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "sphparam/embedding/distortion_energy.h"
+#include "sphparam/embedding/landmarks.h"
 #include "sphparam/mesh/mesh_hierarchy.h"
 #include "sphparam/progress.h"
 
@@ -14,6 +15,8 @@ struct ProgressiveOptions {
   int most_sweeps = 60;  // on any level
   double over_relaxation = 1.7;  // first step tried, in Newton steps
   int retries = 5;               // of a level whose vertices found no room
+  std::vector<Pin> pins = {};    // vertices that lie at given points; no vertex twice
+  int pin_level = 400;  // vertices of the level where pins are placed, 20 a pin if that is more
   int threads = 0;               // 0: all cores
   Progress progress = {};
 };
@@ -22,6 +25,7 @@ struct ProgressiveReport {
   int levels = 0;
   int retries = 0;             // levels that had to be relaxed again before vertices found room
   long kernel_placements = 0;  // vertices for which the mean of their ring was not good enough
+  std::vector<double> pin_residuals = {};  // radians from the point asked for; 0 is exact
 };
 
 struct ProgressiveEmbedding {
@@ -35,6 +39,8 @@ struct ProgressiveEmbedding {
 /// In exact arithmetic a kernel is never empty, so the method cannot fail; in doubles limbs of
 /// extreme length can run out of room, hence the retries and the optional result. Every triangle's
 /// orientation is certain at every moment, none is ever folded.
+/// Pinned vertices stay in the hierarchy down to a few hundred vertices; `place_landmarks` puts
+/// them there, and from there on up nothing moves them, so that the rest is optimal around them.
 /// Requires: genus 0, finite positions. Ensures: unit points; same bits for any number of threads
 ///           and any vector width of the machine. Cost: O(#F), no linear system.
 /// Paper: Praun and Hoppe, "Spherical parametrization and remeshing" (2003); whole levels instead

@@ -26,6 +26,13 @@ struct HierarchyLevel {
   }
 };
 
+/// Vertices that stay as long as a level has more than `until` vertices, unless nothing else can be
+/// removed.
+struct KeptVertices {
+  std::vector<Vertex> vertices;
+  int until = 0;
+};
+
 /// Levels from the mesh itself (first) down to a tetrahedron (last).
 using MeshHierarchy = std::vector<HierarchyLevel>;
 
@@ -34,9 +41,16 @@ using MeshHierarchy = std::vector<HierarchyLevel>;
 /// Vertex names of level 0 are the mesh's own.
 /// Ensures: every level is a closed genus-0 triangulation without double edges; same levels for any
 ///          number of threads.
-/// Requires: genus 0, finite positions. Cost: linear for any valences; about 0.2 µs a triangle.
+/// Requires: genus 0, finite positions; no vertex kept twice. Cost: linear for any valences; about 0.2 µs a triangle.
 /// Our own: the full levels of a multigrid method, with the collapses of Hoppe, "Progressive
 /// meshes" (1996), so that batches run in parallel and nothing has to be undone.
-MeshHierarchy build_hierarchy(const TriangleMesh& mesh, const Topology& topology, int threads = 0);
+MeshHierarchy build_hierarchy(const TriangleMesh& mesh, const Topology& topology, int threads = 0,
+                              const KeptVertices& keep = {});
+
+/// The name of a level's vertex on the next coarser level; −1 where it was removed.
+Vertex coarser_name(const HierarchyLevel& coarser, Vertex v);
+
+/// A level as a mesh of its own, with the same vertex names.
+TriangleMesh triangle_mesh(const HierarchyLevel& level);
 
 }  // namespace sphparam

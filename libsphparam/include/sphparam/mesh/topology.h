@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "sphparam/mesh/triangle_mesh.h"
@@ -20,6 +21,9 @@ class Topology {
   /// Cost: O(#V + #F), about 30 bytes a triangle.
   explicit Topology(const TriangleMesh& mesh);
   Topology(const Triangles& triangles, int vertex_count);
+  /// The same; nothing instead of an exception, and unused vertices are allowed (they have no
+  /// outgoing half-edge, −1).
+  static std::optional<Topology> try_build(const Triangles& triangles, int vertex_count);
 
   int vertex_count() const { return static_cast<int>(outgoing_.size()); }
   int face_count() const { return static_cast<int>(origin_.size() / 3); }
@@ -62,6 +66,10 @@ class Topology {
   Halfedge find_halfedge(Vertex a, Vertex b) const;
 
  private:
+  Topology() = default;
+  /// False at the first thing that is not as it should be.
+  bool build(const Triangles& triangles, int vertex_count);
+
   std::vector<Vertex> origin_;      // of each half-edge
   std::vector<Halfedge> twin_;      // of each half-edge
   std::vector<Halfedge> outgoing_;  // of each vertex

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "embedding/multigrid.h"
+#include "embedding/ring_packs.h"
+#include "embedding/triangle_packs.h"
+#include "sphparam/mesh/topology.h"
+
+namespace sphparam {
+
+/// A whole mesh laid out for Newton steps on its energy: vertices renamed so that neighbours are
+/// near in memory, cut into blocks; each block with the triangles that touch it.
+class GlobalNewton {
+ public:
+  /// Requires: every determinant certain to be positive. Cost: linear.
+  GlobalNewton(const Topology& topology, const SourceTriangles& source, const SphereMap& map,
+               const std::vector<Vertex>& pinned, int threads);
+
+  struct Step {
+    double energy;   // after the step; before it, if nothing moved
+    int iterations;  // of the linear solver
+    double length;   // of the step, in Newton steps; 0: nothing moved
+  };
+
+  /// One projected Newton step, the system solved to `tolerance`, with line search. No orientation
+  /// is lost, decided by the guard.
+  Step step(const DistortionEnergy& energy, double tolerance);
+
+  /// Guarded relaxation of every vertex, so many times: smooths what a step has creased.
+  void sweep(const DistortionEnergy& energy, int sweeps);
+
+  /// +∞ unless every orientation is certain to be positive.
+  double energy(const DistortionEnergy& energy) const { return energy_of(energy, image_); }
+  SphereMap map() const;
+
+ private:
+  using Image = std::vector<ImagePoint>;
+
+  struct Block {
+    size_t first_pack;
+    int owned;  // packs of triangles that count here; the others touch the block only
+    int packs;
+  };
+
+  void rename_vertices(const Topology& topology);
+  void make_pattern(const Topology& topology);
+  void pack_triangles(const Topology& topology, const SourceTriangles& source);
+  double energy_of(const DistortionEnergy& energy, const Image& image) const;
+  void assemble(const DistortionEnergy& energy);
+  SourceTriangle corner(int row, int entry) const;
+  void gather_row(int row, const TriangleTerms* terms);
+  void move(const std::vector<double>& direction, double length, Image& image) const;
+  double longest(const std::vector<double>& direction) const;
+
+  int threads_;
+  std::vector<Vertex> old_name_;
+  std::vector<int> new_name_;
+  Image image_;
+  std::vector<char> pinned_;
+  BlockMatrix<2> hessian_;
+  std::vector<double> gradient_;
+  SweepOrder order_;
+  std::vector<Block> blocks_;
+  std::vector<TrianglePack> packs_;
+  std::vector<int> slots_;  // per off entry k of row v: triangle (v, column k, column k + 1) as
+                            // 4 · (place among the block's) + (corner that v is)
+  std::optional<Multigrid> multigrid_;
+  std::optional<RingPacks> rings_;
+};
+
+}  // namespace sphparam

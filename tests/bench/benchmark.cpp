@@ -1,0 +1,260 @@
+// Measures maps from file bytes to certified buffer, stage by stage, in ratios to one yardstick:
+//
+//   Y = Eigen's SimplicialLDLT analyse + factor + two solves of the Laplacian of a 70,000-triangle
+//       mesh, per triangle, on one thread, in the same run.
+//
+// Usage: benchmark [--threads N] [--methods progressive,curvilinear,paper] [--largest TRIANGLES]
+//                  [--repeat N] [MESH …]
+// Without meshes: the samples, three real meshes where SPHPARAM_MESHES (or the default folder) has
+// them, and subdivided ones up to 1.5 million triangles. Never a test: machines are noisy.
+
+#include <malloc.h>
+
+#include <CLI/CLI.hpp>
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "loop_subdivision.h"
+#include "mesh_io/mesh_reader.h"
+#include "mesh_io/mesh_writer.h"
+#include "mesh_io/sphere_file.h"
+#include "mesh_io/welding.h"
+#include "sample_meshes.h"
+#include "sphparam/mesh/edge_weights.h"
+#include "sphparam/parameterize.h"
+
+using namespace sphparam;
+using namespace sphparam::tools;
+
+namespace {
+
+double now() {
+  using namespace std::chrono;
+  return duration<double>(steady_clock::now().time_since_epoch()).count();
+}
+
+std::string read_bytes(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << in.rdbuf();
+  return bytes.str();
+}
+
+// --- the yardstick ------------------------------------------------------------------------------
+
+/// The Laplacian with one vertex fixed: symmetric positive definite.
+Eigen::SparseMatrix<double> laplacian(const TriangleMesh& mesh) {
+  const Topology topology(mesh);
+  const std::vector<double> weights =
+      EdgeWeights(mesh, topology, WeightKind::SymmetricMeanValue).with(topology);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Halfedge h = 0; h < topology.halfedge_count(); ++h) {
+    const int i = topology.origin(h) - 1, j = topology.target(h) - 1;  // vertex 0 is fixed
+    if (i < 0) continue;
+    entries.emplace_back(i, i, weights[static_cast<size_t>(h)]);
+    if (j >= 0) entries.emplace_back(i, j, -weights[static_cast<size_t>(h)]);
+  }
+  Eigen::SparseMatrix<double> matrix(topology.vertex_count() - 1, topology.vertex_count() - 1);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+double measure_yardstick(const TriangleMesh& mesh) {
+  const Eigen::SparseMatrix<double> matrix = laplacian(mesh);
+  const Eigen::MatrixXd right = Eigen::MatrixXd::Random(matrix.rows(), 2);
+  std::vector<double> seconds;
+  double sink = 0;
+  for (int run = 0; run < 5; ++run) {
+    const double start = now();
+    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor;
+    factor.analyzePattern(matrix);
+    factor.factorize(matrix);
+    sink += factor.solve(right).sum();
+    seconds.push_back(now() - start);
+  }
+  if (sink == 0) std::puts("");  // keeps the solves alive
+  std::sort(seconds.begin(), seconds.end());
+  return seconds[2] / static_cast<double>(mesh.face_count());
+}
+
+// --- one run ------------------------------------------------------------------------------------
+
+/// Highest resident size since the last reset, in bytes.
+double peak_bytes() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.rfind("VmHWM:", 0) == 0) return 1024 * std::atof(line.c_str() + 6);
+  }
+  return 0;
+}
+void reset_peak() {
+  malloc_trim(0);
+  std::ofstream("/proc/self/clear_refs") << "5";
+}
+
+struct Run {
+  std::vector<std::pair<std::string, double>> stages;  // seconds
+  double seconds = 0;
+  double memory = 0;  // bytes above what was there before
+  bool certified = false;
+  std::string made_by;
+  DistortionSummary distortion;
+  double triangles = 0;
+};
+
+Run run(const std::string& bytes, const std::string& name, Method method, int threads) {
+  Run result;
+  reset_peak();
+  const double memory_before = peak_bytes();
+  const double start = now();
+  double last = start;
+  const auto lap = [&](const std::string& stage) {
+    const double t = now();
+    result.stages.emplace_back(stage, t - last);
+    last = t;
+  };
+  const MeshFile file = prepare_for_mapping(read_mesh(bytes, name, {}));
+  lap("read");
+  const Parameterization map = parameterize(file.mesh, {.method = method, .threads = threads});
+  double staged = 0;
+  for (const StageRecord& stage : map.stages) staged += stage.seconds;
+  result.stages.emplace_back("gate", now() - last - staged);
+  for (const StageRecord& stage : map.stages) result.stages.emplace_back(stage.name, stage.seconds);
+  last = now();
+  const std::string written = serialise_ply(attach_map(file, map.map, {}));
+  lap("serialise");
+  const MeshFile reread = read_mesh(written, "buffer.ply", {});
+  lap("read back");
+  const Certificate certificate = certify(Topology(reread.mesh), *read_sphere(reread), threads);
+  lap("certify buffer");
+  result.seconds = now() - start;
+  result.memory = peak_bytes() - memory_before;
+  result.certified = certificate.bijective();
+  result.made_by = map.made_by;
+  result.triangles = static_cast<double>(file.mesh.face_count());
+  result.distortion = summarise(measure_distortion(file.mesh, map.map, threads));
+  return result;
+}
+
+Run best_of(int repeat, const std::string& bytes, const std::string& name, Method method,
+            int threads) {
+  std::vector<Run> runs;
+  for (int i = 0; i < repeat; ++i) runs.push_back(run(bytes, name, method, threads));
+  std::sort(runs.begin(), runs.end(),
+            [](const Run& a, const Run& b) { return a.seconds < b.seconds; });
+  return runs[runs.size() / 2];  // the median
+}
+
+void print(const std::string& name, const std::string& method, const Run& run, double yardstick) {
+  const double unit = yardstick * run.triangles;
+  std::printf("| %s | %.0f | %s | %s | %s | %.3f | %.2f | %.0f | %.3f | %.3f | %.2f |\n",
+              name.c_str(), run.triangles, method.c_str(), run.made_by.c_str(),
+              run.certified ? "yes" : "no", run.seconds, run.seconds / unit,
+              run.memory / run.triangles, run.distortion.mean_abs_ln_angle,
+              run.distortion.mean_abs_ln_area, run.distortion.symmetric_dirichlet);
+  std::printf("|   |   |   | ");
+  for (const auto& [stage, seconds] : run.stages)
+    std::printf("%s %.2f, ", stage.c_str(), seconds / unit);
+  std::printf("(in Y) | | | | | | | |\n");
+  std::fflush(stdout);
+}
+
+// --- what is measured
+// -----------------------------------------------------------------------------
+
+struct Subject {
+  std::string name;
+  std::string bytes;
+};
+
+Subject subdivided(const std::string& name, TriangleMesh mesh, int times) {
+  for (int i = 0; i < times; ++i) mesh = bench::loop_subdivided(mesh);
+  MeshFile file;
+  file.mesh = std::move(mesh);
+  return {name + " subdivided " + std::to_string(times) + "x.ply", serialise_ply(file)};
+}
+
+std::string meshes_folder() {
+  const char* folder = std::getenv("SPHPARAM_MESHES");
+  return std::string(folder ? folder : SPHPARAM_DEFAULT_MESHES) + "/genus0/";
+}
+
+std::vector<Subject> default_subjects() {
+  std::vector<Subject> subjects;
+  for (const auto& [name, file] : {std::pair{"body.ply", samples::make_body(32)},
+                                   std::pair{"creature.ply", samples::make_creature()},
+                                   std::pair{"cortex.ply", samples::make_cortex()},
+                                   std::pair{"body 70k.ply", samples::make_body(59)},
+                                   std::pair{"body 348k.ply", samples::make_body(132)}}) {
+    subjects.push_back({name, serialise_ply(file)});
+  }
+  const std::string folder = meshes_folder();
+  if (!std::filesystem::exists(folder)) {
+    std::puts("real meshes: skipped, there is no folder of them (SPHPARAM_MESHES)\n");
+    return subjects;
+  }
+  for (const char* name : {"mannequin.off", "camel.off", "nefertiti-lowres.obj", "koala.obj"}) {
+    subjects.push_back({name, read_bytes(folder + name)});
+  }
+  const auto mesh = [&](const char* name) {
+    return prepare_for_mapping(read_mesh(folder + name)).mesh;
+  };
+  subjects.push_back(subdivided("mannequin", mesh("mannequin.off"), 2));
+  subjects.push_back(subdivided("spot", mesh("spot_triangulated.obj"), 3));
+  subjects.push_back(subdivided("mannequin", mesh("mannequin.off"), 3));
+  return subjects;
+}
+
+TriangleMesh yardstick_mesh() {
+  const std::string path = meshes_folder() + "nefertiti-lowres.obj";
+  if (std::filesystem::exists(path)) return read_mesh(path).mesh;
+  return samples::make_body(59).mesh;
+}
+
+const std::map<std::string, Method> methods = {{"progressive", Method::Progressive},
+                                               {"curvilinear", Method::Curvilinear},
+                                               {"paper", Method::Paper}};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Times maps against one Laplace solve.");
+  int threads = 0, repeat = 3;
+  double largest = 2e6;
+  std::vector<std::string> wanted{"progressive", "curvilinear"}, paths;
+  app.add_option("--threads", threads, "0: all cores");
+  app.add_option("--repeat", repeat, "runs of each; the median is printed");
+  app.add_option("--largest", largest, "skip meshes with more triangles");
+  app.add_option("--methods", wanted, "progressive, curvilinear, paper")->delimiter(',');
+  app.add_option("MESH", paths, "files instead of the default ones");
+  CLI11_PARSE(app, argc, argv);
+
+  std::vector<Subject> subjects;
+  for (const std::string& path : paths) {
+    subjects.push_back({std::filesystem::path(path).filename(), read_bytes(path)});
+  }
+  if (paths.empty()) subjects = default_subjects();
+
+  const double yardstick = measure_yardstick(yardstick_mesh());
+  std::printf("Y = %.3f µs a triangle\n\n", 1e6 * yardstick);
+  std::puts(
+      "| mesh | triangles | method | made by | certified | seconds | Y × triangles | bytes a "
+      "triangle | angle | area | symD |");
+  std::puts("|---|---|---|---|---|---|---|---|---|---|---|");
+  for (const Subject& subject : subjects) {
+    if (static_cast<double>(subject.bytes.size()) > 60 * largest) continue;
+    for (const std::string& method : wanted) {
+      print(subject.name, method,
+            best_of(repeat, subject.bytes, subject.name, methods.at(method), threads), yardstick);
+    }
+  }
+}

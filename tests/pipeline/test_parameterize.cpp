@@ -1,0 +1,133 @@
+#include <catch2/catch.hpp>
+
+#include "support/all_triangulations.h"
+#include "sphparam/mesh/mesh_defects.h"
+#include "sphparam/parameterize.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+
+namespace {
+
+TriangleMesh some_mesh(int which) {
+  switch (which) {
+    case 0:
+      return tetrahedron();
+    case 1:
+      return octahedron();
+    case 2:
+      return icosphere(3);
+    case 3:
+      return uv_sphere(30, 12);
+    case 4:
+      return tube(60, 5);
+    default:
+      return random_sphere_mesh(300, 11);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("parameterize: every method that repairs ends certified, and says which stage made it") {
+  const Method method = GENERATE(Method::Progressive, Method::Curvilinear);
+  const TriangleMesh mesh = some_mesh(GENERATE(0, 1, 2, 3, 4, 5));
+  const Parameterization result = parameterize(mesh, {.method = method});
+  CHECK(result.certificate.bijective());
+  CHECK_FALSE(result.made_by.empty());
+  CHECK(result.certificate.max_length_error < 1e-15);
+  // The certificate is of the map returned, not of one before it.
+  CHECK(certify(Topology(mesh), result.map).bijective());
+}
+
+TEST_CASE("parameterize: limbs that collapse every linear method are certified by the fallback") {
+  const TriangleMesh mesh = tube(400, 4);
+  const Parameterization result = parameterize(mesh, {.method = Method::Curvilinear});
+  CHECK(result.certificate.bijective());
+}
+
+TEST_CASE("parameterize: the paper's method reports its folds and repairs them only when asked") {
+  const TriangleMesh mesh = tube(60, 5);
+  ParameterizeOptions options{.method = Method::Paper, .measure_stages = true};
+  const Parameterization as_printed = parameterize(mesh, options);
+  REQUIRE(as_printed.stages.size() > 4);
+  CHECK(as_printed.made_by == "smoothing");
+  CHECK(as_printed.certificate.fold_count() == as_printed.stages.back().folds);
+  CHECK_FALSE(as_printed.certificate.bijective());
+  options.repair_paper = true;
+  const Parameterization repaired = parameterize(mesh, options);
+  CHECK(repaired.certificate.bijective());
+  CHECK(repaired.made_by != "smoothing");
+}
+
+TEST_CASE("parameterize: given poles lie at plus and minus z") {
+  const TriangleMesh mesh = icosphere(3);
+  const Method method = GENERATE(Method::Progressive, Method::Curvilinear);
+  const Poles poles{17, 400};
+  const Parameterization result = parameterize(mesh, {.method = method, .poles = poles});
+  REQUIRE(result.certificate.bijective());
+  REQUIRE(result.poles);
+  CHECK(result.map.point(result.poles->north) == Vector3(0, 0, 1));
+  CHECK(result.map.point(result.poles->south) == Vector3(0, 0, -1));
+  if (method == Method::Progressive) CHECK(result.poles->north == 17);
+}
+
+TEST_CASE("parameterize: the same bytes for 1, 2 and 4 threads, twice") {
+  const Method method = GENERATE(Method::Progressive, Method::Curvilinear, Method::Paper);
+  const TriangleMesh mesh = random_sphere_mesh(3000, 5);
+  const Points once = parameterize(mesh, {.method = method, .threads = 1}).map.points;
+  for (const int threads : {1, 2, 4}) {
+    CHECK(parameterize(mesh, {.method = method, .threads = threads}).map.points == once);
+  }
+}
+
+TEST_CASE("parameterize: the size of the source does not matter, not even at 1e300 and 1e-300") {
+  const Method method = GENERATE(Method::Progressive, Method::Curvilinear);
+  const TriangleMesh mesh = random_sphere_mesh(400, 3);
+  const Points usual = parameterize(mesh, {.method = method}).map.points;
+  for (const double scale : {0x1p900, 0x1p-900}) {
+    TriangleMesh scaled = mesh;
+    scaled.positions *= scale;
+    CHECK(parameterize(scaled, {.method = method}).map.points == usual);
+  }
+}
+
+TEST_CASE("parameterize: coincident and collinear vertices are mapped all the same") {
+  const Method method = GENERATE(Method::Progressive, Method::Curvilinear);
+  TriangleMesh mesh = icosphere(3);
+  SECTION("a third of the vertices on top of a neighbour") {
+    const Topology topology(mesh);
+    for (Vertex v = 0; v < topology.vertex_count(); v += 3) {
+      mesh.positions.row(v) = mesh.positions.row(topology.target(topology.outgoing(v)));
+    }
+  }
+  SECTION("all on a line") { mesh.positions.rightCols(2).setZero(); }
+  SECTION("all in one place") { mesh.positions.setZero(); }
+  CHECK(parameterize(mesh, {.method = method}).certificate.bijective());
+}
+
+TEST_CASE("parameterize: bad meshes and bad poles are refused before any arithmetic") {
+  TriangleMesh open = octahedron();
+  open.triangles.conservativeResize(7, 3);
+  CHECK_THROWS_AS(parameterize(open), MeshError);
+  CHECK_THROWS_AS(parameterize(octahedron(), {.poles = Poles{0, 6}}), MeshError);
+}
+
+TEST_CASE("parameterize: a cancelled run throws") {
+  const ParameterizeOptions options{.progress = [](std::string_view, double) { return false; }};
+  CHECK_THROWS_AS(parameterize(icosphere(2), options), Cancelled);
+}
+
+TEST_CASE("parameterize: every triangulation of the sphere with up to 10 vertices is certified") {
+  const Method method = GENERATE(Method::Progressive, Method::Curvilinear);
+  long certified = 0, all = 0;
+  for (int vertices = 4; vertices <= 10; ++vertices) {
+    for (const Rotations& rotations : all_triangulations(vertices)) {
+      const TriangleMesh mesh = mesh_of(rotations, 1);
+      ++all;
+      certified += parameterize(mesh, {.method = method, .threads = 1}).certificate.bijective();
+    }
+  }
+  CHECK(all == 1 + 1 + 2 + 5 + 14 + 50 + 233);
+  CHECK(certified == all);
+}
