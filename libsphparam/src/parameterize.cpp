@@ -28,6 +28,7 @@ namespace {
 constexpr int date_line_rings = 5;    // the paper's five-neighbourhood (Section 5)
 constexpr int date_line_sweeps = 10;  // of guarded relaxation there
 constexpr double most_folds = 0.02;   // of the faces: beyond it nothing is local any more
+constexpr double least_direct_lambda = 0.1, greatest_direct_lambda = 10;  // others by continuation
 constexpr int pole_sweeps = 10;       // of pinned relaxation after poles were moved
 
 /// The mesh at about unit size, if its squares could overflow or vanish; nothing if it is fine.
@@ -49,7 +50,8 @@ class Pipeline {
       : topology_(require_sphere(mesh)),
         rescaled_(rescaled(mesh)),
         mesh_(rescaled_ ? *rescaled_ : mesh),
-        options_(options) {
+        options_(options),
+        energy_(options.energy) {
     if (options.poles) require_poles_in_range(*options.poles);
     stopwatch_.lap();
   }
@@ -163,15 +165,48 @@ class Pipeline {
   }
 
   bool embed() {
-    ProgressiveEmbedding embedding = embed_progressively(mesh_, topology_,
-                                                         {.energy = options_.energy,
-                                                          .sweeps = options_.sweeps,
-                                                          .threads = options_.threads,
-                                                          .progress = options_.progress});
+    DistortionEnergy energy = options_.energy;
+    const bool balanced = needs_balancing();
+    if (balanced) energy.lambda = first_lambda();
+    ProgressiveEmbedding embedding = embed_progressively(
+        mesh_, topology_,
+        {.energy = energy,
+         .quality = balanced ? std::min(options_.quality, Quality::Normal) : options_.quality,
+         .sweeps = options_.sweeps,
+         .threads = options_.threads,
+         .progress = options_.progress});
     if (!embedding.map) return false;
     record("progressive embedding", *embedding.map);
-    accept("progressive embedding", std::move(*embedding.map));
+    if (balanced) *embedding.map = balance(*embedding.map, energy.lambda);
+    accept(balanced ? "balance" : "progressive embedding", std::move(*embedding.map));
     return true;
+  }
+
+  /// Is λ too far from 1 for sweeps and a few steps?
+  bool needs_balancing() const {
+    return options_.energy.kind == EnergyKind::AngleAndArea &&
+           (options_.balance != Balance::Lambda || options_.energy.lambda != first_lambda());
+  }
+
+  double first_lambda() const {
+    if (options_.balance != Balance::Lambda) return 1;
+    return std::clamp(options_.energy.lambda, least_direct_lambda, greatest_direct_lambda);
+  }
+
+  SphereMap balance(const SphereMap& map, double from_lambda) {
+    const double least_gain = options_.quality == Quality::Draft    ? 1e-2
+                              : options_.quality == Quality::Normal ? 1e-3
+                                                                    : 1e-6;
+    BalancedMap result = optimise_balance(topology_, source(), map,
+                                          {.balance = options_.balance,
+                                           .from_lambda = from_lambda,
+                                           .optimise = {.energy = options_.energy,
+                                                        .least_gain = least_gain,
+                                                        .threads = options_.threads,
+                                                        .progress = options_.progress}});
+    energy_.lambda = result.lambda;
+    record("balance", result.map);
+    return std::move(result.map);
   }
 
   // --- poles ----------------------------------------------------------------------------------
@@ -194,7 +229,7 @@ class Pipeline {
     }
     std::optional<PolePlacement> placement =
         place_poles(topology_, source(), result_.map, poles.north, poles.south,
-                    {.energy = options_.energy,
+                    {.energy = energy_,
                      .sweeps = pole_sweeps,
                      .threads = options_.threads,
                      .progress = options_.progress});
@@ -286,6 +321,7 @@ class Pipeline {
   const std::optional<TriangleMesh> rescaled_;
   const TriangleMesh& mesh_;
   const ParameterizeOptions& options_;
+  DistortionEnergy energy_;  // minimised at last: with the λ that a balance has found
   SourceTriangles source_;  // measured when first needed
   Stopwatch stopwatch_;
   Parameterization result_;

@@ -7,6 +7,8 @@
 #include "sphparam/curvilinear/date_line.h"
 #include "sphparam/curvilinear/poles.h"
 #include "sphparam/embedding/distortion_energy.h"
+#include "sphparam/embedding/optimise.h"
+#include "sphparam/embedding/quality.h"
 #include "sphparam/mesh/edge_weights.h"
 #include "sphparam/mesh/triangle_mesh.h"
 #include "sphparam/progress.h"
@@ -36,6 +38,9 @@ struct ParameterizeOptions {
   std::optional<Poles> poles = std::nullopt;  // chosen automatically when not given
   PaperSettings paper = {};
   DistortionEnergy energy = {};  // what is minimised; `lambda` weighs area against angle
+  // Of Method::Progressive: time against distortion; and what λ is to reach, if not a given value.
+  Quality quality = Quality::Normal;
+  Balance balance = Balance::Lambda;
   double sweeps = 2;             // of Method::Progressive on the finest level; more: slower, better
   bool repair = true;  // untangle, and fall back; Method::Paper repairs only when `repair_paper`
   bool repair_paper = false;

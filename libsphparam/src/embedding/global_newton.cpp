@@ -1,5 +1,6 @@
 #include "embedding/global_newton.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -22,8 +23,10 @@ constexpr double sufficient_decrease = 1e-4;
 constexpr int halvings = 40;
 constexpr double most_expansion = 8;  // of a Newton step: clamped Hessians are too stiff
 constexpr double diagonal_shift = 1e-9;
-constexpr double over_relaxation = 1.5;    // of the sweeps
-constexpr std::int64_t sweep_grain = 24;   // packs
+constexpr double boost_difference = 0.01, longest_boost = 0.3, least_boost_curvature = 1e-3;
+constexpr int boost_halvings = 6;
+constexpr double over_relaxation = 1.5;   // of the sweeps
+constexpr std::int64_t sweep_grain = 24;  // packs
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
@@ -64,14 +67,15 @@ std::vector<Vertex> patch_order(const Topology& topology) {
 }  // namespace
 
 GlobalNewton::GlobalNewton(const Topology& topology, const SourceTriangles& source,
-                           const SphereMap& map, const std::vector<Vertex>& pinned, int threads)
+                           const std::vector<ImagePoint>& image, const std::vector<Vertex>& pinned,
+                           int threads)
     : threads_(threads), old_name_(patch_order(topology)) {
   const int n = topology.vertex_count();
   new_name_.resize(at(n));
   image_.resize(at(n));
   for (int v = 0; v < n; ++v) {
     new_name_[at(old_name_[at(v)])] = v;
-    image_[at(v)] = image_point(map.point(old_name_[at(v)]));
+    image_[at(v)] = image[at(old_name_[at(v)])];
   }
   pinned_.assign(at(n), 0);
   for (const Vertex v : pinned) pinned_[at(new_name_[at(v)])] = 1;
@@ -220,10 +224,65 @@ void GlobalNewton::move(const std::vector<double>& direction, double length, Ima
                      continue;
                    }
                    const Vector3 x = image_[v].vector();
-                   image[v] = image_point(tangent_frame(x).at(
-                       x, length * direction[2 * v], length * direction[2 * v + 1]));
+                   image[v] = image_point(tangent_frame(x).at(x, length * direction[2 * v],
+                                                              length * direction[2 * v + 1]));
                  }
                });
+}
+
+/// x ↦ ((1 − |a|²) x + 2 (1 + a·x) a) / |x + a|², |a| < 1
+void GlobalNewton::boost(const Vector3& a, Image& image) const {
+  image.resize(image_.size());
+  parallel_for(static_cast<std::int64_t>(image_.size()), vertex_grain, threads_,
+               [&](std::int64_t first, std::int64_t last) {
+                 for (auto v = static_cast<size_t>(first); v < static_cast<size_t>(last); ++v) {
+                   const Vector3 x = image_[v].vector();
+                   const Vector3 y = (1 - a.squaredNorm()) * x + 2 * (1 + a.dot(x)) * a;
+                   image[v] = image_point(y.normalized());
+                 }
+               });
+}
+
+double GlobalNewton::recentre(const DistortionEnergy& energy) {
+  const double before = energy_of(energy, image_);
+  if (std::count(pinned_.begin(), pinned_.end(), 1) > 0) return before;
+  Image candidate;
+  const auto energy_at = [&](const Vector3& a) {
+    boost(a, candidate);
+    return energy_of(energy, candidate);
+  };
+  // Differences of E along the axes and their sums.
+  const double h = boost_difference;
+  Vector3 gradient, ahead;
+  Eigen::Matrix3d hessian;
+  for (int i = 0; i < 3; ++i) {
+    ahead[i] = energy_at(h * Vector3::Unit(i));
+    const double behind = energy_at(-h * Vector3::Unit(i));
+    gradient[i] = (ahead[i] - behind) / (2 * h);
+    hessian(i, i) = (ahead[i] - 2 * before + behind) / (h * h);
+  }
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < i; ++j) {
+      const double both = energy_at(h * (Vector3::Unit(i) + Vector3::Unit(j)));
+      hessian(i, j) = hessian(j, i) = (both - ahead[i] - ahead[j] + before) / (h * h);
+    }
+  }
+  if (!hessian.allFinite() || !gradient.allFinite()) return before;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(hessian);
+  const Vector3 curvature = eigen.eigenvalues().cwiseAbs();
+  const double floor = least_boost_curvature * curvature.maxCoeff();
+  if (!(floor > 0)) return before;
+  Vector3 a =
+      -(eigen.eigenvectors() *
+        (eigen.eigenvectors().transpose() * gradient).cwiseQuotient(curvature.cwiseMax(floor)));
+  a *= std::min(1.0, longest_boost / a.norm());
+  for (int i = 0; i < boost_halvings; ++i, a /= 2) {
+    const double after = energy_at(a);
+    if (!(after < before)) continue;
+    image_.swap(candidate);
+    return after;
+  }
+  return before;
 }
 
 double GlobalNewton::longest(const std::vector<double>& direction) const {
@@ -240,9 +299,9 @@ SourceTriangle GlobalNewton::corner(int row, int entry) const {
   const TrianglePack& pack =
       packs_[blocks_[at(row / block_size)].first_pack + at(triangle / pack_width)];
   const int lane = triangle % pack_width;
-  return rotated({pack.area[lane], pack.inverse_base[lane], pack.inverse_height[lane],
-                  pack.foot[lane]},
-                 slot & 3);
+  return rotated(
+      {pack.area[lane], pack.inverse_base[lane], pack.inverse_height[lane], pack.foot[lane]},
+      slot & 3);
 }
 
 void GlobalNewton::sweep(const DistortionEnergy& energy, int sweeps) {
@@ -303,13 +362,8 @@ GlobalNewton::Step GlobalNewton::step(const DistortionEnergy& energy, double tol
   return {before, solution.iterations, 0};
 }
 
-SphereMap GlobalNewton::map() const {
-  SphereMap map;
-  map.points.resize(static_cast<Eigen::Index>(image_.size()), 3);
-  for (size_t v = 0; v < image_.size(); ++v) {
-    map.points.row(old_name_[v]) = image_[v].vector();
-  }
-  return map;
+void GlobalNewton::write_to(std::vector<ImagePoint>& image) const {
+  for (size_t v = 0; v < image_.size(); ++v) image[at(old_name_[v])] = image_[v];
 }
 
 }  // namespace sphparam

@@ -15,8 +15,9 @@ namespace sphparam {
 class GlobalNewton {
  public:
   /// Requires: every determinant certain to be positive. Cost: linear.
-  GlobalNewton(const Topology& topology, const SourceTriangles& source, const SphereMap& map,
-               const std::vector<Vertex>& pinned, int threads);
+  GlobalNewton(const Topology& topology, const SourceTriangles& source,
+               const std::vector<ImagePoint>& image, const std::vector<Vertex>& pinned,
+               int threads);
 
   struct Step {
     double energy;   // after the step; before it, if nothing moved
@@ -31,9 +32,14 @@ class GlobalNewton {
   /// Guarded relaxation of every vertex, so many times: smooths what a step has creased.
   void sweep(const DistortionEnergy& energy, int sweeps);
 
+  /// Carries the whole map by the Möbius transformation that lowers the energy most, found by a
+  /// Newton step in the three boosts. Towards λ = 0 the energy hardly feels them, and projected
+  /// Hessians are far too stiff for them. Returns the energy.
+  double recentre(const DistortionEnergy& energy);
+
   /// +∞ unless every orientation is certain to be positive.
   double energy(const DistortionEnergy& energy) const { return energy_of(energy, image_); }
-  SphereMap map() const;
+  void write_to(std::vector<ImagePoint>& image) const;
 
  private:
   using Image = std::vector<ImagePoint>;
@@ -52,6 +58,7 @@ class GlobalNewton {
   SourceTriangle corner(int row, int entry) const;
   void gather_row(int row, const TriangleTerms* terms);
   void move(const std::vector<double>& direction, double length, Image& image) const;
+  void boost(const Vector3& a, Image& image) const;
   double longest(const std::vector<double>& direction) const;
 
   int threads_;

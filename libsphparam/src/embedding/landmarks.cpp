@@ -3,6 +3,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "embedding/orientations.h"
@@ -18,7 +19,7 @@ namespace {
 
 constexpr double least_part = 1e-3;      // of the way left: a shorter move is none
 const double kernel_width = getenv("KW") ? atof(getenv("KW")) : 0.5;
-constexpr int patience = 30;             // rounds
+const int patience = getenv("PA") ? atoi(getenv("PA")) : 30;             // rounds
 constexpr double least_progress = 0.02;  // of the sum of residuals, within `patience` rounds
 
 Vector3 along_great_circle(const Vector3& from, const Vector3& to, double part) {
@@ -60,13 +61,14 @@ double kernel(double distance) {
 
 /// Moves all vertices by a smooth field that takes every pin along its way; false where no part
 /// of the way keeps the map valid.
-bool flow(const Topology& topology, SphereMap& map, const std::vector<Pin>& pins, int threads) {
+bool flow(const Topology& topology, SphereMap& map, const std::vector<Pin>& pins, int threads, double turn) {
   const Eigen::Index k = static_cast<Eigen::Index>(pins.size());
   Eigen::MatrixXd kernels(k, k), ways(k, 3);
   double longest = 0;
   for (Eigen::Index i = 0; i < k; ++i) {
     const Vector3 x = map.point(pins[static_cast<size_t>(i)].vertex);
     ways.row(i) = way_to(x, pins[static_cast<size_t>(i)].point);
+    if (turn != 0 && ways.row(i).norm() > 0) {const Vector3 w = ways.row(i).normalized(); ways.row(i) = 0.3 * (std::cos(turn) * w + std::sin(turn) * x.cross(w));}
     longest = std::max(longest, ways.row(i).norm());
     for (Eigen::Index j = 0; j < k; ++j) {
       kernels(i, j) = kernel((x - map.point(pins[static_cast<size_t>(j)].vertex)).norm());
@@ -131,13 +133,15 @@ LandmarkPlacement place_landmarks(const Topology& topology, const SourceTriangle
   if (!all_triangles_positive(topology, result.map, options.threads)) result.map = map;
 
   RelaxationOptions relaxation{
-      .energy = options.energy, .sweeps = options.sweeps, .threads = options.threads};
+      .energy = options.energy, .sweeps = getenv("SW") ? atoi(getenv("SW")) : options.sweeps, .threads = options.threads};
   for (const Pin& pin : pins) relaxation.pinned.push_back(pin.vertex);
+  int detours = 0, detour = 0; const int most_detours = getenv("DT") ? atoi(getenv("DT")) : 4; const double turn = getenv("TU") ? atof(getenv("TU")) : -1.2;
   const bool flow_wanted = !getenv("NOFLOW");
   std::vector<double> history;  // sums of residuals
   for (;; ++result.rounds) {
-    if (flow_wanted) flow(topology, result.map, pins, options.threads);
-    for (const Pin& pin : pins) advance(topology, result.map, pin);
+    const bool flowed = flow_wanted && flow(topology, result.map, pins, options.threads, detour > 0 ? turn : 0);
+    if (!(detour > 0 ||(flowed && getenv("SNAP")))) for (const Pin& pin : pins) advance(topology, result.map, pin);
+    else for (const Pin& pin : pins) { const Vector3 from = result.map.point(pin.vertex); result.map.points.row(pin.vertex) = pin.point; if (!ring_is_positive(topology, result.map, pin.vertex)) result.map.points.row(pin.vertex) = from; }
     result.residuals = pin_residuals(result.map, pins);
     history.push_back(sum(result.residuals));
     result.map = relax(topology, source, result.map, relaxation).map;
@@ -145,6 +149,15 @@ LandmarkPlacement place_landmarks(const Topology& topology, const SourceTriangle
     const size_t k = history.size();
     const bool stalled = k > patience && history[k - 1] > (1 - least_progress) *
                                                               history[k - 1 - patience];
+    if(getenv("DBG")&&(stalled||result.exact()||result.rounds==options.most_rounds)){fprintf(stderr,"n %ld rounds %d sum %.4g  E %.4g flowed %d:",(long)map.points.rows(),result.rounds,history.back(),distortion_energy(topology,source,result.map,options.energy),flowed);for(double r:result.residuals)fprintf(stderr," %.2g",r);fprintf(stderr,"\n");}
+    if (detour > 0 && --detour == 0) history.clear();
+    if (stalled && detours < most_detours && !result.exact()) {
+      ++detours; detour = 5; history.clear();
+      RelaxationOptions loose = relaxation; loose.sweeps = 20; loose.pinned.clear();
+      for (size_t i = 0; i < pins.size(); ++i) if (result.residuals[i] == 0) loose.pinned.push_back(pins[i].vertex);
+      result.map = relax(topology, source, result.map, loose).map;
+      continue;
+    }
     if (result.exact() || stalled || result.rounds == options.most_rounds) return result;
   }
 }

@@ -7,9 +7,9 @@
 #include "sphparam/embedding/distortion_energy.h"
 #include "sphparam/parallel.h"
 
-// Levels. Rows are clustered greedily: a row whose strong neighbours are all free gathers them; what
-// is left over joins its strongest neighbour. Cluster C with centre c, frame (u, v, c), radius r
-// moves its points x by four fields:
+// Levels. Rows are clustered greedily: a row whose strong neighbours are all free gathers them;
+// what is left over joins its strongest neighbour. Cluster C with centre c, frame (u, v, c), radius
+// r moves its points x by four fields:
 //   u × x,  v × x,  c × (x − c)/r,  (c − (c·x)x)/r,
 // two turns that carry it along, a turn in its plane, a dilation: P maps their amounts to tangent
 // coordinates. Everything is relative to c and r, so that clusters of radius 1e-9 on a limb's tip
@@ -20,10 +20,10 @@
 namespace sphparam {
 namespace {
 
-constexpr double strong = 0.05;      // |A_ij| ≥ this · √(|A_ii||A_jj|)
-constexpr int coarsest_rows = 100;   // solved directly
+constexpr double strong = 0.05;     // |A_ij| ≥ this · √(|A_ii||A_jj|)
+constexpr int coarsest_rows = 100;  // solved directly
 constexpr double least_shrinkage = 0.8;
-constexpr int sweep_block = 512;     // rows
+constexpr int sweep_block = 512;                                 // rows
 constexpr double diagonal_shift = 1e-10, coarsest_shift = 1e-8;  // of a block's trace
 constexpr std::int64_t row_grain = 2048;
 
@@ -338,7 +338,8 @@ SweepOrder order_sweeps(const std::vector<int>& start, const std::vector<int>& c
   order.first_row.push_back(rows);
   std::vector<int> colour(at(blocks), -1), taken;  // taken[c]: last block that found c taken
   for (int b = 0; b < blocks; ++b) {
-    for (int e = start[at(order.first_row[at(b)])]; e < start[at(order.first_row[at(b) + 1])]; ++e) {
+    for (int e = start[at(order.first_row[at(b)])]; e < start[at(order.first_row[at(b) + 1])];
+         ++e) {
       const int c = colour[at(column[at(e)] / size)];
       if (c >= 0) taken[at(c)] = b;
     }
@@ -464,8 +465,8 @@ void Multigrid::fill(size_t l) {
       p(3, 3) = spread * along;
     }
   }
-  restrict_matrix(fine.matrix, fine.prolongation, clusters.start, clusters.members,
-                  clusters.target, coarse.matrix, threads_);
+  restrict_matrix(fine.matrix, fine.prolongation, clusters.start, clusters.members, clusters.target,
+                  coarse.matrix, threads_);
   coarse.inverse = inverses(coarse.matrix.diagonal, threads_);
 }
 
@@ -508,8 +509,8 @@ void Multigrid::cycle(size_t l) {
   std::fill(level.x.begin(), level.x.end(), 0.0);
   sweep(level.matrix, level.inverse, level.order, level.b.data(), level.x.data(), true, threads_);
   residual(level.matrix, level.b.data(), level.x.data(), level.r.data(), threads_);
-  restrict_vector(level.prolongation, level.clusters.start, level.clusters.members,
-                  level.r.data(), coarse.b.data(), threads_);
+  restrict_vector(level.prolongation, level.clusters.start, level.clusters.members, level.r.data(),
+                  coarse.b.data(), threads_);
   cycle(l + 1);
   if (l + 2 < levels_.size()) {
     coarse.first_x = coarse.x;
@@ -538,15 +539,14 @@ void Multigrid::apply(const std::vector<double>& b, std::vector<double>& x) {
 namespace {
 
 double dot(const std::vector<double>& a, const std::vector<double>& b, int threads) {
-  return parallel_sum(static_cast<std::int64_t>(a.size()), threads,
-                      [&](std::int64_t first, std::int64_t last) {
-                        double sum = 0;
-                        for (auto i = static_cast<size_t>(first); i < static_cast<size_t>(last);
-                             ++i) {
-                          sum += a[i] * b[i];
-                        }
-                        return sum;
-                      });
+  return parallel_sum(
+      static_cast<std::int64_t>(a.size()), threads, [&](std::int64_t first, std::int64_t last) {
+        double sum = 0;
+        for (auto i = static_cast<size_t>(first); i < static_cast<size_t>(last); ++i) {
+          sum += a[i] * b[i];
+        }
+        return sum;
+      });
 }
 
 }  // namespace

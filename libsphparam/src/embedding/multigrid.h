@@ -30,9 +30,9 @@ struct BlockMatrix {
 /// An order of the rows for Gauss–Seidel: blocks of consecutive rows, coloured so that blocks of a
 /// colour share no entry. Blocks of a colour may be swept at the same time, with the same result.
 struct SweepOrder {
-  std::vector<int> first_row;    // #blocks + 1
-  std::vector<int> blocks;       // colour by colour
-  std::vector<int> colour_start; // #colours + 1, into `blocks`
+  std::vector<int> first_row;     // #blocks + 1
+  std::vector<int> blocks;        // colour by colour
+  std::vector<int> colour_start;  // #colours + 1, into `blocks`
 };
 
 /// Blocks of `size` consecutive rows.

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "embedding/finish.h"
 #include "embedding/kernel_placement.h"
 #include "embedding/pack_kernel.h"
 #include "embedding/ring_packs.h"
@@ -37,7 +38,9 @@ class Embedder {
   Embedder(const MeshHierarchy& hierarchy, int face_count, const ProgressiveOptions& options)
       : hierarchy_(hierarchy),
         options_(options),
-        area_floor_(area_floor * 4 * std::numbers::pi / face_count) {
+        area_floor_(area_floor * 4 * std::numbers::pi / face_count),
+        finish_(options.quality, options.energy, hierarchy.front().vertex_count(),
+                options.threads) {
     std::vector<Vertex> names;
     for (const Pin& pin : options.pins) names.push_back(pin.vertex);
     while (!names.empty() && std::count(names.begin(), names.end(), -1) == 0) {
@@ -55,6 +58,7 @@ class Embedder {
     for (size_t l = hierarchy_.size(); l-- > 0;) {
       if (l + 1 < hierarchy_.size() && !refine(l, result.report)) return result;
       if (l + 1 <= pinned_.size() && !pins_are_exact(result.report.pin_residuals)) result.report.pin_residuals = place_pins(l);
+      if (finish_.due(hierarchy_[l].vertex_count())) finish(l);
       done += hierarchy_[l].vertex_count();
       report(options_.progress, "embedding", done / all);
     }
@@ -113,6 +117,12 @@ class Embedder {
                       hold_pins ? pinned_[l] : std::vector<Vertex>{});
   }
 
+  void finish(size_t l) {
+    const TriangleMesh mesh = triangle_mesh(hierarchy_[l]);
+    finish_.improve(Topology(mesh), measure_source(mesh),
+                    pins_placed_ ? pinned_[l] : std::vector<Vertex>{}, image_);
+  }
+
   /// Moves the pins of a level to their points, then relaxes the rest around them. Their distances
   /// from the points.
   std::vector<double> place_pins(size_t l) {
@@ -122,7 +132,7 @@ class Embedder {
     for (size_t i = 0; i < pins.size(); ++i) pins[i].vertex = pinned_[l][i];
     const LandmarkPlacement placement =
         place_landmarks(topology, measure_source(mesh), map_of(image_), pins,
-                        {.energy = options_.energy, .threads = options_.threads});
+                        {.energy = options_.energy, .most_rounds=std::max(getenv("MR")?atoi(getenv("MR")):20, 400*400/(int)image_.size()), .threads = options_.threads});
     for (size_t v = 0; v < image_.size(); ++v) {
       image_[v] = image_point(placement.map.point(static_cast<Vertex>(v)));
     }
@@ -205,6 +215,7 @@ class Embedder {
   std::vector<std::vector<Vertex>> pinned_;  // per level that has all pins: their names there
   bool pins_placed_ = false;
   Image image_;
+  Finish finish_;
 };
 
 }  // namespace

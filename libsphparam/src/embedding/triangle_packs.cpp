@@ -25,10 +25,10 @@ namespace {
 
 using Mask = long long __attribute__((vector_size(8 * pack_width)));  // −1 true, 0 false
 
-constexpr double guard_margin = 1e-14;     // see pack_kernel.cpp
-constexpr double definite = 1e-9;          // least pivot, of the largest entry, left as it is
-constexpr double least_curvature = 1e-6;   // of the largest entry: what eigenvalues are raised to
-constexpr int jacobi_sweeps = 4;           // quadratic convergence: full precision
+constexpr double guard_margin = 1e-14;    // see pack_kernel.cpp
+constexpr double definite = 1e-9;         // least pivot, of the largest entry, left as it is
+constexpr double least_curvature = 1e-6;  // of the largest entry: what eigenvalues are raised to
+constexpr int jacobi_sweeps = 4;          // quadratic convergence: full precision
 
 SPHPARAM_INLINE Lanes splat(double value) { return value - Lanes{}; }
 SPHPARAM_INLINE Lanes root(Lanes a) {
@@ -172,8 +172,7 @@ SPHPARAM_INLINE void reflect(const Six& v, Lanes scale, Six& a) {
   for (int i = 0; i < 6; ++i) a.c[i] -= f * v.c[i];
 }
 
-SPHPARAM_INLINE ShapeBasis shape_basis(const Image& m, const LaneVectors* u,
-                                       const LaneVectors* v) {
+SPHPARAM_INLINE ShapeBasis shape_basis(const Image& m, const LaneVectors* u, const LaneVectors* v) {
   // Rotations about two axes in the plane and, from differences, about the centre.
   LaneVectors centre = plus(plus(m.x[0], m.x[1]), m.x[2]), axis[3];
   centre = times(1.0 / root(dot(centre, centre)), centre);
@@ -235,9 +234,8 @@ SPHPARAM_INLINE Symmetric3 positive_part(const Symmetric3& given) {
   Lanes a[3][3] = {{given.d[0], given.o01, given.o02},
                    {given.o01, given.d[1], given.o12},
                    {given.o02, given.o12, given.d[2]}};
-  Lanes e[3][3] = {{splat(1), Lanes{}, Lanes{}},
-                   {Lanes{}, splat(1), Lanes{}},
-                   {Lanes{}, Lanes{}, splat(1)}};
+  Lanes e[3][3] = {
+      {splat(1), Lanes{}, Lanes{}}, {Lanes{}, splat(1), Lanes{}}, {Lanes{}, Lanes{}, splat(1)}};
   for (int sweep = 0; sweep < jacobi_sweeps; ++sweep) {
     for (int pair = 0; pair < 3; ++pair) {
       const int i = pair == 2 ? 1 : 0, j = pair == 0 ? 1 : 2, k = 3 - i - j;
@@ -342,11 +340,11 @@ SPHPARAM_INLINE void differentiate_pack(const Energy& energy, const TrianglePack
   };
   const Six hq[3] = {apply(basis.shape[0]), apply(basis.shape[1]), apply(basis.shape[2])};
   const Lanes turning = larger(Lanes{}, dot(basis.turn, apply(basis.turn)));
-  const Symmetric3 c = positive_part({{dot(basis.shape[0], hq[0]), dot(basis.shape[1], hq[1]),
-                                       dot(basis.shape[2], hq[2])},
-                                      dot(basis.shape[0], hq[1]),
-                                      dot(basis.shape[0], hq[2]),
-                                      dot(basis.shape[1], hq[2])});
+  const Symmetric3 c = positive_part(
+      {{dot(basis.shape[0], hq[0]), dot(basis.shape[1], hq[1]), dot(basis.shape[2], hq[2])},
+       dot(basis.shape[0], hq[1]),
+       dot(basis.shape[0], hq[2]),
+       dot(basis.shape[1], hq[2])});
   // Q C Qᵀ + turning · t tᵀ
   Lanes qc[6][4];
   for (int i = 0; i < 6; ++i) {

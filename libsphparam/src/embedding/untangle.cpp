@@ -189,6 +189,7 @@ void unfold_all(const Topology& topology, const SourceTriangles& source, const P
   for (size_t i = 0; i < patches.size(); ++i) {
     report.patches += steps[i] > 0;
     report.steps += steps[i];
+    report.work += static_cast<double>(patches[i].size()) * steps[i];
     report.largest_patch = std::max(report.largest_patch, static_cast<long>(patches[i].size()));
   }
 }
@@ -204,11 +205,16 @@ Untangled untangle(const Topology& topology, const SourceTriangles& source, cons
   std::vector<Face> folds = folded_faces(topology, points, options.threads);
   report.folds_before = static_cast<long>(folds.size());
   Patches previous;
-  for (int rings = options.rings; !folds.empty() && report.rounds < options.max_rounds;
-       rings = std::max(1, 2 * rings)) {
+  size_t folds_of_previous = 0;
+  const auto may_go_on = [&] {
+    return !folds.empty() && report.rounds < options.max_rounds && report.work < options.max_work;
+  };
+  for (int rings = options.rings; may_go_on(); rings = std::max(1, 2 * rings)) {
     Patches patches = patches_around(topology, folds, rings, options);
-    // The same patches again would only be tried in vain again.
-    if (patches != previous) unfold_all(topology, source, patches, options, points, report);
+    // The same patches with the same folds would only be tried in vain again.
+    const bool tried = patches == previous && folds.size() == folds_of_previous;
+    folds_of_previous = folds.size();
+    if (!tried) unfold_all(topology, source, patches, options, points, report);
     previous = std::move(patches);
     folds = folded_faces(topology, points, options.threads);
     ++report.rounds;

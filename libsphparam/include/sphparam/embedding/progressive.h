@@ -4,6 +4,7 @@
 
 #include "sphparam/embedding/distortion_energy.h"
 #include "sphparam/embedding/landmarks.h"
+#include "sphparam/embedding/quality.h"
 #include "sphparam/mesh/mesh_hierarchy.h"
 #include "sphparam/progress.h"
 
@@ -11,6 +12,7 @@ namespace sphparam {
 
 struct ProgressiveOptions {
   DistortionEnergy energy = {};  // ε is not used: the map is valid at every moment
+  Quality quality = Quality::Normal;
   double sweeps = 2;     // on the finest level; a level of n vertices gets √(N/n) times that
   int most_sweeps = 60;  // on any level
   double over_relaxation = 1.7;  // first step tried, in Newton steps

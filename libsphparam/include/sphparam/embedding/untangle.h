@@ -13,6 +13,7 @@ struct UntangleOptions {
   int max_rounds = 7;               // so at most 128 rings
   int max_patch = 20000;            // vertices; a larger patch loses its outer rings
   int max_steps = 60;               // Newton steps a patch and round
+  double max_work = 4e6;            // Σ patch vertices × steps, after which no new round begins
   std::vector<Vertex> pinned = {};  // that may not move: poles
   int threads = 0;                  // 0: all cores; patches are solved side by side
   Progress progress = {};           // told after every round
@@ -24,6 +25,7 @@ struct UntangleReport {
   int rounds = 0;
   long patches = 0;        // solved, summed over the rounds
   long steps = 0;          // Newton steps, summed over the patches
+  double work = 0;         // Σ patch vertices × steps
   long largest_patch = 0;  // vertices
   long touched = 0;        // vertices that the last map has elsewhere than the first
   double seconds = 0;

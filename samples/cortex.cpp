@@ -1,0 +1,110 @@
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "geodesic_sphere.h"
+#include "noise.h"
+#include "relaxation_on_surface.h"
+#include "sample_meshes.h"
+#include "vertex_colours.h"
+
+// A sphere with worm-like ridges: its radius is a steep step of a sum of plane waves of one length,
+// whose zero lines wind like sulci. Then space is bent by one-to-one maps, which leave the surface
+// a sphere that does not meet itself: every concentric shell is turned rigidly, by an angle that
+// grows with its radius, so that the ridges lean over; then it is stretched to the shape of a
+// brain.
+
+namespace sphparam::samples {
+namespace {
+
+constexpr std::uint64_t kSeed = 1909;
+constexpr int kFrequency = 45;
+constexpr double kDepth = 0.19;     // of the sulci, the radius being 1
+constexpr double kWaveNumber = 27;  // radians a unit length
+constexpr int kWaves = 28;
+
+struct Wave {
+  Vector3 direction;
+  double phase;
+};
+
+std::vector<Wave> make_waves() {
+  std::vector<Wave> waves;
+  for (std::uint64_t i = 0; i < kWaves; ++i) {
+    waves.push_back({kWaveNumber * random_direction(kSeed, i),
+                     2 * std::numbers::pi * random_unit(kSeed + 1, i)});
+  }
+  return waves;
+}
+
+/// Of mean 0 and variance 1, its zero lines half a wave apart.
+double wave_sum(const Vector3& d) {
+  static const std::vector<Wave> waves = make_waves();
+  double sum = 0;
+  for (const Wave& wave : waves) sum += std::cos(wave.direction.dot(d) + wave.phase);
+  return sum / std::sqrt(0.5 * kWaves);
+}
+
+/// 0 in the depth of a sulcus or of the fissure between the halves, 1 on a gyrus: steep walls,
+/// round crowns.
+double ridge(const Vector3& d) {
+  const double above = (wave_sum(d) + 0.75) / 2.1;
+  const double wall = std::min(1.0, 0.5 * (above + std::hypot(above, 0.1)));
+  const double fold = 1 - std::pow(1 - wall, 3);
+  const double fissure =
+      1 - std::exp(-std::pow(d.y() / 0.055, 2)) * smooth_step(-0.75, -0.2, d.z());
+  return fold * fissure;
+}
+
+double radius_at(const Vector3& d) {
+  return 1 - kDepth * (1 - ridge(d)) + 0.035 * noise(1.6 * d, kSeed + 2);
+}
+
+/// Turns every shell about two axes, each by an angle that grows with the radius.
+Vector3 leaned(const Vector3& p, double sign) {
+  const double angle = 0.55 * (p.norm() - 0.9);
+  static const Vector3 upward = Vector3(0.3, 0.2, 1).normalized();
+  static const Vector3 forward = Vector3(1, -0.4, 0.1).normalized();
+  const Eigen::AngleAxisd first(sign * angle, upward), second(sign * 0.8 * angle, forward);
+  return sign > 0 ? Vector3(second * (first * p)) : Vector3(first * (second * p));
+}
+
+const Vector3 kStretch(1.25, 0.98, 0.92);
+
+Vector3 bent(const Vector3& p) { return kStretch.cwiseProduct(leaned(p, 1)); }
+Vector3 unbent(const Vector3& p) { return leaned(p.cwiseQuotient(kStretch), -1); }
+
+/// Grey-pink gyri, dark red sulci.
+Colour colour_at(const Vector3& d) {
+  const double height = ridge(d), fine = fractal_noise(7 * d, 3, kSeed + 3);
+  const Colour colour = mix({0.45, 0.16, 0.16}, {0.90, 0.72, 0.67}, smooth_step(0.0, 0.9, height));
+  return colour * (1 + 0.07 * fine);
+}
+
+}  // namespace
+
+tools::MeshFile make_cortex() {
+  const Field field = [](const Vector3& p) {
+    const Vector3 q = unbent(p);
+    const double r = q.norm();
+    return r - radius_at(q / r);
+  };
+  TriangleMesh start = geodesic_sphere(kFrequency, 0).mesh;
+  for (Eigen::Index v = 0; v < start.vertex_count(); ++v) {
+    const Vector3 d = start.positions.row(v);
+    start.positions.row(v) = bent(radius_at(d) * d);
+  }
+  tools::MeshFile file;
+  file.mesh = relaxed_on_surface(start, field, {.rounds = 25});
+  std::vector<Colour> colours;
+  for (Eigen::Index v = 0; v < file.mesh.vertex_count(); ++v) {
+    colours.push_back(colour_at(unbent(file.mesh.positions.row(v)).normalized()));
+  }
+  add_vertex_colours(colours, file);
+  file.format = "sample";
+  return file;
+}
+
+}  // namespace sphparam::samples

@@ -1,0 +1,114 @@
+#include "program.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+extern char** environ;
+
+namespace sphparam::tests {
+
+namespace {
+
+fs::path new_folder() {
+  std::string name = (fs::temp_directory_path() / "sphparam-test-XXXXXX").string();
+  if (!mkdtemp(name.data())) throw std::runtime_error("cannot make " + name);
+  return name;
+}
+
+std::string number(double value) {
+  char text[40];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+}  // namespace
+
+Running::Running(const std::vector<std::string>& arguments, const std::string& standard_input,
+                 const std::string& output)
+    : folder_(new_folder()) {
+  write_bytes(folder_ / "in", standard_input);
+  std::vector<char*> words = {const_cast<char*>("sphparam")};
+  for (const std::string& argument : arguments)
+    words.push_back(const_cast<char*>(argument.c_str()));
+  words.push_back(nullptr);
+
+  const std::string standard_output = output.empty() ? (folder_ / "out").string() : output;
+  constexpr int create = O_WRONLY | O_CREAT | O_TRUNC;
+  posix_spawn_file_actions_t streams;
+  posix_spawn_file_actions_init(&streams);
+  posix_spawn_file_actions_addopen(&streams, 0, (folder_ / "in").c_str(), O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&streams, 1, standard_output.c_str(), create, 0600);
+  posix_spawn_file_actions_addopen(&streams, 2, (folder_ / "err").c_str(), create, 0600);
+  const int failed = posix_spawn(&pid_, SPHPARAM_PROGRAM, &streams, nullptr, words.data(), environ);
+  posix_spawn_file_actions_destroy(&streams);
+  if (failed) throw std::runtime_error("cannot run " SPHPARAM_PROGRAM);
+}
+
+void Running::signal(int number) const { kill(pid_, number); }
+
+std::string Running::err_so_far() const { return bytes_of(folder_ / "err"); }
+
+Ended Running::wait() {
+  int status = 0;
+  waitpid(pid_, &status, 0);
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  Ended ended = {code, bytes_of(folder_ / "out"), bytes_of(folder_ / "err")};
+  fs::remove_all(folder_);
+  return ended;
+}
+
+Ended sphparam_program(const std::vector<std::string>& arguments, const std::string& standard_input,
+                       const std::string& output) {
+  return Running(arguments, standard_input, output).wait();
+}
+
+Folder::Folder() : path_(new_folder()) {}
+
+Folder::~Folder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+std::vector<std::string> Folder::names() const {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(path_)) names.push_back(entry.path().filename());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+void write_bytes(const std::string& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+std::string obj_text(const TriangleMesh& mesh) {
+  std::string text;
+  for (Eigen::Index v = 0; v < mesh.vertex_count(); ++v) {
+    text += "v";
+    for (int axis = 0; axis < 3; ++axis) text += " " + number(mesh.positions(v, axis));
+    text += "\n";
+  }
+  for (Eigen::Index f = 0; f < mesh.face_count(); ++f) {
+    text += "f";
+    for (int corner = 0; corner < 3; ++corner) {
+      text += " " + std::to_string(mesh.triangles(f, corner) + 1);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace sphparam::tests

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sphparam/mesh/triangle_mesh.h"
+
+/// Running the `sphparam` program as its users do.
+namespace sphparam::tests {
+
+namespace fs = std::filesystem;
+
+struct Ended {
+  int code;         // exit code; 128 + N when signal N killed it
+  std::string out;  // standard output
+  std::string err;  // standard error
+};
+
+/// A running program whose standard streams are files.
+class Running {
+ public:
+  /// output: where standard output goes; empty: into `Ended::out`.
+  Running(const std::vector<std::string>& arguments, const std::string& standard_input,
+          const std::string& output = "");
+  void signal(int number) const;
+  std::string err_so_far() const;
+  Ended wait();
+
+ private:
+  fs::path folder_;
+  pid_t pid_ = 0;
+};
+
+/// `sphparam arguments…` from start to end.
+Ended sphparam_program(const std::vector<std::string>& arguments,
+                       const std::string& standard_input = "", const std::string& output = "");
+
+/// A folder of its own for a test, removed with everything in it at the end.
+class Folder {
+ public:
+  Folder();
+  ~Folder();
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+  /// Names of what is in it, sorted.
+  std::vector<std::string> names() const;
+
+ private:
+  fs::path path_;
+};
+
+std::string bytes_of(const std::string& path);
+void write_bytes(const std::string& path, const std::string& bytes);
+
+/// The mesh as the text of an OBJ file, with all digits.
+std::string obj_text(const TriangleMesh& mesh);
+
+}  // namespace sphparam::tests

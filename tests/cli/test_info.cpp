@@ -1,0 +1,111 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "program.h"
+#include "support/test_meshes.h"
+
+namespace sphparam::tests {
+
+namespace {
+
+using Catch::Contains;
+using Json = nlohmann::json;
+
+/// A closed torus: `around` × `across` vertices, twice as many triangles.
+TriangleMesh torus(int around, int across) {
+  TriangleMesh mesh;
+  mesh.positions.resize(around * across, 3);
+  mesh.triangles.resize(2 * around * across, 3);
+  const double turn = 2 * 3.14159265358979323846;
+  const auto id = [&](int i, int j) { return (i % around) * across + j % across; };
+  for (int i = 0; i < around; ++i) {
+    for (int j = 0; j < across; ++j) {
+      const double u = turn * i / around, v = turn * j / across, r = 2 + std::cos(v);
+      mesh.positions.row(id(i, j)) << r * std::cos(u), r * std::sin(u), std::sin(v);
+      const int a = id(i, j), b = id(i + 1, j), c = id(i + 1, j + 1), d = id(i, j + 1);
+      mesh.triangles.row(2 * a) << a, b, c;
+      mesh.triangles.row(2 * a + 1) << a, c, d;
+    }
+  }
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("info: a sphere is mappable, its figures are right") {
+  const Ended ended = sphparam_program({"info", "-", "--json"}, obj_text(icosphere(3)));
+  REQUIRE(ended.code == 0);
+  const Json report = Json::parse(ended.out);
+  for (const char* key :
+       {"sphparam", "command", "input", "inspection", "welded", "provenance", "notes", "seconds"}) {
+    CHECK(report.contains(key));
+  }
+  const Json& inspection = report["inspection"];
+  CHECK(inspection["mappable"] == true);
+  CHECK(inspection["vertices"] == 642);
+  CHECK(inspection["triangles"] == 1280);
+  CHECK(inspection["euler_characteristic"] == 2);
+  CHECK(inspection["area"].get<double>() == Approx(12.5).margin(0.1));
+  CHECK(inspection["volume"].get<double>() == Approx(4.15).margin(0.1));
+}
+
+TEST_CASE("info: a torus ends with 4 and its genus is named") {
+  const Ended ended = sphparam_program({"info", "-"}, obj_text(torus(12, 8)));
+  CHECK(ended.code == 4);
+  CHECK_THAT(ended.out, Contains("genus 1"));
+  CHECK(sphparam_program({"map", "-", "-o", "-"}, obj_text(torus(12, 8))).code == 4);
+}
+
+TEST_CASE("info: lists every defect of a bad mesh with ids") {
+  TriangleMesh bad = icosphere(1);
+  bad.triangles.row(3) = bad.triangles.row(4);
+  const Ended ended = sphparam_program({"info", "-", "--json"}, obj_text(bad));
+  REQUIRE(ended.code == 4);
+  const Json defects = Json::parse(ended.out)["inspection"]["defects"];
+  CHECK(defects.size() >= 2);
+  for (const Json& defect : defects) {
+    CHECK(defect["count"].get<long>() > 0);
+    CHECK_FALSE(defect["message"].get<std::string>().empty());
+  }
+}
+
+TEST_CASE("info: an unreadable file ends with 3") {
+  CHECK(sphparam_program({"info", "/nonexistent.obj"}).code == 3);
+  CHECK(sphparam_program({"info", "-"}, "solid nonsense").code == 3);
+}
+
+TEST_CASE("info: shows the provenance of a written map") {
+  const Folder folder;
+  const std::string map = folder / "map.sph.ply";
+  REQUIRE(
+      sphparam_program({"map", "-", "-o", map, "--method", "curvilinear"}, obj_text(icosphere(2)))
+          .code == 0);
+  const Ended ended = sphparam_program({"info", map, "--json"});
+  REQUIRE(ended.code == 0);
+  const Json provenance = Json::parse(ended.out)["provenance"];
+  CHECK(provenance["method"] == "curvilinear");
+  CHECK(provenance["verdict"] == "one-to-one");
+}
+
+TEST_CASE("info: loads few shared objects and nothing of OpenImageIO") {
+  // The dynamic loader itself lists what the program needs before its first line runs.
+  REQUIRE(setenv("LD_TRACE_LOADED_OBJECTS", "1", 1) == 0);
+  const Ended listed = sphparam_program({"info", "-"});
+  unsetenv("LD_TRACE_LOADED_OBJECTS");
+  CHECK_THAT(listed.out, Contains("libc.so") && !Contains("OpenImageIO"));
+  CHECK(std::count(listed.out.begin(), listed.out.end(), '\n') <= 8);
+
+  // And what it maps while it runs.
+  const Folder folder;
+  write_bytes(folder / "ball.obj", obj_text(icosphere(1)));
+  REQUIRE(setenv("LD_DEBUG", "files", 1) == 0);
+  const Ended ran = sphparam_program({"info", folder / "ball.obj"});
+  unsetenv("LD_DEBUG");
+  CHECK(ran.code == 0);
+  CHECK_THAT(ran.err, Contains("calling init") && !Contains("OpenImageIO"));
+}
+
+}  // namespace sphparam::tests

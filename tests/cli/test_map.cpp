@@ -1,0 +1,218 @@
+#include <sys/resource.h>
+
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "program.h"
+#include "support/test_meshes.h"
+
+namespace sphparam::tests {
+
+namespace {
+
+using Catch::Contains;
+using Json = nlohmann::json;
+using Names = std::vector<std::string>;
+
+/// An icosphere with one deep, wide dent: the paper's method folds it, ours must not.
+TriangleMesh folding_mesh() { return random_sphere_mesh(60, 7); }
+
+}  // namespace
+
+TEST_CASE("map: writes a certified map that verify confirms") {
+  const Folder folder;
+  write_bytes(folder / "ball.obj", obj_text(icosphere(3)));
+  const Ended mapped =
+      sphparam_program({"map", folder / "ball.obj", "-o", folder / "ball.sph.ply"});
+  INFO(mapped.err);
+  REQUIRE(mapped.code == 0);
+  CHECK(mapped.out.empty());
+  CHECK_THAT(mapped.err, Contains("ball.obj: 1280 triangles, certified one-to-one"));
+  CHECK(folder.names() == Names{"ball.obj", "ball.sph.ply"});
+  CHECK(sphparam_program({"verify", folder / "ball.sph.ply"}).code == 0);
+}
+
+TEST_CASE("map: reads standard input and writes the same bytes to standard output") {
+  const Folder folder;
+  const std::string ball = obj_text(icosphere(2));
+  const Ended piped = sphparam_program({"map", "-", "-o", "-"}, ball);
+  REQUIRE(piped.code == 0);
+  const Ended filed = sphparam_program({"map", "-", "-o", folder / "ball.sph.ply"}, ball);
+  REQUIRE(filed.code == 0);
+  CHECK(piped.out == bytes_of(folder / "ball.sph.ply"));
+  CHECK(sphparam_program({"verify", "-"}, piped.out).code == 0);
+}
+
+TEST_CASE("map: the same bytes for 1, 2 and 4 threads") {
+  const std::string tube_text = obj_text(tube(60, 12));
+  const std::string one =
+      sphparam_program({"map", "-", "-o", "-", "--threads", "1"}, tube_text).out;
+  CHECK(one.size() > 1000);
+  for (const char* threads : {"2", "4"}) {
+    CHECK(sphparam_program({"map", "-", "-o", "-", "--threads", threads}, tube_text).out == one);
+  }
+}
+
+TEST_CASE("map: --json has the documented keys") {
+  const Folder folder;
+  const Ended ended = sphparam_program({"map", "-", "-o", folder / "ball.sph.ply", "--json", "-"},
+                                       obj_text(icosphere(2)));
+  REQUIRE(ended.code == 0);
+  const Json report = Json::parse(ended.out);
+  for (const char* key :
+       {"sphparam", "command", "input", "inspection", "options", "stages", "made_by", "poles",
+        "certificate", "distortion", "outputs", "warnings", "notes", "seconds"}) {
+    CHECK(report.contains(key));
+  }
+  CHECK(report["input"]["triangles"] == 320);
+  CHECK(report["inspection"]["genus"] == 0);
+  CHECK(report["certificate"]["one_to_one"] == true);
+  CHECK(report["certificate"]["degree"] == 1);
+  CHECK(report["distortion"]["symmetric_dirichlet"].get<double>() >= 4);
+  CHECK(report["outputs"]["map"] == folder / "ball.sph.ply");
+}
+
+TEST_CASE("map: --sphere writes the bare sphere, which verify certifies on its own") {
+  const Folder folder;
+  write_bytes(folder / "ball.obj", obj_text(icosphere(2)));
+  for (const char* name : {"sphere.ply", "sphere.obj", "sphere.off"}) {
+    const Ended ended = sphparam_program(
+        {"map", folder / "ball.obj", "-o", folder / "ball.sph.ply", "--sphere", folder / name});
+    REQUIRE(ended.code == 0);
+    CHECK(sphparam_program({"verify", folder / name}).code == 0);
+    CHECK(sphparam_program({"verify", folder / "ball.obj", folder / name}).code == 0);
+  }
+}
+
+TEST_CASE("map: --charts writes SVG files into the folder") {
+  const Folder folder;
+  const Ended ended =
+      sphparam_program({"map", "-", "-o", folder / "ball.sph.ply", "--charts", folder / "charts"},
+                       obj_text(icosphere(2)));
+  REQUIRE(ended.code == 0);
+  long charts = 0;
+  for (const auto& entry : fs::directory_iterator(folder / "charts")) {
+    charts += entry.path().extension() == ".svg";
+  }
+  CHECK(charts >= 2);
+}
+
+TEST_CASE("map: a folded map ends with 5, is not written, and its report is") {
+  const Folder folder;
+  write_bytes(folder / "crumpled.obj", obj_text(folding_mesh()));
+  const Ended ended =
+      sphparam_program({"map", folder / "crumpled.obj", "-o", folder / "map.sph.ply", "--method",
+                        "paper", "--json", folder / "map.json"});
+  INFO(ended.err);
+  REQUIRE(ended.code == 5);
+  CHECK(folder.names() == Names{"crumpled.obj", "map.json"});
+  const Json report = Json::parse(bytes_of(folder / "map.json"));
+  CHECK(report["certificate"]["one_to_one"] == false);
+  CHECK(report["certificate"]["folds"].get<long>() > 0);
+  CHECK_FALSE(report["outputs"].contains("map"));
+}
+
+TEST_CASE("map: --keep-folded writes a folded map, marked as such, still with code 5") {
+  const Folder folder;
+  const Ended ended = sphparam_program(
+      {"map", "-", "-o", folder / "map.sph.ply", "--method", "paper", "--keep-folded"},
+      obj_text(folding_mesh()));
+  REQUIRE(ended.code == 5);
+  CHECK_THAT(bytes_of(folder / "map.sph.ply").substr(0, 2000), Contains("folded "));
+  CHECK(sphparam_program({"verify", folder / "map.sph.ply"}).code == 5);
+}
+
+TEST_CASE("map: what the paper's method folds, the default method and --repair-map certify") {
+  const std::string crumpled = obj_text(folding_mesh());
+  CHECK(sphparam_program({"map", "-", "-o", "-"}, crumpled).code == 0);
+  CHECK(sphparam_program({"map", "-", "-o", "-", "--method", "paper", "--repair-map"}, crumpled)
+            .code == 0);
+}
+
+TEST_CASE("map: a mesh that is no sphere ends with 4, all its defects named, nothing written") {
+  const Folder folder;
+  TriangleMesh open = icosphere(2);
+  open.triangles.conservativeResize(open.face_count() - 1, 3);
+  const Ended ended = sphparam_program(
+      {"map", "-", "-o", folder / "map.sph.ply", "--json", folder / "a"}, obj_text(open));
+  CHECK(ended.code == 4);
+  CHECK_THAT(ended.err, Contains("boundary"));
+  CHECK(folder.names().empty());
+}
+
+TEST_CASE("map: an unreadable file ends with 3 and says file and line") {
+  const Folder folder;
+  const std::string ball = obj_text(icosphere(1));
+  write_bytes(folder / "cut.obj", ball.substr(0, ball.size() - 8) + "\nf 1 2 x\n");
+  const Ended cut = sphparam_program({"map", folder / "cut.obj", "-o", folder / "map.sph.ply"});
+  CHECK(cut.code == 3);
+  CHECK_THAT(cut.err, Contains("cut.obj:"));
+  CHECK(sphparam_program({"map", folder / "none.obj", "-o", folder / "map.sph.ply"}).code == 3);
+  CHECK(folder.names() == Names{"cut.obj"});
+}
+
+TEST_CASE("map: an output that cannot be written ends with 3") {
+  const Folder folder;
+  const std::string ball = obj_text(icosphere(1));
+  const std::string nowhere = folder / "nowhere/map.sph.ply";
+  CHECK(sphparam_program({"map", "-", "-o", nowhere}, ball).code == 3);
+  const std::string there = folder / "map.sph.ply";
+  CHECK(sphparam_program({"map", "-", "-o", there, "--json", nowhere}, ball).code == 3);
+  CHECK(sphparam_program({"map", "-", "-o", there, "--sphere", nowhere}, ball).code == 3);
+  CHECK(folder.names().empty());
+}
+
+TEST_CASE("map: a failure leaves the older output as it was") {
+  const Folder folder;
+  write_bytes(folder / "map.sph.ply", "older");
+  const std::string map = folder / "map.sph.ply";
+  CHECK(sphparam_program({"map", "-", "-o", map, "--method", "paper"}, obj_text(folding_mesh()))
+            .code == 5);
+  CHECK(sphparam_program({"map", "-", "-o", map}, "v 0 0 0\n").code != 0);
+  CHECK(bytes_of(map) == "older");
+  CHECK(folder.names() == Names{"map.sph.ply"});
+}
+
+TEST_CASE("map: SIGINT and SIGTERM end with 130 and leave no file") {
+  const Folder folder;
+  write_bytes(folder / "ball.obj", obj_text(icosphere(6)));
+  for (const int number : {SIGINT, SIGTERM}) {
+    Running running(
+        {"map", folder / "ball.obj", "-o", folder / "map.sph.ply", "--progress", "json"}, "");
+    while (running.err_so_far().empty()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    running.signal(number);
+    const Ended ended = running.wait();
+    CHECK(ended.code == 130);
+    CHECK_THAT(ended.err, Contains("interrupted"));
+    CHECK(folder.names() == Names{"ball.obj"});
+  }
+}
+
+TEST_CASE("map: -q is silent, and nothing but messages goes to standard error") {
+  const Ended quiet = sphparam_program({"map", "-", "-o", "-", "-q"}, obj_text(icosphere(1)));
+  CHECK(quiet.code == 0);
+  CHECK(quiet.err.empty());
+}
+
+TEST_CASE("map: poles that are given are used") {
+  const Folder folder;
+  const Ended ended =
+      sphparam_program({"map", "-", "-o", folder / "map.sph.ply", "--json", "-", "--poles", "5,40"},
+                       obj_text(icosphere(3)));
+  REQUIRE(ended.code == 0);
+  const Json poles = Json::parse(ended.out)["poles"];
+  CHECK(poles["north"] == 5);
+  CHECK(poles["south"] == 40);
+}
+
+TEST_CASE("map: a pole that is no vertex ends with 4") {
+  const Ended ended =
+      sphparam_program({"map", "-", "-o", "-", "--poles", "5,99999"}, obj_text(icosphere(2)));
+  CHECK(ended.code == 4);
+  CHECK(ended.out.empty());
+}
+
+}  // namespace sphparam::tests

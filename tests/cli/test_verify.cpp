@@ -1,0 +1,96 @@
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "program.h"
+#include "support/test_meshes.h"
+
+namespace sphparam::tests {
+
+namespace {
+
+using Catch::Contains;
+using Json = nlohmann::json;
+
+TriangleMesh scaled(TriangleMesh mesh, double factor, const Vector3& shift) {
+  mesh.positions *= factor;
+  mesh.positions.rowwise() += shift.transpose();
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("verify: a sphere of any radius is certified, and its radius reported") {
+  const Ended ended = sphparam_program({"verify", "-", "--json"},
+                                       obj_text(scaled(icosphere(2), 100, Vector3::Zero())));
+  REQUIRE(ended.code == 0);
+  const Json report = Json::parse(ended.out);
+  CHECK(report["certificate"]["one_to_one"] == true);
+  CHECK(report["mean_length"].get<double>() == Approx(100));
+}
+
+TEST_CASE("verify: a sphere beside the origin is certified as rays, with a warning") {
+  const Ended ended =
+      sphparam_program({"verify", "-"}, obj_text(scaled(icosphere(2), 1, Vector3(0.3, 0, 0))));
+  CHECK(ended.code == 0);
+  CHECK_THAT(ended.err, Contains("radius"));
+}
+
+TEST_CASE("verify: one vertex pulled across the sphere is found by its faces") {
+  TriangleMesh folded = icosphere(2);
+  folded.positions.row(7) *= -1;
+  const Ended ended = sphparam_program({"verify", "-", "--json"}, obj_text(folded));
+  REQUIRE(ended.code == 5);
+  const Json certificate = Json::parse(ended.out)["certificate"];
+  CHECK(certificate["one_to_one"] == false);
+  for (const Json& face : certificate["folded_faces"]) {
+    CHECK((folded.triangles.row(face.get<int>()).array() == 7).any());
+  }
+  CHECK(certificate["folded_faces"].size() > 0);
+}
+
+TEST_CASE("verify: a sphere covered twice has no fold and is refused") {
+  TriangleMesh wound = uv_sphere(12, 5);
+  wound.positions = wound_rays(12, 5, 2);
+  const Ended ended = sphparam_program({"verify", "-", "--json"}, obj_text(wound));
+  REQUIRE(ended.code == 5);
+  const Json certificate = Json::parse(ended.out)["certificate"];
+  CHECK(certificate["folds"] == 0);
+  CHECK(certificate["degree"] == 2);
+}
+
+TEST_CASE("verify: a sphere seen from inside is one-to-one and said to be reversed") {
+  TriangleMesh mirrored = icosphere(2);
+  mirrored.positions.col(0) *= -1;
+  const Ended ended = sphparam_program({"verify", "-", "--json"}, obj_text(mirrored));
+  REQUIRE(ended.code == 0);
+  CHECK(Json::parse(ended.out)["certificate"]["reversed"] == true);
+}
+
+TEST_CASE("verify: two files of one connectivity are compared and the distortion measured") {
+  const Folder folder;
+  const TriangleMesh ball = icosphere(2);
+  write_bytes(folder / "source.obj", obj_text(scaled(ball, 3, Vector3(1, 2, 3))));
+  write_bytes(folder / "sphere.obj", obj_text(ball));
+  const Ended ended =
+      sphparam_program({"verify", folder / "source.obj", folder / "sphere.obj", "--json"});
+  REQUIRE(ended.code == 0);
+  CHECK(Json::parse(ended.out)["distortion"]["mean_abs_ln_angle"].get<double>() ==
+        Approx(0).margin(1e-9));
+}
+
+TEST_CASE("verify: files of different connectivity end with 5 and the place is named") {
+  const Folder folder;
+  TriangleMesh other = icosphere(2);
+  std::swap(other.triangles(9, 0), other.triangles(9, 1));
+  write_bytes(folder / "source.obj", obj_text(other));
+  write_bytes(folder / "sphere.obj", obj_text(icosphere(2)));
+  write_bytes(folder / "small.obj", obj_text(icosphere(1)));
+  const Ended face = sphparam_program({"verify", folder / "source.obj", folder / "sphere.obj"});
+  CHECK(face.code == 5);
+  CHECK_THAT(face.err, Contains("triangle 9"));
+  const Ended count = sphparam_program({"verify", folder / "small.obj", folder / "sphere.obj"});
+  CHECK(count.code == 5);
+  CHECK_THAT(count.err, Contains("42") && Contains("162"));
+}
+
+}  // namespace sphparam::tests

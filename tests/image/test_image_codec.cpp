@@ -1,0 +1,137 @@
+#include <unistd.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "image/image_codec.h"
+
+using namespace sphparam::tools;
+using Catch::Detail::Approx;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// Values that are exact in `levels` steps, all of them occurring, different in every channel.
+Image ramp(int width, int height, int channels, int levels) {
+  Image image(width, height, channels);
+  for (size_t i = 0; i < image.pixels.size(); ++i) {
+    image.pixels[i] = static_cast<float>((i * 7919) % static_cast<size_t>(levels)) /
+                      static_cast<float>(levels - 1);
+  }
+  return image;
+}
+
+/// Equal to the rounding of an integer's way through floats.
+bool same_pixels(const Image& a, const Image& b) {
+  return a.width == b.width && a.height == b.height && a.channels == b.channels &&
+         std::equal(a.pixels.begin(), a.pixels.end(), b.pixels.begin(), b.pixels.end(),
+                    [](float x, float y) { return std::abs(x - y) < 1e-6F; });
+}
+
+bool loaded_openimageio() {
+  std::ifstream maps("/proc/self/maps");
+  const std::string text(std::istreambuf_iterator<char>(maps), {});
+  return text.find("libOpenImageIO") != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("image codec: what is not an image is refused by its first bytes") {
+  const auto refuse = [](const std::string& text) {
+    const std::vector<char> bytes(text.begin(), text.end());
+    CHECK_THROWS_WITH(decode_image(bytes, "x.png"),
+                      Contains("x.png") && Contains("not a PNG, JPEG, TIFF or EXR"));
+  };
+  refuse("");
+  refuse("GIF89a..........");
+  refuse("BM6.............");
+  refuse("DICM");
+  refuse("\x89PNG\r\n");
+}
+
+TEST_CASE("image codec: PNG keeps every 8-bit and 16-bit value, alpha not multiplied in") {
+  for (int channels = 1; channels <= 4; ++channels) {
+    const Image eight = ramp(64, 33, channels, 256);
+    const Image sixteen = ramp(300, 301, channels, 65536);
+    const auto round_trip = [](const Image& image, SampleType type) {
+      return decode_image(encode_image(image, ImageFormat::Png, {.sample_type = type}), "memory");
+    };
+    CHECK(same_pixels(round_trip(eight, SampleType::Uint8), eight));
+    CHECK(same_pixels(round_trip(sixteen, SampleType::Uint16), sixteen));
+  }
+}
+
+TEST_CASE("image codec: EXR keeps floats bit by bit, beyond [0, 1] too") {
+  Image image(17, 5, 3);
+  for (size_t i = 0; i < image.pixels.size(); ++i) {
+    image.pixels[i] = std::sin(static_cast<float>(i)) * 1e6F;
+  }
+  const auto bytes = encode_image(image, ImageFormat::Exr, {.sample_type = SampleType::Float});
+  CHECK((decode_image(bytes, "memory").pixels == image.pixels));
+}
+
+TEST_CASE("image codec: integer formats clamp") {
+  Image image(3, 1, 1);
+  image.pixels = {-1, 0.5F, 7};
+  const Image back = decode_image(encode_image(image, ImageFormat::Png), "memory");
+  CHECK(back.pixels[0] == 0);
+  CHECK(back.pixels[1] == Approx(128 / 255.0));
+  CHECK(back.pixels[2] == 1);
+}
+
+TEST_CASE("image codec: the same image gives the same bytes") {
+  const Image image = ramp(200, 100, 3, 256);
+  const ImageWriteOptions exr{.sample_type = SampleType::Half,
+                              .metadata = {{"sphparam:map", "ao"}}};
+  CHECK((encode_image(image, ImageFormat::Png) == encode_image(image, ImageFormat::Png)));
+  CHECK((encode_image(image, ImageFormat::Exr, exr) == encode_image(image, ImageFormat::Exr, exr)));
+}
+
+TEST_CASE("image codec: limits are judged before pixels are allocated, exactly at the limit") {
+  const auto bytes = encode_image(ramp(1024, 1024, 3, 256), ImageFormat::Png);  // 3 MB decoded
+  CHECK_NOTHROW(decode_image(bytes, "memory", {.decoded_megabytes = 3}));
+  CHECK_THROWS_AS(decode_image(bytes, "memory", {.decoded_megabytes = 2}), ImageError);
+  CHECK_NOTHROW(decode_image(bytes, "memory", {.channels = 3}));
+  CHECK_THROWS_AS(decode_image(bytes, "memory", {.channels = 2}), ImageError);
+}
+
+TEST_CASE("image codec: a truncated or a bomb-like file is an error, never a crash") {
+  const auto bytes = encode_image(ramp(256, 256, 3, 256), ImageFormat::Png);
+  for (const size_t keep : {size_t{8}, size_t{20}, size_t{40}, bytes.size() / 2}) {
+    const std::vector<char> cut(bytes.begin(), bytes.begin() + static_cast<long>(keep));
+    CHECK_THROWS_AS(decode_image(cut, "cut.png"), ImageError);
+  }
+  // A header that claims 12,000 × 12,000 pixels in front of next to nothing.
+  std::vector<char> bomb(bytes.begin(), bytes.begin() + 2000);
+  for (const size_t at : {size_t{16}, size_t{20}}) {
+    bomb[at] = bomb[at + 1] = 0;
+    bomb[at + 2] = 0x2e;
+    bomb[at + 3] = static_cast<char>(0xe0);
+  }
+  CHECK_THROWS_AS(decode_image(bomb, "bomb.png"), ImageError);
+}
+
+TEST_CASE("image codec: files are written and read by name, wrong names and types are refused") {
+  const Image image = ramp(20, 10, 4, 256);
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("sphparam_image_" + std::to_string(::getpid()));
+  std::filesystem::create_directory(folder);
+  const std::string path = (folder / "ramp.png").string();
+  write_image(path, image);
+  CHECK(same_pixels(read_image(path), image));
+  CHECK_THROWS_WITH(read_image(path, {.file_bytes = 10}), Contains("limit"));
+  CHECK_THROWS_WITH(read_image((folder / "absent.png").string()), Contains("absent.png"));
+  CHECK_THROWS_WITH(write_image((folder / "x.gif").string(), image), Contains(".png or .exr"));
+  CHECK_THROWS_AS(write_image((folder / "no" / "x.png").string(), image), ImageError);
+  CHECK_THROWS_AS(encode_image(image, ImageFormat::Png, {.sample_type = SampleType::Float}),
+                  ImageError);
+  CHECK_THROWS_AS(encode_image(Image(), ImageFormat::Png), ImageError);
+  std::filesystem::remove_all(folder);
+  CHECK(loaded_openimageio());
+}

@@ -1,0 +1,178 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+#include <random>
+
+#include "mesh_io/polygons.h"
+
+using namespace sphparam;
+using namespace sphparam::tools;
+
+namespace {
+
+Polygons polygons_of(const std::vector<std::vector<int>>& faces) {
+  Polygons polygons;
+  for (const std::vector<int>& face : faces) {
+    for (const int v : face) polygons.add_corner(v);
+    REQUIRE(polygons.close_polygon({}).empty());
+  }
+  return polygons;
+}
+
+Polygons ring(int degree) {
+  std::vector<int> face(static_cast<std::size_t>(degree));
+  for (int i = 0; i < degree; ++i) face[i] = i;
+  return polygons_of({face});
+}
+
+double signed_area(const Points& points, const Eigen::RowVector3i& t) {
+  const Vector3 a = points.row(t[0]), b = points.row(t[1]), c = points.row(t[2]);
+  return (b - a).cross(c - a).z() / 2;
+}
+
+/// Every triangle counter-clockwise, and their areas sum to that of the polygon.
+void check_tiles(const Points& points, const Triangulation& cut) {
+  double polygon_area = 0, sum = 0;
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    const Vector3 a = points.row(i), b = points.row((i + 1) % points.rows());
+    polygon_area += a.cross(b).z() / 2;
+  }
+  for (Eigen::Index t = 0; t < cut.triangles.rows(); ++t) {
+    CHECK(signed_area(points, cut.triangles.row(t)) > 0);
+    sum += signed_area(points, cut.triangles.row(t));
+  }
+  CHECK(cut.triangles.rows() == points.rows() - 2);
+  CHECK(sum == Approx(polygon_area));
+}
+
+/// Times each directed edge occurs.
+std::map<std::pair<int, int>, int> directed_edges(const Triangles& triangles) {
+  std::map<std::pair<int, int>, int> edges;
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t)
+    for (int k = 0; k < 3; ++k) ++edges[{triangles(t, k), triangles(t, (k + 1) % 3)}];
+  return edges;
+}
+
+Points star(int tips) {
+  Points points(2 * tips, 3);
+  for (int i = 0; i < 2 * tips; ++i) {
+    const double radius = i % 2 ? 1 : 5, angle = M_PI * i / tips;
+    points.row(i) << radius * std::cos(angle), radius * std::sin(angle), 0;
+  }
+  return points;
+}
+
+}  // namespace
+
+TEST_CASE("polygons: triangles stay as they are") {
+  const Triangulation cut = triangulate(Points::Random(4, 3), polygons_of({{0, 1, 2}, {3, 2, 1}}));
+  CHECK(cut.split == 0);
+  CHECK(cut.corner.empty());
+  CHECK(cut.triangles.row(1) == Eigen::RowVector3i(3, 2, 1));
+}
+
+TEST_CASE("polygons: a convex quad is cut along its shorter diagonal") {
+  Points points(4, 3);
+  points << 0, 0, 0, 3, 0, 0, 4, 1, 0, 1, 1, 0;
+  const Triangulation cut = triangulate(points, ring(4));
+  CHECK(directed_edges(cut.triangles).count({1, 3}) == 1);
+  check_tiles(points, cut);
+}
+
+TEST_CASE("polygons: a concave quad is cut at its reflex corner, wherever it starts") {
+  Points dart(4, 3);
+  dart << 0, 0, 0, 4, -3, 0, 0.5, 0, 0, 4, 3, 0;  // reflex at corner 2
+  for (int shift = 0; shift < 4; ++shift) {
+    Points points(4, 3);
+    for (int i = 0; i < 4; ++i) points.row(i) = dart.row((i + shift) % 4);
+    check_tiles(points, triangulate(points, ring(4)));
+  }
+}
+
+TEST_CASE("polygons: concave polygons are tiled without folds") {
+  for (const int tips : {3, 5, 40})
+    check_tiles(star(tips), triangulate(star(tips), ring(2 * tips)));
+
+  Points comb(42, 3);  // teeth: every ear hides others
+  for (int i = 0; i < 40; ++i) comb.row(i) << i, (i % 2 ? 1.0 : 10.0), 0;
+  comb.row(40) << 40, 0, 0;
+  comb.row(41) << -1, 0, 0;
+  Points reversed = comb.colwise().reverse();
+  check_tiles(reversed, triangulate(reversed, ring(42)));
+}
+
+TEST_CASE("polygons: tiling does not depend on place, plane or scale") {
+  const Points flat = star(6);
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(1, Vector3(1, 2, 3).normalized()).matrix();
+  for (const double scale : {1e-300, 1e-20, 1.0, 1e300}) {
+    const Points moved = scale * (flat * turn.transpose());
+    CHECK(triangulate(moved, ring(12)).triangles == triangulate(flat, ring(12)).triangles);
+  }
+}
+
+TEST_CASE("polygons: two quads on the same four vertices get different diagonals") {
+  Points points(4, 3);
+  points << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0;
+  const Triangulation cut = triangulate(points, polygons_of({{0, 1, 2, 3}, {3, 2, 1, 0}}));
+  for (const auto& [edge, count] : directed_edges(cut.triangles)) CHECK(count == 1);
+}
+
+TEST_CASE("polygons: no cut runs along an edge that is there already") {
+  // A prism whose side quad 0 1 4 3 has its short diagonal 0–4 as an edge of another face.
+  Points points(5, 3);
+  points << 0, 0, 0, 2, 0, 0, 9, 9, 9, 0, 2, 0, 1.5, 1.5, 0;
+  const Triangulation cut = triangulate(points, polygons_of({{0, 4, 2}, {0, 1, 4, 3}}));
+  CHECK(directed_edges(cut.triangles).count({1, 3}) + directed_edges(cut.triangles).count({3, 1}) ==
+        2);
+  // The same for a pentagon whose fan would use 0–2.
+  Points five(6, 3);
+  five << 0, 0, 0, 2, 0, 0, 3, 2, 0, 1, 3, 0, -1, 2, 0, 5, 5, 5;
+  const Triangulation pentagon = triangulate(five, polygons_of({{0, 2, 5}, {0, 1, 2, 3, 4}}));
+  for (const auto& [edge, count] : directed_edges(pentagon.triangles)) CHECK(count == 1);
+}
+
+TEST_CASE("polygons: a closed surface of random quads stays an oriented surface") {
+  // A cube surface subdivided into quads, every vertex displaced: many quads are far from flat.
+  const int n = 8;
+  std::map<std::array<int, 3>, int> ids;
+  std::vector<std::array<int, 3>> grid;
+  const auto id = [&](std::array<int, 3> at) {
+    const auto [found, is_new] = ids.try_emplace(at, static_cast<int>(grid.size()));
+    if (is_new) grid.push_back(at);
+    return found->second;
+  };
+  std::vector<std::vector<int>> faces;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const int side : {0, n})
+      for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+          std::vector<int> face;
+          for (const auto& [di, dj] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
+            std::array<int, 3> at{};
+            at[axis] = side;
+            at[(axis + 1) % 3] = i + di;
+            at[(axis + 2) % 3] = j + dj;
+            face.push_back(id(at));
+          }
+          if (side == 0) std::reverse(face.begin(), face.end());
+          faces.push_back(face);
+        }
+  std::mt19937 random(1);
+  Points points(static_cast<Eigen::Index>(grid.size()), 3);
+  for (double& x : points.reshaped()) x = std::uniform_real_distribution(-1.0, 1.0)(random);
+  const auto edges = directed_edges(triangulate(points, polygons_of(faces)).triangles);
+  for (const auto& [edge, count] : edges) {
+    CHECK(count == 1);
+    CHECK(edges.count({edge.second, edge.first}) == 1);
+  }
+}
+
+TEST_CASE("polygons: degenerate and huge polygons are cut all the same") {
+  CHECK(triangulate(Points::Zero(7, 3), ring(7)).triangles.rows() == 5);
+  CHECK(triangulate(Points::Constant(4, 3, 1e308), ring(4)).triangles.rows() == 2);
+  const Points points = Points::Random(65536, 3);
+  CHECK(triangulate(points, ring(65536)).triangles.rows() == 65534);
+  Points crossing = Points::Random(300, 3);
+  CHECK(triangulate(crossing, ring(300)).triangles.rows() == 298);
+}

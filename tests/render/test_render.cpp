@@ -1,0 +1,236 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "render/figure.h"
+#include "render/render.h"
+#include "render/vertex_normals.h"
+#include "sphparam/sphere/sphere_map.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tools;
+using Catch::Detail::Approx;
+
+namespace {
+
+RenderScene ball_scene(int size) {
+  RenderScene scene;
+  scene.width = scene.height = size;
+  scene.camera.height = 2.5;
+  RenderObject object;
+  object.mesh = tests::icosphere(4);
+  scene.objects.push_back(object);
+  return scene;
+}
+
+bool is_background(const Image& image, int x, int y) {
+  const float* p = image.pixel(x, y);
+  return p[0] == 1 && p[1] == 1 && p[2] == 1;
+}
+
+double share_covered(const Image& rgba) {
+  double sum = 0;
+  for (int y = 0; y < rgba.height; ++y) {
+    for (int x = 0; x < rgba.width; ++x) sum += rgba.pixel(x, y)[3];
+  }
+  return sum / (rgba.width * rgba.height);
+}
+
+/// Red wins clearly over the other channels.
+bool reddish(const float* p) { return p[0] > 2 * p[1] && p[0] > 2 * p[2]; }
+bool greenish(const float* p) { return p[1] > 2 * p[0] && p[1] > 2 * p[2]; }
+
+}  // namespace
+
+TEST_CASE("render: a ball covers the disk that it should, corners are background") {
+  RenderScene scene = ball_scene(200);
+  const Image opaque = render(scene);
+  CHECK(opaque.channels == 3);
+  CHECK(is_background(opaque, 0, 0));
+  CHECK(is_background(opaque, 199, 199));
+  CHECK_FALSE(is_background(opaque, 100, 100));
+  scene.background.reset();
+  // π r² / height² with r = 1
+  CHECK(share_covered(render(scene)) == Approx(EIGEN_PI / 6.25).epsilon(0.005));
+}
+
+TEST_CASE("render: a perspective eye sees less of a ball, and it looks larger") {
+  RenderScene scene = ball_scene(200);
+  scene.background.reset();
+  scene.camera.field_of_view = 60;
+  // Eye at distance 1.25/tan 30°; the silhouette's circle has tangent 1/√(d²−1).
+  const double distance = 1.25 / std::tan(EIGEN_PI / 6);
+  const double radius = distance / std::sqrt(distance * distance - 1);
+  CHECK(share_covered(render(scene)) == Approx(EIGEN_PI * radius * radius / 6.25).epsilon(0.005));
+}
+
+TEST_CASE("render: the nearer of two objects is seen, whatever their order") {
+  RenderScene scene = ball_scene(50);
+  scene.objects[0].paint = UniformPaint{Rgb(0.9F, 0, 0)};
+  RenderObject front = scene.objects[0];
+  front.mesh.positions *= 0.3;
+  front.mesh.positions.col(0).array() += 2;  // the camera looks from +x
+  front.paint = UniformPaint{Rgb(0, 0.9F, 0)};
+  scene.objects.push_back(front);
+  const auto centre = [&] {
+    const Image image = render(scene);
+    return greenish(image.pixel(25, 25)) && reddish(image.pixel(25, 42));
+  };
+  CHECK(centre());
+  std::swap(scene.objects[0], scene.objects[1]);
+  CHECK(centre());
+}
+
+TEST_CASE("render: neighbouring triangles leave no gap") {
+  RenderScene scene = ball_scene(150);
+  scene.samples = 1;
+  const Image image = render(scene);
+  for (int y = 0; y < 150; ++y) {
+    for (int x = 0; x < 150; ++x) {
+      if (std::hypot(x - 74.5, y - 74.5) < 57) CHECK_FALSE(is_background(image, x, y));
+    }
+  }
+}
+
+TEST_CASE("render: the checker is exact in every pixel") {
+  RenderScene scene = ball_scene(300);
+  scene.camera.direction = Vector3::UnitX();
+  scene.objects[0].paint =
+      CheckerPaint{scene.objects[0].mesh.positions, 15, Rgb(0.9F, 0, 0), Rgb(0, 0.9F, 0)};
+  const Image image = render(scene);
+  // Seen from +x: y to the right, z up. The fields about θ = ±7.5° at ϕ = 82.5° and 97.5°.
+  const auto at = [&](double theta, double phi) {
+    const double t = theta * EIGEN_PI / 180, p = phi * EIGEN_PI / 180;
+    const int x = static_cast<int>(150 + std::sin(t) * std::sin(p) * 120);
+    const int y = static_cast<int>(150 - std::cos(p) * 120);
+    return image.pixel(x, y);
+  };
+  CHECK(greenish(at(7.5, 82.5)));  // column 0, row 5: odd
+  CHECK(reddish(at(7.5, 97.5)));   // column 0, row 6
+  CHECK(reddish(at(-7.5, 82.5)));  // column 23, row 5
+  CHECK(greenish(at(-7.5, 97.5)));
+  CHECK(greenish(at(37.5, 112.5)) == greenish(at(7.5, 112.5)));
+}
+
+TEST_CASE("render: the date line runs from pole to pole, and only at θ = 0") {
+  RenderScene scene = ball_scene(300);
+  scene.objects[0].graticule = Graticule{.rays = scene.objects[0].mesh.positions};
+  const Image front = render(scene);
+  for (const int y : {60, 100, 137, 180, 240}) CHECK(reddish(front.pixel(150, y)));
+  CHECK_FALSE(reddish(front.pixel(110, 137)));
+  scene.camera.direction = -Vector3::UnitX();
+  const Image back = render(scene);
+  for (const int y : {60, 100, 137, 180, 240}) CHECK_FALSE(reddish(back.pixel(150, y)));
+}
+
+TEST_CASE("render: a texture is put where its coordinates say, v upwards") {
+  RenderScene scene;
+  scene.width = scene.height = 40;
+  scene.camera = {Vector3(0, 0.5, 0.5), Vector3::UnitX(), Vector3::UnitZ(), 1};
+  RenderObject object;
+  object.mesh.positions.resize(4, 3);
+  object.mesh.positions << 0, 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1;
+  object.mesh.triangles.resize(2, 3);
+  object.mesh.triangles << 0, 1, 2, 0, 2, 3;
+  TexturePaint paint;
+  paint.texcoords.resize(6, 2);
+  paint.texcoords << 0, 0, 1, 0, 1, 1, 0, 0, 1, 1, 0, 1;
+  paint.image = Image(2, 2, 3);
+  paint.image.pixel(0, 0)[0] = 1;  // upper left red
+  paint.image.pixel(1, 1)[1] = 1;  // lower right green
+  object.paint = paint;
+  scene.objects.push_back(object);
+  const Image image = render(scene);
+  CHECK(reddish(image.pixel(10, 10)));
+  CHECK(greenish(image.pixel(30, 30)));
+  CHECK_FALSE(reddish(image.pixel(30, 10)));
+  CHECK_FALSE(greenish(image.pixel(10, 30)));
+}
+
+TEST_CASE("render: the same pixels for 1, 2 and 4 threads") {
+  RenderScene scene = ball_scene(120);
+  scene.objects[0].occlusion = true;
+  scene.objects[0].wireframe = Wireframe{};
+  scene.objects[0].graticule = Graticule{.rays = scene.objects[0].mesh.positions};
+  const Image one = render(scene, 1);
+  CHECK((one.pixels == render(scene, 2).pixels));
+  CHECK((one.pixels == render(scene, 4).pixels));
+}
+
+TEST_CASE("render: degenerate triangles and points behind the eye are passed over") {
+  RenderScene scene = ball_scene(40);
+  scene.objects[0].mesh.positions.row(3) = scene.objects[0].mesh.positions.row(4).eval();
+  scene.objects[0].mesh.positions(5, 0) = 1e6;
+  scene.camera.field_of_view = 40;
+  const Image image = render(scene);
+  for (const float value : image.pixels) {
+    CHECK(value >= 0);
+    CHECK(value <= 1);
+  }
+}
+
+TEST_CASE("vertex_normals: of a sphere are its points") {
+  const TriangleMesh mesh = tests::icosphere(3);
+  CHECK((vertex_normals(mesh) - mesh.positions).cwiseAbs().maxCoeff() < 0.02);
+}
+
+TEST_CASE("sky_visibility: a convex shape sees all of its sky, a pit only a part") {
+  TriangleMesh mesh = tests::icosphere(4);
+  CHECK(sky_visibility(mesh, vertex_normals(mesh)).minCoeff() > 0.97F);
+  for (Eigen::Index v = 0; v < mesh.vertex_count(); ++v) {
+    const double z = mesh.positions(v, 2);
+    if (z > 0.85) mesh.positions.row(v) *= 0.45;  // a pit at the north pole
+  }
+  const Eigen::VectorXf light = sky_visibility(mesh, vertex_normals(mesh));
+  Eigen::Index north = 0, south = 0;
+  mesh.positions.col(2).minCoeff(&south);
+  for (Eigen::Index v = 0; v < mesh.vertex_count(); ++v) {
+    const Vector3 d = mesh.position(v).normalized();
+    if (d.z() > mesh.position(north).normalized().z()) north = v;
+  }
+  CHECK(light[north] < 0.8F);
+  CHECK(light[south] > 0.97F);
+}
+
+TEST_CASE("colour: linear light and back is the identity, the maps have their ends and middle") {
+  for (const float value : {0.0F, 0.02F, 0.5F, 1.0F}) {
+    CHECK(to_srgb(to_linear(Rgb::Constant(value)))[0] == Approx(value).margin(1e-6));
+  }
+  CHECK(viridis(0)[2] > viridis(0)[0]);
+  CHECK(viridis(1)[0] > 0.95F);
+  CHECK(diverging(-1)[2] > 2 * diverging(-1)[0]);
+  CHECK(diverging(1)[0] > 2 * diverging(1)[2]);
+  const Eigen::VectorXd ratios = (Eigen::VectorXd(4) << 1, 8, 1.0 / 8, 0).finished();
+  const auto colours = ratio_colours(ratios, 8);
+  CHECK(colours[0].minCoeff() > 0.95F);
+  CHECK(colours[1] == diverging(1));
+  CHECK(colours[2] == diverging(-1));
+  CHECK(colours[3] == diverging(-1));
+}
+
+TEST_CASE("map_figure: mesh and sphere side by side, both seen, the sphere turned to correspond") {
+  MeshFile file;
+  file.mesh = tests::icosphere(4);
+  // Red where y > 0; the mesh is looked at from +y, the map turns y to z.
+  const char* names[] = {"red", "green", "blue"};
+  for (int k = 0; k < 3; ++k) {
+    Property property{names[k], ScalarType::Uint8, {}};
+    for (Eigen::Index v = 0; v < file.mesh.vertex_count(); ++v) {
+      const bool red = file.mesh.positions(v, 1) > 0;
+      property.values.push_back(k == 0 && red ? 230 : k == 1 && !red ? 230 : 20);
+    }
+    file.vertex_properties.push_back(property);
+  }
+  SphereMap map{file.mesh.positions};
+  map.points.col(2) = file.mesh.positions.col(1);
+  map.points.col(1) = file.mesh.positions.col(0);
+  map.points.col(0) = file.mesh.positions.col(2);
+  FigureOptions options{.graticule = false, .size = 100, .samples = 2, .both_sides = true};
+  options.view = Vector3::UnitY();
+  const Image image = map_figure(file, map, options);
+  CHECK(image.width == 300);
+  CHECK(image.height == 100);
+  CHECK(reddish(image.pixel(50, 50)));
+  CHECK(reddish(image.pixel(150, 50)));
+  CHECK(greenish(image.pixel(250, 50)));
+}

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <functional>
+#include <stdexcept>
+
+#include "cli/console.h"
+
+namespace CLI {
+class App;
+}
+
+namespace sphparam::tools {
+
+/// A subcommand as declared to the command line: `run` does its job with the options parsed, and
+/// returns the exit code.
+struct Command {
+  CLI::App* options;
+  std::function<int()> run;
+};
+
+Command declare_info(CLI::App& program);
+Command declare_map(CLI::App& program);
+Command declare_verify(CLI::App& program);
+Command declare_render(CLI::App& program);
+
+/// A command line that CLI11 accepts and that makes no sense all the same.
+class UsageMistake : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// -q and -v, which every subcommand has.
+struct Loudness {
+  bool quiet = false;
+  bool verbose = false;
+
+  Verbosity verbosity() const {
+    return quiet ? Verbosity::Quiet : verbose ? Verbosity::Verbose : Verbosity::Normal;
+  }
+};
+void add_loudness(CLI::App& command, Loudness& loudness);
+
+}  // namespace sphparam::tools

@@ -1,0 +1,290 @@
+// `sphparam render`: pictures of a mesh and of its map, side by side, in the same colours, so that
+// one sees where each part of the shape went. The only subcommand that opens the image module.
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/choice.h"
+#include "cli/command.h"
+#include "cli/console.h"
+#include "cli/exit_codes.h"
+#include "cli/paths.h"
+#include "image/image_codec.h"
+#include "mesh_io/mesh_reader.h"
+#include "mesh_io/safe_file.h"
+#include "mesh_io/sphere_file.h"
+#include "render/render.h"
+#include "sphparam/sphere/distortion.h"
+
+namespace sphparam::tools {
+
+namespace {
+
+constexpr char summary[] =
+    "Draw a mesh and its map as a PNG.\n"
+    "\n"
+    "Examples:\n"
+    "  sphparam render statue.sph.ply -o statue.png\n"
+    "  sphparam render statue.sph.ply -o area.png --colour area --wire\n"
+    "  sphparam render statue.sph.ply -o ball.png --view sphere --colour checker --size 1200\n"
+    "  sphparam render statue.obj -o front.png --texture statue_skin.png --from 1,0,0.3 --up y\n"
+    "\n"
+    "Colours: own (texture or vertex colours; else normals), plain, normals, checker (of "
+    "longitude\n"
+    "and latitude), area (red grows, blue shrinks, full at a factor of 8), angle (mean |ln ratio|\n"
+    "of a triangle's angles, dark 0 to yellow 1).\n";
+
+constexpr double full_area_ratio = 8;  // saturated colour
+constexpr double full_angle_error = 1;
+constexpr double margin = 1.06;  // of the picture around what is drawn
+
+enum class View { Mesh, Sphere, Both };
+enum class Colouring { Own, Plain, Normals, Checker, Area, Angle };
+
+struct RenderArguments {
+  std::string input;
+  std::string output;
+  std::string texture;  // empty: none
+  std::optional<View> view;
+  Colouring colouring = Colouring::Own;
+  std::string from = "1,-0.6,0.45";
+  Vector3 up = Vector3::UnitZ();
+  bool wire = false;
+  bool graticule = false;
+  bool occlusion = false;
+  int size = 800;
+  int threads = 0;
+  Loudness loudness;
+};
+
+Vector3 parse_direction(const std::string& text) {
+  Vector3 direction;
+  char rest = 0;
+  const int read = std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &direction[0], &direction[1],
+                               &direction[2], &rest);
+  if (read != 3 || !direction.allFinite() || direction.isZero(0)) {
+    throw UsageMistake("--from: expected a direction, as in 1,-0.6,0.45");
+  }
+  return direction;
+}
+
+/// Colours of vertices as the file has them, Uint8 or Float32.
+std::optional<VertexPaint> own_colours(const MeshFile& file) {
+  std::array<const Property*, 3> channels = {file.find_vertex_property("red"),
+                                             file.find_vertex_property("green"),
+                                             file.find_vertex_property("blue")};
+  if (std::count(channels.begin(), channels.end(), nullptr) > 0) return std::nullopt;
+  VertexPaint paint;
+  paint.colours.resize(static_cast<size_t>(file.mesh.vertex_count()));
+  for (int channel = 0; channel < 3; ++channel) {
+    const Property& property = *channels[static_cast<size_t>(channel)];
+    const bool is_float =
+        property.type == ScalarType::Float32 || property.type == ScalarType::Float64;
+    const double full = is_float ? 1 : 255;
+    for (size_t v = 0; v < paint.colours.size(); ++v) {
+      paint.colours[v][channel] =
+          static_cast<float>(std::clamp(property.values[v] / full, 0.0, 1.0));
+    }
+  }
+  return paint;
+}
+
+/// Each direction of the surface has its own pastel colour: features stay recognisable wherever
+/// they are mapped to.
+VertexPaint normal_colours(const TriangleMesh& mesh) {
+  Points normals = Points::Zero(mesh.vertex_count(), 3);
+  for (Face f = 0; f < mesh.face_count(); ++f) {
+    const auto corners = mesh.triangles.row(f);
+    const Vector3 a = mesh.position(corners[0]);
+    const Vector3 area = (mesh.position(corners[1]) - a).cross(mesh.position(corners[2]) - a);
+    for (int corner = 0; corner < 3; ++corner) normals.row(corners[corner]) += area.transpose();
+  }
+  VertexPaint paint;
+  for (Vertex v = 0; v < mesh.vertex_count(); ++v) {
+    const Vector3 n = normals.row(v).stableNormalized();
+    paint.colours.push_back((0.7 + 0.25 * n.array()).cast<float>().matrix());
+  }
+  return paint;
+}
+
+/// What is drawn: a mesh and, where it is known, its map.
+struct Subject {
+  MeshFile file;
+  std::optional<SphereMap> map;
+
+  const SphereMap& required_map(const char* why) const {
+    if (!map) throw UsageMistake(std::string(why) + " needs a map: run `sphparam map` first");
+    return *map;
+  }
+};
+
+Paint distortion_paint(const Subject& subject, Colouring colouring) {
+  const Distortion distortion =
+      measure_distortion(subject.file.mesh, subject.required_map("this colouring"));
+  if (colouring == Colouring::Area) {
+    return FacePaint{ratio_colours(distortion.area_ratio, full_area_ratio)};
+  }
+  const Eigen::VectorXd error = distortion.angle_ratio.array().log().abs().rowwise().mean();
+  return FacePaint{value_colours(error, 0, full_angle_error)};
+}
+
+Paint own_paint(const Subject& subject, const std::string& texture) {
+  if (!texture.empty()) {
+    if (!subject.file.corner_texcoords) {
+      throw UsageMistake("--texture: the mesh has no texture coordinates at its corners");
+    }
+    return TexturePaint{*subject.file.corner_texcoords, read_image(texture)};
+  }
+  if (const auto colours = own_colours(subject.file)) return *colours;
+  return normal_colours(subject.file.mesh);
+}
+
+Paint make_paint(const Subject& subject, const RenderArguments& arguments) {
+  switch (arguments.colouring) {
+    case Colouring::Own:
+      return own_paint(subject, arguments.texture);
+    case Colouring::Plain:
+      return UniformPaint{};
+    case Colouring::Normals:
+      return normal_colours(subject.file.mesh);
+    case Colouring::Checker:
+      return CheckerPaint{.rays = subject.required_map("--colour checker").points};
+    case Colouring::Area:
+    case Colouring::Angle:
+      return distortion_paint(subject, arguments.colouring);
+  }
+  return UniformPaint{};
+}
+
+/// Looks at the middle of what is seen from there, all of it in the picture.
+Camera framing(const Points& points, const RenderArguments& arguments) {
+  Camera camera;
+  camera.direction = parse_direction(arguments.from).normalized();
+  camera.up = arguments.up;
+  if (camera.up.cross(camera.direction).isZero()) {
+    throw UsageMistake("--from: this is the direction that is up; choose another --up");
+  }
+  const Vector3 right = camera.up.cross(camera.direction).normalized();
+  const Vector3 above = camera.direction.cross(right);
+  Eigen::Matrix3d axes;  // columns
+  axes << right, above, camera.direction;
+  const Points seen = points * axes;
+  const Vector3 lower = seen.colwise().minCoeff(), upper = seen.colwise().maxCoeff();
+  camera.target = axes * (lower + upper) / 2;
+  camera.height = margin * (upper - lower).head<2>().maxCoeff();
+  return camera;
+}
+
+Image draw(const Points& positions, const Paint& paint, const Subject& subject,
+           const RenderArguments& arguments) {
+  RenderObject object = {.mesh = {positions, subject.file.mesh.triangles},
+                         .paint = paint,
+                         .occlusion = arguments.occlusion};
+  if (arguments.wire) object.wireframe = Wireframe{};
+  if (arguments.graticule) {
+    object.graticule = Graticule{.rays = subject.required_map("--graticule").points};
+  }
+  return render({.objects = {object},
+                 .camera = framing(positions, arguments),
+                 .width = arguments.size,
+                 .height = arguments.size},
+                arguments.threads);
+}
+
+Image side_by_side(const Image& left, const Image& right) {
+  Image both(left.width + right.width, left.height, left.channels);
+  for (int y = 0; y < both.height; ++y) {
+    const auto copy = [&](const Image& from, int column) {
+      std::copy_n(from.pixel(0, y), from.width * from.channels, both.pixel(column, y));
+    };
+    copy(left, 0);
+    copy(right, left.width);
+  }
+  return both;
+}
+
+Image picture(const Subject& subject, const RenderArguments& arguments) {
+  const View view = arguments.view.value_or(subject.map ? View::Both : View::Mesh);
+  const Paint paint = make_paint(subject, arguments);
+  const auto shape = [&] { return draw(subject.file.mesh.positions, paint, subject, arguments); };
+  const auto sphere = [&] {
+    return draw(subject.required_map("--view sphere").points, paint, subject, arguments);
+  };
+  if (view == View::Mesh) return shape();
+  if (view == View::Sphere) return sphere();
+  return side_by_side(shape(), sphere());
+}
+
+int run_render(const RenderArguments& arguments) {
+  Console console(arguments.loudness.verbosity(), ProgressStyle::None);
+  Subject subject = {.file = read_mesh(arguments.input), .map = std::nullopt};
+  if (subject.file.mesh.face_count() == 0) {
+    throw ReadError(display_name(arguments.input), "there are no triangles to draw");
+  }
+  subject.map = read_sphere(subject.file);
+  const std::vector<char> png = encode_image(picture(subject, arguments), ImageFormat::Png);
+  write_file(arguments.output, {png.data(), png.size()});
+  console.say(display_name(arguments.input) + " → " + output_name(arguments.output));
+  return Ok;
+}
+
+void add_look(CLI::App& command, RenderArguments& arguments) {
+  add_choice<std::optional<View>>(
+      command, "--view", arguments.view,
+      {{"mesh", View::Mesh}, {"sphere", View::Sphere}, {"both", View::Both}},
+      "mesh, sphere or both (default where mapped)")
+      ->type_name("VIEW");
+  add_choice<Colouring>(command, "--colour,--color", arguments.colouring,
+                        {{"own", Colouring::Own},
+                         {"plain", Colouring::Plain},
+                         {"normals", Colouring::Normals},
+                         {"checker", Colouring::Checker},
+                         {"area", Colouring::Area},
+                         {"angle", Colouring::Angle}},
+                        "own (default), plain, normals, checker, area or angle")
+      ->type_name("COLOURS");
+  command.add_option("--texture", arguments.texture, "Image for the mesh's texture coordinates")
+      ->type_name("IMAGE");
+  command.add_flag("--wire", arguments.wire, "The edges of the triangles");
+  command.add_flag("--graticule", arguments.graticule, "Lines of longitude and latitude");
+  command.add_flag("--occlusion", arguments.occlusion, "Darken what little light reaches");
+}
+
+}  // namespace
+
+Command declare_render(CLI::App& program) {
+  const auto arguments = std::make_shared<RenderArguments>();
+  CLI::App* command = program.add_subcommand("render", summary);
+  command->add_option("FILE", arguments->input, "A map or a mesh; - for standard input")
+      ->type_name(" ")
+      ->required();
+  command->add_option("-o,--output", arguments->output, "The picture; - for standard output")
+      ->type_name("PNG")
+      ->required();
+  add_look(*command, *arguments);
+  command->add_option("--from", arguments->from, "Where the eye is")
+      ->type_name("X,Y,Z")
+      ->capture_default_str();
+  add_choice<Vector3>(*command, "--up", arguments->up,
+                      {{"z", Vector3::UnitZ()}, {"y", Vector3::UnitY()}},
+                      "Which axis points up: z (default) or y")
+      ->type_name("AXIS");
+  command->add_option("--size", arguments->size, "Pixels, of each side of a picture")
+      ->check(between(16, 16384, "16 to 16384"))
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_option("--threads", arguments->threads, "How many threads (0: all cores)")
+      ->check(between(0, 4096, "0 to 4096"))
+      ->type_name("N")
+      ->capture_default_str();
+  add_loudness(*command, arguments->loudness);
+  return {command, [arguments] { return run_render(*arguments); }};
+}
+
+}  // namespace sphparam::tools

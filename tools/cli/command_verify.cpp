@@ -1,0 +1,206 @@
+// `sphparam verify`: proves a written map again, ours or a peer's. The rays of the vertices are
+// found in the file (sx sy sz, or the positions of a bare sphere) and certified as they are: a ray
+// has no length, so a sphere of any radius will do.
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/choice.h"
+#include "cli/command.h"
+#include "cli/console.h"
+#include "cli/exit_codes.h"
+#include "cli/json_report.h"
+#include "cli/paths.h"
+#include "cli/source.h"
+#include "cli/stopwatch.h"
+#include "cli/wording.h"
+#include "mesh_io/safe_file.h"
+#include "mesh_io/sphere_file.h"
+#include "sphparam/mesh/topology.h"
+#include "sphparam/sphere/certificate.h"
+#include "sphparam/sphere/distortion.h"
+
+namespace sphparam::tools {
+
+namespace {
+
+constexpr char summary[] =
+    "Prove a written map again, ours or anybody's.\n"
+    "\n"
+    "Examples:\n"
+    "  sphparam verify statue.sph.ply                 a map with sx sy sz, as `map` writes it\n"
+    "  sphparam verify sphere.obj                     a bare sphere about the origin\n"
+    "  sphparam verify statue.obj sphere.obj --json   a mesh and its sphere, with the distortion\n"
+    "\n"
+    "Ends with 0 when the map is one-to-one, with 5 when it is not.\n";
+
+/// Beyond this share of the radius a "sphere" is not one, and only the directions of its vertices
+/// count: six printed digits, or a float32, stay far below.
+constexpr double roundness = 1e-3;
+
+struct VerifyArguments {
+  std::string file;
+  std::string sphere;  // empty: the map is in `file`
+  bool json = false;
+  int threads = 0;
+  Loudness loudness;
+};
+
+/// The map to be proved, on the mesh that it is a map of.
+struct Claim {
+  TriangleMesh mesh;
+  SphereMap map;
+  bool has_shape = false;  // the positions are a shape, not the sphere itself
+  std::string rays;        // where they were found
+  std::vector<std::string> notes;
+};
+
+Claim claim_of_file(const std::string& path) {
+  Source source = read_source(path);
+  const std::optional<SphereMap> map = read_sphere(source.file);
+  return {.mesh = source.file.mesh,
+          .map = map ? *map : SphereMap{source.file.mesh.positions},
+          .has_shape = map.has_value(),
+          .rays = map ? "properties sx sy sz" : "vertex positions",
+          .notes = source.notes};
+}
+
+/// A triangle with its smallest vertex first, so that rotations compare equal and mirrors do not.
+std::array<int, 3> canonical(const Triangles& triangles, Face f) {
+  std::array<int, 3> t = {triangles(f, 0), triangles(f, 1), triangles(f, 2)};
+  std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  return t;
+}
+
+std::string words(const std::array<int, 3>& t) {
+  return std::to_string(t[0]) + " " + std::to_string(t[1]) + " " + std::to_string(t[2]);
+}
+
+/// Why two meshes are not one connectivity; empty when they are. Triangles may be rotated.
+std::string difference(const TriangleMesh& source, const TriangleMesh& sphere) {
+  const auto count = [](const char* what, Eigen::Index a, Eigen::Index b) {
+    return "the source has " + std::to_string(a) + " " + what + ", the sphere " + std::to_string(b);
+  };
+  if (source.vertex_count() != sphere.vertex_count()) {
+    return count("vertices", source.vertex_count(), sphere.vertex_count());
+  }
+  if (source.face_count() != sphere.face_count()) {
+    return count("triangles", source.face_count(), sphere.face_count());
+  }
+  for (Face f = 0; f < source.face_count(); ++f) {
+    const auto a = canonical(source.triangles, f), b = canonical(sphere.triangles, f);
+    if (a != b) {
+      return "triangle " + std::to_string(f) + " has vertices " + words(a) + " in the source, " +
+             words(b) + " in the sphere";
+    }
+  }
+  return "";
+}
+
+/// Throws: NotCertifiedError when the two are not one connectivity.
+Claim claim_of_pair(const std::string& shape_path, const std::string& sphere_path) {
+  const Source shape = read_source(shape_path), sphere = read_source(sphere_path);
+  const std::string where = difference(shape.file.mesh, sphere.file.mesh);
+  if (!where.empty()) {
+    throw NotCertifiedError("these are not two shapes of one mesh: " + where);
+  }
+  const std::optional<SphereMap> map = read_sphere(sphere.file);
+  return {.mesh = shape.file.mesh,
+          .map = map ? *map : SphereMap{sphere.file.mesh.positions},
+          .has_shape = true,
+          .rays = map ? "properties sx sy sz of the sphere" : "vertex positions of the sphere",
+          .notes = shape.notes};
+}
+
+/// The certificate of a map and, when all its faces are negative, of its mirror image: a sphere
+/// seen from inside is one-to-one too.
+Certificate certify_either_way(const Claim& claim, int threads) {
+  Certificate certificate = certify(Topology(claim.mesh), claim.map, threads);
+  if (!certificate.reversed) return certificate;
+  TriangleMesh mirrored = claim.mesh;
+  mirrored.triangles.col(1).swap(mirrored.triangles.col(2));
+  certificate = certify(Topology(mirrored), claim.map, threads);
+  certificate.reversed = true;
+  return certificate;
+}
+
+struct Radius {
+  double mean = 0;
+  double deviation = 0;  // largest | |x| / mean − 1 |
+};
+
+Radius measure_radius(const Points& rays) {
+  const Eigen::VectorXd lengths = rays.rowwise().norm();
+  const double mean = lengths.mean();
+  return {mean, (lengths.array() / mean - 1).abs().maxCoeff()};
+}
+
+std::string text_of(const VerifyReport& report, Eigen::Index triangles) {
+  const Certificate& certificate = report.certificate;
+  std::string text = display_name(report.file) + ": " + verdict(certificate) + ", " +
+                     std::to_string(triangles) + " triangles" +
+                     (certificate.reversed ? ", seen from inside\n" : "\n");
+  text += complaint(certificate);
+  text += "  rays: " + report.rays + ", mean length " + short_number(report.mean_length) +
+          ", largest relative deviation " + short_number(report.length_deviation) + "\n";
+  if (report.distortion) text += "  " + distortion_line(*report.distortion) + "\n";
+  return text;
+}
+
+int run_verify(const VerifyArguments& arguments) {
+  const Stopwatch stopwatch;
+  Console console(arguments.loudness.verbosity(), ProgressStyle::None);
+  const Claim claim = arguments.sphere.empty() ? claim_of_file(arguments.file)
+                                               : claim_of_pair(arguments.file, arguments.sphere);
+  const Certificate certificate = certify_either_way(claim, arguments.threads);
+  const Radius radius = measure_radius(claim.map.points);
+  VerifyReport report = {.file = arguments.file,
+                         .certificate = certificate,
+                         .rays = claim.rays,
+                         .mean_length = radius.mean,
+                         .length_deviation = radius.deviation,
+                         .notes = claim.notes};
+  if (claim.has_shape && certificate.unusable_points.empty()) {
+    report.distortion = summarise(measure_distortion(claim.mesh, claim.map, arguments.threads));
+  }
+  if (!(radius.deviation <= roundness)) {
+    const std::string text = "these points are not on a sphere about the origin: their radius is " +
+                             short_number(radius.mean) + " up to a factor of " +
+                             short_number(1 + radius.deviation) + "; their directions are judged";
+    console.warning(text);
+    report.notes.push_back(text);
+  }
+  report.seconds = stopwatch.seconds();
+  if (arguments.json) {
+    write_file("-", to_json(report));
+  } else if (!arguments.loudness.quiet) {
+    write_file("-", text_of(report, claim.mesh.face_count()));
+  }
+  return certificate.bijective() ? Ok : NotCertified;
+}
+
+}  // namespace
+
+Command declare_verify(CLI::App& program) {
+  const auto arguments = std::make_shared<VerifyArguments>();
+  CLI::App* command = program.add_subcommand("verify", summary);
+  command->add_option("FILE", arguments->file, "A written map, a sphere or a mesh; - for stdin")
+      ->type_name(" ")
+      ->required();
+  command->add_option("SPHERE", arguments->sphere, "The sphere of mesh FILE, same connectivity")
+      ->type_name(" ")
+      ->type_name(" ");
+  command->add_flag("--json", arguments->json, "The report as JSON");
+  command->add_option("--threads", arguments->threads, "How many threads (0: all cores)")
+      ->type_name("N")
+      ->check(between(0, 4096, "0 to 4096"));
+  add_loudness(*command, arguments->loudness);
+  return {command, [arguments] { return run_verify(*arguments); }};
+}
+
+}  // namespace sphparam::tools

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <stdexcept>
+
+namespace sphparam::tools {
+
+/// What the program answers to its caller. Documented in `sphparam --help`: never renumber.
+enum ExitCode : int {
+  Ok = 0,             // for `map`: what is on disk is certified
+  InternalError = 1,  // a fault of ours, or out of memory
+  UsageError = 2,     // the command line makes no sense
+  FileError = 3,      // a file cannot be read, parsed or written
+  MeshUnusable = 4,   // the mesh is not a closed genus-0 manifold
+  NotCertified = 5,   // the map is not one-to-one
+  Interrupted = 130,  // SIGINT or SIGTERM
+};
+
+/// A map that is not what it should be: ends with `NotCertified`.
+class NotCertifiedError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace sphparam::tools

@@ -1,0 +1,183 @@
+// Library values → JSON, key by key in the order a reader wants them. The only user of
+// nlohmann::json, which is slow to compile. Numbers that are not finite become null.
+
+#include "cli/json_report.h"
+
+#include <nlohmann/json.hpp>
+
+#include "cli/wording.h"
+#include "sphparam/version.h"
+
+namespace sphparam::tools {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json vector_json(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
+
+Json pairs_json(const NamedTexts& pairs) {
+  Json result = Json::object();
+  for (const auto& [key, value] : pairs) result[key] = value;
+  return result;
+}
+
+Json names_json(const std::vector<Property>& properties) {
+  Json result = Json::array();
+  for (const Property& property : properties) result.push_back(property.name);
+  return result;
+}
+
+Json defect_json(const MeshDefect& defect) {
+  return {{"kind", name_of(defect.kind)}, {"fatal", defect.fatal},     {"count", defect.count},
+          {"first", defect.elements},     {"message", defect.message}, {"hint", defect.hint}};
+}
+
+Json inspection_json(const MeshInspection& inspection) {
+  Json defects = Json::array();
+  for (const MeshDefect& defect : inspection.defects) defects.push_back(defect_json(defect));
+  return {{"mappable", inspection.is_sphere()},
+          {"vertices", inspection.vertices},
+          {"used_vertices", inspection.used_vertices},
+          {"edges", inspection.edges},
+          {"triangles", inspection.faces},
+          {"components", inspection.components},
+          {"boundary_loops", inspection.boundary_loops},
+          {"euler_characteristic", inspection.euler_characteristic},
+          {"genus", inspection.genus},
+          {"area", inspection.area},
+          {"volume", inspection.volume},
+          {"bounding_box", {vector_json(inspection.lower), vector_json(inspection.upper)}},
+          {"defects", defects}};
+}
+
+Json input_json(const InputReport& input) {
+  const MeshFile& file = input.source.file;
+  return {{"file", input.file},
+          {"format", file.format},
+          {"vertices", file.mesh.vertex_count()},
+          {"triangles", file.mesh.face_count()},
+          {"polygons_triangulated", file.polygons},
+          {"vertex_properties", names_json(file.vertex_properties)},
+          {"face_properties", names_json(file.face_properties)},
+          {"corner_texture_coordinates", file.corner_texcoords.has_value()},
+          {"corner_normals", file.corner_normals.has_value()},
+          {"materials", file.materials},
+          {"comments", file.comments}};
+}
+
+Json poles_json(const std::optional<Poles>& poles) {
+  if (!poles) return nullptr;
+  return {{"north", poles->north}, {"south", poles->south}};
+}
+
+Json options_json(const ParameterizeOptions& options) {
+  Json result = {
+      {"method", name_of(options.method)},
+      {"poles", poles_json(options.poles)},
+      {"lambda", options.energy.lambda},
+      {"repair", options.method == Method::Paper ? options.repair_paper : options.repair}};
+  if (options.method == Method::Paper) {
+    const PaperSettings& paper = options.paper;
+    result["weights"] = name_of(paper.weights);
+    result["epsilon"] = paper.epsilon;
+    result["iterations"] = paper.iterations;
+    result["rings"] = paper.rings;
+    result["sweeps"] = paper.sweeps;
+  }
+  return result;
+}
+
+Json distortion_json(const std::optional<DistortionSummary>& distortion) {
+  if (!distortion) return nullptr;
+  const DistortionSummary& d = *distortion;
+  return {{"mean_abs_ln_area", d.mean_abs_ln_area},
+          {"mean_abs_ln_angle", d.mean_abs_ln_angle},
+          {"area_within_two", d.area_within_two},
+          {"area_ratio_min", d.area_ratio_min},
+          {"area_ratio_p01", d.area_ratio_p01},
+          {"area_ratio_p50", d.area_ratio_p50},
+          {"area_ratio_p99", d.area_ratio_p99},
+          {"area_ratio_max", d.area_ratio_max},
+          {"angle_ratio_max", d.angle_ratio_max},
+          {"weighted_abs_log2_area", d.weighted_abs_log2_area},
+          {"symmetric_dirichlet", d.symmetric_dirichlet},
+          {"quasi_conformal_mean", d.quasi_conformal_mean},
+          {"quasi_conformal_max", d.quasi_conformal_max},
+          {"stretch_l2", d.stretch_l2},
+          {"stretch_linf", d.stretch_linf}};
+}
+
+Json stage_json(const StageRecord& stage) {
+  Json result = {{"name", stage.name}, {"seconds", stage.seconds}};
+  if (stage.planar_folds >= 0) result["planar_folds"] = stage.planar_folds;
+  if (stage.folds >= 0) result["folds"] = stage.folds;
+  if (stage.distortion) result["distortion"] = distortion_json(stage.distortion);
+  return result;
+}
+
+Json certificate_json(const Certificate& c) {
+  return {{"verdict", verdict(c)},
+          {"one_to_one", c.bijective()},
+          {"folds", c.fold_count()},
+          {"degree", c.degree},
+          {"covering", c.covering},
+          {"reversed", c.reversed},
+          {"max_length_error", c.max_length_error},
+          {"folded_faces", c.folded},
+          {"degenerate_faces", c.degenerate},
+          {"unusable_points", c.unusable_points},
+          {"branch_vertices", c.branch_vertices}};
+}
+
+/// Bytes of a file name that are not UTF-8 must not stop the report.
+std::string text(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+std::string to_json(const MapReport& report) {
+  Json stages = Json::array();
+  for (const StageRecord& stage : report.result.stages) stages.push_back(stage_json(stage));
+  return text({{"sphparam", version},
+               {"command", "map"},
+               {"input", input_json(report.input)},
+               {"inspection", inspection_json(report.input.source.inspection)},
+               {"options", options_json(report.options)},
+               {"stages", stages},
+               {"made_by", report.result.made_by},
+               {"poles", poles_json(report.result.poles)},
+               {"certificate", certificate_json(report.certificate)},
+               {"distortion", distortion_json(report.distortion)},
+               {"outputs", pairs_json(report.outputs)},
+               {"warnings", report.result.warnings},
+               {"notes", report.input.source.notes},
+               {"seconds", report.seconds}});
+}
+
+std::string to_json(const InfoReport& report) {
+  return text({{"sphparam", version},
+               {"command", "info"},
+               {"input", input_json(report.input)},
+               {"inspection", inspection_json(report.input.source.inspection)},
+               {"welded", report.input.source.welded},
+               {"provenance", pairs_json(report.provenance)},
+               {"notes", report.input.source.notes},
+               {"seconds", report.seconds}});
+}
+
+std::string to_json(const VerifyReport& report) {
+  return text({{"sphparam", version},
+               {"command", "verify"},
+               {"file", report.file},
+               {"rays", report.rays},
+               {"mean_length", report.mean_length},
+               {"length_deviation", report.length_deviation},
+               {"certificate", certificate_json(report.certificate)},
+               {"distortion", distortion_json(report.distortion)},
+               {"notes", report.notes},
+               {"seconds", report.seconds}});
+}
+
+}  // namespace sphparam::tools

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/source.h"
+#include "sphparam/parameterize.h"
+
+namespace sphparam::tools {
+
+/// What `--json` tells, gathered by a subcommand while it works. References are to values that
+/// outlive the report. The keys are documented in the README and never change their meaning.
+
+using NamedTexts = std::vector<std::pair<std::string, std::string>>;
+
+struct InputReport {
+  const std::string& file;
+  const Source& source;
+};
+
+struct MapReport {
+  InputReport input;
+  const ParameterizeOptions& options;
+  const Parameterization& result;
+  const Certificate& certificate;  // of what was written, where something was
+  const std::optional<DistortionSummary>& distortion;
+  NamedTexts outputs;  // what it is, where it is
+  double seconds = 0;
+};
+
+struct InfoReport {
+  InputReport input;
+  NamedTexts provenance;  // of a .sph.ply
+  double seconds = 0;
+};
+
+struct VerifyReport {
+  const std::string& file;
+  const Certificate& certificate;
+  std::string rays;  // where they were found
+  double mean_length = 1;
+  double length_deviation = 0;  // largest | length / mean − 1 |
+  std::optional<DistortionSummary> distortion = std::nullopt;
+  std::vector<std::string> notes = {};
+  double seconds = 0;
+};
+
+std::string to_json(const MapReport& report);
+std::string to_json(const InfoReport& report);
+std::string to_json(const VerifyReport& report);
+
+}  // namespace sphparam::tools

@@ -1,0 +1,185 @@
+// The program: declares the subcommands, parses the command line, runs the one that was asked for,
+// and turns whatever goes wrong into a message and an exit code.
+
+#include <sys/resource.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "cli/command.h"
+#include "cli/console.h"
+#include "cli/exit_codes.h"
+#include "cli/interruption.h"
+#include "cli/suggestion.h"
+#include "cli/wording.h"
+#include "image/image_codec.h"
+#include "mesh_io/mesh_reader.h"
+#include "mesh_io/safe_file.h"
+#include "sphparam/errors.h"
+#include "sphparam/mesh/mesh_defects.h"
+#include "sphparam/version.h"
+
+namespace sphparam::tools {
+
+namespace {
+
+constexpr char summary[] =
+    "Maps closed genus-0 triangle meshes one-to-one onto the sphere, and proves it.\n"
+    "\n"
+    "Examples:\n"
+    "  sphparam info statue.obj                       what it is, what is wrong with it\n"
+    "  sphparam map statue.obj -o statue.sph.ply      map it, prove it, write it\n"
+    "  sphparam verify statue.sph.ply                 prove a written map again\n"
+    "  sphparam render statue.sph.ply -o statue.png   look at it\n";
+
+constexpr char footer[] =
+    "Files: `-` is standard input or output. Messages go to standard error.\n"
+    "\n"
+    "Exit codes:\n"
+    "    0  done; for map: what is on disk is certified one-to-one\n"
+    "    1  internal error, or out of memory\n"
+    "    2  the command line makes no sense\n"
+    "    3  a file cannot be read, parsed or written\n"
+    "    4  the mesh is not a closed genus-0 manifold\n"
+    "    5  the map is not one-to-one; nothing written but with --keep-folded\n"
+    "  130  interrupted\n";
+
+/// Help as CLI11 makes it, without its remarks in the description.
+class Help : public CLI::Formatter {
+ public:
+  Help() { column_width(34); }
+  std::string make_description(const CLI::App* app) const override {
+    return app->get_description() + "\n";
+  }
+  /// In the list of subcommands, the first line of each one's description.
+  std::string make_subcommand(const CLI::App* command) const override {
+    const std::string text = command->get_description();
+    std::stringstream line;
+    CLI::detail::format_help(line, command->get_name(), text.substr(0, text.find('\n')),
+                             get_column_width());
+    return line.str();
+  }
+};
+
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+std::vector<std::string> command_names(const CLI::App& program) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+std::string with_suggestion(const std::string& complaint, const std::string& meant) {
+  return meant.empty() ? complaint : complaint + "; did you mean " + meant + "?";
+}
+
+/// What is wrong with a command line, the mistyped word first: the other complaints follow from it.
+std::string explain(const CLI::App& program, const CLI::ParseError& error) {
+  const std::vector<CLI::App*> chosen = program.get_subcommands();
+  const CLI::App& app = chosen.empty() ? program : *chosen.front();
+  for (const std::string& word : app.remaining()) {
+    const bool is_option = word.size() > 1 && word.front() == '-';
+    if (is_option) {
+      const std::string name = word.substr(0, word.find('='));
+      return with_suggestion("unknown option " + name, nearest_word(name, option_names(app)));
+    }
+    if (chosen.empty()) {
+      return with_suggestion("unknown subcommand " + word,
+                             nearest_word(word, command_names(program)));
+    }
+  }
+  return error.what();
+}
+
+int usage_error(const CLI::App& program, const std::string& message) {
+  const std::vector<CLI::App*> chosen = program.get_subcommands();
+  const std::string name = chosen.empty() ? "sphparam" : "sphparam " + chosen.front()->get_name();
+  print_error(message);
+  std::fprintf(stderr, "Try '%s --help'.\n", name.c_str());
+  return UsageError;
+}
+
+int run_program(int argc, char** argv) {
+  CLI::App program(summary, "sphparam");
+  program.formatter(std::make_shared<Help>());
+  program.footer(footer);
+  program.set_version_flag("--version", std::string("sphparam ") + version);
+  program.require_subcommand(0, 1);
+  const std::vector<Command> commands = {declare_info(program), declare_map(program),
+                                         declare_verify(program), declare_render(program)};
+  try {
+    program.parse(argc, argv);
+    for (const Command& command : commands) {
+      if (command.options->parsed()) return command.run();
+    }
+  } catch (const CLI::Success& help_or_version) {
+    return program.exit(help_or_version);
+  } catch (const CLI::ParseError& error) {
+    return usage_error(program, explain(program, error));
+  } catch (const UsageMistake& mistake) {
+    return usage_error(program, mistake.what());
+  }
+  std::fprintf(stderr, "%s\nMore: sphparam --help\n", summary);
+  return UsageError;
+}
+
+/// A crash must not leave gigabytes of core dump where a batch runs.
+void forbid_core_dumps() {
+  const rlimit none = {0, 0};
+  setrlimit(RLIMIT_CORE, &none);
+}
+
+int guarded_main(int argc, char** argv) {
+  try {
+    return run_program(argc, argv);
+  } catch (const MeshError& error) {
+    print_error("this is not a closed genus-0 mesh:");
+    std::fputs(defect_list(error.defects()).c_str(), stderr);
+    return MeshUnusable;
+  } catch (const NotCertifiedError& error) {
+    print_error(error.what());
+    return NotCertified;
+  } catch (const ReadError& error) {
+    print_error(error.what());
+    return FileError;
+  } catch (const ImageError& error) {
+    print_error(error.what());
+    return FileError;
+  } catch (const WriteError& error) {
+    print_error(error.what());
+    return FileError;
+  } catch (const Cancelled&) {
+    print_error("interrupted");
+    return Interrupted;
+  } catch (const std::bad_alloc&) {
+    print_error("out of memory");
+    return InternalError;
+  } catch (const std::exception& error) {
+    print_error(std::string("internal error: ") + error.what());
+    return InternalError;
+  }
+}
+
+}  // namespace
+
+void add_loudness(CLI::App& command, Loudness& loudness) {
+  command.add_flag("-q,--quiet", loudness.quiet, "Errors only");
+  command.add_flag("-v,--verbose", loudness.verbose, "Every stage");
+}
+
+}  // namespace sphparam::tools
+
+int main(int argc, char** argv) {
+  sphparam::tools::forbid_core_dumps();
+  sphparam::tools::end_on_interruption();
+  return sphparam::tools::guarded_main(argc, argv);
+}

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+namespace sphparam::tools {
+
+/// Is this path the name of standard input or output?
+inline bool is_stream(const std::string& path) { return path == "-"; }
+
+/// A file as people want to see it: no folders; "-" becomes "standard input".
+std::string display_name(const std::string& path);
+
+/// The same for a file that is written.
+std::string output_name(const std::string& path);
+
+}  // namespace sphparam::tools

@@ -1,0 +1,20 @@
+#include "cli/source.h"
+
+#include "mesh_io/mesh_reader.h"
+#include "mesh_io/welding.h"
+
+namespace sphparam::tools {
+
+Source read_source(const std::string& path) {
+  Source source;
+  source.file = read_mesh(path);
+  source.inspection = inspect_mesh(source.file.mesh);
+  source.notes = source.file.notes;
+  source.file = prepare_for_mapping(std::move(source.file), &source.notes);
+  // Dropping unused vertices leaves all used ones; welding merges some of these.
+  source.welded = source.file.mesh.vertex_count() < source.inspection.used_vertices;
+  if (source.welded) source.inspection = inspect_mesh(source.file.mesh);
+  return source;
+}
+
+}  // namespace sphparam::tools

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesh_io/mesh_file.h"
+#include "sphparam/mesh/mesh_defects.h"
+
+namespace sphparam::tools {
+
+/// A mesh file as the map takes it, and what was found on the way.
+struct Source {
+  MeshFile file;              // welded where needed, without unused vertices
+  MeshInspection inspection;  // with the ids of the file, or after welding if that was needed
+  bool welded = false;
+  std::vector<std::string> notes;  // of the reader, then what was done to the mesh
+};
+
+/// Throws: ReadError. A mesh that is no sphere is returned all the same: see `inspection`.
+Source read_source(const std::string& path);
+
+}  // namespace sphparam::tools

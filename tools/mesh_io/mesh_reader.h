@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "mesh_io/mesh_file.h"
+#include "mesh_io/read_options.h"
+
+namespace sphparam::tools {
+
+/// Reads an OBJ, PLY or OFF file; "-" is standard input.
+///
+/// The format is told by the content, then by the extension of the name. Other formats are refused
+/// by their names. A file that breaks the rules of its format is refused with the place; a mesh
+/// that is no closed surface is read all the same, `inspect_mesh` tells.
+/// Ensures: all indices are in range, all numbers finite, no triangle names a vertex twice.
+/// Throws: ReadError.
+/// Cost: about 0.1 µs a triangle of text, 0.02 µs of binary data.
+MeshFile read_mesh(const std::string& path, const ReadOptions& options = {});
+
+/// Reads a mesh from memory. `name` stands in messages; its extension decides where the content
+/// does not.
+MeshFile read_mesh(std::string_view bytes, const std::string& name, const ReadOptions& options);
+
+}  // namespace sphparam::tools

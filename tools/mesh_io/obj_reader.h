@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "mesh_io/mesh_file.h"
+#include "mesh_io/read_options.h"
+
+namespace sphparam::tools {
+
+/// Reads a Wavefront OBJ file.
+///
+/// Kept: v with optional colours (x y z r g b [a]), vt per corner, vn per vertex where each vertex
+/// has one normal and per corner where not, polygons, usemtl as the face property `material`, the
+/// comments at the top. Groups, objects and smoothing groups are ignored; lines, points and
+/// free-form geometry are ignored and noted. No other file is ever opened (mtllib).
+/// Throws: ReadError with the line.
+MeshFile read_obj(std::string_view text, const std::string& name, const ReadOptions& options = {});
+
+}  // namespace sphparam::tools

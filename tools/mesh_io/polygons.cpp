@@ -1,0 +1,303 @@
+#include "mesh_io/polygons.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "mesh_io/distinct_rows.h"
+
+// A polygon is projected to the plane of its Newell normal n = Σ pᵢ × pᵢ₊₁, after a shift to its
+// first corner and a power-of-two scale, so that no coordinates overflow. There the sign of
+//   turn(a, b, c) = (b − a) × (c − a)
+// tells whether a triangle keeps the orientation of the polygon. Quads compare their two diagonals,
+// larger polygons try the fan of corner 0, then clip ears: convex corners whose triangle holds no
+// reflex corner. Edges in use are remembered so that no diagonal doubles one.
+
+namespace sphparam::tools {
+namespace {
+
+constexpr int kMaxClippedDegree = 512;
+
+// Half-edges are numbered by int, three to a triangle.
+constexpr std::int64_t kMostTriangles = std::numeric_limits<int>::max() / 3;
+
+/// The undirected edges in use.
+class EdgeSet {
+ public:
+  explicit EdgeSet(std::size_t expected) : rows_(expected) {}
+  void insert(int a, int b) { rows_.insert(ordered(a, b)); }
+  bool contains(int a, int b) const { return rows_.contains(ordered(a, b)); }
+
+ private:
+  static std::array<int, 2> ordered(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
+  DistinctRows<int, 2> rows_;
+};
+
+using PlanePoint = Eigen::Vector2d;
+
+double turn(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
+  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+}
+
+/// The corners relative to the first one, scaled by a power of two to at most 1.
+void local_corners(const Points& positions, std::span<const int> polygon,
+                   std::vector<Vector3>& local) {
+  const Vector3 origin = 0.5 * positions.row(polygon[0]);
+  double extent = 0;
+  local.clear();
+  for (const int v : polygon) {
+    local.push_back(0.5 * positions.row(v).transpose() - origin);
+    extent = std::max(extent, local.back().lpNorm<Eigen::Infinity>());
+  }
+  const double scale = extent > 0 ? std::ldexp(1.0, -std::max(-1021, std::ilogb(extent) + 1)) : 1;
+  for (Vector3& corner : local) corner *= scale;
+}
+
+Vector3 newell_normal(const std::vector<Vector3>& corners) {
+  Vector3 normal = Vector3::Zero();
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    normal += corners[i].cross(corners[(i + 1) % corners.size()]);
+  return normal;
+}
+
+std::vector<PlanePoint> project(const std::vector<Vector3>& corners, const Vector3& normal) {
+  Eigen::Index smallest = 0;
+  normal.cwiseAbs().minCoeff(&smallest);
+  const Vector3 u = normal.cross(Vector3::Unit(smallest)).normalized();
+  const Vector3 v = normal.cross(u).normalized();
+  std::vector<PlanePoint> plane;
+  plane.reserve(corners.size());
+  for (const Vector3& corner : corners) plane.emplace_back(corner.dot(u), corner.dot(v));
+  return plane;
+}
+
+/// Clips the ears of one polygon in its plane.
+class EarClipper {
+ public:
+  EarClipper(std::span<const int> polygon, std::vector<PlanePoint> plane, const EdgeSet& edges)
+      : polygon_(polygon), plane_(std::move(plane)), edges_(edges), ring_(polygon.size()) {
+    for (int i = 0; i < degree(); ++i)
+      ring_[i] = {(i + degree() - 1) % degree(), (i + 1) % degree()};
+    for (int i = 0; i < degree(); ++i)
+      if (!is_convex(i)) reflex_.push_back(i);
+  }
+
+  /// Appends corner triples. An ear along a used edge is taken only where there is no other, a
+  /// corner that is no ear only where there is none (a polygon that crosses itself).
+  void clip(std::vector<int>& triples) {
+    int at = 0;
+    for (int left = degree(); left > 3; --left) {
+      at = choose(at, left);
+      const int before = ring_[at].previous, after = ring_[at].next;
+      triples.insert(triples.end(), {before, at, after});
+      ring_[before].next = after;
+      ring_[after].previous = before;
+      std::erase_if(
+          reflex_, [&](int i) { return i == at || ((i == before || i == after) && is_convex(i)); });
+      at = ring_[after].next;  // not the neighbour: ears all around make better triangles
+    }
+    triples.insert(triples.end(), {ring_[at].previous, at, ring_[at].next});
+  }
+
+ private:
+  struct Neighbours {
+    int previous, next;
+  };
+
+  int degree() const { return static_cast<int>(polygon_.size()); }
+
+  bool is_convex(int i) const {
+    return turn(plane_[ring_[i].previous], plane_[i], plane_[ring_[i].next]) > 0;
+  }
+
+  bool is_ear(int i) const {
+    const int before = ring_[i].previous, after = ring_[i].next;
+    const PlanePoint &a = plane_[before], &b = plane_[i], &c = plane_[after];
+    if (turn(a, b, c) <= 0) return false;
+    return std::none_of(reflex_.begin(), reflex_.end(), [&](int r) {
+      const PlanePoint& p = plane_[r];
+      return r != before && r != after && turn(a, b, p) >= 0 && turn(b, c, p) >= 0 &&
+             turn(c, a, p) >= 0;
+    });
+  }
+
+  bool cuts_along_used_edge(int i) const {
+    return edges_.contains(polygon_[ring_[i].previous], polygon_[ring_[i].next]);
+  }
+
+  int choose(int start, int left) const {
+    std::optional<int> second_best;
+    for (int i = start, tried = 0; tried < left; ++tried, i = ring_[i].next) {
+      if (!is_ear(i)) continue;
+      if (!cuts_along_used_edge(i)) return i;
+      if (!second_best) second_best = i;
+    }
+    return second_best.value_or(start);
+  }
+
+  std::span<const int> polygon_;
+  std::vector<PlanePoint> plane_;
+  const EdgeSet& edges_;
+  std::vector<Neighbours> ring_;
+  std::vector<int> reflex_;
+};
+
+class Triangulator {
+ public:
+  Triangulator(const Points& positions, const Polygons& polygons)
+      : positions_(positions), edges_(polygons.corners.size()) {
+    for (std::int64_t p = 0; p < polygons.count(); ++p) insert_boundary(polygons.polygon(p));
+  }
+
+  /// Corner triples of one polygon of four corners or more; valid until the next call.
+  const std::vector<int>& cut(std::span<const int> polygon) {
+    triples_.clear();
+    local_corners(positions_, polygon, local_);
+    if (polygon.size() == 4)
+      cut_quad(polygon);
+    else
+      cut_polygon(polygon);
+    return triples_;
+  }
+
+ private:
+  void insert_boundary(std::span<const int> polygon) {
+    int previous = polygon.back();
+    for (const int v : polygon) {
+      edges_.insert(previous, v);
+      previous = v;
+    }
+  }
+
+  // Diagonals in order of preference: new edges, unfolded triangles, short, from corner 0.
+  void cut_quad(std::span<const int> polygon) {
+    const Vector3 &a = local_[0], &b = local_[1], &c = local_[2], &d = local_[3];
+    const Vector3 normal = (c - a).cross(d - b);
+    const auto unfolded = [&](const Vector3& p, const Vector3& q, const Vector3& r) {
+      return (q - p).cross(r - p).dot(normal) > 0;
+    };
+    struct Diagonal {
+      bool used, folded;
+      double length;
+      auto operator<=>(const Diagonal&) const = default;
+    };
+    const Diagonal ac{edges_.contains(polygon[0], polygon[2]),
+                      !(unfolded(a, b, c) && unfolded(a, c, d)), (c - a).squaredNorm()};
+    const Diagonal bd{edges_.contains(polygon[1], polygon[3]),
+                      !(unfolded(b, c, d) && unfolded(b, d, a)), (d - b).squaredNorm()};
+    if (bd < ac) {
+      triples_ = {0, 1, 3, 1, 2, 3};
+      edges_.insert(polygon[1], polygon[3]);
+    } else {
+      triples_ = {0, 1, 2, 0, 2, 3};
+      edges_.insert(polygon[0], polygon[2]);
+    }
+  }
+
+  void cut_polygon(std::span<const int> polygon) {
+    const Vector3 normal = newell_normal(local_);
+    const int degree = static_cast<int>(polygon.size());
+    const bool flat = normal.squaredNorm() > 0;
+    if (degree > kMaxClippedDegree || !flat || fan_is_good(polygon, normal)) {
+      for (int i = 1; i + 1 < degree; ++i) triples_.insert(triples_.end(), {0, i, i + 1});
+    } else {
+      EarClipper(polygon, project(local_, normal), edges_).clip(triples_);
+    }
+    insert_triangles(polygon);
+  }
+
+  bool fan_is_good(std::span<const int> polygon, const Vector3& normal) const {
+    for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+      if (local_[i].cross(local_[i + 1]).dot(normal) <= 0) return false;
+      if (i > 1 && edges_.contains(polygon[0], polygon[i])) return false;
+    }
+    return true;
+  }
+
+  void insert_triangles(std::span<const int> polygon) {
+    for (std::size_t t = 0; t < triples_.size(); t += 3)
+      for (int k = 0; k < 3; ++k)
+        edges_.insert(polygon[triples_[t + k]], polygon[triples_[t + (k + 1) % 3]]);
+  }
+
+  const Points& positions_;
+  EdgeSet edges_;
+  std::vector<Vector3> local_;
+  std::vector<int> triples_;
+};
+
+bool has_repeated_corner(std::span<const int> polygon) {
+  constexpr std::size_t kFewCorners = 8;
+  if (polygon.size() <= kFewCorners) {
+    for (std::size_t i = 1; i < polygon.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        if (polygon[i] == polygon[j]) return true;
+    return false;
+  }
+  std::vector<int> sorted(polygon.begin(), polygon.end());
+  std::sort(sorted.begin(), sorted.end());
+  return std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
+}
+
+Triangles as_triangles(const std::vector<int>& indices) {
+  return Eigen::Map<const Triangles>(indices.data(), static_cast<Eigen::Index>(indices.size() / 3),
+                                     3);
+}
+
+}  // namespace
+
+std::string Polygons::close_polygon(const ReadOptions& options) {
+  const std::int64_t corner_count = open_degree();
+  const std::int64_t triangle_limit = std::min(options.max_faces, kMostTriangles);
+  if (corner_count < 3) return "face has fewer than 3 corners";
+  if (corner_count > options.max_polygon_degree)
+    return "face has more corners than the limit of " + std::to_string(options.max_polygon_degree);
+  triangle_count_ += corner_count - 2;
+  if (triangle_count_ > triangle_limit)
+    return "more triangles than the limit of " + std::to_string(triangle_limit);
+  starts.push_back(static_cast<int>(corners.size()));
+  if (has_repeated_corner(polygon(count() - 1))) return "face names a vertex twice";
+  return {};
+}
+
+Triangulation triangulate(const Points& positions, const Polygons& polygons) {
+  Triangulation result;
+  for (std::int64_t p = 0; p < polygons.count(); ++p) result.split += polygons.degree(p) != 3;
+  if (result.split == 0) {
+    result.triangles = as_triangles(polygons.corners);
+    return result;
+  }
+
+  Triangulator triangulator(positions, polygons);
+  const std::vector<int> whole_triangle = {0, 1, 2};
+  std::vector<int> indices;
+  for (std::int64_t p = 0; p < polygons.count(); ++p) {
+    const std::span<const int> polygon = polygons.polygon(p);
+    for (const int corner : polygon.size() == 3 ? whole_triangle : triangulator.cut(polygon)) {
+      indices.push_back(polygon[corner]);
+      result.corner.push_back(polygons.starts[p] + corner);
+    }
+    result.polygon.resize(indices.size() / 3, static_cast<int>(p));
+  }
+  result.triangles = as_triangles(indices);
+  return result;
+}
+
+void adopt_triangulation(MeshFile& file, const Triangulation& triangulation) {
+  file.mesh.triangles = triangulation.triangles;
+  file.polygons = triangulation.split;
+  if (triangulation.split == 0) return;
+  for (Property& property : file.face_properties) {
+    std::vector<double> spread;
+    spread.reserve(triangulation.polygon.size());
+    for (const int p : triangulation.polygon) spread.push_back(property.values[p]);
+    property.values = std::move(spread);
+  }
+  Property source{"source_face", ScalarType::Int32, {}};
+  source.values.assign(triangulation.polygon.begin(), triangulation.polygon.end());
+  file.set_face_property(std::move(source));
+}
+
+}  // namespace sphparam::tools

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace sphparam::tools {
+
+/// Limits of what is read. A file beyond one is refused before memory is spent on it.
+struct ReadOptions {
+  std::uint64_t max_file_bytes = std::uint64_t{1} << 31;
+  std::int64_t max_vertices = std::int64_t{1} << 28;
+  std::int64_t max_faces = std::int64_t{1} << 28;  // of the file, and of triangles
+  std::int64_t max_polygon_degree = 1 << 16;       // corners of one face
+  std::int64_t max_line_bytes = 1 << 20;           // of a text file or a header
+  std::int64_t max_ply_elements = 64;
+  std::int64_t max_ply_properties = 256;  // of one element
+};
+
+/// A file that cannot be read, with the place: "mesh.obj:12: face names vertex 9 of 8" in text,
+/// "mesh.ply: byte 812: …" in binary data. The program ends with exit code 3.
+class ReadError : public std::runtime_error {
+ public:
+  /// The file as a whole cannot be used.
+  ReadError(const std::string& file, const std::string& message);
+  static ReadError at_line(const std::string& file, long line, const std::string& message);
+  static ReadError at_byte(const std::string& file, std::uint64_t byte, const std::string& message);
+
+  long line() const { return line_; }           // 1-based; 0 when not known
+  std::uint64_t byte() const { return byte_; }  // offset in the file, for binary data
+
+ private:
+  explicit ReadError(const std::string& what) : std::runtime_error(what) {}
+  long line_ = 0;
+  std::uint64_t byte_ = 0;
+};
+
+/// Text of a hostile file as it may be shown: printable, at most 40 characters, in quotes.
+std::string quoted(std::string_view text);
+
+}  // namespace sphparam::tools

@@ -1,0 +1,163 @@
+#include "render/figure.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "sphparam/sphere/distortion.h"
+
+// The sphere is turned so that the pictures correspond: its side towards the eye is the mean ray of
+// the triangles that face the eye on the mesh, and its up the way that this mean moves with height.
+
+namespace sphparam::tools {
+namespace {
+
+constexpr double kFieldOfView = 18;  // degrees: a long lens
+
+std::optional<std::vector<Rgb>> vertex_colours(const MeshFile& file) {
+  const Property* channels[] = {file.find_vertex_property("red"),
+                                file.find_vertex_property("green"),
+                                file.find_vertex_property("blue")};
+  if (!channels[0] || !channels[1] || !channels[2]) return std::nullopt;
+  const bool bytes = channels[0]->type == ScalarType::Uint8;
+  std::vector<Rgb> colours(static_cast<size_t>(file.mesh.vertex_count()));
+  for (size_t v = 0; v < colours.size(); ++v) {
+    for (int k = 0; k < 3; ++k) {
+      const double value = channels[k]->values[v];
+      colours[v][k] = static_cast<float>(bytes ? value / 255 : value);
+    }
+  }
+  return colours;
+}
+
+Paint choose_paint(const MeshFile& file, const SphereMap& map, const FigureOptions& options,
+                   int threads) {
+  switch (options.colours) {
+    case FigureColours::Plain:
+      break;
+    case FigureColours::Vertex:
+      if (auto colours = vertex_colours(file)) return VertexPaint{std::move(*colours)};
+      break;
+    case FigureColours::Area: {
+      const Distortion d = measure_distortion(file.mesh, map, threads);
+      return FacePaint{ratio_colours(d.area_ratio, 8)};
+    }
+    case FigureColours::Angle: {
+      const Distortion d = measure_distortion(file.mesh, map, threads);
+      const Eigen::VectorXd mean = d.angle_ratio.array().log().abs().rowwise().mean();
+      return FacePaint{value_colours(mean, 0, 1)};
+    }
+    case FigureColours::Checker:
+      return CheckerPaint{map.points};
+    case FigureColours::Texture:
+      if (file.corner_texcoords && options.texture) {
+        return TexturePaint{*file.corner_texcoords, *options.texture};
+      }
+      break;
+  }
+  return UniformPaint{};
+}
+
+struct SphereView {
+  Vector3 direction;
+  Vector3 up;
+};
+
+SphereView corresponding_view(const TriangleMesh& mesh, const SphereMap& map,
+                              const FigureOptions& options) {
+  const Vector3 view = options.view.normalized();
+  Vector3 rays = Vector3::Zero(), rising = Vector3::Zero();
+  double weights = 0, heights = 0;
+  for (Eigen::Index f = 0; f < mesh.face_count(); ++f) {
+    const Vector3 a = mesh.position(mesh.triangles(f, 0)), b = mesh.position(mesh.triangles(f, 1)),
+                  c = mesh.position(mesh.triangles(f, 2));
+    const double weight = std::max(0.0, (b - a).cross(c - a).dot(view));
+    const double height = (a + b + c).dot(options.up) / 3;
+    const Vector3 ray = map.point(mesh.triangles(f, 0)) + map.point(mesh.triangles(f, 1)) +
+                        map.point(mesh.triangles(f, 2));
+    weights += weight, heights += weight * height;
+    rays += weight * ray, rising += weight * height * ray;
+  }
+  // Σ w (height − mean height) ray
+  rising -= heights / std::max(weights, 1e-300) * rays;
+  if (!(rays.norm() > 0)) rays = view;
+  if (!(rays.cross(rising).norm() > 0)) rising = rays.unitOrthogonal();
+  return {rays.normalized(), rising};
+}
+
+RenderScene scene_of(RenderObject object, const Vector3& direction, const Vector3& up,
+                     const FigureOptions& options) {
+  const Vector3 low = object.mesh.positions.colwise().minCoeff();
+  const Vector3 high = object.mesh.positions.colwise().maxCoeff();
+  RenderScene scene;
+  scene.camera = {(low + high) / 2, direction, up, 2, kFieldOfView};
+  scene.width = scene.height = options.size;
+  scene.samples = options.samples;
+  scene.background = options.background;
+  scene.objects.push_back(std::move(object));
+  return scene;
+}
+
+/// Moves the camera so that the whole object is seen, and as large as possible.
+void fit_camera(RenderScene& scene) {
+  Camera& camera = scene.camera;
+  const Vector3 back = camera.direction.normalized();
+  const Vector3 right = camera.up.cross(back).normalized(), up = back.cross(right);
+  const Points& points = scene.objects[0].mesh.positions;
+  const auto middle = [&](const Vector3& axis) {
+    const Eigen::VectorXd along = points * axis;
+    return (along.minCoeff() + along.maxCoeff()) / 2 * axis;
+  };
+  camera.target = middle(right) + middle(up) + middle(back);
+  constexpr double margin = 1.08;
+  // tan of half the field: what is nearer looks larger.
+  const double spread = 2 * std::tan(camera.field_of_view * std::numbers::pi / 360);
+  double height = 0;
+  for (Eigen::Index v = 0; v < points.rows(); ++v) {
+    const Vector3 p = points.row(v).transpose() - camera.target;
+    const double across = 2 * std::max(std::abs(p.dot(right)), std::abs(p.dot(up)));
+    height = std::max(height, across + spread * p.dot(back));
+  }
+  camera.height = margin * height;
+}
+
+}  // namespace
+
+Image in_a_row(const std::vector<Image>& images) {
+  int width = 0;
+  for (const Image& image : images) width += image.width;
+  Image row(width, images.front().height, images.front().channels);
+  for (int y = 0; y < row.height; ++y) {
+    float* out = row.pixel(0, y);
+    for (const Image& image : images) {
+      out = std::copy_n(image.pixel(0, y), image.width * image.channels, out);
+    }
+  }
+  return row;
+}
+
+Image map_figure(const MeshFile& file, const SphereMap& map, const FigureOptions& options,
+                 int threads) {
+  RenderObject object;
+  object.mesh = file.mesh;
+  object.paint = choose_paint(file, map, options, threads);
+  if (options.graticule) object.graticule = Graticule{.rays = map.points};
+  if (options.wireframe) object.wireframe = Wireframe{};
+  RenderObject sphere = object;
+  sphere.mesh.positions = map.points;
+  object.occlusion = true;
+
+  const SphereView side = corresponding_view(file.mesh, map, options);
+  std::vector<RenderScene> scenes{scene_of(std::move(object), options.view, options.up, options),
+                                  scene_of(sphere, side.direction, side.up, options)};
+  if (options.both_sides) scenes.push_back(scene_of(sphere, -side.direction, side.up, options));
+  std::vector<Image> images;
+  for (RenderScene& scene : scenes) {
+    fit_camera(scene);
+    images.push_back(render(scene, threads));
+  }
+  return in_a_row(images);
+}
+
+}  // namespace sphparam::tools

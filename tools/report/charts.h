@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sphparam/sphere/distortion.h"
+
+namespace sphparam::tools {
+
+/// One map in a chart.
+struct ChartSeries {
+  std::string label;             // shown in the legend and in captions
+  const Distortion* distortion;  // never null; not owned
+};
+
+/// A chart as text: where it belongs and what to put there.
+struct ChartFile {
+  std::string path;
+  std::string svg;  // self-contained SVG 1.1, UTF-8
+};
+
+enum class ChartMeasure { Area, Angle };
+
+/// The paper's polar chart: the ratio is the radius, the triangle or corner index the polar angle,
+/// the optimum 1 a green circle; beside it a zoom on the optimal region [0, 2].
+///
+/// One or two series (blue, red). A value is left out only where its dot would cover another one's;
+/// values beyond the rim are marked on it and counted in the caption. Readable on light and dark
+/// pages. Same bytes for the same input; at most about 1 MB at any number of triangles.
+/// Paper: Section 6, Figures 10 and 11.
+std::string polar_chart(ChartMeasure measure, const std::vector<ChartSeries>& series);
+
+/// Shares of triangles by log2(area ratio) and of corners by ln(angle ratio), side by side; the
+/// end bars hold everything beyond. One or two series.
+std::string histogram_chart(const std::vector<ChartSeries>& series);
+
+/// The three charts of a map as NAME-area.svg, NAME-angle.svg and NAME-histogram.svg in
+/// `directory`; only their paths are made: nothing touches the disk.
+std::vector<ChartFile> write_charts(const std::string& directory, const std::string& name,
+                                    const Distortion& distortion);
+/// The same, of one or two maps in the same charts.
+std::vector<ChartFile> write_comparison_charts(const std::string& directory,
+                                               const std::string& name,
+                                               const std::vector<ChartSeries>& series);
+
+}  // namespace sphparam::tools

@@ -1,0 +1,116 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "report/charts.h"
+#include "report/svg.h"
+
+// Fixed bins, so that charts of different maps compare at a glance.
+
+namespace sphparam::tools {
+namespace {
+
+constexpr int kWidth = 960;
+constexpr double kTop = 48, kHeight = 220, kPanelWidth = 400;
+constexpr int kBins = 34;  // 32 of equal width and one at each end for everything beyond
+
+using Shares = std::array<double, kBins>;
+
+struct Panel {
+  double left;
+  double reach;  // bins cover [−reach, reach]
+  const char* title;
+  const char* unit;
+};
+
+/// Shares of the values of `logarithm` by bin; the ends hold what is beyond, infinities included.
+template <class Logarithm>
+Shares shares(const double* ratios, long count, double reach, Logarithm logarithm) {
+  std::array<long, kBins> counts{};
+  for (long i = 0; i < count; ++i) {
+    const double place = (logarithm(ratios[i]) + reach) / (2 * reach) * (kBins - 2) + 1;
+    const auto bin = static_cast<size_t>(std::clamp(place, 0.0, kBins - 1.0));
+    ++counts[bin];
+  }
+  Shares result{};
+  for (size_t b = 0; b < kBins; ++b) {
+    result[b] = static_cast<double>(counts[b]) / static_cast<double>(std::max(count, 1L));
+  }
+  return result;
+}
+
+double bin_x(const Panel& panel, double bin) { return panel.left + bin * kPanelWidth / kBins; }
+
+std::string bars(const Panel& panel, const Shares& values, double highest, size_t series) {
+  std::string svg = "<g class=\"series" + std::to_string(series) +
+                    "\" fill-opacity=\"0.4\" stroke-width=\"1\">\n";
+  for (size_t b = 0; b < kBins; ++b) {
+    if (values[b] == 0) continue;
+    const double height = values[b] / highest * kHeight;
+    const double x = bin_x(panel, static_cast<double>(b));
+    svg += "<rect x=\"" + decimal(x + 0.5, 1) + "\" y=\"" + decimal(kTop + kHeight - height, 1) +
+           "\" width=\"" + decimal(kPanelWidth / kBins - 1, 1) + "\" height=\"" +
+           decimal(height, 1) + "\"/>\n";
+  }
+  return svg + "</g>\n";
+}
+
+std::string axes(const Panel& panel, double highest) {
+  const double right = panel.left + kPanelWidth, bottom = kTop + kHeight;
+  std::string svg = svg_text(panel.left + kPanelWidth / 2, 30, "title", "middle", panel.title);
+  for (const double part : {0.5, 1.0}) {
+    svg += svg_line(panel.left, bottom - part * kHeight, right, bottom - part * kHeight, "grid");
+    svg += svg_text(panel.left - 6, bottom - part * kHeight + 4, "label", "end",
+                    decimal(100 * part * highest, 1) + " %");
+  }
+  svg += svg_line(panel.left, bottom, right, bottom, "axis");
+  for (int tick = -2; tick <= 2; ++tick) {
+    const double x = bin_x(panel, 1 + (kBins - 2) * (tick + 2) / 4.0);
+    svg += svg_line(x, bottom, x, bottom + 4, "axis");
+    svg += svg_text(x, bottom + 17, "label", "middle", decimal(tick * panel.reach / 2, 2));
+  }
+  return svg + svg_text(panel.left + kPanelWidth / 2, bottom + 34, "label", "middle", panel.unit);
+}
+
+std::string draw_panel(const Panel& panel, const std::vector<Shares>& all) {
+  double highest = 0;
+  for (const Shares& one : all)
+    highest = std::max(highest, *std::max_element(one.begin(), one.end()));
+  highest = std::max(std::ceil(highest * 50) / 50, 0.02);  // the next 2 %
+  std::string svg = axes(panel, highest);
+  for (size_t s = all.size(); s-- > 0;) svg += bars(panel, all[s], highest, s);
+  const double optimum = panel.left + kPanelWidth / 2;
+  return svg + svg_line(optimum, kTop, optimum, kTop + kHeight, "optimum");
+}
+
+}  // namespace
+
+std::string histogram_chart(const std::vector<ChartSeries>& series) {
+  if (series.empty() || series.size() > 2) {
+    throw std::invalid_argument("histogram_chart: one or two series");
+  }
+  const Panel area{64, 4, "Area", "log₂ (area ratio); the outer bars hold everything beyond"};
+  const Panel angle{544, 2, "Angle", "ln (angle ratio); the outer bars hold everything beyond"};
+  std::vector<Shares> areas, angles;
+  for (const ChartSeries& one : series) {
+    const Distortion& d = *one.distortion;
+    areas.push_back(shares(d.area_ratio.data(), d.area_ratio.size(), area.reach,
+                           [](double r) { return std::log2(r); }));
+    angles.push_back(shares(d.angle_ratio.data(), d.angle_ratio.size(), angle.reach,
+                            [](double r) { return std::log(r); }));
+  }
+  const bool legend = series.size() > 1 || !series[0].label.empty();
+  const int below = static_cast<int>(kTop + kHeight) + 52;
+  std::string svg = svg_begin(kWidth, below + (legend ? 16 : 0), "Distortion histograms");
+  svg += draw_panel(area, areas) + draw_panel(angle, angles);
+  for (size_t s = 0; legend && s < series.size(); ++s) {
+    const double x = 64 + 480 * static_cast<double>(s);
+    svg += "<circle cx=\"" + decimal(x + 5, 1) + "\" cy=\"" + decimal(below - 2, 1) +
+           "\" r=\"5\" class=\"series" + std::to_string(s) + "\"/>\n";
+    svg += svg_text(x + 18, below + 2, "caption", "start", series[s].label);
+  }
+  return svg + svg_end();
+}
+
+}  // namespace sphparam::tools
