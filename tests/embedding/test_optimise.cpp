@@ -1,1 +1,165 @@
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+#include "embedding/global_newton.h"
+#include "sphparam/embedding/newton.h"
+#include "sphparam/embedding/optimise.h"
+#include "sphparam/embedding/progressive.h"
+#include "sphparam/sphere/certificate.h"
+#include "sphparam/sphere/distortion.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+
+namespace {
+
+/// An ellipsoid, and its map of equal directions.
+struct Stretched {
+  TriangleMesh mesh = icosphere(4);
+  SphereMap start{mesh.positions};
+  Topology topology{mesh};
+  SourceTriangles source;
+
+  explicit Stretched(double factor) {
+    mesh.positions.col(0) *= factor;
+    source = measure_source(mesh);
+  }
+};
+
+SphereMap embedded(const TriangleMesh& mesh, Quality quality) {
+  return *embed_progressively(mesh, Topology(mesh), {.quality = quality}).map;
+}
+
+double energy_of(const TriangleMesh& mesh, const SphereMap& map) {
+  return distortion_energy(Topology(mesh), measure_source(mesh), map, {});
+}
+
+}  // namespace
+
+TEST_CASE("optimise: agrees with Newton's method by Cholesky factors") {
+  const Stretched s(3);
+  for (const auto kind : {EnergyKind::AngleAndArea, EnergyKind::SymmetricDirichlet}) {
+    const DistortionEnergy energy{.kind = kind};
+    const NewtonResult exact =
+        minimise_by_newton(s.topology, s.source, s.start, {.energy = energy, .least_gain = 1e-10});
+    const Optimisation r =
+        optimise(s.topology, s.source, s.start, {.energy = energy, .least_gain = 1e-9});
+    CHECK(r.report.converged);
+    CHECK(r.report.energy_after == Approx(exact.report.energy_after).epsilon(1e-7));
+    CHECK(r.report.energy_after ==
+          Approx(distortion_energy(s.topology, s.source, r.map, energy)).epsilon(1e-12));
+    CHECK(certify(s.topology, r.map).bijective());
+  }
+}
+
+TEST_CASE("optimise: pinned vertices keep their bits") {
+  const Stretched s(2);
+  const std::vector<Vertex> pinned{0, 17, 700};
+  const Optimisation r = optimise(s.topology, s.source, s.start, {.pinned = pinned});
+  for (const Vertex v : pinned) CHECK(r.map.points.row(v) == s.start.points.row(v));
+  CHECK(r.map.points.row(1) != s.start.points.row(1));
+  CHECK(r.report.energy_after < r.report.energy_before);
+}
+
+TEST_CASE("optimise: the same bits for any number of threads") {
+  const Stretched s(4);
+  const Optimisation one = optimise(s.topology, s.source, s.start, {.max_steps = 5, .threads = 1});
+  for (const int threads : {2, 3}) {
+    const Optimisation other =
+        optimise(s.topology, s.source, s.start, {.max_steps = 5, .threads = threads});
+    CHECK(other.map.points == one.map.points);
+  }
+}
+
+TEST_CASE("optimise: a folded map comes back as it was") {
+  Stretched s(2);
+  s.start.points.row(5) = -s.start.points.row(5);
+  const Optimisation r = optimise(s.topology, s.source, s.start);
+  CHECK(r.map.points == s.start.points);
+  CHECK(r.report.energy_before == std::numeric_limits<double>::infinity());
+  CHECK(r.report.steps == 0);
+}
+
+TEST_CASE("optimise: every vertex pinned, nothing moves") {
+  const Stretched s(2);
+  std::vector<Vertex> all;
+  for (Vertex v = 0; v < s.topology.vertex_count(); ++v) all.push_back(v);
+  const Optimisation r = optimise(s.topology, s.source, s.start, {.pinned = all});
+  CHECK(r.map.points == s.start.points);
+}
+
+TEST_CASE("optimise: tiny meshes and large valences") {
+  for (const TriangleMesh& mesh :
+       {tetrahedron(), octahedron(), uv_sphere(3000, 1), random_sphere_mesh(300, 3)}) {
+    const Topology topology(mesh);
+    const SphereMap start = embedded(mesh, Quality::Draft);
+    const Optimisation r = optimise(topology, measure_source(mesh), start, {.max_steps = 10});
+    CHECK(r.report.energy_after <= r.report.energy_before);
+    CHECK(certify(topology, r.map).bijective());
+  }
+}
+
+TEST_CASE("optimise_balance: towards conformal the angles win, towards equal area the areas") {
+  TriangleMesh mesh = tube(40, 12);
+  const Topology topology(mesh);
+  const SourceTriangles source = measure_source(mesh);
+  const SphereMap start = embedded(mesh, Quality::Normal);
+  const DistortionSummary middle = summarise(measure_distortion(mesh, start));
+
+  const BalancedMap angles =
+      optimise_balance(topology, source, start, {.balance = Balance::Conformal});
+  const DistortionSummary conformal = summarise(measure_distortion(mesh, angles.map));
+  CHECK(angles.lambda < 1e-3);
+  CHECK(conformal.mean_abs_ln_angle < middle.mean_abs_ln_angle / 2);
+  CHECK(certify(topology, angles.map).bijective());
+
+  const BalancedMap areas =
+      optimise_balance(topology, source, start, {.balance = Balance::EqualArea});
+  const DistortionSummary equal = summarise(measure_distortion(mesh, areas.map));
+  CHECK(equal.weighted_abs_log2_area <= 0.1);
+  CHECK(areas.area_error == Approx(equal.weighted_abs_log2_area).epsilon(1e-6));
+  CHECK(certify(topology, areas.map).bijective());
+}
+
+TEST_CASE("optimise_balance: reaches a given lambda and is optimal there") {
+  const Stretched s(3);
+  for (const double lambda : {1e-4, 300.0}) {
+    const BalancedMap r =
+        optimise_balance(s.topology, s.source, s.start,
+                         {.optimise = {.energy = {.lambda = lambda}, .least_gain = 1e-8}});
+    CHECK(r.lambda == lambda);
+    const NewtonResult further =
+        minimise_by_newton(s.topology, s.source, r.map, {.energy = {.lambda = lambda}});
+    CHECK(further.report.energy_after > (1 - 1e-5) * r.report.energy_after);
+  }
+}
+
+TEST_CASE("recentring: lowers the energy of a conformal map that is off centre") {
+  const TriangleMesh mesh = icosphere(4);
+  const Topology topology(mesh);
+  std::vector<ImagePoint> image;
+  const Vector3 a(0.5, 0.2, 0);  // a Möbius boost: conformal, but crowded at a
+  for (Vertex v = 0; v < topology.vertex_count(); ++v) {
+    const Vector3 x = mesh.position(v).normalized();
+    image.push_back(image_point(((1 - a.squaredNorm()) * x + 2 * (1 + a.dot(x)) * a).normalized()));
+  }
+  const DistortionEnergy energy{.lambda = 1e-4};
+  GlobalNewton newton(topology, measure_source(mesh), image, {}, 1);
+  const double before = newton.energy(energy);
+  double after = before;
+  for (int i = 0; i < 12; ++i) after = newton.recentre(energy);
+  const double best = distortion_energy(topology, measure_source(mesh), {mesh.positions}, energy);
+  CHECK(after - best < 0.05 * (before - best));
+}
+
+TEST_CASE("quality: each is at least as good as the one before, on a shape with long limbs") {
+  const TriangleMesh mesh = tube(40, 12);
+  const double draft = energy_of(mesh, embedded(mesh, Quality::Draft));
+  const double normal = energy_of(mesh, embedded(mesh, Quality::Normal));
+  const double best = energy_of(mesh, embedded(mesh, Quality::Best));
+  CHECK(normal < draft);
+  CHECK(best <= normal);
+  CHECK(normal < 1.01 * best);
+}

@@ -1,8 +1,6 @@
 // `sphparam map`: file → mesh → map → proof → file. The map waits under a temporary name until what
 // was read back from the disk is certified and everything else is written; then it is renamed.
 
-#include <CLI/CLI.hpp>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -10,12 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "cli/choice.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_codes.h"
 #include "cli/interruption.h"
 #include "cli/json_report.h"
+#include "cli/map_arguments.h"
 #include "cli/paths.h"
 #include "cli/source.h"
 #include "cli/stopwatch.h"
@@ -32,61 +30,6 @@
 namespace sphparam::tools {
 
 namespace {
-
-constexpr char summary[] =
-    "Map a closed genus-0 mesh one-to-one onto the unit sphere, prove it, write it.\n"
-    "\n"
-    "Examples:\n"
-    "  sphparam map statue.obj -o statue.sph.ply\n"
-    "  sphparam map statue.ply -o statue.sph.ply --json map.json --charts charts/\n"
-    "  sphparam map statue.off -o statue.sph.ply --sphere sphere.obj --poles 17,4203\n"
-    "  cat statue.obj | sphparam map - -o - > statue.sph.ply\n"
-    "  sphparam map statue.obj -o folded.sph.ply --method paper --keep-folded\n";
-
-struct MapArguments {
-  std::string input;
-  std::string output;
-  std::string sphere;  // empty: not wanted; so are:
-  std::string json;
-  std::string charts;
-  std::string poles = "auto";
-  bool keep_folded = false;
-  ProgressStyle progress = ProgressStyle::Auto;
-  Loudness loudness;
-  ParameterizeOptions options;
-};
-
-/// "17,23" → vertices 17 and 23.
-std::optional<Poles> parse_poles(const std::string& text) {
-  if (text == "auto") return std::nullopt;
-  Poles poles{};
-  char rest = 0;
-  const int read = std::sscanf(text.c_str(), "%d,%d%c", &poles.north, &poles.south, &rest);
-  if (read != 2 || poles.north < 0 || poles.south < 0 || poles.north == poles.south) {
-    throw UsageMistake("--poles: expected auto or two different vertices, as in 17,23");
-  }
-  return poles;
-}
-
-using Serialiser = std::string (*)(const MeshFile&);
-
-/// By the extension of the name; null for an unknown one.
-Serialiser serialiser(const std::string& path) {
-  const std::string extension = std::filesystem::path(path).extension();
-  if (extension == ".ply") return serialise_ply;
-  if (extension == ".obj") return serialise_obj;
-  if (extension == ".off") return serialise_off;
-  return nullptr;
-}
-
-void require_sensible(const MapArguments& arguments) {
-  if (is_stream(arguments.output) && is_stream(arguments.json)) {
-    throw UsageMistake("-o - and --json - cannot both go to standard output");
-  }
-  if (!arguments.sphere.empty() && !serialiser(arguments.sphere)) {
-    throw UsageMistake("--sphere: the name must end in .ply, .obj or .off");
-  }
-}
 
 /// What one run found; once the map was written, `certificate` is of what was read back.
 struct Outcome {
@@ -262,105 +205,13 @@ int run_map(const MapArguments& arguments) {
   return outcome.certificate.bijective() ? Ok : NotCertified;
 }
 
-/// Options that only the paper's method reads.
-std::vector<CLI::Option*> add_paper_options(CLI::App& command, MapArguments& arguments) {
-  PaperSettings& paper = arguments.options.paper;
-  const std::string group = "With --method paper";
-  return {add_choice<WeightKind>(command, "--weights", paper.weights,
-                                 {{name_of(WeightKind::MeanValue), WeightKind::MeanValue},
-                                  {name_of(WeightKind::Cotangent), WeightKind::Cotangent}},
-                                 "mean-value (default) or cotangent")
-              ->type_name("KIND")
-              ->group(group),
-          command.add_option("--epsilon", paper.epsilon, "phi of the ring about a pole")
-              ->check(between(1e-9, 1.5, "1e-9 to 1.5"))
-              ->type_name("RADIANS")
-              ->capture_default_str()
-              ->group(group),
-          command.add_option("--iterations", paper.iterations, "Quasi-harmonic iterations")
-              ->check(between(0, 1000, "0 to 1000"))
-              ->type_name("N")
-              ->capture_default_str()
-              ->group(group),
-          command.add_option("--rings", paper.rings, "Rings about the date line that are smoothed")
-              ->check(between(0, 1000, "0 to 1000"))
-              ->type_name("N")
-              ->capture_default_str()
-              ->group(group),
-          command.add_option("--sweeps", paper.sweeps, "Sweeps of tangential smoothing")
-              ->check(between(0, 1000, "0 to 1000"))
-              ->type_name("N")
-              ->capture_default_str()
-              ->group(group)};
-}
-
-void add_files(CLI::App& command, MapArguments& arguments) {
-  command.add_option("MESH", arguments.input, "OBJ, PLY or OFF; - for standard input")
-      ->type_name(" ")
-      ->required();
-  command.add_option("-o,--output", arguments.output, "The map, a .sph.ply; - for standard output")
-      ->type_name("FILE")
-      ->required();
-  command.add_option("--sphere", arguments.sphere, "The bare sphere too: .ply, .obj or .off")
-      ->type_name("FILE");
-  command.add_option("--json", arguments.json, "A report; - for standard output")
-      ->type_name("FILE");
-  command.add_option("--charts", arguments.charts, "The distortion as SVG charts")
-      ->type_name("FOLDER");
-}
-
-void add_method(CLI::App& command, MapArguments& arguments) {
-  ParameterizeOptions& options = arguments.options;
-  add_choice<Method>(command, "--method", options.method,
-                     {{name_of(Method::Progressive), Method::Progressive},
-                      {name_of(Method::Curvilinear), Method::Curvilinear},
-                      {name_of(Method::Paper), Method::Paper}},
-                     "progressive (default), curvilinear, or paper: as printed, folds and all")
-      ->type_name("METHOD");
-  command.add_option("--poles", arguments.poles, "Vertices that go to +z and -z, as 17,4203")
-      ->type_name("auto|V1,V2")
-      ->capture_default_str();
-  command.add_option("--lambda", options.energy.lambda, "Weight of area against angle")
-      ->check(between(1e-8, 1e3, "1e-8 to 1000"))
-      ->type_name("NUMBER")
-      ->capture_default_str();
-  command.add_flag("--repair-map", options.repair_paper, "Untangle what --method paper folds");
-  command.add_flag("--keep-folded", arguments.keep_folded,
-                   "Write a folded map too, marked in its header; still ends with 5");
-  command.add_option("--threads", options.threads, "How many threads (0: all cores); same bytes")
-      ->check(between(0, 4096, "0 to 4096"))
-      ->type_name("N")
-      ->capture_default_str();
-}
-
-void add_progress(CLI::App& command, MapArguments& arguments) {
-  add_choice<ProgressStyle>(
-      command, "--progress", arguments.progress,
-      {{"auto", ProgressStyle::Auto}, {"none", ProgressStyle::None}, {"json", ProgressStyle::Json}},
-      "auto (on a terminal), none or json")
-      ->type_name("STYLE");
-}
-
 }  // namespace
 
 Command declare_map(CLI::App& program) {
   const auto arguments = std::make_shared<MapArguments>();
-  CLI::App* command = program.add_subcommand("map", summary);
-  add_files(*command, *arguments);
-  add_method(*command, *arguments);
-  const std::vector<CLI::Option*> paper_only = add_paper_options(*command, *arguments);
-  add_progress(*command, *arguments);
-  add_loudness(*command, arguments->loudness);
-  return {command, [arguments, paper_only] {
-            for (const CLI::Option* option : paper_only) {
-              if (option->count() > 0 && arguments->options.method != Method::Paper) {
-                throw UsageMistake(option->get_name() + " is for --method paper only");
-              }
-            }
-            require_sensible(*arguments);
-            arguments->options.poles = parse_poles(arguments->poles);
-            arguments->options.measure_stages =
-                arguments->options.method == Method::Paper || arguments->loudness.verbose;
+  const MapDeclaration declared = declare_map_arguments(program, *arguments);
+  return {declared.options, [arguments, settle = declared.settle] {
+            settle();
             return run_map(*arguments);
           }};
 }

@@ -20,6 +20,7 @@
 #include "mesh_io/safe_file.h"
 #include "mesh_io/sphere_file.h"
 #include "render/render.h"
+#include "render/vertex_normals.h"
 #include "sphparam/sphere/distortion.h"
 
 namespace sphparam::tools {
@@ -98,17 +99,9 @@ std::optional<VertexPaint> own_colours(const MeshFile& file) {
 /// Each direction of the surface has its own pastel colour: features stay recognisable wherever
 /// they are mapped to.
 VertexPaint normal_colours(const TriangleMesh& mesh) {
-  Points normals = Points::Zero(mesh.vertex_count(), 3);
-  for (Face f = 0; f < mesh.face_count(); ++f) {
-    const auto corners = mesh.triangles.row(f);
-    const Vector3 a = mesh.position(corners[0]);
-    const Vector3 area = (mesh.position(corners[1]) - a).cross(mesh.position(corners[2]) - a);
-    for (int corner = 0; corner < 3; ++corner) normals.row(corners[corner]) += area.transpose();
-  }
   VertexPaint paint;
-  for (Vertex v = 0; v < mesh.vertex_count(); ++v) {
-    const Vector3 n = normals.row(v).stableNormalized();
-    paint.colours.push_back((0.7 + 0.25 * n.array()).cast<float>().matrix());
+  for (const auto& normal : vertex_normals(mesh).rowwise()) {
+    paint.colours.push_back((0.7 + 0.25 * normal.array()).cast<float>().matrix().transpose());
   }
   return paint;
 }
@@ -183,9 +176,10 @@ Camera framing(const Points& points, const RenderArguments& arguments) {
 
 Image draw(const Points& positions, const Paint& paint, const Subject& subject,
            const RenderArguments& arguments) {
-  RenderObject object = {.mesh = {positions, subject.file.mesh.triangles},
-                         .paint = paint,
-                         .occlusion = arguments.occlusion};
+  RenderObject object;
+  object.mesh = {positions, subject.file.mesh.triangles};
+  object.paint = paint;
+  object.occlusion = arguments.occlusion;
   if (arguments.wire) object.wireframe = Wireframe{};
   if (arguments.graticule) {
     object.graticule = Graticule{.rays = subject.required_map("--graticule").points};

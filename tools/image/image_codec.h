@@ -29,7 +29,7 @@ struct ImageLimits {
 
 struct ImageWriteOptions {
   SampleType sample_type = SampleType::Uint8;  // PNG: Uint8 or Uint16; EXR: Half or Float
-  std::vector<std::pair<std::string, std::string>> metadata;  // text, name and value
+  std::vector<std::pair<std::string, std::string>> metadata = {};  // text, name and value
 };
 
 /// Pixels as they are in the file, integers scaled to [0, 1], alpha not multiplied in, no colour

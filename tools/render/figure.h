@@ -27,7 +27,7 @@ struct FigureOptions {
   Vector3 view{1, -1.6, 0.5};                    // from the mesh towards the eye
   Vector3 up{0, 0, 1};                           // of the mesh
   std::optional<Rgb> background = Rgb(1, 1, 1);  // none: transparent
-  std::optional<Image> texture;
+  std::optional<Image> texture = std::nullopt;
 };
 
 /// The standard picture of a map, after the paper's Figures 1 and 8: left the mesh, right the

@@ -19,7 +19,7 @@ namespace {
 constexpr int least_vertices = 100;
 constexpr int growth = 4;  // from one level that is due to the next
 constexpr double worthwhile = 1e-3;
-constexpr int coarse_steps = 10, finest_steps = 4, best_steps = 100;
+constexpr int coarse_steps = 20, finest_steps = 8, best_steps = 100;
 constexpr double coarse_gain = 5e-4, finest_gain = 1e-3, best_gain = 1e-6;
 constexpr int sweeps_between = 4;
 constexpr double linear_tolerance = 0.5;
@@ -51,7 +51,7 @@ void Finish::improve(const Topology& topology, const SourceTriangles& source,
   const double enough = best ? best_gain : finest ? finest_gain : coarse_gain;
   GlobalNewton newton(topology, source, image, pinned, threads_);
   double energy = newton.energy(energy_);
-  if (!std::isfinite(energy)) return;  // a determinant is positive, yet not certain to be
+  if (!newton.can_move() || !std::isfinite(energy)) return;  // not finite: positive, not certain
   for (int step = 0; step < most_steps; ++step) {
     newton.step(energy_, linear_tolerance);
     newton.sweep(energy_, sweeps_between);

@@ -325,6 +325,10 @@ void GlobalNewton::sweep(const DistortionEnergy& energy, int sweeps) {
   }
 }
 
+bool GlobalNewton::can_move() const {
+  return std::find(pinned_.begin(), pinned_.end(), 0) != pinned_.end();
+}
+
 GlobalNewton::Step GlobalNewton::step(const DistortionEnergy& energy, double tolerance) {
   const double before = energy_of(energy, image_);
   assemble(energy);

@@ -25,6 +25,9 @@ class GlobalNewton {
     double length;   // of the step, in Newton steps; 0: nothing moved
   };
 
+  /// Is there a vertex that is not pinned?
+  bool can_move() const;
+
   /// One projected Newton step, the system solved to `tolerance`, with line search. No orientation
   /// is lost, decided by the guard.
   Step step(const DistortionEnergy& energy, double tolerance);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "embedding/global_newton.h"
+#include "sphparam/parallel.h"
 
 // A step: projected Newton (global_newton.cpp), then sweeps of guarded relaxation, which smooth
 // what the step has creased and so lengthen the next one. Towards λ = 0 the Möbius transformations
@@ -19,7 +20,7 @@ constexpr double on_the_way_gain = 1e-2;
 constexpr int on_the_way_steps = 12;
 constexpr double factor_down = 0.1, factor_up = 4;
 constexpr double least_lambda = 1e-10, greatest_lambda = 1e6;
-constexpr double no_difference = 1e-3;  // by a factor of λ, in E − E(isometry)
+constexpr double no_difference = 2e-3;  // of the mean angle error, by a factor of λ
 
 /// A f of an isometry: what no map of small triangles gets below.
 double isometric_energy(const SourceTriangles& source, const DistortionEnergy& energy) {
@@ -28,22 +29,56 @@ double isometric_energy(const SourceTriangles& source, const DistortionEnergy& e
   return area * (energy.kind == EnergyKind::SymmetricDirichlet ? 2 : 1 + energy.lambda);
 }
 
+ImageTriangle triangle_of(const Topology& topology, const std::vector<ImagePoint>& image, Face f) {
+  const auto corner = [&](int k) {
+    return image[static_cast<size_t>(topology.vertex(f, k))].vector();
+  };
+  return {corner(0), corner(1), corner(2)};
+}
+
 /// Mean |log2 (|Ω| / A)|, weighted by A. |Ω| = 2 atan2(det(a, b, c), 1 + a·b + b·c + c·a)
 double area_error(const Topology& topology, const SourceTriangles& source,
-                  const std::vector<ImagePoint>& image) {
-  double sum = 0, area = 0;
-  for (Face f = 0; f < topology.face_count(); ++f) {
-    const auto corner = [&](int k) {
-      return image[static_cast<size_t>(topology.vertex(f, k))].vector();
-    };
-    const Vector3 a = corner(0), b = corner(1), c = corner(2);
-    const double det = a.dot((b - a).cross(c - a));
-    const double angle = 2 * std::atan2(det, 1 + a.dot(b) + b.dot(c) + c.dot(a));
-    const double source_area = source[static_cast<size_t>(f)].area;
-    sum += source_area * std::abs(std::log2(angle / source_area));
-    area += source_area;
-  }
-  return sum / area;
+                  const std::vector<ImagePoint>& image, int threads) {
+  double area = 0;
+  for (const SourceTriangle& triangle : source) area += triangle.area;
+  const auto chunk = [&](std::int64_t first, std::int64_t last) {
+    double sum = 0;
+    for (Face f = static_cast<Face>(first); f < static_cast<Face>(last); ++f) {
+      const auto [a, b, c] = triangle_of(topology, image, f);
+      const double det = a.dot((b - a).cross(c - a));
+      const double angle = 2 * std::atan2(det, 1 + a.dot(b) + b.dot(c) + c.dot(a));
+      const double source_area = source[static_cast<size_t>(f)].area;
+      sum += source_area * std::abs(std::log2(angle / source_area));
+    }
+    return sum;
+  };
+  return parallel_sum(topology.face_count(), threads, chunk) / area;
+}
+
+/// The angle at `corner` of a triangle.
+double angle_at(const ImageTriangle& x, size_t corner) {
+  const Vector3 a = x[(corner + 1) % 3] - x[corner], b = x[(corner + 2) % 3] - x[corner];
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+/// Mean |ln (angle of the chord triangle / angle of the source)| over all corners.
+double angle_error(const Topology& topology, const SourceTriangles& source,
+                   const std::vector<ImagePoint>& image, int threads) {
+  const auto chunk = [&](std::int64_t first, std::int64_t last) {
+    double sum = 0;
+    for (Face f = static_cast<Face>(first); f < static_cast<Face>(last); ++f) {
+      const SourceTriangle& s = source[static_cast<size_t>(f)];
+      const double base = 1 / s.inverse_base;
+      const ImageTriangle before{Vector3::Zero(), Vector3(base, 0, 0),
+                                 Vector3(s.foot * base, 1 / s.inverse_height, 0)};
+      const ImageTriangle after = triangle_of(topology, image, f);
+      for (size_t k = 0; k < 3; ++k) {
+        sum += std::abs(std::log(angle_at(after, k) / angle_at(before, k)));
+      }
+    }
+    return sum;
+  };
+  return parallel_sum(topology.face_count(), threads, chunk) / (3.0 * topology.face_count());
 }
 
 std::vector<ImagePoint> image_of(const SphereMap& map) {
@@ -54,8 +89,7 @@ std::vector<ImagePoint> image_of(const SphereMap& map) {
   return image;
 }
 
-SphereMap map_of(const GlobalNewton& newton, std::vector<ImagePoint>& image) {
-  newton.write_to(image);
+SphereMap map_of(const std::vector<ImagePoint>& image) {
   SphereMap map;
   map.points.resize(static_cast<Eigen::Index>(image.size()), 3);
   for (size_t v = 0; v < image.size(); ++v) {
@@ -69,7 +103,7 @@ void minimise(GlobalNewton& newton, double isometric, const OptimiseOptions& opt
               OptimiseReport& r) {
   r.converged = false;
   r.energy_before = r.energy_after = newton.energy(options.energy);
-  if (!std::isfinite(r.energy_before)) return;
+  if (!std::isfinite(r.energy_before) || !newton.can_move()) return;
   bool recentring = options.energy.kind == EnergyKind::AngleAndArea &&
                     options.energy.lambda < loose_lambda && options.pinned.empty();
   for (int n = 0; n < options.max_steps && !r.converged; ++n) {
@@ -97,44 +131,102 @@ Optimisation optimise(const Topology& topology, const SourceTriangles& source, c
   GlobalNewton newton(topology, source, image, options.pinned, options.threads);
   Optimisation result;
   minimise(newton, isometric_energy(source, options.energy), options, result.report);
-  result.map = map_of(newton, image);
+  newton.write_to(image);
+  result.map = map_of(image);
   return result;
 }
 
+namespace {
+
+/// Takes a map from λ to λ.
+class Continuation {
+ public:
+  Continuation(const Topology& topology, const SourceTriangles& source, const SphereMap& map,
+               const BalanceOptions& options)
+      : topology_(topology),
+        source_(source),
+        options_(options),
+        lambda_(options.from_lambda),
+        image_(image_of(map)),
+        newton_(topology, source, image_, options.optimise.pinned, options.optimise.threads) {}
+
+  BalancedMap run() {
+    switch (options_.balance) {
+      case Balance::Lambda:
+        while (lambda_ != options_.optimise.energy.lambda) go(options_.optimise.energy.lambda);
+        finish();
+        break;
+      case Balance::EqualArea:
+        while (error_of_areas() > options_.area_error && lambda_ != greatest_lambda) {
+          go(greatest_lambda);
+        }
+        finish();
+        break;
+      case Balance::Conformal:
+        go_conformal();
+        break;
+    }
+    return {map_of(image_), lambda_, error_of_areas(), report_};
+  }
+
+ private:
+  /// One factor of λ towards the aim.
+  void go(double aim) {
+    lambda_ =
+        aim < lambda_ ? std::max(aim, lambda_ * factor_down) : std::min(aim, lambda_ * factor_up);
+    OptimiseOptions rough = options_.optimise;
+    rough.least_gain = std::max(rough.least_gain, on_the_way_gain);
+    rough.max_steps = std::min(rough.max_steps, on_the_way_steps);
+    settle(rough);
+  }
+
+  void finish() { settle(options_.optimise); }
+
+  void settle(OptimiseOptions how) {
+    how.energy.lambda = lambda_;
+    minimise(newton_, isometric_energy(source_, how.energy), how, report_);
+    newton_.write_to(image_);
+  }
+
+  /// As long as the mean angle error falls. (It need not, in the end: the energy weighs triangles
+  /// by their area, and so few large ones of the image against many small ones.)
+  void go_conformal() {
+    double error = error_of_angles();
+    while (lambda_ > least_lambda) {
+      const double lambda_before = lambda_;
+      const std::vector<ImagePoint> before = image_;
+      go(least_lambda);
+      const double now = error_of_angles();
+      if (now > error) {
+        image_ = before;
+        lambda_ = lambda_before;
+      }
+      if (!(now < (1 - no_difference) * error)) return;
+      error = now;
+    }
+  }
+
+  double error_of_areas() const {
+    return area_error(topology_, source_, image_, options_.optimise.threads);
+  }
+  double error_of_angles() const {
+    return angle_error(topology_, source_, image_, options_.optimise.threads);
+  }
+
+  const Topology& topology_;
+  const SourceTriangles& source_;
+  const BalanceOptions& options_;
+  double lambda_;
+  std::vector<ImagePoint> image_;
+  GlobalNewton newton_;
+  OptimiseReport report_;
+};
+
+}  // namespace
+
 BalancedMap optimise_balance(const Topology& topology, const SourceTriangles& source,
                              const SphereMap& map, const BalanceOptions& options) {
-  std::vector<ImagePoint> image = image_of(map);
-  GlobalNewton newton(topology, source, image, options.optimise.pinned, options.optimise.threads);
-  const bool given = options.balance == Balance::Lambda;
-  const double aim = given                                   ? options.optimise.energy.lambda
-                     : options.balance == Balance::Conformal ? least_lambda
-                                                             : greatest_lambda;
-  BalancedMap result{{}, options.from_lambda, area_error(topology, source, image), {}};
-  OptimiseOptions rough = options.optimise;
-  rough.least_gain = std::max(rough.least_gain, on_the_way_gain);
-  rough.max_steps = std::min(rough.max_steps, on_the_way_steps);
-  const auto minimise_for = [&](const OptimiseOptions& how) {
-    OptimiseOptions now = how;
-    now.energy.lambda = result.lambda;
-    const double isometric = isometric_energy(source, now.energy);
-    minimise(newton, isometric, now, result.report);
-    return (result.report.energy_before - result.report.energy_after) /
-           (result.report.energy_after - isometric);
-  };
-  const bool equal_area = options.balance == Balance::EqualArea;
-  while (result.lambda != aim && !(equal_area && result.area_error <= options.area_error)) {
-    const bool down = aim < result.lambda;
-    const double next = result.lambda * (down ? factor_down : factor_up);
-    result.lambda = down ? std::max(aim, next) : std::min(aim, next);
-    const double gain = minimise_for(rough);
-    newton.write_to(image);
-    result.area_error = area_error(topology, source, image);
-    if (options.balance == Balance::Conformal && gain < no_difference) break;
-  }
-  minimise_for(options.optimise);
-  result.map = map_of(newton, image);
-  result.area_error = area_error(topology, source, image);
-  return result;
+  return Continuation(topology, source, map, options).run();
 }
 
 }  // namespace sphparam

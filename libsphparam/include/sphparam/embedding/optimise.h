@@ -47,7 +47,7 @@ Optimisation optimise(const Topology& topology, const SourceTriangles& source, c
 /// What a map gives up for what.
 enum class Balance {
   Lambda,     // as energy.lambda says
-  Conformal,  // angles, whatever the areas: λ towards 0 until it makes no difference
+  Conformal,  // angles, whatever the areas: λ towards 0 as long as the mean angle error falls
   EqualArea,  // areas within `area_error`, then angles: the least λ that does it
 };
 

@@ -13,7 +13,7 @@ struct UntangleOptions {
   int max_rounds = 7;               // so at most 128 rings
   int max_patch = 20000;            // vertices; a larger patch loses its outer rings
   int max_steps = 60;               // Newton steps a patch and round
-  double max_work = 4e6;            // Σ patch vertices × steps, after which no new round begins
+  double max_work = 3e5;            // Σ patch vertices × steps, after which no new round begins
   std::vector<Vertex> pinned = {};  // that may not move: poles
   int threads = 0;                  // 0: all cores; patches are solved side by side
   Progress progress = {};           // told after every round
