@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "sphparam/mesh/topology.h"
@@ -76,7 +77,7 @@ class FlippableMesh {
       return std::atan2(u.cross(v).norm(), u.dot(v));
     };
     constexpr double margin = 1e-3;  // or rounding could flip an edge to and fro
-    if (angle(a - c, b - c) + angle(b - d, a - d) < EIGEN_PI + margin) return false;
+    if (angle(a - c, b - c) + angle(b - d, a - d) < std::numbers::pi + margin) return false;
     const Vector3 normal = (b - a).cross(c - a) + (d - a).cross(b - a);
     return (d - a).cross(c - a).dot(normal) > 0 && (c - b).cross(d - b).dot(normal) > 0;
   }

@@ -11,6 +11,10 @@
 
 #include "image/image_codec.h"
 
+#ifdef __SANITIZE_ADDRESS__
+#include <sanitizer/lsan_interface.h>
+#endif
+
 using namespace sphparam::tools;
 using Catch::Detail::Approx;
 using Catch::Matchers::Contains;
@@ -32,6 +36,16 @@ bool same_pixels(const Image& a, const Image& b) {
   return a.width == b.width && a.height == b.height && a.channels == b.channels &&
          std::equal(a.pixels.begin(), a.pixels.end(), b.pixels.begin(), b.pixels.end(),
                     [](float x, float y) { return std::abs(x - y) < 1e-6F; });
+}
+
+/// The checksum of a PNG chunk.
+std::uint32_t crc(const std::vector<char>& bytes, size_t first, size_t last) {
+  std::uint32_t value = ~0U;
+  for (size_t i = first; i < last; ++i) {
+    value ^= static_cast<unsigned char>(bytes[i]);
+    for (int bit = 0; bit < 8; ++bit) value = value & 1 ? (value >> 1) ^ 0xedb88320U : value >> 1;
+  }
+  return ~value;
 }
 
 bool loaded_openimageio() {
@@ -102,19 +116,26 @@ TEST_CASE("image codec: limits are judged before pixels are allocated, exactly a
 }
 
 TEST_CASE("image codec: a truncated or a bomb-like file is an error, never a crash") {
+#ifdef __SANITIZE_ADDRESS__
+  // OpenImageIO 2.4 loses 31 bytes at each: libpng jumps over the end of its message.
+  const __lsan::ScopedDisabler leaks_of_others;
+#endif
   const auto bytes = encode_image(ramp(256, 256, 3, 256), ImageFormat::Png);
   for (const size_t keep : {size_t{8}, size_t{20}, size_t{40}, bytes.size() / 2}) {
     const std::vector<char> cut(bytes.begin(), bytes.begin() + static_cast<long>(keep));
     CHECK_THROWS_AS(decode_image(cut, "cut.png"), ImageError);
   }
-  // A header that claims 12,000 × 12,000 pixels in front of next to nothing.
-  std::vector<char> bomb(bytes.begin(), bytes.begin() + 2000);
+  // A header that claims 12,000 × 12,000 pixels in front of next to nothing: 432 MB are within the
+  // limit, but not for so few bytes.
+  std::vector<char> bomb = bytes;
   for (const size_t at : {size_t{16}, size_t{20}}) {
     bomb[at] = bomb[at + 1] = 0;
     bomb[at + 2] = 0x2e;
     bomb[at + 3] = static_cast<char>(0xe0);
   }
-  CHECK_THROWS_AS(decode_image(bomb, "bomb.png"), ImageError);
+  const std::uint32_t checksum = crc(bomb, 12, 29);  // of IHDR's name and content
+  for (size_t k = 0; k < 4; ++k) bomb[29 + k] = static_cast<char>(checksum >> (24 - 8 * k));
+  CHECK_THROWS_WITH(decode_image(bomb, "bomb.png"), Contains("far larger"));
 }
 
 TEST_CASE("image codec: files are written and read by name, wrong names and types are refused") {

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numbers>
 
 #include "render/figure.h"
 #include "render/render.h"
@@ -51,7 +52,7 @@ TEST_CASE("render: a ball covers the disk that it should, corners are background
   CHECK_FALSE(is_background(opaque, 100, 100));
   scene.background.reset();
   // π r² / height² with r = 1
-  CHECK(share_covered(render(scene)) == Approx(EIGEN_PI / 6.25).epsilon(0.005));
+  CHECK(share_covered(render(scene)) == Approx(std::numbers::pi / 6.25).epsilon(0.005));
 }
 
 TEST_CASE("render: a perspective eye sees less of a ball, and it looks larger") {
@@ -59,9 +60,10 @@ TEST_CASE("render: a perspective eye sees less of a ball, and it looks larger") 
   scene.background.reset();
   scene.camera.field_of_view = 60;
   // Eye at distance 1.25/tan 30°; the silhouette's circle has tangent 1/√(d²−1).
-  const double distance = 1.25 / std::tan(EIGEN_PI / 6);
+  const double distance = 1.25 / std::tan(std::numbers::pi / 6);
   const double radius = distance / std::sqrt(distance * distance - 1);
-  CHECK(share_covered(render(scene)) == Approx(EIGEN_PI * radius * radius / 6.25).epsilon(0.005));
+  CHECK(share_covered(render(scene)) ==
+        Approx(std::numbers::pi * radius * radius / 6.25).epsilon(0.005));
 }
 
 TEST_CASE("render: the nearer of two objects is seen, whatever their order") {
@@ -100,7 +102,7 @@ TEST_CASE("render: the checker is exact in every pixel") {
   const Image image = render(scene);
   // Seen from +x: y to the right, z up. The fields about θ = ±7.5° at ϕ = 82.5° and 97.5°.
   const auto at = [&](double theta, double phi) {
-    const double t = theta * EIGEN_PI / 180, p = phi * EIGEN_PI / 180;
+    const double t = theta * std::numbers::pi / 180, p = phi * std::numbers::pi / 180;
     const int x = static_cast<int>(150 + std::sin(t) * std::sin(p) * 120);
     const int y = static_cast<int>(150 - std::cos(p) * 120);
     return image.pixel(x, y);
@@ -184,10 +186,7 @@ TEST_CASE("sky_visibility: a convex shape sees all of its sky, a pit only a part
   const Eigen::VectorXf light = sky_visibility(mesh, vertex_normals(mesh));
   Eigen::Index north = 0, south = 0;
   mesh.positions.col(2).minCoeff(&south);
-  for (Eigen::Index v = 0; v < mesh.vertex_count(); ++v) {
-    const Vector3 d = mesh.position(v).normalized();
-    if (d.z() > mesh.position(north).normalized().z()) north = v;
-  }
+  mesh.positions.rowwise().normalized().eval().col(2).maxCoeff(&north);
   CHECK(light[north] < 0.8F);
   CHECK(light[south] > 0.97F);
 }

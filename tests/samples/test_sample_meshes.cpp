@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <string>
 
 #include "geodesic_sphere.h"
@@ -115,7 +116,7 @@ TEST_CASE("level_set: two merged balls are one closed oriented surface, vertices
   const MeshInspection inspection = inspect_mesh(mesh);
   CHECK(inspection.is_sphere());
   // Two balls less the lens: two caps of height 0.8 − 0.5.
-  const double pi = EIGEN_PI, cap = pi * 0.3 * 0.3 * (3 * 0.8 - 0.3) / 3;
+  const double pi = std::numbers::pi, cap = pi * 0.3 * 0.3 * (3 * 0.8 - 0.3) / 3;
   CHECK(inspection.volume == Approx(2 * (4 * pi / 3 * 0.512 - cap)).epsilon(0.03));
 }
 
@@ -201,7 +202,7 @@ TEST_CASE("samples: the cortex is a sphere, deeply folded, with overhangs") {
   CHECK(cortex.mesh.face_count() == 40500);
   const MeshInspection inspection = inspect_mesh(cortex.mesh);
   // Area against that of the ball of the same volume.
-  const double ball = std::cbrt(36 * EIGEN_PI * inspection.volume * inspection.volume);
+  const double ball = std::cbrt(36 * std::numbers::pi * inspection.volume * inspection.volume);
   CHECK(inspection.area > 1.8 * ball);
   double hanging = 0;
   for (Eigen::Index f = 0; f < cortex.mesh.face_count(); ++f) {

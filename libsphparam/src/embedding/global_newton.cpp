@@ -17,6 +17,7 @@ namespace {
 
 constexpr int block_size = 512;  // vertices
 constexpr std::int64_t vertex_grain = 2048, block_grain = 4;
+constexpr int least_parallel_vertices = 4096;  // below it waking other threads costs more
 constexpr int most_iterations = 60;
 constexpr double longest_step = 0.7;  // radians, of any vertex
 constexpr double sufficient_decrease = 1e-4;
@@ -69,7 +70,8 @@ std::vector<Vertex> patch_order(const Topology& topology) {
 GlobalNewton::GlobalNewton(const Topology& topology, const SourceTriangles& source,
                            const std::vector<ImagePoint>& image, const std::vector<Vertex>& pinned,
                            int threads)
-    : threads_(threads), old_name_(patch_order(topology)) {
+    : threads_(topology.vertex_count() < least_parallel_vertices ? 1 : threads),
+      old_name_(patch_order(topology)) {
   const int n = topology.vertex_count();
   new_name_.resize(at(n));
   image_.resize(at(n));

@@ -1,109 +1,227 @@
 #include "sphparam/embedding/landmarks.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
+#include <numbers>
+#include <numeric>
 
 #include "embedding/orientations.h"
-#include "sphparam/embedding/newton.h"
 #include "sphparam/embedding/relaxation.h"
+#include "sphparam/parallel.h"
 
-// A round: (1) each pin in turn goes a part t of its way, t = 1, ½, ¼ …, the first for which all
-// triangles of its ring stay positive; where t < 1 it then draws back by half, so as not to lie on
-// the border of the kernel; (2) relaxation of all other vertices.
+// A round: (1) the field v(x) = Σ_j k(|x − x_j|) w_j, with v(x_i) the way of pin i, moves all
+// vertices by the largest part 1, ½, ¼ … of it that folds nothing; (2) a pin whose point lies in
+// the kernel of its ring goes there; (3) all other vertices relax. When no part of the field will
+// do, pins go singly, each as far as the kernel of its ring lets it.
 
 namespace sphparam {
 namespace {
 
-constexpr double least_part = 1e-3;      // of the way left: a shorter move is none
-const double kernel_width = getenv("KW") ? atof(getenv("KW")) : 0.5;
-const int patience = getenv("PA") ? atoi(getenv("PA")) : 30;             // rounds
-constexpr double least_progress = 0.02;  // of the sum of residuals, within `patience` rounds
+constexpr double kernel_width = 0.5;      // radians: what a pin takes along with it
+constexpr double longest_move = 0.3;      // radians in a round
+constexpr double least_part = 1e-3;       // of a move: a shorter one is none
+constexpr int patience = 15;              // rounds
+constexpr double least_progress = 0.02;   // of the sum of residuals, within `patience` rounds
+constexpr int detour_rounds = 5;          // moves aside
+constexpr int detour_sweeps = 20;         // of relaxation before, with blocked pins let go
+constexpr double right_turn = -1.2;       // radians; less than π/2: some of the way is gained too
+constexpr double opposite = 1e-12;        // sine of an angle below which a great circle is undefined
+constexpr std::int64_t grain = 256;
 
-Vector3 along_great_circle(const Vector3& from, const Vector3& to, double part) {
-  const double angle = std::atan2(from.cross(to).norm(), from.dot(to));
-  Vector3 side = to - from.dot(to) * from;
-  // Opposite points: any great circle serves.
-  side = side.norm() > 1e-12 ? Vector3(side.normalized()) : from.unitOrthogonal();
-  return (std::cos(part * angle) * from + std::sin(part * angle) * side).normalized();
-}
-
-/// Moves one pin along its way; false where it cannot.
-bool advance(const Topology& topology, SphereMap& map, const Pin& pin) {
-  const Vector3 from = map.point(pin.vertex);
-  const auto fits = [&](const Vector3& x) {
-    map.points.row(pin.vertex) = x;
-    return ring_is_positive(topology, map, pin.vertex);
-  };
-  if (fits(pin.point)) return true;
-  for (double part = 0.5; part > least_part; part /= 2) {
-    if (!fits(along_great_circle(from, pin.point, part))) continue;
-    if (!fits(along_great_circle(from, pin.point, part / 2))) break;
-    return true;
-  }
-  map.points.row(pin.vertex) = from;
-  return false;
-}
-
-Vector3 way_to(const Vector3& from, const Vector3& to) {
+/// The tangent vector at `from` whose great circle reaches `to` after its length.
+Vector3 way(const Vector3& from, const Vector3& to) {
   const Vector3 side = to - from.dot(to) * from;
-  const double sine = side.norm();
-  const double angle = std::atan2(from.cross(to).norm(), from.dot(to));
-  return sine > 1e-12 ? Vector3(angle / sine * side) : Vector3(angle * from.unitOrthogonal());
+  const double sine = side.norm(), angle = std::atan2(from.cross(to).norm(), from.dot(to));
+  if (angle == 0) return Vector3::Zero();
+  if (sine < opposite && angle > 1) return angle * from.unitOrthogonal();  // any will do
+  return angle / sine * side;
 }
 
+/// Once continuously differentiable (Matérn 3/2): pins that lie close keep the system regular.
 double kernel(double distance) {
   const double r = distance / kernel_width;
   return (1 + r) * std::exp(-r);
 }
 
-/// Moves all vertices by a smooth field that takes every pin along its way; false where no part
-/// of the way keeps the map valid.
-bool flow(const Topology& topology, SphereMap& map, const std::vector<Pin>& pins, int threads, double turn) {
-  const Eigen::Index k = static_cast<Eigen::Index>(pins.size());
-  Eigen::MatrixXd kernels(k, k), ways(k, 3);
-  double longest = 0;
-  for (Eigen::Index i = 0; i < k; ++i) {
-    const Vector3 x = map.point(pins[static_cast<size_t>(i)].vertex);
-    ways.row(i) = way_to(x, pins[static_cast<size_t>(i)].point);
-    if (turn != 0 && ways.row(i).norm() > 0) {const Vector3 w = ways.row(i).normalized(); ways.row(i) = 0.3 * (std::cos(turn) * w + std::sin(turn) * x.cross(w));}
-    longest = std::max(longest, ways.row(i).norm());
-    for (Eigen::Index j = 0; j < k; ++j) {
-      kernels(i, j) = kernel((x - map.point(pins[static_cast<size_t>(j)].vertex)).norm());
-    }
-  }
-  if (longest == 0) return false;
-  const Eigen::MatrixXd weights = kernels.ldlt().solve(ways);
-  Points field = Points::Zero(map.points.rows(), 3);
-  for (Eigen::Index v = 0; v < map.points.rows(); ++v) {
-    for (Eigen::Index j = 0; j < k; ++j) {
-      const double w = kernel((map.points.row(v) - map.points.row(pins[static_cast<size_t>(j)].vertex)).norm());
-      field.row(v) += w * weights.row(j);
-    }
-    field.row(v) -= field.row(v).dot(map.points.row(v)) * map.points.row(v);
-  }
-  for (double part = std::min(1.0, 0.3 / longest); part > least_part; part /= 2) {
-    SphereMap moved = normalised(map.points + part * field);
-    if (!all_triangles_positive(topology, moved, threads)) continue;
-    map = std::move(moved);
-    return true;
-  }
-  return false;
+double sum(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-double sum(const std::vector<double>& values) {
-  double total = 0;
-  for (const double value : values) total += value;
-  return total;
-}
+class Traveller {
+ public:
+  Traveller(const Topology& topology, const SourceTriangles& source, const SphereMap& map,
+            const std::vector<Pin>& pins, const LandmarkOptions& options)
+      : topology_(topology), source_(source), pins_(pins), options_(options) {
+    result_.map = map;
+    result_.residuals = pin_residuals(map, pins);
+    const bool somewhere = std::ranges::count(result_.residuals, 0.0) == 0;
+    if (somewhere) rotate(best_rotation(map, pins));
+    snap();
+  }
+
+  LandmarkPlacement run() {
+    start_ = std::max(sum(result_.residuals), std::numeric_limits<double>::min());
+    while (!travel() && result_.detours < options_.most_detours &&
+           result_.rounds < options_.most_rounds) {
+      step_aside();
+    }
+    return std::move(result_);
+  }
+
+ private:
+  void rotate(const Eigen::Matrix3d& rotation) {
+    SphereMap rotated = normalised(result_.map.points * rotation.transpose());
+    if (all_triangles_positive(topology_, rotated, options_.threads)) {
+      result_.map = std::move(rotated);
+    }
+  }
+
+  /// Rounds until all pins are where they should be (true), or stall.
+  bool travel() {
+    std::vector<double> history;
+    const auto stalled = [&] {
+      const size_t k = history.size();
+      return k > patience && history[k - 1] > (1 - least_progress) * history[k - 1 - patience];
+    };
+    while (!result_.exact()) {
+      if (stalled() || result_.rounds++ == options_.most_rounds) return false;
+      if (!flow(ways(0))) creep();
+      snap();
+      relax_with_pins_held(options_.sweeps);
+      history.push_back(sum(result_.residuals));
+      report(options_.progress, "pins", std::max(0.0, 1 - history.back() / start_));
+    }
+    return true;
+  }
+
+  void step_aside() {
+    ++result_.detours;
+    std::vector<Vertex> arrived;
+    for (size_t i = 0; i < pins_.size(); ++i) {
+      if (result_.residuals[i] == 0) arrived.push_back(pins_[i].vertex);
+    }
+    relax_around(std::move(arrived), detour_sweeps);
+    for (int i = 0; i < detour_rounds; ++i) {
+      flow(ways(right_turn));
+      snap();
+      relax_with_pins_held(options_.sweeps);
+    }
+  }
+
+  /// Each pin's way, cut to the longest move; with a turn, all that have a way left go that far.
+  Eigen::MatrixXd ways(double turn) const {
+    Eigen::MatrixXd result(std::ssize(pins_), 3);
+    for (Eigen::Index i = 0; i < result.rows(); ++i) {
+      const Pin& pin = pins_[static_cast<size_t>(i)];
+      const Vector3 x = result_.map.point(pin.vertex);
+      Vector3 w = way(x, pin.point);
+      if (turn != 0 && w.norm() > 0) {
+        w = longest_move * Vector3(Eigen::AngleAxisd(turn, x) * w.normalized());
+      }
+      result.row(i) = w;
+    }
+    const double longest = result.rowwise().norm().maxCoeff();
+    return longest > longest_move ? Eigen::MatrixXd(longest_move / longest * result) : result;
+  }
+
+  /// Moves all vertices by the field that takes the pins along `ways`, or by a part of it.
+  bool flow(const Eigen::MatrixXd& ways) {
+    const Points field = interpolate(ways);
+    for (double part = 1; part > least_part; part /= 2) {
+      SphereMap moved = normalised(result_.map.points + part * field);
+      if (!all_triangles_positive(topology_, moved, options_.threads)) continue;
+      result_.map = std::move(moved);
+      return true;
+    }
+    return false;
+  }
+
+  /// v(x) = Σ_j k(|x − x_j|) w_j, less its normal part, with w from v(x_i) = ways_i.
+  Points interpolate(const Eigen::MatrixXd& ways) const {
+    const Points& x = result_.map.points;
+    const Eigen::Index count = ways.rows();
+    Points at_pins(count, 3);
+    for (Eigen::Index j = 0; j < count; ++j) {
+      at_pins.row(j) = x.row(pins_[static_cast<size_t>(j)].vertex);
+    }
+    const auto kernel_of = [&](const Points& points, Eigen::Index i, Eigen::Index j) {
+      return kernel((points.row(i) - at_pins.row(j)).norm());
+    };
+    const Eigen::MatrixXd kernels = Eigen::MatrixXd::NullaryExpr(
+        count, count, [&](Eigen::Index i, Eigen::Index j) { return kernel_of(at_pins, i, j); });
+    const Eigen::MatrixXd weights = kernels.ldlt().solve(ways);
+    Points field(x.rows(), 3);
+    parallel_for(x.rows(), grain, options_.threads, [&](std::int64_t first, std::int64_t last) {
+      for (Eigen::Index v = first; v < last; ++v) {
+        Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+        for (Eigen::Index j = 0; j < count; ++j) sum += kernel_of(x, v, j) * weights.row(j);
+        field.row(v) = sum - sum.dot(x.row(v)) * x.row(v);
+      }
+    });
+    return field;
+  }
+
+  bool move_if_positive(Vertex v, const Vector3& to) {
+    const Vector3 from = result_.map.point(v);
+    result_.map.points.row(v) = to;
+    if (ring_is_positive(topology_, result_.map, v)) return true;
+    result_.map.points.row(v) = from;
+    return false;
+  }
+
+  void snap() {
+    for (const Pin& pin : pins_) move_if_positive(pin.vertex, pin.point);
+    result_.residuals = pin_residuals(result_.map, pins_);
+  }
+
+  /// Each pin goes half as far as its ring allows, so as not to lie on the border of the kernel.
+  void creep() {
+    for (const Pin& pin : pins_) {
+      const Vector3 x = result_.map.point(pin.vertex), w = way(x, pin.point);
+      for (double part = 0.5; part > least_part; part /= 2) {
+        if (!move_if_positive(pin.vertex, (x + part * w).normalized())) continue;
+        move_if_positive(pin.vertex, (x + part / 2 * w).normalized());
+        break;
+      }
+    }
+  }
+
+  void relax_with_pins_held(int sweeps) {
+    std::vector<Vertex> held;
+    for (const Pin& pin : pins_) held.push_back(pin.vertex);
+    relax_around(std::move(held), sweeps);
+  }
+
+  void relax_around(std::vector<Vertex> held, int sweeps) {
+    result_.map = relax(topology_, source_, result_.map,
+                        {.energy = options_.energy,
+                         .sweeps = sweeps,
+                         .pinned = std::move(held),
+                         .threads = options_.threads})
+                      .map;
+  }
+
+  const Topology& topology_;
+  const SourceTriangles& source_;
+  const std::vector<Pin>& pins_;
+  const LandmarkOptions& options_;
+  LandmarkPlacement result_;
+  double start_ = 0;  // sum of residuals
+};
 
 }  // namespace
 
-bool LandmarkPlacement::exact() const { return sum(residuals) == 0; }
+bool LandmarkPlacement::exact() const { return all_exact(residuals); }
+
+bool all_exact(const std::vector<double>& residuals) {
+  return !residuals.empty() && std::ranges::all_of(residuals, [](double r) { return r == 0; });
+}
 
 Eigen::Matrix3d best_rotation(const SphereMap& map, const std::vector<Pin>& pins) {
+  // Σ point·xᵀ = U S Vᵀ;  R = U diag(1, 1, ±1) Vᵀ with the sign that makes det R = 1.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   for (const Pin& pin : pins) covariance += pin.point * map.points.row(pin.vertex);
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
@@ -127,39 +245,7 @@ std::vector<double> pin_residuals(const SphereMap& map, const std::vector<Pin>& 
 LandmarkPlacement place_landmarks(const Topology& topology, const SourceTriangles& source,
                                   const SphereMap& map, const std::vector<Pin>& pins,
                                   const LandmarkOptions& options) {
-  LandmarkPlacement result;
-  result.map = {map.points * best_rotation(map, pins).transpose()};
-  result.map = normalised(std::move(result.map.points));
-  if (!all_triangles_positive(topology, result.map, options.threads)) result.map = map;
-
-  RelaxationOptions relaxation{
-      .energy = options.energy, .sweeps = getenv("SW") ? atoi(getenv("SW")) : options.sweeps, .threads = options.threads};
-  for (const Pin& pin : pins) relaxation.pinned.push_back(pin.vertex);
-  int detours = 0, detour = 0; const int most_detours = getenv("DT") ? atoi(getenv("DT")) : 4; const double turn = getenv("TU") ? atof(getenv("TU")) : -1.2;
-  const bool flow_wanted = !getenv("NOFLOW");
-  std::vector<double> history;  // sums of residuals
-  for (;; ++result.rounds) {
-    const bool flowed = flow_wanted && flow(topology, result.map, pins, options.threads, detour > 0 ? turn : 0);
-    if (!(detour > 0 ||(flowed && getenv("SNAP")))) for (const Pin& pin : pins) advance(topology, result.map, pin);
-    else for (const Pin& pin : pins) { const Vector3 from = result.map.point(pin.vertex); result.map.points.row(pin.vertex) = pin.point; if (!ring_is_positive(topology, result.map, pin.vertex)) result.map.points.row(pin.vertex) = from; }
-    result.residuals = pin_residuals(result.map, pins);
-    history.push_back(sum(result.residuals));
-    result.map = relax(topology, source, result.map, relaxation).map;
-    report(options.progress, "pins", 1 - history.back() / std::max(history.front(), 1e-300));
-    const size_t k = history.size();
-    const bool stalled = k > patience && history[k - 1] > (1 - least_progress) *
-                                                              history[k - 1 - patience];
-    if(getenv("DBG")&&(stalled||result.exact()||result.rounds==options.most_rounds)){fprintf(stderr,"n %ld rounds %d sum %.4g  E %.4g flowed %d:",(long)map.points.rows(),result.rounds,history.back(),distortion_energy(topology,source,result.map,options.energy),flowed);for(double r:result.residuals)fprintf(stderr," %.2g",r);fprintf(stderr,"\n");}
-    if (detour > 0 && --detour == 0) history.clear();
-    if (stalled && detours < most_detours && !result.exact()) {
-      ++detours; detour = 5; history.clear();
-      RelaxationOptions loose = relaxation; loose.sweeps = 20; loose.pinned.clear();
-      for (size_t i = 0; i < pins.size(); ++i) if (result.residuals[i] == 0) loose.pinned.push_back(pins[i].vertex);
-      result.map = relax(topology, source, result.map, loose).map;
-      continue;
-    }
-    if (result.exact() || stalled || result.rounds == options.most_rounds) return result;
-  }
+  return Traveller(topology, source, map, pins, options).run();
 }
 
 }  // namespace sphparam

@@ -26,6 +26,7 @@ constexpr double least_shrinkage = 0.8;
 constexpr int sweep_block = 512;                                 // rows
 constexpr double diagonal_shift = 1e-10, coarsest_shift = 1e-8;  // of a block's trace
 constexpr std::int64_t row_grain = 2048;
+constexpr int least_parallel_rows = 4096;  // below it waking the other threads costs more
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
@@ -498,6 +499,7 @@ void Multigrid::factorise_coarsest() {
 /// levels_[l].x = approximately A⁻¹ levels_[l].b
 void Multigrid::cycle(size_t l) {
   Level& level = levels_[l];
+  const int threads = level.matrix.rows() < least_parallel_rows ? 1 : threads_;
   const auto vector = [](std::vector<double>& v) {
     return Eigen::Map<Eigen::VectorXd>(v.data(), static_cast<Eigen::Index>(v.size()));
   };
@@ -507,21 +509,21 @@ void Multigrid::cycle(size_t l) {
   }
   Level& coarse = levels_[l + 1];
   std::fill(level.x.begin(), level.x.end(), 0.0);
-  sweep(level.matrix, level.inverse, level.order, level.b.data(), level.x.data(), true, threads_);
-  residual(level.matrix, level.b.data(), level.x.data(), level.r.data(), threads_);
+  sweep(level.matrix, level.inverse, level.order, level.b.data(), level.x.data(), true, threads);
+  residual(level.matrix, level.b.data(), level.x.data(), level.r.data(), threads);
   restrict_vector(level.prolongation, level.clusters.start, level.clusters.members, level.r.data(),
-                  coarse.b.data(), threads_);
+                  coarse.b.data(), threads);
   cycle(l + 1);
   if (l + 2 < levels_.size()) {
     coarse.first_x = coarse.x;
-    residual(coarse.matrix, coarse.b.data(), coarse.x.data(), coarse.r.data(), threads_);
+    residual(coarse.matrix, coarse.b.data(), coarse.x.data(), coarse.r.data(), threads);
     coarse.b.swap(coarse.r);
     cycle(l + 1);
     vector(coarse.x) += vector(coarse.first_x);
   }
   prolong_vector(level.prolongation, level.clusters.of_row, coarse.x.data(), level.x.data(),
-                 threads_);
-  sweep(level.matrix, level.inverse, level.order, level.b.data(), level.x.data(), false, threads_);
+                 threads);
+  sweep(level.matrix, level.inverse, level.order, level.b.data(), level.x.data(), false, threads);
 }
 
 void Multigrid::apply(const std::vector<double>& b, std::vector<double>& x) {

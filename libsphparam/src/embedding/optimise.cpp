@@ -157,10 +157,12 @@ class Continuation {
         finish();
         break;
       case Balance::EqualArea:
-        while (error_of_areas() > options_.area_error && lambda_ != greatest_lambda) {
-          go(greatest_lambda);
-        }
-        finish();
+        do {
+          while (error_of_areas() > options_.area_error && lambda_ < greatest_lambda) {
+            go(greatest_lambda);
+          }
+          finish();  // which may raise the error a little
+        } while (error_of_areas() > options_.area_error && lambda_ < greatest_lambda);
         break;
       case Balance::Conformal:
         go_conformal();

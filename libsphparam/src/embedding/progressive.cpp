@@ -21,12 +21,15 @@
 //      and get more of them.
 // A vertex without room (rounding on very long limbs) sends the level back: the coarser one is
 // relaxed again, which opens the rings, and the level is tried once more.
-// Pins are placed on the coarsest level that has them all, and held from there on.
+// Pins are placed on the coarsest level that has them all, and held from there on. Pins that block
+// each other there (edges between them, too few vertices) travel on as levels get finer.
 
 namespace sphparam {
 namespace {
 
 constexpr std::int64_t pack_grain = 24;
+constexpr int pin_work = 200'000;      // rounds × vertices on a level that places pins
+constexpr int fewest_pin_rounds = 40;  // on fine levels
 constexpr double area_floor = 1e-9;  // of the mean triangle, as everywhere
 
 size_t at(int i) { return static_cast<size_t>(i); }
@@ -57,7 +60,9 @@ class Embedder {
     for (const HierarchyLevel& level : hierarchy_) all += level.vertex_count();
     for (size_t l = hierarchy_.size(); l-- > 0;) {
       if (l + 1 < hierarchy_.size() && !refine(l, result.report)) return result;
-      if (l + 1 <= pinned_.size() && !pins_are_exact(result.report.pin_residuals)) result.report.pin_residuals = place_pins(l);
+      if (l < pinned_.size() && !all_exact(result.report.pin_residuals)) {
+        result.report.pin_residuals = place_pins(l);
+      }
       if (finish_.due(hierarchy_[l].vertex_count())) finish(l);
       done += hierarchy_[l].vertex_count();
       report(options_.progress, "embedding", done / all);
@@ -110,8 +115,6 @@ class Embedder {
     return true;
   }
 
-  static bool pins_are_exact(const std::vector<double>& r) { return !r.empty() && std::count(r.begin(), r.end(), 0.0) == std::ssize(r); }
-
   RingPacks pack(size_t l, bool hold_pins) const {
     return pack_rings(hierarchy_[l], area_floor_, false, options_.threads,
                       hold_pins ? pinned_[l] : std::vector<Vertex>{});
@@ -130,9 +133,12 @@ class Embedder {
     const Topology topology(mesh);
     std::vector<Pin> pins = options_.pins;
     for (size_t i = 0; i < pins.size(); ++i) pins[i].vertex = pinned_[l][i];
+    const int rounds = pin_work / static_cast<int>(image_.size());
     const LandmarkPlacement placement =
         place_landmarks(topology, measure_source(mesh), map_of(image_), pins,
-                        {.energy = options_.energy, .most_rounds=std::max(getenv("MR")?atoi(getenv("MR")):20, 400*400/(int)image_.size()), .threads = options_.threads});
+                        {.energy = options_.energy,
+                         .most_rounds = std::max(fewest_pin_rounds, rounds),
+                         .threads = options_.threads});
     for (size_t v = 0; v < image_.size(); ++v) {
       image_[v] = image_point(placement.map.point(static_cast<Vertex>(v)));
     }

@@ -15,8 +15,9 @@ struct Pin {
 
 struct LandmarkOptions {
   DistortionEnergy energy = {};
-  int sweeps = 3;         // of pinned relaxation after every round of moves
+  int sweeps = 10;        // of pinned relaxation after every move
   int most_rounds = 400;  // of moves; it gives up earlier where they stall
+  int most_detours = 4;   // tried by pins that stand in each other's way
   int threads = 0;        // 0: all cores
   Progress progress = {};
 };
@@ -25,22 +26,26 @@ struct LandmarkPlacement {
   SphereMap map;
   std::vector<double> residuals;  // per pin: distance to its point in radians; 0 is exact
   int rounds = 0;
+  int detours = 0;
 
   bool exact() const;  // every residual is 0
 };
 
 /// Moves vertices of a bijective map to given points and keeps it bijective.
 ///
-/// The rotation that fits the pins best comes first. Then, in rounds, every pin goes along its
-/// great circle as far as the kernel of its ring lets it, and guarded relaxation, all pins held,
-/// makes room for the next round. Where the mesh does not allow the points (adjacent vertices at
-/// opposite points, a wrong cyclic order round a short ring) the pins stop on their way: the
-/// residuals tell how far from their points, the map is valid all the same.
-/// Requires: a bijective map; no vertex twice. Ensures: every triangle with det > 0 keeps it, but
-///           for rounding in the first rotation, which is left out where it would fold something;
-///           same bits for any number of threads. Cost: some rounds × sweeps of relaxation; meant
-///           for coarse meshes, see ProgressiveOptions::pins.
-/// Our own.
+/// The rotation that fits the pins best comes first, unless a pin is at its point already. Then, in rounds: a smooth field takes every
+/// pin, and what lies around it, along its great circle as far as nothing folds; guarded
+/// relaxation, all pins held, makes room for the next round. Pins that block each other are let
+/// go for a moment, and all give way to the right, as people do in a corridor. Where the mesh does
+/// not allow the points (adjacent vertices at opposite points, a wrong cyclic order round a short
+/// ring) the pins stop on their way: the residuals tell how far from their points, the map is valid
+/// all the same.
+/// Requires: a bijective map; no vertex twice. Ensures: no triangle folds; same bits for any number
+///           of threads.
+/// Cost: a round takes `sweeps` of relaxation and O(#V·#pins + #pins³): meant for coarse meshes,
+///       see ProgressiveOptions::pins.
+/// Our own; the field is the kernel interpolation of Joshi and Miller, "Landmark matching via large
+/// deformation diffeomorphisms" (2000).
 LandmarkPlacement place_landmarks(const Topology& topology, const SourceTriangles& source,
                                   const SphereMap& map, const std::vector<Pin>& pins,
                                   const LandmarkOptions& options = {});
@@ -51,5 +56,8 @@ Eigen::Matrix3d best_rotation(const SphereMap& map, const std::vector<Pin>& pins
 
 /// Per pin: the angle between its vertex's image and its point; 0 only where all bits agree.
 std::vector<double> pin_residuals(const SphereMap& map, const std::vector<Pin>& pins);
+
+/// All residuals are 0; false when there are none.
+bool all_exact(const std::vector<double>& residuals);
 
 }  // namespace sphparam

@@ -53,9 +53,9 @@ enum class Balance {
 
 struct BalanceOptions {
   Balance balance = Balance::Lambda;
-  double from_lambda = 1;    // for which the given map is about optimal
-  double area_error = 0.1;   // EqualArea: mean |log2 area ratio|, weighted by source area
-  OptimiseOptions optimise;  // at the λ aimed at; on the way there 1 % is good enough
+  double from_lambda = 1;         // for which the given map is about optimal
+  double area_error = 0.1;        // EqualArea: mean |log2 area ratio|, weighted by source area
+  OptimiseOptions optimise = {};  // at the λ aimed at; on the way there 1 % is good enough
 };
 
 struct BalancedMap {
