@@ -19,7 +19,9 @@ const std::vector<DistortionEnergy> energies{
     {.kind = EnergyKind::SymmetricDirichlet, .epsilon = 0.3},
 };
 
-double random_number(std::mt19937& random) { return static_cast<double>(random()) / 2147483648.0 - 1; }
+double random_number(std::mt19937& random) {
+  return static_cast<double>(random()) / 2147483648.0 - 1;
+}
 
 Vector3 random_vector(std::mt19937& random) {
   return {random_number(random), random_number(random), random_number(random)};

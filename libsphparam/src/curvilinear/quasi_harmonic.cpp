@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sphere/solid_angle.h"
 #include "sphparam/parallel.h"
 
 // The spherical area Ω of (a, b, c) is the solid angle of the three rays,
@@ -15,11 +16,6 @@ namespace {
 constexpr std::int64_t kGrain = 4096;
 constexpr double kSourceFloor = 1e-9;   // of the mean source area
 constexpr double kSphereFloor = 1e-18;  // of the mean area on the sphere
-
-double spherical_area(const Vector3& a, const Vector3& b, const Vector3& c) {
-  const double det = a.dot((b - a).cross(c - a));
-  return 2 * std::abs(std::atan2(det, 1 + a.dot(b) + b.dot(c) + c.dot(a)));
-}
 
 double triangle_area(const Vector3& a, const Vector3& b, const Vector3& c) {
   return 0.5 * (b - a).cross(c - a).norm();
@@ -49,7 +45,7 @@ std::vector<double> area_distortion(const TriangleMesh& mesh, const SphereMap& m
   });
   const double sphere_sum = fill_and_sum(kappa, threads, [&](Face f) {
     const auto t = mesh.triangles.row(f);
-    return spherical_area(map.point(t[0]), map.point(t[1]), map.point(t[2]));
+    return std::abs(solid_angle(map.point(t[0]), map.point(t[1]), map.point(t[2])));
   });
   // κ_T = (Σ A / Σ A') A'_T / A_T
   const double source_floor = kSourceFloor * source_sum / faces;

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "sphere/solid_angle.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/orientation.h"
 
@@ -40,12 +41,6 @@ constexpr double largest_coordinate = 0x1p64;  // what `orientation` promises to
 
 bool usable(const Vector3& x) {
   return x.allFinite() && x.cwiseAbs().maxCoeff() <= largest_coordinate && !x.isZero(0);
-}
-
-/// Van Oosterom & Strackee (1983): tan(Ω/2) = det / (1 + a·b + b·c + c·a) for unit rays.
-double solid_angle(const Vector3& a, const Vector3& b, const Vector3& c) {
-  const double det = a.dot((b - a).cross(c - a));
-  return 2 * std::atan2(det, 1 + a.dot(b) + b.dot(c) + c.dot(a));
 }
 
 struct Findings {

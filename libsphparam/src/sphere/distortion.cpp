@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "sphere/solid_angle.h"
 #include "sphparam/parallel.h"
 
 // One pass a triangle: source edges s0 s1 s2 (s_i faces corner i) and image chords e0 e1 e2. With
@@ -51,13 +52,6 @@ std::array<double, 3> angles(const PlaneTriangle& t) {
   return angle;
 }
 
-/// |Ω| = 2 |atan2(det(a, b, c), 1 + a·b + b·c + c·a)| (Van Oosterom and Strackee 1983); det from
-/// differences, which keeps its digits where the triangle is small.
-double absolute_solid_angle(const Vector3& a, const Vector3& b, const Vector3& c) {
-  const double det = a.dot((b - a).cross(c - a));
-  return std::abs(2 * std::atan2(det, 1 + a.dot(b) + b.dot(c) + c.dot(a)));
-}
-
 /// A power of two that brings the mesh to about unit size, so that no square overflows.
 double unit_scale(const TriangleMesh& mesh) {
   const double extent = mesh.positions.cwiseAbs().maxCoeff();
@@ -94,7 +88,7 @@ void measure_triangle(const PlaneTriangle& source, const Vector3& a, const Vecto
 
   const double area = source.doubled_area * to_sphere / 2;
   result.source_area[f] = area / kSphereArea;
-  result.area_ratio[f] = absolute_solid_angle(a, b, c) / area;
+  result.area_ratio[f] = std::abs(solid_angle(a, b, c)) / area;
 
   // σ1 σ2 = A_chord / A
   const double det = chord.doubled_area / (2 * area);
