@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -54,7 +55,11 @@ class Pool {
     {
       const std::lock_guard lock(mutex_);
       while (static_cast<int>(workers_.size()) < helpers) {
-        workers_.emplace_back([this] { serve(); });
+        try {
+          workers_.emplace_back([this] { serve(); });
+        } catch (const std::system_error&) {
+          break;  // the system grants no more threads: fewer do the same work
+        }
       }
       loop_ = &loop;
       places_ = helpers;

@@ -3,11 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <numbers>
+#include <set>
+#include <stdexcept>
 #include <utility>
 
 #include "sphparam/curvilinear/paper_map.h"
 #include "sphparam/curvilinear/sound_map.h"
+#include "sphparam/embedding/axis_choice.h"
 #include "sphparam/embedding/gnomonic.h"
+#include "sphparam/embedding/landmarks.h"
 #include "sphparam/embedding/pole_placement.h"
 #include "sphparam/embedding/progressive.h"
 #include "sphparam/embedding/relaxation.h"
@@ -18,9 +23,11 @@
 // The table of contents. Three methods, each a straight line of stages:
 //   paper        poles → date line, cut, harmonic, quasi-harmonic, lift, smoothing
 //   curvilinear  poles → the same, periodic and accumulated → relaxation along the date line
-//   progressive  hierarchy, embedding → poles
+//   progressive  hierarchy, embedding
 // Then the certificate; where it fails and repair is wanted: untangling, the progressive embedding,
-// the one-vertex lift. Whatever comes out last is certified as it is.
+// the one-vertex lift. A certified map without poles gets them last: given ones and pins are held
+// while it is embedded anew, automatic ones chosen on the finished map. Whatever comes out last is
+// certified as it is.
 
 namespace sphparam {
 namespace {
@@ -29,7 +36,7 @@ constexpr int date_line_rings = 5;    // the paper's five-neighbourhood (Section
 constexpr int date_line_sweeps = 10;  // of guarded relaxation there
 constexpr double most_folds = 0.02;   // of the faces: beyond it nothing is local any more
 constexpr double least_direct_lambda = 0.1, greatest_direct_lambda = 10;  // others by continuation
-constexpr int pole_sweeps = 10;       // of pinned relaxation after poles were moved
+constexpr int pole_sweeps = 10;  // of pinned relaxation after poles were moved
 
 /// The mesh at about unit size, if its squares could overflow or vanish; nothing if it is fine.
 /// A power of two changes no bit of any mantissa, and maps do not depend on size.
@@ -52,7 +59,12 @@ class Pipeline {
         mesh_(rescaled_ ? *rescaled_ : mesh),
         options_(options),
         energy_(options.energy) {
-    if (options.poles) require_poles_in_range(*options.poles);
+    if (options.poles) {
+      require_vertex("pole", options.poles->north);
+      require_vertex("pole", options.poles->south);
+    }
+    if (options.meridian) require_vertex("meridian", *options.meridian);
+    require_pins();
     stopwatch_.lap();
   }
 
@@ -73,6 +85,7 @@ class Pipeline {
     if (repair && !certified()) untangle_folds();
     if (repair && !certified()) embed_from_nothing();
     if (repair && !certified()) lift_one_vertex();
+    if (certified()) place_frame();
     return std::move(result_);
   }
 
@@ -128,8 +141,7 @@ class Pipeline {
   }
 
   void map_progressive() {
-    if (!embed()) return give_up("the progressive embedding ran out of room");
-    if (options_.poles) move_to_poles(*options_.poles);
+    if (!embed({})) give_up("the progressive embedding ran out of room");
   }
 
   // --- repair and fallbacks -------------------------------------------------------------------
@@ -148,9 +160,8 @@ class Pipeline {
   }
 
   void embed_from_nothing() {
-    if (options_.method == Method::Progressive || !embed()) return;
+    if (options_.method == Method::Progressive || !embed({})) return;
     forget_poles();
-    if (options_.poles) move_to_poles(*options_.poles);
   }
 
   void lift_one_vertex() {
@@ -161,10 +172,9 @@ class Pipeline {
     forget_poles();
     record("one-vertex lift", embedding.map);
     accept("one-vertex lift", std::move(embedding.map));
-    if (certified() && options_.poles) move_to_poles(*options_.poles);
   }
 
-  bool embed() {
+  bool embed(const std::vector<Pin>& pins) {
     DistortionEnergy energy = options_.energy;
     const bool balanced = needs_balancing();
     if (balanced) energy.lambda = first_lambda();
@@ -173,11 +183,12 @@ class Pipeline {
         {.energy = energy,
          .quality = balanced ? std::min(options_.quality, Quality::Normal) : options_.quality,
          .sweeps = options_.sweeps,
+         .pins = pins,
          .threads = options_.threads,
          .progress = options_.progress});
     if (!embedding.map) return false;
-    record("progressive embedding", *embedding.map);
-    if (balanced) *embedding.map = balance(*embedding.map, energy.lambda);
+    record(pins.empty() ? "progressive embedding" : "pinned embedding", *embedding.map);
+    if (balanced) *embedding.map = balance(*embedding.map, energy.lambda, pins);
     accept(balanced ? "balance" : "progressive embedding", std::move(*embedding.map));
     return true;
   }
@@ -193,7 +204,7 @@ class Pipeline {
     return std::clamp(options_.energy.lambda, least_direct_lambda, greatest_direct_lambda);
   }
 
-  SphereMap balance(const SphereMap& map, double from_lambda) {
+  SphereMap balance(const SphereMap& map, double from_lambda, const std::vector<Pin>& pins) {
     const double least_gain = options_.quality == Quality::Draft    ? 1e-2
                               : options_.quality == Quality::Normal ? 1e-3
                                                                     : 1e-6;
@@ -202,6 +213,7 @@ class Pipeline {
                                            .from_lambda = from_lambda,
                                            .optimise = {.energy = options_.energy,
                                                         .least_gain = least_gain,
+                                                        .pinned = vertices_of(pins),
                                                         .threads = options_.threads,
                                                         .progress = options_.progress}});
     energy_.lambda = result.lambda;
@@ -223,20 +235,108 @@ class Pipeline {
     return poles;
   }
 
-  void move_to_poles(Poles poles) {
-    if (poles.north == poles.south || topology_.find_halfedge(poles.north, poles.south) >= 0) {
-      return warn("the poles are the same or share an edge: they cannot lie opposite each other");
+  /// Poles, pins and meridian of a finished map.
+  void place_frame() {
+    const std::vector<Pin> pins = wanted_pins();
+    if (!pins.empty()) hold(pins);
+    if (pins.empty() && !result_.poles && options_.automatic_poles) {
+      choose_poles_on_map();
+    } else if (options_.meridian) {
+      turn(result_.map, *options_.meridian);
     }
+  }
+
+  /// Given poles, unless the map has them or they cannot be opposite, and the given pins.
+  std::vector<Pin> wanted_pins() {
+    std::vector<Pin> pins;
+    if (options_.poles && !result_.poles) {
+      const auto [north, south] = *options_.poles;
+      if (north == south || topology_.find_halfedge(north, south) >= 0) {
+        warn("the poles are the same or share an edge: they cannot lie opposite each other");
+      } else {
+        pins = {{north, Vector3::UnitZ()}, {south, -Vector3::UnitZ()}};
+      }
+    }
+    for (const Landmark& pin : options_.pins) {
+      pins.push_back({pin.vertex, to_cartesian(pin.coordinates)});
+    }
+    return pins;
+  }
+
+  /// Embeds the mesh anew around the pins. The map so far says what they cost, and stays where
+  /// that fails.
+  void hold(const std::vector<Pin>& pins) {
+    const double energy = distortion_energy(topology_, source(), result_.map, energy_);
+    Parameterization before = result_;
+    if (embed(pins) && certified()) {
+      forget_poles();
+    } else {
+      result_ = std::move(before);
+      warn("the embedding around the pins failed");
+      if (options_.pins.empty()) move_to_poles({pins[0].vertex, pins[1].vertex});
+    }
+    const std::vector<double> residuals = pin_residuals(result_.map, pins);
+    const auto own = residuals.end() - std::ssize(options_.pins);
+    result_.pin_residuals.assign(own, residuals.end());
+    if (own != residuals.begin() && residuals[0] == 0 && residuals[1] == 0) {
+      result_.poles = options_.poles;
+    } else if (own != residuals.begin()) {
+      warn("the poles could not be moved to ±z without folds");
+    }
+    result_.pole_cost =
+        distortion_energy(topology_, source(), result_.map, energy_, options_.threads) / energy - 1;
+  }
+
+  void move_to_poles(Poles poles) {
     std::optional<PolePlacement> placement =
-        place_poles(topology_, source(), result_.map, poles.north, poles.south,
-                    {.energy = energy_,
-                     .sweeps = pole_sweeps,
-                     .threads = options_.threads,
-                     .progress = options_.progress});
-    if (!placement) return warn("the poles could not be moved to ±z without folds");
-    result_.poles = poles;
+        place_poles(topology_, source(), result_.map, poles.north, poles.south, pole_options());
+    if (!placement) return;
     record("pole placement", placement->map);
-    accept("pole placement", std::move(placement->map));
+    accept_if_certified(std::move(placement->map));
+  }
+
+  void choose_poles_on_map() {
+    const AxisChoice choice =
+        choose_axis(topology_, source(), result_.map, {.threads = options_.threads});
+    std::optional<PolePlacement> placement =
+        place_poles_on_axis(topology_, source(), result_.map, choice.axis, pole_options());
+    if (!placement) return warn("no vertex could be moved to -z: the map has no poles");
+    const Vertex meridian = options_.meridian ? *options_.meridian : quiet_meridian(placement->map);
+    if (!turn(placement->map, meridian) && !accept_if_certified(std::move(placement->map))) {
+      return warn("turning the map to its poles folds it by rounding: it has no poles");
+    }
+    result_.poles = {placement->north, placement->south};
+    result_.pole_cost = placement->energy_after / placement->energy_before - 1;
+    record("pole placement", result_.map);
+  }
+
+  /// A vertex at the equator, on the half-circle that crosses fewest triangles.
+  Vertex quiet_meridian(const SphereMap& map) const {
+    const double theta = choose_meridian(topology_, map, options_.threads);
+    return nearest_vertex(map, to_cartesian({theta, std::numbers::pi / 2}), options_.threads);
+  }
+
+  /// Accepts the map with a vertex turned to θ = 0; false where that is not possible.
+  bool turn(const SphereMap& map, Vertex meridian) {
+    const Vector3 x = map.point(meridian);
+    if (!options_.pins.empty()) {
+      warn("pins fix every direction: no other meridian");
+    } else if (x.x() == 0 && x.y() == 0) {
+      warn("a pole has no longitude: it cannot be the meridian");
+    } else if (!accept_if_certified(turned_to_meridian(map, meridian, options_.threads))) {
+      warn("turning the map to its meridian folds it by rounding");
+    } else {
+      result_.meridian = meridian;
+      return true;
+    }
+    return false;
+  }
+
+  PolePlacementOptions pole_options() const {
+    return {.energy = energy_,
+            .sweeps = pole_sweeps,
+            .threads = options_.threads,
+            .progress = options_.progress};
   }
 
   void forget_poles() {
@@ -244,16 +344,31 @@ class Pipeline {
     result_.date_line.reset();
   }
 
-  void require_poles_in_range(Poles poles) const {
-    for (const Vertex v : {poles.north, poles.south}) {
-      if (v >= 0 && v < topology_.vertex_count()) continue;
-      throw MeshError({{DefectKind::IndexOutOfRange,
-                        true,
-                        1,
-                        {v},
-                        "pole " + std::to_string(v) + " is not a vertex: there are " +
-                            std::to_string(topology_.vertex_count()),
-                        ""}});
+  static std::vector<Vertex> vertices_of(const std::vector<Pin>& pins) {
+    std::vector<Vertex> vertices;
+    for (const Pin& pin : pins) vertices.push_back(pin.vertex);
+    return vertices;
+  }
+
+  void require_vertex(const char* what, Vertex v) const {
+    if (v >= 0 && v < topology_.vertex_count()) return;
+    throw MeshError({{DefectKind::IndexOutOfRange,
+                      true,
+                      1,
+                      {v},
+                      std::string(what) + " " + std::to_string(v) + " is not a vertex: there are " +
+                          std::to_string(topology_.vertex_count()),
+                      ""}});
+  }
+
+  void require_pins() const {
+    std::set<Vertex> seen;
+    if (options_.poles) seen = {options_.poles->north, options_.poles->south};
+    for (const Landmark& pin : options_.pins) {
+      require_vertex("pin", pin.vertex);
+      if (!seen.insert(pin.vertex).second) {
+        throw std::invalid_argument("vertex " + std::to_string(pin.vertex) + " is pinned twice");
+      }
     }
   }
 
@@ -268,6 +383,16 @@ class Pipeline {
     result_.made_by = std::move(made_by);
     result_.stages.push_back(
         {"certificate", stopwatch_.lap(), -1, result_.certificate.fold_count()});
+  }
+
+  /// Takes a map that differs from the last one by its frame; false: it is not certified, and the
+  /// last one stays.
+  bool accept_if_certified(SphereMap map) {
+    Certificate certificate = certify(topology_, map, options_.threads);
+    if (!certificate.bijective()) return false;
+    result_.certificate = std::move(certificate);
+    result_.map = std::move(map);
+    return true;
   }
 
   void record(std::string name, const SphereMap& map, long planar_folds = -1) {
@@ -322,7 +447,7 @@ class Pipeline {
   const TriangleMesh& mesh_;
   const ParameterizeOptions& options_;
   DistortionEnergy energy_;  // minimised at last: with the λ that a balance has found
-  SourceTriangles source_;  // measured when first needed
+  SourceTriangles source_;   // measured when first needed
   Stopwatch stopwatch_;
   Parameterization result_;
 };

@@ -46,6 +46,34 @@ TEST_CASE("map: reads standard input and writes the same bytes to standard outpu
   CHECK(sphparam_program({"verify", "-"}, piped.out).code == 0);
 }
 
+TEST_CASE("map: --balance trades angles against areas, and the report says so") {
+  const std::string limb = obj_text(tube(12, 8));
+  const auto distortion = [&](const std::string& balance) {
+    const Folder folder;
+    const Ended ended = sphparam_program(
+        {"map", "-", "-o", folder / "limb.sph.ply", "--balance", balance, "--json", "-"}, limb);
+    REQUIRE(ended.code == 0);
+    const Json report = Json::parse(ended.out);
+    CHECK(report["options"]["balance"] == balance);
+    return report["distortion"];
+  };
+  const Json conformal = distortion("conformal"), balanced = distortion("balanced"),
+             equal_area = distortion("equal-area");
+  CHECK(conformal["mean_abs_ln_angle"] < balanced["mean_abs_ln_angle"]);
+  CHECK(balanced["mean_abs_ln_angle"] < equal_area["mean_abs_ln_angle"]);
+  CHECK(equal_area["weighted_abs_log2_area"] < balanced["weighted_abs_log2_area"]);
+  CHECK(equal_area["weighted_abs_log2_area"] <= 0.1);
+}
+
+TEST_CASE("map: options of one method are refused with another") {
+  const std::string ball = obj_text(icosphere(1));
+  CHECK(sphparam_program({"map", "-", "-o", "-", "--rings", "3"}, ball).code == 2);
+  const Ended ended =
+      sphparam_program({"map", "-", "-o", "-", "--method", "paper", "--quality", "best"}, ball);
+  CHECK(ended.code == 2);
+  CHECK_THAT(ended.err, Contains("--quality is for --method progressive only"));
+}
+
 TEST_CASE("map: the same bytes for 1, 2 and 4 threads") {
   const std::string tube_text = obj_text(tube(60, 12));
   const std::string one =

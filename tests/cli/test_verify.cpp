@@ -76,6 +76,14 @@ TEST_CASE("verify: two files of one connectivity are compared and the distortion
   REQUIRE(ended.code == 0);
   CHECK(Json::parse(ended.out)["distortion"]["mean_abs_ln_angle"].get<double>() ==
         Approx(0).margin(1e-9));
+
+  // The radius of the sphere is not distortion.
+  write_bytes(folder / "large.obj", obj_text(scaled(ball, 8, Vector3::Zero())));
+  const Ended large =
+      sphparam_program({"verify", folder / "source.obj", folder / "large.obj", "--json"});
+  REQUIRE(large.code == 0);
+  CHECK(Json::parse(large.out)["distortion"]["symmetric_dirichlet"].get<double>() ==
+        Approx(Json::parse(ended.out)["distortion"]["symmetric_dirichlet"].get<double>()));
 }
 
 TEST_CASE("verify: files of different connectivity end with 5 and the place is named") {

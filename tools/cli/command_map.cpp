@@ -1,7 +1,9 @@
 // `sphparam map`: file → mesh → map → proof → file. The map waits under a temporary name until what
 // was read back from the disk is certified and everything else is written; then it is renamed.
 
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,6 +32,11 @@
 namespace sphparam::tools {
 
 namespace {
+
+/// What we wrote may be larger than what strangers may send.
+constexpr ReadOptions own_file = {.max_file_bytes = std::numeric_limits<std::uint64_t>::max(),
+                                  .max_line_bytes = std::numeric_limits<std::int64_t>::max(),
+                                  .max_ply_properties = std::numeric_limits<std::int64_t>::max()};
 
 /// What one run found; once the map was written, `certificate` is of what was read back.
 struct Outcome {
@@ -87,7 +94,7 @@ void write_sphere(const MapArguments& arguments, const Outcome& outcome) {
       sphere_mesh(outcome.source.file, outcome.result.map, provenance(arguments, outcome));
   const std::string bytes = serialiser(path)(sphere);
   write_file(path, bytes, [&](std::string_view written) {
-    const MeshFile file = read_mesh(written, path, ReadOptions{});
+    const MeshFile file = read_mesh(written, path, own_file);
     require_same_verdict(path, file, {file.mesh.positions}, outcome, arguments.options.threads);
   });
 }
@@ -130,7 +137,7 @@ void write_map(const MapArguments& arguments, const Outcome& outcome, const Stop
   const std::string bytes = serialise_ply(
       attach_map(outcome.source.file, outcome.result.map, provenance(arguments, outcome)));
   write_file(path, bytes, [&](std::string_view written) {
-    const MeshFile file = read_mesh(written, path, ReadOptions{});
+    const MeshFile file = read_mesh(written, path, own_file);
     require_same_verdict(path, file, read_sphere(file).value(), outcome, arguments.options.threads);
     if (interrupted()) throw Cancelled();
     Outputs outputs = {{"map", path}};

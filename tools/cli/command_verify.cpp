@@ -166,7 +166,8 @@ int run_verify(const VerifyArguments& arguments) {
                          .length_deviation = radius.deviation,
                          .notes = claim.notes};
   if (claim.has_shape && certificate.unusable_points.empty()) {
-    report.distortion = summarise(measure_distortion(claim.mesh, claim.map, arguments.threads));
+    const SphereMap unit = normalised(claim.map.points);  // a sphere of any radius is judged alike
+    report.distortion = summarise(measure_distortion(claim.mesh, unit, arguments.threads));
   }
   if (!(radius.deviation <= roundness)) {
     const std::string text = "these points are not on a sphere about the origin: their radius is " +

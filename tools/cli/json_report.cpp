@@ -77,6 +77,11 @@ Json options_json(const ParameterizeOptions& options) {
       {"poles", poles_json(options.poles)},
       {"lambda", options.energy.lambda},
       {"repair", options.method == Method::Paper ? options.repair_paper : options.repair}};
+  if (options.method == Method::Progressive) {
+    result["balance"] = name_of(options.balance);
+    result["quality"] = name_of(options.quality);
+    result["energy"] = name_of(options.energy.kind);
+  }
   if (options.method == Method::Paper) {
     const PaperSettings& paper = options.paper;
     result["weights"] = name_of(paper.weights);

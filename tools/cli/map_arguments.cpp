@@ -24,6 +24,7 @@ constexpr char summary[] =
     "  sphparam map statue.obj -o statue.sph.ply\n"
     "  sphparam map statue.ply -o statue.sph.ply --json map.json --charts charts/\n"
     "  sphparam map statue.off -o statue.sph.ply --sphere sphere.obj --poles 17,4203\n"
+    "  sphparam map statue.obj -o even.sph.ply --balance equal-area --quality best\n"
     "  cat statue.obj | sphparam map - -o - > statue.sph.ply\n"
     "  sphparam map statue.obj -o folded.sph.ply --method paper --keep-folded\n";
 
@@ -127,6 +128,40 @@ void add_method(CLI::App& command, MapArguments& arguments) {
       ->capture_default_str();
 }
 
+/// Options that only the progressive method reads.
+std::vector<CLI::Option*> add_progressive_options(CLI::App& command, MapArguments& arguments) {
+  ParameterizeOptions& options = arguments.options;
+  const std::string group = "With --method progressive";
+  return {add_choice<Balance>(command, "--balance", options.balance,
+                              {{name_of(Balance::Conformal), Balance::Conformal},
+                               {name_of(Balance::Lambda), Balance::Lambda},
+                               {name_of(Balance::EqualArea), Balance::EqualArea}},
+                              "balanced (default: what --lambda says), conformal or equal-area")
+              ->type_name("WORD")
+              ->group(group),
+          add_choice<Quality>(command, "--quality", options.quality,
+                              {{name_of(Quality::Draft), Quality::Draft},
+                               {name_of(Quality::Normal), Quality::Normal},
+                               {name_of(Quality::Best), Quality::Best}},
+                              "draft, normal (default) or best: slower, less distortion")
+              ->type_name("WORD")
+              ->group(group),
+          add_choice<EnergyKind>(
+              command, "--energy", options.energy.kind,
+              {{name_of(EnergyKind::AngleAndArea), EnergyKind::AngleAndArea},
+               {name_of(EnergyKind::SymmetricDirichlet), EnergyKind::SymmetricDirichlet}},
+              "angle-and-area (default) or symmetric-dirichlet")
+              ->type_name("WORD")
+              ->group(group)};
+}
+
+void require_method(const std::vector<CLI::Option*>& given, Method needed, Method method) {
+  for (const CLI::Option* option : given) {
+    if (option->count() == 0 || method == needed) continue;
+    throw UsageMistake(option->get_name() + " is for --method " + name_of(needed) + " only");
+  }
+}
+
 void add_progress(CLI::App& command, MapArguments& arguments) {
   add_choice<ProgressStyle>(
       command, "--progress", arguments.progress,
@@ -141,16 +176,14 @@ MapDeclaration declare_map_arguments(CLI::App& program, MapArguments& arguments)
   CLI::App* command = program.add_subcommand("map", summary);
   add_files(*command, arguments);
   add_method(*command, arguments);
+  const std::vector<CLI::Option*> progressive_only = add_progressive_options(*command, arguments);
   const std::vector<CLI::Option*> paper_only = add_paper_options(*command, arguments);
   add_progress(*command, arguments);
   add_loudness(*command, arguments.loudness);
-  return {command, [&arguments, paper_only] {
+  return {command, [&arguments, progressive_only, paper_only] {
             ParameterizeOptions& options = arguments.options;
-            for (const CLI::Option* option : paper_only) {
-              if (option->count() > 0 && options.method != Method::Paper) {
-                throw UsageMistake(option->get_name() + " is for --method paper only");
-              }
-            }
+            require_method(progressive_only, Method::Progressive, options.method);
+            require_method(paper_only, Method::Paper, options.method);
             require_sensible(arguments);
             options.poles = parse_poles(arguments.poles);
             options.measure_stages = options.method == Method::Paper || arguments.loudness.verbose;

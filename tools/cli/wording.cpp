@@ -40,6 +40,40 @@ std::string name_of(Method method) {
   return "";
 }
 
+std::string name_of(Balance balance) {
+  switch (balance) {
+    case Balance::Lambda:
+      return "balanced";
+    case Balance::Conformal:
+      return "conformal";
+    case Balance::EqualArea:
+      return "equal-area";
+  }
+  return "";
+}
+
+std::string name_of(Quality quality) {
+  switch (quality) {
+    case Quality::Draft:
+      return "draft";
+    case Quality::Normal:
+      return "normal";
+    case Quality::Best:
+      return "best";
+  }
+  return "";
+}
+
+std::string name_of(EnergyKind energy) {
+  switch (energy) {
+    case EnergyKind::AngleAndArea:
+      return "angle-and-area";
+    case EnergyKind::SymmetricDirichlet:
+      return "symmetric-dirichlet";
+  }
+  return "";
+}
+
 std::string name_of(WeightKind weights) {
   switch (weights) {
     case WeightKind::Cotangent:
@@ -90,7 +124,12 @@ std::string name_of(DefectKind kind) {
 
 std::string options_line(const ParameterizeOptions& options) {
   const PaperSettings& paper = options.paper;
-  if (options.method != Method::Paper) return "--lambda " + shortest(options.energy.lambda);
+  const std::string lambda = "--lambda " + shortest(options.energy.lambda);
+  if (options.method == Method::Curvilinear) return lambda;
+  if (options.method == Method::Progressive) {
+    return lambda + " --balance " + name_of(options.balance) + " --quality " +
+           name_of(options.quality) + " --energy " + name_of(options.energy.kind);
+  }
   return "--weights " + name_of(paper.weights) + " --epsilon " + shortest(paper.epsilon) +
          " --iterations " + std::to_string(paper.iterations) + " --rings " +
          std::to_string(paper.rings) + " --sweeps " + std::to_string(paper.sweeps) +

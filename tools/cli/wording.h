@@ -10,6 +10,9 @@ namespace sphparam::tools {
 
 /// The words of the command line and the JSON: "progressive", "mean-value", "boundary-edge", …
 std::string name_of(Method method);
+std::string name_of(Balance balance);
+std::string name_of(Quality quality);
+std::string name_of(EnergyKind energy);
 std::string name_of(WeightKind weights);
 std::string name_of(DefectKind kind);
 

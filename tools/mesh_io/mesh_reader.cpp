@@ -31,7 +31,7 @@ constexpr ForeignFormat kForeignMagic[] = {
     {"Kaydara FBX", "FBX"},
     {"solid", "STL"},
     {"<?xml", "XML (GIFTI, COLLADA or VTK)"},
-    {"# vtk", "legacy VTK"},
+    {"# vtk DataFile", "legacy VTK"},
     {"\x89PNG", "a PNG image"},
     {"\xff\xd8\xff", "a JPEG image"},
 };

@@ -15,6 +15,7 @@
 #include "sphparam/sphere/certificate.h"
 #include "sphparam/sphere/distortion.h"
 #include "sphparam/sphere/sphere_map.h"
+#include "sphparam/sphere/spherical_coordinates.h"
 
 namespace sphparam {
 
@@ -33,15 +34,24 @@ struct PaperSettings {
   WeightKind weights = WeightKind::MeanValue;  // or Cotangent
 };
 
+/// A vertex that is to have exactly these coordinates.
+struct Landmark {
+  Vertex vertex;
+  SphericalCoordinates coordinates;
+};
+
 struct ParameterizeOptions {
   Method method = Method::Progressive;
   std::optional<Poles> poles = std::nullopt;  // chosen automatically when not given
+  bool automatic_poles = true;  // of finished maps; false: no vertices at ±z unless given
+  std::optional<Vertex> meridian = std::nullopt;  // gets θ = 0; chosen with automatic poles
+  std::vector<Landmark> pins = {};  // held exactly where the mesh allows it: see `pin_residuals`
   PaperSettings paper = {};
   DistortionEnergy energy = {};  // what is minimised; `lambda` weighs area against angle
   // Of Method::Progressive: time against distortion; and what λ is to reach, if not a given value.
   Quality quality = Quality::Normal;
   Balance balance = Balance::Lambda;
-  double sweeps = 2;             // of Method::Progressive on the finest level; more: slower, better
+  double sweeps = 2;   // of Method::Progressive on the finest level; more: slower, better
   bool repair = true;  // untangle, and fall back; Method::Paper repairs only when `repair_paper`
   bool repair_paper = false;
   int threads = 0;              // 0: all cores. The result does not depend on it.
@@ -63,6 +73,9 @@ struct Parameterization {
   Certificate certificate;     // of `map`
   std::string made_by;         // the stage that produced the map: "relaxation", "untangling", …
   std::optional<Poles> poles;  // vertices at ±z, where the map has such
+  double pole_cost = 0;  // share by which the poles (and pins) of a finished map raised its energy
+  std::optional<Vertex> meridian;     // a vertex with θ = 0 that was asked for or chosen
+  std::vector<double> pin_residuals;  // per pin, radians from its point; 0: exactly there
   std::optional<DateLine> date_line;  // where the method has one
   std::vector<StageRecord> stages;    // in the order they ran
   std::vector<std::string> warnings;  // "pole 17 moved to 23: its link has a chord", …
@@ -73,8 +86,10 @@ struct Parameterization {
 ///
 /// Ensures: with `repair`, a map that is not bijective is returned only after untangling and every
 ///          fallback have failed (Method::Paper: only with `repair_paper`).
-/// Throws: MeshError before any arithmetic if the mesh is not a closed genus-0 manifold or a pole
-///         is out of range; SolveError naming the system; Cancelled.
+///          `poles` is empty where given ones could not be reached: a warning says why.
+/// Throws: MeshError before any arithmetic if the mesh is not a closed genus-0 manifold, or a pole,
+///         pin or meridian is no vertex; std::invalid_argument if a vertex is pinned twice;
+///         SolveError naming the system; Cancelled.
 /// Cost: a handful of sparse factorisations of #V unknowns.
 Parameterization parameterize(const TriangleMesh& mesh, const ParameterizeOptions& options = {});
 

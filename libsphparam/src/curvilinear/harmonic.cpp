@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "sphparam/errors.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/orientation.h"
 
@@ -160,7 +161,9 @@ CurvilinearMap HarmonicSolver::solve(std::vector<double> weights, int threads) {
   Eigen::VectorXd eta = (map.phi.array() - north) / (south - north);
   const auto poles = cut_mesh_.poles();
   eta[poles.north] = eta[poles.south] = 0;
-  map.theta += best_twist(map.theta, eta) * eta;
+  const double twist = best_twist(map.theta, eta);
+  if (!std::isfinite(twist)) throw SolveError("twist of the cylinder: no flux between its rims");
+  map.theta += twist * eta;
   return map;
 }
 

@@ -61,7 +61,7 @@ SoundMap map_periodic(const TriangleMesh& mesh, const Topology& topology, DateLi
   const EdgeWeights weights(mesh, topology, WeightKind::SymmetricMeanValue, threads);
   best.clamped_weights = weights.clamped();
   HarmonicSolver solver(topology, cut_mesh, boundary_for(mesh, topology, cut_mesh, options.epsilon),
-                        true);
+                        true, threads);
 
   std::vector<double> accumulated;  // κ_acc
   for (int iteration = 0; iteration <= options.iterations; ++iteration) {

@@ -23,8 +23,8 @@ constexpr std::int64_t face_grain = 8192;
 constexpr std::int64_t candidate_grain = 8;
 constexpr int cells_a_side = 6;  // of each face of a cube
 constexpr int cell_count = 6 * cells_a_side * cells_a_side;
-constexpr float slack = 2;  // in the search for triangles that may fold: its model is of first order
-constexpr float low = 4;  // a triangle is low when its length exceeds that many heights
+constexpr float slack = 1.5f;  // of the test that looks for suspects: it is of first order
+constexpr float low = 4;       // a triangle is low when its length exceeds that many heights
 constexpr int meridians = 256;
 
 size_t at(std::int64_t i) { return static_cast<size_t>(i); }
@@ -104,8 +104,8 @@ struct Axes {
 
 /// A triangle seen from its longest edge.
 struct LongEdge {
-  float length, height;  // of the edge, and of the triangle above it
-  float foot;            // of that height, as a part of the edge
+  float length, height;                    // of the edge, and of the triangle above it
+  float foot;                              // of that height, as a part of the edge
   Eigen::Vector3f middle, along, towards;  // unit: radial, of the edge, to the apex
 };
 
@@ -120,9 +120,9 @@ LongEdge long_edge(const ImageCorners& t, double det) {
   const Vector3 &p = x[first], &q = x[(first + 1) % 3], &r = x[(first + 2) % 3];
   const double length = std::sqrt(length2), foot = (r - p).dot(q - p) / length2;
   const Vector3 middle = (p + q).normalized(), along = (q - p) / length;
-  return {static_cast<float>(length),   static_cast<float>(det / length),
-          static_cast<float>(foot),     middle.cast<float>(),
-          along.cast<float>(),          middle.cross(along).cast<float>()};
+  return {static_cast<float>(length), static_cast<float>(det / length),
+          static_cast<float>(foot),   middle.cast<float>(),
+          along.cast<float>(),        middle.cross(along).cast<float>()};
 }
 
 /// Marks the axes that the triangle may fold for. With (c, p, q) the axis in the frame (middle,
@@ -233,6 +233,51 @@ double diamond_angle(double x, double y) {
   return x < 0 ? 2 - t : (y < 0 ? 4 + t : t);
 }
 
+std::vector<float> angles_in_meridians(const SphereMap& map, int threads) {
+  std::vector<float> angles(at(map.points.rows()));
+  parallel_for(map.points.rows(), face_grain, threads, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t v = first; v < last; ++v) {
+      angles[at(v)] =
+          static_cast<float>(diamond_angle(map.points(v, 0), map.points(v, 1)) * (meridians / 4.0));
+    }
+  });
+  return angles;
+}
+
+/// How often half-edges cross each meridian eastwards, the short way round: once a triangle that
+/// the meridian crosses.
+std::vector<int> count_crossings(const Topology& topology, const std::vector<float>& angles,
+                                 int threads) {
+  using Changes = std::array<int, meridians + 1>;  // +1 where an edge begins to cross, −1 behind
+  const std::int64_t faces = topology.face_count();
+  std::vector<Changes> parts(at((faces + face_grain - 1) / face_grain), Changes{});
+  parallel_for(faces, face_grain, threads, [&](std::int64_t first, std::int64_t last) {
+    Changes& change = parts[at(first / face_grain)];
+    const auto cross = [&](float from, float to) {
+      const bool wraps = std::abs(to - from) > meridians / 2;
+      if (from == to || (to > from) == wraps) return;  // not eastwards
+      ++change[at(std::lround(std::ceil(from)))];
+      --change[at(std::lround(std::ceil(to)))];
+      change[0] += wraps;
+      change[meridians] -= wraps;
+    };
+    for (auto f = static_cast<Face>(first); f < static_cast<Face>(last); ++f) {
+      const float a = angles[at(topology.vertex(f, 0))], b = angles[at(topology.vertex(f, 1))],
+                  c = angles[at(topology.vertex(f, 2))];
+      cross(a, b);
+      cross(b, c);
+      cross(c, a);
+    }
+  });
+  std::vector<int> crossed(meridians, 0);
+  int sum = 0;
+  for (size_t m = 0; m < meridians; ++m) {
+    for (const Changes& change : parts) sum += change[m];
+    crossed[m] = sum;
+  }
+  return crossed;
+}
+
 }  // namespace
 
 bool folds_in_chart(const Vector3& a, const Vector3& b, const Vector3& c) {
@@ -240,7 +285,7 @@ bool folds_in_chart(const Vector3& a, const Vector3& b, const Vector3& c) {
   const std::array<Vector3, 3> x{a, b, c};
   std::array<double, 3> theta, phi;
   for (size_t i = 0; i < 3; ++i) {
-    const double r = std::hypot(x[i].x(), x[i].y());
+    const double r = x[i].head<2>().norm();
     if (r == 0) return false;
     theta[i] = std::atan2(x[i].y(), x[i].x());
     phi[i] = std::atan2(r, x[i].z());
@@ -289,42 +334,10 @@ AxisChoice choose_axis(const Topology& topology, const SourceTriangles& source,
 }
 
 double choose_meridian(const Topology& topology, const SphereMap& map, int threads) {
-  const int vertices = topology.vertex_count();
-  std::vector<float> angle(at(vertices));  // in meridians
-  parallel_for(vertices, face_grain, threads, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t v = first; v < last; ++v) {
-      angle[at(v)] = static_cast<float>(diamond_angle(map.points(v, 0), map.points(v, 1)) *
-                                        (meridians / 4.0));
-    }
-  });
-  // Each edge counts for the meridians between its ends, the short way: +1 where it begins to
-  // cross, −1 behind. Triangles crossed are edges crossed, but for those at the poles.
-  std::vector<int> change(meridians + 1, 0);
-  for (Halfedge h = 0; h < topology.halfedge_count(); ++h) {
-    if (topology.twin(h) < h) continue;
-    float from = angle[at(topology.origin(h))], to = angle[at(topology.target(h))];
-    if (from > to) std::swap(from, to);
-    const int first = static_cast<int>(std::ceil(from)), last = static_cast<int>(std::ceil(to));
-    if (first == last) continue;
-    if (to - from <= meridians / 2) {
-      ++change[at(first)];
-      --change[at(last)];
-    } else {
-      ++change[at(last)];
-      --change[meridians];
-      ++change[0];
-      --change[at(first)];
-    }
-  }
-  int best = 0, least = 0, crossed = 0;
-  for (int m = 0; m < meridians; ++m) {
-    crossed += change[at(m)];
-    if (m == 0 || crossed < least) {
-      best = m;
-      least = crossed;
-    }
-  }
-  const double d = 4.0 * best / meridians;  // back to (x, y)
+  const std::vector<int> crossed =
+      count_crossings(topology, angles_in_meridians(map, threads), threads);
+  const auto best = std::ranges::min_element(crossed) - crossed.begin();
+  const double d = 4.0 * static_cast<double>(best) / meridians;  // back to (x, y)
   const double y = d <= 1 ? d : (d <= 3 ? 2 - d : d - 4);
   const double x = (d <= 1 || d >= 3) ? 1 - std::abs(y) : std::abs(y) - 1;
   const double theta = std::atan2(y, x);

@@ -84,7 +84,7 @@ class DiskSystem {
         threads_(threads),
         weights_(mesh, topology, WeightKind::SymmetricMeanValue, threads),
         link_(place_link(mesh, topology, south)),
-        system_(topology, roles(topology, south), true) {}
+        system_(topology, roles(topology, south), true, threads) {}
 
   OneVertexDisk solve(const std::vector<double>& kappa = {}) {
     system_.factorise(weights_.with(topology_, kappa, threads_), threads_);

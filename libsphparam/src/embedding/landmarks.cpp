@@ -20,15 +20,15 @@
 namespace sphparam {
 namespace {
 
-constexpr double kernel_width = 0.5;      // radians: what a pin takes along with it
-constexpr double longest_move = 0.3;      // radians in a round
-constexpr double least_part = 1e-3;       // of a move: a shorter one is none
-constexpr int patience = 15;              // rounds
-constexpr double least_progress = 0.02;   // of the sum of residuals, within `patience` rounds
-constexpr int detour_rounds = 5;          // moves aside
-constexpr int detour_sweeps = 20;         // of relaxation before, with blocked pins let go
-constexpr double right_turn = -1.2;       // radians; less than π/2: some of the way is gained too
-constexpr double opposite = 1e-12;        // sine of an angle below which a great circle is undefined
+constexpr double kernel_width = 0.5;     // radians: what a pin takes along with it
+constexpr double longest_move = 0.3;     // radians in a round
+constexpr double least_part = 1e-3;      // of a move: a shorter one is none
+constexpr int patience = 15;             // rounds
+constexpr double least_progress = 0.02;  // of the sum of residuals, within `patience` rounds
+constexpr int detour_rounds = 5;         // moves aside
+constexpr int detour_sweeps = 20;        // of relaxation before, with blocked pins let go
+constexpr double right_turn = -1.2;      // radians; less than π/2: some of the way is gained too
+constexpr double opposite = 1e-12;       // sine of an angle below which a great circle is undefined
 constexpr std::int64_t grain = 256;
 
 /// The tangent vector at `from` whose great circle reaches `to` after its length.
@@ -236,8 +236,7 @@ std::vector<double> pin_residuals(const SphereMap& map, const std::vector<Pin>& 
   for (const Pin& pin : pins) {
     const Vector3 x = map.point(pin.vertex);
     const double angle = std::atan2(x.cross(pin.point).norm(), x.dot(pin.point));
-    residuals.push_back(x == pin.point ? 0
-                                       : std::max(angle, std::numeric_limits<double>::min()));
+    residuals.push_back(x == pin.point ? 0 : std::max(angle, std::numeric_limits<double>::min()));
   }
   return residuals;
 }

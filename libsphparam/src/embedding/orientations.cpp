@@ -29,9 +29,8 @@ bool all_triangles_positive(const Topology& topology, const SphereMap& map, int 
 
 bool ring_is_positive(const Topology& topology, const SphereMap& map, Vertex v) {
   bool positive = true;
-  topology.for_each_outgoing(v, [&](Halfedge h) {
-    positive = positive && is_positive(topology, map, Topology::face(h));
-  });
+  topology.for_each_outgoing(
+      v, [&](Halfedge h) { positive = positive && is_positive(topology, map, Topology::face(h)); });
   return positive;
 }
 

@@ -1,12 +1,12 @@
 #include "sphparam/embedding/pole_placement.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
+#include <limits>
 
+#include "embedding/orientations.h"
 #include "sphparam/embedding/relaxation.h"
 #include "sphparam/parallel.h"
-#include "sphparam/sphere/orientation.h"
 
 // Stereographic projection from north = +z: w = (x + iy)/(1 − z), −z at the origin, and back
 // (x, y, z) = (2w, |w|² − 1)/(|w|² + 1). The translation w ↦ w − t·w_south fixes north (infinity)
@@ -17,24 +17,28 @@ namespace {
 
 constexpr std::int64_t grain = 8192;
 constexpr double smallest_part = 1e-3;  // of the way: below this a move counts as impossible
+constexpr int rings_to_settle = 3;      // around a pole that was moved by less than an edge
 
-bool all_positive(const Topology& topology, const SphereMap& map, int threads) {
-  std::atomic<bool> positive{true};
-  parallel_for(topology.face_count(), grain, threads, [&](std::int64_t first, std::int64_t last) {
-    for (auto f = static_cast<Face>(first); f < static_cast<Face>(last) && positive; ++f) {
-      if (orientation(map.point(topology.vertex(f, 0)), map.point(topology.vertex(f, 1)),
-                      map.point(topology.vertex(f, 2))) <= 0) {
-        positive = false;
-      }
+size_t at(std::int64_t i) { return static_cast<size_t>(i); }
+
+/// The map with every point replaced.
+template <class Move>
+SphereMap moved(const SphereMap& map, int threads, const Move& move) {
+  SphereMap result;
+  result.points.resize(map.points.rows(), 3);
+  parallel_for(map.points.rows(), grain, threads, [&](std::int64_t first, std::int64_t last) {
+    for (auto v = static_cast<Vertex>(first); v < static_cast<Vertex>(last); ++v) {
+      result.points.row(v) = move(map.point(v));
     }
   });
-  return positive;
+  return result;
 }
 
-SphereMap rotated_to_north(const SphereMap& map, Vertex north) {
+SphereMap rotated_to_north(const SphereMap& map, Vertex north, int threads) {
   const Eigen::Matrix3d rotation =
       Eigen::Quaterniond::FromTwoVectors(map.point(north), Vector3::UnitZ()).toRotationMatrix();
-  SphereMap result = normalised(map.points * rotation.transpose());
+  SphereMap result =
+      moved(map, threads, [&](const Vector3& x) -> Vector3 { return (rotation * x).normalized(); });
   result.points.row(north) = Vector3::UnitZ();
   return result;
 }
@@ -51,38 +55,132 @@ Vector3 to_sphere(const Eigen::Vector2d& w) {
   return Vector3(2 * w.x(), 2 * w.y(), s - 1) / (s + 1);
 }
 
-SphereMap translated(const SphereMap& map, Vertex north, const Eigen::Vector2d& by) {
-  SphereMap result = map;
-  for (Vertex v = 0; v < static_cast<Vertex>(map.points.rows()); ++v) {
-    if (v == north) continue;
-    const Vector3 x = to_sphere(to_plane(map.point(v)) - by);
-    result.points.row(v) = x.normalized();
-  }
+SphereMap translated(const SphereMap& map, Vertex north, const Eigen::Vector2d& by, int threads) {
+  SphereMap result = moved(map, threads, [&](const Vector3& x) -> Vector3 {
+    return to_sphere(to_plane(x) - by).normalized();
+  });
+  result.points.row(north) = map.points.row(north);
   return result;
+}
+
+/// v and everything at most `rings` edges away, in order of index.
+std::vector<Vertex> rings_around(const Topology& topology, Vertex v, int rings) {
+  std::vector<Vertex> found{v};
+  for (int ring = 0; ring < rings; ++ring) {
+    const size_t count = found.size();
+    for (size_t i = 0; i < count; ++i) {
+      topology.for_each_outgoing(found[i],
+                                 [&](Halfedge h) { found.push_back(topology.target(h)); });
+    }
+    std::ranges::sort(found);
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+  }
+  return found;
+}
+
+/// The energy of the triangles at some vertices.
+double energy_around(const Topology& topology, const SourceTriangles& source, const SphereMap& map,
+                     const std::vector<Vertex>& vertices, const DistortionEnergy& energy) {
+  std::vector<Face> faces;
+  for (const Vertex v : vertices) {
+    topology.for_each_outgoing(v, [&](Halfedge h) { faces.push_back(Topology::face(h)); });
+  }
+  std::ranges::sort(faces);
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  double sum = 0;
+  for (const Face f : faces) {
+    const SourceTriangle& triangle = source[at(f)];
+    const auto [d, s] =
+        distortion(triangle, {map.point(topology.vertex(f, 0)), map.point(topology.vertex(f, 1)),
+                              map.point(topology.vertex(f, 2))});
+    sum += triangle.area * energy_density(energy, d, s);
+  }
+  return sum;
 }
 
 }  // namespace
 
+Vertex nearest_vertex(const SphereMap& map, const Vector3& direction, int threads) {
+  struct Nearest {
+    double distance2 = std::numeric_limits<double>::infinity();
+    Vertex vertex = 0;
+  };
+  const Vector3 target = direction.normalized();
+  std::vector<Nearest> parts(at((map.points.rows() + grain - 1) / grain));
+  parallel_for(map.points.rows(), grain, threads, [&](std::int64_t first, std::int64_t last) {
+    Nearest nearest;
+    for (auto v = static_cast<Vertex>(first); v < static_cast<Vertex>(last); ++v) {
+      const double distance2 = (map.point(v) - target).squaredNorm();
+      if (distance2 < nearest.distance2) nearest = {distance2, v};
+    }
+    parts[at(first / grain)] = nearest;
+  });
+  return std::ranges::min_element(parts, {}, &Nearest::distance2)->vertex;
+}
+
+std::optional<PolePlacement> place_poles_on_axis(const Topology& topology,
+                                                 const SourceTriangles& source,
+                                                 const SphereMap& map, const Vector3& axis,
+                                                 const PolePlacementOptions& options) {
+  PolePlacement result;
+  const Vector3 down = -Vector3::UnitZ();
+  result.north = nearest_vertex(map, axis, options.threads);
+  result.map = rotated_to_north(map, result.north, options.threads);
+  result.south = nearest_vertex(result.map, down, options.threads);
+  if (result.south == result.north || topology.find_halfedge(result.north, result.south) >= 0) {
+    return std::nullopt;
+  }
+  result.energy_before = distortion_energy(topology, source, map, options.energy, options.threads);
+  const std::vector<Vertex> around = rings_around(topology, result.south, rings_to_settle);
+  const auto patch_energy = [&] {
+    return energy_around(topology, source, result.map, around, options.energy);
+  };
+  const double patch_before = patch_energy();
+  const RelaxationOptions relaxation{.energy = options.energy,
+                                     .sweeps = options.sweeps,
+                                     .vertices = around,
+                                     .pinned = {result.north, result.south},
+                                     .threads = options.threads,
+                                     .measure_energy = false};
+  for (double part = 1; result.map.point(result.south) != down;) {
+    const Vector3 from = result.map.point(result.south);
+    result.map.points.row(result.south) =
+        part == 1 ? down : Vector3((from + part * (down - from)).normalized());
+    const bool positive = ring_is_positive(topology, result.map, result.south);
+    if (!positive) {
+      result.map.points.row(result.south) = from;
+      part /= 2;
+      if (part < smallest_part) return std::nullopt;
+      continue;
+    }
+    result.map = relax(topology, source, result.map, relaxation).map;
+    if (++result.moves == options.most_moves) return std::nullopt;
+    part = std::min(1.0, 4 * part);
+  }
+  result.energy_after = result.energy_before + (patch_energy() - patch_before);
+  return result;
+}
+
 std::optional<PolePlacement> place_poles(const Topology& topology, const SourceTriangles& source,
                                          const SphereMap& map, Vertex north, Vertex south,
                                          const PolePlacementOptions& options) {
-  PolePlacement result;
+  PolePlacement result{
+      .map = rotated_to_north(map, north, options.threads), .north = north, .south = south};
   result.energy_before = distortion_energy(topology, source, map, options.energy, options.threads);
-  result.map = rotated_to_north(map, north);
-  if (!all_positive(topology, result.map, options.threads)) return std::nullopt;
+  if (!all_triangles_positive(topology, result.map, options.threads)) return std::nullopt;
 
-  RelaxationOptions relaxation{.energy = options.energy,
-                               .sweeps = options.sweeps,
-                               .pinned = {north, south},
-                               .threads = options.threads};
+  const RelaxationOptions relaxation{.energy = options.energy,
+                                     .sweeps = options.sweeps,
+                                     .pinned = {north, south},
+                                     .threads = options.threads};
   double part = 1;
   for (;;) {
     report(options.progress, "poles", 1 - part);
     const Eigen::Vector2d target = part * to_plane(result.map.point(south));
-    SphereMap moved = translated(result.map, north, target);
-    if (part == 1) moved.points.row(south) = -Vector3::UnitZ();
-    if (all_positive(topology, moved, options.threads)) {
-      result.map = std::move(moved);
+    SphereMap candidate = translated(result.map, north, target, options.threads);
+    if (part == 1) candidate.points.row(south) = -Vector3::UnitZ();
+    if (all_triangles_positive(topology, candidate, options.threads)) {
+      result.map = std::move(candidate);
       if (part == 1) break;
       if (++result.moves == options.most_moves) return std::nullopt;
       result.map = relax(topology, source, result.map, relaxation).map;
@@ -96,6 +194,17 @@ std::optional<PolePlacement> place_poles(const Topology& topology, const SourceT
   result.map = relax(topology, source, result.map, relaxation).map;
   result.energy_after =
       distortion_energy(topology, source, result.map, options.energy, options.threads);
+  return result;
+}
+
+SphereMap turned_to_meridian(const SphereMap& map, Vertex meridian, int threads) {
+  const Vector3 origin = map.point(meridian);
+  const double radius = std::hypot(origin.x(), origin.y());
+  const double c = origin.x() / radius, s = origin.y() / radius;
+  SphereMap result = moved(map, threads, [&](const Vector3& x) -> Vector3 {
+    return {c * x.x() + s * x.y(), c * x.y() - s * x.x(), x.z()};
+  });
+  result.points.row(meridian) << radius, 0, origin.z();
   return result;
 }
 

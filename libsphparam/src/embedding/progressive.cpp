@@ -30,7 +30,7 @@ namespace {
 constexpr std::int64_t pack_grain = 24;
 constexpr int pin_work = 200'000;      // rounds × vertices on a level that places pins
 constexpr int fewest_pin_rounds = 40;  // on fine levels
-constexpr double area_floor = 1e-9;  // of the mean triangle, as everywhere
+constexpr double area_floor = 1e-9;    // of the mean triangle, as everywhere
 
 size_t at(int i) { return static_cast<size_t>(i); }
 

@@ -267,7 +267,9 @@ Relaxation relax(const Topology& topology, const SourceTriangles& source, const 
   energy.epsilon = 0;
   Relaxation result{map, {}};
   RelaxationReport& report = result.report;
-  report.energy_before = distortion_energy(topology, source, map, energy, options.threads);
+  if (options.measure_energy) {
+    report.energy_before = distortion_energy(topology, source, map, energy, options.threads);
+  }
   const Rings rings = make_rings(
       topology, source, free_vertices(topology.vertex_count(), options.vertices, options.pinned),
       options.threads);
@@ -280,7 +282,9 @@ Relaxation relax(const Topology& topology, const SourceTriangles& source, const 
   report.steps = counts.moved;
   report.refused = counts.refused;
   report.skipped = counts.skipped;
-  report.energy_after = distortion_energy(topology, source, result.map, energy, options.threads);
+  if (options.measure_energy) {
+    report.energy_after = distortion_energy(topology, source, result.map, energy, options.threads);
+  }
   return result;
 }
 

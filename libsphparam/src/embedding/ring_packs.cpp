@@ -165,8 +165,8 @@ RingPacks pack(const HierarchyLevel& level, const Order& order, const MeasureCor
 
 }  // namespace
 
-RingPacks pack_rings(const HierarchyLevel& level, double area_floor, bool only_removed,
-                     int threads, const std::vector<Vertex>& pinned) {
+RingPacks pack_rings(const HierarchyLevel& level, double area_floor, bool only_removed, int threads,
+                     const std::vector<Vertex>& pinned) {
   const Order order =
       only_removed ? removed_only(level) : sort_vertices(level, colour_vertices(level, pinned));
   const auto measure = [&](Vertex v, int i) {

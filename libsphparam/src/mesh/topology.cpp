@@ -78,16 +78,18 @@ bool Topology::build(const Triangles& triangles, int vertex_count) {
     if (a == b) return false;
     const bool search_b = bucket_size(b) <= bucket_size(a);
     const auto bucket = static_cast<size_t>(search_b ? b : a);
-    int found = 0;
+    const Vertex other = search_b ? a : b;
+    int outward = 0, inward = 0;  // half-edges of the edge, away from the bucket's vertex and to it
     for (int i = buckets.start[bucket]; i < buckets.start[bucket + 1]; ++i) {
       const Halfedge leaving = buckets.halfedges[static_cast<size_t>(i)];
-      const Halfedge candidate = search_b ? leaving : previous(leaving);
-      if (origin(candidate) == b && target(candidate) == a) {
-        twin_[static_cast<size_t>(h)] = candidate;
-        ++found;
-      }
+      const Halfedge entering = previous(leaving);
+      const bool out = target(leaving) == other, in = origin(entering) == other;
+      if (search_b ? out : in) twin_[static_cast<size_t>(h)] = search_b ? leaving : entering;
+      outward += out;
+      inward += in;
     }
-    if (found != 1) return false;
+    // Both, so that the first of many copies of a face ends it: each would search a huge bucket.
+    if (outward != 1 || inward != 1) return false;
   }
 
   outgoing_.assign(static_cast<size_t>(vertex_count), -1);

@@ -55,7 +55,8 @@ std::array<double, 3> angles(const PlaneTriangle& t) {
 /// A power of two that brings the mesh to about unit size, so that no square overflows.
 double unit_scale(const TriangleMesh& mesh) {
   const double extent = mesh.positions.cwiseAbs().maxCoeff();
-  return extent > 0 ? std::exp2(-std::ilogb(extent)) : 1;
+  constexpr int greatest = 1023;  // 2¹⁰²⁴ is infinite, and subnormal coordinates ask for more
+  return extent > 0 ? std::exp2(std::min(greatest, -std::ilogb(extent))) : 1;
 }
 
 /// The mesh, made about unit size.

@@ -5,16 +5,16 @@
 namespace sphparam {
 
 struct AxisOptions {
-  int candidates = 64;  // directions spread evenly over half the sphere
+  int candidates = 96;  // directions spread evenly over half the sphere
   int threads = 0;      // 0: all cores
 };
 
 /// An axis through a finished map, and what the (θ, ϕ) chart around it is like beside the others.
 struct AxisChoice {
-  Vector3 axis;                 // unit; the half sphere around it shows more of the source
-  double folds = 0;             // triangles that fold when linear in (θ, ϕ); the same, mean of all
-  double mean_folds = 0;        // candidates
-  double density_spread = 0;    // standard deviation of log2(texels per source area), area-weighted
+  Vector3 axis;               // unit; the half sphere around it shows more of the source
+  double folds = 0;           // triangles that fold when linear in (θ, ϕ); the same, mean of all
+  double mean_folds = 0;      // candidates
+  double density_spread = 0;  // standard deviation of log2(texels per source area), area-weighted
   double mean_density_spread = 0;
 };
 

@@ -33,14 +33,14 @@ struct LandmarkPlacement {
 
 /// Moves vertices of a bijective map to given points and keeps it bijective.
 ///
-/// The rotation that fits the pins best comes first, unless a pin is at its point already. Then, in rounds: a smooth field takes every
-/// pin, and what lies around it, along its great circle as far as nothing folds; guarded
-/// relaxation, all pins held, makes room for the next round. Pins that block each other are let
-/// go for a moment, and all give way to the right, as people do in a corridor. Where the mesh does
-/// not allow the points (adjacent vertices at opposite points, a wrong cyclic order round a short
-/// ring) the pins stop on their way: the residuals tell how far from their points, the map is valid
-/// all the same.
-/// Requires: a bijective map; no vertex twice. Ensures: no triangle folds; same bits for any number
+/// The rotation that fits the pins best comes first, unless a pin is at its point already. Then, in
+/// rounds: a smooth field takes every pin, and what lies around it, along its great circle as far
+/// as nothing folds; guarded relaxation, all pins held, makes room for the next round. Pins that
+/// block each other are let go for a moment, and all give way to the right, as people do in a
+/// corridor. Where the mesh does not allow the points (adjacent vertices at opposite points, a
+/// wrong cyclic order round a short ring) the pins stop on their way: the residuals tell how far
+/// from their points, the map is valid all the same. Requires: a bijective map; no vertex twice.
+/// Ensures: no triangle folds; same bits for any number
 ///           of threads.
 /// Cost: a round takes `sweeps` of relaxation and O(#V·#pins + #pins³): meant for coarse meshes,
 ///       see ProgressiveOptions::pins.

@@ -16,6 +16,7 @@ struct RelaxationOptions {
   std::vector<Vertex> pinned = {};                   // that may not: poles
   int threads = 0;                                   // 0: all cores
   Progress progress = {};                            // told after every sweep
+  bool measure_energy = true;  // before and after: two passes over all triangles
 };
 
 struct RelaxationReport {
@@ -23,7 +24,7 @@ struct RelaxationReport {
   long steps = 0;            // vertices moved, summed over the sweeps
   long refused = 0;          // steps wanted that no step length made safe and downhill
   long skipped = 0;          // visits of vertices whose ring is folded or not certain
-  double energy_before = 0;  // +∞ on a folded map, up to rounding
+  double energy_before = 0;  // +∞ on a folded map, up to rounding; 0 if not measured
   double energy_after = 0;
 };
 
