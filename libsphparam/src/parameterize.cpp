@@ -263,28 +263,31 @@ class Pipeline {
     return pins;
   }
 
-  /// Embeds the mesh anew around the pins. The map so far says what they cost, and stays where
-  /// that fails.
+  /// Embeds the mesh anew around the pins. The map so far says what they cost, and comes back where
+  /// that fails or poles alone are not reached.
   void hold(const std::vector<Pin>& pins) {
-    const double energy = distortion_energy(topology_, source(), result_.map, energy_);
+    const DistortionEnergy measure = energy_;
+    const double energy =
+        distortion_energy(topology_, source(), result_.map, measure, options_.threads);
     Parameterization before = result_;
-    if (embed(pins) && certified()) {
-      forget_poles();
-    } else {
+    forget_poles();
+    const bool held = embed(pins) && certified();
+    if (!held || (options_.pins.empty() && !all_exact(pin_residuals(result_.map, pins)))) {
       result_ = std::move(before);
-      warn("the embedding around the pins failed");
       if (options_.pins.empty()) move_to_poles({pins[0].vertex, pins[1].vertex});
     }
     const std::vector<double> residuals = pin_residuals(result_.map, pins);
-    const auto own = residuals.end() - std::ssize(options_.pins);
-    result_.pin_residuals.assign(own, residuals.end());
-    if (own != residuals.begin() && residuals[0] == 0 && residuals[1] == 0) {
-      result_.poles = options_.poles;
-    } else if (own != residuals.begin()) {
-      warn("the poles could not be moved to ±z without folds");
+    const auto of_pins = residuals.end() - std::ssize(options_.pins);
+    result_.pin_residuals.assign(of_pins, residuals.end());
+    if (of_pins != residuals.begin()) {  // the first two are the poles'
+      if (residuals[0] == 0 && residuals[1] == 0) {
+        result_.poles = options_.poles;
+      } else {
+        warn("the poles could not be moved to ±z without folds");
+      }
     }
     result_.pole_cost =
-        distortion_energy(topology_, source(), result_.map, energy_, options_.threads) / energy - 1;
+        distortion_energy(topology_, source(), result_.map, measure, options_.threads) / energy - 1;
   }
 
   void move_to_poles(Poles poles) {

@@ -236,11 +236,36 @@ TEST_CASE("map: poles that are given are used") {
   CHECK(poles["south"] == 40);
 }
 
-TEST_CASE("map: a pole that is no vertex ends with 4") {
+TEST_CASE("map: a pole that is no vertex ends with 2 and says which there are") {
   const Ended ended =
       sphparam_program({"map", "-", "-o", "-", "--poles", "5,99999"}, obj_text(icosphere(2)));
-  CHECK(ended.code == 4);
+  CHECK(ended.code == 2);
+  CHECK_THAT(ended.err, Contains("no vertex 99999; they are 0 to 161"));
   CHECK(ended.out.empty());
+}
+
+TEST_CASE("map: poles are named by their numbers in the file, also where vertices were dropped") {
+  const Folder folder;
+  const std::string unused = "v 9 9 9\nv 8 8 8\n";  // vertices 0 and 1 of the file, in no face
+  std::string text = unused;
+  const TriangleMesh ball = icosphere(2);
+  for (Eigen::Index v = 0; v < ball.vertex_count(); ++v) {
+    text += "v " + std::to_string(ball.positions(v, 0)) + " " +
+            std::to_string(ball.positions(v, 1)) + " " + std::to_string(ball.positions(v, 2)) +
+            "\n";
+  }
+  for (Eigen::Index f = 0; f < ball.face_count(); ++f) {
+    text += "f";
+    for (int k = 0; k < 3; ++k) text += " " + std::to_string(ball.triangles(f, k) + 3);
+    text += "\n";
+  }
+  const Ended ended = sphparam_program(
+      {"map", "-", "-o", folder / "map.sph.ply", "--json", "-", "--poles", "7,42"}, text);
+  REQUIRE(ended.code == 0);
+  const Json poles = Json::parse(ended.out)["poles"];
+  CHECK(poles["north"] == 5);  // of the mesh as written
+  CHECK(poles["south"] == 40);
+  CHECK(sphparam_program({"map", "-", "-o", "-", "--poles", "0,42"}, text).code == 2);
 }
 
 }  // namespace sphparam::tests

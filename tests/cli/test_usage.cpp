@@ -68,6 +68,7 @@ TEST_CASE("program: command lines that make no sense end with code 2 and touch n
       {"map", "x.obj", "-o", "y.ply", "--epsilon", "0.1"},  // only the paper's method reads it
       {"map", "x.obj", "-o", "y.ply", "--method", "curvilinear", "--sweeps", "1"},
       {"map", "x.obj", "-o", "-", "--json", "-"},
+      {"map", "x.obj", "-o", "y.obj"},
       {"map", "x.obj", "-o", "y.ply", "--sphere", "y.stl"},
       {"map", "x.obj", "-o", "y.ply", "--sphere", "y.ply"},
       {"info"},

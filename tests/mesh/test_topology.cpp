@@ -101,3 +101,12 @@ TEST_CASE("topology: a fan of 100,000 faces is built at once") {
   const Topology topology(mesh);
   CHECK(topology.valence(0) == 100000);
 }
+
+TEST_CASE("topology: 100,000 copies of a face are refused at once") {
+  constexpr int copies = 100000;
+  Triangles triangles(copies + 3, 3);
+  for (int f = 0; f < copies; ++f) triangles.row(f) << 0, 1, 2;
+  // Every edge of the copies has exactly one opposite: only the copies themselves are wrong.
+  triangles.bottomRows<3>() << 1, 0, 3, 2, 1, 4, 0, 2, 5;
+  CHECK_FALSE(Topology::try_build(triangles, 6));
+}

@@ -1,6 +1,7 @@
 // `sphparam map`: file → mesh → map → proof → file. The map waits under a temporary name until what
 // was read back from the disk is certified and everything else is written; then it is renamed.
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
@@ -51,12 +52,31 @@ struct Outcome {
   std::string verdict() const { return has_map() ? tools::verdict(certificate) : "no map"; }
 };
 
+/// A vertex of the file, by its number there, as a vertex of the mesh: welding and dropping unused
+/// vertices may have renumbered them.
+Vertex vertex_in_mesh(const MeshFile& file, Vertex named) {
+  const Property* numbers = file.find_vertex_property("source_vertex");
+  Vertex found = named;
+  if (numbers) {
+    const auto at = std::find(numbers->values.begin(), numbers->values.end(), named);
+    found = static_cast<Vertex>(at - numbers->values.begin());
+  }
+  if (found < file.mesh.vertex_count()) return found;
+  throw UsageMistake("--poles: the mesh has no vertex " + std::to_string(named) +
+                     (numbers ? " (it was merged with another, or no face used it)"
+                              : "; they are 0 to " + std::to_string(file.mesh.vertex_count() - 1)));
+}
+
 Outcome compute(Source source, const MapArguments& arguments, Console& console) {
   Outcome outcome = {.source = std::move(source)};
   if (!outcome.source.inspection.is_sphere()) throw MeshError(outcome.source.inspection.defects);
   const TriangleMesh& mesh = outcome.source.file.mesh;
   ParameterizeOptions options = arguments.options;
   options.progress = [&](std::string_view stage, double f) { return console.progress(stage, f); };
+  if (options.poles) {
+    options.poles = Poles{vertex_in_mesh(outcome.source.file, options.poles->north),
+                          vertex_in_mesh(outcome.source.file, options.poles->south)};
+  }
   outcome.result = parameterize(mesh, options);
   outcome.certificate = outcome.result.certificate;
   if (outcome.has_map()) {

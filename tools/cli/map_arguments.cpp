@@ -52,6 +52,11 @@ void require_sensible(const MapArguments& arguments) {
                     (!arguments.json.empty() && arguments.json == arguments.output) ||
                     (!arguments.json.empty() && arguments.json == arguments.sphere);
   if (same) throw UsageMistake("-o, --sphere and --json must go to different places");
+  const std::string extension = std::filesystem::path(arguments.output).extension();
+  if (!extension.empty() && extension != ".ply") {
+    throw UsageMistake("-o: the map is a PLY, the name must end in .ply; for " + extension +
+                       " see --sphere");
+  }
   if (!arguments.sphere.empty() && !serialiser(arguments.sphere)) {
     throw UsageMistake("--sphere: the name must end in .ply, .obj or .off");
   }

@@ -344,6 +344,8 @@ class PlyReader {
   void read_list(const PlyProperty& property, CornerList& list) {
     list.type = property.type;
     const std::int64_t length = list_length(property);
+    if (length > list.width * options_.max_polygon_degree)
+      body_.fail("list " + quoted(property.name) + " is longer than any face's may be");
     for (std::int64_t i = 0; i < length; ++i) list.values.push_back(body_.real(property.type));
   }
 

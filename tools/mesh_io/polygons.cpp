@@ -112,7 +112,8 @@ class EarClipper {
     return turn(plane_[ring_[i].previous], plane_[i], plane_[ring_[i].next]) > 0;
   }
 
-  bool is_ear(int i) const {
+  bool is_ear(int i) {
+    budget_ -= static_cast<long>(reflex_.size());
     const int before = ring_[i].previous, after = ring_[i].next;
     const PlanePoint &a = plane_[before], &b = plane_[i], &c = plane_[after];
     if (turn(a, b, c) <= 0) return false;
@@ -127,9 +128,9 @@ class EarClipper {
     return edges_.contains(polygon_[ring_[i].previous], polygon_[ring_[i].next]);
   }
 
-  int choose(int start, int left) const {
+  int choose(int start, int left) {
     std::optional<int> second_best;
-    for (int i = start, tried = 0; tried < left; ++tried, i = ring_[i].next) {
+    for (int i = start, tried = 0; tried < left && budget_ > 0; ++tried, i = ring_[i].next) {
       if (!is_ear(i)) continue;
       if (!cuts_along_used_edge(i)) return i;
       if (!second_best) second_best = i;
@@ -142,6 +143,9 @@ class EarClipper {
   const EdgeSet& edges_;
   std::vector<Neighbours> ring_;
   std::vector<int> reflex_;
+  // Corners looked at: a polygon made to have no ear anywhere would cost degree³. When it is spent,
+  // corners are clipped as they come.
+  long budget_ = 4L * degree() * degree();
 };
 
 class Triangulator {

@@ -26,6 +26,7 @@ constexpr int cell_count = 6 * cells_a_side * cells_a_side;
 constexpr float slack = 1.5f;  // of the test that looks for suspects: it is of first order
 constexpr float low = 4;       // a triangle is low when its length exceeds that many heights
 constexpr int meridians = 256;
+constexpr double least_density_deviation = 0.02;  // of log2: what follows from coarse cells
 
 size_t at(std::int64_t i) { return static_cast<size_t>(i); }
 
@@ -215,13 +216,15 @@ double mean(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-/// (value − mean) / standard deviation.
-std::vector<double> standardised(std::vector<double> values) {
+/// (value − mean) / standard deviation, of which at least `least` is assumed: less is no
+/// difference.
+std::vector<double> standardised(std::vector<double> values, double least) {
   const double middle = mean(values);
   double variance = 0;
   for (const double value : values) variance += (value - middle) * (value - middle);
   variance /= static_cast<double>(values.size());
-  for (double& value : values) value = variance > 0 ? (value - middle) / std::sqrt(variance) : 0;
+  const double deviation = std::max(least, std::sqrt(variance));
+  for (double& value : values) value = (value - middle) / deviation;
   return values;
 }
 
@@ -313,8 +316,8 @@ AxisChoice choose_axis(const Topology& topology, const SourceTriangles& source,
                    spread[at(k)] = density_spread(survey.cells, centres, axes.row(k));
                  }
                });
-  const std::vector<double> fold_score = standardised(survey.folds);
-  const std::vector<double> density_score = standardised(spread);
+  const std::vector<double> fold_score = standardised(survey.folds, 1);
+  const std::vector<double> density_score = standardised(spread, least_density_deviation);
   size_t best = 0;
   const auto score = [&](size_t k) { return fold_score[k] + density_score[k]; };
   for (size_t k = 1; k < spread.size(); ++k) {

@@ -74,22 +74,26 @@ bool Topology::build(const Triangles& triangles, int vertex_count) {
   // half-edge leaves b; the one after it leaves a. Search the smaller bucket for either.
   twin_.assign(halfedges, -1);
   for (Halfedge h = 0; h < static_cast<Halfedge>(halfedges); ++h) {
+    if (twin(h) >= 0) continue;
     const Vertex a = origin(h), b = target(h);
     if (a == b) return false;
     const bool search_b = bucket_size(b) <= bucket_size(a);
     const auto bucket = static_cast<size_t>(search_b ? b : a);
-    const Vertex other = search_b ? a : b;
-    int outward = 0, inward = 0;  // half-edges of the edge, away from the bucket's vertex and to it
+    Halfedge opposite = -1;
+    int found = 0;
     for (int i = buckets.start[bucket]; i < buckets.start[bucket + 1]; ++i) {
       const Halfedge leaving = buckets.halfedges[static_cast<size_t>(i)];
-      const Halfedge entering = previous(leaving);
-      const bool out = target(leaving) == other, in = origin(entering) == other;
-      if (search_b ? out : in) twin_[static_cast<size_t>(h)] = search_b ? leaving : entering;
-      outward += out;
-      inward += in;
+      const Halfedge candidate = search_b ? leaving : previous(leaving);
+      if (origin(candidate) == b && target(candidate) == a) {
+        opposite = candidate;
+        ++found;
+      }
     }
-    // Both, so that the first of many copies of a face ends it: each would search a huge bucket.
-    if (outward != 1 || inward != 1) return false;
+    // Taken already: a second a → b. Found here, many copies of a face do not each search a bucket
+    // that they made huge themselves.
+    if (found != 1 || twin(opposite) >= 0) return false;
+    twin_[static_cast<size_t>(h)] = opposite;
+    twin_[static_cast<size_t>(opposite)] = h;
   }
 
   outgoing_.assign(static_cast<size_t>(vertex_count), -1);
@@ -99,15 +103,12 @@ bool Topology::build(const Triangles& triangles, int vertex_count) {
     const Halfedge first =
         buckets.halfedges[static_cast<size_t>(buckets.start[static_cast<size_t>(v)])];
     outgoing_[static_cast<size_t>(v)] = first;
-    // Twins that are no permutation (some edge twice the same way) could lead the walk into a cycle
-    // without v; the bound on the steps ends it.
     int steps = 0;
     Halfedge h = first;
     do {
-      if (twin(twin(h)) != h) return false;
       h = rotate_ccw(h);
       ++steps;
-    } while (h != first && steps <= faces_at_v);
+    } while (h != first);
     if (steps != faces_at_v) return false;
   }
   return true;

@@ -1,0 +1,92 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "embedding/kernel_placement.h"
+#include "sphparam/embedding/progressive.h"
+#include "sphparam/embedding/relaxation.h"
+#include "sphparam/sphere/certificate.h"
+#include "sphparam/sphere/orientation.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+
+TEST_CASE("progressive: limbs, hubs and random connectivity are embedded without a fold") {
+  const int which = GENERATE(0, 1, 2, 3, 4);
+  const TriangleMesh mesh = which == 0   ? tetrahedron()
+                            : which == 1 ? icosphere(4)
+                            : which == 2 ? tube(1000, 6)
+                            : which == 3 ? uv_sphere(5000, 1)
+                                         : random_sphere_mesh(4000, 9);
+  const Topology topology(mesh);
+  const ProgressiveEmbedding embedding = embed_progressively(mesh, topology);
+  REQUIRE(embedding.map);
+  CHECK(certify(topology, *embedding.map).bijective());
+}
+
+TEST_CASE("progressive: the same bits for 1, 2 and 4 threads, for both energies") {
+  const TriangleMesh mesh = tube(300, 8);
+  const Topology topology(mesh);
+  for (const EnergyKind kind : {EnergyKind::AngleAndArea, EnergyKind::SymmetricDirichlet}) {
+    const auto points = [&](int threads) {
+      return embed_progressively(mesh, topology, {.energy = {.kind = kind}, .threads = threads})
+          .map->points;
+    };
+    const Points one = points(1);
+    CHECK(points(2) == one);
+    CHECK(points(4) == one);
+  }
+}
+
+TEST_CASE("progressive: a sphere comes out nearly isometric") {
+  const TriangleMesh mesh = icosphere(4);
+  const Topology topology(mesh);
+  const SourceTriangles source = measure_source(mesh);
+  const DistortionEnergy energy;
+  const ProgressiveEmbedding embedding = embed_progressively(mesh, topology, {.energy = energy});
+  const double ideal = distortion_energy(topology, source, {mesh.positions}, energy);
+  CHECK(distortion_energy(topology, source, *embedding.map, energy) < 1.001 * ideal);
+}
+
+TEST_CASE("progressive: vector steps and scalar relaxation lower the same energy") {
+  // Where the sweeps have ended, scalar Newton steps find next to nothing to gain.
+  const TriangleMesh mesh = uv_sphere(40, 20);
+  const Topology topology(mesh);
+  const SourceTriangles source = measure_source(mesh);
+  for (const EnergyKind kind : {EnergyKind::AngleAndArea, EnergyKind::SymmetricDirichlet}) {
+    const DistortionEnergy energy{.kind = kind};
+    const SphereMap map =
+        *embed_progressively(mesh, topology, {.energy = energy, .sweeps = 60}).map;
+    const Relaxation relaxed = relax(topology, source, map, {.energy = energy, .sweeps = 20});
+    CHECK(relaxed.report.energy_after <= relaxed.report.energy_before);
+    CHECK(relaxed.report.energy_after > 0.999 * relaxed.report.energy_before);
+  }
+}
+
+TEST_CASE("kernel_placement: the point sees every edge of its ring, however thin the kernel") {
+  // A ring that is a star with deep bays: the mean lies outside the kernel.
+  std::vector<Vector3> ring;
+  for (int i = 0; i < 12; ++i) {
+    const double angle = 6.283185307179586 * i / 12, r = i % 2 ? 0.02 : 0.5;
+    const double shift = i < 6 ? 0.3 : 0;
+    ring.push_back(Vector3(r * std::cos(angle) + shift * r, r * std::sin(angle), 1).normalized());
+  }
+  const auto point = place_in_kernel(ring);
+  REQUIRE(point);
+  for (size_t i = 0; i < ring.size(); ++i) {
+    CHECK(orientation(*point, ring[i], ring[(i + 1) % ring.size()]) > 0);
+  }
+}
+
+TEST_CASE("kernel_placement: a ring without a kernel gets no point") {
+  // Two triangles that wind opposite ways: no point sees both.
+  std::vector<Vector3> ring;
+  for (const auto& [x, y] :
+       {std::pair{-1.0, -1.0}, {0.0, 0.0}, {1.0, -1.0}, {1.0, 1.0}, {0.0, 0.1}, {-1.0, 1.0}}) {
+    ring.push_back(Vector3(x, y, 4).normalized());
+  }
+  std::swap(ring[1], ring[4]);
+  CHECK_FALSE(place_in_kernel(ring));
+}

@@ -1,0 +1,62 @@
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include "sphparam/parallel.h"
+
+using namespace sphparam;
+
+TEST_CASE("parallel: chunks cover the range once, whatever the sizes") {
+  for (const int count : {0, 1, 7, 1000, 1001}) {
+    for (const int grain : {1, 10, 5000}) {
+      for (const int threads : {0, 1, 3}) {
+        std::vector<int> visits(static_cast<size_t>(count), 0);
+        parallel_for(count, grain, threads, [&](std::int64_t first, std::int64_t last) {
+          for (std::int64_t i = first; i < last; ++i) ++visits[static_cast<size_t>(i)];
+        });
+        CHECK(visits == std::vector<int>(static_cast<size_t>(count), 1));
+      }
+    }
+  }
+}
+
+TEST_CASE("parallel: an exception of a body reaches the caller after all bodies have ended") {
+  std::atomic<int> running{0};
+  const auto body = [&](std::int64_t first, std::int64_t) {
+    ++running;
+    if (first == 30) {
+      --running;
+      throw std::runtime_error("chunk 30");
+    }
+    --running;
+  };
+  CHECK_THROWS_WITH(parallel_for(100, 10, 4, body), "chunk 30");
+  CHECK(running == 0);
+  // The pool is as good as new.
+  std::atomic<int> sum{0};
+  parallel_for(100, 10, 4, [&](std::int64_t first, std::int64_t last) {
+    sum += static_cast<int>(last - first);
+  });
+  CHECK(sum == 100);
+}
+
+TEST_CASE("parallel: a loop inside a loop ends") {
+  std::atomic<int> sum{0};
+  parallel_for(8, 1, 4, [&](std::int64_t, std::int64_t) {
+    parallel_for(8, 1, 4, [&](std::int64_t, std::int64_t) { ++sum; });
+  });
+  CHECK(sum == 64);
+}
+
+TEST_CASE("parallel: sums have the same bits for any number of threads") {
+  const auto chunk = [](std::int64_t first, std::int64_t last) {
+    double sum = 0;
+    for (std::int64_t i = first; i < last; ++i) sum += std::sin(static_cast<double>(i)) * 1e10;
+    return sum;
+  };
+  const double one = parallel_sum(100000, 1, chunk);
+  CHECK(parallel_sum(100000, 2, chunk) == one);
+  CHECK(parallel_sum(100000, 5, chunk) == one);
+}
