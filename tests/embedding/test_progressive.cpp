@@ -26,6 +26,17 @@ TEST_CASE("progressive: limbs, hubs and random connectivity are embedded without
   CHECK(certify(topology, *embedding.map).bijective());
 }
 
+TEST_CASE("progressive: limbs thousands of times longer than wide find room in the end") {
+  // At λ = 1 some of these run out of doubles; more weight on areas keeps the tips apart.
+  for (const auto& [rings, around] : {std::pair{1000, 6}, {5000, 7}}) {
+    const TriangleMesh mesh = tube(rings, around);
+    const Topology topology(mesh);
+    const ProgressiveEmbedding embedding = embed_progressively(mesh, topology);
+    REQUIRE(embedding.map);
+    CHECK(certify(topology, *embedding.map).bijective());
+  }
+}
+
 TEST_CASE("progressive: the same bits for 1, 2 and 4 threads, for both energies") {
   const TriangleMesh mesh = tube(300, 8);
   const Topology topology(mesh);

@@ -30,7 +30,9 @@ namespace {
 constexpr std::int64_t pack_grain = 24;
 constexpr int pin_work = 200'000;      // rounds × vertices on a level that places pins
 constexpr int fewest_pin_rounds = 40;  // on fine levels
-constexpr double area_floor = 1e-9;    // of the mean triangle, as everywhere
+// Tried in turn when vertices found no room at the λ asked for.
+constexpr double roomier_lambdas[] = {10, 100, 1000};
+constexpr double area_floor = 1e-9;  // of the mean triangle, as everywhere
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
@@ -232,7 +234,18 @@ ProgressiveEmbedding embed_progressively(const TriangleMesh& mesh, const Topolog
   KeptVertices keep{{}, std::max(options.pin_level, 20 * static_cast<int>(options.pins.size()))};
   for (const Pin& pin : options.pins) keep.vertices.push_back(pin.vertex);
   const MeshHierarchy hierarchy = build_hierarchy(mesh, topology, options.threads, keep);
-  return Embedder(hierarchy, topology.face_count(), options).run();
+  ProgressiveEmbedding embedding = Embedder(hierarchy, topology.face_count(), options).run();
+  for (const double lambda : roomier_lambdas) {
+    if (embedding.map) break;
+    // Weighing areas more keeps limbs from shrinking to where doubles have no room left.
+    ProgressiveOptions roomier = options;
+    roomier.energy = {.lambda = std::max(lambda, options.energy.lambda)};
+    roomier.quality = Quality::Draft;
+    const int retries = embedding.report.retries;
+    embedding = Embedder(hierarchy, topology.face_count(), roomier).run();
+    embedding.report.retries += retries;
+  }
+  return embedding;
 }
 
 }  // namespace sphparam
