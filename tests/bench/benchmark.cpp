@@ -234,7 +234,10 @@ int main(int argc, char** argv) {
   app.add_option("--threads", threads, "0: all cores");
   app.add_option("--repeat", repeat, "runs of each; the median is printed");
   app.add_option("--largest", largest, "skip meshes with more triangles");
-  app.add_option("--methods", wanted, "progressive, curvilinear, paper")->delimiter(',');
+  app.add_option("--methods", wanted, "progressive, curvilinear, paper")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember({"progressive", "curvilinear", "paper"}));
   app.add_option("MESH", paths, "files instead of the default ones");
   CLI11_PARSE(app, argc, argv);
 
