@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -63,6 +64,20 @@ TEST_CASE("map: --balance trades angles against areas, and the report says so") 
   CHECK(balanced["mean_abs_ln_angle"] < equal_area["mean_abs_ln_angle"]);
   CHECK(equal_area["weighted_abs_log2_area"] < balanced["weighted_abs_log2_area"]);
   CHECK(equal_area["weighted_abs_log2_area"] <= 0.1);
+}
+
+TEST_CASE("map: no output may replace the input, not even through a link") {
+  const Folder folder;
+  const std::string ball = obj_text(icosphere(1));
+  write_bytes(folder / "ball.ply", ball);
+  std::filesystem::create_symlink("ball.ply", std::string(folder / "link.ply"));
+  for (const char* name : {"ball.ply", "link.ply"}) {
+    CHECK(sphparam_program({"map", folder / "ball.ply", "-o", folder / name}).code == 2);
+    CHECK(sphparam_program(
+              {"map", folder / "ball.ply", "-o", folder / "map.sph.ply", "--json", folder / name})
+              .code == 2);
+  }
+  CHECK(bytes_of(folder / "ball.ply") == ball);
 }
 
 TEST_CASE("map: options of one method are refused with another") {

@@ -100,7 +100,8 @@ std::optional<VertexPaint> own_colours(const MeshFile& file) {
 /// they are mapped to.
 VertexPaint normal_colours(const TriangleMesh& mesh) {
   VertexPaint paint;
-  for (const auto& normal : vertex_normals(mesh).rowwise()) {
+  const Points normals = vertex_normals(mesh);  // named: it must outlive the loop
+  for (const auto& normal : normals.rowwise()) {
     paint.colours.push_back((0.7 + 0.25 * normal.array()).cast<float>().matrix().transpose());
   }
   return paint;
@@ -223,6 +224,7 @@ int run_render(const RenderArguments& arguments) {
   }
   subject.map = read_sphere(subject.file);
   const std::vector<char> png = encode_image(picture(subject, arguments), ImageFormat::Png);
+  require_not_input(arguments.input, arguments.output, "-o");
   write_file(arguments.output, {png.data(), png.size()});
   console.say(display_name(arguments.input) + " → " + output_name(arguments.output));
   return Ok;

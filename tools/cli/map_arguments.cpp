@@ -52,6 +52,9 @@ void require_sensible(const MapArguments& arguments) {
                     (!arguments.json.empty() && arguments.json == arguments.output) ||
                     (!arguments.json.empty() && arguments.json == arguments.sphere);
   if (same) throw UsageMistake("-o, --sphere and --json must go to different places");
+  require_not_input(arguments.input, arguments.output, "-o");
+  require_not_input(arguments.input, arguments.sphere, "--sphere");
+  require_not_input(arguments.input, arguments.json, "--json");
   const std::string extension = std::filesystem::path(arguments.output).extension();
   if (!extension.empty() && extension != ".ply") {
     throw UsageMistake("-o: the map is a PLY, the name must end in .ply; for " + extension +

@@ -2,6 +2,8 @@
 
 #include <filesystem>
 
+#include "cli/command.h"
+
 namespace sphparam::tools {
 
 namespace {
@@ -18,6 +20,15 @@ std::string display_name(const std::string& path) {
 
 std::string output_name(const std::string& path) {
   return is_stream(path) ? "standard output" : file_name(path);
+}
+
+void require_not_input(const std::string& input, const std::string& output,
+                       const std::string& option) {
+  if (is_stream(input) || is_stream(output) || output.empty()) return;
+  std::error_code missing;  // a file that is not there is no other file
+  const bool regular = std::filesystem::is_regular_file(output, missing);
+  if (!regular || !std::filesystem::equivalent(input, output, missing)) return;
+  throw UsageMistake(option + ": " + output + " is the input; it would be replaced");
 }
 
 }  // namespace sphparam::tools

@@ -10,6 +10,7 @@
 #include "sphparam/embedding/optimise.h"
 #include "sphparam/embedding/quality.h"
 #include "sphparam/mesh/edge_weights.h"
+#include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/mesh/triangle_mesh.h"
 #include "sphparam/progress.h"
 #include "sphparam/sphere/certificate.h"
