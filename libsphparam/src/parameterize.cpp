@@ -36,7 +36,8 @@ constexpr int date_line_rings = 5;    // the paper's five-neighbourhood (Section
 constexpr int date_line_sweeps = 10;  // of guarded relaxation there
 constexpr double most_folds = 0.02;   // of the faces: beyond it nothing is local any more
 constexpr double least_direct_lambda = 0.1, greatest_direct_lambda = 10;  // others by continuation
-constexpr int pole_sweeps = 10;  // of pinned relaxation after poles were moved
+constexpr int pole_sweeps = 10;      // of pinned relaxation after poles were moved
+constexpr int most_pole_moves = 20;  // on finished maps, which are fine: each costs such sweeps
 
 /// The mesh at about unit size, if its squares could overflow or vanish; nothing if it is fine.
 /// A power of two changes no bit of any mantissa, and maps do not depend on size.
@@ -238,8 +239,14 @@ class Pipeline {
   /// Poles, pins and meridian of a finished map.
   void place_frame() {
     const std::vector<Pin> pins = wanted_pins();
-    if (!pins.empty()) hold(pins);
-    if (pins.empty() && !result_.poles && options_.automatic_poles) {
+    if (options_.method == Method::Paper && !options_.pins.empty()) {
+      warn("the paper's method has no pins: they are where it puts them");
+      result_.pin_residuals = pin_residuals(result_.map, pins);
+    } else if (!pins.empty()) {
+      hold(pins);
+    }
+    const bool free = pins.empty() && !options_.poles && !result_.poles;
+    if (free && options_.automatic_poles) {
       choose_poles_on_map();
     } else if (options_.meridian) {
       turn(result_.map, *options_.meridian);
@@ -316,7 +323,8 @@ class Pipeline {
   /// A vertex at the equator, on the half-circle that crosses fewest triangles.
   Vertex quiet_meridian(const SphereMap& map) const {
     const double theta = choose_meridian(topology_, map, options_.threads);
-    return nearest_vertex(map, to_cartesian({theta, std::numbers::pi / 2}), options_.threads);
+    const Vector3 front = to_cartesian({theta, std::numbers::pi / 2});
+    return nearest_vertices(map, front, 1, options_.threads).front();
   }
 
   /// Accepts the map with a vertex turned to θ = 0; false where that is not possible.
@@ -338,6 +346,7 @@ class Pipeline {
   PolePlacementOptions pole_options() const {
     return {.energy = energy_,
             .sweeps = pole_sweeps,
+            .most_moves = most_pole_moves,
             .threads = options_.threads,
             .progress = options_.progress};
   }

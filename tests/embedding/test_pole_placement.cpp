@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -46,10 +47,36 @@ TEST_CASE("place_poles_on_axis: exact poles near the axis, certified, at next to
     CHECK(placed->map.point(placed->north) == up);
     CHECK(placed->map.point(placed->south) == down);
     CHECK(certify(e.topology, placed->map).bijective());
-    CHECK(placed->north == nearest_vertex(e.map, axis));
+    const std::vector<Vertex> near = nearest_vertices(e.map, axis, 32);
+    CHECK(std::ranges::count(near, placed->north) == 1);
     CHECK(placed->energy_after < 1.02 * placed->energy_before);
     CHECK(placed->energy_after ==
           Approx(distortion_energy(e.topology, e.source, placed->map, {})).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("nearest_vertices: as a search through all finds them, ties by index") {
+  const SphereMap map{icosphere(3).positions};
+  const Vector3 direction(0.3, -0.2, 0.5);
+  std::vector<std::pair<double, Vertex>> all;
+  for (Vertex v = 0; v < map.points.rows(); ++v) {
+    all.push_back({(map.point(v) - direction.normalized()).squaredNorm(), v});
+  }
+  std::ranges::sort(all);
+  const std::vector<Vertex> found = nearest_vertices(map, direction, 20);
+  REQUIRE(found.size() == 20);
+  for (size_t i = 0; i < found.size(); ++i) CHECK(found[i] == all[i].second);
+  CHECK(nearest_vertices({icosahedron().positions}, direction, 99).size() == 12);
+}
+
+TEST_CASE("place_poles_on_axis: needles and tubes have poles too") {
+  for (const TriangleMesh& mesh : {uv_sphere(600, 10), tube(200, 6)}) {
+    const Embedded e(mesh);
+    for (const Vector3& axis : {Vector3(0, 0, 1), Vector3(1, 0.1, 0.2)}) {
+      const auto placed = place_poles_on_axis(e.topology, e.source, e.map, axis);
+      REQUIRE(placed);
+      CHECK(certify(e.topology, placed->map).bijective());
+    }
   }
 }
 
@@ -160,9 +187,9 @@ TEST_CASE("parameterize: given poles and meridian are met, their cost is told") 
 }
 
 TEST_CASE("parameterize: poles two edges apart are met or refused, never half met") {
-  const TriangleMesh mesh = icosphere(4);
+  const TriangleMesh mesh = icosphere(3);
   const Topology topology(mesh);
-  for (const Vertex north : {3, 700}) {
+  for (const Vertex north : {3, 300}) {
     const Halfedge across = topology.twin(Topology::next(topology.outgoing(north)));
     const Vertex south = topology.apex(across);
     REQUIRE(topology.find_halfedge(north, south) < 0);
@@ -183,7 +210,7 @@ TEST_CASE("parameterize: poles that share an edge are refused by name") {
   const Vertex north = 5, south = topology.target(topology.outgoing(5));
   const Parameterization result = parameterize(mesh, {.poles = Poles{north, south}});
   CHECK(result.certificate.bijective());
-  CHECK_FALSE((result.poles && result.poles->north == north && result.poles->south == south));
+  CHECK_FALSE(result.poles);
   CHECK(mentions(result.warnings, "share an edge"));
 }
 

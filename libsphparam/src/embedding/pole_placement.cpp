@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 #include "embedding/orientations.h"
 #include "sphparam/embedding/relaxation.h"
@@ -18,6 +18,8 @@ namespace {
 constexpr std::int64_t grain = 8192;
 constexpr double smallest_part = 1e-3;  // of the way: below this a move counts as impossible
 constexpr int rings_to_settle = 3;      // around a pole that was moved by less than an edge
+constexpr int vertices_an_end = 32;     // of an axis, among which opposite ones are looked for
+constexpr int pairs_tried = 8;
 
 size_t at(std::int64_t i) { return static_cast<size_t>(i); }
 
@@ -98,67 +100,106 @@ double energy_around(const Topology& topology, const SourceTriangles& source, co
   return sum;
 }
 
+/// Pairs of vertices near the two ends of an axis that share no edge, the most nearly opposite
+/// ones first.
+std::vector<std::pair<Vertex, Vertex>> opposite_pairs(const Topology& topology,
+                                                      const SphereMap& map, const Vector3& axis,
+                                                      int threads) {
+  struct Pair {
+    double miss;  // |north + south|²
+    Vertex north, south;
+    auto operator<=>(const Pair&) const = default;
+  };
+  std::vector<Pair> pairs;
+  const std::vector<Vertex> souths = nearest_vertices(map, -axis, vertices_an_end, threads);
+  for (const Vertex north : nearest_vertices(map, axis, vertices_an_end, threads)) {
+    for (const Vertex south : souths) {
+      pairs.push_back({(map.point(north) + map.point(south)).squaredNorm(), north, south});
+    }
+  }
+  std::ranges::sort(pairs);
+  std::vector<std::pair<Vertex, Vertex>> result;
+  for (const auto& [miss, north, south] : pairs) {
+    if (std::ssize(result) == pairs_tried) break;
+    if (north == south || topology.find_halfedge(north, south) >= 0) continue;
+    result.push_back({north, south});
+  }
+  return result;
+}
+
+/// Moves the south pole to −z as far as it can, relaxing what is around it. The energy gained.
+double bring_down(const Topology& topology, const SourceTriangles& source,
+                  const PolePlacementOptions& options, PolePlacement& placement) {
+  const Vector3 down = -Vector3::UnitZ();
+  const Vertex south = placement.south;
+  SphereMap& map = placement.map;
+  const std::vector<Vertex> around = rings_around(topology, south, rings_to_settle);
+  const double before = energy_around(topology, source, map, around, options.energy);
+  for (double part = 1; map.point(south) != down && part > smallest_part;) {
+    const Vector3 from = map.point(south);
+    map.points.row(south) = part == 1 ? down : Vector3((from + part * (down - from)).normalized());
+    if (ring_is_positive(topology, map, south)) {
+      map = relax(topology, source, map,
+                  {.energy = options.energy,
+                   .sweeps = options.sweeps,
+                   .vertices = around,
+                   .pinned = {placement.north, south},
+                   .threads = options.threads,
+                   .measure_energy = false})
+                .map;
+      if (++placement.moves == options.most_moves) break;
+      part = std::min(1.0, 4 * part);
+    } else {
+      map.points.row(south) = from;
+      part /= 2;
+    }
+  }
+  return before - energy_around(topology, source, map, around, options.energy);
+}
+
 }  // namespace
 
-Vertex nearest_vertex(const SphereMap& map, const Vector3& direction, int threads) {
-  struct Nearest {
-    double distance2 = std::numeric_limits<double>::infinity();
-    Vertex vertex = 0;
-  };
+std::vector<Vertex> nearest_vertices(const SphereMap& map, const Vector3& direction, int count,
+                                     int threads) {
+  using Candidate = std::pair<double, Vertex>;  // squared distance first
   const Vector3 target = direction.normalized();
-  std::vector<Nearest> parts(at((map.points.rows() + grain - 1) / grain));
+  std::vector<std::vector<Candidate>> parts(at((map.points.rows() + grain - 1) / grain));
   parallel_for(map.points.rows(), grain, threads, [&](std::int64_t first, std::int64_t last) {
-    Nearest nearest;
+    std::vector<Candidate>& heap = parts[at(first / grain)];  // the farthest on top
     for (auto v = static_cast<Vertex>(first); v < static_cast<Vertex>(last); ++v) {
-      const double distance2 = (map.point(v) - target).squaredNorm();
-      if (distance2 < nearest.distance2) nearest = {distance2, v};
+      const Candidate candidate{(map.point(v) - target).squaredNorm(), v};
+      if (std::ssize(heap) == count) {
+        if (candidate >= heap.front()) continue;
+        std::ranges::pop_heap(heap);
+        heap.pop_back();
+      }
+      heap.push_back(candidate);
+      std::ranges::push_heap(heap);
     }
-    parts[at(first / grain)] = nearest;
   });
-  return std::ranges::min_element(parts, {}, &Nearest::distance2)->vertex;
+  std::vector<Candidate> all;
+  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+  std::ranges::sort(all);
+  std::vector<Vertex> nearest;
+  for (size_t i = 0; i < std::min(all.size(), at(count)); ++i) nearest.push_back(all[i].second);
+  return nearest;
 }
 
 std::optional<PolePlacement> place_poles_on_axis(const Topology& topology,
                                                  const SourceTriangles& source,
                                                  const SphereMap& map, const Vector3& axis,
                                                  const PolePlacementOptions& options) {
-  PolePlacement result;
-  const Vector3 down = -Vector3::UnitZ();
-  result.north = nearest_vertex(map, axis, options.threads);
-  result.map = rotated_to_north(map, result.north, options.threads);
-  result.south = nearest_vertex(result.map, down, options.threads);
-  if (result.south == result.north || topology.find_halfedge(result.north, result.south) >= 0) {
-    return std::nullopt;
+  for (const auto [north, south] : opposite_pairs(topology, map, axis, options.threads)) {
+    PolePlacement result{
+        .map = rotated_to_north(map, north, options.threads), .north = north, .south = south};
+    const double gain = bring_down(topology, source, options, result);
+    if (result.map.point(south) != -Vector3::UnitZ()) continue;
+    result.energy_before =
+        distortion_energy(topology, source, map, options.energy, options.threads);
+    result.energy_after = result.energy_before - gain;
+    return result;
   }
-  result.energy_before = distortion_energy(topology, source, map, options.energy, options.threads);
-  const std::vector<Vertex> around = rings_around(topology, result.south, rings_to_settle);
-  const auto patch_energy = [&] {
-    return energy_around(topology, source, result.map, around, options.energy);
-  };
-  const double patch_before = patch_energy();
-  const RelaxationOptions relaxation{.energy = options.energy,
-                                     .sweeps = options.sweeps,
-                                     .vertices = around,
-                                     .pinned = {result.north, result.south},
-                                     .threads = options.threads,
-                                     .measure_energy = false};
-  for (double part = 1; result.map.point(result.south) != down;) {
-    const Vector3 from = result.map.point(result.south);
-    result.map.points.row(result.south) =
-        part == 1 ? down : Vector3((from + part * (down - from)).normalized());
-    const bool positive = ring_is_positive(topology, result.map, result.south);
-    if (!positive) {
-      result.map.points.row(result.south) = from;
-      part /= 2;
-      if (part < smallest_part) return std::nullopt;
-      continue;
-    }
-    result.map = relax(topology, source, result.map, relaxation).map;
-    if (++result.moves == options.most_moves) return std::nullopt;
-    part = std::min(1.0, 4 * part);
-  }
-  result.energy_after = result.energy_before + (patch_energy() - patch_before);
-  return result;
+  return std::nullopt;
 }
 
 std::optional<PolePlacement> place_poles(const Topology& topology, const SourceTriangles& source,

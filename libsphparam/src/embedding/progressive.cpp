@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 #include "embedding/finish.h"
@@ -28,8 +29,10 @@ namespace sphparam {
 namespace {
 
 constexpr std::int64_t pack_grain = 24;
-constexpr int pin_work = 200'000;      // rounds × vertices on a level that places pins
-constexpr int fewest_pin_rounds = 40;  // on fine levels
+constexpr int pin_work = 200'000;           // rounds × vertices on a level that places pins
+constexpr int fewest_pin_rounds = 40;       // on fine levels
+constexpr double least_pin_progress = 0.9;  // of the distances left: more than that is idle
+constexpr int most_idle_levels = 6;
 // Tried in turn when vertices found no room at the λ asked for.
 constexpr double roomier_lambdas[] = {10, 100, 1000};
 constexpr double area_floor = 1e-9;  // of the mean triangle, as everywhere
@@ -62,9 +65,7 @@ class Embedder {
     for (const HierarchyLevel& level : hierarchy_) all += level.vertex_count();
     for (size_t l = hierarchy_.size(); l-- > 0;) {
       if (l + 1 < hierarchy_.size() && !refine(l, result.report)) return result;
-      if (l < pinned_.size() && !all_exact(result.report.pin_residuals)) {
-        result.report.pin_residuals = place_pins(l);
-      }
+      if (l < pinned_.size()) place_pins(l, result.report.pin_residuals);
       if (finish_.due(hierarchy_[l].vertex_count())) finish(l);
       done += hierarchy_[l].vertex_count();
       report(options_.progress, "embedding", done / all);
@@ -128,9 +129,10 @@ class Embedder {
                     pins_placed_ ? pinned_[l] : std::vector<Vertex>{}, image_);
   }
 
-  /// Moves the pins of a level to their points, then relaxes the rest around them. Their distances
-  /// from the points.
-  std::vector<double> place_pins(size_t l) {
+  /// Moves the pins of a level to their points, then relaxes the rest around them, until they are
+  /// there or several levels have brought them no nearer.
+  void place_pins(size_t l, std::vector<double>& residuals) {
+    if (all_exact(residuals) || idle_levels_ == most_idle_levels) return;
     const TriangleMesh mesh = triangle_mesh(hierarchy_[l]);
     const Topology topology(mesh);
     std::vector<Pin> pins = options_.pins;
@@ -150,7 +152,10 @@ class Embedder {
     for (int sweep = 0; sweep < sweeps; ++sweep) {
       sweep_colours(packs, 0, options_.over_relaxation);
     }
-    return placement.residuals;
+    const double left = std::accumulate(residuals.begin(), residuals.end(), 0.0);
+    residuals = placement.residuals;
+    const double still = std::accumulate(residuals.begin(), residuals.end(), 0.0);
+    idle_levels_ = left > 0 && still > least_pin_progress * left ? idle_levels_ + 1 : 0;
   }
 
   int sweeps_on(int vertices) const {
@@ -222,6 +227,7 @@ class Embedder {
   const double area_floor_;
   std::vector<std::vector<Vertex>> pinned_;  // per level that has all pins: their names there
   bool pins_placed_ = false;
+  int idle_levels_ = 0;  // that brought the pins no nearer
   Image image_;
   Finish finish_;
 };
