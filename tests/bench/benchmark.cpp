@@ -11,9 +11,7 @@
 #include <malloc.h>
 
 #include <CLI/CLI.hpp>
-#include <Eigen/SparseCholesky>
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -29,61 +27,20 @@
 #include "mesh_io/sphere_file.h"
 #include "mesh_io/welding.h"
 #include "sample_meshes.h"
-#include "sphparam/mesh/edge_weights.h"
 #include "sphparam/parameterize.h"
+#include "yardstick.h"
 
 using namespace sphparam;
 using namespace sphparam::tools;
+using namespace sphparam::bench;
 
 namespace {
-
-double now() {
-  using namespace std::chrono;
-  return duration<double>(steady_clock::now().time_since_epoch()).count();
-}
 
 std::string read_bytes(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   std::ostringstream bytes;
   bytes << in.rdbuf();
   return bytes.str();
-}
-
-// --- the yardstick ------------------------------------------------------------------------------
-
-/// The Laplacian with one vertex fixed: symmetric positive definite.
-Eigen::SparseMatrix<double> laplacian(const TriangleMesh& mesh) {
-  const Topology topology(mesh);
-  const std::vector<double> weights =
-      EdgeWeights(mesh, topology, WeightKind::SymmetricMeanValue).with(topology);
-  std::vector<Eigen::Triplet<double>> entries;
-  for (Halfedge h = 0; h < topology.halfedge_count(); ++h) {
-    const int i = topology.origin(h) - 1, j = topology.target(h) - 1;  // vertex 0 is fixed
-    if (i < 0) continue;
-    entries.emplace_back(i, i, weights[static_cast<size_t>(h)]);
-    if (j >= 0) entries.emplace_back(i, j, -weights[static_cast<size_t>(h)]);
-  }
-  Eigen::SparseMatrix<double> matrix(topology.vertex_count() - 1, topology.vertex_count() - 1);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
-}
-
-double measure_yardstick(const TriangleMesh& mesh) {
-  const Eigen::SparseMatrix<double> matrix = laplacian(mesh);
-  const Eigen::MatrixXd right = Eigen::MatrixXd::Random(matrix.rows(), 2);
-  std::vector<double> seconds;
-  double sink = 0;
-  for (int run = 0; run < 5; ++run) {
-    const double start = now();
-    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor;
-    factor.analyzePattern(matrix);
-    factor.factorize(matrix);
-    sink += factor.solve(right).sum();
-    seconds.push_back(now() - start);
-  }
-  if (sink == 0) std::puts("");  // keeps the solves alive
-  std::sort(seconds.begin(), seconds.end());
-  return seconds[2] / static_cast<double>(mesh.face_count());
 }
 
 // --- one run ------------------------------------------------------------------------------------
@@ -177,15 +134,10 @@ struct Subject {
 };
 
 Subject subdivided(const std::string& name, TriangleMesh mesh, int times) {
-  for (int i = 0; i < times; ++i) mesh = bench::loop_subdivided(mesh);
+  for (int i = 0; i < times; ++i) mesh = loop_subdivided(mesh);
   MeshFile file;
   file.mesh = std::move(mesh);
   return {name + " subdivided " + std::to_string(times) + "x.ply", serialise_ply(file)};
-}
-
-std::string meshes_folder() {
-  const char* folder = std::getenv("SPHPARAM_MESHES");
-  return std::string(folder ? folder : SPHPARAM_DEFAULT_MESHES) + "/genus0/";
 }
 
 std::vector<Subject> default_subjects() {
@@ -212,12 +164,6 @@ std::vector<Subject> default_subjects() {
   subjects.push_back(subdivided("spot", mesh("spot_triangulated.obj"), 3));
   subjects.push_back(subdivided("mannequin", mesh("mannequin.off"), 3));
   return subjects;
-}
-
-TriangleMesh yardstick_mesh() {
-  const std::string path = meshes_folder() + "nefertiti-lowres.obj";
-  if (std::filesystem::exists(path)) return read_mesh(path).mesh;
-  return samples::make_body(59).mesh;
 }
 
 const std::map<std::string, Method> methods = {{"progressive", Method::Progressive},
@@ -247,7 +193,7 @@ int main(int argc, char** argv) {
   }
   if (paths.empty()) subjects = default_subjects();
 
-  const double yardstick = measure_yardstick(yardstick_mesh());
+  const double yardstick = measure_yardstick(yardstick_mesh(meshes_folder()));
   std::printf("Y = %.3f µs a triangle\n\n", 1e6 * yardstick);
   std::puts(
       "| mesh | triangles | method | made by | certified | seconds | Y × triangles | bytes a "

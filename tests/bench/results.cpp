@@ -1,11 +1,12 @@
-// Writes the README's table of results: every OBJ, PLY and OFF mesh of a folder by every method.
+// Writes the README's tables of results: every mesh of a folder by every method, and by the default
+// method in its qualities and balances.
 //
-// Usage: results FOLDER [--into README.md]   (replaces what stands between the two markers)
+// Usage: results FOLDER [--into README.md]   (replaces what stands between the markers)
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -19,17 +20,28 @@
 #include "mesh_io/mesh_reader.h"
 #include "mesh_io/welding.h"
 #include "sphparam/parameterize.h"
+#include "yardstick.h"
 
 using namespace sphparam;
 using namespace sphparam::tools;
 
 namespace {
 
-constexpr char begin_marker[] = "<!-- results: written by tests/bench/results -->\n";
-constexpr char end_marker[] = "<!-- end of results -->\n";
+struct Markers {
+  const char *begin, *end;
+};
+constexpr Markers method_markers = {"<!-- results: written by tests/bench/results -->\n",
+                                    "<!-- end of results -->\n"};
+constexpr Markers quality_markers = {"<!-- qualities: written by tests/bench/results -->\n",
+                                     "<!-- end of qualities -->\n"};
+
+struct Subject {
+  std::string name;
+  TriangleMesh mesh;
+};
 
 std::vector<std::filesystem::path> mesh_files(const std::string& folder) {
-  const std::set<std::string> known{".obj", ".ply", ".off"};
+  const std::set<std::string> known{".obj", ".ply", ".off", ".stl", ".glb", ".gii"};
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (known.contains(entry.path().extension().string())) files.push_back(entry.path());
@@ -54,70 +66,136 @@ std::string seconds_in_the_paper(const std::string& mesh, Method method) {
   return method == Method::Paper && found != reported.end() ? found->second : "";
 }
 
-std::string row(const std::filesystem::path& path, const TriangleMesh& mesh, Method method,
-                const char* name) {
-  const auto start = std::chrono::steady_clock::now();
-  const Parameterization map = parameterize(mesh, {.method = method});
-  const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+struct Timed {
+  Parameterization map;
+  double seconds;
+};
+
+Timed timed(const TriangleMesh& mesh, const ParameterizeOptions& options) {
+  const double start = bench::now();
+  Parameterization map = parameterize(mesh, options);
+  return {std::move(map), bench::now() - start};
+}
+
+template <class... Values>
+std::string formatted(const char* format, Values... values) {
   char line[512];
-  if (map.map.points.rows() == 0) {
-    std::snprintf(line, sizeof line, "| %s | %ld | %s | – | – | no map | | | | | %.3f | |\n",
-                  path.stem().c_str(), static_cast<long>(mesh.face_count()), name, seconds);
-    return line;
-  }
-  const DistortionSummary d = summarise(measure_distortion(mesh, map.map));
-  std::snprintf(line, sizeof line,
-                "| %s | %ld | %s | %s | %ld | %s | %.3f | %.3f | %.3f | %.3g | %.3f | %s |\n",
-                path.stem().c_str(), static_cast<long>(mesh.face_count()), name,
-                map.made_by.c_str(), folds_before_repair(map),
-                map.certificate.bijective() ? "yes" : "no", d.mean_abs_ln_angle, d.mean_abs_ln_area,
-                d.weighted_abs_log2_area, d.symmetric_dirichlet, seconds,
-                seconds_in_the_paper(path.stem(), method).c_str());
+  std::snprintf(line, sizeof line, format, values...);
   return line;
 }
 
-std::string table(const std::string& folder) {
+std::string method_row(const Subject& subject, Method method, const char* name, double yardstick) {
+  const auto [map, seconds] = timed(subject.mesh, {.method = method});
+  const long triangles = static_cast<long>(subject.mesh.face_count());
+  if (map.map.points.rows() == 0) {
+    return formatted("| %s | %ld | %s | – | – | no map | | | | | %.3f | | |\n",
+                     subject.name.c_str(), triangles, name, seconds);
+  }
+  const DistortionSummary d = summarise(measure_distortion(subject.mesh, map.map));
+  return formatted(
+      "| %s | %ld | %s | %s | %ld | %s | %.3f | %.3f | %.3f | %.3g | %.3f | %.2f | %s |\n",
+      subject.name.c_str(), triangles, name, map.made_by.c_str(), folds_before_repair(map),
+      map.certificate.bijective() ? "yes" : "no", d.mean_abs_ln_angle, d.mean_abs_ln_area,
+      d.weighted_abs_log2_area, d.symmetric_dirichlet, seconds,
+      seconds / (yardstick * static_cast<double>(triangles)),
+      seconds_in_the_paper(subject.name, method).c_str());
+}
+
+std::string method_table(const std::vector<Subject>& subjects, double yardstick) {
   std::string text =
       "| mesh | triangles | method | made by | folds before repair | certified | mean \\|ln "
-      "angle\\| | "
-      "mean \\|ln area\\| | weighted \\|log2 area\\| | symmetric Dirichlet | seconds | in 2006 |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|---|\n";
-  for (const std::filesystem::path& path : mesh_files(folder)) {
-    const TriangleMesh mesh = prepare_for_mapping(read_mesh(path.string())).mesh;
+      "angle\\| | mean \\|ln area\\| | weighted \\|log2 area\\| | symmetric Dirichlet | seconds | "
+      "in Y | in 2006 |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+  for (const Subject& subject : subjects) {
     for (const auto& [method, name] :
          {std::pair{Method::Progressive, "progressive"},
           std::pair{Method::Curvilinear, "curvilinear"}, std::pair{Method::Paper, "paper"}}) {
-      text += row(path, mesh, method, name);
+      text += method_row(subject, method, name, yardstick);
     }
-    std::cerr << path.filename().string() << "\n";
+    std::cerr << subject.name << " by method\n";
   }
   return text;
 }
 
-void replace_between_markers(const std::string& path, const std::string& text) {
+/// Σ A f of a map, over that of the converged one.
+double energy(const Subject& subject, const SphereMap& map) {
+  return distortion_energy(Topology(subject.mesh), measure_source(subject.mesh), map, {});
+}
+
+std::string quality_rows(const Subject& subject, double yardstick) {
+  const std::pair<const char*, ParameterizeOptions> runs[] = {
+      {"best", {.quality = Quality::Best}},
+      {"normal", {}},
+      {"draft", {.quality = Quality::Draft}},
+      {"conformal", {.balance = Balance::Conformal}},
+      {"equal-area", {.balance = Balance::EqualArea}}};
+  const double unit = yardstick * static_cast<double>(subject.mesh.face_count());
+  double least = 0;
+  std::string text;
+  for (const auto& [name, options] : runs) {
+    const auto [map, seconds] = timed(subject.mesh, options);
+    const DistortionSummary d = summarise(measure_distortion(subject.mesh, map.map));
+    const double e = energy(subject, map.map);
+    if (least == 0) least = e;  // of `best`, the first
+    const bool same_energy = options.balance == Balance::Lambda;
+    text += formatted("| %s | %s | %s | %s | %.4f | %.4f | %.4g | %.3f | %.2f |\n",
+                      subject.name.c_str(), name, map.certificate.bijective() ? "yes" : "no",
+                      same_energy ? formatted("%+.2f %%", 100 * (e / least - 1)).c_str() : "",
+                      d.mean_abs_ln_angle, d.weighted_abs_log2_area, d.symmetric_dirichlet, seconds,
+                      seconds / unit);
+  }
+  return text;
+}
+
+std::string quality_table(const std::vector<Subject>& subjects, double yardstick) {
+  std::string text =
+      "| mesh | quality or balance | certified | energy above best | mean \\|ln angle\\| | "
+      "weighted "
+      "\\|log2 area\\| | symmetric Dirichlet | seconds | in Y |\n"
+      "|---|---|---|---|---|---|---|---|---|\n";
+  for (const Subject& subject : subjects) {
+    text += quality_rows(subject, yardstick);
+    std::cerr << subject.name << " by quality\n";
+  }
+  return text;
+}
+
+void replace_between(const Markers& markers, const std::string& path, const std::string& text) {
   std::ifstream in(path);
   std::ostringstream all;
   all << in.rdbuf();
   std::string page = all.str();
-  const size_t begin = page.find(begin_marker), end = page.find(end_marker);
+  const size_t begin = page.find(markers.begin), end = page.find(markers.end);
   if (begin == std::string::npos || end == std::string::npos) {
-    throw std::runtime_error(path + ": the two markers are not there");
+    throw std::runtime_error(path + ": the markers are not there");
   }
-  page.replace(begin + sizeof begin_marker - 1, end - begin - sizeof begin_marker + 1, text);
+  const size_t first = begin + std::strlen(markers.begin);
+  page.replace(first, end - first, text);
   std::ofstream(path) << page;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) try {
-  CLI::App app("Maps every mesh of a folder by every method and prints a table.");
+  CLI::App app("Maps every mesh of a folder by every method and quality and prints two tables.");
   std::string folder, page;
   app.add_option("FOLDER", folder)->required();
-  app.add_option("--into", page, "a page with the two markers");
+  app.add_option("--into", page, "a page with the markers");
   CLI11_PARSE(app, argc, argv);
-  const std::string text = table(folder);
-  page.empty() ? void(std::cout << text) : replace_between_markers(page, text);
+  std::vector<Subject> subjects;
+  for (const std::filesystem::path& path : mesh_files(folder)) {
+    subjects.push_back({path.stem(), prepare_for_mapping(read_mesh(path.string())).mesh});
+  }
+  const double yardstick = bench::measure_yardstick(bench::yardstick_mesh(folder + "/"));
+  const std::string methods = method_table(subjects, yardstick);
+  const std::string qualities = quality_table(subjects, yardstick);
+  if (page.empty()) {
+    std::cout << methods << "\n" << qualities;
+  } else {
+    replace_between(method_markers, page, methods);
+    replace_between(quality_markers, page, qualities);
+  }
 } catch (const std::exception& error) {
   std::cerr << "results: " << error.what() << "\n";
   return 1;

@@ -189,7 +189,7 @@ std::optional<PolePlacement> place_poles_on_axis(const Topology& topology,
                                                  const SourceTriangles& source,
                                                  const SphereMap& map, const Vector3& axis,
                                                  const PolePlacementOptions& options) {
-  for (const auto [north, south] : opposite_pairs(topology, map, axis, options.threads)) {
+  for (const auto& [north, south] : opposite_pairs(topology, map, axis, options.threads)) {
     PolePlacement result{
         .map = rotated_to_north(map, north, options.threads), .north = north, .south = south};
     const double gain = bring_down(topology, source, options, result);

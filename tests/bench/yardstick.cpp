@@ -1,0 +1,75 @@
+#include "yardstick.h"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <vector>
+
+#include "mesh_io/mesh_reader.h"
+#include "sample_meshes.h"
+#include "sphparam/mesh/edge_weights.h"
+#include "sphparam/mesh/topology.h"
+
+namespace sphparam::bench {
+namespace {
+
+constexpr int runs = 5;
+constexpr int body_parallels = 59;  // of the sample body: 69,620 triangles
+
+/// The Laplacian with one vertex fixed: symmetric positive definite.
+Eigen::SparseMatrix<double> laplacian(const TriangleMesh& mesh) {
+  const Topology topology(mesh);
+  const std::vector<double> weights =
+      EdgeWeights(mesh, topology, WeightKind::SymmetricMeanValue).with(topology);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Halfedge h = 0; h < topology.halfedge_count(); ++h) {
+    const int i = topology.origin(h) - 1, j = topology.target(h) - 1;  // vertex 0 is fixed
+    if (i < 0) continue;
+    entries.emplace_back(i, i, weights[static_cast<size_t>(h)]);
+    if (j >= 0) entries.emplace_back(i, j, -weights[static_cast<size_t>(h)]);
+  }
+  Eigen::SparseMatrix<double> matrix(topology.vertex_count() - 1, topology.vertex_count() - 1);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+}  // namespace
+
+double measure_yardstick(const TriangleMesh& mesh) {
+  const Eigen::SparseMatrix<double> matrix = laplacian(mesh);
+  const Eigen::MatrixXd right = Eigen::MatrixXd::Random(matrix.rows(), 2);
+  std::vector<double> seconds;
+  double sink = 0;
+  for (int run = 0; run < runs; ++run) {
+    const double start = now();
+    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor;
+    factor.analyzePattern(matrix);
+    factor.factorize(matrix);
+    sink += factor.solve(right).sum();
+    seconds.push_back(now() - start);
+  }
+  if (sink == 0) std::puts("");  // keeps the solves alive
+  std::sort(seconds.begin(), seconds.end());
+  return seconds[runs / 2] / static_cast<double>(mesh.face_count());
+}
+
+TriangleMesh yardstick_mesh(const std::string& folder) {
+  const std::string path = folder + "nefertiti-lowres.obj";
+  if (std::filesystem::exists(path)) return tools::read_mesh(path).mesh;
+  return samples::make_body(body_parallels).mesh;
+}
+
+std::string meshes_folder() {
+  const char* folder = std::getenv("SPHPARAM_MESHES");
+  return std::string(folder ? folder : SPHPARAM_DEFAULT_MESHES) + "/genus0/";
+}
+
+double now() {
+  using namespace std::chrono;
+  return duration<double>(steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace sphparam::bench

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "sphparam/mesh/triangle_mesh.h"
+
+namespace sphparam::bench {
+
+/// Seconds a triangle of one Laplace solve: Eigen's SimplicialLDLT analyse + factor + two solves of
+/// the mesh's Laplacian (symmetrised mean value weights, one vertex fixed), one thread, the median
+/// of five. Times are told in multiples of it, measured in the same run: machines differ.
+double measure_yardstick(const TriangleMesh& mesh);
+
+/// The mesh whose Laplacian is the yardstick: nefertiti-lowres.obj of `folder`, 70,000 triangles,
+/// or, where that is not there, the sample body with as many.
+TriangleMesh yardstick_mesh(const std::string& folder);
+
+/// The folder of real meshes, `genus0/` within SPHPARAM_MESHES or within the default folder.
+std::string meshes_folder();
+
+/// Wall time in seconds since some moment.
+double now();
+
+}  // namespace sphparam::bench
