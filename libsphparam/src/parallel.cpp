@@ -5,16 +5,33 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <new>
 #include <system_error>
 #include <thread>
 #include <vector>
 
-// One pool for the process: workers sleep between loops, the caller works too and waits only for
-// chunks that somebody claimed. A loop inside a loop runs on its own thread, so nothing can wait
-// for itself.
+// One pool for the process: the caller works too and waits only for chunks that somebody claimed. A
+// loop inside a loop runs on its own thread, so nothing can wait for itself. Sweeps are thousands
+// of loops of some microseconds each: whoever waits looks around for a while before it sleeps.
 
 namespace sphparam {
 namespace {
+
+constexpr int looks = 1000;  // before a thread sleeps: some ten microseconds
+
+void pause() {
+#if defined(__x86_64__)
+  __builtin_ia32_pause();
+#else
+  std::this_thread::yield();
+#endif
+}
+
+/// Waits a little for something that is about to happen.
+template <class Happened>
+void look_out_for(const Happened& happened) {
+  for (int i = 0; i < looks && !happened(); ++i) pause();
+}
 
 struct Loop {
   std::int64_t count;
@@ -59,25 +76,35 @@ class Pool {
           workers_.emplace_back([this] { serve(); });
         } catch (const std::system_error&) {
           break;  // the system grants no more threads: fewer do the same work
+        } catch (const std::bad_alloc&) {
+          break;
         }
       }
       loop_ = &loop;
       places_ = helpers;
+      if (asleep_ > 0) wake_.notify_all();
     }
-    wake_.notify_all();
     loop.work();
+    {
+      const std::lock_guard lock(mutex_);
+      loop_ = nullptr;
+      places_ = 0;
+    }
+    look_out_for([this] { return busy_ == 0; });
     std::unique_lock lock(mutex_);
-    loop_ = nullptr;
-    places_ = 0;
     idle_.wait(lock, [this] { return busy_ == 0; });
   }
 
  private:
   void serve() {
     inside_pool() = true;
-    std::unique_lock lock(mutex_);
+    const auto called = [this] { return quit_ || places_ > 0; };
     for (;;) {
-      wake_.wait(lock, [this] { return quit_ || places_ > 0; });
+      look_out_for(called);
+      std::unique_lock lock(mutex_);
+      ++asleep_;
+      wake_.wait(lock, called);
+      --asleep_;
       if (quit_) return;
       --places_;
       ++busy_;
@@ -94,9 +121,11 @@ class Pool {
   std::condition_variable wake_, idle_;
   std::vector<std::thread> workers_;
   Loop* loop_ = nullptr;
-  int places_ = 0;  // how many more workers may join the loop
-  int busy_ = 0;
-  bool quit_ = false;
+  // Changed under the mutex; atomic, so that who looks out for them need not hold it.
+  std::atomic<int> places_ = 0;  // how many more workers may join the loop
+  std::atomic<int> busy_ = 0;
+  std::atomic<bool> quit_ = false;
+  int asleep_ = 0;
 
  public:
   static bool& inside_pool() {

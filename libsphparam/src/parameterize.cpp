@@ -12,22 +12,23 @@
 #include "sphparam/curvilinear/sound_map.h"
 #include "sphparam/embedding/axis_choice.h"
 #include "sphparam/embedding/gnomonic.h"
+#include "sphparam/embedding/grid_lift.h"
 #include "sphparam/embedding/landmarks.h"
 #include "sphparam/embedding/pole_placement.h"
 #include "sphparam/embedding/progressive.h"
 #include "sphparam/embedding/relaxation.h"
 #include "sphparam/embedding/untangle.h"
 #include "sphparam/mesh/mesh_defects.h"
-#include "stopwatch.h"
+#include "sphparam/stopwatch.h"
 
 // The table of contents. Three methods, each a straight line of stages:
 //   paper        poles → date line, cut, harmonic, quasi-harmonic, lift, smoothing
 //   curvilinear  poles → the same, periodic and accumulated → relaxation along the date line
 //   progressive  hierarchy, embedding
 // Then the certificate; where it fails and repair is wanted: untangling, the progressive embedding,
-// the one-vertex lift. A certified map without poles gets them last: given ones and pins are held
-// while it is embedded anew, automatic ones chosen on the finished map. Whatever comes out last is
-// certified as it is.
+// the one-vertex lift, the grid lift. A certified map without poles gets them last: given ones and
+// pins are held while it is embedded anew, automatic ones chosen on the finished map. Whatever comes
+// out last is certified as it is.
 
 namespace sphparam {
 namespace {
@@ -86,6 +87,7 @@ class Pipeline {
     if (repair && !certified()) untangle_folds();
     if (repair && !certified()) embed_from_nothing();
     if (repair && !certified()) lift_one_vertex();
+    if (repair && !certified()) lift_grid();
     if (certified()) place_frame();
     return std::move(result_);
   }
@@ -103,8 +105,12 @@ class Pipeline {
       result_.stages.push_back(
           {stage.name, stage.seconds, stage.planar_folds, count_folds(map), measured(map)});
     };
-    PaperResult paper_map =
-        map_as_paper(mesh_, topology_, *poles, paper, options_.progress, on_stage);
+    PaperResult paper_map;
+    try {
+      paper_map = map_as_paper(mesh_, topology_, *poles, paper, options_.progress, on_stage);
+    } catch (const SolveError& error) {  // as below
+      return give_up(error.what());
+    }
     result_.stages.insert(result_.stages.end() - static_cast<long>(paper_map.stages.size()),
                           {"date line", paper_map.path_seconds});
     result_.poles = poles;
@@ -166,13 +172,30 @@ class Pipeline {
   }
 
   void lift_one_vertex() {
-    GnomonicEmbedding embedding = gnomonic_embedding(mesh_, topology_,
-                                                     {.lambda = options_.energy.lambda,
-                                                      .threads = options_.threads,
-                                                      .progress = options_.progress});
+    GnomonicEmbedding embedding;
+    try {
+      embedding = gnomonic_embedding(mesh_, topology_,
+                                     {.lambda = options_.energy.lambda,
+                                      .threads = options_.threads,
+                                      .progress = options_.progress});
+    } catch (const SolveError& error) {  // limbs where doubles underflow
+      return give_up(error.what());
+    }
     forget_poles();
     record("one-vertex lift", embedding.map);
     accept("one-vertex lift", std::move(embedding.map));
+  }
+
+  void lift_grid() {
+    GridLift lift = grid_lift(mesh_, topology_,
+                              {.energy = {.lambda = options_.energy.lambda},
+                               .threads = options_.threads,
+                               .progress = options_.progress});
+    if (!lift.bijective) return give_up("the grid lift found no room");
+    forget_poles();
+    warn("made by the last resort, the grid lift: one-to-one, but greatly distorted");
+    record("grid lift", lift.map);
+    accept("grid lift", std::move(lift.map));
   }
 
   bool embed(const std::vector<Pin>& pins) {
@@ -421,7 +444,7 @@ class Pipeline {
 
   std::optional<DistortionSummary> measured(const SphereMap& map) const {
     if (!options_.measure_stages) return std::nullopt;
-    return summarise(measure_distortion(mesh_, map, options_.threads));
+    return summarise(measure_distortion(mesh_, map, options_.threads), options_.threads);
   }
 
   void give_up(const std::string& reason) { warn(reason); }

@@ -4,7 +4,9 @@
 //       mesh, per triangle, on one thread, in the same run.
 //
 // Usage: benchmark [--threads N] [--methods progressive,curvilinear,paper] [--largest TRIANGLES]
-//                  [--repeat N] [MESH …]
+//                  [--repeat N] [--embedding] [MESH …]
+// Each stage stands beside its budget. --embedding adds the embedding alone, on one thread and on
+// two, and with narrower instruction sets than the machine's.
 // Without meshes: the samples, three real meshes where SPHPARAM_MESHES (or the default folder) has
 // them, and subdivided ones up to 1.5 million triangles. Never a test: machines are noisy.
 
@@ -16,17 +18,20 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "embedding/lanes.h"
 #include "loop_subdivision.h"
 #include "mesh_io/mesh_reader.h"
 #include "mesh_io/mesh_writer.h"
 #include "mesh_io/sphere_file.h"
 #include "mesh_io/welding.h"
 #include "sample_meshes.h"
+#include "sphparam/embedding/progressive.h"
 #include "sphparam/parameterize.h"
 #include "yardstick.h"
 
@@ -111,6 +116,12 @@ Run best_of(int repeat, const std::string& bytes, const std::string& name, Metho
   return runs[runs.size() / 2];  // the median
 }
 
+/// What a stage of the default method may take on two threads, in Y; all together 1.
+const std::map<std::string, double> budgets = {
+    {"read", 0.12},           {"gate", 0.06},      {"progressive embedding", 0.6},
+    {"certificate", 0.03},    {"serialise", 0.04}, {"pole placement", 0.07},
+    {"certify buffer", 0.04}, {"read back", 0.04}};
+
 void print(const std::string& name, const std::string& method, const Run& run, double yardstick) {
   const double unit = yardstick * run.triangles;
   std::printf("| %s | %.0f | %s | %s | %s | %.3f | %.2f | %.0f | %.3f | %.3f | %.2f |\n",
@@ -119,19 +130,45 @@ void print(const std::string& name, const std::string& method, const Run& run, d
               run.memory / run.triangles, run.distortion.mean_abs_ln_angle,
               run.distortion.mean_abs_ln_area, run.distortion.symmetric_dirichlet);
   std::printf("|   |   |   | ");
-  for (const auto& [stage, seconds] : run.stages)
-    std::printf("%s %.2f, ", stage.c_str(), seconds / unit);
+  for (const auto& [stage, seconds] : run.stages) {
+    std::printf("%s %.2f", stage.c_str(), seconds / unit);
+    const auto budget = budgets.find(stage);
+    if (budget != budgets.end()) std::printf(" of %.2f", budget->second);
+    std::printf(", ");
+  }
   std::printf("(in Y) | | | | | | | |\n");
   std::fflush(stdout);
 }
-
-// --- what is measured
-// -----------------------------------------------------------------------------
 
 struct Subject {
   std::string name;
   std::string bytes;
 };
+
+/// The embedding alone, adjacency excluded.
+void print_embedding(const Subject& subject, int repeat, double yardstick) {
+  const MeshFile file = prepare_for_mapping(read_mesh(subject.bytes, subject.name, {}));
+  const Topology topology(file.mesh);
+  const auto measure = [&](int threads, InstructionSet widest) {
+    limit_instruction_set(widest);
+    double best = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < repeat; ++i) {
+      const double start = now();
+      embed_progressively(file.mesh, topology, {.threads = threads});
+      best = std::min(best, now() - start);
+    }
+    limit_instruction_set(InstructionSet::Avx512);
+    return best / static_cast<double>(file.mesh.face_count()) / yardstick;
+  };
+  std::printf(
+      "|   |   |   | embedding: one thread %.2f of 0.80, two %.2f of 0.60; one thread with "
+      "AVX2 %.2f, baseline %.2f (in Y) | | | | | | | |\n",
+      measure(1, InstructionSet::Avx512), measure(2, InstructionSet::Avx512),
+      measure(1, InstructionSet::Avx2), measure(1, InstructionSet::Baseline));
+  std::fflush(stdout);
+}
+
+// --- what is measured ---------------------------------------------------------------------------
 
 Subject subdivided(const std::string& name, TriangleMesh mesh, int times) {
   for (int i = 0; i < times; ++i) mesh = loop_subdivided(mesh);
@@ -176,10 +213,12 @@ int main(int argc, char** argv) {
   CLI::App app("Times maps against one Laplace solve.");
   int threads = 0, repeat = 3;
   double largest = 2e6;
+  bool embedding = false;
   std::vector<std::string> wanted{"progressive", "curvilinear"}, paths;
   app.add_option("--threads", threads, "0: all cores");
   app.add_option("--repeat", repeat, "runs of each; the median is printed");
   app.add_option("--largest", largest, "skip meshes with more triangles");
+  app.add_flag("--embedding", embedding, "the embedding alone, by threads and instruction sets");
   app.add_option("--methods", wanted, "progressive, curvilinear, paper")
       ->delimiter(',')
       ->allow_extra_args(false)
@@ -205,5 +244,6 @@ int main(int argc, char** argv) {
       print(subject.name, method,
             best_of(repeat, subject.bytes, subject.name, methods.at(method), threads), yardstick);
     }
+    if (embedding) print_embedding(subject, repeat, yardstick);
   }
 }

@@ -97,16 +97,16 @@ void write_bytes(const std::string& path, const std::string& bytes) {
 std::string obj_text(const TriangleMesh& mesh) {
   std::string text;
   for (Eigen::Index v = 0; v < mesh.vertex_count(); ++v) {
-    text += "v";
-    for (int axis = 0; axis < 3; ++axis) text += " " + number(mesh.positions(v, axis));
-    text += "\n";
+    text += 'v';
+    for (int axis = 0; axis < 3; ++axis) text.append(" ").append(number(mesh.positions(v, axis)));
+    text += '\n';
   }
   for (Eigen::Index f = 0; f < mesh.face_count(); ++f) {
-    text += "f";
+    text += 'f';
     for (int corner = 0; corner < 3; ++corner) {
-      text += " " + std::to_string(mesh.triangles(f, corner) + 1);
+      text.append(" ").append(std::to_string(mesh.triangles(f, corner) + 1));
     }
-    text += "\n";
+    text += '\n';
   }
   return text;
 }

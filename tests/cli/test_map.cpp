@@ -114,6 +114,8 @@ TEST_CASE("map: --json has the documented keys") {
   CHECK(report["inspection"]["genus"] == 0);
   CHECK(report["certificate"]["one_to_one"] == true);
   CHECK(report["certificate"]["degree"] == 1);
+  CHECK(report["chart"]["certified"] == true);
+  CHECK(report["chart"]["splits"]["meridian"].is_number());
   CHECK(report["distortion"]["symmetric_dirichlet"].get<double>() >= 4);
   CHECK(report["outputs"]["map"] == folder / "ball.sph.ply");
 }
@@ -271,7 +273,7 @@ TEST_CASE("map: poles are named by their numbers in the file, also where vertice
   }
   for (Eigen::Index f = 0; f < ball.face_count(); ++f) {
     text += "f";
-    for (int k = 0; k < 3; ++k) text += " " + std::to_string(ball.triangles(f, k) + 3);
+    for (int k = 0; k < 3; ++k) text.append(" ").append(std::to_string(ball.triangles(f, k) + 3));
     text += "\n";
   }
   const Ended ended = sphparam_program(
@@ -281,6 +283,17 @@ TEST_CASE("map: poles are named by their numbers in the file, also where vertice
   CHECK(poles["north"] == 5);  // of the mesh as written
   CHECK(poles["south"] == 40);
   CHECK(sphparam_program({"map", "-", "-o", "-", "--poles", "0,42"}, text).code == 2);
+}
+
+TEST_CASE("map: a GIFTI sphere holds floats, and is certified as such") {
+  const Folder folder;
+  write_bytes(folder / "ball.obj", obj_text(icosphere(3)));
+  const Ended mapped = sphparam_program(
+      {"map", folder / "ball.obj", "-o", folder / "ball.sph.ply", "--sphere", folder / "ball.gii"});
+  INFO(mapped.err);
+  REQUIRE(mapped.code == 0);
+  CHECK_THAT(bytes_of(folder / "ball.gii"), Contains("NIFTI_TYPE_FLOAT32"));
+  CHECK(sphparam_program({"verify", folder / "ball.gii"}).code == 0);
 }
 
 }  // namespace sphparam::tests

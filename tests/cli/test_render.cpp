@@ -44,6 +44,30 @@ TEST_CASE("render: every colouring and overlay draws") {
   }
 }
 
+TEST_CASE("render: a name that promises another format is refused before any work") {
+  const Folder folder;
+  for (const char* name : {"ball.jpg", "ball.exr", "ball.svg"}) {
+    const Ended ended =
+        sphparam_program({"render", "-", "-o", folder / name}, obj_text(icosphere(1)));
+    CHECK(ended.code == 2);
+    CHECK_THAT(ended.err, Contains("must end in .png"));
+  }
+  CHECK(folder.names().empty());
+}
+
+TEST_CASE("render: the legend of a distortion can be left out") {
+  const Folder folder;
+  const std::string map = folder / "map.sph.ply";
+  REQUIRE(sphparam_program({"map", "-", "-o", map}, obj_text(tube(6, 8))).code == 0);
+  const auto picture = [&](const std::string& option) {
+    std::vector<std::string> arguments = {"render", map,      "-o",  "-",        "--view",
+                                          "sphere", "--size", "200", "--colour", "angle"};
+    if (!option.empty()) arguments.push_back(option);
+    return sphparam_program(arguments).out;
+  };
+  CHECK(picture("") != picture("--no-legend"));
+}
+
 TEST_CASE("render: what needs a map says so") {
   const std::string ball = obj_text(icosphere(1));
   for (const std::vector<std::string>& look :

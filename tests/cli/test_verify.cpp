@@ -66,6 +66,22 @@ TEST_CASE("verify: a sphere seen from inside is one-to-one and said to be revers
   CHECK(Json::parse(ended.out)["certificate"]["reversed"] == true);
 }
 
+TEST_CASE("verify: --chart proves the chart of a map, from outside and from inside") {
+  TriangleMesh sphere = icosphere(3);
+  const Ended outside = sphparam_program({"verify", "-", "--chart", "--json"}, obj_text(sphere));
+  REQUIRE(outside.code == 0);
+  const Json chart = Json::parse(outside.out)["chart"];
+  CHECK(chart["certified"] == true);
+  CHECK(chart["splits"]["total"].get<long>() >= chart["splits"]["folds"].get<long>());
+  CHECK(chart["wedges"].get<long>() > chart["vertices"].get<long>());
+  const Ended words = sphparam_program({"verify", "-", "--chart"}, obj_text(sphere));
+  CHECK_THAT(words.out, Contains("chart: certified") && Contains("along the meridian"));
+  CHECK_THAT(sphparam_program({"verify", "-"}, obj_text(sphere)).out, !Contains("chart"));
+
+  sphere.positions.col(0) *= -1;
+  CHECK(sphparam_program({"verify", "-", "--chart"}, obj_text(sphere)).code == 0);
+}
+
 TEST_CASE("verify: two files of one connectivity are compared and the distortion measured") {
   const Folder folder;
   const TriangleMesh ball = icosphere(2);
@@ -86,7 +102,7 @@ TEST_CASE("verify: two files of one connectivity are compared and the distortion
         Approx(Json::parse(ended.out)["distortion"]["symmetric_dirichlet"].get<double>()));
 }
 
-TEST_CASE("verify: files of different connectivity end with 5 and the place is named") {
+TEST_CASE("verify: files of different connectivity end with 3 and the place is named") {
   const Folder folder;
   TriangleMesh other = icosphere(2);
   std::swap(other.triangles(9, 0), other.triangles(9, 1));
@@ -94,11 +110,12 @@ TEST_CASE("verify: files of different connectivity end with 5 and the place is n
   write_bytes(folder / "sphere.obj", obj_text(icosphere(2)));
   write_bytes(folder / "small.obj", obj_text(icosphere(1)));
   const Ended face = sphparam_program({"verify", folder / "source.obj", folder / "sphere.obj"});
-  CHECK(face.code == 5);
+  CHECK(face.code == 3);
   CHECK_THAT(face.err, Contains("triangle 9"));
   const Ended count = sphparam_program({"verify", folder / "small.obj", folder / "sphere.obj"});
-  CHECK(count.code == 5);
-  CHECK_THAT(count.err, Contains("42") && Contains("162"));
+  CHECK(count.code == 3);
+  CHECK_THAT(count.err, Contains("sphere.obj: not a sphere of small.obj") && Contains("42") &&
+                            Contains("162"));
 }
 
 }  // namespace sphparam::tests

@@ -18,7 +18,7 @@ namespace {
 /// Points near the images of some vertices, `away` radians or so, in a turned frame.
 std::vector<Pin> pins_near(const SphereMap& map, int count, double away, unsigned seed) {
   std::mt19937 random(seed);
-  const auto number = [&] { return 2.0 * random() / 4294967296.0 - 1; };
+  const auto number = [&] { return 2.0 * static_cast<double>(random()) / 4294967296.0 - 1; };
   const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(2, Vector3(1, 2, 3).normalized()).toRotationMatrix();
   std::vector<Pin> pins;

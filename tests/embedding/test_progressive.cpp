@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <random>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -100,4 +101,19 @@ TEST_CASE("kernel_placement: a ring without a kernel gets no point") {
   }
   std::swap(ring[1], ring[4]);
   CHECK_FALSE(place_in_kernel(ring));
+}
+
+TEST_CASE("progressive: shapes that have collapsed into three places are embedded all the same") {
+  for (unsigned seed = 0; seed < 30; ++seed) {
+    TriangleMesh mesh = random_sphere_mesh(600, seed);
+    const Topology topology(mesh);
+    std::mt19937 random(seed);
+    const Points places = mesh.positions.topRows(3);
+    for (Vertex v = 0; v < topology.vertex_count(); ++v) {
+      mesh.positions.row(v) = places.row(static_cast<Eigen::Index>(random() % 3));
+    }
+    const ProgressiveEmbedding embedding = embed_progressively(mesh, topology);
+    REQUIRE(embedding.map);
+    CHECK(certify(topology, *embedding.map).bijective());
+  }
 }

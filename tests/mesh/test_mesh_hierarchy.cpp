@@ -98,3 +98,11 @@ TEST_CASE("mesh_hierarchy: levels shrink geometrically, also around a hub of 100
     CHECK(hierarchy.size() < 60);
   }
 }
+
+TEST_CASE("mesh_hierarchy: where edges have no length, valences still decide") {
+  TriangleMesh mesh = icosphere(4);
+  mesh.positions.setZero();
+  for (const HierarchyLevel& level : build_hierarchy(mesh, Topology(mesh))) {
+    for (Vertex v = 0; v < level.vertex_count(); ++v) CHECK(level.valence(v) <= 12);
+  }
+}

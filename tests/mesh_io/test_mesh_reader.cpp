@@ -26,13 +26,10 @@ TEST_CASE("mesh_reader: other formats are refused by name") {
     CHECK(contains(complaint(bytes, name), expected));
   };
   refused("\x1f\x8b\x08", "a.ply.gz", "gzip");
-  refused("glTF\x02", "a.glb", "GLB");
   refused("MZ\x03", "a.mz3", "MZ3");
-  refused("<?xml version", "a.gii", "GIFTI");
-  refused("solid a\nfacet", "a.stl", "STL");
+  refused("\x1f\x8b\x08", "a.mz3", "MZ3");
+  refused("<?xml version", "a.dae", "XML other than GIFTI");
   refused("\xff\xff\xfe", "lh.white", "FreeSurfer");
-  refused("{}", "a.gltf", "glTF");
-  refused(std::string(80, ' ') + std::string("\1\0\0\0", 4) + std::string(50, '\0'), "a", "STL");
   refused("hello", "a.txt", "not recognised");
   refused("hello", "a.ply", "a.ply:1: expected the magic word");
   refused("", "a.obj", "empty");
@@ -125,7 +122,7 @@ TEST_CASE("mesh_reader: damaged files give a mesh or a ReadError, nothing else")
           default:
             bytes.insert(at, bytes.substr(random() % bytes.size(), random() % 12));
         }
-        if (bytes.empty()) bytes = "x";
+        if (bytes.empty()) bytes.push_back('x');
       }
       try {
         const MeshFile file = read(bytes, "a.obj");

@@ -149,3 +149,11 @@ TEST_CASE("mesh_writer: an empty mesh is written and read") {
   for (const auto serialise : {serialise_ply, serialise_off})
     CHECK(read(serialise(MeshFile{})).mesh.vertex_count() == 0);
 }
+
+TEST_CASE("mesh_writer: a comment that looks like a material stays a comment") {
+  const MeshFile file = read("# sphparam material gold\n" + kTetrahedronObj, "a.obj");
+  const MeshFile again = read(serialise_ply(file));
+  CHECK(again.materials.empty());
+  CHECK(again.comments.size() == 1);
+  CHECK(serialise_ply(again) == serialise_ply(file));
+}

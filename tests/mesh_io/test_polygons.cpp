@@ -111,11 +111,29 @@ TEST_CASE("polygons: tiling does not depend on place, plane or scale") {
   }
 }
 
-TEST_CASE("polygons: two quads on the same four vertices get different diagonals") {
+TEST_CASE("polygons: what two polygons have between the same two edges is there twice, and noted") {
+  // Two quads, and two pentagons, with the edges 0-1 and 1-2 in common; 1-3 would be shorter.
+  Points points(9, 3);
+  points << 0, 0, 0, 5, 1, 0, 10, 0, 0, 5, 2, 0, 5, -9, 0, 3, -9, 1, 7, -9, 1, 3, 9, 1, 7, 9, 1;
+  for (const auto& faces : {std::vector<std::vector<int>>{{3, 0, 1, 2}, {4, 2, 1, 0}},
+                            std::vector<std::vector<int>>{{0, 1, 2, 8, 7}, {1, 0, 5, 6, 2}}}) {
+    const Triangulation cut = triangulate(points, polygons_of(faces));
+    CHECK(cut.doublets == std::vector<int>{1});
+    const auto edges = directed_edges(cut.triangles);
+    CHECK(edges.at({0, 2}) == 2);
+    CHECK(edges.at({2, 0}) == 2);
+    MeshFile file;
+    adopt_triangulation(file, cut);
+    REQUIRE(file.notes.size() == 1);
+    CHECK(file.notes[0].find("about vertices 1:") != std::string::npos);
+  }
+}
+
+TEST_CASE("polygons: a vertex of two polygons between different neighbours is no doublet") {
   Points points(4, 3);
   points << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0;
-  const Triangulation cut = triangulate(points, polygons_of({{0, 1, 2, 3}, {3, 2, 1, 0}}));
-  for (const auto& [edge, count] : directed_edges(cut.triangles)) CHECK(count == 1);
+  CHECK(triangulate(points, ring(4)).doublets.empty());
+  CHECK(triangulate(points, polygons_of({{0, 1, 2, 3}, {0, 3, 2, 1}})).doublets.size() == 4);
 }
 
 TEST_CASE("polygons: no cut runs along an edge that is there already") {

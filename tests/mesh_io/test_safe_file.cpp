@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "mesh_io/safe_file.h"
+#include "mesh_io/temporary_file.h"
 #include "reading.h"
 
 using namespace sphparam::tests;
@@ -111,4 +112,91 @@ TEST_CASE("safe_file: devices are written directly, after the check") {
 TEST_CASE("safe_file: nothing reaches standard output when the check throws") {
   const auto refuse = [](std::string_view) { throw std::logic_error("not certified"); };
   CHECK_THROWS_AS(write_file("-", "must not appear\n", refuse), std::logic_error);
+}
+
+TEST_CASE("safe_file: pending files get their names together, and not before") {
+  const Folder folder;
+  write_file(folder.file("a"), "old");
+  PendingFiles files;
+  files.add(folder.file("a"), "new a");
+  files.add(folder.file("b"), "new b");
+  CHECK(content(folder.file("a")) == "old");
+  CHECK_FALSE(fs::exists(folder.file("b")));
+  files.publish();
+  CHECK(content(folder.file("a")) == "new a");
+  CHECK(content(folder.file("b")) == "new b");
+  CHECK(folder.entries() == 2);
+}
+
+TEST_CASE("safe_file: pending files that are given up leave nothing") {
+  const Folder folder;
+  write_file(folder.file("a"), "old");
+  {
+    PendingFiles files;
+    files.add(folder.file("a"), "new a");
+    files.add(folder.file("b"), "new b");
+    CHECK_THROWS_AS(files.add(folder.file("no/c"), "new c"), WriteError);
+  }
+  CHECK(content(folder.file("a")) == "old");
+  CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("safe_file: when one file cannot take its name, the others give theirs back") {
+  const Folder folder;
+  write_file(folder.file("a"), "old");
+  {
+    PendingFiles files;
+    files.add(folder.file("a"), "new a");
+    files.add(folder.file("b"), "new b");
+    files.add(folder.file("c"), "new c");
+    files.add(folder.file("d"), "new d");
+    fs::remove(folder.file("c.tmp." + std::to_string(::getpid())));
+    CHECK_THROWS_AS(files.publish(), WriteError);
+  }
+  CHECK(content(folder.file("a")) == "old");
+  CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("safe_file: two spellings of one path are one file") {
+  const Folder folder;
+  fs::create_symlink(folder.file("a"), folder.file("link"));
+  fs::create_directory(folder.file("sub"));
+  PendingFiles files;
+  files.add(folder.file("a"), "x");
+  for (const char* spelling : {"a", "./a", "sub/../a", "link"})
+    CHECK_THROWS_WITH(files.add(folder.file(spelling), "y"), Catch::Contains("two outputs"));
+}
+
+TEST_CASE("safe_file: a link to nothing is followed, and stays") {
+  const Folder folder;
+  fs::create_directory(folder.file("sub"));
+  fs::create_symlink("sub/a", folder.file("link"));
+  fs::create_symlink("link", folder.file("second"));
+  write_file(folder.file("second"), "new");
+  CHECK(fs::is_symlink(folder.file("link")));
+  CHECK(fs::is_symlink(folder.file("second")));
+  CHECK(content(folder.file("sub/a")) == "new");
+  fs::create_symlink("no/such", folder.file("lost"));
+  CHECK_THROWS_WITH(write_file(folder.file("lost"), "x"), Catch::Contains("does not exist"));
+  fs::create_symlink("loop", folder.file("loop"));
+  CHECK_THROWS_AS(write_file(folder.file("loop"), "x"), WriteError);
+}
+
+TEST_CASE("safe_file: a signal handler can remove the temporaries that are there") {
+  const Folder folder;
+  PendingFiles files;
+  files.add(folder.file("a"), "x");
+  files.add(folder.file("b"), "y");
+  CHECK(folder.entries() == 2);
+  remove_temporaries_on_signal();
+  CHECK(folder.entries() == 0);
+}
+
+TEST_CASE("safe_file: streams are written when the files get their names") {
+  const Folder folder;
+  PendingFiles files;
+  files.add("/dev/full", "x");
+  files.add(folder.file("a"), "x");
+  CHECK_THROWS_AS(files.publish(), WriteError);
+  CHECK_FALSE(fs::exists(folder.file("a")));
 }

@@ -55,9 +55,9 @@ TEST_CASE("welding: zero has no sign, other numbers are compared bit for bit") {
 TEST_CASE("welding: attributes that differ between copies move to the corners") {
   MeshFile file = soup(octahedron());
   const auto count = static_cast<std::size_t>(file.mesh.vertex_count());
-  Property s{"s", ScalarType::Float32, std::vector<double>(count)}, t = s;
-  Property nx = s, ny = s, nz = s;
-  t.name = "t", nx.name = "nx", ny.name = "ny", nz.name = "nz";
+  Property s{"s", ScalarType::Float32, std::vector<double>(count)};
+  Property t{"t", s.type, s.values}, nx{"nx", s.type, s.values}, ny{"ny", s.type, s.values};
+  Property nz{"nz", s.type, s.values};
   for (std::size_t i = 0; i < count; ++i) s.values[i] = static_cast<double>(i);
   for (const Property& property : {s, t, nx, ny, nz}) file.vertex_properties.push_back(property);
   const MeshFile welded = weld_exact(file).file;

@@ -134,7 +134,7 @@ TEST_CASE("histogram_chart: shares sum to one, infinities in the outer bars") {
   CHECK(balanced(svg));
   // 25 % low end, 50 % in the middle, 25 % high end: with the angle panel's one bar, four bars.
   CHECK(count(svg, "<rect x=") == 4);
-  CHECK_THAT(svg, Contains("50 %"));
+  CHECK_THAT(svg, Contains("50 %") && Contains(">1/16<") && Contains(">16<") && Contains(">1/8<"));
 }
 
 TEST_CASE("write_charts: paths are made of directory and name, the same bytes each time") {

@@ -9,7 +9,8 @@
 
 namespace sphparam::tools {
 
-/// An option whose value is one of a few words. A wrong word is answered with the right ones.
+/// An option whose value is one of a few words, which --help shows and shells complete. A wrong
+/// word is answered with the right ones.
 template <class Value>
 CLI::Option* add_choice(CLI::App& command, const std::string& name, Value& value,
                         const std::vector<std::pair<std::string, Value>>& choices,
@@ -29,7 +30,9 @@ CLI::Option* add_choice(CLI::App& command, const std::string& name, Value& value
     throw CLI::ValidationError(name, "no " + word + " among " + all +
                                          (meant.empty() ? "" : "; did you mean " + meant + "?"));
   };
-  return command.add_option_function<std::string>(name, choose, description);
+  std::string all;
+  for (const auto& choice : choices) all += (all.empty() ? "" : "|") + choice.first;
+  return command.add_option_function<std::string>(name, choose, description)->type_name(all);
 }
 
 /// A number between two others, both allowed.

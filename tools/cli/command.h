@@ -22,6 +22,8 @@ Command declare_info(CLI::App& program);
 Command declare_map(CLI::App& program);
 Command declare_verify(CLI::App& program);
 Command declare_render(CLI::App& program);
+Command declare_manual(CLI::App& program);
+Command declare_completion(CLI::App& program);
 
 /// A command line that CLI11 accepts and that makes no sense all the same.
 class UsageMistake : public std::runtime_error {

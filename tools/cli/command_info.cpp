@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,12 +11,13 @@
 #include "cli/exit_codes.h"
 #include "cli/json_report.h"
 #include "cli/paths.h"
+#include "cli/repairing.h"
 #include "cli/source.h"
-#include "cli/stopwatch.h"
 #include "cli/wording.h"
 #include "mesh_io/safe_file.h"
 #include "mesh_io/sphere_file.h"
 #include "sphparam/mesh/mesh_defects.h"
+#include "sphparam/stopwatch.h"
 
 namespace sphparam::tools {
 
@@ -106,15 +108,18 @@ std::string text_of(const InfoReport& report) {
   if (!source.inspection.defects.empty()) {
     text += "What is odd or wrong:\n" + defect_list(source.inspection.defects);
   }
-  return text + (source.inspection.is_sphere() ? "A closed genus-0 mesh: it can be mapped.\n"
-                                               : "This mesh cannot be mapped to a sphere.\n");
+  if (source.inspection.is_sphere()) return text + "A closed genus-0 mesh: it can be mapped.\n";
+  return text + "This mesh cannot be mapped to a sphere as it is.\n" + words_of(*report.repair);
 }
 
 int run_info(const InfoArguments& arguments) {
   const Stopwatch stopwatch;
   const Source source = read_source(arguments.input);
+  std::optional<RepairTrial> trial;
+  if (!source.inspection.is_sphere()) trial = try_repair(source);
   const InfoReport report = {.input = {arguments.input, source},
                              .provenance = read_provenance(source.file),
+                             .repair = trial,
                              .seconds = stopwatch.seconds()};
   if (arguments.json) {
     write_file("-", to_json(report));

@@ -1,33 +1,40 @@
-// `sphparam map`: file → mesh → map → proof → file. The map waits under a temporary name until what
-// was read back from the disk is certified and everything else is written; then it is renamed.
+// `sphparam map`: file → mesh → map → proof → file. All outputs wait under temporary names until
+// what was read back from the disk is certified; then all are renamed, or none.
 
-#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <new>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "cli/chart_report.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_codes.h"
+#include "cli/file_numbers.h"
 #include "cli/interruption.h"
 #include "cli/json_report.h"
 #include "cli/map_arguments.h"
 #include "cli/paths.h"
+#include "cli/pin_file.h"
+#include "cli/repairing.h"
 #include "cli/source.h"
-#include "cli/stopwatch.h"
 #include "cli/wording.h"
 #include "mesh_io/mesh_reader.h"
 #include "mesh_io/mesh_writer.h"
 #include "mesh_io/safe_file.h"
 #include "mesh_io/sphere_file.h"
 #include "report/charts.h"
+#include "sphparam/embedding/landmarks.h"
 #include "sphparam/mesh/mesh_defects.h"
+#include "sphparam/mesh/topology.h"
 #include "sphparam/parameterize.h"
+#include "sphparam/sphere/float_rounding.h"
+#include "sphparam/stopwatch.h"
 #include "sphparam/version.h"
 
 namespace sphparam::tools {
@@ -46,42 +53,59 @@ struct Outcome {
   Certificate certificate = {};
   std::optional<Distortion> distortion = std::nullopt;
   std::optional<DistortionSummary> figures = std::nullopt;
+  std::vector<Landmark> pins = {};  // vertices of the mesh
 
   /// The paper's method makes none where no pair of poles is usable.
   bool has_map() const { return result.map.points.rows() > 0; }
+  /// Every pin exactly where it was wanted; also where none was.
+  bool pins_hold() const {
+    return pins.empty() ||
+           (result.pin_residuals.size() == pins.size() && all_exact(result.pin_residuals));
+  }
+  /// What the program is for: exit code 0.
+  bool succeeded() const { return certificate.bijective() && pins_hold(); }
   std::string verdict() const { return has_map() ? tools::verdict(certificate) : "no map"; }
 };
 
-/// A vertex of the file, by its number there, as a vertex of the mesh: welding and dropping unused
-/// vertices may have renumbered them.
-Vertex vertex_in_mesh(const MeshFile& file, Vertex named) {
-  const Property* numbers = file.find_vertex_property("source_vertex");
-  Vertex found = named;
-  if (numbers) {
-    const auto at = std::find(numbers->values.begin(), numbers->values.end(), named);
-    found = static_cast<Vertex>(at - numbers->values.begin());
+/// Poles, meridian and pins as vertices of the mesh.
+void settle_vertices(const MapArguments& arguments, const MeshFile& file,
+                     ParameterizeOptions& options) {
+  if (!options.poles && !options.meridian && arguments.pins.empty()) return;
+  const FileNumbers numbers(file);
+  const auto vertex = [&](const char* option, Vertex number) {
+    const Vertex found = numbers.vertex(number);
+    if (found < 0) throw UsageMistake(std::string(option) + ": " + numbers.absence(number));
+    return found;
+  };
+  if (options.poles) {
+    options.poles =
+        Poles{vertex("--poles", options.poles->north), vertex("--poles", options.poles->south)};
   }
-  if (found < file.mesh.vertex_count()) return found;
-  throw UsageMistake("--poles: the mesh has no vertex " + std::to_string(named) +
-                     (numbers ? " (it was merged with another, or no face used it)"
-                              : "; they are 0 to " + std::to_string(file.mesh.vertex_count() - 1)));
+  if (options.meridian) options.meridian = vertex("--meridian", *options.meridian);
+  if (arguments.pins.empty()) return;
+  options.pins = read_pins(arguments.pins, numbers);
+  for (const Landmark& pin : options.pins) {
+    if (options.poles &&
+        (pin.vertex == options.poles->north || pin.vertex == options.poles->south)) {
+      throw UsageMistake("--pin: vertex " + std::to_string(numbers.number(pin.vertex)) +
+                         " is one of the --poles");
+    }
+  }
 }
 
 Outcome compute(Source source, const MapArguments& arguments, Console& console) {
   Outcome outcome = {.source = std::move(source)};
-  if (!outcome.source.inspection.is_sphere()) throw MeshError(outcome.source.inspection.defects);
+  require_mappable(outcome.source);
   const TriangleMesh& mesh = outcome.source.file.mesh;
   ParameterizeOptions options = arguments.options;
   options.progress = [&](std::string_view stage, double f) { return console.progress(stage, f); };
-  if (options.poles) {
-    options.poles = Poles{vertex_in_mesh(outcome.source.file, options.poles->north),
-                          vertex_in_mesh(outcome.source.file, options.poles->south)};
-  }
+  settle_vertices(arguments, outcome.source.file, options);
+  outcome.pins = options.pins;
   outcome.result = parameterize(mesh, options);
   outcome.certificate = outcome.result.certificate;
   if (outcome.has_map()) {
     outcome.distortion = measure_distortion(mesh, outcome.result.map, options.threads);
-    outcome.figures = summarise(*outcome.distortion);
+    outcome.figures = summarise(*outcome.distortion, options.threads);
   }
   return outcome;
 }
@@ -91,12 +115,17 @@ std::string words(const std::optional<Poles>& poles) {
 }
 
 Provenance provenance(const MapArguments& arguments, const Outcome& outcome) {
-  return {{"version", version},
-          {"method", name_of(arguments.options.method)},
-          {"stage", outcome.result.made_by},
-          {"options", options_line(arguments.options)},
-          {"poles", words(outcome.result.poles)},
-          {"verdict", outcome.verdict()}};
+  Provenance lines = {{"version", version},
+                      {"method", name_of(arguments.options.method)},
+                      {"stage", outcome.result.made_by},
+                      {"options", options_line(arguments.options)},
+                      {"poles", words(outcome.result.poles)}};
+  if (outcome.result.meridian) {
+    lines.emplace_back("meridian", std::to_string(*outcome.result.meridian));
+  }
+  if (!outcome.pins.empty()) lines.emplace_back("pins", std::to_string(outcome.pins.size()));
+  lines.emplace_back("verdict", outcome.verdict());
+  return lines;
 }
 
 /// Throws NotCertifiedError unless the bytes of a written map hold what was found in memory.
@@ -108,65 +137,88 @@ void require_same_verdict(const std::string& path, const MeshFile& file, const S
   }
 }
 
-void write_sphere(const MapArguments& arguments, const Outcome& outcome) {
+/// The map as a file of that name can hold it: GIFTI has coordinates of 32 bits.
+SphereMap rounded_for(const std::string& path, const Outcome& outcome, int threads) {
+  if (std::filesystem::path(path).extension() != ".gii") return outcome.result.map;
+  const Topology topology(outcome.source.file.mesh);
+  return round_to_float(topology, outcome.result.map, threads).map;
+}
+
+void add_sphere(PendingFiles& files, const MapArguments& arguments, const Outcome& outcome) {
   const std::string& path = arguments.sphere;
-  const MeshFile sphere =
-      sphere_mesh(outcome.source.file, outcome.result.map, provenance(arguments, outcome));
-  const std::string bytes = serialiser(path)(sphere);
-  write_file(path, bytes, [&](std::string_view written) {
+  std::string bytes = serialiser(path)(
+      sphere_mesh(outcome.source.file, rounded_for(path, outcome, arguments.options.threads),
+                  provenance(arguments, outcome)));
+  files.add(path, std::move(bytes), [&](std::string_view written) {
     const MeshFile file = read_mesh(written, path, own_file);
     require_same_verdict(path, file, {file.mesh.positions}, outcome, arguments.options.threads);
   });
 }
 
-void write_chart_files(const std::string& folder, const std::string& name,
-                       const Distortion& distortion) {
+void add_charts(PendingFiles& files, const std::string& folder, const std::string& name,
+                const Distortion& distortion) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw WriteError(folder, error.message());
   for (const ChartFile& chart : write_charts(folder, name, distortion)) {
-    write_file(chart.path, chart.svg);
+    files.add(chart.path, chart.svg);
   }
 }
 
 using Outputs = std::vector<std::pair<std::string, std::string>>;
 
 /// The charts and the report, which are written for folded maps too.
-void write_reports(const MapArguments& arguments, const Outcome& outcome, Outputs outputs,
-                   const Stopwatch& stopwatch) {
+void add_reports(PendingFiles& files, const MapArguments& arguments, const Outcome& outcome,
+                 Outputs outputs, const Stopwatch& stopwatch) {
   if (!arguments.charts.empty() && outcome.distortion) {
     const std::string name =
         is_stream(arguments.input) ? "map" : std::filesystem::path(arguments.input).stem().string();
-    write_chart_files(arguments.charts, name, *outcome.distortion);
+    add_charts(files, arguments.charts, name, *outcome.distortion);
     outputs.emplace_back("charts", arguments.charts);
   }
   if (arguments.json.empty()) return;
+  std::optional<ChartReport> chart;
+  if (outcome.certificate.bijective()) {
+    chart = report_chart(outcome.source.file.mesh, outcome.result.map, arguments.options.threads);
+  }
   const MapReport report = {.input = {arguments.input, outcome.source},
                             .options = arguments.options,
                             .result = outcome.result,
+                            .pins = outcome.pins,
                             .certificate = outcome.certificate,
                             .distortion = outcome.figures,
+                            .chart = chart,
                             .outputs = outputs,
                             .seconds = stopwatch.seconds()};
-  write_file(arguments.json, to_json(report));
+  files.add(arguments.json, to_json(report));
 }
 
-/// The map, and before it gets its name everything else: a failure of any leaves no map.
-void write_map(const MapArguments& arguments, const Outcome& outcome, const Stopwatch& stopwatch) {
+void add_map(PendingFiles& files, const MapArguments& arguments, const Outcome& outcome) {
   const std::string& path = arguments.output;
-  const std::string bytes = serialise_ply(
+  std::string bytes = serialise_ply(
       attach_map(outcome.source.file, outcome.result.map, provenance(arguments, outcome)));
-  write_file(path, bytes, [&](std::string_view written) {
+  files.add(path, std::move(bytes), [&](std::string_view written) {
     const MeshFile file = read_mesh(written, path, own_file);
     require_same_verdict(path, file, read_sphere(file).value(), outcome, arguments.options.threads);
-    if (interrupted()) throw Cancelled();
-    Outputs outputs = {{"map", path}};
-    if (!arguments.sphere.empty()) {
-      write_sphere(arguments, outcome);
-      outputs.emplace_back("sphere", arguments.sphere);
-    }
-    write_reports(arguments, outcome, outputs, stopwatch);
   });
+}
+
+/// All outputs, or, where one fails, none.
+void write_outputs(const MapArguments& arguments, const Outcome& outcome, bool with_map,
+                   const Stopwatch& stopwatch) {
+  PendingFiles files;
+  Outputs outputs;
+  if (with_map) {
+    add_map(files, arguments, outcome);
+    outputs.emplace_back("map", arguments.output);
+  }
+  if (with_map && !arguments.sphere.empty()) {
+    add_sphere(files, arguments, outcome);
+    outputs.emplace_back("sphere", arguments.sphere);
+  }
+  add_reports(files, arguments, outcome, outputs, stopwatch);
+  if (interrupted()) throw Cancelled();
+  files.publish();
 }
 
 /// "harmonic: 0.12 s, 3 folds, angle 0.55 area 0.59"
@@ -182,14 +234,50 @@ std::string stage_line(const StageRecord& stage) {
 /// see what each stage does, so it tells without being asked.
 void tell_stages(const MapArguments& arguments, const Outcome& outcome, Console& console) {
   for (const std::string& note : outcome.source.notes) console.detail("  note: " + note);
+  for (const RepairAction& repair : outcome.source.repairs) console.say("  " + repair.message);
   for (const MeshDefect& defect : outcome.source.inspection.defects) {
-    console.detail("  note: " + defect.message);
+    // What looks wrong on the map is told unasked.
+    const bool visible = defect.kind == DefectKind::InsideOut;
+    visible ? console.warning(defect.message + ": " + defect.hint)
+            : console.detail("  note: " + defect.message);
   }
   for (const StageRecord& stage : outcome.result.stages) {
     const bool asked = arguments.options.method == Method::Paper;
     asked ? console.say(stage_line(stage)) : console.detail(stage_line(stage));
   }
   for (const std::string& warning : outcome.result.warnings) console.warning(warning);
+}
+
+/// What holding the given vertices cost; with -v also what automatic poles cost.
+void tell_frame(const MapArguments& arguments, const Outcome& outcome, Console& console) {
+  const Parameterization& result = outcome.result;
+  const bool given = arguments.options.poles || !arguments.pins.empty();
+  if (!outcome.succeeded() || (!result.poles && outcome.pins.empty())) return;
+  const FileNumbers numbers(outcome.source.file);
+  std::string line = "  ";
+  if (result.poles) {
+    line += "vertices " + std::to_string(numbers.number(result.poles->north)) + " and " +
+            std::to_string(numbers.number(result.poles->south)) + " at ±z";
+  }
+  if (!outcome.pins.empty()) {
+    line += (result.poles ? ", " : "") + std::to_string(outcome.pins.size()) + " pinned";
+  }
+  line += ": " + short_number(100 * result.pole_cost) + " % of energy";
+  given ? console.say(line) : console.detail(line);
+}
+
+/// Every pin that is not at its point, by its number in the file.
+std::string complaint_of_pins(const Outcome& outcome) {
+  if (outcome.pins_hold() || outcome.result.pin_residuals.size() != outcome.pins.size()) return "";
+  const FileNumbers numbers(outcome.source.file);
+  std::string lines;
+  for (size_t i = 0; i < outcome.pins.size(); ++i) {
+    const double residual = outcome.result.pin_residuals[i];
+    if (residual == 0) continue;
+    lines += "  pin " + std::to_string(numbers.number(outcome.pins[i].vertex)) + " is " +
+             short_number(residual) + " radians from its point\n";
+  }
+  return lines;
 }
 
 std::string advice(const MapArguments& arguments, bool written) {
@@ -205,31 +293,38 @@ void tell_result(const MapArguments& arguments, const Outcome& outcome, bool wri
   const bool certified = outcome.certificate.bijective();
   std::string line = display_name(arguments.input) + ": " +
                      std::to_string(outcome.source.file.mesh.face_count()) + " triangles, " +
-                     (certified ? "certified one-to-one" : "not one-to-one: " + outcome.verdict());
+                     (!certified            ? "not one-to-one: " + outcome.verdict()
+                      : outcome.pins_hold() ? "certified one-to-one"
+                                            : "one-to-one, but pins are not at their points");
   if (outcome.has_map()) line += " (" + outcome.result.made_by + ")";
   if (outcome.figures) line += ", " + distortion_line(*outcome.figures);
   line += ", " + short_number(stopwatch.seconds()) + " s";
   line += written ? " → " + output_name(arguments.output) : ", no map written";
   console.say(line);
   if (!certified) console.say(complaint(outcome.certificate) + advice(arguments, written));
+  if (!outcome.pins_hold())
+    console.say(complaint_of_pins(outcome) + "  no map is written without them");
 }
 
 int run_map(const MapArguments& arguments) {
   const Stopwatch stopwatch;
   Console console(arguments.loudness.verbosity(), arguments.progress);
   Source source = read_source(arguments.input);
+  if (const auto repairs = wanted_repairs(arguments.repair)) {
+    source = repaired(std::move(source), *repairs);
+  }
   const OrderlyInterruption orderly;  // from here on there may be files to clean up
   const Outcome outcome = compute(std::move(source), arguments, console);
   tell_stages(arguments, outcome, console);
-  const bool writes =
-      outcome.has_map() && (outcome.certificate.bijective() || arguments.keep_folded);
-  if (writes) {
-    write_map(arguments, outcome, stopwatch);
-  } else {
-    write_reports(arguments, outcome, {}, stopwatch);
+  tell_frame(arguments, outcome, console);
+  const bool writes = outcome.has_map() && outcome.pins_hold() &&
+                      (outcome.certificate.bijective() || arguments.keep_folded);
+  write_outputs(arguments, outcome, writes, stopwatch);
+  try {
+    tell_result(arguments, outcome, writes, stopwatch, console);
+  } catch (const std::bad_alloc&) {  // what is on disk is there all the same
   }
-  tell_result(arguments, outcome, writes, stopwatch, console);
-  return outcome.certificate.bijective() ? Ok : NotCertified;
+  return outcome.succeeded() ? Ok : NotCertified;
 }
 
 }  // namespace

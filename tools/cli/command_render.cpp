@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,11 +15,15 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_codes.h"
+#include "cli/input_limits.h"
 #include "cli/paths.h"
 #include "image/image_codec.h"
 #include "mesh_io/mesh_reader.h"
 #include "mesh_io/safe_file.h"
 #include "mesh_io/sphere_file.h"
+#include "render/figure.h"
+#include "render/geodesic.h"
+#include "render/heat.h"
 #include "render/render.h"
 #include "render/vertex_normals.h"
 #include "sphparam/sphere/distortion.h"
@@ -38,11 +43,10 @@ constexpr char summary[] =
     "\n"
     "Colours: own (texture or vertex colours; else normals), plain, normals, checker (of "
     "longitude\n"
-    "and latitude), area (red grows, blue shrinks, full at a factor of 8), angle (mean |ln ratio|\n"
-    "of a triangle's angles, dark 0 to yellow 1).\n";
+    "and latitude), area (red grows, blue shrinks, full at a factor of 8), angle (the factor by "
+    "which\n"
+    "a triangle's angles are off in the mean, dark 1 to yellow 8).\n";
 
-constexpr double full_area_ratio = 8;  // saturated colour
-constexpr double full_angle_error = 1;
 constexpr double margin = 1.06;  // of the picture around what is drawn
 
 enum class View { Mesh, Sphere, Both };
@@ -59,6 +63,7 @@ struct RenderArguments {
   bool wire = false;
   bool graticule = false;
   bool occlusion = false;
+  bool no_legend = false;
   int size = 800;
   int threads = 0;
   Loudness loudness;
@@ -118,14 +123,11 @@ struct Subject {
   }
 };
 
-Paint distortion_paint(const Subject& subject, Colouring colouring) {
-  const Distortion distortion =
-      measure_distortion(subject.file.mesh, subject.required_map("this colouring"));
-  if (colouring == Colouring::Area) {
-    return FacePaint{ratio_colours(distortion.area_ratio, full_area_ratio)};
-  }
-  const Eigen::VectorXd error = distortion.angle_ratio.array().log().abs().rowwise().mean();
-  return FacePaint{value_colours(error, 0, full_angle_error)};
+/// What a colouring measures, where it measures something.
+std::optional<Heat> heat_of(Colouring colouring) {
+  if (colouring == Colouring::Area) return Heat::Area;
+  if (colouring == Colouring::Angle) return Heat::Angle;
+  return std::nullopt;
 }
 
 Paint own_paint(const Subject& subject, const std::string& texture) {
@@ -151,7 +153,10 @@ Paint make_paint(const Subject& subject, const RenderArguments& arguments) {
       return CheckerPaint{.rays = subject.required_map("--colour checker").points};
     case Colouring::Area:
     case Colouring::Angle:
-      return distortion_paint(subject, arguments.colouring);
+      return heat_paint(
+          *heat_of(arguments.colouring),
+          measure_distortion(subject.file.mesh, subject.required_map("this colouring"),
+                             arguments.threads));
   }
   return UniformPaint{};
 }
@@ -175,56 +180,54 @@ Camera framing(const Points& points, const RenderArguments& arguments) {
   return camera;
 }
 
-Image draw(const Points& positions, const Paint& paint, const Subject& subject,
+enum class Shape { Mesh, Sphere };
+
+Image draw(Shape shape, const Paint& paint, const Subject& subject,
            const RenderArguments& arguments) {
-  RenderObject object;
-  object.mesh = {positions, subject.file.mesh.triangles};
-  object.paint = paint;
+  RenderObject object = {.mesh = subject.file.mesh, .paint = paint};
   object.occlusion = arguments.occlusion;
   if (arguments.wire) object.wireframe = Wireframe{};
   if (arguments.graticule) {
     object.graticule = Graticule{.rays = subject.required_map("--graticule").points};
   }
+  if (shape == Shape::Sphere) {
+    object = on_sphere(object, normalised(subject.required_map("--view sphere").points).points);
+  }
   return render({.objects = {object},
-                 .camera = framing(positions, arguments),
+                 .camera = framing(object.mesh.positions, arguments),
                  .width = arguments.size,
                  .height = arguments.size},
                 arguments.threads);
 }
 
-Image side_by_side(const Image& left, const Image& right) {
-  Image both(left.width + right.width, left.height, left.channels);
-  for (int y = 0; y < both.height; ++y) {
-    const auto copy = [&](const Image& from, int column) {
-      std::copy_n(from.pixel(0, y), from.width * from.channels, both.pixel(column, y));
-    };
-    copy(left, 0);
-    copy(right, left.width);
-  }
-  return both;
-}
-
 Image picture(const Subject& subject, const RenderArguments& arguments) {
   const View view = arguments.view.value_or(subject.map ? View::Both : View::Mesh);
   const Paint paint = make_paint(subject, arguments);
-  const auto shape = [&] { return draw(subject.file.mesh.positions, paint, subject, arguments); };
-  const auto sphere = [&] {
-    return draw(subject.required_map("--view sphere").points, paint, subject, arguments);
-  };
-  if (view == View::Mesh) return shape();
-  if (view == View::Sphere) return sphere();
-  return side_by_side(shape(), sphere());
+  const auto drawn = [&](Shape shape) { return draw(shape, paint, subject, arguments); };
+  const Image image = view == View::Mesh     ? drawn(Shape::Mesh)
+                      : view == View::Sphere ? drawn(Shape::Sphere)
+                                             : in_a_row({drawn(Shape::Mesh), drawn(Shape::Sphere)});
+  const std::optional<Heat> heat = heat_of(arguments.colouring);
+  return heat && !arguments.no_legend ? with_legend(image, *heat) : image;
+}
+
+/// Before any work is done: a PNG under another name would deceive whoever opens it.
+void require_png(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension();
+  if (is_stream(path) || extension.empty() || extension == ".png" || extension == ".PNG") return;
+  throw UsageMistake("-o: the picture is a PNG, the name must end in .png, not " + extension);
 }
 
 int run_render(const RenderArguments& arguments) {
+  require_png(arguments.output);
   Console console(arguments.loudness.verbosity(), ProgressStyle::None);
-  Subject subject = {.file = read_mesh(arguments.input), .map = std::nullopt};
+  Subject subject = {.file = read_mesh(arguments.input, input_limits()), .map = std::nullopt};
   if (subject.file.mesh.face_count() == 0) {
     throw ReadError(display_name(arguments.input), "there are no triangles to draw");
   }
   subject.map = read_sphere(subject.file);
-  const std::vector<char> png = encode_image(picture(subject, arguments), ImageFormat::Png);
   require_not_input(arguments.input, arguments.output, "-o");
+  const std::vector<char> png = encode_image(picture(subject, arguments), ImageFormat::Png);
   write_file(arguments.output, {png.data(), png.size()});
   console.say(display_name(arguments.input) + " → " + output_name(arguments.output));
   return Ok;
@@ -234,8 +237,7 @@ void add_look(CLI::App& command, RenderArguments& arguments) {
   add_choice<std::optional<View>>(
       command, "--view", arguments.view,
       {{"mesh", View::Mesh}, {"sphere", View::Sphere}, {"both", View::Both}},
-      "mesh, sphere or both (default where mapped)")
-      ->type_name("VIEW");
+      "What is drawn (default: both where there is a map)");
   add_choice<Colouring>(command, "--colour,--color", arguments.colouring,
                         {{"own", Colouring::Own},
                          {"plain", Colouring::Plain},
@@ -243,13 +245,13 @@ void add_look(CLI::App& command, RenderArguments& arguments) {
                          {"checker", Colouring::Checker},
                          {"area", Colouring::Area},
                          {"angle", Colouring::Angle}},
-                        "own (default), plain, normals, checker, area or angle")
-      ->type_name("COLOURS");
+                        "See above (default: own)");
   command.add_option("--texture", arguments.texture, "Image for the mesh's texture coordinates")
       ->type_name("IMAGE");
   command.add_flag("--wire", arguments.wire, "The edges of the triangles");
   command.add_flag("--graticule", arguments.graticule, "Lines of longitude and latitude");
   command.add_flag("--occlusion", arguments.occlusion, "Darken what little light reaches");
+  command.add_flag("--no-legend", arguments.no_legend, "Without the scale of area or angle");
 }
 
 }  // namespace
@@ -269,8 +271,7 @@ Command declare_render(CLI::App& program) {
       ->capture_default_str();
   add_choice<Vector3>(*command, "--up", arguments->up,
                       {{"z", Vector3::UnitZ()}, {"y", Vector3::UnitY()}},
-                      "Which axis points up: z (default) or y")
-      ->type_name("AXIS");
+                      "The axis that points up (default: z)");
   command->add_option("--size", arguments->size, "Pixels, of each side of a picture")
       ->check(between(16, 16384, "16 to 16384"))
       ->type_name("N")

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/chart_report.h"
 #include "cli/choice.h"
 #include "cli/command.h"
 #include "cli/console.h"
@@ -17,13 +18,14 @@
 #include "cli/json_report.h"
 #include "cli/paths.h"
 #include "cli/source.h"
-#include "cli/stopwatch.h"
 #include "cli/wording.h"
+#include "mesh_io/read_options.h"
 #include "mesh_io/safe_file.h"
 #include "mesh_io/sphere_file.h"
 #include "sphparam/mesh/topology.h"
 #include "sphparam/sphere/certificate.h"
 #include "sphparam/sphere/distortion.h"
+#include "sphparam/stopwatch.h"
 
 namespace sphparam::tools {
 
@@ -36,8 +38,11 @@ constexpr char summary[] =
     "  sphparam verify statue.sph.ply                 a map with sx sy sz, as `map` writes it\n"
     "  sphparam verify sphere.obj                     a bare sphere about the origin\n"
     "  sphparam verify statue.obj sphere.obj --json   a mesh and its sphere, with the distortion\n"
+    "  sphparam verify statue.sph.ply --chart         the texture chart too\n"
     "\n"
-    "Ends with 0 when the map is one-to-one, with 5 when it is not.\n";
+    "Ends with 0 when the map (and with --chart its chart) is one-to-one, with 5 when it is not, "
+    "and\n"
+    "with 3 when the two files are not of one connectivity: the same vertices in every triangle.\n";
 
 /// Beyond this share of the radius a "sphere" is not one, and only the directions of its vertices
 /// count: six printed digits, or a float32, stay far below.
@@ -46,6 +51,7 @@ constexpr double roundness = 1e-3;
 struct VerifyArguments {
   std::string file;
   std::string sphere;  // empty: the map is in `file`
+  bool chart = false;
   bool json = false;
   int threads = 0;
   Loudness loudness;
@@ -60,6 +66,11 @@ struct Claim {
   std::vector<std::string> notes;
 };
 
+TriangleMesh mirrored(TriangleMesh mesh) {
+  mesh.triangles.col(1).swap(mesh.triangles.col(2));
+  return mesh;
+}
+
 Claim claim_of_file(const std::string& path) {
   Source source = read_source(path);
   const std::optional<SphereMap> map = read_sphere(source.file);
@@ -68,6 +79,13 @@ Claim claim_of_file(const std::string& path) {
           .has_shape = map.has_value(),
           .rays = map ? "properties sx sy sz" : "vertex positions",
           .notes = source.notes};
+}
+
+/// Of the map, or of its mirror image, as it was certified.
+std::optional<ChartReport> chart_of(const Claim& claim, const Certificate& certificate,
+                                    int threads) {
+  if (!certificate.bijective()) return std::nullopt;
+  return report_chart(certificate.reversed ? mirrored(claim.mesh) : claim.mesh, claim.map, threads);
 }
 
 /// A triangle with its smallest vertex first, so that rotations compare equal and mirrors do not.
@@ -102,12 +120,13 @@ std::string difference(const TriangleMesh& source, const TriangleMesh& sphere) {
   return "";
 }
 
-/// Throws: NotCertifiedError when the two are not one connectivity.
+/// Throws: ReadError when the two are not one connectivity: nothing can be said about such a map.
 Claim claim_of_pair(const std::string& shape_path, const std::string& sphere_path) {
   const Source shape = read_source(shape_path), sphere = read_source(sphere_path);
   const std::string where = difference(shape.file.mesh, sphere.file.mesh);
   if (!where.empty()) {
-    throw NotCertifiedError("these are not two shapes of one mesh: " + where);
+    throw ReadError(display_name(sphere_path),
+                    "not a sphere of " + display_name(shape_path) + ": " + where);
   }
   const std::optional<SphereMap> map = read_sphere(sphere.file);
   return {.mesh = shape.file.mesh,
@@ -122,9 +141,7 @@ Claim claim_of_pair(const std::string& shape_path, const std::string& sphere_pat
 Certificate certify_either_way(const Claim& claim, int threads) {
   Certificate certificate = certify(Topology(claim.mesh), claim.map, threads);
   if (!certificate.reversed) return certificate;
-  TriangleMesh mirrored = claim.mesh;
-  mirrored.triangles.col(1).swap(mirrored.triangles.col(2));
-  certificate = certify(Topology(mirrored), claim.map, threads);
+  certificate = certify(Topology(mirrored(claim.mesh)), claim.map, threads);
   certificate.reversed = true;
   return certificate;
 }
@@ -149,6 +166,7 @@ std::string text_of(const VerifyReport& report, Eigen::Index triangles) {
   text += "  rays: " + report.rays + ", mean length " + short_number(report.mean_length) +
           ", largest relative deviation " + short_number(report.length_deviation) + "\n";
   if (report.distortion) text += "  " + distortion_line(*report.distortion) + "\n";
+  if (report.chart_wanted) text += "  " + chart_line(report.chart) + "\n";
   return text;
 }
 
@@ -167,7 +185,8 @@ int run_verify(const VerifyArguments& arguments) {
                          .notes = claim.notes};
   if (claim.has_shape && certificate.unusable_points.empty()) {
     const SphereMap unit = normalised(claim.map.points);  // a sphere of any radius is judged alike
-    report.distortion = summarise(measure_distortion(claim.mesh, unit, arguments.threads));
+    report.distortion =
+        summarise(measure_distortion(claim.mesh, unit, arguments.threads), arguments.threads);
   }
   if (!(radius.deviation <= roundness)) {
     const std::string text = "these points are not on a sphere about the origin: their radius is " +
@@ -176,13 +195,17 @@ int run_verify(const VerifyArguments& arguments) {
     console.warning(text);
     report.notes.push_back(text);
   }
+  report.chart_wanted = arguments.chart;
+  if (arguments.chart) report.chart = chart_of(claim, certificate, arguments.threads);
   report.seconds = stopwatch.seconds();
   if (arguments.json) {
     write_file("-", to_json(report));
   } else if (!arguments.loudness.quiet) {
     write_file("-", text_of(report, claim.mesh.face_count()));
   }
-  return certificate.bijective() ? Ok : NotCertified;
+  const bool chart_holds =
+      !arguments.chart || (report.chart && report.chart->certificate.one_to_one());
+  return certificate.bijective() && chart_holds ? Ok : NotCertified;
 }
 
 }  // namespace
@@ -194,8 +217,9 @@ Command declare_verify(CLI::App& program) {
       ->type_name(" ")
       ->required();
   command->add_option("SPHERE", arguments->sphere, "The sphere of mesh FILE, same connectivity")
-      ->type_name(" ")
       ->type_name(" ");
+  command->add_flag("--chart", arguments->chart,
+                    "Make the (u, v) chart for textures too, and prove it");
   command->add_flag("--json", arguments->json, "The report as JSON");
   command->add_option("--threads", arguments->threads, "How many threads (0: all cores)")
       ->type_name("N")

@@ -15,6 +15,23 @@ enum ExitCode : int {
   Interrupted = 130,  // SIGINT or SIGTERM
 };
 
+/// What people read about them, in --help and in the manual.
+struct ExitMeaning {
+  ExitCode code;
+  const char* meaning;
+};
+inline constexpr ExitMeaning exit_meanings[] = {
+    {Ok, "done; for map: what is on disk is certified one-to-one"},
+    {InternalError, "internal error, or out of memory"},
+    {UsageError, "the command line makes no sense"},
+    {FileError, "a file cannot be read, parsed or written"},
+    {MeshUnusable, "the mesh is not a closed genus-0 manifold"},
+    {NotCertified,
+     "the map is not one-to-one, or a pin is not at its point; no map written but with "
+     "--keep-folded"},
+    {Interrupted, "interrupted"},
+};
+
 /// A map that is not what it should be: ends with `NotCertified`.
 class NotCertifiedError : public std::runtime_error {
  public:

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cli/file_numbers.h"
 #include "cli/wording.h"
 #include "sphparam/version.h"
 
@@ -31,6 +32,27 @@ Json names_json(const std::vector<Property>& properties) {
 Json defect_json(const MeshDefect& defect) {
   return {{"kind", name_of(defect.kind)}, {"fatal", defect.fatal},     {"count", defect.count},
           {"first", defect.elements},     {"message", defect.message}, {"hint", defect.hint}};
+}
+
+Json repairs_json(const std::vector<RepairAction>& repairs) {
+  Json result = Json::array();
+  for (const RepairAction& repair : repairs) {
+    result.push_back({{"kind", name_of(repair.kind)},
+                      {"count", repair.count},
+                      {"first", repair.elements},
+                      {"message", repair.message}});
+  }
+  return result;
+}
+
+/// What --repair would do; null for a mesh that needs none.
+Json trial_json(const std::optional<RepairTrial>& trial) {
+  if (!trial) return nullptr;
+  Json remaining = Json::array();
+  for (const MeshDefect& defect : trial->remaining) remaining.push_back(defect_json(defect));
+  return {{"mends", trial->mends()},
+          {"actions", repairs_json(trial->actions)},
+          {"remaining", remaining}};
 }
 
 Json inspection_json(const MeshInspection& inspection) {
@@ -71,10 +93,27 @@ Json poles_json(const std::optional<Poles>& poles) {
   return {{"north", poles->north}, {"south", poles->south}};
 }
 
+/// Pins by their numbers in the file.
+Json pins_json(const MapReport& report) {
+  const FileNumbers numbers(report.input.source.file);
+  const std::vector<double>& residuals = report.result.pin_residuals;
+  Json result = Json::array();
+  for (size_t i = 0; i < report.pins.size(); ++i) {
+    const Landmark& pin = report.pins[i];
+    result.push_back({{"vertex", numbers.number(pin.vertex)},
+                      {"theta", pin.coordinates.theta},
+                      {"phi", pin.coordinates.phi},
+                      {"residual", i < residuals.size() ? Json(residuals[i]) : Json()}});
+  }
+  return result;
+}
+
 Json options_json(const ParameterizeOptions& options) {
   Json result = {
       {"method", name_of(options.method)},
-      {"poles", poles_json(options.poles)},
+      {"poles",
+       options.poles ? poles_json(options.poles) : Json(options.automatic_poles ? "auto" : "none")},
+      {"meridian", options.meridian ? Json(*options.meridian) : Json()},
       {"lambda", options.energy.lambda},
       {"repair", options.method == Method::Paper ? options.repair_paper : options.repair}};
   if (options.method == Method::Progressive) {
@@ -135,6 +174,28 @@ Json certificate_json(const Certificate& c) {
           {"branch_vertices", c.branch_vertices}};
 }
 
+Json chart_json(const std::optional<ChartReport>& chart) {
+  if (!chart) return nullptr;
+  const ChartCounts& counts = chart->counts;
+  const ChartCertificate& certificate = chart->certificate;
+  return {{"certified", certificate.one_to_one()},
+          {"splits",
+           {{"total", counts.splits()},
+            {"poles", counts.pole_splits},
+            {"meridian", counts.meridian_splits},
+            {"folds", counts.fold_splits}}},
+          {"folded_without_splits", counts.folded_faces},
+          {"snapped_vertices", counts.snapped_vertices},
+          {"nudged_vertices", counts.nudged_vertices},
+          {"vertices", chart->vertices},
+          {"triangles", chart->triangles},
+          {"wedges", chart->wedges},
+          {"folded", certificate.folded},
+          {"torn", certificate.torn},
+          {"outside", certificate.outside},
+          {"malformed", certificate.malformed}};
+}
+
 /// Bytes of a file name that are not UTF-8 must not stop the report.
 std::string text(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -149,12 +210,17 @@ std::string to_json(const MapReport& report) {
                {"command", "map"},
                {"input", input_json(report.input)},
                {"inspection", inspection_json(report.input.source.inspection)},
+               {"repairs", repairs_json(report.input.source.repairs)},
                {"options", options_json(report.options)},
                {"stages", stages},
                {"made_by", report.result.made_by},
                {"poles", poles_json(report.result.poles)},
+               {"meridian", report.result.meridian ? Json(*report.result.meridian) : Json()},
+               {"pins", pins_json(report)},
+               {"energy_cost", report.result.pole_cost},
                {"certificate", certificate_json(report.certificate)},
                {"distortion", distortion_json(report.distortion)},
+               {"chart", chart_json(report.chart)},
                {"outputs", pairs_json(report.outputs)},
                {"warnings", report.result.warnings},
                {"notes", report.input.source.notes},
@@ -166,6 +232,7 @@ std::string to_json(const InfoReport& report) {
                {"command", "info"},
                {"input", input_json(report.input)},
                {"inspection", inspection_json(report.input.source.inspection)},
+               {"repair", trial_json(report.repair)},
                {"welded", report.input.source.welded},
                {"provenance", pairs_json(report.provenance)},
                {"notes", report.input.source.notes},
@@ -181,6 +248,7 @@ std::string to_json(const VerifyReport& report) {
                {"length_deviation", report.length_deviation},
                {"certificate", certificate_json(report.certificate)},
                {"distortion", distortion_json(report.distortion)},
+               {"chart", chart_json(report.chart)},
                {"notes", report.notes},
                {"seconds", report.seconds}});
 }

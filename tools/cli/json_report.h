@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "cli/chart_report.h"
+#include "cli/repairing.h"
 #include "cli/source.h"
 #include "sphparam/parameterize.h"
 
@@ -24,15 +26,18 @@ struct MapReport {
   InputReport input;
   const ParameterizeOptions& options;
   const Parameterization& result;
-  const Certificate& certificate;  // of what was written, where something was
+  const std::vector<Landmark>& pins;  // of vertices of the mesh
+  const Certificate& certificate;     // of what was written, where something was
   const std::optional<DistortionSummary>& distortion;
+  const std::optional<ChartReport>& chart;
   NamedTexts outputs;  // what it is, where it is
   double seconds = 0;
 };
 
 struct InfoReport {
   InputReport input;
-  NamedTexts provenance;  // of a .sph.ply
+  NamedTexts provenance;                     // of a .sph.ply
+  const std::optional<RepairTrial>& repair;  // of a mesh that cannot be mapped as it is
   double seconds = 0;
 };
 
@@ -43,6 +48,8 @@ struct VerifyReport {
   double mean_length = 1;
   double length_deviation = 0;  // largest | length / mean − 1 |
   std::optional<DistortionSummary> distortion = std::nullopt;
+  bool chart_wanted = false;  // with --chart
+  std::optional<ChartReport> chart = std::nullopt;
   std::vector<std::string> notes = {};
   double seconds = 0;
 };

@@ -2,9 +2,11 @@
 // and turns whatever goes wrong into a message and an exit code.
 
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <exception>
 #include <new>
 #include <string>
 #include <vector>
@@ -12,12 +14,16 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_codes.h"
+#include "cli/input_limits.h"
 #include "cli/interruption.h"
+#include "cli/memory_limit.h"
+#include "cli/repairing.h"
 #include "cli/suggestion.h"
 #include "cli/wording.h"
 #include "image/image_codec.h"
 #include "mesh_io/mesh_reader.h"
 #include "mesh_io/safe_file.h"
+#include "mesh_io/temporary_file.h"
 #include "sphparam/errors.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/version.h"
@@ -35,17 +41,17 @@ constexpr char summary[] =
     "  sphparam verify statue.sph.ply                 prove a written map again\n"
     "  sphparam render statue.sph.ply -o statue.png   look at it\n";
 
-constexpr char footer[] =
-    "Files: `-` is standard input or output. Messages go to standard error.\n"
-    "\n"
-    "Exit codes:\n"
-    "    0  done; for map: what is on disk is certified one-to-one\n"
-    "    1  internal error, or out of memory\n"
-    "    2  the command line makes no sense\n"
-    "    3  a file cannot be read, parsed or written\n"
-    "    4  the mesh is not a closed genus-0 manifold\n"
-    "    5  the map is not one-to-one; nothing written but with --keep-folded\n"
-    "  130  interrupted\n";
+std::string footer() {
+  std::string text =
+      "Files: `-` is standard input or output. Messages go to standard error.\n"
+      "\n"
+      "Exit codes:\n";
+  for (const ExitMeaning& exit : exit_meanings) {
+    const std::string code = std::to_string(exit.code);
+    text += std::string(5 - code.size(), ' ') + code + "  " + exit.meaning + "\n";
+  }
+  return text;
+}
 
 /// Help as CLI11 makes it, without its remarks in the description.
 class Help : public CLI::Formatter {
@@ -111,11 +117,17 @@ int usage_error(const CLI::App& program, const std::string& message) {
 int run_program(int argc, char** argv) {
   CLI::App program(summary, "sphparam");
   program.formatter(std::make_shared<Help>());
-  program.footer(footer);
+  program.footer(footer());
   program.set_version_flag("--version", std::string("sphparam ") + version);
   program.require_subcommand(0, 1);
-  const std::vector<Command> commands = {declare_info(program), declare_map(program),
-                                         declare_verify(program), declare_render(program)};
+  const std::vector<Command> commands = {declare_info(program),   declare_map(program),
+                                         declare_verify(program), declare_render(program),
+                                         declare_manual(program), declare_completion(program)};
+  for (const Command& command : commands) {
+    if (!command.options->get_option_no_throw("--quiet")) continue;  // reads no mesh
+    add_memory_limit(*command.options);
+    add_input_limits(*command.options);
+  }
   try {
     program.parse(argc, argv);
     for (const Command& command : commands) {
@@ -138,9 +150,28 @@ void forbid_core_dumps() {
   setrlimit(RLIMIT_CORE, &none);
 }
 
+/// Where an exception can go no further: memory that runs out in a destructor, which happens in the
+/// libraries for JSON and for options.
+[[noreturn]] void end_at_once() {
+  const char* message = "sphparam: error: internal error\n";
+  try {
+    if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
+  } catch (const std::bad_alloc&) {
+    message = out_of_memory_message();
+  } catch (...) {
+  }
+  std::fputs(message, stderr);
+  remove_temporaries_on_signal();
+  _exit(InternalError);
+}
+
 int guarded_main(int argc, char** argv) {
   try {
     return run_program(argc, argv);
+  } catch (const MeshRefusal& error) {
+    print_error("this is not a closed genus-0 mesh:");
+    std::fputs((defect_list(error.defects()) + error.advice()).c_str(), stderr);
+    return MeshUnusable;
   } catch (const MeshError& error) {
     print_error("this is not a closed genus-0 mesh:");
     std::fputs(defect_list(error.defects()).c_str(), stderr);
@@ -161,8 +192,7 @@ int guarded_main(int argc, char** argv) {
     print_error("interrupted");
     return Interrupted;
   } catch (const std::bad_alloc&) {
-    print_error("out of memory");
-    return InternalError;
+    throw;
   } catch (const std::exception& error) {
     print_error(std::string("internal error: ") + error.what());
     return InternalError;
@@ -179,7 +209,15 @@ void add_loudness(CLI::App& command, Loudness& loudness) {
 }  // namespace sphparam::tools
 
 int main(int argc, char** argv) {
-  sphparam::tools::forbid_core_dumps();
-  sphparam::tools::end_on_interruption();
-  return sphparam::tools::guarded_main(argc, argv);
+  using namespace sphparam::tools;
+  forbid_core_dumps();
+  end_on_interruption();
+  turn_signals_into_errors();
+  std::set_terminate(end_at_once);
+  try {
+    return guarded_main(argc, argv);
+  } catch (...) {  // memory ran out, perhaps while another error was being told
+    std::fputs(out_of_memory_message(), stderr);
+    return InternalError;
+  }
 }

@@ -5,17 +5,22 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <vector>
 
 #include "cli/choice.h"
 #include "cli/paths.h"
 #include "cli/wording.h"
+#include "mesh_io/gifti_writer.h"
 #include "mesh_io/mesh_writer.h"
 
 namespace sphparam::tools {
 
 namespace {
+
+constexpr double least_lambda = 1e-8, greatest_lambda = 1e3;
+const std::string lambda_range = "1e-8 to 1000";
 
 constexpr char summary[] =
     "Map a closed genus-0 mesh one-to-one onto the unit sphere, prove it, write it.\n"
@@ -24,8 +29,10 @@ constexpr char summary[] =
     "  sphparam map statue.obj -o statue.sph.ply\n"
     "  sphparam map statue.ply -o statue.sph.ply --json map.json --charts charts/\n"
     "  sphparam map statue.off -o statue.sph.ply --sphere sphere.obj --poles 17,4203\n"
+    "  sphparam map statue.obj -o placed.sph.ply --pin eyes.txt\n"
     "  sphparam map statue.obj -o even.sph.ply --balance equal-area --quality best\n"
     "  cat statue.obj | sphparam map - -o - > statue.sph.ply\n"
+    "  sphparam map scan.ply -o scan.sph.ply --repair\n"
     "  sphparam map statue.obj -o folded.sph.ply --method paper --keep-folded\n";
 
 /// "17,23" → vertices 17 and 23; nothing if that is not what the text is.
@@ -40,28 +47,77 @@ std::optional<Poles> two_vertices(const std::string& text) {
   return make_sense ? std::optional(poles) : std::nullopt;
 }
 
-std::optional<Poles> parse_poles(const std::string& text) {
-  if (text == "auto") return std::nullopt;
-  const std::optional<Poles> poles = two_vertices(text);
-  if (!poles) throw UsageMistake("--poles: expected auto or two different vertices, as in 17,23");
-  return poles;
+void settle_poles(const std::string& text, ParameterizeOptions& options) {
+  options.automatic_poles = text != "none";
+  if (text == "auto" || text == "none") return;
+  options.poles = two_vertices(text);
+  if (options.poles) return;
+  throw UsageMistake("--poles: expected auto, none or two different vertices, as in 17,23");
+}
+
+/// `--balance` is a word or a number; a number is the λ of `--lambda`.
+void settle_balance(const std::string& text, bool lambda_given, ParameterizeOptions& options) {
+  const std::vector<std::string> words = {name_of(Balance::Conformal), name_of(Balance::Lambda),
+                                          name_of(Balance::EqualArea)};
+  if (text == words[1]) return;
+  if (lambda_given) throw UsageMistake("--balance " + text + " and --lambda contradict each other");
+  if (text == words[0] || text == words[2]) {
+    options.balance = text == words[0] ? Balance::Conformal : Balance::EqualArea;
+    return;
+  }
+  double& lambda = options.energy.lambda;
+  const bool is_number = CLI::detail::lexical_cast(text, lambda);
+  if (is_number && lambda >= least_lambda && lambda <= greatest_lambda) return;
+  const std::string meant = is_number ? "" : nearest_word(text, words);
+  throw UsageMistake("--balance: expected conformal, balanced, equal-area or a number from " +
+                     lambda_range + (meant.empty() ? "" : "; did you mean " + meant + "?"));
+}
+
+/// What poles, meridian and pins may not say together, and not with every method.
+void require_sensible_frame(const MapArguments& arguments) {
+  const ParameterizeOptions& options = arguments.options;
+  const bool progressive = options.method == Method::Progressive;
+  if (!options.automatic_poles && !progressive) {
+    throw UsageMistake("--poles none is for --method progressive only: the others start at poles");
+  }
+  if (!arguments.pins.empty() && !progressive) {
+    throw UsageMistake("--pin is for --method progressive only");
+  }
+  if (!options.meridian) return;
+  if (options.method == Method::Paper) {
+    throw UsageMistake("--meridian is not for --method paper: theta is 0 at its date line");
+  }
+  if (!arguments.pins.empty()) {
+    throw UsageMistake("--meridian and --pin contradict each other: pins fix every direction");
+  }
+  if (options.poles &&
+      (*options.meridian == options.poles->north || *options.meridian == options.poles->south)) {
+    throw UsageMistake("--meridian: vertex " + std::to_string(*options.meridian) +
+                       " is a pole, which has no longitude");
+  }
 }
 
 void require_sensible(const MapArguments& arguments) {
-  const bool same = (!arguments.sphere.empty() && arguments.sphere == arguments.output) ||
-                    (!arguments.json.empty() && arguments.json == arguments.output) ||
-                    (!arguments.json.empty() && arguments.json == arguments.sphere);
+  const bool same = is_same_place(arguments.sphere, arguments.output) ||
+                    is_same_place(arguments.json, arguments.output) ||
+                    is_same_place(arguments.json, arguments.sphere);
   if (same) throw UsageMistake("-o, --sphere and --json must go to different places");
   require_not_input(arguments.input, arguments.output, "-o");
   require_not_input(arguments.input, arguments.sphere, "--sphere");
   require_not_input(arguments.input, arguments.json, "--json");
+  require_not_input(arguments.pins, arguments.output, "-o");
+  require_not_input(arguments.pins, arguments.sphere, "--sphere");
+  require_not_input(arguments.pins, arguments.json, "--json");
+  if (is_stream(arguments.input) && is_stream(arguments.pins)) {
+    throw UsageMistake("the mesh and --pin cannot both come from standard input");
+  }
   const std::string extension = std::filesystem::path(arguments.output).extension();
   if (!extension.empty() && extension != ".ply") {
     throw UsageMistake("-o: the map is a PLY, the name must end in .ply; for " + extension +
                        " see --sphere");
   }
   if (!arguments.sphere.empty() && !serialiser(arguments.sphere)) {
-    throw UsageMistake("--sphere: the name must end in .ply, .obj or .off");
+    throw UsageMistake("--sphere: the name must end in .ply, .obj, .off or .gii");
   }
 }
 
@@ -72,8 +128,7 @@ std::vector<CLI::Option*> add_paper_options(CLI::App& command, MapArguments& arg
   return {add_choice<WeightKind>(command, "--weights", paper.weights,
                                  {{name_of(WeightKind::MeanValue), WeightKind::MeanValue},
                                   {name_of(WeightKind::Cotangent), WeightKind::Cotangent}},
-                                 "mean-value (default) or cotangent")
-              ->type_name("KIND")
+                                 "Of the edges (default: mean-value)")
               ->group(group),
           command.add_option("--epsilon", paper.epsilon, "phi of the ring about a pole")
               ->check(between(1e-9, 1.5, "1e-9 to 1.5"))
@@ -104,7 +159,9 @@ void add_files(CLI::App& command, MapArguments& arguments) {
   command.add_option("-o,--output", arguments.output, "The map, a .sph.ply; - for standard output")
       ->type_name("FILE")
       ->required();
-  command.add_option("--sphere", arguments.sphere, "The bare sphere too: .ply, .obj or .off")
+  command
+      .add_option("--sphere", arguments.sphere,
+                  "The bare sphere too: .ply, .obj or .off in doubles, .gii in floats")
       ->type_name("FILE");
   command.add_option("--json", arguments.json, "A report; - for standard output")
       ->type_name("FILE");
@@ -118,13 +175,11 @@ void add_method(CLI::App& command, MapArguments& arguments) {
                      {{name_of(Method::Progressive), Method::Progressive},
                       {name_of(Method::Curvilinear), Method::Curvilinear},
                       {name_of(Method::Paper), Method::Paper}},
-                     "progressive (default), curvilinear, or paper: as printed, folds and all")
-      ->type_name("METHOD");
-  command.add_option("--poles", arguments.poles, "Vertices that go to +z and -z, as 17,4203")
-      ->type_name("auto|V1,V2")
-      ->capture_default_str();
-  command.add_option("--lambda", options.energy.lambda, "Weight of area against angle")
-      ->check(between(1e-8, 1e3, "1e-8 to 1000"))
+                     "How; paper: as printed, folds and all (default: progressive)");
+  command
+      .add_option("--lambda", options.energy.lambda,
+                  "Weight of area against angle, " + lambda_range)
+      ->check(between(least_lambda, greatest_lambda, lambda_range))
       ->type_name("NUMBER")
       ->capture_default_str();
   command.add_flag("--repair-map", options.repair_paper, "Untangle what --method paper folds");
@@ -136,31 +191,45 @@ void add_method(CLI::App& command, MapArguments& arguments) {
       ->capture_default_str();
 }
 
+void add_frame(CLI::App& command, MapArguments& arguments) {
+  const std::string group = "Vertices, by their numbers in the file, from 0";
+  command.add_option("--poles", arguments.poles, "The vertices that go to +z and -z, or none")
+      ->type_name("auto|none|V1,V2")
+      ->capture_default_str()
+      ->group(group);
+  command.add_option("--meridian", arguments.options.meridian, "The vertex that gets theta = 0")
+      ->check(between(0, std::numeric_limits<Vertex>::max(), "0 on"))
+      ->type_name("V")
+      ->group(group);
+  command
+      .add_option("--pin", arguments.pins,
+                  "Vertices to be exactly at given points; a line is: vertex theta phi (radians)")
+      ->type_name("FILE")
+      ->group(group);
+}
+
 /// Options that only the progressive method reads.
 std::vector<CLI::Option*> add_progressive_options(CLI::App& command, MapArguments& arguments) {
   ParameterizeOptions& options = arguments.options;
   const std::string group = "With --method progressive";
-  return {add_choice<Balance>(command, "--balance", options.balance,
-                              {{name_of(Balance::Conformal), Balance::Conformal},
-                               {name_of(Balance::Lambda), Balance::Lambda},
-                               {name_of(Balance::EqualArea), Balance::EqualArea}},
-                              "balanced (default: what --lambda says), conformal or equal-area")
-              ->type_name("WORD")
-              ->group(group),
-          add_choice<Quality>(command, "--quality", options.quality,
-                              {{name_of(Quality::Draft), Quality::Draft},
-                               {name_of(Quality::Normal), Quality::Normal},
-                               {name_of(Quality::Best), Quality::Best}},
-                              "draft, normal (default) or best: slower, less distortion")
-              ->type_name("WORD")
-              ->group(group),
-          add_choice<EnergyKind>(
-              command, "--energy", options.energy.kind,
-              {{name_of(EnergyKind::AngleAndArea), EnergyKind::AngleAndArea},
-               {name_of(EnergyKind::SymmetricDirichlet), EnergyKind::SymmetricDirichlet}},
-              "angle-and-area (default) or symmetric-dirichlet")
-              ->type_name("WORD")
-              ->group(group)};
+  return {
+      command
+          .add_option("--balance", arguments.balance, "Angle against area; a number is a --lambda")
+          ->type_name("conformal|balanced|equal-area|NUMBER")
+          ->capture_default_str()
+          ->group(group),
+      add_choice<Quality>(command, "--quality", options.quality,
+                          {{name_of(Quality::Draft), Quality::Draft},
+                           {name_of(Quality::Normal), Quality::Normal},
+                           {name_of(Quality::Best), Quality::Best}},
+                          "Time against distortion (default: normal)")
+          ->group(group),
+      add_choice<EnergyKind>(
+          command, "--energy", options.energy.kind,
+          {{name_of(EnergyKind::AngleAndArea), EnergyKind::AngleAndArea},
+           {name_of(EnergyKind::SymmetricDirichlet), EnergyKind::SymmetricDirichlet}},
+          "What is minimised (default: angle-and-area)")
+          ->group(group)};
 }
 
 void require_method(const std::vector<CLI::Option*>& given, Method needed, Method method) {
@@ -174,8 +243,7 @@ void add_progress(CLI::App& command, MapArguments& arguments) {
   add_choice<ProgressStyle>(
       command, "--progress", arguments.progress,
       {{"auto", ProgressStyle::Auto}, {"none", ProgressStyle::None}, {"json", ProgressStyle::Json}},
-      "auto (on a terminal), none or json")
-      ->type_name("STYLE");
+      "How far it is; auto: on a terminal (default: auto)");
 }
 
 }  // namespace
@@ -184,16 +252,20 @@ MapDeclaration declare_map_arguments(CLI::App& program, MapArguments& arguments)
   CLI::App* command = program.add_subcommand("map", summary);
   add_files(*command, arguments);
   add_method(*command, arguments);
+  add_frame(*command, arguments);
   const std::vector<CLI::Option*> progressive_only = add_progressive_options(*command, arguments);
   const std::vector<CLI::Option*> paper_only = add_paper_options(*command, arguments);
+  add_repair_options(*command, arguments.repair);
   add_progress(*command, arguments);
   add_loudness(*command, arguments.loudness);
-  return {command, [&arguments, progressive_only, paper_only] {
+  return {command, [&arguments, command, progressive_only, paper_only] {
             ParameterizeOptions& options = arguments.options;
             require_method(progressive_only, Method::Progressive, options.method);
             require_method(paper_only, Method::Paper, options.method);
+            settle_poles(arguments.poles, options);
+            settle_balance(arguments.balance, command->count("--lambda") > 0, options);
+            require_sensible_frame(arguments);
             require_sensible(arguments);
-            options.poles = parse_poles(arguments.poles);
             options.measure_stages = options.method == Method::Paper || arguments.loudness.verbose;
           }};
 }
@@ -203,6 +275,10 @@ Serialiser serialiser(const std::string& path) {
   if (extension == ".ply") return serialise_ply;
   if (extension == ".obj") return serialise_obj;
   if (extension == ".off") return serialise_off;
+  if (extension == ".gii") {
+    return
+        [](const MeshFile& file) { return serialise_gifti(file, {.geometric_type = "Spherical"}); };
+  }
   return nullptr;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "cli/command.h"
+#include "cli/repair_arguments.h"
 #include "mesh_io/mesh_file.h"
 #include "sphparam/parameterize.h"
 
@@ -16,11 +17,15 @@ struct MapArguments {
   std::string sphere;  // empty: not wanted; so are:
   std::string json;
   std::string charts;
+  std::string pins;
   std::string poles = "auto";
+  std::string balance = "balanced";  // a word, or the λ it stands for
+  RepairArguments repair;
   bool keep_folded = false;
   ProgressStyle progress = ProgressStyle::Auto;
   Loudness loudness;
-  ParameterizeOptions options;  // complete but for `progress`
+  // Complete but for `progress` and `pins`. Vertices have their numbers in the file.
+  ParameterizeOptions options;
 };
 
 /// The subcommand as declared; `settle` is to be called after parsing. It completes the arguments

@@ -22,6 +22,17 @@ std::string output_name(const std::string& path) {
   return is_stream(path) ? "standard output" : file_name(path);
 }
 
+bool is_same_place(const std::string& one, const std::string& other) {
+  if (one.empty() || other.empty()) return false;
+  if (is_stream(one) || is_stream(other)) return one == other;
+  const auto one_spelling = [](const std::string& path) {
+    std::error_code hidden;
+    const std::filesystem::path absolute = std::filesystem::absolute(path, hidden);
+    return std::filesystem::weakly_canonical(absolute, hidden);
+  };
+  return one_spelling(one) == one_spelling(other);
+}
+
 void require_not_input(const std::string& input, const std::string& output,
                        const std::string& option) {
   if (is_stream(input) || is_stream(output) || output.empty()) return;

@@ -13,6 +13,9 @@ std::string display_name(const std::string& path);
 /// The same for a file that is written.
 std::string output_name(const std::string& path);
 
+/// Do two paths, however spelled, name one place? Not where one of them is empty.
+bool is_same_place(const std::string& one, const std::string& other);
+
 /// Throws UsageMistake when an output would replace the input, also through links: a slip of the
 /// hand must not cost anybody their mesh. `option` names the output.
 void require_not_input(const std::string& input, const std::string& output,

@@ -1,5 +1,6 @@
 #include "cli/source.h"
 
+#include "cli/input_limits.h"
 #include "mesh_io/mesh_reader.h"
 #include "mesh_io/welding.h"
 
@@ -7,7 +8,7 @@ namespace sphparam::tools {
 
 Source read_source(const std::string& path) {
   Source source;
-  source.file = read_mesh(path);
+  source.file = read_mesh(path, input_limits());
   source.inspection = inspect_mesh(source.file.mesh);
   source.notes = source.file.notes;
   source.file = prepare_for_mapping(std::move(source.file), &source.notes);

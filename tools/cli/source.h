@@ -5,6 +5,7 @@
 
 #include "mesh_io/mesh_file.h"
 #include "sphparam/mesh/mesh_defects.h"
+#include "sphparam/mesh/mesh_repair.h"
 
 namespace sphparam::tools {
 
@@ -13,7 +14,8 @@ struct Source {
   MeshFile file;              // welded where needed, without unused vertices
   MeshInspection inspection;  // with the ids of the file, or after welding if that was needed
   bool welded = false;
-  std::vector<std::string> notes;  // of the reader, then what was done to the mesh
+  std::vector<std::string> notes;     // of the reader, then what was done to the mesh
+  std::vector<RepairAction> repairs;  // with the numbers of the file; see cli/repairing.h
 };
 
 /// Throws: ReadError. A mesh that is no sphere is returned all the same: see `inspection`.

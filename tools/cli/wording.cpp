@@ -122,12 +122,45 @@ std::string name_of(DefectKind kind) {
   return "";
 }
 
+std::string name_of(RepairKind kind) {
+  switch (kind) {
+    case RepairKind::InvalidFaceRemoved:
+      return "invalid-face-removed";
+    case RepairKind::DuplicateFaceRemoved:
+      return "duplicate-face-removed";
+    case RepairKind::FaceTurned:
+      return "face-turned";
+    case RepairKind::EdgeSplit:
+      return "edge-split";
+    case RepairKind::DiagonalTurned:
+      return "diagonal-turned";
+    case RepairKind::EdgeMidpointAdded:
+      return "edge-midpoint-added";
+    case RepairKind::VertexSplit:
+      return "vertex-split";
+    case RepairKind::ComponentDropped:
+      return "component-dropped";
+    case RepairKind::HoleFilled:
+      return "hole-filled";
+    case RepairKind::TurnedOutward:
+      return "turned-outward";
+    case RepairKind::FlatFaceTurned:
+      return "flat-face-turned";
+    case RepairKind::FlatFaceCollapsed:
+      return "flat-face-collapsed";
+    case RepairKind::UnusedVertexDropped:
+      return "unused-vertex-dropped";
+  }
+  return "";
+}
+
 std::string options_line(const ParameterizeOptions& options) {
   const PaperSettings& paper = options.paper;
   const std::string lambda = "--lambda " + shortest(options.energy.lambda);
   if (options.method == Method::Curvilinear) return lambda;
   if (options.method == Method::Progressive) {
-    return lambda + " --balance " + name_of(options.balance) + " --quality " +
+    const bool given = options.balance == Balance::Lambda;  // else it follows from the balance
+    return (given ? lambda + " " : "") + "--balance " + name_of(options.balance) + " --quality " +
            name_of(options.quality) + " --energy " + name_of(options.energy.kind);
   }
   return "--weights " + name_of(paper.weights) + " --epsilon " + shortest(paper.epsilon) +

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "sphparam/mesh/mesh_defects.h"
+#include "sphparam/mesh/mesh_repair.h"
 #include "sphparam/parameterize.h"
 
 namespace sphparam::tools {
@@ -15,6 +16,7 @@ std::string name_of(Quality quality);
 std::string name_of(EnergyKind energy);
 std::string name_of(WeightKind weights);
 std::string name_of(DefectKind kind);
+std::string name_of(RepairKind kind);
 
 /// The options that shaped a map, as on the command line: "--lambda 1".
 std::string options_line(const ParameterizeOptions& options);

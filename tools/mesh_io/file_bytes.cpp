@@ -21,6 +21,13 @@ struct Descriptor {
   }
 };
 
+int open_to_read(const std::string& path) {
+  for (;;) {
+    const int number = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (number >= 0 || errno != EINTR) return number;
+  }
+}
+
 ReadError over_limit(const std::string& name, std::uint64_t max_bytes) {
   return {name, "is larger than the limit of " + std::to_string(max_bytes) + " bytes"};
 }
@@ -30,7 +37,7 @@ ReadError over_limit(const std::string& name, std::uint64_t max_bytes) {
 FileBytes::FileBytes(const std::string& path, std::uint64_t max_bytes)
     : name_(path == "-" ? "standard input" : path) {
   const bool standard_input = path == "-";
-  const Descriptor file{standard_input ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC),
+  const Descriptor file{standard_input ? STDIN_FILENO : open_to_read(path),
                         !standard_input};
   if (file.number < 0) throw ReadError(name_, std::strerror(errno));
   map_or_read(file.number, max_bytes);
@@ -59,9 +66,11 @@ void FileBytes::map_or_read(int descriptor, std::uint64_t max_bytes) {
 void FileBytes::read_all(int descriptor, std::uint64_t max_bytes) {
   constexpr std::size_t kFirstBlock = 1 << 16;
   std::size_t filled = 0;
+  const std::uint64_t one_too_many = std::min<std::uint64_t>(max_bytes, copy_.max_size() - 1) + 1;
   for (;;) {
     if (filled > max_bytes) throw over_limit(name_, max_bytes);
-    if (filled == copy_.size()) copy_.resize(std::max(kFirstBlock, 2 * filled));
+    if (filled == copy_.size())
+      copy_.resize(std::min<std::uint64_t>(one_too_many, std::max(kFirstBlock, 2 * filled)));
     const ssize_t count = ::read(descriptor, copy_.data() + filled, copy_.size() - filled);
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) throw ReadError(name_, std::strerror(errno));

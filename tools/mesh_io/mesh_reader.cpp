@@ -3,11 +3,16 @@
 #include <algorithm>
 #include <cctype>
 #include <cstring>
+#include <filesystem>
+#include <optional>
 
 #include "mesh_io/file_bytes.h"
+#include "mesh_io/gifti_reader.h"
+#include "mesh_io/gltf_reader.h"
 #include "mesh_io/obj_reader.h"
 #include "mesh_io/off_reader.h"
 #include "mesh_io/ply_reader.h"
+#include "mesh_io/stl_reader.h"
 
 namespace sphparam::tools {
 namespace {
@@ -25,12 +30,10 @@ constexpr ForeignFormat kForeignMagic[] = {
      "7zXZ",
      "xz-compressed data (unpack it first)"},
     {"BZh", "bzip2-compressed data (unpack it first)"},
-    {"glTF", "binary glTF (GLB)"},
     {"MZ", "MZ3"},
     {"\xff\xff\xfe", "a FreeSurfer surface"},
     {"Kaydara FBX", "FBX"},
-    {"solid", "STL"},
-    {"<?xml", "XML (GIFTI, COLLADA or VTK)"},
+    {"<?xml", "XML other than GIFTI (COLLADA or VTK)"},
     {"# vtk DataFile", "legacy VTK"},
     {"\x89PNG", "a PNG image"},
     {"\xff\xd8\xff", "a JPEG image"},
@@ -38,10 +41,6 @@ constexpr ForeignFormat kForeignMagic[] = {
 
 constexpr ForeignFormat kForeignExtensions[] = {
     {"gz", "gzip-compressed data (unpack it first)"},
-    {"stl", "STL"},
-    {"glb", "binary glTF (GLB)"},
-    {"gltf", "glTF"},
-    {"gii", "GIFTI"},
     {"mz3", "MZ3"},
     {"fbx", "FBX"},
     {"dae", "COLLADA"},
@@ -67,14 +66,9 @@ bool looks_like_ply(std::string_view bytes) {
          (bytes.size() == 3 || std::isspace(static_cast<unsigned char>(bytes[3])));
 }
 
-// Binary STL: 80 bytes of anything, a count n, 50 bytes a triangle.
-bool looks_like_binary_stl(std::string_view bytes) {
-  constexpr std::size_t kHeaderBytes = 84, kTriangleBytes = 50;
-  if (bytes.size() < kHeaderBytes) return false;
-  std::uint32_t count = 0;
-  for (int i = 3; i >= 0; --i) count = count << 8 | static_cast<unsigned char>(bytes[80 + i]);
-  return bytes.size() == kHeaderBytes + kTriangleBytes * std::uint64_t{count} &&
-         bytes.find('\0') != std::string_view::npos;
+bool looks_like_gltf(std::string_view bytes) {
+  const std::size_t start = bytes.find_first_not_of(" \t\r\n");
+  return bytes.starts_with("glTF") || (start != std::string_view::npos && bytes[start] == '{');
 }
 
 // OBJ has no magic word: the first line that is no comment must start with a statement.
@@ -93,20 +87,26 @@ bool looks_like_obj(std::string_view bytes) {
   return std::find(std::begin(kStatements), std::end(kStatements), word) != std::end(kStatements);
 }
 
+constexpr const char* kSupported = "OBJ, PLY, OFF, STL, glTF, GLB and GIFTI files are";
+
 [[noreturn]] void refuse(const std::string& name, const char* format) {
-  throw ReadError(name, std::string("this is ") + format +
-                            ", which is not supported; OBJ, PLY and OFF files are");
+  throw ReadError(name,
+                  std::string("this is ") + format + ", which is not supported; " + kSupported);
 }
 
 void refuse_foreign_content(std::string_view bytes, const std::string& name) {
-  for (const auto& [magic, format] : kForeignMagic)
-    if (bytes.starts_with(magic)) refuse(name, format);
-  if (looks_like_binary_stl(bytes)) refuse(name, "binary STL");
+  if (extension_of(name) == "mz3") refuse(name, "MZ3");  // which is compressed, most of the time
+  for (const auto& [magic, format] : kForeignMagic) {
+    // An OBJ may open with any comment, also with "# vtk DataFile".
+    if (bytes.starts_with(magic) && !(magic.front() == '#' && looks_like_obj(bytes)))
+      refuse(name, format);
+  }
 }
 
-}  // namespace
-
-MeshFile read_mesh(std::string_view bytes, const std::string& name, const ReadOptions& options) {
+/// `folder` is where the buffers of a glTF may be, if anywhere.
+MeshFile read_bytes(std::string_view bytes, const std::string& name,
+                    const std::optional<std::filesystem::path>& folder,
+                    const ReadOptions& options) {
   constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
   if (bytes.size() > options.max_file_bytes)
     throw ReadError(
@@ -116,20 +116,36 @@ MeshFile read_mesh(std::string_view bytes, const std::string& name, const ReadOp
 
   if (looks_like_ply(bytes)) return read_ply(bytes, name, options);
   if (looks_like_off(bytes)) return read_off(bytes, name, options);
+  if (looks_like_gltf(bytes)) return read_gltf(bytes, name, folder, options);
+  if (looks_like_gifti(bytes)) return read_gifti(bytes, name, options);
+  if (looks_like_binary_stl(bytes) || looks_like_ascii_stl(bytes))
+    return read_stl(bytes, name, options);
   refuse_foreign_content(bytes, name);
 
   const std::string extension = extension_of(name);
   if (extension == "obj" || looks_like_obj(bytes)) return read_obj(bytes, name, options);
   if (extension == "ply") throw ReadError::at_line(name, 1, "expected the magic word 'ply'");
   if (extension == "off") return read_off(bytes, name, options);
+  if (extension == "stl") return read_stl(bytes, name, options);
+  if (extension == "glb" || extension == "gltf") throw ReadError(name, "is no glTF");
+  if (extension == "gii") return read_gifti(bytes, name, options);
   for (const auto& [foreign, format] : kForeignExtensions)
     if (extension == foreign) refuse(name, format);
-  throw ReadError(name, "the format is not recognised; OBJ, PLY and OFF files are");
+  throw ReadError(name, std::string("the format is not recognised; ") + kSupported);
+}
+
+}  // namespace
+
+MeshFile read_mesh(std::string_view bytes, const std::string& name, const ReadOptions& options) {
+  return read_bytes(bytes, name, std::nullopt, options);
 }
 
 MeshFile read_mesh(const std::string& path, const ReadOptions& options) {
   const FileBytes bytes(path, options.max_file_bytes);
-  return read_mesh(bytes.view(), bytes.name(), options);
+  const bool is_file = path != "-";
+  return read_bytes(
+      bytes.view(), bytes.name(),
+      is_file ? std::optional(std::filesystem::path(path).parent_path()) : std::nullopt, options);
 }
 
 }  // namespace sphparam::tools

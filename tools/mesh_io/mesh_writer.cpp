@@ -68,7 +68,7 @@ std::vector<PlyColumn> vertex_columns(const MeshFile& file) {
   std::vector<PlyColumn> columns;
   for (int axis = 0; axis < 3; ++axis)
     columns.push_back({"property " + std::string(ply_name(type)) + " " + "xyz"[axis], type,
-                       positions.data() + axis, 1, 3});
+                       positions.size() > 0 ? positions.data() + axis : nullptr, 1, 3});
   for (const Property& property : file.vertex_properties)
     columns.push_back(scalar_column(property));
   return columns;
@@ -107,7 +107,11 @@ std::size_t record_bytes(const std::vector<PlyColumn>& columns) {
 std::string ply_header(const MeshFile& file, const std::vector<PlyColumn>& vertices,
                        const std::vector<PlyColumn>& faces) {
   std::string header = "ply\nformat binary_little_endian 1.0\n";
-  for (const std::string& comment : file.comments) header += "comment " + one_line(comment) + "\n";
+  for (const std::string& comment : file.comments) {
+    // A comment of another format that looks like the name of a material must not become one.
+    header += comment.starts_with(kMaterialComment) ? "comment  " : "comment ";
+    header += one_line(comment) + "\n";
+  }
   for (const std::string& material : file.materials)
     header += "comment " + std::string(kMaterialComment) + one_line(material) + "\n";
   const auto declare = [&](const char* name, Eigen::Index count,

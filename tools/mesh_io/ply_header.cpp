@@ -50,6 +50,10 @@ class HeaderParser {
     while (parse_statement(next_line())) {
     }
     if (!format_seen_) fail("the header has no format line");
+    if (header_.encoding != PlyEncoding::Ascii && line_end_ == "\r")
+      fail(
+          "the header of a binary file ends its lines in CR alone, which leaves open where its "
+          "data begin; write it with LF");
     header_.body_offset = offset_;
     header_.body_line = line_ + 1;
     check_proportions();
@@ -203,10 +207,17 @@ const PlyProperty* PlyElement::find(std::string_view property_name) const {
 }
 
 std::uint64_t PlyElement::least_bytes(PlyEncoding encoding) const {
-  if (encoding == PlyEncoding::Ascii) return kLeastAsciiBytes * properties.size();
+  constexpr std::uint64_t kLeastCorners = 3;
+  const bool ascii = encoding == PlyEncoding::Ascii;
+  bool has_corners = name != "face";
   std::uint64_t bytes = 0;
-  for (const PlyProperty& property : properties)
-    bytes += size_in_bytes(property.is_list ? property.count_type : property.type);
+  for (const PlyProperty& property : properties) {
+    const ScalarType first = property.is_list ? property.count_type : property.type;
+    bytes += ascii ? kLeastAsciiBytes : size_in_bytes(first);
+    if (has_corners || !property.is_list || !is_corner_list_name(property.name)) continue;
+    bytes += kLeastCorners * (ascii ? kLeastAsciiBytes : size_in_bytes(property.type));
+    has_corners = true;
+  }
   return bytes;
 }
 

@@ -12,6 +12,11 @@ namespace sphparam::tools {
 
 enum class PlyEncoding { Ascii, BinaryLittleEndian, BinaryBigEndian };
 
+/// The list of a face's corners goes by either name.
+inline bool is_corner_list_name(std::string_view name) {
+  return name == "vertex_indices" || name == "vertex_index";
+}
+
 struct PlyProperty {
   std::string name;
   ScalarType type = ScalarType::Float64;  // of the value, or of the entries of a list
@@ -26,7 +31,7 @@ struct PlyElement {
   long line = 0;  // where the header declares it
 
   const PlyProperty* find(std::string_view property_name) const;
-  /// Fewest bytes a record can have, a list being empty.
+  /// Fewest bytes a record can have: the corners of a face are at least three, other lists empty.
   std::uint64_t least_bytes(PlyEncoding encoding) const;
 };
 
@@ -40,7 +45,8 @@ struct PlyHeader {
   const PlyElement* find(std::string_view element_name) const;
 };
 
-/// Reads the header of a PLY file, lines ending in LF, CRLF or CR (as the first one does).
+/// Reads the header of a PLY file, lines ending in LF, CRLF or CR (as the first one does). Before a
+/// binary body CR alone is refused: a body that starts with the byte of LF would look like CRLF.
 /// Ensures: the elements, each record as small as it can be, fit the bytes that follow.
 /// Throws: ReadError with the line.
 PlyHeader parse_ply_header(std::string_view bytes, const std::string& name,

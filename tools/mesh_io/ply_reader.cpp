@@ -220,6 +220,8 @@ class PlyReader {
     Points& positions = file_.mesh.positions;
     positions.resize(element.count, 3);
     file_.vertex_properties = columns(element, {"x", "y", "z"});
+    file_.position_type = position_type(element);
+    if (element.count == 0) return;
     std::vector<Target> targets;
     for (std::size_t i = 0, column = 0; i < element.properties.size(); ++i) {
       const PlyProperty& property = element.properties[i];
@@ -236,7 +238,6 @@ class PlyReader {
       read_record(element, targets, v);
       body_.end();
     }
-    file_.position_type = position_type(element);
   }
 
   static ScalarType position_type(const PlyElement& element) {

@@ -7,13 +7,15 @@
 #include <optional>
 
 #include "mesh_io/distinct_rows.h"
+#include "mesh_io/doublets.h"
 
 // A polygon is projected to the plane of its Newell normal n = Σ pᵢ × pᵢ₊₁, after a shift to its
 // first corner and a power-of-two scale, so that no coordinates overflow. There the sign of
 //   turn(a, b, c) = (b − a) × (c − a)
 // tells whether a triangle keeps the orientation of the polygon. Quads compare their two diagonals,
 // larger polygons try the fan of corner 0, then clip ears: convex corners whose triangle holds no
-// reflex corner. Edges in use are remembered so that no diagonal doubles one.
+// reflex corner. Edges in use are remembered so that no diagonal doubles one. Doublets are found
+// beforehand: vertices with two corners between the same two neighbours.
 
 namespace sphparam::tools {
 namespace {
@@ -150,14 +152,18 @@ class EarClipper {
 
 class Triangulator {
  public:
-  Triangulator(const Points& positions, const Polygons& polygons)
-      : positions_(positions), edges_(polygons.corners.size()) {
+  Triangulator(const Points& positions, const Polygons& polygons, const std::vector<int>& doublets)
+      : positions_(positions), edges_(polygons.corners.size()), doublets_(doublets) {
     for (std::int64_t p = 0; p < polygons.count(); ++p) insert_boundary(polygons.polygon(p));
   }
 
   /// Corner triples of one polygon of four corners or more; valid until the next call.
   const std::vector<int>& cut(std::span<const int> polygon) {
     triples_.clear();
+    if (const auto doublet = doublet_corner(polygon)) {
+      cut_fan(polygon, *doublet == 0 ? static_cast<int>(polygon.size()) - 1 : *doublet - 1);
+      return triples_;
+    }
     local_corners(positions_, polygon, local_);
     if (polygon.size() == 4)
       cut_quad(polygon);
@@ -173,6 +179,23 @@ class Triangulator {
       edges_.insert(previous, v);
       previous = v;
     }
+  }
+
+  /// The corner at the doublet of lowest id, so that both polygons choose the same.
+  std::optional<int> doublet_corner(std::span<const int> polygon) const {
+    std::optional<int> found;
+    for (int i = 0; i < static_cast<int>(polygon.size()); ++i) {
+      const bool is_doublet = std::binary_search(doublets_.begin(), doublets_.end(), polygon[i]);
+      if (is_doublet && (!found || polygon[i] < polygon[*found])) found = i;
+    }
+    return found;
+  }
+
+  void cut_fan(std::span<const int> polygon, int centre) {
+    const int degree = static_cast<int>(polygon.size());
+    for (int i = 1; i + 1 < degree; ++i)
+      triples_.insert(triples_.end(), {centre, (centre + i) % degree, (centre + i + 1) % degree});
+    insert_triangles(polygon);
   }
 
   // Diagonals in order of preference: new edges, unfolded triangles, short, from corner 0.
@@ -205,11 +228,11 @@ class Triangulator {
     const int degree = static_cast<int>(polygon.size());
     const bool flat = normal.squaredNorm() > 0;
     if (degree > kMaxClippedDegree || !flat || fan_is_good(polygon, normal)) {
-      for (int i = 1; i + 1 < degree; ++i) triples_.insert(triples_.end(), {0, i, i + 1});
+      cut_fan(polygon, 0);
     } else {
       EarClipper(polygon, project(local_, normal), edges_).clip(triples_);
+      insert_triangles(polygon);
     }
-    insert_triangles(polygon);
   }
 
   bool fan_is_good(std::span<const int> polygon, const Vector3& normal) const {
@@ -228,6 +251,7 @@ class Triangulator {
 
   const Points& positions_;
   EdgeSet edges_;
+  const std::vector<int>& doublets_;
   std::vector<Vector3> local_;
   std::vector<int> triples_;
 };
@@ -274,7 +298,8 @@ Triangulation triangulate(const Points& positions, const Polygons& polygons) {
     return result;
   }
 
-  Triangulator triangulator(positions, polygons);
+  result.doublets = find_doublets(polygons, positions.rows());
+  Triangulator triangulator(positions, polygons, result.doublets);
   const std::vector<int> whole_triangle = {0, 1, 2};
   std::vector<int> indices;
   for (std::int64_t p = 0; p < polygons.count(); ++p) {
@@ -293,6 +318,7 @@ void adopt_triangulation(MeshFile& file, const Triangulation& triangulation) {
   file.mesh.triangles = triangulation.triangles;
   file.polygons = triangulation.split;
   if (triangulation.split == 0) return;
+  if (!triangulation.doublets.empty()) file.notes.push_back(doublet_note(triangulation.doublets));
   for (Property& property : file.face_properties) {
     std::vector<double> spread;
     spread.reserve(triangulation.polygon.size());

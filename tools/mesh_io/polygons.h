@@ -40,9 +40,10 @@ struct Polygons {
 /// The triangles of some polygons, in the order of the polygons.
 struct Triangulation {
   Triangles triangles;
-  std::vector<int> corner;   // #T·3: which of the polygons' corners; empty when corner i is i
-  std::vector<int> polygon;  // #T: which polygon; empty when triangle t is polygon t
-  long split = 0;            // polygons that were not triangles
+  std::vector<int> corner;    // #T·3: which of the polygons' corners; empty when corner i is i
+  std::vector<int> polygon;   // #T: which polygon; empty when triangle t is polygon t
+  long split = 0;             // polygons that were not triangles
+  std::vector<int> doublets;  // vertices about which two polygons share two edges in a row
 
   std::int64_t corner_of(std::int64_t i) const { return corner.empty() ? i : corner[i]; }
   std::int64_t polygon_of(std::int64_t t) const { return polygon.empty() ? t : polygon[t]; }
@@ -54,13 +55,15 @@ struct Triangulation {
 /// become the fan of their first corner where that fan does not fold in the polygon's best-fit
 /// plane, else their ears are clipped there; beyond 512 corners always the fan, as ears cost the
 /// square of the degree. No cut runs along an edge that the polygons or another cut have already,
-/// where there is a choice: two quads on the same four vertices get different diagonals.
+/// where there is a choice. Where two polygons share two edges in a row (about a vertex of valence
+/// two, a doublet) the triangle between these edges is cut off from both: the surface has it twice,
+/// and `inspect_mesh` says so; `repair_mesh` turns the other diagonal of one of them.
 /// Requires: indices within `positions`. Cost: O(corners), plus degree² for clipped polygons.
 Triangulation triangulate(const Points& positions, const Polygons& polygons);
 
 /// Puts the triangles into a mesh file: triangles, polygon count and, where a polygon was split,
 /// the face property `source_face`. Face properties, so far one value a polygon, are copied to
-/// every triangle of the polygon.
+/// every triangle of the polygon. A note tells of doublets.
 void adopt_triangulation(MeshFile& file, const Triangulation& triangulation);
 
 }  // namespace sphparam::tools

@@ -16,6 +16,10 @@ struct ReadOptions {
   std::int64_t max_line_bytes = 1 << 20;           // of a text file or a header
   std::int64_t max_ply_elements = 64;
   std::int64_t max_ply_properties = 256;  // of one element
+  std::int64_t max_json_bytes = 64 << 20;      // of a glTF file
+  std::int64_t max_json_depth = 64;
+  std::int64_t max_json_values = 1 << 20;
+  std::int64_t max_json_objects = 1 << 17;
 };
 
 /// A file that cannot be read, with the place: "mesh.obj:12: face names vertex 9 of 8" in text,

@@ -1,11 +1,15 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sphparam::tools {
+
+class TemporaryFile;
 
 /// A file that cannot be written, with its path and the reason. The program ends with exit code 3.
 class WriteError : public std::runtime_error {
@@ -17,14 +21,43 @@ class WriteError : public std::runtime_error {
 /// Judges the bytes that are about to become the file; throws to keep them from it.
 using BytesCheck = std::function<void(std::string_view bytes)>;
 
-/// Writes a file so that its name holds the old bytes or all of the new ones, whatever happens:
-/// temporary in the same folder, fsync, `check` on the bytes read back from disk, rename, fsync of
-/// the folder. The temporary is removed on any failure; those of processes that were killed are
-/// removed by the next write to the same name. A link is followed, permissions are kept.
+/// The outputs of one run: all get their names, or none does. Whatever happens, a name holds the
+/// old bytes or all of the new ones.
+///
+/// `add` makes a temporary in the same folder: write, fsync, `check` on the bytes read back from
+/// disk. `publish` renames them all and syncs the folders; where one of these steps fails, the
+/// earlier ones are undone. Temporaries are removed on any failure; those of processes that were
+/// killed are removed by the next write to the same name. Links are followed, also to files that
+/// are not there yet; permissions are kept.
 ///
 /// Path "-" is standard output; there, and where the path is a device or a pipe, `check` judges the
-/// buffer itself before its first byte is written.
+/// buffer itself, and its first byte is written by `publish`, before any file gets its name.
+class PendingFiles {
+ public:
+  PendingFiles();
+  ~PendingFiles();
+  PendingFiles(const PendingFiles&) = delete;
+  PendingFiles& operator=(const PendingFiles&) = delete;
+
+  /// Throws: WriteError; whatever `check` throws. The files added before stay pending.
+  void add(const std::string& path, std::string bytes, const BytesCheck& check = {});
+
+  /// Throws: WriteError; then no file has its name.
+  void publish();
+
+ private:
+  bool is_pending(const std::string& path) const;
+
+  struct Stream {
+    std::string path;
+    std::string bytes;
+  };
+  std::vector<Stream> streams_;
+  std::vector<std::unique_ptr<TemporaryFile>> files_;
+};
+
+/// Writes one file as `PendingFiles` does.
 /// Throws: WriteError; whatever `check` throws.
-void write_file(const std::string& path, std::string_view bytes, const BytesCheck& check = {});
+void write_file(const std::string& path, std::string bytes, const BytesCheck& check = {});
 
 }  // namespace sphparam::tools

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/geodesic.h"
+#include "render/heat.h"
 #include "sphparam/sphere/distortion.h"
 
 // The sphere is turned so that the pictures correspond: its side towards the eye is the mean ray of
@@ -39,15 +41,10 @@ Paint choose_paint(const MeshFile& file, const SphereMap& map, const FigureOptio
     case FigureColours::Vertex:
       if (auto colours = vertex_colours(file)) return VertexPaint{std::move(*colours)};
       break;
-    case FigureColours::Area: {
-      const Distortion d = measure_distortion(file.mesh, map, threads);
-      return FacePaint{ratio_colours(d.area_ratio, 8)};
-    }
-    case FigureColours::Angle: {
-      const Distortion d = measure_distortion(file.mesh, map, threads);
-      const Eigen::VectorXd mean = d.angle_ratio.array().log().abs().rowwise().mean();
-      return FacePaint{value_colours(mean, 0, 1)};
-    }
+    case FigureColours::Area:
+      return heat_paint(Heat::Area, measure_distortion(file.mesh, map, threads));
+    case FigureColours::Angle:
+      return heat_paint(Heat::Angle, measure_distortion(file.mesh, map, threads));
     case FigureColours::Checker:
       return CheckerPaint{map.points};
     case FigureColours::Texture:
@@ -139,13 +136,10 @@ Image in_a_row(const std::vector<Image>& images) {
 
 Image map_figure(const MeshFile& file, const SphereMap& map, const FigureOptions& options,
                  int threads) {
-  RenderObject object;
-  object.mesh = file.mesh;
-  object.paint = choose_paint(file, map, options, threads);
+  RenderObject object = {.mesh = file.mesh, .paint = choose_paint(file, map, options, threads)};
   if (options.graticule) object.graticule = Graticule{.rays = map.points};
   if (options.wireframe) object.wireframe = Wireframe{};
-  RenderObject sphere = object;
-  sphere.mesh.positions = map.points;
+  const RenderObject sphere = on_sphere(object, map.points);
   object.occlusion = true;
 
   const SphereView side = corresponding_view(file.mesh, map, options);

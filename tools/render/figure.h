@@ -11,8 +11,8 @@ namespace sphparam::tools {
 enum class FigureColours {
   Plain,
   Vertex,   // the mesh's red green blue; plain where it has none
-  Area,     // log2 of the area ratio: blue an eighth, white 1, red eight times
-  Angle,    // mean |ln angle ratio| of a triangle: viridis from 0 to 1
+  Area,     // see heat_paint
+  Angle,    // see heat_paint
   Checker,  // fields of the (θ, ϕ) grid
   Texture,  // the mesh's texture coordinates and `texture`
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -62,6 +63,7 @@ struct Wireframe {
   double width = 0.8;  // pixels
   float opacity = 0.6F;
   Rgb colour{0.10F, 0.12F, 0.16F};
+  std::vector<std::uint8_t> hidden_sides = {};  // #F, bit k: not the side that faces corner k
 };
 
 enum class Shading { Smooth, Flat };
@@ -69,11 +71,12 @@ enum class Shading { Smooth, Flat };
 /// One thing to draw.
 struct RenderObject {
   TriangleMesh mesh;
+  std::optional<Points> normals = std::nullopt;  // unit, one a vertex; else the mesh's own
   Paint paint = UniformPaint{};
   Shading shading = Shading::Smooth;
   bool occlusion = false;  // darken what little light reaches; costs a second or so
-  std::optional<Graticule> graticule;
-  std::optional<Wireframe> wireframe;
+  std::optional<Graticule> graticule = std::nullopt;
+  std::optional<Wireframe> wireframe = std::nullopt;
 };
 
 struct RenderScene {

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "render/vertex_normals.h"
@@ -99,7 +100,7 @@ float line_cover(const GridCoordinate& coordinate, double step, double width) {
 
 SurfaceColour::SurfaceColour(const RenderObject& object, const Eigen::Matrix3d& view, int threads)
     : object_(&object), view_(view) {
-  normals_ = vertex_normals(object.mesh);
+  normals_ = object.normals ? *object.normals : vertex_normals(object.mesh);
   if (object.occlusion) light_ = sky_visibility(object.mesh, normals_, 128, threads);
   normals_ = (normals_ * view.transpose()).eval();
 }
@@ -146,7 +147,14 @@ Rgb SurfaceColour::with_graticule(const SurfaceSample& sample, const Rgb& below)
 
 Rgb SurfaceColour::with_wireframe(const SurfaceSample& sample, const Rgb& below) const {
   const Wireframe& wireframe = *object_->wireframe;
-  if (sample.edge_distance.minCoeff() > wireframe.width / 2) return below;
+  const unsigned hidden = wireframe.hidden_sides.empty()
+                              ? 0U
+                              : wireframe.hidden_sides[static_cast<size_t>(sample.face)];
+  double distance = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3; ++k) {
+    if (!(hidden >> k & 1U)) distance = std::min(distance, sample.edge_distance[k]);
+  }
+  if (distance > wireframe.width / 2) return below;
   // Edges of triangles of a few pixels fade away, or the surface would be black.
   const double fade = std::clamp(sample.altitude.minCoeff() / (6 * wireframe.width), 0.0, 1.0);
   return below +

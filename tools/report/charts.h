@@ -30,8 +30,8 @@ enum class ChartMeasure { Area, Angle };
 /// Paper: Section 6, Figures 10 and 11.
 std::string polar_chart(ChartMeasure measure, const std::vector<ChartSeries>& series);
 
-/// Shares of triangles by log2(area ratio) and of corners by ln(angle ratio), side by side; the
-/// end bars hold everything beyond. One or two series.
+/// Shares of triangles by area ratio (1/16 to 16) and of corners by angle ratio (1/8 to 8), side by
+/// side, logarithmic; the end bars hold everything beyond. One or two series.
 std::string histogram_chart(const std::vector<ChartSeries>& series);
 
 /// The three charts of a map as NAME-area.svg, NAME-angle.svg and NAME-histogram.svg in

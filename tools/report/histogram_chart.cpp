@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <stdexcept>
 
 #include "report/charts.h"
@@ -19,17 +20,16 @@ using Shares = std::array<double, kBins>;
 
 struct Panel {
   double left;
-  double reach;  // bins cover [−reach, reach]
+  int reach;  // bins cover ratios from 2^−reach to 2^reach, evenly in the logarithm
+  int step;   // between ticks, powers of two
   const char* title;
-  const char* unit;
 };
 
-/// Shares of the values of `logarithm` by bin; the ends hold what is beyond, infinities included.
-template <class Logarithm>
-Shares shares(const double* ratios, long count, double reach, Logarithm logarithm) {
+/// Shares of the ratios by bin; the ends hold what is beyond, infinities included.
+Shares shares(const double* ratios, long count, int reach) {
   std::array<long, kBins> counts{};
   for (long i = 0; i < count; ++i) {
-    const double place = (logarithm(ratios[i]) + reach) / (2 * reach) * (kBins - 2) + 1;
+    const double place = (std::log2(ratios[i]) + reach) / (2 * reach) * (kBins - 2) + 1;
     const auto bin = static_cast<size_t>(std::clamp(place, 0.0, kBins - 1.0));
     ++counts[bin];
   }
@@ -65,12 +65,14 @@ std::string axes(const Panel& panel, double highest) {
                     decimal(100 * part * highest, 1) + " %");
   }
   svg += svg_line(panel.left, bottom, right, bottom, "axis");
-  for (int tick = -2; tick <= 2; ++tick) {
-    const double x = bin_x(panel, 1 + (kBins - 2) * (tick + 2) / 4.0);
+  for (int power = -panel.reach; power <= panel.reach; power += panel.step) {
+    const double x = bin_x(panel, 1 + (kBins - 2) * (power + panel.reach) / (2.0 * panel.reach));
+    const std::string ratio = std::to_string(1 << std::abs(power));
     svg += svg_line(x, bottom, x, bottom + 4, "axis");
-    svg += svg_text(x, bottom + 17, "label", "middle", decimal(tick * panel.reach / 2, 2));
+    svg += svg_text(x, bottom + 17, "label", "middle", power < 0 ? "1/" + ratio : ratio);
   }
-  return svg + svg_text(panel.left + kPanelWidth / 2, bottom + 34, "label", "middle", panel.unit);
+  return svg + svg_text(panel.left + kPanelWidth / 2, bottom + 34, "label", "middle",
+                        "ratio, logarithmic; the outer bars hold everything beyond");
 }
 
 std::string draw_panel(const Panel& panel, const std::vector<Shares>& all) {
@@ -90,15 +92,12 @@ std::string histogram_chart(const std::vector<ChartSeries>& series) {
   if (series.empty() || series.size() > 2) {
     throw std::invalid_argument("histogram_chart: one or two series");
   }
-  const Panel area{64, 4, "Area", "log₂ (area ratio); the outer bars hold everything beyond"};
-  const Panel angle{544, 2, "Angle", "ln (angle ratio); the outer bars hold everything beyond"};
+  const Panel area{64, 4, 1, "Area"}, angle{544, 3, 1, "Angle"};
   std::vector<Shares> areas, angles;
   for (const ChartSeries& one : series) {
     const Distortion& d = *one.distortion;
-    areas.push_back(shares(d.area_ratio.data(), d.area_ratio.size(), area.reach,
-                           [](double r) { return std::log2(r); }));
-    angles.push_back(shares(d.angle_ratio.data(), d.angle_ratio.size(), angle.reach,
-                            [](double r) { return std::log(r); }));
+    areas.push_back(shares(d.area_ratio.data(), d.area_ratio.size(), area.reach));
+    angles.push_back(shares(d.angle_ratio.data(), d.angle_ratio.size(), angle.reach));
   }
   const bool legend = series.size() > 1 || !series[0].label.empty();
   const int below = static_cast<int>(kTop + kHeight) + 52;

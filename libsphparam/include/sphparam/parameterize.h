@@ -52,7 +52,7 @@ struct ParameterizeOptions {
   // Of Method::Progressive: time against distortion; and what λ is to reach, if not a given value.
   Quality quality = Quality::Normal;
   Balance balance = Balance::Lambda;
-  double sweeps = 2;   // of Method::Progressive on the finest level; more: slower, better
+  double sweeps = 1.4; // of Method::Progressive on the finest level; more: slower, better
   bool repair = true;  // untangle, and fall back; Method::Paper repairs only when `repair_paper`
   bool repair_paper = false;
   int threads = 0;              // 0: all cores. The result does not depend on it.

@@ -3,7 +3,7 @@
 #include "sphparam/curvilinear/harmonic.h"
 #include "sphparam/curvilinear/lift.h"
 #include "sphparam/curvilinear/quasi_harmonic.h"
-#include "stopwatch.h"
+#include "sphparam/stopwatch.h"
 
 // (M, poles) → date line → disk → (θ, ϕ) → κ → (θ, ϕ) → … → sphere → smoothing, as in Figure 1.
 
@@ -42,8 +42,9 @@ PaperResult map_as_paper(const TriangleMesh& mesh, const Topology& topology, Pol
   }
 
   report(progress, "smoothing", 0);
-  result.map = smooth_date_line(mesh, topology, result.date_line, std::move(result.map),
-                                {.rings = options.rings, .sweeps = options.sweeps});
+  result.map = smooth_date_line(
+      mesh, topology, result.date_line, std::move(result.map),
+      {.rings = options.rings, .sweeps = options.sweeps, .threads = options.threads});
   finish_stage("smoothing");
   return result;
 }

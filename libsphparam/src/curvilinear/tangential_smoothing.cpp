@@ -47,7 +47,8 @@ SphereMap smooth_date_line(const TriangleMesh& mesh, const Topology& topology,
                            const SmoothingOptions& options) {
   std::vector<double> weights;  // empty: uniform
   if (options.laplacian == SmoothingOptions::Operator::MeanValue) {
-    weights = EdgeWeights(mesh, topology, WeightKind::MeanValue).with(topology);
+    const EdgeWeights mean_value(mesh, topology, WeightKind::MeanValue, options.threads);
+    weights = mean_value.with(topology, {}, options.threads);
   }
   const std::vector<Vertex> patch = date_line_patch(topology, date_line, options.rings);
   for (int sweep = 0; sweep < options.sweeps; ++sweep) {

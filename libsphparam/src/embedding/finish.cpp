@@ -7,7 +7,7 @@
 
 #include "embedding/global_newton.h"
 
-// Levels are due at every fourfold vertex count, and the finest. The smallest get a step in any
+// Levels are due at every fourfold vertex count, counted down from the finest. The smallest get a step in any
 // case: all of them together cost less than a tenth of a step on the finest. Finer ones get steps
 // only if the first step on the level before gained enough, relative to its energy. Shapes with
 // long limbs gain 0.15 to 4 % there, others below 0.05 %.
@@ -20,8 +20,9 @@ constexpr int least_vertices = 100;
 constexpr int growth = 4;  // from one level that is due to the next
 constexpr double worthwhile = 1e-3;
 constexpr int coarse_steps = 20, finest_steps = 8, best_steps = 100;
-constexpr double coarse_gain = 5e-4, finest_gain = 1e-3, best_gain = 1e-6;
-constexpr int sweeps_between = 4;
+// Gains halve from step to step, or better: what is left is no more than the last gain.
+constexpr double coarse_gain = 2e-3, finest_gain = 3e-3, best_gain = 1e-6;
+constexpr int sweeps_between = 8;
 constexpr double linear_tolerance = 0.5;
 
 /// Levels up to this size cost hardly anything.
@@ -34,11 +35,13 @@ Finish::Finish(Quality quality, const DistortionEnergy& energy, int finest_verti
       energy_(energy),
       finest_(finest_vertices),
       threads_(threads),
-      last_gain_(std::numeric_limits<double>::infinity()) {}
+      next_(finest_vertices),
+      last_gain_(std::numeric_limits<double>::infinity()) {
+  while (next_ >= growth * least_vertices) next_ /= growth;
+}
 
 bool Finish::due(int vertices) const {
-  if (quality_ == Quality::Draft || vertices < least_vertices) return false;
-  if (vertices < finest_ && vertices < growth * last_vertices_) return false;
+  if (quality_ == Quality::Draft || vertices < next_ || vertices < least_vertices) return false;
   return quality_ == Quality::Best || vertices <= cheap(finest_) || last_gain_ > worthwhile;
 }
 
@@ -46,6 +49,7 @@ void Finish::improve(const Topology& topology, const SourceTriangles& source,
                      const std::vector<Vertex>& pinned, std::vector<ImagePoint>& image) {
   const int n = topology.vertex_count();
   const bool finest = n == finest_;
+  while (next_ <= n && next_ < finest_) next_ = std::min(finest_, growth * next_);
   const bool best = quality_ == Quality::Best && finest;
   const int most_steps = best ? best_steps : finest ? finest_steps : coarse_steps;
   const double enough = best ? best_gain : finest ? finest_gain : coarse_gain;
@@ -60,7 +64,6 @@ void Finish::improve(const Topology& topology, const SourceTriangles& source,
     if (step == 0) last_gain_ = gain;
     if (gain < enough) break;
   }
-  last_vertices_ = n;
   newton.write_to(image);
 }
 

@@ -27,8 +27,8 @@ class Finish {
   Quality quality_;
   DistortionEnergy energy_;
   int finest_, threads_;
-  int last_vertices_ = 0;  // of the level improved last
-  double last_gain_;       // there, by the first step
+  int next_;          // vertices of the next level to be improved, at least
+  double last_gain_;  // on the level improved last, by the first step
 };
 
 }  // namespace sphparam

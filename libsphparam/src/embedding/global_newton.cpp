@@ -320,7 +320,7 @@ void GlobalNewton::sweep(const DistortionEnergy& energy, int sweeps) {
     const int c = n % rings_->colours(), first = rings_->colour_start[at(c)];
     const int count = rings_->colour_start[at(c) + 1] - first;
     parallel_for(count, sweep_grain, threads_, [&](std::int64_t begin, std::int64_t end) {
-      std::vector<LaneVectors> scratch(at(rings_->largest_valence));
+      std::vector<PackScratch> scratch(at(rings_->largest_valence));
       step_packs(*rings_, first + static_cast<int>(begin), first + static_cast<int>(end),
                  image_.data(), energy, over_relaxation, scratch.data());
     });

@@ -21,15 +21,24 @@ struct Cap {
 };
 
 Cap cap_of(const Vector3& a, const Vector3& b) {
-  const Vector3 sum = a + b;
-  const double length = sum.norm();
+  // In a sliver the normals are nearly opposite and their sum is little but rounding. Its part
+  // across their difference is what matters: a centre that is equally far from both.
+  const Vector3 sum = a + b, difference = a - b;
+  const Vector3 across =
+      sum - difference * (difference.dot(sum) / std::max(difference.squaredNorm(), 1e-300));
+  const double length = across.norm();
   // Opposite normals: the kernel is a single great circle's arc; any direction across serves.
-  const Vector3 centre = length > 0 ? Vector3(sum / length) : a.unitOrthogonal();
-  return {centre, centre.dot(a)};
+  const Vector3 centre = length > 0 ? Vector3(across / length) : a.unitOrthogonal();
+  return {centre, length / 2};
 }
 
 Cap cap_of(const Vector3& a, const Vector3& b, const Vector3& c) {
-  const Vector3 normal = (b - a).cross(c - a);
+  // The product of the shortest difference with another: in a sliver the two others are parallel.
+  const Vector3 ab = b - a, bc = c - b, ca = a - c;
+  const double ab2 = ab.squaredNorm(), bc2 = bc.squaredNorm(), ca2 = ca.squaredNorm();
+  const Vector3 normal = ab2 <= bc2 && ab2 <= ca2 ? ab.cross(bc)
+                         : bc2 <= ca2             ? bc.cross(ca)
+                                                  : ca.cross(ab);
   const double length = normal.norm();
   if (!(length > 0)) return cap_of(a, b);
   Vector3 centre = normal / length;

@@ -78,7 +78,7 @@ Block<N> inverse(const Block<N>& a) {
 
 /// One row of b − A x, without the diagonal's part.
 template <int N>
-std::array<double, N> off_residual(const BlockMatrix<N>& a, const double* b, const double* x,
+[[gnu::always_inline]] inline std::array<double, N> off_residual(const BlockMatrix<N>& a, const double* b, const double* x,
                                    int row) {
   std::array<double, N> s;
   for (int i = 0; i < N; ++i) s[at(i)] = b[N * row + i];

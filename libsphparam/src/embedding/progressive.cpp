@@ -5,12 +5,14 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "embedding/finish.h"
 #include "embedding/kernel_placement.h"
 #include "embedding/pack_kernel.h"
 #include "embedding/ring_packs.h"
+#include "sphparam/embedding/relaxation.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/orientation.h"
 
@@ -21,18 +23,20 @@
 //   3. sweeps of guarded Newton steps over all vertices, colour by colour. Coarse levels are cheap
 //      and get more of them.
 // A vertex without room (rounding on very long limbs) sends the level back: the coarser one is
-// relaxed again, which opens the rings, and the level is tried once more.
+// relaxed again, which opens the rings, and the level is tried once more. Then areas weigh more;
+// last, the shape is forgotten and everything equilateral.
 // Pins are placed on the coarsest level that has them all, and held from there on. Pins that block
 // each other there (edges between them, too few vertices) travel on as levels get finer.
 
 namespace sphparam {
 namespace {
 
-constexpr std::int64_t pack_grain = 24;
+constexpr std::int64_t pack_grain = 32;
 constexpr int pin_work = 200'000;           // rounds × vertices on a level that places pins
 constexpr int fewest_pin_rounds = 40;       // on fine levels
 constexpr double least_pin_progress = 0.9;  // of the distances left: more than that is idle
 constexpr int most_idle_levels = 6;
+constexpr int shape_sweeps = 30;  // of relaxation, where the embedding knew nothing of the shape
 // Tried in turn when vertices found no room at the λ asked for.
 constexpr double roomier_lambdas[] = {10, 100, 1000};
 constexpr double area_floor = 1e-9;  // of the mean triangle, as everywhere
@@ -41,19 +45,21 @@ size_t at(int i) { return static_cast<size_t>(i); }
 
 using Image = std::vector<ImagePoint>;
 
+/// Uses the hierarchy up: a level is given back as soon as the next finer one is done.
 class Embedder {
  public:
-  Embedder(const MeshHierarchy& hierarchy, int face_count, const ProgressiveOptions& options)
-      : hierarchy_(hierarchy),
+  Embedder(MeshHierarchy hierarchy, int face_count, const ProgressiveOptions& options)
+      : hierarchy_(std::move(hierarchy)),
         options_(options),
         area_floor_(area_floor * 4 * std::numbers::pi / face_count),
-        finish_(options.quality, options.energy, hierarchy.front().vertex_count(),
+        finish_(options.quality, options.energy, hierarchy_.front().vertex_count(),
                 options.threads) {
     std::vector<Vertex> names;
     for (const Pin& pin : options.pins) names.push_back(pin.vertex);
     while (!names.empty() && std::count(names.begin(), names.end(), -1) == 0) {
       pinned_.push_back(names);
-      for (Vertex& v : names) v = coarser_name(hierarchy[pinned_.size()], v);
+      if (pinned_.size() == hierarchy_.size()) break;  // the tetrahedron may have them all
+      for (Vertex& v : names) v = coarser_name(hierarchy_[pinned_.size()], v);
     }
   }
 
@@ -65,6 +71,7 @@ class Embedder {
     for (const HierarchyLevel& level : hierarchy_) all += level.vertex_count();
     for (size_t l = hierarchy_.size(); l-- > 0;) {
       if (l + 1 < hierarchy_.size() && !refine(l, result.report)) return result;
+      hierarchy_.resize(l + 1);
       if (l < pinned_.size()) place_pins(l, result.report.pin_residuals);
       if (finish_.due(hierarchy_[l].vertex_count())) finish(l);
       done += hierarchy_[l].vertex_count();
@@ -119,7 +126,7 @@ class Embedder {
   }
 
   RingPacks pack(size_t l, bool hold_pins) const {
-    return pack_rings(hierarchy_[l], area_floor_, false, options_.threads,
+    return pack_rings(hierarchy_[l], area_floor_, options_.threads,
                       hold_pins ? pinned_[l] : std::vector<Vertex>{});
   }
 
@@ -178,7 +185,7 @@ class Embedder {
     const int count = packs.colour_start[1];
     std::vector<unsigned char> bits(at(count), 0);
     parallel_for(count, pack_grain, options_.threads, [&](std::int64_t first, std::int64_t last) {
-      std::vector<LaneVectors> scratch(at(packs.largest_valence));
+      std::vector<PackScratch> scratch(at(packs.largest_valence));
       const int begin = static_cast<int>(first), end = static_cast<int>(last);
       place_at_means(packs, begin, end, image.data(), bits.data(), scratch.data());
       for (int p = begin; p < end; ++p) {
@@ -215,14 +222,14 @@ class Embedder {
       const int begin = packs.colour_start[at(c)], end = packs.colour_start[at(c) + 1];
       parallel_for(
           end - begin, pack_grain, options_.threads, [&](std::int64_t first, std::int64_t last) {
-            std::vector<LaneVectors> scratch(at(packs.largest_valence));
+            std::vector<PackScratch> scratch(at(packs.largest_valence));
             step_packs(packs, begin + static_cast<int>(first), begin + static_cast<int>(last),
                        image.data(), options_.energy, over_relaxation, scratch.data());
           });
     }
   }
 
-  const MeshHierarchy& hierarchy_;
+  MeshHierarchy hierarchy_;
   const ProgressiveOptions& options_;
   const double area_floor_;
   std::vector<std::vector<Vertex>> pinned_;  // per level that has all pins: their names there
@@ -232,6 +239,50 @@ class Embedder {
   Finish finish_;
 };
 
+/// With the λ asked for, or else with greater ones: weighing areas more keeps limbs from shrinking
+/// to where doubles have no room left.
+ProgressiveEmbedding embed_with_room(const TriangleMesh& mesh, const Topology& topology,
+                                     const ProgressiveOptions& options, const KeptVertices& keep) {
+  const auto embed = [&](const ProgressiveOptions& how) {
+    return Embedder(build_hierarchy(mesh, topology, options.threads, keep), topology.face_count(),
+                    how)
+        .run();
+  };
+  ProgressiveEmbedding embedding = embed(options);
+  for (const double lambda : roomier_lambdas) {
+    if (embedding.map) break;
+    ProgressiveOptions roomier = options;
+    roomier.energy = {.lambda = std::max(lambda, options.energy.lambda)};
+    roomier.quality = Quality::Draft;
+    const int retries = embedding.report.retries;
+    embedding = embed(roomier);
+    embedding.report.retries += retries;
+  }
+  return embedding;
+}
+
+/// As if all triangles were equilateral, then relaxed for the shape they have. No shape is too hard
+/// for that, but what relaxation does not reach stays distorted.
+ProgressiveEmbedding embed_by_valences(const TriangleMesh& mesh, const Topology& topology,
+                                       const ProgressiveOptions& options,
+                                       const KeptVertices& keep) {
+  TriangleMesh shapeless = mesh;
+  shapeless.positions.setZero();
+  ProgressiveOptions draft = options;
+  draft.quality = Quality::Draft;
+  ProgressiveEmbedding embedding = embed_with_room(shapeless, topology, draft, keep);
+  if (!embedding.map) return embedding;
+  embedding.map = relax(topology, measure_source(mesh), *embedding.map,
+                        {.energy = options.energy,
+                         .sweeps = shape_sweeps,
+                         .pinned = keep.vertices,
+                         .threads = options.threads,
+                         .progress = options.progress,
+                         .measure_energy = false})
+                      .map;
+  return embedding;
+}
+
 }  // namespace
 
 ProgressiveEmbedding embed_progressively(const TriangleMesh& mesh, const Topology& topology,
@@ -239,18 +290,11 @@ ProgressiveEmbedding embed_progressively(const TriangleMesh& mesh, const Topolog
   report(options.progress, "hierarchy", 0);
   KeptVertices keep{{}, std::max(options.pin_level, 20 * static_cast<int>(options.pins.size()))};
   for (const Pin& pin : options.pins) keep.vertices.push_back(pin.vertex);
-  const MeshHierarchy hierarchy = build_hierarchy(mesh, topology, options.threads, keep);
-  ProgressiveEmbedding embedding = Embedder(hierarchy, topology.face_count(), options).run();
-  for (const double lambda : roomier_lambdas) {
-    if (embedding.map) break;
-    // Weighing areas more keeps limbs from shrinking to where doubles have no room left.
-    ProgressiveOptions roomier = options;
-    roomier.energy = {.lambda = std::max(lambda, options.energy.lambda)};
-    roomier.quality = Quality::Draft;
-    const int retries = embedding.report.retries;
-    embedding = Embedder(hierarchy, topology.face_count(), roomier).run();
-    embedding.report.retries += retries;
-  }
+  ProgressiveEmbedding embedding = embed_with_room(mesh, topology, options, keep);
+  if (embedding.map) return embedding;
+  const int retries = embedding.report.retries;
+  embedding = embed_by_valences(mesh, topology, options, keep);
+  embedding.report.retries += retries;
   return embedding;
 }
 

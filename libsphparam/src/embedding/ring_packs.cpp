@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "embedding/lanes.h"
 #include "sphparam/parallel.h"
 
 // The energy of one triangle, seen from its corner x. With source edges a, b from x (capital: the
@@ -18,7 +19,7 @@
 namespace sphparam {
 namespace {
 
-constexpr std::int64_t pack_grain = 32;
+constexpr std::int64_t pack_grain = 64;
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
@@ -82,58 +83,55 @@ Order sort_vertices(const HierarchyLevel& level, const std::vector<int>& colour)
   return order;
 }
 
-Order removed_only(const HierarchyLevel& level) {
-  Order order{level.removed, {0, static_cast<int>(level.removed.size())}};
-  std::stable_sort(order.vertices.begin(), order.vertices.end(),
-                   [&](Vertex a, Vertex b) { return level.valence(a) < level.valence(b); });
-  return order;
-}
-
-/// What a slot keeps of a source triangle.
-struct Corner {
-  double area, squared_base, shear;
-};
-
-/// The source part of one corner's triangle (v, p, q).
-Corner measure_corner(const HierarchyLevel& level, Vertex v, Vertex p, Vertex q,
-                      double area_floor) {
-  const Vector3 x = level.positions.row(v);
-  const Vector3 a = level.positions.row(p).transpose() - x;
-  const Vector3 b = level.positions.row(q).transpose() - x;
-  const double area = a.cross(b).norm() / 2, base = a.squaredNorm();
-  if (area >= area_floor) return {area, base, a.dot(b) / base};
-  // the equilateral triangle of that area
-  return {area_floor, 4 / std::sqrt(3.0) * area_floor, 0.5};
-}
-
-/// Lanes without a vertex, or with fewer neighbours than the pack's longest, repeat a valid
-/// neighbour with zero weights: they compute something harmless.
-template <class MeasureCorner>
-void fill_pack(const HierarchyLevel& level, const MeasureCorner& measure, const RingPack& pack,
-               RingSlot* slots) {
+/// Fills in the neighbours of a pack's vertices. Lanes without a vertex, or with fewer neighbours
+/// than the pack's longest, repeat a valid one: they compute something harmless.
+void fill_neighbours(const HierarchyLevel& level, const RingPack& pack, RingSlot* slots) {
   for (int lane = 0; lane < pack_width; ++lane) {
     const bool empty = pack.vertex[lane] < 0;
     const Vertex v = empty ? pack.vertex[0] : pack.vertex[lane];
     const Vertex* ring = level.ring_begin(v);
-    const int k = level.valence(v);
-    for (int i = 0; i < pack.valence; ++i) {
-      RingSlot& slot = slots[i];
-      slot.neighbour[lane] = ring[0];
-      slot.alpha[lane] = slot.beta[lane] = slot.shear[lane] = 0;
-      if (empty || i >= k) continue;
-      const Corner c = measure(v, i);
-      slot.neighbour[lane] = ring[i];
-      slot.alpha[lane] = static_cast<float>(c.area * c.area / (2 * c.squared_base));
-      slot.beta[lane] = static_cast<float>(c.squared_base / 8);
-      slot.shear[lane] = static_cast<float>(c.shear);
-    }
+    const int k = empty ? 0 : level.valence(v);
+    for (int i = 0; i < pack.valence; ++i) slots[i].neighbour[lane] = ring[i < k ? i : 0];
   }
 }
 
-template <class MeasureCorner>
-RingPacks pack(const HierarchyLevel& level, const Order& order, const MeasureCorner& measure,
-               int threads) {
+/// Measures the source triangles of a pack's vertices, W lanes at a time.
+template <int W>
+SPHPARAM_INLINE void measure_part(const HierarchyLevel& level, double area_floor,
+                                  const RingPack& pack, int first, RingSlot* slots) {
+  Vertex own[W];
+  Lanes<W> valence = 0.0;
+  for (int i = 0; i < W; ++i) {
+    const Vertex v = pack.vertex[first + i];
+    own[i] = v < 0 ? pack.vertex[0] : v;
+    valence.v[i] = v < 0 ? 0 : level.valence(v);
+  }
+  const Lanes<W> zero = 0.0, least = area_floor * area_floor;
+  const LaneVectors<W> x = gather<W>(level.positions, own);
+  const auto edge = [&](int i) SPHPARAM_INLINED {
+    return gather<W>(level.positions, slots[i].neighbour + first) - x;
+  };
+  LaneVectors<W> a = edge(0);
+  const LaneVectors<W> start = a;
+  for (int i = 0; i < pack.valence; ++i) {
+    const LaneVectors<W> b = i + 1 < pack.valence ? edge(i + 1) : start, normal = cross(a, b);
+    const Lanes<W> area2 = 0.25 * dot(normal, normal), base = dot(a, a);
+    // Too small or not a number: the equilateral triangle of the least area.
+    const LaneMask<W> fine = area2 > least, live = valence > static_cast<double>(i);
+    const Lanes<W> base_used = select(fine, base, 4 / std::sqrt(3.0) * area_floor);
+    const Lanes<W> alpha = select(fine, area2, least) / (base_used + base_used);
+    const Lanes<W> shear = select(fine, dot(a, b) / base, Lanes<W>(0.5));
+    store(select(live, alpha, zero), slots[i].alpha + first);
+    store(select(live, 0.125 * base_used, zero), slots[i].beta + first);
+    store(select(live, shear, zero), slots[i].shear + first);
+    a = b;
+  }
+}
+
+/// The packs of an order of vertices, without their slots.
+RingPacks make_packs(const HierarchyLevel& level, const Order& order) {
   RingPacks result;
+  result.packs.reserve(order.vertices.size() / pack_width + order.colour_start.size());
   result.colour_start.push_back(0);
   size_t slots = 0;
   for (size_t c = 0; c + 1 < order.colour_start.size(); ++c) {
@@ -152,29 +150,37 @@ RingPacks pack(const HierarchyLevel& level, const Order& order, const MeasureCor
     }
     result.colour_start.push_back(static_cast<int>(result.packs.size()));
   }
-  result.slots.resize(slots);
-  parallel_for(static_cast<std::int64_t>(result.packs.size()), pack_grain, threads,
-               [&](std::int64_t first, std::int64_t last) {
-                 for (std::int64_t p = first; p < last; ++p) {
-                   const RingPack& pack = result.packs[static_cast<size_t>(p)];
-                   fill_pack(level, measure, pack, &result.slots[pack.first_slot]);
-                 }
-               });
+  result.slots = std::make_unique_for_overwrite<RingSlot[]>(slots);
   return result;
+}
+
+/// Calls fill(first, last) on ranges of packs.
+template <class Fill>
+void fill_packs(const RingPacks& packs, int threads, const Fill& fill) {
+  parallel_for(static_cast<std::int64_t>(packs.packs.size()), pack_grain, threads,
+               [&](std::int64_t first, std::int64_t last) {
+                 fill(&packs.packs[static_cast<size_t>(first)], last - first);
+               });
 }
 
 }  // namespace
 
-RingPacks pack_rings(const HierarchyLevel& level, double area_floor, bool only_removed, int threads,
+RingPacks pack_rings(const HierarchyLevel& level, double area_floor, int threads,
                      const std::vector<Vertex>& pinned) {
-  const Order order =
-      only_removed ? removed_only(level) : sort_vertices(level, colour_vertices(level, pinned));
-  const auto measure = [&](Vertex v, int i) {
-    const Vertex* ring = level.ring_begin(v);
-    return measure_corner(level, v, ring[i], ring[i + 1 < level.valence(v) ? i + 1 : 0],
-                          area_floor);
-  };
-  return pack(level, order, measure, threads);
+  RingPacks packs = make_packs(level, sort_vertices(level, colour_vertices(level, pinned)));
+  fill_packs(packs, threads, [&](const RingPack* pack, std::int64_t count) {
+    for (std::int64_t p = 0; p < count; ++p) {
+      fill_neighbours(level, pack[p], &packs.slots[pack[p].first_slot]);
+    }
+    run_on_lanes([&]<int W>(Width<W>) SPHPARAM_INLINED {
+      for (std::int64_t p = 0; p < count; ++p) {
+        for (int lane = 0; lane < pack_width; lane += W) {
+          measure_part<W>(level, area_floor, pack[p], lane, &packs.slots[pack[p].first_slot]);
+        }
+      }
+    });
+  });
+  return packs;
 }
 
 RingPacks pack_rings(const std::vector<int>& start, const std::vector<Vertex>& ring,
@@ -183,11 +189,25 @@ RingPacks pack_rings(const std::vector<int>& start, const std::vector<Vertex>& r
   HierarchyLevel level;
   level.start = start;
   level.ring = ring;
-  const auto measure = [&](Vertex v, int i) {
-    const SourceTriangle s = corner(v, i);
-    return Corner{s.area, 1 / (s.inverse_base * s.inverse_base), s.foot};
-  };
-  return pack(level, sort_vertices(level, colour_vertices(level, pinned)), measure, threads);
+  RingPacks packs = make_packs(level, sort_vertices(level, colour_vertices(level, pinned)));
+  fill_packs(packs, threads, [&](const RingPack* pack, std::int64_t count) {
+    for (; count-- > 0; ++pack) {
+      RingSlot* slots = &packs.slots[pack->first_slot];
+      fill_neighbours(level, *pack, slots);
+      for (int lane = 0; lane < pack_width; ++lane) {
+        const Vertex v = pack->vertex[lane];
+        const int k = v < 0 ? 0 : level.valence(v);
+        for (int i = 0; i < pack->valence; ++i) {
+          const SourceTriangle s = i < k ? corner(v, i) : SourceTriangle{};
+          const double base = i < k ? 1 / (s.inverse_base * s.inverse_base) : 0;
+          slots[i].alpha[lane] = static_cast<float>(i < k ? s.area * s.area / (2 * base) : 0);
+          slots[i].beta[lane] = static_cast<float>(base / 8);
+          slots[i].shear[lane] = static_cast<float>(i < k ? s.foot : 0);
+        }
+      }
+    }
+  });
+  return packs;
 }
 
 }  // namespace sphparam

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "sphparam/embedding/distortion_energy.h"
@@ -8,8 +9,7 @@
 
 namespace sphparam {
 
-/// Vertices that one vector instruction moves together. The number is fixed, whatever the machine:
-/// narrower ones take several instructions, and the result has the same bits everywhere.
+/// Vertices that move together, whatever the machine: the result has the same bits everywhere.
 inline constexpr int pack_width = 8;
 
 /// One triangle of the ring of each of a pack's vertices: the neighbour that begins it and what
@@ -31,7 +31,7 @@ struct RingPack {
 /// A level laid out for sweeps. Colour 0 holds the level's removed vertices, which are independent.
 struct RingPacks {
   std::vector<RingPack> packs;  // colour by colour
-  std::vector<RingSlot> slots;
+  std::unique_ptr<RingSlot[]> slots;
   std::vector<int> colour_start;  // #colours + 1, into `packs`
   int largest_valence = 0;
 
@@ -39,9 +39,9 @@ struct RingPacks {
 };
 
 /// Colours, sorts and packs the vertices of a level. Triangles smaller than `area_floor` count as
-/// equilateral ones of that area. `only_removed`: colour 0 alone. `pinned`: vertices in no pack.
-RingPacks pack_rings(const HierarchyLevel& level, double area_floor, bool only_removed,
-                     int threads, const std::vector<Vertex>& pinned = {});
+/// equilateral ones of that area. `pinned`: vertices in no pack.
+RingPacks pack_rings(const HierarchyLevel& level, double area_floor, int threads,
+                     const std::vector<Vertex>& pinned = {});
 
 /// The same for any rings (as in HierarchyLevel) and source triangles.
 /// `corner(v, i)`: the source triangle of v, its i-th neighbour and the next one; v first.

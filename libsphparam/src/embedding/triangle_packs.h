@@ -18,9 +18,10 @@ struct alignas(8 * pack_width) TrianglePack {
 /// Gradient and projected Hessian of A f of eight triangles, in the tangent coordinates of their
 /// corners' frames (`tangent_frame`).
 struct alignas(8 * pack_width) TriangleTerms {
-  Lanes gradient[3][2];
-  Lanes diagonal[3][3];  // corner k with itself: entries 00, 01, 11
-  Lanes off[3][4];       // corner k (rows) with corner k + 1 (columns): entries 00, 01, 10, 11
+  double gradient[3][2][pack_width];
+  double diagonal[3][3][pack_width];  // corner k with itself: entries 00, 01, 11
+  double off[3][4]
+            [pack_width];  // corner k (rows) with corner k + 1 (columns): entries 00, 01, 10, 11
 };
 
 /// Sum of A f; +∞ unless every orientation is certain to be positive.

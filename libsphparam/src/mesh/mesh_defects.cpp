@@ -5,10 +5,12 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <optional>
 #include <sstream>
-#include <tuple>
+
+#include "mesh/face_sides.h"
+#include "mesh/flat_face.h"
+#include "mesh/union_find.h"
 
 // A mesh that Topology accepts has no defect of connectivity: counting is all that is left, and the
 // cost is that of the map's own first step. Otherwise everything is found by sorting: edges by
@@ -20,41 +22,6 @@ namespace sphparam {
 namespace {
 
 constexpr size_t listed = 10;  // how many ids of a defect are kept
-// A face is flat when its area is below this times the square of its longest edge: the double
-// computation of the area is then nothing but rounding.
-constexpr double flat_area = 1e-14;
-
-class UnionFind {
- public:
-  explicit UnionFind(size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  int find(int x) {
-    while (parent_[index(x)] != x) {
-      parent_[index(x)] = parent_[index(parent_[index(x)])];
-      x = parent_[index(x)];
-    }
-    return x;
-  }
-  bool unite(int a, int b) {
-    a = find(a);
-    b = find(b);
-    if (a == b) return false;
-    parent_[index(std::max(a, b))] = std::min(a, b);
-    return true;
-  }
-
- private:
-  static size_t index(int x) { return static_cast<size_t>(x); }
-  std::vector<int> parent_;
-};
-
-/// A side of a face, with its vertices in increasing order.
-struct Side {
-  Vertex low, high;
-  Halfedge halfedge;
-  bool forward;  // the face runs from low to high
-};
 
 /// Collects the places of one kind of defect; keeps the first few.
 struct Places {
@@ -103,7 +70,7 @@ class Inspector {
     if (const auto topology = closed_manifold()) {
       result_.edges = topology->edge_count();
     } else {
-      collect_sides();
+      sides_ = sorted_sides(mesh_.triangles, [this](Face f) { return is_sound(f); });
       check_edges();
       check_duplicate_faces();
       check_fans();
@@ -174,41 +141,13 @@ class Inspector {
               "");
   }
 
-  void collect_sides() {
-    sides_.reserve(static_cast<size_t>(faces_) * 3);
-    for (Face f = 0; f < faces_; ++f) {
-      if (!is_sound(f)) continue;
-      for (int k = 0; k < 3; ++k) {
-        const Vertex a = corner(f, k), b = corner(f, (k + 1) % 3);
-        sides_.push_back({std::min(a, b), std::max(a, b), 3 * f + k, a < b});
-      }
-    }
-    std::sort(sides_.begin(), sides_.end(), [](const Side& x, const Side& y) {
-      return std::tie(x.low, x.high, x.halfedge) < std::tie(y.low, y.high, y.halfedge);
-    });
-  }
-
-  /// Calls visit(first, last) for the sides of every edge.
-  template <class Visit>
-  void for_each_edge(Visit&& visit) const {
-    for (size_t i = 0; i < sides_.size();) {
-      size_t j = i + 1;
-      while (j < sides_.size() && sides_[j].low == sides_[i].low &&
-             sides_[j].high == sides_[i].high) {
-        ++j;
-      }
-      visit(i, j);
-      i = j;
-    }
-  }
-
   void check_edges() {
     Places boundary, crowded, misoriented;
     UnionFind loops(static_cast<size_t>(vertices_));
     std::vector<Vertex> on_boundary;
-    for_each_edge([&](size_t i, size_t j) {
+    for_each_edge(sides_, [&](size_t i, size_t j) {
       ++result_.edges;
-      const Side& side = sides_[i];
+      const FaceSide& side = sides_[i];
       if (j - i == 1) {
         boundary.add({side.low, side.high});
         loops.unite(side.low, side.high);
@@ -271,14 +210,11 @@ class Inspector {
   /// fall into several classes is where fans touch.
   void check_fans() {
     UnionFind fans(static_cast<size_t>(faces_) * 3);
-    for_each_edge([&](size_t i, size_t j) {
+    for_each_edge(sides_, [&](size_t i, size_t j) {
       for (size_t s = i + 1; s < j; ++s) {
-        const auto corner_at = [&](size_t side, Vertex v) {
-          const Halfedge h = sides_[side].halfedge;
-          return corner(h / 3, h % 3) == v ? h : (h % 3 == 2 ? h - 2 : h + 1);
-        };
-        fans.unite(corner_at(i, sides_[i].low), corner_at(s, sides_[i].low));
-        fans.unite(corner_at(i, sides_[i].high), corner_at(s, sides_[i].high));
+        for (const Vertex v : {sides_[i].low, sides_[i].high}) {
+          fans.unite(corner_at(sides_[i], v), corner_at(sides_[s], v));
+        }
       }
     });
     std::vector<int> fan_of(static_cast<size_t>(vertices_), -1);
@@ -336,7 +272,7 @@ class Inspector {
                 "genus " + std::to_string(result_.genus) + " (Euler characteristic " +
                     std::to_string(result_.euler_characteristic) +
                     "): only surfaces without handles map to the sphere",
-                "cut and fill the " + plural(result_.genus, "handle", "handles"));
+                "cut each handle open and close both ends");
     }
   }
 
@@ -368,11 +304,9 @@ class Inspector {
       };
       const Vector3 a = point(0), b = point(1), c = point(2);
       const double area = (b - a).cross(c - a).norm() / 2;
-      const double longest =
-          std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
       result_.area += area;
       result_.volume += a.dot(b.cross(c)) / 6;
-      if (area <= flat_area * longest) flat.add({f});
+      if (is_flat(a, b, c)) flat.add({f});
     }
     result_.area *= scale * scale;
     result_.volume *= scale * scale * scale;
@@ -426,9 +360,9 @@ class Inspector {
   const TriangleMesh& mesh_;
   const int vertices_;
   const int faces_;
-  std::vector<bool> sound_;  // per face: indices in range and different
-  std::vector<char> used_;   // per vertex
-  std::vector<Side> sides_;  // sorted by edge
+  std::vector<bool> sound_;      // per face: indices in range and different
+  std::vector<char> used_;       // per vertex
+  std::vector<FaceSide> sides_;  // sorted by edge
   bool finite_ = true;
   MeshInspection result_;
 };

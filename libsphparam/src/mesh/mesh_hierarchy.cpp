@@ -24,33 +24,39 @@ namespace {
 
 constexpr std::int64_t grain = 1024;
 constexpr int largest_removed_valence = 24;  // rings that are placed later stay small
-constexpr double candidates = 0.6;  // the share of vertices, cheapest first, a batch looks at
-constexpr int attempts = 6;         // targets tried for one vertex before it is left alone
+constexpr double candidates = 0.6;    // the share of vertices, cheapest first, a batch looks at
+constexpr double short_edge = 1e-3;   // of the mean: shorter ones are priced by valences
+constexpr double least_area = 1e-18;  // of the squared extent: less is none
+constexpr int attempts = 6;           // targets tried for one vertex before it is left alone
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
 /// Removal of a vertex of this valence: low valences are easier to put back.
 double removal_penalty(int valence) {
-  const double excess = std::max(0, valence - 6);
-  return 1 + 0.1 * excess * excess;
+  const double excess = std::max(0, valence - 6), penalty = 1 + 0.1 * excess * excess;
+  return penalty * penalty;
 }
 
 /// A collapse that leaves its target with this valence.
 double target_penalty(int valence) {
-  const double excess = std::max(0, valence - 7);
-  return 1 + 0.15 * excess * excess;
+  const double excess = std::max(0, valence - 7), penalty = 1 + 0.15 * excess * excess;
+  return penalty * penalty;
 }
 
+/// Its buffers serve one level after the other.
 class Batch {
  public:
-  Batch(HierarchyLevel& fine, int threads)
-      : fine_(fine), count_(fine.vertex_count()), threads_(threads) {}
+  explicit Batch(int threads) : threads_(threads) {}
 
-  HierarchyLevel run(const std::vector<Vertex>& keep) {
+  /// The next coarser level. Notes in the given one what was removed.
+  HierarchyLevel run(HierarchyLevel& level, const std::vector<Vertex>& keep) {
+    fine_ = &level;
+    count_ = level.vertex_count();
+    least_square_ = short_edge * short_edge * 4 * std::numbers::pi / count_;
     price(keep);
     order();
     select();
-    if (removed_ == 0 && !keep.empty()) return run({});
+    if (removed_ == 0 && !keep.empty()) return run(level, {});
     if (removed_ == 0) throw std::logic_error("mesh hierarchy: no vertex can be removed");
     return splice();
   }
@@ -66,38 +72,50 @@ class Batch {
     int next;
   };
 
-  Vertex ring(Vertex v, int i) const {  // i may run past the end once
-    const int k = fine_.valence(v);
-    return fine_.ring_begin(v)[i < k ? i : i - k];
-  }
+  /// The ring of a vertex; indices may run past the end once.
+  struct Ring {
+    const Vertex* first;
+    int valence;
+
+    Vertex operator[](int i) const { return first[i < valence ? i : i - valence]; }
+  };
+  Ring ring(Vertex v) const { return {fine_->ring_begin(v), fine_->valence(v)}; }
 
   /// The cheapest collapse of v among targets not yet tried.
   Collapse cheapest(Vertex v, std::uint32_t tried) const {
     Collapse best;
-    const int k = fine_.valence(v);
-    const Vector3 p = fine_.positions.row(v);
-    for (int i = 0; i < k; ++i) {
+    const Ring neighbours = ring(v);
+    const double* p = fine_->positions.data() + 3 * static_cast<std::ptrdiff_t>(v);
+    for (int i = 0; i < neighbours.valence; ++i) {
       if (tried >> i & 1) continue;
-      const Vertex u = ring(v, i);
-      const double penalty = target_penalty(fine_.valence(u) + k - 4);
-      const double cost =
-          (fine_.positions.row(u).transpose() - p).squaredNorm() * penalty * penalty;
-      if (best.slot < 0 || cost < best.cost) best = {i, cost};
+      const Vertex u = neighbours.first[i];
+      const double* q = fine_->positions.data() + 3 * static_cast<std::ptrdiff_t>(u);
+      const double x = q[0] - p[0], y = q[1] - p[1], z = q[2] - p[2];
+      const double cost = (x * x + y * y + z * z + least_square_) *
+                          target_penalty(fine_->valence(u) + neighbours.valence - 4);
+      const bool better = best.slot < 0 || cost < best.cost;
+      best.slot = better ? i : best.slot;
+      best.cost = better ? cost : best.cost;
     }
-    const double penalty = removal_penalty(k);
-    best.cost *= penalty * penalty;
+    best.cost *= removal_penalty(neighbours.valence);
     return best;
   }
 
   void price(const std::vector<Vertex>& keep) {
     cost_.resize(at(count_));
     slot_.resize(at(count_));
+    live_valence_.resize(at(count_));
+    first_new_edge_.resize(at(count_));
+    name_.resize(at(count_));
     parallel_for(count_, grain, threads_, [&](std::int64_t first, std::int64_t last) {
       for (auto v = static_cast<Vertex>(first); v < static_cast<Vertex>(last); ++v) {
-        const bool removable = fine_.valence(v) <= largest_removed_valence;
+        const bool removable = fine_->valence(v) <= largest_removed_valence;
         const Collapse collapse = removable ? cheapest(v, 0) : Collapse{};
         cost_[at(v)] = static_cast<float>(collapse.cost);
         slot_[at(v)] = static_cast<std::int8_t>(collapse.slot);
+        live_valence_[at(v)] = fine_->valence(v);
+        first_new_edge_[at(v)] = -1;
+        name_[at(v)] = free;
       }
     });
     for (const Vertex v : keep) {
@@ -129,23 +147,28 @@ class Batch {
   }
 
   /// Whether an edge a–b exists after the collapses so far. Old edges die only with removed
-  /// vertices, which neither is. Searches the shorter ring: nothing is quadratic in a valence.
+  /// vertices, which neither is. A long ring is not searched: nothing is quadratic in a valence.
   bool adjacent(Vertex a, Vertex b) const {
-    if (fine_.valence(a) > fine_.valence(b)) std::swap(a, b);
-    const Vertex* begin = fine_.ring_begin(a);
-    if (std::find(begin, begin + fine_.valence(a), b) != begin + fine_.valence(a)) return true;
+    if (fine_->valence(a) > largest_removed_valence && fine_->valence(a) > fine_->valence(b)) {
+      std::swap(a, b);
+    }
+    const Ring neighbours = ring(a);
+    for (int i = 0; i < neighbours.valence; ++i) {
+      if (neighbours.first[i] == b) return true;
+    }
     return has_new_edge(a, b);
   }
 
   /// The link condition, and no valence may fall below three.
   bool is_legal(Vertex v, int slot) const {
-    const int k = fine_.valence(v);
-    const Vertex u = ring(v, slot);
+    const Ring around = ring(v);
+    const int k = around.valence;
+    const Vertex u = around[slot];
     if (live_valence_[at(u)] + k - 4 < 3) return false;
-    if (live_valence_[at(ring(v, slot + 1))] <= 3) return false;
-    if (live_valence_[at(ring(v, slot + k - 1))] <= 3) return false;
+    if (live_valence_[at(around[slot + 1])] <= 3) return false;
+    if (live_valence_[at(around[slot + k - 1])] <= 3) return false;
     for (int i = 2; i < k - 1; ++i) {
-      if (adjacent(u, ring(v, slot + i))) return false;
+      if (adjacent(u, around[slot + i])) return false;
     }
     return true;
   }
@@ -167,31 +190,30 @@ class Batch {
   }
 
   void remove(Vertex v, int slot) {
-    const int k = fine_.valence(v);
-    const Vertex u = ring(v, slot);
-    state_[at(v)] = State::Removed;
+    const Ring around = ring(v);
+    const int k = around.valence;
+    const Vertex u = around[slot];
     slot_[at(v)] = static_cast<std::int8_t>(slot);
-    for (int i = 0; i < k; ++i) state_[at(ring(v, i))] = State::Locked;
+    name_[at(v)] = removed_to(u);
+    for (int i = 0; i < k; ++i) name_[at(around.first[i])] = locked;
     live_valence_[at(u)] += k - 4;
-    --live_valence_[at(ring(v, slot + 1))];
-    --live_valence_[at(ring(v, slot + k - 1))];
+    --live_valence_[at(around[slot + 1])];
+    --live_valence_[at(around[slot + k - 1])];
     for (int i = 2; i < k - 1; ++i) {
-      add_new_edge(u, ring(v, slot + i));
-      add_new_edge(ring(v, slot + i), u);
+      add_new_edge(u, around[slot + i]);
+      add_new_edge(around[slot + i], u);
     }
     ++removed_;
   }
 
   void select() {
-    state_.assign(at(count_), State::Free);
-    first_new_edge_.assign(at(count_), -1);
-    live_valence_.resize(at(count_));
-    for (Vertex v = 0; v < count_; ++v) live_valence_[at(v)] = fine_.valence(v);
+    new_edges_.clear();
+    removed_ = 0;
     const int look_at = std::max(8, static_cast<int>(candidates * count_));
     for (int i = 0; i < count_ && count_ - removed_ > 4; ++i) {
       if (i >= look_at && removed_ > 0) break;
       const Vertex v = order_[at(i)];
-      if (state_[at(v)] != State::Free || slot_[at(v)] < 0) continue;
+      if (name_[at(v)] != free || slot_[at(v)] < 0) continue;
       const int slot = legal_slot(v);
       if (slot >= 0) remove(v, slot);
     }
@@ -200,18 +222,17 @@ class Batch {
   HierarchyLevel splice() {
     HierarchyLevel coarse;
     const int survivors = count_ - removed_;
-    std::vector<Vertex> name(at(count_), -1);  // in the coarse level
     coarse.finer.resize(at(survivors));
     coarse.start.resize(at(survivors) + 1);
-    fine_.removed.reserve(at(removed_));
+    fine_->removed.reserve(at(removed_));
     int next = 0;
     coarse.start[0] = 0;
     for (Vertex v = 0; v < count_; ++v) {
-      if (state_[at(v)] == State::Removed) {
-        fine_.removed.push_back(v);
+      if (name_[at(v)] < 0) {
+        fine_->removed.push_back(v);
         continue;
       }
-      name[at(v)] = next;
+      name_[at(v)] = next;
       coarse.finer[at(next)] = v;
       coarse.start[at(next) + 1] = coarse.start[at(next)] + live_valence_[at(v)];
       ++next;
@@ -221,44 +242,47 @@ class Batch {
     parallel_for(survivors, grain, threads_, [&](std::int64_t first, std::int64_t last) {
       for (auto c = static_cast<Vertex>(first); c < static_cast<Vertex>(last); ++c) {
         const Vertex v = coarse.finer[at(c)];
-        coarse.positions.row(c) = fine_.positions.row(v);
-        splice_ring(v, name, coarse.ring.data() + coarse.start[at(c)]);
+        coarse.positions.row(c) = fine_->positions.row(v);
+        splice_ring(v, coarse.ring.data() + coarse.start[at(c)]);
       }
     });
     return coarse;
   }
 
-  void splice_ring(Vertex v, const std::vector<Vertex>& name, Vertex* out) const {
-    const int k = fine_.valence(v);
-    for (int i = 0; i < k; ++i) {
-      const Vertex x = ring(v, i);
-      if (state_[at(x)] != State::Removed) {
-        *out++ = name[at(x)];
-        continue;
-      }
-      const int slot = slot_[at(x)], kx = fine_.valence(x);
-      const Vertex u = ring(x, slot);
-      if (u == v) {  // x's ring takes its place, without the two neighbours we have already
-        for (int j = 2; j < kx - 1; ++j) *out++ = name[at(ring(x, slot + j))];
-      } else if (ring(v, i + 1) != u && ring(v, i + k - 1) != u) {
-        *out++ = name[at(u)];
+  void splice_ring(Vertex v, Vertex* out) const {
+    const Ring around = ring(v);
+    for (int i = 0; i < around.valence; ++i) {
+      const Vertex x = around.first[i], name = name_[at(x)];
+      if (name >= 0) {
+        *out++ = name;
+      } else if (name == removed_to(v)) {
+        // x's ring takes its place, without the two neighbours we have already.
+        const Ring lost = ring(x);
+        const int slot = slot_[at(x)];
+        for (int j = 2; j < lost.valence - 1; ++j) *out++ = name_[at(lost[slot + j])];
+      } else if (removed_to(around[i + 1]) != name &&
+                 removed_to(around[i + around.valence - 1]) != name) {
+        *out++ = name_[at(removed_to(name))];
       }  // else v is one of the two common neighbours: the edges v–x and v–u become one
     }
   }
 
-  enum class State : std::uint8_t { Free, Locked, Removed };
+  /// What becomes of a vertex: not known yet; stays; −1 − u: collapses into u. In the end, for
+  /// those that stay, the name on the coarser level.
+  static constexpr Vertex free = 0, locked = 1;
+  static constexpr Vertex removed_to(Vertex u) { return -1 - u; }  // its own inverse
 
-  HierarchyLevel& fine_;
-  const int count_;
   const int threads_;
+  HierarchyLevel* fine_ = nullptr;
+  int count_ = 0, removed_ = 0;
+  double least_square_ = 0;  // added to squared lengths
   std::vector<float> cost_;
   std::vector<std::int8_t> slot_;  // of the collapse's target
   std::vector<Vertex> order_;
-  std::vector<State> state_;
+  std::vector<Vertex> name_;
   std::vector<int> live_valence_;
   std::vector<int> first_new_edge_;
   std::vector<NewEdge> new_edges_;
-  int removed_ = 0;
 };
 
 /// Centred, and scaled to area 4π without overflow or underflow on the way.
@@ -280,8 +304,8 @@ Points scaled_positions(const TriangleMesh& mesh, int threads) {
         }
         return sum;
       });
-  // A mesh without area (all points on a line) keeps its unit extent.
-  const double scale = area > 0 ? std::sqrt(4 * std::numbers::pi / area) : 1;
+  // A mesh without area (all points on a line, or nearly) keeps its unit extent.
+  const double scale = area > least_area ? std::sqrt(4 * std::numbers::pi / area) : 1;
   parallel_for(mesh.vertex_count(), grain, threads, [&](std::int64_t first, std::int64_t last) {
     for (auto v = static_cast<Vertex>(first); v < static_cast<Vertex>(last); ++v) {
       points.row(v) = scale * place(v);
@@ -315,9 +339,10 @@ MeshHierarchy build_hierarchy(const TriangleMesh& mesh, const Topology& topology
   MeshHierarchy hierarchy;
   hierarchy.push_back(finest_level(mesh, topology, threads));
   std::vector<Vertex> kept = keep.vertices;
+  Batch batch(threads);
   while (hierarchy.back().vertex_count() > 4) {
     if (hierarchy.back().vertex_count() <= keep.until) kept.clear();
-    HierarchyLevel coarser = Batch(hierarchy.back(), threads).run(kept);
+    HierarchyLevel coarser = batch.run(hierarchy.back(), kept);
     for (Vertex& v : kept) v = coarser_name(coarser, v);
     std::erase(kept, -1);
     hierarchy.push_back(std::move(coarser));

@@ -1,33 +1,74 @@
 #include "sphparam/mesh/topology.h"
 
-#include "sphparam/mesh/mesh_defects.h"
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <utility>
 
-// Twins are matched by bucketing half-edges by origin (a counting sort) and looking for the
-// opposite one in the bucket of the target: linear for bounded valence, and linear all the same at
-// a vertex of huge valence because the search always walks the smaller of the two buckets.
+#include "sphparam/mesh/mesh_defects.h"
+#include "sphparam/parallel.h"
+
+// Corners are bucketed by vertex (a counting sort). At a vertex, every face has one half-edge that
+// leaves to `target` and one that comes from `source`; the leaving one's twin is the arriving one
+// of the face that comes from its target. So twins are matched vertex by vertex, in place and in
+// parallel: pair by pair at small vertices, by sorting at large ones, never quadratic. The matching
+// is a permutation of the faces at the vertex; one fan means one cycle.
 
 namespace sphparam {
 namespace {
 
-struct Buckets {
-  std::vector<int> start;           // #V+1
-  std::vector<Halfedge> halfedges;  // grouped by origin
+constexpr std::int64_t grain = 2048;
+constexpr int most_pairwise = 16;  // faces at a vertex
+
+/// A face, seen from one of its vertices.
+struct Corner {
+  Vertex target, source;
+  Halfedge leaving;
 };
 
-Buckets bucket_by_origin(const std::vector<Vertex>& origin, int vertex_count) {
-  Buckets buckets;
-  buckets.start.assign(static_cast<size_t>(vertex_count) + 1, 0);
-  for (const Vertex v : origin) ++buckets.start[static_cast<size_t>(v) + 1];
-  for (size_t v = 0; v < static_cast<size_t>(vertex_count); ++v) {
-    buckets.start[v + 1] += buckets.start[v];
+size_t at(std::int64_t i) { return static_cast<size_t>(i); }
+
+/// For each corner, the one whose source is its target. False: that is not one to one.
+bool match_pairwise(const Corner* corners, int count, int* partner) {
+  std::uint32_t taken = 0;
+  for (int i = 0; i < count; ++i) {
+    int found = 0;
+    for (int j = 0; j < count; ++j) {
+      if (corners[j].source != corners[i].target) continue;
+      partner[i] = j;
+      ++found;
+    }
+    if (found != 1 || (taken >> partner[i] & 1)) return false;
+    taken |= std::uint32_t{1} << partner[i];
   }
-  buckets.halfedges.resize(origin.size());
-  std::vector<int> fill(buckets.start.begin(), buckets.start.end() - 1);
-  for (size_t h = 0; h < origin.size(); ++h) {
-    buckets.halfedges[static_cast<size_t>(fill[static_cast<size_t>(origin[h])]++)] =
-        static_cast<Halfedge>(h);
+  return true;
+}
+
+bool match_sorted(const Corner* corners, int count, int* partner) {
+  std::vector<std::pair<Vertex, int>> targets, sources;
+  for (int i = 0; i < count; ++i) {
+    targets.emplace_back(corners[i].target, i);
+    sources.emplace_back(corners[i].source, i);
   }
-  return buckets;
+  std::ranges::sort(targets);
+  std::ranges::sort(sources);
+  for (size_t i = 0; i < targets.size(); ++i) {
+    if (targets[i].first != sources[i].first) return false;
+    if (i > 0 && targets[i].first == targets[i - 1].first) return false;
+    partner[targets[i].second] = sources[i].second;
+  }
+  return true;
+}
+
+/// Is the permutation one cycle?
+bool is_one_fan(const int* partner, int count) {
+  int steps = 0, i = 0;
+  do {
+    i = partner[i];
+    ++steps;
+  } while (i != 0 && steps <= count);
+  return steps == count;
 }
 
 [[noreturn]] void refuse(const Triangles& triangles, int vertex_count) {
@@ -43,11 +84,11 @@ Buckets bucket_by_origin(const std::vector<Vertex>& origin, int vertex_count) {
 
 }  // namespace
 
-Topology::Topology(const TriangleMesh& mesh)
-    : Topology(mesh.triangles, static_cast<int>(mesh.vertex_count())) {}
+Topology::Topology(const TriangleMesh& mesh, int threads)
+    : Topology(mesh.triangles, static_cast<int>(mesh.vertex_count()), threads) {}
 
-Topology::Topology(const Triangles& triangles, int vertex_count) {
-  if (!build(triangles, vertex_count)) refuse(triangles, vertex_count);
+Topology::Topology(const Triangles& triangles, int vertex_count, int threads) {
+  if (!build(triangles, vertex_count, threads)) refuse(triangles, vertex_count);
   for (const Halfedge h : outgoing_) {
     if (h < 0) refuse(triangles, vertex_count);
   }
@@ -55,63 +96,55 @@ Topology::Topology(const Triangles& triangles, int vertex_count) {
 
 std::optional<Topology> Topology::try_build(const Triangles& triangles, int vertex_count) {
   Topology topology;
-  if (!topology.build(triangles, vertex_count)) return std::nullopt;
+  if (!topology.build(triangles, vertex_count, 0)) return std::nullopt;
   return topology;
 }
 
-bool Topology::build(const Triangles& triangles, int vertex_count) {
-  const size_t halfedges = static_cast<size_t>(triangles.size());
+bool Topology::build(const Triangles& triangles, int vertex_count, int threads) {
+  const size_t halfedges = at(triangles.size());
   origin_.assign(triangles.data(), triangles.data() + halfedges);
+  std::vector<int> start(at(vertex_count) + 1, 0);
   for (const Vertex v : origin_) {
     if (v < 0 || v >= vertex_count) return false;
+    ++start[at(v) + 1];
   }
-  const Buckets buckets = bucket_by_origin(origin_, vertex_count);
-  const auto bucket_size = [&](Vertex v) {
-    return buckets.start[static_cast<size_t>(v) + 1] - buckets.start[static_cast<size_t>(v)];
-  };
+  for (size_t v = 0; v < at(vertex_count); ++v) start[v + 1] += start[v];
 
-  // For the edge of h = (a → b): the face on its other side has a half-edge b → a. Its own
-  // half-edge leaves b; the one after it leaves a. Search the smaller bucket for either.
-  twin_.assign(halfedges, -1);
-  for (Halfedge h = 0; h < static_cast<Halfedge>(halfedges); ++h) {
-    if (twin(h) >= 0) continue;
-    const Vertex a = origin(h), b = target(h);
-    if (a == b) return false;
-    const bool search_b = bucket_size(b) <= bucket_size(a);
-    const auto bucket = static_cast<size_t>(search_b ? b : a);
-    Halfedge opposite = -1;
-    int found = 0;
-    for (int i = buckets.start[bucket]; i < buckets.start[bucket + 1]; ++i) {
-      const Halfedge leaving = buckets.halfedges[static_cast<size_t>(i)];
-      const Halfedge candidate = search_b ? leaving : previous(leaving);
-      if (origin(candidate) == b && target(candidate) == a) {
-        opposite = candidate;
-        ++found;
+  const auto corners = std::make_unique_for_overwrite<Corner[]>(halfedges);
+  {
+    std::vector<int> place(start.begin(), start.end() - 1);
+    for (Halfedge h = 0; h < static_cast<Halfedge>(halfedges); h += 3) {
+      const Vertex a = origin(h), b = origin(h + 1), c = origin(h + 2);
+      if (a == b || b == c || c == a) return false;
+      corners[at(place[at(a)]++)] = {b, c, h};
+      corners[at(place[at(b)]++)] = {c, a, h + 1};
+      corners[at(place[at(c)]++)] = {a, b, h + 2};
+    }
+  }
+
+  twin_.resize(halfedges);
+  outgoing_.resize(at(vertex_count));
+  std::atomic<bool> sound{true};
+  parallel_for(vertex_count, grain, threads, [&](std::int64_t first, std::int64_t last) {
+    std::vector<int> partner;
+    for (std::int64_t v = first; v < last; ++v) {
+      const Corner* at_v = &corners[at(start[at(v)])];
+      const int count = start[at(v) + 1] - start[at(v)];
+      outgoing_[at(v)] = count > 0 ? at_v->leaving : -1;
+      if (count == 0) continue;
+      partner.resize(std::max(partner.size(), at(count)));
+      const bool matched = count <= most_pairwise ? match_pairwise(at_v, count, partner.data())
+                                                  : match_sorted(at_v, count, partner.data());
+      if (!matched || !is_one_fan(partner.data(), count)) {
+        sound = false;
+        return;
+      }
+      for (int i = 0; i < count; ++i) {
+        twin_[at(at_v[i].leaving)] = previous(at_v[at(partner[at(i)])].leaving);
       }
     }
-    // Taken already: a second a → b. Found here, many copies of a face do not each search a bucket
-    // that they made huge themselves.
-    if (found != 1 || twin(opposite) >= 0) return false;
-    twin_[static_cast<size_t>(h)] = opposite;
-    twin_[static_cast<size_t>(opposite)] = h;
-  }
-
-  outgoing_.assign(static_cast<size_t>(vertex_count), -1);
-  for (int v = 0; v < vertex_count; ++v) {
-    const int faces_at_v = bucket_size(v);
-    if (faces_at_v == 0) continue;
-    const Halfedge first =
-        buckets.halfedges[static_cast<size_t>(buckets.start[static_cast<size_t>(v)])];
-    outgoing_[static_cast<size_t>(v)] = first;
-    int steps = 0;
-    Halfedge h = first;
-    do {
-      h = rotate_ccw(h);
-      ++steps;
-    } while (h != first);
-    if (steps != faces_at_v) return false;
-  }
-  return true;
+  });
+  return sound;
 }
 
 int Topology::valence(Vertex v) const {

@@ -43,13 +43,47 @@ bool usable(const Vector3& x) {
   return x.allFinite() && x.cwiseAbs().maxCoeff() <= largest_coordinate && !x.isZero(0);
 }
 
+constexpr double nearly_unit = 1e-9;  // lengths so near 1 do not matter to the cross-check
+
+/// A sum of angles as the product of complex numbers 1 + i tan: one arc tangent for many.
+class AngleSum {
+ public:
+  void add(double sine, double cosine) {
+    if (!(std::abs(sine) < cosine)) {
+      sum_ += std::atan2(sine, cosine);
+      return;
+    }
+    const double t = sine / cosine, real = real_ - imaginary_ * t;
+    imaginary_ += real_ * t;
+    real_ = real;
+    if (std::abs(imaginary_) > real_) flush();
+  }
+  double total() {
+    flush();
+    return sum_;
+  }
+
+ private:
+  void flush() {  // before the next factor, less than 45°, could pass 180°
+    sum_ += std::atan2(imaginary_, real_);
+    real_ = 1;
+    imaginary_ = 0;
+  }
+  double sum_ = 0, real_ = 1, imaginary_ = 0;
+};
+
 struct Findings {
   std::vector<Face> folded, degenerate;
   double solid_angle = 0;
 };
 
-Findings examine_faces(const Topology& topology, const SphereMap& map, Face first, Face last) {
+/// `unit`: all rays are, nearly.
+Findings examine_faces(const Topology& topology, const SphereMap& map, bool unit, Face first,
+                       Face last) {
   Findings findings;
+  AngleSum half_solid_angle;
+  // stableNormalized: rays may be tiny or huge, and this is only the cross-check.
+  const auto ray = [&](const Vector3& x) { return unit ? x : Vector3(x.stableNormalized()); };
   for (Face f = first; f < last; ++f) {
     const Vector3 a = map.point(topology.vertex(f, 0));
     const Vector3 b = map.point(topology.vertex(f, 1));
@@ -57,9 +91,30 @@ Findings examine_faces(const Topology& topology, const SphereMap& map, Face firs
     const int sign = orientation(a, b, c);
     if (sign < 0) findings.folded.push_back(f);
     if (sign == 0) findings.degenerate.push_back(f);
-    // stableNormalized: rays may be tiny or huge, and this is only the cross-check.
-    findings.solid_angle +=
-        solid_angle(a.stableNormalized(), b.stableNormalized(), c.stableNormalized());
+    const HalfSolidAngle angle = half_solid_angle_of(ray(a), ray(b), ray(c));
+    half_solid_angle.add(angle.sine, angle.cosine);
+  }
+  findings.solid_angle = 2 * half_solid_angle.total();
+  return findings;
+}
+
+struct PointFindings {
+  std::vector<Vertex> unusable;
+  double length_error = 0;
+};
+
+PointFindings examine_points(const SphereMap& map, Vertex first, Vertex last) {
+  PointFindings findings;
+  for (Vertex v = first; v < last; ++v) {
+    const Vector3 x = map.point(v);
+    if (!usable(x)) {
+      findings.unusable.push_back(v);
+      continue;
+    }
+    // Squares of what is so near 1 neither overflow nor vanish.
+    const double squared = x.squaredNorm();
+    const double length = squared > 0.5 && squared < 2 ? std::sqrt(squared) : x.stableNorm();
+    findings.length_error = std::max(findings.length_error, std::abs(length - 1));
   }
   return findings;
 }
@@ -137,22 +192,26 @@ std::vector<Vertex> branch_vertices(const Topology& topology, const SphereMap& m
 
 Certificate certify(const Topology& topology, const SphereMap& map, int threads) {
   Certificate certificate;
-  for (Vertex v = 0; v < topology.vertex_count(); ++v) {
-    const Vector3 x = map.point(v);
-    if (!usable(x)) {
-      certificate.unusable_points.push_back(v);
-      continue;
-    }
-    certificate.max_length_error =
-        std::max(certificate.max_length_error, std::abs(x.stableNorm() - 1));
+  const Vertex vertices = topology.vertex_count();
+  std::vector<PointFindings> point_chunks(
+      static_cast<size_t>((vertices + chunk_size - 1) / chunk_size));
+  parallel_for(vertices, chunk_size, threads, [&](std::int64_t first, std::int64_t last) {
+    point_chunks[static_cast<size_t>(first / chunk_size)] =
+        examine_points(map, static_cast<Vertex>(first), static_cast<Vertex>(last));
+  });
+  for (const PointFindings& chunk : point_chunks) {
+    certificate.unusable_points.insert(certificate.unusable_points.end(), chunk.unusable.begin(),
+                                       chunk.unusable.end());
+    certificate.max_length_error = std::max(certificate.max_length_error, chunk.length_error);
   }
   if (!certificate.unusable_points.empty()) return certificate;
 
+  const bool unit = certificate.max_length_error < nearly_unit;
   const Face faces = topology.face_count();
   std::vector<Findings> chunks(static_cast<size_t>((faces + chunk_size - 1) / chunk_size));
   parallel_for(faces, chunk_size, threads, [&](std::int64_t first, std::int64_t last) {
     chunks[static_cast<size_t>(first / chunk_size)] =
-        examine_faces(topology, map, static_cast<Face>(first), static_cast<Face>(last));
+        examine_faces(topology, map, unit, static_cast<Face>(first), static_cast<Face>(last));
   });
   double solid_angle_sum = 0;
   for (const Findings& chunk : chunks) {

@@ -145,10 +145,10 @@ struct Tally {
   }
 };
 
-Tally tally(const Distortion& distortion) {
+Tally tally(const Distortion& distortion, int threads) {
   const std::int64_t faces = distortion.area_ratio.size();
   std::vector<Tally> partial(static_cast<size_t>((faces + kGrain - 1) / kGrain));
-  parallel_for(faces, kGrain, 0, [&](std::int64_t first, std::int64_t last) {
+  parallel_for(faces, kGrain, threads, [&](std::int64_t first, std::int64_t last) {
     Tally local;
     for (Eigen::Index f = first; f < last; ++f) local.add(distortion, f);
     partial[static_cast<size_t>(first / kGrain)] = local;
@@ -202,10 +202,10 @@ Distortion measure_distortion(const TriangleMesh& mesh, const SphereMap& map, in
   return result;
 }
 
-DistortionSummary summarise(const Distortion& distortion) {
+DistortionSummary summarise(const Distortion& distortion, int threads) {
   const auto faces = static_cast<double>(distortion.area_ratio.size());
   if (faces == 0) return {};
-  const Tally total = tally(distortion);
+  const Tally total = tally(distortion, threads);
   const auto [p01, p50, p99] = percentiles(distortion.area_ratio);
   return {
       .mean_abs_ln_area = total.ln_area / faces,

@@ -12,6 +12,7 @@ struct SmoothingOptions {
   int sweeps = 3;  // "in all our experiments three iterations revealed to be sufficient"
   /// The operator 𝓛: mean value weights, which keep features along the date line, or uniform ones.
   enum class Operator { MeanValue, Uniform } laplacian = Operator::MeanValue;
+  int threads = 0;  // of the weights; 0: all cores
 };
 
 /// Relaxes the map along the date line, vertex after vertex in place:

@@ -18,9 +18,9 @@ class Topology {
   /// Requires: every directed edge occurs once, its opposite once; one fan of faces a vertex; no
   ///           unused vertex.
   /// Throws: MeshError naming every defect, if not.
-  /// Cost: O(#V + #F), about 30 bytes a triangle.
-  explicit Topology(const TriangleMesh& mesh);
-  Topology(const Triangles& triangles, int vertex_count);
+  /// Cost: O(#V + #F), about 30 bytes a triangle. `threads`, 0: all cores.
+  explicit Topology(const TriangleMesh& mesh, int threads = 0);
+  Topology(const Triangles& triangles, int vertex_count, int threads = 0);
   /// The same; nothing instead of an exception, and unused vertices are allowed (they have no
   /// outgoing half-edge, −1).
   static std::optional<Topology> try_build(const Triangles& triangles, int vertex_count);
@@ -68,7 +68,7 @@ class Topology {
  private:
   Topology() = default;
   /// False at the first thing that is not as it should be.
-  bool build(const Triangles& triangles, int vertex_count);
+  bool build(const Triangles& triangles, int vertex_count, int threads);
 
   std::vector<Vertex> origin_;      // of each half-edge
   std::vector<Halfedge> twin_;      // of each half-edge

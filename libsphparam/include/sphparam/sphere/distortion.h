@@ -41,7 +41,8 @@ struct DistortionSummary {
 /// Cost: one pass; 0.15 µs a triangle on one thread.
 Distortion measure_distortion(const TriangleMesh& mesh, const SphereMap& map, int threads = 0);
 
-/// Ensures: never NaN; a mean that a collapsed triangle makes infinite is infinite.
-DistortionSummary summarise(const Distortion& distortion);
+/// Ensures: never NaN; a mean that a collapsed triangle makes infinite is infinite; same bits for any
+/// number of threads.
+DistortionSummary summarise(const Distortion& distortion, int threads = 0);
 
 }  // namespace sphparam

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sphparam/mesh/mesh_defects.h"
+#include "sphparam/mesh/triangle_mesh.h"
+
+namespace sphparam {
+
+/// What `repair_mesh` may do. The names, in the order in which it is done:
+struct RepairOptions {
+  bool duplicates = true;    // remove faces that name a vertex twice, and copies of faces
+  bool orientation = true;   // orient faces alike, by majority; the closed surface outward
+  bool non_manifold = true;  // give each sheet its own copy of the edges and vertices it shares
+  bool components = true;    // keep one component
+  bool holes = true;         // fill holes
+  bool flat_faces = true;    // turn or collapse faces without area where the surface stays a sphere
+  bool unused = true;        // drop vertices that no face uses
+
+  int component = 1;       // which to keep: 1 is the one with the most faces, 2 the next, …
+  int largest_hole = 500;  // edges of a hole that may be filled
+
+  /// Nothing at all is wanted; then single ones are switched on.
+  static RepairOptions none() {
+    return {.duplicates = false,
+            .orientation = false,
+            .non_manifold = false,
+            .components = false,
+            .holes = false,
+            .flat_faces = false,
+            .unused = false};
+  }
+};
+
+enum class RepairKind {
+  InvalidFaceRemoved,  // it named a vertex twice, or one that is not there
+  DuplicateFaceRemoved,
+  FaceTurned,         // to run the same way as its neighbours
+  EdgeSplit,          // shared by several sheets; each got its own
+  DiagonalTurned,     // two sheets had the same edge between the same vertices
+  EdgeMidpointAdded,  // the same, where no diagonal was free
+  VertexSplit,        // one copy for each fan of faces
+  ComponentDropped,
+  HoleFilled,
+  TurnedOutward,      // the whole surface was inside out
+  FlatFaceTurned,     // with its neighbour across its longest edge
+  FlatFaceCollapsed,  // two vertices at the same place became one
+  UnusedVertexDropped,
+};
+
+/// What the ids of an action name; edges have two.
+enum class RepairPlace { Faces, Vertices, Edges };
+RepairPlace place_of(RepairKind kind);
+
+/// One kind of action, all its places.
+struct RepairAction {
+  RepairKind kind;
+  long count = 0;
+  std::vector<int> elements;  // ids in the input of the first places (−1: not of the input)
+  std::string message;        // "1 vertex split, one copy for each fan of faces: vertices 253"
+};
+
+/// The message of an action, for instance after its ids were renamed.
+std::string describe(const RepairAction& action);
+
+/// A vertex that the input does not have: the mean of some of the input's.
+struct CreatedVertex {
+  Vertex vertex;
+  std::vector<Vertex> mean_of;  // ids in the input; repeated ones weigh more
+};
+
+/// The mended mesh, and where everything in it comes from.
+struct RepairedMesh {
+  TriangleMesh mesh;
+  std::vector<Vertex> vertex_origin;   // #V: id in the input, −1 for created ones
+  std::vector<Face> face_origin;       // #F: id in the input, −1 for faces that fill holes
+  std::vector<int> corner_origin;      // #F·3: corner 3·face + k of the input that it is like
+  std::vector<CreatedVertex> created;  // by vertex
+  std::vector<RepairAction> actions;   // in the order of RepairKind; empty: nothing was done
+  MeshInspection inspection;           // of `mesh`; `is_sphere()` tells whether it can be mapped
+};
+
+/// Mends what can be mended without changing what the surface is: faults of files and of modelling
+/// programs. What is one surface with handles, or one-sided, stays so: `inspection` says it.
+///
+/// Vertices keep their order, copies and created ones come last; faces keep theirs, those that fill
+/// holes come last. A mesh without defects is returned as it is, with the same ids. Non-manifold
+/// edges are cut apart and their sheets paired across the material between them (Guéziec, Taubin,
+/// Lazarus & Horn, "Cutting and stitching", 2001); holes are filled by ears, or by the fan of a
+/// created vertex where every ear would double an edge. Repeated until nothing more is to be done.
+/// Requires: component ≥ 1; largest_hole ≥ 3.
+/// Throws: std::out_of_range when there is no such component.
+/// Ensures: deterministic. Cost: O((#V + #F) log #F), for any valence and any hole.
+RepairedMesh repair_mesh(const TriangleMesh& mesh, const RepairOptions& options = {});
+
+}  // namespace sphparam

@@ -1,0 +1,191 @@
+#include "sphparam/chart/chart_certificate.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "chart/longitude.h"
+#include "chart/planar_orientation.h"
+#include "sphparam/chart/spherical_chart.h"
+#include "sphparam/parallel.h"
+
+// Theorem. Let R = [0, 1]², and let each face be a piece: the triangle of its wedges' points, or,
+// where one wedge is on a rim (v = 0 or 1), the trapezoid between the other two and the rim. If
+//   (a) every point is in R, and only pole corners are on rims,
+//   (b) every piece is strictly positive (a trapezoid: u runs the right way along its link edge),
+//   (c) the two faces of an edge see each end alike, or both as copies at u = 0 and u = 1 with the
+//       same v, or both at the same rim, and
+//   (d) one trapezoid starts at u = 0 of the rim v = 0,
+// then every point of R that is on no edge is in exactly one piece.
+//
+// Proof. Sum the boundaries of all pieces as chains of the plane. By (c) the sides of an edge
+// cancel (the vertical sides of neighbouring trapezoids too), but for edges along u = 0 and u = 1
+// and the trapezoids' sides on the rims. So the sum is a cycle in ∂R, that is k·∂R, and a generic
+// point of R has winding number k. By (b) that is the number of pieces it is in. All sides on v = 0
+// run the same way and k of them start at u = 0: by (d), k = 1.  ∎
+//
+// Nothing else is needed of the surface. That (u, v) are those of its points is another matter:
+// `max_shift`.
+
+namespace sphparam {
+namespace {
+
+constexpr std::int64_t chunk_size = 8192;
+constexpr double largest_coordinate = 0x1p64;  // what the predicate promises to be exact for
+
+class ChartCertifier {
+ public:
+  explicit ChartCertifier(const SphericalChart& chart)
+      : chart_(chart), wedge_count_(static_cast<int>(chart.uv.rows())) {}
+
+  ChartCertificate run(int threads) {
+    if (!well_formed()) return std::move(result_);
+    const auto topology =
+        Topology::try_build(chart_.triangles, static_cast<int>(chart_.points.rows()));
+    if (!topology) return std::move(result_);
+    result_.closed = true;
+    find_outside(threads);
+    if (!usable_) return std::move(result_);
+    examine_faces(*topology, threads);
+    return std::move(result_);
+  }
+
+ private:
+  struct Findings {
+    std::vector<Face> malformed, folded;
+    std::vector<Halfedge> torn;
+    int north_turns = 0, south_turns = 0;
+  };
+
+  ChartPoint point(int wedge) const { return {chart_.uv(wedge, 0), chart_.uv(wedge, 1)}; }
+  ChartPoint corner(Halfedge h) const { return point(wedge(h)); }
+  int wedge(Halfedge h) const { return chart_.wedges(Topology::face(h), Topology::corner(h)); }
+  static bool on_rim(const ChartPoint& p) { return p.v == 0 || p.v == 1; }
+
+  /// Do the tables fit together? Lists the faces whose wedges are not those of their vertices.
+  bool well_formed() {
+    const Eigen::Index vertices = chart_.points.rows();
+    if (chart_.wedges.rows() != chart_.triangles.rows() ||
+        static_cast<Eigen::Index>(chart_.wedge_vertices.size()) != chart_.uv.rows() ||
+        chart_.triangles.rows() == 0)
+      return false;
+    for (Face f = 0; f < static_cast<Face>(chart_.triangles.rows()); ++f) {
+      for (int k = 0; k < 3; ++k) {
+        const Vertex v = chart_.triangles(f, k);
+        const int w = chart_.wedges(f, k);
+        const bool fits = v >= 0 && v < vertices && w >= 0 && w < wedge_count_ &&
+                          chart_.wedge_vertices[static_cast<size_t>(w)] == v;
+        if (fits) continue;
+        result_.malformed.push_back(f);
+        break;
+      }
+    }
+    return result_.malformed.empty();
+  }
+
+  void find_outside(int threads) {
+    const auto chunks = static_cast<size_t>((wedge_count_ + chunk_size - 1) / chunk_size);
+    std::vector<std::vector<int>> outside(chunks);
+    std::vector<double> shift(chunks, 0);
+    parallel_for(wedge_count_, chunk_size, threads, [&](std::int64_t first, std::int64_t last) {
+      const auto chunk = static_cast<size_t>(first / chunk_size);
+      for (auto w = static_cast<int>(first); w < static_cast<int>(last); ++w) {
+        const ChartPoint p = point(w);
+        const bool inside = p.u >= 0 && p.u <= 1 && p.v >= 0 && p.v <= 1;
+        if (!inside) outside[chunk].push_back(w);
+        if (!(std::abs(p.u) <= largest_coordinate && std::abs(p.v) <= largest_coordinate))
+          usable_ = false;
+        shift[chunk] = std::max(shift[chunk], distance_from_map(w));
+      }
+    });
+    for (size_t i = 0; i < chunks; ++i) {
+      result_.outside.insert(result_.outside.end(), outside[i].begin(), outside[i].end());
+      result_.max_shift = std::max(result_.max_shift, shift[i]);
+    }
+  }
+
+  double distance_from_map(int w) const {
+    const Vertex v = chart_.wedge_vertices[static_cast<size_t>(w)];
+    if (v < 0 || v >= chart_.points.rows()) return 1;
+    const ChartPoint p = point(w), there = chart_point(chart_.points.row(v));
+    const double along_v = std::abs(p.v - there.v);
+    if (on_rim(p)) return along_v;
+    const double along_u = std::abs(p.u - there.u);
+    return std::max(along_v, std::min(along_u, std::abs(along_u - 1)));
+  }
+
+  void examine_faces(const Topology& topology, int threads) {
+    const Face faces = topology.face_count();
+    std::vector<Findings> chunks(static_cast<size_t>((faces + chunk_size - 1) / chunk_size));
+    parallel_for(faces, chunk_size, threads, [&](std::int64_t first, std::int64_t last) {
+      Findings& findings = chunks[static_cast<size_t>(first / chunk_size)];
+      for (auto f = static_cast<Face>(first); f < static_cast<Face>(last); ++f) {
+        examine_piece(f, findings);
+        for (Halfedge h = 3 * f; h < 3 * f + 3; ++h) {
+          if (h < topology.twin(h) && !fits(h, topology.twin(h))) findings.torn.push_back(h);
+        }
+      }
+    });
+    for (const Findings& chunk : chunks) {
+      const auto append = [](auto& to, const auto& from) {
+        to.insert(to.end(), from.begin(), from.end());
+      };
+      append(result_.malformed, chunk.malformed);
+      append(result_.folded, chunk.folded);
+      append(result_.torn, chunk.torn);
+      result_.north_turns += chunk.north_turns;
+      result_.south_turns += chunk.south_turns;
+    }
+  }
+
+  /// (a) and (b), and counts for (d).
+  void examine_piece(Face f, Findings& findings) const {
+    const ChartPoint p[] = {corner(3 * f), corner(3 * f + 1), corner(3 * f + 2)};
+    const int rims = on_rim(p[0]) + on_rim(p[1]) + on_rim(p[2]);
+    if (rims > 1) {
+      findings.malformed.push_back(f);
+    } else if (rims == 0) {
+      if (planar_orientation(p[0], p[1], p[2]) <= 0) findings.folded.push_back(f);
+    } else {
+      const int k = on_rim(p[0]) ? 0 : on_rim(p[1]) ? 1 : 2;
+      const bool north = p[k].v == 0;
+      const double from = p[(k + 1) % 3].u, to = p[(k + 2) % 3].u;
+      const double west = north ? from : to, east = north ? to : from;
+      if (!(west < east)) findings.folded.push_back(f);
+      if (p[k].u < west || p[k].u > east) findings.malformed.push_back(f);
+      if (west == 0) ++(north ? findings.north_turns : findings.south_turns);
+    }
+  }
+
+  /// (c), for h from a to b and its twin from b to a.
+  bool fits(Halfedge h, Halfedge twin) const {
+    const int a = wedge(h), b = wedge(Topology::next(h));
+    const int other_a = wedge(Topology::next(twin)), other_b = wedge(twin);
+    if (on_same_rim(a, other_a)) return b == other_b || seam_copies(b, other_b);
+    if (on_same_rim(b, other_b)) return a == other_a || seam_copies(a, other_a);
+    if (a == other_a && b == other_b) return true;
+    return seam_copies(a, other_a) && seam_copies(b, other_b) && point(a).u == point(b).u;
+  }
+
+  bool on_same_rim(int w, int other) const {
+    return on_rim(point(w)) && point(w).v == point(other).v;
+  }
+
+  bool seam_copies(int w, int other) const {
+    const ChartPoint p = point(w), q = point(other);
+    return p.v == q.v && ((p.u == 0 && q.u == 1) || (p.u == 1 && q.u == 0));
+  }
+
+  const SphericalChart& chart_;
+  const int wedge_count_;
+  std::atomic<bool> usable_{true};  // by the exact predicate
+  ChartCertificate result_;
+};
+
+}  // namespace
+
+ChartCertificate certify_chart(const SphericalChart& chart, int threads) {
+  return ChartCertifier(chart).run(threads);
+}
+
+}  // namespace sphparam

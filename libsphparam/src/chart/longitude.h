@@ -1,0 +1,30 @@
+#pragma once
+
+#include "chart/planar_orientation.h"
+#include "sphparam/mesh/triangle_mesh.h"
+
+/// On which side of the meridian θ = 0 a ray lies: signs of its doubles, exact.
+namespace sphparam {
+
+inline bool at_pole(const Vector3& x) { return x.x() == 0 && x.y() == 0; }
+inline bool on_meridian(const Vector3& x) { return x.y() == 0 && x.x() > 0; }
+inline bool in_west(const Vector3& x) { return x.y() < 0; }
+
+/// Does the geodesic edge cross the open half-circle θ = 0 between its ends? Exact.
+bool crosses_meridian(const Vector3& a, const Vector3& b);
+
+/// Where it does: at (1 − t)·a + t·b, a ray of unit length with y = 0 and x > 0.
+struct Crossing {
+  double t;
+  Vector3 point;
+};
+Crossing meridian_crossing(const Vector3& a, const Vector3& b);
+
+/// ab − cd, to one and a half units in the last place.  Kahan's; proof: Jeannerod et al. 2013.
+double difference_of_products(double a, double b, double c, double d);
+
+/// u = θ/2π, v = ϕ/π of a ray. Ensures: strictly inside the rectangle, but u = 0 on the meridian;
+/// v = 0 or 1 at ±z.
+ChartPoint chart_point(const Vector3& ray);
+
+}  // namespace sphparam

@@ -1,0 +1,193 @@
+#include "sphparam/chart/spherical_chart.h"
+
+#include <stdexcept>
+#include <utility>
+
+#include "chart/flat_mesh.h"
+#include "chart/pole_and_meridian.h"
+#include "chart/unfold.h"
+#include "sphparam/parallel.h"
+
+// 1. ±z become vertices, the meridian edges (pole_and_meridian).  2. Every vertex gets its (u, v).
+// 3. What folds is split (unfold).  4. Corners get wedges: a vertex's own number, or, where a face
+// sees it a turn further west, or as a pole, a copy.  5. The certificate, of the data returned.
+
+namespace sphparam {
+namespace {
+
+constexpr std::int64_t chunk_size = 8192;
+
+void check_sizes(const TriangleMesh& mesh, const Topology& topology, const SphereMap& map) {
+  if (map.points.rows() != topology.vertex_count() || mesh.face_count() != topology.face_count())
+    throw std::invalid_argument("spherical_chart: the map is of another mesh");
+}
+
+void lay_out(FlatMesh& flat, int threads) {
+  flat.uv.resize(static_cast<size_t>(flat.mesh.vertex_count()));
+  parallel_for(flat.mesh.vertex_count(), chunk_size, threads,
+               [&](std::int64_t first, std::int64_t last) {
+                 for (auto v = static_cast<Vertex>(first); v < static_cast<Vertex>(last); ++v)
+                   flat.uv[static_cast<size_t>(v)] = chart_point(flat.mesh.point(v));
+               });
+}
+
+/// Wedges of a flat mesh, face by face.
+class WedgeBuilder {
+ public:
+  explicit WedgeBuilder(const FlatMesh& flat)
+      : flat_(flat), copy_(static_cast<size_t>(flat.mesh.vertex_count()), -1) {}
+
+  /// Requires: `turned(f)` says whether corners of f that are not in the west have u + 1.
+  template <class Turned>
+  void build(SphericalChart& chart, Turned&& turned) {
+    chart.wedges = chart.triangles;
+    begin(chart);
+    for (Face f = 0; f < flat_.mesh.face_count(); ++f) {
+      if (turned(f)) turn(chart, f);
+    }
+    for (Face f = 0; f < flat_.mesh.face_count(); ++f) {
+      const Halfedge pole = flat_.pole_halfedge(f);
+      if (pole >= 0) fan(chart, pole);
+    }
+    finish(chart);
+  }
+
+ private:
+  void begin(SphericalChart& chart) {
+    uv_ = flat_.uv;
+    chart.wedge_kinds.assign(uv_.size(), WedgeKind::Ordinary);
+    chart.wedge_vertices.resize(uv_.size());
+    for (size_t v = 0; v < uv_.size(); ++v) {
+      chart.wedge_vertices[v] = static_cast<Vertex>(v);
+      if (flat_.on_seam(static_cast<Vertex>(v))) chart.wedge_kinds[v] = WedgeKind::Seam;
+    }
+  }
+
+  int add(SphericalChart& chart, Vertex v, ChartPoint uv, WedgeKind kind) {
+    uv_.push_back(uv);
+    chart.wedge_vertices.push_back(v);
+    chart.wedge_kinds.push_back(kind);
+    return static_cast<int>(uv_.size()) - 1;
+  }
+
+  void turn(SphericalChart& chart, Face f) {
+    for (int k = 0; k < 3; ++k) {
+      const Vertex v = flat_.mesh.vertex(f, k);
+      if (flat_.is_pole(v) || in_west(flat_.mesh.point(v))) continue;
+      int& copy = copy_[static_cast<size_t>(v)];
+      const ChartPoint p = flat_.uv[static_cast<size_t>(v)];
+      if (copy < 0) copy = add(chart, v, {p.u + 1, p.v}, WedgeKind::SeamCopy);
+      chart.wedges(f, k) = copy;
+    }
+  }
+
+  /// A pole's own wedge serves its first face, copies the others.
+  void fan(SphericalChart& chart, Halfedge pole) {
+    const Face f = Topology::face(pole);
+    const int corner = Topology::corner(pole);
+    const Vertex v = flat_.mesh.origin(pole);
+    const auto u = [&](Halfedge h) {
+      return uv_[static_cast<size_t>(chart.wedges(f, Topology::corner(h)))].u;
+    };
+    const double middle = 0.5 * (u(Topology::next(pole)) + u(Topology::previous(pole)));
+    const ChartPoint apex{middle, v == flat_.north ? 0.0 : 1.0};
+    if (std::exchange(chart.wedge_kinds[static_cast<size_t>(v)], WedgeKind::PoleFan) !=
+        WedgeKind::PoleFan) {
+      uv_[static_cast<size_t>(v)] = apex;
+    } else {
+      chart.wedges(f, corner) = add(chart, v, apex, WedgeKind::PoleFan);
+    }
+  }
+
+  void finish(SphericalChart& chart) const {
+    chart.uv.resize(static_cast<Eigen::Index>(uv_.size()), 2);
+    for (size_t w = 0; w < uv_.size(); ++w)
+      chart.uv.row(static_cast<Eigen::Index>(w)) << uv_[w].u, uv_[w].v;
+  }
+
+  const FlatMesh& flat_;
+  std::vector<int> copy_;  // of each vertex, a turn further; −1: none yet
+  std::vector<ChartPoint> uv_;
+};
+
+SphericalChart surface_of(const FlatMesh& flat) {
+  SphericalChart chart;
+  chart.triangles = flat.mesh.triangles();
+  chart.points = flat.mesh.points();
+  chart.surface_points = flat.mesh.surface_points();
+  chart.source_faces = flat.mesh.source_faces();
+  chart.north = flat.north;
+  chart.south = flat.south;
+  return chart;
+}
+
+bool touches_seam_from_west(const FlatMesh& flat, Face f) {
+  for (int k = 0; k < 3; ++k) {
+    if (flat.on_seam(flat.mesh.vertex(f, k))) return flat.in_west(f);
+  }
+  return false;
+}
+
+/// For a mesh that was not split: does the face reach over the meridian, or up to it from the west?
+bool reaches_meridian_from_west(const FlatMesh& flat, Face f) {
+  if (touches_seam_from_west(flat, f)) return true;
+  for (Halfedge h = 3 * f; h < 3 * f + 3; ++h) {
+    if (crosses_meridian(flat.mesh.point(flat.mesh.origin(h)),
+                         flat.mesh.point(flat.mesh.target(h))))
+      return true;
+  }
+  return false;
+}
+
+/// The first vertex of the faces given that is exactly at the pole; −1: none.
+Vertex find_pole(const RefinedMesh& mesh, const std::vector<Face>& faces, double z) {
+  for (const Face f : faces) {
+    for (int k = 0; k < 3; ++k) {
+      const Vector3& x = mesh.point(mesh.vertex(f, k));
+      if (at_pole(x) && x.z() * z > 0) return mesh.vertex(f, k);
+    }
+  }
+  return -1;
+}
+
+}  // namespace
+
+SphericalChart spherical_chart(const TriangleMesh& mesh, const Topology& topology,
+                               const SphereMap& map, int threads) {
+  check_sizes(mesh, topology, map);
+  FlatMesh flat{RefinedMesh(topology, map, mesh.triangles, threads)};
+  const PolarFrame frame = split_at_poles_and_meridian(flat.mesh, threads);
+  flat.north = frame.north;
+  flat.south = frame.south;
+  lay_out(flat, threads);
+  const Unfolding unfolding = unfold(flat, threads);
+
+  SphericalChart chart = surface_of(flat);
+  WedgeBuilder(flat).build(chart, [&](Face f) { return touches_seam_from_west(flat, f); });
+  chart.counts = {frame.pole_splits,      frame.meridian_splits,  unfolding.splits,
+                  unfolding.folded_faces, frame.snapped_vertices, unfolding.nudged_vertices};
+  chart.certificate = certify_chart(chart, threads);
+  return chart;
+}
+
+SphericalChart wrapped_chart(const TriangleMesh& mesh, const Topology& topology,
+                             const SphereMap& map, int threads) {
+  check_sizes(mesh, topology, map);
+  FlatMesh flat{RefinedMesh(topology, map, mesh.triangles, threads)};
+  const std::vector<Face> around = faces_around_meridian(flat.mesh, threads);
+  flat.north = find_pole(flat.mesh, around, 1);
+  flat.south = find_pole(flat.mesh, around, -1);
+  lay_out(flat, threads);
+
+  SphericalChart chart = surface_of(flat);
+  WedgeBuilder(flat).build(chart, [&](Face f) { return reaches_meridian_from_west(flat, f); });
+  chart.certificate = certify_chart(chart, threads);
+  for (const Face f : around) {
+    const bool north = flat.north < 0 && holds(flat.mesh, f, Vector3::UnitZ());
+    const bool south = flat.south < 0 && holds(flat.mesh, f, -Vector3::UnitZ());
+    if (north || south) chart.certificate.around_pole.push_back(f);
+  }
+  return chart;
+}
+
+}  // namespace sphparam

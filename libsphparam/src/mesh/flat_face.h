@@ -1,0 +1,20 @@
+#pragma once
+
+#include <algorithm>
+
+#include "sphparam/mesh/triangle_mesh.h"
+
+namespace sphparam {
+
+/// A face is flat when its area is below this times the square of its longest edge: the double
+/// computation of the area is then nothing but rounding.
+constexpr double flat_area = 1e-14;
+
+/// Whether a triangle has no area.
+inline bool is_flat(const Vector3& a, const Vector3& b, const Vector3& c) {
+  const double longest =
+      std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+  return (b - a).cross(c - a).norm() / 2 <= flat_area * longest;
+}
+
+}  // namespace sphparam

@@ -1,0 +1,99 @@
+#include <optional>
+
+#include "mesh/flat_face.h"
+#include "mesh/paired_faces.h"
+#include "mesh/repair_state.h"
+#include "sphparam/mesh/topology.h"
+
+// A flat face with two vertices at one place loses the edge between them, if the surface stays what
+// it is. Any other has a vertex on its longest edge; that edge is turned about to end there, if
+// this leaves fewer flat faces and folds nothing. Positions never change. What neither helps stays:
+// the map does not mind.
+
+namespace sphparam {
+namespace {
+
+class FlatFaceMender {
+ public:
+  FlatFaceMender(RepairState& state, std::vector<Halfedge> twin)
+      : state_(state), faces_(state, std::move(twin)) {}
+
+  void run() {
+    // What one action frees another may need: go round until nothing happens, at most so often.
+    constexpr int most_rounds = 8;
+    for (int round = 0; round < most_rounds; ++round) {
+      bool any = false;
+      for (Face f = 0; f < state_.face_count(); ++f) {
+        if (faces_.is_alive(f) && is_flat_face(f) && (collapse(f) || turn(f))) any = true;
+      }
+      if (!any) break;
+    }
+    faces_.finish();
+  }
+
+ private:
+  const Vector3& point(Vertex v) const { return state_.shape[v]; }
+  const Vector3& origin(Halfedge h) const { return point(faces_.origin(h)); }
+
+  bool is_flat_face(Face f) const {
+    return is_flat(origin(3 * f), origin(3 * f + 1), origin(3 * f + 2));
+  }
+
+  bool collapse(Face f) {
+    for (Halfedge h = 3 * f; h < 3 * f + 3; ++h) {
+      const Vertex a = faces_.origin(h), b = faces_.target(h);
+      if (state_.positions[a] != state_.positions[b] || !faces_.can_collapse(h)) continue;
+      const Vertex kept = faces_.collapse(h);
+      state_.log(RepairKind::FlatFaceCollapsed, {state_.vertex_origin[kept == a ? b : a]});
+      return true;
+    }
+    return false;
+  }
+
+  bool turn(Face f) {
+    Halfedge longest = 3 * f;
+    for (const Halfedge h : {3 * f + 1, 3 * f + 2}) {
+      if (length(h) > length(longest)) longest = h;
+    }
+    if (!faces_.can_turn(longest)) return false;
+    const Halfedge other = faces_.twin(longest);
+    const Vector3 &a = origin(longest), &b = origin(other), &c = point(faces_.apex(longest)),
+                  &d = point(faces_.apex(other));
+    const Vector3 normal = (b - a).cross(c - a) + (a - b).cross(d - b);
+    const bool folds = (d - a).cross(c - a).dot(normal) < 0 || (b - d).cross(c - d).dot(normal) < 0;
+    const int flat_before = 1 + is_flat_face(other / 3);
+    const int flat_after = is_flat(a, d, c) + is_flat(d, b, c);
+    if (folds || flat_after >= flat_before) return false;
+    state_.log(RepairKind::FlatFaceTurned, {state_.face_origin[f]});
+    faces_.turn(longest);
+    return true;
+  }
+
+  double length(Halfedge h) const {
+    return (origin(PairedFaces::next(h)) - origin(h)).squaredNorm();
+  }
+
+  RepairState& state_;
+  PairedFaces faces_;
+};
+
+bool has_flat_face(const RepairState& state) {
+  for (const auto& [a, b, c] : state.faces) {
+    if (is_flat(state.shape[a], state.shape[b], state.shape[c])) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void mend_flat_faces(RepairState& state) {
+  if (state.face_count() < 4 || !has_flat_face(state)) return;
+  const std::optional<Topology> topology =
+      Topology::try_build(state.triangles(), state.vertex_count());
+  if (!topology) return;
+  std::vector<Halfedge> twin(state.faces.size() * 3);
+  for (Halfedge h = 0; h < static_cast<Halfedge>(twin.size()); ++h) twin[h] = topology->twin(h);
+  FlatFaceMender(state, std::move(twin)).run();
+}
+
+}  // namespace sphparam

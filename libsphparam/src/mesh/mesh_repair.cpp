@@ -1,0 +1,140 @@
+#include "sphparam/mesh/mesh_repair.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "mesh/repair_state.h"
+#include "mesh/union_find.h"
+
+// The steps are the table below, each blind to the others: one can be left out, and what one leaves
+// the next finds. Splitting an edge may touch a third sheet, dropping a face may open a hole: the
+// table is gone through again until a round does nothing.
+
+namespace sphparam {
+namespace {
+
+constexpr int most_rounds = 5;
+
+struct Part {
+  int root;
+  long faces;
+};
+
+/// Largest first, of equal ones that with the lowest vertex.
+std::vector<Part> parts_by_size(const RepairState& state, UnionFind& parts) {
+  std::vector<long> size(state.positions.size(), 0);
+  for (const auto& face : state.faces) ++size[parts.find(face[0])];
+  std::vector<Part> ranked;
+  for (int v = 0; v < state.vertex_count(); ++v) {
+    if (size[v] > 0) ranked.push_back({v, size[v]});
+  }
+  std::stable_sort(ranked.begin(), ranked.end(),
+                   [](const Part& x, const Part& y) { return x.faces > y.faces; });
+  return ranked;
+}
+
+bool turn_outward(RepairState& state, const MeshInspection& inspection) {
+  const auto inside_out = [](const MeshDefect& d) { return d.kind == DefectKind::InsideOut; };
+  if (!inspection.is_sphere() ||
+      std::none_of(inspection.defects.begin(), inspection.defects.end(), inside_out)) {
+    return false;
+  }
+  for (Face f = 0; f < state.face_count(); ++f) state.turn_over(f);
+  state.log(RepairKind::TurnedOutward, {0});
+  return true;
+}
+
+void drop_unused(RepairState& state) {
+  std::vector<char> used(state.positions.size(), 0);
+  for (const auto& face : state.faces) {
+    for (const Vertex v : face) used[v] = 1;
+  }
+  for (Vertex v = 0; v < state.vertex_count(); ++v) {
+    if (!used[v]) state.log(RepairKind::UnusedVertexDropped, {state.vertex_origin[v]});
+  }
+  state.drop_unused_vertices();
+}
+
+void run_round(RepairState& state, const RepairOptions& options, int component) {
+  if (options.duplicates) {
+    remove_invalid_faces(state);
+    remove_duplicate_faces(state);
+  }
+  if (options.orientation) orient_alike(state);
+  if (options.non_manifold) split_non_manifold(state);
+  if (options.components) keep_component(state, component);
+  if (options.holes) fill_holes(state, options.largest_hole);
+  if (options.flat_faces) mend_flat_faces(state);
+  if (options.unused) drop_unused(state);
+}
+
+bool all_indices_inside(const RepairState& state) {
+  return std::all_of(state.faces.begin(), state.faces.end(), [&](const auto& face) {
+    return std::all_of(face.begin(), face.end(),
+                       [&](Vertex v) { return v >= 0 && v < state.vertex_count(); });
+  });
+}
+
+RepairedMesh as_result(RepairState&& state, MeshInspection inspection) {
+  RepairedMesh result;
+  result.mesh = state.mesh();
+  result.vertex_origin = std::move(state.vertex_origin);
+  result.face_origin = std::move(state.face_origin);
+  result.actions = std::move(state.actions);
+  result.inspection = std::move(inspection);
+  for (const auto& corners : state.corner_origin) {
+    result.corner_origin.insert(result.corner_origin.end(), corners.begin(), corners.end());
+  }
+  for (Vertex v = 0; v < static_cast<Vertex>(result.vertex_origin.size()); ++v) {
+    if (result.vertex_origin[v] < 0) result.created.push_back({v, std::move(state.mean_of[v])});
+  }
+  std::stable_sort(result.actions.begin(), result.actions.end(),
+                   [](const RepairAction& x, const RepairAction& y) { return x.kind < y.kind; });
+  for (RepairAction& action : result.actions) action.message = describe(action);
+  return result;
+}
+
+}  // namespace
+
+void keep_component(RepairState& state, int rank) {
+  UnionFind parts(state.positions.size());
+  for (const auto& [a, b, c] : state.faces) {
+    parts.unite(a, b);
+    parts.unite(b, c);
+  }
+  const std::vector<Part> ranked = parts_by_size(state, parts);
+  if (ranked.empty()) return;
+  if (static_cast<size_t>(rank) > ranked.size()) {
+    throw std::out_of_range("there is no component " + std::to_string(rank) + ": the mesh has " +
+                            std::to_string(ranked.size()));
+  }
+  const int chosen = ranked[rank - 1].root;
+  for (const Part& part : ranked) {
+    if (part.root == chosen) continue;
+    state.log(RepairKind::ComponentDropped, {state.vertex_origin[part.root]});
+  }
+  std::vector<char> kept(state.faces.size());
+  for (Face f = 0; f < state.face_count(); ++f) kept[f] = parts.find(state.faces[f][0]) == chosen;
+  state.keep_faces(kept);
+}
+
+RepairedMesh repair_mesh(const TriangleMesh& mesh, const RepairOptions& options) {
+  RepairState state(mesh);
+  MeshInspection inspection = inspect_mesh(mesh);
+  if (!mesh.positions.allFinite()) return as_result(std::move(state), std::move(inspection));
+  for (int round = 0; round < most_rounds; ++round) {
+    const bool other_component = round == 0 && options.components && options.component > 1;
+    if (inspection.defects.empty() && !other_component) break;
+    if (!options.duplicates && !all_indices_inside(state)) break;
+    const long done_before = state.log_size();
+    run_round(state, options, round == 0 ? options.component : 1);
+    if (state.log_size() > done_before) inspection = inspect_mesh(state.mesh());
+    if (options.orientation && turn_outward(state, inspection)) {
+      inspection = inspect_mesh(state.mesh());
+    }
+    if (state.log_size() == done_before) break;
+  }
+  return as_result(std::move(state), std::move(inspection));
+}
+
+}  // namespace sphparam

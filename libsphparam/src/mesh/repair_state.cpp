@@ -1,0 +1,149 @@
+#include "mesh/repair_state.h"
+
+#include <algorithm>
+#include <cmath>
+
+// Vertices and faces are renumbered in place, everything that belongs to them alike. Decisions look
+// at coordinates in the unit box, so that squares neither overflow nor vanish.
+
+namespace sphparam {
+namespace {
+
+constexpr size_t listed = 10;  // places kept of an action
+
+std::vector<Vector3> scaled(const std::vector<Vector3>& positions) {
+  if (positions.empty()) return {};
+  Vector3 lower = positions[0], upper = positions[0];
+  for (const Vector3& p : positions) {
+    lower = lower.cwiseMin(p);
+    upper = upper.cwiseMax(p);
+  }
+  const Vector3 centre = lower / 2 + upper / 2;
+  const double extent = (upper / 2 - lower / 2).maxCoeff();
+  const double scale = extent > 0 && std::isfinite(extent) ? extent : 1;
+  std::vector<Vector3> shape;
+  shape.reserve(positions.size());
+  for (const Vector3& p : positions) shape.push_back((p - centre) / scale);
+  return shape;
+}
+
+template <class Value>
+void keep(std::vector<Value>& values, const std::vector<char>& kept) {
+  size_t to = 0;
+  for (size_t from = 0; from < values.size(); ++from) {
+    if (!kept[from]) continue;
+    if (to != from) values[to] = std::move(values[from]);
+    ++to;
+  }
+  values.erase(values.begin() + static_cast<std::ptrdiff_t>(to), values.end());
+}
+
+}  // namespace
+
+RepairState::RepairState(const TriangleMesh& mesh) {
+  for (Eigen::Index v = 0; v < mesh.vertex_count(); ++v) {
+    positions.emplace_back(mesh.positions.row(v));
+    vertex_origin.push_back(static_cast<Vertex>(v));
+  }
+  shape = scaled(positions);
+  mean_of.resize(positions.size());
+  for (int f = 0; f < static_cast<int>(mesh.face_count()); ++f) {
+    faces.push_back({mesh.triangles(f, 0), mesh.triangles(f, 1), mesh.triangles(f, 2)});
+    face_origin.push_back(f);
+    corner_origin.push_back({3 * f, 3 * f + 1, 3 * f + 2});
+  }
+}
+
+void RepairState::log(RepairKind kind, std::initializer_list<int> input_ids) {
+  auto action = std::find_if(actions.begin(), actions.end(),
+                             [&](const RepairAction& known) { return known.kind == kind; });
+  if (action == actions.end()) action = actions.insert(action, {kind, 0, {}, {}});
+  ++action->count;
+  if (action->elements.size() + input_ids.size() <= listed * input_ids.size()) {
+    action->elements.insert(action->elements.end(), input_ids);
+  }
+}
+
+long RepairState::log_size() const {
+  long total = 0;
+  for (const RepairAction& action : actions) total += action.count;
+  return total;
+}
+
+Vertex RepairState::copy_vertex(Vertex v) {
+  positions.push_back(Vector3(positions[v]));
+  shape.push_back(Vector3(shape[v]));
+  vertex_origin.push_back(vertex_origin[v]);
+  mean_of.push_back(std::vector<Vertex>(mean_of[v]));
+  return vertex_count() - 1;
+}
+
+Vertex RepairState::create_mean(const std::vector<Vertex>& parents) {
+  Vector3 position = Vector3::Zero(), place = Vector3::Zero();
+  std::vector<Vertex> origins;
+  const double share = 1.0 / static_cast<double>(parents.size());
+  for (const Vertex v : parents) {
+    position += share * positions[v];
+    place += share * shape[v];
+    if (vertex_origin[v] >= 0) origins.push_back(vertex_origin[v]);
+    origins.insert(origins.end(), mean_of[v].begin(), mean_of[v].end());
+  }
+  positions.push_back(position);
+  shape.push_back(place);
+  vertex_origin.push_back(-1);
+  mean_of.push_back(std::move(origins));
+  return vertex_count() - 1;
+}
+
+void RepairState::add_face(const std::array<Vertex, 3>& vertices,
+                           const std::array<int, 3>& corners_like) {
+  faces.push_back(vertices);
+  face_origin.push_back(-1);
+  corner_origin.push_back(corners_like);
+}
+
+void RepairState::turn_over(Face f) {
+  std::swap(faces[f][1], faces[f][2]);
+  std::swap(corner_origin[f][1], corner_origin[f][2]);
+}
+
+void RepairState::keep_faces(const std::vector<char>& kept) {
+  keep(faces, kept);
+  keep(face_origin, kept);
+  keep(corner_origin, kept);
+}
+
+void RepairState::drop_unused_vertices() {
+  std::vector<char> used(positions.size(), 0);
+  for (const auto& face : faces) {
+    for (const Vertex v : face) used[v] = 1;
+  }
+  std::vector<Vertex> name(positions.size(), -1);
+  Vertex next = 0;
+  for (size_t v = 0; v < used.size(); ++v) {
+    if (used[v]) name[v] = next++;
+  }
+  keep(positions, used);
+  keep(shape, used);
+  keep(vertex_origin, used);
+  keep(mean_of, used);
+  for (auto& face : faces) {
+    for (Vertex& v : face) v = name[v];
+  }
+}
+
+Triangles RepairState::triangles() const {
+  Triangles triangles(face_count(), 3);
+  for (Face f = 0; f < face_count(); ++f) {
+    triangles.row(f) << faces[f][0], faces[f][1], faces[f][2];
+  }
+  return triangles;
+}
+
+TriangleMesh RepairState::mesh() const {
+  TriangleMesh mesh{Points(vertex_count(), 3), triangles()};
+  for (Vertex v = 0; v < vertex_count(); ++v) mesh.positions.row(v) = positions[v];
+  return mesh;
+}
+
+}  // namespace sphparam

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <initializer_list>
+#include <vector>
+
+#include "sphparam/mesh/mesh_repair.h"
+
+namespace sphparam {
+
+/// A mesh while it is mended: what RepairedMesh holds, in arrays that grow, and the log.
+struct RepairState {
+  explicit RepairState(const TriangleMesh& mesh);
+
+  std::vector<Vector3> positions;
+  std::vector<Vector3> shape;  // positions, centred and scaled to the unit box: for all decisions
+  std::vector<std::array<Vertex, 3>> faces;
+  std::vector<Vertex> vertex_origin;
+  std::vector<Face> face_origin;
+  std::vector<std::array<int, 3>> corner_origin;
+  std::vector<std::vector<Vertex>> mean_of;  // #V: of created vertices, else empty
+  std::vector<RepairAction> actions;         // one a kind
+
+  int vertex_count() const { return static_cast<int>(positions.size()); }
+  int face_count() const { return static_cast<int>(faces.size()); }
+  Vertex corner(int i) const { return faces[i / 3][i % 3]; }
+  int corner_like(int i) const { return corner_origin[i / 3][i % 3]; }
+
+  /// Counts an action at an element: a face or vertex by its id in the input, an edge by two.
+  void log(RepairKind kind, std::initializer_list<int> input_ids);
+  long log_size() const;
+
+  Vertex copy_vertex(Vertex v);
+  Vertex create_mean(const std::vector<Vertex>& parents);
+  void add_face(const std::array<Vertex, 3>& vertices, const std::array<int, 3>& corners_like);
+  void turn_over(Face f);
+  void keep_faces(const std::vector<char>& kept);
+  void drop_unused_vertices();
+
+  Triangles triangles() const;
+  TriangleMesh mesh() const;
+};
+
+// The steps, each in a file of its own. They log what they do.
+void remove_invalid_faces(RepairState& state);
+void remove_duplicate_faces(RepairState& state);
+void orient_alike(RepairState& state);
+void split_non_manifold(RepairState& state);
+void keep_component(RepairState& state, int rank);
+void fill_holes(RepairState& state, int largest_hole);
+void mend_flat_faces(RepairState& state);
+
+}  // namespace sphparam

@@ -1,0 +1,90 @@
+#include "sphparam/mesh/mesh_repair.h"
+
+// What was done, in words. A switch over all kinds, so that the compiler names a forgotten one.
+
+namespace sphparam {
+namespace {
+
+std::string counted(long count, const char* one, const char* many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+/// What was done, and the noun of the places that follow.
+std::pair<std::string, const char*> words(RepairKind kind, long n) {
+  switch (kind) {
+    case RepairKind::InvalidFaceRemoved:
+      return {counted(n, "face", "faces") + " that named a vertex twice removed", "faces"};
+    case RepairKind::DuplicateFaceRemoved:
+      return {counted(n, "duplicate face", "duplicate faces") + " removed", "faces"};
+    case RepairKind::FaceTurned:
+      return {counted(n, "face", "faces") + " turned over to run like its neighbours", "faces"};
+    case RepairKind::EdgeSplit:
+      return {
+          counted(n, "edge", "edges") + " of three or more faces split, one copy for each sheet",
+          "between vertices"};
+    case RepairKind::DiagonalTurned:
+      return {counted(n, "diagonal", "diagonals") + " turned, where two sheets had the same edge",
+              "between vertices"};
+    case RepairKind::EdgeMidpointAdded:
+      return {counted(n, "vertex", "vertices") + " added, where two sheets had the same edge",
+              "between vertices"};
+    case RepairKind::VertexSplit:
+      return {counted(n, "vertex copy", "vertex copies") + " made, one for each fan of faces",
+              "of vertices"};
+    case RepairKind::ComponentDropped:
+      return {counted(n, "component", "components") + " dropped", "with vertices"};
+    case RepairKind::HoleFilled:
+      return {counted(n, "hole", "holes") + " filled", "at vertices"};
+    case RepairKind::TurnedOutward:
+      return {"the whole surface turned over: it was inside out", ""};
+    case RepairKind::FlatFaceTurned:
+      return {counted(n, "face", "faces") + " without area turned into its neighbour", "faces"};
+    case RepairKind::FlatFaceCollapsed:
+      return {counted(n, "vertex", "vertices") +
+                  " merged with another at the same place, to be rid of faces without area",
+              "vertices"};
+    case RepairKind::UnusedVertexDropped:
+      return {counted(n, "vertex", "vertices") + " that no face uses dropped", "vertices"};
+  }
+  return {};
+}
+
+}  // namespace
+
+RepairPlace place_of(RepairKind kind) {
+  switch (kind) {
+    case RepairKind::EdgeSplit:
+    case RepairKind::DiagonalTurned:
+    case RepairKind::EdgeMidpointAdded:
+      return RepairPlace::Edges;
+    case RepairKind::VertexSplit:
+    case RepairKind::ComponentDropped:
+    case RepairKind::HoleFilled:
+    case RepairKind::FlatFaceCollapsed:
+    case RepairKind::UnusedVertexDropped:
+      return RepairPlace::Vertices;
+    case RepairKind::InvalidFaceRemoved:
+    case RepairKind::DuplicateFaceRemoved:
+    case RepairKind::FaceTurned:
+    case RepairKind::TurnedOutward:
+    case RepairKind::FlatFaceTurned:
+      break;
+  }
+  return RepairPlace::Faces;
+}
+
+std::string describe(const RepairAction& action) {
+  auto [text, noun] = words(action.kind, action.count);
+  if (*noun == '\0') return text;
+  const size_t ids = place_of(action.kind) == RepairPlace::Edges ? 2 : 1;
+  const auto name = [](int id) { return id < 0 ? std::string("(new)") : std::to_string(id); };
+  text += std::string(": ") + noun + " ";
+  for (size_t i = 0; i < action.elements.size(); i += ids) {
+    if (i > 0) text += ", ";
+    text += name(action.elements[i]);
+    if (ids == 2) text.append("-").append(name(action.elements[i + 1]));
+  }
+  return text + (static_cast<long>(action.elements.size() / ids) < action.count ? ", …" : "");
+}
+
+}  // namespace sphparam

@@ -1,0 +1,204 @@
+#include "sphparam/sphere/float_rounding.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "sphparam/parallel.h"
+#include "sphparam/sphere/orientation.h"
+
+// Rounding moves a ray of unit length by at most δ = √3·2⁻²⁵. A triangle can only turn over if a
+// plane through 0 comes that near to its three corners, so one whose least altitude is above 2δ is
+// safe. What did turn over is mended in rounds: nudge single vertices on the grid of floats; what
+// is left is smoothed in double (towards the mean of the ring, by steps that keep every triangle
+// exactly positive and do not shrink the smallest one of the star) in a neighbourhood that doubles
+// from round to round, and rounded anew. All decisions are exact signs, in the order of vertices.
+
+namespace sphparam {
+namespace {
+
+const double kRoundingShift = std::sqrt(3.0) * 0x1p-25;
+// Twice what is safe: neighbours are rounded too.
+const double kSafeAltitude = 4 * kRoundingShift;
+constexpr int kMostUlps = 8;
+constexpr int kFirstRings = 4;
+constexpr int kRounds = 6;   // so at most 128 rings around a fold
+constexpr int kSweeps = 16;  // a round, forth and back
+constexpr int kHalvings = 4;
+constexpr std::int64_t kGrain = 8192;
+
+// Volatile, as GCC 12 drops double → float → double when it vectorises neighbouring coordinates.
+double to_float(double x) {
+  const volatile float nearest = static_cast<float>(x);
+  return nearest;
+}
+
+Vector3 to_float(const Vector3& x) { return {to_float(x[0]), to_float(x[1]), to_float(x[2])}; }
+
+double stepped(double x, int ulps) {
+  const float towards =
+      ulps < 0 ? -std::numeric_limits<float>::infinity() : std::numeric_limits<float>::infinity();
+  auto value = static_cast<float>(x);
+  for (int i = std::abs(ulps); i > 0; --i) value = std::nextafter(value, towards);
+  return value;
+}
+
+std::vector<Face> bad_faces(const Topology& topology, const SphereMap& map, int threads) {
+  const Face faces = topology.face_count();
+  std::vector<std::vector<Face>> chunks(static_cast<std::size_t>((faces + kGrain - 1) / kGrain));
+  parallel_for(faces, kGrain, threads, [&](std::int64_t first, std::int64_t last) {
+    for (auto f = static_cast<Face>(first); f < static_cast<Face>(last); ++f) {
+      if (orientation(map.point(topology.vertex(f, 0)), map.point(topology.vertex(f, 1)),
+                      map.point(topology.vertex(f, 2))) <= 0)
+        chunks[static_cast<std::size_t>(first / kGrain)].push_back(f);
+    }
+  });
+  std::vector<Face> bad;
+  for (const std::vector<Face>& chunk : chunks) bad.insert(bad.end(), chunk.begin(), chunk.end());
+  return bad;
+}
+
+/// True when all triangles at v are positive with v at x.
+bool star_is_positive(const Topology& topology, const SphereMap& map, Vertex v, const Vector3& x) {
+  const Halfedge first = topology.outgoing(v);
+  Halfedge h = first;
+  do {
+    if (orientation(x, map.point(topology.target(h)), map.point(topology.apex(h))) <= 0)
+      return false;
+    h = topology.rotate_ccw(h);
+  } while (h != first);
+  return true;
+}
+
+/// How small the triangles at a vertex are.
+struct StarSize {
+  double least_altitude = std::numeric_limits<double>::infinity();
+  double least_area = std::numeric_limits<double>::infinity();
+};
+
+/// The altitude of a positive triangle is det / longest side: how far its corners are from a plane
+/// through 0 that turns it over. Differences first, so that small triangles keep their digits.
+StarSize star_size(const Topology& topology, const SphereMap& map, Vertex v, const Vector3& x) {
+  StarSize size;
+  topology.for_each_outgoing(v, [&](Halfedge h) {
+    const Vector3 b = map.point(topology.target(h)), c = map.point(topology.apex(h));
+    const Vector3 xb = b - x, xc = c - x;
+    const double longest = std::max({xb.squaredNorm(), xc.squaredNorm(), (c - b).squaredNorm()});
+    const double area = x.dot(xb.cross(xc));
+    size.least_area = std::min(size.least_area, area);
+    size.least_altitude = std::min(size.least_altitude, area / std::sqrt(longest));
+  });
+  return size;
+}
+
+/// The vertices of these faces and `rings` rings around them, in ascending order.
+std::vector<Vertex> neighbourhood(const Topology& topology, const std::vector<Face>& faces,
+                                  int rings) {
+  std::vector<char> seen(static_cast<std::size_t>(topology.vertex_count()), 0);
+  std::vector<Vertex> found;
+  const auto add = [&](Vertex v) {
+    if (!std::exchange(seen[static_cast<std::size_t>(v)], 1)) found.push_back(v);
+  };
+  for (const Face f : faces)
+    for (int corner = 0; corner < 3; ++corner) add(topology.vertex(f, corner));
+  std::size_t ring_begin = 0;
+  for (int ring = 0; ring < rings; ++ring) {
+    const std::size_t ring_end = found.size();
+    for (; ring_begin < ring_end; ++ring_begin)
+      topology.for_each_outgoing(found[ring_begin], [&](Halfedge h) { add(topology.target(h)); });
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// Looks on the grid of floats around v for a place where its star is positive, nearest first.
+bool nudge(const Topology& topology, SphereMap& rounded, Vertex v) {
+  const Vector3 start = rounded.point(v);
+  for (int ulps = 1; ulps <= kMostUlps; ++ulps) {
+    std::array<std::array<double, 3>, 3> choices;
+    for (int axis = 0; axis < 3; ++axis)
+      choices[axis] = {start[axis], stepped(start[axis], -ulps), stepped(start[axis], ulps)};
+    for (int i = 1; i < 27; ++i) {
+      const Vector3 x(choices[0][i % 3], choices[1][i / 3 % 3], choices[2][i / 9]);
+      if (!star_is_positive(topology, rounded, v, x)) continue;
+      rounded.points.row(v) = x;
+      return true;
+    }
+  }
+  return false;
+}
+
+void nudge_all(const Topology& topology, SphereMap& rounded, const std::vector<Face>& bad) {
+  for (const Vertex v : neighbourhood(topology, bad, 0))
+    if (!star_is_positive(topology, rounded, v, rounded.point(v))) nudge(topology, rounded, v);
+}
+
+/// Moves v towards the mean of its ring if its star is too low for float32.
+void make_room(const Topology& topology, SphereMap& map, Vertex v) {
+  const Vector3 start = map.point(v);
+  const StarSize before = star_size(topology, map, v, start);
+  if (before.least_altitude >= kSafeAltitude) return;
+  Vector3 sum = Vector3::Zero();
+  topology.for_each_outgoing(v, [&](Halfedge h) { sum += map.point(topology.target(h)); });
+  const Vector3 mean = sum.stableNormalized();
+  double step = 1;
+  for (int halving = 0; halving < kHalvings; ++halving, step /= 2) {
+    const Vector3 x = (start + step * (mean - start)).stableNormalized();
+    const StarSize after = star_size(topology, map, v, x);
+    if (after.least_area < before.least_area && after.least_altitude < kSafeAltitude) continue;
+    if (!star_is_positive(topology, map, v, x)) continue;
+    map.points.row(v) = x;
+    return;
+  }
+}
+
+void make_room(const Topology& topology, SphereMap& map, const std::vector<Vertex>& vertices) {
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    if (sweep % 2 == 0) {
+      for (const Vertex v : vertices) make_room(topology, map, v);
+    } else {
+      std::for_each(vertices.rbegin(), vertices.rend(),
+                    [&](Vertex v) { make_room(topology, map, v); });
+    }
+  }
+}
+
+/// Rounds `exact`, which may be changed where that gives triangles room.
+SphereMap mended(const Topology& topology, SphereMap exact, SphereMap rounded,
+                 std::vector<Face> bad, int threads) {
+  nudge_all(topology, rounded, bad);
+  bad = bad_faces(topology, rounded, threads);
+  int rings = kFirstRings;
+  for (int round = 0; round < kRounds && !bad.empty(); ++round, rings *= 2) {
+    const std::vector<Vertex> vertices = neighbourhood(topology, bad, rings);
+    make_room(topology, exact, vertices);
+    for (const Vertex v : vertices) rounded.points.row(v) = to_float(exact.point(v));
+    nudge_all(topology, rounded, bad_faces(topology, rounded, threads));
+    bad = bad_faces(topology, rounded, threads);
+  }
+  return rounded;
+}
+
+}  // namespace
+
+FloatRounding round_to_float(const Topology& topology, const SphereMap& map, int threads) {
+  SphereMap nearest = map;
+  for (double& x : nearest.points.reshaped()) x = to_float(x);
+  FloatRounding result{nearest, certify(topology, nearest, threads)};
+  if (!result.certificate.unusable_points.empty()) return result;
+  result.bad_before = result.bad_after = result.certificate.fold_count();
+  if (result.bad_before == 0 || !bad_faces(topology, map, threads).empty()) return result;
+
+  std::vector<Face> bad = result.certificate.folded;
+  bad.insert(bad.end(), result.certificate.degenerate.begin(), result.certificate.degenerate.end());
+  result.map = mended(topology, map, nearest, std::move(bad), threads);
+  result.certificate = certify(topology, result.map, threads);
+  result.bad_after = result.certificate.fold_count();
+  for (Eigen::Index v = 0; v < map.points.rows(); ++v)
+    result.moved += result.map.points.row(v) != nearest.points.row(v);
+  return result;
+}
+
+}  // namespace sphparam

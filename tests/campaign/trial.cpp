@@ -1,0 +1,56 @@
+#include "trial.h"
+
+#include <cstring>
+#include <ctime>
+#include <exception>
+
+#include "sphparam/parameterize.h"
+
+namespace sphparam::campaign {
+namespace {
+
+/// FNV-1a.
+std::uint64_t hash_of(const Points& points) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (Eigen::Index i = 0; i < points.size(); ++i) {
+    std::uint64_t bits;
+    std::memcpy(&bits, points.data() + i, sizeof bits);
+    hash = (hash ^ bits) * 0x100000001b3;
+  }
+  return hash;
+}
+
+long folds_in_float32(const Topology& topology, const SphereMap& map) {
+  const SphereMap rounded{map.points.cast<float>().cast<double>()};
+  const Certificate certificate = certify(topology, rounded, 1);
+  return certificate.fold_count() + static_cast<long>(certificate.unusable_points.size());
+}
+
+}  // namespace
+
+Outcome try_specimen(const Specimen& specimen, bool compare_threads) {
+  Outcome outcome;
+  outcome.family = specimen.family;
+  outcome.faces = specimen.mesh.face_count();
+  try {
+    const std::clock_t begun = std::clock();
+    const Parameterization result = parameterize(specimen.mesh, {.threads = 1});
+    outcome.seconds = static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
+    outcome.made_by = result.made_by;
+    const Topology topology(specimen.mesh);
+    outcome.certified = result.map.points.rows() == topology.vertex_count() &&
+                        certify(topology, result.map, 1).bijective();
+    outcome.hash = hash_of(result.map.points);
+    if (outcome.certified) outcome.float32_folds = folds_in_float32(topology, result.map);
+    if (!compare_threads) return outcome;
+    for (const int threads : {2, 4}) {
+      const Points again = parameterize(specimen.mesh, {.threads = threads}).map.points;
+      outcome.thread_dependent = outcome.thread_dependent || hash_of(again) != outcome.hash;
+    }
+  } catch (const std::exception& error) {
+    outcome.error = error.what();
+  }
+  return outcome;
+}
+
+}  // namespace sphparam::campaign

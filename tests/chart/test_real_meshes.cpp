@@ -1,0 +1,56 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <vector>
+
+#include "exact_area.h"
+#include "mesh_io/mesh_reader.h"
+#include "mesh_io/welding.h"
+#include "sphparam/chart/spherical_chart.h"
+#include "sphparam/parameterize.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::vector<fs::path> real_meshes() {
+  const char* const given = std::getenv("SPHPARAM_MESHES");
+  const fs::path folder = fs::path(given ? given : SPHPARAM_DEFAULT_MESHES) / "genus0";
+  std::vector<fs::path> meshes;
+  if (!fs::is_directory(folder)) {
+    std::cout << "skipped: no folder " << folder << "\n";
+    return meshes;
+  }
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string extension = entry.path().extension();
+    for (const char* format : {".obj", ".off", ".ply", ".stl", ".glb", ".gii"}) {
+      if (extension == format) meshes.push_back(entry.path());
+    }
+  }
+  std::sort(meshes.begin(), meshes.end());
+  return meshes;
+}
+
+}  // namespace
+
+TEST_CASE("real meshes: every map has a certified chart, by an independent count too") {
+  for (const fs::path& path : real_meshes()) {
+    INFO(path.filename().string());
+    const TriangleMesh mesh = tools::prepare_for_mapping(tools::read_mesh(path.string())).mesh;
+    const Topology topology(mesh);
+    const SphereMap map = parameterize(mesh, {.quality = Quality::Draft}).map;
+    const SphericalChart chart = spherical_chart(mesh, topology, map);
+    CHECK(chart.certificate.one_to_one());
+    CHECK(chart.certificate.max_shift == 0);
+    CHECK(count_folds(chart) == 0);
+    const Topology refined(chart.triangles, static_cast<int>(chart.points.rows()));
+    CHECK(certify(refined, {chart.points}).bijective());
+    // The meridian is a line; a fold takes about ten pieces.
+    CHECK(chart.counts.splits() <
+          4 * std::sqrt(mesh.face_count()) + 16 * chart.counts.folded_faces);
+  }
+}

@@ -1,0 +1,200 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "program.h"
+#include "support/test_meshes.h"
+
+/// Poles, meridian and pins of `sphparam map`, and what they cost.
+namespace sphparam::tests {
+
+namespace {
+
+using Catch::Contains;
+using Json = nlohmann::json;
+
+const std::string ball = obj_text(icosphere(3));
+
+/// `sphparam map - -o FOLDER/map.sph.ply --json -` and the report it printed.
+Json report_of(const Folder& folder, const std::vector<std::string>& options,
+               const std::string& mesh = ball) {
+  std::vector<std::string> arguments = {"map", "-", "-o", folder / "map.sph.ply", "--json", "-"};
+  arguments.insert(arguments.end(), options.begin(), options.end());
+  const Ended ended = sphparam_program(arguments, mesh);
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  return Json::parse(ended.out);
+}
+
+/// The mesh behind two vertices that no face uses: 0 and 1.
+std::string with_two_unused(const TriangleMesh& mesh) {
+  std::string text = "v 9 9 9\nv 8 8 8\n";
+  const std::string rest = obj_text(mesh);
+  const size_t faces = rest.find("f ");
+  text += rest.substr(0, faces);
+  for (Eigen::Index f = 0; f < mesh.face_count(); ++f) {
+    text += "f";
+    for (int k = 0; k < 3; ++k) text.append(" ").append(std::to_string(mesh.triangles(f, k) + 3));
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("map: --poles none leaves the map without vertices at ±z, auto chooses two") {
+  const Folder folder;
+  CHECK(report_of(folder, {"--poles", "none"})["poles"].is_null());
+  CHECK_THAT(bytes_of(folder / "map.sph.ply").substr(0, 1000), Contains("sphparam poles none"));
+  const Json chosen = report_of(folder, {"--poles", "auto"});
+  CHECK(chosen["poles"]["north"].is_number());
+  CHECK(chosen["options"]["poles"] == "auto");
+}
+
+TEST_CASE("map: given poles are reached, and their cost in energy told") {
+  const Folder folder;
+  const std::string mesh = obj_text(tube(12, 8));
+  const Json report = report_of(folder, {"--poles", "9,26"}, mesh);  // near each other
+  CHECK(report["poles"]["north"] == 9);
+  CHECK(report["energy_cost"].get<double>() > 0.01);
+  const Ended ended = sphparam_program({"map", "-", "-o", "-", "--poles", "9,26"}, mesh);
+  CHECK_THAT(ended.err, Contains("vertices 9 and 26 at ±z") && Contains("% of energy"));
+}
+
+TEST_CASE("map: --meridian gives a vertex theta 0, with and without poles") {
+  for (const char* poles : {"auto", "none", "5,40"}) {
+    const Folder folder;
+    const Json report = report_of(folder, {"--poles", poles, "--meridian", "77"});
+    CHECK(report["meridian"] == 77);
+    CHECK_THAT(bytes_of(folder / "map.sph.ply").substr(0, 1000), Contains("sphparam meridian 77"));
+  }
+}
+
+TEST_CASE("map: pins are exactly at their points") {
+  const Folder folder;
+  write_bytes(folder / "pins.txt",
+              "# vertex theta phi\n5 0.5 1.0\n\n40 2 2 # the other\n100 4 0.7\n");
+  const Json report = report_of(folder, {"--pin", folder / "pins.txt"});
+  REQUIRE(report["pins"].size() == 3);
+  for (const Json& pin : report["pins"]) CHECK(pin["residual"] == 0);
+  CHECK(report["pins"][1]["vertex"] == 40);
+  CHECK(report["certificate"]["one_to_one"] == true);
+  CHECK(report["energy_cost"].get<double>() > 0);
+}
+
+TEST_CASE("map: pins that cannot be reached end with 5, each residual told, no map written") {
+  const Folder folder;
+  // Two vertices at one point.
+  write_bytes(folder / "pins.txt", "5 0.5 1.0\n40 0.5 1.0\n");
+  for (const bool keep : {false, true}) {
+    std::vector<std::string> arguments = {"map",    "-",
+                                          "-o",     folder / "map.sph.ply",
+                                          "--pin",  folder / "pins.txt",
+                                          "--json", folder / "map.json"};
+    if (keep) arguments.push_back("--keep-folded");
+    const Ended ended = sphparam_program(arguments, obj_text(icosphere(1)));
+    CHECK(ended.code == 5);
+    CHECK_THAT(ended.err, Contains("radians from its point") && Contains("no map written"));
+    CHECK(folder.names() == std::vector<std::string>{"map.json", "pins.txt"});
+    const Json pins = Json::parse(bytes_of(folder / "map.json"))["pins"];
+    CHECK(std::max(pins[0]["residual"].get<double>(), pins[1]["residual"].get<double>()) > 0);
+  }
+}
+
+TEST_CASE("map: vertices are named by their numbers in the file, also where some were dropped") {
+  const Folder folder;
+  const std::string mesh = with_two_unused(icosphere(3));
+  write_bytes(folder / "pins.txt", "7 0.5 1.0\n42 2 2\n");
+  const Json pinned = report_of(folder, {"--pin", folder / "pins.txt"}, mesh);
+  CHECK(pinned["pins"][0]["vertex"] == 7);
+  CHECK(pinned["pins"][1]["residual"] == 0);
+  CHECK(report_of(folder, {"--meridian", "79"}, mesh)["meridian"] == 77);  // of the mesh as written
+
+  write_bytes(folder / "pins.txt", "7 0.5 1.0\n1 2 2\n");
+  const Ended ended = sphparam_program({"map", "-", "-o", "-", "--pin", folder / "pins.txt"}, mesh);
+  CHECK(ended.code == 3);
+  CHECK_THAT(ended.err, Contains("pins.txt:2: the mesh has no vertex 1 (it was merged"));
+}
+
+TEST_CASE("map: a file of pins that makes no sense ends with 3 and its line") {
+  const Folder folder;
+  const std::vector<std::pair<std::string, std::string>> senseless = {
+      {"5 1\n", "pins.txt:1"},
+      {"5 1 2 3\n", "nothing"},
+      {"# c\n5 1 7\n", "pins.txt:2: phi"},
+      {"5 1 -0.1\n", "phi"},
+      {"5 nan 1\n", "pins.txt:1"},
+      {"5.5 1 1\n", "whole number"},
+      {"-1 1 1\n", "no vertex -1"},
+      {"99999 1 1\n", "they are 0 to 641"},
+      {"5 1 1\n6 1 2\n5 2 2\n", "pins.txt:3: vertex 5 is pinned twice, first in line 1"},
+      {"# nothing\n", "no pin"},
+  };
+  for (const auto& [text, complaint] : senseless) {
+    write_bytes(folder / "pins.txt", text);
+    const Ended ended =
+        sphparam_program({"map", "-", "-o", "-", "--pin", folder / "pins.txt"}, ball);
+    INFO(text << ended.err);
+    CHECK(ended.code == 3);
+    CHECK_THAT(ended.err, Contains(complaint));
+    CHECK(ended.out.empty());
+  }
+  CHECK(sphparam_program({"map", "-", "-o", "-", "--pin", folder / "none"}, ball).code == 3);
+}
+
+TEST_CASE("map: what poles, meridian, pins and balance may not say together ends with 2") {
+  const Folder folder;
+  write_bytes(folder / "pins.txt", "5 0.5 1.0\n");
+  const std::string pins = folder / "pins.txt";
+  const std::vector<std::vector<std::string>> senseless = {
+      {"--poles", "none", "--method", "paper"},
+      {"--poles", "none", "--method", "curvilinear"},
+      {"--meridian", "5", "--poles", "5,40"},
+      {"--meridian", "5", "--method", "paper"},
+      {"--meridian", "-5"},
+      {"--meridian", "99999"},
+      {"--meridian", "7", "--pin", pins},
+      {"--pin", pins, "--method", "paper"},
+      {"--pin", pins, "--poles", "5,40"},
+      {"--pin", "-"},
+      {"--pin", pins, "--json", pins},
+      {"--balance", "conformal", "--lambda", "2"},
+      {"--balance", "2", "--lambda", "2"},
+      {"--balance", "0"},
+      {"--balance", "1e4"},
+      {"--balance", "2x"},
+  };
+  for (const auto& options : senseless) {
+    std::vector<std::string> arguments = {"map", "-", "-o", "-"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    std::string line;
+    for (const std::string& argument : arguments) line += argument + " ";
+    const Ended ended = sphparam_program(arguments, ball);
+    INFO(line << ended.err);
+    CHECK(ended.code == 2);
+    CHECK(ended.out.empty());
+  }
+  CHECK(bytes_of(pins) == "5 0.5 1.0\n");
+}
+
+TEST_CASE("map: a number as --balance is the lambda, and a mistyped word is answered") {
+  const Folder folder;
+  const std::string limb = obj_text(tube(12, 8));
+  const Json report = report_of(folder, {"--balance", "3.5"}, limb);
+  CHECK(report["options"]["lambda"] == 3.5);
+  const std::string balanced = bytes_of(folder / "map.sph.ply");
+  report_of(folder, {"--lambda", "3.5"}, limb);
+  CHECK(bytes_of(folder / "map.sph.ply") == balanced);
+  const Ended ended = sphparam_program({"map", "-", "-o", "-", "--balance", "conformel"}, limb);
+  CHECK_THAT(ended.err, Contains("did you mean conformal?"));
+}
+
+TEST_CASE("map: a mesh inside out is told unasked") {
+  TriangleMesh inside_out = icosphere(2);
+  inside_out.positions *= -1;
+  const Ended ended = sphparam_program({"map", "-", "-o", "-"}, obj_text(inside_out));
+  CHECK(ended.code == 0);
+  CHECK_THAT(ended.err, Contains("warning: inside out"));
+}
+
+}  // namespace sphparam::tests

@@ -1,0 +1,277 @@
+// Runs `sphparam map` on a small mesh again and again, each time with another fault: the n-th
+// allocation or system call fails, a signal comes, the file may not grow. Afterwards every output
+// must be what it was or what a run without faults writes, a failed run must have changed nothing,
+// and no temporary may be left (after SIGKILL: none after the next run).
+//
+//   fault_runner PROGRAM SHIM COUNT     COUNT: how many faults at least; prints how many of which
+//   kind
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <random>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "support/process.h"
+#include "support/test_meshes.h"
+
+namespace {
+
+using namespace sphparam::tests;
+namespace fs = std::filesystem;
+
+constexpr double kSeconds = 60;  // then a run counts as hanging
+constexpr int kKilled = 128 + SIGKILL, kInterrupted = 130;
+
+std::string bytes_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+void write_off(const fs::path& path, const sphparam::TriangleMesh& mesh) {
+  std::ofstream file(path);
+  file << "OFF\n" << mesh.vertex_count() << ' ' << mesh.face_count() << " 0\n" << mesh.positions;
+  for (Eigen::Index f = 0; f < mesh.face_count(); ++f) file << "\n3 " << mesh.triangles.row(f);
+}
+
+/// One thing that goes wrong, in the words of the shim or as a limit or a late signal.
+struct Fault {
+  std::string kind = {};  // for the table
+  std::string shim = {};  // SPHPARAM_FAULT
+  ProcessLimits limits{.seconds = kSeconds};
+  ProcessSignal signal = {};
+  std::set<int> codes = {};  // how the run may end
+  bool kills = false;        // then outputs are judged one by one, and temporaries may be left
+  bool lasts = false;        // no rename works any more, so none can be undone: one by one, too
+};
+
+/// A folder with a mesh and old outputs, and what a run without faults makes of them.
+class Scene {
+ public:
+  Scene(std::string program, std::string shim)
+      : program_(std::move(program)), shim_(std::move(shim)) {
+    std::string name = (fs::temp_directory_path() / "sphparam_faults_XXXXXX").string();
+    if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
+    folder_ = name;
+    write_off(folder_ / "mesh.off", icosphere(1));
+    const auto start = std::chrono::steady_clock::now();
+    const ProcessEnd end = run({}, {"SPHPARAM_FAULT_COUNTS=" + (folder_ / "counts").string()});
+    if (end.code != 0) throw std::runtime_error("without a fault: " + end.messages);
+    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    std::ifstream counts(folder_ / "counts");
+    for (std::string call; counts >> call;) counts >> calls[call];
+    for (const char* output : kOutputs) new_[output] = bytes_of(folder_ / output);
+    const ProcessEnd proof = run_process({program_, "verify", (folder_ / "map.sph.ply").string()});
+    if (proof.code != 0) throw std::runtime_error("not certified: " + proof.messages);
+  }
+  ~Scene() { fs::remove_all(folder_); }
+  Scene(const Scene&) = delete;
+  Scene& operator=(const Scene&) = delete;
+
+  /// What is wrong after this fault; empty when nothing is. Counts it if it happened.
+  std::string survive(const Fault& fault, bool fresh) {
+    reset(fresh);
+    const fs::path log = folder_ / "log";
+    std::vector<std::string> environment;
+    if (!fault.shim.empty())
+      environment = {"SPHPARAM_FAULT=" + fault.shim, "SPHPARAM_FAULT_LOG=" + log.string()};
+    const ProcessEnd end = run(fault, environment);
+    const bool came = fault.shim.empty() || fs::remove(log);
+    if (came) ++happened[fault.kind];
+    std::string complaint = judge(came ? fault : Fault{.codes = {0}}, end, fresh);
+    if (fault.kills && complaint.empty()) complaint = judge_next_run();
+    if (complaint.empty()) return {};
+    return fault.kind + " (" + fault.shim + (fresh ? ", new files): " : ", old files): ") +
+           complaint + "; the program ended with " + std::to_string(end.code) + ": " + end.messages;
+  }
+
+  std::size_t largest_output() const { return new_.at("map.sph.ply").size(); }
+
+  double seconds = 0;                    // of a run without faults
+  std::map<std::string, long> calls;     // in it
+  std::map<std::string, long> happened;  // by kind
+
+ private:
+  static constexpr const char* kOutputs[] = {"map.sph.ply", "sphere.obj", "report.json"};
+
+  ProcessEnd run(const Fault& fault, std::vector<std::string> environment) {
+    if (!environment.empty()) environment.push_back("LD_PRELOAD=" + shim_);
+    const auto path = [this](const char* name) { return (folder_ / name).string(); };
+    return run_process({program_, "map", path("mesh.off"), "-o", path("map.sph.ply"), "--sphere",
+                        path("sphere.obj"), "--json", path("report.json"), "--threads", "1", "-q"},
+                       environment, fault.limits, fault.signal);
+  }
+
+  void reset(bool fresh) {
+    for (const char* output : kOutputs) {
+      fs::remove(folder_ / output);
+      if (!fresh) std::ofstream(folder_ / output) << "old " << output;
+    }
+  }
+
+  /// The report holds times, so only its ends are known.
+  bool is_new(const std::string& output) const {
+    const std::string bytes = bytes_of(folder_ / output);
+    if (output != "report.json") return bytes == new_.at(output);
+    return bytes.starts_with("{") && bytes.ends_with("}\n");
+  }
+
+  bool is_old(const std::string& output, bool fresh) const {
+    if (fresh) return !fs::exists(folder_ / output);
+    return bytes_of(folder_ / output) == "old " + output;
+  }
+
+  std::vector<std::string> temporaries() const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder_))
+      if (entry.path().string().find(".tmp.") != std::string::npos)
+        names.push_back(entry.path().filename());
+    return names;
+  }
+
+  std::string judge(const Fault& fault, const ProcessEnd& end, bool fresh) const {
+    if (end.timed_out) return "it hangs";
+    if (!fault.codes.contains(end.code)) return "that is no documented exit code";
+    for (const char* output : kOutputs) {
+      const bool complete = is_new(output), untouched = is_old(output, fresh);
+      if (!complete && !untouched) return std::string(output) + " is half written";
+      if (end.code == 0 && !complete) return std::string(output) + " is missing";
+      if (end.code != 0 && !fault.kills && !fault.lasts && !untouched)
+        return std::string(output) + " was changed";
+    }
+    if (!fault.kills && !temporaries().empty()) return "left " + temporaries().front();
+    const bool silent = end.code != 0 && end.code != kInterrupted && end.messages.empty();
+    if (silent && !fault.kills) return "not a word was said";
+    return {};
+  }
+
+  std::string judge_next_run() {
+    const ProcessEnd end = run({.limits = {.seconds = kSeconds}}, {});
+    if (end.code != 0) return "the next run ends with " + std::to_string(end.code);
+    if (!temporaries().empty()) return "the next run leaves " + temporaries().front();
+    return {};
+  }
+
+  std::string program_, shim_;
+  fs::path folder_;
+  std::map<std::string, std::string> new_;
+};
+
+/// The n-th call of each kind with each way to go wrong: all of them.
+std::vector<Fault> call_faults(const Scene& scene) {
+  const std::map<std::string, std::vector<int>> errors = {{"open", {EACCES, EMFILE, EINTR, EIO}},
+                                                          {"write", {ENOSPC, EIO, EINTR, EDQUOT}},
+                                                          {"fsync", {EIO, ENOSPC, EINTR}},
+                                                          {"close", {EIO, EINTR}},
+                                                          {"rename", {EIO, ENOSPC, EACCES}}};
+  std::vector<Fault> faults;
+  for (const auto& [call, numbers] : errors) {
+    for (long n = 1; n <= scene.calls.at(call); ++n) {
+      const std::string turn = call + " " + std::to_string(n) + " ";
+      for (const int number : numbers) {
+        const std::string error = std::string(strerrorname_np(number));
+        faults.push_back({.kind = call + " " + error,
+                          .shim = turn + "E" + std::to_string(number),
+                          .codes = {0, 3}});
+        if (number != EINTR)
+          faults.push_back({.kind = call + " " + error + " from then on",
+                            .shim = turn + "A" + std::to_string(number),
+                            .codes = {0, 3},
+                            .lasts = call == "rename"});
+      }
+      if (call == "write")
+        faults.push_back({.kind = "short write", .shim = turn + "s0", .codes = {0}});
+      for (const char when : {'S', 'T'}) {
+        const std::string at = std::string(when == 'S' ? " before " : " after ") + call;
+        faults.push_back(
+            {.kind = "SIGKILL" + at, .shim = turn + when + "9", .codes = {kKilled}, .kills = true});
+        faults.push_back(
+            {.kind = "SIGINT" + at, .shim = turn + when + "2", .codes = {0, kInterrupted}});
+        faults.push_back(
+            {.kind = "SIGTERM" + at, .shim = turn + when + "15", .codes = {0, kInterrupted}});
+      }
+    }
+  }
+  return faults;
+}
+
+Fault allocation_fault(long n, bool from_then_on) {
+  return {.kind = from_then_on ? "allocation, from then on" : "allocation",
+          .shim = "malloc " + std::to_string(n) + (from_then_on ? " A12" : " E12"),
+          .codes = {0, 1, 3}};
+}
+
+/// `count` faults: all calls first or, where there are more of these, every k-th; allocations
+/// spread over the run; signals at any time; files that may not grow.
+std::vector<Fault> choose_faults(const Scene& scene, long count, std::mt19937& random) {
+  std::vector<Fault> faults = call_faults(scene);
+  std::shuffle(faults.begin(), faults.end(), random);
+  if (static_cast<long>(faults.size()) > count / 2)
+    faults.resize(static_cast<std::size_t>(count / 2));
+  const long left = count - static_cast<long>(faults.size());
+  const long allocations = scene.calls.at("malloc");
+  for (long i = 0; i < left / 2; ++i)
+    faults.push_back(allocation_fault(1 + i * allocations / (left / 2), i % 3 == 2));
+  std::uniform_real_distribution<double> moment(0, 1.2 * scene.seconds);
+  for (long i = 0; i < left / 6; ++i)
+    faults.push_back({.kind = "SIGKILL at a random moment",
+                      .signal = {SIGKILL, moment(random)},
+                      .codes = {0, kKilled},
+                      .kills = true});
+  for (long i = 0; i < left / 6; ++i)
+    faults.push_back({.kind = "SIGINT at a random moment",
+                      .signal = {SIGINT, moment(random)},
+                      .codes = {0, kInterrupted}});
+  while (static_cast<long>(faults.size()) < count) {
+    const std::uint64_t bytes = 1 + random() % scene.largest_output();
+    faults.push_back({.kind = "limit on file sizes (disk full)",
+                      .limits = {.seconds = kSeconds, .file_bytes = bytes},
+                      .codes = {0, 3}});
+  }
+  return faults;
+}
+
+int run_faults(const std::string& program, const std::string& shim, long count) {
+  Scene scene(program, shim);
+  std::mt19937 random(2006);
+  long failures = 0;
+  for (const Fault& fault : choose_faults(scene, count, random)) {
+    const std::string complaint = scene.survive(fault, random() % 2);
+    if (complaint.empty()) continue;
+    ++failures;
+    std::printf("FAILED %s\n", complaint.c_str());
+  }
+  long total = 0;
+  for (const auto& [kind, times] : scene.happened) {
+    std::printf("%6ld  %s\n", times, kind.c_str());
+    total += times;
+  }
+  std::printf("%ld faults, %ld failures\n", total, failures);
+  return failures == 0 && total > 0 ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 4) {
+    std::fprintf(stderr, "fault_runner PROGRAM SHIM COUNT\n");
+    return 2;
+  }
+  try {
+    return run_faults(argv[1], argv[2], std::atol(argv[3]));
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+}

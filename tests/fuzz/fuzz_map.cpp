@@ -1,0 +1,67 @@
+// The whole of `sphparam map` on small meshes of any connectivity and any shape. Bytes are a
+// recipe: options, then a triangulation grown from a tetrahedron by splits and flips, then
+// positions of any size. The map must be certified, and still be after writing and reading.
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "expect.h"
+#include "mesh_io/mesh_reader.h"
+#include "mesh_io/mesh_writer.h"
+#include "mesh_io/sphere_file.h"
+#include "recipe.h"
+#include "sphparam/parameterize.h"
+#include "sphparam/sphere/certificate.h"
+
+namespace {
+
+using namespace sphparam;
+using namespace sphparam::tools;
+using namespace sphparam::tests;
+
+ParameterizeOptions options_of(Recipe& recipe, int vertices) {
+  ParameterizeOptions options;
+  const unsigned what = recipe.byte();
+  constexpr Method methods[] = {Method::Progressive, Method::Curvilinear, Method::Paper};
+  options.method = methods[what % 3];
+  options.repair_paper = true;
+  options.threads = 1;
+  if (what & 64) {
+    const int north = static_cast<int>(recipe.byte()) % vertices;
+    const int south = static_cast<int>(recipe.byte()) % vertices;
+    if (north != south) options.poles = Poles{north, south};
+  }
+  if (what & 128) {
+    constexpr double lambdas[] = {1e-8, 1e-2, 0.3, 2, 30, 1000};
+    options.energy.lambda = lambdas[recipe.byte() % std::size(lambdas)];
+    const unsigned taste = recipe.byte();
+    options.balance = static_cast<Balance>(taste % 3);
+    options.quality = static_cast<Quality>(taste / 4 % 3);
+    options.energy.kind = taste & 128 ? EnergyKind::SymmetricDirichlet : EnergyKind::AngleAndArea;
+  }
+  return options;
+}
+
+void expect_certified(const TriangleMesh& mesh, const Parameterization& result) {
+  expect(result.certificate.bijective(), "the map is certified");
+  MeshFile file;
+  file.mesh = mesh;
+  const std::string bytes = serialise_ply(attach_map(file, result.map, {{"version", "fuzz"}}));
+  const MeshFile again = read_mesh(bytes, "again.ply", {});
+  expect(certify(Topology(again.mesh), read_sphere(again).value(), 1).bijective(),
+         "what was written is certified");
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  Recipe recipe({data, size});
+  const TriangleMesh mesh = recipe.sphere_mesh();
+  expect_certified(mesh,
+                   parameterize(mesh, options_of(recipe, static_cast<int>(mesh.vertex_count()))));
+  return 0;
+}

@@ -1,0 +1,135 @@
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <mutex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "support/process.h"
+
+// Files that are wrong, and what the program says of them: see make_files.py. The program runs as
+// its users run it, under limits of time and memory.
+
+using namespace sphparam::tests;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kSeconds = 10;
+#ifdef __SANITIZE_ADDRESS__
+constexpr std::uint64_t kMemory = 0;  // the sanitizer reserves terabytes
+#else
+constexpr std::uint64_t kMemory = 512u << 20;
+#endif
+constexpr int kOk = 0;
+
+const fs::path folder = fs::path(SPHPARAM_SOURCE_DIR) / "tests/hostile";
+
+struct HostileFile {
+  std::string name;
+  int code;
+  std::string message;  // a part of it
+};
+
+std::vector<HostileFile> table() {
+  std::vector<HostileFile> rows;
+  std::ifstream in(folder / "expected.tsv");
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream fields(line);
+    HostileFile row;
+    std::string code;
+    std::getline(fields, row.name, '\t');
+    std::getline(fields, code, '\t');
+    std::getline(fields, row.message);
+    row.code = std::stoi(code);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+/// A new folder that is gone at the end.
+struct Scratch {
+  fs::path path;
+  Scratch() {
+    std::string name = (fs::temp_directory_path() / "sphparam_hostile_XXXXXX").string();
+    path = mkdtemp(name.data());
+  }
+  ~Scratch() { fs::remove_all(path); }
+};
+
+/// What one run did that it should not have; empty when all is well.
+std::string complaint_about(const ProcessEnd& end, const HostileFile& file) {
+  if (end.timed_out) return "takes more than 10 seconds";
+  if (end.code != file.code)
+    return "ends with " + std::to_string(end.code) + ", not " + std::to_string(file.code);
+  if (end.messages.find(file.message) == std::string::npos) return "does not say " + file.message;
+  const bool names_file = end.messages.find(file.name) != std::string::npos;
+  if (file.code == 3 && !names_file) return "does not name the file";
+  return {};
+}
+
+std::string try_file(const HostileFile& file, const fs::path& scratch) {
+  const std::string path = (folder / "files" / file.name).string();
+  const fs::path output = scratch / (file.name + ".sph.ply");
+  const ProcessLimits limits{.seconds = kSeconds, .memory = kMemory};
+  const ProcessEnd map = run_process(
+      {SPHPARAM_PROGRAM, "map", path, "-o", output.string(), "--threads", "1"}, {}, limits);
+  const ProcessEnd info = run_process({SPHPARAM_PROGRAM, "info", path}, {}, limits);
+  std::string complaint;
+  if (const std::string text = complaint_about(map, file); !text.empty())
+    complaint += "map " + file.name + " " + text + ": " + map.messages;
+  if (const std::string text = complaint_about(info, file); !text.empty())
+    complaint += "info " + file.name + " " + text + ": " + info.messages;
+  if (fs::exists(output) != (file.code == kOk)) complaint += file.name + ": output is there or not";
+  return complaint;
+}
+
+/// Every file of the table on all processors; the complaints.
+std::string try_all(const std::vector<HostileFile>& files, const fs::path& scratch) {
+  std::string complaints;
+  std::mutex mutex;
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t i; (i = next++) < files.size();) {
+      const std::string complaint = try_file(files[i], scratch);
+      const std::lock_guard lock(mutex);
+      if (!complaint.empty()) complaints += complaint + "\n";
+    }
+  };
+  std::vector<std::thread> threads;
+  for (unsigned i = 0; i < std::max(1u, std::thread::hardware_concurrency()); ++i)
+    threads.emplace_back(work);
+  for (std::thread& thread : threads) thread.join();
+  return complaints;
+}
+
+}  // namespace
+
+TEST_CASE("hostile: every file of the corpus ends as its line of the table says") {
+  const std::vector<HostileFile> files = table();
+  REQUIRE(files.size() >= 300);
+  const Scratch scratch;
+  const std::string complaints = try_all(files, scratch.path);
+  INFO(complaints);
+  CHECK(complaints.empty());
+  long accepted = 0, found = 0;
+  for (const HostileFile& file : files) accepted += file.code == kOk;
+  for ([[maybe_unused]] const auto& entry : fs::directory_iterator(scratch.path)) ++found;
+  CHECK(found == accepted);  // no temporary either
+}
+
+TEST_CASE("hostile: the table and the folder name the same files") {
+  std::set<std::string> expected, there;
+  for (const HostileFile& file : table()) expected.insert(file.name);
+  std::uintmax_t bytes = 0;
+  for (const auto& entry : fs::directory_iterator(folder / "files")) {
+    there.insert(entry.path().filename());
+    bytes += entry.file_size();
+  }
+  CHECK(expected == there);
+  CHECK(bytes <= 1u << 20);
+}

@@ -1,0 +1,447 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <limits>
+#include <random>
+#include <set>
+#include <stdexcept>
+
+#include "sphparam/mesh/mesh_repair.h"
+#include "sphparam/mesh/topology.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+
+namespace {
+
+bool same(const TriangleMesh& a, const TriangleMesh& b) {
+  return a.positions == b.positions && a.triangles == b.triangles;
+}
+
+const RepairAction* find(const RepairedMesh& repaired, RepairKind kind) {
+  for (const RepairAction& action : repaired.actions) {
+    if (action.kind == kind) return &action;
+  }
+  return nullptr;
+}
+
+long count(const RepairedMesh& repaired, RepairKind kind) {
+  const RepairAction* action = find(repaired, kind);
+  return action ? action->count : 0;
+}
+
+TriangleMesh joined(const TriangleMesh& a, const TriangleMesh& b) {
+  TriangleMesh mesh;
+  mesh.positions.resize(a.vertex_count() + b.vertex_count(), 3);
+  mesh.positions << a.positions, b.positions;
+  mesh.triangles.resize(a.face_count() + b.face_count(), 3);
+  mesh.triangles << a.triangles,
+      (b.triangles.array() + static_cast<int>(a.vertex_count())).matrix();
+  return mesh;
+}
+
+TriangleMesh moved(TriangleMesh mesh, double x) {
+  mesh.positions.col(0).array() += x;
+  return mesh;
+}
+
+void remove_face(TriangleMesh& mesh, Face f) {
+  const Eigen::Index last = mesh.face_count() - 1;
+  mesh.triangles.row(f) = mesh.triangles.row(last).eval();
+  mesh.triangles.conservativeResize(last, 3);
+}
+
+void append_face(TriangleMesh& mesh, Vertex a, Vertex b, Vertex c) {
+  mesh.triangles.conservativeResize(mesh.face_count() + 1, 3);
+  mesh.triangles.row(mesh.face_count() - 1) << a, b, c;
+}
+
+void turn_face(TriangleMesh& mesh, Face f) {
+  std::swap(mesh.triangles(f, 1), mesh.triangles(f, 2));
+}
+
+void replace_vertex(TriangleMesh& mesh, Vertex old, Vertex wanted) {
+  std::replace(mesh.triangles.data(), mesh.triangles.data() + mesh.triangles.size(), old, wanted);
+}
+
+/// Origins name what is there: positions, and faces up to orientation where nothing else changed.
+void check_origins(const TriangleMesh& before, const RepairedMesh& after) {
+  REQUIRE(after.vertex_origin.size() == static_cast<size_t>(after.mesh.vertex_count()));
+  REQUIRE(after.face_origin.size() == static_cast<size_t>(after.mesh.face_count()));
+  REQUIRE(after.corner_origin.size() == static_cast<size_t>(after.mesh.triangles.size()));
+  size_t created = 0;
+  for (Vertex v = 0; v < after.mesh.vertex_count(); ++v) {
+    const Vertex origin = after.vertex_origin[static_cast<size_t>(v)];
+    if (origin < 0) {
+      CHECK(after.created.at(created++).vertex == v);
+      continue;
+    }
+    CHECK(after.mesh.position(v) == before.position(origin));
+  }
+  CHECK(created == after.created.size());
+  for (const int corner : after.corner_origin) {
+    CHECK((corner >= 0 && corner < before.triangles.size()));
+  }
+}
+
+void check_is_sphere(const RepairedMesh& repaired) {
+  CHECK(repaired.inspection.is_sphere());
+  CHECK_NOTHROW(require_sphere(repaired.mesh));
+}
+
+}  // namespace
+
+TEST_CASE("mesh_repair: a mesh without defects is returned as it is, with its ids") {
+  for (const TriangleMesh& mesh : {tetrahedron(), icosphere(2), relabelled(uv_sphere(9, 6), 3)}) {
+    const RepairedMesh repaired = repair_mesh(mesh);
+    CHECK(same(repaired.mesh, mesh));
+    CHECK(repaired.actions.empty());
+    for (Vertex v = 0; v < mesh.vertex_count(); ++v) {
+      CHECK(repaired.vertex_origin[static_cast<size_t>(v)] == v);
+    }
+    for (Face f = 0; f < mesh.face_count(); ++f) {
+      CHECK(repaired.face_origin[static_cast<size_t>(f)] == f);
+    }
+  }
+}
+
+TEST_CASE(
+    "mesh_repair: random damage to a sphere is mended, twice the same way, and then for good") {
+  for (unsigned seed = 1; seed <= 120; ++seed) {
+    std::mt19937 random(seed);
+    const auto below = [&](Eigen::Index n) {
+      return static_cast<int>(random() % static_cast<unsigned long>(n));
+    };
+    TriangleMesh mesh = relabelled(icosphere(2), seed);
+    std::string story = "seed " + std::to_string(seed);
+    for (int blow = 0; blow < 1 + static_cast<int>(seed % 6); ++blow) {
+      const int kind = below(7);
+      story += ' ';
+      story += "dctuoaw"[kind];
+      const Face f = below(mesh.face_count());
+      const int a = mesh.triangles(f, 0), b = mesh.triangles(f, 1), c = mesh.triangles(f, 2);
+      switch (kind) {
+        case 0:
+          remove_face(mesh, f);
+          break;
+        case 1:
+          append_face(mesh, b, c, a);
+          break;
+        case 2:
+          turn_face(mesh, f);
+          break;
+        case 3:
+          mesh.positions.conservativeResize(mesh.vertex_count() + 1, 3);
+          mesh.positions.bottomRows(1) << 7, 7, 7;
+          break;
+        case 4:
+          mesh = joined(mesh, moved(octahedron(), 5 + blow));
+          break;
+        case 5:
+          append_face(mesh, a, b, a);
+          break;
+        case 6:
+          replace_vertex(mesh, a, mesh.triangles(below(mesh.face_count()), 0));
+          break;
+      }
+    }
+    INFO(story);
+    const RepairedMesh repaired = repair_mesh(mesh);
+    check_is_sphere(repaired);
+    check_origins(mesh, repaired);
+    CHECK(repaired.inspection.volume > 3);
+    CHECK(same(repair_mesh(mesh).mesh, repaired.mesh));
+    const RepairedMesh again = repair_mesh(repaired.mesh);
+    CHECK(again.actions.empty());
+    CHECK(same(again.mesh, repaired.mesh));
+  }
+}
+
+TEST_CASE("mesh_repair: a copy of a face goes, the first stays") {
+  TriangleMesh mesh = icosphere(1);
+  append_face(mesh, mesh.triangles(3, 1), mesh.triangles(3, 2), mesh.triangles(3, 0));
+  const RepairedMesh repaired = repair_mesh(mesh);
+  check_is_sphere(repaired);
+  REQUIRE(find(repaired, RepairKind::DuplicateFaceRemoved));
+  CHECK(find(repaired, RepairKind::DuplicateFaceRemoved)->elements == std::vector<int>{80});
+  CHECK(repaired.mesh.triangles == icosphere(1).triangles);
+}
+
+TEST_CASE("mesh_repair: of two faces back to back on a surface the one that runs with it stays") {
+  TriangleMesh mesh = icosphere(1);
+  append_face(mesh, mesh.triangles(3, 0), mesh.triangles(3, 1), mesh.triangles(3, 2));
+  turn_face(mesh, 3);
+  const RepairedMesh repaired = repair_mesh(mesh);
+  check_is_sphere(repaired);
+  CHECK(find(repaired, RepairKind::DuplicateFaceRemoved)->elements == std::vector<int>{3});
+  CHECK(repaired.mesh.face_count() == 80);
+}
+
+TEST_CASE("mesh_repair: turned faces are turned back, an inside-out surface as a whole") {
+  TriangleMesh mesh = icosphere(2);
+  for (const Face f : {3, 17, 40, 41}) turn_face(mesh, f);
+  const RepairedMesh repaired = repair_mesh(mesh);
+  CHECK(count(repaired, RepairKind::FaceTurned) == 4);
+  CHECK(find(repaired, RepairKind::FaceTurned)->elements == std::vector<int>{3, 17, 40, 41});
+  CHECK(repaired.inspection.volume > 0);
+
+  TriangleMesh inside_out = icosphere(2);
+  for (Face f = 0; f < inside_out.face_count(); ++f) turn_face(inside_out, f);
+  const RepairedMesh turned = repair_mesh(inside_out);
+  CHECK(count(turned, RepairKind::TurnedOutward) == 1);
+  CHECK(same(turned.mesh, icosphere(2)));
+}
+
+TEST_CASE("mesh_repair: a vertex where two fans touch is split") {
+  // A sphere pinched at two far vertices that become one.
+  TriangleMesh mesh = uv_sphere(8, 7);
+  replace_vertex(mesh, static_cast<Vertex>(mesh.vertex_count()) - 1, 0);
+  const RepairedMesh repaired = repair_mesh(mesh);
+  check_is_sphere(repaired);
+  REQUIRE(find(repaired, RepairKind::VertexSplit));
+  CHECK(find(repaired, RepairKind::VertexSplit)->elements == std::vector<int>{0});
+  CHECK(std::count(repaired.vertex_origin.begin(), repaired.vertex_origin.end(), 0) == 2);
+}
+
+TEST_CASE("mesh_repair: bodies that touch along an edge, inside out or not, come apart") {
+  for (const bool inside_out : {false, true}) {
+    // Two tetrahedra that share the edge 0-1.
+    TriangleMesh mesh;
+    mesh.positions.resize(6, 3);
+    mesh.positions << 0, 0, 0, 0, 0, 1, 1, 0, 0, 1, 1, 0, -1, 0, 0, -1, -1, 0;
+    mesh.triangles.resize(8, 3);
+    mesh.triangles << 0, 1, 2, 1, 0, 3, 0, 2, 3, 1, 3, 2, 0, 1, 4, 1, 0, 5, 0, 4, 5, 1, 5, 4;
+    for (Face f = 0; f < 8; ++f) {
+      if (inside_out != (inspect_mesh(mesh).volume < 0)) turn_face(mesh, f);
+    }
+    RepairOptions options = RepairOptions::none();
+    options.non_manifold = true;
+    const RepairedMesh apart = repair_mesh(mesh, options);
+    CHECK(apart.inspection.components == 2);
+    CHECK(apart.mesh.vertex_count() == 8);
+    CHECK(Topology::try_build(apart.mesh.triangles, 8).has_value());
+    check_is_sphere(repair_mesh(mesh));
+  }
+}
+
+TEST_CASE("mesh_repair: two bodies with a common wall come apart, each with its own") {
+  // Octahedra above and below the wall 0 1 2, each closed by it.
+  TriangleMesh mesh;
+  mesh.positions.resize(5, 3);
+  mesh.positions << 1, 0, 0, -1, 1, 0, -1, -1, 0, 0, 0, 1, 0, 0, -1;
+  mesh.triangles.resize(8, 3);
+  mesh.triangles << 0, 1, 3, 1, 2, 3, 2, 0, 3, 0, 2, 1, 1, 0, 4, 2, 1, 4, 0, 2, 4, 0, 1, 2;
+  RepairOptions options = RepairOptions::none();
+  options.duplicates = options.non_manifold = true;
+  const RepairedMesh apart = repair_mesh(mesh, options);
+  CHECK(apart.inspection.components == 2);
+  CHECK(apart.inspection.boundary_loops == 0);
+  CHECK(apart.mesh.vertex_count() == 8);
+}
+
+TEST_CASE("mesh_repair: an inner wall goes, the surface about it stays") {
+  TriangleMesh mesh = octahedron();
+  append_face(mesh, 0, 2, 1);  // across the middle: edges 0-2 and 2-1 have three faces
+  append_face(mesh, 0, 1, 3);
+  const RepairedMesh repaired = repair_mesh(mesh);
+  check_is_sphere(repaired);
+  CHECK(repaired.mesh.face_count() == 8);
+  CHECK(repaired.inspection.volume == Approx(inspect_mesh(octahedron()).volume));
+}
+
+TEST_CASE("mesh_repair: a vertex of valence two keeps its place, the other diagonal mends it") {
+  // Face 0 of an icosahedron's edge a-b opened to the flap a v b, v b a.
+  TriangleMesh mesh = icosphere(1);
+  const Vertex a = mesh.triangles(0, 0), b = mesh.triangles(0, 1), v = 42;
+  mesh.positions.conservativeResize(43, 3);
+  mesh.positions.row(v) = (0.5 * (mesh.positions.row(a) + mesh.positions.row(b))).eval();
+  append_face(mesh, a, v, b);
+  append_face(mesh, b, v, a);
+  REQUIRE_FALSE(inspect_mesh(mesh).is_sphere());
+  const RepairedMesh repaired = repair_mesh(mesh);
+  check_is_sphere(repaired);
+  CHECK(count(repaired, RepairKind::DiagonalTurned) == 1);
+  CHECK(repaired.mesh.vertex_count() == 43);
+  CHECK(repaired.mesh.face_count() == 82);
+}
+
+TEST_CASE("mesh_repair: the component that is asked for is kept") {
+  const TriangleMesh mesh = joined(joined(octahedron(), icosphere(1)), moved(tetrahedron(), 9));
+  CHECK(repair_mesh(mesh).mesh.face_count() == 80);
+  CHECK(repair_mesh(mesh, {.component = 2}).mesh.face_count() == 8);
+  CHECK(repair_mesh(mesh, {.component = 3}).mesh.face_count() == 4);
+  CHECK(count(repair_mesh(mesh), RepairKind::ComponentDropped) == 2);
+  CHECK_THROWS_AS(repair_mesh(mesh, {.component = 4}), std::out_of_range);
+  CHECK_THROWS_AS(repair_mesh(icosphere(1), {.component = 2}), std::out_of_range);
+}
+
+TEST_CASE("mesh_repair: holes up to the limit are filled, larger ones are not") {
+  TriangleMesh mesh = uv_sphere(12, 5);
+  for (Face f = static_cast<Face>(mesh.face_count()) - 1; f >= 0; --f) {
+    if ((mesh.triangles.row(f).array() == 0).any()) remove_face(mesh, f);
+  }
+  CHECK_FALSE(repair_mesh(mesh, {.largest_hole = 11}).inspection.is_sphere());
+  const RepairedMesh filled = repair_mesh(mesh, {.largest_hole = 12});
+  check_is_sphere(filled);
+  CHECK(count(filled, RepairKind::HoleFilled) == 1);
+  CHECK(filled.created.empty());
+  CHECK(filled.inspection.volume > 0.9 * inspect_mesh(uv_sphere(12, 5)).volume);
+}
+
+TEST_CASE("mesh_repair: where every cut would double an edge a vertex is created") {
+  TriangleMesh one_face = tetrahedron();
+  one_face.triangles.conservativeResize(1, 3);
+  const RepairedMesh repaired = repair_mesh(one_face);
+  check_is_sphere(repaired);
+  REQUIRE(repaired.created.size() == 1);
+  CHECK(repaired.created[0].mean_of.size() == 3);
+
+  // The torus of seven vertices, each joined to each other, without one of them.
+  TriangleMesh torus;
+  torus.positions = Points::Random(7, 3);
+  torus.triangles.resize(14, 3);
+  for (int i = 0; i < 7; ++i) {
+    torus.triangles.row(2 * i) << i, (i + 1) % 7, (i + 3) % 7;
+    torus.triangles.row(2 * i + 1) << i, (i + 3) % 7, (i + 2) % 7;
+  }
+  REQUIRE(inspect_mesh(torus).genus == 1);
+  for (Face f = 13; f >= 0; --f) {
+    if ((torus.triangles.row(f).array() == 0).any()) remove_face(torus, f);
+  }
+  REQUIRE(torus.face_count() == 8);
+  const RepairedMesh closed = repair_mesh(torus);
+  REQUIRE(closed.created.size() == 1);
+  CHECK(closed.created[0].mean_of.size() == 6);
+  CHECK(closed.mesh.face_count() == 14);
+  CHECK(closed.inspection.genus == 1);
+}
+
+TEST_CASE("mesh_repair: faces without area go where the surface stays a sphere") {
+  TriangleMesh mesh = icosphere(2);
+  SECTION("a vertex on another is merged") {
+    const Vertex a = mesh.triangles(0, 0), b = mesh.triangles(0, 1);
+    mesh.positions.row(b) = mesh.positions.row(a).eval();
+    const RepairedMesh repaired = repair_mesh(mesh);
+    check_is_sphere(repaired);
+    CHECK(count(repaired, RepairKind::FlatFaceCollapsed) == 1);
+    CHECK(repaired.inspection.defects.empty());
+    check_origins(mesh, repaired);
+  }
+  SECTION("a vertex on the opposite edge gets that edge turned to it") {
+    const Vertex a = mesh.triangles(0, 0), b = mesh.triangles(0, 1), c = mesh.triangles(0, 2);
+    mesh.positions.row(c) = (0.5 * (mesh.positions.row(a) + mesh.positions.row(b))).eval();
+    const RepairedMesh repaired = repair_mesh(mesh);
+    check_is_sphere(repaired);
+    CHECK(repaired.mesh.vertex_count() == mesh.vertex_count());
+    CHECK(count(repaired, RepairKind::FlatFaceTurned) == 1);
+    CHECK(repaired.inspection.defects.empty());
+  }
+  SECTION("all in one place: whatever is done, it stays a sphere") {
+    mesh.positions.setZero();
+    check_is_sphere(repair_mesh(mesh));
+  }
+}
+
+TEST_CASE("mesh_repair: what only one repair mends, no other touches") {
+  TriangleMesh mesh = joined(icosphere(1), moved(octahedron(), 5));
+  turn_face(mesh, 3);
+  remove_face(mesh, 10);
+  RepairOptions options = RepairOptions::none();
+  CHECK(repair_mesh(mesh, options).actions.empty());
+  options.orientation = true;
+  const RepairedMesh oriented = repair_mesh(mesh, options);
+  REQUIRE(oriented.actions.size() == 1);
+  CHECK(oriented.actions[0].kind == RepairKind::FaceTurned);
+  options = RepairOptions::none();
+  options.holes = true;
+  options.components = true;
+  CHECK(count(repair_mesh(mesh, options), RepairKind::FaceTurned) == 0);
+}
+
+TEST_CASE("mesh_repair: what has handles, one side or no numbers stays refused") {
+  // A torus of 7 × 7 quads.
+  const int n = 7;
+  TriangleMesh torus;
+  torus.positions = Points::Random(n * n, 3);
+  torus.triangles.resize(2 * n * n, 3);
+  const auto at = [](int i, int j) { return (i % n) * n + j % n; };
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      torus.triangles.row(2 * at(i, j)) << at(i, j), at(i + 1, j), at(i + 1, j + 1);
+      torus.triangles.row(2 * at(i, j) + 1) << at(i, j), at(i + 1, j + 1), at(i, j + 1);
+    }
+  }
+  const RepairedMesh repaired = repair_mesh(torus);
+  REQUIRE_FALSE(repaired.inspection.is_sphere());
+  CHECK(repaired.inspection.defects[0].kind == DefectKind::WrongGenus);
+  remove_face(torus, 5);
+  CHECK(repair_mesh(torus).inspection.genus == 1);
+
+  TriangleMesh moebius;
+  moebius.positions = Points::Random(5, 3);
+  moebius.triangles.resize(5, 3);
+  moebius.triangles << 0, 1, 2, 1, 2, 3, 2, 3, 4, 3, 4, 0, 4, 0, 1;
+  CHECK_FALSE(repair_mesh(moebius).inspection.is_sphere());
+
+  TriangleMesh not_finite = icosphere(1);
+  not_finite.positions(3, 1) = std::numeric_limits<double>::quiet_NaN();
+  CHECK(repair_mesh(not_finite).actions.empty());
+}
+
+TEST_CASE("mesh_repair: random faces over few vertices never crash and never claim too much") {
+  for (unsigned seed = 0; seed < 400; ++seed) {
+    std::mt19937 random(seed);
+    const int vertices = 4 + static_cast<int>(random() % 8),
+              faces = 4 + static_cast<int>(random() % 30);
+    TriangleMesh mesh;
+    mesh.positions.resize(vertices, 3);
+    for (double& x : mesh.positions.reshaped()) x = static_cast<double>(random() % 5);
+    mesh.triangles.resize(faces, 3);
+    for (int& v : mesh.triangles.reshaped()) {
+      v = static_cast<int>(random() % static_cast<unsigned long>(vertices + (seed % 3 == 0)));
+    }
+    INFO("seed " << seed);
+    const RepairedMesh repaired = repair_mesh(mesh);
+    check_origins(mesh, repaired);
+    CHECK(repaired.inspection.is_sphere() == inspect_mesh(repaired.mesh).is_sphere());
+    if (repaired.inspection.is_sphere()) CHECK_NOTHROW(require_sphere(repaired.mesh));
+  }
+}
+
+TEST_CASE("mesh_repair: hubs of valence 100,000 and holes of 100,000 edges are no matter") {
+  const int many = 100000;
+  TriangleMesh hubs = uv_sphere(many, 1);
+  SECTION("a flat face at the hub, many of them") {
+    for (int i = 0; i < many; i += 2) hubs.positions.row(1 + i) = hubs.positions.row(0).eval();
+    check_is_sphere(repair_mesh(hubs));
+  }
+  SECTION("many faces turned, copied, back to back") {
+    for (Face f = 0; f < many; f += 3) turn_face(hubs, f);
+    const Eigen::Index faces = hubs.face_count();
+    hubs.triangles.conservativeResize(2 * faces, 3);
+    hubs.triangles.bottomRows(faces) = hubs.triangles.topRows(faces).eval();
+    check_is_sphere(repair_mesh(hubs));
+  }
+  SECTION("a hole as large as the rim") {
+    TriangleMesh open = hubs;
+    Eigen::Index kept = 0;
+    for (Eigen::Index f = 0; f < hubs.face_count(); ++f) {
+      if ((hubs.triangles.row(f).array() != 0).all())
+        open.triangles.row(kept++) = hubs.triangles.row(f);
+    }
+    open.triangles.conservativeResize(kept, 3);
+    CHECK_FALSE(repair_mesh(open).inspection.is_sphere());
+    check_is_sphere(repair_mesh(open, {.largest_hole = many}));
+  }
+  SECTION("an edge with 100,000 faces") {
+    TriangleMesh book;
+    book.positions = Points::Random(many + 2, 3);
+    book.triangles.resize(2 * many, 3);
+    for (int i = 0; i < many; ++i) {
+      book.triangles.row(2 * i) << 0, 1, 2 + i;
+      book.triangles.row(2 * i + 1) << 1, 0, 2 + i;
+    }
+    const RepairedMesh repaired = repair_mesh(book);
+    CHECK(repaired.inspection.is_sphere() == inspect_mesh(repaired.mesh).is_sphere());
+  }
+}

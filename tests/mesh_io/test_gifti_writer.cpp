@@ -1,0 +1,72 @@
+#include <catch2/catch.hpp>
+
+#include "mesh_io/gifti_writer.h"
+#include "mesh_io/sphere_file.h"
+#include "reading.h"
+#include "sphparam/sphere/certificate.h"
+#include "sphparam/sphere/float_rounding.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+using tools::MeshFile;
+using tools::ScalarType;
+using tools::serialise_gifti;
+
+TEST_CASE("gifti_writer: what is written is read back bit for bit, and written again the same") {
+  MeshFile file;
+  file.mesh = icosphere(3);
+  file.comments = {"gifti AnatomicalStructurePrimary CortexRight", "sphparam verdict certified",
+                   "made by hand"};
+  const std::string bytes = serialise_gifti(file);
+  const MeshFile again = read(bytes, "a.gii");
+  CHECK(again.mesh.positions == file.mesh.positions);  // as doubles: no float holds them
+  CHECK(again.position_type == ScalarType::Float64);
+  CHECK(again.mesh.triangles == file.mesh.triangles);
+  CHECK(again.notes.empty());
+  CHECK(again.comments == std::vector<std::string>{"sphparam verdict certified",
+                                                   "gifti AnatomicalStructurePrimary CortexRight"});
+  CHECK(serialise_gifti(again) == bytes);
+}
+
+TEST_CASE("gifti_writer: coordinates that are floats are written as floats") {
+  MeshFile file;
+  file.mesh = tetrahedron();
+  const MeshFile again = read(serialise_gifti(file));
+  CHECK(again.position_type == ScalarType::Float32);
+  CHECK(again.mesh.positions == file.mesh.positions);
+}
+
+TEST_CASE("gifti_writer: a map rounded to floats keeps its certificate in the file") {
+  MeshFile file;
+  file.mesh = icosphere(4);
+  file.comments = {"gifti AnatomicalStructurePrimary CortexLeft", "gifti GeometricType Anatomical"};
+  const FloatRounding rounding = round_to_float(Topology(file.mesh), {file.mesh.positions});
+  REQUIRE(rounding.certificate.bijective());
+  MeshFile sphere = tools::sphere_mesh(file, rounding.map, {{"verdict", "certified"}});
+  const std::string bytes = serialise_gifti(
+      sphere, {.geometric_type = "Spherical", .anatomical_structure = "CortexLeft"});
+  const MeshFile again = read(bytes, "a.gii");
+  CHECK(again.position_type == ScalarType::Float32);
+  CHECK(certify(Topology(again.mesh), {again.mesh.positions}).bijective());
+  CHECK(contains(bytes, "Spherical"));
+  CHECK_FALSE(contains(bytes, "Anatomical]]"));
+  CHECK(contains(bytes, "CortexLeft"));
+  CHECK(tools::read_provenance(again) == tools::Provenance{{"verdict", "certified"}});
+}
+
+TEST_CASE("gifti_writer: what a stranger wrote into comments cannot break the XML") {
+  MeshFile file;
+  file.mesh = tetrahedron();
+  file.comments = {"gifti GeometricType a]]><b>&\x01\xff c", "sphparam \"k\" v", "gifti",
+                   "gifti x"};
+  const MeshFile again = read(serialise_gifti(file));
+  CHECK(again.mesh.triangles == file.mesh.triangles);
+  CHECK(contains(again.comments.at(2), "<b>&?? c"));
+}
+
+TEST_CASE("gifti_writer: a mesh without faces is written and read") {
+  const MeshFile again = read(serialise_gifti(MeshFile{}));
+  CHECK(again.mesh.vertex_count() == 0);
+  CHECK(again.mesh.face_count() == 0);
+}

@@ -1,0 +1,77 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "render/heat.h"
+#include "render/lettering.h"
+
+using namespace sphparam;
+using namespace sphparam::tools;
+
+namespace {
+
+Image white(int width, int height) {
+  Image image(width, height, 3);
+  std::fill(image.pixels.begin(), image.pixels.end(), 1.0F);
+  return image;
+}
+
+long dark_pixels(const Image& image) {
+  long count = 0;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) count += image.pixel(x, y)[0] < 0.5F;
+  }
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("heat_paint: white where areas are kept, dark where angles are, full at a factor of 8") {
+  Distortion d;
+  d.area_ratio = (Eigen::VectorXd(3) << 1, 8, 1.0 / 8).finished();
+  d.angle_ratio.resize(3, 3);
+  d.angle_ratio << 1, 1, 1, 8, 8, 1.0 / 8, 2, 0.5, 2;
+  const auto area = heat_paint(Heat::Area, d).colours, angle = heat_paint(Heat::Angle, d).colours;
+  CHECK(area[0] == diverging(0));
+  CHECK(area[1] == diverging(1));
+  CHECK(area[2] == diverging(-1));
+  CHECK((angle[0] - viridis(0)).norm() < 1e-6F);
+  CHECK((angle[1] - viridis(1)).norm() < 1e-6F);
+  CHECK((angle[2] - viridis(1.0 / 3)).norm() < 1e-6F);  // ln 2 / ln 8
+  CHECK(heat_colour(Heat::Area, 8) == diverging(1));
+}
+
+TEST_CASE("with_legend: the scale runs from its first to its last colour; small pictures stay") {
+  for (const Heat heat : {Heat::Area, Heat::Angle}) {
+    const Image image = with_legend(white(400, 400), heat);
+    CHECK(image.width == 400);
+    CHECK(image.height > 400);
+    CHECK(std::all_of(image.pixels.begin(), image.pixels.begin() + 400 * 400 * 3,
+                      [](float value) { return value == 1; }));
+    bool first = false, last = false;
+    const double low = heat == Heat::Area ? 1.0 / 8 : 1;
+    for (int y = 0; y < image.height; ++y) {
+      for (int x = 0; x < image.width; ++x) {
+        const Rgb colour(image.pixel(x, y));
+        first = first || (colour - heat_colour(heat, low * 1.02)).norm() < 0.03F;
+        last = last || (colour - heat_colour(heat, 7.9)).norm() < 0.03F;
+      }
+    }
+    CHECK(first);
+    CHECK(last);
+    CHECK(with_legend(white(100, 100), heat).pixels == white(100, 100).pixels);
+  }
+}
+
+TEST_CASE("draw_text: dots of the letters, as large as asked, cut off at the rim") {
+  Image image = white(60, 20);
+  draw_text(image, "1", 5, 5, 1, Rgb::Zero());
+  CHECK(dark_pixels(image) == 10);
+  Image large = white(60, 20);
+  draw_text(large, "1", 5, 1, 2, Rgb::Zero());
+  CHECK(dark_pixels(large) == 40);
+  CHECK(text_width("18", 2) == 22);
+  for (const int x : {-100, -3, 58, 1000}) draw_text(image, "888", x, -4, 3, Rgb::Zero());
+  Image none = white(60, 20);
+  draw_text(none, " ?", 5, 5, 1, Rgb::Zero());
+  CHECK(dark_pixels(none) == 0);
+}

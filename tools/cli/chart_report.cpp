@@ -1,0 +1,50 @@
+#include "cli/chart_report.h"
+
+#include "sphparam/sphere/certificate.h"
+
+namespace sphparam::tools {
+
+namespace {
+
+std::string failures(const ChartCertificate& certificate) {
+  std::string text;
+  const auto count = [&](size_t number, const char* what) {
+    if (number > 0) text.append(", ").append(std::to_string(number)).append(what);
+  };
+  count(certificate.folded.size(), " folded");
+  count(certificate.torn.size(), " torn edges");
+  count(certificate.outside.size(), " wedges outside");
+  count(certificate.malformed.size(), " malformed");
+  count(certificate.around_pole.size(), " around a pole");
+  return text;
+}
+
+}  // namespace
+
+std::optional<ChartReport> report_chart(const TriangleMesh& mesh, const SphereMap& map,
+                                        int threads) {
+  const Topology topology(mesh);
+  const SphereMap unit = normalised(map.points);
+  if (!certify(topology, unit, threads).bijective()) return std::nullopt;
+  const SphericalChart chart = spherical_chart(mesh, topology, unit, threads);
+  return ChartReport{.counts = chart.counts,
+                     .certificate = chart.certificate,
+                     .vertices = chart.points.rows(),
+                     .triangles = chart.triangles.rows(),
+                     .wedges = chart.wedge_count()};
+}
+
+std::string chart_line(const std::optional<ChartReport>& chart) {
+  if (!chart) return "chart: none, the map is not one-to-one with rays of unit length";
+  const ChartCounts& counts = chart->counts;
+  const bool certified = chart->certificate.one_to_one();
+  return "chart: " + std::string(certified ? "certified" : "not one-to-one") +
+         (certified ? "" : failures(chart->certificate)) + ", " + std::to_string(counts.splits()) +
+         " splits (" + std::to_string(counts.pole_splits) + " at ±z, " +
+         std::to_string(counts.meridian_splits) + " along the meridian, " +
+         std::to_string(counts.fold_splits) + " of " + std::to_string(counts.folded_faces) +
+         " folds), " + std::to_string(chart->triangles) + " triangles, " +
+         std::to_string(chart->wedges) + " wedges";
+}
+
+}  // namespace sphparam::tools

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "sphparam/mesh/mesh_repair.h"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace sphparam::tools {
+
+/// What the command line says about repairs.
+struct RepairArguments {
+  std::string words;  // of --repair: empty when it was not given, "true" when it was without words
+  int component = 0;  // 0: not given
+  int largest_hole = 0;
+};
+
+/// --repair[=WORD,…], --component N and --max-hole N.
+void add_repair_options(CLI::App& command, RepairArguments& arguments);
+
+/// What is wanted, or nothing. --repair alone wants everything; --component and --max-hole want
+/// their own repair also without it.
+/// Throws: UsageMistake for a word that is none.
+std::optional<RepairOptions> wanted_repairs(const RepairArguments& arguments);
+
+}  // namespace sphparam::tools

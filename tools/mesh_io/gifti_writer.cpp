@@ -1,0 +1,121 @@
+#include "mesh_io/gifti_writer.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+#include <mutex>
+#include <new>
+#include <stdexcept>
+
+#include "mesh_io/file_bytes.h"
+#include "mesh_io/mesh_writer.h"
+
+extern "C" {  // which the header forgets
+#include <gifti/gifti_io.h>
+}
+
+// libgiftiio writes files by name, so it gets the name of a file in memory. Its state is global:
+// one caller at a time. It owns what is hung into its image, so all of it comes from malloc.
+
+namespace sphparam::tools {
+namespace {
+
+struct FreeImage {
+  void operator()(gifti_image* image) const { gifti_free_image(image); }
+};
+using Image = std::unique_ptr<gifti_image, FreeImage>;
+
+struct MemoryFile {
+  int descriptor = ::memfd_create("gifti", MFD_CLOEXEC);
+  ~MemoryFile() {
+    if (descriptor >= 0) ::close(descriptor);
+  }
+  std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor); }
+};
+
+/// Text that XML can hold: other bytes become question marks, and CDATA does not end early.
+std::string in_cdata(std::string text) {
+  for (char& c : text)
+    if (c < ' ' || c > '~') c = '?';
+  for (std::size_t at = 0; (at = text.find("]]>", at)) != std::string::npos;) text[at + 2] = '?';
+  return text;
+}
+
+void add_metadata(giiMetaData& metadata, const std::string& key, const std::string& value) {
+  if (value.empty()) return;
+  if (gifti_add_to_meta(&metadata, in_cdata(key).c_str(), in_cdata(value).c_str(), 1) != 0)
+    throw std::bad_alloc();
+}
+
+/// Fills one array of rows of three.
+template <class Number, class Table>
+void fill(giiDataArray& array, int intent, int type, const Table& table) {
+  array.intent = intent;
+  array.datatype = type;
+  array.ind_ord = GIFTI_IND_ORD_ROW_MAJOR;
+  array.num_dim = 2;
+  array.dims[0] = static_cast<int>(table.rows());
+  array.dims[1] = 3;
+  array.encoding = GIFTI_ENCODING_B64GZ;
+  array.endian = gifti_get_this_endian();
+  array.nvals = table.size();
+  array.nbyper = sizeof(Number);
+  auto* const numbers = static_cast<Number*>(std::calloc(
+      static_cast<std::size_t>(std::max<Eigen::Index>(table.size(), 1)), sizeof(Number)));
+  if (!numbers) throw std::bad_alloc();
+  array.data = numbers;
+  std::transform(table.data(), table.data() + table.size(), numbers,
+                 [](auto number) { return static_cast<Number>(number); });
+}
+
+void add_comments(gifti_image& image, const MeshFile& file) {
+  giiMetaData& of_points = image.darray[0]->meta;
+  for (const std::string& comment : file.comments) {
+    const std::size_t first = comment.find(' ');
+    const std::size_t second = comment.find(' ', first + 1);
+    if (first == std::string::npos || second == std::string::npos) continue;
+    const std::string key = comment.substr(first + 1, second - first - 1);
+    const std::string value = comment.substr(second + 1);
+    if (comment.starts_with("gifti ")) add_metadata(of_points, key, value);
+    if (comment.starts_with("sphparam ")) add_metadata(image.meta, "sphparam " + key, value);
+  }
+}
+
+Image build_image(const MeshFile& file, const GiftiOptions& options) {
+  Image image(gifti_create_image(2, NIFTI_INTENT_NONE, NIFTI_TYPE_INT32, 0, nullptr, 0));
+  if (!image) throw std::bad_alloc();
+  const Points& positions = file.mesh.positions;
+  giiDataArray& points = *image->darray[0];
+  if (lossless_type(ScalarType::Float32, positions.data(), positions.size()) == ScalarType::Float32)
+    fill<float>(points, NIFTI_INTENT_POINTSET, NIFTI_TYPE_FLOAT32, positions);
+  else
+    fill<double>(points, NIFTI_INTENT_POINTSET, NIFTI_TYPE_FLOAT64, positions);
+  fill<int>(*image->darray[1], NIFTI_INTENT_TRIANGLE, NIFTI_TYPE_INT32, file.mesh.triangles);
+
+  add_metadata(points.meta, "AnatomicalStructurePrimary", "Other");
+  add_metadata(image->darray[1]->meta, "TopologicalType", "Closed");
+  add_comments(*image, file);
+  add_metadata(points.meta, "AnatomicalStructurePrimary", options.anatomical_structure);
+  add_metadata(points.meta, "GeometricType", options.geometric_type);
+  return image;
+}
+
+}  // namespace
+
+std::string serialise_gifti(const MeshFile& file, const GiftiOptions& options) {
+  static std::mutex one_at_a_time;
+  const std::lock_guard lock(one_at_a_time);
+  gifti_set_verb(0);
+  gifti_set_update_ok(0);  // leave our metadata alone
+  const Image image = build_image(file, options);
+  const MemoryFile memory;
+  if (memory.descriptor < 0 || gifti_write_image(image.get(), memory.path().c_str(), 1) != 0)
+    throw std::runtime_error("GIFTI cannot be written");
+  return std::string(FileBytes(memory.path(), ~std::uint64_t{0}).view());
+}
+
+}  // namespace sphparam::tools
