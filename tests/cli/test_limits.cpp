@@ -57,7 +57,7 @@ TEST_CASE("limits: several may be given, unknown ones are answered with the know
         0);
   CHECK(sphparam_program({"info", "-", "--limit", "faces=8", "--limit", "vertices=5"}, mesh).code ==
         3);
-  const Ended unknown = sphparam_program({"info", "-", "--limit", "vertex=5"}, mesh);
+  const Ended unknown = sphparam_program({"info", "-", "--limit", "vertces=5"}, mesh);
   CHECK(unknown.code == 2);
   CHECK_THAT(unknown.err, Contains("did you mean vertices?"));
   CHECK(sphparam_program({"info", "-", "--limit", "faces"}, mesh).code == 2);
