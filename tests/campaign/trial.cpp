@@ -5,6 +5,7 @@
 #include <exception>
 
 #include "sphparam/parameterize.h"
+#include "sphparam/sphere/float_rounding.h"
 
 namespace sphparam::campaign {
 namespace {
@@ -18,12 +19,6 @@ std::uint64_t hash_of(const Points& points) {
     hash = (hash ^ bits) * 0x100000001b3;
   }
   return hash;
-}
-
-long folds_in_float32(const Topology& topology, const SphereMap& map) {
-  const SphereMap rounded{map.points.cast<float>().cast<double>()};
-  const Certificate certificate = certify(topology, rounded, 1);
-  return certificate.fold_count() + static_cast<long>(certificate.unusable_points.size());
 }
 
 }  // namespace
@@ -41,7 +36,7 @@ Outcome try_specimen(const Specimen& specimen, bool compare_threads) {
     outcome.certified = result.map.points.rows() == topology.vertex_count() &&
                         certify(topology, result.map, 1).bijective();
     outcome.hash = hash_of(result.map.points);
-    if (outcome.certified) outcome.float32_folds = folds_in_float32(topology, result.map);
+    if (outcome.certified) outcome.float32_folds = round_to_float(topology, result.map).bad_after;
     if (!compare_threads) return outcome;
     for (const int threads : {2, 4}) {
       const Points again = parameterize(specimen.mesh, {.threads = threads}).map.points;
