@@ -36,7 +36,18 @@ void expect_promises(const MeshFile& file) {
     expect(file.corner_normals->rows() == 3 * mesh.face_count(), "normals a corner");
 }
 
+/// STL and glTF have corners without numbers; where two are at one place, welding makes a face that
+/// no file with numbers may hold: `map` refuses or repairs it before anything is written.
+bool names_a_vertex_twice(const Triangles& triangles) {
+  for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+    const auto face = triangles.row(f);
+    if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) return true;
+  }
+  return false;
+}
+
 void expect_round_trip(const MeshFile& file) {
+  if (names_a_vertex_twice(file.mesh.triangles)) return;
   const std::string bytes = serialise_ply(file);
   const MeshFile again = read_mesh(bytes, "again.ply", {});
   expect(again.mesh.positions == file.mesh.positions, "positions survive writing and reading");

@@ -152,6 +152,12 @@ HarmonicSolver::HarmonicSolver(const Topology& topology, const CutMesh& cut_mesh
 
 CurvilinearMap HarmonicSolver::solve(std::vector<double> weights, int threads) {
   system_.factorise(std::move(weights), threads);
+  CurvilinearMap map = solve_factorised(threads);
+  system_.forget_weights();
+  return map;
+}
+
+CurvilinearMap HarmonicSolver::solve_factorised(int threads) const {
   Eigen::MatrixXd values(boundary_.values.theta.size(), 2);
   values << boundary_.values.theta, boundary_.values.phi;
   values = system_.solve(values, {cut_mesh_.jumps(), {}}, threads);

@@ -53,6 +53,7 @@ class HarmonicSolver {
   CurvilinearMap solve(std::vector<double> weights, int threads = 0);
 
  private:
+  CurvilinearMap solve_factorised(int threads) const;
   double best_twist(const Eigen::VectorXd& theta, const Eigen::VectorXd& eta) const;
 
   const Topology& topology_;

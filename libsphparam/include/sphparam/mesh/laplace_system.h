@@ -51,6 +51,10 @@ class LaplaceSystem {
   Eigen::MatrixXd solve(const Eigen::MatrixXd& values,
                         const std::vector<std::vector<Jump>>& jumps = {}, int threads = 0) const;
 
+  /// Gives the memory of the weights back: the next ones are usually made before `factorise` gets
+  /// them. `solve` then needs `factorise` again.
+  void forget_weights() { weights_ = {}; }
+
   int unknown_count() const { return static_cast<int>(vertex_of_.size()); }
   const std::vector<double>& weights() const { return weights_; }
 
