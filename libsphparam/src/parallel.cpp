@@ -40,7 +40,8 @@ struct Loop {
   const std::function<void(std::int64_t, std::int64_t)>* body;
   std::atomic<std::int64_t> next_chunk{0};
   std::mutex mutex;
-  std::exception_ptr error;
+  std::exception_ptr error;  // of the first chunk that threw: the same for any timing
+  std::int64_t error_chunk;
 
   void work() {
     for (;;) {
@@ -50,7 +51,10 @@ struct Loop {
         (*body)(chunk * grain, std::min(count, (chunk + 1) * grain));
       } catch (...) {
         const std::lock_guard lock(mutex);
-        if (!error) error = std::current_exception();
+        if (!error || chunk < error_chunk) {
+          error = std::current_exception();
+          error_chunk = chunk;
+        }
       }
     }
   }
@@ -150,7 +154,7 @@ void parallel_for(std::int64_t count, std::int64_t grain, int threads,
                   const std::function<void(std::int64_t, std::int64_t)>& body) {
   if (count <= 0) return;
   grain = std::max<std::int64_t>(grain, 1);
-  Loop loop{count, grain, (count + grain - 1) / grain, &body, {}, {}, {}};
+  Loop loop{count, grain, (count + grain - 1) / grain, &body, {}, {}, {}, {}};
   const int helpers =
       static_cast<int>(std::min<std::int64_t>(loop.chunks, resolve_threads(threads)) - 1);
   if (helpers <= 0 || Pool::inside_pool()) {

@@ -82,12 +82,16 @@ class Pipeline {
         map_progressive();
         break;
     }
-    const bool repair =
+    const bool wants_repair =
         options_.repair && (options_.method != Method::Paper || options_.repair_paper);
-    if (repair && !certified()) untangle_folds();
-    if (repair && !certified()) embed_from_nothing();
-    if (repair && !certified()) lift_one_vertex();
-    if (repair && !certified()) lift_grid();
+    if (wants_repair) repair();
+    if (certified()) place_frame();
+    return std::move(result_);
+  }
+
+  Parameterization run_from(const SphereMap& map) {
+    accept("given map", map);
+    repair();
     if (certified()) place_frame();
     return std::move(result_);
   }
@@ -153,6 +157,13 @@ class Pipeline {
 
   // --- repair and fallbacks -------------------------------------------------------------------
 
+  void repair() {
+    if (!certified()) untangle_folds();
+    if (!certified()) embed_from_nothing();
+    if (!certified()) lift_one_vertex();
+    if (!certified()) lift_grid();
+  }
+
   void untangle_folds() {
     if (result_.map.points.rows() == 0) return;  // the method made no map
     if (static_cast<double>(result_.certificate.fold_count()) > most_folds * topology_.face_count())
@@ -167,7 +178,7 @@ class Pipeline {
   }
 
   void embed_from_nothing() {
-    if (options_.method == Method::Progressive || !embed({})) return;
+    if (tried_to_embed_ || !embed({})) return;
     forget_poles();
   }
 
@@ -199,6 +210,7 @@ class Pipeline {
   }
 
   bool embed(const std::vector<Pin>& pins) {
+    tried_to_embed_ = true;
     DistortionEnergy energy = options_.energy;
     const bool balanced = needs_balancing();
     if (balanced) energy.lambda = first_lambda();
@@ -483,6 +495,7 @@ class Pipeline {
   const ParameterizeOptions& options_;
   DistortionEnergy energy_;  // minimised at last: with the λ that a balance has found
   SourceTriangles source_;   // measured when first needed
+  bool tried_to_embed_ = false;
   Stopwatch stopwatch_;
   Parameterization result_;
 };
@@ -491,6 +504,14 @@ class Pipeline {
 
 Parameterization parameterize(const TriangleMesh& mesh, const ParameterizeOptions& options) {
   return Pipeline(mesh, options).run();
+}
+
+Parameterization repair_map(const TriangleMesh& mesh, const SphereMap& map,
+                            const ParameterizeOptions& options) {
+  if (map.points.rows() != mesh.vertex_count() || !map.points.allFinite()) {
+    throw std::invalid_argument("repair_map: one finite ray a vertex is needed");
+  }
+  return Pipeline(mesh, options).run_from(map);
 }
 
 }  // namespace sphparam

@@ -73,6 +73,20 @@ TEST_CASE("attributes: corners keep what differs across an edge of the source") 
   }
 }
 
+TEST_CASE("attributes: the same bytes for any number of threads") {
+  const TriangleMesh mesh = icosphere(5);
+  std::mt19937 random(2);
+  const SphereMap map = rotated({mesh.positions}, random_rotation(random));
+  const SphericalChart chart = spherical_chart(mesh, Topology(mesh), map);
+  const Attributes corners = Attributes::Random(mesh.triangles.size(), 2);
+  for (const int threads : {1, 2, 5}) {
+    CHECK(carry_vertex_attribute(chart, mesh.triangles, mesh.positions, threads) ==
+          carry_vertex_attribute(chart, mesh.triangles, mesh.positions));
+    CHECK(carry_corner_attribute(chart, mesh.triangles, corners, threads) ==
+          carry_corner_attribute(chart, mesh.triangles, corners));
+  }
+}
+
 TEST_CASE("attributes: faces pass theirs on, wrong sizes are refused") {
   const auto [mesh, chart] = Charted();
   Attributes numbers(mesh.face_count(), 1);

@@ -68,6 +68,21 @@ TEST_CASE("chart certificate: a triangle of no area is folded") {
   CHECK_FALSE(certify_chart(chart).folded.empty());
 }
 
+TEST_CASE("chart certificate: points that are no sphere map are listed, and do not harm (u, v)") {
+  for (const double scale : {-1.0, 1e300, std::numeric_limits<double>::quiet_NaN()}) {
+    SphericalChart chart = sound_chart();
+    CHECK(certify_chart(chart).inverted.empty());
+    const Face f = ordinary_face(chart);
+    const Vertex v = chart.triangles(f, 0);
+    chart.points.row(v) *= scale;
+    const ChartCertificate certificate = certify_chart(chart);
+    CHECK(certificate.one_to_one());
+    const auto& inverted = certificate.inverted;
+    CHECK(std::find(inverted.begin(), inverted.end(), f) != inverted.end());
+    for (const Face g : inverted) CHECK((chart.triangles.row(g).array() == v).any());
+  }
+}
+
 TEST_CASE("chart certificate: seam copies one unit in the last place apart are torn") {
   for (const int column : {0, 1}) {
     SphericalChart chart = sound_chart();

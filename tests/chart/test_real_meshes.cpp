@@ -45,7 +45,8 @@ TEST_CASE("real meshes: every map has a certified chart, by an independent count
     const SphereMap map = parameterize(mesh, {.quality = Quality::Draft}).map;
     const SphericalChart chart = spherical_chart(mesh, topology, map);
     CHECK(chart.certificate.one_to_one());
-    CHECK(chart.certificate.max_shift == 0);
+    CHECK(chart.certificate.max_shift < 1e-15);
+    CHECK(chart.certificate.inverted.empty());
     CHECK(count_folds(chart) == 0);
     const Topology refined(chart.triangles, static_cast<int>(chart.points.rows()));
     CHECK(certify(refined, {chart.points}).bijective());

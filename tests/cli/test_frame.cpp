@@ -58,7 +58,7 @@ TEST_CASE("map: given poles are reached, and their cost in energy told") {
   CHECK(report["poles"]["north"] == 9);
   CHECK(report["energy_cost"].get<double>() > 0.01);
   const Ended ended = sphparam_program({"map", "-", "-o", "-", "--poles", "9,26"}, mesh);
-  CHECK_THAT(ended.err, Contains("vertices 9 and 26 at ±z") && Contains("% of energy"));
+  CHECK_THAT(ended.err, Contains("vertices 9 and 26 at ±z") && Contains("energy than before"));
 }
 
 TEST_CASE("map: --meridian gives a vertex theta 0, with and without poles") {
@@ -108,7 +108,7 @@ TEST_CASE("map: vertices are named by their numbers in the file, also where some
   const Json pinned = report_of(folder, {"--pin", folder / "pins.txt"}, mesh);
   CHECK(pinned["pins"][0]["vertex"] == 7);
   CHECK(pinned["pins"][1]["residual"] == 0);
-  CHECK(report_of(folder, {"--meridian", "79"}, mesh)["meridian"] == 77);  // of the mesh as written
+  CHECK(report_of(folder, {"--meridian", "79"}, mesh)["meridian"] == 79);
 
   write_bytes(folder / "pins.txt", "7 0.5 1.0\n1 2 2\n");
   const Ended ended = sphparam_program({"map", "-", "-o", "-", "--pin", folder / "pins.txt"}, mesh);

@@ -14,7 +14,7 @@ using Catch::Contains;
 using Catch::StartsWith;
 
 const std::vector<std::string> subcommands = {"info",   "map",    "verify",
-                                              "render", "manual", "completion"};
+                                              "render", "compare", "manual", "completion"};
 
 /// Every "--name" in a text.
 std::set<std::string> long_options(const std::string& text) {

@@ -280,8 +280,8 @@ TEST_CASE("map: poles are named by their numbers in the file, also where vertice
       {"map", "-", "-o", folder / "map.sph.ply", "--json", "-", "--poles", "7,42"}, text);
   REQUIRE(ended.code == 0);
   const Json poles = Json::parse(ended.out)["poles"];
-  CHECK(poles["north"] == 5);  // of the mesh as written
-  CHECK(poles["south"] == 40);
+  CHECK(poles["north"] == 7);
+  CHECK(poles["south"] == 42);
   CHECK(sphparam_program({"map", "-", "-o", "-", "--poles", "0,42"}, text).code == 2);
 }
 

@@ -118,4 +118,10 @@ TEST_CASE("verify: files of different connectivity end with 3 and the place is n
                             Contains("162"));
 }
 
+TEST_CASE("verify: a file without faces is refused, not proved") {
+  const Ended ended = sphparam_program({"verify", "-"}, "v 0 0 1\nv 1 0 0\n");
+  CHECK(ended.code == 4);
+  CHECK(sphparam_program({"verify", "-", "--json", "--chart"}, "v 0 0 1\n").code == 4);
+}
+
 }  // namespace sphparam::tests

@@ -189,3 +189,17 @@ TEST_CASE("parameterize: pins that cannot be met leave a valid map and their res
   REQUIRE(result.pin_residuals.size() == pins.size());
   CHECK_FALSE(all_exact(result.pin_residuals));
 }
+
+TEST_CASE("parameterize: every vertex may be pinned, where it is") {
+  const TriangleMesh mesh = octahedron();
+  std::vector<Landmark> pins;
+  for (Vertex v = 0; v < 6; ++v) pins.push_back({v, to_spherical(mesh.position(v).normalized())});
+  const Parameterization result = parameterize(mesh, {.pins = pins});
+  CHECK(result.certificate.bijective());
+  REQUIRE(result.pin_residuals.size() == 6);
+}
+
+TEST_CASE("parameterize: poles of a mesh that is its own coarsest level") {
+  const Parameterization result = parameterize(octahedron(), {.poles = Poles{0, 1}});
+  CHECK(result.certificate.bijective());
+}

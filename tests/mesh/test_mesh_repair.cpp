@@ -271,8 +271,8 @@ TEST_CASE("mesh_repair: the component that is asked for is kept") {
   CHECK(repair_mesh(mesh, {.component = 2}).mesh.face_count() == 8);
   CHECK(repair_mesh(mesh, {.component = 3}).mesh.face_count() == 4);
   CHECK(count(repair_mesh(mesh), RepairKind::ComponentDropped) == 2);
-  CHECK_THROWS_AS(repair_mesh(mesh, {.component = 4}), std::out_of_range);
-  CHECK_THROWS_AS(repair_mesh(icosphere(1), {.component = 2}), std::out_of_range);
+  CHECK_THROWS_AS(repair_mesh(mesh, {.component = 4}), NoSuchComponent);
+  CHECK_THROWS_AS(repair_mesh(icosphere(1), {.component = 2}), NoSuchComponent);
 }
 
 TEST_CASE("mesh_repair: holes up to the limit are filled, larger ones are not") {

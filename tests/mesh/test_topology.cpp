@@ -1,3 +1,4 @@
+#include <array>
 #include <catch2/catch.hpp>
 
 #include "sphparam/mesh/mesh_defects.h"
@@ -109,4 +110,23 @@ TEST_CASE("topology: 100,000 copies of a face are refused at once") {
   // Every edge of the copies has exactly one opposite: only the copies themselves are wrong.
   triangles.bottomRows<3>() << 1, 0, 3, 2, 1, 4, 0, 2, 5;
   CHECK_FALSE(Topology::try_build(triangles, 6));
+}
+
+TEST_CASE("topology: an edge with four faces is refused, also between two hubs") {
+  // Two bodies that share the edge 0–1: the fans 0, p, p + 1 and 1, p + 1, p of a closed band each.
+  constexpr int band = 40;
+  std::vector<std::array<int, 3>> faces;
+  for (const int p : {2, 2 + band + 1}) {
+    for (int i = 0; i < band; ++i) {
+      faces.push_back({0, p + i, p + i + 1});
+      faces.push_back({1, p + i + 1, p + i});
+    }
+  }
+  for (const int p : {2, 2 + band + 1}) faces.push_back({0, 1, p});
+  for (const int p : {2, 2 + band + 1}) faces.push_back({1, 0, p + band});
+  Triangles triangles(static_cast<Eigen::Index>(faces.size()), 3);
+  for (size_t f = 0; f < faces.size(); ++f) {
+    triangles.row(static_cast<Eigen::Index>(f)) << faces[f][0], faces[f][1], faces[f][2];
+  }
+  CHECK_FALSE(Topology::try_build(triangles, 2 + 2 * (band + 1)));
 }

@@ -131,3 +131,24 @@ TEST_CASE("parameterize: every triangulation of the sphere with up to 10 vertice
   CHECK(all == 1 + 1 + 2 + 5 + 14 + 50 + 233);
   CHECK(certified == all);
 }
+
+TEST_CASE("repair_map: a folded map ends certified, a certified one stays as it is") {
+  const TriangleMesh mesh = icosphere(3);
+  const ParameterizeOptions options{.automatic_poles = false};
+  const SphereMap good = normalised(mesh.positions);
+  const Parameterization same = repair_map(mesh, good, options);
+  CHECK(same.map.points == good.points);
+  CHECK(same.made_by == "given map");
+
+  SphereMap folded = good;  // a vertex beyond its neighbour
+  const Vertex v = mesh.triangles(40, 0), neighbour = mesh.triangles(40, 1);
+  folded.points.row(v) = (2 * good.point(neighbour) - good.point(v)).normalized();
+  const Parameterization mended = repair_map(mesh, folded, options);
+  CHECK(mended.certificate.bijective());
+  CHECK(mended.made_by == "untangling");
+
+  SphereMap collapsed = good;
+  collapsed.points.rowwise() = Vector3(0, 0, 1).transpose();
+  CHECK(repair_map(mesh, collapsed, options).made_by == "progressive embedding");
+  CHECK_THROWS_AS(repair_map(mesh, {good.points.topRows(5)}, options), std::invalid_argument);
+}

@@ -26,7 +26,9 @@ struct UvPoint {
 bool is_left(const UvPoint& a, const UvPoint& b, const UvPoint& p) {
   const double det = (b.v - a.v) * (p.u - a.u) - (b.u - a.u) * (p.v - a.v);
   const double size = std::abs((b.v - a.v) * (p.u - a.u)) + std::abs((b.u - a.u) * (p.v - a.v));
-  if (std::abs(det) > 0x1p-50 * size) return det > 0;  // four roundings of at most 2⁻⁵³ each
+  // Four roundings of at most 2⁻⁵³ each; products that may have underflowed are left to
+  // `orientation`.
+  if (size > 1e-280 && std::abs(det) > 0x1p-50 * size) return det > 0;
   const int sign = orientation(Vector3(a.v, a.u, 1), Vector3(b.v, b.u, 1), Vector3(p.v, p.u, 1));
   return sign != 0 ? sign > 0 : a < b;
 }
@@ -114,7 +116,7 @@ UvRaster::UvRaster(const SphericalChart& chart, int width, int height)
   };
   offsets_.assign(static_cast<size_t>(bands) + 1, 0);
   const auto face_count = static_cast<Face>(chart.triangles.rows());
-  for (Face f = 0; f < face_count; ++f) {  // a difference array: + where a face begins, − after it
+  for (Face f = 0; f < face_count; ++f) {
     const Piece piece(chart, f);
     for (int b = band_of(piece.low); b <= band_of(piece.high); ++b) {
       ++offsets_[static_cast<size_t>(b) + 1];

@@ -37,7 +37,8 @@ struct RasterBand {
 class UvRaster {
  public:
   /// Requires: width, height ≥ 1; chart.certificate.one_to_one(); the chart outlives the raster.
-  /// Throws: std::invalid_argument if not. Cost: 8 bytes a face and band.
+  /// Throws: std::invalid_argument if not. Cost: 4 bytes for each band that a face
+  /// reaches.
   UvRaster(const SphericalChart& chart, int width, int height);
 
   /// Rows are handled in bands, to be worked on in parallel.

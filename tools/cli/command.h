@@ -22,6 +22,7 @@ Command declare_info(CLI::App& program);
 Command declare_map(CLI::App& program);
 Command declare_verify(CLI::App& program);
 Command declare_render(CLI::App& program);
+Command declare_compare(CLI::App& program);
 Command declare_manual(CLI::App& program);
 Command declare_completion(CLI::App& program);
 

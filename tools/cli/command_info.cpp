@@ -134,7 +134,9 @@ int run_info(const InfoArguments& arguments) {
 Command declare_info(CLI::App& program) {
   const auto arguments = std::make_shared<InfoArguments>();
   CLI::App* command = program.add_subcommand("info", summary);
-  command->add_option("MESH", arguments->input, "OBJ, PLY or OFF; - for standard input")
+  command
+      ->add_option("MESH", arguments->input,
+                   "OBJ, PLY, OFF, STL, glTF, GLB or GIFTI; - for standard input")
       ->type_name(" ")
       ->required();
   command->add_flag("--json", arguments->json, "The report as JSON");

@@ -1,6 +1,7 @@
 // `sphparam map`: file → mesh → map → proof → file. All outputs wait under temporary names until
 // what was read back from the disk is certified; then all are renamed, or none.
 
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
@@ -24,6 +25,7 @@
 #include "cli/repairing.h"
 #include "cli/source.h"
 #include "cli/wording.h"
+#include "compare/methods.h"
 #include "mesh_io/mesh_reader.h"
 #include "mesh_io/mesh_writer.h"
 #include "mesh_io/safe_file.h"
@@ -46,10 +48,12 @@ constexpr ReadOptions own_file = {.max_file_bytes = std::numeric_limits<std::uin
                                   .max_line_bytes = std::numeric_limits<std::int64_t>::max(),
                                   .max_ply_properties = std::numeric_limits<std::int64_t>::max()};
 
-/// What one run found; once the map was written, `certificate` is of what was read back.
+/// What one run found. `certificate` is of the map in memory; what is written must have the same
+/// verdict when it is read back.
 struct Outcome {
   Source source;
   Parameterization result = {};
+  std::optional<RivalAccount> account = std::nullopt;  // of a method of others
   Certificate certificate = {};
   std::optional<Distortion> distortion = std::nullopt;
   std::optional<DistortionSummary> figures = std::nullopt;
@@ -101,7 +105,9 @@ Outcome compute(Source source, const MapArguments& arguments, Console& console) 
   options.progress = [&](std::string_view stage, double f) { return console.progress(stage, f); };
   settle_vertices(arguments, outcome.source.file, options);
   outcome.pins = options.pins;
-  outcome.result = parameterize(mesh, options);
+  MethodRun run = run_method(arguments.method, mesh, options);
+  outcome.result = std::move(run.result);
+  outcome.account = std::move(run.account);
   outcome.certificate = outcome.result.certificate;
   if (outcome.has_map()) {
     outcome.distortion = measure_distortion(mesh, outcome.result.map, options.threads);
@@ -110,48 +116,75 @@ Outcome compute(Source source, const MapArguments& arguments, Console& console) 
   return outcome;
 }
 
-std::string words(const std::optional<Poles>& poles) {
-  return poles ? std::to_string(poles->north) + " " + std::to_string(poles->south) : "none";
+/// What the map depends on, as options.
+std::string options_line(const MapArguments& arguments) {
+  if (std::holds_alternative<Method>(arguments.method))
+    return tools::options_line(arguments.options);
+  return arguments.options.repair_paper ? "--repair-map" : "none";
 }
 
-Provenance provenance(const MapArguments& arguments, const Outcome& outcome) {
+std::string words(const std::optional<Poles>& poles, const FileNumbers& numbers) {
+  if (!poles) return "none";
+  return std::to_string(numbers.number(poles->north)) + " " +
+         std::to_string(numbers.number(poles->south));
+}
+
+Provenance provenance(const MapArguments& arguments, const Outcome& outcome,
+                      const std::string& verdict) {
+  const FileNumbers numbers(outcome.source.file);
   Provenance lines = {{"version", version},
-                      {"method", name_of(arguments.options.method)},
+                      {"method", info_of(arguments.method).name},
                       {"stage", outcome.result.made_by},
-                      {"options", options_line(arguments.options)},
-                      {"poles", words(outcome.result.poles)}};
+                      {"options", options_line(arguments)},
+                      {"poles", words(outcome.result.poles, numbers)}};
+  if (outcome.account) lines.emplace_back("after", outcome.account->citation);
   if (outcome.result.meridian) {
-    lines.emplace_back("meridian", std::to_string(*outcome.result.meridian));
+    lines.emplace_back("meridian", std::to_string(numbers.number(*outcome.result.meridian)));
   }
   if (!outcome.pins.empty()) lines.emplace_back("pins", std::to_string(outcome.pins.size()));
-  lines.emplace_back("verdict", outcome.verdict());
+  lines.emplace_back("verdict", verdict);
   return lines;
 }
 
 /// Throws NotCertifiedError unless the bytes of a written map hold what was found in memory.
-void require_same_verdict(const std::string& path, const MeshFile& file, const SphereMap& map,
-                          const Outcome& outcome, int threads) {
+void require_verdict(const std::string& expected, const std::string& path, const MeshFile& file,
+                     const SphereMap& map, int threads) {
   const Certificate on_disk = certify(Topology(file.mesh), map, threads);
-  if (verdict(on_disk) != outcome.verdict()) {
+  if (verdict(on_disk) != expected) {
     throw NotCertifiedError(path + ": as written, the map is " + verdict(on_disk));
   }
 }
 
-/// The map as a file of that name can hold it: GIFTI has coordinates of 32 bits.
-SphereMap rounded_for(const std::string& path, const Outcome& outcome, int threads) {
-  if (std::filesystem::path(path).extension() != ".gii") return outcome.result.map;
+/// A map as a file can hold it, and what is to be said of it there.
+struct Sphere {
+  SphereMap map;
+  std::string verdict;
+};
+
+/// GIFTI has coordinates of 32 bits. Rounding must not cost a certified map its certificate; one
+/// that is folded anyway may get other folds.
+Sphere sphere_for(const std::string& path, const Outcome& outcome, int threads) {
+  if (std::filesystem::path(path).extension() != ".gii") {
+    return {outcome.result.map, outcome.verdict()};
+  }
   const Topology topology(outcome.source.file.mesh);
-  return round_to_float(topology, outcome.result.map, threads).map;
+  FloatRounding rounding = round_to_float(topology, outcome.result.map, threads);
+  const bool certified = outcome.certificate.bijective();
+  if (certified && !rounding.certificate.bijective()) {
+    throw NotCertifiedError(path + ": numbers of 32 bits cannot hold this map (" +
+                            verdict(rounding.certificate) + "); .ply, .obj and .off can");
+  }
+  return {std::move(rounding.map), certified ? outcome.verdict() : verdict(rounding.certificate)};
 }
 
 void add_sphere(PendingFiles& files, const MapArguments& arguments, const Outcome& outcome) {
   const std::string& path = arguments.sphere;
+  const Sphere sphere = sphere_for(path, outcome, arguments.options.threads);
   std::string bytes = serialiser(path)(
-      sphere_mesh(outcome.source.file, rounded_for(path, outcome, arguments.options.threads),
-                  provenance(arguments, outcome)));
+      sphere_mesh(outcome.source.file, sphere.map, provenance(arguments, outcome, sphere.verdict)));
   files.add(path, std::move(bytes), [&](std::string_view written) {
     const MeshFile file = read_mesh(written, path, own_file);
-    require_same_verdict(path, file, {file.mesh.positions}, outcome, arguments.options.threads);
+    require_verdict(sphere.verdict, path, file, {file.mesh.positions}, arguments.options.threads);
   });
 }
 
@@ -182,8 +215,10 @@ void add_reports(PendingFiles& files, const MapArguments& arguments, const Outco
     chart = report_chart(outcome.source.file.mesh, outcome.result.map, arguments.options.threads);
   }
   const MapReport report = {.input = {arguments.input, outcome.source},
+                            .method = info_of(arguments.method).name,
                             .options = arguments.options,
                             .result = outcome.result,
+                            .account = outcome.account,
                             .pins = outcome.pins,
                             .certificate = outcome.certificate,
                             .distortion = outcome.figures,
@@ -195,11 +230,12 @@ void add_reports(PendingFiles& files, const MapArguments& arguments, const Outco
 
 void add_map(PendingFiles& files, const MapArguments& arguments, const Outcome& outcome) {
   const std::string& path = arguments.output;
-  std::string bytes = serialise_ply(
-      attach_map(outcome.source.file, outcome.result.map, provenance(arguments, outcome)));
+  std::string bytes = serialise_ply(attach_map(outcome.source.file, outcome.result.map,
+                                               provenance(arguments, outcome, outcome.verdict())));
   files.add(path, std::move(bytes), [&](std::string_view written) {
     const MeshFile file = read_mesh(written, path, own_file);
-    require_same_verdict(path, file, read_sphere(file).value(), outcome, arguments.options.threads);
+    require_verdict(outcome.verdict(), path, file, read_sphere(file).value(),
+                    arguments.options.threads);
   });
 }
 
@@ -241,8 +277,11 @@ void tell_stages(const MapArguments& arguments, const Outcome& outcome, Console&
     visible ? console.warning(defect.message + ": " + defect.hint)
             : console.detail("  note: " + defect.message);
   }
+  if (outcome.account) {
+    console.say("  " + outcome.account->citation + ": " + outcome.account->statement);
+  }
   for (const StageRecord& stage : outcome.result.stages) {
-    const bool asked = arguments.options.method == Method::Paper;
+    const bool asked = arguments.method == AnyMethod(Method::Paper);
     asked ? console.say(stage_line(stage)) : console.detail(stage_line(stage));
   }
   for (const std::string& warning : outcome.result.warnings) console.warning(warning);
@@ -262,7 +301,9 @@ void tell_frame(const MapArguments& arguments, const Outcome& outcome, Console& 
   if (!outcome.pins.empty()) {
     line += (result.poles ? ", " : "") + std::to_string(outcome.pins.size()) + " pinned";
   }
-  line += ": " + short_number(100 * result.pole_cost) + " % of energy";
+  const double percent = 100 * result.pole_cost;
+  line += ": " + short_number(std::abs(percent)) + " % " + (percent < 0 ? "less" : "more") +
+          " energy than before";
   given ? console.say(line) : console.detail(line);
 }
 
@@ -282,8 +323,9 @@ std::string complaint_of_pins(const Outcome& outcome) {
 
 std::string advice(const MapArguments& arguments, bool written) {
   if (written) return "  written all the same and marked in its header (--keep-folded)";
-  const bool as_printed =
-      arguments.options.method == Method::Paper && !arguments.options.repair_paper;
+  const bool ours = arguments.method == AnyMethod(Method::Progressive) ||
+                    arguments.method == AnyMethod(Method::Curvilinear);
+  const bool as_printed = !ours && !arguments.options.repair_paper;
   return as_printed ? "  --repair-map mends it, --keep-folded writes it as it is"
                     : "  --keep-folded writes it as it is";
 }

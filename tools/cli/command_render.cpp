@@ -58,7 +58,7 @@ struct RenderArguments {
   std::string texture;  // empty: none
   std::optional<View> view;
   Colouring colouring = Colouring::Own;
-  std::string from = "1,-0.6,0.45";
+  std::string from = "";  // empty: in front, to the right, above
   Vector3 up = Vector3::UnitZ();
   bool wire = false;
   bool graticule = false;
@@ -161,10 +161,16 @@ Paint make_paint(const Subject& subject, const RenderArguments& arguments) {
   return UniformPaint{};
 }
 
+/// Where the eye is: as asked for, or in front, to the right and above, whatever axis is up.
+Vector3 eye(const RenderArguments& arguments) {
+  if (!arguments.from.empty()) return parse_direction(arguments.from);
+  return arguments.up.y() == 1 ? Vector3(1, 0.45, 0.6) : Vector3(1, -0.6, 0.45);
+}
+
 /// Looks at the middle of what is seen from there, all of it in the picture.
 Camera framing(const Points& points, const RenderArguments& arguments) {
   Camera camera;
-  camera.direction = parse_direction(arguments.from).normalized();
+  camera.direction = eye(arguments).normalized();
   camera.up = arguments.up;
   if (camera.up.cross(camera.direction).isZero()) {
     throw UsageMistake("--from: this is the direction that is up; choose another --up");
@@ -266,9 +272,9 @@ Command declare_render(CLI::App& program) {
       ->type_name("PNG")
       ->required();
   add_look(*command, *arguments);
-  command->add_option("--from", arguments->from, "Where the eye is")
-      ->type_name("X,Y,Z")
-      ->capture_default_str();
+  command
+      ->add_option("--from", arguments->from, "Where the eye is (default: 1,-0.6,0.45 with z up)")
+      ->type_name("X,Y,Z");
   add_choice<Vector3>(*command, "--up", arguments->up,
                       {{"z", Vector3::UnitZ()}, {"y", Vector3::UnitY()}},
                       "The axis that points up (default: z)");

@@ -3,8 +3,6 @@
 // has no length, so a sphere of any radius will do.
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,6 +17,7 @@
 #include "cli/paths.h"
 #include "cli/source.h"
 #include "cli/wording.h"
+#include "mesh_io/connectivity.h"
 #include "mesh_io/read_options.h"
 #include "mesh_io/safe_file.h"
 #include "mesh_io/sphere_file.h"
@@ -71,8 +70,15 @@ TriangleMesh mirrored(TriangleMesh mesh) {
   return mesh;
 }
 
-Claim claim_of_file(const std::string& path) {
+/// Throws: MeshError when there are no faces: nothing is mapped.
+Source read_mapped(const std::string& path) {
   Source source = read_source(path);
+  if (source.file.mesh.face_count() == 0) throw MeshError(source.inspection.defects);
+  return source;
+}
+
+Claim claim_of_file(const std::string& path) {
+  Source source = read_mapped(path);
   const std::optional<SphereMap> map = read_sphere(source.file);
   return {.mesh = source.file.mesh,
           .map = map ? *map : SphereMap{source.file.mesh.positions},
@@ -88,42 +94,10 @@ std::optional<ChartReport> chart_of(const Claim& claim, const Certificate& certi
   return report_chart(certificate.reversed ? mirrored(claim.mesh) : claim.mesh, claim.map, threads);
 }
 
-/// A triangle with its smallest vertex first, so that rotations compare equal and mirrors do not.
-std::array<int, 3> canonical(const Triangles& triangles, Face f) {
-  std::array<int, 3> t = {triangles(f, 0), triangles(f, 1), triangles(f, 2)};
-  std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-  return t;
-}
-
-std::string words(const std::array<int, 3>& t) {
-  return std::to_string(t[0]) + " " + std::to_string(t[1]) + " " + std::to_string(t[2]);
-}
-
-/// Why two meshes are not one connectivity; empty when they are. Triangles may be rotated.
-std::string difference(const TriangleMesh& source, const TriangleMesh& sphere) {
-  const auto count = [](const char* what, Eigen::Index a, Eigen::Index b) {
-    return "the source has " + std::to_string(a) + " " + what + ", the sphere " + std::to_string(b);
-  };
-  if (source.vertex_count() != sphere.vertex_count()) {
-    return count("vertices", source.vertex_count(), sphere.vertex_count());
-  }
-  if (source.face_count() != sphere.face_count()) {
-    return count("triangles", source.face_count(), sphere.face_count());
-  }
-  for (Face f = 0; f < source.face_count(); ++f) {
-    const auto a = canonical(source.triangles, f), b = canonical(sphere.triangles, f);
-    if (a != b) {
-      return "triangle " + std::to_string(f) + " has vertices " + words(a) + " in the source, " +
-             words(b) + " in the sphere";
-    }
-  }
-  return "";
-}
-
 /// Throws: ReadError when the two are not one connectivity: nothing can be said about such a map.
 Claim claim_of_pair(const std::string& shape_path, const std::string& sphere_path) {
-  const Source shape = read_source(shape_path), sphere = read_source(sphere_path);
-  const std::string where = difference(shape.file.mesh, sphere.file.mesh);
+  const Source shape = read_mapped(shape_path), sphere = read_mapped(sphere_path);
+  const std::string where = connectivity_difference(shape.file.mesh, sphere.file.mesh);
   if (!where.empty()) {
     throw ReadError(display_name(sphere_path),
                     "not a sphere of " + display_name(shape_path) + ": " + where);

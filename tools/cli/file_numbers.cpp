@@ -9,7 +9,9 @@ namespace sphparam::tools {
 FileNumbers::FileNumbers(const MeshFile& file)
     : vertices_(static_cast<Vertex>(file.mesh.vertex_count())) {
   const Property* property = file.find_vertex_property("source_vertex");
-  if (!property) return;
+  const auto is_id = [](double value) { return holds_exactly(ScalarType::Int32, value); };
+  // A file may have a property of that name for something else.
+  if (!property || !std::all_of(property->values.begin(), property->values.end(), is_id)) return;
   numbers_ = property->values;
   by_number_.reserve(numbers_.size());
   for (Vertex v = 0; v < vertices_; ++v) {
@@ -22,6 +24,7 @@ Vertex FileNumbers::vertex(long number) const {
   if (numbers_.empty()) {
     return number >= 0 && number < vertices_ ? static_cast<Vertex>(number) : -1;
   }
+  if (number < 0) return -1;  // what repair has created is numbered −1
   const std::pair<double, Vertex> wanted(static_cast<double>(number), 0);
   const auto found = std::lower_bound(by_number_.begin(), by_number_.end(), wanted);
   const bool there = found != by_number_.end() && found->first == wanted.first;

@@ -88,12 +88,22 @@ Json input_json(const InputReport& input) {
           {"comments", file.comments}};
 }
 
-Json poles_json(const std::optional<Poles>& poles) {
-  if (!poles) return nullptr;
-  return {{"north", poles->north}, {"south", poles->south}};
+/// Vertices go by their numbers in the file.
+Json vertex_json(const std::optional<Vertex>& vertex, const FileNumbers& numbers) {
+  return vertex ? Json(numbers.number(*vertex)) : Json();
 }
 
-/// Pins by their numbers in the file.
+Json poles_json(const std::optional<Poles>& poles, const FileNumbers& numbers) {
+  if (!poles) return nullptr;
+  return {{"north", numbers.number(poles->north)}, {"south", numbers.number(poles->south)}};
+}
+
+/// The options as given: numbers of the file already.
+Json wanted_poles(const ParameterizeOptions& options) {
+  if (!options.poles) return options.automatic_poles ? "auto" : "none";
+  return {{"north", options.poles->north}, {"south", options.poles->south}};
+}
+
 Json pins_json(const MapReport& report) {
   const FileNumbers numbers(report.input.source.file);
   const std::vector<double>& residuals = report.result.pin_residuals;
@@ -108,11 +118,12 @@ Json pins_json(const MapReport& report) {
   return result;
 }
 
-Json options_json(const ParameterizeOptions& options) {
+Json options_json(const MapReport& report) {
+  const ParameterizeOptions& options = report.options;
+  if (report.account) return {{"method", report.method}, {"repair", options.repair_paper}};
   Json result = {
-      {"method", name_of(options.method)},
-      {"poles",
-       options.poles ? poles_json(options.poles) : Json(options.automatic_poles ? "auto" : "none")},
+      {"method", report.method},
+      {"poles", wanted_poles(options)},
       {"meridian", options.meridian ? Json(*options.meridian) : Json()},
       {"lambda", options.energy.lambda},
       {"repair", options.method == Method::Paper ? options.repair_paper : options.repair}};
@@ -196,6 +207,43 @@ Json chart_json(const std::optional<ChartReport>& chart) {
           {"malformed", certificate.malformed}};
 }
 
+const char* name_of(RivalEnd end) {
+  switch (end) {
+    case RivalEnd::Converged:
+      return "converged";
+    case RivalEnd::IterationLimit:
+      return "iteration-limit";
+    case RivalEnd::Stalled:
+      return "stalled";
+    case RivalEnd::NoResult:
+      return "no-result";
+  }
+  return "";
+}
+
+/// Of a method of others; null for ours.
+Json account_json(const std::optional<RivalAccount>& account) {
+  if (!account) return nullptr;
+  return {{"source", account->citation},
+          {"end", name_of(account->end)},
+          {"iterations", account->iterations},
+          {"statement", account->statement}};
+}
+
+Json contender_json(const Contender& c) {
+  Json stages = Json::array();
+  for (const StageRecord& stage : c.stages) stages.push_back(stage_json(stage));
+  return {{"name", c.name},
+          {"source", c.source},
+          {"seconds", c.seconds ? Json(*c.seconds) : Json()},
+          {"iterations", c.iterations},
+          {"statement", c.statement},
+          {"has_map", c.has_map()},
+          {"stages", stages},
+          {"certificate", c.has_map() ? certificate_json(c.certificate) : Json()},
+          {"distortion", distortion_json(c.figures)}};
+}
+
 /// Bytes of a file name that are not UTF-8 must not stop the report.
 std::string text(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -206,16 +254,18 @@ std::string text(const Json& json) {
 std::string to_json(const MapReport& report) {
   Json stages = Json::array();
   for (const StageRecord& stage : report.result.stages) stages.push_back(stage_json(stage));
+  const FileNumbers numbers(report.input.source.file);
   return text({{"sphparam", version},
                {"command", "map"},
                {"input", input_json(report.input)},
                {"inspection", inspection_json(report.input.source.inspection)},
                {"repairs", repairs_json(report.input.source.repairs)},
-               {"options", options_json(report.options)},
+               {"options", options_json(report)},
+               {"account", account_json(report.account)},
                {"stages", stages},
                {"made_by", report.result.made_by},
-               {"poles", poles_json(report.result.poles)},
-               {"meridian", report.result.meridian ? Json(*report.result.meridian) : Json()},
+               {"poles", poles_json(report.result.poles, numbers)},
+               {"meridian", vertex_json(report.result.meridian, numbers)},
                {"pins", pins_json(report)},
                {"energy_cost", report.result.pole_cost},
                {"certificate", certificate_json(report.certificate)},
@@ -250,6 +300,17 @@ std::string to_json(const VerifyReport& report) {
                {"distortion", distortion_json(report.distortion)},
                {"chart", chart_json(report.chart)},
                {"notes", report.notes},
+               {"seconds", report.seconds}});
+}
+
+std::string to_json(const CompareReport& report) {
+  Json maps = Json::array();
+  for (const Contender& c : report.contenders) maps.push_back(contender_json(c));
+  return text({{"sphparam", version},
+               {"command", "compare"},
+               {"input", input_json(report.input)},
+               {"maps", maps},
+               {"notes", report.input.source.notes},
                {"seconds", report.seconds}});
 }
 

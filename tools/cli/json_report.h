@@ -8,6 +8,8 @@
 #include "cli/chart_report.h"
 #include "cli/repairing.h"
 #include "cli/source.h"
+#include "compare/contender.h"
+#include "compare/methods.h"
 #include "sphparam/parameterize.h"
 
 namespace sphparam::tools {
@@ -24,10 +26,12 @@ struct InputReport {
 
 struct MapReport {
   InputReport input;
+  std::string method;
   const ParameterizeOptions& options;
   const Parameterization& result;
-  const std::vector<Landmark>& pins;  // of vertices of the mesh
-  const Certificate& certificate;     // of what was written, where something was
+  const std::optional<RivalAccount>& account;  // of a method of others
+  const std::vector<Landmark>& pins;           // of vertices of the mesh
+  const Certificate& certificate;              // of what was written, where something was
   const std::optional<DistortionSummary>& distortion;
   const std::optional<ChartReport>& chart;
   NamedTexts outputs;  // what it is, where it is
@@ -54,8 +58,15 @@ struct VerifyReport {
   double seconds = 0;
 };
 
+struct CompareReport {
+  InputReport input;
+  const std::vector<Contender>& contenders;
+  double seconds = 0;
+};
+
 std::string to_json(const MapReport& report);
 std::string to_json(const InfoReport& report);
 std::string to_json(const VerifyReport& report);
+std::string to_json(const CompareReport& report);
 
 }  // namespace sphparam::tools

@@ -39,7 +39,8 @@ constexpr char summary[] =
     "  sphparam info statue.obj                       what it is, what is wrong with it\n"
     "  sphparam map statue.obj -o statue.sph.ply      map it, prove it, write it\n"
     "  sphparam verify statue.sph.ply                 prove a written map again\n"
-    "  sphparam render statue.sph.ply -o statue.png   look at it\n";
+    "  sphparam render statue.sph.ply -o statue.png   look at it\n"
+    "  sphparam compare statue.obj -o statue/         all methods, side by side\n";
 
 std::string footer() {
   std::string text =
@@ -120,9 +121,10 @@ int run_program(int argc, char** argv) {
   program.footer(footer());
   program.set_version_flag("--version", std::string("sphparam ") + version);
   program.require_subcommand(0, 1);
-  const std::vector<Command> commands = {declare_info(program),   declare_map(program),
-                                         declare_verify(program), declare_render(program),
-                                         declare_manual(program), declare_completion(program)};
+  const std::vector<Command> commands = {declare_info(program),      declare_map(program),
+                                         declare_verify(program),    declare_render(program),
+                                         declare_compare(program),   declare_manual(program),
+                                         declare_completion(program)};
   for (const Command& command : commands) {
     if (!command.options->get_option_no_throw("--quiet")) continue;  // reads no mesh
     add_memory_limit(*command.options);

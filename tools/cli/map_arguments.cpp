@@ -33,7 +33,8 @@ constexpr char summary[] =
     "  sphparam map statue.obj -o even.sph.ply --balance equal-area --quality best\n"
     "  cat statue.obj | sphparam map - -o - > statue.sph.ply\n"
     "  sphparam map scan.ply -o scan.sph.ply --repair\n"
-    "  sphparam map statue.obj -o folded.sph.ply --method paper --keep-folded\n";
+    "  sphparam map statue.obj -o folded.sph.ply --method paper --keep-folded\n"
+    "  sphparam map statue.obj -o mended.sph.ply --method tangential --repair-map\n";
 
 /// "17,23" → vertices 17 and 23; nothing if that is not what the text is.
 std::optional<Poles> two_vertices(const std::string& text) {
@@ -71,6 +72,20 @@ void settle_balance(const std::string& text, bool lambda_given, ParameterizeOpti
   const std::string meant = is_number ? "" : nearest_word(text, words);
   throw UsageMistake("--balance: expected conformal, balanced, equal-area or a number from " +
                      lambda_range + (meant.empty() ? "" : "; did you mean " + meant + "?"));
+}
+
+/// Methods of others have no options: they run as published.
+void require_no_settings(const CLI::App& command, AnyMethod method) {
+  if (!std::holds_alternative<Rival>(method)) return;
+  for (const char* name : {"--poles", "--meridian", "--pin"}) {
+    if (command.count(name) == 0) continue;
+    throw UsageMistake(std::string(name) + " is not for --method " + info_of(method).name +
+                       ", which lays out the sphere in its own way");
+  }
+  if (command.count("--lambda") > 0 && command.count("--repair-map") == 0) {
+    throw UsageMistake(std::string("--lambda is for --method ") + info_of(method).name +
+                       " only with --repair-map");
+  }
 }
 
 /// What poles, meridian and pins may not say together, and not with every method.
@@ -153,7 +168,9 @@ std::vector<CLI::Option*> add_paper_options(CLI::App& command, MapArguments& arg
 }
 
 void add_files(CLI::App& command, MapArguments& arguments) {
-  command.add_option("MESH", arguments.input, "OBJ, PLY or OFF; - for standard input")
+  command
+      .add_option("MESH", arguments.input,
+                  "OBJ, PLY, OFF, STL, glTF, GLB or GIFTI; - for standard input")
       ->type_name(" ")
       ->required();
   command.add_option("-o,--output", arguments.output, "The map, a .sph.ply; - for standard output")
@@ -171,18 +188,19 @@ void add_files(CLI::App& command, MapArguments& arguments) {
 
 void add_method(CLI::App& command, MapArguments& arguments) {
   ParameterizeOptions& options = arguments.options;
-  add_choice<Method>(command, "--method", options.method,
-                     {{name_of(Method::Progressive), Method::Progressive},
-                      {name_of(Method::Curvilinear), Method::Curvilinear},
-                      {name_of(Method::Paper), Method::Paper}},
-                     "How; paper: as printed, folds and all (default: progressive)");
+  std::vector<std::pair<std::string, AnyMethod>> methods;
+  for (const MethodInfo& info : all_methods()) methods.emplace_back(info.name, info.method);
+  add_choice<AnyMethod>(command, "--method", arguments.method, methods,
+                        "How; paper and all after it: as printed, folds and all; after paper, as "
+                        "others published them (default: progressive)");
   command
       .add_option("--lambda", options.energy.lambda,
                   "Weight of area against angle, " + lambda_range)
       ->check(between(least_lambda, greatest_lambda, lambda_range))
       ->type_name("NUMBER")
       ->capture_default_str();
-  command.add_flag("--repair-map", options.repair_paper, "Untangle what --method paper folds");
+  command.add_flag("--repair-map", options.repair_paper,
+                   "Untangle what --method paper or one of others folds");
   command.add_flag("--keep-folded", arguments.keep_folded,
                    "Write a folded map too, marked in its header; still ends with 5");
   command.add_option("--threads", options.threads, "How many threads (0: all cores); same bytes")
@@ -232,9 +250,9 @@ std::vector<CLI::Option*> add_progressive_options(CLI::App& command, MapArgument
           ->group(group)};
 }
 
-void require_method(const std::vector<CLI::Option*>& given, Method needed, Method method) {
+void require_method(const std::vector<CLI::Option*>& given, Method needed, AnyMethod method) {
   for (const CLI::Option* option : given) {
-    if (option->count() == 0 || method == needed) continue;
+    if (option->count() == 0 || method == AnyMethod(needed)) continue;
     throw UsageMistake(option->get_name() + " is for --method " + name_of(needed) + " only");
   }
 }
@@ -260,13 +278,22 @@ MapDeclaration declare_map_arguments(CLI::App& program, MapArguments& arguments)
   add_loudness(*command, arguments.loudness);
   return {command, [&arguments, command, progressive_only, paper_only] {
             ParameterizeOptions& options = arguments.options;
-            require_method(progressive_only, Method::Progressive, options.method);
-            require_method(paper_only, Method::Paper, options.method);
+            require_method(progressive_only, Method::Progressive, arguments.method);
+            require_method(paper_only, Method::Paper, arguments.method);
+            require_no_settings(*command, arguments.method);
+            if (const auto* own = std::get_if<Method>(&arguments.method)) options.method = *own;
             settle_poles(arguments.poles, options);
             settle_balance(arguments.balance, command->count("--lambda") > 0, options);
+            const bool weighted = command->count("--lambda") + command->count("--balance") > 0;
+            if (weighted && options.energy.kind == EnergyKind::SymmetricDirichlet) {
+              throw UsageMistake(
+                  "--lambda and --balance weigh the energy angle-and-area; "
+                  "symmetric-dirichlet has no weight");
+            }
             require_sensible_frame(arguments);
             require_sensible(arguments);
-            options.measure_stages = options.method == Method::Paper || arguments.loudness.verbose;
+            options.measure_stages =
+                arguments.method == AnyMethod(Method::Paper) || arguments.loudness.verbose;
           }};
 }
 

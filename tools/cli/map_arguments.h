@@ -5,6 +5,7 @@
 
 #include "cli/command.h"
 #include "cli/repair_arguments.h"
+#include "compare/methods.h"
 #include "mesh_io/mesh_file.h"
 #include "sphparam/parameterize.h"
 
@@ -24,6 +25,7 @@ struct MapArguments {
   bool keep_folded = false;
   ProgressStyle progress = ProgressStyle::Auto;
   Loudness loudness;
+  AnyMethod method = Method::Progressive;
   // Complete but for `progress` and `pins`. Vertices have their numbers in the file.
   ParameterizeOptions options;
 };

@@ -1,6 +1,6 @@
 #include "cli/repairing.h"
 
-#include <stdexcept>
+#include <new>
 #include <utility>
 
 #include "cli/command.h"
@@ -41,6 +41,22 @@ std::string message_lines(const Items& items) {
   return lines;
 }
 
+Source with_repairs(Source source, RepairedMesh mended) {
+  source.repairs = by_file_numbers(mended.actions, source.file);
+  source.file = repaired_file(source.file, mended);
+  source.inspection = std::move(mended.inspection);
+  return source;
+}
+
+/// Whether repair would help; nothing where there is no memory to find out.
+std::string advice_for(const Source& source) {
+  try {
+    return words_of(try_repair(source));
+  } catch (const std::bad_alloc&) {
+    return "";
+  }
+}
+
 }  // namespace
 
 MeshRefusal::MeshRefusal(const Source& source, std::string advice)
@@ -48,14 +64,10 @@ MeshRefusal::MeshRefusal(const Source& source, std::string advice)
 
 Source repaired(Source source, const RepairOptions& options) {
   try {
-    RepairedMesh mended = repair_mesh(source.file.mesh, options);
-    source.repairs = by_file_numbers(mended.actions, source.file);
-    source.file = repaired_file(source.file, mended);
-    source.inspection = std::move(mended.inspection);
-  } catch (const std::out_of_range& error) {
+    return with_repairs(std::move(source), repair_mesh(source.file.mesh, options));
+  } catch (const NoSuchComponent& error) {
     throw UsageMistake(std::string("--component: ") + error.what());
   }
-  return source;
 }
 
 RepairTrial try_repair(const Source& source) {
@@ -70,7 +82,7 @@ std::string words_of(const RepairTrial& trial) {
 
 void require_mappable(const Source& source) {
   if (source.inspection.is_sphere()) return;
-  std::string advice = words_of(try_repair(source));
+  std::string advice = advice_for(source);
   if (!source.repairs.empty()) advice += "  Done already:\n" + message_lines(source.repairs);
   throw MeshRefusal(source, std::move(advice));
 }

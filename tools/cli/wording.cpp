@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cstdio>
 
+#include "compare/methods.h"
+
 namespace sphparam::tools {
 
 namespace {
@@ -28,17 +30,7 @@ std::string shortest(double value) {
 
 }  // namespace
 
-std::string name_of(Method method) {
-  switch (method) {
-    case Method::Progressive:
-      return "progressive";
-    case Method::Curvilinear:
-      return "curvilinear";
-    case Method::Paper:
-      return "paper";
-  }
-  return "";
-}
+std::string name_of(Method method) { return info_of(method).name; }
 
 std::string name_of(Balance balance) {
   switch (balance) {
@@ -159,9 +151,11 @@ std::string options_line(const ParameterizeOptions& options) {
   const std::string lambda = "--lambda " + shortest(options.energy.lambda);
   if (options.method == Method::Curvilinear) return lambda;
   if (options.method == Method::Progressive) {
+    const std::string rest =
+        "--quality " + name_of(options.quality) + " --energy " + name_of(options.energy.kind);
+    if (options.energy.kind == EnergyKind::SymmetricDirichlet) return rest;  // it has no weight
     const bool given = options.balance == Balance::Lambda;  // else it follows from the balance
-    return (given ? lambda + " " : "") + "--balance " + name_of(options.balance) + " --quality " +
-           name_of(options.quality) + " --energy " + name_of(options.energy.kind);
+    return (given ? lambda + " " : "") + "--balance " + name_of(options.balance) + " " + rest;
   }
   return "--weights " + name_of(paper.weights) + " --epsilon " + shortest(paper.epsilon) +
          " --iterations " + std::to_string(paper.iterations) + " --rings " +

@@ -13,6 +13,7 @@
 
 #include "mesh_io/file_bytes.h"
 #include "mesh_io/mesh_writer.h"
+#include "mesh_io/safe_file.h"
 
 extern "C" {  // which the header forgets
 #include <gifti/gifti_io.h>
@@ -114,7 +115,7 @@ std::string serialise_gifti(const MeshFile& file, const GiftiOptions& options) {
   const Image image = build_image(file, options);
   const MemoryFile memory;
   if (memory.descriptor < 0 || gifti_write_image(image.get(), memory.path().c_str(), 1) != 0)
-    throw std::runtime_error("GIFTI cannot be written");
+    throw WriteError("a GIFTI file", "libgiftiio could not make it in memory");
   return std::string(FileBytes(memory.path(), ~std::uint64_t{0}).view());
 }
 

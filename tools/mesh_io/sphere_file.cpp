@@ -69,6 +69,9 @@ Provenance read_provenance(const MeshFile& file) {
 MeshFile sphere_mesh(const MeshFile& file, const SphereMap& map, const Provenance& provenance) {
   MeshFile sphere;
   sphere.mesh = {map.points, file.mesh.triangles};
+  for (const std::string& comment : file.comments) {  // which hemisphere: brain viewers ask for it
+    if (comment.starts_with("gifti AnatomicalStructure")) sphere.comments.push_back(comment);
+  }
   replace_provenance(sphere, provenance);
   return sphere;
 }

@@ -16,6 +16,7 @@ namespace sphparam::tools {
 namespace {
 
 constexpr double kFieldOfView = 18;  // degrees: a long lens
+constexpr double margin = 1.08;      // of the picture around what is drawn
 
 std::optional<std::vector<Rgb>> vertex_colours(const MeshFile& file) {
   const Property* channels[] = {file.find_vertex_property("red"),
@@ -107,7 +108,6 @@ void fit_camera(RenderScene& scene) {
     return (along.minCoeff() + along.maxCoeff()) / 2 * axis;
   };
   camera.target = middle(right) + middle(up) + middle(back);
-  constexpr double margin = 1.08;
   // tan of half the field: what is nearer looks larger.
   const double spread = 2 * std::tan(camera.field_of_view * std::numbers::pi / 360);
   double height = 0;
@@ -117,6 +117,13 @@ void fit_camera(RenderScene& scene) {
     height = std::max(height, across + spread * p.dot(back));
   }
   camera.height = margin * height;
+}
+
+/// The whole unit sphere, also where a map covers only a part of it.
+void fit_camera_to_sphere(RenderScene& scene) {
+  const double spread = 2 * std::tan(scene.camera.field_of_view * std::numbers::pi / 360);
+  scene.camera.target = Vector3::Zero();
+  scene.camera.height = margin * std::hypot(2, spread);  // max of 2 sin t + spread cos t
 }
 
 }  // namespace
@@ -136,21 +143,29 @@ Image in_a_row(const std::vector<Image>& images) {
 
 Image map_figure(const MeshFile& file, const SphereMap& map, const FigureOptions& options,
                  int threads) {
-  RenderObject object = {.mesh = file.mesh, .paint = choose_paint(file, map, options, threads)};
+  RenderObject object = {
+      .mesh = file.mesh,
+      .paint = options.paint ? *options.paint : choose_paint(file, map, options, threads)};
   if (options.graticule) object.graticule = Graticule{.rays = map.points};
   if (options.wireframe) object.wireframe = Wireframe{};
-  const RenderObject sphere = on_sphere(object, map.points);
-  object.occlusion = true;
-
-  const SphereView side = corresponding_view(file.mesh, map, options);
-  std::vector<RenderScene> scenes{scene_of(std::move(object), options.view, options.up, options),
-                                  scene_of(sphere, side.direction, side.up, options)};
-  if (options.both_sides) scenes.push_back(scene_of(sphere, -side.direction, side.up, options));
-  std::vector<Image> images;
-  for (RenderScene& scene : scenes) {
-    fit_camera(scene);
-    images.push_back(render(scene, threads));
+  std::vector<RenderScene> scenes;
+  if (options.with_mesh) {
+    scenes.push_back(scene_of(object, options.view, options.up, options));
+    scenes.back().objects[0].occlusion = true;
+    fit_camera(scenes.back());
   }
+  if (options.with_sphere) {
+    const RenderObject sphere = on_sphere(object, map.points);
+    const SphereView side = corresponding_view(file.mesh, map, options);
+    scenes.push_back(scene_of(sphere, side.direction, side.up, options));
+    fit_camera_to_sphere(scenes.back());
+    if (options.both_sides) {
+      scenes.push_back(scene_of(sphere, -side.direction, side.up, options));
+      fit_camera_to_sphere(scenes.back());
+    }
+  }
+  std::vector<Image> images;
+  for (const RenderScene& scene : scenes) images.push_back(render(scene, threads));
   return in_a_row(images);
 }
 

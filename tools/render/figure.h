@@ -19,6 +19,8 @@ enum class FigureColours {
 
 struct FigureOptions {
   FigureColours colours = FigureColours::Vertex;
+  std::optional<Paint> paint = std::nullopt;     // instead of `colours`
+  bool with_mesh = true, with_sphere = true;     // what the row shows
   bool graticule = true;                         // lines of θ and ϕ every 15°, the date line red
   bool wireframe = false;                        // the triangles
   int size = 800;                                // pixels, of each picture in the row

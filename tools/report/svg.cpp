@@ -36,6 +36,8 @@ text{fill:#e6edf3}
 </style>
 )";
 
+}  // namespace
+
 std::string escaped(std::string_view text) {
   std::string out;
   for (const char c : text) {
@@ -59,8 +61,6 @@ std::string escaped(std::string_view text) {
   }
   return out;
 }
-
-}  // namespace
 
 std::string svg_begin(int width, int height, std::string_view title) {
   const std::string w = std::to_string(width), h = std::to_string(height);

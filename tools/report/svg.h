@@ -11,6 +11,9 @@ namespace sphparam::tools {
 std::string svg_begin(int width, int height, std::string_view title);
 std::string svg_end();
 
+/// Text as it can stand in XML and HTML, in attributes too; control characters are left out.
+std::string escaped(std::string_view text);
+
 /// A number with at most `decimals` places, without trailing zeros; "∞" where it is.
 std::string decimal(double value, int decimals);
 

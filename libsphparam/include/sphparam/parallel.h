@@ -13,7 +13,7 @@ int resolve_threads(int threads);
 /// Every chunk but the last has `grain` items wherever it runs, so a reduction that keeps one
 /// partial result per chunk (index first / grain) and adds them in order gives the same bits for
 /// any number of threads. Runs on the calling thread alone when there is only one chunk.
-/// Throws: the first exception of a body, after all bodies have ended.
+/// Throws: the exception of the first chunk whose body threw, after all bodies have ended.
 void parallel_for(std::int64_t count, std::int64_t grain, int threads,
                   const std::function<void(std::int64_t first, std::int64_t last)>& body);
 

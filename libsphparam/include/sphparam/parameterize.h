@@ -94,4 +94,13 @@ struct Parameterization {
 /// Cost: a handful of sparse factorisations of #V unknowns.
 Parameterization parameterize(const TriangleMesh& mesh, const ParameterizeOptions& options = {});
 
+/// Makes a map that came from elsewhere one-to-one: the repair of `parameterize` from a given start.
+/// Few folds are untangled where they are; more, or what stays folded, is embedded anew. `made_by`
+/// says which: "given map" where nothing had to be done. Poles and pins come last, as there.
+///
+/// Of the options, `method`, `paper` and `repair` are not read. Throws: as `parameterize`;
+/// std::invalid_argument unless there is one finite ray a vertex.
+Parameterization repair_map(const TriangleMesh& mesh, const SphereMap& map,
+                            const ParameterizeOptions& options = {});
+
 }  // namespace sphparam

@@ -39,11 +39,11 @@ void combine(Row&& result, const Vector3& weights, const int (&rows)[3],
 }  // namespace
 
 Attributes carry_vertex_attribute(const SphericalChart& chart, const Triangles& source,
-                                  AttributesView values) {
+                                  AttributesView values, int threads) {
   require_rows(values, source.size() == 0 ? 0 : source.maxCoeff() + 1, "vertices");
   const auto count = static_cast<std::int64_t>(chart.surface_points.size());
   Attributes result(count, values.cols());
-  parallel_for(count, chunk_size, 0, [&](std::int64_t first, std::int64_t last) {
+  parallel_for(count, chunk_size, threads, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t v = first; v < last; ++v) {
       const SurfacePoint& point = chart.surface_points[static_cast<size_t>(v)];
       const int corners[] = {source(point.face, 0), source(point.face, 1), source(point.face, 2)};
@@ -54,20 +54,21 @@ Attributes carry_vertex_attribute(const SphericalChart& chart, const Triangles& 
 }
 
 Attributes carry_corner_attribute(const SphericalChart& chart, const Triangles& source,
-                                  AttributesView values) {
+                                  AttributesView values, int threads) {
   require_rows(values, source.size(), "corners");
   Attributes result(chart.triangles.size(), values.cols());
-  parallel_for(chart.triangles.rows(), chunk_size, 0, [&](std::int64_t first, std::int64_t last) {
-    for (auto f = static_cast<Face>(first); f < static_cast<Face>(last); ++f) {
-      const Face from = chart.source_faces[static_cast<size_t>(f)];
-      const int corners[] = {3 * from, 3 * from + 1, 3 * from + 2};
-      for (int k = 0; k < 3; ++k) {
-        const auto v = static_cast<size_t>(chart.triangles(f, k));
-        combine(result.row(3 * f + k), barycentric_in(from, chart.surface_points[v], source),
-                corners, values);
-      }
-    }
-  });
+  parallel_for(
+      chart.triangles.rows(), chunk_size, threads, [&](std::int64_t first, std::int64_t last) {
+        for (auto f = static_cast<Face>(first); f < static_cast<Face>(last); ++f) {
+          const Face from = chart.source_faces[static_cast<size_t>(f)];
+          const int corners[] = {3 * from, 3 * from + 1, 3 * from + 2};
+          for (int k = 0; k < 3; ++k) {
+            const auto v = static_cast<size_t>(chart.triangles(f, k));
+            combine(result.row(3 * f + k), barycentric_in(from, chart.surface_points[v], source),
+                    corners, values);
+          }
+        }
+      });
   return result;
 }
 

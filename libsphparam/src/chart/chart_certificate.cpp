@@ -8,6 +8,7 @@
 #include "chart/planar_orientation.h"
 #include "sphparam/chart/spherical_chart.h"
 #include "sphparam/parallel.h"
+#include "sphparam/sphere/orientation.h"
 
 // Theorem. Let R = [0, 1]², and let each face be a piece: the triangle of its wedges' points, or,
 // where one wedge is on a rim (v = 0 or 1), the trapezoid between the other two and the rim. If
@@ -25,7 +26,7 @@
 // run the same way and k of them start at u = 0: by (d), k = 1.  ∎
 //
 // Nothing else is needed of the surface. That (u, v) are those of its points is another matter:
-// `max_shift`.
+// `max_shift`; and another yet, that the points are a map: `inverted`.
 
 namespace sphparam {
 namespace {
@@ -52,7 +53,7 @@ class ChartCertifier {
 
  private:
   struct Findings {
-    std::vector<Face> malformed, folded;
+    std::vector<Face> malformed, folded, inverted;
     std::vector<Halfedge> torn;
     int north_turns = 0, south_turns = 0;
   };
@@ -121,6 +122,7 @@ class ChartCertifier {
       Findings& findings = chunks[static_cast<size_t>(first / chunk_size)];
       for (auto f = static_cast<Face>(first); f < static_cast<Face>(last); ++f) {
         examine_piece(f, findings);
+        if (!positive_on_sphere(f)) findings.inverted.push_back(f);
         for (Halfedge h = 3 * f; h < 3 * f + 3; ++h) {
           if (h < topology.twin(h) && !fits(h, topology.twin(h))) findings.torn.push_back(h);
         }
@@ -132,6 +134,7 @@ class ChartCertifier {
       };
       append(result_.malformed, chunk.malformed);
       append(result_.folded, chunk.folded);
+      append(result_.inverted, chunk.inverted);
       append(result_.torn, chunk.torn);
       result_.north_turns += chunk.north_turns;
       result_.south_turns += chunk.south_turns;
@@ -155,6 +158,15 @@ class ChartCertifier {
       if (p[k].u < west || p[k].u > east) findings.malformed.push_back(f);
       if (west == 0) ++(north ? findings.north_turns : findings.south_turns);
     }
+  }
+
+  bool positive_on_sphere(Face f) const {
+    Vector3 rays[3];
+    for (int k = 0; k < 3; ++k) {
+      rays[k] = chart_.points.row(chart_.triangles(f, k));
+      if (!(rays[k].array().abs() <= largest_coordinate).all()) return false;
+    }
+    return orientation(rays[0], rays[1], rays[2]) > 0;
   }
 
   /// (c), for h from a to b and its twin from b to a.

@@ -7,8 +7,9 @@
 
 #include "sphparam/sphere/orientation.h"
 
-// The edge between a (y < 0) and b (y > 0) meets the plane y = 0 in the ray b_y a − a_y b, whose x
-// is det(a, b, e_z): its sign says whether that is at θ = 0 or at θ = π.
+// The edge from a to b meets the meridian plane of a ray c in ±(det(c, b)·a − det(c, a)·b), where
+// det is of x and y alone. Its x and y are ±det(a, b) times those of c. For c = (1, 0) and a in the
+// west, det(a, b) = det(a, b, e_z) is positive if the edge crosses at θ = 0, negative at θ = π.
 
 namespace sphparam {
 namespace {
@@ -30,12 +31,16 @@ double difference_of_products(double a, double b, double c, double d) {
   return std::fma(a, b, -cd) + error;
 }
 
-Crossing meridian_crossing(const Vector3& a, const Vector3& b) {
-  const Vector3 &west = a.y() < 0 ? a : b, &east = a.y() < 0 ? b : a;
-  // x is positive exactly: where rounding loses that, it is as small as can be.
-  const double x = difference_of_products(west.x(), east.y(), east.x(), west.y());
-  const double z = difference_of_products(west.z(), east.y(), east.z(), west.y());
-  return {a.y() / (a.y() - b.y()), Vector3(std::max(x, above_zero), 0, z).stableNormalized()};
+Crossing meridian_crossing(const Vector3& a, const Vector3& b, const Vector3& through) {
+  const auto det = [](const Vector3& p, const Vector3& q) {
+    return difference_of_products(p.x(), q.y(), p.y(), q.x());
+  };
+  const double at_a = det(through, a), at_b = det(through, b), sign = std::copysign(1.0, at_b);
+  // The sign is known: where rounding loses it, the length is as small as can be.
+  const double length = std::max(sign * det(a, b), above_zero);
+  const double z = sign * difference_of_products(at_b, a.z(), at_a, b.z());
+  const Vector3 ray(length * through.x(), length * through.y(), z);
+  return {at_a / (at_a - at_b), ray.stableNormalized()};
 }
 
 ChartPoint chart_point(const Vector3& ray) {

@@ -13,12 +13,16 @@ inline bool in_west(const Vector3& x) { return x.y() < 0; }
 /// Does the geodesic edge cross the open half-circle θ = 0 between its ends? Exact.
 bool crosses_meridian(const Vector3& a, const Vector3& b);
 
-/// Where it does: at (1 − t)·a + t·b, a ray of unit length with y = 0 and x > 0.
+/// Where an edge meets a meridian: at (1 − t)·a + t·b, a ray of unit length.
 struct Crossing {
   double t;
   Vector3 point;
 };
-Crossing meridian_crossing(const Vector3& a, const Vector3& b);
+
+/// Where the edge from a to b crosses the half-circle from pole to pole through a ray. The x and y
+/// of the point are that ray's but for their length: on y = 0, that is exact.
+/// Requires: a and b on different sides of it.
+Crossing meridian_crossing(const Vector3& a, const Vector3& b, const Vector3& through);
 
 /// ab − cd, to one and a half units in the last place.  Kahan's; proof: Jeannerod et al. 2013.
 double difference_of_products(double a, double b, double c, double d);

@@ -23,6 +23,8 @@ constexpr std::int64_t chunk_size = 8192;
 // not hold the shape of a triangle.
 constexpr double snapping_angle = 0x1p-44;
 
+constexpr int most_steps = 8;  // of a unit in the last place, to tell crossings apart
+
 class PolarSplitting {
  public:
   PolarSplitting(RefinedMesh& mesh, int threads)
@@ -139,14 +141,32 @@ class PolarSplitting {
       for (Halfedge h = 3 * waiting[i]; h < 3 * waiting[i] + 3; ++h) {
         const Vector3 &a = mesh_.point(mesh_.origin(h)), &b = mesh_.point(mesh_.target(h));
         if (!crosses_meridian(a, b)) continue;
-        const Crossing crossing = meridian_crossing(a, b);
+        const Crossing crossing = meridian_crossing(a, b, Vector3::UnitX());
         waiting.insert(waiting.end(), {waiting[i], Topology::face(mesh_.twin(h)),
                                        mesh_.face_count(), mesh_.face_count() + 1});
-        mesh_.split_edge(h, crossing.t, crossing.point);
+        mesh_.split_edge(h, crossing.t, fitting_ray(h, crossing.point));
         ++frame_.meridian_splits;
         break;
       }
     }
+  }
+
+  /// The ray of the meridian nearest to a crossing, in units in the last place of its coordinates,
+  /// that leaves the faces of the edge positive: where others cross within rounding of this one.
+  /// The crossing itself if none does.
+  Vector3 fitting_ray(Halfedge h, const Vector3& crossing) const {
+    if (mesh_.fits(h, crossing)) return crossing;
+    for (int steps = 1; steps <= most_steps; ++steps) {
+      for (int dx = -steps; dx <= steps; ++dx) {
+        for (int dz = -steps; dz <= steps; ++dz) {
+          if (std::max(std::abs(dx), std::abs(dz)) < steps) continue;
+          const Vector3 ray(crossing.x() * (1 + dx * 0x1p-52), 0,
+                            crossing.z() * (1 + dz * 0x1p-52));
+          if (mesh_.fits(h, ray)) return ray;
+        }
+      }
+    }
+    return crossing;
   }
 
   RefinedMesh& mesh_;

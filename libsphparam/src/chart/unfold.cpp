@@ -2,29 +2,35 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "chart/nudge.h"
 #include "sphparam/parallel.h"
 
 // A triangle that is positive on the sphere folds in (u, v) because the chords of its edges are not
-// the images of its edges. Small triangles fold only if they are flat, so it is split at its
-// longest edge (which keeps angles: Rivara 1984): where the opposite corner stands above the edge,
-// at its foot, which makes two right angles of a flat one; else where the edge is furthest from its
-// chord. Near ±z an edge bends over many scales: that point is looked for by halving the distance
-// to one end. The other face of the edge is split with it, so the mesh stays conforming. Where no
-// chord takes anything away from the triangle, it is folded by rounding alone, and splitting stops.
+// the images of its edges. Its edges run monotonely in u; so, if the edge that spans its u is split
+// at the meridian of the third corner, the two pieces share a side of constant u, and are positive
+// because that side runs the right way. The other face of the edge is split with it. If that would
+// fold by it, as where long flat triangles lie on each other like tiles, the fold would only move
+// from strip to strip, once for every corner; there the edge is split where it meets a line
+// u = n / 2ᵏ, k least. Strips share these lines, so their pieces lie between the same meridians,
+// and soon corners' meridians can end within them. What neither cut mends is folded by rounding.
 
 namespace sphparam {
 namespace {
 
 constexpr std::int64_t chunk_size = 8192;
-constexpr int most_halvings = 40;  // 2⁻⁴⁰ of an edge
-// What a chord takes from a triangle must be more than what rounding (u, v) to 2⁻⁵³ of them does.
-constexpr double least_taken = 0x1p-50;
-// Lower triangles are rounded out of shape: more pieces of them would fold as well.
-constexpr double least_height = 0x1p-46;
-constexpr std::int64_t most_splits_a_fold = 64, most_splits_at_all = 4096;  // guards, not targets
+// Of what an edge spans in u, at either end: a line there would leave the long piece as it is.
+constexpr double margin = 0x1p-3;
+constexpr std::int64_t most_splits_a_fold = 256, most_splits_at_all = 4096;  // guards, not targets
+
+/// The number n / 2ᵏ between two, k least.
+double simplest_between(double low, double high) {
+  double step = 0.5;
+  while (std::floor(high / step) <= std::floor(low / step)) step /= 2;
+  return std::floor(high / step) * step;
+}
 
 class Unfolder {
  public:
@@ -37,11 +43,11 @@ class Unfolder {
     for (size_t i = 0; i < waiting_.size(); ++i) {
       const Face f = waiting_[i];
       if (flat_.positive(f)) continue;
-      const Bend bend = choose_split(f);
-      if (bend.halfedge < 0 || result_.splits >= most) {
+      const Cut cut = choose_cut(f);
+      if (cut.halfedge < 0 || result_.splits >= most) {
         result_.left.push_back(f);
       } else {
-        split(bend);
+        split(cut);
       }
     }
     keep_folded(result_.left);
@@ -50,11 +56,10 @@ class Unfolder {
   }
 
  private:
-  struct Bend {
+  /// A point of an edge to split it at.
+  struct Cut {
     Halfedge halfedge = -1;
-    double t = 0;
-    double area = 0;  // twice what the chord cuts off, as seen from the half-edge's face
-    Vector3 point = Vector3::Zero();
+    Crossing crossing = {0, Vector3::Zero()};
     ChartPoint uv = {0, 0};
   };
 
@@ -73,80 +78,68 @@ class Unfolder {
   }
 
   /// Where to split a folded face; no half-edge if that cannot help.
-  Bend choose_split(Face f) const {
-    if (flat_.pole_halfedge(f) >= 0) return {};
-    Bend longest;
-    double length = 0;
-    bool bent = false;
+  Cut choose_cut(Face f) const {
+    const Halfedge h = spanning_halfedge(f);
+    if (h < 0) return {};
+    const Cut corner = cut_at_corner(h);
+    const bool mends = is_above(h, corner.uv) && fits(corner);
+    if (mends && stays_positive(flat_.mesh.twin(h), corner.uv)) return corner;
+    const Cut line = cut_at_line(h);
+    if (fits(line)) return line;
+    return mends ? corner : Cut{};
+  }
+
+  /// The half-edge opposite to the corner between the others in u; −1: no u is between the others.
+  Halfedge spanning_halfedge(Face f) const {
+    if (flat_.pole_halfedge(f) >= 0) return -1;
     for (Halfedge h = 3 * f; h < 3 * f + 3; ++h) {
-      const Bend bend = furthest_point(h);
-      bent |= bend.area > least_taken * rounding(h);
-      const double edge = (end(h) - start(h)).squaredNorm();
-      if (edge <= length) continue;
-      length = edge;
-      longest = bend;
+      const auto [low, high] = std::minmax({from(h).u, to(h).u});
+      if (low < apex(h).u && apex(h).u < high) return h;
     }
-    if (!bent) return {};
-    const Halfedge h = longest.halfedge;
-    const double foot = foot_of_apex(h);
-    const Vector3 below = start(h) + foot * (end(h) - start(h));
-    const double height = (flat_.mesh.point(flat_.mesh.apex(h)) - below).norm();
-    const bool stands_above = std::min(foot, 1 - foot) * std::sqrt(length) > height;
-    if (!stands_above && height < least_height) return {};
-    const Bend split = stands_above ? at(h, foot) : longest;
-    return flat_.mesh.fits(h, split.point) ? split : Bend{};
+    return -1;
   }
 
-  /// An area that the chord of the edge sweeps when its ends move by as much as themselves.
-  double rounding(Halfedge h) const {
-    const ChartPoint a = flat_.corner(h), b = flat_.corner(Topology::next(h));
-    return std::abs(a.v - b.v) * std::max(a.u, b.u) + std::abs(a.u - b.u) * std::max(a.v, b.v);
+  Cut cut_at_corner(Halfedge h) const {
+    return cut(h, flat_.mesh.point(flat_.mesh.apex(h)), apex(h).u);
   }
 
-  const Vector3& start(Halfedge h) const { return flat_.mesh.point(flat_.mesh.origin(h)); }
-  const Vector3& end(Halfedge h) const { return flat_.mesh.point(flat_.mesh.target(h)); }
-
-  /// The point of the edge below its opposite corner: (1 − t)·a + t·b.
-  double foot_of_apex(Halfedge h) const {
-    const Vector3 &a = start(h), &b = end(h), &c = flat_.mesh.point(flat_.mesh.apex(h));
-    const Vector3 normal = a.cross(b);
-    const double alpha = c.dot(b.cross(normal)), beta = c.dot(normal.cross(a));
-    return alpha > 0 && beta > 0 ? beta / (alpha + beta) : 0;
+  Cut cut_at_line(Halfedge h) const {
+    const auto [low, high] = std::minmax({from(h).u, to(h).u});
+    const double u = simplest_between(low + margin * (high - low), high - margin * (high - low));
+    const double theta = 2 * std::numbers::pi * u;
+    return cut(h, {std::cos(theta), std::sin(theta), 0}, u);
   }
 
-  Bend at(Halfedge h, double t) const {
-    Bend bend{h, t, 0, flat_.mesh.along(h, t), {}};
-    bend.uv = chart_point(bend.point);
-    const ChartPoint a = flat_.corner(h), b = flat_.corner(Topology::next(h));
-    // On the seam edge u is 0 or 1 as its ends have it.
-    if (on_meridian(bend.point)) bend.uv.u = a.u;
-    bend.area = planar_area(b, a, bend.uv);
-    return bend;
+  Cut cut(Halfedge h, const Vector3& through, double u) const {
+    const Crossing crossing = meridian_crossing(flat_.mesh.point(flat_.mesh.origin(h)),
+                                                flat_.mesh.point(flat_.mesh.target(h)), through);
+    return {h, crossing, {u, chart_point(crossing.point).v}};
   }
 
-  /// The point of an edge where its chord cuts off most, to within a factor of two in the distance
-  /// from the nearer end.
-  Bend furthest_point(Halfedge h) const {
-    Bend best = at(h, 0.5);
-    for (const bool towards_end : {false, true}) {
-      double distance = 0.5;
-      for (int i = 0; i < most_halvings; ++i) {
-        distance /= 2;
-        const Bend bend = at(h, towards_end ? 1 - distance : distance);
-        if (std::abs(bend.area) <= std::abs(best.area)) break;
-        best = bend;
-      }
-    }
-    return best;
+  bool fits(const Cut& cut) const { return flat_.mesh.fits(cut.halfedge, cut.crossing.point); }
+
+  /// Is a point with the apex's u on its right side, so that both pieces are positive?
+  bool is_above(Halfedge h, const ChartPoint& p) const {
+    return from(h).u < to(h).u ? p.v > apex(h).v : p.v < apex(h).v;
   }
 
-  void split(const Bend& bend) {
-    const Halfedge h = bend.halfedge;
+  /// Are both pieces of the face of h positive if its edge is split there?
+  bool stays_positive(Halfedge h, const ChartPoint& p) const {
+    if (flat_.pole_halfedge(Topology::face(h)) >= 0) return true;
+    return planar_orientation(from(h), p, apex(h)) > 0 && planar_orientation(p, to(h), apex(h)) > 0;
+  }
+
+  ChartPoint from(Halfedge h) const { return flat_.corner(h); }
+  ChartPoint to(Halfedge h) const { return flat_.corner(Topology::next(h)); }
+  ChartPoint apex(Halfedge h) const { return flat_.corner(Topology::previous(h)); }
+
+  void split(const Cut& cut) {
+    const Halfedge h = cut.halfedge;
     const Face first_new = flat_.mesh.face_count();
     waiting_.insert(waiting_.end(), {Topology::face(h), Topology::face(flat_.mesh.twin(h)),
                                      first_new, first_new + 1});
-    flat_.mesh.split_edge(h, bend.t, bend.point);
-    flat_.uv.push_back(on_meridian(bend.point) ? ChartPoint{0, bend.uv.v} : bend.uv);
+    flat_.mesh.split_edge(h, cut.crossing.t, cut.crossing.point);
+    flat_.uv.push_back(cut.uv);
     ++result_.splits;
   }
 

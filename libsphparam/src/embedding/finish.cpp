@@ -7,10 +7,10 @@
 
 #include "embedding/global_newton.h"
 
-// Levels are due at every fourfold vertex count, counted down from the finest. The smallest get a step in any
-// case: all of them together cost less than a tenth of a step on the finest. Finer ones get steps
-// only if the first step on the level before gained enough, relative to its energy. Shapes with
-// long limbs gain 0.15 to 4 % there, others below 0.05 %.
+// Levels are due at every fourfold vertex count, counted down from the finest. The smallest get a
+// step in any case: all of them together cost less than a tenth of a step on the finest. Finer ones
+// get steps only if the first step on the level before gained enough, relative to its energy.
+// Shapes with long limbs gain 0.15 to 4 % there, others below 0.05 %.
 // Between steps a few guarded sweeps smooth what the step has creased; half of the gain is theirs.
 
 namespace sphparam {

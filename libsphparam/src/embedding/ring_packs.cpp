@@ -56,7 +56,8 @@ struct Order {
 };
 
 Order sort_vertices(const HierarchyLevel& level, const std::vector<int>& colour) {
-  const int colours = 1 + *std::max_element(colour.begin(), colour.end());
+  const int last = *std::max_element(colour.begin(), colour.end());
+  const int colours = last == no_colour ? 0 : last + 1;  // none where all are pinned
   std::vector<int> place(at(colours) * 64 + 1, 0);
   const auto key = [&](Vertex v) {
     return at(colour[at(v)]) * 64 + at(std::min(level.valence(v), 63));

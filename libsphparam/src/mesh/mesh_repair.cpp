@@ -105,7 +105,7 @@ void keep_component(RepairState& state, int rank) {
   const std::vector<Part> ranked = parts_by_size(state, parts);
   if (ranked.empty()) return;
   if (static_cast<size_t>(rank) > ranked.size()) {
-    throw std::out_of_range("there is no component " + std::to_string(rank) + ": the mesh has " +
+    throw NoSuchComponent("there is no component " + std::to_string(rank) + ": the mesh has " +
                             std::to_string(ranked.size()));
   }
   const int chosen = ranked[rank - 1].root;

@@ -43,7 +43,8 @@ bool usable(const Vector3& x) {
   return x.allFinite() && x.cwiseAbs().maxCoeff() <= largest_coordinate && !x.isZero(0);
 }
 
-constexpr double nearly_unit = 1e-9;  // lengths so near 1 do not matter to the cross-check
+constexpr double largest_product = 1e100;  // of complex numbers, before it could overflow
+constexpr double nearly_unit = 1e-9;       // lengths so near 1 do not matter to the cross-check
 
 /// A sum of angles as the product of complex numbers 1 + i tan: one arc tangent for many.
 class AngleSum {
@@ -56,7 +57,7 @@ class AngleSum {
     const double t = sine / cosine, real = real_ - imaginary_ * t;
     imaginary_ += real_ * t;
     real_ = real;
-    if (std::abs(imaginary_) > real_) flush();
+    if (std::abs(imaginary_) > real_ || real_ > largest_product) flush();
   }
   double total() {
     flush();

@@ -29,6 +29,7 @@ constexpr std::int64_t grain = 4096;
 constexpr int straight_steps = 64;         // before the walk chooses its edges by chance
 constexpr int most_steps = 1 << 16;        // before all faces are asked
 constexpr double steps_worth_walking = 8;  // triangles between two directions; else the table
+constexpr double least_rounding = 1e-290;  // of tiny rays: their products may underflow
 constexpr double coarse_triangle = 1e-5;   // det of rays, above which dot products are weights
 
 /// A place on the cube around the origin.
@@ -112,7 +113,7 @@ SphereLocator::SphereLocator(const Topology& topology, const SphereMap& map, int
                                 " rays for " + std::to_string(topology.vertex_count()) +
                                 " vertices");
   }
-  rounding_ = 0x1p-50 * map.points.rowwise().squaredNorm().maxCoeff();
+  rounding_ = std::max(0x1p-50 * map.points.rowwise().squaredNorm().maxCoeff(), least_rounding);
   reach2_ =
       steps_worth_walking * steps_worth_walking * 4 * std::numbers::pi / topology.face_count();
   std::vector<Keyed> order(static_cast<size_t>(topology.face_count()));
@@ -248,8 +249,8 @@ SphereLocator::Found SphereLocator::search(const Vector3& q) const {
   throw std::logic_error("SphereLocator: no face holds a direction; the map is not one-to-one");
 }
 
-/// Weights λₖ ∝ det(xᵢ, xⱼ, q). Where the triangle is small they are taken from differences to q,
-/// which lose nothing: det(xᵢ, xⱼ, q) = det(xᵢ − q, xⱼ − q, q).
+/// Weights λₖ ∝ det(xᵢ, xⱼ, q). Where the triangle is small they are taken from differences to a
+/// multiple of q, which lose nothing: det(xᵢ, xⱼ, q) = det(xᵢ − sq, xⱼ − sq, q).
 SurfacePoint SphereLocator::point(const Vector3& direction, const Found& found) const {
   const Vector3 q = direction.normalized();
   const Cell& cell = cells_[static_cast<size_t>(found.cell)];
@@ -258,8 +259,9 @@ SurfacePoint SphereLocator::point(const Vector3& direction, const Found& found) 
     point.barycentric[k] = cell.normals[static_cast<size_t>(k)].dot(q);
   }
   if (point.barycentric.sum() < coarse_triangle) {
+    const Vector3 near = map_->point(topology_->vertex(cell.face, 0)).dot(q) * q;
     Vector3 offsets[3];
-    for (int k = 0; k < 3; ++k) offsets[k] = map_->point(topology_->vertex(cell.face, k)) - q;
+    for (int k = 0; k < 3; ++k) offsets[k] = map_->point(topology_->vertex(cell.face, k)) - near;
     for (int k = 0; k < 3; ++k) {
       point.barycentric[k] = offsets[(k + 1) % 3].cross(offsets[(k + 2) % 3]).dot(q);
     }

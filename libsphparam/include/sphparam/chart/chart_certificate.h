@@ -17,12 +17,15 @@ struct SphericalChart;
 struct ChartCertificate {
   bool closed = false;            // every edge has two faces, every vertex one fan of them
   std::vector<Face> malformed;    // a wedge that is none, or of another vertex; two corners on rims
-  std::vector<int> outside;       // wedges not finite, or outside the rectangle, or unused
+  std::vector<int> outside;       // wedges not finite or outside the rectangle, used or not
   std::vector<Face> folded;       // pieces that are not strictly positive
   std::vector<Halfedge> torn;     // edges whose sides are neither the same nor exact seam copies
   std::vector<Face> around_pole;  // of a wrapped chart: triangles with ±z inside, or on an edge
   int north_turns = 0, south_turns = 0;  // how often the pieces run through v = 0 and v = 1
   double max_shift = 0;  // max distance of (u, v) from that of the refined vertex, in turns
+  // Triangles whose points are not counter-clockwise on the sphere. `one_to_one` does not ask for
+  // them, but who uses the points as a refined sphere map must.
+  std::vector<Face> inverted;
 
   /// The one question: does every point of the rectangle have exactly one owner?
   bool one_to_one() const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,12 @@
 #include "sphparam/mesh/triangle_mesh.h"
 
 namespace sphparam {
+
+/// The component to keep is beyond those the mesh has.
+class NoSuchComponent : public std::out_of_range {
+ public:
+  using std::out_of_range::out_of_range;
+};
 
 /// What `repair_mesh` may do. The names, in the order in which it is done:
 struct RepairOptions {
@@ -90,7 +97,7 @@ struct RepairedMesh {
 /// Lazarus & Horn, "Cutting and stitching", 2001); holes are filled by ears, or by the fan of a
 /// created vertex where every ear would double an edge. Repeated until nothing more is to be done.
 /// Requires: component ≥ 1; largest_hole ≥ 3.
-/// Throws: std::out_of_range when there is no such component.
+/// Throws: NoSuchComponent.
 /// Ensures: deterministic. Cost: O((#V + #F) log #F), for any valence and any hole.
 RepairedMesh repair_mesh(const TriangleMesh& mesh, const RepairOptions& options = {});
 

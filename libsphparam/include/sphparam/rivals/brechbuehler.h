@@ -27,12 +27,14 @@ struct BrechbuehlerOptions {
 /// edges is maximised (Cartesian, so that the poles are points like others), under the constraints
 /// that every face has its share of the surface's area and no angle is negative.
 /// Theirs are the squares of voxels, as many as vertices; triangles are twice as many, so that
-/// their areas alone determine the map and can in general not all be met without a fold. Hence
-/// ours, in place of active sets and multipliers: areas by a growing penalty ρ/2 Σ (Ω − A)²/A,
-/// minimised by Gauss–Newton steps with Levenberg–Marquardt damping in the size of each star, and a
-/// step is refused if it turns an angle negative that was not. Ensures: the number of folds does
-/// not rise after the initial map; same bits for any number of threads. Requires: closed genus-0
-/// mesh. Throws: Cancelled. Cost: two factorisations of #V unknowns, and one of 2·#V a step.
+/// their areas alone determine the map and can in general not all be met without a fold. Hence, in
+/// place of their multipliers, ours: a growing penalty ρ/2 Σ (Ω − A)²/A, minimised by Gauss–Newton
+/// steps with Levenberg–Marquardt damping in the size of each star. Active sets as theirs: a step
+/// that would turn an angle negative is refused, and the triangle's area held until ρ grows.
+///
+/// Ensures: the number of folds does not rise after the initial map; same bits for any number of
+/// threads. Requires: closed genus-0 mesh. Throws: Cancelled.
+/// Cost: two factorisations of #V unknowns, and one of 2·#V a step.
 RivalResult map_brechbuehler(const TriangleMesh& mesh, const Topology& topology,
                              const BrechbuehlerOptions& options = {},
                              const Progress& progress = {});

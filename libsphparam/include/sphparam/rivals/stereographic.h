@@ -23,8 +23,9 @@ struct StereographicOptions {
 /// Where the authors leave the triangle to the user, ours is the least distorting kind of guess:
 /// the largest of those with angles between 30° and 120° (of all, if there is none). Cotangents are
 /// as they come, negative ones included; only areas below 1e-12 of a longest edge squared are
-/// floored. Ensures: same bits for any number of threads. Requires: closed genus-0 mesh. Throws:
-/// Cancelled. Cost: one factorisation of #V unknowns.
+/// floored.
+/// Ensures: same bits for any number of threads. Requires: closed genus-0 mesh.
+/// Throws: Cancelled. Cost: one factorisation of #V unknowns.
 RivalResult map_stereographic(const TriangleMesh& mesh, const Topology& topology,
                               const StereographicOptions& options = {},
                               const Progress& progress = {});

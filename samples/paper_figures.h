@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include "compare/comparison.h"
+#include "paper_trial.h"
+#include "report/page.h"
+
+/// The paper's figures again, with our maps beside its own.
+namespace sphparam::samples {
+
+/// Figures 2, 5, 6 with 10, 7 with 11, 8, and 1, 3, 9, each of the model that the paper shows where
+/// it is among the trials, else of another one. Pictures and charts are added to `files`.
+/// Requires: trials that kept their maps; at least one. Throws: ImageError.
+void add_figures(tools::Page& page, tools::FolderFiles& files, const std::vector<Trial>& trials);
+
+}  // namespace sphparam::samples

@@ -1,0 +1,93 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <string>
+
+#include "compare/comparison.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+using namespace sphparam::tools;
+using Catch::Matchers::Contains;
+
+namespace {
+
+MeshFile ball(int level) {
+  MeshFile file;
+  file.mesh = icosphere(level);
+  return file;
+}
+
+/// A sphere with one triangle turned over.
+SphereMap folded(const TriangleMesh& mesh) {
+  SphereMap map = normalised(mesh.positions);
+  map.points.row(0) = -map.points.row(0);
+  return map;
+}
+
+}  // namespace
+
+TEST_CASE("contender: a sphere made elsewhere is certified as it is, whatever its radius") {
+  const TriangleMesh mesh = icosphere(2);
+  const Contender good = given_contender("peer", "peer.obj", mesh, {7 * mesh.positions}, 0);
+  CHECK(good.certificate.bijective());
+  CHECK(good.figures->mean_abs_ln_angle < 0.1);
+  CHECK_FALSE(good.seconds);
+  CHECK(short_verdict(good) == "one-to-one");
+  const Contender bad = given_contender("peer", "peer.obj", mesh, folded(mesh), 0);
+  CHECK_FALSE(bad.certificate.bijective());
+  CHECK(short_verdict(bad) == std::to_string(bad.certificate.fold_count()) + " folds");
+  SphereMap unusable = folded(mesh);
+  unusable.points.row(3).setZero();
+  const Contender none = given_contender("peer", "peer.obj", mesh, unusable, 0);
+  CHECK_FALSE(none.distortion);
+  CHECK(short_verdict(none) == "1 unusable points");
+}
+
+TEST_CASE("contender: the table has a row each, with as many cells as its header") {
+  const TriangleMesh mesh = icosphere(2);
+  SphereMap unusable = folded(mesh);
+  unusable.points.row(3).setZero();
+  const PageTable table =
+      contender_table({run_contender(Method::Progressive, mesh, {}),
+                       given_contender("folded", "", mesh, folded(mesh), 0),
+                       given_contender("unusable", "", mesh, unusable, 0), Contender{"none", ""}});
+  REQUIRE(table.rows.size() == 4);
+  for (const auto& row : table.rows) CHECK(row.size() == table.header.size());
+  CHECK(table.rows[0][4] == "yes");
+  CHECK(table.rows[1][4] == "no");
+  CHECK(table.rows[3][4] == "no map");
+}
+
+TEST_CASE("comparison: the page names every file beside it, and nothing else") {
+  const MeshFile file = ball(2);
+  const std::vector<Contender> contenders = {
+      run_contender(Method::Progressive, file.mesh, {}),
+      given_contender("peer", "peer.obj", file.mesh, folded(file.mesh), 0)};
+  FolderFiles files = comparison_files("ball", file, contenders, {.look = {.size = 32}});
+  const auto page = std::find_if(files.begin(), files.end(),
+                                 [](const auto& f) { return f.first == "index.html"; });
+  REQUIRE(page != files.end());
+  long named = 0;
+  for (const auto& [name, bytes] : files) {
+    if (name == "index.html") continue;
+    INFO(name);
+    CHECK_THAT(page->second, Contains("src=\"" + name + "\""));
+    CHECK_FALSE(bytes.empty());
+    ++named;
+  }
+  CHECK(named == 5 + 2);  // mesh, two spheres, two heat maps; area and angle
+  const std::string& html = page->second;
+  CHECK(std::count(html.begin(), html.end(), '\n') > 10);
+  CHECK_THAT(html, Contains("progressive against peer"));
+  CHECK(comparison_files("ball", file, contenders, {.pictures = false}).size() == 2 + 1);
+}
+
+TEST_CASE("pictures: folds are red, all else has the mesh's colours") {
+  const MeshFile file = ball(1);
+  CHECK(std::holds_alternative<VertexPaint>(shape_paint(file, {})));
+  const FacePaint paint = std::get<FacePaint>(shape_paint(file, {5}));
+  REQUIRE(paint.colours.size() == static_cast<size_t>(file.mesh.face_count()));
+  CHECK(paint.colours[5].x() > 3 * paint.colours[5].y());
+  CHECK_FALSE(paint.colours[4] == paint.colours[5]);
+}

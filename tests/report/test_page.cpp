@@ -1,0 +1,35 @@
+#include <catch2/catch.hpp>
+#include <string>
+
+#include "report/page.h"
+
+using namespace sphparam::tools;
+using Catch::Matchers::Contains;
+
+TEST_CASE("page: needs nothing but its own figures, and fits a phone") {
+  Page page("Title");
+  page.figures({{"a.png", "what is seen", "below it"}}, 200);
+  const std::string html = page.html();
+  CHECK_THAT(html, !Contains("http") && !Contains("<script") && !Contains("<link"));
+  CHECK_THAT(html, Contains("name=\"viewport\"") && Contains("min(100%,200px)"));
+  CHECK_THAT(html, Contains("src=\"a.png\" alt=\"what is seen\"") && Contains("<h1>Title</h1>"));
+}
+
+TEST_CASE("page: text of all kinds is escaped") {
+  const std::string bad = "<b>&\"";
+  Page page(bad);
+  page.heading(bad);
+  page.subheading(bad);
+  page.paragraph(bad);
+  page.list({bad});
+  page.figures({{bad, bad, bad}}, 100);
+  page.table({bad, {bad}, {{bad, bad}}});
+  CHECK_THAT(page.html(), !Contains("<b>") && !Contains("&\"") && Contains("&lt;b&gt;&amp;&quot;"));
+}
+
+TEST_CASE("page: a table has its header, and its rows have names") {
+  Page page("t");
+  page.table({"", {"mesh", "folds"}, {{"cow", "3"}}});
+  CHECK_THAT(page.html(), Contains("<th>mesh</th><th>folds</th>") &&
+                              Contains("<th scope=\"row\">cow</th><td>3</td>"));
+}

@@ -1,0 +1,122 @@
+#include "compare/comparison.h"
+
+#include "render/heat.h"
+#include "report/charts.h"
+#include "report/svg.h"
+
+namespace sphparam::tools {
+
+namespace {
+
+constexpr int chart_width = 480, picture_width = 220;  // least, on the page
+
+std::vector<Face> folds_of(const Contender& contender) {
+  std::vector<Face> faces = contender.certificate.folded;
+  const std::vector<Face>& degenerate = contender.certificate.degenerate;
+  faces.insert(faces.end(), degenerate.begin(), degenerate.end());
+  return faces;
+}
+
+PageFigure heat_figure(FolderFiles& files, const std::string& name, const MeshFile& file,
+                       const Contender& contender, const PictureOptions& look) {
+  const Image sphere =
+      sphere_picture(file, contender.map, heat_paint(Heat::Area, *contender.distortion), look);
+  files.emplace_back(name + ".png", png(with_legend(sphere, Heat::Area)));
+  return {name + ".png",
+          "Area distortion on the sphere of " + contender.name + ": mean |ln ratio| " +
+              significant(contender.figures->mean_abs_ln_area),
+          contender.name};
+}
+
+/// Lines for what the table has no room for.
+std::vector<std::string> statements(const std::vector<Contender>& contenders) {
+  std::vector<std::string> lines;
+  for (const Contender& c : contenders) {
+    std::string line = c.name + " (" + c.source + ")";
+    if (c.iterations > 0) line += ", " + grouped(c.iterations) + " iterations";
+    lines.push_back(line + (c.statement.empty() ? "" : ": " + c.statement) + ".");
+  }
+  return lines;
+}
+
+void add_pictures(Page& page, FolderFiles& files, const MeshFile& file,
+                  const std::vector<Contender>& contenders, const PictureOptions& look) {
+  files.emplace_back("mesh.png", png(mesh_picture(file, shape_paint(file, {}), look)));
+  std::vector<PageFigure> spheres = {{"mesh.png", "The mesh", "the mesh"}}, heats;
+  for (const Contender& c : contenders) {
+    if (!c.distortion) continue;
+    spheres.push_back(sphere_figure(files, "sphere-" + c.name, file, c, look));
+    heats.push_back(heat_figure(files, "area-" + c.name, file, c, look));
+  }
+  page.heading("Spheres side by side");
+  page.paragraph(
+      "Each sphere shows the side that corresponds to that of the mesh, in the mesh's colours; "
+      "triangles that are folded are red.");
+  page.figures(spheres, picture_width);
+  page.paragraph("The same spheres coloured by area: blue has shrunk, red has grown.");
+  page.figures(heats, picture_width);
+}
+
+void add_charts(Page& page, FolderFiles& files, const std::vector<Contender>& contenders) {
+  const Contender& ours = contenders.front();
+  if (contenders.size() < 2 || !ours.distortion) return;
+  page.heading("Polar charts");
+  page.paragraph(
+      "As the paper's figures 10 and 11: the radius is the distortion of a triangle or an angle, "
+      "the polar angle its index, the green circle the optimum; right, a zoom on the optimal "
+      "region. " +
+      ours.name + " is blue.");
+  for (size_t i = 1; i < contenders.size(); ++i) {
+    if (!contenders[i].distortion) continue;
+    page.subheading(ours.name + " against " + contenders[i].name);
+    add_polar_charts(page, files, "chart-" + contenders[i].name, ours, contenders[i]);
+  }
+}
+
+}  // namespace
+
+void add_polar_charts(Page& page, FolderFiles& files, const std::string& name,
+                      const Contender& ours, const Contender& other) {
+  const std::vector<ChartSeries> series = {{ours.name, &*ours.distortion},
+                                           {other.name, &*other.distortion}};
+  std::vector<PageFigure> figures;
+  for (const ChartMeasure measure : {ChartMeasure::Area, ChartMeasure::Angle}) {
+    const bool area = measure == ChartMeasure::Area;
+    const std::string noun = area ? "area" : "angle";
+    const auto mean = [&](const Contender& c) {
+      return significant(area ? c.figures->mean_abs_ln_area : c.figures->mean_abs_ln_angle);
+    };
+    files.emplace_back(name + "-" + noun + ".svg", polar_chart(measure, series));
+    figures.push_back({files.back().first,
+                       "Polar chart of " + noun + " distortion: mean |ln ratio| of " + ours.name +
+                           " is " + mean(ours) + ", of " + other.name + " " + mean(other),
+                       ""});
+  }
+  page.figures(figures, chart_width);
+}
+
+PageFigure sphere_figure(FolderFiles& files, const std::string& name, const MeshFile& file,
+                         const Contender& contender, const PictureOptions& look) {
+  const Image image =
+      sphere_picture(file, contender.map, shape_paint(file, folds_of(contender)), look);
+  files.emplace_back(name + ".png", png(image));
+  const std::string caption = contender.name + ": " + short_verdict(contender);
+  return {name + ".png", "The sphere of " + caption, caption};
+}
+
+FolderFiles comparison_files(const std::string& name, const MeshFile& file,
+                             const std::vector<Contender>& contenders,
+                             const ComparisonOptions& options) {
+  FolderFiles files;
+  Page page("Spherical maps of " + name);
+  page.paragraph(grouped(file.mesh.face_count()) + " triangles, " +
+                 grouped(file.mesh.vertex_count()) + " vertices.");
+  page.table(contender_table(contenders));
+  page.list(statements(contenders));
+  if (options.pictures) add_pictures(page, files, file, contenders, options.look);
+  add_charts(page, files, contenders);
+  files.emplace_back("index.html", page.html());
+  return files;
+}
+
+}  // namespace sphparam::tools

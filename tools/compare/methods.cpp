@@ -1,0 +1,112 @@
+// One table of methods, and one switch; everything else asks these.
+
+#include "compare/methods.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "sphparam/mesh/mesh_defects.h"
+#include "sphparam/rivals/brechbuehler.h"
+#include "sphparam/rivals/conformal.h"
+#include "sphparam/rivals/curvature_flow.h"
+#include "sphparam/rivals/hemispheres.h"
+#include "sphparam/rivals/stereographic.h"
+#include "sphparam/rivals/tangential.h"
+
+namespace sphparam::tools {
+
+namespace {
+
+RivalResult run_as_published(Rival rival, const TriangleMesh& mesh, const Topology& topology,
+                             const ParameterizeOptions& options) {
+  const int threads = options.threads;
+  const Progress& progress = options.progress;
+  switch (rival) {
+    case Rival::Tangential:
+      return map_tangential(mesh, topology, {.threads = threads}, progress);
+    case Rival::Hemispheres:
+      return map_hemispheres(mesh, topology, {.threads = threads}, progress);
+    case Rival::Brechbuehler:
+      return map_brechbuehler(mesh, topology, {.threads = threads}, progress);
+    case Rival::Stereographic:
+      return map_stereographic(mesh, topology, {.threads = threads}, progress);
+    case Rival::Conformal:
+      return map_conformal(mesh, topology, {.threads = threads}, progress);
+    case Rival::Flow:
+      return map_flow(mesh, topology, {.threads = threads}, progress);
+  }
+  return {};
+}
+
+std::vector<StageRecord> records(const std::vector<RivalStage>& stages) {
+  std::vector<StageRecord> result;
+  for (const RivalStage& stage : stages) result.push_back({stage.name, stage.seconds});
+  return result;
+}
+
+Parameterization certified(const Topology& topology, SphereMap map, int threads) {
+  Parameterization result;
+  result.certificate = certify(topology, map, threads);
+  result.map = std::move(map);
+  return result;
+}
+
+/// As made, or mended where that is wanted.
+Parameterization conclude(const TriangleMesh& mesh, const Topology& topology, const char* name,
+                          RivalResult&& rival, const ParameterizeOptions& options) {
+  Parameterization result;
+  if (rival.map && options.repair_paper) {
+    result = repair_map(mesh, *rival.map, options);
+  } else if (rival.map) {
+    result = certified(topology, std::move(*rival.map), options.threads);
+  }
+  if (!options.repair_paper || result.made_by == "given map") result.made_by = name;
+  const std::vector<StageRecord> made = records(rival.stages);
+  result.stages.insert(result.stages.begin(), made.begin(), made.end());
+  return result;
+}
+
+MethodRun run_rival(Rival rival, const TriangleMesh& mesh, ParameterizeOptions options) {
+  const Topology topology = require_sphere(mesh);
+  options.automatic_poles = false;  // the frame is the authors'
+  RivalResult made = run_as_published(rival, mesh, topology, options);
+  const MethodInfo& info = info_of(rival);
+  RivalAccount account = {made.end, made.iterations, made.statement, info.citation};
+  return {conclude(mesh, topology, info.name, std::move(made), options), std::move(account)};
+}
+
+}  // namespace
+
+const std::vector<MethodInfo>& all_methods() {
+  static const std::vector<MethodInfo> methods = {
+      {Method::Progressive, "progressive", "ours: coarse to fine, never folded"},
+      {Method::Curvilinear, "curvilinear", "ours: the paper made sound"},
+      {Method::Paper, "paper", "the paper as printed"},
+      {Rival::Tangential, "tangential", "Alexa 2000; Kobbelt et al. 1999"},
+      {Rival::Hemispheres, "hemispheres", "Saba, Yavneh, Gotsman, Sheffer 2005"},
+      {Rival::Brechbuehler, "brechbuehler", "Brechbühler, Gerig, Kübler 1995"},
+      {Rival::Stereographic, "stereographic", "Haker et al. 2000"},
+      {Rival::Conformal, "conformal", "Gu, Yau 2002, 2003"},
+      {Rival::Flow, "flow", "Kazhdan, Solomon, Ben-Chen 2012"}};
+  return methods;
+}
+
+const MethodInfo& info_of(AnyMethod method) {
+  return *std::find_if(all_methods().begin(), all_methods().end(),
+                       [&](const MethodInfo& info) { return info.method == method; });
+}
+
+std::optional<AnyMethod> method_named(std::string_view name) {
+  for (const MethodInfo& info : all_methods()) {
+    if (info.name == name) return info.method;
+  }
+  return std::nullopt;
+}
+
+MethodRun run_method(AnyMethod method, const TriangleMesh& mesh, ParameterizeOptions options) {
+  if (const Rival* rival = std::get_if<Rival>(&method)) return run_rival(*rival, mesh, options);
+  options.method = std::get<Method>(method);
+  return {parameterize(mesh, options)};
+}
+
+}  // namespace sphparam::tools
