@@ -14,7 +14,7 @@ struct Unfolding {
 
 /// Splits edges, at geodesic points, until every face is positive in (u, v); where only rounding
 /// folds one, nudges its corners. Faces that are positive on the sphere stay so.
-/// Cost: one pass; 1 or 2 µs a split, 256 splits a fold and 4096 at most.
+/// Cost: one pass; 1 to 3 µs a split, 256 splits a fold and 4096 at most.
 Unfolding unfold(FlatMesh& flat, int threads);
 
 }  // namespace sphparam

@@ -83,7 +83,7 @@ struct SphericalChart {
 /// Throws: std::invalid_argument if the map's size is wrong, or where no face holds ±z.
 /// Our own; the need for it: Section 3 of the paper has the date line along edges, which a relaxed
 /// map leaves. Cost: a few passes, a tenth of the default map's time, half of it the certificate;
-/// and 1 or 2 µs a split: some 2 to 10 a fold, up to 70 where needles (1 : 1000) lie on each other
+/// and 1 to 3 µs a split: some 2 to 10 a fold, 10 to 75 where needles (1 : 1000) lie on each other
 /// by the thousand near ±z.
 SphericalChart spherical_chart(const TriangleMesh& mesh, const Topology& topology,
                                const SphereMap& map, int threads = 0);
