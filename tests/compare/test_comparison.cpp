@@ -41,7 +41,7 @@ TEST_CASE("contender: a sphere made elsewhere is certified as it is, whatever it
   unusable.points.row(3).setZero();
   const Contender none = given_contender("peer", "peer.obj", mesh, unusable, 0);
   CHECK_FALSE(none.distortion);
-  CHECK(short_verdict(none) == "1 unusable points");
+  CHECK(short_verdict(none) == "1 unusable point");
 }
 
 TEST_CASE("contender: the table has a row each, with as many cells as its header") {

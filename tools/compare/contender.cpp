@@ -21,6 +21,10 @@ std::string joined(const std::vector<std::string>& sentences) {
   return text;
 }
 
+std::string counted(long count, const std::string& noun) {
+  return grouped(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
 std::vector<std::string> table_row(const Contender& c) {
   std::vector<std::string> row = {c.name, c.seconds ? significant(*c.seconds) : "–"};
   if (!c.has_map()) {
@@ -74,9 +78,8 @@ std::string short_verdict(const Contender& contender) {
   const Certificate& c = contender.certificate;
   if (!contender.has_map()) return "no map";
   if (c.bijective()) return "one-to-one";
-  if (!c.unusable_points.empty())
-    return grouped(std::ssize(c.unusable_points)) + " unusable points";
-  if (c.fold_count() > 0) return grouped(c.fold_count()) + " folds";
+  if (!c.unusable_points.empty()) return counted(std::ssize(c.unusable_points), "unusable point");
+  if (c.fold_count() > 0) return counted(c.fold_count(), "fold");
   return "degree " + std::to_string(c.degree);
 }
 
