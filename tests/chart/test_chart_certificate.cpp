@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <limits>
 
@@ -212,4 +213,25 @@ TEST_CASE("chart certificate: (u, v) that are those of other points show in the 
   std::mt19937 random(5);
   chart.points = rotated({chart.points}, random_rotation(random)).points;
   CHECK(certify_chart(chart).max_shift > 0.01);
+}
+
+TEST_CASE(
+    "chart certificate: a pole trapezoid of no width is folded, two corners on a rim malformed") {
+  const SphericalChart sound = sound_chart();
+  Face f = 0;
+  while (sound.pole_corner(f) < 0) ++f;
+  const int pole = sound.pole_corner(f);
+  const int a = sound.wedges(f, (pole + 1) % 3), b = sound.wedges(f, (pole + 2) % 3);
+
+  SphericalChart narrow = sound;
+  narrow.uv(a, 0) = narrow.uv(b, 0);
+  const ChartCertificate folds = certify_chart(narrow);
+  CHECK(std::count(folds.folded.begin(), folds.folded.end(), f) == 1);
+  CHECK_FALSE(folds.one_to_one());
+
+  SphericalChart flat = sound;
+  flat.uv(a, 1) = flat.uv(sound.wedges(f, pole), 1);
+  const ChartCertificate rims = certify_chart(flat);
+  CHECK(std::count(rims.malformed.begin(), rims.malformed.end(), f) == 1);
+  CHECK_FALSE(rims.one_to_one());
 }
