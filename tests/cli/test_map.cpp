@@ -123,7 +123,7 @@ TEST_CASE("map: --json has the documented keys") {
 TEST_CASE("map: --sphere writes the bare sphere, which verify certifies on its own") {
   const Folder folder;
   write_bytes(folder / "ball.obj", obj_text(icosphere(2)));
-  for (const char* name : {"sphere.ply", "sphere.obj", "sphere.off"}) {
+  for (const char* name : {"sphere.ply", "sphere.obj", "sphere.off", "SPHERE.PLY", "SPHERE.OBJ"}) {
     const Ended ended = sphparam_program(
         {"map", folder / "ball.obj", "-o", folder / "ball.sph.ply", "--sphere", folder / name});
     REQUIRE(ended.code == 0);

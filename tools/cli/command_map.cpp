@@ -164,7 +164,7 @@ struct Sphere {
 /// GIFTI has coordinates of 32 bits. Rounding must not cost a certified map its certificate; one
 /// that is folded anyway may get other folds.
 Sphere sphere_for(const std::string& path, const Outcome& outcome, int threads) {
-  if (std::filesystem::path(path).extension() != ".gii") {
+  if (extension_of(path) != ".gii") {
     return {outcome.result.map, outcome.verdict()};
   }
   const Topology topology(outcome.source.file.mesh);

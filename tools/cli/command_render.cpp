@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -219,8 +218,8 @@ Image picture(const Subject& subject, const RenderArguments& arguments) {
 
 /// Before any work is done: a PNG under another name would deceive whoever opens it.
 void require_png(const std::string& path) {
-  const std::string extension = std::filesystem::path(path).extension();
-  if (is_stream(path) || extension.empty() || extension == ".png" || extension == ".PNG") return;
+  const std::string extension = extension_of(path);
+  if (is_stream(path) || extension.empty() || extension == ".png") return;
   throw UsageMistake("-o: the picture is a PNG, the name must end in .png, not " + extension);
 }
 

@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
-#include <filesystem>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -126,7 +125,7 @@ void require_sensible(const MapArguments& arguments) {
   if (is_stream(arguments.input) && is_stream(arguments.pins)) {
     throw UsageMistake("the mesh and --pin cannot both come from standard input");
   }
-  const std::string extension = std::filesystem::path(arguments.output).extension();
+  const std::string extension = extension_of(arguments.output);
   if (!extension.empty() && extension != ".ply") {
     throw UsageMistake("-o: the map is a PLY, the name must end in .ply; for " + extension +
                        " see --sphere");
@@ -298,7 +297,7 @@ MapDeclaration declare_map_arguments(CLI::App& program, MapArguments& arguments)
 }
 
 Serialiser serialiser(const std::string& path) {
-  const std::string extension = std::filesystem::path(path).extension();
+  const std::string extension = extension_of(path);
   if (extension == ".ply") return serialise_ply;
   if (extension == ".obj") return serialise_obj;
   if (extension == ".off") return serialise_off;

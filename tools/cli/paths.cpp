@@ -22,6 +22,14 @@ std::string output_name(const std::string& path) {
   return is_stream(path) ? "standard output" : file_name(path);
 }
 
+std::string extension_of(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  for (char& c : extension) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return extension;
+}
+
 bool is_same_place(const std::string& one, const std::string& other) {
   if (one.empty() || other.empty()) return false;
   if (is_stream(one) || is_stream(other)) return one == other;

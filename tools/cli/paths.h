@@ -13,6 +13,9 @@ std::string display_name(const std::string& path);
 /// The same for a file that is written.
 std::string output_name(const std::string& path);
 
+/// ".ply" of "STATUE.PLY": in lower case, with its dot; empty where there is none.
+std::string extension_of(const std::string& path);
+
 /// Do two paths, however spelled, name one place? Not where one of them is empty.
 bool is_same_place(const std::string& one, const std::string& other);
 
