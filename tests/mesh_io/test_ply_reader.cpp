@@ -136,6 +136,27 @@ TEST_CASE("ply_reader: faces may come first, other elements and lists are skippe
   CHECK(file.notes.size() == 3);
 }
 
+TEST_CASE("ply_reader: only the map is read where only the map is wanted") {
+  const std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty double sx\nproperty float x\n"
+      "property float y\nproperty uchar red\nproperty float z\nproperty double sy\n"
+      "property double sz\nelement face 1\nproperty uchar patch\n"
+      "property list uchar float texcoord\nproperty list uchar int vertex_indices\nend_header\n"
+      "1 0 0 7 0 2 3\n4 1 0 8 0 5 6\n7 0 1 9 0 8 9\n2 6 0 0 1 0 1 1 3 0 1 2\n";
+  const MeshFile all = tools::read_mesh(text, "all.ply", {});
+  const MeshFile map = tools::read_mesh(text, "map.ply", {.only_map = true});
+  CHECK(all.vertex_properties.size() == 4);
+  CHECK(map.mesh.positions == all.mesh.positions);
+  CHECK(map.mesh.triangles == all.mesh.triangles);
+  REQUIRE(map.vertex_properties.size() == 3);
+  for (const char* ray : {"sx", "sy", "sz"}) {
+    CHECK(map.find_vertex_property(ray)->values == all.find_vertex_property(ray)->values);
+  }
+  CHECK(map.face_properties.empty());
+  CHECK(all.corner_texcoords);
+  CHECK_FALSE(map.corner_texcoords);
+}
+
 TEST_CASE("ply_reader: files without faces are read") {
   const std::string header =
       "ply\nformat ascii 1.0\nelement vertex 1\nproperty int x\nproperty int y\nproperty int z\n";

@@ -43,8 +43,9 @@ namespace sphparam::tools {
 
 namespace {
 
-/// What we wrote may be larger than what strangers may send.
-constexpr ReadOptions own_file = {.max_file_bytes = std::numeric_limits<std::uint64_t>::max(),
+/// What we wrote may be larger than what strangers may send; to prove the map, the map is enough.
+constexpr ReadOptions own_file = {.only_map = true,
+                                  .max_file_bytes = std::numeric_limits<std::uint64_t>::max(),
                                   .max_line_bytes = std::numeric_limits<std::int64_t>::max(),
                                   .max_ply_properties = std::numeric_limits<std::int64_t>::max()};
 
@@ -228,19 +229,21 @@ void add_reports(PendingFiles& files, const MapArguments& arguments, const Outco
   files.add(arguments.json, to_json(report));
 }
 
-void add_map(PendingFiles& files, const MapArguments& arguments, const Outcome& outcome) {
+/// The mesh gets its map where it stands: a copy of all its attributes would be the peak of memory.
+void add_map(PendingFiles& files, const MapArguments& arguments, Outcome& outcome) {
   const std::string& path = arguments.output;
-  std::string bytes = serialise_ply(attach_map(outcome.source.file, outcome.result.map,
-                                               provenance(arguments, outcome, outcome.verdict())));
-  files.add(path, std::move(bytes), [&](std::string_view written) {
-    const MeshFile file = read_mesh(written, path, own_file);
-    require_verdict(outcome.verdict(), path, file, read_sphere(file).value(),
+  const Provenance lines = provenance(arguments, outcome, outcome.verdict());
+  MeshFile& file = outcome.source.file;
+  file = attach_map(std::move(file), outcome.result.map, lines);
+  files.add(path, serialise_ply(file), [&](std::string_view written) {
+    const MeshFile reread = read_mesh(written, path, own_file);
+    require_verdict(outcome.verdict(), path, reread, read_sphere(reread).value(),
                     arguments.options.threads);
   });
 }
 
 /// All outputs, or, where one fails, none.
-void write_outputs(const MapArguments& arguments, const Outcome& outcome, bool with_map,
+void write_outputs(const MapArguments& arguments, Outcome& outcome, bool with_map,
                    const Stopwatch& stopwatch) {
   PendingFiles files;
   Outputs outputs;
@@ -356,7 +359,7 @@ int run_map(const MapArguments& arguments) {
     source = repaired(std::move(source), *repairs);
   }
   const OrderlyInterruption orderly;  // from here on there may be files to clean up
-  const Outcome outcome = compute(std::move(source), arguments, console);
+  Outcome outcome = compute(std::move(source), arguments, console);
   tell_stages(arguments, outcome, console);
   tell_frame(arguments, outcome, console);
   const bool writes = outcome.has_map() && outcome.pins_hold() &&

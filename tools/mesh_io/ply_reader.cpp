@@ -1,6 +1,7 @@
 #include "mesh_io/ply_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -226,7 +227,7 @@ class PlyReader {
     for (std::size_t i = 0, column = 0; i < element.properties.size(); ++i) {
       const PlyProperty& property = element.properties[i];
       const std::size_t axis = std::string_view("xyz").find(property.name);
-      if (property.is_list)
+      if (property.is_list || !is_wanted(element, property))
         targets.push_back({nullptr, 0});
       else if (property.name.size() == 1 && axis != std::string_view::npos)
         targets.push_back({positions.data() + axis, 3});
@@ -248,6 +249,18 @@ class PlyReader {
     return ScalarType::Float32;
   }
 
+  /// With `only_map` no face property is kept, and of a vertex the ray and the position.
+  bool is_wanted(const PlyElement& element, const PlyProperty& property) const {
+    static constexpr std::array<std::string_view, 6> kOfMap = {"x", "y", "z", "sx", "sy", "sz"};
+    if (!options_.only_map) return true;
+    return &element == vertex_element_ &&
+           std::find(kOfMap.begin(), kOfMap.end(), property.name) != kOfMap.end();
+  }
+
+  void skip(const PlyProperty& property) {
+    body_.skip(property.type, property.is_list ? list_length(property) : 1);
+  }
+
   /// Where the value of a property goes: entry v of a strided array; nowhere for lists.
   struct Target {
     double* first;
@@ -257,8 +270,8 @@ class PlyReader {
   void read_record(const PlyElement& element, const std::vector<Target>& targets, std::int64_t i) {
     for (std::size_t p = 0; p < targets.size(); ++p) {
       const PlyProperty& property = element.properties[p];
-      if (property.is_list)
-        body_.skip(property.type, list_length(property));
+      if (!targets[p].first)
+        skip(property);
       else
         targets[p].first[i * targets[p].stride] = body_.real(property.type);
     }
@@ -270,6 +283,7 @@ class PlyReader {
     std::vector<Property> result;
     for (const PlyProperty& property : element.properties) {
       if (std::find(handled.begin(), handled.end(), property.name) != handled.end()) continue;
+      if (!is_wanted(element, property)) continue;
       if (property.is_list)
         file_.notes.push_back("list " + quoted(property.name) + " of element " +
                               quoted(element.name) + " ignored");
@@ -287,7 +301,7 @@ class PlyReader {
     polygons_.starts.reserve(static_cast<std::size_t>(element.count + 1));
     const auto is_list = [&](const char* name) {
       const PlyProperty* const property = element.find(name);
-      return property && property->is_list;
+      return property && property->is_list && is_wanted(element, *property);
     };
     has_texcoords_ = is_list("texcoord");
     has_normals_ = is_list("normal");
@@ -310,8 +324,8 @@ class PlyReader {
         read_list(property, texcoords_);
       else if (has_normals_ && property.name == "normal")
         read_list(property, normals_);
-      else if (property.is_list)
-        body_.skip(property.type, list_length(property));
+      else if (property.is_list || !is_wanted(element, property))
+        skip(property);
       else
         file_.face_properties[column++].values[static_cast<std::size_t>(f)] =
             body_.real(property.type);
@@ -372,8 +386,7 @@ class PlyReader {
                           quoted(element.name) + " ignored");
     for (std::int64_t i = 0; i < element.count; ++i) {
       body_.begin({&element, i});
-      for (const PlyProperty& property : element.properties)
-        body_.skip(property.type, property.is_list ? list_length(property) : 1);
+      for (const PlyProperty& property : element.properties) skip(property);
       body_.end();
     }
   }

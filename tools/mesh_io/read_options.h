@@ -7,8 +7,11 @@
 
 namespace sphparam::tools {
 
-/// Limits of what is read. A file beyond one is refused before memory is spent on it.
+/// Limits of what is read, and what is left out. A file beyond a limit is refused before memory is
+/// spent on it.
 struct ReadOptions {
+  /// Of a PLY only positions, faces and sx sy sz: for who wants to prove a written map again.
+  bool only_map = false;
   std::uint64_t max_file_bytes = std::uint64_t{1} << 31;
   std::int64_t max_vertices = std::int64_t{1} << 28;
   std::int64_t max_faces = std::int64_t{1} << 28;  // of the file, and of triangles
