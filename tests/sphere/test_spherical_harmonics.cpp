@@ -1,0 +1,186 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "sphparam/errors.h"
+#include "sphparam/sphere/spherical_harmonics.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+Points random_directions(int count, unsigned seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  Points points(count, 3);
+  for (int i = 0; i < count; ++i) {
+    points.row(i) = Vector3(normal(random), normal(random), normal(random)).normalized();
+  }
+  return points;
+}
+
+Functions random_coefficients(int degree, int functions, unsigned seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  Functions c((degree + 1) * (degree + 1), functions);
+  for (Eigen::Index i = 0; i < c.size(); ++i) c.data()[i] = uniform(random);
+  return c;
+}
+
+Functions basis(int degree) {
+  const int n = (degree + 1) * (degree + 1);
+  return Functions::Identity(n, n);
+}
+
+SphereMap map_of(const TriangleMesh& sphere) { return {sphere.positions}; }
+
+/// A sphere whose vertices are denser on one side: carried by a Möbius transformation.
+SphereMap uneven(const TriangleMesh& sphere) {
+  const Vector3 a(0.2, -0.1, 0.3);
+  SphereMap map = map_of(sphere);
+  for (Eigen::Index v = 0; v < map.points.rows(); ++v) {
+    const Vector3 x = map.points.row(v);
+    map.points.row(v) =
+        ((1 - a.squaredNorm()) * x + 2 * (1 + a.dot(x)) * a).normalized().transpose();
+  }
+  return map;
+}
+
+}  // namespace
+
+TEST_CASE("spherical_harmonics: x, y and z are the first harmonics, without a phase") {
+  const Points d = random_directions(50, 1);
+  const Functions y = synthesise(basis(1), d);
+  const double scale = std::sqrt(3 / (4 * pi));
+  CHECK((y.col(harmonic_index(0, 0)).array() - std::sqrt(1 / (4 * pi))).abs().maxCoeff() < 1e-15);
+  CHECK((y.col(harmonic_index(1, 1)) - scale * d.col(0)).cwiseAbs().maxCoeff() < 1e-15);
+  CHECK((y.col(harmonic_index(1, -1)) - scale * d.col(1)).cwiseAbs().maxCoeff() < 1e-15);
+  CHECK((y.col(harmonic_index(1, 0)) - scale * d.col(2)).cwiseAbs().maxCoeff() < 1e-15);
+}
+
+TEST_CASE("spherical_harmonics: closed forms of degrees 2 and 3") {
+  const Points d = random_directions(50, 2);
+  const Functions v = synthesise(basis(3), d);
+  for (Eigen::Index i = 0; i < d.rows(); ++i) {
+    const double x = d(i, 0), y = d(i, 1), z = d(i, 2);
+    CHECK(v(i, harmonic_index(2, 0)) ==
+          Approx(std::sqrt(5 / (16 * pi)) * (3 * z * z - 1)).margin(1e-14));
+    CHECK(v(i, harmonic_index(2, 1)) == Approx(std::sqrt(15 / (4 * pi)) * x * z).margin(1e-14));
+    CHECK(v(i, harmonic_index(2, -2)) == Approx(std::sqrt(15 / (4 * pi)) * x * y).margin(1e-14));
+    CHECK(v(i, harmonic_index(3, 3)) ==
+          Approx(std::sqrt(35 / (32 * pi)) * x * (x * x - 3 * y * y)).margin(1e-14));
+    CHECK(v(i, harmonic_index(3, -3)) ==
+          Approx(std::sqrt(35 / (32 * pi)) * y * (3 * x * x - y * y)).margin(1e-14));
+  }
+}
+
+TEST_CASE("spherical_harmonics: orthonormal under the quadrature of their degree") {
+  const int degree = 14;
+  const QuadratureGrid grid = quadrature_grid(degree);
+  CHECK(grid.weights.sum() == Approx(4 * pi).epsilon(1e-14));
+  const Functions gram =
+      analyse(degree, grid.directions, grid.weights, synthesise(basis(degree), grid.directions));
+  CHECK((gram - basis(degree)).cwiseAbs().maxCoeff() < 1e-13);
+}
+
+TEST_CASE("spherical_harmonics: squares of a degree sum to (2l + 1)/4π, up to degree 400") {
+  Points d = random_directions(6, 3);
+  d.row(0) << 0, 0, 1;
+  d.row(1) << 0, 0, -1;
+  d.row(2) = Vector3(1e-5, 2e-7, 1).normalized();
+  // The transpose turns one value 1 at a direction into all Y there.
+  for (Eigen::Index i = 0; i < d.rows(); ++i) {
+    const Functions y = analyse(400, d.row(i), Eigen::VectorXd::Ones(1), Functions::Ones(1, 1));
+    const Functions power = power_per_degree(y);
+    for (int l = 0; l <= 400; ++l) {
+      INFO("direction " << i << ", degree " << l);
+      REQUIRE(power(l, 0) == Approx((2 * l + 1) / (4 * pi)).epsilon(1e-10));
+    }
+  }
+}
+
+TEST_CASE("spherical_harmonics: analysis is the transpose of synthesis") {
+  const Points d = random_directions(777, 4);
+  const Functions c = random_coefficients(9, 2, 5), f = random_coefficients(27, 1, 6);
+  Functions values(777, 2);
+  for (Eigen::Index i = 0; i < 777; ++i) values.row(i) << f(i, 0), f(i + 7, 0);
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(777);
+  const double there = synthesise(c, d).cwiseProduct(values).sum();
+  const double back = analyse(9, d, ones, values).cwiseProduct(c).sum();
+  CHECK(there == Approx(back).epsilon(1e-12));
+}
+
+TEST_CASE("spherical_harmonics: least squares find what is a harmonic at the vertices") {
+  const TriangleMesh sphere = icosphere(4);
+  const Topology topology(sphere);
+  const SphereMap map = uneven(sphere);
+  const Functions wanted = random_coefficients(12, 3, 7);
+  const Functions values = synthesise(wanted, map.points);
+  const HarmonicFit fit = fit_harmonics(topology, map, values, {.degree = 12});
+  CHECK((fit.coefficients - wanted).cwiseAbs().maxCoeff() < 1e-9);
+  CHECK(fit.rms.maxCoeff() < 1e-9);
+  const HarmonicFit projected =
+      fit_harmonics(topology, map, values, {.degree = 12, .least_squares = false});
+  CHECK(projected.iterations == 0);
+  CHECK(projected.rms.maxCoeff() > 1e-6);  // a piecewise linear function is no harmonic
+}
+
+TEST_CASE("spherical_harmonics: an ellipsoid has its semi-axes and nothing else") {
+  const TriangleMesh sphere = icosphere(4);
+  Eigen::Matrix3d stretch = Eigen::Vector3d(3, 2, 0.5).asDiagonal();
+  stretch = Eigen::AngleAxisd(0.7, Vector3(1, 2, 3).normalized()).toRotationMatrix() * stretch;
+  const Functions positions = sphere.positions * stretch.transpose();
+  const HarmonicFit fit =
+      fit_harmonics(Topology(sphere), map_of(sphere), positions, {.degree = 20});
+  const Vector3 axes = first_order_ellipsoid(fit.coefficients);
+  CHECK((axes - Vector3(3, 2, 0.5)).cwiseAbs().maxCoeff() < 1e-9);
+  Functions rest = fit.coefficients;
+  rest.middleRows(1, 3).setZero();
+  CHECK(rest.cwiseAbs().maxCoeff() < 1e-9);
+}
+
+TEST_CASE("spherical_harmonics: what is left falls with the degree, and a constant is Y_00") {
+  const TriangleMesh sphere = icosphere(4);
+  const Topology topology(sphere);
+  const SphereMap map = uneven(sphere);
+  Functions values(topology.vertex_count(), 2);
+  for (Vertex v = 0; v < topology.vertex_count(); ++v) {
+    values.row(v) << std::exp(3 * map.point(v).x()) * std::abs(map.point(v).y()), 5;
+  }
+  double last = 1e300;
+  for (const int degree : {0, 2, 5, 10}) {
+    const HarmonicFit fit = fit_harmonics(topology, map, values, {.degree = degree});
+    CHECK(fit.rms[0] < last);
+    last = fit.rms[0];
+    CHECK(fit.rms[1] < 1e-10);
+    CHECK(fit.coefficients(0, 1) == Approx(5 * std::sqrt(4 * pi)).epsilon(1e-10));
+  }
+}
+
+TEST_CASE("spherical_harmonics: the same bits for any number of threads") {
+  const Points d = random_directions(9000, 8);
+  const Functions c = random_coefficients(10, 2, 9);
+  const Functions values = synthesise(c, d, 1);
+  CHECK(synthesise(c, d, 3) == values);
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(9000);
+  CHECK(analyse(10, d, ones, values, 1) == analyse(10, d, ones, values, 4));
+}
+
+TEST_CASE("spherical_harmonics: sizes that do not fit are refused, and work can be cancelled") {
+  const TriangleMesh sphere = icosphere(1);
+  const Topology topology(sphere);
+  CHECK_THROWS_AS(synthesise(Functions::Zero(5, 1), sphere.positions), std::invalid_argument);
+  CHECK_THROWS_AS(quadrature_grid(-1), std::invalid_argument);
+  CHECK_THROWS_AS(fit_harmonics(topology, map_of(sphere), Functions::Zero(3, 1), {}),
+                  std::invalid_argument);
+  CHECK_THROWS_AS(fit_harmonics(topology, map_of(sphere), Functions::Zero(42, 1), {.degree = 1001}),
+                  std::invalid_argument);
+  CHECK_THROWS_AS(fit_harmonics(topology, map_of(sphere), Functions::Ones(42, 1),
+                                {.progress = [](std::string_view, double) { return false; }}),
+                  Cancelled);
+}
