@@ -14,7 +14,7 @@ using Catch::Contains;
 using Catch::StartsWith;
 
 const std::vector<std::string> subcommands = {"info",   "map",    "verify",
-                                              "render", "compare", "manual", "completion"};
+                                              "render", "compare", "measure", "manual", "completion"};
 
 /// Every "--name" in a text.
 std::set<std::string> long_options(const std::string& text) {
@@ -47,7 +47,7 @@ TEST_CASE("manual: every option of every subcommand and every exit code is in it
       CHECK_THAT(plain, Contains("fB" + option + "fR"));
     }
   }
-  for (const char* code : {"0", "1", "2", "3", "4", "5", "130"}) {
+  for (const char* code : {"0", "1", "2", "3", "4", "5", "6", "130"}) {
     CHECK_THAT(plain, Contains("fB" + std::string(code) + "fR\n"));
   }
   for (const char* section :

@@ -27,7 +27,7 @@ TEST_CASE("program: --help shows examples before options and documents the exit 
 }
 
 TEST_CASE("program: every subcommand has examples before its options") {
-  for (const char* command : {"info", "map", "verify", "render", "compare"}) {
+  for (const char* command : {"info", "map", "verify", "render", "compare", "measure"}) {
     const Ended ended = sphparam_program({command, "--help"});
     CHECK(ended.code == 0);
     CHECK(ended.out.find("Examples:") < ended.out.find("Usage:"));

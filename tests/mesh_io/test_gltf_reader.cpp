@@ -519,3 +519,41 @@ TEST_CASE("gltf_reader: damaged files give a mesh or a ReadError, nothing else")
   CHECK(accepted > 500);
   CHECK(refused > 500);
 }
+
+TEST_CASE("gltf_reader: a material brings its base colour: factor, image, wrap modes") {
+  Gltf gltf = tetrahedron_gltf();
+  gltf.meshes = replaced(gltf.meshes, R"("indices":1)", R"("indices":1,"material":1)");
+  gltf.rest +=
+      R"(,"materials":[{"name":"unused"},{"name":"m","pbrMetallicRoughness":{)"
+      R"("baseColorFactor":[0.5,0.25,1,0.75],"baseColorTexture":{"index":0}}}],)"
+      R"("textures":[{"source":0,"sampler":0}],"samplers":[{"wrapS":33071,"wrapT":33648}],)"
+      R"("images":[{"bufferView":0,"mimeType":"image/png"}])";
+  const MeshFile inside = read(gltf.bytes());
+  REQUIRE(inside.base_colours.size() == 1);
+  const tools::BaseColour& colour = inside.base_colours[0];
+  CHECK(colour.factor == std::array{0.5, 0.25, 1.0, 0.75});
+  CHECK(colour.wrap_s == tools::Wrapping::Clamp);
+  CHECK(colour.wrap_t == tools::Wrapping::Mirror);
+  CHECK(colour.problem.empty());
+  REQUIRE(colour.bytes);
+  CHECK(std::string(colour.bytes->begin(), colour.bytes->end()) ==
+        gltf.binary.substr(0, colour.bytes->size()));
+
+  const std::string in_view = R"("bufferView":0,"mimeType":"image/png")";
+  const auto with_image = [&](const std::string& image) {
+    Gltf other = gltf;
+    other.rest = replaced(other.rest, in_view, image);
+    return read(other.bytes()).base_colours.at(0);
+  };
+  CHECK(contains(with_image(R"("uri":"../secret.png")").problem, "'..'"));
+  CHECK(contains(with_image(R"("uri":"skin.png")").problem, "only a glTF read from a file"));
+  CHECK(with_image(R"("uri":"skin.png")").path == "skin.png");
+  Gltf transformed = gltf;
+  transformed.rest = replaced(
+      transformed.rest, R"("baseColorTexture":{"index":0})",
+      R"("baseColorTexture":{"index":0,"extensions":{"KHR_texture_transform":{"scale":[2,2]}}})");
+  CHECK(contains(read(transformed.bytes()).base_colours[0].problem, "transformed"));
+  Gltf second = gltf;
+  second.rest = replaced(second.rest, R"("index":0})", R"("index":0,"texCoord":1})");
+  CHECK(contains(read(second.bytes()).base_colours[0].problem, "other texture coordinates"));
+}

@@ -156,3 +156,36 @@ TEST_CASE("svg: numbers are short and independent of the locale") {
   CHECK(grouped(1234567) == "1\u202f234\u202f567");
   CHECK(grouped(999) == "999");
 }
+
+TEST_CASE("polar_panels: the dots of the chart, in pieces, with what is not to be seen") {
+  Distortion d = constant_distortion(100);
+  d.area_ratio[7] = 1e6;
+  const std::vector<ChartPanel> panels = polar_panels(ChartMeasure::Area, {"m", &d});
+  REQUIRE(panels.size() == 2);
+  for (const ChartPanel& panel : panels) {
+    CHECK(balanced(panel.svg));
+    CHECK(dots(panel.svg) == 99);
+    CHECK_THAT(panel.note, Contains("99 dots for the 99 of 100 triangles") && Contains("1 beyond"));
+  }
+}
+
+TEST_CASE("polar_panels: with the maps they are compared with they have one rim") {
+  const Distortion flat = constant_distortion(100);
+  Distortion wild = constant_distortion(100);
+  wild.area_ratio *= 70;
+  const auto rim = [](const ChartPanel& panel) { return panel.note.substr(panel.note.find("up")); };
+  const ChartSeries one{"one", &flat}, two{"two", &wild};
+  const auto alone = polar_panels(ChartMeasure::Area, one);
+  const auto first = polar_panels(ChartMeasure::Area, one, {one, two});
+  const auto second = polar_panels(ChartMeasure::Area, two, {one, two});
+  CHECK(rim(first[0]) == rim(second[0]));
+  CHECK(rim(first[0]) != rim(alone[0]));
+}
+
+TEST_CASE("histogram_panel: bars have the scale of the highest of all maps") {
+  const Distortion flat = constant_distortion(100), scattered = scattered_distortion(100);
+  const ChartSeries one{"one", &flat}, two{"two", &scattered};
+  CHECK_THAT(histogram_panel(ChartMeasure::Area, two, {one}).svg, Contains(">100 %<"));
+  CHECK_THAT(histogram_panel(ChartMeasure::Area, two).svg, !Contains(">100 %<"));
+  CHECK(balanced(histogram_panel(ChartMeasure::Angle, two).svg));
+}

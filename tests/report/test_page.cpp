@@ -33,3 +33,21 @@ TEST_CASE("page: a table has its header, and its rows have names") {
   CHECK_THAT(page.html(), Contains("<th>mesh</th><th>folds</th>") &&
                               Contains("<th scope=\"row\">cow</th><td>3</td>"));
 }
+
+TEST_CASE("page: a browser is told to load nothing that is not there") {
+  CHECK_THAT(Page("t").html(), Contains("default-src 'none'") && !Contains("unsafe-eval"));
+}
+
+TEST_CASE("page: verdicts, figures and facts are text too, and a script cannot end its element") {
+  const std::string bad = "<b>&\"";
+  Page page("t");
+  page.verdict(bad, false);
+  page.key_figures({{bad, bad}});
+  page.facts({{bad, bad}});
+  page.folded_text(bad, bad + "\n" + bad);
+  page.add_script("'</script>'; '<!--'");
+  const std::string html = page.html();
+  CHECK_THAT(html, !Contains("<b>") && !Contains("&\"") && !Contains("<!--"));
+  CHECK_THAT(html, Contains("'<\\/script>'; '<\\!--'</script>\n</body>"));
+  CHECK_THAT(html, Contains("class=\"verdict bad\">✗ ") && Contains("&quot;\n&lt;b&gt;"));
+}

@@ -2,104 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
-#include "sphparam/sphere/orientation.h"
+#include "bake/chart_piece.h"
 
 // A piece of the chart is convex, so the texels it owns in a row are neighbours: their two ends are
 // estimated from where the row crosses the piece's edges and then moved until exact signs agree.
-// Points are (v, u): there, faces are counter-clockwise. A sign of 0 is decided as if the point
-// were moved by (−ε², ε): the sign of det(b − a, δ) then is + iff (v, u) of b is lexicographically
-// greater than that of a, and the same edge seen from its other face says −.
 
 namespace sphparam::tools {
-namespace {
-
-struct UvPoint {
-  double v, u;
-  auto operator<=>(const UvPoint&) const = default;
-};
-
-/// Is p to the left of the edge from a to b, ties decided by the moved point?
-bool is_left(const UvPoint& a, const UvPoint& b, const UvPoint& p) {
-  const double det = (b.v - a.v) * (p.u - a.u) - (b.u - a.u) * (p.v - a.v);
-  const double size = std::abs((b.v - a.v) * (p.u - a.u)) + std::abs((b.u - a.u) * (p.v - a.v));
-  // Four roundings of at most 2⁻⁵³ each; products that may have underflowed are left to
-  // `orientation`.
-  if (size > 1e-280 && std::abs(det) > 0x1p-50 * size) return det > 0;
-  const int sign = orientation(Vector3(a.v, a.u, 1), Vector3(b.v, b.u, 1), Vector3(p.v, p.u, 1));
-  return sign != 0 ? sign > 0 : a < b;
-}
-
-/// The range of u of a convex polygon at a height v, up to rounding.
-std::array<double, 2> range_at(std::span<const UvPoint> polygon, double v) {
-  double least = 2, greatest = -1;
-  for (size_t k = 0; k < polygon.size(); ++k) {
-    const UvPoint &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
-    if (v < std::min(a.v, b.v) || v > std::max(a.v, b.v)) continue;
-    const double t = a.v == b.v ? 0 : (v - a.v) / (b.v - a.v), u = a.u + t * (b.u - a.u);
-    least = std::min({least, u, a.v == b.v ? b.u : u});
-    greatest = std::max({greatest, u, a.v == b.v ? b.u : u});
-  }
-  return {least, greatest};
-}
-
-}  // namespace
-
-/// What a face owns: a convex polygon, counter-clockwise in (v, u).
-struct UvRaster::Piece {
-  Face face;
-  size_t size;  // 3, or 4 at a pole
-  std::array<UvPoint, 4> corners;
-  std::array<UvPoint, 3> triangle;  // the face's own corners, for the weights
-  double low, high;                 // range of v
-
-  Piece(const SphericalChart& chart, Face f) : face(f), size(3) {
-    for (int k = 0; k < 3; ++k) {
-      const auto uv = chart.uv.row(chart.wedges(f, k));
-      triangle[static_cast<size_t>(k)] = {uv[1], uv[0]};
-    }
-    std::copy(triangle.begin(), triangle.end(), corners.begin());
-    if (const int pole = chart.pole_corner(f); pole >= 0) {
-      const auto apex = static_cast<size_t>(pole);
-      const UvPoint a = triangle[(apex + 1) % 3], b = triangle[(apex + 2) % 3];
-      const double rim = triangle[apex].v;
-      corners = {a, b, UvPoint{rim, b.u}, UvPoint{rim, a.u}};
-      size = 4;
-    }
-    low = high = corners[0].v;
-    for (const UvPoint& corner : outline()) {
-      low = std::min(low, corner.v);
-      high = std::max(high, corner.v);
-    }
-  }
-
-  bool holds(const UvPoint& p) const {
-    for (size_t k = 0; k < size; ++k) {
-      if (!is_left(corners[k], corners[(k + 1) % size], p)) return false;
-    }
-    return true;
-  }
-
-  std::span<const UvPoint> outline() const { return {corners.data(), size}; }
-
-  /// λ₀ = det(p − p₂, p₁ − p₂) / det(p₀ − p₂, p₁ − p₂), λ₁ likewise, of the nearest point of the
-  /// triangle at the same v.
-  std::array<double, 2> weights(UvPoint p) const {
-    if (size == 4) {
-      const auto [least, greatest] = range_at(triangle, p.v);
-      p.u = std::clamp(p.u, least, greatest);
-    }
-    const auto& [p0, p1, p2] = triangle;
-    const double det = (p0.v - p2.v) * (p1.u - p2.u) - (p0.u - p2.u) * (p1.v - p2.v);
-    const double a = ((p.v - p2.v) * (p1.u - p2.u) - (p.u - p2.u) * (p1.v - p2.v)) / det;
-    const double b = ((p0.v - p2.v) * (p.u - p2.u) - (p0.u - p2.u) * (p.v - p2.v)) / det;
-    const double first = std::clamp(a, 0.0, 1.0);
-    return {first, std::clamp(b, 0.0, 1 - first)};
-  }
-};
 
 UvRaster::UvRaster(const SphericalChart& chart, int width, int height)
     : chart_(&chart), width_(width), height_(height) {
@@ -117,8 +29,8 @@ UvRaster::UvRaster(const SphericalChart& chart, int width, int height)
   offsets_.assign(static_cast<size_t>(bands) + 1, 0);
   const auto face_count = static_cast<Face>(chart.triangles.rows());
   for (Face f = 0; f < face_count; ++f) {
-    const Piece piece(chart, f);
-    for (int b = band_of(piece.low); b <= band_of(piece.high); ++b) {
+    const ChartPiece piece(chart, f);
+    for (int b = band_of(piece.low()); b <= band_of(piece.high()); ++b) {
       ++offsets_[static_cast<size_t>(b) + 1];
     }
   }
@@ -126,50 +38,101 @@ UvRaster::UvRaster(const SphericalChart& chart, int width, int height)
   faces_.resize(static_cast<size_t>(offsets_.back()));
   std::vector<std::int64_t> next(offsets_.begin(), offsets_.end() - 1);
   for (Face f = 0; f < face_count; ++f) {
-    const Piece piece(chart, f);
-    for (int b = band_of(piece.low); b <= band_of(piece.high); ++b) {
+    const ChartPiece piece(chart, f);
+    for (int b = band_of(piece.low()); b <= band_of(piece.high()); ++b) {
       faces_[static_cast<size_t>(next[static_cast<size_t>(b)]++)] = f;
     }
   }
 }
 
+/// The runs of one row: one, or, where the trapezoid of a pole goes beyond its triangle, a second
+/// and a third of constant weights.
+void UvRaster::add_runs(const ChartPiece& piece, int row, int first, int last, double x, double v,
+                        std::vector<RasterRun>& runs) const {
+  const auto u = [&](int column) { return (column + x) / width_; };
+  const auto add = [&](int from, int to, bool beside) {
+    if (from > to) return;
+    const std::array<double, 2> here = piece.weights({v, u(from)});
+    RasterRun run{piece.face(), row, from, to - from + 1, here, {0, 0}, piece.gradient(0)};
+    for (size_t k = 0; k < 2; ++k) {
+      run.below[k] /= height_;
+      if (!beside) run.step[k] = piece.gradient(1)[k] / width_;
+    }
+    if (run.count > 1 && !beside) {
+      const std::array<double, 2> there = piece.weights({v, u(to)});
+      for (size_t k = 0; k < 2; ++k) run.step[k] = (there[k] - here[k]) / (to - from);
+    }
+    runs.push_back(run);
+  };
+  if (!piece.is_trapezoid()) return add(first, last, false);
+  const auto [least, greatest] = range_at(piece.triangle(), v);
+  int inner = first, outer = last;
+  while (inner <= last && u(inner) < least) ++inner;
+  while (outer >= inner && u(outer) > greatest) --outer;
+  add(first, inner - 1, true);
+  add(inner, outer, false);
+  add(outer + 1, last, true);
+}
+
 /// Draws the rows of the band that a piece reaches.
-void UvRaster::draw(const Piece& piece, double x, double y, RasterBand& band) const {
-  const int last_row = band.first_row + band.rows - 1;
-  const int top = std::max(band.first_row, static_cast<int>(piece.low * height_ - y) - 1);
-  const int bottom = std::min(last_row, static_cast<int>(piece.high * height_ - y) + 1);
+void UvRaster::draw(const ChartPiece& piece, int band, double x, double y,
+                    std::vector<RasterRun>& runs) const {
+  const int last_row = first_row(band) + rows(band) - 1;
+  const int top = std::max(first_row(band), static_cast<int>(piece.low() * height_ - y) - 1);
+  const int bottom = std::min(last_row, static_cast<int>(piece.high() * height_ - y) + 1);
   for (int row = top; row <= bottom; ++row) {
     const double v = (row + y) / height_;
-    if (v < piece.low || v > piece.high) continue;
+    if (v < piece.low() || v > piece.high()) continue;
     const auto [least, greatest] = range_at(piece.outline(), v);
     const auto inside = [&](int column) { return piece.holds({v, (column + x) / width_}); };
     int first = std::max(0, static_cast<int>(std::floor(least * width_ - x)) - 1);
     int last = std::min(width_ - 1, static_cast<int>(std::ceil(greatest * width_ - x)) + 1);
     while (first <= last && !inside(first)) ++first;
     while (last > first && !inside(last)) --last;
-    for (int column = first; column <= last; ++column) {
-      const size_t texel = band.index(row, column);
-      if (band.faces[texel] >= 0) throw std::logic_error("a texel has two owners");
-      band.faces[texel] = piece.face;
-      band.weights[texel] = piece.weights({v, (column + x) / width_});
-    }
+    if (first <= last) add_runs(piece, row, first, last, x, v, runs);
   }
 }
 
-RasterBand UvRaster::band(int index, double x, double y) const {
-  RasterBand band;
-  band.width = width_;
-  band.first_row = index * rows_a_band;
-  band.rows = std::min(rows_a_band, height_ - band.first_row);
-  const size_t texels = static_cast<size_t>(band.rows) * static_cast<size_t>(width_);
-  band.faces.assign(texels, -1);
-  band.weights.resize(texels);
-  const auto at = static_cast<size_t>(index);
-  for (auto i = static_cast<size_t>(offsets_[at]); i < static_cast<size_t>(offsets_[at + 1]); ++i) {
-    draw(Piece(*chart_, faces_[i]), x, y, band);
+std::span<const Face> UvRaster::faces(int band) const {
+  const auto first = static_cast<size_t>(offsets_[static_cast<size_t>(band)]);
+  const auto last = static_cast<size_t>(offsets_[static_cast<size_t>(band) + 1]);
+  return std::span(faces_).subspan(first, last - first);
+}
+
+std::vector<RasterRun> UvRaster::runs(int band, double x, double y) const {
+  std::vector<RasterRun> drawn;
+  for (const Face f : faces(band)) draw(ChartPiece(*chart_, f), band, x, y, drawn);
+  const auto place = [&](const RasterRun& run) {
+    return static_cast<std::int64_t>(run.row) * width_ + run.first;
+  };
+  std::vector<std::pair<std::int64_t, size_t>> order(drawn.size());
+  for (size_t i = 0; i < drawn.size(); ++i) order[i] = {place(drawn[i]), i};
+  std::ranges::sort(order);
+  std::vector<RasterRun> runs;
+  runs.reserve(drawn.size());
+  std::int64_t next = static_cast<std::int64_t>(first_row(band)) * width_;
+  for (const auto& [at, i] : order) {
+    if (at != next)
+      throw std::logic_error(at < next ? "a texel has two owners" : "a texel has no owner");
+    runs.push_back(drawn[i]);
+    next += drawn[i].count;
   }
-  if (std::ranges::find(band.faces, -1) != band.faces.end()) {
+  if (next != static_cast<std::int64_t>(first_row(band) + rows(band)) * width_) {
     throw std::logic_error("a texel has no owner");
+  }
+  return runs;
+}
+
+RasterBand UvRaster::band(int index, double x, double y) const {
+  RasterBand band{width_, first_row(index), rows(index), {}, {}};
+  const size_t texels = static_cast<size_t>(band.rows) * static_cast<size_t>(width_);
+  band.faces.reserve(texels);
+  band.weights.reserve(texels);
+  for (const RasterRun& run : runs(index, x, y)) {
+    for (int i = 0; i < run.count; ++i) {
+      band.faces.push_back(run.face);
+      band.weights.push_back({run.weights[0] + i * run.step[0], run.weights[1] + i * run.step[1]});
+    }
   }
   return band;
 }

@@ -1,12 +1,25 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "sphparam/chart/spherical_chart.h"
 
 namespace sphparam::tools {
+
+class ChartPiece;
+
+/// Neighbouring texels of a row that one face owns. Texel `first` + i has the weights
+/// `weights` + i·step of the face's corners 0 and 1 (corner 2 has the rest), within [0, 1].
+struct RasterRun {
+  Face face;  // of the chart
+  int row, first, count;
+  std::array<double, 2> weights, step;
+  std::array<double, 2> below;  // what the weights change by from a row to the next
+};
 
 /// Who owns which texel of some rows of an image.
 struct RasterBand {
@@ -45,17 +58,28 @@ class UvRaster {
   static constexpr int rows_a_band = 32;
   int band_count() const { return static_cast<int>(offsets_.size()) - 1; }
 
-  /// Ensures: every texel has an owner. Throws: std::logic_error if one has none or two: the chart
-  /// was none that its certificate calls one-to-one. Cost: one visit a texel, and some ten signs
-  /// for each row a face reaches.
+  /// The owners of a band's texels, row by row from the west.
+  /// Ensures: every texel is in one run. Throws: std::logic_error if one has no owner or two: the
+  /// chart was none that its certificate calls one-to-one. Cost: some ten signs for each row a
+  /// face reaches, and a sort of the runs.
+  std::vector<RasterRun> runs(int band, double x = 0.5, double y = 0.5) const;
+
+  /// The same texel by texel. Cost: one visit a texel more.
   RasterBand band(int band, double x = 0.5, double y = 0.5) const;
+
+  int first_row(int band) const { return band * rows_a_band; }
+  int rows(int band) const { return std::min(rows_a_band, height_ - first_row(band)); }
+  /// The faces that reach into a band, ascending; a few more at its rim.
+  std::span<const Face> faces(int band) const;
 
   int width() const { return width_; }
   int height() const { return height_; }
 
  private:
-  struct Piece;
-  void draw(const Piece& piece, double x, double y, RasterBand& band) const;
+  void draw(const ChartPiece& piece, int band, double x, double y,
+            std::vector<RasterRun>& runs) const;
+  void add_runs(const ChartPiece& piece, int row, int first, int last, double x, double v,
+                std::vector<RasterRun>& runs) const;
 
   const SphericalChart* chart_;
   int width_, height_;

@@ -23,6 +23,13 @@ Command declare_map(CLI::App& program);
 Command declare_verify(CLI::App& program);
 Command declare_render(CLI::App& program);
 Command declare_compare(CLI::App& program);
+Command declare_spharm(CLI::App& program);
+Command declare_remesh(CLI::App& program);
+Command declare_measure(CLI::App& program);
+Command declare_paint(CLI::App& program);
+Command declare_report(CLI::App& program);
+Command declare_export(CLI::App& program);
+Command declare_bake(CLI::App& program);
 Command declare_manual(CLI::App& program);
 Command declare_completion(CLI::App& program);
 

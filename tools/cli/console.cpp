@@ -64,13 +64,13 @@ void Console::detail(const std::string& text) {
   print_line(text);
 }
 
-bool Console::progress(std::string_view stage, double fraction) {
+bool Console::progress(std::string_view stage, double fraction, const std::string& detail) {
   const int percent = static_cast<int>(100 * std::clamp(fraction, 0.0, 1.0));
   const std::string name(stage);
   if (style_ == ProgressStyle::Json) {
     print_line("{\"stage\":\"" + name + "\",\"percent\":" + std::to_string(percent) + "}");
   } else if (rewrites_line_) {
-    const std::string line = name + " " + std::to_string(percent) + " %";
+    const std::string line = name + " " + std::to_string(percent) + " %" + detail;
     if (line != shown_) {
       std::fprintf(stderr, "\r\033[K%s", line.c_str());
       std::fflush(stderr);

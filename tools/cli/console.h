@@ -23,8 +23,8 @@ class Console {
   void detail(const std::string& text);   // when verbose
 
   /// Shows how far a stage is. Returns false once a signal asked the program to stop, as the
-  /// library's progress callback does.
-  bool progress(std::string_view stage, double fraction);
+  /// library's progress callback does. `detail`: more of it for people, as a rate.
+  bool progress(std::string_view stage, double fraction, const std::string& detail = "");
   /// Erases the progress line.
   void clear_progress();
 

@@ -12,6 +12,7 @@ enum ExitCode : int {
   FileError = 3,      // a file cannot be read, parsed or written
   MeshUnusable = 4,   // the mesh is not a closed genus-0 manifold
   NotCertified = 5,   // the map is not one-to-one
+  LimitExceeded = 6,  // a measured limit was exceeded
   Interrupted = 130,  // SIGINT or SIGTERM
 };
 
@@ -29,6 +30,7 @@ inline constexpr ExitMeaning exit_meanings[] = {
     {NotCertified,
      "the map is not one-to-one, or a pin is not at its point; no map written but with "
      "--keep-folded"},
+    {LimitExceeded, "what was measured exceeds the limit; all outputs are written"},
     {Interrupted, "interrupted"},
 };
 

@@ -40,7 +40,9 @@ constexpr char summary[] =
     "  sphparam map statue.obj -o statue.sph.ply      map it, prove it, write it\n"
     "  sphparam verify statue.sph.ply                 prove a written map again\n"
     "  sphparam render statue.sph.ply -o statue.png   look at it\n"
-    "  sphparam compare statue.obj -o statue/         all methods, side by side\n";
+    "  sphparam compare statue.obj -o statue/         all methods, side by side\n"
+    "  sphparam remesh statue.sph.ply --grid ico:7 -o statue_ico7.sph.ply\n"
+    "  sphparam measure statue.obj statue_ico7.sph.ply   how far two surfaces are apart\n";
 
 std::string footer() {
   std::string text =
@@ -121,10 +123,25 @@ int run_program(int argc, char** argv) {
   program.footer(footer());
   program.set_version_flag("--version", std::string("sphparam ") + version);
   program.require_subcommand(0, 1);
-  const std::vector<Command> commands = {declare_info(program),      declare_map(program),
-                                         declare_verify(program),    declare_render(program),
-                                         declare_compare(program),   declare_manual(program),
-                                         declare_completion(program)};
+  std::vector<Command> commands;
+  for (const auto declare : {
+           declare_info,
+           declare_map,
+           declare_verify,
+           declare_render,
+           declare_compare,
+           declare_spharm,
+           declare_remesh,
+           declare_measure,
+           declare_paint,
+           declare_report,
+           declare_export,
+           declare_bake,
+           declare_manual,
+           declare_completion,
+       }) {
+    commands.push_back(declare(program));
+  }
   for (const Command& command : commands) {
     if (!command.options->get_option_no_throw("--quiet")) continue;  // reads no mesh
     add_memory_limit(*command.options);

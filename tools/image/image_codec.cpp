@@ -1,55 +1,17 @@
 #include "image/image_codec.h"
 
-#include <dlfcn.h>
-
-#include <array>
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
 
-#include "image/oiio_module.h"
+#include "image/image_writer.h"
+#include "image/open_module.h"
 
-// A program linked to OpenImageIO takes 0.19 s and 262 shared objects to start. So the codecs live
-// in a module that is opened when the first image is touched, and is found beside the program
-// (build tree) or in ../lib/sphparam (installed): both move with it.
+// Whole images in memory, decoded and encoded by the module.
 
 namespace sphparam::tools {
 namespace {
-
-constexpr char kModuleName[] = "sphparam_image_oiio.so";
-
-std::filesystem::path find_module() {
-  std::error_code error;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (error) throw ImageError("cannot tell where this program is: " + error.message());
-  const std::filesystem::path folder = program.parent_path();
-  const std::array<std::filesystem::path, 2> candidates{
-      folder / kModuleName, folder.parent_path() / "lib" / "sphparam" / kModuleName};
-  for (const auto& candidate : candidates) {
-    if (std::filesystem::exists(candidate, error)) return candidate;
-  }
-  throw ImageError(std::string("the image module ") + kModuleName + " is neither in " +
-                   candidates[0].parent_path().string() + " nor in " +
-                   candidates[1].parent_path().string());
-}
-
-const SphparamImageTable& open_module() {
-  const std::filesystem::path path = find_module();
-  // Never closed: OpenImageIO's threads run in it.
-  void* module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (!module) throw ImageError(std::string("cannot open the image module: ") + dlerror());
-  const auto table =
-      reinterpret_cast<SphparamImageTableFunction>(dlsym(module, kSphparamImageTableName));
-  if (!table || table()->version != kSphparamImageTableVersion) {
-    throw ImageError(path.string() + " belongs to another version of this program");
-  }
-  return *table();
-}
-
-const SphparamImageTable& codecs() {
-  static const SphparamImageTable& table = open_module();
-  return table;
-}
 
 void append_bytes(void* context, const char* bytes, size_t size) {
   auto& out = *static_cast<std::vector<char>*>(context);
@@ -58,6 +20,10 @@ void append_bytes(void* context, const char* bytes, size_t size) {
 
 void append_text(void* context, const char* bytes, size_t size) {
   static_cast<std::string*>(context)->append(bytes, size);
+}
+
+void append_pair(void* context, const char* name, const char* value) {
+  static_cast<ImageTexts*>(context)->emplace_back(name, value);
 }
 
 float* make_room(void* context, int width, int height, int channels) {
@@ -82,23 +48,8 @@ const char* format_of(const std::vector<char>& bytes) {
   return nullptr;
 }
 
-const char* name_of(SampleType type) {
-  switch (type) {
-    case SampleType::Uint8:
-      return "uint8";
-    case SampleType::Uint16:
-      return "uint16";
-    case SampleType::Half:
-      return "half";
-    case SampleType::Float:
-      return "float";
-  }
-  return "";
-}
-
 bool suits(ImageFormat format, SampleType type) {
-  const bool integer = type == SampleType::Uint8 || type == SampleType::Uint16;
-  return integer == (format == ImageFormat::Png);
+  return std::ranges::count(sample_types_of(format), type) > 0;
 }
 
 std::vector<char> read_bytes(const std::string& path, const ImageLimits& limits) {
@@ -120,21 +71,21 @@ std::vector<char> read_bytes(const std::string& path, const ImageLimits& limits)
 }  // namespace
 
 Image decode_image(const std::vector<char>& bytes, std::string_view name,
-                   const ImageLimits& limits) {
+                   const ImageLimits& limits, ImageTexts* texts) {
   const std::string prefix = std::string(name) + ": ";
   const char* format = format_of(bytes);
   if (!format) throw ImageError(prefix + "not a PNG, JPEG, TIFF or EXR image");
   Image image;
   std::string error;
-  if (codecs().decode(format, bytes.data(), bytes.size(), limits.decoded_megabytes, limits.channels,
-                      make_room, &image, append_text, &error) != 0) {
+  if (image_codecs().decode(format, bytes.data(), bytes.size(), limits.decoded_megabytes, limits.channels,
+                      make_room, &image, texts ? append_pair : nullptr, texts, append_text, &error) != 0) {
     throw ImageError(prefix + (error.empty() ? "broken image" : error));
   }
   return image;
 }
 
-Image read_image(const std::string& path, const ImageLimits& limits) {
-  return decode_image(read_bytes(path, limits), path, limits);
+Image read_image(const std::string& path, const ImageLimits& limits, ImageTexts* texts) {
+  return decode_image(read_bytes(path, limits), path, limits, texts);
 }
 
 std::vector<char> encode_image(const Image& image, ImageFormat format,
@@ -142,13 +93,14 @@ std::vector<char> encode_image(const Image& image, ImageFormat format,
   if (image.width <= 0 || image.height <= 0 || image.channels <= 0) {
     throw ImageError("an image without pixels cannot be written");
   }
-  const char* name = format == ImageFormat::Png ? "png" : "exr";
+  const char* name = name_of(format);
   if (!suits(format, options.sample_type)) {
     throw ImageError(std::string(name) + " images have no samples of type " +
                      name_of(options.sample_type));
   }
-  if (format == ImageFormat::Png && image.channels > 4) {
-    throw ImageError("png images have at most 4 channels");
+  if (format != ImageFormat::Exr && image.channels > most_channels(format)) {
+    throw ImageError(std::string(name) + " images have at most " +
+                     std::to_string(most_channels(format)) + " channels");
   }
   std::vector<const char*> metadata;
   for (const auto& [key, value] : options.metadata) {
@@ -157,7 +109,7 @@ std::vector<char> encode_image(const Image& image, ImageFormat format,
   }
   std::vector<char> bytes;
   std::string error;
-  if (codecs().encode(name, name_of(options.sample_type), image.pixels.data(), image.width,
+  if (image_codecs().encode(name, name_of(options.sample_type), image.pixels.data(), image.width,
                       image.height, image.channels, metadata.data(), options.metadata.size(),
                       append_bytes, &bytes, append_text, &error) != 0) {
     throw ImageError(std::string("cannot encode the image as ") + name + ": " + error);

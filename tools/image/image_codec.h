@@ -18,7 +18,7 @@ class ImageError : public std::runtime_error {
 };
 
 enum class SampleType { Uint8, Uint16, Half, Float };
-enum class ImageFormat { Png, Exr };  // what is written; read are PNG, JPEG, TIFF and EXR
+enum class ImageFormat { Png, Exr, Jpeg, Tiff };  // `encode_image` writes the first two
 
 /// What is refused before any pixel is allocated.
 struct ImageLimits {
@@ -26,6 +26,9 @@ struct ImageLimits {
   std::int64_t decoded_megabytes = 512;  // in the file's own sample type
   int channels = 8;
 };
+
+/// Names and values.
+using ImageTexts = std::vector<std::pair<std::string, std::string>>;
 
 struct ImageWriteOptions {
   SampleType sample_type = SampleType::Uint8;  // PNG: Uint8 or Uint16; EXR: Half or Float
@@ -37,13 +40,15 @@ struct ImageWriteOptions {
 ///
 /// The decoders are OpenImageIO's, in a module opened on first use: a program that touches no
 /// image never loads them.
+/// `texts`, where given, gets the texts of the file's metadata.
 /// Throws: ImageError with the file's name, for what is no PNG, JPEG, TIFF or EXR file, for broken
 /// ones and for what is beyond the limits.
-Image read_image(const std::string& path, const ImageLimits& limits = {});
+Image read_image(const std::string& path, const ImageLimits& limits = {},
+                 ImageTexts* texts = nullptr);
 
 /// The same from memory; `name` is for error messages.
 Image decode_image(const std::vector<char>& bytes, std::string_view name,
-                   const ImageLimits& limits = {});
+                   const ImageLimits& limits = {}, ImageTexts* texts = nullptr);
 
 /// The bytes of an image file. Values are clamped to [0, 1] for integer types.
 /// Ensures: same bytes for the same input (EXR carries the time SOURCE_DATE_EPOCH, or 1970).

@@ -9,9 +9,10 @@
 #include "mesh_io/mesh_file.h"
 
 // The only file that knows tinygltf, and that as a stranger: the container and the JSON are checked
-// first, it gets files through callbacks that ignore the paths it makes, images stay unread (what
-// it asks for after the last buffer), its exceptions end here, and its model is copied into plain
-// data. A primitive it dropped without a word is found by counting.
+// first, it gets files through callbacks that ignore the paths it makes, images stay undecoded, and
+// unread where they are in files (what it asks for after the last buffer), its exceptions end here,
+// and its model is copied into plain data. A primitive it dropped without a word is found by
+// counting.
 
 #define TINYGLTF_NO_INCLUDE_STB_IMAGE
 #define TINYGLTF_NO_INCLUDE_STB_IMAGE_WRITE
@@ -126,14 +127,16 @@ struct BufferFiles {
   }
 };
 
-bool leave_image(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*,
-                 int, void*) {
+/// The bytes of an image inside the file, undecoded.
+bool keep_image(tinygltf::Image* image, int, std::string*, std::string*, int, int,
+                const unsigned char* bytes, int size, void*) {
+  image->image.assign(bytes, bytes + std::max(size, 0));
   return true;
 }
 
 tinygltf::Model parse(const Container& container, BufferFiles& files, const std::string& name) {
   tinygltf::TinyGLTF loader;
-  loader.SetImageLoader(leave_image, nullptr);
+  loader.SetImageLoader(keep_image, nullptr);
   loader.SetFsCallbacks(
       {BufferFiles::exists, BufferFiles::same_path, BufferFiles::read, BufferFiles::write, &files});
   tinygltf::Model model;
@@ -208,6 +211,73 @@ std::string base_colour(const tinygltf::Model& model, const tinygltf::Material& 
   return one_line(text);
 }
 
+Wrapping wrapping(int code) {
+  if (code == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return Wrapping::Clamp;
+  return code == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrapping::Mirror : Wrapping::Repeat;
+}
+
+/// Images in the order of the model's: one that several materials use is kept once.
+using Images = std::vector<std::shared_ptr<const std::vector<char>>>;
+
+Images take_images(tinygltf::Model& model) {
+  Images images;
+  for (tinygltf::Image& image : model.images) {
+    images.push_back(
+        std::make_shared<const std::vector<char>>(image.image.begin(), image.image.end()));
+    image.image.clear();
+  }
+  return images;
+}
+
+/// Where the image of a texture is. Nothing in the model is promised to be there.
+void find_image(const tinygltf::Model& model, const tinygltf::TextureInfo& info,
+                const Images& images, BaseColour& colour) {
+  if (info.index < 0) return;
+  colour.image = "texture " + std::to_string(info.index);
+  if (info.texCoord != 0) colour.problem = "it uses other texture coordinates than the first";
+  if (info.extensions.count("KHR_texture_transform"))
+    colour.problem = "its texture coordinates are transformed, which is not supported";
+  const auto index = static_cast<std::size_t>(info.index);
+  if (index >= model.textures.size()) {
+    colour.problem = "the file has no such texture";
+    return;
+  }
+  const tinygltf::Texture& texture = model.textures[index];
+  if (const auto sampler = static_cast<std::size_t>(texture.sampler);
+      sampler < model.samplers.size()) {
+    colour.wrap_s = wrapping(model.samplers[sampler].wrapS);
+    colour.wrap_t = wrapping(model.samplers[sampler].wrapT);
+  }
+  const auto source = static_cast<std::size_t>(texture.source);
+  if (source >= model.images.size()) {
+    colour.problem = "the texture has no image of a kind that is supported";
+    return;
+  }
+  const std::string& uri = model.images[source].uri;
+  colour.image = uri.empty() ? "image " + std::to_string(source) : one_line(uri);
+  if (!images[source]->empty()) {
+    colour.bytes = images[source];
+  } else if (!uri.empty()) {
+    try {
+      colour.path = path_of_uri(uri).string();
+    } catch (const std::runtime_error& error) {
+      colour.problem = error.what();
+    }
+  } else {
+    colour.problem = "it has no bytes";
+  }
+}
+
+BaseColour base_colour_of(const tinygltf::Model& model, const tinygltf::Material& material,
+                          const Images& images) {
+  BaseColour colour;
+  const auto& pbr = material.pbrMetallicRoughness;
+  if (pbr.baseColorFactor.size() == 4)
+    std::copy(pbr.baseColorFactor.begin(), pbr.baseColorFactor.end(), colour.factor.begin());
+  find_image(model, pbr.baseColorTexture, images, colour);
+  return colour;
+}
+
 GltfDocument::Node plain(const tinygltf::Node& node) {
   return {.mesh = node.mesh,
           .skinned = node.skin >= 0,
@@ -233,8 +303,10 @@ void copy_model(tinygltf::Model& model, GltfDocument& document) {
   for (const tinygltf::Node& node : model.nodes) document.nodes.push_back(plain(node));
   for (const tinygltf::Scene& scene : model.scenes) document.scenes.push_back(scene.nodes);
   document.default_scene = model.defaultScene;
+  const Images images = take_images(model);
   for (const tinygltf::Material& material : model.materials)
-    document.materials.push_back({one_line(material.name), base_colour(model, material)});
+    document.materials.push_back({one_line(material.name), base_colour(model, material),
+                                  base_colour_of(model, material, images)});
 }
 
 }  // namespace
@@ -254,6 +326,14 @@ GltfDocument load_gltf(std::string_view bytes, const std::string& name,
   if (primitives != summary.primitives)
     throw ReadError(name, "a mesh has a primitive without attributes");
   copy_model(model, document);
+  for (GltfDocument::Material& material : document.materials) {
+    BaseColour& colour = material.base_colour;
+    if (colour.path.empty()) continue;
+    if (folder)
+      colour.folder = folder->string();
+    else
+      colour.problem = "only a glTF read from a file may name files";
+  }
   return document;
 }
 

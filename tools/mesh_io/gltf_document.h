@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "mesh_io/mesh_file.h"
 #include "mesh_io/read_options.h"
 
 namespace sphparam::tools {
@@ -47,7 +48,8 @@ struct GltfDocument {
   };
   struct Material {
     std::string name;
-    std::string base_colour;  // texture and factor in words; empty when there is no texture
+    std::string words = {};   // texture and factor in words; empty when there is no texture
+    BaseColour base_colour = {};
   };
 
   std::vector<std::vector<unsigned char>> buffers;
@@ -64,7 +66,7 @@ struct GltfDocument {
 /// Loads a glTF file, text or binary, by tinygltf, after all that it does not check is checked.
 ///
 /// Buffers in files are read from below `folder` only; where there is none, they are refused.
-/// Images are not read. Throws: ReadError.
+/// Images inside the file are copied as they are, those in files are not read. Throws: ReadError.
 GltfDocument load_gltf(std::string_view bytes, const std::string& name,
                        const std::optional<std::filesystem::path>& folder,
                        const ReadOptions& options);

@@ -266,10 +266,11 @@ class SceneReader {
   }
 
   void add_material(int id) {
-    const auto& [name, base_colour] = document_.materials[static_cast<std::size_t>(id)];
+    const auto& [name, words, base_colour] = document_.materials[static_cast<std::size_t>(id)];
     file_.materials.push_back(name.empty() ? "material " + std::to_string(id) : name);
-    if (!base_colour.empty())
-      file_.comments.push_back("base colour of " + file_.materials.back() + ": " + base_colour);
+    file_.base_colours.push_back(base_colour);
+    if (!words.empty())
+      file_.comments.push_back("base colour of " + file_.materials.back() + ": " + words);
   }
 
   void add_notes() {

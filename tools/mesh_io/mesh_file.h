@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,6 +23,19 @@ struct Property {
 using CornerTexcoords = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
 using CornerNormals = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
+/// What a material says outside [0, 1] of its texture, in the direction of s or t.
+enum class Wrapping { Repeat, Mirror, Clamp };
+
+/// The base colour of a material, as glTF has it: factor · image. Images are not decoded here.
+struct BaseColour {
+  std::array<double, 4> factor = {1, 1, 1, 1};  // linear red, green, blue, alpha
+  std::string image = {};                       // its name, for people; empty: the factor alone
+  std::shared_ptr<const std::vector<char>> bytes = nullptr;  // of an image inside the mesh's file
+  std::string folder = {}, path = {};  // of one in a file of its own, below the folder
+  Wrapping wrap_s = Wrapping::Repeat, wrap_t = Wrapping::Repeat;
+  std::string problem = {};  // why the image cannot be used; empty: nothing is known against it
+};
+
 /// A triangle mesh with everything its file carried. Polygons are triangulated on reading.
 ///
 /// Conventional names: normals nx ny nz, colours red green blue [alpha] (Uint8 0–255 or Float32
@@ -37,6 +52,7 @@ struct MeshFile {
   std::optional<CornerNormals> corner_normals;
   ScalarType corner_normal_type = ScalarType::Float64;
   std::vector<std::string> materials;  // names, in order of first use
+  std::vector<BaseColour> base_colours = {};  // one a material, or none (glTF only)
   std::vector<std::string> comments;   // of the header, without the keyword
   std::vector<std::string> notes;      // what was odd about the file but harmless
   std::string format;                  // "PLY binary little-endian", "OBJ", …

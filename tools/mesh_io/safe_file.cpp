@@ -51,15 +51,21 @@ bool is_stream(const std::string& path) {
   return status && !S_ISREG(status->st_mode) && !S_ISDIR(status->st_mode);
 }
 
-std::unique_ptr<TemporaryFile> make_temporary(const std::string& path, std::string_view bytes) {
+/// A temporary with these bytes, or, without any, one to be written.
+std::unique_ptr<TemporaryFile> make_temporary(const std::string& path,
+                                              std::optional<std::string_view> bytes) {
+  const auto make = [&](const fs::path& target, std::optional<mode_t> permissions) {
+    return bytes ? std::make_unique<TemporaryFile>(target, *bytes, permissions)
+                 : std::make_unique<TemporaryFile>(target, permissions);
+  };
   if (path.empty()) throw WriteError("''", "the name of the file is empty");
   const fs::path target = followed(path);
   const std::optional<struct stat> status = status_of(target);
-  if (!status) return std::make_unique<TemporaryFile>(target, bytes, std::nullopt);
+  if (!status) return make(target, std::nullopt);
   if (S_ISDIR(status->st_mode)) throw WriteError(path, "is a directory");
   if (::access(target.c_str(), W_OK) != 0)
     throw WriteError(path, std::string("cannot be written: ") + std::strerror(errno));
-  return std::make_unique<TemporaryFile>(target, bytes, status->st_mode & 07777);
+  return make(target, status->st_mode & 07777);
 }
 
 void check_on_disk(const TemporaryFile& file, std::size_t size, const BytesCheck& check) {
@@ -78,13 +84,27 @@ PendingFiles::~PendingFiles() = default;
 void PendingFiles::add(const std::string& path, std::string bytes, const BytesCheck& check) {
   if (is_stream(path)) {
     if (check) check(bytes);
-    streams_.push_back({path, std::move(bytes)});
+    streams_.push_back(std::make_unique<Stream>(Stream{path, std::move(bytes)}));
     return;
   }
   if (is_pending(path)) throw WriteError(path, "two outputs go to this file");
   auto file = make_temporary(path, bytes);
   if (check) check_on_disk(*file, bytes.size(), check);
   files_.push_back(std::move(file));
+}
+
+PendingFiles::WriteAt PendingFiles::open(const std::string& path) {
+  if (is_stream(path)) {
+    Stream* stream = streams_.emplace_back(std::make_unique<Stream>(Stream{path, {}})).get();
+    return [stream](std::int64_t offset, std::string_view bytes) {
+      const auto at = static_cast<std::size_t>(offset);
+      if (stream->bytes.size() < at + bytes.size()) stream->bytes.resize(at + bytes.size());
+      bytes.copy(stream->bytes.data() + at, bytes.size());
+    };
+  }
+  if (is_pending(path)) throw WriteError(path, "two outputs go to this file");
+  TemporaryFile* file = files_.emplace_back(make_temporary(path, std::nullopt)).get();
+  return [file](std::int64_t offset, std::string_view bytes) { file->write_at(offset, bytes); };
 }
 
 bool PendingFiles::is_pending(const std::string& path) const {
@@ -98,9 +118,10 @@ bool PendingFiles::is_pending(const std::string& path) const {
 }
 
 void PendingFiles::publish() {
-  for (const Stream& stream : streams_)
-    stream.path == "-" ? write_all(STDOUT_FILENO, stream.bytes, "standard output")
-                       : write_directly(stream.path, stream.bytes);
+  for (const auto& file : files_) file->sync();
+  for (const auto& stream : streams_)
+    stream->path == "-" ? write_all(STDOUT_FILENO, stream->bytes, "standard output")
+                        : write_directly(stream->path, stream->bytes);
   try {
     std::set<fs::path> folders;
     for (const auto& file : files_) {

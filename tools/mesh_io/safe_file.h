@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <stdexcept>
@@ -42,6 +43,12 @@ class PendingFiles {
   /// Throws: WriteError; whatever `check` throws. The files added before stay pending.
   void add(const std::string& path, std::string bytes, const BytesCheck& check = {});
 
+  /// A file that is written piece by piece, by the function returned: `offset` may be before or
+  /// beyond the end of what was written. For files that memory does not hold; what goes to a stream
+  /// is held all the same. Throws: WriteError, as the function does.
+  using WriteAt = std::function<void(std::int64_t offset, std::string_view bytes)>;
+  WriteAt open(const std::string& path);
+
   /// Throws: WriteError; then no file has its name.
   void publish();
 
@@ -52,7 +59,7 @@ class PendingFiles {
     std::string path;
     std::string bytes;
   };
-  std::vector<Stream> streams_;
+  std::vector<std::unique_ptr<Stream>> streams_;
   std::vector<std::unique_ptr<TemporaryFile>> files_;
 };
 

@@ -99,8 +99,7 @@ void remove_stale_temporaries(const fs::path& target) {
 
 }  // namespace
 
-TemporaryFile::TemporaryFile(fs::path target, std::string_view bytes,
-                             std::optional<mode_t> permissions)
+TemporaryFile::TemporaryFile(fs::path target, std::optional<mode_t> permissions)
     : target_(std::move(target)), path_(target_.string() + ".tmp." + std::to_string(::getpid())) {
   std::error_code hidden;
   const fs::path folder = folder_of(target_);
@@ -109,33 +108,51 @@ TemporaryFile::TemporaryFile(fs::path target, std::string_view bytes,
   remove_stale_temporaries(target_);
   watch(path_.c_str());
   try {
-    make(permissions, bytes);
+    open(permissions);
   } catch (...) {
     forget(path_.c_str());
     throw;
   }
 }
 
+TemporaryFile::TemporaryFile(fs::path target, std::string_view bytes,
+                             std::optional<mode_t> permissions)
+    : TemporaryFile(std::move(target), permissions) {
+  write_all(descriptor_, bytes, target_.string());
+  sync();
+}
+
 TemporaryFile::~TemporaryFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
   if (place_ == Place::Temporary || place_ == Place::Exchanged) ::unlink(path_.c_str());
   forget(path_.c_str());
 }
 
-void TemporaryFile::make(std::optional<mode_t> permissions, std::string_view bytes) {
+void TemporaryFile::open(std::optional<mode_t> permissions) {
   constexpr mode_t kUsual = 0666;
   constexpr int kNew = O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC;
-  OutputDescriptor output(uninterrupted([&] { return ::open(path_.c_str(), kNew, kUsual); }));
-  if (output.number() < 0) fail(target_.string(), "cannot make a file in its folder");
-  try {
-    if (permissions) static_cast<void>(::fchmod(output.number(), *permissions));
-    write_all(output.number(), bytes, target_.string());
-    if (uninterrupted([&] { return ::fsync(output.number()); }) != 0)
-      fail(target_.string(), "cannot write to disk");
-    if (!output.close()) fail(target_.string(), "cannot write");
-  } catch (...) {
-    ::unlink(path_.c_str());
-    throw;
+  descriptor_ = uninterrupted([&] { return ::open(path_.c_str(), kNew, kUsual); });
+  if (descriptor_ < 0) fail(target_.string(), "cannot make a file in its folder");
+  if (permissions) static_cast<void>(::fchmod(descriptor_, *permissions));
+}
+
+void TemporaryFile::write_at(std::int64_t offset, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count =
+        uninterrupted([&] { return ::pwrite(descriptor_, bytes.data(), bytes.size(), offset); });
+    if (count == 0) errno = ENOSPC;
+    if (count <= 0) fail(target_.string(), "cannot write");
+    bytes.remove_prefix(static_cast<std::size_t>(count));
+    offset += count;
   }
+}
+
+void TemporaryFile::sync() {
+  if (descriptor_ < 0) return;
+  if (uninterrupted([&] { return ::fsync(descriptor_); }) != 0)
+    fail(target_.string(), "cannot write to disk");
+  OutputDescriptor output(std::exchange(descriptor_, -1));
+  if (!output.close()) fail(target_.string(), "cannot write");
 }
 
 void TemporaryFile::publish() {

@@ -2,6 +2,7 @@
 
 #include <sys/types.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -18,12 +19,20 @@ class TemporaryFile {
   /// Throws: WriteError that names the target.
   TemporaryFile(std::filesystem::path target, std::string_view bytes,
                 std::optional<mode_t> permissions);
+  /// The same without bytes: they come by `write_at`, until `sync`.
+  TemporaryFile(std::filesystem::path target, std::optional<mode_t> permissions);
   ~TemporaryFile();
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
   const std::filesystem::path& target() const { return target_; }
   const std::string& path() const { return path_; }
+
+  /// Writes bytes at a place of the file, which may be before or beyond its end.
+  /// Requires: not synced yet. Throws: WriteError.
+  void write_at(std::int64_t offset, std::string_view bytes);
+  /// Brings what was written to the disk (fsync), once. Throws: WriteError.
+  void sync();
 
   /// Takes the target's name in one step; a file that had it keeps existing under the temporary
   /// name, where the file system can exchange names.
@@ -34,7 +43,7 @@ class TemporaryFile {
   void take_back() noexcept;
 
  private:
-  void make(std::optional<mode_t> permissions, std::string_view bytes);
+  void open(std::optional<mode_t> permissions);
 
   enum class Place {
     Temporary,
@@ -45,6 +54,7 @@ class TemporaryFile {
 
   std::filesystem::path target_;
   std::string path_;
+  int descriptor_ = -1;  // until `sync`
   Place place_ = Place::Temporary;
 };
 

@@ -1,69 +1,122 @@
 #include "render/heat.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <vector>
 
 #include "render/lettering.h"
 
 namespace sphparam::tools {
 namespace {
 
-constexpr double kFull = 8;  // the ratio of the last colour
-
 struct Tick {
-  double ratio;
+  double value;
   std::string label;
 };
 
-const std::vector<Tick>& ticks(Heat heat) {
-  static const std::vector<Tick> area = {
-      {1.0 / 8, "1/8"}, {1.0 / 4, "1/4"}, {1.0 / 2, "1/2"}, {1, "1"}, {2, "2"}, {4, "4"}, {8, "8"}};
-  static const std::vector<Tick> angle = {{1, "1"}, {2, "2"}, {4, "4"}, {8, "8"}};
-  return heat == Heat::Area ? area : angle;
+std::string ratio_label(int log2) {
+  const std::string power = std::to_string(1 << std::abs(log2));
+  return log2 < 0 ? "1/" + power : power;
+}
+
+std::string number_label(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+/// Every power of two, or the ends and the middle.
+std::vector<Tick> ticks(const HeatScale& scale) {
+  std::vector<Tick> all;
+  if (scale.log_ratios) {
+    for (int k = static_cast<int>(std::ceil(scale.low)); k <= scale.high; ++k) {
+      all.push_back({static_cast<double>(k), ratio_label(k)});
+    }
+    return all;
+  }
+  for (const double value : {scale.low, (scale.low + scale.high) / 2, scale.high}) {
+    all.push_back({value, number_label(value)});
+  }
+  return all;
 }
 
 void fill_column(Image& image, int x, int top, int height, const Rgb& colour) {
-  for (int y = top; y < top + height; ++y) std::copy_n(colour.data(), 3, image.pixel(x, y));
-}
-
-}  // namespace
-
-Rgb heat_colour(Heat heat, double ratio) {
-  const double share = std::log(ratio) / std::log(kFull);
-  return heat == Heat::Area ? diverging(share) : viridis(share);
-}
-
-FacePaint heat_paint(Heat heat, const Distortion& distortion) {
-  if (heat == Heat::Area) return {ratio_colours(distortion.area_ratio, kFull)};
-  const Eigen::VectorXd error = distortion.angle_ratio.array().log().abs().rowwise().mean();
-  return {value_colours(error, 0, std::log(kFull))};
-}
-
-Image with_legend(const Image& picture, Heat heat) {
-  constexpr int least = 160, heights_a_dot = 400;  // pixels
-  if (picture.height < least || picture.width < least) return picture;
-  const int dot = std::max(1, picture.height / heights_a_dot), line = text_height(dot);
-  const int left = 2 * line, width = picture.height / 2, top = picture.height + 2 * line;
-  Image image(picture.width, picture.height + 5 * line, picture.channels);
-  std::fill(image.pixels.begin(), image.pixels.end(), 1.0F);
-  std::copy(picture.pixels.begin(), picture.pixels.end(), image.pixels.begin());
-
-  const Rgb ink(0.2F, 0.2F, 0.2F);
-  const std::string title = heat == Heat::Area ? "area ratio" : "angle ratio";
-  draw_text(image, title, left, top - line - 2 * dot, dot, ink);
-  const double first = std::log(ticks(heat).front().ratio), last = std::log(kFull);
-  for (int x = 0; x < width; ++x) {
-    const double ratio = std::exp(first + (last - first) * (x + 0.5) / width);
-    fill_column(image, left + x, top, line, heat_colour(heat, ratio));
+  for (int y = top; y < top + height; ++y) {
+    std::fill_n(image.pixel(x, y), image.channels, 1.0F);
+    std::copy_n(colour.data(), std::min(3, image.channels), image.pixel(x, y));
   }
-  for (const Tick& tick : ticks(heat)) {
-    const double share = (std::log(tick.ratio) - first) / (last - first);
+}
+
+void draw_scale(Image& image, const HeatScale& scale, int left, int top, int width, int dot) {
+  const int line = text_height(dot);
+  const Rgb ink(0.2F, 0.2F, 0.2F);
+  draw_text(image, scale.title, left, top - line - 2 * dot, dot, ink);
+  for (int x = 0; x < width; ++x) {
+    const double value = scale.low + (scale.high - scale.low) * (x + 0.5) / width;
+    fill_column(image, left + x, top, line, heat_colour(scale, value));
+  }
+  for (const Tick& tick : ticks(scale)) {
+    const double share = (tick.value - scale.low) / (scale.high - scale.low);
     const int x = left + static_cast<int>(share * (width - 1));
     fill_column(image, x, top, line + 2 * dot, ink);
     draw_text(image, tick.label, x - text_width(tick.label, dot) / 2, top + line + 3 * dot, dot,
               ink);
   }
+}
+
+}  // namespace
+
+Rgb heat_colour(const HeatScale& scale, double value) {
+  if (scale.diverges()) return diverging(value / scale.high);
+  return viridis((value - scale.low) / (scale.high - scale.low));
+}
+
+const HeatScale& heat_scale(Heat heat) {
+  static const std::array<HeatScale, 3> scales = {
+      {{"area ratio", -3, 3, true}, {"angle ratio", 0, 3, true}, {"stretch ratio", -3, 3, true}}};
+  return scales[static_cast<size_t>(heat)];
+}
+
+Eigen::VectorXd heat_values(Heat heat, const Distortion& distortion) {
+  switch (heat) {
+    case Heat::Area:
+      return distortion.area_ratio.array().log() / std::numbers::ln2;
+    case Heat::Angle:
+      return distortion.angle_ratio.array().log().abs().rowwise().mean() / std::numbers::ln2;
+    case Heat::Stretch:
+      break;
+  }
+  const auto squeeze = distortion.sigma_max.array().square().inverse() +
+                       distortion.sigma_min.array().square().inverse();
+  return (squeeze / 2).log() / (2 * std::numbers::ln2);
+}
+
+FacePaint heat_paint(Heat heat, const Distortion& distortion) {
+  FacePaint paint;
+  for (const double value : heat_values(heat, distortion)) {
+    paint.colours.push_back(heat_colour(heat_scale(heat), value));
+  }
+  return paint;
+}
+
+Rgb heat_colour(Heat heat, double ratio) { return heat_colour(heat_scale(heat), std::log2(ratio)); }
+
+Image with_legend(const Image& picture, const HeatScale& scale) {
+  constexpr int least = 160, heights_a_dot = 400;  // pixels
+  if (picture.height < least || picture.width < least) return picture;
+  const int dot = std::max(1, picture.height / heights_a_dot), line = text_height(dot);
+  Image image(picture.width, picture.height + 5 * line, picture.channels);
+  std::fill(image.pixels.begin(), image.pixels.end(), 1.0F);
+  std::copy(picture.pixels.begin(), picture.pixels.end(), image.pixels.begin());
+  draw_scale(image, scale, 3 * line, picture.height + 2 * line, picture.height / 2, dot);
   return image;
+}
+
+Image with_legend(const Image& picture, Heat heat) {
+  return with_legend(picture, heat_scale(heat));
 }
 
 }  // namespace sphparam::tools

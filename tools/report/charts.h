@@ -34,6 +34,22 @@ std::string polar_chart(ChartMeasure measure, const std::vector<ChartSeries>& se
 /// side, logarithmic; the end bars hold everything beyond. One or two series.
 std::string histogram_chart(const std::vector<ChartSeries>& series);
 
+/// A part of a chart with a place of its own on a page, so that it can be read on a phone.
+struct ChartPanel {
+  std::string title;
+  std::string svg;   // as of a chart
+  std::string note;  // what a reader must know to trust it; may be empty
+};
+
+/// The two disks of a polar chart of one map: all values, and the zoom. The rim of the first is
+/// that of a chart with the maps of `same_scale` in it, so that their disks compare.
+std::vector<ChartPanel> polar_panels(ChartMeasure measure, const ChartSeries& series,
+                                     const std::vector<ChartSeries>& same_scale = {});
+
+/// One half of a histogram chart, of one map; its bars have the scale of the highest of all.
+ChartPanel histogram_panel(ChartMeasure measure, const ChartSeries& series,
+                           const std::vector<ChartSeries>& same_scale = {});
+
 /// The three charts of a map as NAME-area.svg, NAME-angle.svg and NAME-histogram.svg in
 /// `directory`; only their paths are made: nothing touches the disk.
 std::vector<ChartFile> write_charts(const std::string& directory, const std::string& name,

@@ -75,16 +75,29 @@ std::string axes(const Panel& panel, double highest) {
                         "ratio, logarithmic; the outer bars hold everything beyond");
 }
 
-std::string draw_panel(const Panel& panel, const std::vector<Shares>& all) {
+/// The top of the scale: the next 2 % above all bars.
+double highest_of(const std::vector<Shares>& all) {
   double highest = 0;
   for (const Shares& one : all)
     highest = std::max(highest, *std::max_element(one.begin(), one.end()));
-  highest = std::max(std::ceil(highest * 50) / 50, 0.02);  // the next 2 %
+  return std::max(std::ceil(highest * 50) / 50, 0.02);
+}
+
+std::string draw_panel(const Panel& panel, const std::vector<Shares>& all, double highest) {
   std::string svg = axes(panel, highest);
   for (size_t s = all.size(); s-- > 0;) svg += bars(panel, all[s], highest, s);
   const double optimum = panel.left + kPanelWidth / 2;
   return svg + svg_line(optimum, kTop, optimum, kTop + kHeight, "optimum");
 }
+
+Shares shares(ChartMeasure measure, const ChartSeries& series, const Panel& panel) {
+  const Distortion& d = *series.distortion;
+  return measure == ChartMeasure::Area
+             ? shares(d.area_ratio.data(), d.area_ratio.size(), panel.reach)
+             : shares(d.angle_ratio.data(), d.angle_ratio.size(), panel.reach);
+}
+
+constexpr Panel area{64, 4, 1, "Area"}, angle{544, 3, 1, "Angle"};
 
 }  // namespace
 
@@ -92,17 +105,15 @@ std::string histogram_chart(const std::vector<ChartSeries>& series) {
   if (series.empty() || series.size() > 2) {
     throw std::invalid_argument("histogram_chart: one or two series");
   }
-  const Panel area{64, 4, 1, "Area"}, angle{544, 3, 1, "Angle"};
   std::vector<Shares> areas, angles;
   for (const ChartSeries& one : series) {
-    const Distortion& d = *one.distortion;
-    areas.push_back(shares(d.area_ratio.data(), d.area_ratio.size(), area.reach));
-    angles.push_back(shares(d.angle_ratio.data(), d.angle_ratio.size(), angle.reach));
+    areas.push_back(shares(ChartMeasure::Area, one, area));
+    angles.push_back(shares(ChartMeasure::Angle, one, angle));
   }
   const bool legend = series.size() > 1 || !series[0].label.empty();
   const int below = static_cast<int>(kTop + kHeight) + 52;
   std::string svg = svg_begin(kWidth, below + (legend ? 16 : 0), "Distortion histograms");
-  svg += draw_panel(area, areas) + draw_panel(angle, angles);
+  svg += draw_panel(area, areas, highest_of(areas)) + draw_panel(angle, angles, highest_of(angles));
   for (size_t s = 0; legend && s < series.size(); ++s) {
     const double x = 64 + 480 * static_cast<double>(s);
     svg += "<circle cx=\"" + decimal(x + 5, 1) + "\" cy=\"" + decimal(below - 2, 1) +
@@ -110,6 +121,23 @@ std::string histogram_chart(const std::vector<ChartSeries>& series) {
     svg += svg_text(x + 18, below + 2, "caption", "start", series[s].label);
   }
   return svg + svg_end();
+}
+
+ChartPanel histogram_panel(ChartMeasure measure, const ChartSeries& series,
+                           const std::vector<ChartSeries>& same_scale) {
+  Panel panel = measure == ChartMeasure::Area ? area : angle;
+  panel.left = 56;
+  const Shares own = shares(measure, series, panel);
+  std::vector<Shares> all = {own};
+  for (const ChartSeries& other : same_scale) all.push_back(shares(measure, other, panel));
+  const std::string title =
+      std::string("Histogram of ") + (measure == ChartMeasure::Area ? "areas" : "angles");
+  panel.title = title.c_str();
+  const int width = static_cast<int>(panel.left + kPanelWidth) + 24;
+  return {title,
+          svg_begin(width, static_cast<int>(kTop + kHeight) + 44, title) +
+              draw_panel(panel, {own}, highest_of(all)) + svg_end(),
+          ""};
 }
 
 }  // namespace sphparam::tools

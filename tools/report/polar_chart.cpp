@@ -15,7 +15,7 @@
 namespace sphparam::tools {
 namespace {
 
-constexpr int kWidth = 960;
+constexpr int kWidth = 960, kPanelWidth = 440;
 constexpr double kRadius = 190, kCentreY = 262;
 constexpr double kCell = 2.5;     // pixels, a little more than a dot
 constexpr double kRimGap = 3;     // between the rim, the marks of the first series, of the second
@@ -217,7 +217,21 @@ std::string key(size_t index, double y) {
          std::to_string(index) + "\"/>\n";
 }
 
-/// What a reader must know to trust the picture: the figures, and what is not to be seen.
+const char* noun_of(ChartMeasure measure) {
+  return measure == ChartMeasure::Area ? "triangles" : "angles";
+}
+
+const char* title_of(ChartMeasure measure) {
+  return measure == ChartMeasure::Area ? "Area distortion" : "Angle distortion";
+}
+
+/// What a reader must know to trust the picture: what is not to be seen.
+std::string account(const char* noun, const Values& values, const Shown& shown, double reach) {
+  return grouped(shown.dots) + " dots for the " + grouped(shown.inside) + " of " +
+         grouped(values.count) + " " + noun + " up to " + decimal(reach, 1) + "; " +
+         grouped(shown.beyond) + " beyond, marked on the rim";
+}
+
 std::string caption(const char* noun, const Values& values, size_t index, double rim,
                     const Shown& full, const Shown& zoom, double y) {
   double sum = 0, smallest = INFINITY, largest = 0;
@@ -238,9 +252,7 @@ std::string caption(const char* noun, const Values& values, size_t index, double
                       significant(largest));
   const auto note = [&](int line, const char* side, const Shown& shown, double reach) {
     svg += svg_text(58, y + line * kLineHeight, "label", "start",
-                    side + grouped(shown.dots) + " dots for the " + grouped(shown.inside) + " of " +
-                        grouped(values.count) + " " + noun + " up to " + decimal(reach, 1) + "; " +
-                        grouped(shown.beyond) + " beyond, marked on the rim");
+                    side + account(noun, values, shown, reach));
   };
   note(1, "Left: ", full, rim);
   note(2, "Right: ", zoom, 2);
@@ -256,7 +268,7 @@ std::string polar_chart(ChartMeasure measure, const std::vector<ChartSeries>& se
   std::vector<Values> all;
   for (const ChartSeries& one : series) all.push_back(values_of(measure, one));
   const bool area = measure == ChartMeasure::Area;
-  const std::string title = area ? "Area distortion" : "Angle distortion";
+  const std::string title = title_of(measure);
   const double rim = rim_radius(all), first_line = kCentreY + kRadius + 62;
   const std::array<Disk, 2> disks{Disk{245, rim}, Disk{715, 2}};
 
@@ -274,7 +286,7 @@ std::string polar_chart(ChartMeasure measure, const std::vector<ChartSeries>& se
     svg += scale(disks[k]);
   }
   for (size_t s = 0; s < all.size(); ++s) {
-    svg += caption(area ? "triangles" : "angles", all[s], s, rim, shown[0][s], shown[1][s],
+    svg += caption(noun_of(measure), all[s], s, rim, shown[0][s], shown[1][s],
                    first_line + kCaptionHeight * static_cast<double>(s));
   }
   svg +=
@@ -283,6 +295,24 @@ std::string polar_chart(ChartMeasure measure, const std::vector<ChartSeries>& se
                    (area ? "triangle" : "angle") +
                    " index. A dot is one value, darker from 2 and from 8 on that fall together.");
   return svg + svg_end();
+}
+
+std::vector<ChartPanel> polar_panels(ChartMeasure measure, const ChartSeries& series,
+                                     const std::vector<ChartSeries>& same_scale) {
+  const Values values = values_of(measure, series);
+  std::vector<Values> all = {values};
+  for (const ChartSeries& other : same_scale) all.push_back(values_of(measure, other));
+  const double centre = kPanelWidth / 2.0, rim = rim_radius(all);
+  const auto panel = [&](const std::string& title, const Disk& disk) {
+    Shown shown;
+    std::string svg =
+        svg_begin(kPanelWidth, static_cast<int>(kCentreY + kRadius + kRimBand) + 26, title);
+    svg += svg_text(centre, 30, "title", "middle", title);
+    svg += frame(disk) + draw_series(disk, values, 0, shown) + scale(disk) + svg_end();
+    return ChartPanel{title, std::move(svg), account(noun_of(measure), values, shown, disk.rim)};
+  };
+  return {panel(title_of(measure), {centre, rim}),
+          panel("Zoom on the optimal region", {centre, 2})};
 }
 
 }  // namespace sphparam::tools

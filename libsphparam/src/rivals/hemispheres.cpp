@@ -51,10 +51,12 @@ std::vector<int> hemisphere_of_vertices(const Topology& topology, const Bisectio
   return hemisphere;
 }
 
-std::string describe(const TutteSolution& solution) {
+/// The residual is a difference of near-equal numbers: below the tolerance its digits say nothing.
+std::string describe(const TutteSolution& solution, double tolerance) {
+  const bool solved = solution.residual <= tolerance;
   return std::to_string(solution.sweeps) + " sweeps and " + std::to_string(solution.steps) +
-         " Newton steps; the residual is " + number_text(solution.residual) +
-         " of the hemispheres'";
+         " Newton steps; the residual is " + (solved ? "at most " : "") +
+         number_text(solved ? tolerance : solution.residual) + " of the hemispheres'";
 }
 
 }  // namespace
@@ -103,7 +105,7 @@ RivalResult map_hemispheres(const TriangleMesh& mesh, const Topology& topology,
     solution =
         equations.newton(std::move(solution), options.max_steps, options.tolerance, progress);
     outcome.finish_stage("Newton", solution.steps);
-    const std::string numbers = describe(solution);
+    const std::string numbers = describe(solution, options.tolerance);
     if (solution.residual <= options.tolerance) {
       return outcome.take(std::move(solution.map), RivalEnd::Converged, "solved by " + numbers);
     }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -15,6 +16,8 @@
 // with 3u M² |q|₁ more. 8u M² |q|₁ covers both, with room for what is of order u². Beyond it the
 // sign of the computed dot product is that of det(a, b, q).
 //
+// The walk crosses the edge whose det is least. At the end the three dets are the weights.
+//
 // The table. A direction has a place on the cube: side, s and t of 28 bits each. Faces are sorted
 // by the Morton key of their centroids, so that a square of the cube holds a range of them; a
 // square with more than a few is divided by 4 × 4. An entry is the face that holds its square's
@@ -24,11 +27,16 @@ namespace sphparam {
 namespace {
 
 constexpr int bits_an_axis = 28;
-constexpr size_t crowd = 8;  // faces with centroids in a square, above which it is divided
-constexpr std::int64_t grain = 4096;
+constexpr size_t crowd = 8;           // faces with centroids in a square, above which it is divided
+constexpr std::int64_t grain = 4096;  // faces, or directions
+constexpr std::int64_t least_sorted = 1 << 17, most_sorted = 1 << 20;  // together
+constexpr std::int64_t few = 1 << 10;  // directions that are not worth sorting
+constexpr std::int64_t ahead = 12;     // directions between asking for memory and using it
+constexpr std::int32_t cells_ahead = 24;
 constexpr int straight_steps = 64;         // before the walk chooses its edges by chance
 constexpr int most_steps = 1 << 16;        // before all faces are asked
 constexpr double steps_worth_walking = 8;  // triangles between two directions; else the table
+constexpr double worth_sorting = 0.25;     // of those steps, between most directions
 constexpr double least_rounding = 1e-290;  // of tiny rays: their products may underflow
 constexpr double coarse_triangle = 1e-5;   // det of rays, above which dot products are weights
 
@@ -43,7 +51,7 @@ std::uint32_t fixed(double ratio) {
   return static_cast<std::uint32_t>(std::clamp((ratio + 1) / 2 * size, 0.0, size - 1));
 }
 
-CubePlace cube_place(const Vector3& q) {
+inline CubePlace cube_place(const Vector3& q) {
   int axis = 0;
   const double length = q.cwiseAbs().maxCoeff(&axis);
   const int a = axis == 2 ? 0 : axis + 1, b = axis == 0 ? 2 : axis - 1;
@@ -87,13 +95,48 @@ Vector3 square_centre(std::uint64_t key, int bits) {
 }
 
 /// The direction at a length at which nothing over- or underflows: scaled by a power of two.
-Vector3 usable(const Vector3& q) {
+inline Vector3 usable(const Vector3& q) {
+  const double square = q.squaredNorm();
+  if (square >= 0x1p-4 && square <= 0x1p4) return q;
   const double length = q.cwiseAbs().maxCoeff();
   if (!q.allFinite() || length == 0) {
     throw std::invalid_argument("SphereLocator: a direction is zero or not finite");
   }
-  if (length >= 0.25 && length <= 4) return q;
   return q.unaryExpr([&](double x) { return std::ldexp(x, -std::ilogb(length)); });
+}
+
+/// Rows first … last along the curve of the cube's squares, relative to the first: two rounds of
+/// counting, by the lower and the upper half of a short key.
+std::vector<std::uint32_t> curve_order(SphereLocator::PointsView directions, std::int64_t first,
+                                       std::int64_t last) {
+  constexpr int kept = 10, half_bits = 12;  // bits an axis; 6·4¹⁰ < 2²⁴
+  struct Item {
+    std::uint32_t key, row;
+  };
+  const auto count = static_cast<size_t>(last - first);
+  std::vector<Item> items(count), sorted(count);
+  std::array<std::array<std::uint32_t, (1 << half_bits) + 1>, 2> starts{};
+  constexpr std::uint32_t mask = (1 << half_bits) - 1;
+  for (size_t i = 0; i < count; ++i) {
+    const Vector3 q = usable(directions.row(first + static_cast<std::int64_t>(i)));
+    const std::uint64_t key = morton_key(cube_place(q));
+    items[i] = {static_cast<std::uint32_t>(key >> 2 * (bits_an_axis - kept)),
+                static_cast<std::uint32_t>(i)};
+    ++starts[0][(items[i].key & mask) + 1];
+    ++starts[1][(items[i].key >> half_bits) + 1];
+  }
+  for (auto& table : starts) std::partial_sum(table.begin(), table.end(), table.begin());
+  for (const Item& item : items) sorted[starts[0][item.key & mask]++] = item;
+  std::vector<std::uint32_t> order(count);
+  for (const Item& item : sorted) order[starts[1][item.key >> half_bits]++] = item.row;
+  return order;
+}
+
+/// Which is least, without branches: nobody can predict it.
+size_t least(const std::array<double, 3>& d) {
+  const size_t first = d[1] < d[0];
+  const size_t third = d[2] < std::min(d[0], d[1]);
+  return first + third * (2 - first);
 }
 
 }  // namespace
@@ -142,10 +185,12 @@ void SphereLocator::make_cells(const std::vector<Keyed>& order, int threads) {
       for (int k = 0; k < 3; ++k) {
         const Halfedge h = 3 * cell.face + (k + 1) % 3, twin = topology_->twin(h);
         const auto edge = static_cast<size_t>(k);
-        cell.normals[edge] =
+        const Vector3 normal =
             map_->point(topology_->origin(h)).cross(map_->point(topology_->target(h)));
-        cell.across[edge] = 3 * cell_of[static_cast<size_t>(Topology::face(twin))] +
-                            (Topology::corner(twin) + 2) % 3;
+        cell.x[edge] = normal.x();
+        cell.y[edge] = normal.y();
+        cell.z[edge] = normal.z();
+        cell.across[edge] = cell_of[static_cast<size_t>(Topology::face(twin))];
       }
     }
   });
@@ -157,12 +202,12 @@ void SphereLocator::make_table(const std::vector<Keyed>& order) {
   table_.resize(squares(level_));
   const int bits = 2 * (bits_an_axis - level_);
   size_t first = 0;
-  int near = 0;  // a cell to start from: in the square, or in the one before
+  std::int32_t near = 0;  // a cell to start from: in the square, or in the one before
   for (std::uint64_t square = 0; square < squares(level_); ++square) {
     const std::uint64_t key = square << bits, end = (square + 1) << bits;
     size_t last = first;
     while (last < order.size() && order[last].key < end) ++last;
-    if (last > first) near = static_cast<int>(first);
+    if (last > first) near = static_cast<std::int32_t>(first);
     const std::uint64_t place = square & ((std::uint64_t{1} << 2 * level_) - 1);
     const auto side = static_cast<size_t>(square >> 2 * level_);
     const size_t row = (side << level_) + gather(place >> 1);
@@ -173,25 +218,25 @@ void SphereLocator::make_table(const std::vector<Keyed>& order) {
 
 /// The entry for the square of keys [key, key + 2^bits), whose faces are order[first … last).
 std::int32_t SphereLocator::make_entry(const std::vector<Keyed>& order, std::uint64_t key, int bits,
-                                       size_t first, size_t last, int& near) {
-  const int centre = near = walk(square_centre(key, bits), near).cell;
+                                       size_t first, size_t last, std::int32_t& near) {
+  const std::int32_t centre = near = walk(square_centre(key, bits), near).cell;
   if (last - first <= crowd || bits < 4) return centre;
-  const size_t block = table_.size();
-  table_.resize(block + 16);
+  const size_t children = table_.size();
+  table_.resize(children + 16);
   for (std::uint64_t child = 0; child < 16; ++child) {
     const std::uint64_t child_key = key + (child << (bits - 4)),
                         end = child_key + (std::uint64_t{1} << (bits - 4));
     size_t child_last = first;
     while (child_last < last && order[child_last].key < end) ++child_last;
-    if (child_last > first) near = static_cast<int>(first);
+    if (child_last > first) near = static_cast<std::int32_t>(first);
     const std::int32_t entry = make_entry(order, child_key, bits - 4, first, child_last, near);
-    table_[block + 4 * gather(child >> 1) + gather(child)] = entry;
+    table_[children + 4 * gather(child >> 1) + gather(child)] = entry;
     first = child_last;
   }
-  return ~static_cast<std::int32_t>(block);
+  return ~static_cast<std::int32_t>(children);
 }
 
-int SphereLocator::start(const Vector3& q) const {
+std::int32_t SphereLocator::start(const Vector3& q) const {
   const CubePlace place = cube_place(q);
   int shift = bits_an_axis - level_;
   const size_t row = (static_cast<size_t>(place.side) << level_) + (place.t >> shift);
@@ -204,109 +249,130 @@ int SphereLocator::start(const Vector3& q) const {
   return entry;
 }
 
-inline int SphereLocator::sign(const Cell& cell, int edge, const Vector3& q, double bound) const {
-  const double det = cell.normals[static_cast<size_t>(edge)].dot(q);
+inline std::array<double, 3> SphereLocator::dets(const Cell& cell, const Vector3& q) {
+  std::array<double, 3> result;
+  for (size_t k = 0; k < 3; ++k) {
+    result[k] = cell.x[k] * q.x() + cell.y[k] * q.y() + cell.z[k] * q.z();
+  }
+  return result;
+}
+
+int SphereLocator::sign(const Cell& cell, int edge, double det, const Vector3& q,
+                        double bound) const {
   if (det > bound) return 1;
   if (-det > bound) return -1;
   const Halfedge h = 3 * cell.face + (edge + 1) % 3;
   return orientation(map_->point(topology_->origin(h)), map_->point(topology_->target(h)), q);
 }
 
-SphereLocator::Found SphereLocator::walk(const Vector3& q, int at) const {
+inline SphereLocator::Found SphereLocator::walk(const Vector3& q, std::int32_t at) const {
   const double bound = rounding_ * q.lpNorm<1>();
-  int entered = -1;  // the edge that was crossed, seen from here: q is on this side of it
-  std::uint32_t chance = 1;
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < straight_steps; ++step) {
     const Cell& cell = cells_[static_cast<size_t>(at)];
-    if (step >= straight_steps) chance = 1664525 * chance + 1013904223;
-    const int offset =
-        step < straight_steps ? std::max(entered, 0) : static_cast<int>(chance >> 16) % 3;
-    Found found{at, {1, 1, 1}};
-    int crossed = -1;
-    for (int i = 0; i < 3 && crossed < 0; ++i) {
-      const int edge = (i + offset) % 3;
-      if (edge == entered) continue;
-      const int s = sign(cell, edge, q, bound);
-      found.signs[static_cast<size_t>(edge)] = s;
-      if (s < 0) crossed = edge;
-    }
-    if (crossed < 0) return found;
-    const std::int32_t across = cell.across[static_cast<size_t>(crossed)];
-    at = across / 3;
-    entered = across % 3;
+    const std::array<double, 3> d = dets(cell, q);
+    const size_t edge = least(d);
+    if (d[edge] > bound) return {at, false, d};
+    if (!(d[edge] < -bound)) break;  // too near to an edge to be told apart
+    at = cell.across[edge];
   }
-  return search(q);
+  return wander(q, at, bound);
 }
 
-/// Asks all faces: for walks that go round and round, which chance all but excludes.
-SphereLocator::Found SphereLocator::search(const Vector3& q) const {
-  const double bound = rounding_ * q.lpNorm<1>();
+/// The first edge from `offset` on that q lies beyond, by exact signs; −1 if none.
+int SphereLocator::edge_to_cross(const Cell& cell, const Found& found, const Vector3& q,
+                                 double bound, int offset) const {
+  for (int i = 0; i < 3; ++i) {
+    const int edge = (i + offset) % 3;
+    if (sign(cell, edge, found.dets[static_cast<size_t>(edge)], q, bound) < 0) return edge;
+  }
+  return -1;
+}
+
+SphereLocator::Found SphereLocator::met(std::int32_t cell, const std::array<double, 3>& dets,
+                                        double bound) {
+  return {cell, *std::min_element(dets.begin(), dets.end()) <= bound, dets};
+}
+
+/// The walk with exact signs and by chance, and in the end a look at all faces: for those that go
+/// round and round, which chance all but excludes.
+SphereLocator::Found SphereLocator::wander(const Vector3& q, std::int32_t at, double bound) const {
+  std::uint32_t chance = 1;
+  for (int step = 0; step < most_steps; ++step) {
+    chance = 1664525 * chance + 1013904223;
+    const Cell& cell = cells_[static_cast<size_t>(at)];
+    const Found found = met(at, dets(cell, q), bound);
+    const int crossed = edge_to_cross(cell, found, q, bound, static_cast<int>(chance >> 16) % 3);
+    if (crossed < 0) return found;
+    at = cell.across[static_cast<size_t>(crossed)];
+  }
   for (size_t i = 0; i < cells_.size(); ++i) {
-    Found found{static_cast<int>(i), {}};
-    for (int k = 0; k < 3; ++k) found.signs[static_cast<size_t>(k)] = sign(cells_[i], k, q, bound);
-    if (*std::min_element(found.signs.begin(), found.signs.end()) >= 0) return found;
+    const Found found = met(static_cast<std::int32_t>(i), dets(cells_[i], q), bound);
+    if (edge_to_cross(cells_[i], found, q, bound, 0) < 0) return found;
   }
   throw std::logic_error("SphereLocator: no face holds a direction; the map is not one-to-one");
 }
 
-/// Weights λₖ ∝ det(xᵢ, xⱼ, q). Where the triangle is small they are taken from differences to a
-/// multiple of q, which lose nothing: det(xᵢ, xⱼ, q) = det(xᵢ − sq, xⱼ − sq, q).
-SurfacePoint SphereLocator::point(const Vector3& direction, const Found& found) const {
-  const Vector3 q = direction.normalized();
-  const Cell& cell = cells_[static_cast<size_t>(found.cell)];
-  SurfacePoint point{cell.face, {}};
+/// Weights λₖ ∝ det(xᵢ, xⱼ, q) of a small triangle, from differences to a multiple of q, which lose
+/// nothing: det(xᵢ, xⱼ, q) = det(xᵢ − sq, xⱼ − sq, q).
+Vector3 SphereLocator::small_weights(const Vector3& q, Face face) const {
+  const auto corner = [&](int k) { return map_->point(topology_->vertex(face, k)); };
+  const Vector3 near = corner(0).dot(q) / q.squaredNorm() * q;
+  const Vector3 offsets[3] = {corner(0) - near, corner(1) - near, corner(2) - near};
+  Vector3 weights;
   for (int k = 0; k < 3; ++k) {
-    point.barycentric[k] = cell.normals[static_cast<size_t>(k)].dot(q);
+    weights[k] = offsets[(k + 1) % 3].cross(offsets[(k + 2) % 3]).dot(q);
   }
-  if (point.barycentric.sum() < coarse_triangle) {
-    const Vector3 near = map_->point(topology_->vertex(cell.face, 0)).dot(q) * q;
-    Vector3 offsets[3];
-    for (int k = 0; k < 3; ++k) offsets[k] = map_->point(topology_->vertex(cell.face, k)) - near;
-    for (int k = 0; k < 3; ++k) {
-      point.barycentric[k] = offsets[(k + 1) % 3].cross(offsets[(k + 2) % 3]).dot(q);
-    }
+  return weights;
+}
+
+inline SurfacePoint SphereLocator::finish(const Vector3& q, const Found& found) const {
+  if (found.touches) return finish_at_edge(q, found);
+  SurfacePoint point{cells_[static_cast<size_t>(found.cell)].face,
+                     {found.dets[0], found.dets[1], found.dets[2]}};
+  double sum = point.barycentric.sum();
+  if (sum * sum < coarse_triangle * coarse_triangle * q.squaredNorm()) {
+    point.barycentric = small_weights(q, point.face).cwiseMax(std::numeric_limits<double>::min());
+    sum = point.barycentric.sum();
   }
-  for (int k = 0; k < 3; ++k) {
-    const bool inside = found.signs[static_cast<size_t>(k)] > 0;
-    point.barycentric[k] =
-        inside ? std::max(point.barycentric[k], std::numeric_limits<double>::min()) : 0;
-  }
-  point.barycentric /= point.barycentric.sum();
+  point.barycentric *= 1 / sum;
   return point;
 }
 
-/// The same point on the face of lowest index that it lies on.
-SurfacePoint SphereLocator::on_lowest_face(const SurfacePoint& point, const Found& found) const {
-  Face lowest = point.face;
+/// Of a direction that exact signs were asked for: its weights at the corners of the face of lowest
+/// index that it lies on, computed there, so that the walk's way leaves no trace.
+SurfacePoint SphereLocator::finish_at_edge(const Vector3& q, const Found& found) const {
+  const Cell& cell = cells_[static_cast<size_t>(found.cell)];
+  const double bound = rounding_ * q.lpNorm<1>();
+  std::array<bool, 3> beside{};  // is the weight of the corner zero?
   for (int k = 0; k < 3; ++k) {
-    const int next = (k + 1) % 3, previous = (k + 2) % 3;
-    const Halfedge h = 3 * point.face + next;  // the edge opposite to corner k
-    if (found.signs[static_cast<size_t>(k)] == 0) {
+    const auto edge = static_cast<size_t>(k);
+    beside[edge] = sign(cell, k, found.dets[edge], q, bound) == 0;
+  }
+  Face lowest = cell.face;
+  for (int k = 0; k < 3; ++k) {
+    const auto next = static_cast<size_t>((k + 1) % 3), previous = static_cast<size_t>((k + 2) % 3);
+    if (beside[static_cast<size_t>(k)]) {
+      const Halfedge h = 3 * cell.face + (k + 1) % 3;
       lowest = std::min(lowest, Topology::face(topology_->twin(h)));
     }
-    if (found.signs[static_cast<size_t>(next)] == 0 &&
-        found.signs[static_cast<size_t>(previous)] == 0) {
-      topology_->for_each_outgoing(topology_->vertex(point.face, k), [&](Halfedge out) {
+    if (beside[next] && beside[previous]) {
+      topology_->for_each_outgoing(topology_->vertex(cell.face, k), [&](Halfedge out) {
         lowest = std::min(lowest, Topology::face(out));
       });
     }
   }
-  if (lowest == point.face) return point;
-  SurfacePoint moved{lowest, Vector3::Zero()};
+  SurfacePoint point{lowest, small_weights(q, lowest)};
   for (int i = 0; i < 3; ++i) {
+    bool at_corner = false;  // of the found face, with a weight
     for (int k = 0; k < 3; ++k) {
-      if (topology_->vertex(point.face, i) == topology_->vertex(lowest, k)) {
-        moved.barycentric[k] = point.barycentric[i];
-      }
+      at_corner = at_corner || (topology_->vertex(lowest, i) == topology_->vertex(cell.face, k) &&
+                                !beside[static_cast<size_t>(k)]);
     }
+    point.barycentric[i] =
+        at_corner ? std::max(point.barycentric[i], std::numeric_limits<double>::min()) : 0;
   }
-  return moved;
-}
-
-SurfacePoint SphereLocator::finish(const Vector3& q, const Found& found) const {
-  const SurfacePoint here = point(q, found);
-  const auto& [a, b, c] = found.signs;
-  return a > 0 && b > 0 && c > 0 ? here : on_lowest_face(here, found);
+  point.barycentric /= point.barycentric.sum();
+  return point;
 }
 
 SurfacePoint SphereLocator::locate(const Vector3& direction) const {
@@ -314,21 +380,72 @@ SurfacePoint SphereLocator::locate(const Vector3& direction) const {
   return finish(q, walk(q, start(q)));
 }
 
+/// From each direction to the next: rows row_at(first) … row_at(last − 1).
+template <class RowAt>
+void SphereLocator::locate_in_order(PointsView directions, std::int64_t first, std::int64_t last,
+                                    const RowAt& row_at, SurfacePoint* points) const {
+  Vector3 before = Vector3::Zero();
+  std::int32_t cell = 0;
+  for (std::int64_t i = first; i < last; ++i) {
+    const std::int64_t row = row_at(i);
+    const Vector3 q = usable(directions.row(row));
+    if ((q - before).squaredNorm() > reach2_) cell = start(q);
+    const Found found = walk(q, cell);
+    points[row] = finish(q, found);
+    before = q;
+    cell = found.cell;
+    // Cells and sorted directions lie along one curve: soon these will be met.
+    const size_t soon = std::min(static_cast<size_t>(cell + cells_ahead), cells_.size() - 2);
+    __builtin_prefetch(&cells_[soon]);
+    __builtin_prefetch(&cells_[soon + 1]);
+  }
+}
+
+/// Are most directions so near to the ones before them that sorting would not pay? Asked of some.
+bool SphereLocator::is_coherent(PointsView directions) const {
+  const std::int64_t stride = std::max<std::int64_t>(1, directions.rows() / few);
+  std::int64_t asked = 0, near = 0;
+  for (std::int64_t i = 1; i < directions.rows(); i += stride) {
+    const double square = (directions.row(i) - directions.row(i - 1)).squaredNorm();
+    near += square <= worth_sorting * worth_sorting * reach2_ * directions.row(i).squaredNorm();
+    ++asked;
+  }
+  return 4 * near >= 3 * asked;
+}
+
 std::vector<SurfacePoint> SphereLocator::locate_all(const Points& directions, int threads) const {
   std::vector<SurfacePoint> points(static_cast<size_t>(directions.rows()));
-  parallel_for(directions.rows(), grain, threads, [&](std::int64_t first, std::int64_t last) {
-    Vector3 before = Vector3::Zero();
-    int cell = 0;
-    for (std::int64_t i = first; i < last; ++i) {
-      const Vector3 q = usable(directions.row(i));
-      if ((q - before).squaredNorm() > reach2_) cell = start(q);
-      const Found found = walk(q, cell);
-      points[static_cast<size_t>(i)] = finish(q, found);
-      before = q;
-      cell = found.cell;
-    }
-  });
+  locate_all(directions, points, threads);
   return points;
+}
+
+void SphereLocator::locate_all(PointsView directions, std::span<SurfacePoint> points,
+                               int threads) const {
+  const std::int64_t count = directions.rows();
+  if (std::ssize(points) != count) {
+    throw std::invalid_argument("SphereLocator: room for " + std::to_string(points.size()) +
+                                " points of " + std::to_string(count) + " directions");
+  }
+  const bool sort = count >= few && !is_coherent(directions);
+  // The more directions are sorted together, the nearer they are to one another.
+  const std::int64_t share = count / resolve_threads(threads) + 1;
+  const std::int64_t chunk = sort ? std::clamp(share, least_sorted, most_sorted) : grain;
+  parallel_for(count, chunk, threads, [&](std::int64_t first, std::int64_t last) {
+    if (!sort) {
+      locate_in_order(
+          directions, first, last, [](std::int64_t i) { return i; }, points.data());
+      return;
+    }
+    const std::vector<std::uint32_t> order = curve_order(directions, first, last);
+    const auto row_at = [&](std::int64_t i) {
+      const std::int64_t later = std::min(i + ahead, std::ssize(order) - 1);
+      const std::int64_t wanted = first + order[static_cast<size_t>(later)];
+      __builtin_prefetch(directions.data() + 3 * wanted);
+      __builtin_prefetch(points.data() + wanted, 1);
+      return first + order[static_cast<size_t>(i)];
+    };
+    locate_in_order(directions, 0, last - first, row_at, points.data());
+  });
 }
 
 }  // namespace sphparam

@@ -3,6 +3,7 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <ctime>
 #include <memory>
@@ -48,8 +49,8 @@ std::string refusal(const OIIO::ImageSpec& spec, size_t file_size, int64_t max_m
 }
 
 int decode(const char* format, const char* bytes, size_t size, int64_t max_megabytes,
-           int max_channels, SphparamPixelRoom room, void* room_context, SphparamBytesSink error,
-           void* error_context) try {
+           int max_channels, SphparamPixelRoom room, void* room_context, SphparamTextSink text,
+           void* text_context, SphparamBytesSink error, void* error_context) try {
   OIIO::attribute("limits:imagesize_MB", static_cast<int>(max_megabytes));
   OIIO::attribute("limits:channels", max_channels);
   const auto fail = [&](const std::string& why) {
@@ -66,6 +67,10 @@ int decode(const char* format, const char* bytes, size_t size, int64_t max_megab
   if (!input->open(std::string("memory.") + format, spec, config)) return fail(input->geterror());
   const std::string refused = refusal(spec, size, max_megabytes, max_channels);
   if (!refused.empty()) return fail(refused);
+  for (const OIIO::ParamValue& value : spec.extra_attribs) {
+    const bool is_text = value.type() == OIIO::TypeDesc::STRING;
+    if (text && is_text) text(text_context, value.name().c_str(), value.get_ustring().c_str());
+  }
   float* pixels = room(room_context, spec.width, spec.height, spec.nchannels);
   if (!pixels) return fail("not enough memory");
   if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels)) {
@@ -120,7 +125,134 @@ int encode(const char* format, const char* sample_type, const float* pixels, int
   return 1;
 }
 
-constexpr SphparamImageTable kTable{kSphparamImageTableVersion, decode, encode};
+/// A file of the caller's, as OpenImageIO writes to it.
+class CallersFile : public OIIO::Filesystem::IOProxy {
+ public:
+  CallersFile(SphparamBytesAt write_at, void* context)
+      : IOProxy("", Write), write_at_(write_at), context_(context) {}
+
+  const char* proxytype() const override { return "callers_file"; }
+  size_t write(const void* bytes, size_t size) override {
+    const size_t written = pwrite(bytes, size, m_pos);
+    m_pos += static_cast<int64_t>(written);
+    return written;
+  }
+  size_t pwrite(const void* bytes, size_t size, int64_t offset) override {
+    if (write_at_(context_, offset, bytes, size) != 0) return 0;
+    size_ = std::max(size_, static_cast<size_t>(offset) + size);
+    return size;
+  }
+  bool seek(int64_t offset) override {
+    m_pos = offset;
+    return true;
+  }
+  size_t size() const override { return size_; }
+
+ private:
+  SphparamBytesAt write_at_;
+  void* context_;
+  size_t size_ = 0;
+};
+
+/// An image under way. The encoder goes before the file it writes to.
+struct OpenImage {
+  CallersFile file;
+  std::unique_ptr<OIIO::ImageOutput> output;
+  OIIO::ImageSpec spec;
+  OIIO::TypeDesc type;  // of the rows that come
+};
+
+template <class Work>
+int guarded(SphparamBytesSink error, void* error_context, const OpenImage& image,
+            const Work& work) try {
+  if (work()) return 0;
+  tell(error, error_context, image.output->geterror());
+  return 1;
+} catch (const std::exception& e) {
+  tell(error, error_context, e.what());
+  return 1;
+}
+
+OIIO::ImageSpec spec_of(const SphparamImageFile& file) {
+  const std::string format = file.format;
+  OIIO::ImageSpec spec(file.width, file.height, file.channels, OIIO::TypeDesc(file.sample_type));
+  spec.attribute("oiio:UnassociatedAlpha", 1);
+  if (format == "openexr" || format == "tiff") {
+    spec.attribute("DateTime", reproducible_date());
+    spec.attribute("compression", "zip");
+  }
+  if (format == "png") spec.attribute("png:compressionLevel", 6);
+  if (format == "jpeg") spec.attribute("compression", "jpeg:95");
+  if (file.tile > 0) {
+    spec.tile_width = spec.tile_height = file.tile;
+    spec.tile_depth = 1;
+    spec.attribute("textureformat", "Plain Texture");
+    spec.attribute("openexr:levelmode", 1);     // mipmap
+    spec.attribute("openexr:roundingmode", 0);  // down
+    if (file.wraps) spec.attribute("wrapmodes", "periodic,clamp");
+  }
+  // JPEG and TIFF have no place for names of ours.
+  std::string all;
+  for (size_t i = 0; i < file.metadata_count; ++i) {
+    const std::string name = file.metadata[2 * i], value = file.metadata[2 * i + 1];
+    spec.attribute(name, value);
+    if (name.starts_with("sphparam:")) all += (all.empty() ? "" : "\n") + name + "=" + value;
+  }
+  if (format == "jpeg" || format == "tiff") spec.attribute("ImageDescription", all);
+  return spec;
+}
+
+void* open(const SphparamImageFile* file, SphparamBytesSink error, void* error_context) try {
+  auto image = std::make_unique<OpenImage>(
+      OpenImage{{file->write, file->context}, nullptr, spec_of(*file), {}});
+  image->type = image->spec.format == OIIO::TypeDesc::HALF ? OIIO::TypeDesc(OIIO::TypeDesc::FLOAT)
+                                                           : image->spec.format;
+  image->output = OIIO::ImageOutput::create(file->format);
+  if (!image->output) {
+    tell(error, error_context, OIIO::geterror());
+    return nullptr;
+  }
+  if (!image->output->set_ioproxy(&image->file) ||
+      !image->output->open(std::string("memory.") + file->format, image->spec)) {
+    tell(error, error_context, image->output->geterror());
+    return nullptr;
+  }
+  return image.release();
+} catch (const std::exception& e) {
+  tell(error, error_context, e.what());
+  return nullptr;
+}
+
+int write_rows(void* handle, int first_row, int rows, const void* samples, SphparamBytesSink error,
+               void* error_context) {
+  auto& image = *static_cast<OpenImage*>(handle);
+  return guarded(error, error_context, image, [&] {
+    return image.spec.tile_width > 0
+               ? image.output->write_tiles(0, image.spec.width, first_row, first_row + rows, 0, 1,
+                                           image.type, samples)
+               : image.output->write_scanlines(first_row, first_row + rows, 0, image.type, samples);
+  });
+}
+
+int next_level(void* handle, int width, int height, SphparamBytesSink error, void* error_context) {
+  auto& image = *static_cast<OpenImage*>(handle);
+  image.spec.width = image.spec.full_width = width;
+  image.spec.height = image.spec.full_height = height;
+  return guarded(error, error_context, image, [&] {
+    return image.output->open("memory.openexr", image.spec, OIIO::ImageOutput::AppendMIPLevel);
+  });
+}
+
+int close(void* handle, int give_up, SphparamBytesSink error, void* error_context) {
+  const std::unique_ptr<OpenImage> image(static_cast<OpenImage*>(handle));
+  const int failed =
+      guarded(error, error_context, *image, [&] { return image->output->close(); });
+  image->output.reset();
+  return give_up ? 0 : failed;
+}
+
+constexpr SphparamImageTable kTable{
+    kSphparamImageTableVersion, decode, encode, open, write_rows, next_level, close};
 
 }  // namespace
 

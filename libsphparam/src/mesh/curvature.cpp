@@ -1,0 +1,170 @@
+#include "sphparam/mesh/curvature.h"
+
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "sphparam/errors.h"
+#include "sphparam/parallel.h"
+
+// One pass for the normals and areas of faces, one over the rings of vertices:
+//   M_v = ¼ Σ_{e∋v} β_e |e|     β the angle by which the surface bends at the edge, > 0 convex
+//   G_v = 2π − Σ angles at v
+// Densities h of a measure m averaged over a scale s:  (A + ½s² L) h = m, A the areas of vertices,
+// L the Laplacian with weights 2 A_e/|e|², A_e a third of the two triangles: cotangents where
+// triangles are equilateral, positive always. Columns of L sum to 0, so Σ A h = Σ m; the matrix is
+// an M-matrix, so h stays between the extremes of m/A.
+
+namespace sphparam {
+namespace {
+
+constexpr std::int64_t kGrain = 4096;
+constexpr double kAreaFloor = 1e-9;   // of the mean area of a vertex
+constexpr double kGlue = 1e6;         // ½s²·weight of an edge without length, in mean areas
+constexpr double kTolerance = 1e-10;  // of the residual of the average
+constexpr int kMaxIterations = 20'000;
+
+using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+struct Faces {
+  Points normals;        // unit; zero where there is none
+  Eigen::VectorXd area;  // #F
+};
+
+Faces measure_faces(const TriangleMesh& mesh, int threads) {
+  Faces faces{Points(mesh.face_count(), 3), Eigen::VectorXd(mesh.face_count())};
+  parallel_for(mesh.face_count(), kGrain, threads, [&](std::int64_t first, std::int64_t last) {
+    for (Eigen::Index f = first; f < last; ++f) {
+      const Vector3 a = mesh.position(mesh.triangles(f, 0));
+      const Vector3 b = mesh.position(mesh.triangles(f, 1)) - a;
+      const Vector3 c = mesh.position(mesh.triangles(f, 2)) - a;
+      const Vector3 normal = b.cross(c);
+      faces.area[f] = normal.stableNorm() / 2;
+      faces.normals.row(f) = normal.stableNormalized();
+    }
+  });
+  return faces;
+}
+
+Vector3 edge_vector(const TriangleMesh& mesh, const Topology& topology, Halfedge h) {
+  return mesh.position(topology.target(h)) - mesh.position(topology.origin(h));
+}
+
+/// β |e|: positive where the two faces of the edge bend away from the outside.
+double bend(const TriangleMesh& mesh, const Topology& topology, const Faces& faces, Halfedge h) {
+  const Vector3 edge = edge_vector(mesh, topology, h);
+  const double length = edge.stableNorm();
+  if (!(length > 0)) return 0;
+  const Vector3 n = faces.normals.row(Topology::face(h));
+  const Vector3 m = faces.normals.row(Topology::face(topology.twin(h)));
+  return length * std::atan2(n.cross(m).dot(edge) / length, n.dot(m));
+}
+
+/// Between the half-edge and the one before it in its face.
+double angle_at_origin(const TriangleMesh& mesh, const Topology& topology, Halfedge h) {
+  const Vector3 a = edge_vector(mesh, topology, h).stableNormalized();
+  const Vector3 b = -edge_vector(mesh, topology, Topology::previous(h)).stableNormalized();
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+struct Measures {
+  Eigen::VectorXd mean, gauss, area;
+};
+
+Measures measure_vertices(const TriangleMesh& mesh, const Topology& topology, const Faces& faces,
+                          int threads) {
+  const Eigen::Index count = mesh.vertex_count();
+  Measures measures{Eigen::VectorXd(count), Eigen::VectorXd(count), Eigen::VectorXd(count)};
+  parallel_for(count, kGrain, threads, [&](std::int64_t first, std::int64_t last) {
+    for (Vertex v = static_cast<Vertex>(first); v < last; ++v) {
+      double bends = 0, angles = 0, area = 0;
+      topology.for_each_outgoing(v, [&](Halfedge h) {
+        bends += bend(mesh, topology, faces, h);
+        angles += angle_at_origin(mesh, topology, h);
+        area += faces.area[Topology::face(h)];
+      });
+      measures.mean[v] = bends / 4;
+      measures.gauss[v] = 2 * std::numbers::pi - angles;
+      measures.area[v] = area / 3;
+    }
+  });
+  return measures;
+}
+
+double total_area(const TriangleMesh& mesh, int threads) {
+  return parallel_sum(mesh.face_count(), threads, [&](std::int64_t first, std::int64_t last) {
+    double sum = 0;
+    for (Eigen::Index f = first; f < last; ++f) {
+      const Vector3 a = mesh.position(mesh.triangles(f, 0));
+      sum += (mesh.position(mesh.triangles(f, 1)) - a)
+                 .cross(mesh.position(mesh.triangles(f, 2)) - a)
+                 .stableNorm() /
+             2;
+    }
+    return sum;
+  });
+}
+
+/// A + ½s² L.
+SparseMatrix averaging_matrix(const TriangleMesh& mesh, const Topology& topology,
+                              const Faces& faces, const Eigen::VectorXd& area, double scale) {
+  const Eigen::Index count = area.size();
+  const double time = scale * scale / 2, glue = kGlue * area.mean();
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(static_cast<size_t>(count + topology.halfedge_count()));
+  for (Vertex v = 0; v < count; ++v) {
+    double diagonal = area[v];
+    topology.for_each_outgoing(v, [&](Halfedge h) {
+      const double shared =
+          (faces.area[Topology::face(h)] + faces.area[Topology::face(topology.twin(h))]) / 3;
+      const double squared = edge_vector(mesh, topology, h).squaredNorm();
+      const double weight = time * 2 * shared;
+      const double w = weight < glue * squared ? weight / squared : glue;
+      entries.emplace_back(v, topology.target(h), -w);
+      diagonal += w;
+    });
+    entries.emplace_back(v, v, diagonal);
+  }
+  SparseMatrix matrix(count, count);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+}  // namespace
+
+double equal_area_radius(const TriangleMesh& mesh, int threads) {
+  return std::sqrt(total_area(mesh, threads) / (4 * std::numbers::pi));
+}
+
+Curvature measure_curvature(const TriangleMesh& mesh, const Topology& topology, double scale,
+                            int threads) {
+  const Faces faces = measure_faces(mesh, threads);
+  Measures measures = measure_vertices(mesh, topology, faces, threads);
+  const double mean_area = measures.area.mean();
+  Eigen::VectorXd& area = measures.area;
+  area = area.cwiseMax(mean_area > 0 ? kAreaFloor * mean_area : 1);
+  Curvature curvature{measures.mean.cwiseQuotient(area), measures.gauss.cwiseQuotient(area), area,
+                      scale};
+  if (!(scale > 0) || !(mean_area > 0)) return curvature;
+
+  const SparseMatrix matrix = averaging_matrix(mesh, topology, faces, area, scale);
+  Eigen::ConjugateGradient<SparseMatrix, Eigen::Lower | Eigen::Upper> solver;
+  solver.setTolerance(kTolerance);
+  solver.setMaxIterations(kMaxIterations);
+  solver.compute(matrix);
+  const auto average = [&](const Eigen::VectorXd& measure) -> Eigen::VectorXd {
+    Eigen::VectorXd density = solver.solveWithGuess(measure, measure.cwiseQuotient(area));
+    if (solver.info() != Eigen::Success || !density.allFinite()) {
+      throw SolveError("the average of the curvature over its scale was not found");
+    }
+    return density;
+  };
+  curvature.mean = average(measures.mean);
+  curvature.gauss = average(measures.gauss);
+  return curvature;
+}
+
+}  // namespace sphparam

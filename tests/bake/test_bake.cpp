@@ -1,0 +1,331 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "bake/fields/attribute_fields.h"
+#include "bake/fields/normal_fields.h"
+#include "bake/map_kinds.h"
+#include "scenes.h"
+#include "sphparam/chart/tangent_frame.h"
+#include "sphparam/sphere/sphere_locator.h"
+#include "sphparam/sphere/spherical_coordinates.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tools;
+using namespace sphparam::tests;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+BakeOptions size(int width, int samples = 1) {
+  return {.width = width, .height = width / 2, .samples = samples, .threads = 1};
+}
+
+SurfaceField constant(float value, FieldKind kind) {
+  SurfaceField field{.name = "constant", .channels = 3, .kind = kind};
+  field.evaluate = [value](std::span<const SurfaceSample> samples, float* values) {
+    std::fill_n(values, 3 * samples.size(), value);
+  };
+  return field;
+}
+
+/// Bilinear, periodic in u, over a pole half a turn away.
+Vector3 looked_up(const std::vector<float>& values, int width, double u, double v) {
+  const int height = width / 2;
+  const double x = u * width - 0.5, y = v * height - 0.5;
+  const auto texel = [&](int column, int row) {
+    if (row < 0 || row >= height) {
+      row = row < 0 ? -1 - row : 2 * height - 1 - row;
+      column += width / 2;
+    }
+    column = ((column % width) + width) % width;
+    const float* p = &values[3 * static_cast<size_t>(row * width + column)];
+    return Vector3(p[0], p[1], p[2]);
+  };
+  const int c = static_cast<int>(std::floor(x)), r = static_cast<int>(std::floor(y));
+  const double s = x - c, t = y - r;
+  return (1 - t) * ((1 - s) * texel(c, r) + s * texel(c + 1, r)) +
+         t * ((1 - s) * texel(c, r + 1) + s * texel(c + 1, r + 1));
+}
+
+/// A rounded body that is no sphere, mapped by its directions.
+TriangleMesh body() {
+  TriangleMesh mesh = icosphere(3);
+  for (Eigen::Index v = 0; v < mesh.vertex_count(); ++v) {
+    const Vector3 x = mesh.position(static_cast<Vertex>(v));
+    mesh.positions.row(v) = (1 + 0.3 * x[0] * x[1] + 0.2 * x[2]) * x;
+  }
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("bake: a constant bakes to that constant, however it is sampled and filtered") {
+  const auto scene = sphere_scene(icosphere(4));  // at 16 × 8 texels, many triangles a texel
+  for (const int samples : {1, 3}) {
+    for (const FieldKind kind : {FieldKind::Data, FieldKind::Label}) {
+      for (const int width : {16, 128}) {
+        for (const float value : baked(*scene, constant(0.625F, kind), size(width, samples))) {
+          REQUIRE(value == Approx(0.625).epsilon(1e-6));
+        }
+      }
+    }
+    for (const float value : baked(*scene, constant(0.5F, FieldKind::Colour), size(64, samples))) {
+      REQUIRE(value == Approx(0.21404).epsilon(1e-4));  // sRGB ½ is this much light
+    }
+  }
+}
+
+TEST_CASE(
+    "bake: position, looked up at points of the surface, converges as piecewise linear does") {
+  // Mean error ×4 a doubling; the maximum, at kinks, ×2.
+  const TriangleMesh mesh = body();
+  const auto scene = sphere_scene(mesh);
+  const SurfaceField position = make_position(*scene, "");
+  const SphericalChart& chart = scene->target.chart;
+  std::vector<double> means, maxima;
+  for (const int width : {256, 512, 1024, 2048}) {
+    const std::vector<float> image = baked(*scene, position, size(width));
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> unit(0, 1);
+    double sum = 0, maximum = 0;
+    int count = 0;
+    while (count < 20000) {
+      const auto f = static_cast<Face>(unit(random) * static_cast<double>(chart.triangles.rows()));
+      if (chart.pole_corner(f) >= 0) continue;
+      double a = unit(random), b = unit(random);
+      if (a + b > 1) a = 1 - a, b = 1 - b;
+      const Vector3 weights(a, b, 1 - a - b);
+      Eigen::RowVector2d uv(0, 0);
+      Vector3 point = Vector3::Zero();
+      for (int k = 0; k < 3; ++k) {
+        uv += weights[k] * chart.uv.row(chart.wedges(f, k));
+        point += weights[k] * scene->target.positions.row(chart.triangles(f, k)).transpose();
+      }
+      if (uv[1] < 0.1 || uv[1] > 0.9) continue;
+      const double error = (looked_up(image, width, uv[0], uv[1]) - point).norm();
+      sum += error;
+      maximum = std::max(maximum, error);
+      ++count;
+    }
+    means.push_back(sum / count);
+    maxima.push_back(maximum);
+  }
+  for (size_t i = 1; i < means.size(); ++i) {
+    INFO(i << ": mean " << means[i] << ", maximum " << maxima[i]);
+    CHECK(means[i - 1] / means[i] > 3.2);
+    CHECK(maxima[i - 1] / maxima[i] > 1.6);
+  }
+}
+
+TEST_CASE("bake: what is linear on a triangle is exact at the centres of its texels") {
+  const TriangleMesh mesh = body();
+  const auto scene = sphere_scene(mesh);
+  const int width = 512;
+  const std::vector<float> image = baked(*scene, make_position(*scene, ""), size(width));
+  const UvRaster raster(scene->target.chart, width, width / 2);
+  for (int b = 0; b < raster.band_count(); ++b) {
+    const RasterBand band = raster.band(b);
+    for (size_t i = 0; i < band.faces.size(); ++i) {
+      Vector3 point = Vector3::Zero();
+      for (int k = 0; k < 3; ++k) {
+        point += band.barycentric(i)[k] *
+                 scene->target.positions.row(scene->target.chart.triangles(band.faces[i], k))
+                     .transpose();
+      }
+      const float* texel = &image[3 * (static_cast<size_t>(band.first_row * width) + i)];
+      REQUIRE((Vector3(texel[0], texel[1], texel[2]) - point).norm() < 1e-6);
+    }
+  }
+}
+
+TEST_CASE("bake: with --interp sphere a texel shows what lies in its direction") {
+  const TriangleMesh mesh = body();
+  const auto scene = sphere_scene(mesh);
+  const SphereLocator locator(scene->source.topology, scene->source.map);
+  const int width = 128;
+  BakeOptions options = size(width);
+  options.interpolation = Interpolation::Sphere;
+  const std::vector<float> image = baked(*scene, make_position(*scene, ""), options);
+  for (int row = 0; row < width / 2; ++row) {
+    for (int column = 0; column < width; ++column) {
+      const SurfacePoint at = locator.locate(
+          to_cartesian({2 * pi * (column + 0.5) / width, 2 * pi * (row + 0.5) / width}));
+      Vector3 point = Vector3::Zero();
+      for (int k = 0; k < 3; ++k) {
+        point += at.barycentric[k] * mesh.position(mesh.triangles(at.face, k));
+      }
+      const float* texel = &image[3 * static_cast<size_t>(row * width + column)];
+      REQUIRE((Vector3(texel[0], texel[1], texel[2]) - point).norm() < 1e-6);
+    }
+  }
+}
+
+TEST_CASE("bake: for another mesh on the same sphere, detail comes from the source") {
+  // The coarse mesh has few triangles; the fine one's positions appear at its texels all the same.
+  const TriangleMesh fine = body();
+  auto scene = sphere_scene(fine);
+  MeshFile low;
+  low.mesh = icosphere(1);
+  scene->target = make_target(low, Topology(low.mesh), SphereMap{low.mesh.positions}, false, 1);
+  const int width = 128;
+  const std::vector<float> image = baked(*scene, make_position(*scene, ""), size(width));
+  const UvRaster raster(scene->target.chart, width, width / 2);
+  const SphereLocator locator(scene->source.topology, scene->source.map);
+  const RasterBand band = raster.band(1);
+  for (size_t i = 0; i < band.faces.size(); ++i) {
+    Vector3 direction = Vector3::Zero();
+    for (int k = 0; k < 3; ++k) {
+      direction += band.barycentric(i)[k] *
+                   scene->target.chart.points.row(scene->target.chart.triangles(band.faces[i], k))
+                       .transpose();
+    }
+    const SurfacePoint at = locator.locate(direction);
+    Vector3 point = Vector3::Zero();
+    for (int k = 0; k < 3; ++k) {
+      point += at.barycentric[k] * fine.position(fine.triangles(at.face, k));
+    }
+    const float* texel = &image[3 * (static_cast<size_t>(band.first_row * width) + i)];
+    REQUIRE((Vector3(texel[0], texel[1], texel[2]) - point).norm() < 1e-6);
+  }
+}
+
+TEST_CASE("bake: a limb that is smaller than a texel has its mean colour there") {
+  // A ball with a limb: the limb's faces are shrunk to a hundredth of a texel on the sphere, but
+  // have nearly all the surface around there.
+  TriangleMesh mesh = icosphere(4);
+  SphereMap map{mesh.positions};
+  // A place in the middle of a texel of 32 × 16, far from its borders.
+  const double theta = 2 * pi * 10.5 / 32, phi = pi * 6.5 / 16;
+  const Vector3 tip = to_cartesian({theta, phi});
+  std::vector<char> limb(static_cast<size_t>(mesh.vertex_count()), 0);
+  for (Eigen::Index v = 0; v < mesh.vertex_count(); ++v) {
+    const Vector3 x = mesh.position(static_cast<Vertex>(v));
+    const double angle = std::acos(std::clamp(x.dot(tip), -1.0, 1.0));
+    if (angle > 0.5) continue;
+    limb[static_cast<size_t>(v)] = 1;
+    // On the surface: pulled out by 20. On the sphere: pulled together by 100, what is around it
+    // fills the gap.
+    mesh.positions.row(v) = 20 * x;
+    map.points.row(v) = (tip + 0.01 * (x - tip)).normalized();
+  }
+  MeshFile file;
+  file.mesh = mesh;
+  Property red{"limb", ScalarType::Float64, {}};
+  for (const char is_limb : limb) red.values.push_back(is_limb);
+  file.set_vertex_property(red);
+  const auto scene = scene_of(file, map);
+  REQUIRE(scene->target.chart.certificate.one_to_one());
+  const std::vector<float> image = baked(*scene, make_scalar(*scene, "limb"), size(32));
+  CHECK(image[6 * 32 + 10] > 0.8F);    // of its surface, nearly all is limb
+  CHECK(image[12 * 32 + 26] == 0.0F);  // the other side of the ball knows nothing of it
+}
+
+TEST_CASE("bake: columns 0 and W − 1 are neighbours, and rows 0 are of the poles") {
+  const auto scene = sphere_scene(body());
+  const int width = 256;
+  const std::vector<float> image = baked(*scene, make_position(*scene, ""), size(width));
+  const auto at = [&](int row, int column) {
+    const float* p = &image[3 * static_cast<size_t>(row * width + column)];
+    return Vector3(p[0], p[1], p[2]);
+  };
+  double step = 0;  // between neighbours anywhere
+  for (int row = 0; row < width / 2; ++row) {
+    for (int column = 1; column < width; ++column) {
+      step = std::max(step, (at(row, column) - at(row, column - 1)).norm());
+    }
+  }
+  for (int row = 0; row < width / 2; ++row) {
+    CHECK((at(row, 0) - at(row, width - 1)).norm() <= step);
+  }
+  const Vector3 north = scene->target.positions.row(scene->target.chart.north);
+  for (int column = 0; column < width; ++column) CHECK((at(0, column) - north).norm() < 0.03);
+}
+
+TEST_CASE("bake: same values for any number of threads") {
+  const auto scene = sphere_scene(body());
+  SurfaceField seeds{.name = "seeds"};
+  seeds.evaluate = [](std::span<const SurfaceSample> samples, float* values) {
+    for (const SurfaceSample& s : samples) *values++ = static_cast<float>(s.seed >> 40);
+  };
+  BakeOptions options = size(160, 2);
+  const std::vector<float> one = baked(*scene, seeds, options);
+  options.threads = 3;
+  CHECK(one == baked(*scene, seeds, options));
+}
+
+TEST_CASE("bake: a cancelled bake throws") {
+  const auto scene = sphere_scene(icosphere(1));
+  BakeOptions options = size(64);
+  options.progress = [](std::string_view, double) { return false; };
+  CHECK_THROWS_AS(baked(*scene, make_position(*scene, ""), options), Cancelled);
+}
+
+TEST_CASE("normal-tangent: of the mesh itself it is (0, 0, 1), and a viewer gets back any normal") {
+  const auto scene = sphere_scene(icosphere(3));
+  const std::vector<float> own = baked(*scene, make_tangent_normal(*scene, ""), size(128));
+  for (size_t i = 0; i < own.size(); i += 3) REQUIRE(own[i + 2] > 0.9999F);
+
+  auto turned = sphere_scene(icosphere(3));
+  for (auto normal : turned->source.normals.rowwise()) {
+    normal = (normal + Eigen::RowVector3d(0.1, -0.2, 0.15)).normalized();
+  }
+  const int width = 64;
+  const std::vector<float> object = baked(*turned, make_object_normal(*turned, ""), size(width)),
+                           tangent = baked(*turned, make_tangent_normal(*turned, ""), size(width));
+  const SphericalChart& chart = turned->target.chart;
+  const ShadingFrame frame = tangent_frame(chart, turned->target.positions, turned->target.normals);
+  const UvRaster raster(chart, width, width / 2);
+  const RasterBand band = raster.band(0);
+  for (size_t i = 0; i < band.faces.size(); ++i) {
+    Vector3 t = Vector3::Zero(), n = Vector3::Zero();
+    for (int k = 0; k < 3; ++k) {
+      const int wedge = chart.wedges(band.faces[i], k);
+      t += band.barycentric(i)[k] * frame.tangents.row(wedge).head<3>();
+      n += band.barycentric(i)[k] * frame.normals.row(wedge);
+    }
+    const float* texel = &tangent[3 * i];
+    const Vector3 read =
+        (static_cast<double>(texel[0]) * t + static_cast<double>(texel[1]) * n.cross(t) +
+         static_cast<double>(texel[2]) * n)
+            .normalized();
+    REQUIRE((read - Vector3(object[3 * i], object[3 * i + 1], object[3 * i + 2])).norm() < 1e-5);
+  }
+}
+
+TEST_CASE("normal-tangent: x turns round with u, y where it is asked to") {
+  auto scene = sphere_scene(icosphere(2));
+  for (auto normal : scene->source.normals.rowwise()) {
+    normal = (normal + Eigen::RowVector3d(0.2, 0.1, 0.3)).normalized();
+  }
+  const std::vector<float> plain = baked(*scene, make_tangent_normal(*scene, ""), size(32));
+  scene->options.mirrored = scene->options.normal_y_down = true;
+  const std::vector<float> turned = baked(*scene, make_tangent_normal(*scene, ""), size(32));
+  for (size_t i = 0; i < plain.size(); i += 3) {
+    CHECK(turned[i] == -plain[i]);
+    CHECK(turned[i + 1] == -plain[i + 1]);
+    CHECK(turned[i + 2] == plain[i + 2]);
+  }
+}
+
+TEST_CASE("maps: what a mesh has not is said, with what it has") {
+  const auto scene = sphere_scene(icosphere(1));
+  const auto complaint = [&](const std::string& map) -> std::string {
+    try {
+      make_field(map, *scene);
+      return "";
+    } catch (const MapError& error) {
+      return error.what();
+    }
+  };
+  CHECK(complaint("position").empty());
+  CHECK(complaint("basecolor").find("--texture") != std::string::npos);
+  CHECK(complaint("vcolor").find("no colours") != std::string::npos);
+  CHECK(complaint("uv").find("no texture coordinates") != std::string::npos);
+  CHECK(complaint("scalar:heat").find("no such property") != std::string::npos);
+  CHECK(complaint("id:material").find("no materials") != std::string::npos);
+  CHECK(complaint("id:colour").find("id:face") != std::string::npos);
+}

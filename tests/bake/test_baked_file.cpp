@@ -1,0 +1,160 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "bake/baked_file.h"
+#include "bake/image_level.h"
+#include "image/image_codec.h"
+
+using namespace sphparam::tools;
+
+namespace {
+
+/// The bytes of a file whose texel (row, column) has the value value(row, column, channel).
+template <class Value>
+std::vector<char> file_of(const SurfaceField& field, const BakedFileOptions& options,
+                          const Value& value) {
+  std::vector<char> bytes;
+  BakedFile file(field, options, [&](std::int64_t offset, std::string_view part) {
+    const auto at = static_cast<size_t>(offset);
+    if (bytes.size() < at + part.size()) bytes.resize(at + part.size());
+    std::copy(part.begin(), part.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at));
+  });
+  for (int row = 0; row < options.height; row += 3) {
+    const int rows = std::min(3, options.height - row);
+    std::vector<float> values;
+    for (int r = row; r < row + rows; ++r) {
+      for (int c = 0; c < options.width; ++c) {
+        for (int k = 0; k < field.channels; ++k) {
+          values.push_back(static_cast<float>(value(r, c, k)));
+        }
+      }
+    }
+    file.write_rows(rows, values.data());
+  }
+  file.close();
+  return bytes;
+}
+
+Image read(const std::vector<char>& bytes) { return decode_image(bytes, "test"); }
+
+}  // namespace
+
+TEST_CASE("baked file: what it stores comes back, in every format and sample type") {
+  const SurfaceField data{.name = "height", .range = std::pair(-2.0, 6.0)};
+  const auto value = [](int row, int column, int) { return -2 + 8 * (row * 16 + column) / 127.0; };
+  for (const ImageFormat format :
+       {ImageFormat::Png, ImageFormat::Tiff, ImageFormat::Exr, ImageFormat::Jpeg}) {
+    for (const SampleType type : sample_types_of(format)) {
+      INFO(name_of(format) << " " << name_of(type));
+      const Image image = read(
+          file_of(data, {.width = 16, .height = 8, .format = format, .sample_type = type}, value));
+      REQUIRE(image.width == 16);
+      REQUIRE(image.channels == 1);
+      const bool integer = type == SampleType::Uint8 || type == SampleType::Uint16;
+      const double exact = type == SampleType::Uint8    ? 0.5 / 255
+                           : type == SampleType::Uint16 ? 0.5 / 65535
+                           : type == SampleType::Half   ? 4e-3
+                                                        : 1e-6;
+      const double tolerance = format == ImageFormat::Jpeg ? 0.03 : 1.01 * exact;
+      for (int i = 0; i < 128; ++i) {
+        const double stored = static_cast<double>(image.pixels[static_cast<size_t>(i)]);
+        const double wanted = value(i / 16, i % 16, 0);
+        CHECK(std::abs(stored - (integer ? (wanted + 2) / 8 : wanted)) <= tolerance);
+      }
+    }
+  }
+}
+
+TEST_CASE("baked file: colours are sRGB in integers and linear in others") {
+  const SurfaceField colour{.name = "basecolor", .channels = 3, .kind = FieldKind::Colour};
+  const auto light = [](int, int, int) { return 0.21404; };
+  CHECK(read(file_of(colour, {.width = 4, .height = 2}, light)).pixels[0] ==
+        Approx(0.5).margin(0.003));
+  CHECK(read(file_of(colour,
+                     {.width = 4,
+                      .height = 2,
+                      .format = ImageFormat::Exr,
+                      .sample_type = SampleType::Float},
+                     light))
+            .pixels[0] == Approx(0.21404).margin(1e-6));
+}
+
+TEST_CASE("baked file: conventions move texels to where their viewers look for them") {
+  // The value is our longitude in turns; in column c of the convention, turns·θ/2π + offset is
+  // (c + ½)/W.
+  const SurfaceField data{.name = "longitude"};
+  for (const ConventionInfo& convention : all_conventions()) {
+    INFO(convention.name);
+    const Image image = read(file_of(data,
+                                     {.width = 16,
+                                      .height = 8,
+                                      .format = ImageFormat::Exr,
+                                      .sample_type = SampleType::Float,
+                                      .convention = convention.convention},
+                                     [](int, int column, int) { return (column + 0.5) / 16; }));
+    for (int c = 0; c < 16; ++c) {
+      const double u =
+          convention.turns * static_cast<double>(image.pixel(c, 3)[0]) + convention.offset;
+      CHECK(std::abs(std::remainder(u - (c + 0.5) / 16, 1.0)) < 1e-6);
+    }
+  }
+}
+
+TEST_CASE("baked file: same bytes for the same rows") {
+  const SurfaceField data{.name = "x", .range = std::pair(0.0, 1.0)};
+  const auto value = [](int row, int column, int) { return (row ^ column) / 8.0; };
+  for (const bool tiles : {false, true}) {
+    const BakedFileOptions options{.width = 300,
+                                   .height = 150,
+                                   .format = ImageFormat::Exr,
+                                   .sample_type = SampleType::Half,
+                                   .tiles = tiles};
+    CHECK(file_of(data, options, value) == file_of(data, options, value));
+  }
+}
+
+TEST_CASE("baked file: levels are means of boxes, from odd sizes too") {
+  for (const int fine : {2, 3, 5, 8, 37}) {
+    ImageLevel level(2 * fine, fine, 1, FieldKind::Data);
+    double sum = 0;
+    for (int row = 0; row < fine; ++row) {
+      std::vector<float> values;
+      for (int c = 0; c < 2 * fine; ++c) {
+        values.push_back(static_cast<float>(std::sin(row + 3 * c)));
+        sum += static_cast<double>(values.back());
+      }
+      level.add_rows(values.data(), 1);
+    }
+    level.finish();
+    CHECK(level.width() == fine);
+    CHECK(level.height() == std::max(1, fine / 2));
+    double coarse = 0;
+    for (const float value : level.values()) coarse += static_cast<double>(value);
+    CHECK(coarse / (level.width() * level.height()) ==
+          Approx(sum / (2.0 * fine * fine)).margin(1e-5));
+  }
+}
+
+TEST_CASE("baked file: what a format cannot hold is refused") {
+  const SurfaceField four{.name = "basecolor", .channels = 4, .kind = FieldKind::Colour};
+  const WriteAt nowhere = [](std::int64_t, std::string_view) {};
+  CHECK_THROWS_AS(BakedFile(four, {.width = 4, .height = 2, .format = ImageFormat::Jpeg}, nowhere),
+                  ImageError);
+  CHECK_THROWS_AS(
+      BakedFile(four, {.width = 4, .height = 2, .sample_type = SampleType::Float}, nowhere),
+      ImageError);
+  CHECK_THROWS_AS(BakedFile(four, {.width = 4, .height = 2, .tiles = true}, nowhere), ImageError);
+}
+
+TEST_CASE("baked file: a file that cannot be written says so") {
+  const SurfaceField data{.name = "x", .range = std::pair(0.0, 1.0)};
+  CHECK_THROWS_AS(
+      [&] {
+        BakedFile file(data, {.width = 64, .height = 32},
+                       [](std::int64_t, std::string_view) { throw std::runtime_error("full"); });
+        const std::vector<float> rows(64 * 32, 0.5F);
+        file.write_rows(32, rows.data());
+        file.close();
+      }(),
+      std::runtime_error);
+}

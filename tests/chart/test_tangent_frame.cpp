@@ -1,0 +1,124 @@
+#include <catch2/catch.hpp>
+#include <numbers>
+
+#include "maps.h"
+#include "sphparam/chart/carry_attributes.h"
+#include "sphparam/chart/tangent_frame.h"
+#include "sphparam/parameterize.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+
+namespace {
+
+struct Framed {
+  SphericalChart chart;
+  Points positions, normals;
+  ShadingFrame frame;
+
+  Framed(const TriangleMesh& mesh, const SphereMap& map, const Points& vertex_normals) {
+    chart = spherical_chart(mesh, Topology(mesh), map);
+    positions = carry_vertex_attribute(chart, mesh.triangles, mesh.positions);
+    normals = carry_normals(chart, mesh.triangles, vertex_normals);
+    frame = tangent_frame(chart, positions, normals);
+  }
+};
+
+Framed framed_sphere(int level, unsigned seed) {
+  std::mt19937 random(seed);
+  TriangleMesh mesh = icosphere(level);
+  mesh.positions = rotated({mesh.positions}, random_rotation(random)).points;
+  return {mesh, {mesh.positions}, mesh.positions};
+}
+
+void check_orthonormal(const ShadingFrame& frame) {
+  for (Eigen::Index w = 0; w < frame.normals.rows(); ++w) {
+    const Vector3 n = frame.normals.row(w), t = frame.tangents.row(w).head<3>();
+    CHECK(std::abs(n.norm() - 1) < 1e-14);
+    CHECK(std::abs(t.norm() - 1) < 1e-14);
+    CHECK(std::abs(n.dot(t)) < 1e-14);
+    CHECK(frame.tangents(w, 3) == 1);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("tangent_frame: on the sphere itself tangents point east") {
+  const Framed sphere = framed_sphere(4, 3);
+  check_orthonormal(sphere.frame);
+  for (int w = 0; w < static_cast<int>(sphere.chart.wedge_count()); ++w) {
+    const double theta = 2 * std::numbers::pi * sphere.chart.uv(w, 0);
+    const double phi = std::numbers::pi * sphere.chart.uv(w, 1);
+    const Vector3 east(-std::sin(theta), std::cos(theta), 0);
+    const Vector3 tangent = sphere.frame.tangents.row(w).head<3>();
+    // Faces near the poles are coarse in θ.
+    const double tolerance = std::sin(phi) > 0.5 ? 0.03 : 0.5;
+    CHECK((tangent - east).norm() < tolerance);
+  }
+}
+
+TEST_CASE("tangent_frame: the bitangent points to decreasing v") {
+  const Framed sphere = framed_sphere(3, 4);
+  for (int w = 0; w < static_cast<int>(sphere.chart.wedge_count()); ++w) {
+    const Vector3 n = sphere.frame.normals.row(w), t = sphere.frame.tangents.row(w).head<3>();
+    if (std::abs(n.z()) > 0.9) continue;
+    CHECK((sphere.frame.tangents(w, 3) * n.cross(t)).z() > 0.3);
+  }
+}
+
+TEST_CASE("tangent_frame: copies of a seam vertex have one frame, wedges of a pole their own") {
+  const Framed sphere = framed_sphere(3, 5);
+  int copies = 0, fans = 0;
+  for (int w = 0; w < static_cast<int>(sphere.chart.wedge_count()); ++w) {
+    const Vertex v = sphere.chart.wedge_vertices[static_cast<size_t>(w)];
+    const auto kind = sphere.chart.wedge_kinds[static_cast<size_t>(w)];
+    if (kind == WedgeKind::SeamCopy) {
+      ++copies;
+      CHECK(sphere.frame.tangents.row(w) == sphere.frame.tangents.row(v));
+    } else if (kind == WedgeKind::PoleFan && w != v) {
+      ++fans;
+      CHECK((sphere.frame.tangents.row(w) - sphere.frame.tangents.row(v)).norm() > 0.1);
+    }
+  }
+  CHECK(copies > 5);
+  CHECK(fans > 3);
+}
+
+TEST_CASE("tangent_frame: is a frame also where triangles have no area, of any size") {
+  const TriangleMesh mesh = random_sphere_mesh(80, 11);
+  const SphereMap map = parameterize(mesh).map;
+  TriangleMesh flat = mesh;
+  for (Eigen::Index v = 0; v < 40; ++v) flat.positions.row(v) = flat.positions.row(v % 7);
+  for (const double scale : {0.0, 1e-300, 1e-30, 1.0, 1e150, 1e300}) {
+    TriangleMesh scaled = flat;
+    scaled.positions *= scale;
+    const Framed framed(scaled, map, map.points);
+    check_orthonormal(framed.frame);
+  }
+}
+
+TEST_CASE("tangent_frame: normals that cancel are replaced") {
+  const TriangleMesh mesh = icosphere(1);
+  std::mt19937 random(6);
+  const SphereMap map = rotated({mesh.positions}, random_rotation(random));
+  const Framed zero(mesh, map, Points::Zero(mesh.vertex_count(), 3));
+  check_orthonormal(zero.frame);
+  Points alternating = mesh.positions;
+  for (Eigen::Index v = 0; v < alternating.rows(); v += 2) alternating.row(v) *= -1;
+  check_orthonormal(Framed(mesh, map, alternating).frame);
+}
+
+TEST_CASE("tangent_frame: the same bytes for any number of threads; wrong sizes are refused") {
+  const Framed sphere = framed_sphere(5, 7);
+  for (const int threads : {1, 2, 5}) {
+    const ShadingFrame frame =
+        tangent_frame(sphere.chart, sphere.positions, sphere.normals, threads);
+    CHECK(frame.tangents == sphere.frame.tangents);
+    CHECK(frame.normals == sphere.frame.normals);
+  }
+  CHECK_THROWS_AS(tangent_frame(sphere.chart, sphere.positions, Points::Zero(3, 3)),
+                  std::invalid_argument);
+  CHECK_THROWS_AS(tangent_frame(sphere.chart, Points::Zero(3, 3), sphere.normals),
+                  std::invalid_argument);
+}

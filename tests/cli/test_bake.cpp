@@ -1,0 +1,151 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "image/image_codec.h"
+#include "program.h"
+#include "support/test_meshes.h"
+
+namespace sphparam::tests {
+
+namespace {
+
+using Catch::Contains;
+using namespace sphparam::tools;
+
+/// A ball whose texture coordinates are x and y: a picture laid on it from above.
+std::string textured_ball() {
+  const TriangleMesh mesh = icosphere(3);
+  std::string text = obj_text(mesh);
+  text.erase(text.find("\nf ") + 1);
+  for (const auto& x : mesh.positions.rowwise()) {
+    text +=
+        "vt " + std::to_string(0.5 + 0.45 * x[0]) + " " + std::to_string(0.5 + 0.45 * x[1]) + "\n";
+  }
+  for (const auto& f : mesh.triangles.rowwise()) {
+    text += "f";
+    for (const int v : f) text += " " + std::to_string(v + 1) + "/" + std::to_string(v + 1);
+    text += "\n";
+  }
+  return text;
+}
+
+/// Left half red, right half green.
+Image two_colours() {
+  Image image(64, 64, 3);
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 64; ++x) image.pixel(x, y)[x < 32 ? 0 : 1] = 1;
+  }
+  return image;
+}
+
+}  // namespace
+
+TEST_CASE("bake: conventions show the same colours elsewhere") {
+  const Folder folder;
+  write_image(folder / "skin.png", two_colours());
+  std::optional<Image> ours;
+  struct Case {
+    const char* convention;
+    int turns, shift;
+  };
+  for (const auto& [convention, turns, shift] : {Case{"sphparam", 1, 0}, Case{"three", 1, 32},
+                                                 Case{"envmap", -1, 16}, Case{"blender", -1, 32}}) {
+    const Ended ended = sphparam_program(
+        {"bake", "-", "--texture", folder / "skin.png", "--size", "64", "--convention", convention,
+         "-o", folder / "ball.png", "--json", folder / "ball.json"},
+        textured_ball());
+    INFO(ended.err);
+    REQUIRE(ended.code == 0);
+    const Image image = read_image(folder / "ball.png");
+    REQUIRE(image.width == 64);
+    REQUIRE(image.height == 32);
+    if (!ours) ours = image;
+    double red = 0;
+    for (int c = 0; c < 64; ++c) {
+      const int column = ((turns * (c - shift) - (turns < 0)) % 64 + 64) % 64;
+      CHECK(image.pixel(c, 16)[0] == ours->pixel(column, 16)[0]);
+      red += static_cast<double>(image.pixel(c, 16)[0]) / 64;
+    }
+    CHECK(red == Approx(0.5).margin(0.1));  // of the equator, half is on the red side
+    const auto json = nlohmann::json::parse(bytes_of(folder / "ball.json"));
+    CHECK(json["convention"] == convention);
+    CHECK(json["images"][0]["map"] == "basecolor");
+  }
+}
+
+TEST_CASE("bake: several maps go to files of their own, all or none") {
+  const Folder folder;
+  const Ended ended =
+      sphparam_program({"bake", "-", "--map", "position,normal-object,axes,id:face,area", "--size",
+                        "32", "-o", folder / "ball_{map}.png"},
+                       textured_ball());
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  CHECK(folder.names() == std::vector<std::string>{"ball_area.png", "ball_axes.png",
+                                                   "ball_id-face.png", "ball_normal-object.png",
+                                                   "ball_position.png"});
+  const Ended failed = sphparam_program(
+      {"bake", "-", "--map", "position,scalar:none", "--size", "32", "-o", folder / "x_{map}.png"},
+      textured_ball());
+  CHECK(failed.code == 2);
+  CHECK(folder.names().size() == 5);
+}
+
+TEST_CASE("bake: same bytes for any number of threads, and for levels") {
+  const Folder folder;
+  for (const std::string name : {"a.exr", "b.exr"}) {
+    REQUIRE(sphparam_program({"bake", "-", "--map", "position", "--size", "130", "--mip",
+                              "--threads", name == "a.exr" ? "1" : "3", "-o", folder / name},
+                             textured_ball())
+                .code == 0);
+  }
+  CHECK(bytes_of(folder / "a.exr") == bytes_of(folder / "b.exr"));
+}
+
+TEST_CASE("bake: what cannot be done is said before anything is written") {
+  const Folder folder;
+  const std::string out = folder / "x.png", obj = textured_ball();
+  write_bytes(folder / "broken.png", "\x89PNG\r\n\x1a\nnot really");
+  struct Mistake {
+    std::vector<std::string> arguments;
+    int code;
+    std::string said;
+  };
+  for (const Mistake& mistake : {
+           Mistake{{"--map", "postion"}, 2, "did you mean position?"},
+           {{"--map", "nothing"}, 2, "there are axes"},
+           {{"--map", "scalar:heat"}, 2, "no such property"},
+           {{"--map", "position,uv"}, 2, "{map}"},
+           {{"--texture", folder / "missing.png"}, 3, "missing.png"},
+           {{"--texture", folder / "broken.png"}, 3, "broken.png"},
+           {{}, 2, "--texture IMAGE"},
+           {{"--map", "vcolor"}, 2, "no colours"},
+           {{"--map", "position", "--size", "0"}, 2, "--size"},
+           {{"--map", "position", "--size", "33"}, 2, "even"},
+           {{"--map", "position", "--size", "34", "--convention", "envmap"}, 2, "multiple of 4"},
+           {{"--map", "position", "--depth", "float"}, 2, "--depth"},
+           {{"--map", "position", "--mip"}, 2, "--mip"},
+           {{"--map", "position", "--samples", "0"}, 2, "--samples"},
+           {{"--map", "normal-tangent", "--for", folder / "nothing.ply"}, 3, "nothing.ply"},
+       }) {
+    std::vector<std::string> arguments = {"bake", "-", "-o", out};
+    arguments.insert(arguments.end(), mistake.arguments.begin(), mistake.arguments.end());
+    const Ended ended = sphparam_program(arguments, obj);
+    INFO(ended.err);
+    CHECK(ended.code == mistake.code);
+    CHECK_THAT(ended.err, Contains(mistake.said));
+    CHECK(folder.names() == std::vector<std::string>{"broken.png"});
+  }
+  const Ended bare = sphparam_program({"bake", "-", "--texture", folder / "broken.png", "-o", out},
+                                      obj_text(icosphere(1)));
+  CHECK(bare.code != 0);
+  const Ended named =
+      sphparam_program({"bake", "-", "--map", "position", "-o", folder / "x.gif"}, obj);
+  CHECK(named.code == 2);
+  CHECK_THAT(named.err, Contains(".png, .jpg, .tif or .exr"));
+}
+
+}  // namespace sphparam::tests

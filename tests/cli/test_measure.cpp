@@ -1,0 +1,135 @@
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "program.h"
+#include "support/test_meshes.h"
+
+namespace sphparam::tests {
+
+namespace {
+
+using Catch::Contains;
+using Json = nlohmann::json;
+
+/// Two balls of radius 1 and 1.5 as files.
+struct Balls {
+  Folder folder;
+  std::string small = folder / "small.obj", large = folder / "large.obj";
+
+  Balls() {
+    TriangleMesh ball = icosphere(3);
+    write_bytes(small, obj_text(ball));
+    ball.positions *= 1.5;
+    write_bytes(large, obj_text(ball));
+  }
+
+  Ended measure(std::vector<std::string> options) const {
+    std::vector<std::string> arguments = {"measure", small, large, "--samples", "5000"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return sphparam_program(arguments);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("measure: both directions, with MeshLab's keys, and relative to the first mesh") {
+  const Balls balls;
+  const Ended ended = balls.measure({"--json", "-"});
+  REQUIRE(ended.code == 0);
+  const Json report = Json::parse(ended.out);
+  for (const char* direction : {"first_to_second", "second_to_first"}) {
+    const Json& side = report[direction];
+    for (const char* key : {"RMS", "max", "mean", "min"}) {
+      CHECK(side[key].get<double>() == Approx(0.5).margin(0.02));
+    }
+    CHECK(side["n_samples"] == 5000);
+    const double diagonal = report["first"]["diagonal"].get<double>();
+    CHECK(side["relative"]["RMS"].get<double>() == Approx(side["RMS"].get<double>() / diagonal));
+    CHECK(side["max_bound"].get<double>() >= side["max"].get<double>());
+  }
+  CHECK(report["first_to_second"]["diag_mesh_1"] == report["second_to_first"]["diag_mesh_0"]);
+  CHECK(report["second"]["diagonal"].get<double>() ==
+        Approx(1.5 * report["first"]["diagonal"].get<double>()));
+}
+
+TEST_CASE("measure: a table for people, the same bytes for any number of threads") {
+  const Balls balls;
+  const Ended one = balls.measure({"--threads", "1"}), three = balls.measure({"--threads", "3"});
+  CHECK(one.code == 0);
+  CHECK_THAT(one.out, Contains("1 to 2") && Contains("2 to 1") && Contains("RMS"));
+  CHECK(one.out == three.out);
+  CHECK(balls.measure({"-q"}).out.empty());
+  CHECK(balls.measure({"--seed", "2"}).out != one.out);
+}
+
+TEST_CASE(
+    "measure: an exceeded limit ends with 6, and what was asked for is written all the same") {
+  const Balls balls;
+  CHECK(balls.measure({"--max-rms", "0.51", "--max-distance", "0.51"}).code == 0);
+  CHECK(balls.measure({"--max-rms", "15%"}).code == 0);  // of a diagonal of 2√3: 0.52
+  CHECK(balls.measure({"--max-rms", "14%"}).code == 6);
+  const std::string json = balls.folder / "report.json";
+  const Ended ended = balls.measure({"--max-distance", "0.4", "--json", json});
+  CHECK(ended.code == 6);
+  CHECK_THAT(ended.err, Contains("--max-distance 0.4"));
+  CHECK(Json::parse(bytes_of(json))["limits"][0]["exceeded"] == true);
+}
+
+TEST_CASE("measure: the distance of every vertex, as a property and as colours") {
+  const Balls balls;
+  const std::string file = balls.folder / "error.ply";
+  REQUIRE(balls.measure({"--per-vertex", file}).code == 0);
+  const Ended info = sphparam_program({"info", file, "--json"});
+  REQUIRE(info.code == 0);
+  const Json properties = Json::parse(info.out)["input"]["vertex_properties"];
+  for (const char* name : {"error", "red", "green", "blue"}) {
+    CHECK(std::count(properties.begin(), properties.end(), name) == 1);
+  }
+}
+
+TEST_CASE("measure: meshes that are no spheres are measured too, empty ones are not") {
+  const Folder folder;
+  const std::string one = folder / "one.obj", two = folder / "two.obj",
+                    empty = folder / "empty.obj";
+  write_bytes(one, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  write_bytes(two, "v 0 0 2\nv 1 0 2\nv 0 1 2\nf 1 2 3\n");
+  write_bytes(empty, "v 0 0 0\n");
+  const Ended ended = sphparam_program({"measure", one, two, "--json", "-"});
+  REQUIRE(ended.code == 0);
+  CHECK(Json::parse(ended.out)["two_sided"]["max"] == 2.0);
+  CHECK(Json::parse(ended.out)["two_sided"]["RMS"] == 2.0);
+  for (const auto& pair : {std::pair(one, empty), std::pair(empty, one)}) {
+    const Ended refused = sphparam_program({"measure", pair.first, pair.second});
+    CHECK(refused.code == 3);
+    CHECK_THAT(refused.err, Contains("empty.obj") && Contains("no triangles"));
+    CHECK(refused.out.empty());
+  }
+  write_bytes(empty, "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
+  CHECK_THAT(sphparam_program({"measure", one, empty}).err,
+             Contains("empty.obj") && Contains("no area"));
+}
+
+TEST_CASE("measure: command lines that make no sense end with 2 and write nothing") {
+  const Balls balls;
+  const std::string file = balls.folder / "out.ply";
+  for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--samples", "0"},
+                                                {"--samples", "-5"},
+                                                {"--over", "faecs"},
+                                                {"--over", ""},
+                                                {"--max-rms", "much"},
+                                                {"--max-rms", "-1"},
+                                                {"--max-rms", "nan"},
+                                                {"--per-vertex", "error.obj"},
+                                                {"--per-vertex", file, "--json", file},
+                                                {"--json", balls.small}}) {
+    INFO(wrong[0] << " " << wrong[1]);
+    const Ended ended = balls.measure(wrong);
+    CHECK(ended.code == 2);
+    CHECK(ended.out.empty());
+  }
+  CHECK(sphparam_program({"measure", "-", "-"}).code == 2);
+  CHECK(sphparam_program({"measure", balls.small}).code == 2);
+  CHECK(balls.folder.names() == std::vector<std::string>{"large.obj", "small.obj"});
+}
+
+}  // namespace sphparam::tests

@@ -1,0 +1,82 @@
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "program.h"
+#include "support/test_meshes.h"
+
+/// `sphparam report`.
+namespace sphparam::tests {
+
+namespace {
+
+using Catch::Contains;
+using Json = nlohmann::json;
+
+}  // namespace
+
+TEST_CASE("report: a mesh without a map is mapped, and the page says how") {
+  const Folder folder;
+  const Ended ended = sphparam_program(
+      {"report", "-", "-o", folder / "page.html", "--size", "64", "--json", folder / "page.json"},
+      obj_text(random_sphere_mesh(300, 3)));
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.err, Contains("mapped now") && Contains("one-to-one"));
+  const std::string page = bytes_of(folder / "page.html");
+  CHECK_THAT(page, Contains("Spherical map of standard input") && Contains("progressive") &&
+                       Contains("sphparam report - -o page.html --size 64") &&
+                       Contains("Wall time of the stages"));
+  CHECK(Json::parse(bytes_of(folder / "page.json"))["maps"][0]["certificate"]["one_to_one"] ==
+        true);
+  CHECK(folder.names().size() == 2);
+}
+
+TEST_CASE("report: maps of one mesh stand side by side, under names that differ") {
+  const Folder folder;
+  const TriangleMesh mesh = random_sphere_mesh(200, 5);
+  write_bytes(folder / "one.obj", obj_text(mesh));
+  fs::create_directories(folder / "more");
+  for (const char* method : {"progressive", "curvilinear"}) {
+    const std::string name = method == std::string("progressive") ? "one" : "more/one";
+    REQUIRE(sphparam_program({"map", folder / "one.obj", "--method", method, "-o",
+                              folder / (name + ".sph.ply"), "--sphere",
+                              folder / (name + "-sphere.obj")})
+                .code == 0);
+  }
+  const Ended ended = sphparam_program({"report", folder / "one.sph.ply",
+                                        folder / "more/one.sph.ply", folder / "more/one-sphere.obj",
+                                        "--size", "64", "--no-viewer", "-o", folder / "page.html"});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  const std::string page = bytes_of(folder / "page.html");
+  CHECK_THAT(page, Contains("3 maps of one mesh") && Contains("<th>one</th><th>one (2)</th>") &&
+                       Contains("curvilinear") && !Contains("<script"));
+  CHECK(sphparam_program({"report", folder / "one.sph.ply", folder / "more/one.sph.ply",
+                          folder / "more/one-sphere.obj", "--size", "64", "--no-viewer", "-o",
+                          folder / "again.html", "--threads", "1"})
+            .code == 0);
+}
+
+TEST_CASE("report: what is wrong is named, and nothing is written") {
+  const Folder folder;
+  write_bytes(folder / "ball.obj", obj_text(icosphere(1)));
+  write_bytes(folder / "other.obj", obj_text(icosphere(2)));
+  const auto fails = [&](std::vector<std::string> arguments, int code, const std::string& words) {
+    arguments.insert(arguments.begin(), "report");
+    const Ended ended = sphparam_program(arguments);
+    CHECK(ended.code == code);
+    CHECK_THAT(ended.err, Contains(words));
+  };
+  const std::string ball = folder / "ball.obj", page = folder / "page.html";
+  fails({ball}, 2, "--output");
+  fails({ball, "-o", ball}, 2, "it would be replaced");
+  fails({"-", "-", "-o", page}, 2, "only one");
+  fails({ball, folder / "other.obj", "-o", page}, 3, "not a map of ball.obj");
+  fails({ball, folder / "none.obj", "-o", page}, 3, "none.obj");
+  fails({ball, "-o", page, "--texture", folder / "none.png"}, 3, "none.png");
+  fails({ball, "-o", page, "--json", page}, 2, "the same file");
+  fails({ball, "-o", folder / "no/page.html"}, 3, "no/page.html");
+  CHECK(folder.names().size() == 2);
+}
+
+}  // namespace sphparam::tests

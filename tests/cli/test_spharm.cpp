@@ -1,0 +1,114 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "program.h"
+#include "sphparam/mesh/triangle_mesh.h"
+#include "support/test_meshes.h"
+
+/// `sphparam spharm`.
+namespace sphparam::tests {
+
+namespace {
+
+using Catch::Contains;
+using Json = nlohmann::json;
+
+TriangleMesh ellipsoid(const TriangleMesh& sphere) {
+  TriangleMesh mesh = sphere;
+  mesh.positions *= Eigen::Vector3d(2, 1, 0.5).asDiagonal();
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("spharm: an ellipsoid on its affine sphere has its semi-axes and nothing else") {
+  const Folder folder;
+  write_bytes(folder / "ball.obj", obj_text(icosphere(3)));
+  write_bytes(folder / "body.obj", obj_text(ellipsoid(icosphere(3))));
+  const Ended ended = sphparam_program({"spharm", folder / "body.obj", "--sphere",
+                                        folder / "ball.obj", "--degree", "8", "--json", "-"});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  const Json report = Json::parse(ended.out);
+  CHECK(report["degree"] == 8);
+  const double axes[] = {2, 1, 0.5};
+  for (size_t i = 0; i < 3; ++i) {
+    CHECK(std::abs(report["first_order_ellipsoid"][i].get<double>() - axes[i]) < 1e-6);
+  }
+  CHECK(report["position_rms"] < 1e-9);
+  REQUIRE(report["functions"].size() == 3);
+  REQUIRE(report["functions"][0]["coefficients"].size() == 81);
+  for (const Json& function : report["functions"]) {
+    for (size_t l = 0; l <= 8; ++l) {
+      if (l != 1) CHECK(function["power_per_degree"][l] < 1e-12);
+    }
+  }
+  // The default fit finds it at the vertices; the integral sees the flat triangles too.
+  const Ended integral =
+      sphparam_program({"spharm", folder / "body.obj", "--sphere", folder / "ball.obj", "--degree",
+                        "8", "--fit", "quadrature", "--json", "-"});
+  CHECK(Json::parse(integral.out)["position_rms"] > 1e-6);
+}
+
+TEST_CASE("spharm: the CSV has a line a coefficient, with the scalars that were asked for") {
+  const Folder folder;
+  REQUIRE(
+      sphparam_program({"map", "-", "-o", folder / "ball.sph.ply"}, obj_text(icosphere(3))).code ==
+      0);
+  const Ended ended = sphparam_program(
+      {"spharm", folder / "ball.sph.ply", "--degree", "3", "--scalar", "sz", "--csv", "-"});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.out, Catch::StartsWith("l,m,x,y,z,sz\n0,0,"));
+  CHECK(std::count(ended.out.begin(), ended.out.end(), '\n') == 17);
+}
+
+TEST_CASE("spharm: the reconstruction is a certified map nearer to the mesh with each degree") {
+  const Folder folder;
+  write_bytes(folder / "egg.obj", obj_text(ellipsoid(icosphere(3))));
+  double last = 1e300;
+  for (const char* degree : {"1", "4", "9"}) {
+    const Ended ended = sphparam_program({"spharm", folder / "egg.obj", "--degree", degree,
+                                          "--reconstruct", folder / "smooth.ply", "--json", "-"});
+    INFO(ended.err);
+    REQUIRE(ended.code == 0);
+    const double rms = Json::parse(ended.out)["position_rms"];
+    CHECK(rms < last);
+    last = rms;
+    CHECK(sphparam_program({"verify", folder / "smooth.ply"}).code == 0);
+  }
+}
+
+TEST_CASE("spharm: the same bytes for 1, 2 and 4 threads") {
+  const std::string egg = obj_text(ellipsoid(icosphere(4)));
+  const std::string one =
+      sphparam_program({"spharm", "-", "--csv", "-", "--threads", "1"}, egg).out;
+  CHECK_FALSE(one.empty());
+  for (const char* threads : {"2", "4"}) {
+    CHECK(sphparam_program({"spharm", "-", "--csv", "-", "--threads", threads}, egg).out == one);
+  }
+}
+
+TEST_CASE("spharm: what makes no sense is refused, and nothing is written") {
+  const Folder folder;
+  write_bytes(folder / "ball.obj", obj_text(icosphere(2)));
+  const std::string ball = folder / "ball.obj";
+  const auto run = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"spharm", ball});
+    return sphparam_program(arguments);
+  };
+  CHECK(run({"--degree", "-1"}).code == 2);
+  CHECK(run({"--degree", "1001"}).code == 2);
+  const Ended unknown = run({"--scalar", "gravty", "--csv", folder / "out.csv"});
+  CHECK(unknown.code == 2);
+  CHECK_THAT(unknown.err, Contains("no property gravty"));
+  CHECK(run({"--reconstruct", folder / "out.stl"}).code == 2);
+  CHECK(run({"--json", ball}).code == 2);
+  CHECK(run({"--json", folder / "out", "--csv", folder / "out"}).code == 2);
+  write_bytes(folder / "other.obj", obj_text(icosphere(1)));
+  CHECK(run({"--sphere", folder / "other.obj", "--csv", folder / "out.csv"}).code == 3);
+  CHECK(folder.names() == std::vector<std::string>{"ball.obj", "other.obj"});
+}
+
+}  // namespace sphparam::tests

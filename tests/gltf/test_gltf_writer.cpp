@@ -1,0 +1,190 @@
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "charted.h"
+#include "gltf/gltf_writer.h"
+#include "gltf/material_images.h"
+#include "gltf/uri.h"
+#include "gltf/variant_images.h"
+#include "gltf/written_check.h"
+#include "mesh_io/mesh_reader.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+using namespace sphparam::tools;
+using nlohmann::json;
+
+namespace {
+
+json json_of(const std::string& glb) {
+  std::uint32_t length = 0;
+  std::memcpy(&length, glb.data() + 12, 4);
+  return json::parse(glb.substr(20, length));
+}
+
+/// A row of so many vertices, and one triangle that uses the last.
+Asset long_asset(Eigen::Index vertices) {
+  Surface surface;
+  surface.positions = FloatRows::Zero(vertices, 3);
+  surface.positions.col(0).setLinSpaced(0, 1);
+  surface.normals = FloatRows::Zero(vertices, 3);
+  surface.normals.col(2).setOnes();
+  surface.texcoords = {FloatRows::Zero(vertices, 2)};
+  surface.indices = {0, 1, static_cast<std::uint32_t>(vertices - 1)};
+  return {
+      .name = "row", .levels = {surface}, .images = {}, .materials = {{.name = "m"}}, .extras = {}};
+}
+
+int index_type(Eigen::Index vertices) {
+  const json gltf = json_of(glb_bytes(long_asset(vertices)));
+  const int accessor = gltf["meshes"][0]["primitives"][0]["indices"];
+  return gltf["accessors"][accessor]["componentType"];
+}
+
+}  // namespace
+
+TEST_CASE("gltf_writer: what is written is what is read, in every container and encoding") {
+  const Charted egg;
+  const Asset asset =
+      egg.asset({.morph = Morph::Flat, .buffers = {.tangents = true, .theta_phi = true}});
+  for (const bool quantise : {false, true}) {
+    const GltfOptions options{.quantise = quantise};
+    check_written(glb_bytes(asset, options), "egg.glb", asset, options);
+  }
+  const GltfFiles embedded = write_gltf(asset, {.container = GltfContainer::Embedded});
+  REQUIRE(embedded.size() == 1);
+  check_written(embedded.front().second, "egg.gltf", asset, {.container = GltfContainer::Embedded});
+}
+
+TEST_CASE("gltf_writer: a number that differs is found when reading back") {
+  const Charted egg;
+  const Asset asset = egg.asset();
+  const std::string glb = glb_bytes(asset);
+  Asset other = asset;
+  other.levels[0].positions(7, 1) = std::nextafter(other.levels[0].positions(7, 1), 9.0F);
+  CHECK_THROWS_AS(check_written(glb, "egg.glb", other, {}), std::runtime_error);
+  other = asset;
+  other.levels[0].texcoords[0](7, 1) += 0.01F;
+  CHECK_THROWS_AS(check_written(glb, "egg.glb", other, {}), std::runtime_error);
+  other = asset;
+  std::swap(other.levels[0].indices[3], other.levels[0].indices[4]);
+  CHECK_THROWS_AS(check_written(glb, "egg.glb", other, {}), std::runtime_error);
+}
+
+TEST_CASE("gltf_writer: bounds are those of the float32 numbers, to the last bit") {
+  const Charted egg;
+  const Asset asset = egg.asset();
+  const json gltf = json_of(glb_bytes(asset));
+  const json& accessor = gltf["accessors"][0];
+  for (int axis = 0; axis < 3; ++axis) {
+    CHECK(accessor["min"][axis].get<double>() ==
+          static_cast<double>(asset.levels[0].positions.col(axis).minCoeff()));
+    CHECK(accessor["max"][axis].get<double>() ==
+          static_cast<double>(asset.levels[0].positions.col(axis).maxCoeff()));
+  }
+}
+
+TEST_CASE("gltf_writer: indices have 16 bits up to 65,535 vertices") {
+  constexpr int uint16 = 5123, uint32 = 5125;
+  CHECK(index_type(65535) == uint16);
+  CHECK(index_type(65536) == uint32);
+}
+
+TEST_CASE("gltf_writer: every view begins at a multiple of four, the file ends at one") {
+  Asset asset = Charted().asset();
+  asset.images = {{"odd", std::string("\x89PNG") + "xyz"}};
+  asset.materials[0].base_colour = 0;
+  const std::string glb = glb_bytes(asset);
+  CHECK(glb.size() % 4 == 0);
+  for (const json& view : json_of(glb)["bufferViews"])
+    CHECK(view["byteOffset"].get<int>() % 4 == 0);
+}
+
+TEST_CASE("gltf_writer: textures wrap in u and are clamped in v") {
+  Asset asset = Charted().asset();
+  asset.images = {white_asset_image()};
+  asset.materials[0].base_colour = 0;
+  const json gltf = json_of(glb_bytes(asset));
+  CHECK(gltf["samplers"][0]["wrapS"] == 10497);
+  CHECK(gltf["samplers"][0]["wrapT"] == 33071);
+  CHECK(gltf["textures"][0]["sampler"] == 0);
+}
+
+TEST_CASE("gltf_writer: materials after the first are variants, each of its own name") {
+  Asset asset = Charted().asset();
+  asset.materials = {{.name = "baked"}, {.name = "checker"}, {.name = "area"}};
+  const json gltf = json_of(glb_bytes(asset));
+  CHECK(gltf["extensions"]["KHR_materials_variants"]["variants"][2]["name"] == "area");
+  const json& mappings =
+      gltf["meshes"][0]["primitives"][0]["extensions"]["KHR_materials_variants"]["mappings"];
+  REQUIRE(mappings.size() == 3);
+  CHECK(mappings[1]["material"] == 1);
+  CHECK(mappings[1]["variants"] == json::array({1}));
+}
+
+TEST_CASE("gltf_writer: the animation shows one target after the other and ends as it began") {
+  const Asset asset = Charted().asset({.morph = Morph::Flat});
+  const json gltf = json_of(glb_bytes(asset));
+  CHECK(gltf["meshes"][0]["extras"]["targetNames"] == json::array({"sphere", "flat"}));
+  const json& sampler = gltf["animations"][0]["samplers"][0];
+  const int times = gltf["accessors"][sampler["input"].get<int>()]["count"],
+            weights = gltf["accessors"][sampler["output"].get<int>()]["count"];
+  CHECK(weights == 2 * times);
+}
+
+TEST_CASE("gltf_writer: compression is declared required, its buffer of before is not there") {
+  const json gltf = json_of(glb_bytes(Charted().asset(), {.compress = true}));
+  CHECK(gltf["extensionsRequired"] == json::array({"EXT_meshopt_compression"}));
+  CHECK(gltf["buffers"].size() == 2);
+  CHECK_FALSE(gltf["buffers"][1].contains("uri"));
+  CHECK(gltf["buffers"][0]["byteLength"].get<int>() < gltf["buffers"][1]["byteLength"].get<int>());
+}
+
+TEST_CASE(
+    "gltf_writer: levels of detail hang on the first node and are in no scene that is shown") {
+  Asset asset = Charted().asset();
+  asset.levels.push_back(Charted({}, 1).geometry().surface);
+  const json gltf = json_of(glb_bytes(asset));
+  CHECK(gltf["scenes"][gltf["scene"].get<int>()]["nodes"] == json::array({0}));
+  CHECK(gltf["nodes"][0]["extensions"]["MSFT_lod"]["ids"] == json::array({1}));
+}
+
+TEST_CASE("gltf_writer: images beside a .gltf are named after it, with signs escaped in the URI") {
+  Asset asset = Charted().asset();
+  asset.images = {white_asset_image()};
+  asset.materials[0].base_colour = 0;
+  const GltfFiles files =
+      write_gltf(asset, {.container = GltfContainer::Separate, .stem = "an egg"});
+  REQUIRE(files.size() == 3);
+  CHECK(files[1].first == "an egg.bin");
+  CHECK(files[2].first == "an egg_white.png");
+  CHECK(json::parse(files[0].second)["images"][0]["uri"] == "an%20egg_white.png");
+}
+
+TEST_CASE("gltf_writer: the same bytes for the same asset and any number of threads") {
+  const Charted egg({}, 5);
+  const std::string first = glb_bytes(egg.asset({.morph = Morph::Sphere, .threads = 1}));
+  CHECK(glb_bytes(egg.asset({.morph = Morph::Sphere, .threads = 3})) == first);
+}
+
+TEST_CASE("uri: Base64 as RFC 4648 has it") {
+  CHECK(data_uri("a/b", "") == "data:a/b;base64,");
+  CHECK(data_uri("a/b", "f") == "data:a/b;base64,Zg==");
+  CHECK(data_uri("a/b", "fo") == "data:a/b;base64,Zm8=");
+  CHECK(data_uri("a/b", "foobar") == "data:a/b;base64,Zm9vYmFy");
+  CHECK(uri_of_file("ä b.png") == "%C3%A4%20b.png");
+}
+
+TEST_CASE("in_convention: drawn in a convention or moved into it, a test image is the same") {
+  const Image ours = make_test_image(TestImage::Axes, 64);
+  for (const ConventionInfo& info : all_conventions()) {
+    INFO(info.name);
+    const Image drawn = make_test_image(TestImage::Axes, 64, info.convention),
+                moved = in_convention(ours, info.convention);
+    double most = 0;
+    for (size_t i = 0; i < drawn.pixels.size(); ++i)
+      most = std::max(most, std::abs(static_cast<double>(drawn.pixels[i] - moved.pixels[i])));
+    CHECK(most < 0.02);
+  }
+}

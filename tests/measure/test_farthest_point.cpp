@@ -1,0 +1,79 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "measure/farthest_point.h"
+#include "support/test_meshes.h"
+
+namespace sphparam::tools {
+
+namespace {
+
+using namespace sphparam::tests;
+
+TriangleMesh triangle(const Vector3& a, const Vector3& b, const Vector3& c) {
+  TriangleMesh mesh{Points(3, 3), Triangles(1, 3)};
+  mesh.positions << a.transpose(), b.transpose(), c.transpose();
+  mesh.triangles << 0, 1, 2;
+  return mesh;
+}
+
+FarthestPoint farthest(const TriangleMesh& from, const TriangleMesh& to) {
+  const RayScene scene(to);
+  Eigen::VectorXd distances(from.vertex_count());
+  for (int v = 0; v < from.vertex_count(); ++v) {
+    distances[v] = std::sqrt(scene.nearest(from.position(v)).squared_distance);
+  }
+  return find_farthest(from, distances, scene, {});
+}
+
+}  // namespace
+
+TEST_CASE("farthest point: inside a triangle whose corners are all on the other surface") {
+  // Three small triangles at the corners of a large one: farthest is its circumcentre.
+  const Vector3 a(0, 0, 0), b(6, 0, 0), c(3, 5, 0);
+  TriangleMesh spots{Points(9, 3), Triangles(3, 3)};
+  int row = 0;
+  for (const Vector3& corner : {a, b, c}) {
+    spots.positions.row(row) = corner;
+    spots.positions.row(row + 1) = corner - Vector3(0, 0, 1);
+    spots.positions.row(row + 2) = corner - Vector3(0, 0, 2);
+    spots.triangles.row(row / 3) << row, row + 1, row + 2;
+    row += 3;
+  }
+  const FarthestPoint found = farthest(triangle(a, b, c), spots);
+  const Vector3 centre(3, 1.6, 0);  // 3² + 1.6² = (5 − 1.6)²
+  CHECK(found.distance <= 3.4 + 1e-12);
+  CHECK(found.distance >= 3.4 / 1.001);
+  CHECK(found.at_most >= 3.4);
+  CHECK(found.at_most <= 3.4 * 1.002);
+  CHECK((found.point - centre).norm() < 0.1);
+}
+
+TEST_CASE("farthest point: the bound holds and narrows down, on any pair of surfaces") {
+  for (const unsigned seed : {1u, 2u, 3u}) {
+    const TriangleMesh crumpled = random_sphere_mesh(60, seed), ball = icosphere(2);
+    const RayScene scene(ball);
+    const FarthestPoint found = farthest(crumpled, ball);
+    CHECK(found.distance <= found.at_most);
+    CHECK(found.at_most <= 1.05 * found.distance);
+    CHECK(std::sqrt(scene.nearest(found.point).squared_distance) == found.distance);
+    for (int f = 0; f < crumpled.face_count(); ++f) {
+      Vector3 middle = Vector3::Zero();
+      for (int k = 0; k < 3; ++k) middle += crumpled.position(crumpled.triangles(f, k)) / 3;
+      CHECK(std::sqrt(scene.nearest(middle).squared_distance) <= found.at_most);
+    }
+  }
+}
+
+TEST_CASE("farthest point: what is known already is kept where nothing is farther") {
+  const TriangleMesh ball = icosphere(1);
+  const RayScene scene(ball);
+  const FarthestPoint known = {.point = {9, 9, 9}, .distance = 100};
+  const FarthestPoint found =
+      find_farthest(ball, Eigen::VectorXd::Zero(ball.vertex_count()), scene, known);
+  CHECK(found.distance == 100);
+  CHECK(found.point == known.point);
+  CHECK(found.at_most == 100);
+}
+
+}  // namespace sphparam::tools

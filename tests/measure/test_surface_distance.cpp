@@ -1,0 +1,174 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "measure/surface_distance.h"
+#include "sphparam/errors.h"
+#include "support/test_meshes.h"
+
+namespace sphparam::tools {
+
+namespace {
+
+using namespace sphparam::tests;
+
+/// A flat square of n×n cells in the plane z = height.
+TriangleMesh plane(int n, double height) {
+  TriangleMesh mesh{Points((n + 1) * (n + 1), 3), Triangles(2 * n * n, 3)};
+  for (int i = 0; i <= n; ++i) {
+    for (int j = 0; j <= n; ++j) mesh.positions.row(i * (n + 1) + j) << i, j, height;
+  }
+  for (int i = 0, f = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j, f += 2) {
+      const int v = i * (n + 1) + j;
+      mesh.triangles.row(f) << v, v + n + 1, v + n + 2;
+      mesh.triangles.row(f + 1) << v, v + n + 2, v + 1;
+    }
+  }
+  return mesh;
+}
+
+TriangleMesh scaled(TriangleMesh mesh, double factor) {
+  mesh.positions *= factor;
+  return mesh;
+}
+
+bool same_bits(const OneSidedDistance& a, const OneSidedDistance& b) {
+  return a.max == b.max && a.min == b.min && a.mean == b.mean && a.rms == b.rms &&
+         a.samples == b.samples && a.farthest == b.farthest && a.at_vertices == b.at_vertices;
+}
+
+bool same_bits(const SurfaceDistance& a, const SurfaceDistance& b) {
+  return same_bits(a.forth, b.forth) && same_bits(a.back, b.back);
+}
+
+}  // namespace
+
+TEST_CASE("distance: a plane that is shifted is that far away everywhere, to the bit") {
+  const SurfaceDistance distance =
+      measure_distance(plane(10, 0), plane(7, 0.25), {.samples = 5000, .edges = true});
+  // The smaller square lies above a part of the larger one: forth the rims stick out.
+  CHECK(distance.back.max == 0.25);
+  CHECK(distance.back.min == 0.25);
+  CHECK(distance.back.mean == 0.25);
+  CHECK(distance.back.rms == 0.25);
+  CHECK(distance.back.samples == 10000);
+  CHECK(distance.forth.min == 0.25);
+  CHECK(distance.forth.max == Approx(std::sqrt(9 + 9 + 0.0625)));
+  CHECK(distance.forth.farthest == Vector3(10, 10, 0));
+  CHECK(distance.max() == distance.forth.max);
+  CHECK(distance.forth.max_bound >= distance.forth.max);
+  CHECK(distance.diagonal_first == Approx(std::sqrt(200)));
+  CHECK(distance.diagonal_second == Approx(std::sqrt(98)));
+}
+
+TEST_CASE("distance: concentric spheres, within what their own triangles are off") {
+  const TriangleMesh inner = icosphere(4), outer = scaled(icosphere(4), 1.5);
+  const double sag = 0.0021;  // of icosphere(4): 1 − the least height of a triangle over the centre
+  const SurfaceDistance distance = measure_distance(inner, outer, {.samples = 20000});
+  for (const OneSidedDistance& side : {distance.forth, distance.back}) {
+    CHECK(side.max <= 0.5 + 1.5 * sag);
+    CHECK(side.min >= 0.5 - 1.5 * sag);
+    CHECK(side.mean == Approx(0.5).margin(sag));
+    CHECK(side.rms == Approx(0.5).margin(sag));
+    CHECK(side.rms >= side.mean);
+  }
+}
+
+TEST_CASE("distance: a surface is no distance from itself, nor from a finer mesh of itself") {
+  const TriangleMesh ball = icosphere(3);
+  const SurfaceDistance same = measure_distance(ball, relabelled(ball, 5),
+                                                {.samples = 5000, .edges = true, .vertices = true});
+  CHECK(same.max() == 0);
+  CHECK(same.rms() == 0);
+  TriangleMesh finer = plane(12, 3);
+  finer.positions /= 3;
+  CHECK(measure_distance(plane(4, 1), finer, {.samples = 5000}).max() == 0);
+}
+
+TEST_CASE("distance: both ways round it is the same") {
+  const TriangleMesh a = icosphere(3), b = random_sphere_mesh(200, 4);
+  const SurfaceDistance ab = measure_distance(a, b, {.samples = 3000}),
+                        ba = measure_distance(b, a, {.samples = 3000});
+  CHECK(same_bits(ab.forth, ba.back));
+  CHECK(same_bits(ab.back, ba.forth));
+  CHECK(ab.max() == ba.max());
+  CHECK(ab.max() >= ab.rms());
+  CHECK(ab.rms() >= ab.mean());
+}
+
+TEST_CASE("distance: the same bits for any number of threads, other samples for another seed") {
+  const TriangleMesh a = icosphere(3), b = scaled(icosphere(2), 1.02);
+  const DistanceOptions one = {.samples = 80000, .edges = true, .threads = 1};
+  DistanceOptions eight = one, other = one;
+  eight.threads = 8;
+  other.seed = 2;
+  const SurfaceDistance result = measure_distance(a, b, one);
+  CHECK(same_bits(result, measure_distance(a, b, eight)));
+  CHECK_FALSE(same_bits(result, measure_distance(a, b, other)));
+  CHECK(result.rms() == Approx(measure_distance(a, b, other).rms()).epsilon(0.01));
+}
+
+TEST_CASE("distance: the maximum sees a spike that samples miss, and says where it is") {
+  TriangleMesh spiky = icosphere(3);
+  spiky.positions.row(100) *= 4;
+  const SurfaceDistance distance = measure_distance(spiky, icosphere(3), {.samples = 1});
+  CHECK(distance.forth.max == Approx(3).margin(1e-12));
+  CHECK(distance.forth.farthest == spiky.position(100));
+  CHECK(distance.forth.at_vertices[100] == distance.forth.max);
+  CHECK(distance.forth.at_vertices.size() == spiky.vertex_count());
+}
+
+TEST_CASE("distance: vertices that no triangle uses do not count") {
+  TriangleMesh ball = icosphere(2);
+  ball.positions.conservativeResize(ball.vertex_count() + 1, 3);
+  ball.positions.row(ball.vertex_count() - 1) << 50, 0, 0;
+  const SurfaceDistance distance = measure_distance(ball, icosphere(2), {.samples = 100});
+  CHECK(distance.max() == 0);
+  CHECK(distance.diagonal_first < 4);
+}
+
+TEST_CASE("distance: what mean and RMS are taken over can be chosen") {
+  const TriangleMesh a = icosphere(1), b = scaled(icosphere(3), 1.1);
+  const auto samples = [&](bool faces, bool edges, bool vertices) {
+    return measure_distance(a, b,
+                            {.samples = 50, .faces = faces, .edges = edges, .vertices = vertices})
+        .forth.samples;
+  };
+  CHECK(samples(true, false, false) == 50);
+  CHECK(samples(false, true, true) == 50 + a.vertex_count());
+  CHECK(samples(true, true, true) == 100 + a.vertex_count());
+  const SurfaceDistance at_vertices = measure_distance(a, b, {.faces = false, .vertices = true});
+  CHECK(at_vertices.forth.mean == Approx(at_vertices.forth.at_vertices.mean()));
+}
+
+TEST_CASE("distance: surfaces as large or as small as numbers go, and a shape far from another") {
+  const TriangleMesh a = icosphere(2), b = scaled(icosphere(2), 1.5);
+  const double expected = measure_distance(a, b, {.samples = 200}).rms();
+  for (const double scale : {1e-290, 1e290}) {
+    const SurfaceDistance distance =
+        measure_distance(scaled(a, scale), scaled(b, scale), {.samples = 200});
+    CHECK(distance.rms() / scale == Approx(expected));
+  }
+  TriangleMesh far = b;
+  far.positions.col(0).array() += 1e7;
+  CHECK(measure_distance(a, far, {.samples = 2000}).max() == Approx(1e7));
+}
+
+TEST_CASE("distance: nothing to measure, no samples, no area, and a word to stop are all told") {
+  const TriangleMesh ball = icosphere(1);
+  TriangleMesh flat = ball;
+  flat.positions.setConstant(2);
+  CHECK_THROWS_AS(measure_distance(ball, {}), UnmeasurableSurface);
+  CHECK_THROWS_AS(measure_distance(flat, ball), UnmeasurableSurface);
+  CHECK_THROWS_AS(measure_distance(ball, flat, {.samples = 9, .faces = false, .edges = true}),
+                  UnmeasurableSurface);
+  CHECK_THROWS_AS(measure_distance(ball, ball, {.samples = 0}), std::invalid_argument);
+  CHECK_THROWS_AS(measure_distance(ball, ball, {.faces = false}), std::invalid_argument);
+  TriangleMesh hollow = ball;
+  hollow.positions(0, 0) = std::nan("");
+  CHECK_THROWS_AS(measure_distance(ball, hollow), UnmeasurableSurface);
+  const Progress stop = [](std::string_view stage, double) { return stage == "trees"; };
+  CHECK_THROWS_AS(measure_distance(ball, ball, {.progress = stop}), Cancelled);
+}
+
+}  // namespace sphparam::tools

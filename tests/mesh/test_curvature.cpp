@@ -1,0 +1,109 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "sphparam/mesh/curvature.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+double integral(const Eigen::VectorXd& density, const Curvature& c) { return density.dot(c.area); }
+
+Curvature curvature_of(const TriangleMesh& mesh, double scale = 0, int threads = 0) {
+  return measure_curvature(mesh, Topology(mesh), scale, threads);
+}
+
+/// A sphere some of whose vertices, no two of them neighbours, are all but at a neighbour's place.
+TriangleMesh with_slivers(TriangleMesh mesh) {
+  const Topology topology(mesh);
+  std::vector<char> taken(static_cast<size_t>(mesh.vertex_count()), 0);
+  for (Vertex v = 0; v < mesh.vertex_count(); v += 3) {
+    bool free = !taken[static_cast<size_t>(v)];
+    const auto mark = [&](Halfedge h) { taken[static_cast<size_t>(topology.target(h))] = 1; };
+    topology.for_each_outgoing(
+        v, [&](Halfedge h) { free = free && !taken[static_cast<size_t>(topology.target(h))]; });
+    if (!free) continue;
+    mark(topology.twin(topology.outgoing(v)));
+    topology.for_each_outgoing(v, mark);
+    const Vector3 to = mesh.position(topology.target(topology.outgoing(v)));
+    mesh.positions.row(v) = (to + 1e-6 * (mesh.position(v) - to)).normalized();
+  }
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("curvature: Gauss curvature integrates to 4 pi on every sphere, at every scale") {
+  for (const TriangleMesh& mesh : {tetrahedron(), icosphere(2), tube(30, 7), uv_sphere(40, 3),
+                                   random_sphere_mesh(200, 3), with_slivers(icosphere(3))}) {
+    for (const double scale : {0.0, 0.05, 0.7}) {
+      const Curvature c = curvature_of(mesh, scale);
+      CHECK(integral(c.gauss, c) == Approx(4 * pi).epsilon(1e-6));
+      CHECK(c.mean.allFinite());
+    }
+  }
+}
+
+TEST_CASE("curvature: a sphere of radius r has mean curvature 1/r and Gauss curvature 1/r^2") {
+  TriangleMesh mesh = icosphere(4);
+  mesh.positions *= 3;
+  const Curvature c = curvature_of(mesh);
+  CHECK((c.mean.array() - 1.0 / 3).abs().maxCoeff() < 0.15 / 3);  // at valence 5
+  CHECK(integral(c.mean, c) / c.area.sum() == Approx(1.0 / 3).epsilon(2e-3));
+  CHECK(integral(c.gauss, c) / c.area.sum() == Approx(1.0 / 9).epsilon(5e-3));
+  const Curvature smooth = curvature_of(mesh, 0.6);
+  CHECK((smooth.mean.array() - 1.0 / 3).abs().maxCoeff() < 0.02 / 3);
+  CHECK(equal_area_radius(mesh) == Approx(3).epsilon(5e-3));
+}
+
+TEST_CASE(
+    "curvature: a tube of radius 1 has mean curvature 1/2 and no Gauss curvature; inside out "
+    "it has the opposite sign") {
+  TriangleMesh mesh = tube(40, 64);
+  Curvature c = curvature_of(mesh);
+  const Vertex middle = 1 + 20 * 64;
+  CHECK(c.mean[middle] == Approx(0.5).epsilon(5e-3));
+  CHECK(std::abs(c.gauss[middle]) < 1e-9);
+  mesh.triangles.col(1).swap(mesh.triangles.col(2));
+  c = curvature_of(mesh);
+  CHECK(c.mean[middle] == Approx(-0.5).epsilon(5e-3));
+}
+
+TEST_CASE("curvature: averaged over a scale, it keeps its integral and its extremes shrink") {
+  const TriangleMesh mesh = with_slivers(icosphere(4));
+  const Curvature raw = curvature_of(mesh), smooth = curvature_of(mesh, 0.2);
+  CHECK(smooth.scale == 0.2);
+  CHECK(integral(smooth.mean, smooth) == Approx(integral(raw.mean, raw)).epsilon(1e-6));
+  // Slivers: nothing is lost in them, and the average is that of the sphere.
+  CHECK(raw.gauss.cwiseAbs().maxCoeff() < 4);
+  CHECK(raw.mean.cwiseAbs().maxCoeff() < 4);
+  CHECK(smooth.gauss.maxCoeff() < raw.gauss.maxCoeff());
+  CHECK(smooth.gauss.minCoeff() > raw.gauss.minCoeff());
+  CHECK((smooth.mean.array() - 1).abs().maxCoeff() < 0.1);
+  CHECK((smooth.gauss.array() - 1).abs().maxCoeff() < 0.2);
+}
+
+TEST_CASE("curvature: coinciding vertices and flat faces give finite values") {
+  TriangleMesh mesh = icosphere(2);
+  mesh.positions.row(mesh.triangles(5, 0)) = mesh.positions.row(mesh.triangles(5, 1));
+  for (const double scale : {0.0, 0.3}) {
+    const Curvature c = curvature_of(mesh, scale);
+    CHECK(c.mean.allFinite());
+    CHECK(c.gauss.allFinite());
+  }
+  mesh.positions.setZero();
+  CHECK(curvature_of(mesh, 0.3).gauss.allFinite());
+}
+
+TEST_CASE("curvature: the same bits for any number of threads") {
+  const TriangleMesh mesh = icosphere(5);
+  const Curvature one = curvature_of(mesh, 0.1, 1), many = curvature_of(mesh, 0.1, 3);
+  CHECK(one.mean == many.mean);
+  CHECK(one.gauss == many.gauss);
+}

@@ -1,0 +1,193 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "rays/cosine_rays.h"
+#include "rays/ray_scene.h"
+#include "rays/triangle_distance.h"
+#include "support/test_meshes.h"
+
+namespace sphparam::tools {
+
+namespace {
+
+using namespace sphparam::tests;
+
+struct Random {
+  std::mt19937 bits{11};
+  double number() { return std::uniform_real_distribution<double>(-1, 1)(bits); }
+  Vector3 point() { return {number(), number(), number()}; }
+};
+
+/// Triangles that have nothing to do with each other; of every fifth two corners are one point, of
+/// every seventh the third lies on a side, of every eleventh nearly.
+TriangleMesh triangle_soup(int triangles, double size) {
+  Random random;
+  TriangleMesh mesh{Points(3 * triangles, 3), Triangles(triangles, 3)};
+  for (int f = 0; f < triangles; ++f) {
+    const Vector3 at = random.point();
+    Vector3 corners[3];
+    for (Vector3& corner : corners) corner = at + size * random.point();
+    const Vector3 side = corners[1] - corners[0];
+    if (f % 5 == 0) corners[1] = corners[0];
+    if (f % 7 == 0) corners[2] = corners[0] + 0.3 * side;
+    if (f % 11 == 0) corners[2] = corners[0] + 0.3 * side + 1e-10 * random.point();
+    for (int i = 0; i < 3; ++i) {
+      mesh.positions.row(3 * f + i) = corners[i];
+      mesh.triangles(f, i) = 3 * f + i;
+    }
+  }
+  return mesh;
+}
+
+NearestPoint by_brute_force(const TriangleMesh& mesh, const Vector3& p) {
+  NearestPoint best = {{-1, Vector3::Zero()}, std::numeric_limits<double>::infinity()};
+  for (int f = 0; f < mesh.face_count(); ++f) {
+    const auto corners = mesh.triangles.row(f);
+    const TrianglePoint found = nearest_on_triangle(
+        p, mesh.position(corners[0]), mesh.position(corners[1]), mesh.position(corners[2]));
+    if (found.squared_distance < best.squared_distance) {
+      best = {{f, found.barycentric}, found.squared_distance};
+    }
+  }
+  return best;
+}
+
+void check_nearest(const TriangleMesh& mesh, const RayScene& scene, const Vector3& p, Face guess) {
+  const NearestPoint found = scene.nearest(p, guess), expected = by_brute_force(mesh, p);
+  CHECK(found.on.face == expected.on.face);
+  CHECK(found.on.barycentric == expected.on.barycentric);
+  CHECK(found.squared_distance == expected.squared_distance);
+}
+
+}  // namespace
+
+TEST_CASE("ray scene: the nearest point is that of brute force to the bit, with any guess") {
+  Random random;
+  for (const double size : {0.02, 0.5}) {
+    const TriangleMesh soup = triangle_soup(400, size);
+    const RayScene scene(soup);
+    for (int i = 0; i < 500; ++i) {
+      check_nearest(soup, scene, 1.5 * random.point(), i % 3 == 0 ? -1 : i % 400);
+    }
+  }
+}
+
+TEST_CASE("ray scene: where many triangles are equally near, the first of them is told") {
+  const TriangleMesh ball = icosphere(3);
+  const RayScene scene(ball);
+  for (int v = 0; v < ball.vertex_count(); v += 7) {
+    check_nearest(ball, scene, ball.position(v), -1);
+    check_nearest(ball, scene, 2 * ball.position(v), static_cast<Face>(ball.face_count() - 1));
+  }
+  check_nearest(ball, scene, Vector3::Zero(), 17);  // nearly the same distance from everywhere
+}
+
+TEST_CASE("ray scene: nearest points stay exact far away, far from the origin and at any scale") {
+  Random random;
+  TriangleMesh soup = triangle_soup(200, 0.3);
+  const RayScene scene(soup);
+  for (const double distance : {1e2, 1e3, 1e4, 1e6, 1e9}) {
+    for (int i = 0; i < 20; ++i) check_nearest(soup, scene, distance * random.point(), -1);
+  }
+  const Vector3 beyond = 1e15 * random.point();
+  CHECK(scene.nearest(beyond).squared_distance ==
+        Approx(by_brute_force(soup, beyond).squared_distance).epsilon(1e-14));
+  for (const double scale : {1e-60, 1e-3, 1e60}) {
+    TriangleMesh moved = soup;
+    moved.positions.array() = scale * (soup.positions.array() + 1e6);
+    const RayScene moved_scene(moved);
+    for (int i = 0; i < 50; ++i) {
+      const Vector3 p = scale * (random.point().array() + 1e6);
+      check_nearest(moved, moved_scene, p, -1);
+    }
+  }
+}
+
+TEST_CASE("ray scene: from inside a closed mesh no ray gets out, whatever edge it aims at") {
+  for (const double offset : {0.0, 1e6}) {
+    TriangleMesh ball = icosphere(3);
+    ball.positions.array() += offset;
+    const RayScene scene(ball);
+    const Vector3 centre = Vector3::Constant(offset);
+    for (int v = 0; v < ball.vertex_count(); ++v) {
+      const Vector3 towards = (ball.position(v) - centre).normalized();
+      CHECK(scene.first_hit(centre, towards, 10).face >= 0);
+    }
+    for (int f = 0; f < ball.face_count(); ++f) {
+      const auto corners = ball.triangles.row(f);
+      const Vector3 middle = (ball.position(corners[0]) + ball.position(corners[1])) / 2;
+      CHECK(scene.first_hit(centre, (middle - centre).normalized(), 10).face >= 0);
+    }
+  }
+}
+
+TEST_CASE("ray scene: a hit has its face and distance, a miss and what is out of reach have none") {
+  const TriangleMesh box = octahedron();  // |x| + |y| + |z| = 1
+  const RayScene scene(box);
+  const RayHit hit = scene.first_hit({3, 0.1, 0.2}, {-1, 0, 0}, 10);
+  REQUIRE(hit.face >= 0);
+  CHECK(hit.distance == Approx(3 - 0.7));
+  for (const int v : {0, 1, 2}) {
+    const Vector3 corner = box.position(box.triangles(hit.face, v));
+    CHECK(corner.minCoeff() >= 0);
+  }
+  CHECK(scene.first_hit({3, 0.1, 0.2}, {-1, 0, 0}, 2.2).face < 0);
+  CHECK(scene.first_hit({3, 0.1, 0.2}, {1, 0, 0}, 10).face < 0);
+}
+
+TEST_CASE("ray scene: bundles say what single rays say, for any number of rays") {
+  const TriangleMesh ball = random_sphere_mesh(300, 3);  // crumpled
+  const RayScene scene(ball);
+  const double reach = 0.7;
+  for (const size_t count : {1u, 2u, 63u, 64u, 65u, 200u}) {
+    Random random;
+    const Vector3 origin = 0.5 * random.point();
+    std::vector<Eigen::Vector3f> directions(count);
+    for (auto& d : directions) d = random.point().normalized().cast<float>();
+    std::vector<std::uint8_t> blocked(count, 7);
+    std::vector<float> distances(count, -1);
+    scene.find_blocked(origin, directions, reach, blocked);
+    scene.find_distances(origin, directions, reach, distances);
+    for (size_t i = 0; i < count; ++i) {
+      const RayHit hit = scene.first_hit(origin, directions[i].cast<double>(), reach);
+      CHECK(int{blocked[i]} == int{hit.face >= 0});
+      CHECK(distances[i] == Approx(hit.face >= 0 ? hit.distance : reach).margin(1e-6));
+    }
+  }
+}
+
+TEST_CASE("ray scene: the clearance frees rays from their own surface, at any place and scale") {
+  for (const double scale : {1e-8, 1.0, 1e8}) {
+    for (const double offset : {0.0, 1e4}) {
+      TriangleMesh ball = icosphere(4);
+      ball.positions = scale * (ball.positions.array() + offset);
+      const RayScene scene(ball);
+      const CosineRays rays(16);
+      std::vector<Eigen::Vector3f> directions(static_cast<size_t>(rays.count()));
+      std::vector<std::uint8_t> blocked(directions.size());
+      size_t hits = 0;
+      for (int f = 0; f < ball.face_count(); ++f) {
+        const auto corners = ball.triangles.row(f);
+        const Vector3 a = ball.position(corners[0]), b = ball.position(corners[1]),
+                      c = ball.position(corners[2]);
+        const Vector3 normal = (b - a).cross(c - a).normalized();
+        const Vector3 origin = (0.2 * a + 0.3 * b + 0.5 * c) + scene.clearance() * normal;
+        rays.aim(normal.cast<float>(), static_cast<std::uint64_t>(f), directions);
+        scene.find_blocked(origin, directions, scene.diagonal(), blocked);
+        for (const std::uint8_t hit : blocked) hits += hit;
+      }
+      CHECK(hits == 0);
+    }
+  }
+}
+
+TEST_CASE("ray scene: a mesh without triangles or with numbers that are none is refused") {
+  CHECK_THROWS_AS(RayScene(TriangleMesh{}), std::invalid_argument);
+  TriangleMesh ball = tetrahedron();
+  ball.positions(1, 1) = std::nan("");
+  CHECK_THROWS_AS(RayScene(ball), std::invalid_argument);
+}
+
+}  // namespace sphparam::tools

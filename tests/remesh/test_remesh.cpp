@@ -1,0 +1,294 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+#include "mesh_io/mesh_reader.h"
+#include "mesh_io/sphere_file.h"
+#include "remesh/polygon_ply.h"
+#include "remesh/remesh.h"
+#include "sphparam/mesh/topology.h"
+#include "sphparam/parameterize.h"
+#include "sphparam/sphere/certificate.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+using namespace sphparam::tools;
+
+namespace {
+
+SphereGrid like(const TriangleMesh& mesh, const SphereMap& map) {
+  SphereGrid grid;
+  grid.directions = map.points;
+  grid.faces.corners.assign(mesh.triangles.data(), mesh.triangles.data() + mesh.triangles.size());
+  grid.faces.starts.clear();
+  for (int i = 0; i <= mesh.triangles.size(); i += 3) grid.faces.starts.push_back(i);
+  return grid;
+}
+
+SphereGrid grid_named(const std::string& name) { return make_grid(parse_grid(name)); }
+
+/// A shape with one of everything: the map is not the positions.
+MeshFile everything(const TriangleMesh& mesh) {
+  MeshFile file;
+  file.mesh = mesh;
+  std::mt19937 random(3);
+  const auto count = static_cast<size_t>(mesh.vertex_count());
+  const auto property = [&](const char* name, ScalarType type, double from, double to) {
+    Property made{name, type, {}};
+    std::uniform_real_distribution<double> number(from, to);
+    for (size_t v = 0; v < count; ++v) {
+      const double x = number(random);
+      made.values.push_back(type == ScalarType::Float64 ? x
+                            : type == ScalarType::Float32
+                                ? static_cast<double>(static_cast<float>(x))
+                                : std::floor(x));
+    }
+    file.vertex_properties.push_back(std::move(made));
+  };
+  property("nx", ScalarType::Float64, -1, 1);
+  property("ny", ScalarType::Float64, -1, 1);
+  property("nz", ScalarType::Float64, -1, 1);
+  property("red", ScalarType::Uint8, 0, 256);
+  property("green", ScalarType::Uint8, 0, 256);
+  property("blue", ScalarType::Uint8, 0, 256);
+  property("thickness", ScalarType::Float32, 1, 4);
+  property("parcel", ScalarType::Int32, 1, 30);
+  Property material{"material", ScalarType::Int32, {}};
+  for (Eigen::Index f = 0; f < mesh.face_count(); ++f)
+    material.values.push_back(static_cast<double>(f % 2));
+  file.face_properties.push_back(material);
+  file.materials = {"wood", "stone"};
+  CornerTexcoords texcoords(3 * mesh.face_count(), 2);
+  CornerNormals normals(3 * mesh.face_count(), 3);
+  for (Eigen::Index i = 0; i < 3 * mesh.face_count(); ++i) {  // every face is a chart of its own
+    const auto x = static_cast<double>(i);
+    texcoords.row(i) << std::cos(x), std::sin(x);
+    normals.row(i) << std::cos(x), std::sin(x), 0.5;
+  }
+  file.corner_texcoords = std::move(texcoords);
+  file.corner_normals = std::move(normals);
+  return file;
+}
+
+struct Mapped {
+  MeshFile file;
+  SphereMap map;
+  explicit Mapped(const TriangleMesh& mesh)
+      : file(everything(mesh)), map(parameterize(mesh, {.threads = 1}).map) {}
+};
+
+TriangleMesh stretched_sphere(int level) {
+  TriangleMesh mesh = icosphere(level);
+  mesh.positions.col(0) *= 2;
+  mesh.positions.col(2) *= 0.5;
+  return mesh;
+}
+
+/// A sphere in two charts, east and west, far apart in the image.
+MeshFile two_charts(const TriangleMesh& mesh) {
+  CornerTexcoords texcoords(3 * mesh.face_count(), 2);
+  for (Eigen::Index f = 0; f < mesh.face_count(); ++f) {
+    double middle = 0;
+    for (int k = 0; k < 3; ++k) middle += mesh.positions(mesh.triangles(f, k), 0);
+    for (int k = 0; k < 3; ++k) {
+      const Vector3 q = mesh.position(mesh.triangles(f, k));
+      texcoords.row(3 * f + k) << (middle > 0 ? 10 : 0) + q.y(), q.z();
+    }
+  }
+  MeshFile file;
+  file.mesh = mesh;
+  file.corner_texcoords.emplace(texcoords);
+  return file;
+}
+
+const Property& vertex_property(const MeshFile& file, const std::string& name) {
+  const Property* found = file.find_vertex_property(name);
+  REQUIRE(found);
+  return *found;
+}
+
+}  // namespace
+
+TEST_CASE("remesh: a mesh on its own sphere is itself, bit for bit, with all it carries") {
+  for (const TriangleMesh& mesh : {stretched_sphere(2), random_sphere_mesh(300, 4)}) {
+    const Mapped source(mesh);
+    const Remeshed result = remesh(source.file, source.map, like(mesh, source.map));
+    CHECK(result.file.mesh.positions == mesh.positions);
+    CHECK(result.file.mesh.triangles == mesh.triangles);
+    REQUIRE(result.file.vertex_properties.size() == source.file.vertex_properties.size());
+    for (size_t i = 0; i < result.file.vertex_properties.size(); ++i) {
+      INFO(source.file.vertex_properties[i].name);
+      CHECK(result.file.vertex_properties[i].values == source.file.vertex_properties[i].values);
+      CHECK(result.file.vertex_properties[i].type == source.file.vertex_properties[i].type);
+    }
+    CHECK(result.file.find_face_property("material")->values ==
+          source.file.find_face_property("material")->values);
+    CHECK(result.file.materials == source.file.materials);
+    CHECK(*result.file.corner_texcoords == *source.file.corner_texcoords);
+    CHECK(*result.file.corner_normals == *source.file.corner_normals);
+  }
+}
+
+TEST_CASE("remesh: what is constant stays so, at points and over cells") {
+  Mapped source(random_sphere_mesh(2000, 7));
+  for (Property& property : source.file.vertex_properties) {
+    std::fill(property.values.begin(), property.values.end(),
+              property.type == ScalarType::Float32 ? static_cast<double>(0.3F) : 77.0);
+  }
+  source.file.mesh.positions.col(1).setConstant(0.1);
+  for (const SampleMode mode : {SampleMode::Point, SampleMode::Cell}) {
+    const Remeshed result = remesh(source.file, source.map, grid_named("ico:2"), {.sample = mode});
+    for (const char* name : {"red", "thickness", "parcel"}) {
+      const Property& property = vertex_property(result.file, name);
+      for (const double value : property.values) {
+        CHECK(value == source.file.find_vertex_property(name)->values[0]);
+      }
+    }
+    CHECK((result.file.mesh.positions.col(1).array() == 0.1).all());
+  }
+}
+
+TEST_CASE("remesh: values lie between those around, labels are labels of the source") {
+  const Mapped source(random_sphere_mesh(500, 2));
+  const Remeshed result = remesh(source.file, source.map, grid_named("octa:33"));
+  for (const double label : vertex_property(result.file, "parcel").values) {
+    CHECK(label == std::floor(label));
+    CHECK((label >= 1 && label < 30));
+  }
+  for (const double value : vertex_property(result.file, "thickness").values) {
+    CHECK((value >= 1 && value <= 4));
+    CHECK(value == static_cast<double>(static_cast<float>(value)));
+  }
+  for (size_t v = 0; v < 1000; ++v) {
+    const Vector3 normal(vertex_property(result.file, "nx").values[v],
+                         vertex_property(result.file, "ny").values[v],
+                         vertex_property(result.file, "nz").values[v]);
+    CHECK(normal.norm() == Approx(1));
+  }
+}
+
+TEST_CASE("remesh: finer grids come nearer to the surface, four times a level") {
+  // A smooth bumpy sphere, sampled far more finely than the grids.
+  const auto bumpy = [](const Vector3& q) {
+    return Vector3(q * (1 + 0.2 * std::sin(3 * q.x()) * std::cos(2 * q.y() + q.z())));
+  };
+  const TriangleMesh fine = icosphere(6);
+  MeshFile source;
+  source.mesh = fine;
+  for (Vertex v = 0; v < fine.vertex_count(); ++v) {
+    source.mesh.positions.row(v) = bumpy(fine.position(v));
+  }
+  double before = 0;
+  for (const char* name : {"ico:2", "ico:3", "ico:4"}) {
+    const Remeshed result = remesh(source, SphereMap{fine.positions}, grid_named(name));
+    double square = 0;  // from the middles of faces to the surface in their directions
+    const TriangleMesh& mesh = result.file.mesh;
+    for (Eigen::Index f = 0; f < mesh.face_count(); ++f) {
+      const Vector3 middle =
+          (mesh.position(mesh.triangles(f, 0)) + mesh.position(mesh.triangles(f, 1)) +
+           mesh.position(mesh.triangles(f, 2))) /
+          3;
+      square += (middle - bumpy(middle.normalized())).squaredNorm();
+    }
+    const double rms = std::sqrt(square / static_cast<double>(mesh.face_count()));
+    if (before > 0) CHECK(before / rms == Approx(4).margin(0.7));
+    before = rms;
+  }
+}
+
+TEST_CASE("remesh: over cells nothing is left out, at points most is") {
+  // A thin label and a spike of one vertex in a fine mesh, seen by a coarse grid.
+  const TriangleMesh fine = icosphere(5);
+  MeshFile source;
+  source.mesh = fine;
+  Property spike{"spike", ScalarType::Float64, std::vector<double>(10242, 0.0)};
+  for (size_t v = 5; v < spike.values.size(); v += 10) spike.values[v] = 10;
+  source.vertex_properties.push_back(spike);
+  const auto spread = [&](SampleMode mode) {
+    const Remeshed result =
+        remesh(source, SphereMap{fine.positions}, grid_named("ico:2"), {.sample = mode});
+    double square = 0;
+    const auto& values = vertex_property(result.file, "spike").values;
+    for (const double value : values) square += (value - 1) * (value - 1);
+    return std::sqrt(square / static_cast<double>(values.size()));
+  };
+  CHECK(spread(SampleMode::Cell) < 0.4);
+  CHECK(spread(SampleMode::Point) > 1.5);
+}
+
+TEST_CASE("remesh: texture coordinates never run across a seam") {
+  const TriangleMesh mesh = icosphere(3);
+  const MeshFile source = two_charts(mesh);
+  for (const char* name : {"ico:2", "ico:5", "cube:9"}) {
+    INFO(name);
+    const Remeshed result = remesh(source, SphereMap{mesh.positions}, grid_named(name));
+    const auto& uv = *result.file.corner_texcoords;
+    for (Eigen::Index f = 0; f < result.file.mesh.face_count(); ++f) {
+      const auto u = uv.block(3 * f, 0, 3, 1);
+      CHECK(u.maxCoeff() - u.minCoeff() < 1.5);
+      for (int k = 0; k < 3; ++k) {  // the place itself, where the chart reaches it
+        const Vector3 q = result.map.point(result.file.mesh.triangles(f, k));
+        const double v = uv(3 * f + k, 1);
+        if (std::abs(q.x()) > 0.3) CHECK(v == Approx(q.z()).margin(0.02));
+      }
+    }
+  }
+}
+
+TEST_CASE("remesh: quads are written as quads, and what is read back is the same mesh") {
+  const Mapped source(stretched_sphere(3));
+  for (const char* name : {"cube:6", "uv:9x5", "healpix:3"}) {
+    INFO(name);
+    Remeshed result = remesh(source.file, source.map, grid_named(name));
+    const MeshFile file = attach_map(result.file, result.map, {{"verdict", "one-to-one"}});
+    const MeshFile read = read_mesh(serialise_polygon_ply(file, result.faces), "x.ply", {});
+    CHECK(read.mesh.positions == file.mesh.positions);
+    CHECK(read.mesh.triangles == file.mesh.triangles);
+    CHECK(read.polygons == file.polygons);
+    CHECK(*read.corner_texcoords == *file.corner_texcoords);
+    CHECK(*read.corner_normals == *file.corner_normals);
+    CHECK(read.find_face_property("material")->values ==
+          file.find_face_property("material")->values);
+    CHECK(certify(Topology(read.mesh), *read_sphere(read)).bijective());
+  }
+}
+
+TEST_CASE("remesh: the same bytes for any number of threads, at points and over cells") {
+  const Mapped source(random_sphere_mesh(3000, 11));
+  for (const SampleMode mode : {SampleMode::Point, SampleMode::Cell}) {
+    const auto run = [&](int threads) {
+      return remesh(source.file, source.map, grid_named("ico:5"),
+                    {.sample = mode, .threads = threads});
+    };
+    const Remeshed one = run(1), three = run(3);
+    CHECK(one.file.mesh.positions == three.file.mesh.positions);
+    CHECK(*one.file.corner_texcoords == *three.file.corner_texcoords);
+    for (size_t i = 0; i < one.file.vertex_properties.size(); ++i) {
+      CHECK(one.file.vertex_properties[i].values == three.file.vertex_properties[i].values);
+    }
+  }
+}
+
+TEST_CASE("remesh: only what is wanted is carried, and unknown names are refused") {
+  const Mapped source(icosphere(1));
+  const auto run = [&](std::vector<std::string> names) {
+    return remesh(source.file, source.map, grid_named("ico:2"), {.transfer = std::move(names)})
+        .file;
+  };
+  CHECK(run({"none"}).vertex_properties.empty());
+  CHECK(run({"color"}).vertex_properties.size() == 3);
+  CHECK_FALSE(run({"color"}).corner_texcoords);
+  CHECK(run({"uv", "thickness"}).corner_texcoords);
+  CHECK(run({"uv", "thickness"}).vertex_properties.size() == 1);
+  CHECK(run({"all"}).vertex_properties.size() == 8);
+  CHECK_THROWS_WITH(run({"thicknes"}), Catch::Contains("thicknes") && Catch::Contains("parcel"));
+}
+
+TEST_CASE("remesh: a callback that says no ends it") {
+  const Mapped source(icosphere(1));
+  RemeshOptions options;
+  options.progress = [](std::string_view, double) { return false; };
+  CHECK_THROWS_AS(remesh(source.file, source.map, grid_named("ico:2"), options), Cancelled);
+}

@@ -1,0 +1,180 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <string>
+
+#include "showcase/exhibit.h"
+#include "showcase/report_page.h"
+#include "showcase/tables.h"
+#include "sphparam/errors.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+using namespace sphparam::tools;
+using Catch::Matchers::Contains;
+
+namespace {
+
+MeshFile ball(int level = 2) {
+  MeshFile file;
+  file.mesh = icosphere(level);
+  return file;
+}
+
+Exhibit exhibit_of(const std::string& name, const MeshFile& file, const SphereMap& map) {
+  return make_exhibit(given_contender(name, name + ".sph.ply", file.mesh, map, 0),
+                      {{"method", "by hand"}}, file);
+}
+
+Exhibit good(const std::string& name, const MeshFile& file) {
+  return exhibit_of(name, file, normalised(file.mesh.positions));
+}
+
+Exhibit folded(const std::string& name, const MeshFile& file) {
+  SphereMap map = normalised(file.mesh.positions);
+  map.points.row(0) = -map.points.row(0);
+  return exhibit_of(name, file, map);
+}
+
+/// Small pictures, and something in the viewer's place.
+ReportOptions quick() {
+  ReportOptions options;
+  options.viewer = ViewerScript{"customElements; // viewer", "Its licence"};
+  options.look.size = 32;
+  options.image_width = 64;
+  return options;
+}
+
+long count(const std::string& text, const std::string& what) {
+  long n = 0;
+  for (size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++n;
+  return n;
+}
+
+}  // namespace
+
+TEST_CASE("report page: one map has a model, heat maps, charts, tables, provenance and a licence") {
+  const MeshFile file = ball();
+  const std::string page = report_page("ball", file, {good("ball", file)}, quick());
+  CHECK(count(page, "<model-viewer ") == 1);
+  CHECK(count(page, "data:model/gltf-binary;base64,") == 1);
+  CHECK(count(page, "data:image/svg+xml;base64,") == 6);  // two disks and a histogram, twice
+  CHECK_THAT(page, Contains("Certified one-to-one") && Contains("id=\"morph\"") &&
+                       Contains("by hand") && Contains("Its licence") &&
+                       Contains("Area distortion of ball over the whole sphere"));
+  for (const char* name : {"checker", "axes", "area", "angle", "baked"}) {
+    CHECK_THAT(page, Contains(std::string("name=\"surface\" value=\"") + name + "\""));
+  }
+}
+
+TEST_CASE("report page: loads nothing from anywhere, and tells browsers so") {
+  const MeshFile file = ball();
+  const std::string page =
+      report_page("ball", file, {good("one", file), good("two", file)}, quick());
+  for (const char* attribute : {"src=\"", "href=\""}) {
+    for (size_t at = page.find(attribute); at != std::string::npos;
+         at = page.find(attribute, at + 1)) {
+      CHECK(page.compare(at + std::string(attribute).size(), 5, "data:") == 0);
+    }
+  }
+  CHECK_THAT(page, !Contains("http://") && !Contains("https://") && !Contains("@import"));
+  CHECK_THAT(page, Contains("default-src 'none'"));
+}
+
+TEST_CASE("report page: every picture and control has words, and every input a label") {
+  const MeshFile file = ball();
+  const std::string page = report_page("ball", file, {good("ball", file)}, quick());
+  CHECK(count(page, "<img") == count(page, " alt=\"") - count(page, "<model-viewer "));
+  CHECK(count(page, "alt=\"\"") == 0);
+  CHECK(count(page, "type=\"radio\"") == count(page, "<label>"));
+  CHECK_THAT(page, Contains("<html lang=\"en\">") && Contains("for=\"morph\"") &&
+                       Contains("role=\"status\"") && Contains("<legend>Surface</legend>"));
+}
+
+TEST_CASE("report page: names with markup stay text, and a script cannot be ended by another") {
+  const MeshFile file = ball(1);
+  const std::string bad = "</script><script>alert(1)</script>\"<b>";
+  ReportOptions options = quick();
+  options.viewer->code = "const text = '</script><!--';";
+  options.viewer->licence = bad;
+  options.facts = {{bad, bad}};
+  const std::string page = report_page(bad, file, {good(bad, file), folded(bad, file)}, options);
+  CHECK(count(page, "alert(1)</script>") == 0);
+  CHECK(count(page, "<b>") == 0);
+  CHECK(count(page, "<script") == count(page, "</script>"));
+  CHECK_THAT(page, Contains("const text = '<\\/script><\\!--';"));
+}
+
+TEST_CASE("report page: the same bytes for the same maps, on any number of threads") {
+  const MeshFile file = ball();
+  std::vector<Exhibit> exhibits = {good("one", file), folded("two", file)};
+  exhibits[0].chart_seconds.reset();
+  ReportOptions options = quick();
+  options.threads = 1;
+  const std::string page = report_page("ball", file, exhibits, options);
+  options.threads = 3;
+  CHECK(report_page("ball", file, exhibits, options) == page);
+}
+
+TEST_CASE("report page: maps that fold are shown as pictures, beside models of those that do not") {
+  const MeshFile file = ball();
+  const std::string page =
+      report_page("ball", file, {folded("paper", file), good("ours", file)}, quick());
+  CHECK(count(page, "<model-viewer ") == 1);
+  CHECK_THAT(page, Contains("class=\"still\"") && Contains("The sphere of paper: ") &&
+                       Contains("name=\"surface\" value=\"area\""));
+  const std::string alone = report_page("ball", file, {folded("paper", file)}, quick());
+  CHECK_THAT(alone, !Contains("<model-viewer ") && !Contains("id=\"morph\"") &&
+                        !Contains("<script") && Contains("Not one-to-one"));
+}
+
+TEST_CASE("report page: without the viewer it says so and has no script") {
+  const MeshFile file = ball();
+  ReportOptions options = quick();
+  options.viewer.reset();
+  const std::string page = report_page("ball", file, {good("ball", file)}, options);
+  CHECK_THAT(page, !Contains("<script") && !Contains("<model-viewer ") &&
+                       Contains("without the 3D viewer") && Contains("class=\"still\"><img"));
+}
+
+TEST_CASE("report page: a mesh with colours shows them first, one without its directions last") {
+  MeshFile file = ball(1);
+  const std::string plain = report_page("ball", file, {good("ball", file)}, quick());
+  CHECK_THAT(plain, Contains("value=\"checker\" checked") && Contains("<span>Directions</span>"));
+  for (const char* name : {"red", "green", "blue"}) {
+    file.set_vertex_property(
+        {name, ScalarType::Uint8,
+         std::vector<double>(static_cast<size_t>(file.mesh.vertex_count()), 200)});
+  }
+  const std::string coloured = report_page("ball", file, {good("ball", file)}, quick());
+  CHECK_THAT(coloured, Contains("value=\"baked\" checked") && Contains("<span>Own colours</span>"));
+}
+
+TEST_CASE("report page: progress may cancel it") {
+  const MeshFile file = ball(1);
+  ReportOptions options = quick();
+  options.progress = [](std::string_view, double) { return false; };
+  CHECK_THROWS_AS(report_page("ball", file, {good("ball", file)}, options), Cancelled);
+}
+
+TEST_CASE("exhibit: only one-to-one maps get a chart") {
+  const MeshFile file = ball();
+  CHECK(good("a", file).chart()->certificate.one_to_one());
+  CHECK_FALSE(folded("b", file).chart());
+  CHECK(chart_table({folded("b", file)}).rows.empty());
+}
+
+TEST_CASE("exhibit: tables have a column a map, and a dash where a map has no such figure") {
+  const MeshFile file = ball();
+  const std::vector<Exhibit> exhibits = {good("a", file), folded("b", file)};
+  for (const PageTable& table : {distortion_table(exhibits), certificate_table(exhibits),
+                                 chart_table(exhibits), provenance_table(exhibits)}) {
+    REQUIRE_FALSE(table.rows.empty());
+    CHECK(table.header[1] == "a");
+    CHECK(table.header[2] == "b");
+    for (const auto& row : table.rows) CHECK(row.size() == table.header.size());
+  }
+  CHECK(chart_table(exhibits).rows[0][2] == "–");
+  CHECK(certificate_table(exhibits).rows[0][1] == "one-to-one");
+  CHECK(timing_table(exhibits[0]).rows.empty());
+}

@@ -1,0 +1,96 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "support/direction_image.h"
+#include "texture/equirectangular.h"
+
+using namespace sphparam;
+using namespace sphparam::tools;
+using namespace sphparam::tests;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+Vector3 looked_up(const EquirectangularImage& image, const Vector3& direction, double width) {
+  const std::array<float, 4> colour = image.look_up(direction, width);
+  return Eigen::Vector3f(colour.data()).cast<double>();
+}
+
+std::vector<Vector3> some_directions() {
+  // The poles, the seam, their neighbourhood, and anywhere.
+  std::vector<Vector3> directions = {{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {-1, 0, 0}};
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 300; ++i) {
+    const Vector3 offset(normal(random), normal(random), normal(random));
+    directions.push_back(offset);
+    directions.push_back(Vector3(0, 0, i % 2 ? 1 : -1) + 0.02 * offset);
+    directions.push_back(Vector3(1, 0.01 * offset.y(), offset.z()));
+  }
+  return directions;
+}
+
+}  // namespace
+
+TEST_CASE("equirectangular: an image of directions gives the direction back, at poles and seam") {
+  for (const int width : {64, 256}) {
+    const TexturePyramid pyramid(direction_image(width), true);
+    const EquirectangularImage image(pyramid, Convention::Sphparam);
+    const double texel = 2 * pi / width;
+    for (const Vector3& direction : some_directions()) {
+      const Vector3 expected = Vector3::Constant(0.5) + 0.5 * direction.normalized();
+      INFO(direction.transpose());
+      CHECK((looked_up(image, direction, 0) - expected).norm() < 0.2 * texel * texel + 1e-4);
+      // A wide look is a mean: a sphere's cap points the same way, a little shorter. About a pole
+      // it is of whole rows.
+      const double width_of_look = 4 * texel;
+      const bool at_pole = direction.normalized().head<2>().norm() < width_of_look;
+      CHECK((looked_up(image, direction, width_of_look) - expected).norm() <
+            (at_pole ? 0.1 * width_of_look : 0.25 * width_of_look * width_of_look));
+    }
+  }
+}
+
+TEST_CASE("equirectangular: a constant image is constant, however wide the look") {
+  for (const int width : {2, 14, 100}) {
+    const TexturePyramid pyramid(uniform_image(width, 0.25F), true);
+    const EquirectangularImage image(pyramid, Convention::Three);
+    for (const double look : {0.0, 1e-3, 0.1, 1.0, 7.0}) {
+      for (const Vector3& direction : some_directions()) {
+        CHECK((looked_up(image, direction, look).array() - 0.25).abs().maxCoeff() < 1e-4);
+      }
+    }
+  }
+}
+
+TEST_CASE("equirectangular: conventions put longitude where their viewers have it") {
+  Image stripe(64, 32, 3);  // white about u = 1/4
+  for (int y = 0; y < 32; ++y) {
+    for (int x = 14; x < 18; ++x) std::fill_n(stripe.pixel(x, y), 3, 1.0F);
+  }
+  const TexturePyramid pyramid(stripe);
+  const auto at = [&](Convention convention, const Vector3& direction) {
+    return looked_up(EquirectangularImage(pyramid, convention), direction, 0).x();
+  };
+  // u of +x, +y, −x, −y is 0 ¼ ½ ¾; GIS ½ ¾ 0 ¼; blender ½ − u; envmap ¼ − u.
+  CHECK(at(Convention::Sphparam, {0, 1, 0}) > 0.99);
+  CHECK(at(Convention::Sphparam, {0, -1, 0}) < 0.01);
+  CHECK(at(Convention::Gis, {0, -1, 0}) > 0.99);
+  CHECK(at(Convention::Blender, {0, 1, 0}) > 0.99);
+  CHECK(at(Convention::Envmap, {1, 0, 0}) > 0.99);
+}
+
+TEST_CASE("equirectangular: nothing aliases: one texel of a row at the pole weighs what it is") {
+  constexpr int width = 512;
+  Image image(width, width / 2, 3);
+  std::fill_n(image.pixel(137, 0), 3, 1.0F);  // next to the pole, 1 of 512 texels of its row
+  const TexturePyramid pyramid(image, true);
+  const EquirectangularImage look(pyramid, Convention::Sphparam);
+  const Vector3 there = to_cartesian({2 * pi * 137.5 / width, pi * 0.5 / 256});
+  CHECK(looked_up(look, there, 1e-6).x() > 0.9);
+  CHECK(looked_up(look, there, pi / 256).x() < 0.02);
+  CHECK(looked_up(look, {0, 0, 1}, pi / 256).x() < 0.02);
+}

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "bake/bake_scene.h"
+#include "bake/texel_points.h"
+
+namespace sphparam::tools {
+
+/// Seeds of the samples of crowded texels are taken from here on, times the texel's index.
+inline constexpr std::int64_t crowded_seeds = 1 << 10;
+
+/// The texels of a band that hold triangles smaller than themselves, and all that lies in them: a
+/// point a triangle, the centre of what the texel cuts out of it in (u, v), weighted by its area on
+/// the surface. The mean of a field is then that over the part of the surface which the texel
+/// shows, the best constant for it in the sense of least squares; a limb that has shrunk to a
+/// fraction of a texel is as visible as it is large.
+struct CrowdedTexels {
+  /// Requires: the source is the target. Cost: one clipped polygon for each triangle and crowded
+  /// texel that meet.
+  CrowdedTexels(const BakeScene& scene, const TexelFinder& finder, int band);
+
+  struct Texel {
+    size_t index;        // in the band
+    size_t first, last;  // its points
+  };
+  std::vector<Texel> texels;
+  TexelPoints points;
+  std::vector<float> weights;  // a point; they sum to 1 in every texel
+};
+
+}  // namespace sphparam::tools

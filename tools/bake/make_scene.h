@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "bake/bake_scene.h"
+
+namespace sphparam::tools {
+
+/// The chart of a mesh with what bakes need on it.
+/// Requires: a certified map. Cost: that of `spherical_chart`.
+BakeTarget make_target(const MeshFile& file, const Topology& topology, const SphereMap& map,
+                       bool is_source, int threads);
+
+/// A texture of the user's own for all of the mesh.
+/// Throws: ImageError.
+SourceTexture read_texture(const std::string& path, TextureWrap wrap, int threads);
+
+/// The textures of a file's materials, decoded; empty where it has none. An image that several
+/// materials use is decoded once.
+/// Throws: ImageError that names material and image, for one that is missing, broken or unusable.
+std::vector<SourceTexture> read_textures(const MeshFile& file, int threads);
+
+}  // namespace sphparam::tools

@@ -1,0 +1,33 @@
+#include "cli/bake_report.h"
+
+#include <nlohmann/json.hpp>
+
+#include "sphparam/version.h"
+
+namespace sphparam::tools {
+
+std::string to_json(const BakeReport& report) {
+  using Json = nlohmann::ordered_json;
+  Json images = Json::array();
+  for (const BakeReport::Image& image : report.images) {
+    Json one = {{"map", image.map},
+                {"about", image.about},
+                {"file", image.path},
+                {"sample_type", image.sample_type},
+                {"channels", image.channels}};
+    if (image.range) one["range"] = {image.range->first, image.range->second};
+    images.push_back(std::move(one));
+  }
+  const Json json = {{"version", version},
+                     {"source", {{"file", report.input}, {"triangles", report.triangles}}},
+                     {"for", report.target.empty() ? Json() : Json(report.target)},
+                     {"width", report.width},
+                     {"height", report.height},
+                     {"samples", report.samples},
+                     {"convention", report.convention},
+                     {"images", std::move(images)},
+                     {"seconds", report.seconds}};
+  return json.dump(2) + "\n";
+}
+
+}  // namespace sphparam::tools

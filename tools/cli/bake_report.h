@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sphparam::tools {
+
+/// What `sphparam bake --json` tells.
+struct BakeReport {
+  struct Image {
+    std::string map, about, path, sample_type;
+    int channels;
+    std::optional<std::pair<double, double>> range;  // what 0 and 1 of integers stand for
+  };
+  std::string input, target;
+  int width, height, samples;
+  std::string convention;
+  long triangles;
+  std::vector<Image> images;
+  double seconds;
+};
+
+std::string to_json(const BakeReport& report);
+
+}  // namespace sphparam::tools

@@ -1,0 +1,284 @@
+// `sphparam export`: a mapped mesh → its chart → vertex buffers and images → files that were read
+// back before they get their names.
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "cli/exit_codes.h"
+#include "cli/export_arguments.h"
+#include "cli/export_look.h"
+#include "cli/export_report.h"
+#include "cli/interruption.h"
+#include "cli/mapped_source.h"
+#include "cli/paths.h"
+#include "cli/wording.h"
+#include "gltf/gltf_writer.h"
+#include "gltf/image_kind.h"
+#include "gltf/written_check.h"
+#include "mesh_io/mesh_writer.h"
+#include "mesh_io/safe_file.h"
+#include "remesh/remesh.h"
+#include "sphparam/stopwatch.h"
+#include "sphparam/version.h"
+
+namespace sphparam::tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+Up up_of(const ExportArguments& arguments, const MeshFile& file) {
+  if (arguments.up != UpAxis::Automatic) return arguments.up == UpAxis::Y ? Up::Y : Up::Z;
+  return file.format.starts_with("glTF") ? Up::Y : Up::Z;
+}
+
+GeometryOptions geometry_options(const ExportArguments& arguments, const MeshFile& file,
+                                 const ExportLook& look) {
+  GeometryOptions options{.shape = arguments.shape,
+                          .morph = arguments.morph,
+                          .up = up_of(arguments, file),
+                          .threads = arguments.threads};
+  options.buffers = {.uv = {.sixteen_bits = arguments.quantise && !arguments.keep_topology},
+                     .tangents = arguments.tangents || look.has_normals(),
+                     .colours = look.vertex_colours,
+                     .theta_phi = arguments.theta_phi,
+                     .position_lo = arguments.shape == ShapeKind::Sphere,
+                     .source_texcoords = arguments.source_uv};
+  return options;
+}
+
+ExportChartOptions chart_options(const ExportArguments& arguments) {
+  return {.convention = arguments.convention,
+          .refine_poles = arguments.refine_poles,
+          .keep_topology = arguments.keep_topology,
+          .threads = arguments.threads};
+}
+
+/// Throws NotCertifiedError where a chart that should be one-to-one is not.
+ExportChart make_chart(const ExportArguments& arguments, const MeshFile& file,
+                       const SphereMap& map) {
+  ExportChart chart = export_chart(file.mesh, Topology(file.mesh, arguments.threads), map,
+                                   chart_options(arguments));
+  if (!arguments.keep_topology && !chart.chart.certificate.one_to_one()) {
+    throw NotCertifiedError(
+        display_name(arguments.input) +
+        ": its map is one-to-one, but thinner in (u, v) than doubles can tell: " +
+        std::to_string(chart.chart.certificate.folded.size()) + " triangles fold there");
+  }
+  return chart;
+}
+
+/// What is told of one exported mesh.
+void tell_geometry(const ExportArguments& arguments, const ExportChart& chart,
+                   const ExportGeometry& geometry, Console& console) {
+  const auto& counts = chart.chart.counts;
+  console.detail("  chart: " + std::to_string(counts.splits()) + " splits, " +
+                 std::to_string(chart.chart.triangles.rows()) + " triangles, " +
+                 std::to_string(geometry.surface.vertex_count()) + " vertices");
+  const std::vector<Face>& folded = geometry.stored.folded;
+  if (folded.empty()) return;
+  std::string line = "  " + std::to_string(folded.size()) + " of " +
+                     std::to_string(chart.chart.triangles.rows()) + " triangles fold in (u, v) ";
+  line += arguments.keep_topology ? "as no vertex may be added:"
+                                  : "as stored, being smaller than its rounding:";
+  constexpr size_t most_listed = 10;
+  for (size_t i = 0; i < std::min(folded.size(), most_listed); ++i)
+    line += " " + std::to_string(folded[i]);
+  if (folded.size() > most_listed) line += " …";
+  arguments.keep_topology ? console.warning(line.substr(2)) : console.detail(line);
+}
+
+std::vector<std::pair<std::string, std::string>> provenance_extras(const ExportArguments& arguments,
+                                                                   const MappedSource& mapped) {
+  std::vector<std::pair<std::string, std::string>> extras = {
+      {"source", display_name(arguments.input)}};
+  for (const auto& [key, value] : mapped.provenance) extras.emplace_back("map_" + key, value);
+  return extras;
+}
+
+/// The path of a level's file: {n} becomes its number, else _lodN is added from the second on.
+std::string level_path(const std::string& path, int level) {
+  const std::string number = std::to_string(level);
+  if (const size_t at = path.find("{n}"); at != std::string::npos)
+    return path.substr(0, at) + number + path.substr(at + 3);
+  if (level == 0) return path;
+  const fs::path whole(path);
+  return (whole.parent_path() /
+          (whole.stem().string() + "_lod" + number + whole.extension().string()))
+      .string();
+}
+
+/// Everything of one run on its way to the disk.
+class Exporter {
+ public:
+  Exporter(const ExportArguments& arguments, Console& console)
+      : arguments_(arguments), console_(console) {}
+
+  void run() {
+    mapped_ = read_mapped_source(arguments_.input, arguments_.sphere, arguments_.threads, console_);
+    console_.progress("images", 0);
+    look_ = make_export_look(arguments_, mapped_, console_);
+    is_text() ? write_text() : write_gltf_files();
+    if (!arguments_.json.empty()) files_.add(arguments_.json, to_json(report_));
+    if (interrupted()) throw Cancelled();
+    files_.publish();
+    console_.clear_progress();
+  }
+
+  const ExportReport& report() const { return report_; }
+
+ private:
+  bool is_text() const {
+    const std::string extension = extension_of(arguments_.output);
+    return extension == ".obj" || extension == ".ply";
+  }
+
+  Asset new_asset() const {
+    Asset asset{.name = asset_name(),
+                .levels = {},
+                .images = look_.images,
+                .materials = look_.materials,
+                .extras = provenance_extras(arguments_, mapped_)};
+    return asset;
+  }
+
+  std::string asset_name() const {
+    return is_stream(arguments_.input) ? "mesh"
+                                       : fs::path(arguments_.input).filename().stem().string();
+  }
+
+  Surface add_level(const MeshFile& file, const SphereMap& map, Asset& asset) {
+    console_.progress("chart", 0);
+    const ExportChart chart = make_chart(arguments_, file, map);
+    ExportGeometry geometry =
+        export_geometry(chart, file, geometry_options(arguments_, file, look_));
+    tell_geometry(arguments_, chart, geometry, console_);
+    if (asset.levels.empty()) {
+      for (auto& extra : chart_extras(chart, geometry, chart_options(arguments_)))
+        asset.extras.push_back(std::move(extra));
+    }
+    report_.add_level(chart, geometry);
+    return std::move(geometry.surface);
+  }
+
+  void write_gltf_files() {
+    Asset asset = new_asset();
+    asset.levels.push_back(add_level(mapped_.source.file, mapped_.map, asset));
+    if (arguments_.lod_style == LodStyle::Msft) {
+      for (int level = 1; level <= arguments_.lods; ++level) {
+        const Remeshed coarse = coarser(level);
+        asset.levels.push_back(add_level(coarse.file, coarse.map, asset));
+      }
+    }
+    add_files(asset, level_path(arguments_.output, 0));
+    if (arguments_.lod_style == LodStyle::Msft) return;
+    for (int level = 1; level <= arguments_.lods; ++level) {
+      const Remeshed coarse = coarser(level);
+      Asset next = new_asset();
+      next.levels.push_back(add_level(coarse.file, coarse.map, next));
+      add_files(next, level_path(arguments_.output, level));
+    }
+  }
+
+  /// The mesh on an icosahedron's grid, each edge cut in N: 10·N² + 2 vertices, a quarter from
+  /// level to level.
+  Remeshed coarser(int level) const {
+    console_.progress("level " + std::to_string(level), 0);
+    const double vertices = static_cast<double>(mapped_.map.points.rows()) / std::pow(4, level);
+    const int size = std::max(1, static_cast<int>(std::lround(std::sqrt(vertices / 10))));
+    return remesh(mapped_.source.file, mapped_.map,
+                  make_grid({GridKind::IcosahedronCut, size}, {.threads = arguments_.threads}),
+                  {.sample = SampleMode::Cell,
+                   .transfer = look_.vertex_colours ? std::vector<std::string>{"color"}
+                                                    : std::vector<std::string>{},
+                   .threads = arguments_.threads});
+  }
+
+  void add_files(const Asset& asset, const std::string& path) {
+    console_.progress("write", 0);
+    const bool is_binary = is_stream(path) || extension_of(path) == ".glb";
+    const GltfOptions options{.container = is_binary             ? GltfContainer::Binary
+                                           : arguments_.embedded ? GltfContainer::Embedded
+                                                                 : GltfContainer::Separate,
+                              .stem = fs::path(path).stem().string(),
+                              .quantise = arguments_.quantise,
+                              .compress = arguments_.compress};
+    GltfFiles written = write_gltf(asset, options);
+    const bool readable = !options.compress;
+    if (!is_binary && readable)
+      check_written(glb_bytes(asset, options), output_name(path), asset, options);
+    for (auto& [name, bytes] : written) {
+      const std::string target =
+          name.empty() ? path : (fs::path(path).parent_path() / name).string();
+      require_not_input(arguments_.input, target, "-o");
+      report_.outputs.emplace_back(target, bytes.size());
+      const bool checked = name.empty() && is_binary && readable;
+      files_.add(target, std::move(bytes), [&](std::string_view on_disk) {
+        if (checked) check_written(on_disk, output_name(path), asset, options);
+      });
+    }
+  }
+
+  void write_text() {
+    const MeshFile& file = mapped_.source.file;
+    const ExportChart chart = make_chart(arguments_, file, mapped_.map);
+    MeshFile textured = textured_mesh(chart, file, arguments_.shape, arguments_.threads);
+    const std::string path = arguments_.output, stem = fs::path(path).stem().string();
+    const AssetImage& image = look_.images.front();
+    const std::string image_name = stem + "_" + image.name + image_kind(image.bytes).extension;
+    if (extension_of(path) == ".obj") {
+      add(path, obj_with_library(textured, stem + ".mtl"));
+      add(beside(path, stem + ".mtl"), material_library(image_name));
+    } else {
+      textured.comments.push_back("TextureFile " + image_name);
+      add(path, serialise_ply(textured));
+    }
+    add(beside(path, image_name), image.bytes);
+    report_.add_level(chart, {});
+  }
+
+  static std::string beside(const std::string& path, const std::string& name) {
+    return (fs::path(path).parent_path() / name).string();
+  }
+
+  void add(const std::string& path, std::string bytes) {
+    require_not_input(arguments_.input, path, "-o");
+    report_.outputs.emplace_back(path, bytes.size());
+    files_.add(path, std::move(bytes));
+  }
+
+  const ExportArguments& arguments_;
+  Console& console_;
+  MappedSource mapped_;
+  ExportLook look_;
+  ExportReport report_;
+  PendingFiles files_;
+};
+
+int run_export(const ExportArguments& arguments) {
+  const Stopwatch stopwatch;
+  check_export_arguments(arguments);
+  Console console(arguments.loudness.verbosity(), arguments.progress);
+  const OrderlyInterruption orderly;
+  Exporter exporter(arguments, console);
+  exporter.run();
+  console.say(display_name(arguments.input) + ": " + short_number(stopwatch.seconds()) + " s → " +
+              output_name(arguments.output));
+  return Ok;
+}
+
+}  // namespace
+
+Command declare_export(CLI::App& program) {
+  const auto arguments = std::make_shared<ExportArguments>();
+  CLI::App* command = declare_export_arguments(program, *arguments);
+  return {command, [arguments] { return run_export(*arguments); }};
+}
+
+}  // namespace sphparam::tools

@@ -1,0 +1,175 @@
+// `sphparam remesh`: a mapped mesh → a grid of the sphere → the mesh on that grid, whose map the
+// grid's directions are. What was written is read back and certified before it gets its name.
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "cli/exit_codes.h"
+#include "cli/interruption.h"
+#include "cli/like_grid.h"
+#include "cli/mapped_source.h"
+#include "cli/paths.h"
+#include "cli/remesh_arguments.h"
+#include "cli/wording.h"
+#include "mesh_io/mesh_reader.h"
+#include "mesh_io/mesh_writer.h"
+#include "mesh_io/safe_file.h"
+#include "mesh_io/sphere_file.h"
+#include "remesh/polygon_ply.h"
+#include "remesh/sample_table.h"
+#include "sphparam/mesh/topology.h"
+#include "sphparam/sphere/certificate.h"
+#include "sphparam/stopwatch.h"
+#include "sphparam/version.h"
+
+namespace sphparam::tools {
+
+namespace {
+
+constexpr std::string_view like_prefix = "like:";
+
+/// What we wrote may be larger than what strangers may send.
+constexpr ReadOptions own_file = {.max_file_bytes = std::numeric_limits<std::uint64_t>::max(),
+                                  .max_line_bytes = std::numeric_limits<std::int64_t>::max(),
+                                  .max_ply_properties = std::numeric_limits<std::int64_t>::max()};
+
+std::string extension_of(const std::string& path) {
+  return is_stream(path) ? ".ply" : std::filesystem::path(path).extension().string();
+}
+
+std::optional<GridSpec> grid_asked_for(const RemeshArguments& arguments) {
+  if (arguments.grid.starts_with(like_prefix)) return std::nullopt;
+  try {
+    return parse_grid(arguments.grid);
+  } catch (const std::invalid_argument& error) {
+    throw UsageMistake("--grid " + arguments.grid + ": " + error.what());
+  }
+}
+
+void check_outputs(const RemeshArguments& arguments) {
+  const std::string kind = extension_of(arguments.output);
+  if (!arguments.output.empty() && kind != ".ply" && kind != ".obj") {
+    throw UsageMistake("-o: the new mesh is written as .ply or .obj, not as " +
+                       output_name(arguments.output));
+  }
+  if (arguments.output.empty() && arguments.csv.empty()) {
+    throw UsageMistake("nothing to write: give -o or --csv");
+  }
+  for (const auto& [option, path] :
+       {std::pair("-o", arguments.output), {"--csv", arguments.csv}, {"--json", arguments.json}}) {
+    require_not_input(arguments.input, path, option);
+    if (!arguments.sphere.empty()) require_not_input(arguments.sphere, path, option);
+  }
+}
+
+SphereGrid grid_for(const RemeshArguments& arguments, const std::optional<GridSpec>& spec) {
+  if (spec) return make_grid(*spec, {.threads = arguments.threads});
+  return read_like_grid(arguments.grid.substr(like_prefix.size()), arguments.threads);
+}
+
+std::vector<std::string> words_of(const std::string& list) { return CLI::detail::split(list, ','); }
+
+Remeshed remesh_source(const MappedSource& mapped, SphereGrid grid,
+                       const RemeshArguments& arguments, Console& console) {
+  try {
+    return remesh(
+        mapped.source.file, mapped.map, std::move(grid),
+        {.sample = arguments.sample,
+         .transfer = words_of(arguments.transfer),
+         .threads = arguments.threads,
+         .progress = [&](std::string_view stage, double f) { return console.progress(stage, f); }});
+  } catch (const std::invalid_argument& error) {
+    throw UsageMistake("--transfer: " + std::string(error.what()));
+  }
+}
+
+/// Throws NotCertifiedError unless the grid is one, with the triangles of this mesh.
+void require_certified(const TriangleMesh& mesh, const SphereMap& map, const std::string& what,
+                       int threads) {
+  const Certificate certificate = certify(Topology(mesh, threads), map, threads);
+  if (!certificate.bijective()) {
+    throw NotCertifiedError(what + ": the map is " + verdict(certificate));
+  }
+}
+
+Provenance provenance(const RemeshArguments& arguments, const MappedSource& mapped) {
+  Provenance lines = {{"version", version},
+                      {"method", "remesh"},
+                      {"grid", std::filesystem::path(arguments.grid).filename().string()},
+                      {"sample", arguments.sample == SampleMode::Cell ? "cell" : "point"}};
+  for (const auto& [key, value] : mapped.provenance) {
+    if (key == "method") lines.emplace_back("source", value);
+  }
+  lines.emplace_back("verdict", "one-to-one");
+  return lines;
+}
+
+void add_mesh(PendingFiles& files, const RemeshArguments& arguments, const MappedSource& mapped,
+              const Remeshed& result) {
+  const std::string& path = arguments.output;
+  if (extension_of(path) == ".obj") {
+    files.add(path, serialise_obj(result.file));
+    return;
+  }
+  MeshFile file = attach_map(result.file, result.map, provenance(arguments, mapped));
+  std::string bytes = file.polygons > 0 ? serialise_polygon_ply(std::move(file), result.faces)
+                                        : serialise_ply(file);
+  files.add(path, std::move(bytes), [&](std::string_view written) {
+    const MeshFile read = read_mesh(written, path, own_file);
+    require_certified(read.mesh, read_sphere(read).value(), path + ", as written",
+                      arguments.threads);
+  });
+}
+
+int run_remesh(const RemeshArguments& arguments) {
+  const Stopwatch stopwatch;
+  check_outputs(arguments);
+  const std::optional<GridSpec> spec = grid_asked_for(arguments);
+  Console console(arguments.loudness.verbosity(), arguments.progress);
+  const OrderlyInterruption orderly;
+  const MappedSource mapped =
+      read_mapped_source(arguments.input, arguments.sphere, arguments.threads, console);
+  console.progress("grid", 0);
+  const Stopwatch grid_stopwatch;
+  SphereGrid grid = grid_for(arguments, spec);
+  const double grid_seconds = grid_stopwatch.seconds();
+  const Remeshed result = remesh_source(mapped, std::move(grid), arguments, console);
+  console.progress("certify", 0);
+  require_certified(result.file.mesh, result.map, arguments.grid, arguments.threads);
+  if (interrupted()) throw Cancelled();
+  console.progress("write", 0);
+  PendingFiles files;
+  if (!arguments.output.empty()) add_mesh(files, arguments, mapped, result);
+  if (!arguments.csv.empty()) files.add(arguments.csv, sample_table(result.file, result.map));
+  if (interrupted()) throw Cancelled();
+  files.publish();
+  console.clear_progress();
+  console.detail("  grid: " + short_number(grid_seconds) +
+                 " s, location: " + short_number(result.locate_seconds) +
+                 " s, positions: " + short_number(result.transfer_seconds) + " s");
+  if (arguments.sample == SampleMode::Cell) {
+    console.detail("  means over cells at " + std::to_string(result.averaged) + " of " +
+                   std::to_string(result.map.points.rows()) + " vertices");
+  }
+  std::string line = display_name(arguments.input) + ": " + arguments.grid + ", " +
+                     std::to_string(result.map.points.rows()) +
+                     " vertices, certified one-to-one, " + short_number(stopwatch.seconds()) + " s";
+  if (!arguments.output.empty()) line += " → " + output_name(arguments.output);
+  console.say(line);
+  return Ok;
+}
+
+}  // namespace
+
+Command declare_remesh(CLI::App& program) {
+  const auto arguments = std::make_shared<RemeshArguments>();
+  CLI::App* command = declare_remesh_arguments(program, *arguments);
+  return {command, [arguments] { return run_remesh(*arguments); }};
+}
+
+}  // namespace sphparam::tools

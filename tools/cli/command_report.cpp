@@ -1,0 +1,302 @@
+// `sphparam report`: maps of a mesh → one page that needs nothing else. Maps that fold are results
+// here, not failures: to see them is what the page is for.
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bake/make_scene.h"
+#include "bake/map_kinds.h"
+#include "cli/choice.h"
+#include "cli/command.h"
+#include "cli/console.h"
+#include "cli/exit_codes.h"
+#include "cli/interruption.h"
+#include "cli/json_report.h"
+#include "cli/paths.h"
+#include "cli/repairing.h"
+#include "cli/source.h"
+#include "cli/wording.h"
+#include "image/image_codec.h"
+#include "mesh_io/connectivity.h"
+#include "mesh_io/read_options.h"
+#include "mesh_io/safe_file.h"
+#include "mesh_io/sphere_file.h"
+#include "showcase/report_page.h"
+#include "sphparam/errors.h"
+#include "sphparam/stopwatch.h"
+#include "sphparam/version.h"
+
+namespace sphparam::tools {
+
+namespace {
+
+constexpr char summary[] =
+    "One page that shows maps: models, charts, figures; it works without network.\n"
+    "\n"
+    "Examples:\n"
+    "  sphparam report statue.sph.ply -o statue.html\n"
+    "  sphparam report statue.obj -o statue.html          maps it first\n"
+    "  sphparam report one.sph.ply two.sph.ply -o both.html\n"
+    "  sphparam report statue.sph.ply sphere.obj -o both.html\n"
+    "\n"
+    "The mesh is that of the first file; a first file without a map is mapped now. The others are\n"
+    "maps of the same mesh: sx sy sz, or a sphere with its triangles, in its order. They stand "
+    "side\n"
+    "by side, charts on the same scale. Ends with 0 also where maps fold.\n";
+
+struct ReportArguments {
+  std::vector<std::string> inputs;
+  std::string sphere, texture, output, json;
+  bool no_viewer = false;
+  Vector3 up = Vector3::UnitZ();
+  int size = ReportOptions{}.image_width;
+  int threads = 0;
+  ProgressStyle progress = ProgressStyle::Auto;
+  Loudness loudness;
+};
+
+/// "statue" of "folder/statue.sph.ply"; "standard input" of "-".
+std::string stem_of(const std::string& path) {
+  if (is_stream(path)) return display_name(path);
+  std::filesystem::path name = std::filesystem::path(path).stem();
+  if (name.extension() == ".sph") name = name.stem();
+  return name.string();
+}
+
+/// Names of maps, told apart where files have the same.
+std::string new_name(const std::string& path, const std::vector<Exhibit>& exhibits) {
+  const std::string stem = stem_of(path);
+  std::string name = stem;
+  const auto taken = [&] {
+    return std::any_of(exhibits.begin(), exhibits.end(),
+                       [&](const Exhibit& other) { return other.contender.name == name; });
+  };
+  for (int i = 2; taken(); ++i) name = stem + " (" + std::to_string(i) + ")";
+  return name;
+}
+
+void require_sense(const ReportArguments& arguments) {
+  std::vector<std::string> inputs = arguments.inputs;
+  for (const std::string& more : {arguments.sphere, arguments.texture}) {
+    if (!more.empty()) inputs.push_back(more);
+  }
+  if (std::count_if(inputs.begin(), inputs.end(), is_stream) > 1) {
+    throw UsageMistake("only one file can come from standard input");
+  }
+  for (const std::string& input : inputs) {
+    require_not_input(input, arguments.output, "--output");
+    require_not_input(input, arguments.json, "--json");
+  }
+  if (is_same_place(arguments.output, arguments.json)) {
+    throw UsageMistake("--output and --json are the same file");
+  }
+}
+
+/// A map that a file holds for the mesh: sx sy sz, or else the file is a sphere of it.
+Exhibit read_exhibit(const std::string& path, const std::string& name, const MeshFile& mesh,
+                     const MeshFile& file, int threads) {
+  const SphereMap map = read_sphere(file).value_or(SphereMap{file.mesh.positions});
+  return make_exhibit(given_contender(name, display_name(path), mesh.mesh, map, threads),
+                      read_provenance(file), mesh, threads);
+}
+
+/// Throws: ReadError when its connectivity is another.
+Exhibit other_exhibit(const std::string& path, const std::string& name, const MeshFile& mesh,
+                      const std::string& mesh_path, int threads) {
+  const Source source = read_source(path);
+  const std::string difference = connectivity_difference(mesh.mesh, source.file.mesh);
+  if (!difference.empty()) {
+    throw ReadError(display_name(path),
+                    "not a map of " + display_name(mesh_path) + ": " + difference);
+  }
+  return read_exhibit(path, name, mesh, source.file, threads);
+}
+
+Exhibit new_exhibit(const std::string& name, const MeshFile& file, int threads, Console& console) {
+  ParameterizeOptions options{.threads = threads};
+  options.progress = [&](std::string_view stage, double f) { return console.progress(stage, f); };
+  Contender contender = run_contender(options.method, file.mesh, options);
+  console.clear_progress();
+  console.say(name + ": carries no map; mapped now (" + contender.name + ")");
+  Provenance lines = {{"version", version},
+                      {"method", contender.name},
+                      {"options", options_line(options)},
+                      {"verdict", verdict(contender.certificate)}};
+  contender.name = name;
+  return make_exhibit(std::move(contender), std::move(lines), file, threads);
+}
+
+Exhibit first_exhibit(const ReportArguments& arguments, const MeshFile& file, Console& console) {
+  const std::string& path = arguments.inputs.front();
+  const std::string name = new_name(path, {});
+  if (!arguments.sphere.empty()) {
+    return other_exhibit(arguments.sphere, name, file, path, arguments.threads);
+  }
+  if (!read_sphere(file)) return new_exhibit(name, file, arguments.threads, console);
+  return read_exhibit(path, name, file, file, arguments.threads);
+}
+
+std::vector<Exhibit> all_exhibits(const ReportArguments& arguments, const MeshFile& file,
+                                  Console& console) {
+  std::vector<Exhibit> exhibits;
+  exhibits.push_back(first_exhibit(arguments, file, console));
+  for (size_t i = 1; i < arguments.inputs.size(); ++i) {
+    const std::string& path = arguments.inputs[i];
+    exhibits.push_back(other_exhibit(path, new_name(path, exhibits), file, arguments.inputs.front(),
+                                     arguments.threads));
+  }
+  return exhibits;
+}
+
+/// The command as it may be shown to others: files without their folders.
+std::string command_line(const ReportArguments& arguments) {
+  std::string line = "sphparam report";
+  const auto add = [&](const std::string& option, const std::string& path) {
+    if (path.empty()) return;
+    const std::string name = std::filesystem::path(path).filename().string();
+    line += option + " " + (name.find(' ') == std::string::npos ? name : "'" + name + "'");
+  };
+  for (const std::string& input : arguments.inputs) add("", input);
+  add(" --sphere", arguments.sphere);
+  add(" --texture", arguments.texture);
+  add(" -o", arguments.output);
+  if (arguments.up == Vector3::UnitY()) line += " --up y";
+  if (arguments.size != ReportOptions{}.image_width) {
+    line += " --size " + std::to_string(arguments.size);
+  }
+  if (arguments.no_viewer) line += " --no-viewer";
+  return line;
+}
+
+std::string input_line(const ReportArguments& arguments, const Source& source) {
+  const TriangleMesh& mesh = source.file.mesh;
+  return display_name(arguments.inputs.front()) + " (" + source.file.format + "), " +
+         std::to_string(mesh.vertex_count()) + " vertices, " + std::to_string(mesh.face_count()) +
+         " triangles";
+}
+
+/// A picture that cannot be read is no reason to show nothing.
+std::vector<SourceTexture> textures_of(const ReportArguments& arguments, const MeshFile& file,
+                                       Console& console) {
+  if (!arguments.texture.empty()) {
+    return {read_texture(arguments.texture, TextureWrap::Repeat, arguments.threads)};
+  }
+  try {
+    return read_textures(file, arguments.threads);
+  } catch (const ImageError& error) {
+    console.warning(std::string(error.what()) + ": shown without");
+    return {};
+  }
+}
+
+ReportOptions page_options(const ReportArguments& arguments, const Source& source,
+                           Console& console) {
+  ReportOptions options;
+  if (!arguments.no_viewer) {
+    options.viewer = installed_viewer();
+    if (!options.viewer) {
+      console.warning("the 3D viewer is not installed (" + viewer_folder() +
+                      "): the page has pictures instead");
+    }
+  }
+  const int size = options.look.size;
+  options.look = seen_with_up(arguments.up);
+  options.look.size = size;
+  options.image_width = arguments.size;
+  options.textures = textures_of(arguments, source.file, console);
+  options.threads = arguments.threads;
+  options.facts = {{"mesh", input_line(arguments, source)},
+                   {"command", command_line(arguments)},
+                   {"program", std::string("sphparam ") + version}};
+  options.progress = [&](std::string_view stage, double f) { return console.progress(stage, f); };
+  return options;
+}
+
+std::string page_of(const ReportArguments& arguments, const Source& source,
+                    const std::vector<Exhibit>& exhibits, Console& console) {
+  const std::string& mesh = arguments.inputs.front();
+  try {
+    return report_page(stem_of(mesh), source.file, exhibits,
+                       page_options(arguments, source, console));
+  } catch (const MapError& error) {  // a texture, and no coordinates for it
+    throw UsageMistake(display_name(mesh) + ": " + error.what());
+  }
+}
+
+void tell(const Exhibit& exhibit, Console& console) {
+  const Contender& contender = exhibit.contender;
+  std::string line = contender.name + ": " + short_verdict(contender);
+  if (contender.figures) line += ", " + distortion_line(*contender.figures);
+  console.say(line);
+}
+
+int run_report(const ReportArguments& arguments) {
+  const Stopwatch stopwatch;
+  require_sense(arguments);
+  Console console(arguments.loudness.verbosity(), arguments.progress);
+  const Source source = read_source(arguments.inputs.front());
+  require_mappable(source);
+  const OrderlyInterruption orderly;
+  const std::vector<Exhibit> exhibits = all_exhibits(arguments, source.file, console);
+  for (const Exhibit& exhibit : exhibits) tell(exhibit, console);
+  std::string html = page_of(arguments, source, exhibits, console);
+  console.clear_progress();
+  PendingFiles files;
+  files.add(arguments.output, std::move(html));
+  if (!arguments.json.empty()) {
+    std::vector<Contender> contenders;
+    for (const Exhibit& exhibit : exhibits) contenders.push_back(exhibit.contender);
+    files.add(arguments.json, to_json(CompareReport{.input = {arguments.inputs.front(), source},
+                                                    .contenders = contenders,
+                                                    .seconds = stopwatch.seconds()}));
+  }
+  if (interrupted()) throw Cancelled();
+  files.publish();
+  console.say("→ " + output_name(arguments.output));
+  return Ok;
+}
+
+}  // namespace
+
+Command declare_report(CLI::App& program) {
+  const auto arguments = std::make_shared<ReportArguments>();
+  CLI::App* command = program.add_subcommand("report", summary);
+  command->add_option("FILE", arguments->inputs, "A mesh or .sph.ply, and other maps of it")
+      ->type_name(" ")
+      ->required();
+  command->add_option("-o,--output", arguments->output, "The page; - for standard output")
+      ->type_name("PAGE.html")
+      ->required();
+  command->add_option("--sphere", arguments->sphere, "The first file's map, in a file of its own")
+      ->type_name("FILE");
+  command->add_option("--texture", arguments->texture, "The texture of the mesh")
+      ->type_name("IMAGE");
+  add_choice<Vector3>(*command, "--up", arguments->up,
+                      {{"z", Vector3::UnitZ()}, {"y", Vector3::UnitY()}},
+                      "The axis of the mesh that points up (default: z)");
+  command->add_option("--size", arguments->size, "Pixels, the width of textures and heat maps")
+      ->check(between(64, 8192, "64 to 8192"))
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_flag("--no-viewer", arguments->no_viewer,
+                    "Pictures instead of 3D models: a smaller page without scripts");
+  command->add_option("--json", arguments->json, "All figures, as JSON")->type_name("FILE");
+  command->add_option("--threads", arguments->threads, "How many threads (0: all cores)")
+      ->check(between(0, 4096, "0 to 4096"))
+      ->type_name("N")
+      ->capture_default_str();
+  add_choice<ProgressStyle>(
+      *command, "--progress", arguments->progress,
+      {{"auto", ProgressStyle::Auto}, {"none", ProgressStyle::None}, {"json", ProgressStyle::Json}},
+      "How far it is; auto: on a terminal (default: auto)");
+  add_loudness(*command, arguments->loudness);
+  return {command, [arguments] { return run_report(*arguments); }};
+}
+
+}  // namespace sphparam::tools

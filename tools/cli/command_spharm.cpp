@@ -1,0 +1,233 @@
+// `sphparam spharm`: the surface, and what it carries, as a sum of spherical harmonics: the shape
+// description that a map to the sphere was first made for (Brechbühler, Gerig, Kübler 1995).
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/choice.h"
+#include "cli/command.h"
+#include "cli/console.h"
+#include "cli/exit_codes.h"
+#include "cli/harmonics_report.h"
+#include "cli/interruption.h"
+#include "cli/map_arguments.h"
+#include "cli/mapped_source.h"
+#include "cli/paths.h"
+#include "cli/suggestion.h"
+#include "cli/wording.h"
+#include "mesh_io/mesh_writer.h"
+#include "mesh_io/safe_file.h"
+#include "sphparam/errors.h"
+#include "sphparam/mesh/topology.h"
+#include "sphparam/stopwatch.h"
+
+namespace sphparam::tools {
+
+namespace {
+
+constexpr char summary[] =
+    "Describe a surface by spherical harmonics.\n"
+    "\n"
+    "Examples:\n"
+    "  sphparam spharm brain.sph.ply --degree 20 --json brain.json\n"
+    "  sphparam spharm brain.ply --sphere brain.sphere.gii --degree 60 --reconstruct smooth.ply\n"
+    "  sphparam spharm moon.sph.ply --degree 90 --scalar gravity --csv moon.csv\n"
+    "\n"
+    "The coefficients are of x, y and z, and of the scalars named, in a real orthonormal basis.\n";
+
+struct SpharmArguments {
+  std::string input;
+  std::string sphere;  // empty: the mesh's own map; so are, not wanted:
+  std::string json;
+  std::string csv;
+  std::string reconstruction;
+  std::vector<std::string> scalars;
+  int degree = 20;
+  bool least_squares = true;
+  int threads = 0;
+  ProgressStyle progress = ProgressStyle::Auto;
+  Loudness loudness;
+};
+
+std::vector<std::string> names_of(const std::vector<Property>& properties) {
+  std::vector<std::string> names;
+  for (const Property& property : properties) names.push_back(property.name);
+  return names;
+}
+
+const Property& scalar_named(const MeshFile& file, const std::string& name) {
+  if (const Property* found = file.find_vertex_property(name)) return *found;
+  const std::string meant = nearest_word(name, names_of(file.vertex_properties));
+  throw UsageMistake("--scalar: the vertices have no property " + name +
+                     (meant.empty() ? "" : "; did you mean " + meant + "?"));
+}
+
+/// x, y, z and the scalars, one a column.
+Functions functions_of(const MeshFile& file, const std::vector<std::string>& scalars) {
+  Functions values(file.mesh.vertex_count(), 3 + static_cast<Eigen::Index>(scalars.size()));
+  values.leftCols(3) = file.mesh.positions;
+  for (size_t k = 0; k < scalars.size(); ++k) {
+    const Property& property = scalar_named(file, scalars[k]);
+    values.col(3 + static_cast<Eigen::Index>(k)) =
+        Eigen::Map<const Eigen::VectorXd>(property.values.data(), file.mesh.vertex_count());
+  }
+  return values;
+}
+
+double diagonal(const Points& points) {
+  return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+}
+
+HarmonicsReport expand(const SpharmArguments& arguments, const MappedSource& mapped,
+                       Console& console) {
+  const MeshFile& file = mapped.source.file;
+  HarmonicsReport report = {.mesh = arguments.input,
+                            .map = mapped.provenance,
+                            .functions = {"x", "y", "z"},
+                            .least_squares = arguments.least_squares,
+                            .fit = {},
+                            .diagonal = diagonal(file.mesh.positions)};
+  report.functions.insert(report.functions.end(), arguments.scalars.begin(),
+                          arguments.scalars.end());
+  report.fit = fit_harmonics(
+      Topology(file.mesh), mapped.map, functions_of(file, arguments.scalars),
+      {.degree = arguments.degree,
+       .least_squares = arguments.least_squares,
+       .threads = arguments.threads,
+       .progress = [&](std::string_view stage, double f) { return console.progress(stage, f); }});
+  console.clear_progress();
+  return report;
+}
+
+/// The mesh with the positions and scalars that the harmonics have at its vertices.
+MeshFile reconstruct(const SpharmArguments& arguments, MappedSource mapped,
+                     const HarmonicsReport& report) {
+  MeshFile file = std::move(mapped.source.file);
+  const Functions values =
+      synthesise(report.fit.coefficients, mapped.map.points, arguments.threads);
+  file.mesh.positions = values.leftCols(3);
+  file.position_type = ScalarType::Float64;
+  file.corner_normals.reset();
+  remove_properties(file.vertex_properties, {"nx", "ny", "nz"});
+  for (size_t k = 0; k < arguments.scalars.size(); ++k) {
+    const Eigen::VectorXd column = values.col(3 + static_cast<Eigen::Index>(k));
+    file.set_vertex_property({arguments.scalars[k], ScalarType::Float64,
+                              std::vector<double>(column.begin(), column.end())});
+  }
+  Provenance lines = std::move(mapped.provenance);
+  lines.emplace_back("harmonics", std::to_string(arguments.degree));
+  return attach_map(std::move(file), mapped.map, lines);
+}
+
+void require_sensible(const SpharmArguments& arguments) {
+  const std::pair<const char*, const std::string&> outputs[] = {
+      {"--json", arguments.json},
+      {"--csv", arguments.csv},
+      {"--reconstruct", arguments.reconstruction}};
+  for (const auto& [option, path] : outputs) {
+    require_not_input(arguments.input, path, option);
+    require_not_input(arguments.sphere, path, option);
+    for (const auto& [other, place] : outputs) {
+      if (other != option && is_same_place(path, place)) {
+        throw UsageMistake(std::string(option) + " and " + other + " name the same file");
+      }
+    }
+  }
+  const std::string& mesh = arguments.reconstruction;
+  if (!mesh.empty() && !is_stream(mesh) && (!serialiser(mesh) || extension_of(mesh) == ".gii")) {
+    throw UsageMistake("--reconstruct: the name must end in .ply, .obj or .off");
+  }
+}
+
+void tell(const HarmonicsReport& report, const Stopwatch& stopwatch, Console& console) {
+  std::string line = display_name(report.mesh) + ": degree " + std::to_string(report.degree()) +
+                     ", RMS distance at the vertices " + short_number(report.position_rms()) +
+                     " (" + short_number(100 * report.position_rms() / report.diagonal) +
+                     " % of the diagonal), " + short_number(stopwatch.seconds()) + " s";
+  console.say(line);
+  if (report.degree() >= 1) {
+    const Vector3 axes = first_order_ellipsoid(report.fit.coefficients.leftCols(3));
+    console.say("  first-order ellipsoid: semi-axes " + short_number(axes[0], 6) + ", " +
+                short_number(axes[1], 6) + ", " + short_number(axes[2], 6));
+  }
+  for (size_t k = 3; k < report.functions.size(); ++k) {
+    console.say("  " + report.functions[k] + ": RMS residual " +
+                short_number(report.fit.rms[static_cast<Eigen::Index>(k)]));
+  }
+  console.detail("  " + std::to_string(report.fit.iterations) + " iterations");
+}
+
+int run_spharm(const SpharmArguments& arguments) {
+  require_sensible(arguments);
+  const Stopwatch stopwatch;
+  Console console(arguments.loudness.verbosity(), arguments.progress);
+  const OrderlyInterruption orderly;
+  MappedSource mapped =
+      read_mapped_source(arguments.input, arguments.sphere, arguments.threads, console);
+  const HarmonicsReport report = expand(arguments, mapped, console);
+  PendingFiles files;
+  if (!arguments.json.empty()) files.add(arguments.json, to_json(report));
+  if (!arguments.csv.empty()) files.add(arguments.csv, to_csv(report));
+  if (!arguments.reconstruction.empty()) {
+    const Serialiser serialise =
+        is_stream(arguments.reconstruction) ? serialise_ply : serialiser(arguments.reconstruction);
+    files.add(arguments.reconstruction,
+              serialise(reconstruct(arguments, std::move(mapped), report)));
+  }
+  if (interrupted()) throw Cancelled();
+  files.publish();
+  tell(report, stopwatch, console);
+  return Ok;
+}
+
+void add_options(CLI::App& command, SpharmArguments& arguments) {
+  command
+      .add_option("MESH", arguments.input,
+                  "A .sph.ply, or any mesh: it is mapped first; - for standard input")
+      ->type_name(" ")
+      ->required();
+  command.add_option("--sphere", arguments.sphere, "Another map of the mesh: a sphere mesh")
+      ->type_name("FILE");
+  command.add_option("--degree", arguments.degree, "Greatest degree, 0 to 1000")
+      ->check(CLI::Range(0, greatest_harmonic_degree))
+      ->type_name("L")
+      ->capture_default_str();
+  command.add_option("--scalar", arguments.scalars, "A property of the vertices; may be repeated")
+      ->type_name("NAME")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_choice<bool>(command, "--fit", arguments.least_squares,
+                   {{"least-squares", true}, {"quadrature", false}},
+                   "At the vertices, or the integral over the sphere (default: least-squares)");
+  command.add_option("--json", arguments.json, "Coefficients and figures; - for standard output")
+      ->type_name("FILE");
+  command.add_option("--csv", arguments.csv, "Coefficients, a line each; - for standard output")
+      ->type_name("FILE");
+  command
+      .add_option("--reconstruct", arguments.reconstruction,
+                  "The mesh as the harmonics have it: .ply, .obj or .off")
+      ->type_name("FILE");
+  command.add_option("--threads", arguments.threads, "How many threads (0: all cores); same bytes")
+      ->check(CLI::Range(0, 4096))
+      ->type_name("N")
+      ->capture_default_str();
+  add_choice<ProgressStyle>(
+      command, "--progress", arguments.progress,
+      {{"auto", ProgressStyle::Auto}, {"none", ProgressStyle::None}, {"json", ProgressStyle::Json}},
+      "How far it is; auto: on a terminal (default: auto)");
+  add_loudness(command, arguments.loudness);
+}
+
+}  // namespace
+
+Command declare_spharm(CLI::App& program) {
+  const auto arguments = std::make_shared<SpharmArguments>();
+  CLI::App* command = program.add_subcommand("spharm", summary);
+  add_options(*command, *arguments);
+  return {command, [arguments] { return run_spharm(*arguments); }};
+}
+
+}  // namespace sphparam::tools

@@ -1,0 +1,152 @@
+// Images given are embedded as they are; test images are drawn in the convention asked for; what is
+// baked comes in u = θ/2π and has its columns moved, by quarters of the width.
+
+#include "cli/export_look.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "bake/make_scene.h"
+#include "cli/suggestion.h"
+#include "gltf/material_images.h"
+#include "gltf/variant_images.h"
+#include "render/shading_normals.h"
+#include "showcase/surfaces.h"
+
+namespace sphparam::tools {
+
+namespace {
+
+BakedImages images_given(const ExportArguments& arguments) {
+  BakedImages images;
+  if (!arguments.textures.empty()) images = find_baked_images(arguments.textures);
+  if (!arguments.texture.empty()) images.base_colour = arguments.texture;
+  if (!arguments.normal.empty()) images.normal = arguments.normal;
+  if (!arguments.occlusion.empty()) images.occlusion = arguments.occlusion;
+  return images;
+}
+
+void require_known(const std::vector<std::string>& names) {
+  const std::vector<std::string>& words = export_variants();
+  for (const std::string& name : names) {
+    if (std::ranges::find(words, name) != words.end()) continue;
+    std::string all;
+    for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
+    const std::string meant = nearest_word(name, words);
+    throw UsageMistake("--variants: no " + name + " among " + all +
+                       (meant.empty() ? "" : "; did you mean " + meant + "?"));
+  }
+}
+
+bool has_colours(const MeshFile& file) {
+  return file.find_vertex_property("red") && file.find_vertex_property("green") &&
+         file.find_vertex_property("blue");
+}
+
+class LookMaker {
+ public:
+  LookMaker(const ExportArguments& arguments, const MappedSource& mapped, Console& console)
+      : arguments_(arguments), mapped_(mapped), console_(console) {}
+
+  ExportLook make() {
+    require_known(arguments_.variants);
+    const BakedImages given = images_given(arguments_);
+    choose_base_colour(given.base_colour);
+    if (!arguments_.unlit) {
+      material_.normal = add_file(given.normal, "normal");
+      material_.occlusion = add_file(given.occlusion, "occlusion");
+    }
+    look_.materials.push_back(material_);
+    for (const std::string& name : arguments_.variants) add_variant(name);
+    return std::move(look_);
+  }
+
+ private:
+  int add(AssetImage image) {
+    look_.images.push_back(std::move(image));
+    return static_cast<int>(look_.images.size()) - 1;
+  }
+
+  int add_file(const std::string& path, const std::string& name) {
+    return path.empty() ? -1 : add(read_asset_image(path, name));
+  }
+
+  void choose_base_colour(const std::string& given) {
+    const MeshFile& file = mapped_.source.file;
+    material_.unlit = arguments_.unlit;
+    material_.name = "baked";
+    if (!given.empty()) {
+      material_.base_colour = add_file(given, "basecolor");
+      return;
+    }
+    textures_ = read_textures(file, arguments_.threads);
+    // Vertex colours would tint all variants: where there are some, they are baked too.
+    if (!textures_.empty() || (has_colours(file) && !arguments_.variants.empty())) {
+      material_.base_colour = add(baked("baked"));
+    } else if (has_colours(file)) {
+      material_.name = "colours";
+      material_.base_colour = add(white_asset_image());
+      look_.vertex_colours = true;
+    } else {
+      material_.name = "checker";
+      material_.base_colour = add(drawn(TestImage::Checker));
+    }
+  }
+
+  void add_variant(const std::string& name) {
+    for (const Material& there : look_.materials) {
+      if (there.name == name) return;
+    }
+    Material variant = material_;
+    variant.name = name;
+    const std::optional<TestImage> test = test_image_named(name);
+    variant.base_colour = add(test ? drawn(*test) : baked(name));
+    look_.materials.push_back(variant);
+  }
+
+  AssetImage drawn(TestImage image) const {
+    return test_asset_image(image, arguments_.image_width, arguments_.convention,
+                            arguments_.threads);
+  }
+
+  /// "baked", "area" or "angle".
+  AssetImage baked(const std::string& name) {
+    if (surfaces_.empty()) bake_surfaces();
+    const auto found = std::ranges::find(surfaces_, name, &PaintedSurface::name);
+    return as_png(name, in_convention(found->image, arguments_.convention));
+  }
+
+  void bake_surfaces() {
+    console_.progress("bake", 0);
+    const MeshFile& file = mapped_.source.file;
+    const Topology topology(file.mesh);
+    const BakeScene scene{
+        .source = {file, mapped_.map, topology, shading_normals(file), textures_},
+        .target = make_target(file, topology, mapped_.map, true, arguments_.threads),
+        .options = {.heat = true},
+        .threads = arguments_.threads};
+    surfaces_ = painted_surfaces(scene, arguments_.image_width);
+  }
+
+  const ExportArguments& arguments_;
+  const MappedSource& mapped_;
+  Console& console_;
+  ExportLook look_;
+  Material material_;
+  std::vector<SourceTexture> textures_;
+  std::vector<PaintedSurface> surfaces_;
+};
+
+}  // namespace
+
+const std::vector<std::string>& export_variants() {
+  static const std::vector<std::string> words = {"axes", "checker", "graticule", "area", "angle"};
+  return words;
+}
+
+ExportLook make_export_look(const ExportArguments& arguments, const MappedSource& mapped,
+                            Console& console) {
+  return LookMaker(arguments, mapped, console).make();
+}
+
+}  // namespace sphparam::tools

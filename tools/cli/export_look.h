@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "cli/export_arguments.h"
+#include "cli/mapped_source.h"
+#include "gltf/asset.h"
+
+namespace sphparam::tools {
+
+/// The images of an export and the materials made of them, the one that is seen first.
+struct ExportLook {
+  std::vector<AssetImage> images;
+  std::vector<Material> materials;
+  bool vertex_colours = false;  // what is seen are the colours of the vertices
+
+  bool has_normals() const { return !materials.empty() && materials.front().normal >= 0; }
+};
+
+/// What is seen: the images that the arguments name; else the mesh's own textures, baked; else the
+/// colours of its vertices; else a checker. The variants asked for follow.
+/// Throws: UsageMistake for unknown variants; ImageError; ReadError; Cancelled.
+ExportLook make_export_look(const ExportArguments& arguments, const MappedSource& mapped,
+                            Console& console);
+
+/// The words of --variants.
+const std::vector<std::string>& export_variants();
+
+}  // namespace sphparam::tools

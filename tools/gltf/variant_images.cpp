@@ -1,0 +1,41 @@
+#include "gltf/variant_images.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "image/image_codec.h"
+
+namespace sphparam::tools {
+
+AssetImage as_png(const std::string& name, const Image& image) {
+  const std::vector<char> png = encode_image(image, ImageFormat::Png);
+  return {name, {png.begin(), png.end()}};
+}
+
+AssetImage test_asset_image(TestImage image, int width, Convention convention, int threads) {
+  return as_png(name_of(image), make_test_image(image, width, convention, threads));
+}
+
+AssetImage white_asset_image() {
+  Image white(1, 1, 3);
+  white.pixels.assign(3, 1.0F);
+  return as_png("white", white);
+}
+
+Image in_convention(const Image& image, Convention convention) {
+  const ConventionInfo& info = info_of(convention);
+  const int width = image.width;
+  const int shift = static_cast<int>(std::lround(info.offset * width));
+  Image moved(width, image.height, image.channels);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      // Centres go to centres: mirrored, column x is that of u = 1 − (x + ½)/W.
+      const int column = ((info.turns > 0 ? x : width - 1 - x) + shift) % width;
+      std::copy_n(image.pixel(x, y), image.channels, moved.pixel(column, y));
+    }
+  }
+  return moved;
+}
+
+}  // namespace sphparam::tools

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "image/image_codec.h"
+
+namespace sphparam::tools {
+
+/// Writes bytes at a place of a file, which may lie before its end.
+using WriteAt = std::function<void(std::int64_t offset, std::string_view bytes)>;
+
+struct ImageFileOptions {
+  int width, height, channels;
+  ImageFormat format = ImageFormat::Png;
+  SampleType sample_type = SampleType::Uint8;
+  bool tiles = false;  // EXR only: tiled, with all levels down to one texel
+  std::vector<std::pair<std::string, std::string>> metadata = {};  // text, name and value
+};
+
+/// The format of a file name: .png .jpg .jpeg .tif .tiff .exr; nothing for others.
+std::optional<ImageFormat> image_format_of(const std::string& path);
+
+/// The sample types a format has, the usual one first.
+const std::vector<SampleType>& sample_types_of(ImageFormat format);
+int most_channels(ImageFormat format);
+const char* name_of(SampleType type);
+const char* name_of(ImageFormat format);
+
+/// An image file that is written row by row from the top, so that no more than some rows are ever
+/// in memory. Same bytes for the same rows; dates are SOURCE_DATE_EPOCH, or 1970.
+class ImageWriter {
+ public:
+  /// Throws: ImageError, for what the format cannot hold.
+  ImageWriter(const ImageFileOptions& options, WriteAt file);
+  ~ImageWriter();
+  ImageWriter(const ImageWriter&) = delete;
+  ImageWriter& operator=(const ImageWriter&) = delete;
+
+  static constexpr int tile_size = 64;
+
+  /// The next rows, interleaved: std::uint8_t or std::uint16_t, else float. Of files with tiles, a
+  /// multiple of `tile_size` of them, but at the end.
+  void write_rows(const void* samples, int rows);
+  /// The next level of a file with tiles, each half as wide and high, rounded down.
+  void begin_level(int width, int height);
+  /// Throws: ImageError. A file that is not closed is none.
+  void close();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace sphparam::tools

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bake/bake_scene.h"
+#include "compare/contender.h"
+#include "mesh_io/mesh_file.h"
+#include "mesh_io/sphere_file.h"
+
+namespace sphparam::tools {
+
+/// One map of a mesh with all that a page shows of it.
+struct Exhibit {
+  Contender contender;
+  Provenance provenance;             // of the file, or of the map that was made here
+  std::optional<BakeTarget> target;  // the chart of a map that is one-to-one
+  std::optional<double> chart_seconds;
+
+  const SphericalChart* chart() const { return target ? &target->chart : nullptr; }
+};
+
+/// Makes the chart, where there can be one.
+Exhibit make_exhibit(Contender contender, Provenance provenance, const MeshFile& file,
+                     int threads = 0);
+
+}  // namespace sphparam::tools

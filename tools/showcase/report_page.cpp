@@ -1,0 +1,232 @@
+#include "showcase/report_page.h"
+
+#include <algorithm>
+
+#include "bake/bake_scene.h"
+#include "gltf/uri.h"
+#include "render/heat.h"
+#include "render/shading_normals.h"
+#include "report/charts.h"
+#include "report/svg.h"
+#include "showcase/model.h"
+#include "showcase/surfaces.h"
+#include "showcase/tables.h"
+#include "sphparam/errors.h"
+
+// What is largest comes first on the page and last to be thought of: models and images are made map
+// by map, each from one baked scene; then the page is written from top to bottom.
+
+namespace sphparam::tools {
+namespace {
+
+constexpr int panel_width = 300, heat_width = 420;  // least, on the page, in pixels
+
+/// What is made of one map.
+struct Shown {
+  ViewedModel model;
+  std::vector<ViewedSurface> surfaces;
+  std::vector<PageFigure> heat_maps;
+};
+
+class Reporter {
+ public:
+  Reporter(const std::string& name, const MeshFile& file, const std::vector<Exhibit>& exhibits,
+           const ReportOptions& options)
+      : name_(name), file_(file), exhibits_(exhibits), options_(options) {}
+
+  std::string html() {
+    Page page("Spherical map" + std::string(many() ? "s" : "") + " of " + name_);
+    lead(page);
+    views(page);
+    charts(page);
+    tables(page);
+    provenance(page);
+    return page.html();
+  }
+
+ private:
+  bool many() const { return exhibits_.size() > 1; }
+
+  // --- the top of the page ---
+
+  void lead(Page& page) {
+    const Contender& first = exhibits_.front().contender;
+    const std::string size = grouped(file_.mesh.face_count()) + " triangles, " +
+                             grouped(file_.mesh.vertex_count()) + " vertices";
+    if (many()) {
+      page.paragraph(std::to_string(exhibits_.size()) + " maps of one mesh of " + size +
+                     ", side by side. All charts have the same scale.");
+      return;
+    }
+    const bool good = first.certificate.bijective();
+    page.verdict(good ? "Certified one-to-one" : "Not one-to-one: " + short_verdict(first), good);
+    if (!first.figures) return page.paragraph(size + ".");
+    const DistortionSummary& d = *first.figures;
+    page.key_figures({{"triangles", grouped(file_.mesh.face_count())},
+                      {"vertices", grouped(file_.mesh.vertex_count())},
+                      {"mean |ln area|", significant(d.mean_abs_ln_area)},
+                      {"mean |ln angle|", significant(d.mean_abs_ln_angle)},
+                      {"areas within [½, 2]", decimal(100 * d.area_within_two, 1) + " %"}});
+  }
+
+  // --- models and images ---
+
+  std::string about(const Exhibit& exhibit) const {
+    const Contender& c = exhibit.contender;
+    std::string text = c.name + ": " + short_verdict(c);
+    if (c.figures) {
+      text += ", mean |ln area| " + significant(c.figures->mean_abs_ln_area) + ", |ln angle| " +
+              significant(c.figures->mean_abs_ln_angle);
+    }
+    return text;
+  }
+
+  PictureOptions look() const {
+    PictureOptions look = options_.look;
+    look.threads = options_.threads;
+    return look;
+  }
+
+  BakeScene scene_of(const Exhibit& exhibit) const {
+    return {.source = {file_, exhibit.contender.map, Topology(file_.mesh), shading_normals(file_),
+                       options_.textures},
+            .target = *exhibit.target,
+            .options = {.heat = true},
+            .threads = options_.threads};
+  }
+
+  PageFigure heat_figure(const Exhibit& exhibit, Heat heat, const Image& image) const {
+    const bool is_area = heat == Heat::Area;
+    const Contender& c = exhibit.contender;
+    const std::string noun = is_area ? "Area" : "Angle";
+    const double mean = is_area ? c.figures->mean_abs_ln_area : c.figures->mean_abs_ln_angle;
+    return {data_uri("image/png", png(with_legend(image, heat))),
+            noun + " distortion of " + c.name + " over the whole sphere: mean |ln ratio| " +
+                significant(mean),
+            (many() ? c.name + ": " : "") + noun + " distortion"};
+  }
+
+  Shown show(const Exhibit& exhibit) const {
+    const bool certified = exhibit.chart() && exhibit.chart()->certificate.one_to_one();
+    Shown shown;
+    shown.model.name = many() || !certified ? about(exhibit) : "";
+    if (!certified) {
+      std::vector<Face> folds = exhibit.contender.certificate.folded;
+      const std::vector<Face>& flat = exhibit.contender.certificate.degenerate;
+      folds.insert(folds.end(), flat.begin(), flat.end());
+      shown.model.alt = "The sphere of " + about(exhibit);
+      if (exhibit.contender.distortion) {
+        shown.model.picture =
+            png(sphere_picture(file_, exhibit.contender.map, shape_paint(file_, folds), look()));
+      }
+      return shown;
+    }
+    const BakeScene scene = scene_of(exhibit);
+    const std::vector<PaintedSurface> surfaces = painted_surfaces(scene, options_.image_width);
+    for (const PaintedSurface& surface : surfaces) {
+      shown.surfaces.push_back({surface.name, surface.label});
+      for (const Heat heat : {Heat::Area, Heat::Angle}) {
+        if (surface.name != (heat == Heat::Area ? "area" : "angle")) continue;
+        shown.heat_maps.push_back(heat_figure(exhibit, heat, surface.image));
+      }
+    }
+    shown.model.alt = "Model of " + name_ + " that changes from the mesh to its sphere";
+    shown.model.picture = png(mesh_picture(file_, shape_paint(file_, {}), look()));
+    if (options_.viewer) {
+      const Up up = options_.look.up == Vector3::UnitY() ? Up::Y : Up::Z;
+      shown.model.glb = showcase_model(name_, file_, *exhibit.chart(), scene.source.normals,
+                                       surfaces, up, options_.threads);
+    }
+    return shown;
+  }
+
+  void views(Page& page) {
+    std::vector<ViewedModel> models;
+    std::vector<ViewedSurface> surfaces;
+    std::vector<PageFigure> heat_maps;
+    double done = 0;
+    for (const Exhibit& exhibit : exhibits_) {
+      if (options_.progress &&
+          !options_.progress("page", done++ / static_cast<double>(exhibits_.size()))) {
+        throw Cancelled();
+      }
+      Shown shown = show(exhibit);
+      models.push_back(std::move(shown.model));
+      if (surfaces.empty()) surfaces = std::move(shown.surfaces);
+      std::move(shown.heat_maps.begin(), shown.heat_maps.end(), std::back_inserter(heat_maps));
+    }
+    add_viewer(page, models, surfaces, options_.viewer);
+    if (!options_.viewer) page.paragraph("This page was made without the 3D viewer.");
+    if (heat_maps.empty()) return;
+    page.heading("Distortion over the sphere");
+    page.paragraph(
+        "Longitude runs from left to right and the poles are above and below. Areas: blue has "
+        "shrunk, red has grown on the sphere. Angles: the factor by which they are off, from dark "
+        "to yellow.");
+    page.figures(heat_maps, heat_width);
+  }
+
+  // --- charts ---
+
+  void charts(Page& page) {
+    std::vector<ChartSeries> all;
+    for (const Exhibit& exhibit : exhibits_) {
+      const Contender& c = exhibit.contender;
+      if (c.distortion) all.push_back({many() ? c.name : "", &*c.distortion});
+    }
+    if (all.empty()) return;
+    page.heading("Polar charts and histograms");
+    page.paragraph(
+        "As the paper's figures 10 and 11: the radius is the ratio of a triangle or an angle, the "
+        "polar angle its index, and the green circle is the optimum. Beside each a zoom on the "
+        "optimal region, and how the ratios are spread.");
+    for (const ChartSeries& series : all) {
+      if (many()) page.subheading(series.label);
+      for (const ChartMeasure measure : {ChartMeasure::Area, ChartMeasure::Angle}) {
+        std::vector<ChartPanel> panels = polar_panels(measure, series, all);
+        panels.push_back(histogram_panel(measure, series, all));
+        std::vector<PageFigure> figures;
+        for (const ChartPanel& panel : panels) {
+          figures.push_back({data_uri("image/svg+xml", panel.svg),
+                             (many() ? series.label + ": " : "") + panel.title, panel.note});
+        }
+        page.figures(figures, panel_width);
+      }
+    }
+  }
+
+  // --- the rest ---
+
+  void tables(Page& page) {
+    page.heading("Figures");
+    page.table(distortion_table(exhibits_));
+    page.table(certificate_table(exhibits_));
+    if (const PageTable table = chart_table(exhibits_); !table.rows.empty()) page.table(table);
+    for (const Exhibit& exhibit : exhibits_) {
+      if (const PageTable table = timing_table(exhibit); !table.rows.empty()) page.table(table);
+    }
+  }
+
+  void provenance(Page& page) {
+    page.heading("Provenance");
+    page.facts(options_.facts);
+    const PageTable table = provenance_table(exhibits_);
+    if (!table.rows.empty()) page.table(table);
+    if (!options_.viewer) return;
+    page.folded_text("Licence of the 3D viewer, <model-viewer>", options_.viewer->licence);
+  }
+
+  const std::string& name_;
+  const MeshFile& file_;
+  const std::vector<Exhibit>& exhibits_;
+  const ReportOptions& options_;
+};
+
+}  // namespace
+
+std::string report_page(const std::string& name, const MeshFile& file,
+                        const std::vector<Exhibit>& exhibits, const ReportOptions& options) {
+  return Reporter(name, file, exhibits, options).html();
+}
+
+}  // namespace sphparam::tools

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "compare/pictures.h"
+#include "report/viewer.h"
+#include "showcase/exhibit.h"
+#include "sphparam/progress.h"
+#include "texture/source_texture.h"
+
+namespace sphparam::tools {
+
+struct ReportOptions {
+  std::optional<ViewerScript> viewer = std::nullopt;            // none: pictures only
+  PictureOptions look = {.size = 640};                          // of pictures, and what is up
+  int image_width = 1024;                                       // of textures and heat maps
+  std::vector<SourceTexture> textures = {};                     // of the mesh; see BakeSource
+  std::vector<std::pair<std::string, std::string>> facts = {};  // program, command line, …
+  int threads = 0;
+  Progress progress = {};
+};
+
+/// One page that shows maps of a mesh and needs nothing else: models that change into their
+/// spheres, heat maps, the paper's polar charts, histograms, tables, provenance. Several maps stand
+/// side by side, their charts on the same scale; those that fold are shown as pictures.
+/// Ensures: loads nothing from anywhere; same bytes for the same input and any number of threads,
+/// but for times. Throws: ImageError; Cancelled; MapError.
+/// Requires: at least one exhibit, each with a map.
+std::string report_page(const std::string& name, const MeshFile& file,
+                        const std::vector<Exhibit>& exhibits, const ReportOptions& options = {});
+
+}  // namespace sphparam::tools

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "report/page.h"
+#include "showcase/exhibit.h"
+
+namespace sphparam::tools {
+
+/// Tables about maps of one mesh, a column a map and a row a figure.
+PageTable distortion_table(const std::vector<Exhibit>& exhibits);
+PageTable certificate_table(const std::vector<Exhibit>& exhibits);
+/// What the (u, v) charts needed; no rows where no map has one.
+PageTable chart_table(const std::vector<Exhibit>& exhibits);
+/// Wall time of the stages of a map that was made in this run; no rows for maps from files.
+PageTable timing_table(const Exhibit& exhibit);
+/// What the files say of how their maps came about; no rows where they say nothing.
+PageTable provenance_table(const std::vector<Exhibit>& exhibits);
+
+}  // namespace sphparam::tools
