@@ -222,6 +222,16 @@ TEST_CASE("bake: a limb that is smaller than a texel has its mean colour there")
   const std::vector<float> image = baked(*scene, make_scalar(*scene, "limb"), size(32));
   CHECK(image[6 * 32 + 10] > 0.8F);    // of its surface, nearly all is limb
   CHECK(image[12 * 32 + 26] == 0.0F);  // the other side of the ball knows nothing of it
+
+  // By direction too: on the sphere, and for another mesh.
+  BakeOptions options = size(32);
+  options.interpolation = Interpolation::Sphere;
+  CHECK(baked(*scene, make_scalar(*scene, "limb"), options)[6 * 32 + 10] > 0.5F);
+  MeshFile low;
+  low.mesh = icosphere(1);
+  scene->target = make_target(low, Topology(low.mesh), SphereMap{low.mesh.positions}, false, 1);
+  const std::vector<float> other = baked(*scene, make_scalar(*scene, "limb"), size(32));
+  CHECK(*std::max_element(other.begin(), other.end()) > 0.5F);
 }
 
 TEST_CASE("bake: columns 0 and W − 1 are neighbours, and rows 0 are of the poles") {

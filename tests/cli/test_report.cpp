@@ -37,10 +37,10 @@ TEST_CASE("report: maps of one mesh stand side by side, under names that differ"
   write_bytes(folder / "one.obj", obj_text(mesh));
   fs::create_directories(folder / "more");
   for (const char* method : {"progressive", "curvilinear"}) {
-    const std::string name = method == std::string("progressive") ? "one" : "more/one";
+    const bool first = method == std::string("progressive");
+    const std::string path = folder / (first ? "one" : "more/one");
     REQUIRE(sphparam_program({"map", folder / "one.obj", "--method", method, "-o",
-                              folder / (name + ".sph.ply"), "--sphere",
-                              folder / (name + "-sphere.obj")})
+                              path + ".sph.ply", "--sphere", path + "-sphere.obj"})
                 .code == 0);
   }
   const Ended ended = sphparam_program({"report", folder / "one.sph.ply",

@@ -1,5 +1,5 @@
 // Writes a mesh as glTF with every option and every pair of options that go together, for the
-// validator: export_files FOLDER MESH…
+// validator: export_files FOLDER [MESH…]. Without meshes: some of our own, small and nasty.
 
 #include <cstdio>
 #include <filesystem>
@@ -17,6 +17,7 @@
 #include "mesh_io/sphere_file.h"
 #include "mesh_io/welding.h"
 #include "sphparam/parameterize.h"
+#include "support/test_meshes.h"
 
 using namespace sphparam;
 using namespace sphparam::tools;
@@ -30,6 +31,7 @@ struct Trial {
   ExportChartOptions chart = {};
   GeometryOptions geometry = {};
   GltfOptions file = {};
+  bool source_uv = false;  // where the mesh has them
   bool normal_map = false, variants = false, unlit = false, two_levels = false;
 };
 
@@ -60,6 +62,7 @@ std::vector<Trial> trials() {
   add("flat", [](Trial& t) { t.geometry.shape = ShapeKind::Flat; });
   add("theta", [](Trial& t) { t.geometry.buffers.theta_phi = true; });
   add("up", [](Trial& t) { t.geometry.up = Up::Y; });
+  add("own", [](Trial& t) { t.source_uv = true; });
   add("levels", [](Trial& t) { t.two_levels = true; });
   for (const bool quantised : {false, true}) {
     for (const bool compressed : {false, true}) {
@@ -91,6 +94,7 @@ void run(const Trial& trial, const MeshFile& file, const SphereMap& map, const T
   GeometryOptions geometry = trial.geometry;
   geometry.buffers.tangents = trial.normal_map;
   geometry.buffers.colours = true;
+  geometry.buffers.source_texcoords = trial.source_uv && file.corner_texcoords.has_value();
   const ExportChart chart = export_chart(file.mesh, topology, map, trial.chart);
   ExportGeometry made = export_geometry(chart, file, geometry);
   Material material{.name = "checker", .base_colour = 0, .unlit = trial.unlit};
@@ -119,24 +123,58 @@ void run(const Trial& trial, const MeshFile& file, const SphereMap& map, const T
                 made.stored.folded.size(), static_cast<long>(chart.chart.triangles.rows()));
 }
 
+std::vector<AssetImage> make_images() {
+  Image flat(4, 2, 3);
+  for (size_t i = 0; i < flat.pixels.size(); ++i) flat.pixels[i] = i % 3 == 2 ? 1.0F : 0.5F;
+  return {test_asset_image(TestImage::Checker, 64, Convention::Sphparam), as_png("normal", flat),
+          test_asset_image(TestImage::Graticule, 64, Convention::Sphparam)};
+}
+
+struct Named {
+  std::string name;
+  MeshFile file;
+};
+
+/// Four triangles; many faces without area; faces too small for float32; colours and own (u, v).
+std::vector<Named> own_meshes() {
+  std::vector<Named> meshes(4);
+  meshes[0] = {"tetrahedron", {}};
+  meshes[0].file.mesh = tests::tetrahedron();
+  meshes[1] = {"collapsed", {}};
+  meshes[1].file.mesh = tests::random_sphere_mesh(200, 5);
+  Points& collapsed = meshes[1].file.mesh.positions;
+  for (Eigen::Index v = 0; v < 120; ++v) collapsed.row(v) = collapsed.row(v % 9);
+  meshes[2] = {"far", {}};
+  meshes[2].file.mesh = tests::icosphere(3);
+  meshes[2].file.mesh.positions.rowwise() += Eigen::RowVector3d(4e6, 5e6, 100);
+  meshes[3] = {"coloured", {}};
+  MeshFile& coloured = meshes[3].file;
+  coloured.mesh = tests::icosphere(4);
+  const auto count = static_cast<size_t>(coloured.mesh.vertex_count());
+  for (const char* channel : {"red", "green", "blue"})
+    coloured.set_vertex_property({channel, ScalarType::Uint8, std::vector<double>(count, 99)});
+  coloured.corner_texcoords = CornerTexcoords::Random(coloured.mesh.triangles.size(), 2);
+  return meshes;
+}
+
+void run_all(const Named& mesh, const fs::path& folder, const std::vector<AssetImage>& images) {
+  const Topology topology(mesh.file.mesh);
+  std::optional<SphereMap> map = read_sphere(mesh.file);
+  if (!map) map = parameterize(mesh.file.mesh).map;
+  for (const Trial& trial : trials())
+    run(trial, mesh.file, *map, topology, mesh.name, folder, images);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  const fs::path folder = argv[1];
-  fs::create_directories(folder);
-  Image flat(4, 2, 3);
-  for (size_t i = 0; i < flat.pixels.size(); ++i) flat.pixels[i] = i % 3 == 2 ? 1.0F : 0.5F;
-  const std::vector<char> normal = encode_image(flat, ImageFormat::Png);
-  const std::vector<AssetImage> images = {
-      test_asset_image(TestImage::Checker, 64, Convention::Sphparam),
-      {"normal", {normal.begin(), normal.end()}},
-      test_asset_image(TestImage::Graticule, 64, Convention::Sphparam)};
-  for (int i = 2; i < argc; ++i) {
-    const MeshFile file = prepare_for_mapping(read_mesh(argv[i]));
-    const Topology topology(file.mesh);
-    std::optional<SphereMap> map = read_sphere(file);
-    if (!map) map = parameterize(file.mesh).map;
-    for (const Trial& trial : trials())
-      run(trial, file, *map, topology, fs::path(argv[i]).stem().string(), folder, images);
+  if (argc < 2) return 2;
+  fs::create_directories(argv[1]);
+  const std::vector<AssetImage> images = make_images();
+  if (argc == 2) {
+    for (const Named& mesh : own_meshes()) run_all(mesh, argv[1], images);
   }
+  for (int i = 2; i < argc; ++i)
+    run_all({fs::path(argv[i]).stem().string(), prepare_for_mapping(read_mesh(argv[i]))}, argv[1],
+            images);
 }

@@ -48,6 +48,7 @@ TEST_CASE("distance: a plane that is shifted is that far away everywhere, to the
       measure_distance(plane(10, 0), plane(7, 0.25), {.samples = 5000, .edges = true});
   // The smaller square lies above a part of the larger one: forth the rims stick out.
   CHECK(distance.back.max == 0.25);
+  CHECK(distance.back.max_bound <= 0.25 * 1.001);
   CHECK(distance.back.min == 0.25);
   CHECK(distance.back.mean == 0.25);
   CHECK(distance.back.rms == 0.25);

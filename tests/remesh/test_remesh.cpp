@@ -50,6 +50,14 @@ MeshFile everything(const TriangleMesh& mesh) {
   property("nx", ScalarType::Float64, -1, 1);
   property("ny", ScalarType::Float64, -1, 1);
   property("nz", ScalarType::Float64, -1, 1);
+  for (size_t v = 0; v < count; ++v) {
+    auto &x = file.vertex_properties[0].values[v], &y = file.vertex_properties[1].values[v],
+         &z = file.vertex_properties[2].values[v];
+    const Vector3 unit = Vector3(x, y, z).normalized();
+    x = unit.x();
+    y = unit.y();
+    z = unit.z();
+  }
   property("red", ScalarType::Uint8, 0, 256);
   property("green", ScalarType::Uint8, 0, 256);
   property("blue", ScalarType::Uint8, 0, 256);

@@ -13,7 +13,8 @@
 #include "support/test_meshes.h"
 
 // The page as its readers meet it: in Chromium, without network. A script that is put into a copy
-// of the page uses its controls, looks at the pixels and tells the console what it found.
+// of the page uses its controls, looks at the pixels and tells the console what it found;
+// then it closes the window, which ends the browser.
 
 using namespace sphparam;
 using namespace sphparam::tests;
@@ -29,6 +30,7 @@ const faults = [];
 addEventListener('error', e => faults.push(e.message || 'a file is missing'), true);
 addEventListener('unhandledrejection', e => faults.push(String(e.reason)));
 addEventListener('securitypolicyviolation', e => faults.push('wants ' + e.blockedURI));
+setTimeout(() => window.close(), 150000);
 console.error = (...words) => faults.push(words.join(' '));
 </script>)js";
 
@@ -36,9 +38,11 @@ constexpr char visitor[] = R"js(<script>
 addEventListener('load', async () => {
   const wait = time => new Promise(done => setTimeout(done, time));
   const view = document.querySelector('model-viewer');
-  for (let i = 0; i < 300 && !view.loaded; ++i) await wait(100);
+  for (let i = 0; i < 900 && !view.loaded; ++i) await wait(100);
+  await wait(1000);
   const look = async () => {
-    await wait(700);
+    for (let frame = 0; frame < 10; ++frame) await new Promise(requestAnimationFrame);
+    await wait(500);
     const image = new Image();
     image.src = view.toDataURL();
     await image.decode();
@@ -92,6 +96,7 @@ addEventListener('load', async () => {
   tell('loads nothing', loaded.length === 0, loaded.join(' ').slice(0, 300));
   tell('no faults', faults.length === 0, faults.join(' | ').slice(0, 500));
   console.log('PAGE done');
+  window.close();
 });
 </script>)js";
 
@@ -124,7 +129,6 @@ std::string visit(const fs::path& folder, const std::string& page, int width) {
        "--enable-unsafe-swiftshader", "--disable-dev-shm-usage", "--no-first-run",
        "--host-resolver-rules=MAP * ~NOTFOUND", "--user-data-dir=" + (folder / "profile").string(),
        "--enable-logging=stderr", "--window-size=" + std::to_string(width) + ",900",
-       "--virtual-time-budget=60000", "--screenshot=" + (folder / "page.png").string(),
        "file://" + (folder / "page.html").string()},
       {"HOME=" + folder.string()}, {.seconds = 240});
   return end.messages;

@@ -15,8 +15,9 @@
 namespace sphparam::tools {
 namespace {
 
-constexpr int bands_a_thread = 4;     // before the sink gets them
-constexpr int texels_a_batch = 4096;  // some more where runs are long
+constexpr int bands_a_thread = 4;                // before the sink gets them …
+constexpr std::int64_t group_bytes = 256 << 20;  // … but for images so wide that they fill this
+constexpr int texels_a_batch = 4096;             // some more where runs are long
 
 struct Work {
   const BakeScene& scene;
@@ -122,7 +123,6 @@ void add_samples(const Work& work, int band, double x, double y, int sample, flo
 
 /// Replaces the texels that hold many triangles by their means.
 void average_crowded(const Work& work, int band, BandValues& values) {
-  if (!work.scene.target.is_source || work.finder.interpolation() != Interpolation::Uv) return;
   const CrowdedTexels crowded(work.scene, work.finder, band);
   if (crowded.texels.empty()) return;
   const std::int64_t start =
@@ -172,6 +172,15 @@ BandValues bake_band(const Work& work, int band) {
   return values;
 }
 
+int bands_at_once(std::span<const SurfaceField> fields, int width, int threads) {
+  std::int64_t channels = 0;
+  for (const SurfaceField& field : fields) channels += field.channels;
+  const std::int64_t band = channels * UvRaster::rows_a_band * width * 4;
+  const auto fit = static_cast<int>(std::min<std::int64_t>(
+      group_bytes / std::max<std::int64_t>(band, 1), bands_a_thread * threads));
+  return std::max(threads, fit);
+}
+
 }  // namespace
 
 void bake(const BakeScene& scene, std::span<const SurfaceField> fields, const BakeOptions& options,
@@ -179,7 +188,8 @@ void bake(const BakeScene& scene, std::span<const SurfaceField> fields, const Ba
   const UvRaster raster(scene.target.chart, options.width, options.height);
   const TexelFinder finder(scene, raster, options.interpolation, options.threads);
   const Work work{scene, fields, options, finder};
-  const int threads = resolve_threads(options.threads), group = bands_a_thread * threads;
+  const int threads = resolve_threads(options.threads);
+  const int group = bands_at_once(fields, options.width, threads);
   for (int first = 0; first < raster.band_count(); first += group) {
     report(options.progress, "bake", static_cast<double>(first) / raster.band_count());
     const int count = std::min(group, raster.band_count() - first);

@@ -14,6 +14,8 @@ namespace {
 
 constexpr double small_area = 0.5;  // of a texel: such a triangle may own none, wherever it lies
 
+constexpr int finest_grid = 8;  // of points in a texel
+
 /// A convex polygon under clipping: each of four cuts adds a corner at most.
 struct Clip {
   std::array<UvPoint, 8> points;
@@ -55,21 +57,35 @@ struct Clip {
   }
 };
 
+/// A point of a texel.
 struct Deposit {
   size_t texel;
   RasterRun place;
+  SurfaceRun run;
   double weight;
 };
 
+/// Of what the two steps span on the surface.
+double area_of_step(const TriangleMesh& mesh, const SurfaceRun& run) {
+  Vector3 step = Vector3::Zero(), below = Vector3::Zero();
+  for (int k = 0; k < 3; ++k) {
+    const Vector3 corner = mesh.position(mesh.triangles(run.face, k));
+    step += run.step[k] * corner;
+    below += run.below[k] * corner;
+  }
+  return step.cross(below).norm();
+}
+
 class Collector {
  public:
-  Collector(const BakeScene& scene, const UvRaster& raster, int band)
+  Collector(const BakeScene& scene, const TexelFinder& finder, int band)
       : target_(scene.target),
-        raster_(raster),
+        finder_(finder),
+        raster_(finder.raster()),
         band_(band),
-        width_(raster.width()),
-        marked_(static_cast<size_t>(raster.rows(band)) * static_cast<size_t>(width_), 0),
-        row_marked_(static_cast<size_t>(raster.rows(band)), 0) {}
+        width_(finder.raster().width()),
+        marked_(static_cast<size_t>(finder.raster().rows(band)) * static_cast<size_t>(width_), 0),
+        row_marked_(static_cast<size_t>(finder.raster().rows(band)), 0) {}
 
   std::vector<Deposit> collect() {
     bool any = false;
@@ -149,8 +165,10 @@ class Collector {
       place.step[k] *= share / width_;
       place.below[k] *= share / raster_.height();
     }
-    deposits_.push_back(
-        {static_cast<size_t>(mark(row, column) - marked_.begin()), place, area * density});
+    deposits_.push_back({.texel = static_cast<size_t>(mark(row, column) - marked_.begin()),
+                         .place = place,
+                         .run = finder_.run_in_source(place),
+                         .weight = area * density});
   }
 
   double surface_area(Face f) const {
@@ -161,16 +179,63 @@ class Collector {
   }
 
   const BakeTarget& target_;
+  const TexelFinder& finder_;
   const UvRaster& raster_;
   int band_, width_;
   std::vector<char> marked_, row_marked_;
   std::vector<Deposit> deposits_;
 };
 
+/// How many triangles a texel spans, the longer way.
+double extent(const SurfaceRun& run) {
+  return std::max(run.step.cwiseAbs().maxCoeff(), run.below.cwiseAbs().maxCoeff());
+}
+
+/// Grids of points in texels that span more than a triangle, or have neighbours that do.
+std::vector<Deposit> grids(const BakeScene& scene, const TexelFinder& finder, int band) {
+  const int width = finder.raster().width(), rows = finder.raster().rows(band);
+  const TexelPoints centres = finder.points(band, 0.5, 0.5);
+  std::vector<char> fineness(centres.runs.size(), 1);  // points along a side of the texel's grid
+  const auto texel = [&](int row, int column) {
+    return static_cast<size_t>(row) * static_cast<size_t>(width) +
+           static_cast<size_t>((column + width) % width);
+  };
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < width; ++column) {
+      const double spanned = extent(centres.runs[texel(row, column)]);
+      if (!(spanned > 1)) continue;
+      const auto n = static_cast<char>(std::min(std::ceil(spanned) + 1, double{finest_grid}));
+      for (int r = std::max(0, row - 1); r <= std::min(rows - 1, row + 1); ++r) {
+        for (int c = column - 1; c <= column + 1; ++c) {
+          fineness[texel(r, c)] = std::max(fineness[texel(r, c)], n);
+        }
+      }
+    }
+  }
+  std::vector<Deposit> deposits;
+  size_t i = 0;
+  for (const RasterRun& run : centres.places) {
+    for (int k = 0; k < run.count; ++k, ++i) {
+      const int n = fineness[i];
+      if (n == 1) continue;
+      RasterRun place = run;
+      place.count = 1;
+      for (size_t c = 0; c < 2; ++c) place.weights[c] += k * run.step[c];
+      for (int s = 0; s < n * n; ++s) {
+        const SurfaceRun point =
+            finder.beside(place, (s % n + 0.5) / n - 0.5, (s / n + 0.5) / n - 0.5, n);
+        deposits.push_back({i, place, point, area_of_step(scene.source.file.mesh, point)});
+      }
+    }
+  }
+  return deposits;
+}
+
 }  // namespace
 
 CrowdedTexels::CrowdedTexels(const BakeScene& scene, const TexelFinder& finder, int band) {
-  const std::vector<Deposit> deposits = Collector(scene, finder.raster(), band).collect();
+  const std::vector<Deposit> deposits =
+      finder.by_location() ? grids(scene, finder, band) : Collector(scene, finder, band).collect();
   for (size_t i = 0; i < deposits.size();) {
     size_t end = i;
     double total = 0;
@@ -182,7 +247,7 @@ CrowdedTexels::CrowdedTexels(const BakeScene& scene, const TexelFinder& finder, 
       for (; i < end; ++i) {
         weights.push_back(static_cast<float>(deposits[i].weight / total));
         points.places.push_back(deposits[i].place);
-        points.runs.push_back(finder.run_in_source(deposits[i].place));
+        points.runs.push_back(deposits[i].run);
       }
     }
     i = end;

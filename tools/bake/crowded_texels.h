@@ -10,14 +10,17 @@ namespace sphparam::tools {
 /// Seeds of the samples of crowded texels are taken from here on, times the texel's index.
 inline constexpr std::int64_t crowded_seeds = 1 << 10;
 
-/// The texels of a band that hold triangles smaller than themselves, and all that lies in them: a
-/// point a triangle, the centre of what the texel cuts out of it in (u, v), weighted by its area on
-/// the surface. The mean of a field is then that over the part of the surface which the texel
-/// shows, the best constant for it in the sense of least squares; a limb that has shrunk to a
-/// fraction of a texel is as visible as it is large.
+/// The texels of a band that hold triangles smaller than themselves, and what lies in them: points,
+/// weighted by the area on the surface that each stands for. The mean of a field is then that over
+/// the part of the surface which the texel shows, the best constant for it in the sense of least
+/// squares; a limb that has shrunk to a fraction of a texel is as visible as it is large.
+///
+/// Where the chart is the source's own, a point is a triangle's, the centre of what the texel cuts
+/// out of it in (u, v): no triangle is missed. Where points are found by direction, texels that
+/// cover more than a triangle, and their neighbours, get a grid of up to 8 × 8 points.
 struct CrowdedTexels {
-  /// Requires: the source is the target. Cost: one clipped polygon for each triangle and crowded
-  /// texel that meet.
+  /// Cost: one clipped polygon for each triangle and crowded texel that meet; or, by direction, the
+  /// points of the band once more.
   CrowdedTexels(const BakeScene& scene, const TexelFinder& finder, int band);
 
   struct Texel {

@@ -29,7 +29,7 @@ const std::vector<MapKind>& map_kinds() {
       {"curvature", "mean or gauss curvature (curvature:gauss)", curvature_field},
       {"area", "log2 of the ratio of areas, sphere to mesh", area_field},
       {"angle", "log2 of the factor by which angles are off", angle_field},
-      {"stretch", "log2 of the larger stretch", stretch_field},
+      {"stretch", "log2 of the stretch of lengths, mean of squares", stretch_field},
       {"id", "id:face, id:material or id:component", make_id},
       {"uv", "the texture coordinates of the mesh", make_texcoords},
       {"scalar", "scalar:NAME, a property of vertices or faces", make_scalar},

@@ -6,9 +6,10 @@
 
 #include "sphparam/sphere/spherical_coordinates.h"
 
-// A refined face lies in one source face, and its map to it is affine: a run of the chart is a run
-// of the source. Through another mesh, λ of the source is projective in the direction q: λ ∝ M⁻¹q,
-// M = (x₀ x₁ x₂); its derivative, λ̇ = (M⁻¹q̇ − λ Σ M⁻¹q̇) / Σ M⁻¹q, is what a texel covers.
+// A refined face lies in one source face, and its map to it is affine in (u, v): a run of the chart
+// is a run of the source. (Not so on the sphere, where the rays of new vertices have unit length.)
+// Through another mesh, λ of the source is projective in the direction q: λ ∝ M⁻¹q, M = (x₀ x₁ x₂);
+// its derivative, λ̇ = (M⁻¹q̇ − λ Σ M⁻¹q̇) / Σ M⁻¹q, is what a texel covers.
 
 namespace sphparam::tools {
 namespace {
@@ -50,10 +51,12 @@ TexelFinder::TexelFinder(const BakeScene& scene, const UvRaster& raster,
       refined_[static_cast<size_t>(f)] = static_cast<int>(corners_.size());
       corners_.push_back(corners);
     }
-  } else {
+  }
+  const bool sphere = interpolation == Interpolation::Sphere;
+  if (sphere || !scene.target.is_source) {
     source_.emplace(scene.source.topology, scene.source.map, threads);
   }
-  if (interpolation == Interpolation::Sphere) {
+  if (sphere) {
     if (!chart.certificate.inverted.empty()) {
       throw std::invalid_argument("the chart's points are no sphere map");
     }
@@ -111,6 +114,13 @@ void TexelFinder::locate(const RasterRun& place, std::vector<SurfaceRun>& runs) 
   for (int i = 0; i < place.count; ++i) runs.push_back(located(first + i * east, east, south));
 }
 
+SurfaceRun TexelFinder::beside(const RasterRun& place, double x, double y, int n) const {
+  const SphericalChart& chart = scene_->target.chart;
+  const Eigen::Matrix3d corners = rays(chart.triangles, chart.points, place.face);
+  const Vector3 east = corners * change(place.step), south = corners * change(place.below);
+  return located(corners * three(place.weights) + x * east + y * south, east / n, south / n);
+}
+
 TexelPoints TexelFinder::by_direction(int band, double x, double y) const {
   TexelPoints texels;
   const SphericalChart& chart = scene_->target.chart;
@@ -133,8 +143,7 @@ TexelPoints TexelFinder::by_direction(int band, double x, double y) const {
       run.step = {step[0], step[1]};
       run.below = {below[0], below[1]};
       texels.places.push_back(run);
-      texels.runs.push_back(scene_->target.is_source ? run_in_source(run)
-                                                     : located(q, east, south));
+      texels.runs.push_back(located(q, east, south));
     }
   }
   return texels;

@@ -44,8 +44,14 @@ class TexelFinder {
   /// The source run of a run of the chart. Requires: the source is the target.
   SurfaceRun run_in_source(const RasterRun& place) const;
 
+  /// The point of the source that lies (x, y) texels east and south of one that has its own run of
+  /// the chart, beyond its face too, and what an n-th of a texel covers there.
+  /// Requires: the source is not the target, or `Sphere`.
+  SurfaceRun beside(const RasterRun& place, double x, double y, int n) const;
+
+  /// Whether texels find their points by direction; else the chart's triangles lead to them.
+  bool by_location() const { return source_.has_value(); }
   const UvRaster& raster() const { return *raster_; }
-  Interpolation interpolation() const { return interpolation_; }
 
  private:
   void locate(const RasterRun& place, std::vector<SurfaceRun>& runs) const;

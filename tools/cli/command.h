@@ -25,6 +25,7 @@ Command declare_render(CLI::App& program);
 Command declare_compare(CLI::App& program);
 Command declare_spharm(CLI::App& program);
 Command declare_remesh(CLI::App& program);
+Command declare_unimage(CLI::App& program);
 Command declare_measure(CLI::App& program);
 Command declare_paint(CLI::App& program);
 Command declare_report(CLI::App& program);

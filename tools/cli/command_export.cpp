@@ -22,6 +22,7 @@
 #include "gltf/image_kind.h"
 #include "gltf/written_check.h"
 #include "mesh_io/mesh_writer.h"
+#include "mesh_io/read_options.h"
 #include "mesh_io/safe_file.h"
 #include "remesh/remesh.h"
 #include "sphparam/stopwatch.h"
@@ -32,6 +33,11 @@ namespace sphparam::tools {
 namespace {
 
 namespace fs = std::filesystem;
+
+bool has_texcoords(const MeshFile& file) {
+  return file.corner_texcoords ||
+         (file.find_vertex_property("s") && file.find_vertex_property("t"));
+}
 
 Up up_of(const ExportArguments& arguments, const MeshFile& file) {
   if (arguments.up != UpAxis::Automatic) return arguments.up == UpAxis::Y ? Up::Y : Up::Z;
@@ -81,17 +87,20 @@ void tell_geometry(const ExportArguments& arguments, const ExportChart& chart,
   console.detail("  chart: " + std::to_string(counts.splits()) + " splits, " +
                  std::to_string(chart.chart.triangles.rows()) + " triangles, " +
                  std::to_string(geometry.surface.vertex_count()) + " vertices");
-  const std::vector<Face>& folded = geometry.stored.folded;
-  if (folded.empty()) return;
-  std::string line = "  " + std::to_string(folded.size()) + " of " +
-                     std::to_string(chart.chart.triangles.rows()) + " triangles fold in (u, v) ";
-  line += arguments.keep_topology ? "as no vertex may be added:"
-                                  : "as stored, being smaller than its rounding:";
+  std::vector<Face> wrong = geometry.stored.folded;
+  wrong.insert(wrong.end(), geometry.stored.around_pole.begin(), geometry.stored.around_pole.end());
+  std::ranges::sort(wrong);
+  wrong.erase(std::ranges::unique(wrong).begin(), wrong.end());
+  if (wrong.empty()) return;
+  std::string line = std::to_string(wrong.size()) + " of " +
+                     std::to_string(chart.chart.triangles.rows()) + " triangles fold in (u, v)" +
+                     (arguments.keep_topology ? ", as no vertex may be added:"
+                                              : " as stored, being smaller than its rounding:");
   constexpr size_t most_listed = 10;
-  for (size_t i = 0; i < std::min(folded.size(), most_listed); ++i)
-    line += " " + std::to_string(folded[i]);
-  if (folded.size() > most_listed) line += " …";
-  arguments.keep_topology ? console.warning(line.substr(2)) : console.detail(line);
+  for (size_t i = 0; i < std::min(wrong.size(), most_listed); ++i)
+    line += " " + std::to_string(wrong[i]);
+  if (wrong.size() > most_listed) line += " …";
+  arguments.keep_topology ? console.warning(line) : console.detail("  " + line);
 }
 
 std::vector<std::pair<std::string, std::string>> provenance_extras(const ExportArguments& arguments,
@@ -122,16 +131,23 @@ class Exporter {
 
   void run() {
     mapped_ = read_mapped_source(arguments_.input, arguments_.sphere, arguments_.threads, console_);
+    if (arguments_.source_uv && !has_texcoords(mapped_.source.file)) {
+      throw UsageMistake("--source-uv: the mesh has no texture coordinates of its own");
+    }
     console_.progress("images", 0);
     look_ = make_export_look(arguments_, mapped_, console_);
     is_text() ? write_text() : write_gltf_files();
-    if (!arguments_.json.empty()) files_.add(arguments_.json, to_json(report_));
+    if (!arguments_.json.empty()) {
+      report_.input = arguments_.input;
+      report_.seconds = stopwatch_.seconds();
+      files_.add(arguments_.json, to_json(report_));
+    }
     if (interrupted()) throw Cancelled();
     files_.publish();
     console_.clear_progress();
+    console_.say(display_name(arguments_.input) + ": " + short_number(stopwatch_.seconds()) +
+                 " s → " + output_name(arguments_.output));
   }
-
-  const ExportReport& report() const { return report_; }
 
  private:
   bool is_text() const {
@@ -255,6 +271,7 @@ class Exporter {
 
   const ExportArguments& arguments_;
   Console& console_;
+  const Stopwatch stopwatch_;
   MappedSource mapped_;
   ExportLook look_;
   ExportReport report_;
@@ -262,14 +279,16 @@ class Exporter {
 };
 
 int run_export(const ExportArguments& arguments) {
-  const Stopwatch stopwatch;
   check_export_arguments(arguments);
   Console console(arguments.loudness.verbosity(), arguments.progress);
   const OrderlyInterruption orderly;
-  Exporter exporter(arguments, console);
-  exporter.run();
-  console.say(display_name(arguments.input) + ": " + short_number(stopwatch.seconds()) + " s → " +
-              output_name(arguments.output));
+  try {
+    Exporter(arguments, console).run();
+  } catch (const std::range_error& error) {
+    throw ReadError(display_name(arguments.input), error.what());
+  } catch (const std::length_error& error) {
+    throw WriteError(output_name(arguments.output), error.what());
+  }
   return Ok;
 }
 

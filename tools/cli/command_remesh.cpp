@@ -15,6 +15,8 @@
 #include "cli/mapped_source.h"
 #include "cli/paths.h"
 #include "cli/remesh_arguments.h"
+#include "cli/remesh_images.h"
+#include "cli/remesh_report.h"
 #include "cli/wording.h"
 #include "mesh_io/mesh_reader.h"
 #include "mesh_io/mesh_writer.h"
@@ -57,11 +59,15 @@ void check_outputs(const RemeshArguments& arguments) {
     throw UsageMistake("-o: the new mesh is written as .ply or .obj, not as " +
                        output_name(arguments.output));
   }
-  if (arguments.output.empty() && arguments.csv.empty()) {
-    throw UsageMistake("nothing to write: give -o or --csv");
+  if (arguments.output.empty() && arguments.csv.empty() && images_asked_for(arguments).empty()) {
+    throw UsageMistake("nothing to write: give -o, --geometry-image or --csv");
   }
-  for (const auto& [option, path] :
-       {std::pair("-o", arguments.output), {"--csv", arguments.csv}, {"--json", arguments.json}}) {
+  std::vector<std::pair<std::string, std::string>> outputs = {
+      {"-o", arguments.output}, {"--csv", arguments.csv}, {"--json", arguments.json}};
+  for (const ImageRequest& request : images_asked_for(arguments)) {
+    outputs.emplace_back("the image of " + request.what, request.path);
+  }
+  for (const auto& [option, path] : outputs) {
     require_not_input(arguments.input, path, option);
     if (!arguments.sphere.empty()) require_not_input(arguments.sphere, path, option);
   }
@@ -130,6 +136,7 @@ int run_remesh(const RemeshArguments& arguments) {
   const Stopwatch stopwatch;
   check_outputs(arguments);
   const std::optional<GridSpec> spec = grid_asked_for(arguments);
+  check_images(arguments, spec);
   Console console(arguments.loudness.verbosity(), arguments.progress);
   const OrderlyInterruption orderly;
   const MappedSource mapped =
@@ -145,7 +152,15 @@ int run_remesh(const RemeshArguments& arguments) {
   console.progress("write", 0);
   PendingFiles files;
   if (!arguments.output.empty()) add_mesh(files, arguments, mapped, result);
+  if (spec) add_images(files, arguments, *spec, result);
   if (!arguments.csv.empty()) files.add(arguments.csv, sample_table(result.file, result.map));
+  if (!arguments.json.empty()) {
+    files.add(arguments.json, to_json(RemeshReport{.arguments = arguments,
+                                                   .source = mapped,
+                                                   .result = result,
+                                                   .grid_seconds = grid_seconds,
+                                                   .seconds = stopwatch.seconds()}));
+  }
   if (interrupted()) throw Cancelled();
   files.publish();
   console.clear_progress();

@@ -89,7 +89,7 @@ void add_chart(CLI::App& command, ExportArguments& arguments) {
 
 void add_buffers(CLI::App& command, ExportArguments& arguments) {
   command.add_flag("--tangents", arguments.tangents,
-                   "Tangents also where no normal map needs them");
+                   "Tangents also without a normal map: a flat one is bound");
   command.add_flag("--theta-phi", arguments.theta_phi, "θ and ϕ as the attribute _THETA_PHI");
   command.add_flag("--source-uv", arguments.source_uv,
                    "The mesh's own texture coordinates as TEXCOORD_1");
@@ -166,6 +166,8 @@ void check_export_arguments(const ExportArguments& a) {
   refuse(a.embedded && extension != ".gltf", "--embedded is for .gltf; a .glb is one file anyway");
   refuse(a.lods > 0 && is_stream(a.output) && a.lod_style == LodStyle::Files,
          "--lods are files: give -o a name");
+  refuse(a.unlit && (a.tangents || !a.normal.empty() || !a.occlusion.empty()),
+         "--unlit shows no light: leave out --normal, --occlusion and --tangents");
   if (is_gltf) return;
   const std::string only = " is for .glb and .gltf, not for " + extension;
   for (const auto& [given, option] : {std::pair{a.morph != Morph::None, "--morph"},

@@ -55,6 +55,8 @@ class LookMaker {
     if (!arguments_.unlit) {
       material_.normal = add_file(given.normal, "normal");
       material_.occlusion = add_file(given.occlusion, "occlusion");
+      // Tangents that no material uses are taken for a mistake: these are used and change nothing.
+      if (material_.normal < 0 && arguments_.tangents) material_.normal = add(flat_normals_image());
     }
     look_.materials.push_back(material_);
     for (const std::string& name : arguments_.variants) add_variant(name);

@@ -132,6 +132,7 @@ int run_program(int argc, char** argv) {
            declare_compare,
            declare_spharm,
            declare_remesh,
+           declare_unimage,
            declare_measure,
            declare_paint,
            declare_report,

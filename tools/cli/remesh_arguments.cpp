@@ -42,6 +42,11 @@ void add_outputs(CLI::App& command, RemeshArguments& arguments) {
       ->type_name("NAME=FILE")
       ->expected(1)
       ->take_all();
+  add_choice<std::optional<ImageDepth>>(
+      command, "--depth", arguments.depth,
+      {{"half", ImageDepth::Half}, {"float", ImageDepth::Float}, {"u16", ImageDepth::Uint16}},
+      "Of images: half or float in .exr, u16 in .png (default: "
+      "float, u16)");
   command
       .add_option("--csv", arguments.csv, "A row for each vertex: direction, position, properties")
       ->type_name("FILE");

@@ -23,7 +23,9 @@ ChartCertificate certify_stored(const SphericalChart& chart, const FloatRows& uv
     stored.uv = stored.uv.unaryExpr([](double x) { return to_unsigned16(x) / steps; });
   }
   if (storage.mirrored) stored.uv.col(0) = 1 - stored.uv.col(0).array();
-  return certify_chart(stored, threads);
+  ChartCertificate certificate = certify_chart(stored, threads);
+  certificate.around_pole = chart.certificate.around_pole;  // what only the rays can tell
+  return certificate;
 }
 
 }  // namespace sphparam::tools

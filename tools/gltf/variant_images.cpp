@@ -23,6 +23,12 @@ AssetImage white_asset_image() {
   return as_png("white", white);
 }
 
+AssetImage flat_normals_image() {
+  Image flat(1, 1, 3);
+  flat.pixels = {0.5F, 0.5F, 1.0F};
+  return as_png("flat_normals", flat);
+}
+
 Image in_convention(const Image& image, Convention convention) {
   const ConventionInfo& info = info_of(convention);
   const int width = image.width;

@@ -18,6 +18,9 @@ AssetImage test_asset_image(TestImage image, int width, Convention convention, i
 /// them.
 AssetImage white_asset_image();
 
+/// One texel of a tangent-space normal map that changes nothing.
+AssetImage flat_normals_image();
+
 /// An equirectangular image of u = θ/2π with its columns where the convention has them.
 /// Requires: a width that is a multiple of 4.
 Image in_convention(const Image& image, Convention convention);

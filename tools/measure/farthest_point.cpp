@@ -1,12 +1,18 @@
-// For a point x of a triangle with corners vᵢ at distances dᵢ: d(x) ≤ min (dᵢ + |x − vᵢ|), and
-// |x − vᵢ| is at most the longer side at vᵢ. A triangle is halved across its longest side.
+// Corner vᵢ of a triangle is nearest to face tᵢ of the other surface. For all x in the triangle
+// d(x) ≤ min over i of dist(x, tᵢ) ≤ min over i of max over j of dist(vⱼ, tᵢ), as dist(·, t) is
+// convex. Where all corners are nearest to one face this is their largest distance: nothing between
+// them can be farther. A triangle is halved across its longest side.
 
 #include "measure/farthest_point.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
+
+#include "rays/triangle_distance.h"
+#include "sphparam/parallel.h"
 
 namespace sphparam::tools {
 
@@ -18,7 +24,7 @@ constexpr double worthwhile = 1.001;  // times the farthest so far
 struct Corner {
   Vector3 point;
   double distance;
-  Face nearest = -1;  // of the other surface, where it is known
+  Face nearest;  // of the other surface
 };
 
 struct Piece {
@@ -26,57 +32,72 @@ struct Piece {
   double bound;
 };
 
-double bound_of(const std::array<Corner, 3>& corners) {
-  std::array<double, 3> side;  // opposite corner i
+double distance_to(const TriangleMesh& mesh, Face face, const Vector3& point) {
+  const auto corners = mesh.triangles.row(face);
+  return std::sqrt(nearest_on_triangle(point, mesh.position(corners[0]), mesh.position(corners[1]),
+                                       mesh.position(corners[2]))
+                       .squared_distance);
+}
+
+double bound_of(const std::array<Corner, 3>& corners, const TriangleMesh& other) {
+  double least = std::numeric_limits<double>::infinity();
   for (size_t i = 0; i < 3; ++i) {
-    side[i] = (corners[(i + 1) % 3].point - corners[(i + 2) % 3].point).norm();
+    double largest = 0;
+    for (size_t j = 0; j < 3; ++j) {
+      const bool same = corners[i].nearest == corners[j].nearest;
+      largest = std::max(largest, same ? corners[j].distance
+                                       : distance_to(other, corners[i].nearest, corners[j].point));
+    }
+    least = std::min(least, largest);
   }
-  double bound = corners[0].distance + std::max(side[1], side[2]);
-  for (size_t i = 1; i < 3; ++i) {
-    bound = std::min(bound, corners[i].distance + std::max(side[(i + 1) % 3], side[(i + 2) % 3]));
-  }
-  return bound;
+  return least;
 }
 
 bool promises_less(const Piece& one, const Piece& other) { return one.bound < other.bound; }
 
-Piece piece_of(const TriangleMesh& mesh, const Eigen::VectorXd& at_vertices, Face face) {
-  Piece piece;
-  for (int i = 0; i < 3; ++i) {
-    const Vertex v = mesh.triangles(face, i);
-    piece.corners[static_cast<size_t>(i)] = {.point = mesh.position(v), .distance = at_vertices[v]};
-  }
-  piece.bound = bound_of(piece.corners);
-  return piece;
-}
+/// A surface on the way to another.
+struct Way {
+  const TriangleMesh& from;
+  const VertexDistances& vertices;
+  const TriangleMesh& other;
 
-/// A triangle and what it promises.
-struct Candidate {
-  double bound;
-  Face face;
+  Piece piece(Face face) const {
+    Piece result;
+    for (int i = 0; i < 3; ++i) {
+      const Vertex v = from.triangles(face, i);
+      result.corners[static_cast<size_t>(i)] = {from.position(v), vertices.distances[v],
+                                                vertices.nearest[static_cast<size_t>(v)]};
+    }
+    result.bound = bound_of(result.corners, other);
+    return result;
+  }
 };
 
 /// The most promising triangles, as many as can be looked into, and the bound of all others.
 struct Candidates {
-  std::vector<Candidate> chosen;
+  std::vector<Face> faces;
   double bound_of_rest = 0;
 };
 
-Candidates promising_faces(const TriangleMesh& mesh, const Eigen::VectorXd& at_vertices,
-                           double known) {
-  Candidates result;
-  std::vector<Candidate>& all = result.chosen;
-  for (Face f = 0; f < static_cast<Face>(mesh.face_count()); ++f) {
-    const double bound = piece_of(mesh, at_vertices, f).bound;
-    if (bound > known) all.push_back({bound, f});
-  }
-  if (all.size() <= most_measurements) return result;
-  const auto first_left = all.begin() + most_measurements;
-  std::nth_element(all.begin(), first_left, all.end(), [](const Candidate& a, const Candidate& b) {
-    return a.bound != b.bound ? a.bound > b.bound : a.face < b.face;
+Candidates promising_faces(const Way& way, double known, int threads) {
+  std::vector<double> bounds(static_cast<size_t>(way.from.face_count()));
+  parallel_for(way.from.face_count(), 4096, threads, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t f = first; f < last; ++f) {
+      bounds[static_cast<size_t>(f)] = way.piece(static_cast<Face>(f)).bound;
+    }
   });
-  result.bound_of_rest = first_left->bound;
-  all.erase(first_left, all.end());
+  Candidates result;
+  for (size_t f = 0; f < bounds.size(); ++f) {
+    if (bounds[f] > known) result.faces.push_back(static_cast<Face>(f));
+  }
+  if (result.faces.size() <= most_measurements) return result;
+  const auto first_left = result.faces.begin() + most_measurements;
+  std::nth_element(result.faces.begin(), first_left, result.faces.end(), [&](Face a, Face b) {
+    const double of_a = bounds[static_cast<size_t>(a)], of_b = bounds[static_cast<size_t>(b)];
+    return of_a != of_b ? of_a > of_b : a < b;
+  });
+  result.bound_of_rest = bounds[static_cast<size_t>(*first_left)];
+  result.faces.erase(first_left, result.faces.end());
   return result;
 }
 
@@ -95,14 +116,14 @@ size_t longest_side(const Piece& piece) {
 
 }  // namespace
 
-FarthestPoint find_farthest(const TriangleMesh& from, const Eigen::VectorXd& at_vertices,
-                            const RayScene& to, const FarthestPoint& known) {
+FarthestPoint find_farthest(const TriangleMesh& from, const VertexDistances& vertices,
+                            const TriangleMesh& other, const RayScene& to,
+                            const FarthestPoint& known, int threads) {
   FarthestPoint best = known;
-  const Candidates candidates = promising_faces(from, at_vertices, known.distance);
+  const Way way = {from, vertices, other};
+  const Candidates candidates = promising_faces(way, known.distance, threads);
   std::vector<Piece> heap;
-  for (const Candidate& candidate : candidates.chosen) {
-    heap.push_back(piece_of(from, at_vertices, candidate.face));
-  }
+  for (const Face face : candidates.faces) heap.push_back(way.piece(face));
   std::make_heap(heap.begin(), heap.end(), promises_less);
   for (size_t measured = 0; measured < most_measurements && !heap.empty(); ++measured) {
     if (heap.front().bound <= worthwhile * best.distance) break;
@@ -111,8 +132,7 @@ FarthestPoint find_farthest(const TriangleMesh& from, const Eigen::VectorXd& at_
     heap.pop_back();
     const size_t apex = longest_side(piece), left = (apex + 1) % 3, right = (apex + 2) % 3;
     const Vector3 middle = (piece.corners[left].point + piece.corners[right].point) / 2;
-    const Face guess = std::max(piece.corners[left].nearest, piece.corners[right].nearest);
-    const NearestPoint found = to.nearest(middle, guess);
+    const NearestPoint found = to.nearest(middle, piece.corners[left].nearest);
     const Corner halfway = {middle, std::sqrt(found.squared_distance), found.on.face};
     if (halfway.distance > best.distance) {
       best.distance = halfway.distance;
@@ -121,7 +141,7 @@ FarthestPoint find_farthest(const TriangleMesh& from, const Eigen::VectorXd& at_
     for (const size_t replaced : {left, right}) {
       Piece half = piece;
       half.corners[replaced] = halfway;
-      half.bound = std::min(piece.bound, bound_of(half.corners));
+      half.bound = std::min(piece.bound, bound_of(half.corners, other));
       if (half.bound <= best.distance) continue;
       heap.push_back(half);
       std::push_heap(heap.begin(), heap.end(), promises_less);

@@ -10,6 +10,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "measure/farthest_point.h"
@@ -78,7 +79,8 @@ struct Direction {
   int threads;
   Meter meter;
 
-  /// measure(i, distance, tally) is told the distance of point_at(i) from the other surface.
+  /// measure(i, distance, face, point, tally) is told how far point_at(i) is from the other
+  /// surface, and from which of its faces.
   template <class PointAt, class Measure>
   Tally measure(std::int64_t count, const PointAt& point_at, const Measure& measure) {
     Tally all;
@@ -92,7 +94,7 @@ struct Direction {
           const Vector3 point = point_at(i);
           const NearestPoint found = to.nearest(point, guess);
           guess = found.on.face;
-          measure(i, std::sqrt(found.squared_distance), point, part);
+          measure(i, std::sqrt(found.squared_distance), found.on.face, point, part);
         }
       });
       for (const Tally& part : parts) all.add(part);
@@ -120,14 +122,16 @@ std::vector<char> used_vertices(const TriangleMesh& mesh) {
   return used;
 }
 
-Tally measure_vertices(Direction& direction, Eigen::VectorXd& distances) {
+Tally measure_vertices(Direction& direction, VertexDistances& result) {
   const std::vector<char> used = used_vertices(direction.from);
-  distances.resize(direction.from.vertex_count());
+  result.distances.resize(direction.from.vertex_count());
+  result.nearest.resize(used.size());
   return direction.measure(
       direction.from.vertex_count(),
       [&](std::int64_t v) { return direction.from.position(static_cast<Vertex>(v)); },
-      [&](std::int64_t v, double distance, const Vector3& point, Tally& tally) {
-        distances[v] = distance;
+      [&](std::int64_t v, double distance, Face face, const Vector3& point, Tally& tally) {
+        result.distances[v] = distance;
+        result.nearest[static_cast<size_t>(v)] = face;
         if (used[static_cast<size_t>(v)]) tally.add(distance, point);
       });
 }
@@ -137,7 +141,7 @@ Tally measure_samples(Direction& direction, const Samples& samples) {
   const double noise = sample_rounding * largest_coordinate(direction.from);
   return direction.measure(
       samples.count(), samples,
-      [noise](std::int64_t, double distance, const Vector3& point, Tally& tally) {
+      [noise](std::int64_t, double distance, Face, const Vector3& point, Tally& tally) {
         tally.add(distance < noise ? 0 : distance, point);
       });
 }
@@ -153,15 +157,16 @@ Samples samples_of(const TriangleMesh& mesh, Side side, const char* size,
   }
 }
 
-OneSidedDistance measure_one_side(Side side, const TriangleMesh& from, const RayScene& to,
-                                  const DistanceOptions& options) {
+OneSidedDistance measure_one_side(Side side, const TriangleMesh& from, const TriangleMesh& other,
+                                  const RayScene& to, const DistanceOptions& options) {
   const std::string_view stage = side == Side::First ? "first to second" : "second to first";
   const std::int64_t points =
       from.vertex_count() + options.samples * (int{options.faces} + int{options.edges});
   Direction direction = {
       from, to, options.threads, {options.progress, stage, static_cast<double>(points)}};
   OneSidedDistance result;
-  const Tally vertices = measure_vertices(direction, result.at_vertices);
+  VertexDistances at_vertices;
+  const Tally vertices = measure_vertices(direction, at_vertices);
   Tally samples;
   if (options.vertices) samples.add(vertices);
   if (options.edges) {
@@ -179,12 +184,13 @@ OneSidedDistance measure_one_side(Side side, const TriangleMesh& from, const Ray
   Tally all = vertices;
   all.add(samples);
   result.min = all.min;
-  const FarthestPoint farthest =
-      find_farthest(from, result.at_vertices, to, {.point = all.farthest, .distance = all.max});
+  const FarthestPoint farthest = find_farthest(
+      from, at_vertices, other, to, {.point = all.farthest, .distance = all.max}, options.threads);
   const bool noise = farthest.distance < sample_rounding * largest_coordinate(from);
   result.max = noise ? all.max : farthest.distance;
   result.max_bound = farthest.at_most;
   result.farthest = farthest.point;
+  result.at_vertices = std::move(at_vertices.distances);
   return result;
 }
 
@@ -223,8 +229,8 @@ SurfaceDistance measure_in_range(const TriangleMesh& first, const TriangleMesh& 
   report(options.progress, "trees", 0.5);
   const RayScene second_scene(second);
   SurfaceDistance result;
-  result.forth = measure_one_side(Side::First, first, second_scene, options);
-  result.back = measure_one_side(Side::Second, second, first_scene, options);
+  result.forth = measure_one_side(Side::First, first, second, second_scene, options);
+  result.back = measure_one_side(Side::Second, second, first, first_scene, options);
   result.diagonal_first = first_scene.diagonal();
   result.diagonal_second = second_scene.diagonal();
   return result;

@@ -145,7 +145,7 @@ struct RayScene::Tree {
     fill(geometry.handle);
     rtcCommitGeometry(geometry.handle);
     rtcAttachGeometry(scene.handle, geometry.handle);
-    rtcSetSceneFlags(scene.handle, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_COMPACT);
+    rtcSetSceneFlags(scene.handle, RTC_SCENE_FLAG_ROBUST);
     rtcCommitScene(scene.handle);
     require_success(device.handle);
   }

@@ -30,7 +30,7 @@ class RayScene {
  public:
   /// Requires: finite positions; at least one triangle; indices in range; the mesh outlives the
   /// scene. Throws: std::invalid_argument; std::bad_alloc.
-  /// Cost: O(#F log #F), about 0.4 µs and 150 bytes a triangle, one thread.
+  /// Cost: O(#F log #F), about 0.5 µs and 150 bytes a triangle, one thread.
   explicit RayScene(const TriangleMesh& mesh);
   ~RayScene();
   RayScene(const RayScene&) = delete;

@@ -182,11 +182,13 @@ class Transfer {
     if (any_property) face_properties(file, places, cut);
     report(options_.progress, "corners", 0);
     if (uv) {
-      file.corner_texcoords = corners(*source_.corner_texcoords, directions, places, cut);
+      file.corner_texcoords =
+          corners(*source_.corner_texcoords, source_.corner_texcoord_type, directions, places, cut);
       file.corner_texcoord_type = source_.corner_texcoord_type;
     }
     if (normal) {
-      file.corner_normals = corners(*source_.corner_normals, directions, places, cut);
+      file.corner_normals =
+          corners(*source_.corner_normals, source_.corner_normal_type, directions, places, cut);
       file.corner_normal_type = source_.corner_normal_type;
     }
   }
@@ -240,7 +242,7 @@ class Transfer {
   }
 
   template <class Table>
-  Table corners(const Table& of_source, const Points& directions,
+  Table corners(const Table& of_source, ScalarType type, const Points& directions,
                 const std::vector<SurfacePoint>& places, const Triangulation& cut) const {
     constexpr int width = Table::ColsAtCompileTime;
     const Seams seams(topology_, locator_, of_source.data(), width);
@@ -257,6 +259,10 @@ class Transfer {
                        double* const row = of_polygons.row(i).data();
                        seams.evaluate(middle, grid_.directions.row(v), at, row);
                        if (width == 3 && at.barycentric.maxCoeff() < 1) make_unit(row, 1, nullptr);
+                       if (type == ScalarType::Float32) {
+                         for (int k = 0; k < width; ++k)
+                           row[k] = static_cast<double>(static_cast<float>(row[k]));
+                       }
                      }
                    }
                  });

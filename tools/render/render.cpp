@@ -138,7 +138,7 @@ Rgb sample_colour(const Drawable& drawable, Face face, double x, double y, int s
     const Eigen::Vector3d b = triangle.barycentric(px, py).cwiseProduct(inverse_w);
     return b / b.sum();
   };
-  SurfaceSample sample;
+  ShadedSample sample;
   sample.face = face;
   sample.weights = weights(x, y);
   sample.weights_right = weights(x + samples, y);

@@ -44,7 +44,7 @@ struct GridPoint {
   GridCoordinate theta, phi;  // degrees
 };
 
-GridPoint grid_point(const Points& rays, const Triangles& triangles, const SurfaceSample& sample) {
+GridPoint grid_point(const Points& rays, const Triangles& triangles, const ShadedSample& sample) {
   const auto at = [&](const Eigen::Vector3d& weights) {
     return to_spherical(interpolate(rays, triangles, sample.face, weights));
   };
@@ -76,7 +76,7 @@ Rgb texel(const Image& image, const Eigen::Vector2d& uv) {
 }
 
 Rgb checker_colour(const CheckerPaint& paint, const Triangles& triangles,
-                   const SurfaceSample& sample) {
+                   const ShadedSample& sample) {
   const GridPoint p = grid_point(paint.rays, triangles, sample);
   const auto column = std::lround(std::floor(p.theta.value / paint.step));
   const auto row = std::lround(std::floor(p.phi.value / paint.step));
@@ -105,7 +105,7 @@ SurfaceColour::SurfaceColour(const RenderObject& object, const Eigen::Matrix3d& 
   normals_ = (normals_ * view.transpose()).eval();
 }
 
-Rgb SurfaceColour::painted(const SurfaceSample& sample) const {
+Rgb SurfaceColour::painted(const ShadedSample& sample) const {
   const Triangles& triangles = object_->mesh.triangles;
   const auto mean = [&](const auto& value_of_corner) {
     auto sum = (static_cast<float>(sample.weights[0]) * value_of_corner(0)).eval();
@@ -134,7 +134,7 @@ Rgb SurfaceColour::painted(const SurfaceSample& sample) const {
       object_->paint);
 }
 
-Rgb SurfaceColour::with_graticule(const SurfaceSample& sample, const Rgb& below) const {
+Rgb SurfaceColour::with_graticule(const ShadedSample& sample, const Rgb& below) const {
   const Graticule& graticule = *object_->graticule;
   const GridPoint p = grid_point(graticule.rays, object_->mesh.triangles, sample);
   const float line = std::max(line_cover(p.theta, graticule.step, graticule.width),
@@ -145,7 +145,7 @@ Rgb SurfaceColour::with_graticule(const SurfaceSample& sample, const Rgb& below)
   return colour;
 }
 
-Rgb SurfaceColour::with_wireframe(const SurfaceSample& sample, const Rgb& below) const {
+Rgb SurfaceColour::with_wireframe(const ShadedSample& sample, const Rgb& below) const {
   const Wireframe& wireframe = *object_->wireframe;
   const unsigned hidden = wireframe.hidden_sides.empty()
                               ? 0U
@@ -161,7 +161,7 @@ Rgb SurfaceColour::with_wireframe(const SurfaceSample& sample, const Rgb& below)
          wireframe.opacity * static_cast<float>(fade) * (to_linear(wireframe.colour) - below);
 }
 
-Rgb SurfaceColour::lit(const SurfaceSample& sample, const Rgb& colour) const {
+Rgb SurfaceColour::lit(const ShadedSample& sample, const Rgb& colour) const {
   const Triangles& triangles = object_->mesh.triangles;
   Vector3 normal;
   if (object_->shading == Shading::Smooth) {
@@ -194,7 +194,7 @@ Rgb SurfaceColour::lit(const SurfaceSample& sample, const Rgb& colour) const {
   return colour.cwiseProduct(key_light + fill_light + sky_light) + Rgb::Constant(gloss);
 }
 
-Rgb SurfaceColour::operator()(const SurfaceSample& sample) const {
+Rgb SurfaceColour::operator()(const ShadedSample& sample) const {
   Rgb colour = painted(sample);
   if (object_->graticule) colour = with_graticule(sample, colour);
   if (object_->wireframe) colour = with_wireframe(sample, colour);

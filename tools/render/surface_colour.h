@@ -5,7 +5,7 @@
 namespace sphparam::tools {
 
 /// A point of a triangle that is seen.
-struct SurfaceSample {
+struct ShadedSample {
   Face face = 0;
   Eigen::Vector3d weights;        // barycentric coordinates here …
   Eigen::Vector3d weights_right;  // … one pixel to the right, of the triangle's plane …
@@ -22,13 +22,13 @@ class SurfaceColour {
   SurfaceColour(const RenderObject& object, const Eigen::Matrix3d& view, int threads);
 
   /// Linear RGB.
-  Rgb operator()(const SurfaceSample& sample) const;
+  Rgb operator()(const ShadedSample& sample) const;
 
  private:
-  Rgb painted(const SurfaceSample& sample) const;
-  Rgb with_graticule(const SurfaceSample& sample, const Rgb& below) const;
-  Rgb with_wireframe(const SurfaceSample& sample, const Rgb& below) const;
-  Rgb lit(const SurfaceSample& sample, const Rgb& colour) const;
+  Rgb painted(const ShadedSample& sample) const;
+  Rgb with_graticule(const ShadedSample& sample, const Rgb& below) const;
+  Rgb with_wireframe(const ShadedSample& sample, const Rgb& below) const;
+  Rgb lit(const ShadedSample& sample, const Rgb& colour) const;
 
   const RenderObject* object_;
   Eigen::Matrix3d view_;

@@ -61,7 +61,10 @@ std::string element(std::string_view name, std::string_view text) {
 /// What a browser may load: nothing but what is in the page, and pictures beside it.
 constexpr std::string_view policy =
     "default-src 'none';img-src 'self' file: data: blob:;style-src 'unsafe-inline';"
-    "script-src 'unsafe-inline';connect-src data: blob:;base-uri 'none';form-action 'none'";
+    "connect-src data: blob:;base-uri 'none';form-action 'none'";
+
+/// Scripts of the page itself, which may have WebAssembly in them; only where there are any.
+constexpr std::string_view policy_of_scripts = ";script-src 'unsafe-inline' 'wasm-unsafe-eval'";
 
 void replace_all(std::string& text, std::string_view what, std::string_view by) {
   for (size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size())) {
@@ -122,7 +125,7 @@ void Page::table(const PageTable& table) {
   if (!table.caption.empty()) {
     body_ += "<p class=\"note\">" + escaped(table.caption) + "</p>\n";
   }
-  body_ += "<div class=\"wide\"><table>\n";
+  body_ += "<div class=\"wide\" tabindex=\"0\"><table>\n";
   body_ += "<thead>" + row("th", table.header) + "</thead>\n<tbody>\n";
   for (const std::vector<std::string>& texts : table.rows) body_ += row("td", texts);
   body_ += "</tbody></table></div>\n";
@@ -166,7 +169,8 @@ void Page::add_script(std::string_view code) {
 std::string Page::html() const {
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n"
-         "<meta http-equiv=\"Content-Security-Policy\" content=\"" + std::string(policy) + "\">\n" +
+         "<meta http-equiv=\"Content-Security-Policy\" content=\"" +
+         std::string(policy) + std::string(scripts_.empty() ? "" : policy_of_scripts) + "\">\n" +
          element("title", title_) + "\n" + std::string(style) +
          (styles_.empty() ? "" : "<style>\n" + styles_ + "</style>\n") + "</head>\n<body>\n" +
          body_ + scripts_ + "</body>\n</html>\n";

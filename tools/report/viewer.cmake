@@ -9,7 +9,9 @@ if(NOT viewer)
   npm_package(viewer @google/model-viewer 4.4.0
     8b621bd58da86cfa9908aaedf5a263d49770d08fc9e04ca661e3019616565f02)
 endif()
+set(SPHPARAM_HAS_VIEWER 0 CACHE INTERNAL "read by tests/package")
 if(viewer)
+  set(SPHPARAM_HAS_VIEWER 1 CACHE INTERNAL "read by tests/package")
   foreach(file dist/model-viewer-umd.min.js LICENSE)
     file(COPY ${viewer}/${file} DESTINATION ${PROJECT_BINARY_DIR}/share/sphparam/model-viewer)
     install(FILES ${viewer}/${file} COMPONENT program

@@ -11,9 +11,9 @@ std::string_view viewer_style() {
 .view{border:1px solid #d1d9e0;border-radius:10px;overflow:hidden;
 background:radial-gradient(circle at 50% 40%,#fbfcfd,#dfe5ec)}
 .view figcaption{padding:.3rem .8rem;background:#fff;border-top:1px solid #d1d9e0}
-.view model-viewer,.view .still{display:block;width:100%;height:min(34rem,68vh);
-background:transparent;--progress-bar-height:2px;--poster-color:transparent}
-.views.many .view model-viewer,.views.many .view .still{height:min(24rem,54vh)}
+.view model-viewer,.view .still{display:block;width:100%;height:min(34rem,68vh,105vw);
+background:transparent;--progress-bar-color:transparent;--poster-color:transparent}
+.views.many .view model-viewer,.views.many .view .still{height:min(24rem,54vh,100vw)}
 .view img{width:100%;height:100%;object-fit:contain;background:transparent;border-radius:0}
 .controls{display:flex;flex-wrap:wrap;gap:.6rem 1.5rem;align-items:center;margin:.5rem 0 1rem}
 .controls[hidden]{display:none}

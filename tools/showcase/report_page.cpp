@@ -8,6 +8,7 @@
 #include "render/shading_normals.h"
 #include "report/charts.h"
 #include "report/svg.h"
+#include "showcase/heat_key.h"
 #include "showcase/model.h"
 #include "showcase/surfaces.h"
 #include "showcase/tables.h"
@@ -18,6 +19,16 @@
 
 namespace sphparam::tools {
 namespace {
+
+constexpr std::string_view style = R"css(.tables{display:grid;gap:0 2.5rem}
+.tables>div{min-width:0}
+.tables>div:first-child{grid-row:span 3}
+.heat-keys{display:flex;flex-wrap:wrap;gap:.5rem 2.5rem;margin:.5rem 0 1rem}
+.heat-key{flex:1 1 16rem;max-width:26rem;font-size:.85rem}
+.heat-key b{font-weight:600}
+.heat-key .bar{display:block;height:.9rem;margin:.2rem 0;border-radius:3px}
+.heat-key .ticks{display:flex;justify-content:space-between}
+)css";
 
 constexpr int panel_width = 300, heat_width = 420;  // least, on the page, in pixels
 
@@ -36,6 +47,7 @@ class Reporter {
 
   std::string html() {
     Page page("Spherical map" + std::string(many() ? "s" : "") + " of " + name_);
+    page.add_style(style);
     lead(page);
     views(page);
     charts(page);
@@ -100,7 +112,7 @@ class Reporter {
     const Contender& c = exhibit.contender;
     const std::string noun = is_area ? "Area" : "Angle";
     const double mean = is_area ? c.figures->mean_abs_ln_area : c.figures->mean_abs_ln_angle;
-    return {data_uri("image/png", png(with_legend(image, heat))),
+    return {data_uri("image/png", png(image)),
             noun + " distortion of " + c.name + " over the whole sphere: mean |ln ratio| " +
                 significant(mean),
             (many() ? c.name + ": " : "") + noun + " distortion"};
@@ -163,6 +175,8 @@ class Reporter {
         "Longitude runs from left to right and the poles are above and below. Areas: blue has "
         "shrunk, red has grown on the sphere. Angles: the factor by which they are off, from dark "
         "to yellow.");
+    page.insert("<div class=\"heat-keys\">\n" + heat_key(Heat::Area) + heat_key(Heat::Angle) +
+                "</div>\n");
     page.figures(heat_maps, heat_width);
   }
 
@@ -199,12 +213,20 @@ class Reporter {
 
   void tables(Page& page) {
     page.heading("Figures");
-    page.table(distortion_table(exhibits_));
-    page.table(certificate_table(exhibits_));
-    if (const PageTable table = chart_table(exhibits_); !table.rows.empty()) page.table(table);
-    for (const Exhibit& exhibit : exhibits_) {
-      if (const PageTable table = timing_table(exhibit); !table.rows.empty()) page.table(table);
+    std::vector<PageTable> tables = {distortion_table(exhibits_), certificate_table(exhibits_),
+                                     chart_table(exhibits_)};
+    for (const Exhibit& exhibit : exhibits_) tables.push_back(timing_table(exhibit));
+    const std::string least = std::to_string(15 + 6 * exhibits_.size()) + "rem";
+    page.insert(
+        "<div class=\"tables\" style=\"grid-template-columns:repeat(auto-fit,minmax(min(100%," +
+        least + "),1fr))\">\n");
+    for (const PageTable& table : tables) {
+      if (table.rows.empty()) continue;
+      page.insert("<div>\n");
+      page.table(table);
+      page.insert("</div>\n");
     }
+    page.insert("</div>\n");
   }
 
   void provenance(Page& page) {

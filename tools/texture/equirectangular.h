@@ -22,7 +22,7 @@ class EquirectangularImage {
       : pyramid_(&pyramid), convention_(info_of(convention)) {}
 
   /// Linear red, green, blue and alpha in the direction, of any length but 0; `width` in radians.
-  /// Cost: 50 ns; about H/(H sin ϕ + 1) times that where texels are smaller than the width.
+  /// Cost: 50 ns, 1/sin ϕ times that where texels are smaller than the width.
   std::array<float, 4> look_up(const Vector3& direction, double width) const;
 
  private:

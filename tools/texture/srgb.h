@@ -8,7 +8,8 @@
 namespace sphparam::tools {
 
 /// The transfer curves of sRGB (IEC 61966-2-1) for whole images: by tables, some nanoseconds a
-/// value. Values are clamped to [0, 1]; NaN becomes 0. Relative error below 1e-6.
+/// value. Values are clamped to [0, 1]; NaN becomes 0. Relative error below 1e-5, at the
+/// joint of line and curve; elsewhere 1e-6.
 class SrgbCurves {
  public:
   float to_linear(float srgb) const { return look_up(from_srgb_, srgb); }

@@ -112,6 +112,30 @@ class Sampler {
     if (filter != TextureFilter::Nearest) measure_footprint();
   }
 
+  /// Where samples are bilinear in the finest level and none needs a texel beyond its borders: the
+  /// ends of a line say so for all of it.
+  bool is_plain() const {
+    if (filter_ != TextureFilter::Bilinear || taps_ > 1 || coarse_share_ > 0 || level_ > 0) {
+      return false;
+    }
+    const Level& level = levels_[0];
+    for (const int i : {0, line_.count - 1}) {
+      const double x = place(x_, line_.step[0], i, level.width);
+      const double y = place(y_, line_.step[1], i, level.height);
+      if (!(x >= 0 && y >= 0 && x < level.width - 1 && y < level.height - 1)) return false;
+    }
+    return true;
+  }
+
+  /// Requires: is_plain().
+  Lanes plain(int i) const {
+    const Level& level = levels_[0];
+    const double x = place(x_, line_.step[0], i, level.width);
+    const double y = place(y_, line_.step[1], i, level.height);
+    const int column = static_cast<int>(x), row = static_cast<int>(y);
+    return mix(level, column, row, static_cast<float>(x - column), static_cast<float>(y - row));
+  }
+
   Lanes operator()(int i) const {
     const double x = x_ + i * line_.step[0], y = y_ + i * line_.step[1];
     if (filter_ == TextureFilter::Nearest) return nearest(x, y);
@@ -169,6 +193,20 @@ class Sampler {
                                static_cast<size_t>(column));
   }
 
+  static double place(double first, double step, int i, int size) {
+    return (first + i * step) * size - 0.5;
+  }
+
+  /// Of four texels within the level.
+  static Lanes mix(const Level& level, int column, int row, float u, float v) {
+    const auto width = static_cast<size_t>(level.width);
+    const size_t index = static_cast<size_t>(row) * width + static_cast<size_t>(column);
+    const Lanes a = texel_at(level, index), b = texel_at(level, index + 1),
+                c = texel_at(level, index + width), d = texel_at(level, index + width + 1);
+    const Lanes top = a + u * (b - a), bottom = c + u * (d - c);
+    return top + v * (bottom - top);
+  }
+
   Lanes nearest(double x, double y) const {
     const Level& level = levels_[0];
     return at(level, floor_of(bounded(x * level.width)), floor_of(bounded(y * level.height)));
@@ -178,20 +216,11 @@ class Sampler {
     const double px = bounded(x * level.width - 0.5), py = bounded(y * level.height - 0.5);
     const int column = floor_of(px), row = floor_of(py);
     const auto u = static_cast<float>(px - column), v = static_cast<float>(py - row);
-    Lanes a, b, c, d;
     if (column >= 0 && row >= 0 && column + 1 < level.width && row + 1 < level.height) {
-      const size_t index =
-          static_cast<size_t>(row) * static_cast<size_t>(level.width) + static_cast<size_t>(column);
-      a = texel_at(level, index);
-      b = texel_at(level, index + 1);
-      c = texel_at(level, index + static_cast<size_t>(level.width));
-      d = texel_at(level, index + static_cast<size_t>(level.width) + 1);
-    } else {
-      a = at(level, column, row);
-      b = at(level, column + 1, row);
-      c = at(level, column, row + 1);
-      d = at(level, column + 1, row + 1);
+      return mix(level, column, row, u, v);
     }
+    const Lanes a = at(level, column, row), b = at(level, column + 1, row);
+    const Lanes c = at(level, column, row + 1), d = at(level, column + 1, row + 1);
     const Lanes top = a + u * (b - a), bottom = c + u * (d - c);
     return top + v * (bottom - top);
   }
@@ -240,20 +269,37 @@ TexturePyramid::TexturePyramid(const Image& image, bool linear, int threads)
   }
 }
 
+namespace {
+
+/// Writes one colour after the other.
+template <int channels>
+void write_line(const Sampler& sampler, const Lanes& factor, int count, float* out) {
+  const auto put = [&](const Lanes& colour) {
+    for (int c = 0; c < channels; ++c) *out++ = colour[c];
+  };
+  if (sampler.is_plain()) {
+    for (int i = 0; i < count; ++i) put(factor * sampler.plain(i));
+  } else {
+    for (int i = 0; i < count; ++i) put(factor * sampler(i));
+  }
+}
+
+}  // namespace
+
 void sample_texture(const SourceTexture& texture, TextureFilter filter, const TextureLine& line,
-                    float* rgba) {
+                    float* values, int channels) {
   Lanes factor;
   std::memcpy(&factor, texture.factor.data(), sizeof factor);
   if (!texture.image) {
-    for (int i = 0; i < line.count; ++i) std::memcpy(rgba + 4 * i, &factor, sizeof factor);
+    for (int i = 0; i < line.count; ++i) {
+      values = std::copy_n(texture.factor.begin(), channels, values);
+    }
     return;
   }
   const Sampler sampler(texture, filter, line);
   factor /= full;
-  for (int i = 0; i < line.count; ++i) {
-    const Lanes colour = factor * sampler(i);
-    std::memcpy(rgba + 4 * i, &colour, sizeof colour);
-  }
+  channels == 3 ? write_line<3>(sampler, factor, line.count, values)
+                : write_line<4>(sampler, factor, line.count, values);
 }
 
 }  // namespace sphparam::tools

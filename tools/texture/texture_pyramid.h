@@ -35,12 +35,13 @@ struct TextureLine {
   int count;
 };
 
-/// Linear red, green, blue, alpha of each sample, times the factor, to rgba[0 … 4·count).
+/// Linear red, green, blue and, of 4 channels, alpha of each sample, times the factor, to
+/// values[0 … channels·count).
 ///
 /// What a sample covers, the parallelogram of `step` and `below`, chooses the levels: linear
 /// between two of them by its narrow side, several samples along its wide one, at most 16. Where
 /// texels are larger than samples the filter is as asked for; `Nearest` always looks up one texel.
 void sample_texture(const SourceTexture& texture, TextureFilter filter, const TextureLine& line,
-                    float* rgba);
+                    float* values, int channels = 4);
 
 }  // namespace sphparam::tools

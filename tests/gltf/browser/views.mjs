@@ -98,6 +98,7 @@ function raysOf(geometry) {
 function prepare(object, model) {
   for (const mesh of meshes(object)) {
     const map = mesh.material.map;
+    map.anisotropy = model.anisotropy ?? 1;
     if (model.filter === 'linear') {
       map.minFilter = map.magFilter = THREE.LinearFilter;
       map.generateMipmaps = false;

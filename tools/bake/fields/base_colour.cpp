@@ -42,13 +42,9 @@ struct Painter {
   }
 
   void paint(std::span<const SurfaceRun> runs, int channels, float* values) const {
-    std::vector<float> rgba;
     for (const SurfaceRun& run : runs) {
-      rgba.resize(4 * static_cast<size_t>(run.count));
-      sample_texture(texture(run.face), filter, line(run), rgba.data());
-      for (int i = 0; i < run.count; ++i) {
-        for (int c = 0; c < channels; ++c) *values++ = rgba[static_cast<size_t>(4 * i + c)];
-      }
+      sample_texture(texture(run.face), filter, line(run), values, channels);
+      values += channels * run.count;
     }
   }
 };

@@ -4,8 +4,6 @@
 
 #include "bake/fields/height_field.h"
 
-#include <algorithm>
-
 #include "bake/map_kinds.h"
 
 namespace sphparam::tools {
@@ -20,17 +18,9 @@ Vector3 interpolate(const Points& rows, const Triangles& triangles, const Surfac
   return sum;
 }
 
-/// From the least to the greatest distance of the surface: vertices are farthest, and nearest is
-/// the point of a triangle that a little search by its plane would find; vertices are near enough.
-std::pair<double, double> range_of(const Points& positions) {
-  const Eigen::VectorXd distances = positions.rowwise().norm();
-  return {distances.minCoeff(), distances.maxCoeff()};
-}
-
 SurfaceField radial_height(const TriangleMesh& mesh) {
   SurfaceField field = {.name = "height",
-                        .about = "distance from the origin, in units of the mesh",
-                        .range = range_of(mesh.positions)};
+                        .about = "distance from the origin, in units of the mesh"};
   field.evaluate = [&mesh](std::span<const SurfaceSample> samples, float* values) {
     for (const SurfaceSample& sample : samples) {
       *values++ =

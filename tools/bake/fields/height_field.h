@@ -9,9 +9,8 @@ namespace sphparam::tools {
 
 /// How high the source's surface stands: above the target's, along the target's normals (of unit
 /// length, interpolated), negative below it; or, where the options ask for it or the target is the
-/// source itself, its distance from the origin. In units of the mesh. The range is that of the
-/// source's vertices for distances from the origin, else none. Names no other heights: `argument`
-/// may be "radial" to ask for distances.
+/// source itself, its distance from the origin. In units of the mesh. `argument` may be "radial" to
+/// ask for distances.
 /// Throws: MapError for other arguments.
 SurfaceField height_field(const BakeScene& scene, const std::string& argument);
 

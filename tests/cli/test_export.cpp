@@ -1,0 +1,132 @@
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "program.h"
+#include "support/test_meshes.h"
+
+/// `sphparam export`.
+namespace sphparam::tests {
+
+namespace {
+
+using Catch::Contains;
+using Json = nlohmann::json;
+using Names = std::vector<std::string>;
+
+/// A mesh and a file beside it for what is exported.
+struct Egg {
+  Folder folder;
+  std::string mesh = folder / "egg.obj";
+
+  Egg() {
+    TriangleMesh egg = icosphere(2);
+    egg.positions.col(2) *= 1.3;
+    write_bytes(mesh, obj_text(egg));
+  }
+
+  Ended run(const std::string& output, Names more = {}) const {
+    Names arguments = {"export", mesh, "-o", folder / output, "--image-size", "64"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return sphparam_program(arguments);
+  }
+};
+
+Json json_of(const std::string& glb) {
+  std::uint32_t length = 0;
+  std::memcpy(&length, glb.data() + 12, 4);
+  return Json::parse(glb.substr(20, length));
+}
+
+}  // namespace
+
+TEST_CASE("export: a mesh becomes a .glb with a checker, its report says what is certified") {
+  const Egg egg;
+  const Ended ended = egg.run("egg.glb", {"--json", egg.folder / "egg.json"});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  CHECK(egg.folder.names() == Names{"egg.glb", "egg.json", "egg.obj"});
+  const Json gltf = json_of(bytes_of(egg.folder / "egg.glb"));
+  CHECK(gltf["materials"][0]["name"] == "checker");
+  CHECK(gltf["asset"]["extras"]["sphparam"]["chart_as_stored"] == "one-to-one");
+  CHECK(gltf["asset"]["extras"]["sphparam"]["map_verdict"] == "one-to-one");
+  const Json report = Json::parse(bytes_of(egg.folder / "egg.json"));
+  CHECK(report["levels"][0]["certified_as_stored"] == true);
+  CHECK(report["levels"][0]["triangles"] == gltf["accessors"].back()["count"].get<int>() / 3);
+}
+
+TEST_CASE("export: materials that can be switched, each once") {
+  const Egg egg;
+  REQUIRE(egg.run("egg.glb", {"--variants", "checker,axes,area"}).code == 0);
+  const Json gltf = json_of(bytes_of(egg.folder / "egg.glb"));
+  Names names;
+  for (const Json& variant : gltf["extensions"]["KHR_materials_variants"]["variants"])
+    names.push_back(variant["name"]);
+  CHECK(names == Names{"checker", "axes", "area"});
+}
+
+TEST_CASE("export: .gltf, .obj and .ply come with the files they name") {
+  const Egg egg;
+  REQUIRE(egg.run("a.gltf").code == 0);
+  CHECK(egg.folder.names() == Names{"a.bin", "a.gltf", "a_checker.png", "egg.obj"});
+  REQUIRE(egg.run("b.obj").code == 0);
+  CHECK_THAT(bytes_of(egg.folder / "b.obj"), Contains("mtllib b.mtl\n"));
+  CHECK_THAT(bytes_of(egg.folder / "b.mtl"), Contains("map_Kd b_checker.png\n"));
+  REQUIRE(egg.run("c.ply").code == 0);
+  CHECK_THAT(bytes_of(egg.folder / "c.ply"), Contains("comment TextureFile c_checker.png\n"));
+}
+
+TEST_CASE("export: levels of detail, as files or in one") {
+  const Egg egg;
+  REQUIRE(egg.run("egg.glb", {"--lods", "2"}).code == 0);
+  CHECK(egg.folder.names() == Names{"egg.glb", "egg.obj", "egg_lod1.glb", "egg_lod2.glb"});
+  REQUIRE(egg.run("one.glb", {"--lods", "2", "--lod", "msft"}).code == 0);
+  CHECK(json_of(bytes_of(egg.folder / "one.glb"))["nodes"].size() == 3);
+  REQUIRE(egg.run("n{n}.glb", {"--lods", "1"}).code == 0);
+  CHECK_FALSE(bytes_of(egg.folder / "n1.glb").empty());
+}
+
+TEST_CASE("export: with a kept topology what folds is told, and marked in the file") {
+  Egg egg;
+  const std::string map = egg.folder / "egg.sph.ply";  // ±z within faces
+  REQUIRE(sphparam_program({"map", egg.mesh, "-o", map, "--poles", "none"}).code == 0);
+  egg.mesh = map;
+  const Ended ended = egg.run("egg.glb", {"--keep-topology"});
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.err, Contains("fold in (u, v)"));
+  const Json extras = json_of(bytes_of(egg.folder / "egg.glb"))["asset"]["extras"]["sphparam"];
+  CHECK_THAT(extras["topology"].get<std::string>(), Contains("kept"));
+  CHECK_THAT(extras["chart_as_stored"].get<std::string>(), Contains("not one-to-one"));
+}
+
+TEST_CASE("export: the same bytes for any number of threads") {
+  const Egg egg;
+  REQUIRE(egg.run("one.glb", {"--threads", "1", "--variants", "area"}).code == 0);
+  REQUIRE(egg.run("three.glb", {"--threads", "3", "--variants", "area"}).code == 0);
+  CHECK(bytes_of(egg.folder / "one.glb") == bytes_of(egg.folder / "three.glb"));
+}
+
+TEST_CASE("export: what makes no sense is refused with a reason, and nothing is written") {
+  const Egg egg;
+  const std::vector<std::tuple<std::string, Names, int, std::string>> mistakes = {
+      {"x.fbx", {}, 2, ".glb, .gltf, .obj or .ply"},
+      {"x.glb", {"--variants", "chekcer"}, 2, "did you mean checker?"},
+      {"x.glb", {"--keep-topology", "--refine-poles", "3"}, 2, "--keep-topology"},
+      {"x.obj", {"--quantize"}, 2, "--quantize"},
+      {"x.glb", {"--image-size", "30"}, 2, "multiple of 4"},
+      {"x.glb", {"--unlit", "--tangents"}, 2, "--unlit"},
+      {"x.glb", {"--source-uv"}, 2, "texture coordinates"},
+      {"x.glb", {"--texture", egg.mesh}, 3, "egg.obj"},
+      {"x.glb", {"--texture", egg.folder / "none.png"}, 3, "none.png"},
+      {"x.glb", {"--textures", egg.folder / "."}, 3, "basecolor"},
+      {"egg.obj", {}, 2, "-o"}};
+  for (const auto& [output, more, code, reason] : mistakes) {
+    const Ended ended = egg.run(output, more);
+    INFO(output << " " << (more.empty() ? "" : more.front()) << ": " << ended.err);
+    CHECK(ended.code == code);
+    CHECK_THAT(ended.err, Contains(reason));
+    CHECK(egg.folder.names() == Names{"egg.obj"});
+  }
+}
+
+}  // namespace sphparam::tests

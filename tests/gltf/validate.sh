@@ -1,0 +1,18 @@
+#!/bin/sh
+# validate.sh EXPORT_FILES WORK [MESH…]: exports with every option, through the Khronos validator.
+# All real meshes: tests/gltf/validate.sh build/…/export_files /tmp/work MESHES/genus0/*
+set -u
+here=$(cd "$(dirname "$0")" && pwd)
+export_files=$1 work=$2
+shift 2
+"$here/packages.sh" "$work/packages" || exit $?
+failed=0
+validate() {
+  rm -rf "$work/files"
+  "$export_files" "$work/files" "$@" || return 1
+  node "$here/validate.mjs" "$work/packages" "$work/files"/*.gl* || return 1
+}
+if [ $# -eq 0 ]; then validate || failed=1; fi
+for mesh in "$@"; do validate "$mesh" || { echo "  of $mesh"; failed=1; }; done
+rm -rf "$work/files"
+exit $failed

@@ -1,0 +1,154 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+#include "image/image_codec.h"
+#include "remesh/geometry_image.h"
+
+using namespace sphparam;
+using namespace sphparam::tools;
+
+namespace {
+
+std::vector<double> random_values(std::int64_t count, double scale) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal(0, scale);
+  std::vector<double> values(static_cast<size_t>(count));
+  std::generate(values.begin(), values.end(), [&] { return normal(random); });
+  return values;
+}
+
+struct Made {
+  GridSpec spec;
+  SphereGrid grid;
+  std::vector<double> values;
+  explicit Made(const std::string& name, double scale = 1)
+      : spec(parse_grid(name)),
+        grid(make_grid(spec)),
+        values(random_values(3 * grid.directions.rows(), scale)) {}
+  GeometryImage image(ImageDepth depth) const {
+    return make_geometry_image(spec, grid.directions, values, 3, depth);
+  }
+};
+
+/// Through the bytes of a file and back.
+ImageContents through_file(const GeometryImage& made, ImageDepth depth) {
+  const SampleType type = depth == ImageDepth::Uint16 ? SampleType::Uint16
+                          : depth == ImageDepth::Half ? SampleType::Half
+                                                      : SampleType::Float;
+  const ImageFormat format = depth == ImageDepth::Uint16 ? ImageFormat::Png : ImageFormat::Exr;
+  const std::vector<char> bytes =
+      encode_image(made.image, format, {.sample_type = type, .metadata = made.texts});
+  ImageTexts texts;
+  const Image image = decode_image(bytes, "an image", {}, &texts);
+  return read_geometry_image(image, texts);
+}
+
+const std::vector<std::string> layouts = {"octa:3", "octa:5", "octa:7", "octa:33", "octa:35",
+                                          "cube:1", "cube:2", "cube:3", "cube:16", "cube:21"};
+
+}  // namespace
+
+TEST_CASE("geometry images: every sample has a vertex, every vertex a sample") {
+  for (const std::string& name : layouts) {
+    INFO(name);
+    const Made made(name);
+    const ImageLayout layout = image_layout(made.spec, made.grid.directions);
+    std::vector<int> seen(static_cast<size_t>(made.grid.directions.rows()), 0);
+    for (const int vertex : layout.vertex) {
+      REQUIRE(vertex >= 0);
+      ++seen[static_cast<size_t>(vertex)];
+    }
+    CHECK(*std::min_element(seen.begin(), seen.end()) == (name == "cube:1" ? 3 : 1));
+    CHECK(*std::max_element(seen.begin(), seen.end()) == (name[0] == 'o' ? 4 : 3));
+  }
+}
+
+TEST_CASE("geometry images: neighbours in the image are neighbours in the grid") {
+  for (const std::string name : {"octa:33", "octa:35", "cube:16"}) {
+    INFO(name);
+    const Made made(name);
+    const ImageLayout layout = image_layout(made.spec, made.grid.directions);
+    const int side = name[0] == 'c' ? layout.width : layout.height;
+    for (int row = 0; row < layout.height; ++row) {
+      for (int column = 0; column < layout.width; ++column) {
+        const auto at = [&](int r, int c) -> Vector3 {
+          return made.grid.directions.row(
+              layout.vertex[static_cast<size_t>(r) * static_cast<size_t>(layout.width) +
+                            static_cast<size_t>(c)]);
+        };
+        if (column + 1 < layout.width) CHECK((at(row, column) - at(row, column + 1)).norm() < 0.26);
+        const bool same_side = (row + 1) % side != 0;
+        if (same_side) CHECK((at(row, column) - at(row + 1, column)).norm() < 0.26);
+        // Seen from outside: right and up turn counter-clockwise.
+        if (column + 1 < layout.width && same_side) {
+          const Vector3 here = at(row, column), right = at(row, column + 1),
+                        down = at(row + 1, column);
+          // Zero at the middles of the square's edges and at its corners, where it folds.
+          CHECK((down - here).cross(right - here).dot(here) > -1e-12);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("geometry images: in float, what comes back is what went in, rounded") {
+  for (const std::string& name : layouts) {
+    INFO(name);
+    const Made made(name);
+    const ImageContents back = through_file(made.image(ImageDepth::Float), ImageDepth::Float);
+    CHECK(back.spec == made.spec);
+    CHECK(back.grid.directions == made.grid.directions);
+    CHECK(back.grid.faces.corners == made.grid.faces.corners);
+    REQUIRE(back.values.size() == made.values.size());
+    for (size_t i = 0; i < back.values.size(); ++i) {
+      CHECK(back.values[i] == static_cast<double>(static_cast<float>(made.values[i])));
+    }
+  }
+}
+
+TEST_CASE("geometry images: half and 16 bits are within half a quantum") {
+  for (const double scale : {1e-6, 1.0, 3000.0}) {
+    const Made made("octa:17", scale);
+    const auto half = through_file(made.image(ImageDepth::Half), ImageDepth::Half).values;
+    const auto u16 = through_file(made.image(ImageDepth::Uint16), ImageDepth::Uint16).values;
+    for (size_t i = 0; i < made.values.size(); ++i) {
+      const double x = made.values[i];
+      const double quantum = std::ldexp(1, std::max(std::ilogb(x), -14) - 10);
+      CHECK(std::abs(half[i] - x) <= quantum / 2);
+    }
+    for (size_t k = 0; k < 3; ++k) {
+      double least = 1e9, greatest = -1e9;
+      for (size_t i = k; i < made.values.size(); i += 3) {
+        least = std::min(least, made.values[i]);
+        greatest = std::max(greatest, made.values[i]);
+      }
+      for (size_t i = k; i < made.values.size(); i += 3) {
+        CHECK(std::abs(u16[i] - made.values[i]) <= (greatest - least) / 65535 / 2 * (1 + 1e-9));
+      }
+    }
+  }
+}
+
+TEST_CASE("geometry images: what is broken is refused, saying what") {
+  const Made made("octa:9");
+  const GeometryImage good = made.image(ImageDepth::Float);
+  CHECK_THROWS_WITH(read_geometry_image(good.image, {}), Catch::Contains("names no grid"));
+  CHECK_THROWS_WITH(read_geometry_image(good.image, {{"sphparam:grid", "octa:11"}}),
+                    Catch::Contains("9 x 9"));
+  CHECK_THROWS_WITH(read_geometry_image(good.image, {{"sphparam:grid", "ico:2"}}),
+                    Catch::Contains("ico:2"));
+  GeometryImage torn = good;
+  torn.image.pixels[0] += 1;  // one of the four corners, which are all −z
+  CHECK_THROWS_WITH(read_geometry_image(torn.image, torn.texts), Catch::Contains("differ"));
+  GeometryImage broken = good;
+  broken.image.pixels[30] = std::nanf("");
+  CHECK_THROWS_WITH(read_geometry_image(broken.image, broken.texts), Catch::Contains("not finite"));
+  const GeometryImage whole = made.image(ImageDepth::Uint16);
+  CHECK_THROWS_WITH(
+      read_geometry_image(whole.image, {whole.texts[0], whole.texts[1], {"sphparam:min", "1 2"}}),
+      Catch::Contains("sphparam:min"));
+  CHECK_THROWS_AS(Made("octa:9", 1e5).image(ImageDepth::Half), std::range_error);
+}
