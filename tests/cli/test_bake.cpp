@@ -21,12 +21,15 @@ std::string textured_ball() {
   std::string text = obj_text(mesh);
   text.erase(text.find("\nf ") + 1);
   for (const auto& x : mesh.positions.rowwise()) {
-    text +=
-        "vt " + std::to_string(0.5 + 0.45 * x[0]) + " " + std::to_string(0.5 + 0.45 * x[1]) + "\n";
+    text.append("vt ").append(std::to_string(0.5 + 0.45 * x[0]));
+    text.append(" ").append(std::to_string(0.5 + 0.45 * x[1])).append("\n");
   }
   for (const auto& f : mesh.triangles.rowwise()) {
     text += "f";
-    for (const int v : f) text += " " + std::to_string(v + 1) + "/" + std::to_string(v + 1);
+    for (const int v : f) {
+      const std::string number = std::to_string(v + 1);
+      text.append(" ").append(number).append("/").append(number);
+    }
     text += "\n";
   }
   return text;

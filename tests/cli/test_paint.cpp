@@ -27,9 +27,10 @@ std::string obj_with_atlas(const TriangleMesh& mesh, bool overlapping = false) {
     const double s = static_cast<double>(cell % side), t = static_cast<double>(cell / side);
     faces += "f";
     for (int k = 0; k < 3; ++k) {
-      text += "vt " + std::to_string((s + (k == 1 ? 0.9 : 0.1)) / side) + " " +
-              std::to_string((t + (k == 2 ? 0.9 : 0.1)) / side) + "\n";
-      faces += " " + std::to_string(mesh.triangles(f, k) + 1) + "/" + std::to_string(3 * f + k + 1);
+      text.append("vt ").append(std::to_string((s + (k == 1 ? 0.9 : 0.1)) / side));
+      text.append(" ").append(std::to_string((t + (k == 2 ? 0.9 : 0.1)) / side)).append("\n");
+      faces.append(" ").append(std::to_string(mesh.triangles(f, k) + 1));
+      faces.append("/").append(std::to_string(3 * f + k + 1));
     }
     faces += "\n";
   }

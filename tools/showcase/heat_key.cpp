@@ -34,9 +34,9 @@ std::string heat_key(Heat heat) {
     colours += ",";
     colours += css_colour(heat_colour(scale, value));
   }
-  std::string html = "<div class=\"heat-key\"><b>" + escaped(scale.title) +
-                     "</b><span class=\"bar\" style=\"background:linear-gradient(90deg" + colours +
-                     ")\"></span><span class=\"ticks\">";
+  std::string html = "<div class=\"heat-key\"><span class=\"name\">" + escaped(scale.title) +
+                     "</span><span class=\"bar\" style=\"background:linear-gradient(90deg" +
+                     colours + ")\"></span><span class=\"ticks\">";
   for (int tick = static_cast<int>(scale.low); tick <= static_cast<int>(scale.high); ++tick) {
     html += "<span>" + power_of_two(tick) + "</span>";
   }

@@ -25,7 +25,7 @@ constexpr std::string_view style = R"css(.tables{display:grid;gap:0 2.5rem}
 .tables>div:first-child{grid-row:span 3}
 .heat-keys{display:flex;flex-wrap:wrap;gap:.5rem 2.5rem;margin:.5rem 0 1rem}
 .heat-key{flex:1 1 16rem;max-width:26rem;font-size:.85rem}
-.heat-key b{font-weight:600}
+.heat-key .name{font-weight:600}
 .heat-key .bar{display:block;height:.9rem;margin:.2rem 0;border-radius:3px}
 .heat-key .ticks{display:flex;justify-content:space-between}
 )css";
