@@ -13,8 +13,9 @@ namespace {
 using Catch::Contains;
 using Catch::StartsWith;
 
-const std::vector<std::string> subcommands = {"info",   "map",    "verify",
-                                              "render", "compare", "measure", "manual", "completion"};
+const std::vector<std::string> subcommands = {
+    "info",    "map",     "verify", "render", "compare", "bake",   "paint",     "remesh",
+    "unimage", "measure", "export", "report", "spharm",  "manual", "completion"};
 
 /// Every "--name" in a text.
 std::set<std::string> long_options(const std::string& text) {

@@ -12,5 +12,6 @@ if [ "$script" = fidelity ]; then
   [ -e "$1/spot_texture.png" ] && [ -e "$1/Duck.glb" ] || { echo "skipped: no meshes"; exit 77; }
 fi
 chromium=$(command -v chromium || command -v chromium-browser) || { echo "skipped: no chromium"; exit 77; }
-"$here/packages.sh" "$work/packages" || exit $?
+command -v node >/dev/null || { echo "skipped: no nodejs"; exit 77; }
+[ -e "$work/packages/node_modules/three" ] || { echo "skipped: no three.js"; exit 77; }
 exec node "$here/browser/$script.mjs" "$work/packages" "$chromium" "$program" "$work/pictures" "$@"

@@ -3,6 +3,7 @@
 
 #include "cli/manual.h"
 
+#include <cstdio>
 #include <sstream>
 
 #include "cli/exit_codes.h"
@@ -54,10 +55,27 @@ R. Zayer, C. R\[:o]ssl, H.\-P. Seidel:
 Shape Modeling International, 2006.
 )";
 
+/// The character of UTF-8 that begins there, beyond ASCII, as roff names it: \[u00D7].
+std::string named_character(const std::string& text, size_t& at) {
+  const auto byte = [&](size_t i) { return static_cast<unsigned char>(text.at(i)); };
+  const unsigned char first = byte(at);
+  const size_t more = first >= 0xF0 ? 3 : first >= 0xE0 ? 2 : 1;
+  unsigned code = first & (0x3FU >> more);
+  for (size_t i = 0; i < more; ++i) code = code << 6 | (byte(++at) & 0x3FU);
+  char name[16];
+  std::snprintf(name, sizeof name, "\\[u%04X]", code);
+  return name;
+}
+
 /// Text that roff takes as it is: a dot or a quote that begins a line would be a command.
 std::string roff(const std::string& text) {
   std::string safe;
-  for (const char c : text) {
+  for (size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (static_cast<unsigned char>(c) >= 0x80) {
+      safe += named_character(text, i);
+      continue;
+    }
     const bool begins_line = safe.empty() || safe.back() == '\n';
     if (begins_line && (c == '.' || c == '\'')) safe += "\\&";
     if (c == '\\' || c == '-') safe += '\\';

@@ -1,6 +1,6 @@
 # The script that shows models in report pages, as a file beside the program. Without it the pages
 # have pictures instead.
-include(${PROJECT_SOURCE_DIR}/cmake/NpmPackage.cmake)
+include(${PROJECT_SOURCE_DIR}/tools/cmake/NpmPackage.cmake)
 
 set(SPHPARAM_VIEWER "" CACHE PATH
   "Folder of the npm package @google/model-viewer 4.4.0, for builds without network")
