@@ -41,6 +41,7 @@ constexpr char summary[] =
     "  sphparam verify statue.sph.ply                 prove a written map again\n"
     "  sphparam render statue.sph.ply -o statue.png   look at it\n"
     "  sphparam compare statue.obj -o statue/         all methods, side by side\n"
+    "  sphparam report statue.obj -o statue.html      a page to look at a map\n"
     "  sphparam remesh statue.sph.ply --grid ico:7 -o statue_ico7.sph.ply\n"
     "  sphparam measure statue.obj statue_ico7.sph.ply   how far two surfaces are apart\n";
 

@@ -45,6 +45,7 @@ FigureOptions figure_options(const Paint& paint, const PictureOptions& options) 
   figure.size = options.size;
   figure.view = options.view;
   figure.up = options.up;
+  if (options.transparent) figure.background = std::nullopt;
   return figure;
 }
 

@@ -14,6 +14,7 @@ struct PictureOptions {
   Vector3 view{1, -1.6, 0.5};  // from the mesh towards the eye
   Vector3 up{0, 0, 1};         // of the mesh
   bool wireframe = false;      // the triangles
+  bool transparent = false;    // behind it; else white
   int size = 360;              // pixels
   int threads = 0;
 };

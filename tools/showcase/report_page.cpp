@@ -96,6 +96,7 @@ class Reporter {
   PictureOptions look() const {
     PictureOptions look = options_.look;
     look.threads = options_.threads;
+    look.transparent = true;  // the page is light or dark
     return look;
   }
 
