@@ -11,7 +11,6 @@
 #include <fstream>
 #include <iostream>
 #include <map>
-#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -39,16 +38,6 @@ struct Subject {
   std::string name;
   TriangleMesh mesh;
 };
-
-std::vector<std::filesystem::path> mesh_files(const std::string& folder) {
-  const std::set<std::string> known{".obj", ".ply", ".off", ".stl", ".glb", ".gii"};
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (known.contains(entry.path().extension().string())) files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
 
 /// Folds of the method's own map: of its first certificate, before anything was repaired.
 long folds_before_repair(const Parameterization& map) {
@@ -184,7 +173,7 @@ int main(int argc, char** argv) try {
   app.add_option("--into", page, "a page with the markers");
   CLI11_PARSE(app, argc, argv);
   std::vector<Subject> subjects;
-  for (const std::filesystem::path& path : mesh_files(folder)) {
+  for (const std::filesystem::path& path : bench::mesh_files(folder)) {
     subjects.push_back({path.stem(), prepare_for_mapping(read_mesh(path.string())).mesh});
   }
   const double yardstick = bench::measure_yardstick(bench::yardstick_mesh(folder + "/"));

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <set>
 #include <vector>
 
 #include "mesh_io/mesh_reader.h"
@@ -65,6 +66,16 @@ TriangleMesh yardstick_mesh(const std::string& folder) {
 std::string meshes_folder() {
   const char* folder = std::getenv("SPHPARAM_MESHES");
   return std::string(folder ? folder : SPHPARAM_DEFAULT_MESHES) + "/genus0/";
+}
+
+std::vector<std::filesystem::path> mesh_files(const std::string& folder) {
+  const std::set<std::string> known{".obj", ".ply", ".off", ".stl", ".glb", ".gii"};
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (known.contains(entry.path().extension().string())) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
 double now() {

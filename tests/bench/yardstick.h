@@ -1,6 +1,8 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include "sphparam/mesh/triangle_mesh.h"
 
@@ -17,6 +19,9 @@ TriangleMesh yardstick_mesh(const std::string& folder);
 
 /// The folder of real meshes, `genus0/` within SPHPARAM_MESHES or within the default folder.
 std::string meshes_folder();
+
+/// The mesh files of a folder, by name.
+std::vector<std::filesystem::path> mesh_files(const std::string& folder);
 
 /// Wall time in seconds since some moment.
 double now();

@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "program.h"
@@ -28,6 +29,12 @@ struct Mapped {
   }
 };
 
+Json json_of(const std::string& glb) {
+  std::uint32_t length = 0;
+  std::memcpy(&length, glb.data() + 12, 4);
+  return Json::parse(glb.substr(20, length));
+}
+
 }  // namespace
 
 TEST_CASE("remesh: every grid is written certified, and reported") {
@@ -42,6 +49,36 @@ TEST_CASE("remesh: every grid is written certified, and reported") {
     CHECK(sphparam_program({"verify", out}).code == 0);
     CHECK(Json::parse(bytes_of(json))["grid"]["name"] == grid);
   }
+}
+
+TEST_CASE("remesh: a .glb holds the grid's chart, one-to-one, and the colours carried") {
+  const Folder folder;
+  const std::string mesh = folder / "shape.ply", glb = folder / "new.GLB";
+  write_bytes(mesh,
+              "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+              "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+              "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
+              "0 0 0 255 0 0\n1 0 0 0 255 0\n0 1 0 0 0 255\n0 0 1 9 9 9\n"
+              "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+  const auto gltf = [&](const std::string& grid, const std::string& carried) {
+    const Ended ended =
+        sphparam_program({"remesh", mesh, "--grid", grid, "--transfer", carried, "-o", glb});
+    INFO(ended.err);
+    REQUIRE(ended.code == 0);
+    return json_of(bytes_of(glb));
+  };
+  for (const char* grid : {"ico:2", "octa:9", "cube:4", "uv:8x5", "healpix:2"}) {
+    INFO(grid);
+    const Json file = gltf(grid, "all");
+    CHECK(file["asset"]["extras"]["sphparam"]["chart_as_stored"] == "one-to-one");
+    CHECK(file["asset"]["extras"]["sphparam"]["map_grid"] == grid);
+    const Json& attributes = file["meshes"][0]["primitives"][0]["attributes"];
+    CHECK(attributes.contains("TEXCOORD_0"));
+    CHECK(attributes.contains("COLOR_0"));
+  }
+  const Json bare = gltf("ico:2", "none");
+  CHECK_FALSE(bare["meshes"][0]["primitives"][0]["attributes"].contains("COLOR_0"));
+  CHECK(bare["materials"][0]["name"] == "checker");
 }
 
 TEST_CASE("remesh: the same bytes for one thread and three") {

@@ -15,6 +15,7 @@
 #include "cli/mapped_source.h"
 #include "cli/paths.h"
 #include "cli/remesh_arguments.h"
+#include "cli/remesh_glb.h"
 #include "cli/remesh_images.h"
 #include "cli/remesh_report.h"
 #include "cli/wording.h"
@@ -40,8 +41,8 @@ constexpr ReadOptions own_file = {.max_file_bytes = std::numeric_limits<std::uin
                                   .max_line_bytes = std::numeric_limits<std::int64_t>::max(),
                                   .max_ply_properties = std::numeric_limits<std::int64_t>::max()};
 
-std::string extension_of(const std::string& path) {
-  return is_stream(path) ? ".ply" : std::filesystem::path(path).extension().string();
+std::string kind_of(const std::string& path) {
+  return is_stream(path) ? ".ply" : extension_of(path);
 }
 
 std::optional<GridSpec> grid_asked_for(const RemeshArguments& arguments) {
@@ -54,9 +55,9 @@ std::optional<GridSpec> grid_asked_for(const RemeshArguments& arguments) {
 }
 
 void check_outputs(const RemeshArguments& arguments) {
-  const std::string kind = extension_of(arguments.output);
-  if (!arguments.output.empty() && kind != ".ply" && kind != ".obj") {
-    throw UsageMistake("-o: the new mesh is written as .ply or .obj, not as " +
+  const std::string kind = kind_of(arguments.output);
+  if (!arguments.output.empty() && kind != ".ply" && kind != ".obj" && kind != ".glb") {
+    throw UsageMistake("-o: the new mesh is written as .ply, .obj or .glb, not as " +
                        output_name(arguments.output));
   }
   if (arguments.output.empty() && arguments.csv.empty() && images_asked_for(arguments).empty()) {
@@ -116,10 +117,14 @@ Provenance provenance(const RemeshArguments& arguments, const MappedSource& mapp
 }
 
 void add_mesh(PendingFiles& files, const RemeshArguments& arguments, const MappedSource& mapped,
-              const Remeshed& result) {
+              const Remeshed& result, Console& console) {
   const std::string& path = arguments.output;
-  if (extension_of(path) == ".obj") {
+  if (kind_of(path) == ".obj") {
     files.add(path, serialise_obj(result.file));
+    return;
+  }
+  if (kind_of(path) == ".glb") {
+    add_glb(files, arguments, mapped, result, provenance(arguments, mapped), console);
     return;
   }
   MeshFile file = attach_map(result.file, result.map, provenance(arguments, mapped));
@@ -151,7 +156,7 @@ int run_remesh(const RemeshArguments& arguments) {
   if (interrupted()) throw Cancelled();
   console.progress("write", 0);
   PendingFiles files;
-  if (!arguments.output.empty()) add_mesh(files, arguments, mapped, result);
+  if (!arguments.output.empty()) add_mesh(files, arguments, mapped, result, console);
   if (spec) add_images(files, arguments, *spec, result);
   if (!arguments.csv.empty()) files.add(arguments.csv, sample_table(result.file, result.map));
   if (!arguments.json.empty()) {

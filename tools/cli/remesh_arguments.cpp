@@ -27,7 +27,9 @@ constexpr char summary[] =
     "it. Each vertex is located exactly; a mesh that carries no map is mapped first.\n";
 
 void add_outputs(CLI::App& command, RemeshArguments& arguments) {
-  command.add_option("-o,--output", arguments.output, "The new mesh: .ply with its map, or .obj")
+  command
+      .add_option("-o,--output", arguments.output,
+                  "The new mesh: .ply with its map, .obj, or .glb with its chart")
       ->type_name("FILE");
   command
       .add_option("--geometry-image", arguments.geometry_image,

@@ -16,7 +16,6 @@ struct Exhibit {
   Contender contender;
   Provenance provenance;             // of the file, or of the map that was made here
   std::optional<BakeTarget> target;  // the chart of a map that is one-to-one
-  std::optional<double> chart_seconds;
 
   const SphericalChart* chart() const { return target ? &target->chart : nullptr; }
 };

@@ -214,9 +214,8 @@ class Reporter {
 
   void tables(Page& page) {
     page.heading("Figures");
-    std::vector<PageTable> tables = {distortion_table(exhibits_), certificate_table(exhibits_),
-                                     chart_table(exhibits_)};
-    for (const Exhibit& exhibit : exhibits_) tables.push_back(timing_table(exhibit));
+    const std::vector<PageTable> tables = {
+        distortion_table(exhibits_), certificate_table(exhibits_), chart_table(exhibits_)};
     const std::string least = std::to_string(15 + 6 * exhibits_.size()) + "rem";
     page.insert(
         "<div class=\"tables\" style=\"grid-template-columns:repeat(auto-fit,minmax(min(100%," +

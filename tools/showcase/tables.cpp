@@ -111,21 +111,7 @@ PageTable chart_table(const std::vector<Exhibit>& exhibits) {
        {"splits along θ = 0",
         count_of_chart([](const SphericalChart& c) { return c.counts.meridian_splits; })},
        {"splits of folds",
-        count_of_chart([](const SphericalChart& c) { return c.counts.fold_splits; })},
-       {"seconds", [](const Exhibit& e) {
-          return e.chart_seconds ? significant(*e.chart_seconds) : nothing;
-        }}});
-}
-
-PageTable timing_table(const Exhibit& exhibit) {
-  PageTable table{"Wall time of the stages that made the map.", {"stage", "seconds"}, {}};
-  for (const StageRecord& stage : exhibit.contender.stages) {
-    table.rows.push_back({stage.name, significant(stage.seconds)});
-  }
-  if (exhibit.contender.seconds && !table.rows.empty()) {
-    table.rows.push_back({"all", significant(*exhibit.contender.seconds)});
-  }
-  return table;
+        count_of_chart([](const SphericalChart& c) { return c.counts.fold_splits; })}});
 }
 
 PageTable provenance_table(const std::vector<Exhibit>& exhibits) {

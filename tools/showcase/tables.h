@@ -12,8 +12,6 @@ PageTable distortion_table(const std::vector<Exhibit>& exhibits);
 PageTable certificate_table(const std::vector<Exhibit>& exhibits);
 /// What the (u, v) charts needed; no rows where no map has one.
 PageTable chart_table(const std::vector<Exhibit>& exhibits);
-/// Wall time of the stages of a map that was made in this run; no rows for maps from files.
-PageTable timing_table(const Exhibit& exhibit);
 /// What the files say of how their maps came about; no rows where they say nothing.
 PageTable provenance_table(const std::vector<Exhibit>& exhibits);
 

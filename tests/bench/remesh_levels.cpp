@@ -1,0 +1,162 @@
+// How near a smooth shape its mesh on ico:L is, L from 2 to 8: a plot and a table. Between levels
+// whose edges are longer than the source's, halving them should divide the RMS distance by 4.
+//
+// Usage: remesh_levels [-o remesh_levels.svg] [--samples N]
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "geodesic_sphere.h"
+#include "measure/surface_distance.h"
+#include "remesh/remesh.h"
+#include "report/svg.h"
+#include "sample_meshes.h"
+#include "sphparam/parameterize.h"
+
+using namespace sphparam;
+using namespace sphparam::tools;
+
+namespace {
+
+constexpr int coarsest = 2, finest = 8;
+
+struct Curve {
+  std::string shape;
+  double source_level;      // of an icosahedral grid with as many triangles as the source
+  std::vector<double> rms;  // % of the diagonal, from the coarsest level on
+};
+
+/// A formula's surface over a fine sphere. Its map is that sphere, turned so that the vertices of
+/// grids do not fall on its own.
+struct Formula {
+  MeshFile file;
+  SphereMap map;
+};
+Formula surface(const std::function<Vector3(const Vector3&)>& formula) {
+  constexpr int frequency = 128;  // 327,680 triangles, as many as ico:7
+  Formula made{.file = {}, .map = {}};
+  made.file.mesh = samples::geodesic_sphere(frequency, 0.1).mesh;
+  Points& points = made.file.mesh.positions;
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(1, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  made.map.points = (points * turn.transpose()).rowwise().normalized();
+  for (Eigen::Index v = 0; v < points.rows(); ++v) points.row(v) = formula(points.row(v));
+  return made;
+}
+
+Vector3 ellipsoid(const Vector3& q) { return {2 * q.x(), q.y(), 0.6 * q.z()}; }
+
+Vector3 bumpy(const Vector3& q) {
+  return q * (1 + 0.2 * std::sin(3 * q.x()) * std::cos(2 * q.y() + q.z()));
+}
+
+Curve measure(const std::string& shape, const MeshFile& source, const SphereMap& map,
+              std::int64_t samples) {
+  Curve curve{.shape = shape,
+              .source_level = std::log(static_cast<double>(source.mesh.face_count()) / 20) /
+                              std::numbers::ln2 / 2,
+              .rms = {}};
+  std::printf("\n| %s: grid | RMS, %% of the diagonal | falls by |\n|---|---|---|\n",
+              shape.c_str());
+  for (int level = coarsest; level <= finest; ++level) {
+    const Remeshed result =
+        remesh(source, map, make_grid({GridKind::Icosahedron, level}), {.transfer = {"none"}});
+    const SurfaceDistance distance =
+        measure_distance(source.mesh, result.file.mesh, {.samples = samples});
+    const double rms = 100 * distance.rms() / distance.diagonal_first;
+    std::printf("| ico:%d | %.3g | ", level, rms);
+    curve.rms.empty() ? std::printf("|\n") : std::printf("%.2f |\n", curve.rms.back() / rms);
+    std::fflush(stdout);
+    curve.rms.push_back(rms);
+  }
+  return curve;
+}
+
+// --- the plot: RMS logarithmic, levels linear
+// --------------------------------------------------------------
+
+constexpr double panel_width = 280, panel_height = 320, left = 70, top = 48, gap = 60;
+constexpr double least = 1e-6, greatest = 10;
+
+double x_of(double origin, double level) {
+  return origin + panel_width * (level - coarsest + 0.5) / (finest - coarsest + 1);
+}
+double y_of(double rms) {
+  const double share = std::log(rms / least) / std::log(greatest / least);
+  return top + panel_height * (1 - std::clamp(share, 0.0, 1.0));
+}
+
+std::string axes(double origin, const std::string& title) {
+  std::string svg = svg_text(origin + panel_width / 2, 30, "title", "middle", title);
+  for (int level = coarsest; level <= finest; ++level) {
+    svg += svg_text(x_of(origin, level), top + panel_height + 17, "label", "middle",
+                    std::to_string(level));
+  }
+  for (double rms = greatest; rms > 0.9 * least; rms /= 10) {
+    svg += svg_line(origin, y_of(rms), origin + panel_width, y_of(rms), "grid");
+    svg += svg_text(origin - 6, y_of(rms) + 4, "label", "end", significant(rms));
+  }
+  return svg + svg_text(origin + panel_width / 2, top + panel_height + 36, "label", "middle",
+                        "ico: level →   RMS distance, % of the diagonal ↑");
+}
+
+std::string panel(const Curve& curve, double origin) {
+  std::string svg = axes(origin, curve.shape), path;
+  const double x = x_of(origin, curve.source_level);
+  svg += svg_line(x, top, x, top + panel_height, "axis");
+  svg += svg_text(x - 5, top + 14, "label", "end", "the source's own triangles");
+  const double fallen = curve.rms.front() / std::pow(4, finest - coarsest);
+  svg += svg_line(x_of(origin, coarsest), y_of(curve.rms.front()), x_of(origin, finest),
+                  y_of(fallen), "optimum");
+  svg += svg_text(x_of(origin, 4), y_of(fallen * std::pow(4, 3)) + 4, "caption", "end",
+                  "a quarter a level");
+  for (size_t i = 0; i < curve.rms.size(); ++i) {
+    const double at = x_of(origin, coarsest + static_cast<double>(i)), height = y_of(curve.rms[i]);
+    path += (path.empty() ? "M" : "L") + decimal(at, 1) + " " + decimal(height, 1);
+    svg += "<circle cx=\"" + decimal(at, 1) + "\" cy=\"" + decimal(height, 1) +
+           "\" r=\"3.5\" class=\"series0\"/>\n";
+  }
+  return svg + "<path d=\"" + path + "\" class=\"series0\" style=\"fill:none\"/>\n";
+}
+
+std::string plot(const std::vector<Curve>& curves) {
+  const double width = left + static_cast<double>(curves.size()) * (panel_width + gap);
+  std::string svg = svg_begin(static_cast<int>(width), static_cast<int>(top + panel_height) + 50,
+                              "Distance of a remeshed surface from its source, by level");
+  for (size_t i = 0; i < curves.size(); ++i) {
+    svg += panel(curves[i], left + static_cast<double>(i) * (panel_width + gap));
+  }
+  return svg + svg_end();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  CLI::App app("Plots the distance of remeshed smooth shapes from their sources, by level.");
+  std::string out = "remesh_levels.svg";
+  std::int64_t samples = 400'000;
+  app.add_option("-o", out, "the plot")->capture_default_str();
+  app.add_option("--samples", samples, "of each surface")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  std::vector<Curve> curves;
+  const std::pair<const char*, Vector3 (*)(const Vector3&)> formulas[] = {{"ellipsoid", ellipsoid},
+                                                                          {"bumpy sphere", bumpy}};
+  for (const auto& [name, formula] : formulas) {
+    const Formula made = surface(formula);
+    curves.push_back(measure(name, made.file, made.map, samples));
+  }
+  const MeshFile creature = samples::make_creature();
+  curves.push_back(measure("sample creature", creature, parameterize(creature.mesh).map, samples));
+  std::ofstream(out) << plot(curves);
+} catch (const std::exception& error) {
+  std::cerr << "remesh_levels: " << error.what() << "\n";
+  return 1;
+}

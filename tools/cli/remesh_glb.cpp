@@ -1,0 +1,85 @@
+// The exporter's steps on the mesh just made: its chart, its vertex buffers, images, one file that
+// is read back. A texture is baked from the source, whose directions are the same: the coordinates
+// carried are only as fine as the grid.
+
+#include "cli/remesh_glb.h"
+
+#include <filesystem>
+#include <stdexcept>
+
+#include "cli/exit_codes.h"
+#include "cli/export_look.h"
+#include "cli/paths.h"
+#include "gltf/gltf_writer.h"
+#include "gltf/written_check.h"
+#include "mesh_io/read_options.h"
+
+namespace sphparam::tools {
+
+namespace {
+
+bool has_texcoords(const MeshFile& file) {
+  return file.corner_texcoords ||
+         (file.find_vertex_property("s") && file.find_vertex_property("t"));
+}
+
+ExportLook look_of(const RemeshArguments& arguments, const MappedSource& mapped,
+                   const MappedSource& made, Console& console) {
+  ExportArguments exporting;
+  exporting.threads = arguments.threads;
+  const bool textured = has_texcoords(made.source.file) && !mapped.source.file.base_colours.empty();
+  return make_export_look(exporting, textured ? mapped : made, console);
+}
+
+/// The new mesh as a source; colours and axes are the kind of the old one's.
+MappedSource as_source(const MappedSource& mapped, const Remeshed& result) {
+  MappedSource made;
+  made.source.file = result.file;
+  made.source.file.format = mapped.source.file.format;
+  made.map = result.map;
+  return made;
+}
+
+Asset make_asset(const RemeshArguments& arguments, const MappedSource& mapped,
+                 const MappedSource& made, const Provenance& provenance, Console& console) {
+  const MeshFile& file = made.source.file;
+  const ExportChartOptions chart_options{.threads = arguments.threads};
+  const ExportChart chart =
+      export_chart(file.mesh, Topology(file.mesh, arguments.threads), made.map, chart_options);
+  if (!chart.chart.certificate.one_to_one()) {
+    throw NotCertifiedError(
+        arguments.grid + ": the grid is one-to-one, but thinner in (u, v) than doubles can tell: " +
+        std::to_string(chart.chart.certificate.folded.size()) + " triangles fold there");
+  }
+  ExportLook look = look_of(arguments, mapped, made, console);
+  ExportGeometry geometry = export_geometry(chart, file,
+                                            {.up = file.format.starts_with("glTF") ? Up::Y : Up::Z,
+                                             .buffers = {.colours = look.vertex_colours},
+                                             .threads = arguments.threads});
+  Asset asset;
+  asset.name = std::filesystem::path(output_name(arguments.output)).stem().string();
+  asset.images = std::move(look.images);
+  asset.materials = std::move(look.materials);
+  asset.extras = {{"source", display_name(arguments.input)}};
+  for (const auto& [key, value] : provenance) asset.extras.emplace_back("map_" + key, value);
+  for (auto& extra : chart_extras(chart, geometry, chart_options))
+    asset.extras.push_back(std::move(extra));
+  asset.levels.push_back(std::move(geometry.surface));
+  return asset;
+}
+
+}  // namespace
+
+void add_glb(PendingFiles& files, const RemeshArguments& arguments, const MappedSource& mapped,
+             const Remeshed& result, const Provenance& provenance, Console& console) try {
+  const Asset asset = make_asset(arguments, mapped, as_source(mapped, result), provenance, console);
+  files.add(arguments.output, glb_bytes(asset), [&](std::string_view written) {
+    check_written(written, output_name(arguments.output), asset, {});
+  });
+} catch (const std::range_error& error) {
+  throw ReadError(display_name(arguments.input), error.what());
+} catch (const std::length_error& error) {
+  throw WriteError(output_name(arguments.output), error.what());
+}
+
+}  // namespace sphparam::tools
