@@ -4,9 +4,8 @@
 //   image's rows and in the order of a subdivided grid; also in maps squashed by 1e-4;
 //   location and transfer of position against OpenSubdiv's refinement of the same grid.
 //
-// Usage: bench_remesh [--grid SPEC] [--repeat N] [--threads N] [MESH]
-// Without a mesh: armadillo.obj of the folder of real meshes, or the sample body. Never a test:
-// machines are noisy.
+// Usage: bench_remesh [--level L] [--repeat N] [--threads N] [MESH]
+// Without a mesh: the sample body, 348,480 triangles. Never a test: machines are noisy.
 
 #include <embree3/rtcore.h>
 #include <opensubdiv/far/topologyDescriptor.h>
@@ -210,12 +209,8 @@ void compare_stages(const MeshFile& file, const SphereMap& map, int level, int t
 }
 
 MeshFile source_file(const std::string& path) {
-  if (!path.empty()) return prepare_for_mapping(read_mesh(path));
-  try {
-    return prepare_for_mapping(read_mesh(meshes_folder() + "/armadillo.obj"));
-  } catch (const ReadError&) {
-    return samples::make_body(132);  // 348,480 triangles
-  }
+  constexpr int frequency = 132;  // 348,480 triangles
+  return path.empty() ? samples::make_body(frequency) : prepare_for_mapping(read_mesh(path));
 }
 
 }  // namespace

@@ -83,13 +83,14 @@ TEST_CASE("remesh: a .glb holds the grid's chart, one-to-one, and the colours ca
 
 TEST_CASE("remesh: the same bytes for one thread and three") {
   const Mapped mapped;
-  for (const char* threads : {"1", "3"}) {
-    CHECK(mapped
-              .remesh({"--grid", "octa:33", "-o", mapped.folder / (std::string(threads) + ".ply"),
-                       "--threads", threads})
-              .code == 0);
+  for (const std::string& kind : Names{".ply", ".glb"}) {
+    INFO(kind);
+    for (const std::string& threads : Names{"1", "3"}) {
+      const std::string out = mapped.folder / (threads + kind);
+      CHECK(mapped.remesh({"--grid", "octa:33", "-o", out, "--threads", threads}).code == 0);
+    }
+    CHECK(bytes_of(mapped.folder / ("1" + kind)) == bytes_of(mapped.folder / ("3" + kind)));
   }
-  CHECK(bytes_of(mapped.folder / "1.ply") == bytes_of(mapped.folder / "3.ply"));
 }
 
 TEST_CASE("remesh: a geometry image turns back into the mesh in float32") {

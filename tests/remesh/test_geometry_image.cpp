@@ -150,5 +150,11 @@ TEST_CASE("geometry images: what is broken is refused, saying what") {
   CHECK_THROWS_WITH(
       read_geometry_image(whole.image, {whole.texts[0], whole.texts[1], {"sphparam:min", "1 2"}}),
       Catch::Contains("sphparam:min"));
+  CHECK_THROWS_WITH(
+      read_geometry_image(whole.image, {whole.texts[0],
+                                        whole.texts[1],
+                                        {"sphparam:min", "-1.7e308 -1.7e308 -1.7e308"},
+                                        {"sphparam:max", "1.7e308 1.7e308 1.7e308"}}),
+      Catch::Contains("not finite"));
   CHECK_THROWS_AS(Made("octa:9", 1e5).image(ImageDepth::Half), std::range_error);
 }

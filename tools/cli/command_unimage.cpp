@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <filesystem>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -147,11 +146,10 @@ void add_mesh(PendingFiles& files, MeshFile file, const ImageContents& contents,
 
 int run_unimage(const UnimageArguments& arguments) {
   Console console(arguments.loudness.verbosity(), arguments.progress);
-  const std::string kind = is_stream(arguments.output)
-                               ? ".ply"
-                               : std::filesystem::path(arguments.output).extension().string();
+  const std::string kind = is_stream(arguments.output) ? ".ply" : extension_of(arguments.output);
   if (kind != ".ply" && kind != ".obj") throw UsageMistake("-o: written are .ply and .obj");
   require_not_input(arguments.input, arguments.output, "-o");
+  require_not_input(arguments.normals, arguments.output, "-o");
   const OrderlyInterruption orderly;
   console.progress("read", 0);
   const ImageContents contents = read_contents(arguments.input, arguments.threads);

@@ -57,7 +57,9 @@ Asset make_asset(const RemeshArguments& arguments, const MappedSource& mapped,
                                              .buffers = {.colours = look.vertex_colours},
                                              .threads = arguments.threads});
   Asset asset;
-  asset.name = std::filesystem::path(output_name(arguments.output)).stem().string();
+  asset.name = is_stream(arguments.input)
+                   ? "mesh"
+                   : std::filesystem::path(arguments.input).filename().stem().string();
   asset.images = std::move(look.images);
   asset.materials = std::move(look.materials);
   asset.extras = {{"source", display_name(arguments.input)}};

@@ -2,20 +2,16 @@
 
 #include "cli/remesh_images.h"
 
-#include <filesystem>
 #include <stdexcept>
 #include <utility>
 
+#include "cli/paths.h"
 #include "image/image_codec.h"
 #include "render/vertex_normals.h"
 
 namespace sphparam::tools {
 
 namespace {
-
-std::string extension_of(const std::string& path) {
-  return std::filesystem::path(path).extension().string();
-}
 
 ImageDepth depth_for(const RemeshArguments& arguments, const std::string& path) {
   return arguments.depth.value_or(extension_of(path) == ".png" ? ImageDepth::Uint16

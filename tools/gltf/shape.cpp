@@ -14,16 +14,19 @@ void turn_up(Rows&& rows) {
 }
 
 /// Rows of refined vertices for the wedges.
-Points spread(const SphericalChart& chart, const Points& of_vertices) {
+Points spread(const SphericalChart& chart, const Points& of_vertices, int threads) {
+  constexpr std::int64_t chunk_size = 16384;
   Points rows(chart.wedge_count(), 3);
-  for (Eigen::Index w = 0; w < rows.rows(); ++w)
-    rows.row(w) = of_vertices.row(chart.wedge_vertices[static_cast<size_t>(w)]);
+  parallel_for(rows.rows(), chunk_size, threads, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t w = first; w < last; ++w)
+      rows.row(w) = of_vertices.row(chart.wedge_vertices[static_cast<size_t>(w)]);
+  });
   return rows;
 }
 
 Shape shape_of(const SphericalChart& chart, const Points& positions, const Points& normals, Up up,
                int threads) {
-  Shape shape{spread(chart, positions), tangent_frame(chart, positions, normals, threads)};
+  Shape shape{spread(chart, positions, threads), tangent_frame(chart, positions, normals, threads)};
   if (up == Up::Z) {
     turn_up(shape.positions);
     turn_up(shape.frame.normals);

@@ -253,6 +253,10 @@ ImageContents read_geometry_image(const Image& image, const Texts& texts, int th
       contents.values[i] = least[k] + (greatest[k] - least[k]) * (step / steps_of_16_bits);
     }
   }
+  const auto is_finite = [](double value) { return std::isfinite(value); };
+  if (!std::all_of(contents.values.begin(), contents.values.end(), is_finite)) {
+    throw std::invalid_argument("it holds numbers that are not finite, or a range that is none");
+  }
   return contents;
 }
 

@@ -31,6 +31,20 @@ bool any_face_of(const SurfacePoint& point, const Topology& topology, const Visi
   return false;
 }
 
+/// Are all corners that the point has a weight at corners of that face too?
+bool lies_on(Face face, const SurfacePoint& point, const Topology& topology) {
+  if (face == point.face) return true;
+  for (int i = 0; i < 3; ++i) {
+    if (point.barycentric[i] == 0) continue;
+    const Vertex v = topology.vertex(point.face, i);
+    if (topology.vertex(face, 0) != v && topology.vertex(face, 1) != v &&
+        topology.vertex(face, 2) != v) {
+      return false;
+    }
+  }
+  return true;
+}
+
 /// The same point with weights at the corners of another face that it lies on.
 SurfacePoint on_face(Face face, const SurfacePoint& point, const Topology& topology) {
   if (face == point.face) return point;
@@ -109,8 +123,8 @@ void Seams::evaluate(const Middle& middle, const Vector3& direction, const Surfa
   SurfacePoint end = middle.point;
   const Face home = middle.point.face;
   const int chart = chart_of_[static_cast<size_t>(home)];
-  const bool at_home = any_face_of(at, topology_, [&](Face f) { return f == home; });
-  if (at_home) return put(on_face(home, at, topology_), result);
+  // Asked of the face, not of the ring: a ring may be as long as the mesh.
+  if (lies_on(home, at, topology_)) return put(on_face(home, at, topology_), result);
   if (find_in_chart(chart, at, end)) return put(end, result);
   Vector3 inside = middle.direction, outside = direction;
   for (int i = 0; i < halvings; ++i) {

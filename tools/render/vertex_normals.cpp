@@ -79,14 +79,17 @@ Points vertex_normals(const TriangleMesh& mesh) {
         (mesh.position(mesh.triangles(f, 1)) - a).cross(mesh.position(mesh.triangles(f, 2)) - a);
     for (int k = 0; k < 3; ++k) normals.row(mesh.triangles(f, k)) += n;
   }
-  for (Eigen::Index v = 0; v < normals.rows(); ++v) {
-    const double length = normals.row(v).stableNorm();
-    if (length > 0) {
-      normals.row(v) /= length;
-    } else {
-      normals.row(v) = Vector3::UnitZ();
+  constexpr std::int64_t chunk_size = 8192;
+  parallel_for(normals.rows(), chunk_size, 0, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t v = first; v < last; ++v) {
+      const double length = normals.row(v).stableNorm();
+      if (length > 0) {
+        normals.row(v) /= length;
+      } else {
+        normals.row(v) = Vector3::UnitZ();
+      }
     }
-  }
+  });
   return normals;
 }
 

@@ -1,6 +1,9 @@
 #include "sphparam/chart/tangent_frame.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "sphparam/chart/carry_attributes.h"
@@ -17,25 +20,42 @@ namespace {
 
 constexpr std::int64_t chunk_size = 8192;
 
+/// What a triangle adds to the sums at its corners: unit direction times angle.
+using CornerDirections = std::array<Vector3, 3>;
+
 /// v / |v|, or zero; for any finite v.
 Vector3 direction_of(const Vector3& v) {
   const double largest = v.cwiseAbs().maxCoeff();
   return largest > 0 ? Vector3((v / largest).normalized()) : Vector3(Vector3::Zero());
 }
 
-/// What a triangle adds to the sums at its corners: the unit direction in which u grows, times the
-/// area, lengths in units of `size`.
-Vector3 weighted_direction(const SphericalChart& chart, const Points& positions, double size,
-                           Face f) {
-  const auto corner = [&](int k) -> Vector3 { return positions.row(chart.triangles(f, k)); };
-  const Vector3 a = corner(0) / size;
-  const Vector3 e1 = corner(1) / size - a, e2 = corner(2) / size - a;
-  const Eigen::Vector2d uv = chart.uv.row(chart.wedges(f, 0));
-  const Eigen::Vector2d first = chart.uv.row(chart.wedges(f, 1)).transpose() - uv,
-                        second = chart.uv.row(chart.wedges(f, 2)).transpose() - uv;
+double angle_between(const Vector3& a, const Vector3& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+CornerDirections corner_directions(const SphericalChart& chart, const Points& positions, Face f) {
+  std::array<Vector3, 3> edges;  // from corner k to the next
+  for (int k = 0; k < 3; ++k)
+    edges[k] =
+        positions.row(chart.triangles(f, (k + 1) % 3)) - positions.row(chart.triangles(f, k));
+  // The largest is 1, so that no product leaves the range of doubles.
+  double scale = 0;
+  for (const Vector3& e : edges) scale = std::max(scale, e.cwiseAbs().maxCoeff());
+  if (scale == 0) return {Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};
+  for (Vector3& e : edges) e /= scale;
+
+  const Eigen::Vector2d a = chart.uv.row(chart.wedges(f, 0));
+  const Eigen::Vector2d first = chart.uv.row(chart.wedges(f, 1)).transpose() - a,
+                        second = chart.uv.row(chart.wedges(f, 2)).transpose() - a;
   const double area = first[0] * second[1] - second[0] * first[1];
   const double sign = area > 0 ? 1 : -1;  // −: not folded
-  return e1.cross(e2).norm() * direction_of(sign * (second[1] * e1 - first[1] * e2));
+  // e₂ = −edges[2]
+  const Vector3 along = direction_of(sign * (second[1] * edges[0] + first[1] * edges[2]));
+  // Angles, so that it does not matter how finely a triangle is split; they sum to π.
+  const double at_first = angle_between(edges[0], -edges[2]),
+               at_second = angle_between(edges[1], -edges[0]);
+  const double at_third = std::max(0.0, std::numbers::pi - at_first - at_second);
+  return {at_first * along, at_second * along, at_third * along};
 }
 
 /// A unit vector in the plane of the normal, as near to `sum` as can be.
@@ -59,10 +79,12 @@ void require_rows(const Points& values, const SphericalChart& chart) {
 Points carry_normals(const SphericalChart& chart, const Triangles& source, const Points& normals,
                      int threads) {
   Points carried = carry_vertex_attribute(chart, source, normals, threads);
-  for (Eigen::Index v = 0; v < carried.rows(); ++v) {
-    const Vector3 unit = direction_of(carried.row(v));
-    carried.row(v) = unit.isZero(0) ? Vector3(Vector3::UnitZ()) : unit;
-  }
+  parallel_for(carried.rows(), chunk_size, threads, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t v = first; v < last; ++v) {
+      const Vector3 unit = direction_of(carried.row(v));
+      carried.row(v) = unit.isZero(0) ? Vector3(Vector3::UnitZ()) : unit;
+    }
+  });
   return carried;
 }
 
@@ -71,11 +93,10 @@ ShadingFrame tangent_frame(const SphericalChart& chart, const Points& positions,
   require_rows(positions, chart);
   require_rows(normals, chart);
   const Eigen::Index faces = chart.triangles.rows(), wedges = chart.wedge_count();
-  const double extent = positions.cwiseAbs().maxCoeff(), size = extent > 0 ? extent : 1;
-  std::vector<Vector3> directions(static_cast<size_t>(faces));
+  std::vector<CornerDirections> directions(static_cast<size_t>(faces));
   parallel_for(faces, chunk_size, threads, [&](std::int64_t first, std::int64_t last) {
     for (auto f = static_cast<Face>(first); f < static_cast<Face>(last); ++f)
-      directions[static_cast<size_t>(f)] = weighted_direction(chart, positions, size, f);
+      directions[static_cast<size_t>(f)] = corner_directions(chart, positions, f);
   });
 
   const auto is_fan = [&](int w) {
@@ -83,9 +104,9 @@ ShadingFrame tangent_frame(const SphericalChart& chart, const Points& positions,
   };
   Points sums = Points::Zero(positions.rows(), 3), fans = Points::Zero(wedges, 3);
   for (Face f = 0; f < static_cast<Face>(faces); ++f) {
-    const Vector3& direction = directions[static_cast<size_t>(f)];
     for (int k = 0; k < 3; ++k) {
       const int w = chart.wedges(f, k);
+      const Vector3& direction = directions[static_cast<size_t>(f)][static_cast<size_t>(k)];
       is_fan(w) ? fans.row(w) += direction : sums.row(chart.triangles(f, k)) += direction;
     }
   }

@@ -25,7 +25,7 @@ Points carry_normals(const SphericalChart& chart, const Triangles& source, const
 /// The tangents of a chart along growing u.
 ///
 /// Sums, over the triangles of a wedge, of the direction of growing u on the surface, weighted by
-/// the area, projected into the plane of the normal. The two copies of a seam vertex share one
+/// the angle, projected into the plane of the normal. The two copies of a seam vertex share one
 /// sum, so that light does not break at the seam; a pole fan's wedge keeps its own. Seen from
 /// outside u grows to the east and v to the south, so w = +1 and the bitangent points north: up in
 /// the image. Who mirrors u negates tangents and w.
