@@ -51,6 +51,16 @@ TEST_CASE("spharm: an ellipsoid on its affine sphere has its semi-axes and nothi
   CHECK(Json::parse(integral.out)["position_rms"] > 1e-6);
 }
 
+TEST_CASE("spharm: a name in Latin-1 does not spoil the report") {
+  const Folder folder;
+  const std::string mesh = folder / "caf\xE9.obj";
+  write_bytes(mesh, obj_text(icosphere(2)));
+  const Ended ended = sphparam_program({"spharm", mesh, "--degree", "2", "--json", "-"});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  CHECK(Json::parse(ended.out)["degree"] == 2);
+}
+
 TEST_CASE("spharm: the CSV has a line a coefficient, with the scalars that were asked for") {
   const Folder folder;
   REQUIRE(
@@ -100,6 +110,8 @@ TEST_CASE("spharm: what makes no sense is refused, and nothing is written") {
   };
   CHECK(run({"--degree", "-1"}).code == 2);
   CHECK(run({"--degree", "1001"}).code == 2);
+  CHECK_THAT(run({"--degree", "20"}).err, Contains("441 coefficients for 162 vertices"));
+  CHECK_FALSE(run({"--degree", "11"}).err.find("coefficients for") != std::string::npos);
   const Ended unknown = run({"--scalar", "gravty", "--csv", folder / "out.csv"});
   CHECK(unknown.code == 2);
   CHECK_THAT(unknown.err, Contains("no property gravty"));

@@ -143,6 +143,25 @@ TEST_CASE("SphereLocator: all at once is one by one, in any order, with any numb
   }
 }
 
+TEST_CASE("SphereLocator: rows near one another are found as one by one, in tiny triangles too") {
+  const Mapped m(icosphere(4));
+  for (const double factor : {1.0, 1e-4, 1e-7}) {
+    const SphereMap map = squashed(m.map, factor);
+    const SphereLocator locator(m.topology, map);
+    Points q(2003, 3);  // round the great circle that the tiny triangles lie on; vertices
+    for (int i = 0; i < 2003; ++i) {
+      q.row(i) = Vector3(std::cos(i * 3e-3), factor * std::sin(i * 3e-3), 0.1 * factor);
+      if (i % 50 == 0) q.row(i) = map.point(i);
+    }
+    const auto all = locator.locate_all(q, 2);
+    for (int i = 0; i < 2003; ++i) {
+      const SurfacePoint one = locator.locate(q.row(i));
+      REQUIRE(one.face == all[static_cast<size_t>(i)].face);
+      REQUIRE(one.barycentric == all[static_cast<size_t>(i)].barycentric);
+    }
+  }
+}
+
 TEST_CASE("SphereLocator: length does not matter; what is no direction is refused") {
   const Mapped m(icosphere(2));
   const SphereLocator locator(m.topology, m.map);

@@ -142,6 +142,16 @@ void require_sensible(const SpharmArguments& arguments) {
   }
 }
 
+/// More coefficients than vertices: the residual at the vertices says nothing then.
+void warn_of_few_vertices(const SpharmArguments& arguments, const MeshFile& file,
+                          Console& console) {
+  const std::int64_t count = std::int64_t{arguments.degree + 1} * (arguments.degree + 1);
+  if (!arguments.least_squares || count <= file.mesh.vertex_count()) return;
+  console.warning(std::to_string(count) + " coefficients for " +
+                  std::to_string(file.mesh.vertex_count()) +
+                  " vertices: what these leave open is as in --fit quadrature");
+}
+
 void tell(const HarmonicsReport& report, const Stopwatch& stopwatch, Console& console) {
   std::string line = display_name(report.mesh) + ": degree " + std::to_string(report.degree()) +
                      ", RMS distance at the vertices " + short_number(report.position_rms()) +
@@ -167,6 +177,7 @@ int run_spharm(const SpharmArguments& arguments) {
   const OrderlyInterruption orderly;
   MappedSource mapped =
       read_mapped_source(arguments.input, arguments.sphere, arguments.threads, console);
+  warn_of_few_vertices(arguments, mapped.source.file, console);
   const HarmonicsReport report = expand(arguments, mapped, console);
   PendingFiles files;
   if (!arguments.json.empty()) files.add(arguments.json, to_json(report));
@@ -192,7 +203,7 @@ void add_options(CLI::App& command, SpharmArguments& arguments) {
   command.add_option("--sphere", arguments.sphere, "Another map of the mesh: a sphere mesh")
       ->type_name("FILE");
   command.add_option("--degree", arguments.degree, "Greatest degree, 0 to 1000")
-      ->check(CLI::Range(0, greatest_harmonic_degree))
+      ->check(between(0, greatest_harmonic_degree, "0 to 1000"))
       ->type_name("L")
       ->capture_default_str();
   command.add_option("--scalar", arguments.scalars, "A property of the vertices; may be repeated")
@@ -211,7 +222,7 @@ void add_options(CLI::App& command, SpharmArguments& arguments) {
                   "The mesh as the harmonics have it: .ply, .obj or .off")
       ->type_name("FILE");
   command.add_option("--threads", arguments.threads, "How many threads (0: all cores); same bytes")
-      ->check(CLI::Range(0, 4096))
+      ->check(between(0, 4096, "0 to 4096"))
       ->type_name("N")
       ->capture_default_str();
   add_choice<ProgressStyle>(

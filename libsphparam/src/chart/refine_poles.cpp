@@ -1,7 +1,10 @@
 #include "sphparam/chart/refine_poles.h"
 
 #include <array>
+#include <cstdint>
+#include <limits>
 #include <stdexcept>
+#include <string>
 
 // Points are put on every link edge first; then every face with points on edges is cut into fans,
 // one edge after the other, from the corner opposite to it. No link edge lies on the meridian, so
@@ -31,6 +34,7 @@ class PoleRefiner {
 
   void refine() {
     const std::vector<Halfedge> links = find_links();
+    require_room(static_cast<std::int64_t>(links.size()));
     make_room(static_cast<int>(links.size()) * (wedges_ - 1));
     for (const Halfedge h : links) put_points(h);
     for (Face f = 0; f < faces_; ++f) cut_face(f);
@@ -60,6 +64,16 @@ class PoleRefiner {
       twins_.push_back(topology.twin(h));
     }
     return links;
+  }
+
+  /// Each point of a link adds a vertex, two triangles and at most two wedges.
+  void require_room(std::int64_t links) const {
+    constexpr std::int64_t most = std::numeric_limits<int>::max();
+    const std::int64_t added = links * (wedges_ - 1);
+    if (3 * (faces_ + 2 * added) > most || chart_.wedge_count() + 3 * added > most) {
+      throw std::invalid_argument("refine_poles: " + std::to_string(wedges_) +
+                                  " wedges a pole triangle are more than 2^31 numbers can tell");
+    }
   }
 
   void make_room(int added) {

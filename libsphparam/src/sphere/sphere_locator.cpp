@@ -13,10 +13,15 @@
 
 // The filter. For rays of length at most M, a component of n = a × b is computed with an error of
 // at most 2u M² (u = 2⁻⁵³: two products whose sizes add up to M², their difference), and Σ qᵢ nᵢ
-// with 3u M² |q|₁ more. 8u M² |q|₁ covers both, with room for what is of order u². Beyond it the
-// sign of the computed dot product is that of det(a, b, q).
+// with 3u M² |q|₁ more. 8u M² |q|₁ covers both, with room for what is of order u²; |q|₁ ≤ 4 for
+// every usable q, so one bound serves all. Beyond it the sign of the computed dot product is that
+// of det(a, b, q).
 //
 // The walk crosses the edge whose det is least. At the end the three dets are the weights.
+//
+// Many directions are walked to side by side, in steps without branches: where nothing is left to
+// cross, a step stays. So there is work to do where memory would make the processor wait, and no
+// branch to mispredict. The few that are not there after some steps begin anew from the table.
 //
 // The table. A direction has a place on the cube: side, s and t of 28 bits each. Faces are sorted
 // by the Morton key of their centroids, so that a square of the cube holds a range of them; a
@@ -35,10 +40,12 @@ constexpr std::int64_t ahead = 12;     // directions between asking for memory a
 constexpr std::int32_t cells_ahead = 24;
 constexpr int straight_steps = 64;         // before the walk chooses its edges by chance
 constexpr int most_steps = 1 << 16;        // before all faces are asked
-constexpr double steps_worth_walking = 8;  // triangles between two directions; else the table
-constexpr double worth_sorting = 0.25;     // of those steps, between most directions
+constexpr int lanes = 4;                   // directions that are walked to side by side
+constexpr int side_steps = 3;              // of each, before a look whether it is there
+constexpr double near_triangles = 2;       // between most directions that are not worth sorting
+constexpr double most_length = 4;          // |q|₁ of a usable direction
 constexpr double least_rounding = 1e-290;  // of tiny rays: their products may underflow
-constexpr double coarse_triangle = 1e-5;   // det of rays, above which dot products are weights
+constexpr double coarse_triangle = 1e-5;   // sum of dets, above which dot products are weights
 
 /// A place on the cube around the origin.
 struct CubePlace {
@@ -94,15 +101,16 @@ Vector3 square_centre(std::uint64_t key, int bits) {
   return q.normalized();
 }
 
-/// The direction at a length at which nothing over- or underflows: scaled by a power of two.
+/// The direction, scaled by a power of two unless ½ ≤ |q| ≤ 2: nothing over- or underflows, and
+/// |q|₁ ≤ most_length.
 inline Vector3 usable(const Vector3& q) {
   const double square = q.squaredNorm();
-  if (square >= 0x1p-4 && square <= 0x1p4) return q;
+  if (square >= 0.25 && square <= 4) return q;
   const double length = q.cwiseAbs().maxCoeff();
   if (!q.allFinite() || length == 0) {
     throw std::invalid_argument("SphereLocator: a direction is zero or not finite");
   }
-  return q.unaryExpr([&](double x) { return std::ldexp(x, -std::ilogb(length)); });
+  return q.unaryExpr([&](double x) { return std::ldexp(x, -1 - std::ilogb(length)); });
 }
 
 /// Rows first … last along the curve of the cube's squares, relative to the first: two rounds of
@@ -133,10 +141,9 @@ std::vector<std::uint32_t> curve_order(SphereLocator::PointsView directions, std
 }
 
 /// Which is least, without branches: nobody can predict it.
-size_t least(const std::array<double, 3>& d) {
-  const size_t first = d[1] < d[0];
-  const size_t third = d[2] < std::min(d[0], d[1]);
-  return first + third * (2 - first);
+inline size_t least(const std::array<double, 3>& d) {
+  const size_t second = d[1] < d[0], third = d[2] < std::min(d[0], d[1]);
+  return 2 * third | (second & ~third);
 }
 
 }  // namespace
@@ -156,9 +163,8 @@ SphereLocator::SphereLocator(const Topology& topology, const SphereMap& map, int
                                 " rays for " + std::to_string(topology.vertex_count()) +
                                 " vertices");
   }
-  rounding_ = std::max(0x1p-50 * map.points.rowwise().squaredNorm().maxCoeff(), least_rounding);
-  reach2_ =
-      steps_worth_walking * steps_worth_walking * 4 * std::numbers::pi / topology.face_count();
+  bound_ = most_length *
+           std::max(0x1p-50 * map.points.rowwise().squaredNorm().maxCoeff(), least_rounding);
   std::vector<Keyed> order(static_cast<size_t>(topology.face_count()));
   parallel_for(topology.face_count(), grain, threads, [&](std::int64_t first, std::int64_t last) {
     for (auto f = static_cast<Face>(first); f < static_cast<Face>(last); ++f) {
@@ -257,57 +263,64 @@ inline std::array<double, 3> SphereLocator::dets(const Cell& cell, const Vector3
   return result;
 }
 
-int SphereLocator::sign(const Cell& cell, int edge, double det, const Vector3& q,
-                        double bound) const {
-  if (det > bound) return 1;
-  if (-det > bound) return -1;
+int SphereLocator::sign(const Cell& cell, int edge, double det, const Vector3& q) const {
+  if (det > bound_) return 1;
+  if (-det > bound_) return -1;
   const Halfedge h = 3 * cell.face + (edge + 1) % 3;
   return orientation(map_->point(topology_->origin(h)), map_->point(topology_->target(h)), q);
 }
 
 inline SphereLocator::Found SphereLocator::walk(const Vector3& q, std::int32_t at) const {
-  const double bound = rounding_ * q.lpNorm<1>();
   for (int step = 0; step < straight_steps; ++step) {
     const Cell& cell = cells_[static_cast<size_t>(at)];
     const std::array<double, 3> d = dets(cell, q);
     const size_t edge = least(d);
-    if (d[edge] > bound) return {at, false, d};
-    if (!(d[edge] < -bound)) break;  // too near to an edge to be told apart
+    if (d[edge] > bound_) return {at, false, d};
+    if (!(d[edge] < -bound_)) break;  // too near to an edge to be told apart
     at = cell.across[edge];
   }
-  return wander(q, at, bound);
+  return wander(q, at);
+}
+
+/// The cell one step from another towards q, or itself if q is there. Masks, for a compiler makes
+/// branches of choices.
+inline std::int32_t SphereLocator::step(const Vector3& q, std::int32_t at) const {
+  const Cell& cell = cells_[static_cast<size_t>(at)];
+  const std::array<double, 3> d = dets(cell, q);
+  const std::int32_t change = at ^ cell.across[least(d)];
+  return at ^ (change & -std::int32_t{std::min({d[0], d[1], d[2]}) < 0});
 }
 
 /// The first edge from `offset` on that q lies beyond, by exact signs; −1 if none.
 int SphereLocator::edge_to_cross(const Cell& cell, const Found& found, const Vector3& q,
-                                 double bound, int offset) const {
+                                 int offset) const {
   for (int i = 0; i < 3; ++i) {
     const int edge = (i + offset) % 3;
-    if (sign(cell, edge, found.dets[static_cast<size_t>(edge)], q, bound) < 0) return edge;
+    if (sign(cell, edge, found.dets[static_cast<size_t>(edge)], q) < 0) return edge;
   }
   return -1;
 }
 
-SphereLocator::Found SphereLocator::met(std::int32_t cell, const std::array<double, 3>& dets,
-                                        double bound) {
-  return {cell, *std::min_element(dets.begin(), dets.end()) <= bound, dets};
+SphereLocator::Found SphereLocator::met(std::int32_t cell,
+                                        const std::array<double, 3>& dets) const {
+  return {cell, *std::min_element(dets.begin(), dets.end()) <= bound_, dets};
 }
 
 /// The walk with exact signs and by chance, and in the end a look at all faces: for those that go
 /// round and round, which chance all but excludes.
-SphereLocator::Found SphereLocator::wander(const Vector3& q, std::int32_t at, double bound) const {
+SphereLocator::Found SphereLocator::wander(const Vector3& q, std::int32_t at) const {
   std::uint32_t chance = 1;
   for (int step = 0; step < most_steps; ++step) {
     chance = 1664525 * chance + 1013904223;
     const Cell& cell = cells_[static_cast<size_t>(at)];
-    const Found found = met(at, dets(cell, q), bound);
-    const int crossed = edge_to_cross(cell, found, q, bound, static_cast<int>(chance >> 16) % 3);
+    const Found found = met(at, dets(cell, q));
+    const int crossed = edge_to_cross(cell, found, q, static_cast<int>(chance >> 16) % 3);
     if (crossed < 0) return found;
     at = cell.across[static_cast<size_t>(crossed)];
   }
   for (size_t i = 0; i < cells_.size(); ++i) {
-    const Found found = met(static_cast<std::int32_t>(i), dets(cells_[i], q), bound);
-    if (edge_to_cross(cells_[i], found, q, bound, 0) < 0) return found;
+    const Found found = met(static_cast<std::int32_t>(i), dets(cells_[i], q));
+    if (edge_to_cross(cells_[i], found, q, 0) < 0) return found;
   }
   throw std::logic_error("SphereLocator: no face holds a direction; the map is not one-to-one");
 }
@@ -330,7 +343,7 @@ inline SurfacePoint SphereLocator::finish(const Vector3& q, const Found& found) 
   SurfacePoint point{cells_[static_cast<size_t>(found.cell)].face,
                      {found.dets[0], found.dets[1], found.dets[2]}};
   double sum = point.barycentric.sum();
-  if (sum * sum < coarse_triangle * coarse_triangle * q.squaredNorm()) {
+  if (sum < coarse_triangle) {
     point.barycentric = small_weights(q, point.face).cwiseMax(std::numeric_limits<double>::min());
     sum = point.barycentric.sum();
   }
@@ -338,15 +351,27 @@ inline SurfacePoint SphereLocator::finish(const Vector3& q, const Found& found) 
   return point;
 }
 
+/// What `finish` says if q is in the cell and plainly so; false if not. Most of the work of many
+/// directions: straight from registers to the point.
+inline bool SphereLocator::settle(const Vector3& q, std::int32_t at, SurfacePoint& point) const {
+  const Cell& cell = cells_[static_cast<size_t>(at)];
+  const std::array<double, 3> d = dets(cell, q);
+  const double sum = d[0] + d[1] + d[2];
+  if (!(std::min({d[0], d[1], d[2]}) > bound_ && sum >= coarse_triangle)) return false;
+  const double scale = 1 / sum;
+  point.face = cell.face;
+  point.barycentric = Vector3(d[0] * scale, d[1] * scale, d[2] * scale);
+  return true;
+}
+
 /// Of a direction that exact signs were asked for: its weights at the corners of the face of lowest
 /// index that it lies on, computed there, so that the walk's way leaves no trace.
 SurfacePoint SphereLocator::finish_at_edge(const Vector3& q, const Found& found) const {
   const Cell& cell = cells_[static_cast<size_t>(found.cell)];
-  const double bound = rounding_ * q.lpNorm<1>();
   std::array<bool, 3> beside{};  // is the weight of the corner zero?
   for (int k = 0; k < 3; ++k) {
     const auto edge = static_cast<size_t>(k);
-    beside[edge] = sign(cell, k, found.dets[edge], q, bound) == 0;
+    beside[edge] = sign(cell, k, found.dets[edge], q) == 0;
   }
   Face lowest = cell.face;
   for (int k = 0; k < 3; ++k) {
@@ -380,34 +405,51 @@ SurfacePoint SphereLocator::locate(const Vector3& direction) const {
   return finish(q, walk(q, start(q)));
 }
 
-/// From each direction to the next: rows row_at(first) … row_at(last − 1).
+/// Rows row_at(first) … row_at(last − 1), cut into a run for each lane: from each direction of a
+/// run to the next.
 template <class RowAt>
 void SphereLocator::locate_in_order(PointsView directions, std::int64_t first, std::int64_t last,
                                     const RowAt& row_at, SurfacePoint* points) const {
-  Vector3 before = Vector3::Zero();
-  std::int32_t cell = 0;
-  for (std::int64_t i = first; i < last; ++i) {
+  const std::int64_t length = (last - first) / lanes;
+  const size_t last_cell = cells_.size() - 1;
+  std::array<std::int64_t, lanes> rows;
+  std::array<Vector3, lanes> q;
+  std::array<std::int32_t, lanes> cells{};
+  for (std::int64_t i = first; i < first + length; ++i) {
+    for (size_t k = 0; k < lanes; ++k) {
+      rows[k] = row_at(i + static_cast<std::int64_t>(k) * length);
+      q[k] = usable(directions.row(rows[k]));
+    }
+    for (int taken = 0; taken < side_steps; ++taken) {
+      for (size_t k = 0; k < lanes; ++k) cells[k] = step(q[k], cells[k]);
+    }
+    for (size_t k = 0; k < lanes; ++k) {
+      if (!settle(q[k], cells[k], points[rows[k]])) {
+        const Found found = walk(q[k], start(q[k]));
+        points[rows[k]] = finish(q[k], found);
+        cells[k] = found.cell;
+      }
+      // Cells and sorted directions lie along one curve: soon these will be met.
+      const size_t soon = std::min(static_cast<size_t>(cells[k] + cells_ahead), last_cell - 1);
+      __builtin_prefetch(&cells_[soon]);
+      __builtin_prefetch(&cells_[soon + 1]);
+    }
+  }
+  for (std::int64_t i = first + lanes * length; i < last; ++i) {
     const std::int64_t row = row_at(i);
-    const Vector3 q = usable(directions.row(row));
-    if ((q - before).squaredNorm() > reach2_) cell = start(q);
-    const Found found = walk(q, cell);
-    points[row] = finish(q, found);
-    before = q;
-    cell = found.cell;
-    // Cells and sorted directions lie along one curve: soon these will be met.
-    const size_t soon = std::min(static_cast<size_t>(cell + cells_ahead), cells_.size() - 2);
-    __builtin_prefetch(&cells_[soon]);
-    __builtin_prefetch(&cells_[soon + 1]);
+    points[row] = locate(directions.row(row));
   }
 }
 
 /// Are most directions so near to the ones before them that sorting would not pay? Asked of some.
 bool SphereLocator::is_coherent(PointsView directions) const {
+  const double reach2 =
+      near_triangles * near_triangles * 4 * std::numbers::pi / static_cast<double>(cells_.size());
   const std::int64_t stride = std::max<std::int64_t>(1, directions.rows() / few);
   std::int64_t asked = 0, near = 0;
   for (std::int64_t i = 1; i < directions.rows(); i += stride) {
     const double square = (directions.row(i) - directions.row(i - 1)).squaredNorm();
-    near += square <= worth_sorting * worth_sorting * reach2_ * directions.row(i).squaredNorm();
+    near += square <= reach2 * directions.row(i).squaredNorm();
     ++asked;
   }
   return 4 * near >= 3 * asked;

@@ -12,8 +12,8 @@ namespace sphparam {
 /// Requires: `source` are the triangles that the chart was made of; chart.certificate.one_to_one().
 /// Ensures: a chart of the same source as `spherical_chart` makes them, with a certificate of its
 /// own. `wedges` ≤ 1 changes nothing.
-/// Throws: std::invalid_argument where the chart is not certified.
-/// Our own; what it is for: a GPU draws the triangle, not the trapezoid up to v = 0.
+/// Throws: std::invalid_argument where the chart is not certified, or more would be made than ints
+/// can number. Our own; what it is for: a GPU draws the triangle, not the trapezoid up to v = 0.
 /// Cost: one pass, the certificate, and the triangles added: 2·(wedges − 1) a pole triangle.
 SphericalChart refine_poles(SphericalChart chart, const Triangles& source, int wedges,
                             int threads = 0);
