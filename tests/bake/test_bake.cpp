@@ -1,7 +1,12 @@
+#include <array>
+#include <atomic>
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <set>
+#include <thread>
 
 #include "bake/fields/attribute_fields.h"
 #include "bake/fields/normal_fields.h"
@@ -274,6 +279,67 @@ TEST_CASE("bake: a cancelled bake throws") {
   CHECK_THROWS_AS(baked(*scene, make_position(*scene, ""), options), Cancelled);
 }
 
+TEST_CASE("bake: a slow field is cancelled within a few samples, not at the end of its rows") {
+  const auto scene = sphere_scene(icosphere(1));
+  for (const int threads : {1, 3}) {
+    std::atomic<int> seen = 0;
+    SurfaceField slow{.name = "slow"};
+    slow.evaluate = [&seen](std::span<const SurfaceSample> samples, float* values) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      std::fill_n(values, samples.size(), 0.0F);
+      seen += static_cast<int>(samples.size());
+    };
+    BakeOptions options = size(1024);
+    options.threads = threads;
+    options.progress = [&seen](std::string_view, double) { return seen == 0; };
+    CHECK_THROWS_AS(baked(*scene, slow, options), Cancelled);
+    CHECK(seen < 32 * 1024);
+  }
+}
+
+TEST_CASE("id: labels have colours of their own in 8 bits, and none has none's") {
+  MeshFile file;
+  file.mesh = icosphere(5);
+  Property polygons{"source_face", ScalarType::Int32, {}};
+  // Numbers far apart and near each other.
+  for (Face f = 0; f < file.mesh.face_count(); ++f) polygons.values.push_back(819 * f);
+  file.set_face_property(polygons);
+  const SphereMap map = normalised(file.mesh.positions);
+  const auto scene = scene_of(file, map, {.ids_as_colours = true});
+  const SurfaceField field = make_id(*scene, "face");
+  std::set<std::array<int, 3>> colours = {{0, 0, 0}};
+  for (Face f = 0; f < file.mesh.face_count(); ++f) {
+    const SurfaceRun run{f, 1, Vector3(1, 0, 0), Vector3::Zero(), Vector3::Zero()};
+    std::array<float, 3> rgb;
+    field.evaluate_runs(std::span(&run, 1), rgb.data());
+    std::array<int, 3> bytes;
+    for (size_t c = 0; c < 3; ++c) bytes[c] = static_cast<int>(std::lround(255 * rgb[c]));
+    colours.insert(bytes);
+  }
+  CHECK(std::ssize(colours) == file.mesh.face_count() + 1);
+}
+
+TEST_CASE("basecolor: a face without a material is white, also where there is but one material") {
+  MeshFile file;
+  file.mesh = icosphere(2);
+  Property material{"material", ScalarType::Int32, {}};
+  for (Face f = 0; f < file.mesh.face_count(); ++f) material.values.push_back(f % 2 == 0 ? 0 : -1);
+  file.set_face_property(material);
+  const SphereMap map = normalised(file.mesh.positions);
+  const auto scene = scene_of(file, map);
+  scene->source.textures = {{.factor = {0.25F, 0, 0, 1}}};
+  const auto red = [&](Face f) {
+    const SurfaceRun run{f, 1, Vector3::Constant(1 / 3.0), Vector3::Zero(), Vector3::Zero()};
+    std::array<float, 3> rgb;
+    make_field("basecolor", *scene).evaluate_runs(std::span(&run, 1), rgb.data());
+    return rgb[0];
+  };
+  CHECK(red(0) == Approx(0.25));
+  CHECK(red(1) == Approx(1));
+  scene->source.one_texture_for_all = true;
+  CHECK(red(1) == Approx(0.25));
+}
+
 TEST_CASE("normal-tangent: of the mesh itself it is (0, 0, 1), and a viewer gets back any normal") {
   const auto scene = sphere_scene(icosphere(3));
   const std::vector<float> own = baked(*scene, make_tangent_normal(*scene, ""), size(128));
@@ -337,5 +403,8 @@ TEST_CASE("maps: what a mesh has not is said, with what it has") {
   CHECK(complaint("uv").find("no texture coordinates") != std::string::npos);
   CHECK(complaint("scalar:heat").find("no such property") != std::string::npos);
   CHECK(complaint("id:material").find("no materials") != std::string::npos);
+  CHECK(complaint("position:what").find("nothing can follow") != std::string::npos);
+  CHECK(complaint("basecolor:nonsense").find("nothing can follow") != std::string::npos);
+  CHECK(complaint("ao:").find("nothing can follow") != std::string::npos);
   CHECK(complaint("id:colour").find("id:face") != std::string::npos);
 }

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 
 #include "bake/baked_file.h"
 #include "bake/image_level.h"
@@ -157,4 +158,43 @@ TEST_CASE("baked file: a file that cannot be written says so") {
         file.close();
       }(),
       std::runtime_error);
+}
+
+TEST_CASE("baked file: one that is given up writes nothing more") {
+  const SurfaceField field{.name = "height", .range = std::pair(0.0, 1.0)};
+  for (const ImageFormat format :
+       {ImageFormat::Png, ImageFormat::Tiff, ImageFormat::Exr, ImageFormat::Jpeg}) {
+    INFO(name_of(format));
+    const SampleType type = sample_types_of(format).front();
+    const std::vector<float> rows(64 * 16, 0.5F);
+    bool given_up = false, written = false;
+    {
+      BakedFile file(field, {.width = 64, .height = 32, .format = format, .sample_type = type},
+                     [&](std::int64_t, std::string_view) { written |= given_up; });
+      file.write_rows(16, rows.data());
+      given_up = true;
+    }
+    CHECK_FALSE(written);
+  }
+}
+
+TEST_CASE("baked file: what is no number becomes 0, what is out of range its end") {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  const float values[] = {std::nanf(""), -infinity, infinity, -3.4e38F, 3.4e38F, 0, -1, 1};
+  const auto pixels = [&](double low, double high) {
+    const SurfaceField field{.name = "wide", .range = std::pair(low, high)};
+    return read(file_of(field, {.width = 8, .height = 1},
+                        [&](int, int column, int) { return values[column]; }))
+        .pixels;
+  };
+  const auto wide = pixels(-3.4e38, 3.4e38);
+  CHECK(wide[0] == 0);
+  CHECK(wide[1] == 0);
+  CHECK(wide[2] == 1);
+  CHECK(wide[3] == 0);
+  CHECK(wide[4] == 1);
+  CHECK(wide[5] == Approx(0.5).margin(0.01));
+  const auto narrow = pixels(-1, 1);
+  CHECK(narrow[6] == 0);
+  CHECK(narrow[7] == 1);
 }

@@ -213,7 +213,7 @@ Skin own_skin(const BakeScene& scene) {
             {}};
   skin.corners.col(1) = 1 - skin.corners.col(1).array();
   if (const Property* material = file.find_face_property("material");
-      material && skin.textures.size() > 1) {
+      material && !scene.source.one_texture_for_all) {
     for (const Face f : chart.source_faces) {
       skin.texture_of.push_back(static_cast<int>(material->values[static_cast<size_t>(f)]));
     }

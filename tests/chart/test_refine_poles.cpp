@@ -71,3 +71,11 @@ TEST_CASE("refine_poles: one wedge changes nothing, an uncertified chart is refu
   CHECK_THROWS_AS(refine_poles(wrapped_chart(mesh, topology, map), mesh.triangles, 4),
                   std::invalid_argument);
 }
+
+TEST_CASE("refine_poles: more wedges than numbers for them are refused") {
+  const TriangleMesh mesh = icosphere(2);
+  std::mt19937 random(9);
+  const SphereMap map = rotated({mesh.positions}, random_rotation(random));
+  const SphericalChart chart = spherical_chart(mesh, Topology(mesh), map);
+  CHECK_THROWS_WITH(refine_poles(chart, mesh.triangles, 1 << 30), Catch::Contains("2^31"));
+}

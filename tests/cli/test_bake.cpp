@@ -108,6 +108,46 @@ TEST_CASE("bake: same bytes for any number of threads, and for levels") {
   CHECK(bytes_of(folder / "a.exr") == bytes_of(folder / "b.exr"));
 }
 
+TEST_CASE("bake: no output replaces an input") {
+  const Folder folder;
+  const std::string mesh = folder / "ball_scale.png", obj = textured_ball();
+  for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{
+           {"-o", folder / "x.png", "--json", mesh}, {"-o", folder / "ball.png", "--heat"}}) {
+    write_bytes(mesh, obj);
+    std::vector<std::string> arguments = {"bake", mesh, "--map", "area", "--size", "32"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Ended ended = sphparam_program(arguments);
+    INFO(ended.err);
+    CHECK(ended.code == 2);
+    CHECK_THAT(ended.err, Contains("is the input"));
+    CHECK(bytes_of(mesh) == obj);
+    CHECK(folder.names() == std::vector<std::string>{"ball_scale.png"});
+  }
+}
+
+TEST_CASE("bake: numbers of faces are exact or refused, and a misspelt property is found") {
+  const Folder folder;
+  const std::string exr = folder / "x.exr";
+  const std::string many = obj_text(icosphere(4));  // 5120 faces
+  const Ended half = sphparam_program(
+      {"bake", "-", "--map", "id:face", "--depth", "half", "--size", "32", "-o", exr}, many);
+  CHECK(half.code == 2);
+  CHECK_THAT(half.err, Contains("up to 2048 exactly"));
+  CHECK(folder.names().empty());
+  CHECK(sphparam_program({"bake", "-", "--map", "id:face", "--size", "32", "-o", exr}, many).code ==
+        0);
+  const Ended misspelt = sphparam_program(
+      {"bake", "-", "--map", "scalar:haet", "--size", "32", "-o", folder / "t.png"},
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\n"
+      "property float y\nproperty float z\nproperty float heat\n"
+      "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
+      "1 1 1 0\n-1 -1 1 1\n-1 1 -1 2\n1 -1 -1 3\n"
+      "3 0 1 3\n3 0 2 1\n3 0 3 2\n3 1 2 3\n");
+  CHECK(misspelt.code == 2);
+  CHECK_THAT(misspelt.err, Contains("no such property"));
+  CHECK_THAT(misspelt.err, Contains("did you mean heat?"));
+}
+
 TEST_CASE("bake: what cannot be done is said before anything is written") {
   const Folder folder;
   const std::string out = folder / "x.png", obj = textured_ball();
@@ -126,6 +166,10 @@ TEST_CASE("bake: what cannot be done is said before anything is written") {
            {{"--texture", folder / "broken.png"}, 3, "broken.png"},
            {{}, 2, "--texture IMAGE"},
            {{"--map", "vcolor"}, 2, "no colours"},
+           {{"--map", "position:what"}, 2, "nothing can follow position"},
+           {{"--map", "axes:x"}, 2, "nothing can follow axes"},
+           {{"--map", "position", "--json", out}, 2, "also be written by -o"},
+           {{"--map", "area", "--heat", "--json", folder / "x_scale.png"}, 2, "by --heat"},
            {{"--map", "position", "--size", "0"}, 2, "--size"},
            {{"--map", "position", "--size", "33"}, 2, "even"},
            {{"--map", "position", "--size", "34", "--convention", "envmap"}, 2, "multiple of 4"},

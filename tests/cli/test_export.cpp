@@ -99,6 +99,121 @@ TEST_CASE("export: with a kept topology what folds is told, and marked in the fi
   CHECK_THAT(extras["chart_as_stored"].get<std::string>(), Contains("not one-to-one"));
 }
 
+TEST_CASE("export: an .obj is certified as read back, and a kept topology is told there too") {
+  Egg egg;
+  const std::string report = egg.folder / "r.json";
+  REQUIRE(egg.run("a.obj", {"--json", report}).code == 0);
+  CHECK(Json::parse(bytes_of(report))["levels"][0]["certified_as_stored"] == true);
+  const std::string map = egg.folder / "egg.sph.ply";  // ±z within faces
+  REQUIRE(sphparam_program({"map", egg.mesh, "-o", map, "--poles", "none"}).code == 0);
+  egg.mesh = map;
+  const Ended kept = egg.run("b.obj", {"--keep-topology", "--json", report});
+  REQUIRE(kept.code == 0);
+  CHECK_THAT(kept.err, Contains("fold in (u, v)"));
+  const Json level = Json::parse(bytes_of(report))["levels"][0];
+  CHECK(level["certified_as_stored"] == false);
+  CHECK(level["folded_as_stored"].size() + level["around_pole"].size() > 0);
+}
+
+TEST_CASE("export: triangles that rounding folds are told without being asked") {
+  const Egg egg;
+  TriangleMesh ball = icosphere(2);
+  const int v = ball.triangles(0, 0), near = ball.triangles(0, 1);
+  const Vector3 moved =
+      ball.positions.row(near) + 1e-7 * (ball.positions.row(v) - ball.positions.row(near));
+  ball.positions.row(v) = moved.normalized();
+  write_bytes(egg.folder / "ball.obj", obj_text(ball));
+  const Ended ended = egg.run("x.glb", {"--sphere", egg.folder / "ball.obj", "--quantize"});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.err, Contains("fold in (u, v) as stored"));
+}
+
+TEST_CASE("export: no output replaces an input or another output") {
+  const Egg egg;
+  const std::string ball = egg.folder / "ball.obj", image = egg.folder / "image.png";
+  write_bytes(ball, obj_text(icosphere(2)));
+  REQUIRE(egg.run("a.gltf").code == 0);
+  write_bytes(image, bytes_of(egg.folder / "a_checker.png"));
+  const Names before = egg.folder.names();
+  const std::vector<std::pair<std::string, Names>> mistakes = {
+      {"ball.obj", {"--sphere", ball}},
+      {"x.glb", {"--json", egg.mesh}},
+      {"x.glb", {"--sphere", ball, "--json", ball}},
+      {"x.glb", {"--texture", image, "--json", image}},
+      {"x.glb", {"--normal", image, "--json", image}},
+      {"x.glb", {"--json", egg.folder / "x.glb"}},
+      {"x.gltf", {"--json", egg.folder / "x.bin"}},
+      {"x.gltf", {"--json", egg.folder / "x_checker.png"}},
+      {"x.glb", {"--lods", "1", "--json", egg.folder / "x_lod1.glb"}},
+      {"a.gltf",
+       {"--texture", egg.folder / "a_basecolor.png", "--occlusion", egg.folder / "a.bin"}}};
+  for (const auto& [output, more] : mistakes) {
+    const Ended ended = egg.run(output, more);
+    INFO(output << " " << more[0] << ": " << ended.err);
+    CHECK(ended.code == 2);
+    CHECK(egg.folder.names() == before);
+  }
+  CHECK(bytes_of(ball) == obj_text(icosphere(2)));
+}
+
+TEST_CASE("export: a normal map is of the finest mesh alone") {
+  const Egg egg;
+  REQUIRE(egg.run("a.gltf").code == 0);
+  const Names normal = {"--normal", egg.folder / "a_checker.png", "--variants", "axes"};
+  Names files = normal, one = normal;
+  files.insert(files.end(), {"--lods", "1"});
+  one.insert(one.end(), {"--lods", "1", "--lod", "msft"});
+  const Ended ended = egg.run("x.glb", files);
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.err, Contains("coarser levels are without"));
+  const Json fine = json_of(bytes_of(egg.folder / "x.glb"));
+  CHECK(fine["materials"][0].contains("normalTexture"));
+  const Json coarse = json_of(bytes_of(egg.folder / "x_lod1.glb"));
+  CHECK(coarse["images"].size() == fine["images"].size() - 1);
+  for (const Json& material : coarse["materials"]) {
+    CHECK_FALSE(material.contains("normalTexture"));
+    CHECK(material["pbrMetallicRoughness"]["baseColorTexture"]["index"] < coarse["images"].size());
+  }
+  REQUIRE(egg.run("y.glb", one).code == 0);
+  const Json both = json_of(bytes_of(egg.folder / "y.glb"));
+  const Json& far = both["meshes"][1]["primitives"][0];
+  CHECK_FALSE(both["materials"][far["material"].get<size_t>()].contains("normalTexture"));
+  CHECK_FALSE(far["attributes"].contains("TANGENT"));
+  const Json& variants = far["extensions"]["KHR_materials_variants"]["mappings"];
+  CHECK(variants[1]["material"] == 3);
+  CHECK(variants[1]["variants"][0] == 1);
+}
+
+TEST_CASE("export: names in Latin-1, and images in capitals") {
+  Egg egg;
+  fs::create_directory(egg.folder / "bake");
+  REQUIRE(egg.run("a.gltf").code == 0);
+  write_bytes(egg.folder / "bake/basecolor.PNG", bytes_of(egg.folder / "a_checker.png"));
+  const std::string latin = egg.folder / "caf\xE9.obj";
+  write_bytes(latin, bytes_of(egg.mesh));
+  egg.mesh = latin;
+  const Ended ended = egg.run("x.glb", {"--textures", egg.folder / "bake"});
+  INFO(ended.err);
+  CHECK(ended.code == 0);
+}
+
+TEST_CASE("export: a texture without texture coordinates is refused with the reason") {
+  Egg egg;
+  REQUIRE(egg.run("egg.glb", {"--refine-poles", "1"}).code == 0);
+  std::string bytes = bytes_of(egg.folder / "egg.glb");
+  const size_t at = bytes.find("TEXCOORD_0");
+  REQUIRE(at != std::string::npos);
+  bytes[at] = '_';
+  egg.mesh = egg.folder / "bare.glb";
+  write_bytes(egg.mesh, bytes);
+  const Ended ended = egg.run("x.glb");
+  INFO(ended.err);
+  CHECK(ended.code == 2);
+  CHECK_THAT(ended.err, Contains("no texture coordinates"));
+}
+
 TEST_CASE("export: the same bytes for any number of threads") {
   const Egg egg;
   REQUIRE(egg.run("one.glb", {"--threads", "1", "--variants", "area"}).code == 0);
@@ -113,6 +228,7 @@ TEST_CASE("export: what makes no sense is refused with a reason, and nothing is 
       {"x.glb", {"--variants", "chekcer"}, 2, "did you mean checker?"},
       {"x.glb", {"--keep-topology", "--refine-poles", "3"}, 2, "--keep-topology"},
       {"x.obj", {"--quantize"}, 2, "--quantize"},
+      {"x.obj", {"--lods", "2"}, 2, "--lods"},
       {"x.glb", {"--image-size", "30"}, 2, "multiple of 4"},
       {"x.glb", {"--unlit", "--tangents"}, 2, "--unlit"},
       {"x.glb", {"--source-uv"}, 2, "texture coordinates"},

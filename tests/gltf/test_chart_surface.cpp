@@ -83,7 +83,7 @@ TEST_CASE("chart_surface: what float32 leaves of a sphere is in _POSITION_LO") {
   }
 }
 
-TEST_CASE("chart_surface: bytes of colours are sRGB, those of glTF are linear already") {
+TEST_CASE("chart_surface: colours are sRGB, in bytes, 16 bits or floats, whatever they came from") {
   Charted egg;
   for (const char* name : {"red", "green", "blue"})
     egg.file.set_vertex_property(
@@ -93,7 +93,13 @@ TEST_CASE("chart_surface: bytes of colours are sRGB, those of glTF are linear al
   CHECK(egg.geometry(options).surface.colours[7][1] / 65535.0 == Approx(0.5).epsilon(0.01));
   CHECK(egg.geometry(options).surface.colours[7][3] == 65535);
   egg.file.format = "glTF";
-  CHECK(egg.geometry(options).surface.colours[7][1] / 65535.0 == Approx(188 / 255.0));
+  CHECK(egg.geometry(options).surface.colours[7][1] / 65535.0 == Approx(0.5).epsilon(0.01));
+  const Eigen::Index count = egg.file.mesh.vertex_count();
+  for (const char* name : {"red", "green", "blue"})
+    egg.file.set_vertex_property(constant(name, ScalarType::Uint16, 188 * 257, count));
+  egg.file.set_vertex_property(constant("alpha", ScalarType::Uint16, 0.25 * 65535, count));
+  CHECK(egg.geometry(options).surface.colours[7][1] / 65535.0 == Approx(0.5).epsilon(0.01));
+  CHECK(egg.geometry(options).surface.colours[7][3] / 65535.0 == Approx(0.25).epsilon(0.01));
 }
 
 TEST_CASE("chart_surface: the mesh's own texture coordinates come along, seams and all") {

@@ -35,6 +35,12 @@ TEST_CASE("export_chart: θ of the attribute is that of the map in every convent
     const Charted egg({.convention = info.convention});
     const ExportGeometry geometry = egg.geometry({.buffers = {.theta_phi = true}});
     const FloatRows& angles = geometry.surface.custom.front().values;
+    const auto turn = static_cast<float>(2 * std::numbers::pi);
+    for (Eigen::Index w = 0; w < angles.rows(); ++w) {
+      const bool at_end = egg.chart.theta_offset == 0 && egg.chart.chart.uv(w, 0) == 1;
+      CHECK(angles(w, 0) >= 0);
+      CHECK((angles(w, 0) < turn || (at_end && angles(w, 0) == turn)));
+    }
     for (Vertex v = 0; v < static_cast<Vertex>(egg.map.points.rows()); ++v) {
       const double theta = static_cast<double>(angles(v, 0)),
                    phi = static_cast<double>(angles(v, 1));

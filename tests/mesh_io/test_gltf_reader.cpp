@@ -249,9 +249,12 @@ TEST_CASE("gltf_reader: attributes survive, and welding moves them to the corner
       R"("_RANK":5,"TEXCOORD_1":2},"indices":1}]}])";
   const MeshFile file = read(gltf.bytes());
   CHECK(values_of(file.find_vertex_property("t"))[4] == 0.75);  // upwards
-  CHECK(file.find_vertex_property("green")->type == ScalarType::Uint8);
-  CHECK(values_of(file.find_vertex_property("green"))[3] == 30);
-  CHECK(values_of(file.find_vertex_property("alpha"))[3] == 128);
+  // Linear light in the file, sRGB in memory: 30/255 is 0.3775; alpha is as it is.
+  CHECK(file.find_vertex_property("green")->type == ScalarType::Float32);
+  CHECK(values_of(file.find_vertex_property("red"))[3] == 1);
+  CHECK(values_of(file.find_vertex_property("green"))[3] == Approx(0.37751).epsilon(1e-4));
+  CHECK(values_of(file.find_vertex_property("blue"))[3] == 0);
+  CHECK(values_of(file.find_vertex_property("alpha"))[3] == Approx(128 / 255.0));
   CHECK(values_of(file.find_vertex_property("_RANK"))[6] == 7);
   CHECK(file.find_vertex_property("_RANK")->type == ScalarType::Uint16);
 
@@ -556,4 +559,55 @@ TEST_CASE("gltf_reader: a material brings its base colour: factor, image, wrap m
   Gltf second = gltf;
   second.rest = replaced(second.rest, R"("index":0})", R"("index":0,"texCoord":1})");
   CHECK(contains(read(second.bytes()).base_colours[0].problem, "other texture coordinates"));
+}
+
+namespace {
+
+/// A tetrahedron with `count` materials, each with an image of its own, all of the view `view`.
+Gltf with_images(int count, const std::string& view) {
+  Gltf gltf = tetrahedron_gltf();
+  std::string materials, textures, images;
+  for (int i = 0; i < count; ++i) {
+    const std::string comma = i > 0 ? "," : "", number = std::to_string(i);
+    materials +=
+        comma + R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":)" + number + "}}}";
+    textures += comma + R"({"source":)" + number + "}";
+    images += comma + R"({"bufferView":)" + std::to_string(gltf.count + (i % 2)) + "}";
+  }
+  gltf.views += "," + view + "," + view;
+  gltf.meshes = replaced(gltf.meshes, R"("indices":1)", R"("indices":1,"material":0)");
+  gltf.rest += R"(,"materials":[)" + materials + R"(],"textures":[)" + textures +
+               R"(],"images":[)" + images + "]";
+  return gltf;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "gltf_reader: images of views that run past their buffer are refused, wherever they end") {
+  for (const std::string view :
+       {R"({"buffer":0,"byteLength":1000000})", R"({"buffer":0,"byteOffset":72,"byteLength":1})",
+        R"({"buffer":0,"byteOffset":2000000000,"byteLength":4})",
+        R"({"buffer":0,"byteOffset":9007199254740991,"byteLength":9007199254740991})",
+        R"({"buffer":7,"byteLength":4})"}) {
+    INFO(view);
+    CHECK_FALSE(complaint(with_images(1, view).bytes()).empty());
+  }
+}
+
+TEST_CASE("gltf_reader: bytes that many images show are kept once, and no more than the file has") {
+  const std::string view = R"({"buffer":0,"byteLength":72})";
+  CHECK(read(with_images(100, view).bytes()).base_colours[0].bytes->size() == 72);
+  // Two overlapping views of most of the buffer are more than it holds.
+  Gltf greedy = with_images(2, view);
+  greedy.views = replaced(greedy.views, view + "," + view,
+                          view + R"(,{"buffer":0,"byteOffset":4,"byteLength":68})");
+  greedy.rest =
+      replaced(greedy.rest, R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":1}}})",
+               R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})");
+  CHECK(complaint(greedy.bytes()).empty());  // nothing uses the second
+  greedy.rest =
+      replaced(greedy.rest, R"([{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}})",
+               R"([{"pbrMetallicRoughness":{"baseColorTexture":{"index":1}})");
+  CHECK(contains(complaint(greedy.bytes()), "more bytes than the buffers hold"));
 }

@@ -176,3 +176,17 @@ TEST_CASE("exhibit: tables have a column a map, and a dash where a map has no su
   CHECK(chart_table(exhibits).rows[0][2] == "–");
   CHECK(certificate_table(exhibits).rows[0][1] == "one-to-one");
 }
+
+TEST_CASE("report page: red alone is no colour") {
+  MeshFile file = ball();
+  file.set_vertex_property({"red", ScalarType::Uint8, std::vector<double>(162, 9)});
+  const std::string page = report_page("ball", file, {good("ball", file)}, quick());
+  CHECK_THAT(page, Contains("Directions"));
+}
+
+TEST_CASE("painted surfaces: can be cancelled while they are baked") {
+  ReportOptions options = quick();
+  options.progress = [](std::string_view stage, double) { return stage != "bake"; };
+  const MeshFile file = ball();
+  CHECK_THROWS_AS(report_page("ball", file, {good("ball", file)}, options), Cancelled);
+}

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "bake/bake_progress.h"
 #include "bake/crowded_texels.h"
 #include "bake/image_level.h"
 #include "bake/sample_seed.h"
@@ -18,12 +19,14 @@ namespace {
 constexpr int bands_a_thread = 4;                // before the sink gets them …
 constexpr std::int64_t group_bytes = 256 << 20;  // … but for images so wide that they fill this
 constexpr int texels_a_batch = 4096;             // some more where runs are long
+constexpr size_t samples_a_look = 64;            // at the progress: rays may take ms a sample
 
 struct Work {
   const BakeScene& scene;
   std::span<const SurfaceField> fields;
   const BakeOptions& options;
   const TexelFinder& finder;
+  BakeProgress& progress;
 };
 
 using BandValues = std::vector<std::vector<float>>;  // a field, a band
@@ -37,14 +40,20 @@ SurfacePoint place_of(const RasterRun& run, int i) {
 class Batch {
  public:
   Batch(std::span<const SurfaceRun> runs, std::span<const RasterRun> places, std::int64_t texel,
-        int sample)
-      : runs_(runs), places_(places), texel_(texel), sample_(sample) {}
+        int sample, BakeProgress& progress)
+      : runs_(runs), places_(places), texel_(texel), sample_(sample), progress_(progress) {}
 
   /// The values of a field, colours linear.
   void evaluate(const SurfaceField& field, float* values) {
+    progress_.look();
     if (field.evaluate_runs) return field.evaluate_runs(runs_, values);
     expand();
-    field.evaluate(samples_, values);
+    const auto channels = static_cast<size_t>(field.channels);
+    for (size_t i = 0; i < samples_.size(); i += samples_a_look) {
+      const size_t count = std::min(samples_a_look, samples_.size() - i);
+      field.evaluate(std::span(samples_).subspan(i, count), values + channels * i);
+      progress_.look();
+    }
     if (field.kind != FieldKind::Colour) return;
     const SrgbCurves& curves = SrgbCurves::get();
     const int colours = std::min(field.channels, 3);
@@ -73,6 +82,7 @@ class Batch {
   std::span<const RasterRun> places_;
   std::int64_t texel_;  // of the first
   int sample_;
+  BakeProgress& progress_;
   std::vector<SurfaceSample> samples_;
 };
 
@@ -94,7 +104,8 @@ void for_each_batch(const Work& work, int band, double x, double y, int sample, 
       while (in_places < in_runs) in_places += places[place++].count;
     }
     Batch batch(runs.subspan(first_run, run - first_run),
-                places.subspan(first_place, place - first_place), start + texel, sample);
+                places.subspan(first_place, place - first_place), start + texel, sample,
+                work.progress);
     visit(batch, static_cast<size_t>(texel), static_cast<size_t>(in_places));
     texel += in_places;
   }
@@ -118,6 +129,7 @@ void add_samples(const Work& work, int band, double x, double y, int sample, flo
       batch.evaluate(field, buffer.data());
       for (size_t i = 0; i < count * channels; ++i) out[i] += weight * buffer[i];
     }
+    work.progress.add(static_cast<std::int64_t>(count));
   });
 }
 
@@ -133,7 +145,7 @@ void average_crowded(const Work& work, int band, BandValues& values) {
     if (field.kind == FieldKind::Label) continue;
     const auto channels = static_cast<size_t>(field.channels);
     buffer.resize(crowded.points.runs.size() * channels);
-    Batch(crowded.points.runs, crowded.points.places, start * crowded_seeds, 0)
+    Batch(crowded.points.runs, crowded.points.places, start * crowded_seeds, 0, work.progress)
         .evaluate(field, buffer.data());
     for (const CrowdedTexels::Texel& texel : crowded.texels) {
       float* out = &values[f][texel.index * channels];
@@ -147,14 +159,23 @@ void average_crowded(const Work& work, int band, BandValues& values) {
   }
 }
 
+bool is_label(const SurfaceField& field) { return field.kind == FieldKind::Label; }
+
+/// How often the texels are gone through.
+int passes(std::span<const SurfaceField> fields, const BakeOptions& options) {
+  const int with_labels = std::ranges::any_of(fields, is_label) ? 1 : 0;
+  const bool only_labels = std::ranges::all_of(fields, is_label);
+  return with_labels + (only_labels ? 0 : options.samples * options.samples);
+}
+
 BandValues bake_band(const Work& work, int band) {
+  work.progress.look();
   const auto texels = static_cast<size_t>(work.finder.raster().rows(band)) *
                       static_cast<size_t>(work.options.width);
   BandValues values;
   for (const SurfaceField& field : work.fields) {
     values.emplace_back(texels * static_cast<size_t>(field.channels), 0.0F);
   }
-  const auto is_label = [](const SurfaceField& field) { return field.kind == FieldKind::Label; };
   const int n = work.options.samples;
   if (!std::ranges::all_of(work.fields, is_label)) {
     for (int s = 0; s < n * n; ++s) {
@@ -186,12 +207,14 @@ int bands_at_once(std::span<const SurfaceField> fields, int width, int threads) 
 void bake(const BakeScene& scene, std::span<const SurfaceField> fields, const BakeOptions& options,
           const RowSink& sink) {
   const UvRaster raster(scene.target.chart, options.width, options.height);
+  report(options.progress, "bake", 0);
   const TexelFinder finder(scene, raster, options.interpolation, options.threads);
-  const Work work{scene, fields, options, finder};
+  BakeProgress progress(options.progress,
+                        std::int64_t{options.width} * options.height * passes(fields, options));
+  const Work work{scene, fields, options, finder, progress};
   const int threads = resolve_threads(options.threads);
   const int group = bands_at_once(fields, options.width, threads);
   for (int first = 0; first < raster.band_count(); first += group) {
-    report(options.progress, "bake", static_cast<double>(first) / raster.band_count());
     const int count = std::min(group, raster.band_count() - first);
     std::vector<BandValues> done(static_cast<size_t>(count));
     parallel_for(count, 1, threads, [&](std::int64_t from, std::int64_t to) {

@@ -16,8 +16,9 @@ struct BakeSource {
   SphereMap map;  // certified
   Topology topology;
   Points normals;  // #V×3, unit: those of the file, or the mean of the faces'
-  // One a material of the file, or one for all faces; empty: no textures.
+  // One a material of the file, or the first for all faces; empty: no textures.
   std::vector<SourceTexture> textures;
+  bool one_texture_for_all = false;  // whatever the materials; else faces without one are white
 };
 
 /// The mesh that images are baked for, by its chart: the source itself, or another mesh on the same

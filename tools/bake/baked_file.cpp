@@ -65,16 +65,16 @@ template <class Sample>
 std::vector<Sample> integers(const float* values, size_t count, const SurfaceField& field) {
   std::vector<Sample> samples(count);
   const auto [low, high] = ends_of(field);
-  constexpr auto full = static_cast<float>(std::numeric_limits<Sample>::max());
-  const auto base = static_cast<float>(low);
-  const float scale = high > low ? static_cast<float>(1 / (high - low)) : 0;
+  constexpr double full = std::numeric_limits<Sample>::max();
+  const double base = low, scale = high > low ? 1 / (high - low) : 0;
   const SrgbCurves& curves = SrgbCurves::get();
   const bool colour = field.kind == FieldKind::Colour;
   const auto channels = static_cast<size_t>(field.channels);
   for (size_t i = 0; i < count; ++i) {
-    const float x =
-        colour && i % channels < 3 ? curves.to_srgb(values[i]) : (values[i] - base) * scale;
-    samples[i] = static_cast<Sample>(std::clamp(x, 0.0F, 1.0F) * full + 0.5F);
+    const auto value = static_cast<double>(values[i]);
+    const double x = colour && i % channels < 3 ? static_cast<double>(curves.to_srgb(values[i]))
+                                                : (value - base) * scale;
+    samples[i] = x > 0 ? static_cast<Sample>(std::min(x, 1.0) * full + 0.5) : Sample{0};
   }
   return samples;
 }

@@ -26,7 +26,8 @@ class ImageLevel;
 /// Writes the baked values of a field as an image file, as rows come.
 ///
 /// Colours become sRGB in integer files and stay linear in others; directions become ½ + ½·n, data
-/// the part of their range from 0 to 1 in integers, and stay as they are in others. Rows are in
+/// the part of their range from 0 to 1 in integers (what is no number becomes 0), and stay as they
+/// are in others. Rows are in
 /// θ on entry and in the convention's u in the file. Metadata: sphparam:map, :about, :convention,
 /// :u0 (u = turns·θ/2π + u0), :min and :max (what 0 and 1 stand for), oiio:ColorSpace.
 ///

@@ -17,7 +17,7 @@ inline constexpr std::int64_t crowded_seeds = 1 << 10;
 ///
 /// Where the chart is the source's own, a point is a triangle's, the centre of what the texel cuts
 /// out of it in (u, v): no triangle is missed. Where points are found by direction, texels that
-/// cover more than a triangle, and their neighbours, get a grid of up to 8 × 8 points.
+/// cover more than a triangle, and their neighbours in the band, get a grid of up to 8 × 8 points.
 struct CrowdedTexels {
   /// Cost: one clipped polygon for each triangle and crowded texel that meet; or, by direction, the
   /// points of the band once more.

@@ -39,7 +39,6 @@ std::optional<Points> linear_colours(const MeshFile& file) {
   const auto rgb = columns<3>(file, {"red", "green", "blue"});
   if (!rgb) return std::nullopt;
   const SrgbCurves& curves = SrgbCurves::get();
-  const bool linear = file.format.starts_with("glTF");
   Points colours(file.mesh.vertex_count(), 3);
   for (int c = 0; c < 3; ++c) {
     const Property& property = *(*rgb)[static_cast<size_t>(c)];
@@ -47,8 +46,7 @@ std::optional<Points> linear_colours(const MeshFile& file) {
     const double full = real ? 1 : property.type == ScalarType::Uint16 ? 65535 : 255;
     for (Eigen::Index v = 0; v < colours.rows(); ++v) {
       const double stored = property.values[static_cast<size_t>(v)] / full;
-      colours(v, c) =
-          linear ? stored : static_cast<double>(curves.to_linear(static_cast<float>(stored)));
+      colours(v, c) = static_cast<double>(curves.to_linear(static_cast<float>(stored)));
     }
   }
   return colours;

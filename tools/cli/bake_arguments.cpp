@@ -50,6 +50,14 @@ std::vector<std::string> map_names() {
 void require_known(const std::string& map) {
   const std::string kind = map.substr(0, map.find(':'));
   const std::vector<std::string> names = map_names();
+  if (test_image_named(kind) && kind != map) {
+    throw UsageMistake("--map: " + map + ": nothing can follow " + kind);
+  }
+  try {
+    require_no_idle_argument(map);
+  } catch (const MapError& error) {
+    throw UsageMistake(std::string("--map: ") + error.what());
+  }
   if (std::ranges::count(names, kind) > 0) return;
   const std::string meant = nearest_word(kind, names);
   std::string all;
@@ -82,6 +90,31 @@ std::string path_of(const BakeArguments& arguments, const std::string& map) {
     at += in_file_name(map).size();
   }
   return path;
+}
+
+/// No file may be written that is read or written besides. With --heat every image counts as one
+/// with a scale: which ones have it is known only once they are made.
+void require_apart(const BakeArguments& arguments, const std::vector<BakeOutput>& outputs) {
+  std::vector<std::pair<const char*, std::string>> written;
+  for (const BakeOutput& output : outputs) {
+    written.emplace_back("-o", output.path);
+    if (arguments.options.heat && !is_stream(output.path)) {
+      written.emplace_back("--heat", scale_path(output.path));
+    }
+  }
+  written.emplace_back("--json", arguments.json);
+  for (size_t i = 0; i < written.size(); ++i) {
+    const auto& [option, path] = written[i];
+    for (const std::string& input :
+         {arguments.input, arguments.sphere, arguments.target, arguments.texture}) {
+      require_not_input(input, path, option);
+    }
+    for (size_t j = 0; j < i; ++j) {
+      if (!is_same_place(path, written[j].second)) continue;
+      throw UsageMistake(std::string(option) + ": " + path + " would also be written by " +
+                         written[j].first);
+    }
+  }
 }
 
 void add_inputs(CLI::App& command, BakeArguments& arguments) {
@@ -187,6 +220,11 @@ CLI::App* declare_bake_arguments(CLI::App& program, BakeArguments& arguments) {
   return command;
 }
 
+std::string scale_path(const std::string& image) {
+  const std::filesystem::path path(image);
+  return (path.parent_path() / (path.stem().string() + "_scale.png")).string();
+}
+
 std::vector<BakeOutput> bake_outputs(const BakeArguments& arguments) {
   if (arguments.width % 2 != 0) {
     throw UsageMistake("--size: an image is half as high as wide, so its width must be even");
@@ -218,12 +256,9 @@ std::vector<BakeOutput> bake_outputs(const BakeArguments& arguments) {
       throw UsageMistake("--depth: " + std::string(name_of(*format)) + " images have no " +
                          name_of(*arguments.depth) + " samples");
     }
-    for (const std::string& input :
-         {arguments.input, arguments.sphere, arguments.target, arguments.texture}) {
-      require_not_input(input, path, "-o");
-    }
     outputs.push_back({map, path});
   }
+  require_apart(arguments, outputs);
   return outputs;
 }
 

@@ -42,9 +42,12 @@ struct BakeOutput {
   std::string path;
 };
 
+/// Where the scale of a heat map goes: heat.png has it in heat_scale.png beside it.
+std::string scale_path(const std::string& image);
+
 /// The images of the arguments, in their order, {map} replaced, before any work is done.
-/// Throws: UsageMistake, for maps that do not exist (with the nearest), several maps that would go
-/// to one file, formats that are not written, options that do not go together.
+/// Throws: UsageMistake, for maps that do not exist (with the nearest), files that would be
+/// written twice or are read, formats that are not written, options that do not go together.
 std::vector<BakeOutput> bake_outputs(const BakeArguments& arguments);
 
 }  // namespace sphparam::tools

@@ -27,7 +27,7 @@ std::string to_json(const BakeReport& report) {
                      {"convention", report.convention},
                      {"images", std::move(images)},
                      {"seconds", report.seconds}};
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, decltype(json)::error_handler_t::replace) + "\n";
 }
 
 }  // namespace sphparam::tools

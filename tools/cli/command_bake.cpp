@@ -3,8 +3,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -20,6 +20,7 @@
 #include "cli/interruption.h"
 #include "cli/mapped_source.h"
 #include "cli/paths.h"
+#include "cli/suggestion.h"
 #include "cli/wording.h"
 #include "mesh_io/safe_file.h"
 #include "render/shading_normals.h"
@@ -65,12 +66,11 @@ class Baker {
     read_scene();
     for (const BakeOutput& output : outputs_) images_.push_back(make_image(output));
     find_ranges();
-    PendingFiles files;
     for (Image& image : images_) {
       image.options.metadata = metadata();
       image.file =
-          std::make_unique<BakedFile>(image.field, image.options, files.open(image.output.path));
-      add_scale(image, files);
+          std::make_unique<BakedFile>(image.field, image.options, files_.open(image.output.path));
+      add_scale(image);
     }
     draw_test_images();
     bake_images([&](Image& image, int, int rows, const float* values) {
@@ -80,9 +80,9 @@ class Baker {
       console_.progress("write", 0);
       image.file->close();
     }
-    if (!arguments_.json.empty()) files.add(arguments_.json, to_json(report()));
+    if (!arguments_.json.empty()) files_.add(arguments_.json, to_json(report()));
     if (interrupted()) throw Cancelled();
-    files.publish();
+    files_.publish();
     console_.clear_progress();
   }
 
@@ -163,6 +163,7 @@ class Baker {
       source.textures = read_textures(source.file, arguments_.threads);
     } else {
       source.textures = {read_texture(arguments_.texture, arguments_.wrap, arguments_.threads)};
+      source.one_texture_for_all = true;
     }
   }
 
@@ -181,7 +182,9 @@ class Baker {
       try {
         image.field = make_field(output.map, *scene_);
       } catch (const MapError& error) {
-        throw UsageMistake(display_name(arguments_.input) + ": " + error.what());
+        const std::string meant = nearest_word(error.unknown(), error.known());
+        throw UsageMistake(display_name(arguments_.input) + ": " + error.what() +
+                           (meant.empty() ? "" : "; did you mean " + meant + "?"));
       }
     }
     image.options = {.width = arguments_.width,
@@ -194,7 +197,22 @@ class Baker {
       throw UsageMistake("-o: " + std::string(name_of(format)) + " images have no alpha, which " +
                          image.field.name + " has here; .png has");
     }
+    require_exact_labels(image);
     return image;
+  }
+
+  /// Numbers that are rounded would name other faces.
+  static void require_exact_labels(const Image& image) {
+    if (image.field.kind != FieldKind::Label || !image.field.range) return;
+    const bool half = image.options.sample_type == SampleType::Half;
+    if (!half && image.options.sample_type != SampleType::Float) return;
+    const double most = half ? 1 << 11 : 1 << 24;
+    if (image.field.range->second <= most) return;
+    throw UsageMistake("--depth: " + std::string(name_of(image.options.sample_type)) +
+                       " holds whole numbers up to " + std::to_string(std::lround(most)) +
+                       " exactly; " + image.field.name + " goes up to " +
+                       std::to_string(std::lround(image.field.range->second)) +
+                       (half ? "; float holds more" : ""));
   }
 
   /// Integers need to know where their values end: where a field cannot say, it is baked twice.
@@ -229,7 +247,7 @@ class Baker {
   }
 
   /// The scale of a heat map, in a picture of its own: a texture has no place for it.
-  void add_scale(const Image& image, PendingFiles& files) {
+  void add_scale(const Image& image) {
     const std::optional<HeatScale> scale = heat_scale_of(image.field);
     if (!scale || image.test || is_stream(image.output.path)) return;
     constexpr int side = 480;
@@ -237,9 +255,7 @@ class Baker {
     tools::Image strip(whole.width, whole.height - side, whole.channels);
     std::copy_n(whole.pixel(0, side), strip.pixels.size(), strip.pixels.begin());
     const std::vector<char> png = encode_image(strip, ImageFormat::Png);
-    const std::filesystem::path path(image.output.path);
-    files.add((path.parent_path() / (path.stem().string() + "_scale.png")).string(),
-              {png.data(), png.size()});
+    files_.add(scale_path(image.output.path), {png.data(), png.size()});
   }
 
   void draw_test_images() {
@@ -307,7 +323,8 @@ class Baker {
   std::vector<BakeOutput> outputs_;
   std::unique_ptr<BakeScene> scene_;
   Provenance provenance_;
-  std::vector<Image> images_;
+  PendingFiles files_;
+  std::vector<Image> images_;  // write to files_, so they go first
 };
 
 int run_bake(const BakeArguments& arguments) {

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "bake/source_attributes.h"
 #include "cli/exit_codes.h"
 #include "cli/export_arguments.h"
 #include "cli/export_look.h"
@@ -34,11 +35,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool has_texcoords(const MeshFile& file) {
-  return file.corner_texcoords ||
-         (file.find_vertex_property("s") && file.find_vertex_property("t"));
-}
-
 Up up_of(const ExportArguments& arguments, const MeshFile& file) {
   if (arguments.up != UpAxis::Automatic) return arguments.up == UpAxis::Y ? Up::Y : Up::Z;
   return file.format.starts_with("glTF") ? Up::Y : Up::Z;
@@ -51,7 +47,7 @@ GeometryOptions geometry_options(const ExportArguments& arguments, const MeshFil
                           .up = up_of(arguments, file),
                           .threads = arguments.threads};
   options.buffers = {.uv = {.sixteen_bits = arguments.quantise && !arguments.keep_topology},
-                     .tangents = arguments.tangents || look.has_normals(),
+                     .tangents = look.has_normals(),
                      .colours = look.vertex_colours,
                      .theta_phi = arguments.theta_phi,
                      .position_lo = arguments.shape == ShapeKind::Sphere,
@@ -69,8 +65,15 @@ ExportChartOptions chart_options(const ExportArguments& arguments) {
 /// Throws NotCertifiedError where a chart that should be one-to-one is not.
 ExportChart make_chart(const ExportArguments& arguments, const MeshFile& file,
                        const SphereMap& map) {
-  ExportChart chart = export_chart(file.mesh, Topology(file.mesh, arguments.threads), map,
-                                   chart_options(arguments));
+  ExportChart chart = [&] {
+    try {
+      return export_chart(file.mesh, Topology(file.mesh, arguments.threads), map,
+                          chart_options(arguments));
+    } catch (const std::invalid_argument& error) {
+      if (arguments.refine_poles <= 1) throw;
+      throw UsageMistake(std::string("--refine-poles: ") + error.what());
+    }
+  }();
   if (!arguments.keep_topology && !chart.chart.certificate.one_to_one()) {
     throw NotCertifiedError(
         display_name(arguments.input) +
@@ -80,17 +83,17 @@ ExportChart make_chart(const ExportArguments& arguments, const MeshFile& file,
   return chart;
 }
 
-/// What is told of one exported mesh.
-void tell_geometry(const ExportArguments& arguments, const ExportChart& chart,
-                   const ExportGeometry& geometry, Console& console) {
-  const auto& counts = chart.chart.counts;
-  console.detail("  chart: " + std::to_string(counts.splits()) + " splits, " +
-                 std::to_string(chart.chart.triangles.rows()) + " triangles, " +
-                 std::to_string(geometry.surface.vertex_count()) + " vertices");
-  std::vector<Face> wrong = geometry.stored.folded;
-  wrong.insert(wrong.end(), geometry.stored.around_pole.begin(), geometry.stored.around_pole.end());
+/// Warns of what folds as stored, by number and first ids.
+void tell_folds(const ExportArguments& arguments, const ExportChart& chart,
+                const ChartCertificate& stored, Console& console) {
+  std::vector<Face> wrong = stored.folded;
+  wrong.insert(wrong.end(), stored.around_pole.begin(), stored.around_pole.end());
   std::ranges::sort(wrong);
   wrong.erase(std::ranges::unique(wrong).begin(), wrong.end());
+  if (wrong.empty() && !stored.one_to_one()) {
+    console.warning(display_name(arguments.input) + ": not one-to-one in (u, v) as stored, " +
+                    std::to_string(stored.torn.size()) + " edges torn");
+  }
   if (wrong.empty()) return;
   std::string line = std::to_string(wrong.size()) + " of " +
                      std::to_string(chart.chart.triangles.rows()) + " triangles fold in (u, v)" +
@@ -100,7 +103,17 @@ void tell_geometry(const ExportArguments& arguments, const ExportChart& chart,
   for (size_t i = 0; i < std::min(wrong.size(), most_listed); ++i)
     line += " " + std::to_string(wrong[i]);
   if (wrong.size() > most_listed) line += " …";
-  arguments.keep_topology ? console.warning(line) : console.detail("  " + line);
+  console.warning(display_name(arguments.input) + ": " + line);
+}
+
+/// What is told of one exported mesh.
+void tell_geometry(const ExportArguments& arguments, const ExportChart& chart,
+                   const ExportGeometry& geometry, Console& console) {
+  const auto& counts = chart.chart.counts;
+  console.detail("  chart: " + std::to_string(counts.splits()) + " splits, " +
+                 std::to_string(chart.chart.triangles.rows()) + " triangles, " +
+                 std::to_string(geometry.surface.vertex_count()) + " vertices");
+  tell_folds(arguments, chart, geometry.stored, console);
 }
 
 std::vector<std::pair<std::string, std::string>> provenance_extras(const ExportArguments& arguments,
@@ -130,8 +143,9 @@ class Exporter {
       : arguments_(arguments), console_(console) {}
 
   void run() {
+    require_new_places();
     mapped_ = read_mapped_source(arguments_.input, arguments_.sphere, arguments_.threads, console_);
-    if (arguments_.source_uv && !has_texcoords(mapped_.source.file)) {
+    if (arguments_.source_uv && !texcoords_of(mapped_.source.file)) {
       throw UsageMistake("--source-uv: the mesh has no texture coordinates of its own");
     }
     console_.progress("images", 0);
@@ -155,11 +169,43 @@ class Exporter {
     return extension == ".obj" || extension == ".ply";
   }
 
-  Asset new_asset() const {
+  /// What can be told of the outputs before work: the images' names come later.
+  void require_new_places() {
+    require_new_place(arguments_.json, "--json");
+    const int files = arguments_.lod_style == LodStyle::Files ? arguments_.lods : 0;
+    for (int level = 0; level <= files; ++level) {
+      const std::string path = level_path(arguments_.output, level);
+      require_new_place(path, "-o");
+      const std::string more = extension_of(path) == ".gltf"  ? ".bin"
+                               : extension_of(path) == ".obj" ? ".mtl"
+                                                              : "";
+      if (more.empty() || arguments_.embedded) continue;
+      require_new_place(beside(path, fs::path(path).stem().string() + more), "-o");
+    }
+    taken_.clear();
+    if (!arguments_.json.empty()) taken_.push_back(arguments_.json);
+  }
+
+  /// Throws: UsageMistake where an output would replace an input or another output.
+  void require_new_place(const std::string& path, const std::string& option) {
+    if (path.empty()) return;
+    for (const std::string& input : {arguments_.input, arguments_.sphere, arguments_.texture,
+                                     arguments_.normal, arguments_.occlusion}) {
+      require_not_input(input, path, option);
+    }
+    for (const std::string& other : taken_) {
+      if (is_same_place(path, other))
+        throw UsageMistake(option + ": " + output_name(path) + " would be written twice");
+    }
+    taken_.push_back(path);
+  }
+
+  Asset new_asset(const ExportLook& look) const {
     Asset asset{.name = asset_name(),
                 .levels = {},
-                .images = look_.images,
-                .materials = look_.materials,
+                .images = look.images,
+                .coarse_levels_have_normal_maps = !look.normals_given,
+                .materials = look.materials,
                 .extras = provenance_extras(arguments_, mapped_)};
     return asset;
   }
@@ -169,11 +215,12 @@ class Exporter {
                                        : fs::path(arguments_.input).filename().stem().string();
   }
 
-  Surface add_level(const MeshFile& file, const SphereMap& map, Asset& asset) {
+  Surface add_level(const MeshFile& file, const SphereMap& map, const ExportLook& look,
+                    Asset& asset) {
     console_.progress("chart", 0);
     const ExportChart chart = make_chart(arguments_, file, map);
     ExportGeometry geometry =
-        export_geometry(chart, file, geometry_options(arguments_, file, look_));
+        export_geometry(chart, file, geometry_options(arguments_, file, look));
     tell_geometry(arguments_, chart, geometry, console_);
     if (asset.levels.empty()) {
       for (auto& extra : chart_extras(chart, geometry, chart_options(arguments_)))
@@ -184,20 +231,24 @@ class Exporter {
   }
 
   void write_gltf_files() {
-    Asset asset = new_asset();
-    asset.levels.push_back(add_level(mapped_.source.file, mapped_.map, asset));
+    Asset asset = new_asset(look_);
+    asset.levels.push_back(add_level(mapped_.source.file, mapped_.map, look_, asset));
+    const ExportLook coarse_look = without_given_normals(look_);
+    if (arguments_.lods > 0 && look_.normals_given) {
+      console_.warning("the normal map is of the finest mesh: coarser levels are without");
+    }
     if (arguments_.lod_style == LodStyle::Msft) {
       for (int level = 1; level <= arguments_.lods; ++level) {
         const Remeshed coarse = coarser(level);
-        asset.levels.push_back(add_level(coarse.file, coarse.map, asset));
+        asset.levels.push_back(add_level(coarse.file, coarse.map, coarse_look, asset));
       }
     }
     add_files(asset, level_path(arguments_.output, 0));
     if (arguments_.lod_style == LodStyle::Msft) return;
     for (int level = 1; level <= arguments_.lods; ++level) {
       const Remeshed coarse = coarser(level);
-      Asset next = new_asset();
-      next.levels.push_back(add_level(coarse.file, coarse.map, next));
+      Asset next = new_asset(coarse_look);
+      next.levels.push_back(add_level(coarse.file, coarse.map, coarse_look, next));
       add_files(next, level_path(arguments_.output, level));
     }
   }
@@ -213,7 +264,10 @@ class Exporter {
                   {.sample = SampleMode::Cell,
                    .transfer = look_.vertex_colours ? std::vector<std::string>{"color"}
                                                     : std::vector<std::string>{},
-                   .threads = arguments_.threads});
+                   .threads = arguments_.threads,
+                   .progress = [&](std::string_view stage, double fraction) {
+                     return console_.progress(stage, fraction);
+                   }});
   }
 
   void add_files(const Asset& asset, const std::string& path) {
@@ -232,7 +286,7 @@ class Exporter {
     for (auto& [name, bytes] : written) {
       const std::string target =
           name.empty() ? path : (fs::path(path).parent_path() / name).string();
-      require_not_input(arguments_.input, target, "-o");
+      require_new_place(target, "-o");
       report_.outputs.emplace_back(target, bytes.size());
       const bool checked = name.empty() && is_binary && readable;
       files_.add(target, std::move(bytes), [&](std::string_view on_disk) {
@@ -246,27 +300,34 @@ class Exporter {
     const ExportChart chart = make_chart(arguments_, file, mapped_.map);
     MeshFile textured = textured_mesh(chart, file, arguments_.shape, arguments_.threads);
     const std::string path = arguments_.output, stem = fs::path(path).stem().string();
+    ChartCertificate stored;
+    const BytesCheck check = [&](std::string_view on_disk) {
+      stored = certify_written(on_disk, path, chart, arguments_.threads);
+    };
     const AssetImage& image = look_.images.front();
     const std::string image_name = stem + "_" + image.name + image_kind(image.bytes).extension;
     if (extension_of(path) == ".obj") {
-      add(path, obj_with_library(textured, stem + ".mtl"));
+      add(path, obj_with_library(textured, stem + ".mtl"), check);
       add(beside(path, stem + ".mtl"), material_library(image_name));
     } else {
       textured.comments.push_back("TextureFile " + image_name);
-      add(path, serialise_ply(textured));
+      add(path, serialise_ply(textured), check);
     }
     add(beside(path, image_name), image.bytes);
-    report_.add_level(chart, {});
+    ExportGeometry geometry;
+    geometry.stored = stored;
+    tell_folds(arguments_, chart, stored, console_);
+    report_.add_level(chart, geometry);
   }
 
   static std::string beside(const std::string& path, const std::string& name) {
     return (fs::path(path).parent_path() / name).string();
   }
 
-  void add(const std::string& path, std::string bytes) {
-    require_not_input(arguments_.input, path, "-o");
+  void add(const std::string& path, std::string bytes, const BytesCheck& check = {}) {
+    require_new_place(path, "-o");
     report_.outputs.emplace_back(path, bytes.size());
-    files_.add(path, std::move(bytes));
+    files_.add(path, std::move(bytes), check);
   }
 
   const ExportArguments& arguments_;
@@ -274,6 +335,7 @@ class Exporter {
   const Stopwatch stopwatch_;
   MappedSource mapped_;
   ExportLook look_;
+  std::vector<std::string> taken_;  // places of outputs
   ExportReport report_;
   PendingFiles files_;
 };

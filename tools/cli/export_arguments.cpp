@@ -27,8 +27,11 @@ constexpr char summary[] =
     "Without an image the mesh shows its own texture, baked; else the colours of its vertices; "
     "else\n"
     "a checker.\n"
-    "What was written is read back, and its texture coordinates are certified as they stand "
-    "there.\n";
+    "Texture coordinates are certified as they are stored, rounding included; what folds there is "
+    "told.\n"
+    "A .glb, .obj or .ply is read back from the disk and compared, but for --compress. A normal "
+    "map\n"
+    "is of one mesh: coarser --lods are without.\n";
 
 void add_images(CLI::App& command, ExportArguments& arguments) {
   command.add_option("--texture", arguments.texture, "The equirectangular image, row 0 north")
@@ -181,6 +184,7 @@ void check_export_arguments(const ExportArguments& a) {
                                       {a.source_uv, "--source-uv"},
                                       {a.quantise, "--quantize"},
                                       {a.compress, "--compress"},
+                                      {a.lods > 0, "--lods"},
                                       {a.lod_style == LodStyle::Msft, "--lod msft"}}) {
     if (given) throw UsageMistake(option + only);
   }

@@ -7,6 +7,9 @@
 #include <optional>
 
 #include "bake/make_scene.h"
+#include "bake/map_kinds.h"
+#include "bake/source_attributes.h"
+#include "cli/paths.h"
 #include "cli/suggestion.h"
 #include "gltf/material_images.h"
 #include "gltf/variant_images.h"
@@ -38,10 +41,7 @@ void require_known(const std::vector<std::string>& names) {
   }
 }
 
-bool has_colours(const MeshFile& file) {
-  return file.find_vertex_property("red") && file.find_vertex_property("green") &&
-         file.find_vertex_property("blue");
-}
+bool has_colours(const MeshFile& file) { return linear_colours(file).has_value(); }
 
 class LookMaker {
  public:
@@ -54,6 +54,7 @@ class LookMaker {
     choose_base_colour(given.base_colour);
     if (!arguments_.unlit) {
       material_.normal = add_file(given.normal, "normal");
+      look_.normals_given = material_.normal >= 0;
       material_.occlusion = add_file(given.occlusion, "occlusion");
       // Tangents that no material uses are taken for a mistake: these are used and change nothing.
       if (material_.normal < 0 && arguments_.tangents) material_.normal = add(flat_normals_image());
@@ -127,7 +128,14 @@ class LookMaker {
         .target = make_target(file, topology, mapped_.map, true, arguments_.threads),
         .options = {.heat = true},
         .threads = arguments_.threads};
-    surfaces_ = painted_surfaces(scene, arguments_.image_width);
+    try {
+      surfaces_ = painted_surfaces(scene, arguments_.image_width,
+                                   [&](std::string_view stage, double fraction) {
+                                     return console_.progress(stage, fraction);
+                                   });
+    } catch (const MapError& error) {
+      throw UsageMistake(display_name(arguments_.input) + ": " + error.what());
+    }
   }
 
   const ExportArguments& arguments_;
@@ -144,6 +152,20 @@ class LookMaker {
 const std::vector<std::string>& export_variants() {
   static const std::vector<std::string> words = {"axes", "checker", "graticule", "area", "angle"};
   return words;
+}
+
+ExportLook without_given_normals(ExportLook look) {
+  if (!look.normals_given) return look;
+  const int dropped = look.materials.front().normal;
+  look.images.erase(look.images.begin() + dropped);
+  for (Material& material : look.materials) {
+    material.normal = -1;
+    for (int* image : {&material.base_colour, &material.occlusion}) {
+      if (*image > dropped) --*image;
+    }
+  }
+  look.normals_given = false;
+  return look;
 }
 
 ExportLook make_export_look(const ExportArguments& arguments, const MappedSource& mapped,

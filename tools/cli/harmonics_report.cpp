@@ -61,7 +61,7 @@ std::string to_json(const HarmonicsReport& report) {
     json["first_order_ellipsoid"] = {axes[0], axes[1], axes[2]};
   }
   json["functions"] = functions;
-  return json.dump(1) + "\n";
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string to_csv(const HarmonicsReport& report) {

@@ -57,6 +57,7 @@ struct Asset {
   std::string name;
   std::vector<Surface> levels;  // of detail, finest first; at least one
   std::vector<AssetImage> images;
+  bool coarse_levels_have_normal_maps = true;  // false where one was baked for the finest alone
   std::vector<Material> materials;  // the first is the one that is seen; the others are variants
   std::vector<std::pair<std::string, std::string>> extras;  // of the asset, below "sphparam"
 };

@@ -7,9 +7,9 @@
 #include <optional>
 #include <stdexcept>
 
+#include "bake/source_attributes.h"
 #include "mesh_io/distinct_rows.h"
 #include "sphparam/chart/carry_attributes.h"
-#include "texture/srgb.h"
 
 // A vertex is a wedge; where corners of one wedge want different texture coordinates of the source,
 // a vertex is a distinct (wedge, u, v). Everything else is gathered by wedge.
@@ -32,24 +32,10 @@ Numbering number_wedges(const SphericalChart& chart) {
   return numbering;
 }
 
-/// The mesh's own texture coordinates at its corners, t upwards.
-std::optional<Attributes> source_texcoords(const MeshFile& mesh) {
-  if (mesh.corner_texcoords) return Attributes(*mesh.corner_texcoords);
-  const Property* s = mesh.find_vertex_property("s");
-  const Property* t = mesh.find_vertex_property("t");
-  if (!s || !t) return std::nullopt;
-  Attributes corners(mesh.mesh.triangles.size(), 2);
-  for (Eigen::Index corner = 0; corner < corners.rows(); ++corner) {
-    const auto v = static_cast<size_t>(mesh.mesh.triangles.data()[corner]);
-    corners.row(corner) << s->values[v], t->values[v];
-  }
-  return corners;
-}
-
 Numbering number_with_texcoords(const SphericalChart& chart, const MeshFile& mesh) {
-  const std::optional<Attributes> own = source_texcoords(mesh);
+  const std::optional<CornerTexcoords> own = texcoords_of(mesh);
   if (!own) throw std::invalid_argument("the mesh has no texture coordinates of its own");
-  const Attributes corners = carry_corner_attribute(chart, mesh.mesh.triangles, *own);
+  const Attributes corners = carry_corner_attribute(chart, mesh.mesh.triangles, Attributes(*own));
   DistinctRows<float, 3> distinct(static_cast<size_t>(chart.wedge_count()));
   Numbering numbering;
   for (Eigen::Index corner = 0; corner < corners.rows(); ++corner) {
@@ -94,41 +80,42 @@ FloatRows remainder(const Shape& shape, const FloatRows& stored, const Numbering
   return low;
 }
 
+/// θ in [0, 2π) whatever the convention; where u = 1 is θ = 2π, its copies of the seam keep that.
 FloatRows theta_phi(const SphericalChart& chart, const Numbering& numbering, double offset) {
   constexpr double pi = std::numbers::pi;
   Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> angles(chart.wedge_count(), 2);
-  angles.col(0) = 2 * pi * chart.uv.col(0).array() + offset;
-  angles.col(1) = pi * chart.uv.col(1);
+  for (Eigen::Index w = 0; w < angles.rows(); ++w) {
+    const double u = chart.uv(w, 0);
+    double theta = 2 * pi * u + offset;
+    const bool is_in_place = offset == 0 && u <= 1;
+    if (!is_in_place) theta -= 2 * pi * std::floor(theta / (2 * pi));
+    const bool rounds_to_a_turn = static_cast<float>(theta) >= static_cast<float>(2 * pi);
+    if (!is_in_place && rounds_to_a_turn) theta = 0;
+    angles.row(w) << theta, pi * chart.uv(w, 1);
+  }
   return gather(angles, numbering);
 }
 
 /// Red, green, blue and alpha of vertices in linear light, #V×4; nothing where there are none.
-std::optional<Attributes> linear_colours(const MeshFile& mesh) {
-  const bool is_linear = mesh.format.starts_with("glTF");
+std::optional<Attributes> light_and_alpha(const MeshFile& mesh) {
+  const std::optional<Points> light = linear_colours(mesh);
+  if (!light) return std::nullopt;
   Attributes colours = Attributes::Ones(mesh.mesh.vertex_count(), 4);
-  int channel = 0;
-  for (const char* name : {"red", "green", "blue", "alpha"}) {
-    const Property* property = mesh.find_vertex_property(name);
-    const bool is_alpha = channel == 3;
-    if (!property && !is_alpha) return std::nullopt;
-    if (!property) break;
-    const double full = is_floating(property->type) ? 1 : 255;
-    for (Eigen::Index v = 0; v < colours.rows(); ++v) {
-      const double value = std::clamp(property->values[static_cast<size_t>(v)] / full, 0.0, 1.0);
-      colours(v, channel) =
-          is_linear || is_alpha
-              ? value
-              : static_cast<double>(SrgbCurves::get().to_linear(static_cast<float>(value)));
-    }
-    ++channel;
+  colours.leftCols(3) = *light;
+  if (const Property* alpha = mesh.find_vertex_property("alpha")) {
+    const double full = is_floating(alpha->type)            ? 1
+                        : alpha->type == ScalarType::Uint16 ? 65535
+                                                            : 255;
+    for (Eigen::Index v = 0; v < colours.rows(); ++v)
+      colours(v, 3) = alpha->values[static_cast<size_t>(v)] / full;
   }
-  return colours;
+  return colours.cwiseMax(0).cwiseMin(1);
 }
 
 std::vector<std::array<std::uint16_t, 4>> vertex_colours(const SphericalChart& chart,
                                                          const MeshFile& mesh,
                                                          const Numbering& numbering) {
-  const std::optional<Attributes> own = linear_colours(mesh);
+  const std::optional<Attributes> own = light_and_alpha(mesh);
   if (!own) return {};
   const Attributes refined = carry_vertex_attribute(chart, mesh.mesh.triangles, *own);
   std::vector<std::array<std::uint16_t, 4>> colours;

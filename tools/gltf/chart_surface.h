@@ -12,7 +12,7 @@ struct SurfaceOptions {
   UvStorage uv = {};
   bool tangents = false;
   bool colours = false;           // COLOR_0, where the mesh has colours
-  bool theta_phi = false;         // _THETA_PHI, radians; continuous on every triangle
+  bool theta_phi = false;         // _THETA_PHI, radians; θ in [0, 2π), ϕ in [0, π]
   bool position_lo = false;       // _POSITION_LO: what float32 leaves of the positions
   bool source_texcoords = false;  // TEXCOORD_1: the mesh's own
 };
@@ -26,7 +26,8 @@ struct NamedShape {
 /// The vertex buffers of a chart in a shape: a vertex a wedge, and more only where the mesh's own
 /// texture coordinates, if asked for, differ between the corners of one.
 ///
-/// Colours of meshes read from glTF are linear, all others sRGB.
+/// Where u = 0 is θ = 0, the copies of the seam at u = 1 have θ = 2π, so that θ is continuous on
+/// every triangle; with another `theta_offset` it jumps within those that lie across θ = 0.
 /// `theta_offset`: the θ of u = 0, radians.
 /// Throws: std::range_error where a position is beyond float32.
 Surface chart_surface(const SphericalChart& chart, const Shape& shape,

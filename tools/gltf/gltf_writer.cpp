@@ -38,7 +38,9 @@ class Builder {
     start();
     for (const AssetImage& image : asset_.images) add_image(image);
     for (const Material& material : asset_.materials) add_material(material);
-    for (const Surface& level : asset_.levels) add_node(level);
+    add_node(asset_.levels.front());
+    if (!asset_.coarse_levels_have_normal_maps && asset_.levels.size() > 1) add_coarse_materials();
+    for (std::size_t i = 1; i < asset_.levels.size(); ++i) add_node(asset_.levels[i]);
     add_levels_of_detail();
     add_variants();
     add_animation();
@@ -91,6 +93,15 @@ class Builder {
       if (material.occlusion >= 0) entry["occlusionTexture"] = {{"index", material.occlusion}};
     }
     lists_.materials.push_back(std::move(entry));
+  }
+
+  /// Those of the levels that follow.
+  void add_coarse_materials() {
+    first_material_ = lists_.materials.size();
+    for (Material material : asset_.materials) {
+      material.normal = -1;
+      add_material(material);
+    }
   }
 
   // --- buffers ---
@@ -189,12 +200,12 @@ class Builder {
     Json primitive{{"attributes", attributes_of(surface, quantisation)},
                    {"indices", add_accessor(pack_indices(surface.indices, surface.vertex_count()),
                                             ViewUse::Indices)},
-                   {"material", 0}};
+                   {"material", first_material_}};
     if (!surface.targets.empty()) primitive["targets"] = targets_of(surface, quantisation.scale);
     if (asset_.materials.size() > 1) {
       Json mappings = Json::array();
       for (std::size_t i = 0; i < asset_.materials.size(); ++i)
-        mappings.push_back({{"material", i}, {"variants", {i}}});
+        mappings.push_back({{"material", first_material_ + i}, {"variants", {i}}});
       primitive["extensions"]["KHR_materials_variants"]["mappings"] = std::move(mappings);
     }
     Json mesh{{"name", asset_.name}, {"primitives", {std::move(primitive)}}};
@@ -290,12 +301,17 @@ class Builder {
            {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}});
     }
     add_lists();
-    if (options_.container == GltfContainer::Binary) return {{"", glb(root_.dump(), bytes)}};
-    GltfFiles files{{"", root_.dump(1)}};
+    if (options_.container == GltfContainer::Binary) return {{"", glb(text(-1), bytes)}};
+    GltfFiles files{{"", text(1)}};
     if (options_.container == GltfContainer::Separate)
       files.emplace_back(options_.stem + ".bin", std::move(bytes));
     files.insert(files.end(), files_.begin(), files_.end());
     return files;
+  }
+
+  /// Names of files need not be UTF-8, which JSON is.
+  std::string text(int indent) const {
+    return root_.dump(indent, ' ', false, Json::error_handler_t::replace);
   }
 
   void add_lists() {
@@ -335,6 +351,7 @@ class Builder {
     return file;
   }
 
+  std::size_t first_material_ = 0;  // of the level that is added
   const Asset& asset_;
   const GltfOptions& options_;
   BufferBytes buffer_;

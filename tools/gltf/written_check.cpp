@@ -6,6 +6,7 @@
 
 #include "gltf/packing.h"
 #include "mesh_io/gltf_reader.h"
+#include "mesh_io/mesh_reader.h"
 
 namespace sphparam::tools {
 namespace {
@@ -13,6 +14,8 @@ namespace {
 /// What we wrote may be larger than what strangers may send.
 constexpr std::int64_t no_limit = std::numeric_limits<std::int64_t>::max();
 constexpr ReadOptions own_file = {.max_file_bytes = std::numeric_limits<std::uint64_t>::max(),
+                                  .max_line_bytes = no_limit,
+                                  .max_ply_properties = no_limit,
                                   .max_json_bytes = no_limit,
                                   .max_json_values = no_limit,
                                   .max_json_objects = no_limit};
@@ -70,6 +73,21 @@ void check_written(std::string_view glb, const std::string& name, const Asset& a
   compare_triangles(file, surface, name);
   compare_positions(file, surface, options.quantise, name);
   compare_uv(file, surface, options.quantise, name);
+}
+
+ChartCertificate certify_written(std::string_view bytes, const std::string& name,
+                                 const ExportChart& exported, int threads) {
+  const MeshFile file = read_mesh(bytes, name, own_file);
+  SphericalChart chart = exported.chart;
+  if (file.mesh.triangles != chart.triangles) fail(name, "triangles differ");
+  if (!file.corner_texcoords) fail(name, "no texture coordinates");
+  for (Eigen::Index corner = 0; corner < chart.wedges.size(); ++corner) {
+    const auto st = file.corner_texcoords->row(corner);
+    chart.uv.row(chart.wedges.data()[corner]) << (exported.mirrored ? 1 - st[0] : st[0]), 1 - st[1];
+  }
+  ChartCertificate certificate = certify_chart(chart, threads);
+  certificate.around_pole = exported.chart.certificate.around_pole;  // what only the rays can tell
+  return certificate;
 }
 
 }  // namespace sphparam::tools

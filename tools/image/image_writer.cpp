@@ -94,6 +94,7 @@ struct ImageWriter::State {
 
   static int write(void* context, std::int64_t offset, const void* bytes, size_t size) {
     auto& state = *static_cast<State*>(context);
+    if (!state.file) return 0;  // given up: whoever took the bytes may be gone
     try {
       state.file(offset, {static_cast<const char*>(bytes), size});
       return 0;
@@ -147,6 +148,7 @@ ImageWriter::ImageWriter(const ImageFileOptions& options, WriteAt file)
 }
 
 ImageWriter::~ImageWriter() {
+  state_->file = nullptr;
   if (state_->image) image_codecs().close(state_->image, 1, append_text, &state_->error);
 }
 

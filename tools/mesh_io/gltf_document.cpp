@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
+#include <tuple>
 
 #include "mesh_io/gltf_files.h"
 #include "mesh_io/gltf_json.h"
@@ -127,10 +128,11 @@ struct BufferFiles {
   }
 };
 
-/// The bytes of an image inside the file, undecoded.
+/// The bytes of a data URI, undecoded. Of an image in a buffer view nothing may be touched here:
+/// tinygltf has not asked whether the view lies in its buffer.
 bool keep_image(tinygltf::Image* image, int, std::string*, std::string*, int, int,
                 const unsigned char* bytes, int size, void*) {
-  image->image.assign(bytes, bytes + std::max(size, 0));
+  if (image->bufferView < 0) image->image.assign(bytes, bytes + std::max(size, 0));
   return true;
 }
 
@@ -216,22 +218,60 @@ Wrapping wrapping(int code) {
   return code == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrapping::Mirror : Wrapping::Repeat;
 }
 
-/// Images in the order of the model's: one that several materials use is kept once.
-using Images = std::vector<std::shared_ptr<const std::vector<char>>>;
+/// The images inside the file that materials use. One that several use, or that several images show
+/// the same bytes of, is kept once; all together are no larger than what they lie in.
+class Images {
+ public:
+  using Bytes = std::shared_ptr<const std::vector<char>>;
 
-Images take_images(tinygltf::Model& model) {
-  Images images;
-  for (tinygltf::Image& image : model.images) {
-    images.push_back(
-        std::make_shared<const std::vector<char>>(image.image.begin(), image.image.end()));
-    image.image.clear();
+  Images(const tinygltf::Model& model, const GltfDocument& document, const std::string& name)
+      : model_(model), document_(document), name_(name) {
+    for (const auto& buffer : document.buffers) bytes_left_ += buffer.size();
   }
-  return images;
-}
+
+  /// Empty bytes of an image that is not inside the file.
+  Bytes bytes(std::size_t image) {
+    const tinygltf::Image& described = model_.images[image];
+    if (described.bufferView >= 0) return of_view(image, described.bufferView);
+    Bytes& kept = of_uris_[image];
+    if (!kept) kept = copy(described.image.data(), described.image.size());
+    return kept;
+  }
+
+ private:
+  static Bytes copy(const unsigned char* first, std::size_t size) {
+    return std::make_shared<const std::vector<char>>(first, first + size);
+  }
+
+  Bytes of_view(std::size_t image, int id) {
+    const auto fail = [&](const std::string& message) {
+      throw ReadError(name_, "image " + std::to_string(image) + ": " + message);
+    };
+    if (id >= static_cast<int>(document_.views.size())) fail("no such buffer view");
+    const GltfDocument::View& view = document_.views[static_cast<std::size_t>(id)];
+    if (view.buffer < 0 || view.buffer >= static_cast<int>(document_.buffers.size()))
+      fail("its view names a buffer that is not there");
+    const auto& buffer = document_.buffers[static_cast<std::size_t>(view.buffer)];
+    if (view.offset > buffer.size() || view.length > buffer.size() - view.offset)
+      fail("its view runs past the end of the buffer");
+    Bytes& kept = of_views_[{view.buffer, view.offset, view.length}];
+    if (kept) return kept;
+    if (view.length > bytes_left_) fail("the images ask for more bytes than the buffers hold");
+    bytes_left_ -= view.length;
+    return kept = copy(buffer.data() + view.offset, view.length);
+  }
+
+  const tinygltf::Model& model_;
+  const GltfDocument& document_;
+  const std::string& name_;
+  std::map<std::size_t, Bytes> of_uris_;
+  std::map<std::tuple<int, std::uint64_t, std::uint64_t>, Bytes> of_views_;  // by their ranges
+  std::uint64_t bytes_left_ = 0;
+};
 
 /// Where the image of a texture is. Nothing in the model is promised to be there.
-void find_image(const tinygltf::Model& model, const tinygltf::TextureInfo& info,
-                const Images& images, BaseColour& colour) {
+void find_image(const tinygltf::Model& model, const tinygltf::TextureInfo& info, Images& images,
+                BaseColour& colour) {
   if (info.index < 0) return;
   colour.image = "texture " + std::to_string(info.index);
   if (info.texCoord != 0) colour.problem = "it uses other texture coordinates than the first";
@@ -255,8 +295,8 @@ void find_image(const tinygltf::Model& model, const tinygltf::TextureInfo& info,
   }
   const std::string& uri = model.images[source].uri;
   colour.image = uri.empty() ? "image " + std::to_string(source) : one_line(uri);
-  if (!images[source]->empty()) {
-    colour.bytes = images[source];
+  if (const Images::Bytes bytes = images.bytes(source); !bytes->empty()) {
+    colour.bytes = bytes;
   } else if (!uri.empty()) {
     try {
       colour.path = path_of_uri(uri).string();
@@ -269,7 +309,7 @@ void find_image(const tinygltf::Model& model, const tinygltf::TextureInfo& info,
 }
 
 BaseColour base_colour_of(const tinygltf::Model& model, const tinygltf::Material& material,
-                          const Images& images) {
+                          Images& images) {
   BaseColour colour;
   const auto& pbr = material.pbrMetallicRoughness;
   if (pbr.baseColorFactor.size() == 4)
@@ -288,7 +328,7 @@ GltfDocument::Node plain(const tinygltf::Node& node) {
           .scale = node.scale};
 }
 
-void copy_model(tinygltf::Model& model, GltfDocument& document) {
+void copy_model(tinygltf::Model& model, const std::string& name, GltfDocument& document) {
   for (tinygltf::Buffer& buffer : model.buffers) document.buffers.push_back(std::move(buffer.data));
   for (const tinygltf::BufferView& view : model.bufferViews)
     document.views.push_back({view.buffer, view.byteOffset, view.byteLength, view.byteStride});
@@ -303,7 +343,7 @@ void copy_model(tinygltf::Model& model, GltfDocument& document) {
   for (const tinygltf::Node& node : model.nodes) document.nodes.push_back(plain(node));
   for (const tinygltf::Scene& scene : model.scenes) document.scenes.push_back(scene.nodes);
   document.default_scene = model.defaultScene;
-  const Images images = take_images(model);
+  Images images(model, document, name);
   for (const tinygltf::Material& material : model.materials)
     document.materials.push_back({one_line(material.name), base_colour(model, material),
                                   base_colour_of(model, material, images)});
@@ -325,7 +365,7 @@ GltfDocument load_gltf(std::string_view bytes, const std::string& name,
     primitives += static_cast<std::int64_t>(mesh.primitives.size());
   if (primitives != summary.primitives)
     throw ReadError(name, "a mesh has a primitive without attributes");
-  copy_model(model, document);
+  copy_model(model, name, document);
   for (GltfDocument::Material& material : document.materials) {
     BaseColour& colour = material.base_colour;
     if (colour.path.empty()) continue;

@@ -48,7 +48,7 @@ struct GltfDocument {
   };
   struct Material {
     std::string name;
-    std::string words = {};   // texture and factor in words; empty when there is no texture
+    std::string words = {};  // texture and factor in words; empty when there is no texture
     BaseColour base_colour = {};
   };
 
@@ -66,7 +66,8 @@ struct GltfDocument {
 /// Loads a glTF file, text or binary, by tinygltf, after all that it does not check is checked.
 ///
 /// Buffers in files are read from below `folder` only; where there is none, they are refused.
-/// Images inside the file are copied as they are, those in files are not read. Throws: ReadError.
+/// Images inside the file that materials use are copied as they are, each once, and together no
+/// more than the buffers hold; those in files are not read. Throws: ReadError.
 GltfDocument load_gltf(std::string_view bytes, const std::string& name,
                        const std::optional<std::filesystem::path>& folder,
                        const ReadOptions& options);

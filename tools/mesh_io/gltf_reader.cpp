@@ -31,6 +31,14 @@ struct Column {
   std::size_t written = 0;
 };
 
+/// COLOR_0 is linear light; colours of all other formats, and so those of `MeshFile`, are sRGB.
+/// Source: IEC 61966-2-1.
+double srgb(double linear) {
+  const double x = std::clamp(linear, 0.0, 1.0);
+  const double encoded = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+  return static_cast<double>(static_cast<float>(encoded));
+}
+
 class SceneReader {
  public:
   SceneReader(const GltfDocument& document, const std::string& name, const ReadOptions& options)
@@ -182,13 +190,11 @@ class SceneReader {
 
   void add_colours(int accessor, std::size_t before) {
     require_components(accessor, {3, 4});
-    const GltfDocument::Accessor& described = accessors_.accessor(accessor);
-    constexpr int kUnsignedByte = 5121;
-    colours_are_bytes_ &= described.component_type == kUnsignedByte && described.normalised;
-    const char* const names[] = {"red", "green", "blue", "alpha"};
-    for (int channel = 0; channel < described.components; ++channel)
-      add_column(names[channel], ScalarType::Float32, accessor, static_cast<std::size_t>(channel),
-                 before);
+    const char* const names[] = {"red", "green", "blue"};
+    for (std::size_t channel = 0; channel < 3; ++channel)
+      add_column(names[channel], ScalarType::Float32, accessor, channel, before, srgb);
+    if (accessors_.accessor(accessor).components == 4)
+      add_column("alpha", ScalarType::Float32, accessor, 3, before);
   }
 
   void add_triangles(const GltfDocument::Primitive& primitive, std::uint64_t vertices, int first,
@@ -237,15 +243,10 @@ class SceneReader {
     const auto count = static_cast<std::size_t>(vertex_count());
     for (const std::string& name : order_) {
       Column& column = columns_.at(name);
-      const bool colour = name == "red" || name == "green" || name == "blue" || name == "alpha";
       if (column.written < count && name != "alpha")
         file_.notes.push_back(std::to_string(count - column.written) + " vertices have no '" +
                               name + "': set to zero");
       column.values.resize(count, column.gap);
-      if (colour && colours_are_bytes_) {
-        column.type = ScalarType::Uint8;
-        for (double& value : column.values) value = std::round(255 * value);
-      }
       file_.vertex_properties.push_back({name, column.type, std::move(column.values)});
     }
   }
@@ -293,7 +294,6 @@ class SceneReader {
   std::vector<int> material_of_;  // of each triangle, as numbered in the file
   std::map<std::string, Column> columns_;
   std::vector<std::string> order_;  // of the columns, as first seen
-  bool colours_are_bytes_ = true;
   bool skinned_ = false, morphed_ = false;
   long degenerate_ = 0;
   MeshFile file_;

@@ -135,7 +135,8 @@ class Reporter {
       return shown;
     }
     const BakeScene scene = scene_of(exhibit);
-    const std::vector<PaintedSurface> surfaces = painted_surfaces(scene, options_.image_width);
+    const std::vector<PaintedSurface> surfaces =
+        painted_surfaces(scene, options_.image_width, options_.progress);
     for (const PaintedSurface& surface : surfaces) {
       shown.surfaces.push_back({surface.name, surface.label});
       for (const Heat heat : {Heat::Area, Heat::Angle}) {
@@ -214,8 +215,8 @@ class Reporter {
 
   void tables(Page& page) {
     page.heading("Figures");
-    const std::vector<PageTable> tables = {
-        distortion_table(exhibits_), certificate_table(exhibits_), chart_table(exhibits_)};
+    const std::vector<PageTable> tables = {distortion_table(exhibits_),
+                                           certificate_table(exhibits_), chart_table(exhibits_)};
     const std::string least = std::to_string(15 + 6 * exhibits_.size()) + "rem";
     page.insert(
         "<div class=\"tables\" style=\"grid-template-columns:repeat(auto-fit,minmax(min(100%," +

@@ -4,6 +4,7 @@
 
 #include "bake/bake.h"
 #include "bake/map_kinds.h"
+#include "bake/source_attributes.h"
 #include "texture/srgb.h"
 #include "texture/test_images.h"
 
@@ -21,7 +22,7 @@ constexpr Look directions{"baked", "Directions", "normal-object"};
 constexpr Look area{"area", "Area", "area"}, angle{"angle", "Angle", "angle"};
 
 bool has_colours(const BakeSource& source) {
-  return !source.textures.empty() || source.file.find_vertex_property("red") != nullptr;
+  return !source.textures.empty() || linear_colours(source.file).has_value();
 }
 
 /// Directions are stored as colours are: ½ + ½·n.
@@ -42,7 +43,8 @@ void copy_rows(const SurfaceField& field, int first_row, int rows, const float* 
 
 }  // namespace
 
-std::vector<PaintedSurface> painted_surfaces(const BakeScene& scene, int width) {
+std::vector<PaintedSurface> painted_surfaces(const BakeScene& scene, int width,
+                                             const Progress& progress) {
   const bool coloured = has_colours(scene.source);
   std::vector<PaintedSurface> surfaces;
   std::vector<SurfaceField> fields;
@@ -62,7 +64,12 @@ std::vector<PaintedSurface> painted_surfaces(const BakeScene& scene, int width) 
   bake_look(area);
   bake_look(angle);
   if (!coloured) bake_look(directions);
-  bake(scene, fields, {.width = width, .height = width / 2, .samples = 2, .threads = scene.threads},
+  bake(scene, fields,
+       {.width = width,
+        .height = width / 2,
+        .samples = 2,
+        .threads = scene.threads,
+        .progress = progress},
        [&](size_t field, int first_row, int rows, const float* values) {
          copy_rows(fields[field], first_row, rows, values, surfaces[places[field]].image);
        });

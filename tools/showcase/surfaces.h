@@ -7,6 +7,7 @@
 #include "image/image.h"
 #include "render/heat.h"
 #include "showcase/exhibit.h"
+#include "sphparam/progress.h"
 
 namespace sphparam::tools {
 
@@ -21,7 +22,8 @@ struct PaintedSurface {
 /// of the sphere; lettered axes; area and angle distortion on the scales of `heat_scale`; where it
 /// has no colours, those of the directions in which the surface faces.
 /// Requires: a certified chart. Ensures: the same names for every map of a mesh; same bytes for any
-/// number of threads.
-std::vector<PaintedSurface> painted_surfaces(const BakeScene& scene, int width);
+/// number of threads. Throws: Cancelled; MapError for a texture without texture coordinates.
+std::vector<PaintedSurface> painted_surfaces(const BakeScene& scene, int width,
+                                             const Progress& progress = {});
 
 }  // namespace sphparam::tools

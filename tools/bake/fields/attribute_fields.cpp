@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "bake/fields/linear_field.h"
-#include "bake/sample_seed.h"
 #include "bake/source_attributes.h"
 
 namespace sphparam::tools {
@@ -21,6 +20,17 @@ std::string names_of(const std::vector<Property>& properties) {
 std::pair<double, double> range_of(const std::vector<double>& values) {
   const auto [least, greatest] = std::ranges::minmax_element(values);
   return {*least, *greatest};
+}
+
+/// Mixes the lower 24 bits one to one; 0 stays 0. Our own: each step, x ^ x >> 12 and a product
+/// with an odd number modulo 2^24, has an inverse.
+std::uint32_t mixed(std::uint32_t x) {
+  constexpr std::uint32_t low_bits = (1 << 24) - 1;
+  x &= low_bits;
+  for (const std::uint32_t odd : {0x9e3779U, 0x5bd1e9U}) {
+    x = (x ^ x >> 12) * odd & low_bits;
+  }
+  return x ^ x >> 12;
 }
 
 /// A label, one a face.
@@ -40,13 +50,13 @@ SurfaceField label_field(const BakeScene& scene, std::string name, std::vector<i
     return field;
   }
   field.channels = 3;
-  field.about = "a colour each, without meaning";
+  field.about = "a colour each, without meaning; black for none";
   field.range = std::pair<double, double>(0, 1);
   field.evaluate_runs = [labels = std::move(labels)](std::span<const SurfaceRun> runs,
                                                      float* values) {
     for (const SurfaceRun& run : runs) {
       const int label = labels[static_cast<size_t>(run.face)];
-      const std::uint64_t bits = label < 0 ? 0 : sample_seed(label, 0);
+      const std::uint32_t bits = label < 0 ? 0 : mixed(static_cast<std::uint32_t>(label) + 1);
       for (int i = 0; i < run.count; ++i) {
         for (int c = 0; c < 3; ++c) {
           *values++ = static_cast<float>(bits >> (8 * c) & 255) / 255;
@@ -124,9 +134,13 @@ SurfaceField make_scalar(const BakeScene& scene, const std::string& name) {
   }
   const std::string vertices = names_of(file.vertex_properties),
                     faces = names_of(file.face_properties);
+  std::vector<std::string> known;
+  for (const Property& property : file.vertex_properties) known.push_back(property.name);
+  for (const Property& property : file.face_properties) known.push_back(property.name);
   throw MapError("scalar:" + name + ": the mesh has no such property; its vertices have " +
-                 (vertices.empty() ? "none" : vertices) + ", its faces " +
-                 (faces.empty() ? "none" : faces));
+                     (vertices.empty() ? "none" : vertices) + ", its faces " +
+                     (faces.empty() ? "none" : faces),
+                 name, std::move(known));
 }
 
 SurfaceField make_id(const BakeScene& scene, const std::string& what) {

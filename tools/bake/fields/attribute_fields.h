@@ -14,7 +14,8 @@ SurfaceField make_texcoords(const BakeScene& scene, const std::string&);
 /// A property of vertices or faces, by its name.
 SurfaceField make_scalar(const BakeScene& scene, const std::string& name);
 /// What a point belongs to: "face", "component" or "material" (default: material where the file has
-/// some, else face). As colours in integer images, as numbers in others.
+/// some, else face). As colours in integer images, in others as numbers. The colours of labels
+/// below 2^24 − 1 all differ, in 8 bits too, and none of them is black.
 SurfaceField make_id(const BakeScene& scene, const std::string& what);
 
 }  // namespace sphparam::tools

@@ -78,7 +78,7 @@ SurfaceField make_base_colour(const BakeScene& scene, const std::string& argumen
   painter->textures = textures;
   painter->filter = scene.options.filter;
   if (const Property* material = file.find_face_property("material");
-      material && textures.size() > 1) {
+      material && !scene.source.one_texture_for_all) {
     painter->texture_of.assign(material->values.begin(), material->values.end());
   }
   const bool alpha = std::ranges::any_of(
