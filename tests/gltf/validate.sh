@@ -1,6 +1,6 @@
 #!/bin/sh
 # validate.sh EXPORT_FILES WORK [MESH…]: exports with every option, through the Khronos validator.
-# All real meshes: tests/gltf/validate.sh build/…/export_files /tmp/work MESHES/genus0/*
+# All real meshes: tests/gltf/validate.sh build/…/export_files WORK MESHES/genus0/*
 set -u
 here=$(cd "$(dirname "$0")" && pwd)
 export_files=$1 work=$2
