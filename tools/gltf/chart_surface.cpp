@@ -10,6 +10,7 @@
 #include "bake/source_attributes.h"
 #include "mesh_io/distinct_rows.h"
 #include "sphparam/chart/carry_attributes.h"
+#include "sphparam/parallel.h"
 
 // A vertex is a wedge; where corners of one wedge want different texture coordinates of the source,
 // a vertex is a distinct (wedge, u, v). Everything else is gathered by wedge.
@@ -56,10 +57,13 @@ Numbering number_with_texcoords(const SphericalChart& chart, const MeshFile& mes
 
 template <class Rows>
 FloatRows gather(const Rows& rows, const Numbering& numbering) {
+  constexpr std::int64_t chunk_size = 16384;
   FloatRows gathered(static_cast<Eigen::Index>(numbering.wedges.size()), rows.cols());
-  for (Eigen::Index i = 0; i < gathered.rows(); ++i) {
-    gathered.row(i) = rows.row(numbering.wedges[static_cast<size_t>(i)]).template cast<float>();
-  }
+  parallel_for(gathered.rows(), chunk_size, 0, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i) {
+      gathered.row(i) = rows.row(numbering.wedges[static_cast<size_t>(i)]).template cast<float>();
+    }
+  });
   return gathered;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 
 #include "sphparam/chart/refine_poles.h"
@@ -30,7 +31,9 @@ ExportChart export_chart(const TriangleMesh& mesh, const Topology& topology, con
     throw std::invalid_argument("refined poles need new vertices");
   const ConventionInfo& info = info_of(options.convention);
   const int quarters = (4 + info.turns * static_cast<int>(std::lround(4 * info.offset))) % 4;
-  const SphereMap aligned = turned(map, quarters);
+  const std::optional<SphereMap> copy =
+      quarters > 0 ? std::optional(turned(map, quarters)) : std::nullopt;
+  const SphereMap& aligned = copy ? *copy : map;
   ExportChart result;
   result.chart = options.keep_topology ? wrapped_chart(mesh, topology, aligned, options.threads)
                                        : spherical_chart(mesh, topology, aligned, options.threads);

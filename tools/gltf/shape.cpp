@@ -6,16 +6,22 @@
 namespace sphparam::tools {
 namespace {
 
+constexpr std::int64_t chunk_size = 16384;
+
+/// (x, y, z) → (x, z, −y); a fourth column stays.
 template <class Rows>
-void turn_up(Rows&& rows) {
-  const Eigen::VectorXd y = rows.col(1);
-  rows.col(1) = rows.col(2);
-  rows.col(2) = -y;
+void turn_up(Rows& rows, int threads) {
+  parallel_for(rows.rows(), chunk_size, threads, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i) {
+      const double y = rows(i, 1);
+      rows(i, 1) = rows(i, 2);
+      rows(i, 2) = -y;
+    }
+  });
 }
 
 /// Rows of refined vertices for the wedges.
 Points spread(const SphericalChart& chart, const Points& of_vertices, int threads) {
-  constexpr std::int64_t chunk_size = 16384;
   Points rows(chart.wedge_count(), 3);
   parallel_for(rows.rows(), chunk_size, threads, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t w = first; w < last; ++w)
@@ -28,9 +34,9 @@ Shape shape_of(const SphericalChart& chart, const Points& positions, const Point
                int threads) {
   Shape shape{spread(chart, positions, threads), tangent_frame(chart, positions, normals, threads)};
   if (up == Up::Z) {
-    turn_up(shape.positions);
-    turn_up(shape.frame.normals);
-    turn_up(shape.frame.tangents.leftCols<3>());
+    turn_up(shape.positions, threads);
+    turn_up(shape.frame.normals, threads);
+    turn_up(shape.frame.tangents, threads);
   }
   return shape;
 }

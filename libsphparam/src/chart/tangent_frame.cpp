@@ -20,8 +20,11 @@ namespace {
 
 constexpr std::int64_t chunk_size = 8192;
 
-/// What a triangle adds to the sums at its corners: unit direction times angle.
-using CornerDirections = std::array<Vector3, 3>;
+/// What a triangle adds to the sums at its corners: a unit direction times the angles there.
+struct CornerDirections {
+  Vector3 along = Vector3::Zero();
+  std::array<double, 3> angles = {0, 0, 0};
+};
 
 /// v / |v|, or zero; for any finite v.
 Vector3 direction_of(const Vector3& v) {
@@ -41,7 +44,7 @@ CornerDirections corner_directions(const SphericalChart& chart, const Points& po
   // The largest is 1, so that no product leaves the range of doubles.
   double scale = 0;
   for (const Vector3& e : edges) scale = std::max(scale, e.cwiseAbs().maxCoeff());
-  if (scale == 0) return {Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};
+  if (scale == 0) return {};
   for (Vector3& e : edges) e /= scale;
 
   const Eigen::Vector2d a = chart.uv.row(chart.wedges(f, 0));
@@ -55,7 +58,7 @@ CornerDirections corner_directions(const SphericalChart& chart, const Points& po
   const double at_first = angle_between(edges[0], -edges[2]),
                at_second = angle_between(edges[1], -edges[0]);
   const double at_third = std::max(0.0, std::numbers::pi - at_first - at_second);
-  return {at_first * along, at_second * along, at_third * along};
+  return {along, {at_first, at_second, at_third}};
 }
 
 /// A unit vector in the plane of the normal, as near to `sum` as can be.
@@ -104,9 +107,10 @@ ShadingFrame tangent_frame(const SphericalChart& chart, const Points& positions,
   };
   Points sums = Points::Zero(positions.rows(), 3), fans = Points::Zero(wedges, 3);
   for (Face f = 0; f < static_cast<Face>(faces); ++f) {
+    const CornerDirections& corners = directions[static_cast<size_t>(f)];
     for (int k = 0; k < 3; ++k) {
       const int w = chart.wedges(f, k);
-      const Vector3& direction = directions[static_cast<size_t>(f)][static_cast<size_t>(k)];
+      const Vector3 direction = corners.angles[static_cast<size_t>(k)] * corners.along;
       is_fan(w) ? fans.row(w) += direction : sums.row(chart.triangles(f, k)) += direction;
     }
   }
