@@ -8,6 +8,17 @@ import { extname, join } from 'node:path';
 
 const types = { '.html': 'text/html', '.mjs': 'text/javascript', '.js': 'text/javascript' };
 
+// The browser's helpers outlive it for a moment, and write to its profile until they end.
+async function remove(profile) {
+  for (let attempt = 0; attempt < 50; ++attempt) {
+    try {
+      return rmSync(profile, { recursive: true, force: true });
+    } catch {
+      await new Promise((resolve) => setTimeout(resolve, 200));
+    }
+  }
+}
+
 /// `roots`: folders by the first part of a path. `job` is what the page gets from /job.
 export async function runPage({ chromium, roots, page, job, output, seconds = 300 }) {
   const profile = mkdtempSync(join(tmpdir(), 'sphparam-browser-'));
@@ -52,6 +63,6 @@ export async function runPage({ chromium, roots, page, job, output, seconds = 30
     await ended;
     server.close();
     server.closeAllConnections();
-    rmSync(profile, { recursive: true, force: true, maxRetries: 5 });
+    await remove(profile);
   }
 }
