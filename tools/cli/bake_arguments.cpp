@@ -9,6 +9,7 @@
 
 #include "bake/map_kinds.h"
 #include "cli/choice.h"
+#include "cli/common_options.h"
 #include "cli/paths.h"
 #include "image/image_writer.h"
 #include "texture/test_images.h"
@@ -208,14 +209,8 @@ CLI::App* declare_bake_arguments(CLI::App& program, BakeArguments& arguments) {
   add_inputs(*command, arguments);
   add_image_options(*command, arguments);
   command->add_option("--json", arguments.json, "A report for programs")->type_name("FILE");
-  command->add_option("--threads", arguments.threads, "How many threads (0: all cores)")
-      ->check(between(0, 4096, "0 to 4096"))
-      ->type_name("N")
-      ->capture_default_str();
-  add_choice<ProgressStyle>(
-      *command, "--progress", arguments.progress,
-      {{"auto", ProgressStyle::Auto}, {"none", ProgressStyle::None}, {"json", ProgressStyle::Json}},
-      "How far it is; auto: on a terminal (default: auto)");
+  add_threads(*command, arguments.threads);
+  add_progress(*command, arguments.progress);
   add_loudness(*command, arguments.loudness);
   return command;
 }

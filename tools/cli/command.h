@@ -49,6 +49,5 @@ struct Loudness {
     return quiet ? Verbosity::Quiet : verbose ? Verbosity::Verbose : Verbosity::Normal;
   }
 };
-void add_loudness(CLI::App& command, Loudness& loudness);
 
 }  // namespace sphparam::tools

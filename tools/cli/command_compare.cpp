@@ -13,6 +13,7 @@
 
 #include "cli/choice.h"
 #include "cli/command.h"
+#include "cli/common_options.h"
 #include "cli/console.h"
 #include "cli/exit_codes.h"
 #include "cli/interruption.h"
@@ -240,14 +241,8 @@ Command declare_compare(CLI::App& program) {
       ->expected(1)
       ->take_all();
   add_look(*command, *arguments);
-  command->add_option("--threads", arguments->threads, "How many threads (0: all cores)")
-      ->check(between(0, 4096, "0 to 4096"))
-      ->type_name("N")
-      ->capture_default_str();
-  add_choice<ProgressStyle>(
-      *command, "--progress", arguments->progress,
-      {{"auto", ProgressStyle::Auto}, {"none", ProgressStyle::None}, {"json", ProgressStyle::Json}},
-      "How far it is; auto: on a terminal (default: auto)");
+  add_threads(*command, arguments->threads);
+  add_progress(*command, arguments->progress);
   add_loudness(*command, arguments->loudness);
   return {command, [arguments] { return run_compare(*arguments); }};
 }

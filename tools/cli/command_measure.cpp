@@ -10,6 +10,7 @@
 
 #include "cli/choice.h"
 #include "cli/command.h"
+#include "cli/common_options.h"
 #include "cli/console.h"
 #include "cli/exit_codes.h"
 #include "cli/input_limits.h"
@@ -242,14 +243,8 @@ Command declare_measure(CLI::App& program) {
              "End with 6 where the larger RMS is more; % of A's diagonal");
   add_length(*command, "--max-distance", arguments->max_distance,
              "End with 6 where the larger maximum is more");
-  command->add_option("--threads", arguments->options.threads, "How many threads (0: all cores)")
-      ->check(between(0, 4096, "0 to 4096"))
-      ->type_name("N")
-      ->capture_default_str();
-  add_choice<ProgressStyle>(
-      *command, "--progress", arguments->progress,
-      {{"auto", ProgressStyle::Auto}, {"none", ProgressStyle::None}, {"json", ProgressStyle::Json}},
-      "How far it is; auto: on a terminal (default: auto)");
+  add_threads(*command, arguments->options.threads);
+  add_progress(*command, arguments->progress);
   add_loudness(*command, arguments->loudness);
   return {command, [arguments] { return run_measure(*arguments); }};
 }

@@ -12,6 +12,7 @@
 
 #include "cli/choice.h"
 #include "cli/command.h"
+#include "cli/common_options.h"
 #include "cli/console.h"
 #include "cli/exit_codes.h"
 #include "cli/input_limits.h"
@@ -281,10 +282,7 @@ Command declare_render(CLI::App& program) {
       ->check(between(16, 16384, "16 to 16384"))
       ->type_name("N")
       ->capture_default_str();
-  command->add_option("--threads", arguments->threads, "How many threads (0: all cores)")
-      ->check(between(0, 4096, "0 to 4096"))
-      ->type_name("N")
-      ->capture_default_str();
+  add_threads(*command, arguments->threads);
   add_loudness(*command, arguments->loudness);
   return {command, [arguments] { return run_render(*arguments); }};
 }

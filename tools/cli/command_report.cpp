@@ -14,6 +14,7 @@
 #include "bake/map_kinds.h"
 #include "cli/choice.h"
 #include "cli/command.h"
+#include "cli/common_options.h"
 #include "cli/console.h"
 #include "cli/exit_codes.h"
 #include "cli/interruption.h"
@@ -287,14 +288,8 @@ Command declare_report(CLI::App& program) {
   command->add_flag("--no-viewer", arguments->no_viewer,
                     "Pictures instead of 3D models: a smaller page without scripts");
   command->add_option("--json", arguments->json, "All figures, as JSON")->type_name("FILE");
-  command->add_option("--threads", arguments->threads, "How many threads (0: all cores)")
-      ->check(between(0, 4096, "0 to 4096"))
-      ->type_name("N")
-      ->capture_default_str();
-  add_choice<ProgressStyle>(
-      *command, "--progress", arguments->progress,
-      {{"auto", ProgressStyle::Auto}, {"none", ProgressStyle::None}, {"json", ProgressStyle::Json}},
-      "How far it is; auto: on a terminal (default: auto)");
+  add_threads(*command, arguments->threads);
+  add_progress(*command, arguments->progress);
   add_loudness(*command, arguments->loudness);
   return {command, [arguments] { return run_report(*arguments); }};
 }

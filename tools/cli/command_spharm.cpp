@@ -9,6 +9,7 @@
 
 #include "cli/choice.h"
 #include "cli/command.h"
+#include "cli/common_options.h"
 #include "cli/console.h"
 #include "cli/exit_codes.h"
 #include "cli/harmonics_report.h"
@@ -221,14 +222,8 @@ void add_options(CLI::App& command, SpharmArguments& arguments) {
       .add_option("--reconstruct", arguments.reconstruction,
                   "The mesh as the harmonics have it: .ply, .obj or .off")
       ->type_name("FILE");
-  command.add_option("--threads", arguments.threads, "How many threads (0: all cores); same bytes")
-      ->check(between(0, 4096, "0 to 4096"))
-      ->type_name("N")
-      ->capture_default_str();
-  add_choice<ProgressStyle>(
-      command, "--progress", arguments.progress,
-      {{"auto", ProgressStyle::Auto}, {"none", ProgressStyle::None}, {"json", ProgressStyle::Json}},
-      "How far it is; auto: on a terminal (default: auto)");
+  add_threads(command, arguments.threads);
+  add_progress(command, arguments.progress);
   add_loudness(command, arguments.loudness);
 }
 

@@ -9,6 +9,7 @@
 
 #include "cli/choice.h"
 #include "cli/command.h"
+#include "cli/common_options.h"
 #include "cli/exit_codes.h"
 #include "cli/interruption.h"
 #include "cli/paths.h"
@@ -192,14 +193,8 @@ Command declare_unimage(CLI::App& program) {
       ->type_name("NAME=FILE")
       ->expected(1)
       ->take_all();
-  command->add_option("--threads", arguments->threads, "How many threads (0: all cores)")
-      ->check(between(0, 4096, "0 to 4096"))
-      ->type_name("N")
-      ->capture_default_str();
-  add_choice<ProgressStyle>(
-      *command, "--progress", arguments->progress,
-      {{"auto", ProgressStyle::Auto}, {"none", ProgressStyle::None}, {"json", ProgressStyle::Json}},
-      "How far it is; auto: on a terminal (default: auto)");
+  add_threads(*command, arguments->threads);
+  add_progress(*command, arguments->progress);
   add_loudness(*command, arguments->loudness);
   return {command, [arguments] { return run_unimage(*arguments); }};
 }

@@ -11,6 +11,7 @@
 #include "cli/chart_report.h"
 #include "cli/choice.h"
 #include "cli/command.h"
+#include "cli/common_options.h"
 #include "cli/console.h"
 #include "cli/exit_codes.h"
 #include "cli/json_report.h"
@@ -195,9 +196,7 @@ Command declare_verify(CLI::App& program) {
   command->add_flag("--chart", arguments->chart,
                     "Make the (u, v) chart for textures too, and prove it");
   command->add_flag("--json", arguments->json, "The report as JSON");
-  command->add_option("--threads", arguments->threads, "How many threads (0: all cores)")
-      ->type_name("N")
-      ->check(between(0, 4096, "0 to 4096"));
+  add_threads(*command, arguments->threads);
   add_loudness(*command, arguments->loudness);
   return {command, [arguments] { return run_verify(*arguments); }};
 }

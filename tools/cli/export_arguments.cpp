@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/choice.h"
+#include "cli/common_options.h"
 #include "cli/paths.h"
 
 namespace sphparam::tools {
@@ -129,14 +130,8 @@ CLI::App* declare_export_arguments(CLI::App& program, ExportArguments& arguments
   add_images(*command, arguments);
   add_chart(*command, arguments);
   add_buffers(*command, arguments);
-  command->add_option("--threads", arguments.threads, "How many threads (0: all cores)")
-      ->check(between(0, 4096, "0 to 4096"))
-      ->type_name("N")
-      ->capture_default_str();
-  add_choice<ProgressStyle>(
-      *command, "--progress", arguments.progress,
-      {{"auto", ProgressStyle::Auto}, {"none", ProgressStyle::None}, {"json", ProgressStyle::Json}},
-      "How far it is; auto: on a terminal (default: auto)");
+  add_threads(*command, arguments.threads);
+  add_progress(*command, arguments.progress);
   add_loudness(*command, arguments.loudness);
   return command;
 }

@@ -222,11 +222,6 @@ int guarded_main(int argc, char** argv) {
 
 }  // namespace
 
-void add_loudness(CLI::App& command, Loudness& loudness) {
-  command.add_flag("-q,--quiet", loudness.quiet, "Errors only");
-  command.add_flag("-v,--verbose", loudness.verbose, "Every stage");
-}
-
 }  // namespace sphparam::tools
 
 int main(int argc, char** argv) {

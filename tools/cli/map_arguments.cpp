@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cli/choice.h"
+#include "cli/common_options.h"
 #include "cli/paths.h"
 #include "cli/wording.h"
 #include "mesh_io/gifti_writer.h"
@@ -202,10 +203,7 @@ void add_method(CLI::App& command, MapArguments& arguments) {
                    "Untangle what --method paper or one of others folds");
   command.add_flag("--keep-folded", arguments.keep_folded,
                    "Write a folded map too, marked in its header; still ends with 5");
-  command.add_option("--threads", options.threads, "How many threads (0: all cores); same bytes")
-      ->check(between(0, 4096, "0 to 4096"))
-      ->type_name("N")
-      ->capture_default_str();
+  add_threads(command, options.threads);
 }
 
 void add_frame(CLI::App& command, MapArguments& arguments) {
@@ -256,13 +254,6 @@ void require_method(const std::vector<CLI::Option*>& given, Method needed, AnyMe
   }
 }
 
-void add_progress(CLI::App& command, MapArguments& arguments) {
-  add_choice<ProgressStyle>(
-      command, "--progress", arguments.progress,
-      {{"auto", ProgressStyle::Auto}, {"none", ProgressStyle::None}, {"json", ProgressStyle::Json}},
-      "How far it is; auto: on a terminal (default: auto)");
-}
-
 }  // namespace
 
 MapDeclaration declare_map_arguments(CLI::App& program, MapArguments& arguments) {
@@ -273,7 +264,7 @@ MapDeclaration declare_map_arguments(CLI::App& program, MapArguments& arguments)
   const std::vector<CLI::Option*> progressive_only = add_progressive_options(*command, arguments);
   const std::vector<CLI::Option*> paper_only = add_paper_options(*command, arguments);
   add_repair_options(*command, arguments.repair);
-  add_progress(*command, arguments);
+  add_progress(*command, arguments.progress);
   add_loudness(*command, arguments.loudness);
   return {command, [&arguments, command, progressive_only, paper_only] {
             ParameterizeOptions& options = arguments.options;
