@@ -27,7 +27,7 @@ TEST_CASE("methods: each runs, and the certificate is of the map it made") {
   const Topology topology(mesh);
   for (const MethodInfo& info : all_methods()) {
     INFO(info.name);
-    const MethodRun run = run_method(info.method, mesh, {});
+    const MethodRun run = run_method(info.method, mesh, topology, {});
     REQUIRE(run.result.map.points.rows() == mesh.vertex_count());
     const Certificate again = certify(topology, run.result.map);
     CHECK(again.bijective() == run.result.certificate.bijective());
@@ -43,12 +43,13 @@ TEST_CASE("methods: each runs, and the certificate is of the map it made") {
 
 TEST_CASE("methods: what others fold is mended when asked, and only then") {
   const TriangleMesh mesh = tube(60, 5);
+  const Topology topology(mesh);
   long folded = 0;
   for (const MethodInfo& info : all_methods()) {
     if (!std::holds_alternative<Rival>(info.method)) continue;
     INFO(info.name);
-    const MethodRun as_made = run_method(info.method, mesh, {});
-    const MethodRun mended = run_method(info.method, mesh, {.repair_paper = true});
+    const MethodRun as_made = run_method(info.method, mesh, topology, {});
+    const MethodRun mended = run_method(info.method, mesh, topology, {.repair_paper = true});
     if (as_made.result.map.points.rows() == 0) continue;
     CHECK(mended.result.certificate.bijective());
     if (as_made.result.certificate.bijective()) {

@@ -111,7 +111,7 @@ class Baker {
   void read_scene() {
     MappedSource mapped =
         read_mapped_source(arguments_.input, arguments_.sphere, arguments_.threads, console_);
-    Topology topology(mapped.source.file.mesh, arguments_.threads);
+    Topology topology = std::move(mapped.source.topology).value();
     provenance_ = mapped.provenance;
     BakeTarget target = target_of(mapped, topology);
     Points normals = shading_normals(mapped.source.file);
@@ -141,8 +141,7 @@ class Baker {
                                 ": carries no map, so it is on no sphere that it could share; "
                                 "`sphparam remesh` makes meshes on the source's sphere");
       }
-      target = make_target(low.source.file, Topology(low.source.file.mesh, threads), low.map, false,
-                           threads);
+      target = make_target(low.source.file, low.source.topology.value(), low.map, false, threads);
     }
     const ChartCertificate& certificate = target.chart.certificate;
     if (!certificate.one_to_one()) {

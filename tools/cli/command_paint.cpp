@@ -111,7 +111,7 @@ MeshFile with_colours(const MappedSource& source, const Image& colours, bool wit
 
 std::string vertex_colours(const PaintArguments& arguments, const MappedSource& source,
                            const TexturePyramid& pyramid, const Progress& progress) {
-  const Topology topology(source.source.file.mesh, arguments.threads);
+  const Topology& topology = source.source.topology.value();
   const Image colours =
       paint_vertices(topology, source.map, EquirectangularImage(pyramid, arguments.convention),
                      progress, arguments.threads);

@@ -94,7 +94,7 @@ HarmonicsReport expand(const SpharmArguments& arguments, const MappedSource& map
   report.functions.insert(report.functions.end(), arguments.scalars.begin(),
                           arguments.scalars.end());
   report.fit = fit_harmonics(
-      Topology(file.mesh), mapped.map, functions_of(file, arguments.scalars),
+      mapped.source.topology.value(), mapped.map, functions_of(file, arguments.scalars),
       {.degree = arguments.degree,
        .least_squares = arguments.least_squares,
        .threads = arguments.threads,

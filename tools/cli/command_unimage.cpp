@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "cli/certified.h"
 #include "cli/choice.h"
 #include "cli/command.h"
 #include "cli/common_options.h"
@@ -17,6 +18,7 @@
 #include "image/image_codec.h"
 #include "mesh_io/mesh_reader.h"
 #include "mesh_io/mesh_writer.h"
+#include "mesh_io/read_back.h"
 #include "mesh_io/safe_file.h"
 #include "mesh_io/sphere_file.h"
 #include "remesh/geometry_image.h"
@@ -50,9 +52,6 @@ struct UnimageArguments {
   ProgressStyle progress = ProgressStyle::Auto;
   Loudness loudness;
 };
-
-constexpr ReadOptions own_file = {.max_file_bytes = std::numeric_limits<std::uint64_t>::max(),
-                                  .max_line_bytes = std::numeric_limits<std::int64_t>::max()};
 
 /// More than 10 million vertices in float take.
 constexpr ImageLimits large_image = {.decoded_megabytes = 4096};
@@ -106,14 +105,6 @@ void add_attributes(MeshFile& file, const GridSpec& spec, const UnimageArguments
   }
 }
 
-void require_certified(const TriangleMesh& mesh, const SphereMap& map, const std::string& path,
-                       int threads) {
-  const Certificate certificate = certify(Topology(mesh, threads), map, threads);
-  if (!certificate.bijective()) {
-    throw NotCertifiedError(path + ": the map is " + verdict(certificate));
-  }
-}
-
 MeshFile mesh_of(const ImageContents& contents, const UnimageArguments& arguments) {
   if (contents.channels != 3) {
     throw ImageError(arguments.input + ": positions have 3 channels, this has " +
@@ -141,7 +132,9 @@ void add_mesh(PendingFiles& files, MeshFile file, const ImageContents& contents,
                           : serialise_ply(with_map);
   files.add(path, std::move(bytes), [&](std::string_view written) {
     const MeshFile read = read_mesh(written, path, own_file);
-    require_certified(read.mesh, read_sphere(read).value(), path, arguments.threads);
+    require_certified(certify(Topology(read.mesh, arguments.threads), read_sphere(read).value(),
+                              arguments.threads),
+                      path + ", as written");
   });
 }
 
@@ -155,8 +148,9 @@ int run_unimage(const UnimageArguments& arguments) {
   console.progress("read", 0);
   const ImageContents contents = read_contents(arguments.input, arguments.threads);
   MeshFile file = mesh_of(contents, arguments);
-  require_certified(file.mesh, SphereMap{contents.grid.directions}, name_of(contents.spec),
-                    arguments.threads);
+  require_certified(certify(Topology(file.mesh, arguments.threads),
+                            SphereMap{contents.grid.directions}, arguments.threads),
+                    name_of(contents.spec));
   if (interrupted()) throw Cancelled();
   console.progress("write", 0);
   PendingFiles files;

@@ -45,6 +45,8 @@ Source with_repairs(Source source, RepairedMesh mended) {
   source.repairs = by_file_numbers(mended.actions, source.file);
   source.file = repaired_file(source.file, mended);
   source.inspection = std::move(mended.inspection);
+  source.topology = Topology::try_build(source.file.mesh.triangles,
+                                        static_cast<int>(source.file.mesh.vertex_count()));
   return source;
 }
 

@@ -11,7 +11,9 @@ Source read_source(const std::string& path) {
   source.file = read_mesh(path, input_limits());
   source.inspection = inspect_mesh(source.file.mesh);
   source.notes = source.file.notes;
-  source.file = prepare_for_mapping(std::move(source.file), &source.notes);
+  MappableMesh mappable = make_mappable(std::move(source.file), &source.notes);
+  source.file = std::move(mappable.file);
+  source.topology = std::move(mappable.topology);
   // Dropping unused vertices leaves all used ones; welding merges some of these.
   source.welded = source.file.mesh.vertex_count() < source.inspection.used_vertices;
   if (source.welded) source.inspection = inspect_mesh(source.file.mesh);

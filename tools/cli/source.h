@@ -11,7 +11,8 @@ namespace sphparam::tools {
 
 /// A mesh file as the map takes it, and what was found on the way.
 struct Source {
-  MeshFile file;              // welded where needed, without unused vertices
+  MeshFile file;                     // welded where needed, without unused vertices
+  std::optional<Topology> topology;  // of it; nothing where it is no closed manifold
   MeshInspection inspection;  // with the ids of the file, or after welding if that was needed
   bool welded = false;
   std::vector<std::string> notes;     // of the reader, then what was done to the mesh

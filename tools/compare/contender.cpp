@@ -52,7 +52,7 @@ Contender run_contender(AnyMethod method, const TriangleMesh& mesh,
                         const ParameterizeOptions& options) {
   const MethodInfo& info = info_of(method);
   const Stopwatch stopwatch;
-  MethodRun run = run_method(method, mesh, options);
+  MethodRun run = run_method(method, mesh, require_sphere(mesh), options);
   Contender contender = {.name = info.name, .source = info.citation};
   contender.seconds = stopwatch.seconds();
   contender.iterations = run.account ? run.account->iterations : 0;

@@ -66,8 +66,9 @@ Parameterization conclude(const TriangleMesh& mesh, const Topology& topology, co
   return result;
 }
 
-MethodRun run_rival(Rival rival, const TriangleMesh& mesh, ParameterizeOptions options) {
-  const Topology topology = require_sphere(mesh);
+MethodRun run_rival(Rival rival, const TriangleMesh& mesh, const Topology& topology,
+                    ParameterizeOptions options) {
+  require_sphere(mesh, topology);
   options.automatic_poles = false;  // the frame is the authors'
   RivalResult made = run_as_published(rival, mesh, topology, options);
   const MethodInfo& info = info_of(rival);
@@ -103,10 +104,13 @@ std::optional<AnyMethod> method_named(std::string_view name) {
   return std::nullopt;
 }
 
-MethodRun run_method(AnyMethod method, const TriangleMesh& mesh, ParameterizeOptions options) {
-  if (const Rival* rival = std::get_if<Rival>(&method)) return run_rival(*rival, mesh, options);
+MethodRun run_method(AnyMethod method, const TriangleMesh& mesh, const Topology& topology,
+                     ParameterizeOptions options) {
+  if (const Rival* rival = std::get_if<Rival>(&method)) {
+    return run_rival(*rival, mesh, topology, options);
+  }
   options.method = std::get<Method>(method);
-  return {parameterize(mesh, options)};
+  return {parameterize(mesh, topology, options)};
 }
 
 }  // namespace sphparam::tools

@@ -45,6 +45,7 @@ struct MethodRun {
 /// of what comes out; it reads `threads` and `progress`, and with `repair_paper` its folds are
 /// mended by `repair_map`. `made_by` names what made the map in the end.
 /// `options.method` is not read. Throws: as `parameterize`.
-MethodRun run_method(AnyMethod method, const TriangleMesh& mesh, ParameterizeOptions options);
+MethodRun run_method(AnyMethod method, const TriangleMesh& mesh, const Topology& topology,
+                     ParameterizeOptions options);
 
 }  // namespace sphparam::tools

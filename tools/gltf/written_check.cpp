@@ -7,18 +7,10 @@
 #include "gltf/packing.h"
 #include "mesh_io/gltf_reader.h"
 #include "mesh_io/mesh_reader.h"
+#include "mesh_io/read_back.h"
 
 namespace sphparam::tools {
 namespace {
-
-/// What we wrote may be larger than what strangers may send.
-constexpr std::int64_t no_limit = std::numeric_limits<std::int64_t>::max();
-constexpr ReadOptions own_file = {.max_file_bytes = std::numeric_limits<std::uint64_t>::max(),
-                                  .max_line_bytes = no_limit,
-                                  .max_ply_properties = no_limit,
-                                  .max_json_bytes = no_limit,
-                                  .max_json_values = no_limit,
-                                  .max_json_objects = no_limit};
 
 [[noreturn]] void fail(const std::string& name, const std::string& what) {
   throw std::runtime_error(name + ", read back: " + what);

@@ -132,7 +132,7 @@ WeldResult weld_exact(const MeshFile& file) {
   return result;
 }
 
-MeshFile drop_unused_vertices(const MeshFile& file) {
+MeshFile drop_unused_vertices(MeshFile file) {
   Renumbering renumbering;
   renumbering.new_vertex.assign(static_cast<std::size_t>(file.mesh.vertex_count()), -1);
   for (const int v : file.mesh.triangles.reshaped()) renumbering.new_vertex[v] = 0;
@@ -142,27 +142,38 @@ MeshFile drop_unused_vertices(const MeshFile& file) {
     renumbering.kept.push_back(static_cast<int>(v));
   }
   if (renumbering.kept.size() == renumbering.new_vertex.size()) return file;
-  return renumbered(file, renumbering);
+  return renumbered(std::move(file), renumbering);
 }
 
-MeshFile prepare_for_mapping(MeshFile file, std::vector<std::string>* notes) {
+MappableMesh make_mappable(MeshFile file, std::vector<std::string>* notes) {
   const auto note = [notes](const std::string& text) {
     if (notes) notes->push_back(text);
   };
-  if (has_boundary(file.mesh.triangles, file.mesh.vertex_count())) {
+  const auto connect = [&] {
+    return Topology::try_build(file.mesh.triangles, static_cast<int>(file.mesh.vertex_count()));
+  };
+  std::optional<Topology> topology = connect();
+  if (!topology && has_boundary(file.mesh.triangles, file.mesh.vertex_count())) {
     WeldResult welded = weld_exact(file);
     if (welded.merged > 0) {
       note("welded " + std::to_string(welded.merged) +
            " vertices onto others of the same position: the faces as indexed are not closed");
       file = std::move(welded.file);
+      topology = connect();
     }
   }
   const Eigen::Index before = file.mesh.vertex_count();
-  file = drop_unused_vertices(file);
-  if (file.mesh.vertex_count() < before)
+  file = drop_unused_vertices(std::move(file));
+  if (file.mesh.vertex_count() < before) {
     note("dropped " + std::to_string(before - file.mesh.vertex_count()) +
          " vertices that no face uses");
-  return file;
+    if (topology) topology = connect();
+  }
+  return {std::move(file), std::move(topology)};
+}
+
+MeshFile prepare_for_mapping(MeshFile file, std::vector<std::string>* notes) {
+  return make_mappable(std::move(file), notes).file;
 }
 
 }  // namespace sphparam::tools

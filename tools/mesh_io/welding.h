@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "mesh_io/mesh_file.h"
+#include "sphparam/mesh/topology.h"
 
 namespace sphparam::tools {
 
@@ -24,12 +26,21 @@ WeldResult weld_exact(const MeshFile& file);
 
 /// Drops vertices that no face names; `source_vertex` keeps the ids of the others. Returns the same
 /// mesh file when all are used.
-MeshFile drop_unused_vertices(const MeshFile& file);
+MeshFile drop_unused_vertices(MeshFile file);
 
-/// The mesh file as the map takes it: welded if its faces as indexed have boundary edges (a closed
+/// A mesh file as the map takes it.
+struct MappableMesh {
+  MeshFile file;
+  std::optional<Topology> topology;  // nothing where the faces are no closed manifold
+};
+
+/// Welded if its faces as indexed have boundary edges (a closed
 /// mesh is never welded: that breaks those that touch themselves), then without unused vertices.
 /// `notes`, where given, gets a line for each action.
-/// Requires: indices in range, as readers ensure. Cost: O(#V + #F) and sorting stars by id.
+/// Requires: indices in range, as readers ensure. Cost: that of `Topology`; where there is none,
+/// sorting the stars of vertices by id.
+MappableMesh make_mappable(MeshFile file, std::vector<std::string>* notes = nullptr);
+/// The same, without the topology.
 MeshFile prepare_for_mapping(MeshFile file, std::vector<std::string>* notes = nullptr);
 
 }  // namespace sphparam::tools

@@ -52,8 +52,8 @@ struct ParameterizeOptions {
   // Of Method::Progressive: time against distortion; and what λ is to reach, if not a given value.
   Quality quality = Quality::Normal;
   Balance balance = Balance::Lambda;
-  double sweeps = 1.4; // of Method::Progressive on the finest level; more: slower, better
-  bool repair = true;  // untangle, and fall back; Method::Paper repairs only when `repair_paper`
+  double sweeps = 1.4;  // of Method::Progressive on the finest level; more: slower, better
+  bool repair = true;   // untangle, and fall back; Method::Paper repairs only when `repair_paper`
   bool repair_paper = false;
   int threads = 0;              // 0: all cores. The result does not depend on it.
   bool measure_stages = false;  // folds and distortion after every stage: costs a pass each
@@ -89,14 +89,18 @@ struct Parameterization {
 ///          fallback have failed (Method::Paper: only with `repair_paper`).
 ///          `poles` is empty where given ones could not be reached: a warning says why.
 /// Throws: MeshError before any arithmetic if the mesh is not a closed genus-0 manifold, or a pole,
-///         pin or meridian is no vertex; std::invalid_argument if a vertex is pinned twice;
-///         SolveError naming the system; Cancelled.
+///         pin or meridian is no vertex; std::invalid_argument if a vertex is pinned twice or two
+///         are pinned at one point; SolveError naming the system; Cancelled.
 /// Cost: a handful of sparse factorisations of #V unknowns.
 Parameterization parameterize(const TriangleMesh& mesh, const ParameterizeOptions& options = {});
+/// The same for a mesh whose topology is there already.
+Parameterization parameterize(const TriangleMesh& mesh, const Topology& topology,
+                              const ParameterizeOptions& options = {});
 
-/// Makes a map that came from elsewhere one-to-one: the repair of `parameterize` from a given start.
-/// Few folds are untangled where they are; more, or what stays folded, is embedded anew. `made_by`
-/// says which: "given map" where nothing had to be done. Poles and pins come last, as there.
+/// Makes a map that came from elsewhere one-to-one: the repair of `parameterize` from a given
+/// start. Few folds are untangled where they are; more, or what stays folded, is embedded anew.
+/// `made_by` says which: "given map" where nothing had to be done. Poles and pins come last, as
+/// there.
 ///
 /// Of the options, `method`, `paper` and `repair` are not read. Throws: as `parameterize`;
 /// std::invalid_argument unless there is one finite ray a vertex.

@@ -110,6 +110,13 @@ struct LongEdge {
   Eigen::Vector3f middle, along, towards;  // unit: radial, of the edge, to the apex
 };
 
+/// Is the longest edge short beside the height above it, det / length?
+bool is_round(const ImageCorners& t, double det) {
+  const double longest =
+      std::max({(t.b - t.a).squaredNorm(), (t.c - t.b).squaredNorm(), (t.a - t.c).squaredNorm()});
+  return longest < low * det;
+}
+
 LongEdge long_edge(const ImageCorners& t, double det) {
   const std::array<Vector3, 3> x{t.a, t.b, t.c};
   size_t first = 0;
@@ -148,9 +155,8 @@ void mark_suspects(const LongEdge& t, const Axes& axes, unsigned char* suspect) 
 /// Adds 1 for every axis that the triangle folds for.
 void count_folds(const ImageCorners& t, double det, const Axes& axes,
                  std::vector<unsigned char>& suspect, std::vector<int>& folds) {
-  const LongEdge edge = long_edge(t, det);
-  if (edge.length < low * edge.height) return;
-  mark_suspects(edge, axes, suspect.data());
+  if (is_round(t, det)) return;
+  mark_suspects(long_edge(t, det), axes, suspect.data());
   for (size_t k = 0; k < axes.size(); ++k) {
     if (!suspect[k]) continue;
     const Eigen::Matrix3d& frame = axes.frames[k];

@@ -388,6 +388,14 @@ bool is_connected(const Topology& topology) {
   return reached == topology.vertex_count();
 }
 
+[[noreturn]] void refuse(const TriangleMesh& mesh) {
+  std::vector<MeshDefect> reasons;
+  for (MeshDefect& defect : inspect_mesh(mesh).defects) {
+    if (defect.fatal || defect.kind == DefectKind::UnusedVertex) reasons.push_back(defect);
+  }
+  throw MeshError(std::move(reasons));
+}
+
 std::string joined_messages(const std::vector<MeshDefect>& defects) {
   std::string text = "the mesh is not a closed genus-0 manifold";
   for (const MeshDefect& defect : defects) text += "; " + defect.message;
@@ -407,18 +415,20 @@ MeshError::MeshError(std::vector<MeshDefect> defects)
     : std::runtime_error(joined_messages(defects)), defects_(std::move(defects)) {}
 
 Topology require_sphere(const TriangleMesh& mesh) {
-  const auto refuse = [&] {
-    std::vector<MeshDefect> reasons;
-    for (MeshDefect& defect : inspect_mesh(mesh).defects) {
-      if (defect.fatal || defect.kind == DefectKind::UnusedVertex) reasons.push_back(defect);
-    }
-    throw MeshError(std::move(reasons));
-  };
-  if (mesh.face_count() < 4 || !mesh.positions.allFinite()) refuse();
+  if (mesh.face_count() < 4 || !mesh.positions.allFinite()) refuse(mesh);
   Topology topology(mesh);
-  if (topology.vertex_count() - topology.edge_count() + topology.face_count() != 2) refuse();
-  if (!is_connected(topology)) refuse();  // e.g. a torus beside two spheres
+  require_sphere(mesh, topology);
   return topology;
+}
+
+void require_sphere(const TriangleMesh& mesh, const Topology& topology) {
+  const int characteristic =
+      topology.vertex_count() - topology.edge_count() + topology.face_count();
+  // A torus beside two spheres has characteristic 2 as well.
+  if (mesh.face_count() < 4 || !mesh.positions.allFinite() || characteristic != 2 ||
+      !is_connected(topology)) {
+    refuse(mesh);
+  }
 }
 
 }  // namespace sphparam

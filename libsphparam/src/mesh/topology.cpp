@@ -100,6 +100,11 @@ std::optional<Topology> Topology::try_build(const Triangles& triangles, int vert
   return topology;
 }
 
+bool Topology::is_of(const Triangles& triangles) const {
+  return std::equal(origin_.begin(), origin_.end(), triangles.data(),
+                    triangles.data() + triangles.size());
+}
+
 bool Topology::build(const Triangles& triangles, int vertex_count, int threads) {
   const size_t halfedges = at(triangles.size());
   origin_.assign(triangles.data(), triangles.data() + halfedges);

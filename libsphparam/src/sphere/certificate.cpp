@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 #include "sphere/solid_angle.h"
 #include "sphparam/parallel.h"
@@ -73,14 +71,36 @@ class AngleSum {
   double sum_ = 0, real_ = 1, imaginary_ = 0;
 };
 
+/// How many open cones hold a ray; nothing to say if it meets the boundary of one.
+struct RayCount {
+  int cones = 0;
+  bool generic = true;
+
+  /// The cone of a triangle with positive determinant.
+  void add(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& ray) {
+    const int s1 = orientation(a, b, ray);
+    if (s1 < 0) return;
+    const int s2 = orientation(b, c, ray);
+    if (s2 < 0) return;
+    const int s3 = orientation(c, a, ray);
+    if (s3 < 0) return;
+    if (s1 > 0 && s2 > 0 && s3 > 0) {
+      ++cones;
+    } else {
+      generic = false;
+    }
+  }
+};
+
 struct Findings {
   std::vector<Face> folded, degenerate;
   double solid_angle = 0;
+  RayCount count;
 };
 
-/// `unit`: all rays are, nearly.
-Findings examine_faces(const Topology& topology, const SphereMap& map, bool unit, Face first,
-                       Face last) {
+/// `unit`: all rays are, nearly. Counts the cones of `probe` on the way.
+Findings examine_faces(const Topology& topology, const SphereMap& map, bool unit,
+                       const Vector3& probe, Face first, Face last) {
   Findings findings;
   AngleSum half_solid_angle;
   // stableNormalized: rays may be tiny or huge, and this is only the cross-check.
@@ -92,6 +112,7 @@ Findings examine_faces(const Topology& topology, const SphereMap& map, bool unit
     const int sign = orientation(a, b, c);
     if (sign < 0) findings.folded.push_back(f);
     if (sign == 0) findings.degenerate.push_back(f);
+    if (sign > 0) findings.count.add(a, b, c, probe);
     const HalfSolidAngle angle = half_solid_angle_of(ray(a), ray(b), ray(c));
     half_solid_angle.add(angle.sine, angle.cosine);
   }
@@ -133,38 +154,22 @@ std::array<Vector3, 64> generic_rays() {
   return rays;
 }
 
-/// How many open cones hold the ray; nothing if the ray meets the boundary of one (not generic).
 /// Requires: all determinants positive.
-std::optional<int> count_cones(const Topology& topology, const SphereMap& map, const Vector3& ray,
-                               int threads) {
-  std::atomic<int> inside{0};
-  std::atomic<bool> generic{true};
-  parallel_for(topology.face_count(), chunk_size, threads,
-               [&](std::int64_t first, std::int64_t last) {
-                 for (auto f = static_cast<Face>(first); f < static_cast<Face>(last); ++f) {
-                   const Vector3 a = map.point(topology.vertex(f, 0));
-                   const Vector3 b = map.point(topology.vertex(f, 1));
-                   const int s1 = orientation(a, b, ray);
-                   if (s1 < 0) continue;
-                   const Vector3 c = map.point(topology.vertex(f, 2));
-                   const int s2 = orientation(b, c, ray);
-                   if (s2 < 0) continue;
-                   const int s3 = orientation(c, a, ray);
-                   if (s3 < 0) continue;
-                   if (s1 > 0 && s2 > 0 && s3 > 0) {
-                     ++inside;
-                   } else {
-                     generic = false;
-                   }
-                 }
-               });
-  if (!generic) return std::nullopt;
-  return inside;
+RayCount count_cones(const Topology& topology, const SphereMap& map, const Vector3& ray) {
+  RayCount count;
+  for (Face f = 0; f < topology.face_count(); ++f) {
+    count.add(map.point(topology.vertex(f, 0)), map.point(topology.vertex(f, 1)),
+              map.point(topology.vertex(f, 2)), ray);
+  }
+  return count;
 }
 
-int degree_by_ray(const Topology& topology, const SphereMap& map, int threads) {
+/// `first`: what the first of the rays has met.
+int degree_by_ray(const Topology& topology, const SphereMap& map, RayCount first) {
+  if (first.generic) return first.cones;
   for (const Vector3& ray : generic_rays()) {
-    if (const auto count = count_cones(topology, map, ray, threads)) return *count;
+    const RayCount count = count_cones(topology, map, ray);
+    if (count.generic) return count.cones;
   }
   return 0;  // fails closed
 }
@@ -208,13 +213,15 @@ Certificate certify(const Topology& topology, const SphereMap& map, int threads)
   if (!certificate.unusable_points.empty()) return certificate;
 
   const bool unit = certificate.max_length_error < nearly_unit;
+  const Vector3 probe = generic_rays().front();
   const Face faces = topology.face_count();
   std::vector<Findings> chunks(static_cast<size_t>((faces + chunk_size - 1) / chunk_size));
   parallel_for(faces, chunk_size, threads, [&](std::int64_t first, std::int64_t last) {
-    chunks[static_cast<size_t>(first / chunk_size)] =
-        examine_faces(topology, map, unit, static_cast<Face>(first), static_cast<Face>(last));
+    chunks[static_cast<size_t>(first / chunk_size)] = examine_faces(
+        topology, map, unit, probe, static_cast<Face>(first), static_cast<Face>(last));
   });
   double solid_angle_sum = 0;
+  RayCount probed;
   for (const Findings& chunk : chunks) {
     const auto append = [](std::vector<Face>& to, const std::vector<Face>& from) {
       to.insert(to.end(), from.begin(), from.end());
@@ -222,12 +229,14 @@ Certificate certify(const Topology& topology, const SphereMap& map, int threads)
     append(certificate.folded, chunk.folded);
     append(certificate.degenerate, chunk.degenerate);
     solid_angle_sum += chunk.solid_angle;
+    probed.cones += chunk.count.cones;
+    probed.generic = probed.generic && chunk.count.generic;
   }
   certificate.covering = solid_angle_sum / (4 * std::numbers::pi);
   certificate.reversed = static_cast<Face>(certificate.folded.size()) == faces;
   if (certificate.fold_count() > 0) return certificate;
 
-  certificate.degree = degree_by_ray(topology, map, threads);
+  certificate.degree = degree_by_ray(topology, map, probed);
   if (certificate.degree != 1) certificate.branch_vertices = branch_vertices(topology, map);
   return certificate;
 }

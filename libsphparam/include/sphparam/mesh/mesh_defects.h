@@ -78,5 +78,7 @@ class MeshError : public std::runtime_error {
 ///         manifold with finite positions and no unused vertices.
 /// Cost: that of `Topology`; the full inspection runs only for meshes that fail.
 Topology require_sphere(const TriangleMesh& mesh);
+/// The same for a mesh whose topology is there already. Requires: no unused vertices.
+void require_sphere(const TriangleMesh& mesh, const Topology& topology);
 
 }  // namespace sphparam

@@ -25,6 +25,9 @@ class Topology {
   /// outgoing half-edge, −1).
   static std::optional<Topology> try_build(const Triangles& triangles, int vertex_count);
 
+  /// Is this the connectivity of these triangles, corner by corner? Cost: one comparison of bytes.
+  bool is_of(const Triangles& triangles) const;
+
   int vertex_count() const { return static_cast<int>(outgoing_.size()); }
   int face_count() const { return static_cast<int>(origin_.size() / 3); }
   int halfedge_count() const { return static_cast<int>(origin_.size()); }
