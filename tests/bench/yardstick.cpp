@@ -39,22 +39,28 @@ Eigen::SparseMatrix<double> laplacian(const TriangleMesh& mesh) {
 
 }  // namespace
 
+Yardstick::Yardstick(const TriangleMesh& mesh)
+    : matrix_(laplacian(mesh)),
+      right_(Eigen::MatrixXd::Random(matrix_.rows(), 2)),
+      triangles_(static_cast<double>(mesh.face_count())) {}
+
+double Yardstick::measure() const {
+  const double start = now();
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor;
+  factor.analyzePattern(matrix_);
+  factor.factorize(matrix_);
+  const double sum = factor.solve(right_).sum();
+  const double seconds = now() - start;
+  if (sum == 0) std::puts("");  // keeps the solves alive
+  return seconds / triangles_;
+}
+
 double measure_yardstick(const TriangleMesh& mesh) {
-  const Eigen::SparseMatrix<double> matrix = laplacian(mesh);
-  const Eigen::MatrixXd right = Eigen::MatrixXd::Random(matrix.rows(), 2);
+  const Yardstick yardstick(mesh);
   std::vector<double> seconds;
-  double sink = 0;
-  for (int run = 0; run < runs; ++run) {
-    const double start = now();
-    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor;
-    factor.analyzePattern(matrix);
-    factor.factorize(matrix);
-    sink += factor.solve(right).sum();
-    seconds.push_back(now() - start);
-  }
-  if (sink == 0) std::puts("");  // keeps the solves alive
+  for (int run = 0; run < runs; ++run) seconds.push_back(yardstick.measure());
   std::sort(seconds.begin(), seconds.end());
-  return seconds[runs / 2] / static_cast<double>(mesh.face_count());
+  return seconds[runs / 2];
 }
 
 TriangleMesh yardstick_mesh(const std::string& folder) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/SparseCore>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -8,9 +9,22 @@
 
 namespace sphparam::bench {
 
-/// Seconds a triangle of one Laplace solve: Eigen's SimplicialLDLT analyse + factor + two solves of
-/// the mesh's Laplacian (symmetrised mean value weights, one vertex fixed), one thread, the median
-/// of five. Times are told in multiples of it, measured in the same run: machines differ.
+/// One Laplace solve: Eigen's SimplicialLDLT analyse + factor + two solves of a mesh's Laplacian
+/// (symmetrised mean value weights, one vertex fixed) on one thread. Times are told in multiples of
+/// it: machines differ, and so do moments on a machine that others use.
+class Yardstick {
+ public:
+  explicit Yardstick(const TriangleMesh& mesh);
+  /// Seconds a triangle, now.
+  double measure() const;
+
+ private:
+  Eigen::SparseMatrix<double> matrix_;
+  Eigen::MatrixXd right_;
+  double triangles_;
+};
+
+/// The median of five measurements.
 double measure_yardstick(const TriangleMesh& mesh);
 
 /// The mesh whose Laplacian is the yardstick: nefertiti-lowres.obj of `folder`, 70,000 triangles,

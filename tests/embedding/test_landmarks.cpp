@@ -144,8 +144,10 @@ TEST_CASE("build_hierarchy: kept vertices stay while a level has more than the g
 
 TEST_CASE("triangle_mesh: a level's triangles are its rings'") {
   const TriangleMesh mesh = icosphere(2);
-  const MeshHierarchy hierarchy = build_hierarchy(mesh, Topology(mesh));
-  for (const HierarchyLevel& level : hierarchy) {
+  MeshHierarchy hierarchy = build_hierarchy(mesh, Topology(mesh));
+  for (size_t l = hierarchy.size(); l-- > 0;) {
+    HierarchyLevel& level = hierarchy[l];
+    if (l + 1 < hierarchy.size()) complete_positions(level, hierarchy[l + 1]);
     const TriangleMesh coarse = triangle_mesh(level);
     const Topology topology(coarse);  // throws unless closed, oriented and manifold
     CHECK(topology.vertex_count() == level.vertex_count());

@@ -1,5 +1,8 @@
 #include <Eigen/Dense>
+#include <array>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
 #include <random>
 
 #include "embedding/multigrid.h"
@@ -17,6 +20,7 @@ namespace {
 struct Network {
   BlockMatrix<2> matrix;
   std::vector<ImagePoint> points;
+  std::vector<float> units;
   SweepOrder order;
 
   explicit Network(const TriangleMesh& mesh, double foundation = 1e-6) {
@@ -34,18 +38,25 @@ struct Network {
         const Eigen::Vector2d a(e.dot(frame.u), e.dot(frame.v)), b(e.dot(other.u), e.dot(other.v));
         diagonal += a * a.transpose();
         matrix.column.push_back(topology.target(h));
-        matrix.off.push_back({{-a[0] * b[0], -a[0] * b[1], -a[1] * b[0], -a[1] * b[1]}});
+        matrix.off.push_back(block(-a * b.transpose()));
       });
       matrix.start.push_back(static_cast<int>(matrix.column.size()));
-      matrix.diagonal.push_back({{diagonal(0, 0), diagonal(0, 1), diagonal(1, 0), diagonal(1, 1)}});
+      matrix.diagonal.push_back(block(diagonal));
     }
+    const double area = 4 * std::numbers::pi / n;
+    units.assign(points.size(), static_cast<float>(std::sqrt(area)));
     order = order_sweeps(matrix.start, matrix.column, 64);
   }
 
-  Multigrid multigrid() const { return {matrix, order, points.data(), {}, 1}; }
+  static Block<2> block(const Eigen::Matrix2d& a) {
+    const Eigen::Matrix2f f = a.cast<float>();
+    return {{f(0, 0), f(0, 1), f(1, 0), f(1, 1)}};
+  }
+
+  Multigrid multigrid() const { return {matrix, order, points.data(), units.data(), {}, 1}; }
   size_t size() const { return 2 * points.size(); }
 
-  Eigen::VectorXd times(const std::vector<double>& x) const {
+  Eigen::VectorXd times(const Unknowns& x) const {
     Eigen::VectorXd y = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(x.size()));
     for (int r = 0; r < matrix.rows(); ++r) {
       const auto add = [&](int c, const Block<2>& b) {
@@ -63,16 +74,16 @@ struct Network {
   }
 };
 
-std::vector<double> random_vector(size_t size, unsigned seed) {
+Unknowns random_vector(size_t size, unsigned seed) {
   std::mt19937 generator(seed);
-  std::vector<double> x(size);
-  for (double& v : x) v = static_cast<double>(generator() % 2001) / 1000 - 1;
+  Unknowns x(size);
+  for (float& v : x) v = static_cast<float>(generator() % 2001) / 1000 - 1;
   return x;
 }
 
-double dot(const std::vector<double>& a, const std::vector<double>& b) {
+double dot(const Unknowns& a, const Unknowns& b) {
   double sum = 0;
-  for (size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  for (size_t i = 0; i < a.size(); ++i) sum += static_cast<double>(a[i]) * b[i];
   return sum;
 }
 
@@ -82,12 +93,11 @@ TEST_CASE("multigrid: a V-cycle is symmetric and positive definite") {
   const Network network(icosphere(4));
   Multigrid multigrid = network.multigrid();
   REQUIRE(multigrid.levels() >= 2);
-  const std::vector<double> a = random_vector(network.size(), 1),
-                            b = random_vector(network.size(), 2);
-  std::vector<double> ma(a.size()), mb(b.size());
-  multigrid.apply(a, ma);
-  multigrid.apply(b, mb);
-  CHECK(dot(a, mb) == Approx(dot(b, ma)).epsilon(1e-9));
+  const Unknowns a = random_vector(network.size(), 1), b = random_vector(network.size(), 2);
+  Unknowns ma(a.size()), mb(b.size()), room(a.size());
+  multigrid.apply(a, ma, room);
+  multigrid.apply(b, mb, room);
+  CHECK(dot(a, mb) == Approx(dot(b, ma)).epsilon(1e-4));
   CHECK(dot(a, ma) > 0);
   CHECK(dot(b, mb) > 0);
 }
@@ -97,13 +107,16 @@ TEST_CASE(
     "any size") {
   int before = 0;
   for (const int level : {3, 4, 5}) {
-    const Network network(icosphere(level));
+    const Network network(icosphere(level), 1e-3);  // turns 1e6 times too large would drown floats
     Multigrid multigrid = network.multigrid();
-    const std::vector<double> b = random_vector(network.size(), 3);
+    const Unknowns b = random_vector(network.size(), 3);
     const LinearSolution s =
-        solve_by_conjugate_gradients(network.matrix, multigrid, b, 1e-9, 200, 1);
-    const Eigen::Map<const Eigen::VectorXd> rhs(b.data(), static_cast<Eigen::Index>(b.size()));
-    CHECK((network.times(s.x) - rhs).norm() < 1e-6 * rhs.norm());
+        solve_by_conjugate_gradients(network.matrix, multigrid, b, 1e-5, 200, 1);
+    const Eigen::VectorXd rhs =
+        Eigen::Map<const Eigen::VectorXf>(b.data(), static_cast<Eigen::Index>(b.size()))
+            .cast<double>();
+    CHECK((network.times(s.x) - rhs).norm() < 1e-3 * rhs.norm());
+    CHECK(s.gain == Approx(dot(b, s.x)).epsilon(1e-3));
     CHECK(s.iterations < 60);
     if (before > 0) CHECK(s.iterations < 2 * before);
     before = s.iterations;
@@ -114,12 +127,12 @@ TEST_CASE("multigrid: turns of the whole sphere are solved on the coarsest level
   // Only the foundation resists a turn: without the rotations among the modes this takes hundreds.
   const Network network(icosphere(4));
   Multigrid multigrid = network.multigrid();
-  std::vector<double> turn;
+  Unknowns turn;
   for (const ImagePoint& p : network.points) {
     const Vector3 velocity = Vector3(0.3, -0.5, 0.8).cross(p.vector());
     const TangentFrame frame = tangent_frame(p.vector());
-    turn.push_back(velocity.dot(frame.u));
-    turn.push_back(velocity.dot(frame.v));
+    turn.push_back(static_cast<float>(velocity.dot(frame.u)));
+    turn.push_back(static_cast<float>(velocity.dot(frame.v)));
   }
   const LinearSolution s =
       solve_by_conjugate_gradients(network.matrix, multigrid, turn, 1e-2, 50, 1);
@@ -141,11 +154,12 @@ TEST_CASE("multigrid: pinned rows do not move, the same bits for any number of t
     }
     if (pinned[row]) a.diagonal[row] = {{1, 0, 0, 1}};
   }
-  std::vector<double> b = random_vector(network.size(), 4);
+  Unknowns b = random_vector(network.size(), 4);
   for (const size_t v : {7u, 100u}) b[2 * v] = b[2 * v + 1] = 0;
-  std::vector<double> first;
+  Unknowns first;
   for (const int threads : {1, 2, 3}) {
-    Multigrid multigrid(a, network.order, network.points.data(), pinned, threads);
+    Multigrid multigrid(a, network.order, network.points.data(), network.units.data(), pinned,
+                        threads);
     const LinearSolution s = solve_by_conjugate_gradients(a, multigrid, b, 1e-3, 20, threads);
     CHECK(s.x[14] == 0);
     CHECK(s.x[201] == 0);
@@ -188,14 +202,14 @@ TEST_CASE("triangle packs: energy and gradient are those of the scalar formulas"
   for (const auto kind : {EnergyKind::AngleAndArea, EnergyKind::SymmetricDirichlet}) {
     const DistortionEnergy energy{.kind = kind, .lambda = 0.4};
     TrianglePack pack{};
-    pack.filled = pack_width;
+    std::array<SourceTriangle, pack_width> rounded;
     for (int lane = 0; lane < pack_width; ++lane) {
       const SourceTriangle& s = source[static_cast<size_t>(lane)];
-      pack.inverse_base[lane] = s.inverse_base;
-      pack.inverse_height[lane] = s.inverse_height;
-      pack.foot[lane] = s.foot;
-      pack.area[lane] = s.area;
-      for (int k = 0; k < 3; ++k) pack.corner[k][lane] = topology.vertex(lane, k);
+      fill_lane(s, {topology.vertex(lane, 0), topology.vertex(lane, 1), topology.vertex(lane, 2)},
+                lane, pack);
+      const double base = pack.inverse_base[lane], height = pack.inverse_height[lane];
+      rounded[static_cast<size_t>(lane)] = {0.5 / (base * height), base, height, pack.foot[lane]};
+      CHECK(rounded[static_cast<size_t>(lane)].area == Approx(s.area).epsilon(1e-6));
     }
     TriangleTerms terms;
     differentiate_triangles(&pack, 1, points.data(), energy, &terms);
@@ -209,7 +223,7 @@ TEST_CASE("triangle packs: energy and gradient are those of the scalar formulas"
         frames[corner] = tangent_frame(image[corner]);
       }
       const TriangleEnergy exact =
-          triangle_energy(energy, source[static_cast<size_t>(lane)], image, frames);
+          triangle_energy(energy, rounded[static_cast<size_t>(lane)], image, frames);
       sum += exact.value;
       Eigen::Matrix<double, 6, 6> hessian;
       for (int k = 0; k < 3; ++k) {
@@ -222,23 +236,21 @@ TEST_CASE("triangle packs: energy and gradient are those of the scalar formulas"
           }
         }
       }
-      // Positive semidefinite, of rank at most four; equal to the exact one in shape directions
-      // where that is positive is what makes Newton converge: see test_optimise.cpp.
+      // Positive semidefinite, of rank at most four, up to the rounding of floats; equal to the
+      // exact one in shape directions where that is positive is what makes Newton converge: see
+      // test_optimise.cpp.
       const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(hessian);
-      CHECK(eigen.eigenvalues()[0] > -1e-12 * eigen.eigenvalues()[5]);
-      CHECK(eigen.eigenvalues()[1] < 1e-12 * eigen.eigenvalues()[5]);
+      CHECK(eigen.eigenvalues()[0] > -1e-6 * eigen.eigenvalues()[5]);
+      CHECK(eigen.eigenvalues()[1] < 1e-6 * eigen.eigenvalues()[5]);
     }
-    CHECK(guarded_energy(&pack, 1, points.data(), energy) == Approx(sum).epsilon(1e-13));
+    CHECK(guarded_energy(&pack, pack_width, points.data(), energy) == Approx(sum).epsilon(1e-13));
+    CHECK(guarded_energy(&pack, 1, points.data(), energy) < sum);
   }
 }
 
 TEST_CASE("triangle packs: a triangle that is not certain to be positive costs infinity") {
   TrianglePack pack{};
-  pack.filled = 1;
-  for (int lane = 0; lane < pack_width; ++lane) {
-    pack.inverse_base[lane] = pack.inverse_height[lane] = pack.area[lane] = 1;
-    for (int k = 0; k < 3; ++k) pack.corner[k][lane] = k;
-  }
+  for (int lane = 0; lane < pack_width; ++lane) fill_lane({0.5, 1, 1, 0.5}, {0, 1, 2}, lane, pack);
   const Vector3 x(0, 0, 1), y = Vector3(1e-3, 0, 1).normalized();
   for (const double offset : {1e-6, -1e-6, 0.0, 1e-19}) {
     const Vector3 z = Vector3(5e-4, offset, 1).normalized();

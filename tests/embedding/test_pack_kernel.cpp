@@ -83,6 +83,14 @@ std::optional<Vector3> point_inside(const std::vector<Vector3>& ring, const Vect
   return std::nullopt;
 }
 
+HierarchyLevel finest_level(const TriangleMesh& mesh) {
+  MeshHierarchy hierarchy = build_hierarchy(mesh, Topology(mesh), 1);
+  for (size_t l = hierarchy.size() - 1; l-- > 0;) {
+    complete_positions(hierarchy[l], hierarchy[l + 1], 1);
+  }
+  return hierarchy.front();
+}
+
 }  // namespace
 
 TEST_CASE("guard of triangles: what it accepts, the exact predicate calls positive") {
@@ -100,11 +108,8 @@ TEST_CASE("guard of triangles: what it accepts, the exact predicate calls positi
     const Vector3 c = (a + uniform(random, -2, 2) * (b - a) + size * beside).normalized();
     const std::vector<ImagePoint> points{image_point(a), image_point(b), image_point(c)};
     TrianglePack pack{};
-    pack.filled = 1;
-    for (int lane = 0; lane < pack_width; ++lane) {
-      pack.area[lane] = pack.inverse_base[lane] = pack.inverse_height[lane] = 1;
-      for (int k = 0; k < 3; ++k) pack.corner[k][lane] = k;
-    }
+    for (int lane = 0; lane < pack_width; ++lane)
+      fill_lane({0.5, 1, 1, 0.5}, {0, 1, 2}, lane, pack);
     const bool certain = std::isfinite(guarded_energy(&pack, 1, points.data(), {}));
     const bool positive = orientation(a, b, c) > 0;
     REQUIRE((!certain || positive));
@@ -124,8 +129,7 @@ TEST_CASE("guard of steps: no vertex of a ring that is nearly flat leaves its ke
   for (int trial = 0; trial < 20'000; ++trial) {
     const int rim = std::uniform_int_distribution<int>(3, 7)(random);
     const TriangleMesh mesh = double_wheel(rim, random);
-    const MeshHierarchy hierarchy = build_hierarchy(mesh, Topology(mesh));
-    const RingPacks packs = pack_rings(hierarchy.front(), 1e-9, 1);
+    const RingPacks packs = pack_rings(finest_level(mesh), 1e-9, 1);
     // Every other ring is long and only roundings wide: every energy is huge, all signs in doubt.
     const bool hard = trial % 2 == 0;
     const double size = std::pow(10, hard ? uniform(random, -0.7, 0) : uniform(random, -7, -1));
@@ -182,9 +186,8 @@ TEST_CASE("packs: thin and missing source triangles count as equilateral ones of
   TriangleMesh mesh = icosphere(1);
   const Vertex neighbour = Topology(mesh).target(Topology(mesh).outgoing(0));
   mesh.positions.row(0) = mesh.positions.row(neighbour);  // two triangles without area
-  const MeshHierarchy hierarchy = build_hierarchy(mesh, Topology(mesh));
   const double least = 1e-6;
-  const RingPacks packs = pack_rings(hierarchy.front(), least, 1);
+  const RingPacks packs = pack_rings(finest_level(mesh), least, 1);
   int replaced = 0;
   for (const RingPack& pack : packs.packs) {
     for (int i = 0; i < pack.valence; ++i) {

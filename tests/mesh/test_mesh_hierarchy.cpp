@@ -47,7 +47,36 @@ void require_triangulation(const HierarchyLevel& level) {
   CHECK(euler == 2);
 }
 
+MeshHierarchy complete(MeshHierarchy hierarchy) {
+  for (size_t l = hierarchy.size() - 1; l-- > 0;) {
+    complete_positions(hierarchy[l], hierarchy[l + 1]);
+  }
+  return hierarchy;
+}
+
 }  // namespace
+
+TEST_CASE("mesh_hierarchy: positions are the mesh's own, centred and scaled to area 4π") {
+  const TriangleMesh mesh = tube(50, 5);
+  const MeshHierarchy hierarchy = complete(build_hierarchy(mesh, Topology(mesh)));
+  const Points& positions = hierarchy.front().positions;
+  REQUIRE(positions.rows() == mesh.vertex_count());
+  const double scale = (positions.row(1) - positions.row(0)).norm() /
+                       (mesh.positions.row(1) - mesh.positions.row(0)).norm();
+  for (Vertex v = 0; v < mesh.vertex_count(); ++v) {
+    const Vector3 expected = scale * (mesh.position(v) - mesh.position(0));
+    CHECK((positions.row(v) - positions.row(0) - expected.transpose()).norm() < 1e-12);
+  }
+}
+
+TEST_CASE("mesh_hierarchy: a position is stored once, whatever the number of levels") {
+  const TriangleMesh mesh = icosphere(5);
+  Eigen::Index stored = 0;
+  for (const HierarchyLevel& level : build_hierarchy(mesh, Topology(mesh))) {
+    stored += level.positions.rows();
+  }
+  CHECK(stored == mesh.vertex_count());
+}
 
 TEST_CASE("mesh_hierarchy: every level is a triangulation of the sphere, the last a tetrahedron") {
   const TriangleMesh mesh = some_mesh(GENERATE(0, 1, 2, 3, 4));
@@ -60,7 +89,7 @@ TEST_CASE("mesh_hierarchy: every level is a triangulation of the sphere, the las
 TEST_CASE(
     "mesh_hierarchy: removed vertices are independent, and the others keep names and places") {
   const TriangleMesh mesh = some_mesh(GENERATE(1, 2, 3, 4));
-  const MeshHierarchy hierarchy = build_hierarchy(mesh, Topology(mesh));
+  const MeshHierarchy hierarchy = complete(build_hierarchy(mesh, Topology(mesh)));
   for (size_t l = 0; l + 1 < hierarchy.size(); ++l) {
     const HierarchyLevel &fine = hierarchy[l], &coarse = hierarchy[l + 1];
     const std::set<Vertex> removed(fine.removed.begin(), fine.removed.end());

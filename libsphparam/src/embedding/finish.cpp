@@ -45,7 +45,7 @@ bool Finish::due(int vertices) const {
   return quality_ == Quality::Best || vertices <= cheap(finest_) || last_gain_ > worthwhile;
 }
 
-void Finish::improve(const Topology& topology, const SourceTriangles& source,
+void Finish::improve(const TriangleMesh& mesh, const Topology& topology,
                      const std::vector<Vertex>& pinned, std::vector<ImagePoint>& image) {
   const int n = topology.vertex_count();
   const bool finest = n == finest_;
@@ -53,9 +53,10 @@ void Finish::improve(const Topology& topology, const SourceTriangles& source,
   const bool best = quality_ == Quality::Best && finest;
   const int most_steps = best ? best_steps : finest ? finest_steps : coarse_steps;
   const double enough = best ? best_gain : finest ? finest_gain : coarse_gain;
-  GlobalNewton newton(topology, source, image, pinned, threads_);
+  GlobalNewton newton(topology, measure_source(mesh), image, pinned, threads_);
   double energy = newton.energy(energy_);
   if (!newton.can_move() || !std::isfinite(energy)) return;  // not finite: positive, not certain
+  image = std::vector<ImagePoint>();  // there is no room to spare in a step; = {} would keep it
   for (int step = 0; step < most_steps; ++step) {
     newton.step(energy_, linear_tolerance);
     newton.sweep(energy_, sweeps_between);

@@ -20,7 +20,7 @@ class Finish {
   /// Is a level with so many vertices to be improved?
   bool due(int vertices) const;
   /// Lowers the energy of the image, as far as it pays. `pinned` vertices stay.
-  void improve(const Topology& topology, const SourceTriangles& source,
+  void improve(const TriangleMesh& mesh, const Topology& topology,
                const std::vector<Vertex>& pinned, std::vector<ImagePoint>& image);
 
  private:

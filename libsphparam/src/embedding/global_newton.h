@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -12,9 +13,14 @@ namespace sphparam {
 
 /// A whole mesh laid out for Newton steps on its energy: vertices renamed so that neighbours are
 /// near in memory, cut into blocks; each block with the triangles that touch it.
+///
+/// Memory, bytes a triangle: 80 always, of which 40 for the source triangles and 16 for the image;
+/// in a step 60 for the Hessian, 60 for the multigrid, 20 for the solver's vectors; in sweeps 55
+/// for the rings instead of the Hessian and the vectors.
 class GlobalNewton {
  public:
-  /// Requires: every determinant certain to be positive. Cost: linear.
+  /// Keeps nothing of what it is given. Requires: every determinant certain to be positive.
+  /// Cost: linear.
   GlobalNewton(const Topology& topology, const SourceTriangles& source,
                const std::vector<ImagePoint>& image, const std::vector<Vertex>& pinned,
                int threads);
@@ -49,35 +55,38 @@ class GlobalNewton {
 
   struct Block {
     size_t first_pack;
-    int owned;  // packs of triangles that count here; the others touch the block only
+    int owned;  // triangles that count here, in the first packs; the others touch the block only
     int packs;
   };
 
-  void rename_vertices(const Topology& topology);
-  void make_pattern(const Topology& topology);
-  void pack_triangles(const Topology& topology, const SourceTriangles& source);
+  void measure_units();
+  void make_pattern(const Topology& topology, const std::vector<int>& new_name);
+  void pack_triangles(const Topology& topology, const SourceTriangles& source,
+                      const std::vector<int>& new_name);
   double energy_of(const DistortionEnergy& energy, const Image& image) const;
-  void assemble(const DistortionEnergy& energy);
-  SourceTriangle corner(int row, int entry) const;
-  void gather_row(int row, const TriangleTerms* terms);
-  void move(const std::vector<double>& direction, double length, Image& image) const;
+  bool assemble(const DistortionEnergy& energy);
+  void measure_ring(int row, int lane, RingSlot* slots) const;
+  void gather_row(int row, const TriangleTerms* terms, std::vector<std::array<double, 4>>& off);
+  void make_room() const;
+  LinearSolution solve(const DistortionEnergy& energy, double tolerance);
+  RingPacks pack_rings_of_all() const;
+  void move(const Unknowns& direction, double length, Image& image) const;
   void boost(const Vector3& a, Image& image) const;
-  double longest(const std::vector<double>& direction) const;
+  double longest(const Unknowns& direction) const;
 
   int threads_;
   std::vector<Vertex> old_name_;
-  std::vector<int> new_name_;
   Image image_;
   std::vector<char> pinned_;
-  BlockMatrix<2> hessian_;
-  std::vector<double> gradient_;
+  std::vector<float> unit_;  // of the vertex's tangent coordinates: a power of two near its edges
+  BlockMatrix<2> hessian_;   // in these units; entries only in a step
+  Unknowns downhill_;        // − the gradient; only in a step
   SweepOrder order_;
   std::vector<Block> blocks_;
   std::vector<TrianglePack> packs_;
   std::vector<int> slots_;  // per off entry k of row v: triangle (v, column k, column k + 1) as
                             // 4 · (place among the block's) + (corner that v is)
   std::optional<Multigrid> multigrid_;
-  std::optional<RingPacks> rings_;
 };
 
 }  // namespace sphparam

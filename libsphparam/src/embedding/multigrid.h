@@ -11,11 +11,15 @@ namespace sphparam {
 /// A dense N×M block, row by row.
 template <int N, int M = N>
 struct Block {
-  std::array<double, static_cast<size_t>(N) * static_cast<size_t>(M)> a{};
+  std::array<float, static_cast<size_t>(N) * static_cast<size_t>(M)> a{};
 
-  double& operator()(int i, int j) { return a[static_cast<size_t>(i * M + j)]; }
-  double operator()(int i, int j) const { return a[static_cast<size_t>(i * M + j)]; }
+  float& operator()(int i, int j) { return a[static_cast<size_t>(i * M + j)]; }
+  float operator()(int i, int j) const { return a[static_cast<size_t>(i * M + j)]; }
 };
+
+/// One number of every unknown. Steps are solved for to one digit or two: floats hold that in half
+/// the memory, and half the time.
+using Unknowns = std::vector<float>;
 
 /// A symmetric sparse matrix of N×N blocks; the rows' neighbours without the row itself.
 template <int N>
@@ -50,29 +54,30 @@ class Multigrid {
  public:
   static constexpr int modes = 4;
 
-  /// The matrix must stay where it is. Clusters are made from its values at this moment.
-  /// `pinned` rows (identity, no off entries) are left alone. Cost: linear.
+  /// The matrix, the points and the units must stay where they are. The unknowns of a row are its
+  /// point's tangent coordinates in the row's unit, a length of about that of its edges. Clusters
+  /// are made from the matrix's values at this moment. `pinned` rows (identity, no off entries)
+  /// are left alone. Cost: linear.
   Multigrid(const BlockMatrix<2>& matrix, const SweepOrder& order, const ImagePoint* points,
-            const std::vector<char>& pinned, int threads);
+            const float* units, const std::vector<char>& pinned, int threads);
 
   /// Takes the values the matrix has now, and points near those the clusters were made with.
   void update(const ImagePoint* points);
 
-  /// x = M⁻¹ b, M symmetric and positive definite.
-  void apply(const std::vector<double>& b, std::vector<double>& x);
+  /// x = M⁻¹ b, M symmetric and positive definite. `residual` is room for one more vector.
+  void apply(const Unknowns& b, Unknowns& x, Unknowns& residual);
 
   int levels() const { return static_cast<int>(levels_.size()); }
 
  private:
-  /// Where a node's modes are measured: a frame, and the cluster's radius.
+  /// Where a node's modes are measured, and the cluster's radius.
   struct Site {
-    Vector3 centre, u, v;
+    Vector3 centre;
     double radius;
   };
   struct Clusters {
     std::vector<int> of_row;          // −1: pinned
     std::vector<int> start, members;  // cluster → rows
-    std::vector<int> target;          // per off entry: the coarse off entry; −1: its diagonal
   };
   struct Level {
     BlockMatrix<modes> matrix;
@@ -81,37 +86,39 @@ class Multigrid {
     std::vector<Site> sites;
     Clusters clusters;                       // to the next level; empty on the last
     std::vector<Block<modes>> prolongation;  // from the next level
-    std::vector<double> b, x, r, first_x;
+    Unknowns b, x, r, first_x;
   };
 
   template <int N>
   bool coarsen(const BlockMatrix<N>& matrix, const std::vector<char>& pinned, Clusters& clusters);
   void fill_first();
+  std::vector<Block<2, modes>> first_prolongation() const;
+  void restrict_first(const float* r, float* b) const;
+  void prolong_first(const float* y, float* x) const;
   void fill(size_t level);
-  void factorise_coarsest();
+  Eigen::SparseMatrix<double> coarsest_matrix() const;
   void cycle(size_t level);
 
   const BlockMatrix<2>& matrix_;
   const SweepOrder& order_;
   const ImagePoint* points_;
+  const float* units_;
   int threads_;
   Clusters clusters_;
-  std::vector<Block<2>> inverse_;
-  std::vector<Block<2, modes>> prolongation_;
-  std::vector<double> residual_;
   std::vector<Level> levels_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> coarsest_;
 };
 
 struct LinearSolution {
-  std::vector<double> x;
+  Unknowns x;
+  double gain = 0;  // b·x = xᵀ A x, twice what the step lowers the quadratic model by
   int iterations = 0;
 };
 
 /// Preconditioned conjugate gradients for A x = b, until the residual in the preconditioner's norm
-/// has fallen to `tolerance` of what it was. Same bits for any number of threads.
+/// has fallen to `tolerance` of what it was. Uses b up. Same bits for any number of threads.
 LinearSolution solve_by_conjugate_gradients(const BlockMatrix<2>& matrix, Multigrid& multigrid,
-                                            const std::vector<double>& b, double tolerance,
-                                            int most_iterations, int threads);
+                                            Unknowns b, double tolerance, int most_iterations,
+                                            int threads);
 
 }  // namespace sphparam

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "embedding/finish.h"
+#include "embedding/freed_memory.h"
 #include "embedding/kernel_placement.h"
 #include "embedding/pack_kernel.h"
 #include "embedding/ring_packs.h"
@@ -36,10 +37,10 @@ constexpr int pin_work = 200'000;           // rounds × vertices on a level tha
 constexpr int fewest_pin_rounds = 40;       // on fine levels
 constexpr double least_pin_progress = 0.9;  // of the distances left: more than that is idle
 constexpr int most_idle_levels = 6;
-constexpr int shape_sweeps = 30;  // of relaxation, where the embedding knew nothing of the shape
+constexpr int shape_sweeps = 30;    // of relaxation, where the embedding knew nothing of the shape
+constexpr size_t large_levels = 2;  // on which memory is at its peak
 // Tried in turn when vertices found no room at the λ asked for.
 constexpr double roomier_lambdas[] = {10, 100, 1000};
-constexpr double area_floor = 1e-9;  // of the mean triangle, as everywhere
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
@@ -48,12 +49,14 @@ using Image = std::vector<ImagePoint>;
 /// Uses the hierarchy up: a level is given back as soon as the next finer one is done.
 class Embedder {
  public:
-  Embedder(MeshHierarchy hierarchy, int face_count, const ProgressiveOptions& options)
-      : hierarchy_(std::move(hierarchy)),
+  Embedder(const TriangleMesh& mesh, const Topology& topology, const ProgressiveOptions& options,
+           const KeptVertices& keep)
+      : mesh_(mesh),
+        topology_(topology),
+        hierarchy_(build_hierarchy(mesh, topology, options.threads, keep)),
         options_(options),
-        area_floor_(area_floor * 4 * std::numbers::pi / face_count),
-        finish_(options.quality, options.energy, hierarchy_.front().vertex_count(),
-                options.threads) {
+        area_floor_(options.least_area * 4 * std::numbers::pi / topology.face_count()),
+        finish_(options.quality, options.energy, topology.vertex_count(), options.threads) {
     std::vector<Vertex> names;
     for (const Pin& pin : options.pins) names.push_back(pin.vertex);
     while (!names.empty() && std::count(names.begin(), names.end(), -1) == 0) {
@@ -73,8 +76,8 @@ class Embedder {
       if (l + 1 < hierarchy_.size() && !refine(l, result.report)) return result;
       hierarchy_.resize(l + 1);
       if (l < pinned_.size()) place_pins(l, result.report.pin_residuals);
-      if (finish_.due(hierarchy_[l].vertex_count())) finish(l);
       done += hierarchy_[l].vertex_count();
+      if (finish_.due(hierarchy_[l].vertex_count())) finish(l);
       report(options_.progress, "embedding", done / all);
     }
     result.map = map_of(image_);
@@ -104,6 +107,8 @@ class Embedder {
 
   /// Takes the image one level finer. False: some vertices found no room.
   bool refine(size_t l, ProgressiveReport& report) {
+    if (l < large_levels) give_back_freed_memory();
+    complete_positions(hierarchy_[l], hierarchy_[l + 1], options_.threads);
     const HierarchyLevel& level = hierarchy_[l];
     const RingPacks packs = pack(l, pins_placed_);
     for (int attempt = 0;; ++attempt) {
@@ -131,9 +136,13 @@ class Embedder {
   }
 
   void finish(size_t l) {
+    const std::vector<Vertex> pinned = pins_placed_ ? pinned_[l] : std::vector<Vertex>{};
+    if (l == 0) {
+      hierarchy_.clear();  // there is no room to spare in a Newton step
+      return finish_.improve(mesh_, topology_, pinned, image_);
+    }
     const TriangleMesh mesh = triangle_mesh(hierarchy_[l]);
-    finish_.improve(Topology(mesh), measure_source(mesh),
-                    pins_placed_ ? pinned_[l] : std::vector<Vertex>{}, image_);
+    finish_.improve(mesh, Topology(mesh), pinned, image_);
   }
 
   /// Moves the pins of a level to their points, then relaxes the rest around them, until they are
@@ -166,7 +175,7 @@ class Embedder {
   }
 
   int sweeps_on(int vertices) const {
-    const double finest = hierarchy_.front().vertex_count();
+    const double finest = topology_.vertex_count();
     const double wanted = options_.sweeps * std::sqrt(finest / vertices);
     return static_cast<int>(std::lround(std::min<double>(options_.most_sweeps, wanted)));
   }
@@ -229,6 +238,8 @@ class Embedder {
     }
   }
 
+  const TriangleMesh& mesh_;
+  const Topology& topology_;
   MeshHierarchy hierarchy_;
   const ProgressiveOptions& options_;
   const double area_floor_;
@@ -244,9 +255,7 @@ class Embedder {
 ProgressiveEmbedding embed_with_room(const TriangleMesh& mesh, const Topology& topology,
                                      const ProgressiveOptions& options, const KeptVertices& keep) {
   const auto embed = [&](const ProgressiveOptions& how) {
-    return Embedder(build_hierarchy(mesh, topology, options.threads, keep), topology.face_count(),
-                    how)
-        .run();
+    return Embedder(mesh, topology, how, keep).run();
   };
   ProgressiveEmbedding embedding = embed(options);
   for (const double lambda : roomier_lambdas) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 
 #include "embedding/lanes.h"
 #include "sphparam/parallel.h"
@@ -23,10 +24,21 @@ constexpr std::int64_t pack_grain = 64;
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
+/// The rings of a level, or of any mesh.
+struct Rings {
+  std::span<const int> start;
+  std::span<const Vertex> ring;
+  std::span<const Vertex> removed;
+
+  int vertex_count() const { return static_cast<int>(start.size()) - 1; }
+  int valence(Vertex v) const { return start[at(v + 1)] - start[at(v)]; }
+  const Vertex* ring_begin(Vertex v) const { return &ring[at(start[at(v)])]; }
+};
+
 /// The smallest colour that no neighbour has; neighbours are looked at in blocks of 64 colours.
-int free_colour(const HierarchyLevel& level, Vertex v, const std::vector<int>& colour) {
-  const Vertex* ring = level.ring_begin(v);
-  const int k = level.valence(v);
+int free_colour(const Rings& rings, Vertex v, const std::vector<int>& colour) {
+  const Vertex* ring = rings.ring_begin(v);
+  const int k = rings.valence(v);
   for (int base = 0;; base += 64) {
     std::uint64_t taken = base == 0 ? 1 : 0;  // colour 0 is for the removed vertices
     for (int i = 0; i < k; ++i) {
@@ -39,12 +51,12 @@ int free_colour(const HierarchyLevel& level, Vertex v, const std::vector<int>& c
 
 constexpr int no_colour = std::numeric_limits<int>::min() / 2;  // of pinned vertices
 
-std::vector<int> colour_vertices(const HierarchyLevel& level, const std::vector<Vertex>& pinned) {
-  std::vector<int> colour(at(level.vertex_count()), -1);
-  for (const Vertex v : level.removed) colour[at(v)] = 0;
+std::vector<int> colour_vertices(const Rings& rings, const std::vector<Vertex>& pinned) {
+  std::vector<int> colour(at(rings.vertex_count()), -1);
+  for (const Vertex v : rings.removed) colour[at(v)] = 0;
   for (const Vertex v : pinned) colour[at(v)] = no_colour;
-  for (Vertex v = 0; v < level.vertex_count(); ++v) {
-    if (colour[at(v)] == -1) colour[at(v)] = free_colour(level, v, colour);
+  for (Vertex v = 0; v < rings.vertex_count(); ++v) {
+    if (colour[at(v)] == -1) colour[at(v)] = free_colour(rings, v, colour);
   }
   return colour;
 }
@@ -55,15 +67,15 @@ struct Order {
   std::vector<int> colour_start;
 };
 
-Order sort_vertices(const HierarchyLevel& level, const std::vector<int>& colour) {
+Order sort_vertices(const Rings& rings, const std::vector<int>& colour) {
   const int last = *std::max_element(colour.begin(), colour.end());
   const int colours = last == no_colour ? 0 : last + 1;  // none where all are pinned
   std::vector<int> place(at(colours) * 64 + 1, 0);
   const auto key = [&](Vertex v) {
-    return at(colour[at(v)]) * 64 + at(std::min(level.valence(v), 63));
+    return at(colour[at(v)]) * 64 + at(std::min(rings.valence(v), 63));
   };
   const auto each_vertex = [&](const auto& visit) {
-    for (Vertex v = 0; v < level.vertex_count(); ++v) {
+    for (Vertex v = 0; v < rings.vertex_count(); ++v) {
       if (colour[at(v)] != no_colour) visit(v);
     }
   };
@@ -77,21 +89,21 @@ Order sort_vertices(const HierarchyLevel& level, const std::vector<int>& colour)
   for (int c = 0; c < colours; ++c) {
     const auto end = order.vertices.begin() + order.colour_start[at(c) + 1];
     const auto long_rings = std::find_if(order.vertices.begin() + order.colour_start[at(c)], end,
-                                         [&](Vertex v) { return level.valence(v) >= 63; });
+                                         [&](Vertex v) { return rings.valence(v) >= 63; });
     std::stable_sort(long_rings, end,
-                     [&](Vertex a, Vertex b) { return level.valence(a) < level.valence(b); });
+                     [&](Vertex a, Vertex b) { return rings.valence(a) < rings.valence(b); });
   }
   return order;
 }
 
 /// Fills in the neighbours of a pack's vertices. Lanes without a vertex, or with fewer neighbours
 /// than the pack's longest, repeat a valid one: they compute something harmless.
-void fill_neighbours(const HierarchyLevel& level, const RingPack& pack, RingSlot* slots) {
+void fill_neighbours(const Rings& rings, const RingPack& pack, RingSlot* slots) {
   for (int lane = 0; lane < pack_width; ++lane) {
     const bool empty = pack.vertex[lane] < 0;
     const Vertex v = empty ? pack.vertex[0] : pack.vertex[lane];
-    const Vertex* ring = level.ring_begin(v);
-    const int k = empty ? 0 : level.valence(v);
+    const Vertex* ring = rings.ring_begin(v);
+    const int k = empty ? 0 : rings.valence(v);
     for (int i = 0; i < pack.valence; ++i) slots[i].neighbour[lane] = ring[i < k ? i : 0];
   }
 }
@@ -130,7 +142,7 @@ SPHPARAM_INLINE void measure_part(const HierarchyLevel& level, double area_floor
 }
 
 /// The packs of an order of vertices, without their slots.
-RingPacks make_packs(const HierarchyLevel& level, const Order& order) {
+RingPacks make_packs(const Rings& rings, const Order& order) {
   RingPacks result;
   result.packs.reserve(order.vertices.size() / pack_width + order.colour_start.size());
   result.colour_start.push_back(0);
@@ -142,7 +154,7 @@ RingPacks make_packs(const HierarchyLevel& level, const Order& order) {
       for (int lane = 0; lane < pack_width; ++lane) {
         const bool filled = first + lane < order.colour_start[c + 1];
         pack.vertex[lane] = filled ? order.vertices[at(first + lane)] : -1;
-        if (filled) pack.valence = std::max(pack.valence, level.valence(pack.vertex[lane]));
+        if (filled) pack.valence = std::max(pack.valence, rings.valence(pack.vertex[lane]));
       }
       pack.first_slot = slots;
       slots += at(pack.valence);
@@ -168,10 +180,11 @@ void fill_packs(const RingPacks& packs, int threads, const Fill& fill) {
 
 RingPacks pack_rings(const HierarchyLevel& level, double area_floor, int threads,
                      const std::vector<Vertex>& pinned) {
-  RingPacks packs = make_packs(level, sort_vertices(level, colour_vertices(level, pinned)));
+  const Rings rings{level.start, level.ring, level.removed};
+  RingPacks packs = make_packs(rings, sort_vertices(rings, colour_vertices(rings, pinned)));
   fill_packs(packs, threads, [&](const RingPack* pack, std::int64_t count) {
     for (std::int64_t p = 0; p < count; ++p) {
-      fill_neighbours(level, pack[p], &packs.slots[pack[p].first_slot]);
+      fill_neighbours(rings, pack[p], &packs.slots[pack[p].first_slot]);
     }
     run_on_lanes([&]<int W>(Width<W>) SPHPARAM_INLINED {
       for (std::int64_t p = 0; p < count; ++p) {
@@ -185,25 +198,19 @@ RingPacks pack_rings(const HierarchyLevel& level, double area_floor, int threads
 }
 
 RingPacks pack_rings(const std::vector<int>& start, const std::vector<Vertex>& ring,
-                     const std::function<SourceTriangle(Vertex v, int i)>& corner, int threads,
-                     const std::vector<Vertex>& pinned) {
-  HierarchyLevel level;
-  level.start = start;
-  level.ring = ring;
-  RingPacks packs = make_packs(level, sort_vertices(level, colour_vertices(level, pinned)));
+                     const std::function<void(Vertex v, int lane, RingSlot* slots)>& measure,
+                     int threads, const std::vector<Vertex>& pinned) {
+  const Rings rings{start, ring, {}};
+  RingPacks packs = make_packs(rings, sort_vertices(rings, colour_vertices(rings, pinned)));
   fill_packs(packs, threads, [&](const RingPack* pack, std::int64_t count) {
     for (; count-- > 0; ++pack) {
       RingSlot* slots = &packs.slots[pack->first_slot];
-      fill_neighbours(level, *pack, slots);
+      fill_neighbours(rings, *pack, slots);
       for (int lane = 0; lane < pack_width; ++lane) {
         const Vertex v = pack->vertex[lane];
-        const int k = v < 0 ? 0 : level.valence(v);
-        for (int i = 0; i < pack->valence; ++i) {
-          const SourceTriangle s = i < k ? corner(v, i) : SourceTriangle{};
-          const double base = i < k ? 1 / (s.inverse_base * s.inverse_base) : 0;
-          slots[i].alpha[lane] = static_cast<float>(i < k ? s.area * s.area / (2 * base) : 0);
-          slots[i].beta[lane] = static_cast<float>(base / 8);
-          slots[i].shear[lane] = static_cast<float>(i < k ? s.foot : 0);
+        if (v >= 0) measure(v, lane, slots);
+        for (int i = v < 0 ? 0 : rings.valence(v); i < pack->valence; ++i) {
+          slots[i].alpha[lane] = slots[i].beta[lane] = slots[i].shear[lane] = 0;
         }
       }
     }

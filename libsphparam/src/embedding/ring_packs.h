@@ -43,10 +43,10 @@ struct RingPacks {
 RingPacks pack_rings(const HierarchyLevel& level, double area_floor, int threads,
                      const std::vector<Vertex>& pinned = {});
 
-/// The same for any rings (as in HierarchyLevel) and source triangles.
-/// `corner(v, i)`: the source triangle of v, its i-th neighbour and the next one; v first.
+/// The same for any rings (as in HierarchyLevel). `measure(v, lane, slots)` fills in the numbers of
+/// v's source triangles, slot by slot, in that lane; called by several threads at once.
 RingPacks pack_rings(const std::vector<int>& start, const std::vector<Vertex>& ring,
-                     const std::function<SourceTriangle(Vertex v, int i)>& corner, int threads,
-                     const std::vector<Vertex>& pinned);
+                     const std::function<void(Vertex v, int lane, RingSlot* slots)>& measure,
+                     int threads, const std::vector<Vertex>& pinned);
 
 }  // namespace sphparam

@@ -1,5 +1,6 @@
 #include "embedding/triangle_packs.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "embedding/lanes.h"
@@ -77,7 +78,7 @@ struct Kernel {
     m.base = load<W>(pack.inverse_base + first);
     m.height = load<W>(pack.inverse_height + first);
     m.foot = load<W>(pack.foot + first);
-    m.area = load<W>(pack.area + first);
+    m.area = 0.5 / (m.base * m.height);
     m.a = m.x[1] - m.x[0];
     m.b = m.x[2] - m.x[0];
     m.j1 = m.base * m.a;
@@ -93,14 +94,15 @@ struct Kernel {
   static SPHPARAM_INLINE double sum_energy(const Energy& energy, const TrianglePack* packs,
                                            int count, const ImagePoint* points) {
     double total = 0;
+    const int full = count / pack_width, rest = count % pack_width;
     for (int first = 0; first < pack_width; first += W) {
       Lanes sum = 0.0;
-      for (int p = 0; p < count; ++p) {
+      for (int p = 0; p < full + (rest > 0); ++p) {
         const Image m = measure(packs[p], first, points);
         if ((~(m.certainty > guard_least)).any()) return std::numeric_limits<double>::infinity();
         Lanes e = m.area * energy.value(m.d, m.s);
-        for (int i = packs[p].filled - first; i < W; ++i) {
-          if (i >= 0) e.v[i] = 0;
+        if (p == full) {
+          for (int i = std::max(0, rest - first); i < W; ++i) e.v[i] = 0;
         }
         sum += e;
       }
@@ -344,6 +346,14 @@ struct Kernel {
 };
 
 }  // namespace
+
+void fill_lane(const SourceTriangle& source, const std::array<Vertex, 3>& corners, int lane,
+               TrianglePack& pack) {
+  pack.inverse_base[lane] = static_cast<float>(source.inverse_base);
+  pack.inverse_height[lane] = static_cast<float>(source.inverse_height);
+  pack.foot[lane] = static_cast<float>(source.foot);
+  for (size_t k = 0; k < 3; ++k) pack.corner[k][lane] = corners[k];
+}
 
 double guarded_energy(const TrianglePack* packs, int count, const ImagePoint* points,
                       const DistortionEnergy& energy) {

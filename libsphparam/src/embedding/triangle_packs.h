@@ -1,34 +1,39 @@
 #pragma once
 
+#include <array>
+
 #include "embedding/pack_kernel.h"
 #include "sphparam/embedding/distortion_energy.h"
 
 namespace sphparam {
 
-/// Eight triangles, one a lane; empty lanes repeat the first triangle.
+/// Eight triangles, one a lane. What the energy needs of a SourceTriangle, in floats: as if the
+/// source had been rounded. The area is 1 / (2 inverse_base inverse_height).
 struct alignas(8 * pack_width) TrianglePack {
-  double inverse_base[pack_width];  // the entries of SourceTriangle
-  double inverse_height[pack_width];
-  double foot[pack_width];
-  double area[pack_width];
+  float inverse_base[pack_width];
+  float inverse_height[pack_width];
+  float foot[pack_width];
   Vertex corner[3][pack_width];
-  int filled;  // lanes
 };
 
 /// Gradient and projected Hessian of A f of eight triangles, in the tangent coordinates of their
 /// corners' frames (`tangent_frame`).
 struct alignas(8 * pack_width) TriangleTerms {
   double gradient[3][2][pack_width];
-  double diagonal[3][3][pack_width];  // corner k with itself: entries 00, 01, 11
-  double off[3][4]
-            [pack_width];  // corner k (rows) with corner k + 1 (columns): entries 00, 01, 10, 11
+  float diagonal[3][3][pack_width];  // corner k with itself: entries 00, 01, 11
+  float off[3][4][pack_width];       // corner k (rows) with corner k + 1 (columns): 00, 01, 10, 11
 };
 
-/// Sum of A f; +∞ unless every orientation is certain to be positive.
+/// Puts a triangle into a lane.
+void fill_lane(const SourceTriangle& source, const std::array<Vertex, 3>& corners, int lane,
+               TrianglePack& pack);
+
+/// Sum of A f of the first `count` triangles; +∞ unless the orientation of every one, of the rest
+/// of the last pack too, is certain to be positive.
 double guarded_energy(const TrianglePack* packs, int count, const ImagePoint* points,
                       const DistortionEnergy& energy);
 
-/// Requires: determinants positive. The Hessians are positive semidefinite.
+/// Of `count` packs. Requires: determinants positive. The Hessians are positive semidefinite.
 void differentiate_triangles(const TrianglePack* packs, int count, const ImagePoint* points,
                              const DistortionEnergy& energy, TriangleTerms* terms);
 

@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::int64_t grain = 1024;
 constexpr int largest_removed_valence = 24;  // rings that are placed later stay small
-constexpr double candidates = 0.6;    // the share of vertices, cheapest first, a batch looks at
+constexpr double candidates = 0.7;    // the share of vertices, cheapest first, a batch looks at
 constexpr double short_edge = 1e-3;   // of the mean: shorter ones are priced by valences
 constexpr double least_area = 1e-18;  // of the squared extent: less is none
 constexpr int attempts = 6;           // targets tried for one vertex before it is left alone
@@ -246,7 +246,16 @@ class Batch {
         splice_ring(v, coarse.ring.data() + coarse.start[at(c)]);
       }
     });
+    keep_removed_positions();
     return coarse;
+  }
+
+  void keep_removed_positions() {
+    Points kept(removed_, 3);
+    for (int i = 0; i < removed_; ++i) {
+      kept.row(i) = fine_->positions.row(fine_->removed[at(i)]);
+    }
+    fine_->positions = std::move(kept);
   }
 
   void splice_ring(Vertex v, Vertex* out) const {
@@ -348,6 +357,19 @@ MeshHierarchy build_hierarchy(const TriangleMesh& mesh, const Topology& topology
     hierarchy.push_back(std::move(coarser));
   }
   return hierarchy;
+}
+
+void complete_positions(HierarchyLevel& level, const HierarchyLevel& coarser, int threads) {
+  Points all(level.vertex_count(), 3);
+  for (size_t i = 0; i < level.removed.size(); ++i) {
+    all.row(level.removed[i]) = level.positions.row(static_cast<Eigen::Index>(i));
+  }
+  parallel_for(coarser.vertex_count(), grain, threads, [&](std::int64_t first, std::int64_t last) {
+    for (auto v = static_cast<Vertex>(first); v < static_cast<Vertex>(last); ++v) {
+      all.row(coarser.finer[at(v)]) = coarser.positions.row(v);
+    }
+  });
+  level.positions = std::move(all);
 }
 
 Vertex coarser_name(const HierarchyLevel& coarser, Vertex v) {

@@ -19,7 +19,9 @@ struct ProgressiveOptions {
   int retries = 5;               // of a level whose vertices found no room
   std::vector<Pin> pins = {};    // vertices that lie at given points; no vertex twice
   int pin_level = 400;  // vertices of the level where pins are placed, 20 a pin if that is more
-  int threads = 0;               // 0: all cores
+  /// Of the mean area: smaller triangles count as equilateral ones of that size.
+  double least_area = 1e-9;
+  int threads = 0;  // 0: all cores
   Progress progress = {};
 };
 
