@@ -1,6 +1,7 @@
 #include "sphparam/parameterize.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
@@ -8,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "embedding/freed_memory.h"
 #include "sphparam/curvilinear/paper_map.h"
 #include "sphparam/curvilinear/sound_map.h"
 #include "sphparam/embedding/axis_choice.h"
@@ -19,6 +21,7 @@
 #include "sphparam/embedding/relaxation.h"
 #include "sphparam/embedding/untangle.h"
 #include "sphparam/mesh/mesh_defects.h"
+#include "sphparam/mesh/rings.h"
 #include "sphparam/stopwatch.h"
 
 // The table of contents. Three methods, each a straight line of stages:
@@ -27,8 +30,8 @@
 //   progressive  hierarchy, embedding
 // Then the certificate; where it fails and repair is wanted: untangling, the progressive embedding,
 // the one-vertex lift, the grid lift. A certified map without poles gets them last: given ones and
-// pins are held while it is embedded anew, automatic ones chosen on the finished map. Whatever comes
-// out last is certified as it is.
+// pins are held while it is embedded anew, automatic ones chosen on the finished map. Whatever
+// comes out last is certified as it is.
 
 namespace sphparam {
 namespace {
@@ -55,8 +58,9 @@ std::optional<TriangleMesh> rescaled(const TriangleMesh& mesh) {
 
 class Pipeline {
  public:
-  Pipeline(const TriangleMesh& mesh, const ParameterizeOptions& options)
-      : topology_(require_sphere(mesh)),
+  /// Borrows all three. Requires: `require_sphere` accepts them.
+  Pipeline(const TriangleMesh& mesh, const Topology& topology, const ParameterizeOptions& options)
+      : topology_(topology),
         rescaled_(rescaled(mesh)),
         mesh_(rescaled_ ? *rescaled_ : mesh),
         options_(options),
@@ -142,7 +146,7 @@ class Pipeline {
     const RelaxationOptions relaxation{
         .energy = options_.energy,
         .sweeps = date_line_sweeps,
-        .vertices = neighbourhood(result_.date_line->path, date_line_rings),
+        .vertices = rings_around(topology_, result_.date_line->path, date_line_rings),
         .pinned = {poles->north, poles->south},
         .threads = options_.threads,
         .progress = options_.progress};
@@ -410,11 +414,17 @@ class Pipeline {
 
   void require_pins() const {
     std::set<Vertex> seen;
+    std::set<std::array<double, 3>> points;
     if (options_.poles) seen = {options_.poles->north, options_.poles->south};
     for (const Landmark& pin : options_.pins) {
       require_vertex("pin", pin.vertex);
       if (!seen.insert(pin.vertex).second) {
         throw std::invalid_argument("vertex " + std::to_string(pin.vertex) + " is pinned twice");
+      }
+      const Vector3 x = to_cartesian(pin.coordinates);
+      if (!points.insert({x.x(), x.y(), x.z()}).second) {
+        throw std::invalid_argument("vertex " + std::to_string(pin.vertex) +
+                                    " is pinned where another one is");
       }
     }
   }
@@ -468,28 +478,11 @@ class Pipeline {
   }
 
   const SourceTriangles& source() {
-    if (source_.empty()) source_ = measure_source(mesh_);
+    if (source_.empty()) source_ = measure_source(mesh_, options_.threads);
     return source_;
   }
 
-  std::vector<Vertex> neighbourhood(const std::vector<Vertex>& seeds, int rings) const {
-    std::vector<char> seen(static_cast<size_t>(topology_.vertex_count()), 0);
-    std::vector<Vertex> found = seeds;
-    for (const Vertex v : seeds) seen[static_cast<size_t>(v)] = 1;
-    size_t begin = 0;
-    for (int ring = 0; ring < rings; ++ring) {
-      const size_t end = found.size();
-      for (; begin < end; ++begin) {
-        topology_.for_each_outgoing(found[begin], [&](Halfedge h) {
-          char& mark = seen[static_cast<size_t>(topology_.target(h))];
-          if (!std::exchange(mark, 1)) found.push_back(topology_.target(h));
-        });
-      }
-    }
-    return found;
-  }
-
-  const Topology topology_;
+  const Topology& topology_;
   const std::optional<TriangleMesh> rescaled_;
   const TriangleMesh& mesh_;
   const ParameterizeOptions& options_;
@@ -503,7 +496,17 @@ class Pipeline {
 }  // namespace
 
 Parameterization parameterize(const TriangleMesh& mesh, const ParameterizeOptions& options) {
-  return Pipeline(mesh, options).run();
+  Parameterization result = Pipeline(mesh, require_sphere(mesh), options).run();
+  give_back_freed_memory();  // before the caller writes the map
+  return result;
+}
+
+Parameterization parameterize(const TriangleMesh& mesh, const Topology& topology,
+                              const ParameterizeOptions& options) {
+  require_sphere(mesh, topology);
+  Parameterization result = Pipeline(mesh, topology, options).run();
+  give_back_freed_memory();
+  return result;
 }
 
 Parameterization repair_map(const TriangleMesh& mesh, const SphereMap& map,
@@ -511,7 +514,7 @@ Parameterization repair_map(const TriangleMesh& mesh, const SphereMap& map,
   if (map.points.rows() != mesh.vertex_count() || !map.points.allFinite()) {
     throw std::invalid_argument("repair_map: one finite ray a vertex is needed");
   }
-  return Pipeline(mesh, options).run_from(map);
+  return Pipeline(mesh, require_sphere(mesh), options).run_from(map);
 }
 
 }  // namespace sphparam

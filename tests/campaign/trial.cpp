@@ -4,8 +4,8 @@
 #include <ctime>
 #include <exception>
 
+#include "sphparam/embedding/float_room.h"
 #include "sphparam/parameterize.h"
-#include "sphparam/sphere/float_rounding.h"
 
 namespace sphparam::campaign {
 namespace {
@@ -36,7 +36,10 @@ Outcome try_specimen(const Specimen& specimen, bool compare_threads) {
     outcome.certified = result.map.points.rows() == topology.vertex_count() &&
                         certify(topology, result.map, 1).bijective();
     outcome.hash = hash_of(result.map.points);
-    if (outcome.certified) outcome.float32_folds = round_to_float(topology, result.map).bad_after;
+    if (outcome.certified) {
+      outcome.float32_folds =
+          round_with_room(specimen.mesh, topology, result.map, {.threads = 1}).rounding.bad_after;
+    }
     if (!compare_threads) return outcome;
     for (const int threads : {2, 4}) {
       const Points again = parameterize(specimen.mesh, {.threads = threads}).map.points;

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -84,20 +86,26 @@ TEST_CASE("map: pins are exactly at their points") {
 
 TEST_CASE("map: pins that cannot be reached end with 5, each residual told, no map written") {
   const Folder folder;
-  // Two vertices at one point.
-  write_bytes(folder / "pins.txt", "5 0.5 1.0\n40 0.5 1.0\n");
+  // The corners of a triangle, the wrong way round.
+  const TriangleMesh mesh = icosphere(1);
+  const std::array<std::string, 3> points = {" 0.5 1.2\n", " 0 1.2\n", " 0.25 0.8\n"};
+  std::string lines;
+  for (size_t i = 0; i < 3; ++i) {
+    lines += std::to_string(mesh.triangles(0, static_cast<Eigen::Index>(i))) + points[i];
+  }
+  write_bytes(folder / "pins.txt", lines);
   for (const bool keep : {false, true}) {
     std::vector<std::string> arguments = {"map",    "-",
                                           "-o",     folder / "map.sph.ply",
                                           "--pin",  folder / "pins.txt",
                                           "--json", folder / "map.json"};
     if (keep) arguments.push_back("--keep-folded");
-    const Ended ended = sphparam_program(arguments, obj_text(icosphere(1)));
+    const Ended ended = sphparam_program(arguments, obj_text(mesh));
     CHECK(ended.code == 5);
     CHECK_THAT(ended.err, Contains("radians from its point") && Contains("no map written"));
     CHECK(folder.names() == std::vector<std::string>{"map.json", "pins.txt"});
     const Json pins = Json::parse(bytes_of(folder / "map.json"))["pins"];
-    CHECK(std::max(pins[0]["residual"].get<double>(), pins[1]["residual"].get<double>()) > 0);
+    CHECK(std::ranges::any_of(pins, [](const Json& pin) { return pin["residual"] > 0.0; }));
   }
 }
 
@@ -128,6 +136,7 @@ TEST_CASE("map: a file of pins that makes no sense ends with 3 and its line") {
       {"-1 1 1\n", "no vertex -1"},
       {"99999 1 1\n", "they are 0 to 641"},
       {"5 1 1\n6 1 2\n5 2 2\n", "pins.txt:3: vertex 5 is pinned twice, first in line 1"},
+      {"5 1 1\n6 1 1\n", "pins.txt:2: vertex 6 is pinned where that of line 1 is"},
       {"# nothing\n", "no pin"},
   };
   for (const auto& [text, complaint] : senseless) {

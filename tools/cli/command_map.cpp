@@ -28,26 +28,21 @@
 #include "compare/methods.h"
 #include "mesh_io/mesh_reader.h"
 #include "mesh_io/mesh_writer.h"
+#include "mesh_io/read_back.h"
 #include "mesh_io/safe_file.h"
 #include "mesh_io/sphere_file.h"
 #include "report/charts.h"
+#include "sphparam/embedding/float_room.h"
 #include "sphparam/embedding/landmarks.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/mesh/topology.h"
 #include "sphparam/parameterize.h"
-#include "sphparam/sphere/float_rounding.h"
 #include "sphparam/stopwatch.h"
 #include "sphparam/version.h"
 
 namespace sphparam::tools {
 
 namespace {
-
-/// What we wrote may be larger than what strangers may send; to prove the map, the map is enough.
-constexpr ReadOptions own_file = {.only_map = true,
-                                  .max_file_bytes = std::numeric_limits<std::uint64_t>::max(),
-                                  .max_line_bytes = std::numeric_limits<std::int64_t>::max(),
-                                  .max_ply_properties = std::numeric_limits<std::int64_t>::max()};
 
 /// What one run found. `certificate` is of the map in memory; what is written must have the same
 /// verdict when it is read back.
@@ -69,6 +64,7 @@ struct Outcome {
   }
   /// What the program is for: exit code 0.
   bool succeeded() const { return certificate.bijective() && pins_hold(); }
+  const Topology& topology() const { return source.topology.value(); }
   std::string verdict() const { return has_map() ? tools::verdict(certificate) : "no map"; }
 };
 
@@ -106,7 +102,7 @@ Outcome compute(Source source, const MapArguments& arguments, Console& console) 
   options.progress = [&](std::string_view stage, double f) { return console.progress(stage, f); };
   settle_vertices(arguments, outcome.source.file, options);
   outcome.pins = options.pins;
-  MethodRun run = run_method(arguments.method, mesh, options);
+  MethodRun run = run_method(arguments.method, mesh, outcome.topology(), options);
   outcome.result = std::move(run.result);
   outcome.account = std::move(run.account);
   outcome.certificate = outcome.result.certificate;
@@ -148,9 +144,8 @@ Provenance provenance(const MapArguments& arguments, const Outcome& outcome,
 }
 
 /// Throws NotCertifiedError unless the bytes of a written map hold what was found in memory.
-void require_verdict(const std::string& expected, const std::string& path, const MeshFile& file,
-                     const SphereMap& map, int threads) {
-  const Certificate on_disk = certify(Topology(file.mesh), map, threads);
+void require_verdict(const std::string& expected, const std::string& path,
+                     const Certificate& on_disk) {
   if (verdict(on_disk) != expected) {
     throw NotCertifiedError(path + ": as written, the map is " + verdict(on_disk));
   }
@@ -160,6 +155,7 @@ void require_verdict(const std::string& expected, const std::string& path, const
 struct Sphere {
   SphereMap map;
   std::string verdict;
+  double least_area = 0;  // of triangles, of the mean: what they had to be taken for
 };
 
 /// GIFTI has coordinates of 32 bits. Rounding must not cost a certified map its certificate; one
@@ -168,24 +164,32 @@ Sphere sphere_for(const std::string& path, const Outcome& outcome, int threads) 
   if (extension_of(path) != ".gii") {
     return {outcome.result.map, outcome.verdict()};
   }
-  const Topology topology(outcome.source.file.mesh);
-  FloatRounding rounding = round_to_float(topology, outcome.result.map, threads);
+  auto [rounding, least_area] = round_with_room(outcome.source.file.mesh, outcome.topology(),
+                                                outcome.result.map, {.threads = threads});
   const bool certified = outcome.certificate.bijective();
   if (certified && !rounding.certificate.bijective()) {
     throw NotCertifiedError(path + ": numbers of 32 bits cannot hold this map (" +
                             verdict(rounding.certificate) + "); .ply, .obj and .off can");
   }
-  return {std::move(rounding.map), certified ? outcome.verdict() : verdict(rounding.certificate)};
+  return {std::move(rounding.map), certified ? outcome.verdict() : verdict(rounding.certificate),
+          least_area};
 }
 
-void add_sphere(PendingFiles& files, const MapArguments& arguments, const Outcome& outcome) {
+void add_sphere(PendingFiles& files, const MapArguments& arguments, const Outcome& outcome,
+                Console& console) {
   const std::string& path = arguments.sphere;
   const Sphere sphere = sphere_for(path, outcome, arguments.options.threads);
+  if (sphere.least_area > 0) {
+    console.say("  " + path + ": mapped anew for numbers of 32 bits: triangles under " +
+                short_number(sphere.least_area) + " of the mean area count as that large");
+  }
   std::string bytes = serialiser(path)(
       sphere_mesh(outcome.source.file, sphere.map, provenance(arguments, outcome, sphere.verdict)));
   files.add(path, std::move(bytes), [&](std::string_view written) {
-    const MeshFile file = read_mesh(written, path, own_file);
-    require_verdict(sphere.verdict, path, file, {file.mesh.positions}, arguments.options.threads);
+    const MeshFile file = read_mesh(written, path, own_map);
+    require_verdict(sphere.verdict, path,
+                    certify_read_back(file, {file.mesh.positions}, outcome.topology(),
+                                      arguments.options.threads));
   });
 }
 
@@ -236,15 +240,16 @@ void add_map(PendingFiles& files, const MapArguments& arguments, Outcome& outcom
   MeshFile& file = outcome.source.file;
   file = attach_map(std::move(file), outcome.result.map, lines);
   files.add(path, serialise_ply(file), [&](std::string_view written) {
-    const MeshFile reread = read_mesh(written, path, own_file);
-    require_verdict(outcome.verdict(), path, reread, read_sphere(reread).value(),
-                    arguments.options.threads);
+    const MeshFile reread = read_mesh(written, path, own_map);
+    require_verdict(outcome.verdict(), path,
+                    certify_read_back(reread, read_sphere(reread).value(), outcome.topology(),
+                                      arguments.options.threads));
   });
 }
 
 /// All outputs, or, where one fails, none.
 void write_outputs(const MapArguments& arguments, Outcome& outcome, bool with_map,
-                   const Stopwatch& stopwatch) {
+                   const Stopwatch& stopwatch, Console& console) {
   PendingFiles files;
   Outputs outputs;
   if (with_map) {
@@ -252,7 +257,7 @@ void write_outputs(const MapArguments& arguments, Outcome& outcome, bool with_ma
     outputs.emplace_back("map", arguments.output);
   }
   if (with_map && !arguments.sphere.empty()) {
-    add_sphere(files, arguments, outcome);
+    add_sphere(files, arguments, outcome, console);
     outputs.emplace_back("sphere", arguments.sphere);
   }
   add_reports(files, arguments, outcome, outputs, stopwatch);
@@ -364,7 +369,7 @@ int run_map(const MapArguments& arguments) {
   tell_frame(arguments, outcome, console);
   const bool writes = outcome.has_map() && outcome.pins_hold() &&
                       (outcome.certificate.bijective() || arguments.keep_folded);
-  write_outputs(arguments, outcome, writes, stopwatch);
+  write_outputs(arguments, outcome, writes, stopwatch, console);
   try {
     tell_result(arguments, outcome, writes, stopwatch, console);
   } catch (const std::bad_alloc&) {  // what is on disk is there all the same

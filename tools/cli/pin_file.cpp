@@ -1,11 +1,14 @@
 #include "cli/pin_file.h"
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <numbers>
 #include <unordered_map>
 
 #include "mesh_io/file_bytes.h"
 #include "mesh_io/text_scanner.h"
+#include "sphparam/sphere/spherical_coordinates.h"
 
 namespace sphparam::tools {
 
@@ -34,12 +37,20 @@ std::vector<Landmark> parse_pins(std::string_view text, const std::string& name,
   scanner.require_text();
   std::vector<Landmark> pins;
   std::unordered_map<Vertex, long> lines;
+  std::map<std::array<double, 3>, long> places;
   while (scanner.next_filled_line()) {
     const Landmark pin = parse_pin(scanner, numbers);
     const auto [earlier, is_new] = lines.emplace(pin.vertex, scanner.line_number());
     if (!is_new) {
       scanner.fail("vertex " + std::to_string(numbers.number(pin.vertex)) +
                    " is pinned twice, first in line " + std::to_string(earlier->second));
+    }
+    const Vector3 x = to_cartesian(pin.coordinates);
+    const auto [other, is_free] =
+        places.emplace(std::array{x.x(), x.y(), x.z()}, scanner.line_number());
+    if (!is_free) {
+      scanner.fail("vertex " + std::to_string(numbers.number(pin.vertex)) +
+                   " is pinned where that of line " + std::to_string(other->second) + " is");
     }
     pins.push_back(pin);
   }

@@ -16,6 +16,7 @@ namespace sphparam {
 namespace {
 
 constexpr double least_area_of_mean = 1e-9;
+constexpr std::int64_t grain = 4096;
 
 SourceTriangle equilateral(double area) {
   const double base = std::sqrt(4 * area / std::numbers::sqrt3);
@@ -24,7 +25,7 @@ SourceTriangle equilateral(double area) {
 
 }  // namespace
 
-SourceTriangles measure_source(const TriangleMesh& mesh) {
+SourceTriangles measure_source(const TriangleMesh& mesh, int threads) {
   const Eigen::Index faces = mesh.face_count();
   SourceTriangles source(static_cast<size_t>(faces));
   // Coordinates of 1e±300 must neither overflow nor vanish when subtracted and squared.
@@ -32,28 +33,34 @@ SourceTriangles measure_source(const TriangleMesh& mesh) {
   const Vector3 upper = mesh.positions.colwise().maxCoeff() / 2;
   const double half_extent = (upper - lower).maxCoeff();
   const double unit = half_extent > 0 ? half_extent : 1;
-  double total = 0;
-  for (Eigen::Index f = 0; f < faces; ++f) {
-    const auto corner = [&](int k) -> Vector3 {
-      return (mesh.position(mesh.triangles(f, k)) / 2 - lower) / unit;
-    };
-    const Vector3 a = corner(1) - corner(0), b = corner(2) - corner(0);
-    const double area = a.cross(b).norm() / 2, base = a.norm();
-    source[static_cast<size_t>(f)] = {area, 1 / base, base / (2 * area),
-                                      a.dot(b) / a.squaredNorm()};
-    total += area;
-  }
+  const double total = parallel_sum(faces, threads, [&](std::int64_t first, std::int64_t last) {
+    double sum = 0;
+    for (Eigen::Index f = first; f < last; ++f) {
+      const auto corner = [&](int k) -> Vector3 {
+        return (mesh.position(mesh.triangles(f, k)) / 2 - lower) / unit;
+      };
+      const Vector3 a = corner(1) - corner(0), b = corner(2) - corner(0);
+      const double area = a.cross(b).norm() / 2, base = a.norm();
+      source[static_cast<size_t>(f)] = {area, 1 / base, base / (2 * area),
+                                        a.dot(b) / a.squaredNorm()};
+      sum += area;
+    }
+    return sum;
+  });
   const double mean = 4 * std::numbers::pi / static_cast<double>(std::max<Eigen::Index>(faces, 1));
   const double factor = 4 * std::numbers::pi / total;
-  for (SourceTriangle& triangle : source) {
-    if (!(total > 0)) {
-      triangle = equilateral(mean);
-    } else if (triangle.area * factor > least_area_of_mean * mean) {
-      triangle = scaled(triangle, factor);
-    } else {
-      triangle = equilateral(least_area_of_mean * mean);
+  const auto settled = [&](const SourceTriangle& triangle) {
+    if (!(total > 0)) return equilateral(mean);
+    if (!(triangle.area * factor > least_area_of_mean * mean)) {
+      return equilateral(least_area_of_mean * mean);
     }
-  }
+    return scaled(triangle, factor);
+  };
+  parallel_for(faces, grain, threads, [&](std::int64_t first, std::int64_t last) {
+    for (auto f = static_cast<size_t>(first); f < static_cast<size_t>(last); ++f) {
+      source[f] = settled(source[f]);
+    }
+  });
   return source;
 }
 

@@ -221,9 +221,18 @@ bool all_exact(const std::vector<double>& residuals) {
 }
 
 Eigen::Matrix3d best_rotation(const SphereMap& map, const std::vector<Pin>& pins) {
-  // Σ point·xᵀ = U S Vᵀ;  R = U diag(1, 1, ±1) Vᵀ with the sign that makes det R = 1.
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (const Pin& pin : pins) covariance += pin.point * map.points.row(pin.vertex);
+  Points from(std::ssize(pins), 3), to(std::ssize(pins), 3);
+  for (Eigen::Index i = 0; i < from.rows(); ++i) {
+    const Pin& pin = pins[static_cast<size_t>(i)];
+    from.row(i) = map.points.row(pin.vertex);
+    to.row(i) = pin.point;
+  }
+  return best_rotation(from, to);
+}
+
+Eigen::Matrix3d best_rotation(const Points& from, const Points& to) {
+  // Σ to·fromᵀ = U S Vᵀ;  R = U diag(1, 1, ±1) Vᵀ with the sign that makes det R = 1.
+  const Eigen::Matrix3d covariance = to.transpose() * from;
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
                                               Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::Matrix3d u = svd.matrixU();

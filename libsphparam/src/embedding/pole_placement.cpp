@@ -6,6 +6,7 @@
 
 #include "embedding/orientations.h"
 #include "sphparam/embedding/relaxation.h"
+#include "sphparam/mesh/rings.h"
 #include "sphparam/parallel.h"
 
 // Stereographic projection from north = +z: w = (x + iy)/(1 − z), −z at the origin, and back
@@ -65,21 +66,6 @@ SphereMap translated(const SphereMap& map, Vertex north, const Eigen::Vector2d& 
   return result;
 }
 
-/// v and everything at most `rings` edges away, in order of index.
-std::vector<Vertex> rings_around(const Topology& topology, Vertex v, int rings) {
-  std::vector<Vertex> found{v};
-  for (int ring = 0; ring < rings; ++ring) {
-    const size_t count = found.size();
-    for (size_t i = 0; i < count; ++i) {
-      topology.for_each_outgoing(found[i],
-                                 [&](Halfedge h) { found.push_back(topology.target(h)); });
-    }
-    std::ranges::sort(found);
-    found.erase(std::unique(found.begin(), found.end()), found.end());
-  }
-  return found;
-}
-
 /// The energy of the triangles at some vertices.
 double energy_around(const Topology& topology, const SourceTriangles& source, const SphereMap& map,
                      const std::vector<Vertex>& vertices, const DistortionEnergy& energy) {
@@ -133,7 +119,7 @@ double bring_down(const Topology& topology, const SourceTriangles& source,
   const Vector3 down = -Vector3::UnitZ();
   const Vertex south = placement.south;
   SphereMap& map = placement.map;
-  const std::vector<Vertex> around = rings_around(topology, south, rings_to_settle);
+  const std::vector<Vertex> around = rings_around(topology, {south}, rings_to_settle);
   const double before = energy_around(topology, source, map, around, options.energy);
   for (double part = 1; map.point(south) != down && part > smallest_part;) {
     const Vector3 from = map.point(south);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "sphparam/mesh/rings.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/orientation.h"
 
@@ -93,26 +94,6 @@ StarSize star_size(const Topology& topology, const SphereMap& map, Vertex v, con
   return size;
 }
 
-/// The vertices of these faces and `rings` rings around them, in ascending order.
-std::vector<Vertex> neighbourhood(const Topology& topology, const std::vector<Face>& faces,
-                                  int rings) {
-  std::vector<char> seen(static_cast<std::size_t>(topology.vertex_count()), 0);
-  std::vector<Vertex> found;
-  const auto add = [&](Vertex v) {
-    if (!std::exchange(seen[static_cast<std::size_t>(v)], 1)) found.push_back(v);
-  };
-  for (const Face f : faces)
-    for (int corner = 0; corner < 3; ++corner) add(topology.vertex(f, corner));
-  std::size_t ring_begin = 0;
-  for (int ring = 0; ring < rings; ++ring) {
-    const std::size_t ring_end = found.size();
-    for (; ring_begin < ring_end; ++ring_begin)
-      topology.for_each_outgoing(found[ring_begin], [&](Halfedge h) { add(topology.target(h)); });
-  }
-  std::sort(found.begin(), found.end());
-  return found;
-}
-
 /// Looks on the grid of floats around v for a place where its star is positive, nearest first.
 bool nudge(const Topology& topology, SphereMap& rounded, Vertex v) {
   const Vector3 start = rounded.point(v);
@@ -131,7 +112,7 @@ bool nudge(const Topology& topology, SphereMap& rounded, Vertex v) {
 }
 
 void nudge_all(const Topology& topology, SphereMap& rounded, const std::vector<Face>& bad) {
-  for (const Vertex v : neighbourhood(topology, bad, 0))
+  for (const Vertex v : vertices_of(topology, bad))
     if (!star_is_positive(topology, rounded, v, rounded.point(v))) nudge(topology, rounded, v);
 }
 
@@ -172,7 +153,7 @@ SphereMap mended(const Topology& topology, SphereMap exact, SphereMap rounded,
   bad = bad_faces(topology, rounded, threads);
   int rings = kFirstRings;
   for (int round = 0; round < kRounds && !bad.empty(); ++round, rings *= 2) {
-    const std::vector<Vertex> vertices = neighbourhood(topology, bad, rings);
+    const std::vector<Vertex> vertices = rings_around(topology, vertices_of(topology, bad), rings);
     make_room(topology, exact, vertices);
     for (const Vertex v : vertices) rounded.points.row(v) = to_float(exact.point(v));
     nudge_all(topology, rounded, bad_faces(topology, rounded, threads));

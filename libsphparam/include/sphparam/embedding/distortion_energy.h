@@ -30,7 +30,7 @@ using SourceTriangles = std::vector<SourceTriangle>;
 /// collinear corners) count as equilateral ones of that size.
 /// Ensures: all entries finite and, but for `foot`, positive; Σ area = 4π up to the floors.
 /// Requires: finite positions.
-SourceTriangles measure_source(const TriangleMesh& mesh);
+SourceTriangles measure_source(const TriangleMesh& mesh, int threads = 0);
 
 /// The same triangle, its corners renumbered so that `corner` comes first.
 SourceTriangle rotated(const SourceTriangle& triangle, int corner);

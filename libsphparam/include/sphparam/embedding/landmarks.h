@@ -53,6 +53,8 @@ LandmarkPlacement place_landmarks(const Topology& topology, const SourceTriangle
 /// The rotation R with least Σ |R x(vertex) − point|².
 /// Paper: Kabsch, "A solution for the best rotation to relate two sets of vectors" (1976).
 Eigen::Matrix3d best_rotation(const SphereMap& map, const std::vector<Pin>& pins);
+/// The rotation R with least Σ |R from − to|² over the rows.
+Eigen::Matrix3d best_rotation(const Points& from, const Points& to);
 
 /// Per pin: the angle between its vertex's image and its point; 0 only where all bits agree.
 std::vector<double> pin_residuals(const SphereMap& map, const std::vector<Pin>& pins);

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include "sphparam/mesh/topology.h"
+
+namespace sphparam {
+
+/// These vertices and all that are at most `rings` edges away from one, in ascending order.
+/// Cost: O(#V) to mark them, and their stars.
+std::vector<Vertex> rings_around(const Topology& topology, const std::vector<Vertex>& vertices,
+                                 int rings);
+
+/// The vertices of these faces, in ascending order.
+std::vector<Vertex> vertices_of(const Topology& topology, const std::vector<Face>& faces);
+
+}  // namespace sphparam
