@@ -162,6 +162,26 @@ TEST_CASE("spherical_harmonics: what is left falls with the degree, and a consta
   }
 }
 
+TEST_CASE("spherical_harmonics: functions do not feel each other, however many there are") {
+  const Points d = random_directions(150, 6);
+  const Functions coefficients = random_coefficients(12, 7, 8);
+  const Functions together = synthesise(coefficients, d);
+  const Functions back = analyse(12, d, Eigen::VectorXd::Ones(150), together);
+  for (Eigen::Index k = 0; k < 7; ++k) {
+    const Functions alone = synthesise(coefficients.col(k), d);
+    CHECK(alone == together.col(k));
+    CHECK(analyse(12, d, Eigen::VectorXd::Ones(150), alone) == back.col(k));
+  }
+}
+
+TEST_CASE("spherical_harmonics: known coefficients of degree 200 come back") {
+  const QuadratureGrid grid = quadrature_grid(200);
+  const Functions known = random_coefficients(200, 1, 9);
+  const Functions found =
+      analyse(200, grid.directions, grid.weights, synthesise(known, grid.directions));
+  CHECK((found - known).cwiseAbs().maxCoeff() < 1e-11);
+}
+
 TEST_CASE("spherical_harmonics: the same bits for any number of threads") {
   const Points d = random_directions(9000, 8);
   const Functions c = random_coefficients(10, 2, 9);

@@ -9,19 +9,20 @@
 #include <string>
 #include <vector>
 
+#include "sphere/harmonic_degree.h"
 #include "sphparam/parallel.h"
-#include "sphparam/sphere/sphere_locator.h"
 
-// Points are taken in blocks that stay in the nearest cache: for every order m the Legendre
-// functions run upwards in l, all points of the block in step, so that the compiler's vectors carry
-// points and no sum crosses lanes but in a fixed order. cos mθ and sin mθ turn by one θ from order
-// to order.
+// Points are taken in blocks that stay in the nearest cache. For every order m the Legendre
+// functions run upwards in l, eight points a vector and three functions side by side, so that a run
+// stays in registers; no sum crosses lanes but in a fixed order. cos mθ and sin mθ turn by one θ
+// from order to order. Coefficients are laid out order by order for it, see `Terms`.
 
 namespace sphparam {
 namespace {
 
 constexpr int block_size = 128;           // points
-constexpr int lanes = 8;                  // partial sums of a dot product, whatever the machine
+constexpr int lanes = 8;                  // of a vector, whatever the machine
+constexpr int wide = 3;                   // functions that share a run of the recursion
 constexpr std::int64_t most_chunks = 32;  // each has coefficients of its own to sum into
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
@@ -31,6 +32,8 @@ constexpr std::int64_t most_chunks = 32;  // each has coefficients of its own to
 #endif
 
 using Row = std::array<double, block_size>;
+using Rows = std::array<Row, wide>;
+using Lanes = double __attribute__((vector_size(lanes * sizeof(double))));
 
 int degree_of(Eigen::Index rows) {
   const int degree = static_cast<int>(std::lround(std::sqrt(static_cast<double>(rows)))) - 1;
@@ -43,9 +46,9 @@ int degree_of(Eigen::Index rows) {
   return degree;
 }
 
-/// P_lm = up (x P_{l−1,m} − down P_{l−2,m}) for l > m.
+/// P_lm = up x P_{l−1,m} − drop P_{l−2,m} for l > m.
 struct Recursion {
-  double up, down;
+  double up, drop;
 };
 
 class Legendre {
@@ -55,14 +58,14 @@ class Legendre {
       first_[size_t(m)] = steps_.size();
       for (int l = m + 1; l <= degree; ++l) {
         const double l2 = double(l) * l, m2 = double(m) * m, k2 = double(l - 1) * (l - 1);
-        steps_.push_back({std::sqrt((4 * l2 - 1) / (l2 - m2)),
-                          l == m + 1 ? 0 : std::sqrt((k2 - m2) / (4 * k2 - 1))});
+        const double up = std::sqrt((4 * l2 - 1) / (l2 - m2));
+        steps_.push_back({up, l == m + 1 ? 0 : up * std::sqrt((k2 - m2) / (4 * k2 - 1))});
       }
     }
   }
   int degree() const { return degree_; }
   /// For l = m + 1, m + 2, …
-  const Recursion* steps(int m) const { return &steps_[0] + first_[size_t(m)]; }
+  const Recursion* steps(int m) const { return steps_.data() + first_[size_t(m)]; }
 
  private:
   int degree_;
@@ -100,47 +103,122 @@ SPHPARAM_CLONES void turn(Waves& w, int m) {
   }
 }
 
-/// next = up (z · now − down · before); `before` becomes `now`, and `now` becomes `next`.
-SPHPARAM_CLONES void climb(const Row& z, Recursion step, Row& before, Row& now) {
-  for (int i = 0; i < block_size; ++i) {
-    const double next = step.up * (z[size_t(i)] * now[size_t(i)] - step.down * before[size_t(i)]);
-    before[size_t(i)] = now[size_t(i)];
-    now[size_t(i)] = next;
-  }
+__attribute__((always_inline)) inline Lanes load(const double* from) {
+  Lanes result;
+  __builtin_memcpy(&result, from, sizeof result);
+  return result;
+}
+__attribute__((always_inline)) inline void store(Lanes value, double* to) {
+  __builtin_memcpy(to, &value, sizeof value);
+}
+__attribute__((always_inline)) inline double total(Lanes s) {
+  return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
 }
 
-SPHPARAM_CLONES void add(const Row& p, double a, double b, Row& even, Row& odd) {
-  for (int i = 0; i < block_size; ++i) {
-    even[size_t(i)] += a * p[size_t(i)];
-    odd[size_t(i)] += b * p[size_t(i)];
-  }
-}
-
-SPHPARAM_CLONES double dot(const Row& a, const Row& b) {
-  double sums[lanes] = {};
+/// even_k = Σ_l a_lk P_lm, odd_k = Σ_l b_lk P_lm over `count` degrees. terms: a_l0 a_l1 a_l2 b_l0 …
+SPHPARAM_CLONES void add_up(const Row& z, const Row& sectoral, const Recursion* steps, int count,
+                            const double* terms, Rows& even, Rows& odd) {
   for (int i = 0; i < block_size; i += lanes) {
-    for (int k = 0; k < lanes; ++k) sums[k] += a[size_t(i + k)] * b[size_t(i + k)];
+    const Lanes x = load(&z[size_t(i)]);
+    Lanes before{}, now = load(&sectoral[size_t(i)]);
+    Lanes e0 = terms[0] * now, e1 = terms[1] * now, e2 = terms[2] * now;
+    Lanes o0 = terms[3] * now, o1 = terms[4] * now, o2 = terms[5] * now;
+    for (int n = 1; n < count; ++n) {
+      const Recursion step = steps[n - 1];
+      const double* t = terms + 2 * wide * n;
+      const Lanes next = (step.up * x) * now - step.drop * before;
+      before = now;
+      now = next;
+      e0 += t[0] * now, e1 += t[1] * now, e2 += t[2] * now;
+      o0 += t[3] * now, o1 += t[4] * now, o2 += t[5] * now;
+    }
+    store(e0, &even[0][size_t(i)]), store(e1, &even[1][size_t(i)]), store(e2, &even[2][size_t(i)]);
+    store(o0, &odd[0][size_t(i)]), store(o1, &odd[1][size_t(i)]), store(o2, &odd[2][size_t(i)]);
   }
-  return ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]));
 }
 
-/// Values of all functions at the points of a block.
-void synthesise_block(const Legendre& legendre, const Functions& coefficients, Waves& w,
-                      std::vector<Row>& values, std::vector<Row>& even, std::vector<Row>& odd) {
-  const size_t functions = values.size();
+/// The transpose: a_lk += Σ P_lm even_k and b_lk += Σ P_lm odd_k over the points.
+SPHPARAM_CLONES void project(const Row& z, const Row& sectoral, const Recursion* steps, int count,
+                             const Rows& even, const Rows& odd, double* terms) {
+  Row before{}, now = sectoral;
+  for (int n = 0; n < count; ++n, terms += 2 * wide) {
+    const Recursion step = n + 1 < count ? steps[n] : Recursion{0, 0};
+    Lanes e0{}, e1{}, e2{}, o0{}, o1{}, o2{};
+    for (size_t i = 0; i < block_size; i += lanes) {
+      const Lanes p = load(&now[i]);
+      e0 += p * load(&even[0][i]), e1 += p * load(&even[1][i]), e2 += p * load(&even[2][i]);
+      o0 += p * load(&odd[0][i]), o1 += p * load(&odd[1][i]), o2 += p * load(&odd[2][i]);
+      store((step.up * load(&z[i])) * p - step.drop * load(&before[i]), &now[i]);
+      store(p, &before[i]);
+    }
+    terms[0] += total(e0), terms[1] += total(e1), terms[2] += total(e2);
+    terms[3] += total(o0), terms[4] += total(o1), terms[5] += total(o2);
+  }
+}
+
+/// Coefficients in the order they are used in: functions in groups of `wide`; in a group order by
+/// order; in an order m degree by degree the group's coefficients of Y_lm, then of Y_l,−m.
+class Terms {
+ public:
+  Terms(int degree, Eigen::Index functions)
+      : degree_(degree),
+        functions_(functions),
+        numbers_(size_t(groups()) * size_t(harmonics()) * 2 * wide, 0.0) {}
+
+  Terms(int degree, const Functions& coefficients) : Terms(degree, coefficients.cols()) {
+    for_each(
+        [&](double& term, int row, Eigen::Index function) { term = coefficients(row, function); });
+  }
+
+  int groups() const { return static_cast<int>((functions_ + wide - 1) / wide); }
+  double* of(int group, int m) { return &numbers_[place(group, m, m)]; }
+  const double* of(int group, int m) const { return &numbers_[place(group, m, m)]; }
+
+  void operator+=(const Terms& other) {
+    for (size_t i = 0; i < numbers_.size(); ++i) numbers_[i] += other.numbers_[i];
+  }
+
+  Functions coefficients() {
+    Functions result(harmonic_index(degree_, degree_) + 1, functions_);
+    for_each([&](double& term, int row, Eigen::Index function) { result(row, function) = term; });
+    return result;
+  }
+
+ private:
+  int harmonics() const { return (degree_ + 1) * (degree_ + 2) / 2; }  // with m ≥ 0
+  size_t place(int group, int l, int m) const {
+    const int before = m * (degree_ + 1) - m * (m - 1) / 2;
+    return (size_t(group) * size_t(harmonics()) + size_t(before + l - m)) * 2 * wide;
+  }
+
+  /// visit(term, row of the coefficient, function); not those that do not exist: Y_l,−0.
+  template <class Visit>
+  void for_each(const Visit& visit) {
+    for (Eigen::Index k = 0; k < functions_; ++k) {
+      for (int m = 0; m <= degree_; ++m) {
+        for (int l = m; l <= degree_; ++l) {
+          double* term = &numbers_[place(int(k / wide), l, m) + size_t(k % wide)];
+          visit(term[0], harmonic_index(l, m), k);
+          if (m > 0) visit(term[wide], harmonic_index(l, -m), k);
+        }
+      }
+    }
+  }
+
+  int degree_;
+  Eigen::Index functions_;
+  std::vector<double> numbers_;
+};
+
+/// Values of a group of functions at the points of a block.
+void synthesise_block(const Legendre& legendre, const Terms& terms, int group, Waves& w,
+                      Rows& values) {
+  Rows even, odd;
   for (Row& v : values) v.fill(0);
   for (int m = 0; m <= legendre.degree(); ++m) {
-    for (Row& r : even) r.fill(0);
-    for (Row& r : odd) r.fill(0);
-    Row before{}, now = w.sectoral;
-    const Recursion* steps = legendre.steps(m);
-    for (int l = m; l <= legendre.degree(); ++l) {
-      if (l > m) climb(w.z, steps[l - m - 1], before, now);
-      const double* a = &coefficients(harmonic_index(l, m), 0);
-      const double* b = &coefficients(harmonic_index(l, -m), 0);
-      for (size_t k = 0; k < functions; ++k) add(now, a[k], m > 0 ? b[k] : 0, even[k], odd[k]);
-    }
-    for (size_t k = 0; k < functions; ++k) {
+    add_up(w.z, w.sectoral, legendre.steps(m), legendre.degree() - m + 1, terms.of(group, m), even,
+           odd);
+    for (size_t k = 0; k < wide; ++k) {
       for (size_t i = 0; i < block_size; ++i) {
         values[k][i] += even[k][i] * w.cosine[i] + odd[k][i] * w.sine[i];
       }
@@ -149,28 +227,19 @@ void synthesise_block(const Legendre& legendre, const Functions& coefficients, W
   }
 }
 
-/// coefficients += Σ over the block of values · Y, the values weighted.
-void analyse_block(const Legendre& legendre, const std::vector<Row>& values, Waves& w,
-                   std::vector<Row>& even, std::vector<Row>& odd, Functions& coefficients) {
-  const size_t functions = values.size();
+/// terms += Σ over the block of values · Y, the values weighted.
+void analyse_block(const Legendre& legendre, const Rows& values, int group, Waves& w,
+                   Terms& terms) {
+  Rows even, odd;
   for (int m = 0; m <= legendre.degree(); ++m) {
-    for (size_t k = 0; k < functions; ++k) {
+    for (size_t k = 0; k < wide; ++k) {
       for (size_t i = 0; i < block_size; ++i) {
         even[k][i] = values[k][i] * w.cosine[i];
         odd[k][i] = values[k][i] * w.sine[i];
       }
     }
-    Row before{}, now = w.sectoral;
-    const Recursion* steps = legendre.steps(m);
-    for (int l = m; l <= legendre.degree(); ++l) {
-      if (l > m) climb(w.z, steps[l - m - 1], before, now);
-      double* a = &coefficients(harmonic_index(l, m), 0);
-      double* b = &coefficients(harmonic_index(l, -m), 0);
-      for (size_t k = 0; k < functions; ++k) {
-        a[k] += dot(now, even[k]);
-        if (m > 0) b[k] += dot(now, odd[k]);
-      }
-    }
+    project(w.z, w.sectoral, legendre.steps(m), legendre.degree() - m + 1, even, odd,
+            terms.of(group, m));
     turn(w, m);
   }
 }
@@ -183,16 +252,13 @@ void for_each_block(std::int64_t begin, std::int64_t end, const Visit& visit) {
   }
 }
 
-/// Each vertex's share of the sphere: a third of its triangles' solid angles. Sums to 4π.
-Eigen::VectorXd solid_angles(const Topology& topology, const SphereMap& map) {
-  Eigen::VectorXd shares = Eigen::VectorXd::Zero(topology.vertex_count());
-  for (Face f = 0; f < topology.face_count(); ++f) {
-    const Vector3 a = map.point(topology.vertex(f, 0)), b = map.point(topology.vertex(f, 1)),
-                  c = map.point(topology.vertex(f, 2));
-    const double angle = 2 * std::atan2(a.dot(b.cross(c)), 1 + a.dot(b) + b.dot(c) + c.dot(a));
-    for (int k = 0; k < 3; ++k) shares[topology.vertex(f, k)] += angle / 3;
+/// Calls visit(place in the group, function) for the functions of a group.
+template <class Visit>
+void for_each_function(int group, Eigen::Index functions, const Visit& visit) {
+  const Eigen::Index first = Eigen::Index(group) * wide;
+  for (Eigen::Index k = first; k < std::min(functions, first + wide); ++k) {
+    visit(static_cast<size_t>(k - first), k);
   }
-  return shares;
 }
 
 /// Node i of n of Gauss–Legendre quadrature on [−1, 1], from 1 downwards, and its weight.
@@ -211,89 +277,23 @@ std::pair<double, double> gauss_legendre(int i, int n) {
   return {x, 2 / ((1 - x * x) * slope * slope)};
 }
 
-/// Values at directions of the piecewise linear functions that a map carries to the sphere.
-Functions look_up(const Topology& topology, const SphereMap& map, const Functions& values,
-                  const Points& directions, int threads) {
-  const std::vector<SurfacePoint> points =
-      SphereLocator(topology, map, threads).locate_all(directions, threads);
-  Functions result(directions.rows(), values.cols());
-  for (size_t i = 0; i < points.size(); ++i) {
-    auto row = result.row(static_cast<Eigen::Index>(i));
-    row.setZero();
-    for (int k = 0; k < 3; ++k) {
-      row += points[i].barycentric[k] * values.row(topology.vertex(points[i].face, k));
-    }
-  }
-  return result;
-}
-
-void require_degree(int degree) {
-  if (degree >= 0 && degree <= greatest_harmonic_degree) return;
-  throw std::invalid_argument("spherical harmonics: degree " + std::to_string(degree) +
-                              " is not within 0 … " + std::to_string(greatest_harmonic_degree));
-}
-
-/// Conjugate gradients on YᵀWY c = YᵀW f, all functions side by side, each with its own steps.
-class NormalEquations {
- public:
-  NormalEquations(const Points& directions, const Eigen::VectorXd& weights,
-                  const HarmonicFitOptions& options)
-      : directions_(directions), weights_(weights), options_(options) {}
-
-  int solve(const Functions& values, Functions& coefficients) const {
-    const Eigen::ArrayXd enough =
-        options_.tolerance * options_.tolerance * transposed(values).colwise().squaredNorm();
-    Functions residual = transposed(values - synthesised(coefficients));
-    Functions direction = residual;
-    Eigen::ArrayXd squared = residual.colwise().squaredNorm();
-    int iteration = 0;
-    while (iteration < options_.most_iterations && (squared > enough).any()) {
-      report(options_.progress, "least squares",
-             static_cast<double>(iteration) / options_.most_iterations);
-      const Functions image = transposed(synthesised(direction));
-      const Eigen::ArrayXd curvature = direction.cwiseProduct(image).colwise().sum();
-      const Eigen::ArrayXd step =
-          (squared > enough && curvature > 0).select(squared / curvature, 0.0);
-      coefficients += direction * step.matrix().asDiagonal();
-      residual -= image * step.matrix().asDiagonal();
-      const Eigen::ArrayXd next = residual.colwise().squaredNorm();
-      const Eigen::ArrayXd keep = (squared > enough).select(next / squared, 0.0);
-      direction = residual + direction * keep.matrix().asDiagonal();
-      squared = next;
-      ++iteration;
-    }
-    return iteration;
-  }
-
- private:
-  Functions synthesised(const Functions& coefficients) const {
-    return synthesise(coefficients, directions_, options_.threads);
-  }
-  Functions transposed(const Functions& values) const {
-    return analyse(options_.degree, directions_, weights_, values, options_.threads);
-  }
-
-  const Points& directions_;
-  const Eigen::VectorXd& weights_;
-  const HarmonicFitOptions& options_;
-};
-
 }  // namespace
 
 Functions synthesise(const Functions& coefficients, const Points& directions, int threads) {
   const Legendre legendre(degree_of(coefficients.rows()));
-  const auto functions = static_cast<size_t>(coefficients.cols());
+  const Terms terms(legendre.degree(), coefficients);
   Functions values(directions.rows(), coefficients.cols());
   parallel_for(directions.rows(), 8 * block_size, threads,
                [&](std::int64_t begin, std::int64_t end) {
                  Waves waves;
-                 std::vector<Row> rows(functions), even(functions), odd(functions);
+                 Rows rows;
                  for_each_block(begin, end, [&](std::int64_t first, int count) {
-                   load(directions, first, count, waves);
-                   synthesise_block(legendre, coefficients, waves, rows, even, odd);
-                   for (size_t k = 0; k < functions; ++k) {
-                     for (int i = 0; i < count; ++i)
-                       values(first + i, Eigen::Index(k)) = rows[k][size_t(i)];
+                   for (int group = 0; group < terms.groups(); ++group) {
+                     load(directions, first, count, waves);
+                     synthesise_block(legendre, terms, group, waves, rows);
+                     for_each_function(group, values.cols(), [&](size_t row, Eigen::Index k) {
+                       for (int i = 0; i < count; ++i) values(first + i, k) = rows[row][size_t(i)];
+                     });
                    }
                  });
                });
@@ -302,37 +302,36 @@ Functions synthesise(const Functions& coefficients, const Points& directions, in
 
 Functions analyse(int degree, const Points& directions, const Eigen::VectorXd& weights,
                   const Functions& values, int threads) {
-  require_degree(degree);
+  require_harmonic_degree(degree);
   if (weights.size() != directions.rows() || values.rows() != directions.rows()) {
     throw std::invalid_argument("spherical harmonics: not one weight and one value a direction");
   }
   const Legendre legendre(degree);
-  const auto functions = static_cast<size_t>(values.cols());
-  const Functions none = Functions::Zero(Eigen::Index(degree + 1) * (degree + 1), values.cols());
   const std::int64_t blocks = (directions.rows() + block_size - 1) / block_size;
-  const std::int64_t grain = block_size * ((blocks + most_chunks - 1) / most_chunks);
-  std::vector<Functions> partial(static_cast<size_t>(most_chunks), none);
-  parallel_for(directions.rows(), grain, threads, [&](std::int64_t begin, std::int64_t end) {
+  const std::int64_t chunk = block_size * ((blocks + most_chunks - 1) / most_chunks);
+  std::vector<Terms> partial(static_cast<size_t>(most_chunks), Terms(degree, values.cols()));
+  parallel_for(directions.rows(), chunk, threads, [&](std::int64_t begin, std::int64_t end) {
+    Terms& terms = partial[static_cast<size_t>(begin / chunk)];
     Waves waves;
-    std::vector<Row> rows(functions), even(functions), odd(functions);
     for_each_block(begin, end, [&](std::int64_t first, int count) {
-      load(directions, first, count, waves);
-      for (size_t k = 0; k < functions; ++k) {
-        rows[k].fill(0);
-        for (int i = 0; i < count; ++i) {
-          rows[k][size_t(i)] = weights[first + i] * values(first + i, Eigen::Index(k));
-        }
+      for (int group = 0; group < terms.groups(); ++group) {
+        Rows rows{};
+        for_each_function(group, values.cols(), [&](size_t row, Eigen::Index k) {
+          for (int i = 0; i < count; ++i) {
+            rows[row][size_t(i)] = weights[first + i] * values(first + i, k);
+          }
+        });
+        load(directions, first, count, waves);
+        analyse_block(legendre, rows, group, waves, terms);
       }
-      analyse_block(legendre, rows, waves, even, odd, partial[static_cast<size_t>(begin / grain)]);
     });
   });
-  Functions sum = none;
-  for (const Functions& part : partial) sum += part;
-  return sum;
+  for (size_t i = 1; i < partial.size(); ++i) partial[0] += partial[i];
+  return partial[0].coefficients();
 }
 
 QuadratureGrid quadrature_grid(int degree) {
-  require_degree(degree);
+  require_harmonic_degree(degree);
   const int rows = degree + 1, columns = 2 * degree + 2;
   QuadratureGrid grid{Points(Eigen::Index(rows) * columns, 3),
                       Eigen::VectorXd(Eigen::Index(rows) * columns)};
@@ -347,27 +346,6 @@ QuadratureGrid quadrature_grid(int degree) {
     }
   }
   return grid;
-}
-
-HarmonicFit fit_harmonics(const Topology& topology, const SphereMap& map, const Functions& values,
-                          const HarmonicFitOptions& options) {
-  require_degree(options.degree);
-  if (values.rows() != topology.vertex_count() || map.points.rows() != topology.vertex_count()) {
-    throw std::invalid_argument("spherical harmonics: not one value and one ray a vertex");
-  }
-  report(options.progress, "quadrature", 0);
-  const QuadratureGrid grid = quadrature_grid(options.degree);
-  HarmonicFit fit;
-  fit.coefficients =
-      analyse(options.degree, grid.directions, grid.weights,
-              look_up(topology, map, values, grid.directions, options.threads), options.threads);
-  const Eigen::VectorXd shares = solid_angles(topology, map);
-  if (options.least_squares) {
-    fit.iterations = NormalEquations(map.points, shares, options).solve(values, fit.coefficients);
-  }
-  const Functions left = values - synthesise(fit.coefficients, map.points, options.threads);
-  fit.rms = ((shares.asDiagonal() * left.cwiseAbs2()).colwise().sum() / shares.sum()).cwiseSqrt();
-  return fit;
 }
 
 Functions power_per_degree(const Functions& coefficients) {

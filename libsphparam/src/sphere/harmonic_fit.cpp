@@ -1,0 +1,114 @@
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include "sphere/harmonic_degree.h"
+#include "sphparam/sphere/sphere_locator.h"
+#include "sphparam/sphere/spherical_harmonics.h"
+
+// First the projection by quadrature of the piecewise linear functions that the map carries to the
+// sphere; then, with W the vertices' shares of the sphere, conjugate gradients on
+//   YᵀWY c = YᵀW f
+// from there: YᵀWY is near the identity where triangles are small against a wave, and neither it
+// nor Y is ever made.
+
+namespace sphparam {
+namespace {
+
+/// Each vertex's share of the sphere: a third of its triangles' solid angles. Sums to 4π.
+Eigen::VectorXd solid_angles(const Topology& topology, const SphereMap& map) {
+  Eigen::VectorXd shares = Eigen::VectorXd::Zero(topology.vertex_count());
+  for (Face f = 0; f < topology.face_count(); ++f) {
+    const Vector3 a = map.point(topology.vertex(f, 0)), b = map.point(topology.vertex(f, 1)),
+                  c = map.point(topology.vertex(f, 2));
+    const double angle = 2 * std::atan2(a.dot(b.cross(c)), 1 + a.dot(b) + b.dot(c) + c.dot(a));
+    for (int k = 0; k < 3; ++k) shares[topology.vertex(f, k)] += angle / 3;
+  }
+  return shares;
+}
+
+/// Values at directions of the piecewise linear functions that a map carries to the sphere.
+Functions look_up(const Topology& topology, const SphereMap& map, const Functions& values,
+                  const Points& directions, int threads) {
+  const std::vector<SurfacePoint> points =
+      SphereLocator(topology, map, threads).locate_all(directions, threads);
+  Functions result(directions.rows(), values.cols());
+  for (size_t i = 0; i < points.size(); ++i) {
+    auto row = result.row(static_cast<Eigen::Index>(i));
+    row.setZero();
+    for (int k = 0; k < 3; ++k) {
+      row += points[i].barycentric[k] * values.row(topology.vertex(points[i].face, k));
+    }
+  }
+  return result;
+}
+
+/// Conjugate gradients on YᵀWY c = YᵀW f, all functions side by side, each with its own steps.
+class NormalEquations {
+ public:
+  NormalEquations(const Points& directions, const Eigen::VectorXd& weights,
+                  const HarmonicFitOptions& options)
+      : directions_(directions), weights_(weights), options_(options) {}
+
+  int solve(const Functions& values, Functions& coefficients) const {
+    const Eigen::ArrayXd enough =
+        options_.tolerance * options_.tolerance * transposed(values).colwise().squaredNorm();
+    Functions residual = transposed(values - synthesised(coefficients));
+    Functions direction = residual;
+    Eigen::ArrayXd squared = residual.colwise().squaredNorm();
+    int iteration = 0;
+    while (iteration < options_.most_iterations && (squared > enough).any()) {
+      report(options_.progress, "least squares",
+             static_cast<double>(iteration) / options_.most_iterations);
+      const Functions image = transposed(synthesised(direction));
+      const Eigen::ArrayXd curvature = direction.cwiseProduct(image).colwise().sum();
+      const Eigen::ArrayXd step =
+          (squared > enough && curvature > 0).select(squared / curvature, 0.0);
+      coefficients += direction * step.matrix().asDiagonal();
+      residual -= image * step.matrix().asDiagonal();
+      const Eigen::ArrayXd next = residual.colwise().squaredNorm();
+      const Eigen::ArrayXd keep = (squared > enough).select(next / squared, 0.0);
+      direction = residual + direction * keep.matrix().asDiagonal();
+      squared = next;
+      ++iteration;
+    }
+    return iteration;
+  }
+
+ private:
+  Functions synthesised(const Functions& coefficients) const {
+    return synthesise(coefficients, directions_, options_.threads);
+  }
+  Functions transposed(const Functions& values) const {
+    return analyse(options_.degree, directions_, weights_, values, options_.threads);
+  }
+
+  const Points& directions_;
+  const Eigen::VectorXd& weights_;
+  const HarmonicFitOptions& options_;
+};
+
+}  // namespace
+
+HarmonicFit fit_harmonics(const Topology& topology, const SphereMap& map, const Functions& values,
+                          const HarmonicFitOptions& options) {
+  require_harmonic_degree(options.degree);
+  if (values.rows() != topology.vertex_count() || map.points.rows() != topology.vertex_count()) {
+    throw std::invalid_argument("spherical harmonics: not one value and one ray a vertex");
+  }
+  report(options.progress, "quadrature", 0);
+  const QuadratureGrid grid = quadrature_grid(options.degree);
+  HarmonicFit fit;
+  fit.coefficients =
+      analyse(options.degree, grid.directions, grid.weights,
+              look_up(topology, map, values, grid.directions, options.threads), options.threads);
+  const Eigen::VectorXd shares = solid_angles(topology, map);
+  if (options.least_squares) {
+    fit.iterations = NormalEquations(map.points, shares, options).solve(values, fit.coefficients);
+  }
+  const Functions left = values - synthesise(fit.coefficients, map.points, options.threads);
+  fit.rms = ((shares.asDiagonal() * left.cwiseAbs2()).colwise().sum() / shares.sum()).cwiseSqrt();
+  return fit;
+}
+
+}  // namespace sphparam
