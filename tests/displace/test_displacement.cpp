@@ -1,0 +1,213 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "displace/displacement.h"
+#include "displace/displacement_file.h"
+#include "displace/interpolated_base.h"
+#include "displace/rebuild.h"
+#include "measure/surface_distance.h"
+#include "sphparam/sphere/spherical_coordinates.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tools;
+
+namespace {
+
+double bumps(const Vector3& q) { return 0.05 * std::sin(3 * q.x()) * std::cos(4 * q.y() + q.z()); }
+
+/// A base and a mesh that stands over it by `height` of the direction.
+struct Landscape {
+  DirectedBase base;
+  TriangleMesh mesh;
+  SphereMap map;
+  Topology topology;
+
+  template <class Height>
+  Landscape(const char* name, Scheme scheme, int cuts, const Height& height)
+      : Landscape(make_grid(parse_grid(name)), scheme, cuts, height) {}
+
+  Displacement displacement(int width, int threads = 0) const {
+    return make_displacement(base, mesh, topology, map,
+                             {.width = width, .height = width / 2, .threads = threads});
+  }
+
+ private:
+  template <class Height>
+  Landscape(const SphereGrid& grid, Scheme scheme, int cuts, const Height& height)
+      : base(grid, grid.directions, scheme),
+        mesh(over(base, cuts, height)),
+        map(directions(base, cuts)),
+        topology(mesh) {}
+
+  template <class Height>
+  static TriangleMesh over(const DirectedBase& base, int cuts, const Height& height) {
+    const Rebuilt flat = rebuild(base, Image(2, 1, 1), cuts);
+    TriangleMesh mesh = flat.base;
+    const Tessellation places =
+        tessellate(base.faces(), static_cast<int>(base.surface().control().rows()), cuts);
+    for (size_t v = 0; v < places.vertices.size(); ++v) {
+      const auto row = static_cast<Eigen::Index>(v);
+      const Vector3 normal = base.surface().evaluate(places.vertices[v]).normal();
+      mesh.positions.row(row) += height(flat.map.points.row(row).transpose()) * normal;
+    }
+    return mesh;
+  }
+  static SphereMap directions(const DirectedBase& base, int cuts) {
+    return rebuild(base, Image(2, 1, 1), cuts).map;
+  }
+};
+
+Vector3 centre(const Image& image, int column, int row) {
+  return to_cartesian({2 * std::numbers::pi * (column + 0.5) / image.width,
+                       std::numbers::pi * (row + 0.5) / image.height});
+}
+
+}  // namespace
+
+TEST_CASE("displacement: what stands over a base by a function of direction is that function") {
+  for (const auto& [name, scheme] : {std::pair("ico:2", Scheme::Loop),
+                                     {"cube:6", Scheme::CatmullClark},
+                                     {"uv:16x9", Scheme::CatmullClark}}) {
+    INFO(name);
+    const Landscape land(name, scheme, 24, bumps);
+    const Displacement made = land.displacement(128);
+    CHECK(made.missed == 0);
+    CHECK(made.inexact == 0);
+    CHECK(made.walked + made.cast == 128 * 64);
+    double worst = 0;
+    for (int row = 0; row < 64; ++row) {
+      for (int column = 0; column < 128; ++column) {
+        const double expected = bumps(centre(made.image, column, row)),
+                     is = static_cast<double>(*made.image.pixel(column, row));
+        worst = std::max(worst, std::abs(is - expected));
+        CHECK(is >= made.least - 1e-7);
+        CHECK(is <= made.greatest + 1e-7);
+      }
+    }
+    CHECK(worst < 1e-3);
+  }
+}
+
+TEST_CASE("displacement: of the base itself it is zero, of a parallel surface it is constant") {
+  for (const double height : {0.0, 0.1, -0.1}) {
+    const Landscape land("ico:2", Scheme::Loop, 24, [&](const Vector3&) { return height; });
+    const Displacement made = land.displacement(64);
+    CHECK(made.least == Approx(height).margin(1e-3));
+    CHECK(made.greatest == Approx(height).margin(1e-3));
+  }
+}
+
+TEST_CASE("displacement: the same bytes for any number of threads") {
+  const Landscape land("cube:4", Scheme::CatmullClark, 8, bumps);
+  CHECK(land.displacement(96, 1).image.pixels == land.displacement(96, 3).image.pixels);
+}
+
+TEST_CASE("displacement: cancelling ends it") {
+  const Landscape land("ico:1", Scheme::Loop, 4, bumps);
+  const auto cancel = [](std::string_view, double) { return false; };
+  CHECK_THROWS_AS(make_displacement(land.base, land.mesh, land.topology, land.map,
+                                    {.width = 16, .height = 8, .progress = cancel}),
+                  Cancelled);
+}
+
+TEST_CASE("rebuild: base and displacement give the source, however rough") {
+  // Waves that a base of 642 points cannot follow.
+  TriangleMesh source = tests::icosphere(6);
+  const SphereMap map{source.positions};
+  const auto radius = [](const Vector3& q) { return 1 + 0.02 * std::sin(25 * q.x() + 20 * q.z()); };
+  for (Eigen::Index v = 0; v < source.vertex_count(); ++v)
+    source.positions.row(v) *= radius(source.positions.row(v).transpose());
+  const SphereGrid grid = make_grid(parse_grid("ico:3"));
+  Points targets = grid.directions;
+  for (Eigen::Index v = 0; v < targets.rows(); ++v)
+    targets.row(v) *= radius(targets.row(v).transpose());
+  const DirectedBase base(grid, tests::interpolating_control(grid, targets, Scheme::Loop),
+                          Scheme::Loop);
+  const Displacement made =
+      make_displacement(base, source, Topology(source), map, {.width = 1024, .height = 512});
+  const Rebuilt rebuilt = rebuild(base, made.image, 12);
+  const double alone = measure_distance(source, rebuilt.base, {.samples = 20000}).rms(),
+               with = measure_distance(source, rebuilt.mesh, {.samples = 20000}).rms();
+  CHECK(alone > 0.005);
+  CHECK(with < alone / 10);
+}
+
+TEST_CASE("rebuild: a constant image moves every vertex along its normal by that much") {
+  const SphereGrid grid = make_grid(parse_grid("cube:5"));
+  const DirectedBase base(grid, 3 * grid.directions, Scheme::CatmullClark);
+  Image constant(8, 4, 1);
+  constant.pixels.assign(32, 0.25F);
+  const Rebuilt rebuilt = rebuild(base, constant, 3);
+  CHECK(rebuilt.mesh.vertex_count() == 6 * 25 * 9 + 2);
+  for (Eigen::Index v = 0; v < rebuilt.mesh.vertex_count(); ++v) {
+    const Vector3 moved = rebuilt.mesh.positions.row(v) - rebuilt.base.positions.row(v);
+    REQUIRE(moved.norm() == Approx(0.25));
+    REQUIRE(moved.normalized().dot(rebuilt.map.points.row(v)) > 0.9);
+  }
+}
+
+TEST_CASE("rebuild: as many vertices as asked for, and no coarser than two cuts an edge") {
+  const SphereGrid grid = make_grid(parse_grid("ico:2"));
+  const DirectedBase base(grid, grid.directions, Scheme::Loop);
+  CHECK(cuts_for(base, 1) == 2);
+  const int cuts = cuts_for(base, 10000);
+  CHECK(rebuild(base, Image(2, 1, 1), cuts).mesh.vertex_count() >= 10000);
+  CHECK(rebuild(base, Image(2, 1, 1), cuts - 1).mesh.vertex_count() < 10000);
+}
+
+TEST_CASE("rebuild: an image is read between the middles of texels, around and over the poles") {
+  Image image(4, 2, 1);
+  image.pixels = {1, 2, 3, 4, 5, 6, 7, 8};
+  for (int row = 0; row < 2; ++row) {
+    for (int column = 0; column < 4; ++column)
+      CHECK(displacement_in(image, centre(image, column, row)) ==
+            Approx(*image.pixel(column, row)));
+  }
+  CHECK(displacement_in(image, to_cartesian({0, std::numbers::pi / 4})) == Approx(2.5));
+  CHECK(displacement_in(image, Vector3::UnitX()) == Approx(4.5));
+  // At a pole: half this column, half the one opposite.
+  CHECK(displacement_in(image, Vector3::UnitZ()) == Approx((2.5 + 2.5) / 2));
+  const double near_pole = displacement_in(image, to_cartesian({std::numbers::pi / 4, 1e-9}));
+  CHECK(near_pole == Approx((1 + 3) / 2.0));
+}
+
+TEST_CASE("displacement file: what is read back is what was written, as near as the depth can") {
+  const Landscape land("ico:1", Scheme::Loop, 8, bumps);
+  const Displacement made = land.displacement(32);
+  const double range = made.greatest - made.least;
+  for (const auto& [depth, error] : {std::pair(ImageDepth::Float, 0.0),
+                                     {ImageDepth::Half, range / 2048},
+                                     {ImageDepth::Uint16, range / 65535 * 0.51}}) {
+    const std::vector<char> bytes = encode_displacement(made, depth, "ico:1", "loop");
+    const Image read = decode_displacement({bytes.data(), bytes.size()}, "d");
+    REQUIRE(read.pixels.size() == made.image.pixels.size());
+    for (size_t i = 0; i < read.pixels.size(); ++i)
+      REQUIRE(std::abs(static_cast<double>(read.pixels[i] - made.image.pixels[i])) <=
+              error + 1e-8 * (error > 0));
+    ImageTexts texts;
+    decode_image(bytes, "d", {}, &texts);
+    const auto has = [&](const char* name, const std::string& value) {
+      return std::find(texts.begin(), texts.end(), std::pair(std::string(name), value)) !=
+             texts.end();
+    };
+    CHECK(has("sphparam:map", "displacement"));
+    CHECK(has("sphparam:grid", "ico:1"));
+    CHECK(has("sphparam:scheme", "loop"));
+  }
+}
+
+TEST_CASE("displacement file: no displacement is told from one, and too large ones for half") {
+  CHECK_THROWS_AS(decode_displacement("nothing", "d"), ImageError);
+  const std::vector<char> plain =
+      encode_image(Image(2, 1, 1), ImageFormat::Exr, {.sample_type = SampleType::Float});
+  CHECK_THROWS_AS(decode_displacement({plain.data(), plain.size()}, "d"), ImageError);
+  Displacement huge{.image = Image(2, 1, 1), .least = 0, .greatest = 1e6};
+  CHECK_THROWS_AS(encode_displacement(huge, ImageDepth::Half, "ico:1", "loop"), std::range_error);
+  Displacement level{.image = Image(2, 1, 1), .least = 2, .greatest = 2};
+  level.image.pixels = {2, 2};
+  const std::vector<char> bytes = encode_displacement(level, ImageDepth::Uint16, "ico:1", "loop");
+  CHECK(decode_displacement({bytes.data(), bytes.size()}, "d").pixels == level.image.pixels);
+}

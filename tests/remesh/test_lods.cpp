@@ -1,0 +1,30 @@
+#include <catch2/catch.hpp>
+
+#include "remesh/lods.h"
+
+using namespace sphparam::tools;
+
+TEST_CASE("levels of detail: the coarser grid's vertices are the finer one's first, bit for bit") {
+  for (const char* name : {"ico:3", "octa:17", "cube:8"}) {
+    const SphereGrid fine = make_grid(parse_grid(name));
+    for (int halvings = 1; halvings <= 3; ++halvings) {
+      INFO(name << ", " << halvings);
+      const std::optional<GridSpec> spec = coarser_grid(parse_grid(name), halvings);
+      REQUIRE(spec);
+      const SphereGrid coarse = make_grid(*spec);
+      CHECK(coarse.faces.count() << 2 * halvings == fine.faces.count());
+      CHECK(coarse.directions == fine.directions.topRows(coarse.directions.rows()));
+    }
+    CHECK_FALSE(coarser_grid(parse_grid(name), 4));
+  }
+}
+
+TEST_CASE("levels of detail: what was not made by halving has none") {
+  for (const char* name : {"ico:f=8", "octa:7", "cube:6", "uv:16x8", "healpix:4"}) {
+    INFO(name);
+    CHECK_FALSE(coarser_grid(parse_grid(name), 1));
+  }
+  CHECK(name_of(*coarser_grid(parse_grid("ico:7"), 2)) == "ico:5");
+  CHECK(name_of(*coarser_grid(parse_grid("octa:129"), 3)) == "octa:17");
+  CHECK(name_of(*coarser_grid(parse_grid("cube:64"), 1)) == "cube:32");
+}
