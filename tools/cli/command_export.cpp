@@ -16,6 +16,7 @@
 #include "cli/export_look.h"
 #include "cli/export_report.h"
 #include "cli/interruption.h"
+#include "cli/level_path.h"
 #include "cli/mapped_source.h"
 #include "cli/paths.h"
 #include "cli/wording.h"
@@ -122,18 +123,6 @@ std::vector<std::pair<std::string, std::string>> provenance_extras(const ExportA
       {"source", display_name(arguments.input)}};
   for (const auto& [key, value] : mapped.provenance) extras.emplace_back("map_" + key, value);
   return extras;
-}
-
-/// The path of a level's file: {n} becomes its number, else _lodN is added from the second on.
-std::string level_path(const std::string& path, int level) {
-  const std::string number = std::to_string(level);
-  if (const size_t at = path.find("{n}"); at != std::string::npos)
-    return path.substr(0, at) + number + path.substr(at + 3);
-  if (level == 0) return path;
-  const fs::path whole(path);
-  return (whole.parent_path() /
-          (whole.stem().string() + "_lod" + number + whole.extension().string()))
-      .string();
 }
 
 /// Everything of one run on its way to the disk.

@@ -8,19 +8,26 @@
 #include <optional>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
+#include "cli/certified.h"
 #include "cli/exit_codes.h"
 #include "cli/interruption.h"
 #include "cli/like_grid.h"
 #include "cli/mapped_source.h"
 #include "cli/paths.h"
+#include "cli/remesh_adaptive.h"
 #include "cli/remesh_arguments.h"
+#include "cli/remesh_displacement.h"
 #include "cli/remesh_glb.h"
 #include "cli/remesh_images.h"
+#include "cli/remesh_lods.h"
 #include "cli/remesh_report.h"
+#include "cli/remesh_subdivision.h"
 #include "cli/wording.h"
 #include "mesh_io/mesh_reader.h"
 #include "mesh_io/mesh_writer.h"
+#include "mesh_io/read_back.h"
 #include "mesh_io/safe_file.h"
 #include "mesh_io/sphere_file.h"
 #include "remesh/polygon_ply.h"
@@ -35,11 +42,6 @@ namespace sphparam::tools {
 namespace {
 
 constexpr std::string_view like_prefix = "like:";
-
-/// What we wrote may be larger than what strangers may send.
-constexpr ReadOptions own_file = {.max_file_bytes = std::numeric_limits<std::uint64_t>::max(),
-                                  .max_line_bytes = std::numeric_limits<std::int64_t>::max(),
-                                  .max_ply_properties = std::numeric_limits<std::int64_t>::max()};
 
 std::string kind_of(const std::string& path) {
   return is_stream(path) ? ".ply" : extension_of(path);
@@ -60,11 +62,17 @@ void check_outputs(const RemeshArguments& arguments) {
     throw UsageMistake("-o: the new mesh is written as .ply, .obj or .glb, not as " +
                        output_name(arguments.output));
   }
-  if (arguments.output.empty() && arguments.csv.empty() && images_asked_for(arguments).empty()) {
+  if (arguments.output.empty() && arguments.limit_output.empty() && arguments.csv.empty() &&
+      arguments.displacement.empty() && images_asked_for(arguments).empty()) {
     throw UsageMistake("nothing to write: give -o, --geometry-image or --csv");
   }
   std::vector<std::pair<std::string, std::string>> outputs = {
-      {"-o", arguments.output}, {"--csv", arguments.csv}, {"--json", arguments.json}};
+      {"-o", arguments.output},
+      {"--limit-mesh", arguments.limit_output},
+      {"--displace", arguments.displacement},
+      {"--rebuild", arguments.rebuilt},
+      {"--csv", arguments.csv},
+      {"--json", arguments.json}};
   for (const ImageRequest& request : images_asked_for(arguments)) {
     outputs.emplace_back("the image of " + request.what, request.path);
   }
@@ -95,15 +103,6 @@ Remeshed remesh_source(const MappedSource& mapped, SphereGrid grid,
   }
 }
 
-/// Throws NotCertifiedError unless the grid is one, with the triangles of this mesh.
-void require_certified(const TriangleMesh& mesh, const SphereMap& map, const std::string& what,
-                       int threads) {
-  const Certificate certificate = certify(Topology(mesh, threads), map, threads);
-  if (!certificate.bijective()) {
-    throw NotCertifiedError(what + ": the map is " + verdict(certificate));
-  }
-}
-
 Provenance provenance(const RemeshArguments& arguments, const MappedSource& mapped) {
   Provenance lines = {{"version", version},
                       {"method", "remesh"},
@@ -112,19 +111,16 @@ Provenance provenance(const RemeshArguments& arguments, const MappedSource& mapp
   for (const auto& [key, value] : mapped.provenance) {
     if (key == "method") lines.emplace_back("source", value);
   }
+  if (arguments.adaptive) lines.emplace_back("options", "--adaptive");
+  if (arguments.subdivision) lines.emplace_back("subdivision", name_of(*arguments.subdivision));
   lines.emplace_back("verdict", "one-to-one");
   return lines;
 }
 
-void add_mesh(PendingFiles& files, const RemeshArguments& arguments, const MappedSource& mapped,
-              const Remeshed& result, Console& console) {
-  const std::string& path = arguments.output;
+void add_mesh(PendingFiles& files, const std::string& path, const RemeshArguments& arguments,
+              const MappedSource& mapped, const Remeshed& result) {
   if (kind_of(path) == ".obj") {
     files.add(path, serialise_obj(result.file));
-    return;
-  }
-  if (kind_of(path) == ".glb") {
-    add_glb(files, arguments, mapped, result, provenance(arguments, mapped), console);
     return;
   }
   MeshFile file = attach_map(result.file, result.map, provenance(arguments, mapped));
@@ -132,9 +128,35 @@ void add_mesh(PendingFiles& files, const RemeshArguments& arguments, const Mappe
                                         : serialise_ply(file);
   files.add(path, std::move(bytes), [&](std::string_view written) {
     const MeshFile read = read_mesh(written, path, own_file);
-    require_certified(read.mesh, read_sphere(read).value(), path + ", as written",
-                      arguments.threads);
+    require_certified(certify(Topology(read.mesh, arguments.threads), read_sphere(read).value(),
+                              arguments.threads),
+                      path + ", as written");
   });
+}
+
+void add_meshes(PendingFiles& files, const std::vector<RemeshLevel>& levels,
+                const MappedSource& mapped, Console& console) {
+  const RemeshArguments& arguments = levels.front().arguments;
+  if (arguments.output.empty()) return;
+  if (kind_of(arguments.output) == ".glb") {
+    add_glb(files, arguments, mapped, levels, provenance(arguments, mapped), console);
+    return;
+  }
+  for (const RemeshLevel& level : levels)
+    add_mesh(files, level.arguments.output, level.arguments, mapped, level.mesh);
+}
+
+RemeshLevel make_level(const MappedSource& mapped, SphereGrid grid,
+                       const RemeshArguments& arguments, Console& console) {
+  RemeshLevel level{arguments, remesh_source(mapped, std::move(grid), arguments, console)};
+  if (arguments.subdivision) level.fit = fit_subdivision(mapped, level.mesh, arguments, console);
+  console.progress("certify", 0);
+  const Remeshed& mesh = level.mesh;
+  require_certified(
+      certify(Topology(mesh.file.mesh, arguments.threads), mesh.map, arguments.threads),
+      arguments.grid);
+  if (interrupted()) throw Cancelled();
+  return level;
 }
 
 int run_remesh(const RemeshArguments& arguments) {
@@ -142,27 +164,50 @@ int run_remesh(const RemeshArguments& arguments) {
   check_outputs(arguments);
   const std::optional<GridSpec> spec = grid_asked_for(arguments);
   check_images(arguments, spec);
+  check_subdivision(arguments, spec);
+  check_displacement(arguments);
+  const std::vector<RemeshArguments> asked = levels_asked_for(arguments, spec);
   Console console(arguments.loudness.verbosity(), arguments.progress);
   const OrderlyInterruption orderly;
-  const MappedSource mapped =
-      read_mapped_source(arguments.input, arguments.sphere, arguments.threads, console);
+  MappedSource mapped = read_mapped_source(arguments.input, arguments.sphere, arguments.threads,
+                                           console, remeshing_lambda);
   console.progress("grid", 0);
   const Stopwatch grid_stopwatch;
   SphereGrid grid = grid_for(arguments, spec);
   const double grid_seconds = grid_stopwatch.seconds();
-  const Remeshed result = remesh_source(mapped, std::move(grid), arguments, console);
-  console.progress("certify", 0);
-  require_certified(result.file.mesh, result.map, arguments.grid, arguments.threads);
-  if (interrupted()) throw Cancelled();
+  std::optional<Adaptation> adaptation;
+  if (arguments.adaptive) {
+    adaptation = adapt_source(mapped, grid.directions.rows(), arguments, console);
+  }
+  std::vector<RemeshLevel> levels = {make_level(mapped, std::move(grid), asked.front(), console)};
+  for (size_t level = 1; level < asked.size(); ++level) {
+    const GridSpec coarse = parse_grid(asked[level].grid);
+    levels.push_back(make_level(mapped, make_grid(coarse, {.threads = arguments.threads}),
+                                asked[level], console));
+  }
+  if (levels.size() > 1) measure_levels(levels, mapped, console);
+  const Remeshed& result = levels.front().mesh;
+  const std::optional<SubdivisionFit>& fit = levels.front().fit;
   console.progress("write", 0);
   PendingFiles files;
-  if (!arguments.output.empty()) add_mesh(files, arguments, mapped, result, console);
+  add_meshes(files, levels, mapped, console);
+  if (!arguments.limit_output.empty()) {
+    add_mesh(files, arguments.limit_output, arguments, mapped,
+             limit_mesh(result, *fit, arguments.threads));
+  }
+  std::optional<DisplacementReport> displacement;
+  if (!arguments.displacement.empty())
+    displacement = add_displacement(files, arguments, mapped, result, *fit, console);
   if (spec) add_images(files, arguments, *spec, result);
   if (!arguments.csv.empty()) files.add(arguments.csv, sample_table(result.file, result.map));
   if (!arguments.json.empty()) {
     files.add(arguments.json, to_json(RemeshReport{.arguments = arguments,
                                                    .source = mapped,
                                                    .result = result,
+                                                   .adaptation = adaptation,
+                                                   .fit = fit,
+                                                   .displacement = displacement,
+                                                   .levels = levels,
                                                    .grid_seconds = grid_seconds,
                                                    .seconds = stopwatch.seconds()}));
   }
@@ -176,10 +221,13 @@ int run_remesh(const RemeshArguments& arguments) {
     console.detail("  means over cells at " + std::to_string(result.averaged) + " of " +
                    std::to_string(result.map.points.rows()) + " vertices");
   }
+  if (fit) console.say(fit_line(*fit, mapped.source.file.mesh));
+  if (displacement) console.say(displacement_lines(*displacement, mapped.source.file.mesh));
+  if (levels.size() > 1) console.say(level_lines(levels, mapped.source.file.mesh));
   std::string line = display_name(arguments.input) + ": " + arguments.grid + ", " +
                      std::to_string(result.map.points.rows()) +
                      " vertices, certified one-to-one, " + short_number(stopwatch.seconds()) + " s";
-  if (!arguments.output.empty()) line += " → " + output_name(arguments.output);
+  if (!arguments.output.empty()) line += " → " + output_name(levels.front().arguments.output);
   console.say(line);
   return Ok;
 }

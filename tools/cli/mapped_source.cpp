@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "cli/certified.h"
 #include "cli/exit_codes.h"
 #include "cli/paths.h"
 #include "cli/repairing.h"
@@ -47,17 +48,6 @@ std::optional<WrittenMap> written_map(const Source& source, const std::string& p
   return WrittenMap{std::move(*map), read_provenance(source.file)};
 }
 
-/// Throws NotCertifiedError, naming the file, with the faces that are at fault.
-void require_certified(const Topology& topology, const SphereMap& map, const std::string& name,
-                       int threads) {
-  const Certificate certificate = certify(topology, map, threads);
-  if (certificate.bijective()) return;
-  throw NotCertifiedError(name + ": the map is not one-to-one: " +
-                          (certificate.reversed
-                               ? "its sphere is seen from inside"
-                               : verdict(certificate) + "\n" + complaint(certificate)));
-}
-
 /// Rays as they are where they have unit length up to rounding; else divided by their length.
 SphereMap unit(SphereMap map) {
   constexpr double roundings = 8 * 2.22e-16;
@@ -66,11 +56,13 @@ SphereMap unit(SphereMap map) {
 }
 
 SphereMap make_map(const MappedSource& mapped, const std::string& name, Provenance& provenance,
-                   int threads, Console& console) {
+                   int threads, Console& console, double lambda) {
   ParameterizeOptions options;
+  options.energy.lambda = lambda;
   options.threads = threads;
   options.progress = [&](std::string_view stage, double f) { return console.progress(stage, f); };
-  Parameterization result = parameterize(mapped.source.file.mesh, options);
+  Parameterization result =
+      parameterize(mapped.source.file.mesh, mapped.source.topology.value(), options);
   if (!result.certificate.bijective()) {
     throw NotCertifiedError(name + ": no one-to-one map was found: " + verdict(result.certificate));
   }
@@ -87,7 +79,7 @@ SphereMap make_map(const MappedSource& mapped, const std::string& name, Provenan
 }  // namespace
 
 MappedSource read_mapped_source(const std::string& path, const std::string& sphere, int threads,
-                                Console& console) {
+                                Console& console, double lambda) {
   MappedSource mapped;
   mapped.source = read_source(path);
   require_mappable(mapped.source);
@@ -95,13 +87,13 @@ MappedSource read_mapped_source(const std::string& path, const std::string& sphe
   mapped.mapped_here = !written;
   const std::string name = display_name(written && !sphere.empty() ? sphere : path);
   if (written) {
-    const Topology topology(mapped.source.file.mesh);
-    require_certified(topology, written->map, name, threads);
+    const Topology& topology = mapped.source.topology.value();
+    require_certified(certify(topology, written->map, threads), name);
     mapped.map = unit(std::move(written->map));
-    require_certified(topology, mapped.map, name + ", with rays of unit length", threads);
+    require_certified(certify(topology, mapped.map, threads), name + ", with rays of unit length");
     mapped.provenance = std::move(written->provenance);
   } else {
-    mapped.map = make_map(mapped, name, mapped.provenance, threads, console);
+    mapped.map = make_map(mapped, name, mapped.provenance, threads, console, lambda);
   }
   return mapped;
 }

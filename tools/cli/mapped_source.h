@@ -19,10 +19,10 @@ struct MappedSource {
 
 /// Reads a mesh and its map: from the file `sphere`, of the same connectivity, where one is named
 /// (sx sy sz, or the vertices of a bare sphere about the origin); else sx sy sz of the mesh file
-/// itself; else the default map is made now, and said so.
+/// itself; else a map is made now, with the λ given, and said so.
 /// Throws: ReadError, also where the two are not one connectivity; MeshRefusal for what is no
 /// closed genus-0 mesh; NotCertifiedError where the map is not one-to-one; Cancelled.
 MappedSource read_mapped_source(const std::string& path, const std::string& sphere, int threads,
-                                Console& console);
+                                Console& console, double lambda = 1);
 
 }  // namespace sphparam::tools

@@ -6,6 +6,9 @@
 
 #include "cli/choice.h"
 #include "cli/common_options.h"
+#include "cli/remesh_displacement.h"
+#include "cli/remesh_lods.h"
+#include "cli/remesh_subdivision.h"
 
 namespace sphparam::tools {
 
@@ -19,13 +22,18 @@ constexpr char summary[] =
     "  sphparam remesh statue.sph.ply --grid ico:5 --sample cell --transfer color,uv -o low.obj\n"
     "  sphparam remesh lh.white.gii --sphere lh.sphere.gii --grid like:ref.sphere.gii -o lh.ply\n"
     "  sphparam remesh bennu.sph.ply --grid healpix:128 --csv bennu.csv\n"
+    "  sphparam remesh statue.sph.ply --grid cube:32 --subdiv-fit catmark -o base.obj\n"
+    "  sphparam remesh statue.sph.ply --grid ico:5 --subdiv-fit loop --displace disp.exr -o "
+    "base.glb\n"
+    "  sphparam remesh statue.sph.ply --grid ico:7 --lods 4 -o statue.glb\n"
     "  sphparam remesh statue.sph.ply --grid octa:257 --geometry-image gi.exr\n"
     "\n"
     "Grids: ico:L (icosahedron, L times halved), ico:f=N (its edges cut into N), octa:N (flat\n"
     "octahedron, N×N samples), cube:N (quads, N an edge), uv:WxH (meridians and rows),\n"
     "healpix:NSIDE (pixel centres in RING order), like:MESH (another sphere's vertices).\n"
     "The directions of the grid are the map of the result: a .ply is certified as `map` writes\n"
-    "it. Each vertex is located exactly; a mesh that carries no map is mapped first.\n";
+    "it. Each vertex is located exactly; a mesh that carries no map is mapped first\n"
+    "(as `map --lambda 5` does, which spreads a grid's vertices better than the default).\n";
 
 void add_outputs(CLI::App& command, RemeshArguments& arguments) {
   command
@@ -82,6 +90,11 @@ CLI::App* declare_remesh_arguments(CLI::App& program, RemeshArguments& arguments
                          "point: the surface at a direction; cell: its mean, weighted by area, "
                          "over the cell where the "
                          "grid is coarser than the mesh (default: point)");
+  command->add_flag("--adaptive", arguments.adaptive,
+                    "Relax the map first, so that where the surface bends it gets more vertices");
+  declare_subdivision_options(*command, arguments);
+  declare_displacement_options(*command, arguments);
+  declare_lod_options(*command, arguments);
   add_outputs(*command, arguments);
   add_threads(*command, arguments.threads);
   add_progress(*command, arguments.progress);

@@ -7,6 +7,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "remesh/geometry_image.h"
+#include "remesh/limit_surface.h"
 #include "remesh/remesh.h"
 
 namespace CLI {
@@ -23,6 +24,13 @@ struct RemeshArguments {
   std::string output;
   std::string transfer = "all";
   SampleMode sample = SampleMode::Point;
+  std::optional<Scheme> subdivision;  // fitted to the source
+  std::string limit_output;           // its points at the grid's vertices
+  std::string displacement;           // image of what the fit leaves
+  std::string displacement_size = "4096x2048";
+  std::string rebuilt;    // mesh of fit and image
+  int lods = 0;           // coarser meshes
+  bool adaptive = false;  // the map relaxed so that detail gets more vertices
   std::string geometry_image;
   std::string normal_image;
   std::vector<std::string> attribute_images;  // NAME=FILE

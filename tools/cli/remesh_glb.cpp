@@ -10,6 +10,7 @@
 #include "cli/exit_codes.h"
 #include "cli/export_look.h"
 #include "cli/paths.h"
+#include "cli/wording.h"
 #include "gltf/gltf_writer.h"
 #include "gltf/written_check.h"
 #include "mesh_io/read_options.h"
@@ -40,22 +41,19 @@ MappedSource as_source(const MappedSource& mapped, const Remeshed& result) {
   return made;
 }
 
-Asset make_asset(const RemeshArguments& arguments, const MappedSource& mapped,
-                 const MappedSource& made, const Provenance& provenance, Console& console) {
-  const MeshFile& file = made.source.file;
-  const ExportChartOptions chart_options{.threads = arguments.threads};
-  const ExportChart chart =
-      export_chart(file.mesh, Topology(file.mesh, arguments.threads), made.map, chart_options);
+ExportChart chart_of(const MappedSource& made, const RemeshArguments& arguments,
+                     const ExportChartOptions& options) {
+  const TriangleMesh& mesh = made.source.file.mesh;
+  ExportChart chart = export_chart(mesh, Topology(mesh, arguments.threads), made.map, options);
   if (!chart.chart.certificate.one_to_one()) {
     throw NotCertifiedError(
         arguments.grid + ": the grid is one-to-one, but thinner in (u, v) than doubles can tell: " +
         std::to_string(chart.chart.certificate.folded.size()) + " triangles fold there");
   }
-  ExportLook look = look_of(arguments, mapped, made, console);
-  ExportGeometry geometry = export_geometry(chart, file,
-                                            {.up = file.format.starts_with("glTF") ? Up::Y : Up::Z,
-                                             .buffers = {.colours = look.vertex_colours},
-                                             .threads = arguments.threads});
+  return chart;
+}
+
+Asset new_asset(const RemeshArguments& arguments, const Provenance& provenance, ExportLook look) {
   Asset asset;
   asset.name = is_stream(arguments.input)
                    ? "mesh"
@@ -64,17 +62,48 @@ Asset make_asset(const RemeshArguments& arguments, const MappedSource& mapped,
   asset.materials = std::move(look.materials);
   asset.extras = {{"source", display_name(arguments.input)}};
   for (const auto& [key, value] : provenance) asset.extras.emplace_back("map_" + key, value);
-  for (auto& extra : chart_extras(chart, geometry, chart_options))
-    asset.extras.push_back(std::move(extra));
-  asset.levels.push_back(std::move(geometry.surface));
+  return asset;
+}
+
+void add_error(Asset& asset, const RemeshLevel& level) {
+  const std::string name = "level_" + std::to_string(asset.levels.size());
+  asset.extras.emplace_back(name + "_grid", level.arguments.grid);
+  asset.extras.emplace_back(name + "_rms", short_number(level.rms, 6));
+  asset.extras.emplace_back(name + "_max", short_number(level.max, 6));
+}
+
+Asset make_asset(const RemeshArguments& arguments, const MappedSource& mapped,
+                 std::span<const RemeshLevel> levels, const Provenance& provenance,
+                 Console& console) {
+  const ExportChartOptions options{.threads = arguments.threads};
+  ExportLook look = look_of(arguments, mapped, as_source(mapped, levels.front().mesh), console);
+  const bool colours = look.vertex_colours;
+  Asset asset = new_asset(arguments, provenance, std::move(look));
+  for (const RemeshLevel& level : levels) {
+    const MappedSource made = as_source(mapped, level.mesh);
+    const MeshFile& file = made.source.file;
+    const ExportChart chart = chart_of(made, level.arguments, options);
+    ExportGeometry geometry =
+        export_geometry(chart, file,
+                        {.up = file.format.starts_with("glTF") ? Up::Y : Up::Z,
+                         .buffers = {.colours = colours},
+                         .threads = arguments.threads});
+    if (asset.levels.empty()) {
+      for (auto& extra : chart_extras(chart, geometry, options))
+        asset.extras.push_back(std::move(extra));
+    }
+    if (levels.size() > 1) add_error(asset, level);
+    asset.levels.push_back(std::move(geometry.surface));
+  }
   return asset;
 }
 
 }  // namespace
 
 void add_glb(PendingFiles& files, const RemeshArguments& arguments, const MappedSource& mapped,
-             const Remeshed& result, const Provenance& provenance, Console& console) try {
-  const Asset asset = make_asset(arguments, mapped, as_source(mapped, result), provenance, console);
+             std::span<const RemeshLevel> levels, const Provenance& provenance,
+             Console& console) try {
+  const Asset asset = make_asset(arguments, mapped, levels, provenance, console);
   files.add(arguments.output, glb_bytes(asset), [&](std::string_view written) {
     check_written(written, output_name(arguments.output), asset, {});
   });

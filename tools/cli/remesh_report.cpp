@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cli/remesh_subdivision.h"
 #include "sphparam/version.h"
 
 namespace sphparam::tools {
@@ -26,10 +27,21 @@ std::string to_json(const RemeshReport& report) {
   json["grid"]["faces"] = result.faces.count();
   json["grid"]["triangles"] = result.file.mesh.face_count();
   json["sample"] = report.arguments.sample == SampleMode::Cell ? "cell" : "point";
+  if (report.adaptation) {
+    json["adaptive"]["steps"] = report.adaptation->steps;
+    json["adaptive"]["least_density"] = report.adaptation->least_density;
+    json["adaptive"]["greatest_density"] = report.adaptation->greatest_density;
+  }
   json["averaged_vertices"] = result.averaged;
   json["carried"] = carried;
   json["certified"] = true;
+  if (report.fit) {
+    json["subdivision"] = fit_report(*report.fit, report.source.source.file.mesh);
+  }
+  if (report.displacement) json["displacement"] = to_json(*report.displacement, report.arguments);
+  if (report.levels.size() > 1) json["lods"] = to_json(report.levels);
   json["outputs"]["mesh"] = report.arguments.output;
+  json["outputs"]["limit_mesh"] = report.arguments.limit_output;
   json["outputs"]["geometry_image"] = report.arguments.geometry_image;
   json["outputs"]["normals"] = report.arguments.normal_image;
   json["outputs"]["attribute_images"] = report.arguments.attribute_images;

@@ -1,0 +1,111 @@
+// What a displacement image costs, beside the bake of positions of the same size. Both with their
+// encoder, as float EXR, and without. Ratios of one run, on two threads.
+//
+//   bench_displacement                      a rough ball of 82 k triangles on ico:5, 4096 × 2048
+//   bench_displacement MESH [GRID [WIDTH]]
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "bake/bake.h"
+#include "bake/make_scene.h"
+#include "bake/map_kinds.h"
+#include "displace/displacement_file.h"
+#include "image/image_writer.h"
+#include "mesh_io/mesh_reader.h"
+#include "mesh_io/welding.h"
+#include "remesh/subdivision_fit.h"
+#include "render/shading_normals.h"
+#include "sphparam/parameterize.h"
+#include "sphparam/stopwatch.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tools;
+
+namespace {
+
+constexpr int threads = 2;
+
+MeshFile rough_ball() {
+  MeshFile file;
+  file.mesh = tests::icosphere(6);
+  for (Eigen::Index v = 0; v < file.mesh.vertex_count(); ++v) {
+    const Vector3 q = file.mesh.positions.row(v);
+    file.mesh.positions.row(v) *=
+        1 + 0.2 * std::sin(3 * q.x() + 2 * q.y()) + 0.01 * std::sin(40 * q.x() + 35 * q.z());
+  }
+  return file;
+}
+
+struct Seconds {
+  double computing, encoding;
+  double all() const { return computing + encoding; }
+};
+
+Seconds bake_positions(const MeshFile& file, const SphereMap& map, int width) {
+  Stopwatch stopwatch;
+  Topology topology(file.mesh, threads);
+  BakeTarget target = make_target(file, topology, map, true, threads);
+  const BakeScene scene{
+      {file, map, std::move(topology), shading_normals(file), {}}, std::move(target), {}, threads};
+  std::vector<SurfaceField> fields;
+  fields.push_back(make_field("position", scene));
+  double encoding = 0;
+  ImageWriter writer({.width = width,
+                      .height = width / 2,
+                      .channels = 3,
+                      .format = ImageFormat::Exr,
+                      .sample_type = SampleType::Float},
+                     [](std::int64_t, std::string_view) {});
+  bake(scene, fields, {.width = width, .height = width / 2, .threads = threads},
+       [&](size_t, int, int rows, const float* values) {
+         const Stopwatch writing;
+         writer.write_rows(values, rows);
+         encoding += writing.seconds();
+       });
+  const double computing = stopwatch.lap() - encoding;
+  writer.close();
+  return {computing, encoding + stopwatch.lap()};
+}
+
+Seconds displace(const MeshFile& file, const SphereMap& map, const SphereGrid& grid,
+                 const SubdivisionFit& fit, int width) {
+  Stopwatch stopwatch;
+  const DirectedBase base(grid, fit.control, fit.topology->scheme(), threads);
+  const Displacement made =
+      make_displacement(base, file.mesh, Topology(file.mesh, threads), map,
+                        {.width = width, .height = width / 2, .threads = threads});
+  const double computing = stopwatch.lap();
+  encode_displacement(made, ImageDepth::Float, "", "");
+  return {computing, stopwatch.lap()};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const MeshFile file = argc > 1 ? prepare_for_mapping(read_mesh(argv[1])) : rough_ball();
+  const SphereGrid grid = make_grid(parse_grid(argc > 2 ? argv[2] : "ico:5"));
+  const int width = argc > 3 ? std::atoi(argv[3]) : 4096;
+  const SphereMap map = parameterize(file.mesh).map;
+  const Scheme scheme = grid.faces.degree(0) == 3 ? Scheme::Loop : Scheme::CatmullClark;
+  const SubdivisionFit fit =
+      fit_subdivision(file.mesh, map, grid, {.scheme = scheme, .threads = threads});
+  bake_positions(file, map, width / 4);  // warms what is warmed once
+  const Seconds baked = bake_positions(file, map, width);
+  const Seconds displaced = displace(file, map, grid, fit, width);
+  const double texels = 0.5 * width * width;
+  std::printf("%ld triangles, %ld control points, %d × %d\n",
+              static_cast<long>(file.mesh.face_count()), static_cast<long>(fit.control.rows()),
+              width, width / 2);
+  const auto row = [&](const char* what, const Seconds& seconds) {
+    std::printf("  %-14s %7.2f s (%5.0f ns a texel) + encoding %6.2f s = %6.2f s\n", what,
+                seconds.computing, 1e9 * seconds.computing / texels, seconds.encoding,
+                seconds.all());
+  };
+  row("position bake", baked);
+  row("displacement", displaced);
+  std::printf("  displacement / bake: %.2f with encoding (wanted: at most 2), %.2f without\n",
+              displaced.all() / baked.all(), displaced.computing / baked.computing);
+}

@@ -1,0 +1,227 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <csignal>
+#include <cstdint>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "mesh_io/mesh_reader.h"
+#include "mesh_io/sphere_file.h"
+#include "program.h"
+#include "support/test_meshes.h"
+
+/// `sphparam remesh --displace`, `--rebuild` and `--lods`.
+namespace sphparam::tests {
+
+namespace {
+
+using Catch::Contains;
+using Json = nlohmann::json;
+
+/// A ball with waves that a few control points cannot follow.
+std::string wavy_ball() {
+  TriangleMesh mesh = icosphere(5);
+  for (Eigen::Index v = 0; v < mesh.vertex_count(); ++v) {
+    const Vector3 q = mesh.positions.row(v);
+    mesh.positions.row(v) *= 1 + 0.02 * std::sin(20 * q.x() + 15 * q.z());
+  }
+  return obj_text(mesh);
+}
+
+std::vector<std::string> displacing(const Folder& folder) {
+  return {"remesh",
+          folder / "m.obj",
+          "--grid",
+          "ico:3",
+          "--subdiv-fit",
+          "loop",
+          "--displace",
+          folder / "d.exr",
+          "--displace-size",
+          "1024x512",
+          "--rebuild",
+          folder / "r.ply",
+          "-o",
+          folder / "b.ply",
+          "--json",
+          folder / "j.json"};
+}
+
+}  // namespace
+
+TEST_CASE("remesh --displace: surface and image rebuild the mesh, and the report says how well") {
+  const Folder folder;
+  write_bytes(folder / "m.obj", wavy_ball());
+  const Ended ended = sphparam_program(displacing(folder));
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  const Json displacement = Json::parse(bytes_of(folder / "j.json"))["displacement"];
+  CHECK(displacement["width"] == 1024);
+  CHECK(displacement["min"] < 0);
+  CHECK(displacement["max"] > 0);
+  const Json& texels = displacement["texels"];
+  CHECK(texels["walked"].get<long>() + texels["cast"].get<long>() + texels["missed"].get<long>() ==
+        1024 * 512);
+  const Json& rebuilt = displacement["rebuilt"];
+  CHECK(rebuilt["error"]["rms"].get<double>() < rebuilt["base_error"]["rms"].get<double>() / 10);
+  CHECK(rebuilt["certified"] == true);
+  const Ended verified = sphparam_program({"verify", folder / "r.ply"});
+  CHECK(verified.code == 0);
+  CHECK_THAT(ended.err + ended.out, Contains("rebuilt: RMS"));
+}
+
+TEST_CASE("remesh --displace: the same bytes for any number of threads") {
+  const Folder folder;
+  write_bytes(folder / "m.obj", wavy_ball());
+  std::vector<std::string> first = displacing(folder), second = first;
+  first.insert(first.end(), {"--threads", "1"});
+  second.insert(second.end(), {"--threads", "3"});
+  REQUIRE(sphparam_program(first).code == 0);
+  const std::string image = bytes_of(folder / "d.exr"), mesh = bytes_of(folder / "r.ply");
+  REQUIRE(sphparam_program(second).code == 0);
+  CHECK(bytes_of(folder / "d.exr") == image);
+  CHECK(bytes_of(folder / "r.ply") == mesh);
+}
+
+TEST_CASE("remesh --displace: in 16 bits and half precision too") {
+  const Folder folder;
+  write_bytes(folder / "m.obj", wavy_ball());
+  for (const auto& [file, depth] : {std::pair("d.png", "u16"), {"h.exr", "half"}}) {
+    const Ended ended =
+        sphparam_program({"remesh", folder / "m.obj", "--grid", "cube:8", "--subdiv-fit", "catmark",
+                          "--displace", folder / file, "--depth", depth, "--displace-size",
+                          "256x128", "--rebuild", folder / "r.obj", "--json", "-"});
+    INFO(ended.err);
+    REQUIRE(ended.code == 0);
+    const Json rebuilt = Json::parse(ended.out)["displacement"]["rebuilt"];
+    CHECK(rebuilt["error"]["rms"].get<double>() < rebuilt["base_error"]["rms"].get<double>() / 5);
+  }
+}
+
+TEST_CASE("remesh --displace: what makes no sense is refused before any work") {
+  const Folder folder;
+  write_bytes(folder / "m.obj", wavy_ball());
+  const auto refused = [&](std::vector<std::string> more, const char* why) {
+    std::vector<std::string> arguments = {"remesh", folder / "m.obj", "--grid", "ico:2"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Ended ended = sphparam_program(arguments);
+    INFO(ended.err);
+    CHECK(ended.code == 2);
+    CHECK_THAT(ended.err, Contains(why));
+  };
+  const std::string image = folder / "d.exr";
+  refused({"--displace", image}, "give --subdiv-fit");
+  refused({"--rebuild", folder / "r.ply", "-o", folder / "b.ply"}, "--displace, which is missing");
+  refused({"--subdiv-fit", "loop", "--displace", folder / "d.jpg"}, ".exr or .png");
+  refused({"--subdiv-fit", "loop", "--displace", "-"}, ".exr or .png");
+  refused({"--subdiv-fit", "loop", "--displace", image, "--depth", "u16"}, "u16 into .png");
+  for (const char* size : {"512", "511x256", "0x0", "512x", "x", "-4x4", "99999998x99999999"})
+    refused({"--subdiv-fit", "loop", "--displace", image, "--displace-size", size},
+            "--displace-size");
+  refused({"--subdiv-fit", "loop", "--displace", image, "--rebuild", folder / "r.glb"},
+          ".ply or .obj");
+  refused({"--subdiv-fit", "loop", "--displace", image, "--rebuild", folder / "m.obj"},
+          "--rebuild");
+  CHECK(folder.names() == std::vector<std::string>{"m.obj"});
+}
+
+TEST_CASE("remesh --displace: all outputs get their names or none does") {
+  const Folder folder;
+  write_bytes(folder / "m.obj", wavy_ball());
+  std::vector<std::string> arguments = displacing(folder);
+  arguments.back() = folder / "no such folder/j.json";
+  CHECK(sphparam_program(arguments).code == 3);
+  CHECK(folder.names() == std::vector<std::string>{"m.obj"});
+}
+
+TEST_CASE("remesh --displace: an interruption leaves nothing") {
+  const Folder folder;
+  write_bytes(folder / "m.obj", wavy_ball());
+  std::vector<std::string> arguments = displacing(folder);
+  *std::find(arguments.begin(), arguments.end(), "1024x512") = "16384x8192";
+  arguments.insert(arguments.end(), {"--progress", "json"});
+  Running running(arguments, "");
+  while (running.err_so_far().find("displacement") == std::string::npos) {
+  }
+  running.signal(SIGINT);
+  CHECK(running.wait().code == 130);
+  CHECK(folder.names() == std::vector<std::string>{"m.obj"});
+}
+
+TEST_CASE("remesh --lods: nested meshes, each certified, with errors that grow") {
+  const Folder folder;
+  write_bytes(folder / "m.obj", wavy_ball());
+  const Ended ended = sphparam_program({"remesh", folder / "m.obj", "--grid", "ico:4", "--lods",
+                                        "2", "-o", folder / "x.ply", "--json", folder / "j.json"});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  const Json levels = Json::parse(bytes_of(folder / "j.json"))["lods"];
+  REQUIRE(levels.size() == 3);
+  tools::MeshFile finer = tools::read_mesh(folder / "x.ply");
+  for (size_t level = 1; level < 3; ++level) {
+    const std::string path = folder / ("x_lod" + std::to_string(level) + ".ply");
+    CHECK(levels[level]["file"] == path);
+    CHECK(levels[level]["rms"].get<double>() > levels[level - 1]["rms"].get<double>());
+    CHECK(sphparam_program({"verify", path}).code == 0);
+    const tools::MeshFile coarse = tools::read_mesh(path);
+    const Eigen::Index count = coarse.mesh.vertex_count();
+    CHECK(coarse.mesh.face_count() * 4 == finer.mesh.face_count());
+    CHECK(coarse.mesh.positions == finer.mesh.positions.topRows(count));
+    CHECK(tools::read_sphere(coarse)->points == tools::read_sphere(finer)->points.topRows(count));
+    finer = coarse;
+  }
+}
+
+TEST_CASE("remesh --lods: levels of one .glb, the finest shown by who knows no levels") {
+  const Folder folder;
+  write_bytes(folder / "m.obj", wavy_ball());
+  const Ended ended = sphparam_program(
+      {"remesh", folder / "m.obj", "--grid", "cube:8", "--lods", "3", "-o", folder / "x.glb"});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  const std::string bytes = bytes_of(folder / "x.glb");
+  std::uint32_t length = 0;  // of the JSON chunk, after the header of the file and its own
+  std::memcpy(&length, bytes.data() + 12, sizeof length);
+  const Json gltf = Json::parse(bytes.substr(20, length));
+  CHECK(gltf["nodes"][0]["extensions"]["MSFT_lod"]["ids"] == Json{1, 2, 3});
+  CHECK(gltf["scenes"][0]["nodes"] == Json{0});
+  CHECK(folder.names() == std::vector<std::string>{"m.obj", "x.glb"});
+}
+
+TEST_CASE("remesh --lods: with a fit each level is a surface of its own; {n} is the number") {
+  const Folder folder;
+  write_bytes(folder / "m.obj", wavy_ball());
+  const Ended ended = sphparam_program({"remesh", folder / "m.obj", "--grid", "octa:17", "--lods",
+                                        "2", "--subdiv-fit", "loop", "-o", folder / "x{n}.obj"});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  CHECK(folder.names() == std::vector<std::string>{"m.obj", "x0.obj", "x1.obj", "x2.obj"});
+}
+
+TEST_CASE("remesh --lods: grids without levels and files without names are refused") {
+  const Folder folder;
+  write_bytes(folder / "m.obj", wavy_ball());
+  const auto refused = [&](const char* grid, const char* lods, const std::string& output,
+                           const char* why) {
+    const Ended ended = sphparam_program({"remesh", folder / "m.obj", "--grid", grid, "--lods",
+                                          lods, output.empty() ? "--csv" : "-o",
+                                          output.empty() ? folder / "x.csv" : output});
+    INFO(ended.err);
+    CHECK(ended.code == 2);
+    CHECK_THAT(ended.err, Contains(why));
+  };
+  refused("uv:16x8", "1", folder / "x.ply", "no coarser grids");
+  refused("octa:7", "1", folder / "x.ply", "no coarser grids");
+  refused("ico:2", "3", folder / "x.ply", "only 2 coarser");
+  refused("ico:2", "13", folder / "x.ply", "0 to 12");
+  refused("ico:2", "1", "-", "give -o a name");
+  refused("ico:2", "1", "", "give -o");
+  write_bytes(folder / "m_lod1.ply", "mine");
+  const Ended ended = sphparam_program(
+      {"remesh", folder / "m_lod1.ply", "--grid", "ico:2", "--lods", "1", "-o", folder / "m.ply"});
+  CHECK(ended.code == 2);
+  CHECK(bytes_of(folder / "m_lod1.ply") == "mine");
+}
+
+}  // namespace sphparam::tests

@@ -1,0 +1,98 @@
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "mesh_io/mesh_reader.h"
+#include "program.h"
+#include "support/test_meshes.h"
+
+/// `sphparam remesh --subdiv-fit`.
+namespace sphparam::tests {
+
+namespace {
+
+using Json = nlohmann::json;
+using Names = std::vector<std::string>;
+
+/// A mapped mesh in a folder of its own.
+struct Mapped {
+  Folder folder;
+  std::string path = folder / "shape.sph.ply";
+  Mapped() {
+    const Ended ended =
+        sphparam_program({"map", "-", "-o", path}, obj_text(random_sphere_mesh(300, 8)));
+    REQUIRE(ended.code == 0);
+  }
+  Ended remesh(Names arguments) const {
+    arguments.insert(arguments.begin(), {"remesh", path});
+    return sphparam_program(arguments);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("remesh --subdiv-fit: control mesh and limit mesh are written certified, and reported") {
+  const Mapped mapped;
+  const std::string out = mapped.folder / "base.ply", limit = mapped.folder / "limit.ply",
+                    json = mapped.folder / "fit.json";
+  for (const Names& asked :
+       {Names{"ico:2", "loop"}, Names{"octa:9", "loop"}, Names{"like:" + mapped.path, "loop"},
+        Names{"cube:6", "catmark"}, Names{"uv:12x8", "catmark"}, Names{"healpix:4", "catmark"}}) {
+    INFO(asked[0]);
+    const Ended ended = mapped.remesh({"--grid", asked[0], "--subdiv-fit", asked[1], "-o", out,
+                                       "--limit-mesh", limit, "--json", json});
+    INFO(ended.err);
+    REQUIRE(ended.code == 0);
+    for (const std::string& file : {out, limit}) {
+      CHECK(sphparam_program({"verify", file}).code == 0);
+      const tools::MeshFile read = tools::read_mesh(std::filesystem::path(file));
+      for (const char* name : {"nx", "ny", "nz", "mean_curvature", "gauss_curvature"}) {
+        CHECK(read.find_vertex_property(name));
+      }
+    }
+    CHECK(tools::read_mesh(std::filesystem::path(out)).mesh.positions !=
+          tools::read_mesh(std::filesystem::path(limit)).mesh.positions);
+    const Json fit = Json::parse(bytes_of(json))["subdivision"];
+    CHECK(fit["scheme"] == asked[1]);
+    CHECK(fit["rms"] <= fit["max"]);
+    CHECK(fit["solver_steps"].size() == 4);
+  }
+}
+
+TEST_CASE("remesh --subdiv-fit: .obj and .glb too, the same bytes for one thread and three") {
+  const Mapped mapped;
+  for (const std::string& kind : Names{".ply", ".obj", ".glb"}) {
+    INFO(kind);
+    for (const std::string& threads : Names{"1", "3"}) {
+      const std::string out = mapped.folder / (threads + kind);
+      CHECK(mapped
+                .remesh({"--grid", "cube:8", "--subdiv-fit", "catmark", "-o", out, "--threads",
+                         threads})
+                .code == 0);
+    }
+    CHECK(bytes_of(mapped.folder / ("1" + kind)) == bytes_of(mapped.folder / ("3" + kind)));
+  }
+}
+
+TEST_CASE("remesh --subdiv-fit: what makes no sense is refused, and nothing is written") {
+  const Mapped mapped;
+  const std::string out = mapped.folder / "base.ply";
+  const auto refused = [&](const Names& more, const std::string& words) {
+    Names arguments = {"-o", out};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Ended ended = mapped.remesh(arguments);
+    CHECK(ended.code == 2);
+    CHECK_THAT(ended.err, Catch::Contains(words));
+    CHECK(sphparam_program({"verify", out}).code == 3);
+  };
+  refused({"--grid", "cube:8", "--subdiv-fit", "loop"}, "use catmark");
+  refused({"--grid", "ico:2", "--subdiv-fit", "catmark"}, "use loop");
+  refused({"--grid", "like:" + mapped.path, "--subdiv-fit", "catmark"}, "use loop");
+  refused({"--grid", "uv:513x4", "--subdiv-fit", "catmark"}, "512");
+  refused({"--grid", "ico:2", "--subdiv-fit", "lop"}, "did you mean loop?");
+  refused({"--grid", "ico:2", "--limit-mesh", mapped.folder / "l.ply"}, "--subdiv-fit");
+  refused({"--grid", "ico:2", "--subdiv-fit", "loop", "--limit-mesh", mapped.path}, "--limit-mesh");
+  refused({"--grid", "ico:2", "--subdiv-fit", "loop", "--limit-mesh", mapped.folder / "l.glb"},
+          ".obj");
+}
+
+}  // namespace sphparam::tests

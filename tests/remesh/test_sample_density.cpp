@@ -1,0 +1,91 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "measure/surface_distance.h"
+#include "remesh/remesh.h"
+#include "remesh/sample_density.h"
+#include "sphparam/parameterize.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+using namespace sphparam::tools;
+
+namespace {
+
+/// An egg: its tip at +z bends three times as much as anything else.
+TriangleMesh egg() {
+  TriangleMesh mesh = icosphere(5);
+  for (Eigen::Index v = 0; v < mesh.vertex_count(); ++v) {
+    if (mesh.positions(v, 2) > 0) mesh.positions(v, 2) *= 3;
+  }
+  return mesh;
+}
+
+double remeshed_rms(const TriangleMesh& mesh, const SphereMap& map, const SphereGrid& grid) {
+  MeshFile file;
+  file.mesh = mesh;
+  const Remeshed result = remesh(file, map, grid, {.transfer = {"none"}});
+  return measure_distance(mesh, result.file.mesh, {.samples = 20'000}).rms();
+}
+
+}  // namespace
+
+TEST_CASE("A sphere has the same density everywhere") {
+  const TriangleMesh mesh = icosphere(4);
+  const Eigen::VectorXd density = sample_density(mesh, Topology(mesh), 642);
+  CHECK(density.minCoeff() > 0.9);  // vertices of valence 5 have smaller stars
+  CHECK(density.maxCoeff() < 1.1);
+}
+
+TEST_CASE("Density does not depend on the mesh's size, which may be extreme") {
+  TriangleMesh mesh = egg();
+  const Topology topology(mesh);
+  const Eigen::VectorXd density = sample_density(mesh, topology, 642);
+  for (const double size : {1e-290, 1e-3, 1e290}) {
+    TriangleMesh other = mesh;
+    other.positions *= size;
+    CHECK((sample_density(other, topology, 642) - density).cwiseAbs().maxCoeff() < 1e-6);
+  }
+}
+
+TEST_CASE("Where the surface bends density is greater, by a bounded ratio") {
+  const TriangleMesh mesh = egg();
+  const Eigen::VectorXd density = sample_density(mesh, Topology(mesh), 642);
+  Eigen::Index tip = 0, flank = 0;
+  mesh.positions.col(2).maxCoeff(&tip);
+  (mesh.positions.rowwise() - Eigen::RowVector3d(1, 0, 1)).rowwise().norm().minCoeff(&flank);
+  CHECK(density[tip] > 2 * density[flank]);
+  for (const TriangleMesh& hard : {random_sphere_mesh(300, 5), tube(200, 5), tetrahedron()}) {
+    const Eigen::VectorXd of_hard = sample_density(hard, Topology(hard), 162);
+    CHECK(of_hard.minCoeff() >= 0.1);
+    CHECK(of_hard.allFinite());
+  }
+}
+
+TEST_CASE("A surface without area has density 1") {
+  TriangleMesh mesh = icosahedron();
+  mesh.positions.setZero();
+  CHECK(sample_density(mesh, Topology(mesh), 42) == Eigen::VectorXd::Ones(12));
+}
+
+TEST_CASE("An adapted map is one-to-one, and a grid on it is nearer to its source") {
+  const TriangleMesh mesh = egg();
+  const Topology topology(mesh);
+  const SphereMap map = parameterize(mesh, {.energy = {.lambda = remeshing_lambda}}).map;
+  const SphereGrid grid = make_grid(parse_grid("ico:3"));
+  const Adaptation adapted = adapt_map(mesh, topology, map, grid.directions.rows());
+  CHECK(certify(topology, adapted.map).bijective());
+  CHECK(adapted.steps > 0);
+  CHECK(adapted.least_density < 1);
+  CHECK(adapted.greatest_density > 1);
+  CHECK(remeshed_rms(mesh, adapted.map, grid) < 0.9 * remeshed_rms(mesh, map, grid));
+}
+
+TEST_CASE("The adapted map has the same bytes for any number of threads") {
+  const TriangleMesh mesh = egg();
+  const Topology topology(mesh);
+  const SphereMap map = parameterize(mesh).map;
+  const SphereMap one = adapt_map(mesh, topology, map, 642, {.threads = 1}).map;
+  CHECK(adapt_map(mesh, topology, map, 642, {.threads = 3}).map.points == one.points);
+}

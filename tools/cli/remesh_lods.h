@@ -1,0 +1,43 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/console.h"
+#include "cli/mapped_source.h"
+#include "cli/remesh_arguments.h"
+#include "remesh/remesh.h"
+#include "remesh/subdivision_fit.h"
+
+namespace sphparam::tools {
+
+// `remesh --lods`: the same mesh on coarser grids of the same family. Their vertices are the first
+// ones of the finer grid's; plain samples of both are the same points. With --subdiv-fit each level
+// is a fit of its own: nested in vertices and directions, as near to the mesh as each can be.
+
+void declare_lod_options(CLI::App& command, RemeshArguments& arguments);
+
+/// The command line of each level, finest first, as if it had been asked for alone: its grid, its
+/// file. Throws UsageMistake where the grid has no such levels, or there is no file to name after.
+std::vector<RemeshArguments> levels_asked_for(const RemeshArguments& arguments,
+                                              const std::optional<GridSpec>& grid);
+
+/// A mesh on a grid, and the surface fitted where one is wanted: its control mesh is the mesh.
+struct RemeshLevel {
+  RemeshArguments arguments;  // its own
+  Remeshed mesh;
+  std::optional<SubdivisionFit> fit = {};
+  double rms = 0, max = 0;  // from the source, both ways; of the limit surface where one is fitted
+};
+
+/// Measures all levels. Throws: Cancelled.
+void measure_levels(std::vector<RemeshLevel>& levels, const MappedSource& mapped, Console& console);
+
+/// Lines for people.
+std::string level_lines(const std::vector<RemeshLevel>& levels, const TriangleMesh& source);
+/// For --json.
+nlohmann::ordered_json to_json(const std::vector<RemeshLevel>& levels);
+
+}  // namespace sphparam::tools
