@@ -21,8 +21,8 @@ constexpr int growth = 4;  // from one level that is due to the next
 constexpr double worthwhile = 1e-3;
 constexpr int coarse_steps = 20, finest_steps = 8, best_steps = 100;
 // Gains halve from step to step, or better: what is left is no more than the last gain.
-constexpr double coarse_gain = 2e-3, finest_gain = 3e-3, best_gain = 1e-6;
-constexpr int sweeps_between = 8;
+constexpr double coarse_gain = 4e-3, finest_gain = 3e-3, best_gain = 1e-6;
+constexpr int sweeps_between = 5;
 constexpr double linear_tolerance = 0.5;
 
 /// Levels up to this size cost hardly anything.
