@@ -58,6 +58,23 @@ TEST_CASE("remesh --subdiv-fit: control mesh and limit mesh are written certifie
   }
 }
 
+TEST_CASE("remesh --subdiv-fit: a grid too coarse for a smooth surface is told") {
+  const Folder folder;
+  const std::string json = folder / "fit.json";
+  const auto fit = [&](const TriangleMesh& mesh) {
+    const Ended ended = sphparam_program({"remesh", "-", "--grid", "ico:1", "--subdiv-fit", "loop",
+                                          "-o", folder / "base.ply", "--json", json},
+                                         obj_text(mesh));
+    REQUIRE(ended.code == 0);
+    const Json report = Json::parse(bytes_of(json))["subdivision"];
+    const bool worse = report["rms"] > report["flat_rms"];
+    CHECK((ended.err.find("too coarse for a smooth surface") != std::string::npos) == worse);
+    return worse;
+  };
+  CHECK_FALSE(fit(icosphere(3)));
+  CHECK(fit(random_sphere_mesh(200, 3)));  // crumpled
+}
+
 TEST_CASE("remesh --subdiv-fit: .obj and .glb too, the same bytes for one thread and three") {
   const Mapped mapped;
   for (const std::string& kind : Names{".ply", ".obj", ".glb"}) {
