@@ -1,7 +1,7 @@
 // Displacement images: how far a fitted base alone is from its mesh, and how far base and image
 // together are, read back from the bytes of the file.
 //
-// Usage: displacement_tables MESH… [--grid ico:5] [--size 4096x2048] [--depth float|half|u16]
+// Usage: displacement_tables MESH… [--grid ico:5] [--width 4096] [--depth float|half|u16]
 // Markdown on standard output. Ends with 1 where a rebuilt mesh is farther than a tenth of its
 // base.
 

@@ -224,4 +224,18 @@ TEST_CASE("remesh --lods: grids without levels and files without names are refus
   CHECK(bytes_of(folder / "m_lod1.ply") == "mine");
 }
 
+TEST_CASE("remesh: no level is written over the mesh, and nothing over the grid it is like") {
+  const Folder folder;
+  const std::string mesh = folder / "m0.obj", grid = folder / "grid.obj";
+  for (const std::string& path : {mesh, grid}) write_bytes(path, obj_text(icosphere(2)));
+  const std::string before = bytes_of(mesh);
+  const Ended levels = sphparam_program(
+      {"remesh", mesh, "--grid", "ico:1", "--lods", "1", "-o", folder / "m{n}.obj"});
+  CHECK(levels.code == 2);
+  CHECK_THAT(levels.err, Contains("is the input"));
+  CHECK(sphparam_program({"remesh", mesh, "--grid", "like:" + grid, "-o", grid}).code == 2);
+  CHECK(bytes_of(mesh) == before);
+  CHECK(bytes_of(grid) == before);
+}
+
 }  // namespace sphparam::tests

@@ -160,12 +160,19 @@ struct Sphere {
 
 /// GIFTI has coordinates of 32 bits. Rounding must not cost a certified map its certificate; one
 /// that is folded anyway may get other folds.
-Sphere sphere_for(const std::string& path, const Outcome& outcome, int threads) {
+Sphere sphere_for(const std::string& path, const Outcome& outcome,
+                  const ParameterizeOptions& options) {
   if (extension_of(path) != ".gii") {
     return {outcome.result.map, outcome.verdict()};
   }
-  auto [rounding, least_area] = round_with_room(outcome.source.file.mesh, outcome.topology(),
-                                                outcome.result.map, {.threads = threads});
+  auto [rounding, least_area] = round_with_room(
+      outcome.source.file.mesh, outcome.topology(), outcome.result.map,
+      {.energy = options.energy, .threads = options.threads, .progress = options.progress});
+  if (least_area > 0 && !outcome.pins.empty()) {
+    throw NotCertifiedError(path +
+                            ": numbers of 32 bits cannot hold this map with its pins; "
+                            ".ply, .obj and .off can");
+  }
   const bool certified = outcome.certificate.bijective();
   if (certified && !rounding.certificate.bijective()) {
     throw NotCertifiedError(path + ": numbers of 32 bits cannot hold this map (" +
@@ -178,7 +185,9 @@ Sphere sphere_for(const std::string& path, const Outcome& outcome, int threads) 
 void add_sphere(PendingFiles& files, const MapArguments& arguments, const Outcome& outcome,
                 Console& console) {
   const std::string& path = arguments.sphere;
-  const Sphere sphere = sphere_for(path, outcome, arguments.options.threads);
+  ParameterizeOptions options = arguments.options;
+  options.progress = [&](std::string_view stage, double f) { return console.progress(stage, f); };
+  const Sphere sphere = sphere_for(path, outcome, options);
   if (sphere.least_area > 0) {
     console.say("  " + path + ": mapped anew for numbers of 32 bits: triangles under " +
                 short_number(sphere.least_area) + " of the mean area count as that large");

@@ -15,6 +15,7 @@
 #include "cli/interruption.h"
 #include "cli/like_grid.h"
 #include "cli/mapped_source.h"
+#include "cli/measurable.h"
 #include "cli/paths.h"
 #include "cli/remesh_adaptive.h"
 #include "cli/remesh_arguments.h"
@@ -79,6 +80,8 @@ void check_outputs(const RemeshArguments& arguments) {
   for (const auto& [option, path] : outputs) {
     require_not_input(arguments.input, path, option);
     if (!arguments.sphere.empty()) require_not_input(arguments.sphere, path, option);
+    if (arguments.grid.starts_with(like_prefix))
+      require_not_input(arguments.grid.substr(like_prefix.size()), path, option);
   }
 }
 
@@ -149,7 +152,11 @@ void add_meshes(PendingFiles& files, const std::vector<RemeshLevel>& levels,
 RemeshLevel make_level(const MappedSource& mapped, SphereGrid grid,
                        const RemeshArguments& arguments, Console& console) {
   RemeshLevel level{arguments, remesh_source(mapped, std::move(grid), arguments, console)};
-  if (arguments.subdivision) level.fit = fit_subdivision(mapped, level.mesh, arguments, console);
+  if (arguments.subdivision) {
+    const TriangleMesh flat = level.mesh.file.mesh;
+    level.fit = fit_subdivision(mapped, level.mesh, arguments, console);
+    compare_with_flat(level, flat, mapped, console);
+  }
   console.progress("certify", 0);
   const Remeshed& mesh = level.mesh;
   require_certified(
@@ -171,6 +178,7 @@ int run_remesh(const RemeshArguments& arguments) {
   const OrderlyInterruption orderly;
   MappedSource mapped = read_mapped_source(arguments.input, arguments.sphere, arguments.threads,
                                            console, remeshing_lambda);
+  if (arguments.subdivision || arguments.lods > 0) require_measurable(mapped.source.file.mesh);
   console.progress("grid", 0);
   const Stopwatch grid_stopwatch;
   SphereGrid grid = grid_for(arguments, spec);

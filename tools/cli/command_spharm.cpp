@@ -16,6 +16,7 @@
 #include "cli/interruption.h"
 #include "cli/map_arguments.h"
 #include "cli/mapped_source.h"
+#include "cli/measurable.h"
 #include "cli/paths.h"
 #include "cli/suggestion.h"
 #include "cli/wording.h"
@@ -85,6 +86,7 @@ double diagonal(const Points& points) {
 HarmonicsReport expand(const SpharmArguments& arguments, const MappedSource& mapped,
                        Console& console) {
   const MeshFile& file = mapped.source.file;
+  require_measurable(file.mesh);
   HarmonicsReport report = {.mesh = arguments.input,
                             .map = mapped.provenance,
                             .functions = {"x", "y", "z"},

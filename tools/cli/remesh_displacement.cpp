@@ -165,6 +165,9 @@ void check_displacement(const RemeshArguments& arguments) {
     throw UsageMistake("--rebuild: the mesh is written as .ply or .obj, not as " +
                        output_name(mesh));
   }
+  if (is_stream(mesh) && is_stream(arguments.output)) {
+    throw UsageMistake("-o and --rebuild cannot both go to standard output");
+  }
 }
 
 DisplacementReport add_displacement(PendingFiles& files, const RemeshArguments& arguments,

@@ -19,7 +19,8 @@ namespace sphparam::tools {
 namespace {
 
 constexpr int most_levels = 12;
-constexpr std::int64_t distance_samples = 250'000;         // on each side
+constexpr std::int64_t distance_samples = 250'000;  // on each side
+constexpr std::int64_t comparing_samples = 50'000;
 constexpr std::int64_t pieces_of_limit_surface = 250'000;  // that is measured
 
 /// The triangles that a level shows: of its limit surface, where there is one.
@@ -75,11 +76,28 @@ std::vector<RemeshArguments> levels_asked_for(const RemeshArguments& arguments,
     levels.push_back(arguments);
     levels.back().grid = name_of(*coarse);
     if (!one_file) levels.back().output = level_path(arguments.output, level);
-    require_not_input(arguments.input, levels.back().output, "--lods");
-    if (!arguments.sphere.empty())
-      require_not_input(arguments.sphere, levels.back().output, "--lods");
+  }
+  for (const RemeshArguments& level : levels) {
+    require_not_input(arguments.input, level.output, "--lods");
+    if (!arguments.sphere.empty()) require_not_input(arguments.sphere, level.output, "--lods");
   }
   return levels;
+}
+
+void compare_with_flat(RemeshLevel& level, const TriangleMesh& flat, const MappedSource& mapped,
+                       Console& console) {
+  const auto rms = [&](const TriangleMesh& mesh) {
+    return measure_distance(mapped.source.file.mesh, mesh,
+                            {.samples = comparing_samples, .threads = level.arguments.threads})
+        .rms();
+  };
+  SubdivisionFit& fit = level.fit.value();
+  fit.two_sided_rms = rms(shown(level));
+  fit.flat_rms = rms(flat);
+  if (fit.two_sided_rms < fit.flat_rms) return;
+  console.warning(level.arguments.grid +
+                  " is too coarse for a smooth surface: flat faces on it are nearer to the mesh "
+                  "than what was fitted");
 }
 
 void measure_levels(std::vector<RemeshLevel>& levels, const MappedSource& mapped,

@@ -33,6 +33,9 @@ struct RemeshLevel {
 };
 
 /// Measures all levels. Throws: Cancelled.
+void compare_with_flat(RemeshLevel& level, const TriangleMesh& flat, const MappedSource& mapped,
+                       Console& console);
+
 void measure_levels(std::vector<RemeshLevel>& levels, const MappedSource& mapped, Console& console);
 
 /// Lines for people.

@@ -9,13 +9,10 @@
 #include "cli/exit_codes.h"
 #include "cli/paths.h"
 #include "cli/wording.h"
-#include "measure/surface_distance.h"
 
 namespace sphparam::tools {
 
 namespace {
-
-constexpr std::int64_t flat_samples = 50'000;
 
 /// Of the box about the mesh.
 double diagonal(const TriangleMesh& mesh) {
@@ -77,13 +74,6 @@ void check_subdivision(const RemeshArguments& arguments, const std::optional<Gri
 
 std::string name_of(Scheme scheme) { return scheme == Scheme::Loop ? "loop" : "catmark"; }
 
-/// From a mesh to the source.
-double flat_rms(const TriangleMesh& mesh, const MappedSource& mapped, int threads) {
-  return measure_distance(mesh, mapped.source.file.mesh,
-                          {.samples = flat_samples, .threads = threads})
-      .forth.rms;
-}
-
 SubdivisionFit fit_subdivision(const MappedSource& mapped, Remeshed& result,
                                const RemeshArguments& arguments, Console& console) try {
   const SphereGrid grid{
@@ -93,12 +83,6 @@ SubdivisionFit fit_subdivision(const MappedSource& mapped, Remeshed& result,
       {.scheme = arguments.subdivision.value(),
        .threads = arguments.threads,
        .progress = [&](std::string_view stage, double f) { return console.progress(stage, f); }});
-  fit.flat_rms = flat_rms(result.file.mesh, mapped, arguments.threads);
-  if (fit.rms > fit.flat_rms) {
-    console.warning(arguments.grid +
-                    " is too coarse for a smooth surface: flat faces on it are "
-                    "nearer to the mesh than what was fitted");
-  }
   const LimitVertices limit =
       limit_at_vertices(LimitSurface(fit.topology, fit.control), result.faces, arguments.threads);
   MeshFile& file = result.file;
@@ -136,6 +120,7 @@ nlohmann::ordered_json fit_report(const SubdivisionFit& fit, const TriangleMesh&
   json["samples"] = fit.samples;
   json["rms"] = fit.rms;
   json["max"] = fit.max;
+  json["two_sided_rms"] = fit.two_sided_rms;
   json["flat_rms"] = fit.flat_rms;
   json["rms_in_place"] = fit.rms_in_place;
   json["diagonal"] = diagonal(source);

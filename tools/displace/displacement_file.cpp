@@ -54,11 +54,20 @@ double number_of(const ImageTexts& texts, const std::string& key, const std::str
 
 }  // namespace
 
+/// Numbers below it have a thousand steps or fewer left.
+double least_normal(ImageDepth depth) {
+  return depth == ImageDepth::Half ? 0x1p-14 : double{std::numeric_limits<float>::min()};
+}
+
 std::vector<char> encode_displacement(const Displacement& displacement, ImageDepth depth,
                                       const std::string& grid, const std::string& scheme) {
   const double largest = std::max(-displacement.least, displacement.greatest);
   if (depth == ImageDepth::Half && largest > most_half) {
     throw std::range_error("half precision has no number as large as " + shortest(largest));
+  }
+  if (depth != ImageDepth::Uint16 && largest > 0 && largest < least_normal(depth)) {
+    throw std::range_error("displacements of at most " + shortest(largest) + " are too small for " +
+                           name_of(depth) + " precision");
   }
   const Coding coding = coding_of(displacement, depth);
   Image coded = displacement.image;

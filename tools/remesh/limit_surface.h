@@ -46,7 +46,7 @@ struct LimitCurvature {
 class LimitTopology {
  public:
   /// A vertex with more faces about it is refused, as each of its patches depends on all of them.
-  static constexpr int most_faces_about_a_vertex = 512;
+  static constexpr int most_faces_about_a_vertex = 128;
 
   /// Requires: faces of a closed manifold on vertices 0 … vertex_count − 1, all of them used.
   /// Throws: std::invalid_argument for faces that the scheme does not take (Loop: triangles;

@@ -28,7 +28,8 @@ struct SubdivisionFit {
 
   std::int64_t samples = 0;
   double rms = 0, max = 0;  // from the samples on the limit to the source; rms over its area
-  double flat_rms = 0;      // from the grid's own faces to the source, where the caller measured it
+  /// Where the caller measured them: of the surface and of the grid's own flat faces.
+  double two_sided_rms = 0, flat_rms = 0;
   double rms_in_place = 0;  // to the points of the source in the samples' directions, first round
   std::vector<int> steps;   // of conjugate gradients, a round
   int thin_vertices = 0;    // which samples alone would hardly hold

@@ -28,8 +28,7 @@ constexpr int most_iterations = 60;
 constexpr double longest_step = 0.7;  // radians, of any vertex
 constexpr double sufficient_decrease = 1e-4;
 constexpr int halvings = 40;
-constexpr double most_expansion = 8;     // of a Newton step: clamped Hessians are too stiff
-constexpr double diagonal_shift = 1e-9;  // 1e-7 would stiffen the bending of long limbs
+constexpr double most_expansion = 8;  // of a Newton step: clamped Hessians are too stiff
 constexpr double boost_difference = 0.01, longest_boost = 0.3, least_boost_curvature = 1e-3;
 constexpr int boost_halvings = 6;
 constexpr int least_exponent = -60;       // of units: their products are floats
@@ -107,7 +106,7 @@ void GlobalNewton::make_pattern(const Topology& topology, const std::vector<int>
   }
 }
 
-/// The shortest edge of each vertex's image, as the nearest smaller power of two.
+/// A power of two near the shortest edge of each vertex's image.
 void GlobalNewton::measure_units() {
   unit_.resize(image_.size());
   parallel_for(
@@ -213,10 +212,10 @@ void GlobalNewton::gather_row(int row, const TriangleTerms* terms,
     for (size_t i = 0; i < 4; ++i) store(units * off[at(e)][i], hessian_.off[at(first + e)].a[i]);
   }
   std::array<float, 4>& diagonal = hessian_.diagonal[at(row)].a;
-  store(unit * unit * d[0] * (1 + diagonal_shift), diagonal[0]);
+  store(unit * unit * d[0], diagonal[0]);
   store(unit * unit * d[1], diagonal[1]);
   store(unit * unit * d[1], diagonal[2]);
-  store(unit * unit * d[2] * (1 + diagonal_shift), diagonal[3]);
+  store(unit * unit * d[2], diagonal[3]);
   for (size_t i = 0; i < 2; ++i) store(-unit * g[i], downhill_[2 * at(row) + i]);
 }
 

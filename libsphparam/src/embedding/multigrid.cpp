@@ -630,7 +630,12 @@ void Multigrid::cycle(size_t l) {
     return Eigen::Map<Eigen::VectorXf>(v.data(), static_cast<Eigen::Index>(v.size()));
   };
   if (l + 1 == levels_.size()) {
-    vector(level.x) = coarsest_.solve(vector(level.b).cast<double>()).cast<float>();
+    // Where it has no factor, what comes down from finer levels stays as their sweeps left it.
+    if (coarsest_.info() == Eigen::Success) {
+      vector(level.x) = coarsest_.solve(vector(level.b).cast<double>()).cast<float>();
+    } else {
+      vector(level.x).setZero();
+    }
     return;
   }
   Level& coarse = levels_[l + 1];

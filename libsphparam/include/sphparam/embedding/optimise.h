@@ -22,7 +22,8 @@ struct OptimiseOptions {
 struct OptimiseReport {
   int steps = 0;
   int linear_iterations = 0;  // summed over the steps
-  double energy_before = 0;   // both of the source as rounded to floats: to 1e-7
+  double energy_before =
+      0;  // both of the source as rounded to floats: to 1e-7, to less with slivers
   double energy_after = 0;
   bool converged = false;  // ended by `least_gain`, not by `max_steps`
 };

@@ -1,0 +1,40 @@
+#include "cli/measurable.h"
+
+#include "sphparam/mesh/mesh_defects.h"
+
+namespace sphparam::tools {
+
+namespace {
+
+constexpr double least_extent = 1e-60, greatest_extent = 1e60;  // fourth powers are doubles
+
+bool has_area(const TriangleMesh& mesh, double extent) {
+  for (Face f = 0; f < mesh.face_count(); ++f) {
+    const Vector3 a = mesh.position(mesh.triangles(f, 0));
+    const Vector3 b = (mesh.position(mesh.triangles(f, 1)) - a) / extent;
+    const Vector3 c = (mesh.position(mesh.triangles(f, 2)) - a) / extent;
+    if (b.cross(c).squaredNorm() > 0) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void require_measurable(const TriangleMesh& mesh) {
+  const double extent =
+      (mesh.positions.colwise().maxCoeff() / 2 - mesh.positions.colwise().minCoeff() / 2)
+          .maxCoeff() *
+      2;
+  const bool sized = extent > least_extent && extent < greatest_extent;
+  if (sized && has_area(mesh, extent)) return;
+  throw MeshError({{DefectKind::ZeroAreaFace,
+                    true,
+                    1,
+                    {},
+                    extent == 0 || sized ? "the mesh has no area: distances to it mean nothing"
+                                         : "the mesh is too large or too small to measure: its "
+                                           "extent is not between 1e-60 and 1e60",
+                    "a map can be made; scale the mesh for anything that measures"}});
+}
+
+}  // namespace sphparam::tools
