@@ -32,10 +32,12 @@ struct RemeshLevel {
   double rms = 0, max = 0;  // from the source, both ways; of the limit surface where one is fitted
 };
 
-/// Measures all levels. Throws: Cancelled.
+/// Measures the fitted surface of a level and the flat faces on the same grid, both ways, and warns
+/// where the flat ones are nearer. Requires: a fit.
 void compare_with_flat(RemeshLevel& level, const TriangleMesh& flat, const MappedSource& mapped,
                        Console& console);
 
+/// Measures all levels. Throws: Cancelled.
 void measure_levels(std::vector<RemeshLevel>& levels, const MappedSource& mapped, Console& console);
 
 /// Lines for people.
