@@ -16,7 +16,7 @@ bool is_float(const SphereMap& map) {
 
 /// A sphere whose vertices but for those of a small cap are all in one place.
 TriangleMesh gathered() {
-  TriangleMesh mesh = icosphere(4);
+  TriangleMesh mesh = icosphere(5);
   const double cap = -0.9;
   for (Vertex v = 0; v < mesh.vertex_count(); ++v) {
     if (mesh.positions(v, 2) > cap) mesh.positions.row(v) << 0, 0, 1;

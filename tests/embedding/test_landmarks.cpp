@@ -102,6 +102,35 @@ TEST_CASE("place_landmarks: neighbours asked to be opposite stop on the way, not
   CHECK(certify(topology, placed.map).bijective());
 }
 
+TEST_CASE("place_landmarks: can be cancelled before it has moved anything far") {
+  const TriangleMesh mesh = icosphere(3);
+  const Topology topology(mesh);
+  const std::vector<Pin> pins = pins_near({mesh.positions}, 8, 0.4, 3);
+  int told = 0;
+  const auto cancel = [&](std::string_view, double) { return ++told < 2; };
+  CHECK_THROWS_AS(
+      place_landmarks(topology, measure_source(mesh), {mesh.positions}, pins, {.progress = cancel}),
+      Cancelled);
+  CHECK(told == 2);
+}
+
+TEST_CASE("face_folded_by: the triangle whose pinned corners are clockwise or in line") {
+  const TriangleMesh mesh = icosphere(1);
+  const Topology topology(mesh);
+  const Face f = 17;
+  std::vector<Pin> pins;
+  for (int k = 0; k < 3; ++k) {
+    const Vertex v = topology.vertex(f, k);
+    pins.push_back({v, mesh.position(v).normalized()});
+  }
+  CHECK_FALSE(face_folded_by(topology, pins));
+  std::swap(pins[0].point, pins[1].point);
+  CHECK(face_folded_by(topology, pins) == f);
+  CHECK_FALSE(face_folded_by(topology, {pins[0], pins[1]}));
+  pins[2].point = pins[1].point;
+  CHECK(face_folded_by(topology, pins) == f);
+}
+
 TEST_CASE("place_landmarks: the same bits for any number of threads") {
   const TriangleMesh mesh = icosphere(4);
   const Topology topology(mesh);

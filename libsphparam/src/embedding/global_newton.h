@@ -4,9 +4,10 @@
 #include <optional>
 #include <vector>
 
+#include "embedding/conjugate_gradients.h"
 #include "embedding/multigrid.h"
 #include "embedding/ring_packs.h"
-#include "embedding/triangle_packs.h"
+#include "embedding/triangle_blocks.h"
 #include "sphparam/mesh/topology.h"
 
 namespace sphparam {
@@ -34,44 +35,36 @@ class GlobalNewton {
   /// Is there a vertex that is not pinned?
   bool can_move() const;
 
-  /// One projected Newton step, the system solved to `tolerance`, with line search. No orientation
-  /// is lost, decided by the guard.
-  Step step(const DistortionEnergy& energy, double tolerance);
+  /// One projected Newton step, the system solved as long as iterations bring `least_share` (see
+  /// `solve_by_conjugate_gradients`), with line search. No orientation is lost, decided by the
+  /// guard.
+  Step step(const DistortionEnergy& energy, double least_share);
 
   /// Guarded relaxation of every vertex, so many times: smooths what a step has creased.
   void sweep(const DistortionEnergy& energy, int sweeps);
 
-  /// Carries the whole map by the Möbius transformation that lowers the energy most, found by a
-  /// Newton step in the three boosts. Towards λ = 0 the energy hardly feels them, and projected
-  /// Hessians are far too stiff for them. Returns the energy.
+  /// Carries the whole map by a Möbius transformation that lowers the energy (see boosts.h), unless
+  /// a vertex is pinned. Towards λ = 0 the energy hardly feels them, and projected Hessians are far
+  /// too stiff for them. Returns the energy.
   double recentre(const DistortionEnergy& energy);
 
   /// +∞ unless every orientation is certain to be positive.
-  double energy(const DistortionEnergy& energy) const { return energy_of(energy, image_); }
+  double energy(const DistortionEnergy& energy) const {
+    return blocks_.energy(image_, energy, threads_);
+  }
   void write_to(std::vector<ImagePoint>& image) const;
 
  private:
   using Image = std::vector<ImagePoint>;
 
-  struct Block {
-    size_t first_pack;
-    int owned;  // triangles that count here, in the first packs; the others touch the block only
-    int packs;
-  };
-
   void measure_units();
   void make_pattern(const Topology& topology, const std::vector<int>& new_name);
-  void pack_triangles(const Topology& topology, const SourceTriangles& source,
-                      const std::vector<int>& new_name);
-  double energy_of(const DistortionEnergy& energy, const Image& image) const;
   bool assemble(const DistortionEnergy& energy);
-  void measure_ring(int row, int lane, RingSlot* slots) const;
   void gather_row(int row, const TriangleTerms* terms, std::vector<std::array<double, 4>>& off);
   void make_room() const;
-  LinearSolution solve(const DistortionEnergy& energy, double tolerance);
+  LinearSolution solve(const DistortionEnergy& energy, double least_share);
   RingPacks pack_rings_of_all() const;
   void move(const Unknowns& direction, double length, Image& image) const;
-  void boost(const Vector3& a, Image& image) const;
   double longest(const Unknowns& direction) const;
 
   int threads_;
@@ -82,10 +75,7 @@ class GlobalNewton {
   BlockMatrix<2> hessian_;   // in these units; entries only in a step
   Unknowns downhill_;        // − the gradient; only in a step
   SweepOrder order_;
-  std::vector<Block> blocks_;
-  std::vector<TrianglePack> packs_;
-  std::vector<int> slots_;  // per off entry k of row v: triangle (v, column k, column k + 1) as
-                            // 4 · (place among the block's) + (corner that v is)
+  TriangleBlocks blocks_;
   std::optional<Multigrid> multigrid_;
 };
 

@@ -7,10 +7,12 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <unordered_map>
 
 #include "embedding/orientations.h"
 #include "sphparam/embedding/relaxation.h"
 #include "sphparam/parallel.h"
+#include "sphparam/sphere/orientation.h"
 
 // A round: (1) the field v(x) = Σ_j k(|x − x_j|) w_j, with v(x_i) the way of pin i, moves all
 // vertices by the largest part 1, ½, ¼ … of it that folds nothing; (2) a pin whose point lies in
@@ -92,9 +94,14 @@ class Traveller {
       snap();
       relax_with_pins_held(options_.sweeps);
       history.push_back(sum(result_.residuals));
-      report(options_.progress, "pins", std::max(0.0, 1 - history.back() / start_));
+      tell();
     }
     return true;
+  }
+
+  void tell() const {
+    const double left = sum(result_.residuals);
+    report(options_.progress, "pins", std::clamp(1 - left / start_, 0.0, 1.0));
   }
 
   void step_aside() {
@@ -108,6 +115,7 @@ class Traveller {
       flow(ways(right_turn));
       snap();
       relax_with_pins_held(options_.sweeps);
+      tell();
     }
   }
 
@@ -153,6 +161,7 @@ class Traveller {
     const Eigen::MatrixXd kernels = Eigen::MatrixXd::NullaryExpr(
         count, count, [&](Eigen::Index i, Eigen::Index j) { return kernel_of(at_pins, i, j); });
     const Eigen::MatrixXd weights = kernels.ldlt().solve(ways);
+    tell();  // with a thousand pins all of this takes long
     Points field(x.rows(), 3);
     parallel_for(x.rows(), grain, options_.threads, [&](std::int64_t first, std::int64_t last) {
       for (Eigen::Index v = first; v < last; ++v) {
@@ -213,6 +222,20 @@ class Traveller {
 };
 
 }  // namespace
+
+std::optional<Face> face_folded_by(const Topology& topology, const std::vector<Pin>& pins) {
+  std::unordered_map<Vertex, const Vector3*> points;
+  for (const Pin& pin : pins) points[pin.vertex] = &pin.point;
+  const auto point_of = [&](Face f, int corner) {
+    const auto found = points.find(topology.vertex(f, corner));
+    return found == points.end() ? nullptr : found->second;
+  };
+  for (Face f = 0; points.size() > 2 && f < topology.face_count(); ++f) {
+    const Vector3 *a = point_of(f, 0), *b = point_of(f, 1), *c = point_of(f, 2);
+    if (a && b && c && orientation(*a, *b, *c) <= 0) return f;
+  }
+  return std::nullopt;
+}
 
 bool LandmarkPlacement::exact() const { return all_exact(residuals); }
 

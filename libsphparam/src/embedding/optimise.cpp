@@ -107,7 +107,7 @@ void minimise(GlobalNewton& newton, double isometric, const OptimiseOptions& opt
   bool recentring = options.energy.kind == EnergyKind::AngleAndArea &&
                     options.energy.lambda < loose_lambda && options.pinned.empty();
   for (int n = 0; n < options.max_steps && !r.converged; ++n) {
-    const GlobalNewton::Step step = newton.step(options.energy, options.linear_tolerance);
+    const GlobalNewton::Step step = newton.step(options.energy, options.least_share);
     newton.sweep(options.energy, options.sweeps);
     double after = newton.energy(options.energy);
     if (recentring) {

@@ -37,8 +37,9 @@ constexpr int pin_work = 200'000;           // rounds × vertices on a level tha
 constexpr int fewest_pin_rounds = 40;       // on fine levels
 constexpr double least_pin_progress = 0.9;  // of the distances left: more than that is idle
 constexpr int most_idle_levels = 6;
+constexpr double sweep_growth = 0.3;  // exponent; more is wasted where the finish comes by
 constexpr int shape_sweeps = 30;    // of relaxation, where the embedding knew nothing of the shape
-constexpr size_t large_levels = 2;  // on which memory is at its peak
+constexpr size_t large_levels = 3;  // on which memory is at its peak
 // Tried in turn when vertices found no room at the λ asked for.
 constexpr double roomier_lambdas[] = {10, 100, 1000};
 
@@ -70,6 +71,8 @@ class Embedder {
     ProgressiveEmbedding result;
     result.report.levels = static_cast<int>(hierarchy_.size());
     image_ = tetrahedron_image(hierarchy_.back());
+    image_.reserve(at(topology_.vertex_count()));
+    packs_ = room_for_rings(topology_.halfedge_count());
     double done = 0, all = 0;
     for (const HierarchyLevel& level : hierarchy_) all += level.vertex_count();
     for (size_t l = hierarchy_.size(); l-- > 0;) {
@@ -80,6 +83,8 @@ class Embedder {
       if (finish_.due(hierarchy_[l].vertex_count())) finish(l);
       report(options_.progress, "embedding", done / all);
     }
+    packs_ = {};
+    hierarchy_.clear();
     result.map = map_of(image_);
     return result;
   }
@@ -109,40 +114,40 @@ class Embedder {
   bool refine(size_t l, ProgressiveReport& report) {
     if (l < large_levels) give_back_freed_memory();
     complete_positions(hierarchy_[l], hierarchy_[l + 1], options_.threads);
-    const HierarchyLevel& level = hierarchy_[l];
-    const RingPacks packs = pack(l, pins_placed_);
+    const HierarchyLevel &level = hierarchy_[l], &coarser = hierarchy_[l + 1];
+    packs_ = pack(l, pins_placed_, std::move(packs_));
     for (int attempt = 0;; ++attempt) {
-      Image finer = prolong(level, hierarchy_[l + 1]);
-      if (insert(level, packs, finer, report)) {
-        image_ = std::move(finer);
-        break;
-      }
+      prolong(level, coarser);
+      if (insert(level, report)) break;
       if (attempt == options_.retries) return false;
       ++report.retries;
+      restrict(coarser);
       const RingPacks coarse = pack(l + 1, pins_placed_);
       for (int sweep = 0; sweep < 10 << attempt; ++sweep) sweep_colours(coarse, 0, 1.0);
     }
     const int sweeps = sweeps_on(level.vertex_count());
     // The first sweep need not move the removed vertices: they have just made their step.
     for (int sweep = 0; sweep < sweeps; ++sweep) {
-      sweep_colours(packs, sweep == 0 ? 1 : 0, options_.over_relaxation);
+      sweep_colours(packs_, sweep == 0 ? 1 : 0, options_.over_relaxation);
     }
     return true;
   }
 
-  RingPacks pack(size_t l, bool hold_pins) const {
+  RingPacks pack(size_t l, bool hold_pins, RingPacks used = {}) const {
     return pack_rings(hierarchy_[l], area_floor_, options_.threads,
-                      hold_pins ? pinned_[l] : std::vector<Vertex>{});
+                      hold_pins ? pinned_[l] : std::vector<Vertex>{}, std::move(used));
   }
 
   void finish(size_t l) {
     const std::vector<Vertex> pinned = pins_placed_ ? pinned_[l] : std::vector<Vertex>{};
     if (l == 0) {
-      hierarchy_.clear();  // there is no room to spare in a Newton step
+      packs_ = {};  // there is no room to spare in a Newton step
+      hierarchy_.clear();
       return finish_.improve(mesh_, topology_, pinned, image_);
     }
     const TriangleMesh mesh = triangle_mesh(hierarchy_[l]);
     finish_.improve(mesh, Topology(mesh), pinned, image_);
+    image_.reserve(at(topology_.vertex_count()));
   }
 
   /// Moves the pins of a level to their points, then relaxes the rest around them, until they are
@@ -158,15 +163,16 @@ class Embedder {
         place_landmarks(topology, measure_source(mesh), map_of(image_), pins,
                         {.energy = options_.energy,
                          .most_rounds = std::max(fewest_pin_rounds, rounds),
-                         .threads = options_.threads});
+                         .threads = options_.threads,
+                         .progress = options_.progress});
     for (size_t v = 0; v < image_.size(); ++v) {
       image_[v] = image_point(placement.map.point(static_cast<Vertex>(v)));
     }
     pins_placed_ = true;
-    const RingPacks packs = pack(l, true);
+    packs_ = pack(l, true, std::move(packs_));
     const int sweeps = sweeps_on(hierarchy_[l].vertex_count());
     for (int sweep = 0; sweep < sweeps; ++sweep) {
-      sweep_colours(packs, 0, options_.over_relaxation);
+      sweep_colours(packs_, 0, options_.over_relaxation);
     }
     const double left = std::accumulate(residuals.begin(), residuals.end(), 0.0);
     residuals = placement.residuals;
@@ -176,64 +182,65 @@ class Embedder {
 
   int sweeps_on(int vertices) const {
     const double finest = topology_.vertex_count();
-    const double wanted = options_.sweeps * std::sqrt(finest / vertices);
+    const double wanted = options_.sweeps * std::pow(finest / vertices, sweep_growth);
     return static_cast<int>(std::lround(std::min<double>(options_.most_sweeps, wanted)));
   }
 
-  Image prolong(const HierarchyLevel& level, const HierarchyLevel& coarser) const {
-    Image finer(at(level.vertex_count()));
-    for (int v = 0; v < coarser.vertex_count(); ++v)
-      finer[at(coarser.finer[at(v)])] = image_[at(v)];
-    return finer;
+  /// Gives the image's points the names of the finer level. Names grow, so that the last goes
+  /// first.
+  void prolong(const HierarchyLevel& level, const HierarchyLevel& coarser) {
+    image_.resize(at(level.vertex_count()));
+    for (int v = coarser.vertex_count(); v-- > 0;) image_[at(coarser.finer[at(v)])] = image_[at(v)];
   }
 
-  /// Places the removed vertices (colour 0). False: some found no room.
-  bool insert(const HierarchyLevel& level, const RingPacks& packs, Image& image,
-              ProgressiveReport& report) const {
+  /// Back to the names of the coarser level.
+  void restrict(const HierarchyLevel& coarser) {
+    for (int v = 0; v < coarser.vertex_count(); ++v)
+      image_[at(v)] = image_[at(coarser.finer[at(v)])];
+    image_.resize(at(coarser.vertex_count()));
+  }
+
+  /// Places the removed vertices (colour 0), moves no other. False: some found no room.
+  bool insert(const HierarchyLevel& level, ProgressiveReport& report) {
     std::atomic<long> refused{0}, failed{0};
-    const int count = packs.colour_start[1];
+    const int count = packs_.colour_start[1];
     std::vector<unsigned char> bits(at(count), 0);
     parallel_for(count, pack_grain, options_.threads, [&](std::int64_t first, std::int64_t last) {
-      std::vector<PackScratch> scratch(at(packs.largest_valence));
+      std::vector<PackScratch> scratch(at(packs_.largest_valence));
       const int begin = static_cast<int>(first), end = static_cast<int>(last);
-      place_at_means(packs, begin, end, image.data(), bits.data(), scratch.data());
+      place_at_means(packs_, begin, end, image_.data(), bits.data(), scratch.data());
       for (int p = begin; p < end; ++p) {
         for (int lane = 0; lane < pack_width; ++lane) {
           if (!(bits[at(p)] >> lane & 1)) continue;
           ++refused;
-          if (!insert_in_kernel(level, packs.packs[at(p)].vertex[lane], image)) ++failed;
+          if (!insert_in_kernel(level, packs_.packs[at(p)].vertex[lane])) ++failed;
         }
       }
       if (failed == 0) {
-        step_packs(packs, begin, end, image.data(), options_.energy, 1.0, scratch.data());
+        step_packs(packs_, begin, end, image_.data(), options_.energy, 1.0, scratch.data());
       }
     });
     report.kernel_placements += refused;
     return failed == 0;
   }
 
-  static bool insert_in_kernel(const HierarchyLevel& level, Vertex v, Image& image) {
+  bool insert_in_kernel(const HierarchyLevel& level, Vertex v) {
     std::vector<Vector3> ring;
     const Vertex* begin = level.ring_begin(v);
-    for (int i = 0; i < level.valence(v); ++i) ring.push_back(image[at(begin[i])].vector());
+    for (int i = 0; i < level.valence(v); ++i) ring.push_back(image_[at(begin[i])].vector());
     const auto point = place_in_kernel(ring);
-    if (point) image[at(v)] = image_point(*point);
+    if (point) image_[at(v)] = image_point(*point);
     return point.has_value();
   }
 
   void sweep_colours(const RingPacks& packs, int first_colour, double over_relaxation) {
-    sweep_image(packs, image_, first_colour, over_relaxation);
-  }
-
-  void sweep_image(const RingPacks& packs, Image& image, int first_colour,
-                   double over_relaxation) const {
     for (int c = first_colour; c < packs.colours(); ++c) {
       const int begin = packs.colour_start[at(c)], end = packs.colour_start[at(c) + 1];
       parallel_for(
           end - begin, pack_grain, options_.threads, [&](std::int64_t first, std::int64_t last) {
             std::vector<PackScratch> scratch(at(packs.largest_valence));
             step_packs(packs, begin + static_cast<int>(first), begin + static_cast<int>(last),
-                       image.data(), options_.energy, over_relaxation, scratch.data());
+                       image_.data(), options_.energy, over_relaxation, scratch.data());
           });
     }
   }
@@ -246,6 +253,7 @@ class Embedder {
   std::vector<std::vector<Vertex>> pinned_;  // per level that has all pins: their names there
   bool pins_placed_ = false;
   int idle_levels_ = 0;  // that brought the pins no nearer
+  RingPacks packs_;      // of the level at hand; its memory serves all levels
   Image image_;
   Finish finish_;
 };
@@ -300,6 +308,7 @@ ProgressiveEmbedding embed_progressively(const TriangleMesh& mesh, const Topolog
   KeptVertices keep{{}, std::max(options.pin_level, 20 * static_cast<int>(options.pins.size()))};
   for (const Pin& pin : options.pins) keep.vertices.push_back(pin.vertex);
   ProgressiveEmbedding embedding = embed_with_room(mesh, topology, options, keep);
+  give_back_freed_memory();  // before the caller measures and turns the map
   if (embedding.map) return embedding;
   const int retries = embedding.report.retries;
   embedding = embed_by_valences(mesh, topology, options, keep);

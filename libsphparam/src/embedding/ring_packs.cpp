@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "embedding/lanes.h"
 #include "sphparam/parallel.h"
@@ -141,9 +142,11 @@ SPHPARAM_INLINE void measure_part(const HierarchyLevel& level, double area_floor
   }
 }
 
-/// The packs of an order of vertices, without their slots.
-RingPacks make_packs(const Rings& rings, const Order& order) {
-  RingPacks result;
+/// The packs of an order of vertices, their slots not filled in.
+RingPacks make_packs(const Rings& rings, const Order& order, RingPacks result) {
+  result.packs.clear();
+  result.colour_start.clear();
+  result.largest_valence = 0;
   result.packs.reserve(order.vertices.size() / pack_width + order.colour_start.size());
   result.colour_start.push_back(0);
   size_t slots = 0;
@@ -163,7 +166,11 @@ RingPacks make_packs(const Rings& rings, const Order& order) {
     }
     result.colour_start.push_back(static_cast<int>(result.packs.size()));
   }
-  result.slots = std::make_unique_for_overwrite<RingSlot[]>(slots);
+  if (slots > result.room) {
+    result.slots = nullptr;  // both at once would be too much
+    result.slots = std::make_unique_for_overwrite<RingSlot[]>(slots);
+    result.room = slots;
+  }
   return result;
 }
 
@@ -178,10 +185,20 @@ void fill_packs(const RingPacks& packs, int threads, const Fill& fill) {
 
 }  // namespace
 
+RingPacks room_for_rings(std::int64_t halfedges) {
+  // Packs of mixed valences have slots that some lanes do not need: a few in a hundred.
+  const auto slots = static_cast<size_t>(halfedges + halfedges / 16) / pack_width;
+  RingPacks packs;
+  packs.slots = std::make_unique_for_overwrite<RingSlot[]>(slots);
+  packs.room = slots;
+  return packs;
+}
+
 RingPacks pack_rings(const HierarchyLevel& level, double area_floor, int threads,
-                     const std::vector<Vertex>& pinned) {
+                     const std::vector<Vertex>& pinned, RingPacks used) {
   const Rings rings{level.start, level.ring, level.removed};
-  RingPacks packs = make_packs(rings, sort_vertices(rings, colour_vertices(rings, pinned)));
+  RingPacks packs =
+      make_packs(rings, sort_vertices(rings, colour_vertices(rings, pinned)), std::move(used));
   fill_packs(packs, threads, [&](const RingPack* pack, std::int64_t count) {
     for (std::int64_t p = 0; p < count; ++p) {
       fill_neighbours(rings, pack[p], &packs.slots[pack[p].first_slot]);
@@ -201,7 +218,7 @@ RingPacks pack_rings(const std::vector<int>& start, const std::vector<Vertex>& r
                      const std::function<void(Vertex v, int lane, RingSlot* slots)>& measure,
                      int threads, const std::vector<Vertex>& pinned) {
   const Rings rings{start, ring, {}};
-  RingPacks packs = make_packs(rings, sort_vertices(rings, colour_vertices(rings, pinned)));
+  RingPacks packs = make_packs(rings, sort_vertices(rings, colour_vertices(rings, pinned)), {});
   fill_packs(packs, threads, [&](const RingPack* pack, std::int64_t count) {
     for (; count-- > 0; ++pack) {
       RingSlot* slots = &packs.slots[pack->first_slot];

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -32,16 +33,22 @@ struct RingPack {
 struct RingPacks {
   std::vector<RingPack> packs;  // colour by colour
   std::unique_ptr<RingSlot[]> slots;
+  size_t room = 0;                // for so many slots
   std::vector<int> colour_start;  // #colours + 1, into `packs`
   int largest_valence = 0;
 
   int colours() const { return static_cast<int>(colour_start.size()) - 1; }
 };
 
+/// Packs of nothing with room for the rings of a mesh, most likely. Memory that no level has needed
+/// yet is not touched.
+RingPacks room_for_rings(std::int64_t halfedges);
+
 /// Colours, sorts and packs the vertices of a level. Triangles smaller than `area_floor` count as
-/// equilateral ones of that area. `pinned`: vertices in no pack.
+/// equilateral ones of that area. `pinned`: vertices in no pack. `used`: packs that nobody needs
+/// any more; their memory serves again.
 RingPacks pack_rings(const HierarchyLevel& level, double area_floor, int threads,
-                     const std::vector<Vertex>& pinned = {});
+                     const std::vector<Vertex>& pinned = {}, RingPacks used = {});
 
 /// The same for any rings (as in HierarchyLevel). `measure(v, lane, slots)` fills in the numbers of
 /// v's source triangles, slot by slot, in that lane; called by several threads at once.

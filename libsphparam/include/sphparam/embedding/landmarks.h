@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "sphparam/embedding/distortion_energy.h"
@@ -40,8 +41,7 @@ struct LandmarkPlacement {
 /// corridor. Where the mesh does not allow the points (adjacent vertices at opposite points, a
 /// wrong cyclic order round a short ring) the pins stop on their way: the residuals tell how far
 /// from their points, the map is valid all the same. Requires: a bijective map; no vertex twice.
-/// Ensures: no triangle folds; same bits for any number
-///           of threads.
+/// Ensures: no triangle folds; same bits for any number of threads.
 /// Cost: a round takes `sweeps` of relaxation and O(#V·#pins + #pins³): meant for coarse meshes,
 ///       see ProgressiveOptions::pins.
 /// Our own; the field is the kernel interpolation of Joshi and Miller, "Landmark matching via large
@@ -49,6 +49,10 @@ struct LandmarkPlacement {
 LandmarkPlacement place_landmarks(const Topology& topology, const SourceTriangles& source,
                                   const SphereMap& map, const std::vector<Pin>& pins,
                                   const LandmarkOptions& options = {});
+
+/// A triangle with three pinned corners whose points are not counter-clockwise: no map has these
+/// pins. Decided exactly. No vertex twice.
+std::optional<Face> face_folded_by(const Topology& topology, const std::vector<Pin>& pins);
 
 /// The rotation R with least Σ |R x(vertex) − point|².
 /// Paper: Kabsch, "A solution for the best rotation to relate two sets of vectors" (1976).

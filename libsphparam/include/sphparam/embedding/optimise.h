@@ -12,8 +12,9 @@ struct OptimiseOptions {
   double least_gain = 1e-5;  // ends when a step lowers E by less than this share of what E has more
                              // than an isometry
   int max_steps = 100;
-  double linear_tolerance = 0.5;    // of the Newton systems: more steps against cheaper ones
-  int sweeps = 4;                   // of guarded relaxation after every step
+  double least_share = 0.5;  // a system's iterations end with one that gains no more than this
+                             // share of what all of them have: more steps against cheaper ones
+  int sweeps = 4;            // of guarded relaxation after every step
   std::vector<Vertex> pinned = {};  // may not move
   int threads = 0;                  // 0: all cores
   Progress progress = {};           // told after every step

@@ -1,0 +1,122 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "sphparam/parallel.h"
+
+namespace sphparam {
+
+/// Rows are ints, places in vectors are not.
+inline size_t at(int i) { return static_cast<size_t>(i); }
+
+inline constexpr std::int64_t row_grain = 2048;  // rows that a thread takes at once
+
+/// A dense N×M block, row by row.
+template <int N, int M = N>
+struct Block {
+  std::array<float, static_cast<size_t>(N) * static_cast<size_t>(M)> a{};
+
+  float& operator()(int i, int j) { return a[static_cast<size_t>(i * M + j)]; }
+  float operator()(int i, int j) const { return a[static_cast<size_t>(i * M + j)]; }
+};
+
+/// One number of every unknown. Steps are solved for to one digit or two: floats hold that in half
+/// the memory, and half the time.
+using Unknowns = std::vector<float>;
+
+/// A symmetric sparse matrix of N×N blocks; the rows' neighbours without the row itself.
+template <int N>
+struct BlockMatrix {
+  std::vector<int> start, column;  // row r: column[start[r]] … column[start[r + 1] − 1]
+  std::vector<Block<N>> off;       // at those columns
+  std::vector<Block<N>> diagonal;
+
+  int rows() const { return static_cast<int>(start.size()) - 1; }
+};
+
+/// r += a b
+template <int N, int K, int M>
+void add_product(const Block<N, K>& a, const Block<K, M>& b, Block<N, M>& r) {
+  for (int i = 0; i < N; ++i) {
+    for (int k = 0; k < K; ++k) {
+      for (int j = 0; j < M; ++j) r(i, j) += a(i, k) * b(k, j);
+    }
+  }
+}
+
+/// r += aᵀ b
+template <int N, int K, int M>
+void add_transposed_product(const Block<K, N>& a, const Block<K, M>& b, Block<N, M>& r) {
+  for (int k = 0; k < K; ++k) {
+    for (int i = 0; i < N; ++i) {
+      for (int j = 0; j < M; ++j) r(i, j) += a(k, i) * b(k, j);
+    }
+  }
+}
+
+template <int N>
+double squared_norm(const Block<N>& a) {
+  double sum = 0;
+  for (const double v : a.a) sum += v * v;
+  return sum;
+}
+
+/// One row of A x, without the diagonal's part. Every entry of a block has a sum of its own, so
+/// that they run abreast. `Number`: of the sums.
+template <class Number, int N>
+[[gnu::always_inline]] inline std::array<Number, N> off_product(const BlockMatrix<N>& a,
+                                                                const float* x, int row) {
+  Number sums[N * N] = {};
+  for (int e = a.start[at(row)]; e < a.start[at(row) + 1]; ++e) {
+    const float* block = a.off[at(e)].a.data();
+    const float* y = x + static_cast<std::ptrdiff_t>(N) * a.column[at(e)];
+    for (int i = 0; i < N; ++i) {
+      for (int j = 0; j < N; ++j) sums[N * i + j] += static_cast<Number>(block[N * i + j]) * y[j];
+    }
+  }
+  std::array<Number, N> s{};
+  for (int i = 0; i < N; ++i) {
+    for (int j = 0; j < N; ++j) s[at(i)] += sums[N * i + j];
+  }
+  return s;
+}
+
+/// One row of A x. In doubles: of a smooth x little is left, and were that lost in rounding,
+/// conjugate gradients would meet curvatures below zero.
+template <int N>
+[[gnu::always_inline]] inline std::array<double, N> product(const BlockMatrix<N>& a, const float* x,
+                                                            int row) {
+  std::array<double, N> s = off_product<double>(a, x, row);
+  const Block<N>& d = a.diagonal[at(row)];
+  for (int i = 0; i < N; ++i) {
+    for (int j = 0; j < N; ++j) s[at(i)] += static_cast<double>(d(i, j)) * x[N * row + j];
+  }
+  return s;
+}
+
+/// r = b − A x
+template <int N>
+void residual(const BlockMatrix<N>& a, const float* b, const float* x, float* r, int threads) {
+  parallel_for(a.rows(), row_grain, threads, [&](std::int64_t begin, std::int64_t end) {
+    for (int row = static_cast<int>(begin); row < static_cast<int>(end); ++row) {
+      const std::array<double, N> s = product(a, x, row);
+      for (int i = 0; i < N; ++i) r[N * row + i] = static_cast<float>(b[N * row + i] - s[at(i)]);
+    }
+  });
+}
+
+/// y = A x
+template <int N>
+void multiply(const BlockMatrix<N>& a, const float* x, float* y, int threads) {
+  parallel_for(a.rows(), row_grain, threads, [&](std::int64_t begin, std::int64_t end) {
+    for (int row = static_cast<int>(begin); row < static_cast<int>(end); ++row) {
+      const std::array<double, N> s = product(a, x, row);
+      for (int i = 0; i < N; ++i) y[N * row + i] = static_cast<float>(s[at(i)]);
+    }
+  });
+}
+
+}  // namespace sphparam

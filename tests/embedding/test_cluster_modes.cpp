@@ -1,0 +1,131 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "elastic_network.h"
+#include "embedding/cluster_modes.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+
+namespace {
+
+/// A network's points, clustered twice.
+struct TwoLevels {
+  Network network{icosphere(4), 1e-3};
+  PointRows rows{network.points.data(), network.units.data()};
+  Clusters clusters = cluster(network.matrix, {}, 0.05), parents;
+  std::vector<ClusterSite> sites = gather_sites(rows, clusters, 2), parent_sites;
+
+  /// Eight clusters of clusters: the octants.
+  TwoLevels() {
+    for (const ClusterSite& s : sites) {
+      const Vector3& c = s.centre;
+      parents.of_row.push_back((c.x() > 0) + 2 * (c.y() > 0) + 4 * (c.z() > 0));
+    }
+    list_members(parents, 8);
+    parent_sites = gather_sites(sites, parents);
+  }
+};
+
+/// The amounts by which clusters turn with the sphere.
+Unknowns turns(const std::vector<ClusterSite>& sites, const Vector3& omega) {
+  Unknowns y;
+  for (const ClusterSite& s : sites) {
+    const TangentFrame frame = tangent_frame(s.centre);
+    for (const double amount :
+         {omega.dot(frame.u) / s.radius, omega.dot(frame.v) / s.radius, omega.dot(s.centre), 0.0}) {
+      y.push_back(static_cast<float>(amount));
+    }
+  }
+  return y;
+}
+
+/// P y, with P in blocks.
+template <int N>
+Unknowns times(const std::vector<Block<N, cluster_modes>>& p, const Clusters& clusters,
+               const Unknowns& y) {
+  Unknowns x;
+  for (size_t row = 0; row < p.size(); ++row) {
+    for (int i = 0; i < N; ++i) {
+      float sum = 0;
+      for (int k = 0; k < cluster_modes; ++k) {
+        sum += p[row](i, k) * y[cluster_modes * at(clusters.of_row[row]) + at(k)];
+      }
+      x.push_back(sum);
+    }
+  }
+  return x;
+}
+
+}  // namespace
+
+TEST_CASE("cluster modes: turns of the whole sphere are among them, on every level") {
+  const TwoLevels levels;
+  const Vector3 omega(0.3, -0.5, 0.8);
+  const Unknowns children = turns(levels.sites, omega), parents = turns(levels.parent_sites, omega);
+  Unknowns x(levels.network.size(), 0.0F);
+  prolong_to_points(levels.rows, levels.clusters, levels.sites, children.data(), x.data(), 2);
+  for (size_t v = 0; v < levels.network.points.size(); ++v) {
+    const Vector3 point = levels.network.points[v].vector(), velocity = omega.cross(point);
+    const TangentFrame frame = tangent_frame(point);
+    const double unit = levels.network.units[v];
+    CHECK(unit * x[2 * v] == Approx(velocity.dot(frame.u)).margin(1e-5));
+    CHECK(unit * x[2 * v + 1] == Approx(velocity.dot(frame.v)).margin(1e-5));
+  }
+  const Unknowns found = times(site_prolongation(levels.sites, levels.parents, levels.parent_sites),
+                               levels.parents, parents);
+  for (size_t i = 0; i < found.size(); ++i) CHECK(found[i] == Approx(children[i]).margin(1e-4));
+}
+
+TEST_CASE("cluster modes: a dilation draws every point towards its cluster's centre") {
+  const TwoLevels levels;
+  Unknowns dilation(cluster_modes * levels.sites.size(), 0.0F);
+  for (size_t c = 0; c < levels.sites.size(); ++c) dilation[cluster_modes * c + 3] = 1;
+  Unknowns x(levels.network.size(), 0.0F);
+  prolong_to_points(levels.rows, levels.clusters, levels.sites, dilation.data(), x.data(), 1);
+  for (size_t v = 0; v < levels.network.points.size(); ++v) {
+    const Vector3 point = levels.network.points[v].vector();
+    const Vector3 way = levels.sites[at(levels.clusters.of_row[v])].centre - point;
+    const TangentFrame frame = tangent_frame(point);
+    const double unit = levels.network.units[v];
+    CHECK(unit * x[2 * v] == Approx(way.dot(frame.u)).margin(1e-6));
+    CHECK(unit * x[2 * v + 1] == Approx(way.dot(frame.v)).margin(1e-6));
+  }
+}
+
+TEST_CASE("cluster modes: a parent's dilation draws its children's points towards its own centre") {
+  const TwoLevels levels;
+  const auto p = site_prolongation(levels.sites, levels.parents, levels.parent_sites);
+  Unknowns dilation(cluster_modes * levels.parent_sites.size(), 0.0F);
+  for (size_t c = 0; c < levels.parent_sites.size(); ++c) dilation[cluster_modes * c + 3] = 1;
+  const Unknowns y = times(p, levels.parents, dilation);
+  Unknowns x(levels.network.size(), 0.0F);
+  prolong_to_points(levels.rows, levels.clusters, levels.sites, y.data(), x.data(), 1);
+  double error = 0, size = 0;
+  for (size_t v = 0; v < levels.network.points.size(); ++v) {
+    const Vector3 point = levels.network.points[v].vector();
+    const int parent = levels.parents.of_row[at(levels.clusters.of_row[v])];
+    const Vector3 way = levels.parent_sites[at(parent)].centre - point;
+    const TangentFrame frame = tangent_frame(point);
+    const double unit = levels.network.units[v];
+    const Eigen::Vector2d wanted(way.dot(frame.u), way.dot(frame.v));
+    error += (unit * Eigen::Vector2d(x[2 * v], x[2 * v + 1]) - wanted).squaredNorm();
+    size += wanted.squaredNorm();
+  }
+  CHECK(std::sqrt(error / size) < 0.05);
+}
+
+TEST_CASE(
+    "cluster modes: P in blocks is the P that is made at every use, and so is its transpose") {
+  const TwoLevels levels;
+  const auto p = point_prolongation(levels.rows, levels.clusters, levels.sites, 2);
+  const Unknowns y = random_vector(cluster_modes * levels.sites.size(), 1);
+  const Unknowns r = random_vector(levels.network.size(), 2),
+                 expected = times(p, levels.clusters, y);
+  Unknowns x(r.size(), 0.0F), b(y.size());
+  prolong_to_points(levels.rows, levels.clusters, levels.sites, y.data(), x.data(), 2);
+  for (size_t i = 0; i < x.size(); ++i) CHECK(x[i] == Approx(expected[i]).margin(1e-5));
+  restrict_from_points(levels.rows, levels.clusters, levels.sites, r.data(), b.data(), 2);
+  CHECK(dot(b, y) == Approx(dot(r, x)).epsilon(1e-4));
+}

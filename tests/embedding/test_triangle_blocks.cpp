@@ -1,0 +1,91 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <numeric>
+
+#include "embedding/triangle_blocks.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+
+namespace {
+
+/// A mesh of several blocks, as Newton steps lay it out.
+struct LaidOut {
+  TriangleMesh mesh = icosphere(4);
+  Topology topology{mesh};
+  SourceTriangles source = measure_source(mesh);
+  std::vector<Vertex> old_name = patch_order(topology);
+  std::vector<int> new_name, start{0}, column;
+  std::vector<ImagePoint> image;
+  TriangleBlocks blocks;
+
+  LaidOut() {
+    new_name.resize(old_name.size());
+    for (size_t v = 0; v < old_name.size(); ++v) {
+      new_name[static_cast<size_t>(old_name[v])] = static_cast<int>(v);
+    }
+    for (const Vertex v : old_name) {
+      image.push_back(image_point(Vector3(mesh.position(v) + Vector3(0.1, 0, 0.05)).normalized()));
+      topology.for_each_outgoing(v, [&](Halfedge h) {
+        column.push_back(new_name[static_cast<size_t>(topology.target(h))]);
+      });
+      start.push_back(static_cast<int>(column.size()));
+    }
+    blocks = TriangleBlocks(topology, source, old_name, new_name, start);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("patch_order: every vertex once, patches of neighbours") {
+  const LaidOut m;
+  std::vector<Vertex> sorted = m.old_name, all(sorted.size());
+  std::sort(sorted.begin(), sorted.end());
+  std::iota(all.begin(), all.end(), 0);
+  CHECK(sorted == all);
+  // A patch of 256 vertices of valence six has a rim of some 60: most entries stay inside.
+  int inside = 0;
+  for (size_t v = 0; v < all.size(); ++v) {
+    for (int e = m.start[v]; e < m.start[v + 1]; ++e) {
+      const int other = m.column[static_cast<size_t>(e)] / TriangleBlocks::size;
+      inside += other == static_cast<int>(v) / TriangleBlocks::size;
+    }
+  }
+  CHECK(inside > 3 * static_cast<int>(m.column.size()) / 4);
+}
+
+TEST_CASE("triangle blocks: every triangle counts once") {
+  const LaidOut m;
+  REQUIRE(m.blocks.count() > 5);
+  SphereMap map;
+  map.points.resize(m.topology.vertex_count(), 3);
+  for (size_t v = 0; v < m.image.size(); ++v) {
+    map.points.row(m.old_name[v]) = m.image[v].vector().transpose();
+  }
+  const double expected = distortion_energy(m.topology, m.source, map, {});
+  CHECK(m.blocks.energy(m.image, {}, 1) == Approx(expected).epsilon(1e-5));
+  CHECK(m.blocks.energy(m.image, {}, 3) == m.blocks.energy(m.image, {}, 1));
+}
+
+TEST_CASE("triangle blocks: an entry of a row leads to the triangle that begins with it") {
+  const LaidOut m;
+  for (int row = 0; row < m.topology.vertex_count(); ++row) {
+    const int first = m.start[static_cast<size_t>(row)];
+    const int valence = m.start[static_cast<size_t>(row) + 1] - first;
+    const TrianglePack* packs = m.blocks.packs_of(row / TriangleBlocks::size);
+    for (int e = 0; e < valence; ++e) {
+      const int place = m.blocks.triangle(first + e), corner = m.blocks.corner(first + e);
+      REQUIRE(place / pack_width < m.blocks.pack_count(row / TriangleBlocks::size));
+      const auto vertex = [&](int k) {
+        return packs[place / pack_width].corner[(corner + k) % 3][place % pack_width];
+      };
+      const auto neighbour = [&](int k) {
+        return m.column[static_cast<size_t>(first + k % valence)];
+      };
+      REQUIRE(vertex(0) == row);
+      REQUIRE(vertex(1) == neighbour(e));
+      REQUIRE(vertex(2) == neighbour(e + 1));
+    }
+  }
+}
