@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 
-#include "support/all_triangulations.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/parameterize.h"
+#include "support/all_triangulations.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -70,6 +70,24 @@ TEST_CASE("parameterize: given poles lie at plus and minus z") {
   CHECK(result.map.point(result.poles->north) == Vector3(0, 0, 1));
   CHECK(result.map.point(result.poles->south) == Vector3(0, 0, -1));
   if (method == Method::Progressive) CHECK(result.poles->north == 17);
+}
+
+TEST_CASE(
+    "parameterize: pins that fold a triangle are told so, and how far they are from holding") {
+  const TriangleMesh mesh = random_sphere_mesh(300, 11);
+  ParameterizeOptions options;
+  for (int k = 0; k < 3; ++k) {  // clockwise
+    options.pins.push_back({mesh.triangles(7, k), {-2.0 * k, 1.0}});
+  }
+  const Parameterization result = parameterize(mesh, options);
+  CHECK(result.certificate.bijective());
+  REQUIRE(result.pin_residuals.size() == 3);
+  for (const double residual : result.pin_residuals) CHECK(residual > 0);
+  REQUIRE(result.warnings.size() == 1);
+  CHECK(result.warnings[0].find("triangle 7") != std::string::npos);
+  std::swap(options.pins[0].vertex, options.pins[1].vertex);  // counter-clockwise
+  const Parameterization turned = parameterize(mesh, options);
+  CHECK(turned.pin_residuals == std::vector<double>{0, 0, 0});
 }
 
 TEST_CASE("parameterize: the same bytes for 1, 2 and 4 threads, twice") {

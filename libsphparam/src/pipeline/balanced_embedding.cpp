@@ -1,0 +1,73 @@
+#include "pipeline/balanced_embedding.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "sphparam/embedding/optimise.h"
+#include "sphparam/embedding/progressive.h"
+
+// The embedding's own sweeps and steps serve λ near 1; from there on λ goes step by step.
+
+namespace sphparam {
+namespace {
+
+constexpr double least_direct_lambda = 0.1, greatest_direct_lambda = 10;  // others by continuation
+
+double first_lambda(const ParameterizeOptions& options) {
+  if (options.balance != Balance::Lambda) return 1;
+  return std::clamp(options.energy.lambda, least_direct_lambda, greatest_direct_lambda);
+}
+
+/// Is λ too far from 1 for sweeps and a few steps?
+bool needs_balancing(const ParameterizeOptions& options) {
+  return options.energy.kind == EnergyKind::AngleAndArea &&
+         (options.balance != Balance::Lambda || options.energy.lambda != first_lambda(options));
+}
+
+std::vector<Vertex> vertices_of(const std::vector<Pin>& pins) {
+  std::vector<Vertex> vertices;
+  for (const Pin& pin : pins) vertices.push_back(pin.vertex);
+  return vertices;
+}
+
+SphereMap balance(MapInProgress& work, const SphereMap& map, double from_lambda,
+                  const std::vector<Pin>& pins) {
+  const double least_gain = work.options.quality == Quality::Draft    ? 1e-2
+                            : work.options.quality == Quality::Normal ? 1e-3
+                                                                      : 1e-6;
+  BalancedMap result = optimise_balance(work.topology, work.source(), map,
+                                        {.balance = work.options.balance,
+                                         .from_lambda = from_lambda,
+                                         .optimise = {.energy = work.options.energy,
+                                                      .least_gain = least_gain,
+                                                      .pinned = vertices_of(pins),
+                                                      .threads = work.options.threads,
+                                                      .progress = work.options.progress}});
+  work.energy.lambda = result.lambda;
+  work.record("balance", result.map);
+  return std::move(result.map);
+}
+
+}  // namespace
+
+bool embed(MapInProgress& work, const std::vector<Pin>& pins) {
+  work.tried_to_embed = true;
+  DistortionEnergy energy = work.options.energy;
+  const bool balanced = needs_balancing(work.options);
+  if (balanced) energy.lambda = first_lambda(work.options);
+  ProgressiveEmbedding embedding = embed_progressively(
+      work.mesh, work.topology,
+      {.energy = energy,
+       .quality = balanced ? std::min(work.options.quality, Quality::Normal) : work.options.quality,
+       .sweeps = work.options.sweeps,
+       .pins = pins,
+       .threads = work.options.threads,
+       .progress = work.options.progress});
+  if (!embedding.map) return false;
+  work.record(pins.empty() ? "progressive embedding" : "pinned embedding", *embedding.map);
+  if (balanced) *embedding.map = balance(work, *embedding.map, energy.lambda, pins);
+  work.accept(balanced ? "balance" : "progressive embedding", std::move(*embedding.map));
+  return true;
+}
+
+}  // namespace sphparam

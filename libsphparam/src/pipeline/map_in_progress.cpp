@@ -1,0 +1,78 @@
+#include "pipeline/map_in_progress.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+// The gate: no map gets in without its certificate. What a stage has made is taken as it is, folds
+// and all; a change of frame is not worth a fold.
+
+namespace sphparam {
+namespace {
+
+/// The mesh at about unit size, if its squares could overflow or vanish; nothing if it is fine.
+/// A power of two changes no bit of any mantissa, and maps do not depend on size.
+std::optional<TriangleMesh> rescaled(const TriangleMesh& mesh) {
+  constexpr int harmless = 100;  // binary orders of magnitude
+  const int exponent = std::ilogb(mesh.positions.cwiseAbs().maxCoeff());
+  if (exponent == FP_ILOGB0 || std::abs(exponent) <= harmless) return std::nullopt;
+  TriangleMesh result = mesh;
+  for (Eigen::Index i = 0; i < result.positions.size(); ++i) {
+    result.positions.data()[i] = std::ldexp(result.positions.data()[i], -exponent);
+  }
+  return result;
+}
+
+}  // namespace
+
+MapInProgress::MapInProgress(const TriangleMesh& given, const Topology& given_topology,
+                             const ParameterizeOptions& given_options)
+    : rescaled_(rescaled(given)),
+      topology(given_topology),
+      mesh(rescaled_ ? *rescaled_ : given),
+      options(given_options),
+      energy(given_options.energy) {}
+
+const SourceTriangles& MapInProgress::source() {
+  if (source_.empty()) source_ = measure_source(mesh, options.threads);
+  return source_;
+}
+
+void MapInProgress::forget_poles() {
+  result.poles.reset();
+  result.date_line.reset();
+}
+
+void MapInProgress::accept(std::string made_by, SphereMap map) {
+  result.certificate = certify(topology, map, options.threads);
+  result.map = std::move(map);
+  result.made_by = std::move(made_by);
+  result.stages.push_back({"certificate", stopwatch_.lap(), -1, result.certificate.fold_count()});
+}
+
+bool MapInProgress::accept_if_certified(SphereMap map) {
+  Certificate certificate = certify(topology, map, options.threads);
+  if (!certificate.bijective()) return false;
+  result.certificate = std::move(certificate);
+  result.map = std::move(map);
+  return true;
+}
+
+void MapInProgress::record(std::string name, const SphereMap& map, long planar_folds) {
+  const double seconds = stopwatch_.lap();
+  result.stages.push_back(
+      {std::move(name), seconds, planar_folds, count_folds(map), measured(map)});
+  stopwatch_.lap();
+}
+
+long MapInProgress::count_folds(const SphereMap& map) const {
+  if (!options.measure_stages) return -1;
+  return certify(topology, map, options.threads).fold_count();
+}
+
+std::optional<DistortionSummary> MapInProgress::measured(const SphereMap& map) const {
+  if (!options.measure_stages) return std::nullopt;
+  return summarise(measure_distortion(mesh, map, options.threads), options.threads);
+}
+
+}  // namespace sphparam

@@ -1,0 +1,54 @@
+#include "pipeline/poles_on_map.h"
+
+#include <optional>
+#include <utility>
+
+#include "pipeline/meridian.h"
+#include "sphparam/embedding/axis_choice.h"
+#include "sphparam/embedding/pole_placement.h"
+
+// The axis crosses the map where poles disturb least; the vertices nearest to it are moved there,
+// and pinned sweeps make good what that cost.
+
+namespace sphparam {
+namespace {
+
+constexpr int pole_sweeps = 10;      // of pinned relaxation after poles were moved
+constexpr int most_pole_moves = 20;  // on finished maps, which are fine: each costs such sweeps
+
+PolePlacementOptions pole_options(const MapInProgress& work) {
+  return {.energy = work.energy,
+          .sweeps = pole_sweeps,
+          .most_moves = most_pole_moves,
+          .threads = work.options.threads,
+          .progress = work.options.progress};
+}
+
+}  // namespace
+
+void move_to_poles(MapInProgress& work, Poles poles) {
+  std::optional<PolePlacement> placement = place_poles(
+      work.topology, work.source(), work.result.map, poles.north, poles.south, pole_options(work));
+  if (!placement) return;
+  work.record("pole placement", placement->map);
+  work.accept_if_certified(std::move(placement->map));
+}
+
+void choose_poles_on_map(MapInProgress& work) {
+  const AxisChoice choice =
+      choose_axis(work.topology, work.source(), work.result.map, {.threads = work.options.threads});
+  std::optional<PolePlacement> placement = place_poles_on_axis(
+      work.topology, work.source(), work.result.map, choice.axis, pole_options(work));
+  if (!placement) return work.warn("no vertex could be moved to -z: the map has no poles");
+  const Vertex meridian =
+      work.options.meridian ? *work.options.meridian : quiet_meridian(work, placement->map);
+  if (!turn(work, placement->map, meridian) &&
+      !work.accept_if_certified(std::move(placement->map))) {
+    return work.warn("turning the map to its poles folds it by rounding: it has no poles");
+  }
+  work.result.poles = {placement->north, placement->south};
+  work.result.pole_cost = placement->energy_after / placement->energy_before - 1;
+  work.record("pole placement", work.result.map);
+}
+
+}  // namespace sphparam

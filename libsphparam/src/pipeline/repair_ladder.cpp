@@ -1,0 +1,74 @@
+#include "pipeline/repair_ladder.h"
+
+#include <utility>
+
+#include "pipeline/balanced_embedding.h"
+#include "sphparam/embedding/gnomonic.h"
+#include "sphparam/embedding/grid_lift.h"
+#include "sphparam/embedding/untangle.h"
+#include "sphparam/errors.h"
+
+// The rungs, from the one that keeps most of the map to the one that always has room: untangling
+// where folds are few, the progressive embedding, the one-vertex lift, the grid lift.
+
+namespace sphparam {
+namespace {
+
+constexpr double most_folds = 0.02;  // of the faces: beyond it nothing is local any more
+
+void untangle_folds(MapInProgress& work) {
+  if (work.result.map.points.rows() == 0) return;  // the method made no map
+  if (static_cast<double>(work.result.certificate.fold_count()) >
+      most_folds * work.topology.face_count())
+    return;
+  UntangleOptions untangling{.lambda = work.options.energy.lambda,
+                             .threads = work.options.threads,
+                             .progress = work.options.progress};
+  if (work.result.poles) untangling.pinned = {work.result.poles->north, work.result.poles->south};
+  SphereMap map = untangle(work.topology, work.source(), work.result.map, untangling).map;
+  work.record("untangling", map);
+  work.accept("untangling", std::move(map));
+}
+
+void embed_from_nothing(MapInProgress& work) {
+  if (work.tried_to_embed || !embed(work, {})) return;
+  work.forget_poles();
+}
+
+void lift_one_vertex(MapInProgress& work) {
+  GnomonicEmbedding embedding;
+  try {
+    embedding = gnomonic_embedding(work.mesh, work.topology,
+                                   {.lambda = work.options.energy.lambda,
+                                    .threads = work.options.threads,
+                                    .progress = work.options.progress});
+  } catch (const SolveError& error) {  // limbs where doubles underflow
+    return work.warn(error.what());
+  }
+  work.forget_poles();
+  work.record("one-vertex lift", embedding.map);
+  work.accept("one-vertex lift", std::move(embedding.map));
+}
+
+void lift_grid(MapInProgress& work) {
+  GridLift lift = grid_lift(work.mesh, work.topology,
+                            {.energy = {.lambda = work.options.energy.lambda},
+                             .threads = work.options.threads,
+                             .progress = work.options.progress});
+  if (!lift.bijective) return work.warn("the grid lift found no room");
+  work.forget_poles();
+  work.warn("made by the last resort, the grid lift: one-to-one, but greatly distorted");
+  work.record("grid lift", lift.map);
+  work.accept("grid lift", std::move(lift.map));
+}
+
+}  // namespace
+
+void repair(MapInProgress& work) {
+  if (!work.certified()) untangle_folds(work);
+  if (!work.certified()) embed_from_nothing(work);
+  if (!work.certified()) lift_one_vertex(work);
+  if (!work.certified()) lift_grid(work);
+}
+
+}  // namespace sphparam
