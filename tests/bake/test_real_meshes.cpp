@@ -1,29 +1,20 @@
 #include <catch2/catch.hpp>
-#include <cstdlib>
 #include <filesystem>
-#include <iostream>
 
 #include "bake/uv_raster.h"
 #include "mesh_io/mesh_reader.h"
 #include "mesh_io/welding.h"
 #include "sphparam/parameterize.h"
+#include "support/real_meshes.h"
 
 using namespace sphparam;
+using namespace sphparam::tests;
 namespace fs = std::filesystem;
 
 TEST_CASE("real meshes: every texel of every image has one owner") {
-  const char* const given = std::getenv("SPHPARAM_MESHES");
-  const fs::path folder = fs::path(given ? given : SPHPARAM_DEFAULT_MESHES) / "genus0";
-  if (!fs::is_directory(folder)) {
-    std::cout << "skipped: no folder " << folder << "\n";
-    return;
-  }
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const std::string extension = entry.path().extension();
-    if (extension == ".txt" || extension == ".md" || extension == ".png") continue;
-    INFO(entry.path().filename().string());
-    const TriangleMesh mesh =
-        tools::prepare_for_mapping(tools::read_mesh(entry.path().string())).mesh;
+  for (const fs::path& path : real_meshes()) {
+    INFO(path.filename().string());
+    const TriangleMesh mesh = tools::prepare_for_mapping(tools::read_mesh(path.string())).mesh;
     const Topology topology(mesh);
     const SphericalChart chart =
         spherical_chart(mesh, topology, parameterize(mesh, {.quality = Quality::Draft}).map);

@@ -4,9 +4,11 @@
 //   bench_displacement                      a rough ball of 82 k triangles on ico:5, 4096 × 2048
 //   bench_displacement MESH [GRID [WIDTH]]
 
+#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
+#include <iostream>
+#include <string>
 
 #include "bake/bake.h"
 #include "bake/make_scene.h"
@@ -84,10 +86,16 @@ Seconds displace(const MeshFile& file, const SphereMap& map, const SphereGrid& g
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  const MeshFile file = argc > 1 ? prepare_for_mapping(read_mesh(argv[1])) : rough_ball();
-  const SphereGrid grid = make_grid(parse_grid(argc > 2 ? argv[2] : "ico:5"));
-  const int width = argc > 3 ? std::atoi(argv[3]) : 4096;
+int main(int argc, char** argv) try {
+  CLI::App app("What a displacement image costs, beside the bake of positions of the same size.");
+  std::string mesh, grid_name = "ico:5";
+  int width = 4096;
+  app.add_option("MESH", mesh, "else a rough ball of 82 k triangles");
+  app.add_option("GRID", grid_name)->capture_default_str();
+  app.add_option("WIDTH", width, "of the image")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  const MeshFile file = mesh.empty() ? rough_ball() : prepare_for_mapping(read_mesh(mesh));
+  const SphereGrid grid = make_grid(parse_grid(grid_name));
   const SphereMap map = parameterize(file.mesh).map;
   const Scheme scheme = grid.faces.degree(0) == 3 ? Scheme::Loop : Scheme::CatmullClark;
   const SubdivisionFit fit =
@@ -108,4 +116,7 @@ int main(int argc, char** argv) {
   row("displacement", displaced);
   std::printf("  displacement / bake: %.2f with encoding (wanted: at most 2), %.2f without\n",
               displaced.all() / baked.all(), displaced.computing / baked.computing);
+} catch (const std::exception& error) {
+  std::cerr << "bench_displacement: " << error.what() << "\n";
+  return 1;
 }

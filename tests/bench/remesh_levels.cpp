@@ -5,7 +5,7 @@
 // Usage: remesh_levels [-o remesh_levels.svg] [--samples N]
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -16,6 +16,7 @@
 
 #include "geodesic_sphere.h"
 #include "measure/surface_distance.h"
+#include "panels.h"
 #include "remesh/remesh.h"
 #include "report/svg.h"
 #include "sample_meshes.h"
@@ -81,60 +82,47 @@ Curve measure(const std::string& shape, const MeshFile& source, const SphereMap&
 }
 
 // --- the plot: RMS logarithmic, levels linear
-// --------------------------------------------------------------
 
-constexpr double panel_width = 280, panel_height = 320, left = 70, top = 48, gap = 60;
+constexpr bench::PanelRow frame = {.width = 280, .height = 320, .left = 70, .gap = 60};
 constexpr double least = 1e-5, greatest = 10;
 
 double x_of(double origin, double level) {
-  return origin + panel_width * (level - coarsest + 0.5) / (finest - coarsest + 1);
+  return origin + frame.width * (level - coarsest + 0.5) / (finest - coarsest + 1);
 }
-double y_of(double rms) {
-  const double share = std::log(rms / least) / std::log(greatest / least);
-  return top + panel_height * (1 - std::clamp(share, 0.0, 1.0));
-}
+double y_of(double rms) { return frame.height_at(bench::log_share(rms, least, greatest)); }
 
 std::string axes(double origin, const std::string& title) {
-  std::string svg = svg_text(origin + panel_width / 2, 30, "title", "middle", title);
-  for (int level = coarsest; level <= finest; ++level) {
-    svg += svg_text(x_of(origin, level), top + panel_height + 17, "label", "middle",
-                    std::to_string(level));
-  }
-  for (double rms = greatest; rms > 0.9 * least; rms /= 10) {
-    svg += svg_line(origin, y_of(rms), origin + panel_width, y_of(rms), "grid");
-    svg += svg_text(origin - 6, y_of(rms) + 4, "label", "end", significant(rms));
-  }
-  return svg + svg_text(origin + panel_width / 2, top + panel_height + 36, "label", "middle",
-                        "RMS distance, % of the diagonal ↑   by level of ico: →");
+  std::string svg = frame.title(origin, title);
+  for (int level = coarsest; level <= finest; ++level)
+    svg += frame.column_label(x_of(origin, level), std::to_string(level));
+  for (double rms = greatest; rms > 0.9 * least; rms /= 10)
+    svg += frame.row(origin, y_of(rms), significant(rms));
+  return svg + frame.caption(origin, "RMS distance, % of the diagonal ↑   by level of ico: →");
 }
 
 std::string panel(const Curve& curve, double origin) {
-  std::string svg = axes(origin, curve.shape), path;
+  std::string svg = axes(origin, curve.shape);
   const double x = x_of(origin, curve.source_level);
-  svg += svg_line(x, top, x, top + panel_height, "axis");
-  svg += svg_text(x - 5, top + 14, "label", "end", "the source's own triangles");
+  svg += svg_line(x, frame.top, x, frame.bottom(), "axis");
+  svg += svg_text(x - 5, frame.top + 14, "label", "end", "the source's own triangles");
   const double fallen = curve.rms.front() / std::pow(4, finest - coarsest);
   svg += svg_line(x_of(origin, coarsest), y_of(curve.rms.front()), x_of(origin, finest),
                   y_of(fallen), "optimum");
   svg +=
       svg_text(x_of(origin, 6) - 12, y_of(fallen * 16) + 8, "caption", "end", "a quarter a level");
+  std::vector<std::array<double, 2>> points;
   for (size_t i = 0; i < curve.rms.size(); ++i) {
     const double at = x_of(origin, coarsest + static_cast<double>(i)), height = y_of(curve.rms[i]);
-    path += (path.empty() ? "M" : "L") + decimal(at, 1) + " " + decimal(height, 1);
-    svg += "<circle cx=\"" + decimal(at, 1) + "\" cy=\"" + decimal(height, 1) +
-           "\" r=\"3.5\" class=\"series0\"/>\n";
+    points.push_back({at, height});
+    svg += bench::svg_dot(at, height, 3.5, "series0");
   }
-  return svg + "<path d=\"" + path + "\" class=\"series0\" style=\"fill:none\"/>\n";
+  return svg + bench::svg_path(points, "series0");
 }
 
 std::string plot(const std::vector<Curve>& curves) {
-  const double width = left + static_cast<double>(curves.size()) * (panel_width + gap);
-  std::string svg = svg_begin(static_cast<int>(width), static_cast<int>(top + panel_height) + 50,
-                              "Distance of a remeshed surface from its source, by level");
-  for (size_t i = 0; i < curves.size(); ++i) {
-    svg += panel(curves[i], left + static_cast<double>(i) * (panel_width + gap));
-  }
-  return svg + svg_end();
+  std::vector<std::string> panels;
+  for (const Curve& curve : curves) panels.push_back(panel(curve, frame.origin(panels.size())));
+  return frame.plot("Distance of a remeshed surface from its source, by level", panels);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -17,6 +18,7 @@
 #include "measure/surface_distance.h"
 #include "mesh_io/mesh_reader.h"
 #include "mesh_io/welding.h"
+#include "panels.h"
 #include "remesh/remesh.h"
 #include "remesh/sample_density.h"
 #include "report/svg.h"
@@ -84,7 +86,6 @@ Study study(const std::string& name, const std::string& grid, const MeshFile& so
 }
 
 // --- tables
-// ---------------------------------------------------------------------------------------
 
 void print_head(const std::string& what) {
   std::printf("\n| %s | at λ = 1, %% of the diagonal |", what.c_str());
@@ -149,50 +150,35 @@ void print_table(const std::string& what, const std::vector<Study>& studies,
 }
 
 // --- the plot: both axes logarithmic, and a place of its own for `--adaptive`
-// ---------------------
 
-constexpr double panel_width = 380, panel_height = 300, left = 60, top = 48, gap = 80;
+constexpr bench::PanelRow frame = {.width = 380, .height = 300, .left = 60, .gap = 80};
 constexpr double least = 0.2, greatest = 10;
 constexpr double adaptive_place = 4.9;  // in decades from the least λ
 
-double x_of(double origin, double decades) { return origin + panel_width * (decades + 0.2) / 5.4; }
+double x_of(double origin, double decades) { return origin + frame.width * (decades + 0.2) / 5.4; }
 double x_of_lambda(double origin, double lambda) {
   return x_of(origin, std::log10(lambda / lambdas.front()));
 }
-double y_of(double ratio) {
-  const double share = std::log(ratio / least) / std::log(greatest / least);
-  return top + panel_height * (1 - std::clamp(share, 0.0, 1.0));
-}
+double y_of(double ratio) { return frame.height_at(bench::log_share(ratio, least, greatest)); }
 
 std::string axes(double origin, const std::string& title) {
-  std::string svg = svg_text(origin + panel_width / 2, 30, "title", "middle", title);
-  for (const double lambda : {0.01, 0.1, 1.0, 10.0, 100.0}) {
-    const double x = x_of_lambda(origin, lambda);
-    svg += svg_line(x, top, x, top + panel_height, "grid");
-    svg += svg_text(x, top + panel_height + 17, "label", "middle", significant(lambda));
-  }
-  svg += svg_text(x_of(origin, adaptive_place), top + panel_height + 17, "label", "middle",
-                  "adaptive");
-  for (const double ratio : {0.2, 0.3, 0.5, 0.7, 1.0, 2.0, 3.0, 5.0, 10.0}) {
-    svg += svg_line(origin, y_of(ratio), origin + panel_width, y_of(ratio), "grid");
-    svg += svg_text(origin - 6, y_of(ratio) + 4, "label", "end", significant(ratio));
-  }
-  return svg + svg_text(origin + panel_width / 2, top + panel_height + 36, "label", "middle",
-                        "distance against λ = 1 ↑   by λ of the map →");
+  std::string svg = frame.title(origin, title);
+  for (const double lambda : {0.01, 0.1, 1.0, 10.0, 100.0})
+    svg += frame.column(x_of_lambda(origin, lambda), significant(lambda));
+  svg += frame.column_label(x_of(origin, adaptive_place), "adaptive");
+  for (const double ratio : {0.2, 0.3, 0.5, 0.7, 1.0, 2.0, 3.0, 5.0, 10.0})
+    svg += frame.row(origin, y_of(ratio), significant(ratio));
+  return svg + frame.caption(origin, "distance against λ = 1 ↑   by λ of the map →");
 }
 
 std::string curve(const Distances& ratios, double origin, const char* series, double width) {
-  std::string path;
-  for (size_t i = 0; i < lambdas.size(); ++i) {
-    path += (path.empty() ? "M" : "L") + decimal(x_of_lambda(origin, lambdas[i]), 1) + " " +
-            decimal(y_of(ratios.by_lambda[i]), 1);
-  }
-  const std::string dot = "<circle cx=\"" + decimal(x_of(origin, adaptive_place), 1) + "\" cy=\"" +
-                          decimal(y_of(ratios.adaptive), 1) + "\" r=\"" + decimal(1.5 + width, 1) +
-                          "\" class=\"" + series + "\"/>\n";
-  return "<path d=\"" + path + "\" class=\"" + series +
-         "\" style=\"fill:none;stroke-width:" + decimal(width, 1) +
-         (width < 1 ? ";opacity:0.5" : "") + "\"/>\n" + dot;
+  std::vector<std::array<double, 2>> points;
+  for (size_t i = 0; i < lambdas.size(); ++i)
+    points.push_back({x_of_lambda(origin, lambdas[i]), y_of(ratios.by_lambda[i])});
+  const std::string style =
+      ";stroke-width:" + decimal(width, 1) + (width < 1 ? ";opacity:0.5" : "");
+  return bench::svg_path(points, series, style) +
+         bench::svg_dot(x_of(origin, adaptive_place), y_of(ratios.adaptive), 1.5 + width, series);
 }
 
 std::string panel(const std::string& title, const std::vector<Study>& studies,
@@ -208,20 +194,17 @@ std::string panel(const std::string& title, const std::vector<Study>& studies,
 
 std::string plot(const std::vector<std::string>& grids,
                  const std::vector<std::vector<Study>>& studies) {
-  const double width = left + 2 * static_cast<double>(grids.size()) * (panel_width + gap);
-  std::string svg = svg_begin(static_cast<int>(width), static_cast<int>(top + panel_height) + 50,
-                              "Distance of remeshed surfaces by λ of the map");
-  double origin = left;
+  std::vector<std::string> panels;
   for (size_t g = 0; g < grids.size(); ++g) {
-    svg += panel(grids[g] + ": RMS", studies[g], &Study::rms, origin);
-    svg += panel(grids[g] + ": greatest", studies[g], &Study::max, origin + panel_width + gap);
-    origin += 2 * (panel_width + gap);
+    panels.push_back(
+        panel(grids[g] + ": RMS", studies[g], &Study::rms, frame.origin(panels.size())));
+    panels.push_back(
+        panel(grids[g] + ": greatest", studies[g], &Study::max, frame.origin(panels.size())));
   }
-  return svg + svg_end();
+  return frame.plot("Distance of remeshed surfaces by λ of the map", panels);
 }
 
 // --- the meshes
-// -----------------------------------------------------------------------------------
 
 struct NamedMesh {
   std::string name;

@@ -5,7 +5,7 @@
 // map of the paper's method (folds and all), where it has one.
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -16,6 +16,7 @@
 
 #include "mesh_io/mesh_reader.h"
 #include "mesh_io/welding.h"
+#include "panels.h"
 #include "report/svg.h"
 #include "sphparam/parameterize.h"
 
@@ -74,55 +75,39 @@ bool labelled(double lambda) {
 }
 
 // --- the plot: both axes logarithmic
-// --------------------------------------------------------------
 
-constexpr double panel_width = 400, panel_height = 320, left = 60, top = 48, gap = 70;
+constexpr bench::PanelRow frame = {.width = 400, .height = 320, .left = 60, .gap = 70};
 constexpr double least_angle = 0.01, greatest_angle = 3, least_area = 0.01, greatest_area = 30;
 
-double fraction(double value, double least, double greatest) {
-  return std::clamp(std::log(value / least) / std::log(greatest / least), 0.0, 1.0);
-}
 double x_of(double origin, double angle) {
-  return origin + panel_width * fraction(angle, least_angle, greatest_angle);
+  return origin + frame.width * bench::log_share(angle, least_angle, greatest_angle);
 }
 double y_of(double area) {
-  return top + panel_height * (1 - fraction(area, least_area, greatest_area));
-}
-
-std::string circle(double x, double y, const char* series, double radius) {
-  return "<circle cx=\"" + decimal(x, 1) + "\" cy=\"" + decimal(y, 1) + "\" r=\"" +
-         decimal(radius, 1) + "\" class=\"" + series + "\"/>\n";
+  return frame.height_at(bench::log_share(area, least_area, greatest_area));
 }
 
 std::string axes(double origin, const std::string& title) {
-  std::string svg = svg_text(origin + panel_width / 2, 30, "title", "middle", title);
-  for (const double angle : {0.01, 0.03, 0.1, 0.3, 1.0}) {
-    const double x = x_of(origin, angle);
-    svg += svg_line(x, top, x, top + panel_height, "grid");
-    svg += svg_text(x, top + panel_height + 17, "label", "middle", significant(angle));
-  }
-  for (const double area : {0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0}) {
-    svg += svg_line(origin, y_of(area), origin + panel_width, y_of(area), "grid");
-    svg += svg_text(origin - 6, y_of(area) + 4, "label", "end", significant(area));
-  }
-  return svg + svg_text(origin + panel_width / 2, top + panel_height + 36, "label", "middle",
-                        "mean |ln angle ratio| →   against   weighted mean |log₂ area ratio| ↑");
+  std::string svg = frame.title(origin, title);
+  for (const double angle : {0.01, 0.03, 0.1, 0.3, 1.0})
+    svg += frame.column(x_of(origin, angle), significant(angle));
+  for (const double area : {0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0})
+    svg += frame.row(origin, y_of(area), significant(area));
+  return svg + frame.caption(
+                   origin, "mean |ln angle ratio| →   against   weighted mean |log₂ area ratio| ↑");
 }
 
 std::string panel(const Curve& curve, double origin) {
-  std::string svg = axes(origin, curve.mesh), path;
+  std::string svg = axes(origin, curve.mesh);
+  std::vector<std::array<double, 2>> points;
   for (const Dot& dot : curve.sweep) {
-    path += (path.empty() ? "M" : "L") + decimal(x_of(origin, dot.angle), 1) + " " +
-            decimal(y_of(dot.area), 1);
-    svg += circle(x_of(origin, dot.angle), y_of(dot.area), "series0", 3.5);
-    if (labelled(dot.lambda)) {
-      svg += svg_text(x_of(origin, dot.angle) - 7, y_of(dot.area) + 11, "label", "end",
-                      "λ = " + dot.label);
-    }
+    const double x = x_of(origin, dot.angle), y = y_of(dot.area);
+    points.push_back({x, y});
+    svg += bench::svg_dot(x, y, 3.5, "series0");
+    if (labelled(dot.lambda)) svg += svg_text(x - 7, y + 11, "label", "end", "λ = " + dot.label);
   }
-  svg += "<path d=\"" + path + "\" class=\"series0\" style=\"fill:none\"/>\n";
+  svg += bench::svg_path(points, "series0");
   for (const Dot& dot : curve.presets) {
-    svg += circle(x_of(origin, dot.angle), y_of(dot.area), "series1", 5);
+    svg += bench::svg_dot(x_of(origin, dot.angle), y_of(dot.area), 5, "series1");
     svg += svg_text(x_of(origin, dot.angle) + 8, y_of(dot.area) - 5, "caption", "start",
                     dot.label + (dot.certified ? "" : " (folds)"));
   }
@@ -130,13 +115,9 @@ std::string panel(const Curve& curve, double origin) {
 }
 
 std::string plot(const std::vector<Curve>& curves) {
-  const double width = left + static_cast<double>(curves.size()) * (panel_width + gap);
-  std::string svg = svg_begin(static_cast<int>(width), static_cast<int>(top + panel_height) + 50,
-                              "Angle against area distortion, by λ");
-  for (size_t i = 0; i < curves.size(); ++i) {
-    svg += panel(curves[i], left + static_cast<double>(i) * (panel_width + gap));
-  }
-  return svg + svg_end();
+  std::vector<std::string> panels;
+  for (const Curve& curve : curves) panels.push_back(panel(curve, frame.origin(panels.size())));
+  return frame.plot("Angle against area distortion, by λ", panels);
 }
 
 }  // namespace

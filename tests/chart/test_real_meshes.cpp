@@ -1,41 +1,17 @@
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
-#include <iostream>
-#include <vector>
 
 #include "exact_area.h"
 #include "mesh_io/mesh_reader.h"
 #include "mesh_io/welding.h"
 #include "sphparam/chart/spherical_chart.h"
 #include "sphparam/parameterize.h"
+#include "support/real_meshes.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;
 namespace fs = std::filesystem;
-
-namespace {
-
-std::vector<fs::path> real_meshes() {
-  const char* const given = std::getenv("SPHPARAM_MESHES");
-  const fs::path folder = fs::path(given ? given : SPHPARAM_DEFAULT_MESHES) / "genus0";
-  std::vector<fs::path> meshes;
-  if (!fs::is_directory(folder)) {
-    std::cout << "skipped: no folder " << folder << "\n";
-    return meshes;
-  }
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const std::string extension = entry.path().extension();
-    for (const char* format : {".obj", ".off", ".ply", ".stl", ".glb", ".gii"}) {
-      if (extension == format) meshes.push_back(entry.path());
-    }
-  }
-  std::sort(meshes.begin(), meshes.end());
-  return meshes;
-}
-
-}  // namespace
 
 TEST_CASE("real meshes: every map has a certified chart, by an independent count too") {
   for (const fs::path& path : real_meshes()) {

@@ -3,18 +3,15 @@
 #include <random>
 
 #include "displace/directed_base.h"
-#include "remesh/sphere_grid.h"
+#include "remesh/limit_subject.h"
 
 using namespace sphparam;
+using namespace sphparam::tests;
 using namespace sphparam::tools;
 
 namespace {
 
-struct Subject {
-  const char* grid;
-  Scheme scheme;
-};
-const std::vector<Subject> subjects = {
+const std::vector<LimitSubject> subjects = {
     {"ico:0", Scheme::Loop},          {"ico:3", Scheme::Loop},
     {"octa:9", Scheme::Loop},         {"cube:2", Scheme::CatmullClark},
     {"cube:7", Scheme::CatmullClark}, {"uv:12x7", Scheme::CatmullClark}};
@@ -36,13 +33,13 @@ Vector3 direction_at(const PlaceFinder::Found& found) {
 }  // namespace
 
 TEST_CASE("directed base: the place found has the direction asked for") {
-  for (const Subject& subject : subjects) {
-    const SphereGrid grid = make_grid(parse_grid(subject.grid));
+  for (const LimitSubject& subject : subjects) {
+    const SphereGrid grid = subject.grid();
     const DirectedBase base(grid, 2 * grid.directions, subject.scheme);
     PlaceFinder finder(base);
     for (const Vector3& direction : random_directions(2000)) {
       const PlaceFinder::Found found = finder.find(direction);
-      INFO(subject.grid << ": " << direction.transpose());
+      INFO(subject.name << ": " << direction.transpose());
       REQUIRE(found.exact);
       REQUIRE(base.net().beyond(found.place) <= 0);
       REQUIRE((direction_at(found) - direction).norm() < 5e-8);
@@ -53,8 +50,8 @@ TEST_CASE("directed base: the place found has the direction asked for") {
 }
 
 TEST_CASE("directed base: along a row and anew the same places are found") {
-  for (const Subject& subject : subjects) {
-    const SphereGrid grid = make_grid(parse_grid(subject.grid));
+  for (const LimitSubject& subject : subjects) {
+    const SphereGrid grid = subject.grid();
     const DirectedBase base(grid, grid.directions, subject.scheme);
     PlaceFinder along(base), anew(base);
     for (int i = 0; i < 1000; ++i) {
@@ -65,7 +62,7 @@ TEST_CASE("directed base: along a row and anew the same places are found") {
       const auto at = [](const PlaceFinder::Found& found) {
         return found.patch->surface.evaluate(found.place.s, found.place.t).position;
       };
-      INFO(subject.grid << ", step " << i);
+      INFO(subject.name << ", step " << i);
       REQUIRE((at(a) - at(b)).norm() < 1e-8);
     }
   }

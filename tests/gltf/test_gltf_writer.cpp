@@ -1,5 +1,4 @@
 #include <catch2/catch.hpp>
-#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "charted.h"
@@ -9,6 +8,7 @@
 #include "gltf/variant_images.h"
 #include "gltf/written_check.h"
 #include "mesh_io/mesh_reader.h"
+#include "support/glb_json.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;
@@ -16,12 +16,6 @@ using namespace sphparam::tools;
 using nlohmann::json;
 
 namespace {
-
-json json_of(const std::string& glb) {
-  std::uint32_t length = 0;
-  std::memcpy(&length, glb.data() + 12, 4);
-  return json::parse(glb.substr(20, length));
-}
 
 /// A row of so many vertices, and one triangle that uses the last.
 Asset long_asset(Eigen::Index vertices) {

@@ -5,20 +5,18 @@
 #include <random>
 #include <stdexcept>
 
+#include "remesh/limit_subject.h"
 #include "remesh/limit_surface.h"
 #include "remesh/patch_net.h"
 #include "remesh/sphere_grid.h"
 
 using namespace sphparam;
+using namespace sphparam::tests;
 using namespace sphparam::tools;
 
 namespace {
 
-struct Subject {
-  const char* grid;
-  Scheme scheme;
-};
-const std::vector<Subject> subjects = {
+const std::vector<LimitSubject> subjects = {
     {"ico:0", Scheme::Loop},          {"ico:2", Scheme::Loop},
     {"octa:7", Scheme::Loop},         {"cube:1", Scheme::CatmullClark},
     {"cube:4", Scheme::CatmullClark}, {"ico:1", Scheme::CatmullClark},
@@ -33,10 +31,8 @@ Points bumpy(const SphereGrid& grid) {
   return points;
 }
 
-SphereGrid grid_of(const Subject& subject) { return make_grid(parse_grid(subject.grid)); }
-
-LimitSurface surface_of(const Subject& subject) {
-  const SphereGrid grid = grid_of(subject);
+LimitSurface surface_of(const LimitSubject& subject) {
+  const SphereGrid grid = subject.grid();
   return LimitSurface(grid.faces, bumpy(grid), subject.scheme);
 }
 
@@ -92,9 +88,9 @@ Vector3 at(const LimitSurface& surface, const LimitPlace& place) {
 }  // namespace
 
 TEST_CASE("limit surface: at the vertices of a triangle mesh it is where Loop says") {
-  for (const Subject& subject : subjects) {
+  for (const LimitSubject& subject : subjects) {
     if (subject.scheme != Scheme::Loop) continue;
-    const SphereGrid grid = grid_of(subject);
+    const SphereGrid grid = subject.grid();
     const LimitSurface surface = surface_of(subject);
     const std::vector<Ring> rings = rings_of(grid.faces, surface.control());
     for (int f = 0; f < static_cast<int>(grid.faces.count()); ++f) {
@@ -102,7 +98,7 @@ TEST_CASE("limit surface: at the vertices of a triangle mesh it is where Loop sa
         const int v = grid.faces.polygon(f)[static_cast<size_t>(k)];
         const Vector3 expected =
             loop_limit(surface.control().row(v), rings[static_cast<size_t>(v)]);
-        INFO(subject.grid << ", face " << f << ", corner " << k);
+        INFO(subject.name << ", face " << f << ", corner " << k);
         CHECK((at(surface, corner_of(surface.topology(), f, 3, k)) - expected).norm() < 1e-12);
       }
     }
@@ -110,10 +106,10 @@ TEST_CASE("limit surface: at the vertices of a triangle mesh it is where Loop sa
 }
 
 TEST_CASE("limit surface: at the vertices of a quad mesh it is where Catmull and Clark say") {
-  const Subject subject{"cube:4", Scheme::CatmullClark};
+  const LimitSubject subject{"cube:4", Scheme::CatmullClark};
   const LimitSurface coarse = surface_of(subject);
   // Of a vertex, the mean of a quad's corners is a face point only after a step.
-  const ControlMesh fine = subdivide_to_quads({grid_of(subject).faces, {coarse.control()}});
+  const ControlMesh fine = subdivide_to_quads({subject.grid().faces, {coarse.control()}});
   const std::vector<Ring> rings = rings_of(fine.faces, fine.points[0]);
   const LimitSurface surface(fine.faces, fine.points[0], Scheme::CatmullClark);
   for (int f = 0; f < static_cast<int>(fine.faces.count()); ++f) {
@@ -131,9 +127,9 @@ TEST_CASE("limit surface: at the vertices of a quad mesh it is where Catmull and
 }
 
 TEST_CASE("limit surface: a step of subdivision does not change it") {
-  for (const Subject& subject : subjects) {
+  for (const LimitSubject& subject : subjects) {
     if (subject.scheme != Scheme::CatmullClark) continue;
-    const SphereGrid grid = grid_of(subject);
+    const SphereGrid grid = subject.grid();
     const LimitSurface surface = surface_of(subject);
     const ControlMesh fine = subdivide_to_quads({grid.faces, {surface.control()}});
     const LimitSurface same(fine.faces, fine.points[0], Scheme::CatmullClark);
@@ -141,7 +137,7 @@ TEST_CASE("limit surface: a step of subdivision does not change it") {
     int corner = 0;
     for (int f = 0; f < static_cast<int>(grid.faces.count()); ++f) {
       for (int k = 0; k < grid.faces.degree(f); ++k, ++corner) {
-        INFO(subject.grid << ", face " << f << ", corner " << k);
+        INFO(subject.name << ", face " << f << ", corner " << k);
         const LimitPlace place = corner_of(surface.topology(), f, grid.faces.degree(f), k);
         CHECK((at(surface, place) - at(same, {corner, 0, 0})).norm() < 1e-12);
         const LimitPlace middle = grid.faces.degree(f) == 4
@@ -154,8 +150,8 @@ TEST_CASE("limit surface: a step of subdivision does not change it") {
 }
 
 TEST_CASE("limit surface: positions and normals agree across edges") {
-  for (const Subject& subject : subjects) {
-    const SphereGrid grid = grid_of(subject);
+  for (const LimitSubject& subject : subjects) {
+    const SphereGrid grid = subject.grid();
     ControlMesh mesh{grid.faces, {bumpy(grid)}};
     if (subject.scheme == Scheme::CatmullClark) mesh = subdivide_to_quads(mesh);
     const LimitSurface surface(mesh.faces, mesh.points[0], subject.scheme);
@@ -166,7 +162,7 @@ TEST_CASE("limit surface: positions and normals agree across edges") {
       REQUIRE(outside.patch != p);
       const LimitPoint here = surface.evaluate(inside),
                        there = surface.evaluate(clamped(outside, net.degree()));
-      INFO(subject.grid << ", patch " << p);
+      INFO(subject.name << ", patch " << p);
       CHECK((here.position - there.position).norm() < 1e-9);
       CHECK((here.normal() - there.normal()).norm() < 1e-3);  // of Gregory patches, almost
     }
@@ -175,10 +171,10 @@ TEST_CASE("limit surface: positions and normals agree across edges") {
 
 TEST_CASE("limit surface: derivatives are those of the positions, curvature that of the normals") {
   constexpr double h = 1e-5;
-  for (const Subject& subject : subjects) {
+  for (const LimitSubject& subject : subjects) {
     const LimitSurface surface = surface_of(subject);
     for (int p = 0; p < surface.topology().patch_count(); ++p) {
-      INFO(subject.grid << ", patch " << p);
+      INFO(subject.name << ", patch " << p);
       const LimitPatch patch = surface.patch(p);
       const double s = 0.31, t = 0.27;
       const LimitPoint point = patch.evaluate(s, t);
@@ -208,8 +204,8 @@ TEST_CASE("limit surface: the limit of a fine sphere's grid bends as a sphere do
 }
 
 TEST_CASE("limit surface: polynomials are those that patches are evaluated by") {
-  for (const Subject& subject :
-       {Subject{"ico:3", Scheme::Loop}, {"cube:8", Scheme::CatmullClark}}) {
+  for (const LimitSubject& subject :
+       {LimitSubject{"ico:3", Scheme::Loop}, {"cube:8", Scheme::CatmullClark}}) {
     const LimitSurface surface = surface_of(subject);
     const int highest = subject.scheme == Scheme::Loop ? 4 : 3;
     int polynomials = 0;
@@ -230,7 +226,7 @@ TEST_CASE("limit surface: polynomials are those that patches are evaluated by") 
 }
 
 TEST_CASE("limit surface: many places at once, on any threads, as one by one") {
-  for (const Subject& subject : subjects) {
+  for (const LimitSubject& subject : subjects) {
     const LimitSurface surface = surface_of(subject);
     std::vector<LimitPlace> places;
     for (int p = 0; p < surface.topology().patch_count(); ++p) {

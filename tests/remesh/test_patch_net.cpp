@@ -89,6 +89,21 @@ TEST_CASE("tessellate: orientation is kept") {
   }
 }
 
+TEST_CASE("patches: faces are patches where a surface has as many, and once divided") {
+  const std::pair<const char*, Scheme> subjects[] = {{"ico:1", Scheme::Loop},
+                                                     {"cube:2", Scheme::CatmullClark},
+                                                     {"uv:5x3", Scheme::CatmullClark},
+                                                     {"ico:1", Scheme::CatmullClark}};
+  for (const auto& [name, scheme] : subjects) {
+    INFO(name);
+    const SphereGrid grid = make_grid(parse_grid(name));
+    const LimitTopology topology(grid.faces, static_cast<int>(grid.directions.rows()), scheme);
+    CHECK(faces_are_patches(grid.faces, scheme) == (topology.patch_count() == grid.faces.count()));
+    const Polygons quads = subdivide_to_quads({grid.faces, {grid.directions}}).faces;
+    CHECK(faces_are_patches(quads, Scheme::CatmullClark));
+  }
+}
+
 TEST_CASE("patch net: mixed faces and open meshes are refused") {
   CHECK_THROWS_AS(PatchNet(make_grid(parse_grid("uv:5x3")).faces), std::invalid_argument);
   Polygons open = make_grid(parse_grid("cube:1")).faces;

@@ -5,6 +5,7 @@
 
 #include "measure/surface_distance.h"
 #include "remesh/limit_stencils.h"
+#include "remesh/limit_subject.h"
 #include "remesh/patch_net.h"
 #include "remesh/remesh.h"
 #include "remesh/stencil_least_squares.h"
@@ -18,23 +19,19 @@ using namespace sphparam::tools;
 
 namespace {
 
-struct Subject {
-  const char* grid;
-  Scheme scheme;
-};
-const std::vector<Subject> subjects = {{"ico:2", Scheme::Loop},
-                                       {"octa:9", Scheme::Loop},
-                                       {"cube:4", Scheme::CatmullClark},
-                                       {"uv:12x7", Scheme::CatmullClark},
-                                       {"healpix:2", Scheme::CatmullClark}};
+const std::vector<LimitSubject> subjects = {{"ico:2", Scheme::Loop},
+                                            {"octa:9", Scheme::Loop},
+                                            {"cube:4", Scheme::CatmullClark},
+                                            {"uv:12x7", Scheme::CatmullClark},
+                                            {"healpix:2", Scheme::CatmullClark}};
 
 /// A grid, and stencils at `along`² places of each of its patches.
 struct Fitting {
   SphereGrid grid;
   LimitTopology topology;
   LimitStencils stencils;
-  explicit Fitting(const Subject& subject, int along = 3)
-      : grid(make_grid(parse_grid(subject.grid))),
+  explicit Fitting(const LimitSubject& subject, int along = 3)
+      : grid(subject.grid()),
         topology(grid.faces, static_cast<int>(grid.directions.rows()), subject.scheme),
         stencils(topology, middles_of_pieces(subject.scheme, along), 1) {}
 
@@ -87,8 +84,8 @@ MeshFile as_file(const TriangleMesh& mesh) {
 struct Distances {
   double plain, fitted;
 };
-Distances distances(const TriangleMesh& mesh, const SphereMap& map, const Subject& subject) {
-  const SphereGrid grid = make_grid(parse_grid(subject.grid));
+Distances distances(const TriangleMesh& mesh, const SphereMap& map, const LimitSubject& subject) {
+  const SphereGrid grid = subject.grid();
   const SubdivisionFit fit =
       fit_subdivision(mesh, map, grid, {.scheme = subject.scheme, .threads = 2});
   const Tessellation pieces = tessellate(grid.faces, static_cast<int>(fit.control.rows()), 6);
@@ -108,8 +105,8 @@ Distances distances(const TriangleMesh& mesh, const SphereMap& map, const Subjec
 }  // namespace
 
 TEST_CASE("limit stencils: weights sum to 1 and give the points of the limit surface") {
-  for (const Subject& subject : subjects) {
-    INFO(subject.grid);
+  for (const LimitSubject& subject : subjects) {
+    INFO(subject.name);
     const Fitting fitting(subject);
     const Points control = random_rows(fitting.grid.directions.rows(), -1, 1, 3);
     const LimitSurface surface(fitting.grid.faces, control, subject.scheme);
@@ -150,8 +147,8 @@ TEST_CASE("limit stencils: places are the middles of equal pieces of a patch") {
 }
 
 TEST_CASE("least squares: control points are found again from points of their surface") {
-  for (const Subject& subject : subjects) {
-    INFO(subject.grid);
+  for (const LimitSubject& subject : subjects) {
+    INFO(subject.name);
     const Fitting fitting(subject);
     const Points control = random_rows(fitting.grid.directions.rows(), 99, 101, 1);
     StencilLeastSquares squares(fitting.stencils, fitting.grid.faces,
@@ -169,8 +166,8 @@ TEST_CASE("least squares: control points are found again from points of their su
 }
 
 TEST_CASE("least squares: from the minimum every way leads up, by the same both ways") {
-  for (const Subject& subject : subjects) {
-    INFO(subject.grid);
+  for (const LimitSubject& subject : subjects) {
+    INFO(subject.name);
     const Fitting fitting(subject);
     const Eigen::VectorXd weights = random_weights(fitting.samples());
     const Points normals = random_normals(fitting.samples()),
@@ -222,9 +219,9 @@ TEST_CASE("least squares: a control point that no sample sees lies amid its neig
 TEST_CASE("subdivision fit: smooth shapes are met at least three times nearer than by flat faces") {
   const TriangleMesh mesh = bumpy_sphere(5);
   const SphereMap map{icosphere(5).positions};
-  for (const Subject& subject :
-       {Subject{"ico:2", Scheme::Loop}, Subject{"cube:8", Scheme::CatmullClark}}) {
-    INFO(subject.grid);
+  for (const LimitSubject& subject :
+       {LimitSubject{"ico:2", Scheme::Loop}, LimitSubject{"cube:8", Scheme::CatmullClark}}) {
+    INFO(subject.name);
     const Distances off = distances(mesh, map, subject);
     CHECK(3 * off.fitted < off.plain);
   }
@@ -233,9 +230,9 @@ TEST_CASE("subdivision fit: smooth shapes are met at least three times nearer th
 TEST_CASE("subdivision fit: limbs and edges are never met worse than by flat faces") {
   for (const TriangleMesh& mesh : {tube(40, 8), tube(5, 100), octahedron()}) {
     const SphereMap map = parameterize(mesh, {.threads = 1}).map;
-    for (const Subject& subject :
-         {Subject{"ico:2", Scheme::Loop}, Subject{"cube:6", Scheme::CatmullClark}}) {
-      INFO(subject.grid);
+    for (const LimitSubject& subject :
+         {LimitSubject{"ico:2", Scheme::Loop}, LimitSubject{"cube:6", Scheme::CatmullClark}}) {
+      INFO(subject.name);
       const Distances off = distances(mesh, map, subject);
       CHECK(off.fitted < off.plain);
     }
@@ -247,9 +244,9 @@ TEST_CASE("subdivision fit: a sphere has a sphere's normals and curvatures") {
   const SphereMap map{mesh.positions};
   TriangleMesh large = mesh;
   large.positions = (2 * mesh.positions).rowwise() + Eigen::RowVector3d(7, 8, 9);
-  for (const Subject& subject : subjects) {
-    INFO(subject.grid);
-    const SphereGrid grid = make_grid(parse_grid(subject.grid));
+  for (const LimitSubject& subject : subjects) {
+    INFO(subject.name);
+    const SphereGrid grid = subject.grid();
     const SubdivisionFit fit = fit_subdivision(large, map, grid, {.scheme = subject.scheme});
     const LimitVertices limit =
         limit_at_vertices(LimitSurface(fit.topology, fit.control), grid.faces);
@@ -279,9 +276,9 @@ TEST_CASE("subdivision fit: a mesh elsewhere and larger has the same fit there")
 TEST_CASE("subdivision fit: the same bytes for any number of threads") {
   const TriangleMesh mesh = random_sphere_mesh(200, 6);
   const SphereMap map = parameterize(mesh, {.threads = 1}).map;
-  for (const Subject& subject : subjects) {
-    INFO(subject.grid);
-    const SphereGrid grid = make_grid(parse_grid(subject.grid));
+  for (const LimitSubject& subject : subjects) {
+    INFO(subject.name);
+    const SphereGrid grid = subject.grid();
     const SubdivisionFit one = fit_subdivision(mesh, map, grid,
                                                {.scheme = subject.scheme, .threads = 1}),
                          three = fit_subdivision(mesh, map, grid,

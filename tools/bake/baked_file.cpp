@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <limits>
 
 #include "bake/image_level.h"
@@ -13,8 +12,6 @@
 
 namespace sphparam::tools {
 namespace {
-
-bool is_integer(SampleType type) { return type == SampleType::Uint8 || type == SampleType::Uint16; }
 
 std::string shortest(double x) {
   char text[32];
@@ -93,25 +90,6 @@ BakedFile::BakedFile(const SurfaceField& field, const BakedFileOptions& options,
 
 BakedFile::~BakedFile() = default;
 
-/// The texel of column c at u has our longitude u₀: u = turns·u₀ + offset.
-std::vector<float> BakedFile::in_convention(int rows, const float* values) const {
-  const ConventionInfo& convention = info_of(options_.convention);
-  const int width = options_.width;
-  const auto shift = static_cast<int>(std::lround(convention.offset * width));
-  const auto channels = static_cast<size_t>(field_.channels);
-  std::vector<float> turned(static_cast<size_t>(rows) * static_cast<size_t>(width) * channels);
-  float* out = turned.data();
-  for (int row = 0; row < rows; ++row) {
-    const float* line = values + static_cast<size_t>(row) * static_cast<size_t>(width) * channels;
-    for (int c = 0; c < width; ++c) {
-      const int ours = convention.turns > 0 ? c - shift : shift - 1 - c;
-      const int column = ((ours % width) + width) % width;
-      out = std::copy_n(line + static_cast<size_t>(column) * channels, channels, out);
-    }
-  }
-  return turned;
-}
-
 void BakedFile::encode(const float* values, int rows) {
   const size_t count = static_cast<size_t>(rows) * static_cast<size_t>(options_.width) *
                        static_cast<size_t>(field_.channels);
@@ -138,7 +116,7 @@ void BakedFile::write_level_rows(const float* values, int rows) {
 void BakedFile::write_rows(int rows, const float* values) {
   std::vector<float> turned;
   if (options_.convention != Convention::Sphparam) {
-    turned = in_convention(rows, values);
+    turned = in_convention(options_.convention, options_.width, field_.channels, rows, values);
     values = turned.data();
   }
   if (!options_.tiles) return encode(values, rows);

@@ -45,7 +45,6 @@ class BakedFile {
   void close();
 
  private:
-  std::vector<float> in_convention(int rows, const float* values) const;
   void write_level_rows(const float* values, int rows);
   void encode(const float* values, int rows);
 

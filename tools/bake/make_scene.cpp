@@ -1,10 +1,10 @@
 #include "bake/make_scene.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <stdexcept>
 
+#include "image/file_extension.h"
 #include "image/image_codec.h"
 #include "mesh_io/gltf_files.h"
 #include "render/shading_normals.h"
@@ -56,10 +56,7 @@ BakeTarget make_target(const MeshFile& file, const Topology& topology, const Sph
 }
 
 SourceTexture read_texture(const std::string& path, TextureWrap wrap, int threads) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return std::tolower(c); });
-  const bool linear = extension == ".exr";
+  const bool linear = extension_of(path) == ".exr";
   return {.image = std::make_shared<const TexturePyramid>(read_image(path), linear, threads),
           .wrap_s = wrap,
           .wrap_t = wrap};
@@ -70,9 +67,8 @@ std::vector<SourceTexture> read_textures(const MeshFile& file, int threads) {
   std::map<std::string, std::shared_ptr<const TexturePyramid>> decoded;
   for (size_t i = 0; i < file.base_colours.size(); ++i) {
     const BaseColour& colour = file.base_colours[i];
-    SourceTexture texture{.image = nullptr,
-                          .wrap_s = wrap_of(colour.wrap_s),
-                          .wrap_t = wrap_of(colour.wrap_t)};
+    SourceTexture texture{
+        .image = nullptr, .wrap_s = wrap_of(colour.wrap_s), .wrap_t = wrap_of(colour.wrap_t)};
     std::ranges::transform(colour.factor, texture.factor.begin(),
                            [](double x) { return static_cast<float>(x); });
     if (!colour.image.empty()) {

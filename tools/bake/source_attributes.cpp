@@ -21,6 +21,10 @@ std::optional<std::array<const Property*, count>> columns(
 
 }  // namespace
 
+bool has_texcoords(const MeshFile& file) {
+  return file.corner_texcoords || columns<2>(file, {"s", "t"});
+}
+
 std::optional<CornerTexcoords> texcoords_of(const MeshFile& file) {
   if (file.corner_texcoords) return file.corner_texcoords;
   const auto st = columns<2>(file, {"s", "t"});

@@ -7,6 +7,7 @@
 namespace sphparam::tools {
 
 /// Texture coordinates of the corners, t upwards, whether the file has them at corners or vertices.
+bool has_texcoords(const MeshFile& file);
 std::optional<CornerTexcoords> texcoords_of(const MeshFile& file);
 
 /// #V×3 colours of the vertices in linear light, which a mesh has in sRGB; nothing where there

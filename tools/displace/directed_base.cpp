@@ -24,19 +24,11 @@ std::array<double, 2> corner_parameters(int degree, int corner) {
   return {corner == 1 || corner == 2 ? 1.0 : 0.0, corner >= 2 ? 1.0 : 0.0};
 }
 
-bool needs_division(const Polygons& faces, Scheme scheme) {
-  if (scheme == Scheme::Loop) return false;
-  for (std::int64_t f = 0; f < faces.count(); ++f) {
-    if (faces.degree(f) != 4) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 DirectedBase::DirectedBase(const SphereGrid& grid, const Points& control, Scheme scheme,
                            int threads)
-    : divided_(needs_division(grid.faces, scheme)),
+    : divided_(!faces_are_patches(grid.faces, scheme)),
       grid_faces_(grid.faces),
       cut_(triangulate(grid.directions, grid.faces)),
       grid_map_{grid.directions} {

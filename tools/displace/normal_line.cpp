@@ -11,6 +11,8 @@
 #include <cmath>
 #include <utility>
 
+#include "rays/interpolation.h"
+
 namespace sphparam::tools {
 
 namespace {
@@ -32,10 +34,7 @@ const RayScene& NormalLines::scene() const {
 }
 
 Vector3 NormalLines::point(const SurfacePoint& on) const {
-  Vector3 sum = Vector3::Zero();
-  for (int k = 0; k < 3; ++k)
-    sum += on.barycentric[k] * surface_.position(surface_.triangles(on.face, k));
-  return sum;
+  return interpolate(surface_.positions, surface_.triangles, on);
 }
 
 std::optional<NormalLines::Walked> NormalLines::walk(const Line& line, Face start) const {

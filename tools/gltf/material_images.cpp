@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gltf/image_kind.h"
+#include "image/file_extension.h"
 #include "image/image_codec.h"
 #include "mesh_io/file_bytes.h"
 #include "mesh_io/read_options.h"
@@ -17,13 +18,6 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t most_bytes = std::uint64_t{1} << 31;
 
 bool is_exr(std::string_view bytes) { return bytes.starts_with("\x76\x2f\x31\x01"); }
-
-std::string lower_case(std::string text) {
-  for (char& c : text) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return text;
-}
 
 /// "statue_normal-tangent" ends in "normal-tangent".
 bool is_named(const std::string& stem, const std::string& map) {
@@ -64,7 +58,7 @@ BakedImages find_baked_images(const std::string& folder) {
   std::vector<fs::path> files;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
-    const std::string extension = lower_case(entry.path().extension().string());
+    const std::string extension = extension_of(entry.path());
     if (extension == ".png" || extension == ".jpg" || extension == ".jpeg")
       files.push_back(entry.path());
   }

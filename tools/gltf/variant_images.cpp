@@ -1,7 +1,5 @@
 #include "gltf/variant_images.h"
 
-#include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "image/image_codec.h"
@@ -30,17 +28,9 @@ AssetImage flat_normals_image() {
 }
 
 Image in_convention(const Image& image, Convention convention) {
-  const ConventionInfo& info = info_of(convention);
-  const int width = image.width;
-  const int shift = static_cast<int>(std::lround(info.offset * width));
-  Image moved(width, image.height, image.channels);
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      // Centres go to centres: mirrored, column x is that of u = 1 − (x + ½)/W.
-      const int column = ((info.turns > 0 ? x : width - 1 - x) + shift) % width;
-      std::copy_n(image.pixel(x, y), image.channels, moved.pixel(column, y));
-    }
-  }
+  Image moved(image.width, image.height, image.channels);
+  moved.pixels =
+      in_convention(convention, image.width, image.channels, image.height, image.pixels.data());
   return moved;
 }
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <exception>
-#include <filesystem>
 
+#include "image/file_extension.h"
 #include "image/open_module.h"
 
 namespace sphparam::tools {
@@ -13,11 +13,6 @@ namespace {
 
 void append_text(void* context, const char* bytes, size_t size) {
   static_cast<std::string*>(context)->append(bytes, size);
-}
-
-std::string lower_case(std::string text) {
-  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return text;
 }
 
 /// OpenImageIO's name.
@@ -28,7 +23,7 @@ const char* codec_of(ImageFormat format) {
 }  // namespace
 
 std::optional<ImageFormat> image_format_of(const std::string& path) {
-  const std::string extension = lower_case(std::filesystem::path(path).extension().string());
+  const std::string extension = extension_of(path);
   if (extension == ".png") return ImageFormat::Png;
   if (extension == ".exr") return ImageFormat::Exr;
   if (extension == ".jpg" || extension == ".jpeg") return ImageFormat::Jpeg;
@@ -70,6 +65,8 @@ const char* name_of(SampleType type) {
   }
   return "";
 }
+
+bool is_integer(SampleType type) { return type == SampleType::Uint8 || type == SampleType::Uint16; }
 
 const char* name_of(ImageFormat format) {
   switch (format) {

@@ -30,6 +30,7 @@ std::optional<ImageFormat> image_format_of(const std::string& path);
 const std::vector<SampleType>& sample_types_of(ImageFormat format);
 int most_channels(ImageFormat format);
 const char* name_of(SampleType type);
+bool is_integer(SampleType type);
 const char* name_of(ImageFormat format);
 
 /// An image file that is written row by row from the top, so that no more than some rows are ever

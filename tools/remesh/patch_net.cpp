@@ -204,6 +204,14 @@ int require_one_degree(const Polygons& faces) {
 
 }  // namespace
 
+bool faces_are_patches(const Polygons& faces, Scheme scheme) {
+  if (scheme == Scheme::Loop) return true;
+  for (std::int64_t f = 0; f < faces.count(); ++f) {
+    if (faces.degree(f) != 4) return false;
+  }
+  return true;
+}
+
 ControlMesh subdivide_to_quads(const ControlMesh& mesh) {
   const std::vector<int> next = next_corners(mesh.faces),
                          edge_of = number_edges(pair_edges(mesh.faces));

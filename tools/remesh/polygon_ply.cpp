@@ -5,7 +5,6 @@
 
 #include <bit>
 #include <cstring>
-#include <stdexcept>
 #include <vector>
 
 #include "mesh_io/mesh_writer.h"
@@ -42,7 +41,8 @@ void add_list(std::vector<CornerList>& lists, const char* name, const std::optio
 /// The faces of a file, its triangles put together again.
 class FaceRecords {
  public:
-  FaceRecords(const MeshFile& file, const Polygons& faces) : file_(file), faces_(faces) {
+  FaceRecords(const MeshFile& file, const Polygons& faces)
+      : faces_(faces), corners_(corners_in(file.mesh.triangles, faces)) {
     add_list(lists_, "texcoord", file.corner_texcoords, file.corner_texcoord_type);
     add_list(lists_, "normal", file.corner_normals, file.corner_normal_type);
     for (const Property& property : file.face_properties) {
@@ -67,36 +67,26 @@ class FaceRecords {
   }
 
   void append_to(std::string& bytes) const {
-    std::int64_t first = 0;  // triangle of the polygon
     for (std::int64_t p = 0; p < faces_.count(); ++p) {
-      const int degree = faces_.degree(p);
+      const int degree = faces_.degree(p), first = faces_.starts[p];
       bytes.push_back(static_cast<char>(degree));
       for (const int v : faces_.polygon(p)) put(bytes, ScalarType::Int32, v);
       for (const CornerList& list : lists_) {
         bytes.push_back(static_cast<char>(degree * list.width));
-        for (const int v : faces_.polygon(p)) {
-          const double* const row = list.values + corner_at(first, degree - 2, v) * list.width;
+        for (int i = first; i < first + degree; ++i) {
+          const double* const row = list.values + std::int64_t{corners_[i]} * list.width;
           for (int k = 0; k < list.width; ++k) put(bytes, list.type, row[k]);
         }
       }
       for (size_t i = 0; i < properties_.size(); ++i) {
-        put(bytes, types_[i], properties_[i]->values[static_cast<size_t>(first)]);
+        put(bytes, types_[i], properties_[i]->values[corners_[first] / 3]);
       }
-      first += degree - 2;
     }
   }
 
  private:
-  /// A corner of some triangles that is at a vertex.
-  std::int64_t corner_at(std::int64_t first, int triangles, int vertex) const {
-    for (std::int64_t i = 3 * first; i < 3 * (first + triangles); ++i) {
-      if (file_.mesh.triangles.data()[i] == vertex) return i;
-    }
-    throw std::logic_error("a polygon and its triangles have other vertices");
-  }
-
-  const MeshFile& file_;
   const Polygons& faces_;
+  std::vector<int> corners_;  // of the triangles, one a corner of the polygons
   std::vector<CornerList> lists_;
   std::vector<const Property*> properties_;
   std::vector<ScalarType> types_;

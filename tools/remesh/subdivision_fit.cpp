@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rays/interpolation.h"
 #include "rays/ray_scene.h"
 #include "remesh/limit_stencils.h"
 #include "remesh/stencil_least_squares.h"
@@ -25,14 +26,6 @@ constexpr std::int64_t patch_grain = 64;
 constexpr int fewest_along_edge = 4, most_along_edge = 16;
 constexpr double sliding_price = 0.03;    // of a distance along the surface
 constexpr double early_reduction = 3e-2;  // of residuals, where another round follows
-
-Vector3 position(const TriangleMesh& mesh, const SurfacePoint& point) {
-  Vector3 sum = Vector3::Zero();
-  for (int k = 0; k < 3; ++k) {
-    sum += point.barycentric[k] * mesh.position(mesh.triangles(point.face, k));
-  }
-  return sum;
-}
 
 Vector3 area_normal(const TriangleMesh& mesh, Face face) {
   const Vector3 a = mesh.position(mesh.triangles(face, 0));
@@ -52,7 +45,8 @@ double area_of_solid_angle(const TriangleMesh& mesh, const SphereMap& map,
 Points points_of(const TriangleMesh& mesh, const std::vector<SurfacePoint>& places) {
   Points points(std::ssize(places), 3);
   for (size_t i = 0; i < places.size(); ++i) {
-    points.row(static_cast<Eigen::Index>(i)) = position(mesh, places[i]);
+    points.row(static_cast<Eigen::Index>(i)) =
+        interpolate(mesh.positions, mesh.triangles, places[i]);
   }
   return points;
 }
@@ -102,7 +96,7 @@ class Samples {
       normals.row(i) = point.normal();
       if (area_normal(source_, found.on.face).dot(point.normal()) <= 0) return;
       nearest_[static_cast<size_t>(i)] = found.on.face;
-      targets.row(i) = position(source_, found.on);
+      targets.row(i) = interpolate(source_.positions, source_.triangles, found.on);
     });
   }
 

@@ -28,4 +28,9 @@ const std::vector<ConventionInfo>& all_conventions();
 const ConventionInfo& info_of(Convention convention);
 std::optional<Convention> convention_named(std::string_view name);
 
+/// Rows of texels in u = θ/2π, interleaved, with their columns where the convention has them.
+/// Requires: a width that its offset times is whole.
+std::vector<float> in_convention(Convention convention, int width, int channels, int rows,
+                                 const float* values);
+
 }  // namespace sphparam::tools

@@ -5,18 +5,10 @@
 #include "bake/fields/height_field.h"
 
 #include "bake/map_kinds.h"
+#include "rays/interpolation.h"
 
 namespace sphparam::tools {
 namespace {
-
-/// Σ weightᵢ · row of corner i.
-Vector3 interpolate(const Points& rows, const Triangles& triangles, const SurfacePoint& point) {
-  Vector3 sum = Vector3::Zero();
-  for (int k = 0; k < 3; ++k) {
-    sum += point.barycentric[k] * rows.row(triangles(point.face, k)).transpose();
-  }
-  return sum;
-}
 
 SurfaceField radial_height(const TriangleMesh& mesh) {
   SurfaceField field = {.name = "height",
