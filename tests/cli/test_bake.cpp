@@ -193,6 +193,11 @@ TEST_CASE("bake: what cannot be done is said before anything is written") {
       sphparam_program({"bake", "-", "--map", "position", "-o", folder / "x.gif"}, obj);
   CHECK(named.code == 2);
   CHECK_THAT(named.err, Contains(".png, .jpg, .tif or .exr"));
+  for (const char* path : {"no/x.png", "no/"}) {
+    const Ended lost = sphparam_program({"bake", "-", "--map", "area", "-o", folder / path}, obj);
+    CHECK(lost.code == 3);
+    CHECK_THAT(lost.err, Contains("the folder " + (folder / "no") + " does not exist"));
+  }
 }
 
 }  // namespace sphparam::tests

@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
-#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "program.h"
+#include "support/glb_json.h"
 #include "support/test_meshes.h"
 
 /// `sphparam export`.
@@ -31,12 +31,6 @@ struct Egg {
     return sphparam_program(arguments);
   }
 };
-
-Json json_of(const std::string& glb) {
-  std::uint32_t length = 0;
-  std::memcpy(&length, glb.data() + 12, 4);
-  return Json::parse(glb.substr(20, length));
-}
 
 }  // namespace
 

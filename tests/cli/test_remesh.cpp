@@ -1,8 +1,10 @@
 #include <catch2/catch.hpp>
-#include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "mapped.h"
+#include "mesh_io/mesh_reader.h"
 #include "program.h"
+#include "support/glb_json.h"
 #include "support/test_meshes.h"
 
 /// `sphparam remesh` and `sphparam unimage`.
@@ -13,27 +15,6 @@ namespace {
 using Catch::Contains;
 using Json = nlohmann::json;
 using Names = std::vector<std::string>;
-
-/// A mapped mesh in a folder of its own.
-struct Mapped {
-  Folder folder;
-  std::string path = folder / "shape.sph.ply";
-  Mapped() {
-    const Ended ended =
-        sphparam_program({"map", "-", "-o", path}, obj_text(random_sphere_mesh(400, 8)));
-    REQUIRE(ended.code == 0);
-  }
-  Ended remesh(Names arguments) const {
-    arguments.insert(arguments.begin(), {"remesh", path});
-    return sphparam_program(arguments);
-  }
-};
-
-Json json_of(const std::string& glb) {
-  std::uint32_t length = 0;
-  std::memcpy(&length, glb.data() + 12, 4);
-  return Json::parse(glb.substr(20, length));
-}
 
 }  // namespace
 
@@ -107,8 +88,53 @@ TEST_CASE("remesh: a geometry image turns back into the mesh in float32") {
   }
 }
 
+TEST_CASE("remesh: an .obj has the quads and the words of the .ply, levels and unimage too") {
+  const Mapped mapped;
+  const std::string ply = mapped.folder / "a.ply", obj = mapped.folder / "a.obj",
+                    image = mapped.folder / "a.exr", back = mapped.folder / "b.obj";
+  for (const std::string& grid : Names{"cube:4", "uv:8x6"}) {
+    INFO(grid);
+    REQUIRE(mapped.remesh({"--grid", grid, "-o", ply}).code == 0);
+    REQUIRE(mapped.remesh({"--grid", grid, "-o", obj}).code == 0);
+    const tools::MeshFile one = tools::read_mesh(ply), other = tools::read_mesh(obj);
+    CHECK(other.polygons > 0);
+    CHECK(other.polygons == one.polygons);
+    CHECK(other.mesh.triangles == one.mesh.triangles);
+    CHECK(other.mesh.positions == one.mesh.positions);
+    CHECK(other.comments == one.comments);
+    CHECK(other.comments.at(1) == "sphparam method remesh");
+    CHECK(other.comments.at(2) == "sphparam grid " + grid);
+  }
+  REQUIRE(mapped.remesh({"--grid", "cube:4", "-o", obj, "--lods", "1", "--geometry-image", image})
+              .code == 0);
+  CHECK(tools::read_mesh(mapped.folder / "a_lod1.obj").polygons == 24);
+  REQUIRE(sphparam_program({"unimage", image, "-o", back}).code == 0);
+  CHECK(tools::read_mesh(back).polygons == 96);
+}
+
+TEST_CASE("remesh: two outputs at one place are refused, however they are spelled") {
+  const Mapped mapped;
+  fs::create_directory(mapped.folder / "deep");
+  const std::string out = mapped.folder / "new.ply", again = mapped.folder / "deep/../new.ply";
+  for (const Names& more :
+       {Names{"-o", out, "--csv", again}, Names{"-o", out, "--json", out},
+        Names{"-o", "-", "--csv", "-"},
+        Names{"-o", out, "--subdiv-fit", "loop", "--limit-mesh", again},
+        Names{"-o", out, "--lods", "1", "--csv", mapped.folder / "deep/../new_lod1.ply"}}) {
+    Names arguments = {"--grid", "ico:2"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Ended ended = mapped.remesh(arguments);
+    CHECK(ended.code == 2);
+    CHECK_THAT(ended.err, Contains("name the same file"));
+  }
+  CHECK(mapped.folder.names() == Names{"deep", "shape.sph.ply"});
+}
+
 TEST_CASE("remesh: what makes no sense is refused, and nothing is written") {
   const Mapped mapped;
+  const Ended nameless = mapped.remesh({"--grid", "like:", "-o", mapped.folder / "new.ply"});
+  CHECK(nameless.code == 2);
+  CHECK_THAT(nameless.err, Contains("--grid like: names no mesh"));
   const std::string out = mapped.folder / "new.ply";
   CHECK(mapped.remesh({"--grid", "octa:8", "-o", out}).code == 2);
   CHECK(mapped.remesh({"--grid", "ico:3"}).code == 2);

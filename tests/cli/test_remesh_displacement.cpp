@@ -2,13 +2,12 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <csignal>
-#include <cstdint>
-#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "mesh_io/mesh_reader.h"
 #include "mesh_io/sphere_file.h"
 #include "program.h"
+#include "support/glb_json.h"
 #include "support/test_meshes.h"
 
 /// `sphparam remesh --displace`, `--rebuild` and `--lods`.
@@ -68,7 +67,29 @@ TEST_CASE("remesh --displace: surface and image rebuild the mesh, and the report
   CHECK(rebuilt["certified"] == true);
   const Ended verified = sphparam_program({"verify", folder / "r.ply"});
   CHECK(verified.code == 0);
-  CHECK_THAT(ended.err + ended.out, Contains("rebuilt: RMS"));
+  CHECK(rebuilt["warnings"].empty());
+  CHECK_THAT(ended.err, Contains("rebuilt: RMS") && Contains("of the diagonal, both ways") &&
+                            Contains("of the diagonal, one way") && !Contains("makes it worse"));
+  const Json outputs = Json::parse(bytes_of(folder / "j.json"))["outputs"];
+  CHECK(outputs["displacement"] == folder / "d.exr");
+  CHECK(outputs["rebuilt"] == folder / "r.ply");
+}
+
+TEST_CASE("remesh --displace: an image so coarse that it does harm is told") {
+  const Folder folder;
+  TriangleMesh spike = icosphere(4);
+  spike.positions.row(100) *= 3;
+  write_bytes(folder / "m.obj", obj_text(spike));
+  const Ended ended = sphparam_program(
+      {"remesh", folder / "m.obj", "--grid", "cube:8", "--subdiv-fit", "catmark", "--displace",
+       folder / "d.exr", "--displace-size", "8x4", "--rebuild", folder / "r.obj", "--json", "-"});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  const Json rebuilt = Json::parse(ended.out)["displacement"]["rebuilt"];
+  CHECK(rebuilt["error"]["rms"] > rebuilt["base_error"]["rms"]);
+  CHECK(rebuilt["warnings"].size() == 1);
+  CHECK_THAT(ended.err, Contains("warning: --displace makes it worse"));
+  CHECK_THAT(bytes_of(folder / "r.obj"), Contains("# sphparam method rebuild"));
 }
 
 TEST_CASE("remesh --displace: the same bytes for any number of threads") {
@@ -180,13 +201,22 @@ TEST_CASE("remesh --lods: levels of one .glb, the finest shown by who knows no l
       {"remesh", folder / "m.obj", "--grid", "cube:8", "--lods", "3", "-o", folder / "x.glb"});
   INFO(ended.err);
   REQUIRE(ended.code == 0);
-  const std::string bytes = bytes_of(folder / "x.glb");
-  std::uint32_t length = 0;  // of the JSON chunk, after the header of the file and its own
-  std::memcpy(&length, bytes.data() + 12, sizeof length);
-  const Json gltf = Json::parse(bytes.substr(20, length));
+  const Json gltf = json_of(bytes_of(folder / "x.glb"));
   CHECK(gltf["nodes"][0]["extensions"]["MSFT_lod"]["ids"] == Json{1, 2, 3});
   CHECK(gltf["scenes"][0]["nodes"] == Json{0});
   CHECK(folder.names() == std::vector<std::string>{"m.obj", "x.glb"});
+}
+
+TEST_CASE("remesh --lods: coarser levels of a .sph.ply are called .sph.ply too") {
+  const Folder folder;
+  write_bytes(folder / "m.obj", obj_text(icosphere(2)));
+  for (const char* name : {"a.sph.ply", "b.c.ply"}) {
+    CHECK(sphparam_program(
+              {"remesh", folder / "m.obj", "--grid", "ico:2", "--lods", "1", "-o", folder / name})
+              .code == 0);
+  }
+  CHECK(folder.names() == std::vector<std::string>{"a.sph.ply", "a_lod1.sph.ply", "b.c.ply",
+                                                   "b.c_lod1.ply", "m.obj"});
 }
 
 TEST_CASE("remesh --lods: with a fit each level is a surface of its own; {n} is the number") {
@@ -213,6 +243,7 @@ TEST_CASE("remesh --lods: grids without levels and files without names are refus
   };
   refused("uv:16x8", "1", folder / "x.ply", "no coarser grids");
   refused("octa:7", "1", folder / "x.ply", "no coarser grids");
+  refused("cube:6", "1", folder / "x.ply", "N a power of two");
   refused("ico:2", "3", folder / "x.ply", "only 2 coarser");
   refused("ico:2", "13", folder / "x.ply", "0 to 12");
   refused("ico:2", "1", "-", "give -o a name");

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "mapped.h"
 #include "mesh_io/mesh_reader.h"
 #include "program.h"
 #include "support/test_meshes.h"
@@ -13,25 +14,10 @@ namespace {
 using Json = nlohmann::json;
 using Names = std::vector<std::string>;
 
-/// A mapped mesh in a folder of its own.
-struct Mapped {
-  Folder folder;
-  std::string path = folder / "shape.sph.ply";
-  Mapped() {
-    const Ended ended =
-        sphparam_program({"map", "-", "-o", path}, obj_text(random_sphere_mesh(300, 8)));
-    REQUIRE(ended.code == 0);
-  }
-  Ended remesh(Names arguments) const {
-    arguments.insert(arguments.begin(), {"remesh", path});
-    return sphparam_program(arguments);
-  }
-};
-
 }  // namespace
 
 TEST_CASE("remesh --subdiv-fit: control mesh and limit mesh are written certified, and reported") {
-  const Mapped mapped;
+  const Mapped mapped(300);
   const std::string out = mapped.folder / "base.ply", limit = mapped.folder / "limit.ply",
                     json = mapped.folder / "fit.json";
   for (const Names& asked :
@@ -63,7 +49,8 @@ TEST_CASE("What has no size or area is mapped, but neither fitted nor expanded")
   TriangleMesh flat = icosphere(2), huge = icosphere(2);
   flat.positions.rightCols(2).setZero();
   huge.positions *= 1e300;
-  for (const TriangleMesh& mesh : {flat, huge}) {
+  const TriangleMesh meshes[] = {flat, huge};
+  for (const TriangleMesh& mesh : meshes) {
     CHECK(sphparam_program({"map", "-", "-o", folder / "map.ply"}, obj_text(mesh)).code == 0);
     for (const Names& asked : {Names{"remesh", "-", "--grid", "ico:2", "--subdiv-fit", "loop"},
                                Names{"remesh", "-", "--grid", "ico:2", "--lods", "1"},
@@ -74,7 +61,11 @@ TEST_CASE("What has no size or area is mapped, but neither fitted nor expanded")
       const Ended ended = sphparam_program(arguments, obj_text(mesh));
       INFO(asked[0] << ended.err);
       CHECK(ended.code == 4);
-      CHECK_THAT(ended.err, Catch::Contains("measure") || Catch::Contains("no area"));
+      CHECK_THAT(ended.err, Catch::Contains("can be mapped but not measured") &&
+                                !Catch::Contains("closed genus-0"));
+      const bool scaling_helps = &mesh != meshes;
+      CHECK_THAT(ended.err, Catch::Contains(scaling_helps ? "scale it" : "no area"));
+      CHECK((ended.err.find("scale") != std::string::npos) == scaling_helps);
       CHECK(folder.names() == Names{"map.ply"});
     }
   }
@@ -100,7 +91,7 @@ TEST_CASE("remesh --subdiv-fit: a grid too coarse for a smooth surface is told")
 }
 
 TEST_CASE("remesh --subdiv-fit: .obj and .glb too, the same bytes for one thread and three") {
-  const Mapped mapped;
+  const Mapped mapped(300);
   for (const std::string& kind : Names{".ply", ".obj", ".glb"}) {
     INFO(kind);
     for (const std::string& threads : Names{"1", "3"}) {
@@ -112,10 +103,24 @@ TEST_CASE("remesh --subdiv-fit: .obj and .glb too, the same bytes for one thread
     }
     CHECK(bytes_of(mapped.folder / ("1" + kind)) == bytes_of(mapped.folder / ("3" + kind)));
   }
+  const std::filesystem::path obj = mapped.folder / "1.obj", ply = mapped.folder / "1.ply";
+  CHECK(tools::read_mesh(obj).polygons == 384);
+  CHECK(tools::read_mesh(obj).mesh.triangles == tools::read_mesh(ply).mesh.triangles);
+  CHECK(tools::read_mesh(obj).comments == tools::read_mesh(ply).comments);
+}
+
+TEST_CASE("remesh --subdiv-fit: an .obj of the limit surface has quads too; the RMS is one way") {
+  const Mapped mapped(300);
+  const Ended ended =
+      mapped.remesh({"--grid", "cube:4", "--subdiv-fit", "catmark", "-o", mapped.folder / "a.obj",
+                     "--limit-mesh", mapped.folder / "b.obj"});
+  REQUIRE(ended.code == 0);
+  CHECK(tools::read_mesh(mapped.folder / "b.obj").polygons == 96);
+  CHECK_THAT(ended.err, Catch::Contains("of the diagonal, one way, from"));
 }
 
 TEST_CASE("remesh --subdiv-fit: what makes no sense is refused, and nothing is written") {
-  const Mapped mapped;
+  const Mapped mapped(300);
   const std::string out = mapped.folder / "base.ply";
   const auto refused = [&](const Names& more, const std::string& words) {
     Names arguments = {"-o", out};

@@ -121,6 +121,34 @@ TEST_CASE("repair: polygons that share two edges in a row are refused, and mende
   CHECK_THAT(mapped.err, Contains("1 diagonal turned"));
 }
 
+TEST_CASE("repair: faces that name a vertex twice go with duplicates, and are refused without") {
+  const std::string faulty = obj_text(icosphere(1)) + "f 1 2 1\nf 3 4 5 4 6\n";
+  for (const char* repair : {"", "--repair=holes,unused"}) {
+    std::vector<std::string> arguments = {"map", "-", "-o", "-"};
+    if (*repair) arguments.emplace_back(repair);
+    const Ended refused = sphparam_program(arguments, faulty);
+    CHECK(refused.code == 3);
+    CHECK_THAT(refused.err, Contains(":123: face names a vertex twice"));
+  }
+  const Folder folder;
+  const std::string map = folder / "map.ply";
+  for (const char* repair : {"--repair", "--repair=duplicates"}) {
+    const Ended mended = sphparam_program({"map", "-", "-o", map, "--json", "-", repair}, faulty);
+    INFO(mended.err);
+    REQUIRE(mended.code == 0);
+    CHECK_THAT(mended.err, Contains("2 faces that named a vertex twice removed"));
+    const Json report = Json::parse(mended.out);
+    CHECK(report["repairs"][0]["kind"] == "invalid-face-removed");
+    CHECK(report["repairs"][0]["count"] == 2);
+    CHECK(report["options"]["repair"][0] == "duplicates");
+    CHECK(report["options"]["repair"].size() == (std::string(repair) == "--repair" ? 7 : 2));
+    CHECK(sphparam_program({"verify", map}).code == 0);
+  }
+  const Ended unasked =
+      sphparam_program({"map", "-", "-o", map, "--json", "-"}, obj_text(icosphere(1)));
+  CHECK(Json::parse(unasked.out)["options"]["repair"].empty());
+}
+
 TEST_CASE("repair: info says what --repair would do") {
   const Ended text = sphparam_program({"info", "-"}, obj_text(with_a_hole()));
   CHECK(text.code == 4);

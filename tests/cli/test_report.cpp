@@ -75,6 +75,7 @@ TEST_CASE("report: what is wrong is named, and nothing is written") {
   fails({ball, folder / "none.obj", "-o", page}, 3, "none.obj");
   fails({ball, "-o", page, "--texture", folder / "none.png"}, 3, "none.png");
   fails({ball, "-o", page, "--json", page}, 2, "the same file");
+  fails({ball, "-o", folder / "page.pdf"}, 2, "written as .html, not as .pdf");
   fails({ball, "-o", folder / "no/page.html"}, 3, "no/page.html");
   CHECK(folder.names().size() == 2);
 }

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "mesh_io/mesh_reader.h"
 #include "program.h"
 #include "sphparam/mesh/triangle_mesh.h"
 #include "support/test_meshes.h"
@@ -88,6 +89,29 @@ TEST_CASE("spharm: the reconstruction is a certified map nearer to the mesh with
     last = rms;
     CHECK(sphparam_program({"verify", folder / "smooth.ply"}).code == 0);
   }
+}
+
+TEST_CASE("spharm: residuals are told weighted by solid angle, and plain") {
+  const Folder folder;
+  TriangleMesh egg = icosphere(3);
+  for (Eigen::Index v = 0; v < egg.vertex_count(); ++v) {
+    if (egg.positions(v, 2) > 0) egg.positions(v, 2) *= 4;
+  }
+  write_bytes(folder / "egg.obj", obj_text(egg));
+  const Ended ended =
+      sphparam_program({"spharm", folder / "egg.obj", "--degree", "3", "--reconstruct",
+                        folder / "smooth.ply", "--json", folder / "egg.json"});
+  REQUIRE(ended.code == 0);
+  const std::filesystem::path smooth = folder / "smooth.ply";
+  const Points left = tools::read_mesh(smooth).mesh.positions - egg.positions;
+  const Json report = Json::parse(bytes_of(folder / "egg.json"));
+  const double plain = report["position_rms_unweighted"];
+  CHECK(plain == Approx(std::sqrt(left.rowwise().squaredNorm().mean())));
+  CHECK(std::abs(plain / report["position_rms"].get<double>() - 1) > 0.01);
+  CHECK(report["functions"][2]["rms_residual_unweighted"].get<double>() ==
+        Approx(std::sqrt(left.col(2).squaredNorm() / double(left.rows()))));
+  CHECK_THAT(report["rms"].get<std::string>(), Contains("solid angle"));
+  CHECK_THAT(ended.err, Contains("weighted by solid angle") && Contains(", unweighted "));
 }
 
 TEST_CASE("spharm: the same bytes for 1, 2 and 4 threads") {

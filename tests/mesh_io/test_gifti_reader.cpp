@@ -177,6 +177,7 @@ TEST_CASE("gifti_reader: what breaks the rules is refused at its line") {
   refused(changed("1 2 3", "1 2 2.5"), 8, "2.5");
   refused(changed("1 2 3", "1 2 99999999999"), 8, "99999999999");
   refused(changed("1 2 3", "1 2 2"), 7, "twice in triangle 3");
+  CHECK(read(changed("1 2 3", "1 2 2"), "mesh", {.repeated_corners = true}).mesh.face_count() == 4);
   refused(changed("<Data>", "<Data></Data><Data>"), 4, "second <Data>");
   refused(changed("<Data>", "<Other>"), 0, "malformed");
   refused(gifti({points()}), 0, "no array of NIFTI_INTENT_TRIANGLE");

@@ -6,6 +6,7 @@
 
 #include "mesh_io/mesh_writer.h"
 #include "reading.h"
+#include "sphparam/mesh/mesh_repair.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;
@@ -52,6 +53,29 @@ TEST_CASE("mesh_reader: a file on disk reads like its bytes") {
   options.max_file_bytes -= 1;
   CHECK_THROWS_AS(tools::read_mesh(path.string(), options), tools::ReadError);
   std::filesystem::remove(path);
+}
+
+TEST_CASE(
+    "mesh_reader: faces that name a vertex twice come through for a repair, and it removes them") {
+  const std::string faulty[] = {kTetrahedronObj + "f 1 2 1\nf 4 3 2 1 4 2\n",
+                                replaced(replaced(kTetrahedronOff, "4 4 6", "4 6 6"), "3 0 1 3\n",
+                                         "3 0 1 3\n4 0 1 1 2\n3 3 3 3\n"),
+                                replaced(replaced(kTetrahedronPly, "face 4", "face 6"), "3 0 1 3\n",
+                                         "3 0 1 3\n3 2 1 2\n5 0 1 2 3 0\n")};
+  const tools::MeshFile sound = read(kTetrahedronObj);
+  for (const std::string& bytes : faulty) {
+    CHECK(contains(complaint(bytes), "face names a vertex twice"));
+    const MeshFile file = read(bytes, "mesh", {.repeated_corners = true});
+    CHECK(file.mesh.face_count() == 6);
+    RepairOptions options = RepairOptions::none();
+    options.duplicates = true;
+    const RepairedMesh repaired = repair_mesh(file.mesh, options);
+    REQUIRE(repaired.actions.size() == 1);
+    CHECK(repaired.actions[0].kind == RepairKind::InvalidFaceRemoved);
+    CHECK(repaired.actions[0].count == 2);
+    CHECK(repaired.mesh.triangles == sound.mesh.triangles);
+    CHECK(repaired.inspection.is_sphere());
+  }
 }
 
 TEST_CASE("mesh_reader: every limit holds at its value and not beyond") {

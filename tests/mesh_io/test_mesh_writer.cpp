@@ -1,7 +1,9 @@
 #include <catch2/catch.hpp>
 #include <random>
+#include <stdexcept>
 
 #include "mesh_io/mesh_writer.h"
+#include "mesh_io/polygons.h"
 #include "reading.h"
 
 using namespace sphparam;
@@ -125,6 +127,37 @@ TEST_CASE("mesh_writer: OBJ carries colours, normals, texture coordinates and ma
   CHECK(values_of(back.find_face_property("material")) == std::vector<double>{0, 1, 0, 1});
   CHECK(values_of(back.find_vertex_property("red"))[0] == 1);
   CHECK(values_of(back.find_vertex_property("blue"))[1] == Approx(128.0 / 255));
+}
+
+TEST_CASE(
+    "mesh_writer: polygons written as OBJ come back as they were, with all their corners have") {
+  const std::string faces =
+      "usemtl a\nf 1/1 4/2 3/3 2/4\nf 5/1 6/2 7/3 8/4\nusemtl b\nf 1/5 2/6 6/7 5/8\n"
+      "f 2/5 3/6 7/7 6/8\nf 3/5 4/6 8/7 7/8\nusemtl a\nf 4/1 1/8 5/2\nf 4/1 5/2 8/9\n";
+  std::string written = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n";
+  for (int i = 0; i < 9; ++i) written += "vt " + std::to_string(i) + " 0.5\n";
+  MeshFile file = read(written + faces);
+  Polygons polygons;
+  const int quads[][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}};
+  const int triangles[][3] = {{3, 0, 4}, {3, 4, 7}};
+  for (const auto& quad : quads) {
+    for (const int v : quad) polygons.add_corner(v);
+    REQUIRE(polygons.close_polygon({}).empty());
+  }
+  for (const auto& triangle : triangles) {
+    for (const int v : triangle) polygons.add_corner(v);
+    REQUIRE(polygons.close_polygon({}).empty());
+  }
+  CHECK(serialise_polygon_obj(file, polygons) == written + faces);
+  // Also where the diagonals of the quads are others than reading chooses.
+  file.mesh.triangles.row(0) << 0, 3, 1;
+  file.mesh.triangles.row(1) << 3, 2, 1;
+  file.corner_texcoords.reset();
+  const MeshFile back = read(serialise_polygon_obj(file, polygons));
+  CHECK(back.polygons == 5);
+  CHECK(back.mesh.triangles == read(written + faces).mesh.triangles);
+  polygons.corners[0] = 6;
+  CHECK_THROWS_AS(serialise_polygon_obj(file, polygons), std::logic_error);
 }
 
 TEST_CASE("mesh_writer: OFF carries normals, colours and texture coordinates of vertices") {

@@ -75,6 +75,15 @@ std::string message_of(const std::string& from, const std::string& to) {
   return complaint(replaced(kTetrahedronPly, from, to), "a.ply");
 }
 
+/// With `from` turned into `to`, the file is refused at a line for the reason expected.
+void refused(const std::string& from, const std::string& to, int line,
+             const std::string& expected) {
+  const std::string message = message_of(from, to);
+  INFO(to << " -> " << message);
+  CHECK(contains(message, "a.ply:" + std::to_string(line) + ": "));
+  CHECK(contains(message, expected));
+}
+
 }  // namespace
 
 TEST_CASE("ply_reader: an ASCII tetrahedron has its vertices and triangles") {
@@ -180,13 +189,6 @@ TEST_CASE("ply_reader: faces without texture coordinates are zero and noted") {
 }
 
 TEST_CASE("ply_reader: a header that breaks the rules is refused at its line") {
-  const auto refused = [](const std::string& from, const std::string& to, int line,
-                          const std::string& expected) {
-    const std::string message = message_of(from, to);
-    INFO(to << " -> " << message);
-    CHECK(contains(message, "a.ply:" + std::to_string(line) + ": "));
-    CHECK(contains(message, expected));
-  };
   refused("ply\n", "plx\n", 1, "magic");
   refused("ascii 1.0", "ascii 2.0", 2, "version '2.0'");
   refused("ascii 1.0", "utf8 1.0", 2, "unknown format");
@@ -221,13 +223,6 @@ TEST_CASE("ply_reader: a header that breaks the rules is refused at its line") {
 }
 
 TEST_CASE("ply_reader: a text body that breaks the rules is refused at its line") {
-  const auto refused = [](const std::string& from, const std::string& to, int line,
-                          const std::string& expected) {
-    const std::string message = message_of(from, to);
-    INFO(to << " -> " << message);
-    CHECK(contains(message, "a.ply:" + std::to_string(line) + ": "));
-    CHECK(contains(message, expected));
-  };
   refused("-1 -1 1", "-1 -1", 11, "end of the line");
   refused("-1 -1 1", "-1 -1 1 1", 11, "unexpected '1'");
   refused("-1 -1 1", "-1 -1 inf", 11, "'inf'");

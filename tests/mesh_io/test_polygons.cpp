@@ -194,3 +194,44 @@ TEST_CASE("polygons: degenerate and huge polygons are cut all the same") {
   Points crossing = Points::Random(300, 3);
   CHECK(triangulate(crossing, ring(300)).triangles.rows() == 298);
 }
+
+TEST_CASE("polygons: one that names a vertex twice is refused, or is one triangle that does") {
+  const std::vector<std::vector<int>> good = {{0, 1, 2, 3}, {4, 5, 6}},
+                                      bad = {{0, 1, 0},
+                                             {0, 1, 1, 2},
+                                             {4, 0, 5, 1, 6, 2, 7, 3, 4},
+                                             {2, 2, 2, 2, 2}};
+  for (const std::vector<int>& face : bad) {
+    Polygons polygons;
+    polygons.corners = face;
+    CHECK(polygons.close_polygon({}) == "face names a vertex twice");
+  }
+  Polygons polygons;
+  for (const auto& faces : {bad, good, bad})
+    for (const std::vector<int>& face : faces) {
+      polygons.corners.insert(polygons.corners.end(), face.begin(), face.end());
+      REQUIRE(polygons.close_polygon({.repeated_corners = true}).empty());
+    }
+  Points points = Points::Random(8, 3);
+  points.topRows(4) << 1, 0, 0, 0, 3, 0, -1, 0, 0, 0, -3,
+      0;  // cut from 0 to 2, {0, 1, 1, 2} or not
+  const Triangulation cut = triangulate(points, polygons);
+  const Triangles of_good = triangulate(points, polygons_of(good)).triangles;
+  CHECK(cut.polygon == std::vector<int>{0, 1, 2, 3, 4, 4, 5, 6, 7, 8, 9});
+  CHECK(cut.triangles.middleRows(4, 3) == of_good);
+  for (const Eigen::Index t : {0, 1, 2, 3, 7, 8, 9, 10}) {
+    const auto row = cut.triangles.row(t);
+    CHECK((row[0] == row[1] || row[1] == row[2] || row[2] == row[0]));
+    for (int k = 0; k < 3; ++k) CHECK(polygons.corners[cut.corner[3 * t + k]] == row[k]);
+  }
+}
+
+TEST_CASE("polygons: two quads of which one names a vertex twice are no doublet") {
+  Polygons polygons;
+  for (const int v : {0, 1, 2, 3, 0, 3, 2, 2}) {
+    polygons.add_corner(v);
+    if (polygons.open_degree() == 4)
+      REQUIRE(polygons.close_polygon({.repeated_corners = true}).empty());
+  }
+  CHECK(triangulate(Points::Random(4, 3), polygons).doublets.empty());
+}

@@ -2,7 +2,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
 #include <map>
 #include <sstream>
 
@@ -10,6 +9,7 @@
 #include "mesh_io/welding.h"
 #include "reading.h"
 #include "sphparam/mesh/mesh_defects.h"
+#include "support/real_meshes.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;
@@ -17,17 +17,6 @@ using namespace sphparam::tools;
 namespace fs = std::filesystem;
 
 namespace {
-
-fs::path mesh_folder() {
-  const char* const given = std::getenv("SPHPARAM_MESHES");
-  return given ? given : SPHPARAM_DEFAULT_MESHES;
-}
-
-bool skipped(const fs::path& folder) {
-  if (fs::is_directory(folder)) return false;
-  std::cout << "skipped: no folder " << folder << "\n";
-  return true;
-}
 
 struct Entry {
   std::string name;
@@ -77,8 +66,8 @@ const std::map<std::string, std::string> kRefused = {
 }  // namespace
 
 TEST_CASE("real meshes: every genus-0 mesh is read whole and is a sphere") {
-  const fs::path folder = mesh_folder() / "genus0";
-  if (skipped(folder)) return;
+  const fs::path folder = real_mesh_folder("genus0");
+  if (folder.empty()) return;
   const std::vector<Entry> entries = read_table(folder / "README.md", '|', 1, 4);
   CHECK(entries.size() == 16);
   for (const auto& [name, vertices, faces] : entries) {
@@ -95,8 +84,8 @@ TEST_CASE("real meshes: every genus-0 mesh is read whole and is a sphere") {
 }
 
 TEST_CASE("real meshes: bad files are refused with a place, bad surfaces are read") {
-  const fs::path folder = mesh_folder() / "bad";
-  if (skipped(folder)) return;
+  const fs::path folder = real_mesh_folder("bad");
+  if (folder.empty()) return;
   const std::vector<Entry> entries = read_table(folder / "README.tsv", '\t', 0, 5);
   CHECK(entries.size() == 34);
   for (const auto& [name, vertices, faces] : entries) {
@@ -115,16 +104,16 @@ TEST_CASE("real meshes: bad files are refused with a place, bad surfaces are rea
 }
 
 TEST_CASE("real meshes: what is closed as indexed is not welded") {
-  const fs::path folder = mesh_folder() / "bad";
-  if (skipped(folder)) return;
+  const fs::path folder = real_mesh_folder("bad");
+  if (folder.empty()) return;
   const MeshFile file = read_mesh((folder / "CGoGN_2__aneurysm_3D.ply").string());
   CHECK(inspect_mesh(prepare_for_mapping(file).mesh).is_sphere());
   CHECK_FALSE(inspect_mesh(weld_exact(file).file.mesh).is_sphere());
 }
 
 TEST_CASE("real meshes: what needs welding, and GIFTI, becomes a sphere on its way to the map") {
-  const fs::path folder = mesh_folder() / "genus0";
-  if (skipped(folder)) return;
+  const fs::path folder = real_mesh_folder("genus0");
+  if (folder.empty()) return;
   for (const auto& [name, vertices, faces] :
        {Entry{"Duck.glb", 2108, 4212},
         {"scallop.glb", 60002, 120000},
@@ -139,8 +128,8 @@ TEST_CASE("real meshes: what needs welding, and GIFTI, becomes a sphere on its w
 }
 
 TEST_CASE("real meshes: a glTF of many parts is read, and is no sphere for the reasons known") {
-  const fs::path folder = mesh_folder() / "bad";
-  if (skipped(folder)) return;
+  const fs::path folder = real_mesh_folder("bad");
+  if (folder.empty()) return;
   const MeshFile file = read_mesh((folder / "trimesh__CesiumMilkTruck.glb").string());
   CHECK(file.mesh.vertex_count() == 3564);
   CHECK(file.mesh.face_count() == 3624);

@@ -167,6 +167,17 @@ TEST_CASE("safe_file: two spellings of one path are one file") {
     CHECK_THROWS_WITH(files.add(folder.file(spelling), "y"), Catch::Contains("two outputs"));
 }
 
+TEST_CASE("safe_file: a name without folder and one with a point before it are one file") {
+  const Folder folder;
+  const fs::path before = fs::current_path();
+  fs::current_path(folder.path);
+  PendingFiles files;
+  files.add("new", "x");
+  CHECK_THROWS_WITH(files.add("./new", "y"), Catch::Contains("two outputs"));
+  CHECK_THROWS_WITH(files.add(folder.file("new"), "y"), Catch::Contains("two outputs"));
+  fs::current_path(before);
+}
+
 TEST_CASE("safe_file: a link to nothing is followed, and stays") {
   const Folder folder;
   fs::create_directory(folder.file("sub"));

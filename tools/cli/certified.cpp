@@ -1,7 +1,12 @@
 #include "cli/certified.h"
 
+#include <utility>
+
 #include "cli/exit_codes.h"
 #include "cli/wording.h"
+#include "mesh_io/mesh_reader.h"
+#include "mesh_io/read_back.h"
+#include "mesh_io/sphere_file.h"
 
 namespace sphparam::tools {
 
@@ -11,6 +16,23 @@ void require_certified(const Certificate& certificate, const std::string& what) 
                           (certificate.reversed
                                ? "its sphere is seen from inside"
                                : verdict(certificate) + "\n" + complaint(certificate)));
+}
+
+void add_certified(PendingFiles& files, const std::string& path, std::string bytes,
+                   const Topology& topology, int threads) {
+  files.add(path, std::move(bytes), [&](std::string_view written) {
+    const MeshFile read = read_mesh(written, path, own_file);
+    require_certified(certify_read_back(read, read_sphere(read).value(), topology, threads),
+                      path + ", as written");
+  });
+}
+
+void add_certified(PendingFiles& files, const std::string& path, std::string bytes,
+                   const Topology& topology, const SphereMap& map, int threads) {
+  files.add(path, std::move(bytes), [&](std::string_view written) {
+    const MeshFile read = read_mesh(written, path, own_file);
+    require_certified(certify_read_back(read, map, topology, threads), path + ", as written");
+  });
 }
 
 }  // namespace sphparam::tools

@@ -2,11 +2,22 @@
 
 #include <string>
 
+#include "mesh_io/safe_file.h"
+#include "sphparam/mesh/topology.h"
 #include "sphparam/sphere/certificate.h"
 
 namespace sphparam::tools {
 
 /// Throws NotCertifiedError unless the certificate says one-to-one: `what`, and the faces at fault.
 void require_certified(const Certificate& certificate, const std::string& what);
+
+/// Adds the bytes of a PLY that carries a map. They are read back once written, and their map must
+/// be one-to-one: NotCertifiedError if not. `topology` is that of the faces in them.
+void add_certified(PendingFiles& files, const std::string& path, std::string bytes,
+                   const Topology& topology, int threads);
+
+/// The same for a mesh that carries no map: `map` has a ray for each of its vertices.
+void add_certified(PendingFiles& files, const std::string& path, std::string bytes,
+                   const Topology& topology, const SphereMap& map, int threads);
 
 }  // namespace sphparam::tools

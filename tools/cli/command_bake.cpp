@@ -41,8 +41,6 @@ struct Image {
   std::unique_ptr<BakedFile> file;
 };
 
-bool is_integer(SampleType type) { return type == SampleType::Uint8 || type == SampleType::Uint16; }
-
 ImageFormat format_of(const BakeOutput& output) {
   return is_stream(output.path) ? ImageFormat::Png : *image_format_of(output.path);
 }

@@ -134,7 +134,7 @@ class Exporter {
   void run() {
     require_new_places();
     mapped_ = read_mapped_source(arguments_.input, arguments_.sphere, arguments_.threads, console_);
-    if (arguments_.source_uv && !texcoords_of(mapped_.source.file)) {
+    if (arguments_.source_uv && !has_texcoords(mapped_.source.file)) {
       throw UsageMistake("--source-uv: the mesh has no texture coordinates of its own");
     }
     console_.progress("images", 0);

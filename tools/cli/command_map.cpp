@@ -212,8 +212,6 @@ void add_charts(PendingFiles& files, const std::string& folder, const std::strin
   }
 }
 
-using Outputs = std::vector<std::pair<std::string, std::string>>;
-
 /// The charts and the report, which are written for folded maps too.
 void add_reports(PendingFiles& files, const MapArguments& arguments, const Outcome& outcome,
                  Outputs outputs, const Stopwatch& stopwatch) {
@@ -228,17 +226,19 @@ void add_reports(PendingFiles& files, const MapArguments& arguments, const Outco
   if (outcome.certificate.bijective()) {
     chart = report_chart(outcome.source.file.mesh, outcome.result.map, arguments.options.threads);
   }
-  const MapReport report = {.input = {arguments.input, outcome.source},
-                            .method = info_of(arguments.method).name,
-                            .options = arguments.options,
-                            .result = outcome.result,
-                            .account = outcome.account,
-                            .pins = outcome.pins,
-                            .certificate = outcome.certificate,
-                            .distortion = outcome.figures,
-                            .chart = chart,
-                            .outputs = outputs,
-                            .seconds = stopwatch.seconds()};
+  const MapReport report = {
+      .input = {arguments.input, outcome.source},
+      .method = info_of(arguments.method).name,
+      .options = arguments.options,
+      .repairs_wanted = words_of(wanted_repairs(arguments.repair).value_or(RepairOptions::none())),
+      .result = outcome.result,
+      .account = outcome.account,
+      .pins = outcome.pins,
+      .certificate = outcome.certificate,
+      .distortion = outcome.figures,
+      .chart = chart,
+      .outputs = outputs,
+      .seconds = stopwatch.seconds()};
   files.add(arguments.json, to_json(report));
 }
 
@@ -365,13 +365,20 @@ void tell_result(const MapArguments& arguments, const Outcome& outcome, bool wri
     console.say(complaint_of_pins(outcome) + "  no map is written without them");
 }
 
+/// The mesh, after the repairs that are wanted.
+Source read_mended(const MapArguments& arguments) {
+  const std::optional<RepairOptions> repairs = wanted_repairs(arguments.repair);
+  ReadOptions options = input_limits();
+  options.repeated_corners = repairs && repairs->duplicates;
+  Source source = read_source(arguments.input, options);
+  if (!repairs) return source;
+  return repaired(std::move(source), *repairs);
+}
+
 int run_map(const MapArguments& arguments) {
   const Stopwatch stopwatch;
   Console console(arguments.loudness.verbosity(), arguments.progress);
-  Source source = read_source(arguments.input);
-  if (const auto repairs = wanted_repairs(arguments.repair)) {
-    source = repaired(std::move(source), *repairs);
-  }
+  Source source = read_mended(arguments);
   const OrderlyInterruption orderly;  // from here on there may be files to clean up
   Outcome outcome = compute(std::move(source), arguments, console);
   tell_stages(arguments, outcome, console);

@@ -12,6 +12,7 @@
 
 #include "cli/certified.h"
 #include "cli/exit_codes.h"
+#include "cli/flat_comparison.h"
 #include "cli/interruption.h"
 #include "cli/like_grid.h"
 #include "cli/mapped_source.h"
@@ -26,9 +27,7 @@
 #include "cli/remesh_report.h"
 #include "cli/remesh_subdivision.h"
 #include "cli/wording.h"
-#include "mesh_io/mesh_reader.h"
 #include "mesh_io/mesh_writer.h"
-#include "mesh_io/read_back.h"
 #include "mesh_io/safe_file.h"
 #include "mesh_io/sphere_file.h"
 #include "remesh/polygon_ply.h"
@@ -49,6 +48,8 @@ std::string kind_of(const std::string& path) {
 }
 
 std::optional<GridSpec> grid_asked_for(const RemeshArguments& arguments) {
+  if (arguments.grid == like_prefix)
+    throw UsageMistake("--grid like: names no mesh, as in like:MESH");
   if (arguments.grid.starts_with(like_prefix)) return std::nullopt;
   try {
     return parse_grid(arguments.grid);
@@ -67,15 +68,22 @@ void check_outputs(const RemeshArguments& arguments) {
       arguments.displacement.empty() && images_asked_for(arguments).empty()) {
     throw UsageMistake("nothing to write: give -o, --geometry-image or --csv");
   }
-  std::vector<std::pair<std::string, std::string>> outputs = {
-      {"-o", arguments.output},
-      {"--limit-mesh", arguments.limit_output},
-      {"--displace", arguments.displacement},
-      {"--rebuild", arguments.rebuilt},
-      {"--csv", arguments.csv},
-      {"--json", arguments.json}};
+}
+
+/// No file may be written that is read or written besides.
+void require_apart(const RemeshArguments& arguments, const std::vector<RemeshArguments>& levels) {
+  Outputs outputs = {{"-o", levels.front().output},
+                     {"--limit-mesh", arguments.limit_output},
+                     {"--displace", arguments.displacement},
+                     {"--rebuild", arguments.rebuilt},
+                     {"--csv", arguments.csv},
+                     {"--json", arguments.json}};
   for (const ImageRequest& request : images_asked_for(arguments)) {
     outputs.emplace_back("the image of " + request.what, request.path);
+  }
+  const bool one_file = kind_of(arguments.output) == ".glb";
+  for (size_t level = 1; level < levels.size() && !one_file; ++level) {
+    outputs.emplace_back("--lods", levels[level].output);
   }
   for (const auto& [option, path] : outputs) {
     require_not_input(arguments.input, path, option);
@@ -83,6 +91,17 @@ void check_outputs(const RemeshArguments& arguments) {
     if (arguments.grid.starts_with(like_prefix))
       require_not_input(arguments.grid.substr(like_prefix.size()), path, option);
   }
+  require_distinct(outputs);
+}
+
+/// What makes no sense is refused before work. The grid asked for, where it is none of a file.
+std::optional<GridSpec> check_arguments(const RemeshArguments& arguments) {
+  check_outputs(arguments);
+  std::optional<GridSpec> spec = grid_asked_for(arguments);
+  check_images(arguments, spec);
+  check_subdivision(arguments, spec);
+  check_displacement(arguments);
+  return spec;
 }
 
 SphereGrid grid_for(const RemeshArguments& arguments, const std::optional<GridSpec>& spec) {
@@ -122,19 +141,16 @@ Provenance provenance(const RemeshArguments& arguments, const MappedSource& mapp
 
 void add_mesh(PendingFiles& files, const std::string& path, const RemeshArguments& arguments,
               const MappedSource& mapped, const Remeshed& result) {
+  MeshFile file = attach_map(result.file, result.map, provenance(arguments, mapped));
+  const Topology topology(result.file.mesh, arguments.threads);
   if (kind_of(path) == ".obj") {
-    files.add(path, serialise_obj(result.file));
+    add_certified(files, path, serialise_polygon_obj(file, result.faces), topology, result.map,
+                  arguments.threads);
     return;
   }
-  MeshFile file = attach_map(result.file, result.map, provenance(arguments, mapped));
   std::string bytes = file.polygons > 0 ? serialise_polygon_ply(std::move(file), result.faces)
                                         : serialise_ply(file);
-  files.add(path, std::move(bytes), [&](std::string_view written) {
-    const MeshFile read = read_mesh(written, path, own_file);
-    require_certified(certify(Topology(read.mesh, arguments.threads), read_sphere(read).value(),
-                              arguments.threads),
-                      path + ", as written");
-  });
+  add_certified(files, path, std::move(bytes), topology, arguments.threads);
 }
 
 void add_meshes(PendingFiles& files, const std::vector<RemeshLevel>& levels,
@@ -166,38 +182,26 @@ RemeshLevel make_level(const MappedSource& mapped, SphereGrid grid,
   return level;
 }
 
-int run_remesh(const RemeshArguments& arguments) {
-  const Stopwatch stopwatch;
-  check_outputs(arguments);
-  const std::optional<GridSpec> spec = grid_asked_for(arguments);
-  check_images(arguments, spec);
-  check_subdivision(arguments, spec);
-  check_displacement(arguments);
-  const std::vector<RemeshArguments> asked = levels_asked_for(arguments, spec);
-  Console console(arguments.loudness.verbosity(), arguments.progress);
-  const OrderlyInterruption orderly;
-  MappedSource mapped = read_mapped_source(arguments.input, arguments.sphere, arguments.threads,
-                                           console, remeshing_lambda);
-  if (arguments.subdivision || arguments.lods > 0) require_measurable(mapped.source.file.mesh);
-  console.progress("grid", 0);
-  const Stopwatch grid_stopwatch;
-  SphereGrid grid = grid_for(arguments, spec);
-  const double grid_seconds = grid_stopwatch.seconds();
-  std::optional<Adaptation> adaptation;
-  if (arguments.adaptive) {
-    adaptation = adapt_source(mapped, grid.directions.rows(), arguments, console);
-  }
+/// The meshes asked for, finest first, the first one on the grid given.
+std::vector<RemeshLevel> make_levels(const MappedSource& mapped, SphereGrid grid,
+                                     const std::vector<RemeshArguments>& asked, Console& console) {
   std::vector<RemeshLevel> levels = {make_level(mapped, std::move(grid), asked.front(), console)};
   for (size_t level = 1; level < asked.size(); ++level) {
-    const GridSpec coarse = parse_grid(asked[level].grid);
-    levels.push_back(make_level(mapped, make_grid(coarse, {.threads = arguments.threads}),
-                                asked[level], console));
+    SphereGrid coarse = make_grid(parse_grid(asked[level].grid), {.threads = asked[level].threads});
+    levels.push_back(make_level(mapped, std::move(coarse), asked[level], console));
   }
   if (levels.size() > 1) measure_levels(levels, mapped, console);
+  return levels;
+}
+
+std::optional<DisplacementReport> add_outputs(PendingFiles& files, const RemeshArguments& arguments,
+                                              const std::optional<GridSpec>& spec,
+                                              const MappedSource& mapped,
+                                              const std::vector<RemeshLevel>& levels,
+                                              Console& console) {
   const Remeshed& result = levels.front().mesh;
   const std::optional<SubdivisionFit>& fit = levels.front().fit;
   console.progress("write", 0);
-  PendingFiles files;
   add_meshes(files, levels, mapped, console);
   if (!arguments.limit_output.empty()) {
     add_mesh(files, arguments.limit_output, arguments, mapped,
@@ -208,35 +212,67 @@ int run_remesh(const RemeshArguments& arguments) {
     displacement = add_displacement(files, arguments, mapped, result, *fit, console);
   if (spec) add_images(files, arguments, *spec, result);
   if (!arguments.csv.empty()) files.add(arguments.csv, sample_table(result.file, result.map));
-  if (!arguments.json.empty()) {
-    files.add(arguments.json, to_json(RemeshReport{.arguments = arguments,
-                                                   .source = mapped,
-                                                   .result = result,
-                                                   .adaptation = adaptation,
-                                                   .fit = fit,
-                                                   .displacement = displacement,
-                                                   .levels = levels,
-                                                   .grid_seconds = grid_seconds,
-                                                   .seconds = stopwatch.seconds()}));
-  }
-  if (interrupted()) throw Cancelled();
-  files.publish();
-  console.clear_progress();
-  console.detail("  grid: " + short_number(grid_seconds) +
+  return displacement;
+}
+
+void tell(const RemeshReport& report, Console& console) {
+  const RemeshArguments& arguments = report.arguments;
+  const Remeshed& result = report.result;
+  const TriangleMesh& source = report.source.source.file.mesh;
+  console.detail("  grid: " + short_number(report.grid_seconds) +
                  " s, location: " + short_number(result.locate_seconds) +
                  " s, positions: " + short_number(result.transfer_seconds) + " s");
   if (arguments.sample == SampleMode::Cell) {
     console.detail("  means over cells at " + std::to_string(result.averaged) + " of " +
                    std::to_string(result.map.points.rows()) + " vertices");
   }
-  if (fit) console.say(fit_line(*fit, mapped.source.file.mesh));
-  if (displacement) console.say(displacement_lines(*displacement, mapped.source.file.mesh));
-  if (levels.size() > 1) console.say(level_lines(levels, mapped.source.file.mesh));
+  if (report.fit) console.say(fit_line(*report.fit, source));
+  if (report.displacement) console.say(displacement_lines(*report.displacement, source));
+  if (report.levels.size() > 1) console.say(level_lines(report.levels, source));
   std::string line = display_name(arguments.input) + ": " + arguments.grid + ", " +
                      std::to_string(result.map.points.rows()) +
-                     " vertices, certified one-to-one, " + short_number(stopwatch.seconds()) + " s";
-  if (!arguments.output.empty()) line += " → " + output_name(levels.front().arguments.output);
+                     " vertices, certified one-to-one, " + short_number(report.seconds) + " s";
+  if (!arguments.output.empty())
+    line += " → " + output_name(report.levels.front().arguments.output);
   console.say(line);
+}
+
+int run_remesh(const RemeshArguments& arguments) {
+  const Stopwatch stopwatch;
+  const std::optional<GridSpec> spec = check_arguments(arguments);
+  const std::vector<RemeshArguments> asked = levels_asked_for(arguments, spec);
+  require_apart(arguments, asked);
+  Console console(arguments.loudness.verbosity(), arguments.progress);
+  const OrderlyInterruption orderly;
+  MappedSource mapped = read_mapped_source(arguments.input, arguments.sphere, arguments.threads,
+                                           console, remeshing_lambda);
+  if (arguments.subdivision || arguments.lods > 0) require_measurable(mapped.source.file.mesh);
+  console.progress("grid", 0);
+  const Stopwatch grid_stopwatch;
+  SphereGrid grid = grid_for(arguments, spec);
+  const double grid_seconds = grid_stopwatch.seconds();
+  std::optional<Adaptation> adaptation;
+  if (arguments.adaptive)
+    adaptation = adapt_source(mapped, grid.directions.rows(), arguments, console);
+  const std::vector<RemeshLevel> levels = make_levels(mapped, std::move(grid), asked, console);
+  PendingFiles files;
+  const std::optional<DisplacementReport> displacement =
+      add_outputs(files, arguments, spec, mapped, levels, console);
+  RemeshReport report{.arguments = arguments,
+                      .source = mapped,
+                      .result = levels.front().mesh,
+                      .adaptation = std::move(adaptation),
+                      .fit = levels.front().fit,
+                      .displacement = displacement,
+                      .levels = levels,
+                      .grid_seconds = grid_seconds,
+                      .seconds = stopwatch.seconds()};
+  if (!arguments.json.empty()) files.add(arguments.json, to_json(report));
+  if (interrupted()) throw Cancelled();
+  files.publish();
+  report.seconds = stopwatch.seconds();
+  console.clear_progress();
+  tell(report, console);
   return Ok;
 }
 

@@ -63,16 +63,13 @@ struct ReportArguments {
 };
 
 /// "statue" of "folder/statue.sph.ply"; "standard input" of "-".
-std::string stem_of(const std::string& path) {
-  if (is_stream(path)) return display_name(path);
-  std::filesystem::path name = std::filesystem::path(path).stem();
-  if (name.extension() == ".sph") name = name.stem();
-  return name.string();
+std::string name_of_map(const std::string& path) {
+  return is_stream(path) ? display_name(path) : stem_of(path);
 }
 
 /// Names of maps, told apart where files have the same.
 std::string new_name(const std::string& path, const std::vector<Exhibit>& exhibits) {
-  const std::string stem = stem_of(path);
+  const std::string stem = name_of_map(path);
   std::string name = stem;
   const auto taken = [&] {
     return std::any_of(exhibits.begin(), exhibits.end(),
@@ -96,6 +93,10 @@ void require_sense(const ReportArguments& arguments) {
   }
   if (is_same_place(arguments.output, arguments.json)) {
     throw UsageMistake("--output and --json are the same file");
+  }
+  const std::string kind = is_stream(arguments.output) ? "" : extension_of(arguments.output);
+  if (!kind.empty() && kind != ".html" && kind != ".htm") {
+    throw UsageMistake("-o: the page is written as .html, not as " + kind);
   }
 }
 
@@ -223,7 +224,7 @@ std::string page_of(const ReportArguments& arguments, const Source& source,
                     const std::vector<Exhibit>& exhibits, Console& console) {
   const std::string& mesh = arguments.inputs.front();
   try {
-    return report_page(stem_of(mesh), source.file, exhibits,
+    return report_page(name_of_map(mesh), source.file, exhibits,
                        page_options(arguments, source, console));
   } catch (const MapError& error) {  // a texture, and no coordinates for it
     throw UsageMistake(display_name(mesh) + ": " + error.what());

@@ -11,6 +11,7 @@
 #include "cli/command.h"
 #include "cli/common_options.h"
 #include "cli/console.h"
+#include "cli/diagonal.h"
 #include "cli/exit_codes.h"
 #include "cli/harmonics_report.h"
 #include "cli/interruption.h"
@@ -38,7 +39,9 @@ constexpr char summary[] =
     "  sphparam spharm brain.ply --sphere brain.sphere.gii --degree 60 --reconstruct smooth.ply\n"
     "  sphparam spharm moon.sph.ply --degree 90 --scalar gravity --csv moon.csv\n"
     "\n"
-    "The coefficients are of x, y and z, and of the scalars named, in a real orthonormal basis.\n";
+    "The coefficients are of x, y and z, and of the scalars named, in a real orthonormal basis.\n"
+    "Least squares weigh each vertex by its solid angle on the sphere, that is, the part of the\n"
+    "sphere that it stands for; residuals are told so weighted, and plain.\n";
 
 struct SpharmArguments {
   std::string input;
@@ -79,10 +82,6 @@ Functions functions_of(const MeshFile& file, const std::vector<std::string>& sca
   return values;
 }
 
-double diagonal(const Points& points) {
-  return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
-}
-
 HarmonicsReport expand(const SpharmArguments& arguments, const MappedSource& mapped,
                        Console& console) {
   const MeshFile& file = mapped.source.file;
@@ -92,15 +91,20 @@ HarmonicsReport expand(const SpharmArguments& arguments, const MappedSource& map
                             .functions = {"x", "y", "z"},
                             .least_squares = arguments.least_squares,
                             .fit = {},
-                            .diagonal = diagonal(file.mesh.positions)};
+                            .plain_rms = {},
+                            .diagonal = diagonal_of(file.mesh.positions)};
   report.functions.insert(report.functions.end(), arguments.scalars.begin(),
                           arguments.scalars.end());
+  const Functions values = functions_of(file, arguments.scalars);
   report.fit = fit_harmonics(
-      mapped.source.topology.value(), mapped.map, functions_of(file, arguments.scalars),
+      mapped.source.topology.value(), mapped.map, values,
       {.degree = arguments.degree,
        .least_squares = arguments.least_squares,
        .threads = arguments.threads,
        .progress = [&](std::string_view stage, double f) { return console.progress(stage, f); }});
+  const Functions left =
+      values - synthesise(report.fit.coefficients, mapped.map.points, arguments.threads);
+  report.plain_rms = left.cwiseAbs2().colwise().mean().cwiseSqrt();
   console.clear_progress();
   return report;
 }
@@ -126,19 +130,14 @@ MeshFile reconstruct(const SpharmArguments& arguments, MappedSource mapped,
 }
 
 void require_sensible(const SpharmArguments& arguments) {
-  const std::pair<const char*, const std::string&> outputs[] = {
-      {"--json", arguments.json},
-      {"--csv", arguments.csv},
-      {"--reconstruct", arguments.reconstruction}};
+  const Outputs outputs = {{"--json", arguments.json},
+                           {"--csv", arguments.csv},
+                           {"--reconstruct", arguments.reconstruction}};
   for (const auto& [option, path] : outputs) {
     require_not_input(arguments.input, path, option);
     require_not_input(arguments.sphere, path, option);
-    for (const auto& [other, place] : outputs) {
-      if (other != option && is_same_place(path, place)) {
-        throw UsageMistake(std::string(option) + " and " + other + " name the same file");
-      }
-    }
   }
+  require_distinct(outputs);
   const std::string& mesh = arguments.reconstruction;
   if (!mesh.empty() && !is_stream(mesh) && (!serialiser(mesh) || extension_of(mesh) == ".gii")) {
     throw UsageMistake("--reconstruct: the name must end in .ply, .obj or .off");
@@ -157,9 +156,11 @@ void warn_of_few_vertices(const SpharmArguments& arguments, const MeshFile& file
 
 void tell(const HarmonicsReport& report, const Stopwatch& stopwatch, Console& console) {
   std::string line = display_name(report.mesh) + ": degree " + std::to_string(report.degree()) +
-                     ", RMS distance at the vertices " + short_number(report.position_rms()) +
-                     " (" + short_number(100 * report.position_rms() / report.diagonal) +
-                     " % of the diagonal), " + short_number(stopwatch.seconds()) + " s";
+                     ", RMS distance at the vertices, weighted by solid angle, " +
+                     short_number(report.position_rms()) + " (" +
+                     percent_of(report.diagonal, report.position_rms()) +
+                     " of the diagonal), unweighted " + short_number(report.plain_position_rms()) +
+                     ", " + short_number(stopwatch.seconds()) + " s";
   console.say(line);
   if (report.degree() >= 1) {
     const Vector3 axes = first_order_ellipsoid(report.fit.coefficients.leftCols(3));
@@ -167,8 +168,10 @@ void tell(const HarmonicsReport& report, const Stopwatch& stopwatch, Console& co
                 short_number(axes[1], 6) + ", " + short_number(axes[2], 6));
   }
   for (size_t k = 3; k < report.functions.size(); ++k) {
-    console.say("  " + report.functions[k] + ": RMS residual " +
-                short_number(report.fit.rms[static_cast<Eigen::Index>(k)]));
+    const auto i = static_cast<Eigen::Index>(k);
+    console.say("  " + report.functions[k] + ": RMS residual, weighted, " +
+                short_number(report.fit.rms[i]) + ", unweighted " +
+                short_number(report.plain_rms[i]));
   }
   console.detail("  " + std::to_string(report.fit.iterations) + " iterations");
 }
@@ -215,7 +218,8 @@ void add_options(CLI::App& command, SpharmArguments& arguments) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   add_choice<bool>(command, "--fit", arguments.least_squares,
                    {{"least-squares", true}, {"quadrature", false}},
-                   "At the vertices, or the integral over the sphere (default: least-squares)");
+                   "At the vertices, weighted by their solid angles, or the integral over the "
+                   "sphere (default: least-squares)");
   command.add_option("--json", arguments.json, "Coefficients and figures; - for standard output")
       ->type_name("FILE");
   command.add_option("--csv", arguments.csv, "Coefficients, a line each; - for standard output")

@@ -16,9 +16,7 @@
 #include "cli/paths.h"
 #include "cli/wording.h"
 #include "image/image_codec.h"
-#include "mesh_io/mesh_reader.h"
 #include "mesh_io/mesh_writer.h"
-#include "mesh_io/read_back.h"
 #include "mesh_io/safe_file.h"
 #include "mesh_io/sphere_file.h"
 #include "remesh/geometry_image.h"
@@ -119,23 +117,22 @@ MeshFile mesh_of(const ImageContents& contents, const UnimageArguments& argument
   return file;
 }
 
-void add_mesh(PendingFiles& files, MeshFile file, const ImageContents& contents,
-              const UnimageArguments& arguments) {
-  const std::string& path = arguments.output;
+void add_mesh(PendingFiles& files, MeshFile file, const Topology& topology,
+              const ImageContents& contents, const UnimageArguments& arguments) {
   MeshFile with_map = attach_map(std::move(file), SphereMap{contents.grid.directions},
                                  {{"version", version},
                                   {"method", "unimage"},
                                   {"grid", name_of(contents.spec)},
                                   {"verdict", "one-to-one"}});
+  if (extension_of(arguments.output) == ".obj") {
+    add_certified(files, arguments.output, serialise_polygon_obj(with_map, contents.grid.faces),
+                  topology, SphereMap{contents.grid.directions}, arguments.threads);
+    return;
+  }
   std::string bytes = with_map.polygons > 0
                           ? serialise_polygon_ply(std::move(with_map), contents.grid.faces)
                           : serialise_ply(with_map);
-  files.add(path, std::move(bytes), [&](std::string_view written) {
-    const MeshFile read = read_mesh(written, path, own_file);
-    require_certified(certify(Topology(read.mesh, arguments.threads), read_sphere(read).value(),
-                              arguments.threads),
-                      path + ", as written");
-  });
+  add_certified(files, arguments.output, std::move(bytes), topology, arguments.threads);
 }
 
 int run_unimage(const UnimageArguments& arguments) {
@@ -148,17 +145,13 @@ int run_unimage(const UnimageArguments& arguments) {
   console.progress("read", 0);
   const ImageContents contents = read_contents(arguments.input, arguments.threads);
   MeshFile file = mesh_of(contents, arguments);
-  require_certified(certify(Topology(file.mesh, arguments.threads),
-                            SphereMap{contents.grid.directions}, arguments.threads),
+  const Topology topology(file.mesh, arguments.threads);
+  require_certified(certify(topology, SphereMap{contents.grid.directions}, arguments.threads),
                     name_of(contents.spec));
   if (interrupted()) throw Cancelled();
   console.progress("write", 0);
   PendingFiles files;
-  if (kind == ".obj") {
-    files.add(arguments.output, serialise_obj(file));
-  } else {
-    add_mesh(files, std::move(file), contents, arguments);
-  }
+  add_mesh(files, std::move(file), topology, contents, arguments);
   if (interrupted()) throw Cancelled();
   files.publish();
   console.clear_progress();

@@ -10,7 +10,7 @@ enum ExitCode : int {
   InternalError = 1,  // a fault of ours, or out of memory
   UsageError = 2,     // the command line makes no sense
   FileError = 3,      // a file cannot be read, parsed or written
-  MeshUnusable = 4,   // the mesh is not a closed genus-0 manifold
+  MeshUnusable = 4,   // the mesh is not a closed genus-0 manifold, or cannot be measured
   NotCertified = 5,   // the map is not one-to-one
   LimitExceeded = 6,  // a measured limit was exceeded
   Interrupted = 130,  // SIGINT or SIGTERM
@@ -26,7 +26,9 @@ inline constexpr ExitMeaning exit_meanings[] = {
     {InternalError, "internal error, or out of memory"},
     {UsageError, "the command line makes no sense"},
     {FileError, "a file cannot be read, parsed or written"},
-    {MeshUnusable, "the mesh is not a closed genus-0 manifold"},
+    {MeshUnusable,
+     "the mesh is not a closed genus-0 manifold; or has no area or no sensible size, where lengths "
+     "matter"},
     {NotCertified,
      "the map is not one-to-one, or a pin is not at its point; no map written but with "
      "--keep-folded"},

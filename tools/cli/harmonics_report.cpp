@@ -16,6 +16,10 @@ constexpr char basis[] =
     "real, orthonormal on the unit sphere, without the Condon-Shortley phase; row l*l + l + m; "
     "m > 0: cos(m theta), m < 0: sin(|m| theta); Y_11, Y_1-1, Y_10 = sqrt(3/(4 pi)) (x, y, z)";
 
+constexpr char rms_meaning[] =
+    "of what is left at the vertices, each weighted by its solid angle on the sphere, as the least "
+    "squares are; unweighted: each vertex counts the same";
+
 Json column(const Functions& values, Eigen::Index k) {
   Json result = Json::array();
   for (Eigen::Index i = 0; i < values.rows(); ++i) result.push_back(values(i, k));
@@ -42,6 +46,7 @@ std::string to_json(const HarmonicsReport& report) {
     const auto i = static_cast<Eigen::Index>(k);
     functions.push_back({{"name", report.functions[k]},
                          {"rms_residual", report.fit.rms[i]},
+                         {"rms_residual_unweighted", report.plain_rms[i]},
                          {"power_per_degree", column(power, i)},
                          {"coefficients", column(report.fit.coefficients, i)}});
   }
@@ -55,7 +60,9 @@ std::string to_json(const HarmonicsReport& report) {
                {"fit", report.least_squares ? "least-squares" : "quadrature"},
                {"iterations", report.fit.iterations},
                {"position_rms", report.position_rms()},
-               {"position_rms_relative", report.position_rms() / report.diagonal}};
+               {"position_rms_relative", report.position_rms() / report.diagonal},
+               {"position_rms_unweighted", report.plain_position_rms()},
+               {"rms", rms_meaning}};
   if (report.degree() >= 1) {
     const Vector3 axes = first_order_ellipsoid(report.fit.coefficients.leftCols(3));
     json["first_order_ellipsoid"] = {axes[0], axes[1], axes[2]};

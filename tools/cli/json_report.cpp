@@ -120,13 +120,16 @@ Json pins_json(const MapReport& report) {
 
 Json options_json(const MapReport& report) {
   const ParameterizeOptions& options = report.options;
-  if (report.account) return {{"method", report.method}, {"repair", options.repair_paper}};
-  Json result = {
-      {"method", report.method},
-      {"poles", wanted_poles(options)},
-      {"meridian", options.meridian ? Json(*options.meridian) : Json()},
-      {"lambda", options.energy.lambda},
-      {"repair", options.method == Method::Paper ? options.repair_paper : options.repair}};
+  if (report.account) {
+    return {{"method", report.method},
+            {"repair", report.repairs_wanted},
+            {"repair_map", options.repair_paper}};
+  }
+  Json result = {{"method", report.method},
+                 {"poles", wanted_poles(options)},
+                 {"meridian", options.meridian ? Json(*options.meridian) : Json()},
+                 {"lambda", options.energy.lambda},
+                 {"repair", report.repairs_wanted}};
   if (options.method == Method::Progressive) {
     result["balance"] = name_of(options.balance);
     result["quality"] = name_of(options.quality);
@@ -134,6 +137,7 @@ Json options_json(const MapReport& report) {
   }
   if (options.method == Method::Paper) {
     const PaperSettings& paper = options.paper;
+    result["repair_map"] = options.repair_paper;
     result["weights"] = name_of(paper.weights);
     result["epsilon"] = paper.epsilon;
     result["iterations"] = paper.iterations;

@@ -28,6 +28,7 @@ struct MapReport {
   InputReport input;
   std::string method;
   const ParameterizeOptions& options;
+  std::vector<std::string> repairs_wanted;  // by the names of --repair
   const Parameterization& result;
   const std::optional<RivalAccount>& account;  // of a method of others
   const std::vector<Landmark>& pins;           // of vertices of the mesh

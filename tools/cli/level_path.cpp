@@ -2,6 +2,8 @@
 
 #include <filesystem>
 
+#include "cli/paths.h"
+
 namespace sphparam::tools {
 
 std::string level_path(const std::string& path, int level) {
@@ -9,9 +11,9 @@ std::string level_path(const std::string& path, int level) {
   if (const size_t at = path.find("{n}"); at != std::string::npos)
     return path.substr(0, at) + number + path.substr(at + 3);
   if (level == 0) return path;
-  const std::filesystem::path whole(path);
-  return (whole.parent_path() /
-          (whole.stem().string() + "_lod" + number + whole.extension().string()))
+  const std::string name = std::filesystem::path(path).filename().string(), stem = stem_of(path);
+  return std::filesystem::path(path)
+      .replace_filename(stem + "_lod" + number + name.substr(stem.size()))
       .string();
 }
 

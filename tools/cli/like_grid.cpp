@@ -1,6 +1,7 @@
 #include "cli/like_grid.h"
 
 #include "cli/exit_codes.h"
+#include "cli/mapped_source.h"
 #include "cli/paths.h"
 #include "cli/repairing.h"
 #include "cli/source.h"
@@ -11,20 +12,6 @@
 
 namespace sphparam::tools {
 
-namespace {
-
-/// Rays of unit length up to rounding stay as they are, so that a map is like itself.
-Points unit(Points rays) {
-  constexpr double roundings = 8 * 2.22e-16;
-  for (Eigen::Index v = 0; v < rays.rows(); ++v) {
-    const double length = rays.row(v).norm();
-    if (std::abs(length - 1) > roundings) rays.row(v) /= length;
-  }
-  return rays;
-}
-
-}  // namespace
-
 SphereGrid read_like_grid(const std::string& path, int threads) {
   const Source source = read_source(path);
   require_mappable(source);
@@ -33,7 +20,7 @@ SphereGrid read_like_grid(const std::string& path, int threads) {
   const Topology topology(mesh, threads);
   Certificate certificate = certify(topology, map, threads);
   if (certificate.bijective()) {
-    map.points = unit(std::move(map.points));
+    map = unit_rays(std::move(map));
     certificate = certify(topology, map, threads);
   }
   if (!certificate.bijective()) {

@@ -16,6 +16,7 @@
 #include "cli/exit_codes.h"
 #include "cli/input_limits.h"
 #include "cli/interruption.h"
+#include "cli/measurable.h"
 #include "cli/memory_limit.h"
 #include "cli/repairing.h"
 #include "cli/suggestion.h"
@@ -196,6 +197,9 @@ int guarded_main(int argc, char** argv) {
   } catch (const MeshError& error) {
     print_error("this is not a closed genus-0 mesh:");
     std::fputs(defect_list(error.defects()).c_str(), stderr);
+    return MeshUnusable;
+  } catch (const UnmeasurableMesh& error) {
+    print_error(error.what());
     return MeshUnusable;
   } catch (const NotCertifiedError& error) {
     print_error(error.what());

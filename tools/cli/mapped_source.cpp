@@ -48,13 +48,6 @@ std::optional<WrittenMap> written_map(const Source& source, const std::string& p
   return WrittenMap{std::move(*map), read_provenance(source.file)};
 }
 
-/// Rays as they are where they have unit length up to rounding; else divided by their length.
-SphereMap unit(SphereMap map) {
-  constexpr double roundings = 8 * 2.22e-16;
-  const Eigen::ArrayXd deviation = map.points.rowwise().norm().array() - 1;
-  return (deviation.abs() <= roundings).all() ? map : normalised(std::move(map.points));
-}
-
 SphereMap make_map(const MappedSource& mapped, const std::string& name, Provenance& provenance,
                    int threads, Console& console, double lambda) {
   ParameterizeOptions options;
@@ -78,6 +71,12 @@ SphereMap make_map(const MappedSource& mapped, const std::string& name, Provenan
 
 }  // namespace
 
+SphereMap unit_rays(SphereMap map) {
+  constexpr double roundings = 8 * 2.22e-16;
+  const Eigen::ArrayXd deviation = map.points.rowwise().norm().array() - 1;
+  return (deviation.abs() <= roundings).all() ? map : normalised(std::move(map.points));
+}
+
 MappedSource read_mapped_source(const std::string& path, const std::string& sphere, int threads,
                                 Console& console, double lambda) {
   MappedSource mapped;
@@ -89,7 +88,7 @@ MappedSource read_mapped_source(const std::string& path, const std::string& sphe
   if (written) {
     const Topology& topology = mapped.source.topology.value();
     require_certified(certify(topology, written->map, threads), name);
-    mapped.map = unit(std::move(written->map));
+    mapped.map = unit_rays(std::move(written->map));
     require_certified(certify(topology, mapped.map, threads), name + ", with rays of unit length");
     mapped.provenance = std::move(written->provenance);
   } else {

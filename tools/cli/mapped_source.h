@@ -17,6 +17,10 @@ struct MappedSource {
   bool mapped_here = false;
 };
 
+/// Rays as they are where all have unit length up to rounding, so that a map stays itself; else
+/// each divided by its length.
+SphereMap unit_rays(SphereMap map);
+
 /// Reads a mesh and its map: from the file `sphere`, of the same connectivity, where one is named
 /// (sx sy sz, or the vertices of a bare sphere about the origin); else sx sy sz of the mesh file
 /// itself; else a map is made now, with the λ given, and said so.

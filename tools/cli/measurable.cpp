@@ -1,6 +1,6 @@
 #include "cli/measurable.h"
 
-#include "sphparam/mesh/mesh_defects.h"
+#include <string>
 
 namespace sphparam::tools {
 
@@ -27,14 +27,13 @@ void require_measurable(const TriangleMesh& mesh) {
       2;
   const bool sized = extent > least_extent && extent < greatest_extent;
   if (sized && has_area(mesh, extent)) return;
-  throw MeshError({{DefectKind::ZeroAreaFace,
-                    true,
-                    1,
-                    {},
-                    extent == 0 || sized ? "the mesh has no area: distances to it mean nothing"
-                                         : "the mesh is too large or too small to measure: its "
-                                           "extent is not between 1e-60 and 1e60",
-                    "a map can be made; scale the mesh for anything that measures"}});
+  if (extent == 0 || sized) {
+    throw UnmeasurableMesh(
+        "this mesh can be mapped but not measured: it has no area, distances to it mean nothing");
+  }
+  throw UnmeasurableMesh("this mesh can be mapped but not measured: it is too " +
+                         std::string(extent < 1 ? "small" : "large") +
+                         ", its extent is not between 1e-60 and 1e60; scale it");
 }
 
 }  // namespace sphparam::tools

@@ -22,12 +22,10 @@ std::string output_name(const std::string& path) {
   return is_stream(path) ? "standard output" : file_name(path);
 }
 
-std::string extension_of(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  for (char& c : extension) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return extension;
+std::string stem_of(const std::string& path) {
+  std::filesystem::path name = std::filesystem::path(path).stem();
+  if (name.extension() == ".sph") name = name.stem();
+  return name.string();
 }
 
 bool is_same_place(const std::string& one, const std::string& other) {
@@ -39,6 +37,17 @@ bool is_same_place(const std::string& one, const std::string& other) {
     return std::filesystem::weakly_canonical(absolute, hidden);
   };
   return one_spelling(one) == one_spelling(other);
+}
+
+void require_distinct(const Outputs& outputs) {
+  for (size_t i = 0; i < outputs.size(); ++i) {
+    for (size_t j = 0; j < i; ++j) {
+      const auto& [option, path] = outputs[i];
+      const auto& [other, place] = outputs[j];
+      if (is_same_place(path, place))
+        throw UsageMistake(other + " and " + option + " name the same file: " + output_name(path));
+    }
+  }
 }
 
 void require_not_input(const std::string& input, const std::string& output,

@@ -1,6 +1,10 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
+
+#include "image/file_extension.h"
 
 namespace sphparam::tools {
 
@@ -13,11 +17,17 @@ std::string display_name(const std::string& path);
 /// The same for a file that is written.
 std::string output_name(const std::string& path);
 
-/// ".ply" of "STATUE.PLY": in lower case, with its dot; empty where there is none.
-std::string extension_of(const std::string& path);
+/// "statue" of "folder/statue.ply" and of "folder/statue.sph.ply".
+std::string stem_of(const std::string& path);
 
 /// Do two paths, however spelled, name one place? Not where one of them is empty.
 bool is_same_place(const std::string& one, const std::string& other);
+
+/// What is written where: option and path; empty paths are not written.
+using Outputs = std::vector<std::pair<std::string, std::string>>;
+
+/// Throws UsageMistake when two outputs are one place, however spelled.
+void require_distinct(const Outputs& outputs);
 
 /// Throws UsageMistake when an output would replace the input, also through links: a slip of the
 /// hand must not cost anybody their mesh. `option` names the output.

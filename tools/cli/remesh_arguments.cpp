@@ -37,8 +37,10 @@ constexpr char summary[] =
 
 void add_outputs(CLI::App& command, RemeshArguments& arguments) {
   command
-      .add_option("-o,--output", arguments.output,
-                  "The new mesh: .ply with its map, .obj, or .glb with its chart")
+      .add_option(
+          "-o,--output", arguments.output,
+          "The new mesh: .ply with its map, .obj (quads stay quads in both), or .glb with its "
+          "chart")
       ->type_name("FILE");
   command
       .add_option("--geometry-image", arguments.geometry_image,

@@ -37,6 +37,8 @@ struct DisplacementReport {
     bool certified = false;  // the directions of its vertices are a map of it
     RebuildError base, rebuilt;
     double seconds = 0;
+    /// The image does harm, by RMS.
+    bool farther_than_base() const { return rebuilt.rms > base.rms; }
   };
   std::optional<Proof> proof;
 };

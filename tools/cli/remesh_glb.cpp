@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "bake/source_attributes.h"
 #include "cli/exit_codes.h"
 #include "cli/export_look.h"
 #include "cli/paths.h"
@@ -18,11 +19,6 @@
 namespace sphparam::tools {
 
 namespace {
-
-bool has_texcoords(const MeshFile& file) {
-  return file.corner_texcoords ||
-         (file.find_vertex_property("s") && file.find_vertex_property("t"));
-}
 
 ExportLook look_of(const RemeshArguments& arguments, const MappedSource& mapped,
                    const MappedSource& made, Console& console) {

@@ -1,4 +1,4 @@
-// What is measured of a fitted level is its limit surface, cut fine; of a plain one its triangles.
+// Levels are measured by what they show.
 
 #include "cli/remesh_lods.h"
 
@@ -6,13 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/choice.h"
+#include "cli/diagonal.h"
 #include "cli/exit_codes.h"
 #include "cli/level_path.h"
 #include "cli/paths.h"
-#include "cli/wording.h"
 #include "measure/surface_distance.h"
 #include "remesh/lods.h"
-#include "remesh/patch_net.h"
 
 namespace sphparam::tools {
 
@@ -20,29 +19,6 @@ namespace {
 
 constexpr int most_levels = 12;
 constexpr std::int64_t distance_samples = 250'000;  // on each side
-constexpr std::int64_t comparing_samples = 50'000;
-constexpr std::int64_t pieces_of_limit_surface = 250'000;  // that is measured
-
-/// The triangles that a level shows: of its limit surface, where there is one.
-TriangleMesh shown(const RemeshLevel& level) {
-  if (!level.fit) return level.mesh.file.mesh;
-  const SubdivisionFit& fit = *level.fit;
-  ControlMesh control{level.mesh.faces, {fit.control}};
-  if (fit.topology->patch_count() != level.mesh.faces.count())
-    control = subdivide_to_quads(control);
-  int cuts = 2;
-  while (cuts * cuts * control.faces.count() < pieces_of_limit_surface) ++cuts;
-  const Tessellation fine =
-      tessellate(control.faces, static_cast<int>(control.points[0].rows()), cuts);
-  const auto points = LimitSurface(control.faces, control.points[0], fit.topology->scheme())
-                          .evaluate_all(fine.vertices, level.arguments.threads);
-  TriangleMesh mesh;
-  mesh.positions.resize(std::ssize(points), 3);
-  for (size_t v = 0; v < points.size(); ++v)
-    mesh.positions.row(static_cast<Eigen::Index>(v)) = points[v].position;
-  mesh.triangles = triangulate(mesh.positions, fine.faces).triangles;
-  return mesh;
-}
 
 }  // namespace
 
@@ -50,8 +26,9 @@ void declare_lod_options(CLI::App& command, RemeshArguments& arguments) {
   command
       .add_option(
           "--lods", arguments.lods,
-          "So many coarser meshes, each on the grid's coarser half, with the error of each: "
-          "files of their own, NAME_lod1 …, or levels (MSFT_lod) of one .glb")
+          "So many coarser meshes, each on the coarser half of its grid (ico:L; octa:N with N - 1 "
+          "and cube:N with N a power of two), with the error of each: files of their own, "
+          "NAME_lod1 …, or levels (MSFT_lod) of one .glb")
       ->check(between(0, most_levels, "0 to 12"))
       ->type_name("N")
       ->capture_default_str();
@@ -70,41 +47,22 @@ std::vector<RemeshArguments> levels_asked_for(const RemeshArguments& arguments,
     if (!coarse) {
       throw UsageMistake(
           "--lods: " + arguments.grid +
-          (level == 1 ? " has no coarser grids: ico:L, and octa:N and cube:N by powers of two, have"
+          (level == 1 ? " has no coarser grids: ico:L has, and octa:N with N - 1 and cube:N with N "
+                        "a power of two"
                       : " has only " + std::to_string(level - 1) + " coarser"));
     }
     levels.push_back(arguments);
     levels.back().grid = name_of(*coarse);
     if (!one_file) levels.back().output = level_path(arguments.output, level);
   }
-  for (const RemeshArguments& level : levels) {
-    require_not_input(arguments.input, level.output, "--lods");
-    if (!arguments.sphere.empty()) require_not_input(arguments.sphere, level.output, "--lods");
-  }
   return levels;
-}
-
-void compare_with_flat(RemeshLevel& level, const TriangleMesh& flat, const MappedSource& mapped,
-                       Console& console) {
-  const auto rms = [&](const TriangleMesh& mesh) {
-    return measure_distance(mapped.source.file.mesh, mesh,
-                            {.samples = comparing_samples, .threads = level.arguments.threads})
-        .rms();
-  };
-  SubdivisionFit& fit = level.fit.value();
-  fit.two_sided_rms = rms(shown(level));
-  fit.flat_rms = rms(flat);
-  if (fit.two_sided_rms < fit.flat_rms) return;
-  console.warning(level.arguments.grid +
-                  " is too coarse for a smooth surface: flat faces on it are nearer to the mesh "
-                  "than what was fitted");
 }
 
 void measure_levels(std::vector<RemeshLevel>& levels, const MappedSource& mapped,
                     Console& console) {
   for (RemeshLevel& level : levels) {
     const SurfaceDistance distance = measure_distance(
-        mapped.source.file.mesh, shown(level),
+        mapped.source.file.mesh, shown_mesh(level),
         {.samples = distance_samples,
          .threads = level.arguments.threads,
          .progress = [&](std::string_view stage, double f) { return console.progress(stage, f); }});
@@ -114,9 +72,7 @@ void measure_levels(std::vector<RemeshLevel>& levels, const MappedSource& mapped
 }
 
 std::string level_lines(const std::vector<RemeshLevel>& levels, const TriangleMesh& source) {
-  const double diagonal =
-      (source.positions.colwise().maxCoeff() - source.positions.colwise().minCoeff()).norm();
-  const auto percent = [&](double length) { return short_number(100 / diagonal * length) + " %"; };
+  const double diagonal = diagonal_of(source.positions);
   std::string lines;
   for (const RemeshLevel& level : levels) {
     lines.append(lines.empty() ? "  " : "\n  ")
@@ -124,10 +80,10 @@ std::string level_lines(const std::vector<RemeshLevel>& levels, const TriangleMe
         .append(", ")
         .append(std::to_string(level.mesh.map.points.rows()))
         .append(" vertices: RMS ")
-        .append(percent(level.rms))
+        .append(percent_of(diagonal, level.rms))
         .append(", at most ")
-        .append(percent(level.max))
-        .append(" of the diagonal → ")
+        .append(percent_of(diagonal, level.max))
+        .append(" of the diagonal, both ways → ")
         .append(output_name(level.arguments.output));
   }
   return lines;

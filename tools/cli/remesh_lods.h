@@ -8,8 +8,8 @@
 #include "cli/console.h"
 #include "cli/mapped_source.h"
 #include "cli/remesh_arguments.h"
-#include "remesh/remesh.h"
-#include "remesh/subdivision_fit.h"
+#include "cli/remesh_level.h"
+#include "remesh/sphere_grid.h"
 
 namespace sphparam::tools {
 
@@ -23,19 +23,6 @@ void declare_lod_options(CLI::App& command, RemeshArguments& arguments);
 /// file. Throws UsageMistake where the grid has no such levels, or there is no file to name after.
 std::vector<RemeshArguments> levels_asked_for(const RemeshArguments& arguments,
                                               const std::optional<GridSpec>& grid);
-
-/// A mesh on a grid, and the surface fitted where one is wanted: its control mesh is the mesh.
-struct RemeshLevel {
-  RemeshArguments arguments;  // its own
-  Remeshed mesh;
-  std::optional<SubdivisionFit> fit = {};
-  double rms = 0, max = 0;  // from the source, both ways; of the limit surface where one is fitted
-};
-
-/// Measures the fitted surface of a level and the flat faces on the same grid, both ways, and warns
-/// where the flat ones are nearer. Requires: a fit.
-void compare_with_flat(RemeshLevel& level, const TriangleMesh& flat, const MappedSource& mapped,
-                       Console& console);
 
 /// Measures all levels. Throws: Cancelled.
 void measure_levels(std::vector<RemeshLevel>& levels, const MappedSource& mapped, Console& console);

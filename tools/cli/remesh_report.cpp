@@ -42,6 +42,8 @@ std::string to_json(const RemeshReport& report) {
   if (report.levels.size() > 1) json["lods"] = to_json(report.levels);
   json["outputs"]["mesh"] = report.arguments.output;
   json["outputs"]["limit_mesh"] = report.arguments.limit_output;
+  json["outputs"]["displacement"] = report.arguments.displacement;
+  json["outputs"]["rebuilt"] = report.arguments.rebuilt;
   json["outputs"]["geometry_image"] = report.arguments.geometry_image;
   json["outputs"]["normals"] = report.arguments.normal_image;
   json["outputs"]["attribute_images"] = report.arguments.attribute_images;

@@ -6,18 +6,13 @@
 #include <stdexcept>
 
 #include "cli/choice.h"
+#include "cli/diagonal.h"
 #include "cli/exit_codes.h"
 #include "cli/paths.h"
-#include "cli/wording.h"
 
 namespace sphparam::tools {
 
 namespace {
-
-/// Of the box about the mesh.
-double diagonal(const TriangleMesh& mesh) {
-  return (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).norm();
-}
 
 /// Whether all faces, or some, are triangles.
 bool is_of_triangles(const std::optional<GridSpec>& grid) {
@@ -106,10 +101,11 @@ Remeshed limit_mesh(Remeshed control, const SubdivisionFit& fit, int threads) {
 }
 
 std::string fit_line(const SubdivisionFit& fit, const TriangleMesh& source) {
-  const double percent = 100 / diagonal(source);
-  return "  " + name_of(fit.topology->scheme()) + " surface fitted to " +
-         std::to_string(fit.samples) + " samples: RMS " + short_number(percent * fit.rms) +
-         " %, at most " + short_number(percent * fit.max) + " % of the diagonal from the mesh";
+  const double diagonal = diagonal_of(source.positions);
+  return "  " + name_of(fit.topology->scheme()) + " surface fitted: RMS " +
+         percent_of(diagonal, fit.rms) + ", at most " + percent_of(diagonal, fit.max) +
+         " of the diagonal, one way, from " + std::to_string(fit.samples) +
+         " samples on it to the mesh";
 }
 
 nlohmann::ordered_json fit_report(const SubdivisionFit& fit, const TriangleMesh& source) {
@@ -123,7 +119,7 @@ nlohmann::ordered_json fit_report(const SubdivisionFit& fit, const TriangleMesh&
   json["two_sided_rms"] = fit.two_sided_rms;
   json["flat_rms"] = fit.flat_rms;
   json["rms_in_place"] = fit.rms_in_place;
-  json["diagonal"] = diagonal(source);
+  json["diagonal"] = diagonal_of(source.positions);
   json["solver_steps"] = fit.steps;
   json["thin_vertices"] = fit.thin_vertices;
   json["seconds"]["sampling"] = fit.sampling_seconds;

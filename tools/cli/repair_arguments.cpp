@@ -104,4 +104,12 @@ std::optional<RepairOptions> wanted_repairs(const RepairArguments& arguments) {
   return options;
 }
 
+std::vector<std::string> words_of(const RepairOptions& options) {
+  std::vector<std::string> words;
+  for (const auto& [word, member] : switches()) {
+    if (options.*member) words.push_back(word);
+  }
+  return words;
+}
+
 }  // namespace sphparam::tools

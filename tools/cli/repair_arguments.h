@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "sphparam/mesh/mesh_repair.h"
 
@@ -26,5 +27,8 @@ void add_repair_options(CLI::App& command, RepairArguments& arguments);
 /// their own repair also without it.
 /// Throws: UsageMistake for a word that is none.
 std::optional<RepairOptions> wanted_repairs(const RepairArguments& arguments);
+
+/// The names of what is switched on, as --repair takes them.
+std::vector<std::string> words_of(const RepairOptions& options);
 
 }  // namespace sphparam::tools

@@ -1,14 +1,13 @@
 #include "cli/source.h"
 
-#include "cli/input_limits.h"
 #include "mesh_io/mesh_reader.h"
 #include "mesh_io/welding.h"
 
 namespace sphparam::tools {
 
-Source read_source(const std::string& path) {
+Source read_source(const std::string& path, const ReadOptions& options) {
   Source source;
-  source.file = read_mesh(path, input_limits());
+  source.file = read_mesh(path, options);
   source.inspection = inspect_mesh(source.file.mesh);
   source.notes = source.file.notes;
   MappableMesh mappable = make_mappable(std::move(source.file), &source.notes);

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/input_limits.h"
 #include "mesh_io/mesh_file.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/mesh/mesh_repair.h"
@@ -20,6 +21,6 @@ struct Source {
 };
 
 /// Throws: ReadError. A mesh that is no sphere is returned all the same: see `inspection`.
-Source read_source(const std::string& path);
+Source read_source(const std::string& path, const ReadOptions& options = input_limits());
 
 }  // namespace sphparam::tools

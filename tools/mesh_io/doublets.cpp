@@ -15,6 +15,7 @@ std::vector<int> find_doublets(const Polygons& polygons, std::int64_t vertex_cou
   };
   std::vector<Star> stars(static_cast<std::size_t>(vertex_count));
   for (std::int64_t p = 0; p < polygons.count(); ++p) {
+    if (polygons.repeats(p)) continue;
     const std::span<const int> polygon = polygons.polygon(p);
     for (std::size_t i = 0; i < polygon.size(); ++i) {
       const int before = polygon[(i + polygon.size() - 1) % polygon.size()];

@@ -89,7 +89,7 @@ class GiftiReader {
                           std::to_string(i / 3));
       triangles.data()[i] = static_cast<int>(corners[i]);
     }
-    for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+    for (Eigen::Index f = 0; f < triangles.rows() && !options_.repeated_corners; ++f) {
       const int a = triangles(f, 0), b = triangles(f, 1), c = triangles(f, 2);
       if (a == b || b == c || c == a)
         fail_in_array(name_, array, "names a vertex twice in triangle " + std::to_string(f));

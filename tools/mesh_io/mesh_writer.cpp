@@ -7,12 +7,11 @@
 #include <cmath>
 #include <cstring>
 
-#include "mesh_io/distinct_rows.h"
 #include "mesh_io/ply_reader.h"
+#include "mesh_io/text_buffer.h"
 
 // PLY: the size of every record is known beforehand, so the buffer is made once and filled column
-// by column. Text: numbers are appended by std::to_chars. What a text format numbers (vt, vn) is
-// numbered in the order of first use, so that reading and writing again changes nothing.
+// by column. OFF: one line a vertex, one a face. OBJ is in obj_writer.cpp.
 
 namespace sphparam::tools {
 namespace {
@@ -124,134 +123,12 @@ std::string ply_header(const MeshFile& file, const std::vector<PlyColumn>& verti
   return header + "end_header\n";
 }
 
-// --- Text ---
-
-class TextBuffer {
- public:
-  explicit TextBuffer(std::size_t expected_bytes) { text_.reserve(expected_bytes); }
-
-  TextBuffer& operator<<(char c) {
-    text_.push_back(c);
-    return *this;
-  }
-  TextBuffer& operator<<(std::string_view text) {
-    text_.append(text);
-    return *this;
-  }
-
-  template <class Number>
-  requires std::is_arithmetic_v<Number> TextBuffer& operator<<(Number number) {
-    char digits[32];
-    const auto [stop, error] = std::to_chars(digits, digits + sizeof digits, number);
-    text_.append(digits, stop);
-    return *this;
-  }
-
-  std::string take() { return std::move(text_); }
-
- private:
-  std::string text_;
-};
-
-std::size_t expected_text_bytes(const MeshFile& file) {
-  constexpr Eigen::Index kVertexBytes = 64, kFaceBytes = 32;
-  return static_cast<std::size_t>(kVertexBytes * file.mesh.vertex_count() +
-                                  kFaceBytes * file.mesh.face_count());
-}
-
-void put_comments(TextBuffer& text, const MeshFile& file) {
-  for (const std::string& comment : file.comments) text << "# " << one_line(comment) << '\n';
-}
-
-/// The properties of these names, if all are there.
-template <std::size_t N>
-std::vector<const Property*> find_all(const std::vector<Property>& properties,
-                                      const std::array<const char*, N>& names) {
-  std::vector<const Property*> found;
-  for (const char* name : names) {
-    const auto at = std::find_if(properties.begin(), properties.end(),
-                                 [&](const Property& property) { return property.name == name; });
-    if (at == properties.end()) return {};
-    found.push_back(&*at);
-  }
-  return found;
-}
+// --- OFF ---
 
 std::vector<const Property*> find_colours(const std::vector<Property>& properties) {
   std::vector<const Property*> colours =
       find_all(properties, std::array{"red", "green", "blue", "alpha"});
   return colours.empty() ? find_all(properties, std::array{"red", "green", "blue"}) : colours;
-}
-
-/// Numbers of every corner, `Width` each, gathered into distinct rows.
-template <int Width>
-struct NumberedCorners {
-  DistinctRows<double, Width> distinct;
-  std::vector<int> of_corner;  // #F·3 rows of `distinct`; empty when the mesh has no such numbers
-};
-
-/// Numbers what every corner has: from the table of corners, else from vertex properties.
-template <int Width, class Table>
-NumberedCorners<Width> number_corners(const Triangles& triangles, const std::optional<Table>& table,
-                                      const std::vector<const Property*>& of_vertex) {
-  NumberedCorners<Width> result;
-  if (!table && of_vertex.empty()) return result;
-  const Eigen::Index corners = triangles.size();
-  result.of_corner.reserve(static_cast<std::size_t>(corners));
-  for (Eigen::Index i = 0; i < corners; ++i) {
-    std::array<double, Width> row;
-    for (int k = 0; k < Width; ++k)
-      row[k] = table ? (*table)(i, k) : of_vertex[k]->values[triangles.data()[i]];
-    result.of_corner.push_back(result.distinct.insert(row));
-  }
-  return result;
-}
-
-template <int Width>
-void put_rows(TextBuffer& text, std::string_view keyword,
-              const DistinctRows<double, Width>& distinct) {
-  for (const auto& row : distinct.rows()) {
-    text << keyword;
-    for (const double value : row) text << ' ' << value;
-    text << '\n';
-  }
-}
-
-/// OBJ colours are fractions; bytes become the float nearest to n / 255.
-float fraction(const Property& colour, Eigen::Index v) {
-  const double value = colour.values[v];
-  return static_cast<float>(colour.type == ScalarType::Uint8 ? value / 255 : value);
-}
-
-void put_obj_vertices(TextBuffer& text, const MeshFile& file) {
-  const auto colours = find_all(file.vertex_properties, std::array{"red", "green", "blue"});
-  for (Eigen::Index v = 0; v < file.mesh.vertex_count(); ++v) {
-    text << 'v';
-    for (int axis = 0; axis < 3; ++axis) text << ' ' << file.mesh.positions(v, axis);
-    for (const Property* colour : colours) text << ' ' << fraction(*colour, v);
-    text << '\n';
-  }
-}
-
-void put_obj_faces(TextBuffer& text, const MeshFile& file, const std::vector<int>& texcoords,
-                   const std::vector<int>& normals) {
-  const Property* const materials = file.find_face_property("material");
-  int current = -1;
-  for (Eigen::Index f = 0; f < file.mesh.face_count(); ++f) {
-    const int material = materials ? static_cast<int>(materials->values[f]) : -1;
-    if (material != current && material >= 0 &&
-        material < static_cast<int>(file.materials.size())) {
-      text << "usemtl " << one_line(file.materials[material]) << '\n';
-      current = material;
-    }
-    text << 'f';
-    for (Eigen::Index i = kCorners * f; i < kCorners * (f + 1); ++i) {
-      text << ' ' << file.mesh.triangles.data()[i] + 1;
-      if (!texcoords.empty()) text << '/' << texcoords[i] + 1;
-      if (!normals.empty()) text << (texcoords.empty() ? "//" : "/") << normals[i] + 1;
-    }
-    text << '\n';
-  }
 }
 
 /// Bytes stay whole numbers; fractions get a point, which is what tells them apart in OFF.
@@ -302,22 +179,6 @@ std::string serialise_ply(const MeshFile& file) {
     at += faces[i].bytes();
   }
   return bytes;
-}
-
-std::string serialise_obj(const MeshFile& file) {
-  const Triangles& triangles = file.mesh.triangles;
-  const auto texcoords = number_corners<2>(triangles, file.corner_texcoords,
-                                           find_all(file.vertex_properties, std::array{"s", "t"}));
-  const auto normals =
-      number_corners<3>(triangles, file.corner_normals,
-                        find_all(file.vertex_properties, std::array{"nx", "ny", "nz"}));
-  TextBuffer text(expected_text_bytes(file));
-  put_comments(text, file);
-  put_obj_vertices(text, file);
-  put_rows(text, "vt", texcoords.distinct);
-  put_rows(text, "vn", normals.distinct);
-  put_obj_faces(text, file, texcoords.of_corner, normals.of_corner);
-  return text.take();
 }
 
 std::string serialise_off(const MeshFile& file) {

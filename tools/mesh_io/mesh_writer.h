@@ -6,6 +6,8 @@
 
 namespace sphparam::tools {
 
+struct Polygons;
+
 /// A binary little-endian PLY with all that the mesh file carries: properties in their own types,
 /// corner texture coordinates as the face list `texcoord`, corner normals as the face list
 /// `normal`, comments, and materials as comments. Reading it gives the same mesh file.
@@ -17,6 +19,11 @@ std::string serialise_ply(const MeshFile& file);
 /// A text OBJ in shortest round-trip doubles: positions, colours, texture coordinates and normals
 /// (of vertices or of corners), materials by name, comments. Other properties have no place in it.
 std::string serialise_obj(const MeshFile& file);
+
+/// The same with polygons for faces: reading it gives the mesh with these polygons cut. Requires:
+/// the triangles of `file` are the polygons cut, whichever diagonals; at a vertex of a polygon all
+/// its corners have the same attributes.
+std::string serialise_polygon_obj(const MeshFile& file, const Polygons& faces);
 
 /// A text OFF in shortest round-trip doubles: positions and, named by the keyword, normals, colours
 /// and texture coordinates of vertices; face colours; comments.

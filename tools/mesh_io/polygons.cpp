@@ -4,7 +4,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
+#include <stdexcept>
+#include <utility>
 
 #include "mesh_io/distinct_rows.h"
 #include "mesh_io/doublets.h"
@@ -150,15 +153,32 @@ class EarClipper {
   long budget_ = 4L * degree() * degree();
 };
 
+/// Three corners of a polygon that names a vertex twice, of which two are at that vertex.
+std::vector<int> repeating_triangle(std::span<const int> polygon) {
+  std::vector<int> order(polygon.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](int i, int j) { return std::pair(polygon[i], i) < std::pair(polygon[j], j); });
+  const auto twin = std::adjacent_find(order.begin(), order.end(),
+                                       [&](int i, int j) { return polygon[i] == polygon[j]; });
+  const int first = twin[0], second = twin[1];
+  int third = 0;
+  while (third == first || third == second) ++third;
+  return {first, second, third};
+}
+
 class Triangulator {
  public:
   Triangulator(const Points& positions, const Polygons& polygons, const std::vector<int>& doublets)
       : positions_(positions), edges_(polygons.corners.size()), doublets_(doublets) {
-    for (std::int64_t p = 0; p < polygons.count(); ++p) insert_boundary(polygons.polygon(p));
+    for (std::int64_t p = 0; p < polygons.count(); ++p)
+      if (!polygons.repeats(p)) insert_boundary(polygons.polygon(p));
   }
 
-  /// Corner triples of one polygon of four corners or more; valid until the next call.
-  const std::vector<int>& cut(std::span<const int> polygon) {
+  /// Corner triples of one polygon; valid until the next call.
+  const std::vector<int>& cut(std::span<const int> polygon, bool repeats) {
+    if (polygon.size() == 3) return triples_ = {0, 1, 2};
+    if (repeats) return triples_ = repeating_triangle(polygon);
     triples_.clear();
     if (const auto doublet = doublet_corner(polygon)) {
       cut_fan(polygon, *doublet == 0 ? static_cast<int>(polygon.size()) - 1 : *doublet - 1);
@@ -286,7 +306,9 @@ std::string Polygons::close_polygon(const ReadOptions& options) {
   if (triangle_count_ > triangle_limit)
     return "more triangles than the limit of " + std::to_string(triangle_limit);
   starts.push_back(static_cast<int>(corners.size()));
-  if (has_repeated_corner(polygon(count() - 1))) return "face names a vertex twice";
+  if (!has_repeated_corner(polygon(count() - 1))) return {};
+  if (!options.repeated_corners) return "face names a vertex twice";
+  repeating.push_back(static_cast<int>(count() - 1));
   return {};
 }
 
@@ -300,11 +322,10 @@ Triangulation triangulate(const Points& positions, const Polygons& polygons) {
 
   result.doublets = find_doublets(polygons, positions.rows());
   Triangulator triangulator(positions, polygons, result.doublets);
-  const std::vector<int> whole_triangle = {0, 1, 2};
   std::vector<int> indices;
   for (std::int64_t p = 0; p < polygons.count(); ++p) {
     const std::span<const int> polygon = polygons.polygon(p);
-    for (const int corner : polygon.size() == 3 ? whole_triangle : triangulator.cut(polygon)) {
+    for (const int corner : triangulator.cut(polygon, polygons.repeats(p))) {
       indices.push_back(polygon[corner]);
       result.corner.push_back(polygons.starts[p] + corner);
     }
@@ -312,6 +333,29 @@ Triangulation triangulate(const Points& positions, const Polygons& polygons) {
   }
   result.triangles = as_triangles(indices);
   return result;
+}
+
+std::vector<int> corners_in(const Triangles& triangles, const Polygons& polygons) {
+  std::vector<int> found;
+  found.reserve(polygons.corners.size());
+  std::vector<int> corner_at;  // of each vertex, in the polygon read last
+  std::int64_t first = 0;      // corner of the polygon's triangles
+  for (std::int64_t p = 0; p < polygons.count(); ++p) {
+    const std::int64_t last = first + 3 * std::int64_t{polygons.degree(p) - 2};
+    if (last > triangles.size()) throw std::logic_error("fewer triangles than polygons make");
+    for (std::int64_t i = last - 1; i >= first; --i) {
+      const auto v = static_cast<std::size_t>(triangles.data()[i]);
+      if (v >= corner_at.size()) corner_at.resize(v + 1, -1);
+      corner_at[v] = static_cast<int>(i);
+    }
+    for (const int v : polygons.polygon(p)) {
+      const int corner = static_cast<std::size_t>(v) < corner_at.size() ? corner_at[v] : -1;
+      if (corner < first) throw std::logic_error("a polygon and its triangles have other vertices");
+      found.push_back(corner);
+    }
+    first = last;
+  }
+  return found;
 }
 
 void adopt_triangulation(MeshFile& file, const Triangulation& triangulation) {

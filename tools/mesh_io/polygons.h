@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -15,6 +16,7 @@ namespace sphparam::tools {
 struct Polygons {
   std::vector<int> corners;
   std::vector<int> starts{0};
+  std::vector<int> repeating;  // polygons that name a vertex twice, where options let them pass
 
   std::int64_t count() const { return static_cast<std::int64_t>(starts.size()) - 1; }
   int degree(std::int64_t p) const { return starts[p + 1] - starts[p]; }
@@ -22,10 +24,15 @@ struct Polygons {
     return {corners.data() + starts[p], static_cast<std::size_t>(degree(p))};
   }
 
+  bool repeats(std::int64_t p) const {
+    return std::binary_search(repeating.begin(), repeating.end(), p);
+  }
+
   void add_corner(int vertex) { corners.push_back(vertex); }
 
   /// Ends the polygon of the corners added since the last call. Returns what is wrong with it
-  /// (too few or too many corners, a vertex twice, too many faces); empty when all is well.
+  /// (too few or too many corners, a vertex twice unless options let it pass, too many faces);
+  /// empty when all is well.
   std::string close_polygon(const ReadOptions& options);
 
   /// Corners added since the last closed polygon.
@@ -58,8 +65,14 @@ struct Triangulation {
 /// where there is a choice. Where two polygons share two edges in a row (about a vertex of valence
 /// two, a doublet) the triangle between these edges is cut off from both: the surface has it twice,
 /// and `inspect_mesh` says so; `repair_mesh` turns the other diagonal of one of them.
+/// A polygon that names a vertex twice becomes one triangle that does, for `repair_mesh` to remove.
 /// Requires: indices within `positions`. Cost: O(corners), plus degree² for clipped polygons.
 Triangulation triangulate(const Points& positions, const Polygons& polygons);
+
+/// Of each corner of the polygons one of the triangles (3·triangle + corner) at the same vertex.
+/// Requires: the triangles are the polygons cut, in their order; none names a vertex twice.
+/// Throws: std::logic_error where they are not. Cost: O(corners).
+std::vector<int> corners_in(const Triangles& triangles, const Polygons& polygons);
 
 /// Puts the triangles into a mesh file: triangles, polygon count and, where a polygon was split,
 /// the face property `source_face`. Face properties, so far one value a polygon, are copied to

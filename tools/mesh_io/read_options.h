@@ -12,6 +12,9 @@ namespace sphparam::tools {
 struct ReadOptions {
   /// Of a PLY only positions, faces and sx sy sz: for who wants to prove a written map again.
   bool only_map = false;
+  /// Faces that name a vertex twice are let through, one triangle each, for a repair to remove;
+  /// else they are refused.
+  bool repeated_corners = false;
   std::uint64_t max_file_bytes = std::uint64_t{1} << 31;
   std::int64_t max_vertices = std::int64_t{1} << 28;
   std::int64_t max_faces = std::int64_t{1} << 28;  // of the file, and of triangles

@@ -109,8 +109,8 @@ PendingFiles::WriteAt PendingFiles::open(const std::string& path) {
 
 bool PendingFiles::is_pending(const std::string& path) const {
   const auto one_spelling = [](const fs::path& file) {
-    std::error_code hidden;
-    return fs::weakly_canonical(file, hidden);
+    std::error_code hidden;  // relative names that are not there yet would stay relative
+    return fs::weakly_canonical(fs::absolute(file, hidden), hidden);
   };
   const fs::path wanted = one_spelling(followed(path));
   return std::any_of(files_.begin(), files_.end(),
