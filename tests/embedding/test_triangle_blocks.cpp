@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "embedding/triangle_blocks.h"
@@ -88,4 +91,41 @@ TEST_CASE("triangle blocks: an entry of a row leads to the triangle that begins 
       REQUIRE(vertex(2) == neighbour(e + 1));
     }
   }
+}
+
+TEST_CASE("triangle blocks: rings are measured as from the source's corners, whichever each is") {
+  const LaidOut m;
+  TriangleMesh stretched = m.mesh;  // no two corners of a triangle are alike
+  stretched.positions *= Eigen::Vector3d(1, 2, 5).asDiagonal();
+  double total = 0;
+  for (Face f = 0; f < m.topology.face_count(); ++f) {
+    const auto corner = [&](int k) { return stretched.position(m.topology.vertex(f, k)); };
+    total += (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm() / 2;
+  }
+  stretched.positions *= std::sqrt(4 * std::numbers::pi / total);  // as sources are measured
+  const TriangleBlocks blocks(m.topology, measure_source(stretched), m.old_name, m.new_name,
+                              m.start);
+  std::array<int, 3> seen{};
+  for (int row = 0; row < m.topology.vertex_count(); ++row) {
+    const int first = m.start[static_cast<size_t>(row)];
+    const int last = m.start[static_cast<size_t>(row) + 1], valence = last - first, lane = row % 8;
+    std::vector<RingSlot> slots(static_cast<size_t>(valence), RingSlot{});
+    blocks.measure_ring(row, first, last, lane, slots.data());
+    const auto edge = [&](int i) -> Vector3 {
+      const int other = m.column[static_cast<size_t>(first + i % valence)];
+      return stretched.position(m.old_name[static_cast<size_t>(other)]) -
+             stretched.position(m.old_name[static_cast<size_t>(row)]);
+    };
+    for (int i = 0; i < valence; ++i) {
+      const Vector3 a = edge(i), b = edge(i + 1);
+      const double area = a.cross(b).norm() / 2, base2 = a.squaredNorm();
+      const RingSlot& slot = slots[static_cast<size_t>(i)];
+      REQUIRE(slot.alpha[lane] == Approx(area * area / (2 * base2)).epsilon(1e-5));
+      REQUIRE(slot.beta[lane] == Approx(base2 / 8).epsilon(1e-5));
+      REQUIRE(slot.shear[lane] == Approx(a.dot(b) / base2).epsilon(1e-5).margin(1e-5));
+      REQUIRE(slot.beta[(lane + 1) % 8] == 0);  // the other lanes are not its business
+      ++seen[static_cast<size_t>(blocks.corner(first + i))];
+    }
+  }
+  CHECK(seen == std::array<int, 3>{5120, 5120, 5120});
 }

@@ -1,4 +1,8 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <string>
+#include <vector>
 
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/parameterize.h"
@@ -25,6 +29,11 @@ TriangleMesh some_mesh(int which) {
     default:
       return random_sphere_mesh(300, 11);
   }
+}
+
+std::string names_of_triangle(const TriangleMesh& mesh, Face face) {
+  const auto name = [&](int k) { return std::to_string(mesh.triangles(face, k)); };
+  return "vertices " + name(0) + ", " + name(1) + " and " + name(2) + ";";
 }
 
 }  // namespace
@@ -84,10 +93,61 @@ TEST_CASE(
   REQUIRE(result.pin_residuals.size() == 3);
   for (const double residual : result.pin_residuals) CHECK(residual > 0);
   REQUIRE(result.warnings.size() == 1);
-  CHECK(result.warnings[0].find("triangle 7") != std::string::npos);
+  CHECK(result.warnings[0].find(names_of_triangle(mesh, 7)) != std::string::npos);
   std::swap(options.pins[0].vertex, options.pins[1].vertex);  // counter-clockwise
   const Parameterization turned = parameterize(mesh, options);
   CHECK(turned.pin_residuals == std::vector<double>{0, 0, 0});
+}
+
+TEST_CASE("parameterize: where three pins fold a triangle no other pin is tried, and no pole") {
+  const TriangleMesh mesh = random_sphere_mesh(300, 11);
+  const Topology topology(mesh);
+  ParameterizeOptions options{.automatic_poles = false};
+  const Parameterization unpinned = parameterize(mesh, options);
+  for (int k = 0; k < 3; ++k) {  // clockwise
+    options.pins.push_back({mesh.triangles(7, k), {-2.0 * k, 1.0}});
+  }
+  std::vector<Vertex> others;  // no two share an edge
+  for (Vertex v = 0; others.size() < 3; ++v) {
+    if (v == mesh.triangles(7, 0) || v == mesh.triangles(7, 1) || v == mesh.triangles(7, 2))
+      continue;
+    if (std::ranges::all_of(others, [&](Vertex w) { return topology.find_halfedge(v, w) < 0; })) {
+      others.push_back(v);
+    }
+  }
+  size_t pins = 3;
+  SECTION("a fourth pin") {
+    options.pins.push_back({others[2], {1.0, 2.0}});
+    pins = 4;
+  }
+  SECTION("poles") { options.poles = Poles{others[0], others[1]}; }
+  const Parameterization result = parameterize(mesh, options);
+  CHECK(result.map.points == unpinned.map.points);
+  REQUIRE(result.pin_residuals.size() == pins);
+  for (const double residual : result.pin_residuals) CHECK(residual > 0);
+  CHECK_FALSE(result.poles);
+  CHECK(result.pole_cost == 0);
+  REQUIRE(result.warnings.size() == 1);  // nothing is said of poles that could not be moved
+  CHECK(result.warnings[0].find(names_of_triangle(mesh, 7)) != std::string::npos);
+}
+
+TEST_CASE("repair_map: the paper's method has one residual a pin, poles or not") {
+  const TriangleMesh mesh = icosphere(3);
+  SphereMap collapsed{mesh.positions};
+  collapsed.points.rowwise() = Vector3(0, 0, 1).transpose();
+  const std::vector<Landmark> pins{{40, {0.5, 1.0}}, {300, {2.5, 2.0}}};
+  const Parameterization result =
+      repair_map(mesh, collapsed, {.method = Method::Paper, .poles = Poles{17, 400}, .pins = pins});
+  CHECK(result.made_by == "progressive embedding");
+  REQUIRE(result.pin_residuals.size() == pins.size());
+  for (size_t i = 0; i < pins.size(); ++i) {
+    const Vector3 point = to_cartesian(pins[i].coordinates);
+    const double angle = std::acos(point.dot(result.map.point(pins[i].vertex)));
+    CHECK(result.pin_residuals[i] == Approx(angle).epsilon(1e-9));
+  }
+  CHECK_FALSE(result.poles);
+  REQUIRE(result.warnings.size() == 2);
+  CHECK(result.warnings[1].find("poles") != std::string::npos);
 }
 
 TEST_CASE("parameterize: the same bytes for 1, 2 and 4 threads, twice") {

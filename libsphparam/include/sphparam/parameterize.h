@@ -46,7 +46,9 @@ struct ParameterizeOptions {
   std::optional<Poles> poles = std::nullopt;  // chosen automatically when not given
   bool automatic_poles = true;  // of finished maps; false: no vertices at ±z unless given
   std::optional<Vertex> meridian = std::nullopt;  // gets θ = 0; chosen with automatic poles
-  std::vector<Landmark> pins = {};  // held exactly where the mesh allows it: see `pin_residuals`
+  /// Held exactly where the mesh allows it: see `pin_residuals`. Where three of them, or of them
+  /// and the poles, fold their triangle, none is tried: a warning names the three.
+  std::vector<Landmark> pins = {};
   PaperSettings paper = {};
   DistortionEnergy energy = {};  // what is minimised; `lambda` weighs area against angle
   // Of Method::Progressive: time against distortion; and what λ is to reach, if not a given value.
@@ -74,9 +76,12 @@ struct Parameterization {
   Certificate certificate;     // of `map`
   std::string made_by;         // the stage that produced the map: "relaxation", "untangling", …
   std::optional<Poles> poles;  // vertices at ±z, where the map has such
-  double pole_cost = 0;  // share by which the poles (and pins) of a finished map raised its energy
-  std::optional<Vertex> meridian;     // a vertex with θ = 0 that was asked for or chosen
-  std::vector<double> pin_residuals;  // per pin, radians from its point; 0: exactly there
+  /// Share by which the poles (and pins) of a finished map raised its energy; 0 where none were
+  /// tried.
+  double pole_cost = 0;
+  std::optional<Vertex> meridian;  // a vertex with θ = 0 that was asked for or chosen
+  /// Per pin, radians from its point; 0: exactly there. Of pins that were not tried, too.
+  std::vector<double> pin_residuals;
   std::optional<DateLine> date_line;  // where the method has one
   std::vector<StageRecord> stages;    // in the order they ran
   std::vector<std::string> warnings;  // "pole 17 moved to 23: its link has a chord", …
@@ -102,7 +107,8 @@ Parameterization parameterize(const TriangleMesh& mesh, const Topology& topology
 /// `made_by` says which: "given map" where nothing had to be done. Poles and pins come last, as
 /// there.
 ///
-/// Of the options, `method`, `paper` and `repair` are not read. Throws: as `parameterize`;
+/// Of the options, `paper`, `repair` and `repair_paper` are not read, and `method` only to hold no
+/// pins where it is Method::Paper. Throws: as `parameterize`;
 /// std::invalid_argument unless there is one finite ray a vertex.
 Parameterization repair_map(const TriangleMesh& mesh, const SphereMap& map,
                             const ParameterizeOptions& options = {});

@@ -25,6 +25,9 @@ SweepOrder order_sweeps(const std::vector<int>& start, const std::vector<int>& c
 
 inline constexpr double diagonal_shift = 1e-10;  // of a block's trace, so that it has an inverse
 
+/// The inverse of a block to which `diagonal_shift` of its trace has been added; of a zero block
+/// the identity. Requires: symmetric positive semidefinite, finite. Computed in doubles. Ensures:
+/// symmetric positive definite up to the rounding to floats. Cost: O(N³).
 template <int N>
 Block<N> inverse(const Block<N>& a) {
   using Matrix = Eigen::Matrix<double, N, N, Eigen::RowMajor>;
@@ -38,6 +41,9 @@ Block<N> inverse(const Block<N>& a) {
       m.inverse().template cast<float>();
   return r;
 }
+
+/// The same for every block of a diagonal; `result` may be `diagonal` itself. Same bits for any
+/// number of threads. Cost: linear.
 template <int N>
 void invert(const std::vector<Block<N>>& diagonal, std::vector<Block<N>>& result, int threads) {
   result.resize(diagonal.size());

@@ -52,7 +52,7 @@ LinearSolution solve_by_conjugate_gradients(const BlockMatrix<2>& matrix, Multig
     solution.gain += gain;
     ++solution.iterations;
     // Of what is left nothing is known but this: asking the preconditioner costs an iteration.
-    if (solution.iterations > 1 && !(gain > least_share * solution.gain)) break;
+    if (!(gain > least_share * solution.gain)) break;
   }
   return solution;
 }

@@ -24,7 +24,7 @@ constexpr double worthwhile = 2e-3;
 constexpr int coarse_steps = 20, finest_steps = 30, best_steps = 100;
 // What may be left, relative to the energy. Small meshes cost little: less is left of theirs.
 constexpr double coarse_rest = 4e-3, finest_rest = 3e-3, best_rest = 1e-6;
-constexpr double small = 5000;                             // vertices
+constexpr double small_mesh = 5000;                        // vertices
 constexpr double least_ratio = 0.5, greatest_ratio = 0.9;  // of a gain to the one before
 constexpr int sweeps_between = 5;
 constexpr double least_share = 0.5;  // of a system's iterations: twice as many gain next to nothing
@@ -40,40 +40,43 @@ double expected(double gain, double before) {
 
 }  // namespace
 
-Finish::Finish(Quality quality, const DistortionEnergy& energy, int finest_vertices, int threads)
-    : quality_(quality),
-      energy_(energy),
+Finish::Finish(int finest_vertices, FinishOptions options)
+    : options_(std::move(options)),
       finest_(finest_vertices),
-      threads_(threads),
       next_(finest_vertices),
       last_gain_(std::numeric_limits<double>::infinity()) {
   while (next_ >= growth * least_vertices) next_ /= growth;
 }
 
 bool Finish::due(int vertices) const {
-  if (quality_ == Quality::Draft || vertices < next_ || vertices < least_vertices) return false;
-  return quality_ == Quality::Best || vertices <= cheap(finest_) || last_gain_ > worthwhile;
+  const Quality quality = options_.quality;
+  if (quality == Quality::Draft || vertices < next_ || vertices < least_vertices) return false;
+  return quality == Quality::Best || vertices <= cheap(finest_) || last_gain_ > worthwhile;
 }
 
 void Finish::improve(const TriangleMesh& mesh, const Topology& topology,
-                     const std::vector<Vertex>& pinned, std::vector<ImagePoint>& image) {
+                     const std::vector<Vertex>& pinned, std::vector<ImagePoint>& image,
+                     ProgressShare share) {
   const int n = topology.vertex_count();
   const bool finest = n == finest_;
   while (next_ <= n && next_ < finest_) next_ = std::min(finest_, growth * next_);
-  const bool best = quality_ == Quality::Best && finest;
+  const bool best = options_.quality == Quality::Best && finest;
   const int most_steps = best ? best_steps : finest ? finest_steps : coarse_steps;
   const double rest = best     ? best_rest
-                      : finest ? finest_rest * std::min(1.0, n / small)
+                      : finest ? finest_rest * std::min(1.0, n / small_mesh)
                                : coarse_rest;
-  GlobalNewton newton(topology, measure_source(mesh), image, pinned, threads_);
-  double energy = newton.energy(energy_);
+  GlobalNewton newton(topology, measure_source(mesh, options_.threads), image, pinned,
+                      options_.threads);
+  double energy = newton.energy(options_.energy);
   if (!newton.can_move() || !std::isfinite(energy)) return;  // not finite: positive, not certain
   image = std::vector<ImagePoint>();  // there is no room to spare in a step; = {} would keep it
   double gain_before = std::numeric_limits<double>::infinity();
   for (int step = 0; step < most_steps; ++step) {
-    newton.step(energy_, least_share);
-    newton.sweep(energy_, sweeps_between);
-    const double before = std::exchange(energy, newton.energy(energy_));
+    newton.step(options_.energy, least_share);
+    newton.sweep(options_.energy, sweeps_between);
+    report(options_.progress, "embedding",
+           std::lerp(share.begin, share.end, (step + 1.0) / most_steps));
+    const double before = std::exchange(energy, newton.energy(options_.energy));
     const double gain = 1 - energy / before;
     if (step == 0) last_gain_ = gain;
     if (!(expected(gain, std::exchange(gain_before, gain)) >= rest)) break;

@@ -227,19 +227,23 @@ void GlobalNewton::make_room() const {
   if (hessian_.rows() >= least_parallel_vertices) give_back_freed_memory();
 }
 
-/// The direction of a step. Leaves nothing of the Hessian but its pattern.
+/// The direction of a step; nothing where `assemble` fails. Leaves nothing of the Hessian but its
+/// pattern.
 LinearSolution GlobalNewton::solve(const DistortionEnergy& energy, double least_share) {
   make_room();
-  if (!assemble(energy)) return {};
-  if (multigrid_) {
-    multigrid_->update(image_.data());
-  } else {
-    multigrid_.emplace(hessian_, order_, image_.data(), unit_.data(), pinned_, threads_);
+  LinearSolution solution;
+  if (assemble(energy)) {
+    if (multigrid_) {
+      multigrid_->update(image_.data());
+    } else {
+      multigrid_.emplace(hessian_, order_, image_.data(), unit_.data(), pinned_, threads_);
+    }
+    solution = solve_by_conjugate_gradients(hessian_, *multigrid_, std::move(downhill_),
+                                            least_share, most_iterations, threads_);
   }
-  LinearSolution solution = solve_by_conjugate_gradients(
-      hessian_, *multigrid_, std::exchange(downhill_, {}), least_share, most_iterations, threads_);
   hessian_.off = std::vector<Block<2>>();  // = {} would keep the memory
   hessian_.diagonal = std::vector<Block<2>>();
+  downhill_ = Unknowns();
   return solution;
 }
 

@@ -57,7 +57,10 @@ class Embedder {
         hierarchy_(build_hierarchy(mesh, topology, options.threads, keep)),
         options_(options),
         area_floor_(options.least_area * 4 * std::numbers::pi / topology.face_count()),
-        finish_(options.quality, options.energy, topology.vertex_count(), options.threads) {
+        finish_(topology.vertex_count(), {.quality = options.quality,
+                                          .energy = options.energy,
+                                          .threads = options.threads,
+                                          .progress = options.progress}) {
     std::vector<Vertex> names;
     for (const Pin& pin : options.pins) names.push_back(pin.vertex);
     while (!names.empty() && std::count(names.begin(), names.end(), -1) == 0) {
@@ -79,8 +82,10 @@ class Embedder {
       if (l + 1 < hierarchy_.size() && !refine(l, result.report)) return result;
       hierarchy_.resize(l + 1);
       if (l < pinned_.size()) place_pins(l, result.report.pin_residuals);
-      done += hierarchy_[l].vertex_count();
-      if (finish_.due(hierarchy_[l].vertex_count())) finish(l);
+      const double before = done / all;
+      const int vertices = hierarchy_[l].vertex_count();
+      done += vertices;
+      if (finish_.due(vertices)) finish(l, {before, done / all});
       report(options_.progress, "embedding", done / all);
     }
     packs_ = {};
@@ -138,15 +143,15 @@ class Embedder {
                       hold_pins ? pinned_[l] : std::vector<Vertex>{}, std::move(used));
   }
 
-  void finish(size_t l) {
+  void finish(size_t l, ProgressShare share) {
     const std::vector<Vertex> pinned = pins_placed_ ? pinned_[l] : std::vector<Vertex>{};
     if (l == 0) {
       packs_ = {};  // there is no room to spare in a Newton step
       hierarchy_.clear();
-      return finish_.improve(mesh_, topology_, pinned, image_);
+      return finish_.improve(mesh_, topology_, pinned, image_, share);
     }
     const TriangleMesh mesh = triangle_mesh(hierarchy_[l]);
-    finish_.improve(mesh, Topology(mesh), pinned, image_);
+    finish_.improve(mesh, Topology(mesh, options_.threads), pinned, image_, share);
     image_.reserve(at(topology_.vertex_count()));
   }
 
@@ -155,12 +160,12 @@ class Embedder {
   void place_pins(size_t l, std::vector<double>& residuals) {
     if (all_exact(residuals) || idle_levels_ == most_idle_levels) return;
     const TriangleMesh mesh = triangle_mesh(hierarchy_[l]);
-    const Topology topology(mesh);
+    const Topology topology(mesh, options_.threads);
     std::vector<Pin> pins = options_.pins;
     for (size_t i = 0; i < pins.size(); ++i) pins[i].vertex = pinned_[l][i];
     const int rounds = pin_work / static_cast<int>(image_.size());
     const LandmarkPlacement placement =
-        place_landmarks(topology, measure_source(mesh), map_of(image_), pins,
+        place_landmarks(topology, measure_source(mesh, options_.threads), map_of(image_), pins,
                         {.energy = options_.energy,
                          .most_rounds = std::max(fewest_pin_rounds, rounds),
                          .threads = options_.threads,
@@ -289,7 +294,7 @@ ProgressiveEmbedding embed_by_valences(const TriangleMesh& mesh, const Topology&
   draft.quality = Quality::Draft;
   ProgressiveEmbedding embedding = embed_with_room(shapeless, topology, draft, keep);
   if (!embedding.map) return embedding;
-  embedding.map = relax(topology, measure_source(mesh), *embedding.map,
+  embedding.map = relax(topology, measure_source(mesh, options.threads), *embedding.map,
                         {.energy = options.energy,
                          .sweeps = shape_sweeps,
                          .pinned = keep.vertices,

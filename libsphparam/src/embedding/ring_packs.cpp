@@ -166,6 +166,7 @@ RingPacks make_packs(const Rings& rings, const Order& order, RingPacks result) {
     }
     result.colour_start.push_back(static_cast<int>(result.packs.size()));
   }
+  if (!result.slots) result.room = 0;  // it was moved from
   if (slots > result.room) {
     result.slots = nullptr;  // both at once would be too much
     result.slots = std::make_unique_for_overwrite<RingSlot[]>(slots);

@@ -13,6 +13,23 @@ namespace {
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
+/// Appends packs of these triangles; lanes left over in the last one repeat its last triangle.
+/// Returns how many packs.
+int append_packs(const Topology& topology, const SourceTriangles& source,
+                 const std::vector<int>& new_name, const std::vector<Face>& faces,
+                 std::vector<TrianglePack>& packs) {
+  for (size_t i = 0; i < faces.size(); ++i) {
+    const int filled = static_cast<int>(i % pack_width);
+    if (filled == 0) packs.emplace_back();
+    std::array<Vertex, 3> corners;
+    for (int k = 0; k < 3; ++k) corners[at(k)] = new_name[at(topology.vertex(faces[i], k))];
+    for (int lane = filled; lane < pack_width; ++lane) {
+      fill_lane(source[at(faces[i])], corners, lane, packs.back());
+    }
+  }
+  return static_cast<int>((faces.size() + pack_width - 1) / pack_width);
+}
+
 }  // namespace
 
 std::vector<Vertex> patch_order(const Topology& topology) {
@@ -56,18 +73,11 @@ TriangleBlocks::TriangleBlocks(const Topology& topology, const SourceTriangles& 
   std::vector<int> place(at(topology.face_count()), -1);
   std::vector<Face> owned, touching;
   packs_.reserve(at(topology.face_count()) / 7);
-  const auto fill = [&](const std::vector<Face>& faces, int base) {
+  const auto append = [&](const std::vector<Face>& faces, int first_place) {
     for (size_t i = 0; i < faces.size(); ++i) {
-      place[at(faces[i])] = base + static_cast<int>(i);
-      const int filled = static_cast<int>(i % pack_width);
-      if (filled == 0) packs_.emplace_back();
-      std::array<Vertex, 3> corners;
-      for (int k = 0; k < 3; ++k) corners[at(k)] = new_name[at(topology.vertex(faces[i], k))];
-      for (int lane = filled; lane < pack_width; ++lane) {
-        fill_lane(source[at(faces[i])], corners, lane, packs_.back());
-      }
+      place[at(faces[i])] = first_place + static_cast<int>(i);
     }
-    return static_cast<int>((faces.size() + pack_width - 1) / pack_width);
+    return append_packs(topology, source, new_name, faces, packs_);
   };
   for (int first = 0; first < n; first += size) {
     const int last = std::min(n, first + size);
@@ -83,8 +93,8 @@ TriangleBlocks::TriangleBlocks(const Topology& topology, const SourceTriangles& 
       });
     }
     Block b{packs_.size(), static_cast<int>(owned.size()), 0};
-    b.packs = fill(owned, 0);
-    b.packs += fill(touching, b.packs * pack_width);
+    b.packs = append(owned, 0);
+    b.packs += append(touching, b.packs * pack_width);
     blocks_.push_back(b);
     for (int v = first; v < last; ++v) {
       int entry = start[at(v)];

@@ -8,7 +8,9 @@
 namespace sphparam {
 
 /// The progressive embedding around the pins, then, where λ is far from 1 or to be found, its
-/// balance of angles and areas. False, and nothing changes: it ran out of room.
+/// balance of angles and areas; `work.energy` gets the λ that it found. False: the embedding ran
+/// out of room, and nothing has changed but `work.tried_to_embed`. True: its map is the map so far,
+/// certified or not.
 bool embed(MapInProgress& work, const std::vector<Pin>& pins);
 
 }  // namespace sphparam

@@ -16,7 +16,8 @@ void place_frame(MapInProgress& work) {
   const std::vector<Pin> pins = wanted_pins(work);
   if (work.options.method == Method::Paper && !work.options.pins.empty()) {
     work.warn("the paper's method has no pins: they are where it puts them");
-    work.result.pin_residuals = pin_residuals(work.result.map, pins);
+    if (!note_residuals(work, pins))
+      work.warn("the repair has moved the poles: they are not at ±z");
   } else if (!pins.empty()) {
     hold(work, pins);
   }

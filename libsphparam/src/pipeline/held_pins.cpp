@@ -17,18 +17,10 @@
 namespace sphparam {
 namespace {
 
-/// Tells how far the pins are from their points, and whether the poles, which come first, are
-/// there.
-void note_residuals(MapInProgress& work, const std::vector<Pin>& pins) {
-  const std::vector<double> residuals = pin_residuals(work.result.map, pins);
-  const auto of_pins = residuals.end() - std::ssize(work.options.pins);
-  work.result.pin_residuals.assign(of_pins, residuals.end());
-  if (of_pins == residuals.begin()) return;
-  if (residuals[0] == 0 && residuals[1] == 0) {
-    work.result.poles = work.options.poles;
-  } else {
-    work.warn("the poles could not be moved to ±z without folds");
-  }
+std::string words_of_fold(const Topology& topology, Face face) {
+  const auto corner = [&](int k) { return std::to_string(topology.vertex(face, k)); };
+  return "no map has these pins: they fold the triangle of the vertices " + corner(0) + ", " +
+         corner(1) + " and " + corner(2) + "; no pin and no given pole was tried";
 }
 
 }  // namespace
@@ -49,11 +41,21 @@ std::vector<Pin> wanted_pins(MapInProgress& work) {
   return pins;
 }
 
+bool note_residuals(MapInProgress& work, const std::vector<Pin>& pins) {
+  const std::vector<double> residuals = pin_residuals(work.result.map, pins);
+  const auto of_pins = residuals.end() - std::ssize(work.options.pins);
+  work.result.pin_residuals.assign(of_pins, residuals.end());
+  if (of_pins == residuals.begin()) return true;
+  const bool there = residuals[0] == 0 && residuals[1] == 0;
+  if (there) work.result.poles = work.options.poles;
+  return there;
+}
+
 void hold(MapInProgress& work, const std::vector<Pin>& pins) {
   if (const std::optional<Face> face = face_folded_by(work.topology, pins)) {
-    work.warn("no map has these pins: they fold triangle " + std::to_string(*face) +
-              ", all three corners of which are given");
-    return note_residuals(work, pins);
+    work.warn(words_of_fold(work.topology, *face));
+    note_residuals(work, pins);
+    return;
   }
   const DistortionEnergy measure = work.energy;
   const double energy = distortion_energy(work.topology, work.source(), work.result.map, measure,
@@ -63,9 +65,10 @@ void hold(MapInProgress& work, const std::vector<Pin>& pins) {
   const bool held = embed(work, pins) && work.certified();
   if (!held || (work.options.pins.empty() && !all_exact(pin_residuals(work.result.map, pins)))) {
     work.result = std::move(before);
+    work.energy = measure;  // its λ is the map's
     if (work.options.pins.empty()) move_to_poles(work, {pins[0].vertex, pins[1].vertex});
   }
-  note_residuals(work, pins);
+  if (!note_residuals(work, pins)) work.warn("the poles could not be moved to ±z without folds");
   work.result.pole_cost = distortion_energy(work.topology, work.source(), work.result.map, measure,
                                             work.options.threads) /
                               energy -

@@ -11,8 +11,13 @@ namespace sphparam {
 /// Poles come first.
 std::vector<Pin> wanted_pins(MapInProgress& work);
 
+/// Tells how far the given pins are from their points. Are the poles, if they are among these pins,
+/// at theirs? Then the map has them. Requires: pins, as `wanted_pins` gives them.
+bool note_residuals(MapInProgress& work, const std::vector<Pin>& pins);
+
 /// Embeds the mesh anew around the pins. The map so far says what they cost, and comes back where
-/// that fails or poles alone are not reached.
+/// that fails or poles alone are not reached. Pins of three corners that fold their triangle are in
+/// no map: then no pin and no pole is tried, the map stays, and a warning names the three.
 /// Requires: pins, as `wanted_pins` gives them.
 void hold(MapInProgress& work, const std::vector<Pin>& pins);
 

@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <utility>
 
-// The gate: no map gets in without its certificate. What a stage has made is taken as it is, folds
-// and all; a change of frame is not worth a fold.
+// The gate: stages hand their maps in here, and each gets its certificate. What a stage has made is
+// taken as it is, folds and all; a change of frame is not worth a fold.
 
 namespace sphparam {
 namespace {

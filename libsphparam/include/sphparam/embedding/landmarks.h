@@ -50,8 +50,9 @@ LandmarkPlacement place_landmarks(const Topology& topology, const SourceTriangle
                                   const SphereMap& map, const std::vector<Pin>& pins,
                                   const LandmarkOptions& options = {});
 
-/// A triangle with three pinned corners whose points are not counter-clockwise: no map has these
-/// pins. Decided exactly. No vertex twice.
+/// The first triangle with three pinned corners whose points are not counter-clockwise: no map has
+/// these pins. Decided exactly. Requires: no vertex twice; finite points.
+/// Cost: O(#F), nothing for fewer than three pins.
 std::optional<Face> face_folded_by(const Topology& topology, const std::vector<Pin>& pins);
 
 /// The rotation R with least Σ |R x(vertex) − point|².

@@ -46,7 +46,9 @@ struct ProgressiveEmbedding {
 /// Pinned vertices stay in the hierarchy down to a few hundred vertices; `place_landmarks` puts
 /// them there, and from there on up nothing moves them, so that the rest is optimal around them.
 /// Requires: genus 0, finite positions. Ensures: unit points; same bits for any number of threads
-///           and any vector width of the machine. Cost: O(#F), no linear system.
+///           and any vector width of the machine. Throws: Cancelled.
+/// Cost: O(#F). Sweeps solve no linear system; where they stall, on long limbs and with
+/// Quality::Best, a bounded number of Newton steps does, each O(#F) by multigrid.
 /// Paper: Praun and Hoppe, "Spherical parametrization and remeshing" (2003); whole levels instead
 /// of single vertices, the energy, the guard and the over-relaxed sweeps are our own.
 ProgressiveEmbedding embed_progressively(const TriangleMesh& mesh, const Topology& topology,

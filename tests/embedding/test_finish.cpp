@@ -1,0 +1,136 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "embedding/finish.h"
+#include "sphparam/embedding/progressive.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+
+namespace {
+
+std::vector<ImagePoint> image_of(const SphereMap& map) {
+  std::vector<ImagePoint> image;
+  for (Vertex v = 0; v < map.points.rows(); ++v) image.push_back(image_point(map.point(v)));
+  return image;
+}
+
+/// A mesh and a draft of its map.
+struct Draft {
+  TriangleMesh mesh;
+  Topology topology{mesh};
+  std::vector<ImagePoint> image =
+      image_of(*embed_progressively(mesh, topology, {.quality = Quality::Draft}).map);
+
+  int size() const { return topology.vertex_count(); }
+
+  double energy() const {
+    SphereMap map;
+    map.points.resize(size(), 3);
+    for (Vertex v = 0; v < size(); ++v) {
+      map.points.row(v) = image[static_cast<size_t>(v)].vector().transpose();
+    }
+    return distortion_energy(topology, measure_source(mesh), map, {});
+  }
+
+  /// Returns how many steps were made.
+  int finish(Quality quality, int finest) {
+    int steps = 0;
+    const auto count = [&](std::string_view, double) { return ++steps > 0; };
+    Finish(finest, {.quality = quality, .progress = count}).improve(mesh, topology, {}, image);
+    return steps;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("finish: ends where what is left is worth nothing, and of small meshes leaves less") {
+  for (const auto& [rings, around] : {std::pair{40, 8}, {30, 16}, {60, 16}}) {
+    const Draft draft{tube(rings, around)};
+    Draft finished = draft, converged = draft;
+    const int steps = finished.finish(Quality::Normal, draft.size());
+    const int steps_to_the_end = converged.finish(Quality::Best, draft.size());
+    const double least = converged.energy(), left = finished.energy() / least - 1;
+    REQUIRE(draft.energy() > 1.1 * least);
+    CHECK(left < 3e-3 * draft.size() / 5000);
+    CHECK(steps > 2);
+    CHECK(4 * steps < 3 * steps_to_the_end);
+
+    // As a coarse level of a larger mesh, whose own steps come later, it gets fewer.
+    Draft coarse = draft;
+    CHECK(coarse.finish(Quality::Normal, 100 * draft.size()) < steps);
+    CHECK(coarse.energy() < draft.energy());
+  }
+}
+
+TEST_CASE("finish: one step finds out that a ball needs none") {
+  Draft ball{icosphere(3)};
+  CHECK(ball.finish(Quality::Normal, ball.size()) == 1);
+}
+
+TEST_CASE("finish: levels are due at every fourfold size, large ones only after gains") {
+  Draft ball{icosphere(3)}, limb{tube(75, 8)};  // 642 and 602 vertices
+  const auto after = [](Draft& level, Quality quality, int finest) {
+    Finish finish(finest, {.quality = quality});
+    finish.improve(level.mesh, level.topology, {}, level.image);
+    return finish;
+  };
+  const Finish before(40'960, {});
+  CHECK_FALSE(before.due(99));
+  CHECK_FALSE(before.due(159));  // 40,960 / 4⁴ = 160
+  CHECK(before.due(160));
+  CHECK_FALSE(Finish(40'960, {.quality = Quality::Draft}).due(40'960));
+
+  const Finish after_ball = after(ball, Quality::Normal, 40'960);
+  CHECK_FALSE(after_ball.due(ball.size()));  // it has had its steps: 2560 is next
+  CHECK(after_ball.due(2560));               // cheap
+  CHECK_FALSE(after_ball.due(2561));
+  CHECK_FALSE(after_ball.due(40'960));
+  const Finish best = after(ball, Quality::Best, 40'960);
+  CHECK_FALSE(best.due(2559));
+  CHECK(best.due(40'960));
+  const Finish after_limb = after(limb, Quality::Normal, 40'960);
+  CHECK_FALSE(after_limb.due(639));  // 640 is next
+  CHECK(after_limb.due(40'960));
+}
+
+TEST_CASE("finish: can be cancelled after every step") {
+  Draft limb{tube(60, 16)};
+  int told = 0;
+  const auto cancel = [&](std::string_view stage, double) {
+    CHECK(stage == "embedding");
+    return ++told < 3;
+  };
+  Finish finish(limb.size(), {.progress = cancel});
+  CHECK_THROWS_AS(finish.improve(limb.mesh, limb.topology, {}, limb.image), Cancelled);
+  CHECK(told == 3);
+}
+
+TEST_CASE("finish: the progress of an embedding rises to one, at every step") {
+  const TriangleMesh mesh = tube(60, 16);
+  const Topology topology(mesh);
+  const auto reports = [&](Quality quality) {
+    std::vector<double> fractions;
+    const auto note = [&](std::string_view stage, double fraction) {
+      if (stage == "embedding") fractions.push_back(fraction);
+      return true;
+    };
+    embed_progressively(mesh, topology, {.quality = quality, .progress = note});
+    return fractions;
+  };
+  const std::vector<double> normal = reports(Quality::Normal);
+  CHECK(std::is_sorted(normal.begin(), normal.end()));
+  CHECK(normal.front() > 0);
+  CHECK(normal.back() == 1);
+  const std::vector<double> draft = reports(Quality::Draft);  // one report a level
+  CHECK(normal.size() > draft.size() + 10);
+  // The finest level's steps end where the level does, not before.
+  const auto within = std::count_if(normal.begin(), normal.end(), [&](double fraction) {
+    return draft[draft.size() - 2] < fraction && fraction < 1;
+  });
+  CHECK(within > 2);
+}
