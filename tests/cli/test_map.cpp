@@ -5,6 +5,7 @@
 #include <csignal>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <thread>
 
 #include "program.h"
@@ -234,6 +235,22 @@ TEST_CASE("map: SIGINT and SIGTERM end with 130 and leave no file") {
     CHECK_THAT(ended.err, Contains("interrupted"));
     CHECK(folder.names() == Names{"ball.obj"});
   }
+}
+
+TEST_CASE("map: --progress json tells each percent of a stage once") {
+  const Folder folder;
+  const Ended ended = sphparam_program(
+      {"map", "-", "-o", folder / "map.sph.ply", "--progress", "json"}, obj_text(icosphere(5)));
+  REQUIRE(ended.code == 0);
+  std::istringstream lines(ended.err);
+  std::string before;
+  int told = 0;
+  for (std::string line; std::getline(lines, line); before = line) {
+    if (!line.starts_with("{\"stage\"")) continue;
+    ++told;
+    if (line == before) FAIL_CHECK(line);
+  }
+  CHECK(told > 1);
 }
 
 TEST_CASE("map: -q is silent, and nothing but messages goes to standard error") {

@@ -101,7 +101,10 @@ TEST_CASE("remesh: an .obj has the quads and the words of the .ply, levels and u
     CHECK(other.polygons == one.polygons);
     CHECK(other.mesh.triangles == one.mesh.triangles);
     CHECK(other.mesh.positions == one.mesh.positions);
-    CHECK(other.comments == one.comments);
+    CHECK(one.comments.back() == "sphparam verdict one-to-one");
+    CHECK(other.comments == std::vector<std::string>(one.comments.begin(), one.comments.end() - 1));
+    CHECK_THAT(sphparam_program({"info", obj}).out, !Contains("map method"));
+    CHECK_THAT(sphparam_program({"info", ply}).out, Contains("map method"));
     CHECK(other.comments.at(1) == "sphparam method remesh");
     CHECK(other.comments.at(2) == "sphparam grid " + grid);
   }
@@ -128,6 +131,14 @@ TEST_CASE("remesh: two outputs at one place are refused, however they are spelle
     CHECK_THAT(ended.err, Contains("name the same file"));
   }
   CHECK(mapped.folder.names() == Names{"deep", "shape.sph.ply"});
+}
+
+TEST_CASE("remesh: two outputs may be one device") {
+  const Mapped mapped;
+  CHECK(mapped
+            .remesh({"--grid", "ico:2", "-o", mapped.folder / "a.ply", "--csv", "/dev/null",
+                     "--json", "/dev/null"})
+            .code == 0);
 }
 
 TEST_CASE("remesh: what makes no sense is refused, and nothing is written") {

@@ -90,6 +90,10 @@ TEST_CASE("remesh --displace: an image so coarse that it does harm is told") {
   CHECK(rebuilt["warnings"].size() == 1);
   CHECK_THAT(ended.err, Contains("warning: --displace makes it worse"));
   CHECK_THAT(bytes_of(folder / "r.obj"), Contains("# sphparam method rebuild"));
+  CHECK(rebuilt["certified"] == true);
+  const tools::MeshFile written = tools::read_mesh(folder / "r.obj");
+  CHECK(written.polygons > 0);
+  CHECK(2 * written.polygons == rebuilt["triangles"].get<long>());
 }
 
 TEST_CASE("remesh --displace: the same bytes for any number of threads") {

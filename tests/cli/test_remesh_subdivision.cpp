@@ -106,7 +106,10 @@ TEST_CASE("remesh --subdiv-fit: .obj and .glb too, the same bytes for one thread
   const std::filesystem::path obj = mapped.folder / "1.obj", ply = mapped.folder / "1.ply";
   CHECK(tools::read_mesh(obj).polygons == 384);
   CHECK(tools::read_mesh(obj).mesh.triangles == tools::read_mesh(ply).mesh.triangles);
-  CHECK(tools::read_mesh(obj).comments == tools::read_mesh(ply).comments);
+  std::vector<std::string> words = tools::read_mesh(ply).comments;
+  CHECK(words.back() == "sphparam verdict one-to-one");
+  words.pop_back();  // on rays, which an .obj has not
+  CHECK(tools::read_mesh(obj).comments == words);
 }
 
 TEST_CASE("remesh --subdiv-fit: an .obj of the limit surface has quads too; the RMS is one way") {

@@ -128,8 +128,12 @@ TEST_CASE("repair: faces that name a vertex twice go with duplicates, and are re
     if (*repair) arguments.emplace_back(repair);
     const Ended refused = sphparam_program(arguments, faulty);
     CHECK(refused.code == 3);
-    CHECK_THAT(refused.err, Contains(":123: face names a vertex twice"));
+    CHECK_THAT(refused.err, Contains(":123: face names a vertex twice; `--repair=duplicates` "
+                                     "removes such faces"));
   }
+  const Ended asked = sphparam_program({"info", "-"}, faulty);
+  CHECK(asked.code == 3);
+  CHECK_THAT(asked.err, Contains("`--repair=duplicates` removes such faces"));
   const Folder folder;
   const std::string map = folder / "map.ply";
   for (const char* repair : {"--repair", "--repair=duplicates"}) {
@@ -146,7 +150,31 @@ TEST_CASE("repair: faces that name a vertex twice go with duplicates, and are re
   }
   const Ended unasked =
       sphparam_program({"map", "-", "-o", map, "--json", "-"}, obj_text(icosphere(1)));
-  CHECK(Json::parse(unasked.out)["options"]["repair"].empty());
+  const Json options = Json::parse(unasked.out)["options"];
+  CHECK(options["repair"].empty());
+  CHECK(options["repair_map"] == false);
+}
+
+TEST_CASE("repair: triangles that are written as quads stay") {
+  const TriangleMesh ball = icosphere(1);
+  std::string quads = obj_text(ball);
+  quads.resize(quads.find("f "));
+  for (Face f = 0; f < ball.face_count(); ++f) {
+    quads += "f";
+    for (const int k : {0, 1, 2, 2})
+      quads.append(" ").append(std::to_string(ball.triangles(f, k) + 1));
+    quads += "\n";
+  }
+  const Folder folder;
+  CHECK(sphparam_program({"map", "-", "-o", folder / "map.ply"}, quads).code == 3);
+  const Ended mended = sphparam_program(
+      {"map", "-", "-o", folder / "map.ply", "--json", "-", "--repair=duplicates"}, quads);
+  INFO(mended.err);
+  REQUIRE(mended.code == 0);
+  const Json report = Json::parse(mended.out);
+  CHECK(report["input"]["triangles"] == ball.face_count());
+  CHECK(report["repairs"].empty());
+  CHECK_THAT(report["notes"].dump(), Contains("80 faces name a vertex twice in a row: taken once"));
 }
 
 TEST_CASE("repair: info says what --repair would do") {

@@ -57,6 +57,16 @@ TEST_CASE("report: maps of one mesh stand side by side, under names that differ"
             .code == 0);
 }
 
+TEST_CASE("report: a page may have any name that is not of another kind") {
+  const Folder folder;
+  write_bytes(folder / "ball.obj", obj_text(icosphere(1)));
+  const Ended ended = sphparam_program(
+      {"report", folder / "ball.obj", "-o", folder / "page.v2", "--size", "64", "--no-viewer"});
+  INFO(ended.err);
+  CHECK(ended.code == 0);
+  CHECK_THAT(bytes_of(folder / "page.v2"), Contains("<html"));
+}
+
 TEST_CASE("report: what is wrong is named, and nothing is written") {
   const Folder folder;
   write_bytes(folder / "ball.obj", obj_text(icosphere(1)));
@@ -75,6 +85,7 @@ TEST_CASE("report: what is wrong is named, and nothing is written") {
   fails({ball, folder / "none.obj", "-o", page}, 3, "none.obj");
   fails({ball, "-o", page, "--texture", folder / "none.png"}, 3, "none.png");
   fails({ball, "-o", page, "--json", page}, 2, "the same file");
+  fails({ball, "-o", folder / "page.glb"}, 2, "written as .html, not as .glb");
   fails({ball, "-o", folder / "page.pdf"}, 2, "written as .html, not as .pdf");
   fails({ball, "-o", folder / "no/page.html"}, 3, "no/page.html");
   CHECK(folder.names().size() == 2);

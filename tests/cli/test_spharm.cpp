@@ -91,6 +91,20 @@ TEST_CASE("spharm: the reconstruction is a certified map nearer to the mesh with
   }
 }
 
+TEST_CASE("spharm: a reconstruction without rays has no verdict on them") {
+  const Folder folder;
+  write_bytes(folder / "egg.obj", obj_text(ellipsoid(icosphere(2))));
+  for (const auto& [file, rays] : {std::pair("s.ply", true), {"s.obj", false}, {"s.off", false}}) {
+    INFO(file);
+    REQUIRE(sphparam_program(
+                {"spharm", folder / "egg.obj", "--degree", "2", "--reconstruct", folder / file})
+                .code == 0);
+    const std::string bytes = bytes_of(folder / file);
+    CHECK_THAT(bytes, Contains("sphparam harmonics 2"));
+    CHECK((bytes.find("sphparam verdict") != std::string::npos) == rays);
+  }
+}
+
 TEST_CASE("spharm: residuals are told weighted by solid angle, and plain") {
   const Folder folder;
   TriangleMesh egg = icosphere(3);

@@ -90,6 +90,16 @@ TEST_CASE("image codec: EXR keeps floats bit by bit, beyond [0, 1] too") {
   CHECK((decode_image(bytes, "memory").pixels == image.pixels));
 }
 
+TEST_CASE("image codec: a file's kind is its name's ending, in whatever case") {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path();
+  const std::string path =
+      (folder / ("sphparam_test_" + std::to_string(::getpid()) + ".PNG")).string();
+  write_image(path, ramp(4, 3, 3, 256));
+  CHECK(same_pixels(read_image(path), ramp(4, 3, 3, 256)));
+  std::filesystem::remove(path);
+  CHECK_THROWS_WITH(write_image("x.gif", ramp(4, 3, 3, 256)), Contains(".png or .exr"));
+}
+
 TEST_CASE("image codec: integer formats clamp") {
   Image image(3, 1, 1);
   image.pixels = {-1, 0.5F, 7};

@@ -59,9 +59,9 @@ TEST_CASE(
     "mesh_reader: faces that name a vertex twice come through for a repair, and it removes them") {
   const std::string faulty[] = {kTetrahedronObj + "f 1 2 1\nf 4 3 2 1 4 2\n",
                                 replaced(replaced(kTetrahedronOff, "4 4 6", "4 6 6"), "3 0 1 3\n",
-                                         "3 0 1 3\n4 0 1 1 2\n3 3 3 3\n"),
+                                         "3 0 1 3\n4 0 1 2 1\n3 3 3 3\n"),
                                 replaced(replaced(kTetrahedronPly, "face 4", "face 6"), "3 0 1 3\n",
-                                         "3 0 1 3\n3 2 1 2\n5 0 1 2 3 0\n")};
+                                         "3 0 1 3\n3 2 1 2\n5 0 1 2 0 3\n")};
   const tools::MeshFile sound = read(kTetrahedronObj);
   for (const std::string& bytes : faulty) {
     CHECK(contains(complaint(bytes), "face names a vertex twice"));

@@ -198,13 +198,14 @@ TEST_CASE("polygons: degenerate and huge polygons are cut all the same") {
 TEST_CASE("polygons: one that names a vertex twice is refused, or is one triangle that does") {
   const std::vector<std::vector<int>> good = {{0, 1, 2, 3}, {4, 5, 6}},
                                       bad = {{0, 1, 0},
-                                             {0, 1, 1, 2},
-                                             {4, 0, 5, 1, 6, 2, 7, 3, 4},
+                                             {0, 1, 2, 1},
+                                             {4, 0, 5, 1, 5, 2, 7, 3, 4},
                                              {2, 2, 2, 2, 2}};
   for (const std::vector<int>& face : bad) {
     Polygons polygons;
     polygons.corners = face;
-    CHECK(polygons.close_polygon({}) == "face names a vertex twice");
+    CHECK(polygons.close_polygon({}) ==
+          "face names a vertex twice; `--repair=duplicates` removes such faces");
   }
   Polygons polygons;
   for (const auto& faces : {bad, good, bad})
@@ -213,8 +214,8 @@ TEST_CASE("polygons: one that names a vertex twice is refused, or is one triangl
       REQUIRE(polygons.close_polygon({.repeated_corners = true}).empty());
     }
   Points points = Points::Random(8, 3);
-  points.topRows(4) << 1, 0, 0, 0, 3, 0, -1, 0, 0, 0, -3,
-      0;  // cut from 0 to 2, {0, 1, 1, 2} or not
+  // Cut from 0 to 2, whatever is bad besides.
+  points.topRows(4) << 1, 0, 0, 0, 3, 0, -1, 0, 0, 0, -3, 0;
   const Triangulation cut = triangulate(points, polygons);
   const Triangles of_good = triangulate(points, polygons_of(good)).triangles;
   CHECK(cut.polygon == std::vector<int>{0, 1, 2, 3, 4, 4, 5, 6, 7, 8, 9});
@@ -226,9 +227,46 @@ TEST_CASE("polygons: one that names a vertex twice is refused, or is one triangl
   }
 }
 
+TEST_CASE("polygons: a vertex named twice in a row counts once, where three corners are left") {
+  const std::vector<std::vector<int>> written = {{0, 1, 2, 2}, {3, 3, 4, 5},
+                                                 {5, 6, 7, 5}, {0, 1, 1, 1, 2, 3},
+                                                 {4, 5, 5, 4}, {0, 1, 2, 0, 3, 3},
+                                                 {5, 6, 7}},
+                                      meant = {{0, 1, 2}, {3, 4, 5}, {6, 7, 5}, {0, 1, 2, 3}};
+  Polygons polygons;
+  for (const std::vector<int>& face : written) {
+    polygons.corners.insert(polygons.corners.end(), face.begin(), face.end());
+    REQUIRE(polygons.close_polygon({.repeated_corners = true}).empty());
+  }
+  const Points points = star(4);
+  const Triangulation cut = triangulate(points, polygons);
+  CHECK(cut.polygon == std::vector<int>{0, 1, 2, 3, 3, 4, 5, 6});
+  CHECK(cut.triangles.topRows(5) == triangulate(points, polygons_of(meant)).triangles);
+  for (const Eigen::Index t : {5, 6}) {
+    const auto row = cut.triangles.row(t);
+    CHECK((row[0] == row[1] || row[1] == row[2] || row[2] == row[0]));
+  }
+  for (Eigen::Index i = 0; i < cut.triangles.size(); ++i)
+    CHECK(polygons.corners[cut.corner_of(i)] == cut.triangles.data()[i]);
+  CHECK(cut.split == 6);
+  CHECK(cut.shortened == 5);
+  MeshFile file;
+  adopt_triangulation(file, cut);
+  CHECK(file.notes.at(0) == "5 faces name a vertex twice in a row: taken once");
+}
+
+TEST_CASE("polygons: triangles that are more or fewer than theirs are told") {
+  const Polygons polygons = polygons_of({{0, 1, 2}, {0, 2, 3}});
+  Triangles triangles(3, 3);
+  triangles << 0, 1, 2, 0, 2, 3, 0, 3, 1;
+  CHECK(corners_in(triangles.topRows(2), polygons) == std::vector<int>{0, 1, 2, 3, 4, 5});
+  CHECK_THROWS_AS(corners_in(triangles, polygons), std::logic_error);
+  CHECK_THROWS_AS(corners_in(triangles.topRows(1), polygons), std::logic_error);
+}
+
 TEST_CASE("polygons: two quads of which one names a vertex twice are no doublet") {
   Polygons polygons;
-  for (const int v : {0, 1, 2, 3, 0, 3, 2, 2}) {
+  for (const int v : {0, 1, 2, 3, 0, 3, 2, 3}) {
     polygons.add_corner(v);
     if (polygons.open_degree() == 4)
       REQUIRE(polygons.close_polygon({.repeated_corners = true}).empty());

@@ -30,6 +30,18 @@ struct Folder {
   }
 };
 
+/// The working folder while it lives.
+class WorkingFolder {
+ public:
+  explicit WorkingFolder(const fs::path& folder) { fs::current_path(folder); }
+  ~WorkingFolder() { fs::current_path(before_); }
+  WorkingFolder(const WorkingFolder&) = delete;
+  WorkingFolder& operator=(const WorkingFolder&) = delete;
+
+ private:
+  fs::path before_ = fs::current_path();
+};
+
 std::string content(const std::string& path) {
   std::ostringstream text;
   text << std::ifstream(path).rdbuf();
@@ -169,13 +181,11 @@ TEST_CASE("safe_file: two spellings of one path are one file") {
 
 TEST_CASE("safe_file: a name without folder and one with a point before it are one file") {
   const Folder folder;
-  const fs::path before = fs::current_path();
-  fs::current_path(folder.path);
+  const WorkingFolder working(folder.path);
   PendingFiles files;
   files.add("new", "x");
   CHECK_THROWS_WITH(files.add("./new", "y"), Catch::Contains("two outputs"));
   CHECK_THROWS_WITH(files.add(folder.file("new"), "y"), Catch::Contains("two outputs"));
-  fs::current_path(before);
 }
 
 TEST_CASE("safe_file: a link to nothing is followed, and stays") {

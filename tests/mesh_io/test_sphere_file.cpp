@@ -55,6 +55,20 @@ TEST_CASE("sphere_file: an earlier map is replaced, other comments stay") {
   CHECK(twice.comments == std::vector<std::string>{"scanned by hand", "sphparam stage x y"});
 }
 
+TEST_CASE("sphere_file: without its map a mesh has no verdict on one") {
+  const SphereMap map{icosphere(2).positions};
+  MeshFile file = attach_map(icosphere_file(), map, kProvenance);
+  file.comments.push_back("scanned by hand");
+  CHECK(has_map(file));
+  const MeshFile bare = without_map(file);
+  CHECK_FALSE(has_map(bare));
+  CHECK(bare.vertex_properties.empty());
+  CHECK(bare.comments == std::vector<std::string>{"sphparam version 0.1.0",
+                                                  "sphparam options --method paper --kappa 1",
+                                                  "scanned by hand"});
+  CHECK(has_map(sphere_mesh(file, map, kProvenance)));
+}
+
 TEST_CASE("sphere_file: a mesh without all three coordinates carries no map") {
   MeshFile file = attach_map(icosphere_file(), {icosphere(2).positions}, {});
   remove_properties(file.vertex_properties, {"sy"});

@@ -1,7 +1,9 @@
 #include <catch2/catch.hpp>
+#include <memory>
 #include <set>
 #include <stdexcept>
 
+#include "remesh/fine_limit_mesh.h"
 #include "remesh/patch_net.h"
 #include "remesh/sphere_grid.h"
 #include "sphparam/mesh/mesh_defects.h"
@@ -101,6 +103,27 @@ TEST_CASE("patches: faces are patches where a surface has as many, and once divi
     CHECK(faces_are_patches(grid.faces, scheme) == (topology.patch_count() == grid.faces.count()));
     const Polygons quads = subdivide_to_quads({grid.faces, {grid.directions}}).faces;
     CHECK(faces_are_patches(quads, Scheme::CatmullClark));
+  }
+}
+
+TEST_CASE("fine limit mesh: closed, outward and as fine as asked, on the surface") {
+  for (const auto& [name, scheme] : {std::pair("ico:2", Scheme::Loop),
+                                     {"cube:3", Scheme::CatmullClark},
+                                     {"uv:8x6", Scheme::CatmullClark}}) {
+    INFO(name);
+    const SphereGrid grid = make_grid(parse_grid(name));
+    const auto vertices = static_cast<int>(grid.directions.rows());
+    SubdivisionFit fit;
+    fit.topology = std::make_shared<LimitTopology>(grid.faces, vertices, scheme);
+    fit.control = grid.directions;
+    const TriangleMesh mesh = fine_limit_mesh(fit, grid.faces, 10'000, 1);
+    CHECK(mesh.face_count() >= 10'000);
+    const MeshInspection inspection = inspect_mesh(mesh);
+    CHECK(inspection.is_sphere());
+    CHECK(inspection.volume > 2);  // of 4π/3: the surface is inside of its control points
+    const LimitVertices limit =
+        limit_at_vertices(LimitSurface(fit.topology, fit.control), grid.faces);
+    CHECK((mesh.positions.topRows(vertices) - limit.positions).rowwise().norm().maxCoeff() < 1e-4);
   }
 }
 

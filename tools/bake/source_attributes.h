@@ -6,8 +6,11 @@
 
 namespace sphparam::tools {
 
-/// Texture coordinates of the corners, t upwards, whether the file has them at corners or vertices.
+/// Whether a file has texture coordinates, at corners or as s, t of vertices.
 bool has_texcoords(const MeshFile& file);
+
+/// Texture coordinates of the corners, t upwards: the file's own, else those of the vertices there;
+/// nothing where there are none.
 std::optional<CornerTexcoords> texcoords_of(const MeshFile& file);
 
 /// #V×3 colours of the vertices in linear light, which a mesh has in sRGB; nothing where there

@@ -11,6 +11,7 @@
 #include "cli/choice.h"
 #include "cli/common_options.h"
 #include "cli/paths.h"
+#include "image/file_extension.h"
 #include "image/image_writer.h"
 #include "texture/test_images.h"
 

@@ -4,9 +4,12 @@
 
 #include "cli/exit_codes.h"
 #include "cli/wording.h"
+#include "image/file_extension.h"
 #include "mesh_io/mesh_reader.h"
+#include "mesh_io/mesh_writer.h"
 #include "mesh_io/read_back.h"
 #include "mesh_io/sphere_file.h"
+#include "remesh/polygon_ply.h"
 
 namespace sphparam::tools {
 
@@ -33,6 +36,20 @@ void add_certified(PendingFiles& files, const std::string& path, std::string byt
     const MeshFile read = read_mesh(written, path, own_file);
     require_certified(certify_read_back(read, map, topology, threads), path + ", as written");
   });
+}
+
+void add_mapped(PendingFiles& files, const std::string& path, MeshFile file, const Polygons& faces,
+                const Topology& topology, int threads) {
+  if (extension_of(path) == ".obj") {
+    const SphereMap map = read_sphere(file).value();
+    add_certified(files, path, serialise_polygon_obj(without_map(std::move(file)), faces), topology,
+                  map, threads);
+  } else {
+    const bool triangles_only = std::ssize(faces.corners) == 3 * faces.count();
+    std::string bytes =
+        triangles_only ? serialise_ply(file) : serialise_polygon_ply(std::move(file), faces);
+    add_certified(files, path, std::move(bytes), topology, threads);
+  }
 }
 
 }  // namespace sphparam::tools

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "mesh_io/polygons.h"
 #include "mesh_io/safe_file.h"
 #include "sphparam/mesh/topology.h"
 #include "sphparam/sphere/certificate.h"
@@ -19,5 +20,11 @@ void add_certified(PendingFiles& files, const std::string& path, std::string byt
 /// The same for a mesh that carries no map: `map` has a ray for each of its vertices.
 void add_certified(PendingFiles& files, const std::string& path, std::string bytes,
                    const Topology& topology, const SphereMap& map, int threads);
+
+/// Adds a mesh that carries a map, proved like this: as .obj without the map, and without a
+/// verdict, else as PLY. `faces`: the polygons that its triangles are cut of, as
+/// `adopt_triangulation` does.
+void add_mapped(PendingFiles& files, const std::string& path, MeshFile file, const Polygons& faces,
+                const Topology& topology, int threads);
 
 }  // namespace sphparam::tools

@@ -23,6 +23,7 @@
 #include "gltf/gltf_writer.h"
 #include "gltf/image_kind.h"
 #include "gltf/written_check.h"
+#include "image/file_extension.h"
 #include "mesh_io/mesh_writer.h"
 #include "mesh_io/read_options.h"
 #include "mesh_io/safe_file.h"

@@ -104,7 +104,9 @@ std::string figures(const Source& source) {
 std::string text_of(const InfoReport& report) {
   const Source& source = report.input.source;
   std::string text = display_name(report.input.file) + "\n" + figures(source);
-  for (const auto& [key, value] : report.provenance) text += line("map " + key, value);
+  if (has_map(report.input.source.file)) {
+    for (const auto& [key, value] : report.provenance) text += line("map " + key, value);
+  }
   for (const std::string& note : source.notes) text += line("note", note);
   if (!source.inspection.defects.empty()) {
     text += "What is odd or wrong:\n" + defect_list(source.inspection.defects);

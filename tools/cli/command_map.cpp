@@ -26,6 +26,7 @@
 #include "cli/source.h"
 #include "cli/wording.h"
 #include "compare/methods.h"
+#include "image/file_extension.h"
 #include "mesh_io/mesh_reader.h"
 #include "mesh_io/mesh_writer.h"
 #include "mesh_io/read_back.h"

@@ -18,6 +18,7 @@
 #include "cli/measure_report.h"
 #include "cli/paths.h"
 #include "cli/wording.h"
+#include "image/file_extension.h"
 #include "measure/surface_distance.h"
 #include "mesh_io/mesh_reader.h"
 #include "mesh_io/mesh_writer.h"

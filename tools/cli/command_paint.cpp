@@ -16,6 +16,7 @@
 #include "cli/interruption.h"
 #include "cli/mapped_source.h"
 #include "cli/paths.h"
+#include "image/file_extension.h"
 #include "image/image_codec.h"
 #include "mesh_io/mesh_writer.h"
 #include "mesh_io/safe_file.h"
@@ -115,7 +116,9 @@ std::string vertex_colours(const PaintArguments& arguments, const MappedSource& 
   const Image colours =
       paint_vertices(topology, source.map, EquirectangularImage(pyramid, arguments.convention),
                      progress, arguments.threads);
-  return serialiser(arguments.output)(with_colours(source, colours, pyramid.has_alpha()));
+  const Serialiser serialise = serialiser(arguments.output);
+  MeshFile file = with_colours(source, colours, pyramid.has_alpha());
+  return serialise == serialise_ply ? serialise(file) : serialise(without_map(std::move(file)));
 }
 
 /// As the file counts its faces.

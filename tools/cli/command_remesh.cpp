@@ -27,10 +27,9 @@
 #include "cli/remesh_report.h"
 #include "cli/remesh_subdivision.h"
 #include "cli/wording.h"
-#include "mesh_io/mesh_writer.h"
+#include "image/file_extension.h"
 #include "mesh_io/safe_file.h"
 #include "mesh_io/sphere_file.h"
-#include "remesh/polygon_ply.h"
 #include "remesh/sample_table.h"
 #include "sphparam/mesh/topology.h"
 #include "sphparam/sphere/certificate.h"
@@ -143,14 +142,7 @@ void add_mesh(PendingFiles& files, const std::string& path, const RemeshArgument
               const MappedSource& mapped, const Remeshed& result) {
   MeshFile file = attach_map(result.file, result.map, provenance(arguments, mapped));
   const Topology topology(result.file.mesh, arguments.threads);
-  if (kind_of(path) == ".obj") {
-    add_certified(files, path, serialise_polygon_obj(file, result.faces), topology, result.map,
-                  arguments.threads);
-    return;
-  }
-  std::string bytes = file.polygons > 0 ? serialise_polygon_ply(std::move(file), result.faces)
-                                        : serialise_ply(file);
-  add_certified(files, path, std::move(bytes), topology, arguments.threads);
+  add_mapped(files, path, std::move(file), result.faces, topology, arguments.threads);
 }
 
 void add_meshes(PendingFiles& files, const std::vector<RemeshLevel>& levels,

@@ -17,6 +17,7 @@
 #include "cli/exit_codes.h"
 #include "cli/input_limits.h"
 #include "cli/paths.h"
+#include "image/file_extension.h"
 #include "image/image_codec.h"
 #include "mesh_io/mesh_reader.h"
 #include "mesh_io/safe_file.h"

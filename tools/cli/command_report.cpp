@@ -3,10 +3,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -23,6 +25,7 @@
 #include "cli/repairing.h"
 #include "cli/source.h"
 #include "cli/wording.h"
+#include "image/file_extension.h"
 #include "image/image_codec.h"
 #include "mesh_io/connectivity.h"
 #include "mesh_io/read_options.h"
@@ -50,6 +53,11 @@ constexpr char summary[] =
     "maps of the same mesh: sx sy sz, or a sphere with its triangles, in its order. They stand "
     "side\n"
     "by side, charts on the same scale. Ends with 0 also where maps fold.\n";
+
+/// What a page is not; any other ending, as that of page.v2, may be part of its name.
+constexpr std::array<std::string_view, 14> other_kinds = {".ply", ".obj",  ".off",  ".stl", ".gii",
+                                                          ".glb", ".gltf", ".png",  ".exr", ".jpg",
+                                                          ".svg", ".csv",  ".json", ".pdf"};
 
 struct ReportArguments {
   std::vector<std::string> inputs;
@@ -91,11 +99,9 @@ void require_sense(const ReportArguments& arguments) {
     require_not_input(input, arguments.output, "--output");
     require_not_input(input, arguments.json, "--json");
   }
-  if (is_same_place(arguments.output, arguments.json)) {
-    throw UsageMistake("--output and --json are the same file");
-  }
-  const std::string kind = is_stream(arguments.output) ? "" : extension_of(arguments.output);
-  if (!kind.empty() && kind != ".html" && kind != ".htm") {
+  require_distinct({{"--output", arguments.output}, {"--json", arguments.json}});
+  const std::string kind = extension_of(arguments.output);
+  if (std::find(other_kinds.begin(), other_kinds.end(), kind) != other_kinds.end()) {
     throw UsageMistake("-o: the page is written as .html, not as " + kind);
   }
 }

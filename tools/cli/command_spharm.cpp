@@ -21,6 +21,7 @@
 #include "cli/paths.h"
 #include "cli/suggestion.h"
 #include "cli/wording.h"
+#include "image/file_extension.h"
 #include "mesh_io/mesh_writer.h"
 #include "mesh_io/safe_file.h"
 #include "sphparam/errors.h"
@@ -82,17 +83,22 @@ Functions functions_of(const MeshFile& file, const std::vector<std::string>& sca
   return values;
 }
 
-HarmonicsReport expand(const SpharmArguments& arguments, const MappedSource& mapped,
-                       Console& console) {
+/// Coefficients, and what they have at the vertices.
+struct Expansion {
+  HarmonicsReport report;
+  Functions values;
+};
+
+Expansion expand(const SpharmArguments& arguments, const MappedSource& mapped, Console& console) {
   const MeshFile& file = mapped.source.file;
   require_measurable(file.mesh);
-  HarmonicsReport report = {.mesh = arguments.input,
-                            .map = mapped.provenance,
-                            .functions = {"x", "y", "z"},
-                            .least_squares = arguments.least_squares,
-                            .fit = {},
-                            .plain_rms = {},
-                            .diagonal = diagonal_of(file.mesh.positions)};
+  Expansion result;
+  HarmonicsReport& report = result.report;
+  report.mesh = arguments.input;
+  report.map = mapped.provenance;
+  report.functions = {"x", "y", "z"};
+  report.least_squares = arguments.least_squares;
+  report.diagonal = diagonal_of(file.mesh.positions);
   report.functions.insert(report.functions.end(), arguments.scalars.begin(),
                           arguments.scalars.end());
   const Functions values = functions_of(file, arguments.scalars);
@@ -102,19 +108,17 @@ HarmonicsReport expand(const SpharmArguments& arguments, const MappedSource& map
        .least_squares = arguments.least_squares,
        .threads = arguments.threads,
        .progress = [&](std::string_view stage, double f) { return console.progress(stage, f); }});
-  const Functions left =
-      values - synthesise(report.fit.coefficients, mapped.map.points, arguments.threads);
-  report.plain_rms = left.cwiseAbs2().colwise().mean().cwiseSqrt();
+  console.progress("residuals", 0);
+  result.values = synthesise(report.fit.coefficients, mapped.map.points, arguments.threads);
+  report.plain_rms = (values - result.values).cwiseAbs2().colwise().mean().cwiseSqrt();
   console.clear_progress();
-  return report;
+  return result;
 }
 
 /// The mesh with the positions and scalars that the harmonics have at its vertices.
 MeshFile reconstruct(const SpharmArguments& arguments, MappedSource mapped,
-                     const HarmonicsReport& report) {
+                     const Functions& values) {
   MeshFile file = std::move(mapped.source.file);
-  const Functions values =
-      synthesise(report.fit.coefficients, mapped.map.points, arguments.threads);
   file.mesh.positions = values.leftCols(3);
   file.position_type = ScalarType::Float64;
   file.corner_normals.reset();
@@ -184,15 +188,16 @@ int run_spharm(const SpharmArguments& arguments) {
   MappedSource mapped =
       read_mapped_source(arguments.input, arguments.sphere, arguments.threads, console);
   warn_of_few_vertices(arguments, mapped.source.file, console);
-  const HarmonicsReport report = expand(arguments, mapped, console);
+  const auto [report, values] = expand(arguments, mapped, console);
   PendingFiles files;
   if (!arguments.json.empty()) files.add(arguments.json, to_json(report));
   if (!arguments.csv.empty()) files.add(arguments.csv, to_csv(report));
   if (!arguments.reconstruction.empty()) {
-    const Serialiser serialise =
-        is_stream(arguments.reconstruction) ? serialise_ply : serialiser(arguments.reconstruction);
-    files.add(arguments.reconstruction,
-              serialise(reconstruct(arguments, std::move(mapped), report)));
+    const std::string& path = arguments.reconstruction;
+    const bool has_rays = is_stream(path) || extension_of(path) == ".ply";
+    MeshFile file = reconstruct(arguments, std::move(mapped), values);
+    files.add(path,
+              has_rays ? serialise_ply(file) : serialiser(path)(without_map(std::move(file))));
   }
   if (interrupted()) throw Cancelled();
   files.publish();

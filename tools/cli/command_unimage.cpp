@@ -15,12 +15,11 @@
 #include "cli/interruption.h"
 #include "cli/paths.h"
 #include "cli/wording.h"
+#include "image/file_extension.h"
 #include "image/image_codec.h"
-#include "mesh_io/mesh_writer.h"
 #include "mesh_io/safe_file.h"
 #include "mesh_io/sphere_file.h"
 #include "remesh/geometry_image.h"
-#include "remesh/polygon_ply.h"
 #include "sphparam/errors.h"
 #include "sphparam/mesh/topology.h"
 #include "sphparam/sphere/certificate.h"
@@ -124,15 +123,8 @@ void add_mesh(PendingFiles& files, MeshFile file, const Topology& topology,
                                   {"method", "unimage"},
                                   {"grid", name_of(contents.spec)},
                                   {"verdict", "one-to-one"}});
-  if (extension_of(arguments.output) == ".obj") {
-    add_certified(files, arguments.output, serialise_polygon_obj(with_map, contents.grid.faces),
-                  topology, SphereMap{contents.grid.directions}, arguments.threads);
-    return;
-  }
-  std::string bytes = with_map.polygons > 0
-                          ? serialise_polygon_ply(std::move(with_map), contents.grid.faces)
-                          : serialise_ply(with_map);
-  add_certified(files, arguments.output, std::move(bytes), topology, arguments.threads);
+  add_mapped(files, arguments.output, std::move(with_map), contents.grid.faces, topology,
+             arguments.threads);
 }
 
 int run_unimage(const UnimageArguments& arguments) {

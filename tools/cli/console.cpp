@@ -68,7 +68,10 @@ bool Console::progress(std::string_view stage, double fraction, const std::strin
   const int percent = static_cast<int>(100 * std::clamp(fraction, 0.0, 1.0));
   const std::string name(stage);
   if (style_ == ProgressStyle::Json) {
-    print_line("{\"stage\":\"" + name + "\",\"percent\":" + std::to_string(percent) + "}");
+    const std::string line =
+        "{\"stage\":\"" + name + "\",\"percent\":" + std::to_string(percent) + "}";
+    if (line != told_) print_line(line);
+    told_ = line;
   } else if (rewrites_line_) {
     const std::string line = name + " " + std::to_string(percent) + " %" + detail;
     if (line != shown_) {

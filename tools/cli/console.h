@@ -23,7 +23,8 @@ class Console {
   void detail(const std::string& text);   // when verbose
 
   /// Shows how far a stage is. Returns false once a signal asked the program to stop, as the
-  /// library's progress callback does. `detail`: more of it for people, as a rate.
+  /// library's progress callback does. `detail`: more of it for people, as a rate. As JSON a line
+  /// is told when stage or percent change.
   bool progress(std::string_view stage, double fraction, const std::string& detail = "");
   /// Erases the progress line.
   void clear_progress();
@@ -32,7 +33,8 @@ class Console {
   Verbosity verbosity_;
   ProgressStyle style_;
   bool rewrites_line_;
-  std::string shown_;
+  std::string shown_;  // the line that is rewritten
+  std::string told_;   // the last of the JSON lines
 };
 
 /// Prints "sphparam: error: …", in red where the terminal wants colour.

@@ -7,6 +7,7 @@
 #include "cli/choice.h"
 #include "cli/common_options.h"
 #include "cli/paths.h"
+#include "image/file_extension.h"
 
 namespace sphparam::tools {
 

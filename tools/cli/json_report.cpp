@@ -129,7 +129,8 @@ Json options_json(const MapReport& report) {
                  {"poles", wanted_poles(options)},
                  {"meridian", options.meridian ? Json(*options.meridian) : Json()},
                  {"lambda", options.energy.lambda},
-                 {"repair", report.repairs_wanted}};
+                 {"repair", report.repairs_wanted},
+                 {"repair_map", options.repair_paper}};
   if (options.method == Method::Progressive) {
     result["balance"] = name_of(options.balance);
     result["quality"] = name_of(options.quality);
@@ -137,7 +138,6 @@ Json options_json(const MapReport& report) {
   }
   if (options.method == Method::Paper) {
     const PaperSettings& paper = options.paper;
-    result["repair_map"] = options.repair_paper;
     result["weights"] = name_of(paper.weights);
     result["epsilon"] = paper.epsilon;
     result["iterations"] = paper.iterations;

@@ -12,6 +12,7 @@
 #include "cli/common_options.h"
 #include "cli/paths.h"
 #include "cli/wording.h"
+#include "image/file_extension.h"
 #include "mesh_io/gifti_writer.h"
 #include "mesh_io/mesh_writer.h"
 

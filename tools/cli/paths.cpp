@@ -12,6 +12,14 @@ std::string file_name(const std::string& path) {
   return std::filesystem::path(path).filename().string();
 }
 
+/// Devices and pipes take what two outputs have to say.
+bool holds_one_output(const std::string& path) {
+  std::error_code hidden;
+  const std::filesystem::file_status status = std::filesystem::status(path, hidden);
+  return is_stream(path) || !std::filesystem::exists(status) ||
+         std::filesystem::is_regular_file(status) || std::filesystem::is_directory(status);
+}
+
 }  // namespace
 
 std::string display_name(const std::string& path) {
@@ -44,7 +52,7 @@ void require_distinct(const Outputs& outputs) {
     for (size_t j = 0; j < i; ++j) {
       const auto& [option, path] = outputs[i];
       const auto& [other, place] = outputs[j];
-      if (is_same_place(path, place))
+      if (is_same_place(path, place) && holds_one_output(path))
         throw UsageMistake(other + " and " + option + " name the same file: " + output_name(path));
     }
   }

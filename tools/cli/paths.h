@@ -4,8 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include "image/file_extension.h"
-
 namespace sphparam::tools {
 
 /// Is this path the name of standard input or output?
@@ -26,7 +24,8 @@ bool is_same_place(const std::string& one, const std::string& other);
 /// What is written where: option and path; empty paths are not written.
 using Outputs = std::vector<std::pair<std::string, std::string>>;
 
-/// Throws UsageMistake when two outputs are one place, however spelled.
+/// Throws UsageMistake when two outputs are one place, however spelled. A device, as /dev/null, may
+/// be named twice.
 void require_distinct(const Outputs& outputs);
 
 /// Throws UsageMistake when an output would replace the input, also through links: a slip of the

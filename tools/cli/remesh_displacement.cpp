@@ -17,9 +17,11 @@
 #include "cli/remesh_subdivision.h"
 #include "displace/displacement_file.h"
 #include "displace/rebuild.h"
+#include "image/file_extension.h"
 #include "measure/surface_distance.h"
 #include "mesh_io/mesh_writer.h"
 #include "mesh_io/sphere_file.h"
+#include "remesh/polygon_ply.h"
 #include "sphparam/stopwatch.h"
 #include "sphparam/version.h"
 
@@ -82,13 +84,13 @@ bool add_rebuilt(PendingFiles& files, const RemeshArguments& arguments, const Di
   file.mesh = rebuilt.mesh;
   const Topology topology(file.mesh, arguments.threads);
   const bool certified = certify(topology, rebuilt.map, arguments.threads).bijective();
-  if (certified) file = attach_map(std::move(file), rebuilt.map, provenance(arguments, base));
-  if (extension_of(path) == ".obj") {
-    files.add(path, serialise_obj(file));
-  } else if (certified) {
-    add_certified(files, path, serialise_ply(file), topology, arguments.threads);
+  if (certified) {
+    add_mapped(files, path, attach_map(std::move(file), rebuilt.map, provenance(arguments, base)),
+               rebuilt.faces, topology, arguments.threads);
   } else {
-    files.add(path, serialise_ply(file));
+    const bool obj = extension_of(path) == ".obj";
+    files.add(path, obj ? serialise_polygon_obj(file, rebuilt.faces)
+                        : serialise_polygon_ply(std::move(file), rebuilt.faces));
   }
   return certified;
 }
@@ -205,7 +207,10 @@ std::string displacement_lines(const DisplacementReport& report, const TriangleM
   std::string lines = "  displacement from " + percent(made.least) + " to " +
                       percent(made.greatest) + " of the diagonal";
   if (made.missed > 0) {
-    lines += ", " + std::to_string(made.missed) + " texels whose normal misses the mesh";
+    lines += ", ";
+    lines += std::to_string(made.missed);
+    lines += made.missed == 1 ? " texel whose normal misses the mesh"
+                              : " texels whose normals miss the mesh";
   }
   if (!report.proof) return lines;
   const auto line = [&](const char* what, const RebuildError& error) {

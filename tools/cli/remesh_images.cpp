@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cli/paths.h"
+#include "image/file_extension.h"
 #include "image/image_codec.h"
 #include "render/vertex_normals.h"
 

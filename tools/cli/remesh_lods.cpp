@@ -10,6 +10,7 @@
 #include "cli/exit_codes.h"
 #include "cli/level_path.h"
 #include "cli/paths.h"
+#include "image/file_extension.h"
 #include "measure/surface_distance.h"
 #include "remesh/lods.h"
 

@@ -9,6 +9,7 @@
 #include "cli/diagonal.h"
 #include "cli/exit_codes.h"
 #include "cli/paths.h"
+#include "image/file_extension.h"
 
 namespace sphparam::tools {
 

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <system_error>
 
+#include "image/file_extension.h"
 #include "image/image_writer.h"
 #include "image/open_module.h"
 
@@ -70,15 +71,16 @@ std::vector<char> read_bytes(const std::string& path, const ImageLimits& limits)
 
 }  // namespace
 
-Image decode_image(const std::vector<char>& bytes, std::string_view name,
-                   const ImageLimits& limits, ImageTexts* texts) {
+Image decode_image(const std::vector<char>& bytes, std::string_view name, const ImageLimits& limits,
+                   ImageTexts* texts) {
   const std::string prefix = std::string(name) + ": ";
   const char* format = format_of(bytes);
   if (!format) throw ImageError(prefix + "not a PNG, JPEG, TIFF or EXR image");
   Image image;
   std::string error;
-  if (image_codecs().decode(format, bytes.data(), bytes.size(), limits.decoded_megabytes, limits.channels,
-                      make_room, &image, texts ? append_pair : nullptr, texts, append_text, &error) != 0) {
+  if (image_codecs().decode(format, bytes.data(), bytes.size(), limits.decoded_megabytes,
+                            limits.channels, make_room, &image, texts ? append_pair : nullptr,
+                            texts, append_text, &error) != 0) {
     throw ImageError(prefix + (error.empty() ? "broken image" : error));
   }
   return image;
@@ -110,15 +112,15 @@ std::vector<char> encode_image(const Image& image, ImageFormat format,
   std::vector<char> bytes;
   std::string error;
   if (image_codecs().encode(name, name_of(options.sample_type), image.pixels.data(), image.width,
-                      image.height, image.channels, metadata.data(), options.metadata.size(),
-                      append_bytes, &bytes, append_text, &error) != 0) {
+                            image.height, image.channels, metadata.data(), options.metadata.size(),
+                            append_bytes, &bytes, append_text, &error) != 0) {
     throw ImageError(std::string("cannot encode the image as ") + name + ": " + error);
   }
   return bytes;
 }
 
 void write_image(const std::string& path, const Image& image, const ImageWriteOptions& options) {
-  const std::string extension = std::filesystem::path(path).extension().string();
+  const std::string extension = extension_of(path);
   if (extension != ".png" && extension != ".exr") {
     throw ImageError(path + ": images are written as .png or .exr");
   }

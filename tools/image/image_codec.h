@@ -56,7 +56,7 @@ Image decode_image(const std::vector<char>& bytes, std::string_view name,
 std::vector<char> encode_image(const Image& image, ImageFormat format,
                                const ImageWriteOptions& options = {});
 
-/// Writes a .png or .exr file, as the name says. Throws: ImageError.
+/// Writes a .png or .exr file, as the name says in whatever case. Throws: ImageError.
 void write_image(const std::string& path, const Image& image,
                  const ImageWriteOptions& options = {});
 

@@ -92,7 +92,9 @@ class GiftiReader {
     for (Eigen::Index f = 0; f < triangles.rows() && !options_.repeated_corners; ++f) {
       const int a = triangles(f, 0), b = triangles(f, 1), c = triangles(f, 2);
       if (a == b || b == c || c == a)
-        fail_in_array(name_, array, "names a vertex twice in triangle " + std::to_string(f));
+        fail_in_array(
+            name_, array,
+            "names a vertex twice in triangle " + std::to_string(f) + repeated_corners_advice());
     }
   }
 

@@ -1,7 +1,6 @@
 #include "mesh_io/polygons.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -9,16 +8,14 @@
 #include <stdexcept>
 #include <utility>
 
-#include "mesh_io/distinct_rows.h"
 #include "mesh_io/doublets.h"
+#include "mesh_io/ear_clipping.h"
 
 // A polygon is projected to the plane of its Newell normal n = Σ pᵢ × pᵢ₊₁, after a shift to its
-// first corner and a power-of-two scale, so that no coordinates overflow. There the sign of
-//   turn(a, b, c) = (b − a) × (c − a)
-// tells whether a triangle keeps the orientation of the polygon. Quads compare their two diagonals,
-// larger polygons try the fan of corner 0, then clip ears: convex corners whose triangle holds no
-// reflex corner. Edges in use are remembered so that no diagonal doubles one. Doublets are found
-// beforehand: vertices with two corners between the same two neighbours.
+// first corner and a power-of-two scale, so that no coordinates overflow. Quads compare their two
+// diagonals, larger polygons try the fan of corner 0, then clip ears. Edges in use are remembered
+// so that no diagonal doubles one. Doublets are found beforehand: vertices with two corners between
+// the same two neighbours; before that, corners that repeat the one before them are left out.
 
 namespace sphparam::tools {
 namespace {
@@ -27,24 +24,6 @@ constexpr int kMaxClippedDegree = 512;
 
 // Half-edges are numbered by int, three to a triangle.
 constexpr std::int64_t kMostTriangles = std::numeric_limits<int>::max() / 3;
-
-/// The undirected edges in use.
-class EdgeSet {
- public:
-  explicit EdgeSet(std::size_t expected) : rows_(expected) {}
-  void insert(int a, int b) { rows_.insert(ordered(a, b)); }
-  bool contains(int a, int b) const { return rows_.contains(ordered(a, b)); }
-
- private:
-  static std::array<int, 2> ordered(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
-  DistinctRows<int, 2> rows_;
-};
-
-using PlanePoint = Eigen::Vector2d;
-
-double turn(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
-  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-}
 
 /// The corners relative to the first one, scaled by a power of two to at most 1.
 void local_corners(const Points& positions, std::span<const int> polygon,
@@ -78,82 +57,8 @@ std::vector<PlanePoint> project(const std::vector<Vector3>& corners, const Vecto
   return plane;
 }
 
-/// Clips the ears of one polygon in its plane.
-class EarClipper {
- public:
-  EarClipper(std::span<const int> polygon, std::vector<PlanePoint> plane, const EdgeSet& edges)
-      : polygon_(polygon), plane_(std::move(plane)), edges_(edges), ring_(polygon.size()) {
-    for (int i = 0; i < degree(); ++i)
-      ring_[i] = {(i + degree() - 1) % degree(), (i + 1) % degree()};
-    for (int i = 0; i < degree(); ++i)
-      if (!is_convex(i)) reflex_.push_back(i);
-  }
-
-  /// Appends corner triples. An ear along a used edge is taken only where there is no other, a
-  /// corner that is no ear only where there is none (a polygon that crosses itself).
-  void clip(std::vector<int>& triples) {
-    int at = 0;
-    for (int left = degree(); left > 3; --left) {
-      at = choose(at, left);
-      const int before = ring_[at].previous, after = ring_[at].next;
-      triples.insert(triples.end(), {before, at, after});
-      ring_[before].next = after;
-      ring_[after].previous = before;
-      std::erase_if(
-          reflex_, [&](int i) { return i == at || ((i == before || i == after) && is_convex(i)); });
-      at = ring_[after].next;  // not the neighbour: ears all around make better triangles
-    }
-    triples.insert(triples.end(), {ring_[at].previous, at, ring_[at].next});
-  }
-
- private:
-  struct Neighbours {
-    int previous, next;
-  };
-
-  int degree() const { return static_cast<int>(polygon_.size()); }
-
-  bool is_convex(int i) const {
-    return turn(plane_[ring_[i].previous], plane_[i], plane_[ring_[i].next]) > 0;
-  }
-
-  bool is_ear(int i) {
-    budget_ -= static_cast<long>(reflex_.size());
-    const int before = ring_[i].previous, after = ring_[i].next;
-    const PlanePoint &a = plane_[before], &b = plane_[i], &c = plane_[after];
-    if (turn(a, b, c) <= 0) return false;
-    return std::none_of(reflex_.begin(), reflex_.end(), [&](int r) {
-      const PlanePoint& p = plane_[r];
-      return r != before && r != after && turn(a, b, p) >= 0 && turn(b, c, p) >= 0 &&
-             turn(c, a, p) >= 0;
-    });
-  }
-
-  bool cuts_along_used_edge(int i) const {
-    return edges_.contains(polygon_[ring_[i].previous], polygon_[ring_[i].next]);
-  }
-
-  int choose(int start, int left) {
-    std::optional<int> second_best;
-    for (int i = start, tried = 0; tried < left && budget_ > 0; ++tried, i = ring_[i].next) {
-      if (!is_ear(i)) continue;
-      if (!cuts_along_used_edge(i)) return i;
-      if (!second_best) second_best = i;
-    }
-    return second_best.value_or(start);
-  }
-
-  std::span<const int> polygon_;
-  std::vector<PlanePoint> plane_;
-  const EdgeSet& edges_;
-  std::vector<Neighbours> ring_;
-  std::vector<int> reflex_;
-  // Corners looked at: a polygon made to have no ear anywhere would cost degree³. When it is spent,
-  // corners are clipped as they come.
-  long budget_ = 4L * degree() * degree();
-};
-
-/// Three corners of a polygon that names a vertex twice, of which two are at that vertex.
+/// Three corners of a polygon that names a vertex twice, however it is shortened, of which two are
+/// at that vertex.
 std::vector<int> repeating_triangle(std::span<const int> polygon) {
   std::vector<int> order(polygon.size());
   std::iota(order.begin(), order.end(), 0);
@@ -250,7 +155,7 @@ class Triangulator {
     if (degree > kMaxClippedDegree || !flat || fan_is_good(polygon, normal)) {
       cut_fan(polygon, 0);
     } else {
-      EarClipper(polygon, project(local_, normal), edges_).clip(triples_);
+      clip_ears(polygon, project(local_, normal), edges_, triples_);
       insert_triangles(polygon);
     }
   }
@@ -294,6 +199,61 @@ Triangles as_triangles(const std::vector<int>& indices) {
                                      3);
 }
 
+/// Polygons without some of their corners.
+struct Shortened {
+  Polygons polygons;
+  std::vector<int> corner;  // of each of their corners, which it was
+  long count = 0;           // polygons with fewer corners than before
+};
+
+/// Leaves out corners at the vertex of the corner before: many exporters of quads write triangles
+/// so. A polygon of which fewer than three corners would be left keeps them all.
+Shortened without_repeats_in_a_row(const Polygons& polygons) {
+  Shortened result;
+  for (std::int64_t p = 0; p < polygons.count(); ++p) {
+    const std::span<const int> polygon = polygons.polygon(p);
+    const std::size_t first = result.corner.size();
+    const bool repeats = polygons.repeats(p);
+    for (int i = 0, before = polygon.back(); i < polygons.degree(p); before = polygon[i++])
+      if (!repeats || polygon[i] != before) result.corner.push_back(polygons.starts[p] + i);
+    if (result.corner.size() - first < 3) {
+      result.corner.resize(first + polygon.size());
+      std::iota(result.corner.begin() + static_cast<std::ptrdiff_t>(first), result.corner.end(),
+                polygons.starts[p]);
+    }
+    for (std::size_t i = first; i < result.corner.size(); ++i)
+      result.polygons.add_corner(polygons.corners[result.corner[i]]);
+    result.polygons.starts.push_back(static_cast<int>(result.corner.size()));
+    result.count += result.polygons.degree(p) < polygons.degree(p);
+    if (repeats && has_repeated_corner(result.polygons.polygon(p)))
+      result.polygons.repeating.push_back(static_cast<int>(p));
+  }
+  return result;
+}
+
+/// All but `split` and `shortened`.
+Triangulation cut(const Points& positions, const Polygons& polygons) {
+  Triangulation result;
+  result.doublets = find_doublets(polygons, positions.rows());
+  Triangulator triangulator(positions, polygons, result.doublets);
+  std::vector<int> indices;
+  for (std::int64_t p = 0; p < polygons.count(); ++p) {
+    const std::span<const int> polygon = polygons.polygon(p);
+    for (const int corner : triangulator.cut(polygon, polygons.repeats(p))) {
+      indices.push_back(polygon[corner]);
+      result.corner.push_back(polygons.starts[p] + corner);
+    }
+    result.polygon.resize(indices.size() / 3, static_cast<int>(p));
+  }
+  result.triangles = as_triangles(indices);
+  return result;
+}
+
+std::string shortened_note(long count) {
+  return count == 1 ? "1 face names a vertex twice in a row: taken once"
+                    : std::to_string(count) + " faces name a vertex twice in a row: taken once";
+}
+
 }  // namespace
 
 std::string Polygons::close_polygon(const ReadOptions& options) {
@@ -307,31 +267,26 @@ std::string Polygons::close_polygon(const ReadOptions& options) {
     return "more triangles than the limit of " + std::to_string(triangle_limit);
   starts.push_back(static_cast<int>(corners.size()));
   if (!has_repeated_corner(polygon(count() - 1))) return {};
-  if (!options.repeated_corners) return "face names a vertex twice";
+  if (!options.repeated_corners) return "face names a vertex twice" + repeated_corners_advice();
   repeating.push_back(static_cast<int>(count() - 1));
   return {};
 }
 
 Triangulation triangulate(const Points& positions, const Polygons& polygons) {
   Triangulation result;
-  for (std::int64_t p = 0; p < polygons.count(); ++p) result.split += polygons.degree(p) != 3;
-  if (result.split == 0) {
+  long split = 0;
+  for (std::int64_t p = 0; p < polygons.count(); ++p) split += polygons.degree(p) != 3;
+  if (split == 0) {
     result.triangles = as_triangles(polygons.corners);
-    return result;
+  } else if (polygons.repeating.empty()) {
+    result = cut(positions, polygons);
+  } else {
+    const Shortened shortened = without_repeats_in_a_row(polygons);
+    result = cut(positions, shortened.polygons);
+    for (int& corner : result.corner) corner = shortened.corner[corner];
+    result.shortened = shortened.count;
   }
-
-  result.doublets = find_doublets(polygons, positions.rows());
-  Triangulator triangulator(positions, polygons, result.doublets);
-  std::vector<int> indices;
-  for (std::int64_t p = 0; p < polygons.count(); ++p) {
-    const std::span<const int> polygon = polygons.polygon(p);
-    for (const int corner : triangulator.cut(polygon, polygons.repeats(p))) {
-      indices.push_back(polygon[corner]);
-      result.corner.push_back(polygons.starts[p] + corner);
-    }
-    result.polygon.resize(indices.size() / 3, static_cast<int>(p));
-  }
-  result.triangles = as_triangles(indices);
+  result.split = split;
   return result;
 }
 
@@ -355,6 +310,7 @@ std::vector<int> corners_in(const Triangles& triangles, const Polygons& polygons
     }
     first = last;
   }
+  if (first < triangles.size()) throw std::logic_error("more triangles than polygons make");
   return found;
 }
 
@@ -362,6 +318,7 @@ void adopt_triangulation(MeshFile& file, const Triangulation& triangulation) {
   file.mesh.triangles = triangulation.triangles;
   file.polygons = triangulation.split;
   if (triangulation.split == 0) return;
+  if (triangulation.shortened > 0) file.notes.push_back(shortened_note(triangulation.shortened));
   if (!triangulation.doublets.empty()) file.notes.push_back(doublet_note(triangulation.doublets));
   for (Property& property : file.face_properties) {
     std::vector<double> spread;

@@ -50,6 +50,7 @@ struct Triangulation {
   std::vector<int> corner;    // #T·3: which of the polygons' corners; empty when corner i is i
   std::vector<int> polygon;   // #T: which polygon; empty when triangle t is polygon t
   long split = 0;             // polygons that were not triangles
+  long shortened = 0;         // polygons that named a vertex twice in a row, taken once
   std::vector<int> doublets;  // vertices about which two polygons share two edges in a row
 
   std::int64_t corner_of(std::int64_t i) const { return corner.empty() ? i : corner[i]; }
@@ -65,7 +66,9 @@ struct Triangulation {
 /// where there is a choice. Where two polygons share two edges in a row (about a vertex of valence
 /// two, a doublet) the triangle between these edges is cut off from both: the surface has it twice,
 /// and `inspect_mesh` says so; `repair_mesh` turns the other diagonal of one of them.
-/// A polygon that names a vertex twice becomes one triangle that does, for `repair_mesh` to remove.
+/// Of a polygon that names a vertex twice in a row, as quads do that are triangles, the second
+/// corner is left out. What repeats a vertex even so, or would have fewer than three corners,
+/// becomes one triangle that repeats one, for `repair_mesh` to remove.
 /// Requires: indices within `positions`. Cost: O(corners), plus degree² for clipped polygons.
 Triangulation triangulate(const Points& positions, const Polygons& polygons);
 
@@ -76,7 +79,7 @@ std::vector<int> corners_in(const Triangles& triangles, const Polygons& polygons
 
 /// Puts the triangles into a mesh file: triangles, polygon count and, where a polygon was split,
 /// the face property `source_face`. Face properties, so far one value a polygon, are copied to
-/// every triangle of the polygon. A note tells of doublets.
+/// every triangle of the polygon. Notes tell of shortened polygons and of doublets.
 void adopt_triangulation(MeshFile& file, const Triangulation& triangulation);
 
 }  // namespace sphparam::tools

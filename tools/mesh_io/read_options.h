@@ -12,8 +12,8 @@ namespace sphparam::tools {
 struct ReadOptions {
   /// Of a PLY only positions, faces and sx sy sz: for who wants to prove a written map again.
   bool only_map = false;
-  /// Faces that name a vertex twice are let through, one triangle each, for a repair to remove;
-  /// else they are refused.
+  /// Faces that name a vertex twice are let through: a vertex named twice in a row counts once, and
+  /// what repeats one even so is one triangle that does, for a repair to remove. Else refused.
   bool repeated_corners = false;
   std::uint64_t max_file_bytes = std::uint64_t{1} << 31;
   std::int64_t max_vertices = std::int64_t{1} << 28;
@@ -21,8 +21,8 @@ struct ReadOptions {
   std::int64_t max_polygon_degree = 1 << 16;       // corners of one face
   std::int64_t max_line_bytes = 1 << 20;           // of a text file or a header
   std::int64_t max_ply_elements = 64;
-  std::int64_t max_ply_properties = 256;  // of one element
-  std::int64_t max_json_bytes = 64 << 20;      // of a glTF file
+  std::int64_t max_ply_properties = 256;   // of one element
+  std::int64_t max_json_bytes = 64 << 20;  // of a glTF file
   std::int64_t max_json_depth = 64;
   std::int64_t max_json_values = 1 << 20;
   std::int64_t max_json_objects = 1 << 17;
@@ -45,6 +45,9 @@ class ReadError : public std::runtime_error {
   long line_ = 0;
   std::uint64_t byte_ = 0;
 };
+
+/// What the refusal of a face that names a vertex twice ends with: the way out.
+std::string repeated_corners_advice();
 
 /// Text of a hostile file as it may be shown: printable, at most 40 characters, in quotes.
 std::string quoted(std::string_view text);

@@ -1,5 +1,6 @@
 #include "mesh_io/sphere_file.h"
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 
@@ -12,6 +13,8 @@ namespace sphparam::tools {
 namespace {
 
 constexpr std::string_view kPrefix = "sphparam ";
+constexpr std::string_view kVerdict = "sphparam verdict ";
+constexpr double kRoundingOfFloats = 1e-6;  // of the length of a ray whose numbers have 32 bits
 constexpr std::array kRayNames = {"sx", "sy", "sz"};
 
 void replace_provenance(MeshFile& file, const Provenance& provenance) {
@@ -41,6 +44,22 @@ MeshFile attach_map(MeshFile file, const SphereMap& map, const Provenance& prove
   }
   replace_provenance(file, provenance);
   return file;
+}
+
+MeshFile without_map(MeshFile file) {
+  remove_properties(file.vertex_properties, {"theta", "phi", "sx", "sy", "sz"});
+  std::erase_if(file.comments,
+                [](const std::string& comment) { return comment.starts_with(kVerdict); });
+  return file;
+}
+
+bool has_map(const MeshFile& file) {
+  if (std::all_of(kRayNames.begin(), kRayNames.end(),
+                  [&](const char* name) { return file.find_vertex_property(name); }))
+    return true;
+  const Points& positions = file.mesh.positions;
+  return positions.rows() > 0 &&
+         ((positions.rowwise().norm().array() - 1).abs() <= kRoundingOfFloats).all();
 }
 
 std::optional<SphereMap> read_sphere(const MeshFile& file) {

@@ -19,6 +19,13 @@ using Provenance = std::vector<std::pair<std::string, std::string>>;
 /// Requires: one ray a vertex; keys without blanks.
 MeshFile attach_map(MeshFile file, const SphereMap& map, const Provenance& provenance);
 
+/// The mesh for a format that has no room for rays: their properties go, and with them the verdict
+/// on them; the other comments stay.
+MeshFile without_map(MeshFile file);
+
+/// Whether there is a map in a file: rays, or positions that are the rays, as in a bare sphere.
+bool has_map(const MeshFile& file);
+
 /// The map that a mesh file carries in sx, sy, sz; nothing if one of them is missing.
 std::optional<SphereMap> read_sphere(const MeshFile& file);
 

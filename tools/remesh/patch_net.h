@@ -19,6 +19,7 @@ struct ControlMesh {
 ControlMesh subdivide_to_quads(const ControlMesh& mesh);
 
 /// Whether each face is a patch of the limit surface; where not, `subdivide_to_quads` makes it so.
+/// Requires: faces the scheme takes.
 bool faces_are_patches(const Polygons& faces, Scheme scheme);
 
 /// The patches of a limit surface all of whose faces are patches: which lie beside which.
