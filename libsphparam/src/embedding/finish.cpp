@@ -51,8 +51,10 @@ Finish::Finish(int finest_vertices, FinishOptions options)
 bool Finish::due(int vertices) const {
   const Quality quality = options_.quality;
   if (quality == Quality::Draft || vertices < next_ || vertices < least_vertices) return false;
-  return quality == Quality::Best || vertices <= cheap(finest_) || last_gain_ > worthwhile;
+  return quality == Quality::Best || vertices <= cheap(finest_) || !sweeps_suffice();
 }
+
+bool Finish::sweeps_suffice() const { return last_gain_ <= worthwhile; }
 
 void Finish::improve(const TriangleMesh& mesh, const Topology& topology,
                      const std::vector<Vertex>& pinned, std::vector<ImagePoint>& image,

@@ -32,6 +32,8 @@ class Finish {
 
   /// Is a level with so many vertices to be improved?
   bool due(int vertices) const;
+  /// Has it found that sweeps do all there is to do? False as long as it does not know.
+  bool sweeps_suffice() const;
   /// Lowers the energy of the image, as far as it pays. `pinned` vertices stay. Reports after
   /// every step, within its share of the progress. Throws: Cancelled; then the image is lost.
   void improve(const TriangleMesh& mesh, const Topology& topology,

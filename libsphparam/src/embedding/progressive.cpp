@@ -37,7 +37,9 @@ constexpr int pin_work = 200'000;           // rounds × vertices on a level tha
 constexpr int fewest_pin_rounds = 40;       // on fine levels
 constexpr double least_pin_progress = 0.9;  // of the distances left: more than that is idle
 constexpr int most_idle_levels = 6;
-constexpr double sweep_growth = 0.3;  // exponent; more is wasted where the finish comes by
+// Exponents by which levels get more sweeps the coarser they are: on limbs coarse levels carry
+// more.
+constexpr double sweep_growth = 0.5, sweep_growth_without_limbs = 0.3;
 constexpr int shape_sweeps = 30;    // of relaxation, where the embedding knew nothing of the shape
 constexpr size_t large_levels = 3;  // on which memory is at its peak
 // Tried in turn when vertices found no room at the λ asked for.
@@ -187,7 +189,8 @@ class Embedder {
 
   int sweeps_on(int vertices) const {
     const double finest = topology_.vertex_count();
-    const double wanted = options_.sweeps * std::pow(finest / vertices, sweep_growth);
+    const double growth = finish_.sweeps_suffice() ? sweep_growth_without_limbs : sweep_growth;
+    const double wanted = options_.sweeps * std::pow(finest / vertices, growth);
     return static_cast<int>(std::lround(std::min<double>(options_.most_sweeps, wanted)));
   }
 

@@ -13,7 +13,8 @@ namespace sphparam {
 struct ProgressiveOptions {
   DistortionEnergy energy = {};  // ε is not used: the map is valid at every moment
   Quality quality = Quality::Normal;
-  double sweeps = 1.4;   // on the finest level; a level of n vertices gets (N/n)^0.3 times that
+  double sweeps = 1.4;   // on the finest level; a level of n vertices gets √(N/n) times that,
+                         // without limbs (N/n)^0.3
   int most_sweeps = 60;  // on any level
   double over_relaxation = 1.7;  // first step tried, in Newton steps
   int retries = 5;               // of a level whose vertices found no room
