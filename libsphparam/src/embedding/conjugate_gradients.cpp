@@ -47,12 +47,12 @@ LinearSolution solve_by_conjugate_gradients(const BlockMatrix<2>& matrix, Multig
     const double curvature = dot(direction, image, threads);
     if (!(curvature > 0)) break;
     add(solution.x, rz / curvature, direction);
-    add(r, -rz / curvature, image);
     const double gain = rz * rz / curvature;  // b·d = r·z: directions are conjugate
     solution.gain += gain;
     ++solution.iterations;
     // Of what is left nothing is known but this: asking the preconditioner costs an iteration.
     if (!(gain > least_share * solution.gain)) break;
+    add(r, -rz / curvature, image);
   }
   return solution;
 }
