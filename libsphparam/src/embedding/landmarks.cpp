@@ -224,17 +224,18 @@ class Traveller {
 }  // namespace
 
 std::optional<Face> face_folded_by(const Topology& topology, const std::vector<Pin>& pins) {
-  std::unordered_map<Vertex, const Vector3*> points;
-  for (const Pin& pin : pins) points[pin.vertex] = &pin.point;
-  const auto point_of = [&](Face f, int corner) {
-    const auto found = points.find(topology.vertex(f, corner));
-    return found == points.end() ? nullptr : found->second;
-  };
-  for (Face f = 0; points.size() > 2 && f < topology.face_count(); ++f) {
-    const Vector3 *a = point_of(f, 0), *b = point_of(f, 1), *c = point_of(f, 2);
-    if (a && b && c && orientation(*a, *b, *c) <= 0) return f;
+  std::unordered_map<Vertex, Vector3> points;
+  for (const Pin& pin : pins) points.emplace(pin.vertex, pin.point);
+  std::optional<Face> folded;
+  for (const Pin& pin : pins) {
+    topology.for_each_outgoing(pin.vertex, [&](Halfedge h) {
+      const auto next = points.find(topology.target(h)), last = points.find(topology.apex(h));
+      if (next == points.end() || last == points.end()) return;
+      if (orientation(pin.point, next->second, last->second) <= 0) folded = Topology::face(h);
+    });
+    if (folded) break;
   }
-  return std::nullopt;
+  return folded;
 }
 
 bool LandmarkPlacement::exact() const { return all_exact(residuals); }

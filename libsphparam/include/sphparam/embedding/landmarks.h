@@ -52,7 +52,7 @@ LandmarkPlacement place_landmarks(const Topology& topology, const SourceTriangle
 
 /// The first triangle with three pinned corners whose points are not counter-clockwise: no map has
 /// these pins. Decided exactly. Requires: no vertex twice; finite points.
-/// Cost: O(#F), nothing for fewer than three pins.
+/// Cost: the valences of the pins.
 std::optional<Face> face_folded_by(const Topology& topology, const std::vector<Pin>& pins);
 
 /// The rotation R with least Σ |R x(vertex) − point|².
