@@ -70,6 +70,7 @@ void Finish::improve(const TriangleMesh& mesh, const Topology& topology,
   GlobalNewton newton(topology, measure_source(mesh, options_.threads), image, pinned,
                       options_.threads);
   double energy = newton.energy(options_.energy);
+  last_gain_ = std::numeric_limits<double>::infinity();      // not known, should it end here
   if (!newton.can_move() || !std::isfinite(energy)) return;  // not finite: positive, not certain
   image = std::vector<ImagePoint>();  // there is no room to spare in a step; = {} would keep it
   double gain_before = std::numeric_limits<double>::infinity();
