@@ -37,8 +37,7 @@ constexpr int pin_work = 200'000;           // rounds × vertices on a level tha
 constexpr int fewest_pin_rounds = 40;       // on fine levels
 constexpr double least_pin_progress = 0.9;  // of the distances left: more than that is idle
 constexpr int most_idle_levels = 6;
-// Exponents by which levels get more sweeps the coarser they are: on limbs coarse levels carry
-// more.
+// Exponents: how many more sweeps coarser levels get. On limbs the coarse levels carry more.
 constexpr double sweep_growth = 0.5, sweep_growth_without_limbs = 0.3;
 constexpr int shape_sweeps = 30;    // of relaxation, where the embedding knew nothing of the shape
 constexpr size_t large_levels = 3;  // on which memory is at its peak
@@ -194,8 +193,7 @@ class Embedder {
     return static_cast<int>(std::lround(std::min<double>(options_.most_sweeps, wanted)));
   }
 
-  /// Gives the image's points the names of the finer level. Names grow, so that the last goes
-  /// first.
+  /// Gives the image's points the names of the finer level. Names grow: the last goes first.
   void prolong(const HierarchyLevel& level, const HierarchyLevel& coarser) {
     image_.resize(at(level.vertex_count()));
     for (int v = coarser.vertex_count(); v-- > 0;) image_[at(coarser.finer[at(v)])] = image_[at(v)];
