@@ -50,7 +50,7 @@ LandmarkPlacement place_landmarks(const Topology& topology, const SourceTriangle
                                   const SphereMap& map, const std::vector<Pin>& pins,
                                   const LandmarkOptions& options = {});
 
-/// The first triangle with three pinned corners whose points are not counter-clockwise: no map has
+/// A triangle with three pinned corners whose points are not counter-clockwise: no map has
 /// these pins. Decided exactly. Requires: no vertex twice; finite points.
 /// Cost: the valences of the pins.
 std::optional<Face> face_folded_by(const Topology& topology, const std::vector<Pin>& pins);
