@@ -13,6 +13,8 @@
 // One pool for the process: the caller works too and waits only for chunks that somebody claimed. A
 // loop inside a loop runs on its own thread, so nothing can wait for itself. Sweeps are thousands
 // of loops of some microseconds each: whoever waits looks around for a while before it sleeps.
+// Each worker begins with a range of its own, the same in all loops alike: what it wrote in the
+// last one is in its cache, and fetching lines from another core's costs more than most bodies.
 
 namespace sphparam {
 namespace {
@@ -33,31 +35,90 @@ void look_out_for(const Happened& happened) {
   for (int i = 0; i < looks && !happened(); ++i) pause();
 }
 
-struct Loop {
-  std::int64_t count;
-  std::int64_t grain;
-  std::int64_t chunks;
-  const std::function<void(std::int64_t, std::int64_t)>* body;
-  std::atomic<std::int64_t> next_chunk{0};
-  std::mutex mutex;
-  std::exception_ptr error;  // of the first chunk that threw: the same for any timing
-  std::int64_t error_chunk;
+/// Chunks that nobody has claimed yet. Its owner takes the first of them, helpers the last.
+class alignas(64) Range {
+ public:
+  void set(std::int64_t first, std::int64_t end) {
+    ends_.store(pack(static_cast<std::uint64_t>(first), static_cast<std::uint64_t>(end)),
+                std::memory_order_relaxed);
+  }
 
-  void work() {
+  /// −1: none is left.
+  std::int64_t claim(bool as_owner) {
+    std::uint64_t ends = ends_.load(std::memory_order_relaxed);
     for (;;) {
-      const std::int64_t chunk = next_chunk.fetch_add(1, std::memory_order_relaxed);
-      if (chunk >= chunks) return;
-      try {
-        (*body)(chunk * grain, std::min(count, (chunk + 1) * grain));
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        if (!error || chunk < error_chunk) {
-          error = std::current_exception();
-          error_chunk = chunk;
-        }
+      const std::uint64_t first = ends & 0xffffffff, end = ends >> 32;
+      if (first == end) return -1;
+      const std::uint64_t rest = as_owner ? pack(first + 1, end) : pack(first, end - 1);
+      if (ends_.compare_exchange_weak(ends, rest, std::memory_order_relaxed)) {
+        return static_cast<std::int64_t>(as_owner ? first : end - 1);
       }
     }
   }
+
+ private:
+  static std::uint64_t pack(std::uint64_t first, std::uint64_t end) { return first | end << 32; }
+
+  std::atomic<std::uint64_t> ends_{0};
+};
+
+constexpr int most_ranges = 16;
+constexpr std::int64_t most_chunks = 0xffffffff;  // of a loop
+
+using Body = std::function<void(std::int64_t, std::int64_t)>;
+
+class Loop {
+ public:
+  Loop(std::int64_t count, std::int64_t grain, const Body& body)
+      : count_(count), grain_(grain), chunks_((count + grain - 1) / grain), body_(body) {}
+
+  std::int64_t chunks() const { return chunks_; }
+
+  /// Gives every worker a range, if there are not too many.
+  void split(int workers) {
+    parts_ = std::min(workers, most_ranges);
+    for (int i = 0; i < parts_; ++i) {
+      ranges_[i].set(chunks_ * i / parts_, chunks_ * (i + 1) / parts_);
+    }
+  }
+
+  /// A worker's own range, then what is left of the others'.
+  void work(int worker) {
+    for (int i = 0; i < parts_; ++i) {
+      Range& range = ranges_[(worker + i) % parts_];
+      for (std::int64_t chunk; (chunk = range.claim(i == 0)) >= 0;) run(chunk);
+    }
+  }
+
+  void work_alone() {
+    for (std::int64_t chunk = 0; chunk < chunks_; ++chunk) run(chunk);
+  }
+
+  /// Of the first chunk that threw: the same for any timing.
+  void rethrow() const {
+    if (error_) std::rethrow_exception(error_);
+  }
+
+ private:
+  void run(std::int64_t chunk) {
+    try {
+      body_(chunk * grain_, std::min(count_, (chunk + 1) * grain_));
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (!error_ || chunk < error_chunk_) {
+        error_ = std::current_exception();
+        error_chunk_ = chunk;
+      }
+    }
+  }
+
+  const std::int64_t count_, grain_, chunks_;
+  const Body& body_;
+  int parts_ = 0;
+  Range ranges_[most_ranges];
+  std::mutex mutex_;
+  std::exception_ptr error_;
+  std::int64_t error_chunk_ = 0;
 };
 
 class Pool {
@@ -77,7 +138,8 @@ class Pool {
       const std::lock_guard lock(mutex_);
       while (static_cast<int>(workers_.size()) < helpers) {
         try {
-          workers_.emplace_back([this] { serve(); });
+          const int worker = static_cast<int>(workers_.size()) + 1;
+          workers_.emplace_back([this, worker] { serve(worker); });
         } catch (const std::system_error&) {
           break;  // the system grants no more threads: fewer do the same work
         } catch (const std::bad_alloc&) {
@@ -88,7 +150,7 @@ class Pool {
       places_ = helpers;
       if (asleep_ > 0) wake_.notify_all();
     }
-    loop.work();
+    loop.work(0);
     {
       const std::lock_guard lock(mutex_);
       loop_ = nullptr;
@@ -100,7 +162,7 @@ class Pool {
   }
 
  private:
-  void serve() {
+  void serve(int worker) {
     inside_pool() = true;
     const auto called = [this] { return quit_ || places_ > 0; };
     for (;;) {
@@ -114,7 +176,7 @@ class Pool {
       ++busy_;
       Loop* loop = loop_;
       lock.unlock();
-      loop->work();
+      loop->work(worker);
       lock.lock();
       if (--busy_ == 0) idle_.notify_all();
     }
@@ -146,25 +208,26 @@ Pool& pool() {
 }  // namespace
 
 int resolve_threads(int threads) {
-  if (threads > 0) return threads;
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  // Asked once: the answer comes from a file, and a map has thousands of loops.
+  static const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return threads > 0 ? threads : cores;
 }
 
 void parallel_for(std::int64_t count, std::int64_t grain, int threads,
                   const std::function<void(std::int64_t, std::int64_t)>& body) {
   if (count <= 0) return;
-  grain = std::max<std::int64_t>(grain, 1);
-  Loop loop{count, grain, (count + grain - 1) / grain, &body, {}, {}, {}, {}};
+  Loop loop(count, std::max<std::int64_t>(grain, 1), body);
   const int helpers =
-      static_cast<int>(std::min<std::int64_t>(loop.chunks, resolve_threads(threads)) - 1);
-  if (helpers <= 0 || Pool::inside_pool()) {
-    loop.work();
+      static_cast<int>(std::min<std::int64_t>(loop.chunks(), resolve_threads(threads)) - 1);
+  if (helpers <= 0 || loop.chunks() > most_chunks || Pool::inside_pool()) {
+    loop.work_alone();
   } else {
+    loop.split(helpers + 1);
     Pool::inside_pool() = true;
     pool().run(loop, helpers);
     Pool::inside_pool() = false;
   }
-  if (loop.error) std::rethrow_exception(loop.error);
+  loop.rethrow();
 }
 
 double parallel_sum(std::int64_t count, int threads,

@@ -144,12 +144,11 @@ TEST_CASE("guard of steps: no vertex of a ring that is nearly flat leaves its ke
     for (const Vector3& p : ring) points.push_back(image_point(p));
     points.push_back(image_point(-centre));
     const double reach = std::pow(10, uniform(random, -1, 3));  // in Newton steps
-    std::vector<PackScratch> scratch(static_cast<size_t>(packs.largest_valence));
     for (int c = 0; c < packs.colours(); ++c) {
       for (int p = packs.colour_start[static_cast<size_t>(c)];
            p < packs.colour_start[static_cast<size_t>(c) + 1]; ++p) {
         if (packs.packs[static_cast<size_t>(p)].vertex[0] != 0) continue;
-        step_packs(packs, p, p + 1, points.data(), {}, reach, scratch.data());
+        step_packs(packs, p, p + 1, points.data(), {}, reach);
       }
     }
     // The pack may hold the other hub too; the rim must not have moved for this to mean anything.

@@ -12,7 +12,7 @@ namespace sphparam {
 /// Rows are ints, places in vectors are not.
 inline size_t at(int i) { return static_cast<size_t>(i); }
 
-inline constexpr std::int64_t row_grain = 2048;  // rows that a thread takes at once
+inline constexpr std::int64_t row_grain = 512;  // rows that a thread takes at once
 
 /// A dense N×M block, row by row.
 template <int N, int M = N>

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double boost_difference = 0.01, longest_boost = 0.3, least_boost_curvature = 1e-3;
 constexpr int boost_halvings = 6;
-constexpr std::int64_t vertex_grain = 2048;
+constexpr std::int64_t vertex_grain = 512;
 
 /// x ↦ ((1 − |a|²) x + 2 (1 + a·x) a) / |x + a|², |a| < 1
 void boost(const std::vector<ImagePoint>& from, const Vector3& a, std::vector<ImagePoint>& to,

@@ -21,8 +21,9 @@
 namespace sphparam {
 namespace {
 
-constexpr std::int64_t vertex_grain = 2048;
-constexpr int least_parallel_vertices = 4096;  // below it waking other threads costs more
+constexpr std::int64_t vertex_grain = 512;
+constexpr int least_parallel_vertices = 1024;  // below it waking other threads costs more
+constexpr int least_trimmed_vertices = 4096;   // below it freed memory is not worth a system call
 constexpr int most_iterations = 60;
 constexpr double longest_step = 0.7;  // radians, of any vertex
 constexpr double sufficient_decrease = 1e-4;
@@ -30,7 +31,7 @@ constexpr int halvings = 40;
 constexpr double most_expansion = 8;      // of a Newton step: clamped Hessians are too stiff
 constexpr int least_exponent = -60;       // of units: their products are floats
 constexpr double over_relaxation = 1.5;   // of the sweeps
-constexpr std::int64_t sweep_grain = 24;  // packs
+constexpr std::int64_t sweep_grain = 16;  // packs
 
 }  // namespace
 
@@ -212,9 +213,8 @@ void GlobalNewton::sweep(const DistortionEnergy& energy, int sweeps) {
     const int c = n % rings.colours(), first = rings.colour_start[at(c)];
     const int count = rings.colour_start[at(c) + 1] - first;
     parallel_for(count, sweep_grain, threads_, [&](std::int64_t begin, std::int64_t end) {
-      std::vector<PackScratch> scratch(at(rings.largest_valence));
       step_packs(rings, first + static_cast<int>(begin), first + static_cast<int>(end),
-                 image_.data(), energy, over_relaxation, scratch.data());
+                 image_.data(), energy, over_relaxation);
     });
   }
 }
@@ -224,7 +224,7 @@ bool GlobalNewton::can_move() const {
 }
 
 void GlobalNewton::make_room() const {
-  if (hessian_.rows() >= least_parallel_vertices) give_back_freed_memory();
+  if (hessian_.rows() >= least_trimmed_vertices) give_back_freed_memory();
 }
 
 /// The direction of a step; nothing where `assemble` fails. Leaves nothing of the Hessian but its

@@ -19,7 +19,7 @@ constexpr int coarsest_rows = 100;  // solved directly
 constexpr double least_shrinkage = 0.8;
 constexpr int sweep_block = 512;           // rows
 constexpr double coarsest_shift = 1e-8;    // of a block's trace
-constexpr int least_parallel_rows = 4096;  // below it waking the other threads costs more
+constexpr int least_parallel_rows = 2048;  // below it waking the other threads costs more
 
 /// The lower triangle, shifted. Columns of the rows are in order, so that it is written in one go.
 template <int modes>

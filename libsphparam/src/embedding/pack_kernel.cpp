@@ -1,5 +1,8 @@
 #include "embedding/pack_kernel.h"
 
+#include <cstddef>
+#include <memory>
+
 #include "embedding/lanes.h"
 
 // The inner loop of the progressive embedding: the vertices of a pack move at once, one a lane.
@@ -284,11 +287,34 @@ SPHPARAM_INLINE void for_each_part(const RingPacks& packs, int first, int last,
   }
 }
 
+/// Room for the rings of a pack. Only long ones are worth an allocation: loops are short.
+class RingRoom {
+ public:
+  explicit RingRoom(int valence) {
+    if (valence <= most_near) return;
+    far_ = std::make_unique_for_overwrite<Neighbour[]>(static_cast<size_t>(valence));
+  }
+  template <int W>
+  LaneVectors<W>* ring() {
+    return reinterpret_cast<LaneVectors<W>*>(far_ ? far_.get() : near_);
+  }
+
+ private:
+  static constexpr int most_near = 64;
+  struct alignas(64) Neighbour {
+    std::byte room[3 * pack_width * sizeof(double)];
+  };
+
+  Neighbour near_[most_near];
+  std::unique_ptr<Neighbour[]> far_;
+};
+
 template <class Energy>
 void step_range(const Energy& energy, const RingPacks& packs, int first, int last,
-                ImagePoint* points, double over_relaxation, PackScratch* scratch) {
+                ImagePoint* points, double over_relaxation) {
+  RingRoom room(packs.largest_valence);
   run_on_lanes([&]<int W>(Width<W>) SPHPARAM_INLINED {
-    auto* ring = reinterpret_cast<LaneVectors<W>*>(scratch);
+    LaneVectors<W>* ring = room.ring<W>();
     for_each_part<W>(packs, first, last, [&](int, const Part<W>& part) SPHPARAM_INLINED {
       step_part(energy, part, points, over_relaxation, ring);
     });
@@ -298,21 +324,20 @@ void step_range(const Energy& energy, const RingPacks& packs, int first, int las
 }  // namespace
 
 void step_packs(const RingPacks& packs, int first_pack, int last_pack, ImagePoint* points,
-                const DistortionEnergy& energy, double over_relaxation, PackScratch* scratch) {
+                const DistortionEnergy& energy, double over_relaxation) {
   if (energy.kind == EnergyKind::SymmetricDirichlet) {
-    step_range(SymmetricDirichlet{}, packs, first_pack, last_pack, points, over_relaxation,
-               scratch);
+    step_range(SymmetricDirichlet{}, packs, first_pack, last_pack, points, over_relaxation);
   } else {
-    step_range(AngleAndArea{energy.lambda}, packs, first_pack, last_pack, points, over_relaxation,
-               scratch);
+    step_range(AngleAndArea{energy.lambda}, packs, first_pack, last_pack, points, over_relaxation);
   }
 }
 
 void place_at_means(const RingPacks& packs, int first_pack, int last_pack, ImagePoint* points,
-                    unsigned char* refused, PackScratch* scratch) {
+                    unsigned char* refused) {
+  RingRoom room(packs.largest_valence);
   for (int p = first_pack; p < last_pack; ++p) refused[p] = 0;
   run_on_lanes([&]<int W>(Width<W>) SPHPARAM_INLINED {
-    auto* ring = reinterpret_cast<LaneVectors<W>*>(scratch);
+    LaneVectors<W>* ring = room.ring<W>();
     for_each_part<W>(
         packs, first_pack, last_pack, [&](int p, const Part<W>& part) SPHPARAM_INLINED {
           refused[p] = static_cast<unsigned char>(refused[p] | place_part(part, points, ring));

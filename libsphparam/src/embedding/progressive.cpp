@@ -32,7 +32,7 @@
 namespace sphparam {
 namespace {
 
-constexpr std::int64_t pack_grain = 32;
+constexpr std::int64_t pack_grain = 16;
 constexpr int pin_work = 200'000;           // rounds × vertices on a level that places pins
 constexpr int fewest_pin_rounds = 40;       // on fine levels
 constexpr double least_pin_progress = 0.9;  // of the distances left: more than that is idle
@@ -212,9 +212,8 @@ class Embedder {
     const int count = packs_.colour_start[1];
     std::vector<unsigned char> bits(at(count), 0);
     parallel_for(count, pack_grain, options_.threads, [&](std::int64_t first, std::int64_t last) {
-      std::vector<PackScratch> scratch(at(packs_.largest_valence));
       const int begin = static_cast<int>(first), end = static_cast<int>(last);
-      place_at_means(packs_, begin, end, image_.data(), bits.data(), scratch.data());
+      place_at_means(packs_, begin, end, image_.data(), bits.data());
       for (int p = begin; p < end; ++p) {
         for (int lane = 0; lane < pack_width; ++lane) {
           if (!(bits[at(p)] >> lane & 1)) continue;
@@ -223,7 +222,7 @@ class Embedder {
         }
       }
       if (failed == 0) {
-        step_packs(packs_, begin, end, image_.data(), options_.energy, 1.0, scratch.data());
+        step_packs(packs_, begin, end, image_.data(), options_.energy, 1.0);
       }
     });
     report.kernel_placements += refused;
@@ -244,9 +243,8 @@ class Embedder {
       const int begin = packs.colour_start[at(c)], end = packs.colour_start[at(c) + 1];
       parallel_for(
           end - begin, pack_grain, options_.threads, [&](std::int64_t first, std::int64_t last) {
-            std::vector<PackScratch> scratch(at(packs.largest_valence));
             step_packs(packs, begin + static_cast<int>(first), begin + static_cast<int>(last),
-                       image_.data(), options_.energy, over_relaxation, scratch.data());
+                       image_.data(), options_.energy, over_relaxation);
           });
     }
   }

@@ -22,6 +22,8 @@ namespace sphparam {
 namespace {
 
 constexpr std::int64_t pack_grain = 64;
+constexpr int region_size = 2048;  // vertices
+constexpr size_t valences = 64;    // told apart in the order of vertices
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
@@ -62,18 +64,37 @@ std::vector<int> colour_vertices(const Rings& rings, const std::vector<Vertex>& 
   return colour;
 }
 
-/// Vertices sorted by colour, then by valence (up to 63: longer ones are rare), then by name.
+/// Vertices sorted by colour, then by region (names that are near each other are mostly near on the
+/// mesh too, so that threads with ranges of packs seldom write where another one reads), then by
+/// valence (up to 63: longer ones are rare), then by name.
 struct Order {
   std::vector<Vertex> vertices;
   std::vector<int> colour_start;
 };
 
+/// The longest rings share a place in the order by valence. They are sorted, colour by colour, so
+/// that packs are not padded far.
+void sort_long_rings(const Rings& rings, Order& order) {
+  const auto is_long = [&](Vertex v) { return at(rings.valence(v)) >= valences - 1; };
+  for (size_t c = 0; c + 1 < order.colour_start.size(); ++c) {
+    const auto end = order.vertices.begin() + order.colour_start[c + 1];
+    for (auto last = order.vertices.begin() + order.colour_start[c]; last != end;) {
+      const auto first = std::find_if(last, end, is_long);
+      last = std::find_if_not(first, end, is_long);
+      std::stable_sort(first, last,
+                       [&](Vertex a, Vertex b) { return rings.valence(a) < rings.valence(b); });
+    }
+  }
+}
+
 Order sort_vertices(const Rings& rings, const std::vector<int>& colour) {
   const int last = *std::max_element(colour.begin(), colour.end());
   const int colours = last == no_colour ? 0 : last + 1;  // none where all are pinned
-  std::vector<int> place(at(colours) * 64 + 1, 0);
+  const int regions = (rings.vertex_count() + region_size - 1) / region_size;
+  std::vector<int> place(at(colours) * at(regions) * valences + 1, 0);
   const auto key = [&](Vertex v) {
-    return at(colour[at(v)]) * 64 + at(std::min(rings.valence(v), 63));
+    return (at(colour[at(v)]) * at(regions) + at(v / region_size)) * valences +
+           std::min(at(rings.valence(v)), valences - 1);
   };
   const auto each_vertex = [&](const auto& visit) {
     for (Vertex v = 0; v < rings.vertex_count(); ++v) {
@@ -83,17 +104,11 @@ Order sort_vertices(const Rings& rings, const std::vector<int>& colour) {
   each_vertex([&](Vertex v) { ++place[key(v) + 1]; });
   for (size_t i = 1; i < place.size(); ++i) place[i] += place[i - 1];
   Order order;
-  for (int c = 0; c <= colours; ++c) order.colour_start.push_back(place[at(c) * 64]);
+  for (int c = 0; c <= colours; ++c)
+    order.colour_start.push_back(place[at(c) * at(regions) * valences]);
   order.vertices.resize(at(order.colour_start.back()));
   each_vertex([&](Vertex v) { order.vertices[at(place[key(v)]++)] = v; });
-  // Valences from 64 up share a bucket: sort them, so that packs are not padded far.
-  for (int c = 0; c < colours; ++c) {
-    const auto end = order.vertices.begin() + order.colour_start[at(c) + 1];
-    const auto long_rings = std::find_if(order.vertices.begin() + order.colour_start[at(c)], end,
-                                         [&](Vertex v) { return rings.valence(v) >= 63; });
-    std::stable_sort(long_rings, end,
-                     [&](Vertex a, Vertex b) { return rings.valence(a) < rings.valence(b); });
-  }
+  sort_long_rings(rings, order);
   return order;
 }
 

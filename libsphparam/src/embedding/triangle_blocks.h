@@ -21,7 +21,7 @@ std::vector<Vertex> patch_order(const Topology& topology);
 class TriangleBlocks {
  public:
   static constexpr int size = 256;          // rows
-  static constexpr std::int64_t grain = 4;  // blocks that a thread takes at once
+  static constexpr std::int64_t grain = 1;  // blocks that a thread takes at once
 
   TriangleBlocks() = default;
 

@@ -22,7 +22,7 @@
 namespace sphparam {
 namespace {
 
-constexpr std::int64_t grain = 1024;
+constexpr std::int64_t grain = 256;
 constexpr int largest_removed_valence = 24;  // rings that are placed later stay small
 constexpr double candidates = 0.7;    // the share of vertices, cheapest first, a batch looks at
 constexpr double short_edge = 1e-3;   // of the mean: shorter ones are priced by valences
@@ -361,9 +361,12 @@ MeshHierarchy build_hierarchy(const TriangleMesh& mesh, const Topology& topology
 
 void complete_positions(HierarchyLevel& level, const HierarchyLevel& coarser, int threads) {
   Points all(level.vertex_count(), 3);
-  for (size_t i = 0; i < level.removed.size(); ++i) {
-    all.row(level.removed[i]) = level.positions.row(static_cast<Eigen::Index>(i));
-  }
+  parallel_for(std::ssize(level.removed), grain, threads,
+               [&](std::int64_t first, std::int64_t last) {
+                 for (std::int64_t i = first; i < last; ++i) {
+                   all.row(level.removed[static_cast<size_t>(i)]) = level.positions.row(i);
+                 }
+               });
   parallel_for(coarser.vertex_count(), grain, threads, [&](std::int64_t first, std::int64_t last) {
     for (auto v = static_cast<Vertex>(first); v < static_cast<Vertex>(last); ++v) {
       all.row(coarser.finer[at(v)]) = coarser.positions.row(v);
