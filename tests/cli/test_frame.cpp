@@ -151,6 +151,27 @@ TEST_CASE("map: a file of pins that makes no sense ends with 3 and its line") {
   CHECK(sphparam_program({"map", "-", "-o", "-", "--pin", folder / "none"}, ball).code == 3);
 }
 
+TEST_CASE("map: a GIFTI sphere that is mapped anew claims no poles, and may not lose given ones") {
+  const Folder folder;
+  const std::string mesh = obj_text(gathered_sphere());
+  const std::string map = folder / "map.sph.ply", sphere = folder / "sphere.gii";
+  const Ended free = sphparam_program({"map", "-", "-o", map, "--sphere", sphere}, mesh);
+  REQUIRE(free.code == 0);
+  CHECK_THAT(free.err, Contains("mapped anew"));
+  CHECK_THAT(bytes_of(map), Contains("poles"));
+  CHECK_THAT(bytes_of(sphere), !Contains("poles"));
+  for (const std::vector<std::string>& held :
+       {std::vector<std::string>{"--poles", "5,4"}, std::vector<std::string>{"--meridian", "7"}}) {
+    fs::remove(sphere);
+    std::vector<std::string> arguments = {"map", "-", "-o", map, "--sphere", sphere};
+    arguments.insert(arguments.end(), held.begin(), held.end());
+    const Ended refused = sphparam_program(arguments, mesh);
+    CHECK(refused.code == 5);
+    CHECK_THAT(refused.err, Contains("32 bits cannot hold this map"));
+    CHECK_FALSE(fs::exists(sphere));
+  }
+}
+
 TEST_CASE("map: what poles, meridian, pins and balance may not say together ends with 2") {
   const Folder folder;
   write_bytes(folder / "pins.txt", "5 0.5 1.0\n");

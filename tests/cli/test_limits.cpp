@@ -63,6 +63,22 @@ TEST_CASE("limits: several may be given, unknown ones are answered with the know
   CHECK(sphparam_program({"info", "-", "--limit", "faces"}, mesh).code == 2);
 }
 
+TEST_CASE(
+    "limits: a folder that is missing is told before any work, one that will be made is not") {
+  const Folder folder;
+  write_bytes(folder / "mesh.obj", obj_text(octahedron()));
+  const Ended lost =
+      sphparam_program({"map", folder / "mesh.obj", "-o", folder / "no/out.ply", "--json", "-"});
+  CHECK(lost.code == 3);
+  CHECK_THAT(lost.err, Contains("does not exist") && !Contains("certified"));
+  CHECK(folder.names() == std::vector<std::string>{"mesh.obj"});
+  const Ended made =
+      sphparam_program({"map", folder / "mesh.obj", "-o", folder / "out.ply", "--charts",
+                        folder / "charts/", "--json", folder / "charts/map.json"});
+  CHECK(made.code == 0);
+  CHECK(fs::exists(folder / "charts/map.json"));
+}
+
 TEST_CASE("limits: two spellings of one output are refused before any work") {
   const Folder folder;
   write_bytes(folder / "mesh.obj", obj_text(octahedron()));
@@ -70,7 +86,7 @@ TEST_CASE("limits: two spellings of one output are refused before any work") {
       {"map", folder / "mesh.obj", "-o", folder / "out.ply", "--sphere",
        folder / "../" + fs::path(folder / "x").parent_path().filename().string() + "/./out.ply"});
   CHECK(ended.code == 2);
-  CHECK_THAT(ended.err, Contains("different places"));
+  CHECK_THAT(ended.err, Contains("the same file, out.ply"));
   CHECK(folder.names() == std::vector<std::string>{"mesh.obj"});
 }
 

@@ -105,8 +105,9 @@ TEST_CASE("measure: meshes that are no spheres are measured too, empty ones are 
     CHECK(refused.out.empty());
   }
   write_bytes(empty, "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
-  CHECK_THAT(sphparam_program({"measure", one, empty}).err,
-             Contains("empty.obj") && Contains("no area"));
+  const Ended flat = sphparam_program({"measure", one, empty});
+  CHECK(flat.code == 4);
+  CHECK_THAT(flat.err, Contains("empty.obj") && Contains("no area"));
 }
 
 TEST_CASE("measure: command lines that make no sense end with 2 and write nothing") {

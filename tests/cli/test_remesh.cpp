@@ -128,7 +128,7 @@ TEST_CASE("remesh: two outputs at one place are refused, however they are spelle
     arguments.insert(arguments.end(), more.begin(), more.end());
     const Ended ended = mapped.remesh(arguments);
     CHECK(ended.code == 2);
-    CHECK_THAT(ended.err, Contains("name the same file"));
+    CHECK_THAT(ended.err, Contains("the same file, "));
   }
   CHECK(mapped.folder.names() == Names{"deep", "shape.sph.ply"});
 }

@@ -61,7 +61,7 @@ TEST_CASE("What has no size or area is mapped, but neither fitted nor expanded")
       const Ended ended = sphparam_program(arguments, obj_text(mesh));
       INFO(asked[0] << ended.err);
       CHECK(ended.code == 4);
-      CHECK_THAT(ended.err, Catch::Contains("can be mapped but not measured") &&
+      CHECK_THAT(ended.err, Catch::Contains("can be mapped but not fitted") &&
                                 !Catch::Contains("closed genus-0"));
       const bool scaling_helps = &mesh != meshes;
       CHECK_THAT(ended.err, Catch::Contains(scaling_helps ? "scale it" : "no area"));

@@ -128,12 +128,12 @@ TEST_CASE("repair: faces that name a vertex twice go with duplicates, and are re
     if (*repair) arguments.emplace_back(repair);
     const Ended refused = sphparam_program(arguments, faulty);
     CHECK(refused.code == 3);
-    CHECK_THAT(refused.err, Contains(":123: face names a vertex twice; `--repair=duplicates` "
-                                     "removes such faces"));
+    CHECK_THAT(refused.err, Contains(":123: face names a vertex twice; `sphparam map "
+                                     "--repair=duplicates` removes such faces"));
   }
   const Ended asked = sphparam_program({"info", "-"}, faulty);
   CHECK(asked.code == 3);
-  CHECK_THAT(asked.err, Contains("`--repair=duplicates` removes such faces"));
+  CHECK_THAT(asked.err, Contains("`sphparam map --repair=duplicates` removes such faces"));
   const Folder folder;
   const std::string map = folder / "map.ply";
   for (const char* repair : {"--repair", "--repair=duplicates"}) {

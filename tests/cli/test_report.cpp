@@ -79,7 +79,7 @@ TEST_CASE("report: what is wrong is named, and nothing is written") {
   };
   const std::string ball = folder / "ball.obj", page = folder / "page.html";
   fails({ball}, 2, "--output");
-  fails({ball, "-o", ball}, 2, "it would be replaced");
+  fails({ball, "-o", page, "--json", ball}, 2, "it would be replaced");
   fails({"-", "-", "-o", page}, 2, "only one");
   fails({ball, folder / "other.obj", "-o", page}, 3, "not a map of ball.obj");
   fails({ball, folder / "none.obj", "-o", page}, 3, "none.obj");

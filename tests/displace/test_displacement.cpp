@@ -206,6 +206,11 @@ TEST_CASE("displacement file: no displacement is told from one, and too large on
   CHECK_THROWS_AS(decode_displacement({plain.data(), plain.size()}, "d"), ImageError);
   Displacement huge{.image = Image(2, 1, 1), .least = 0, .greatest = 1e6};
   CHECK_THROWS_AS(encode_displacement(huge, ImageDepth::Half, "ico:1", "loop"), std::range_error);
+  for (const double size : {1e40, 1e-40}) {  // beyond the floats that the image holds
+    const Displacement odd{.image = Image(2, 1, 1), .least = 0, .greatest = size};
+    for (const ImageDepth depth : {ImageDepth::Uint16, ImageDepth::Half, ImageDepth::Float})
+      CHECK_THROWS_AS(encode_displacement(odd, depth, "ico:1", "loop"), std::range_error);
+  }
   Displacement level{.image = Image(2, 1, 1), .least = 2, .greatest = 2};
   level.image.pixels = {2, 2};
   const std::vector<char> bytes = encode_displacement(level, ImageDepth::Uint16, "ico:1", "loop");

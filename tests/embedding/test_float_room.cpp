@@ -14,20 +14,10 @@ bool is_float(const SphereMap& map) {
   return (map.points.array() == map.points.cast<float>().cast<double>().array()).all();
 }
 
-/// A sphere whose vertices but for those of a small cap are all in one place.
-TriangleMesh gathered() {
-  TriangleMesh mesh = icosphere(5);
-  const double cap = -0.9;
-  for (Vertex v = 0; v < mesh.vertex_count(); ++v) {
-    if (mesh.positions(v, 2) > cap) mesh.positions.row(v) << 0, 0, 1;
-  }
-  return mesh;
-}
-
 }  // namespace
 
 TEST_CASE("What rounding folds though nudged is mapped anew, certified in float32") {
-  const TriangleMesh mesh = gathered();
+  const TriangleMesh mesh = gathered_sphere();
   const Topology topology(mesh);
   const SphereMap map = parameterize(mesh).map;
   REQUIRE(certify(topology, map).bijective());
@@ -42,7 +32,7 @@ TEST_CASE("What rounding folds though nudged is mapped anew, certified in float3
 }
 
 TEST_CASE("Room is made the same for any number of threads") {
-  const TriangleMesh mesh = gathered();
+  const TriangleMesh mesh = gathered_sphere();
   const Topology topology(mesh);
   const SphereMap map = parameterize(mesh).map;
   CHECK(round_with_room(mesh, topology, map, {.threads = 1}).rounding.map.points ==

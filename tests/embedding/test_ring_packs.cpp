@@ -63,3 +63,47 @@ TEST_CASE("ring packs: packs that were moved from have no memory left to use, an
   const RingPacks taken = std::move(used);
   require_same(packs_of(hierarchy[0], std::move(used)), packs_of(hierarchy[0]));
 }
+
+TEST_CASE("ring packs: long rings are packed with rings about as long") {
+  // Hubs of 70 and 200 leaves in turn; each leaf knows its hub.
+  constexpr int hubs = 16;
+  std::vector<int> start = {0};
+  std::vector<Vertex> ring, leaf_of;
+  for (int hub = 0; hub < hubs; ++hub) {
+    for (int i = 0; i < (hub % 2 == 0 ? 70 : 200); ++i) {
+      ring.push_back(hubs + static_cast<Vertex>(leaf_of.size()));
+      leaf_of.push_back(hub);
+    }
+    start.push_back(static_cast<int>(ring.size()));
+  }
+  for (const Vertex hub : leaf_of) {
+    ring.push_back(hub);
+    start.push_back(static_cast<int>(ring.size()));
+  }
+  const RingPacks packs = pack_rings(start, ring, [](Vertex, int, RingSlot*) {}, 1, {});
+  int of_hubs = 0;
+  for (const RingPack& pack : packs.packs) {
+    if (pack.vertex[0] < hubs) of_hubs += pack.valence;
+  }
+  CHECK(of_hubs == 70 + 200);
+}
+
+TEST_CASE("ring packs: within a colour, packs go from region to region") {
+  const MeshHierarchy hierarchy = complete_hierarchy(relabelled(icosphere(5), 3));
+  const RingPacks packs = packs_of(hierarchy[0]);
+  REQUIRE(hierarchy[0].vertex_count() > 4 * 2048);
+  for (int c = 0; c < packs.colours(); ++c) {
+    int region = 0;
+    const auto first = static_cast<size_t>(packs.colour_start[static_cast<size_t>(c)]);
+    const auto last = static_cast<size_t>(packs.colour_start[static_cast<size_t>(c) + 1]);
+    for (size_t p = first; p < last; ++p) {
+      for (const Vertex v : packs.packs[p].vertex) {
+        if (v < 0) continue;
+        CHECK(v / 2048 >= region);
+        region = v / 2048;
+      }
+    }
+  }
+  const double used = 8.0 * static_cast<double>(slots_used(packs));
+  CHECK(used < (1 + 1.0 / 16) * static_cast<double>(hierarchy[0].ring.size()));  // as reserved
+}

@@ -1,7 +1,10 @@
 #include <atomic>
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <cmath>
 #include <stdexcept>
+#include <string>
+#include <thread>
 #include <vector>
 
 #include "sphparam/parallel.h"
@@ -11,7 +14,7 @@ using namespace sphparam;
 TEST_CASE("parallel: chunks cover the range once, whatever the sizes") {
   for (const int count : {0, 1, 7, 1000, 1001}) {
     for (const int grain : {1, 10, 5000}) {
-      for (const int threads : {0, 1, 3}) {
+      for (const int threads : {0, 1, 3, 40}) {
         std::vector<int> visits(static_cast<size_t>(count), 0);
         parallel_for(count, grain, threads, [&](std::int64_t first, std::int64_t last) {
           for (std::int64_t i = first; i < last; ++i) ++visits[static_cast<size_t>(i)];
@@ -40,6 +43,23 @@ TEST_CASE("parallel: an exception of a body reaches the caller after all bodies 
     sum += static_cast<int>(last - first);
   });
   CHECK(sum == 100);
+}
+
+TEST_CASE("parallel: the exception is that of the first chunk, whoever is faster") {
+  const auto body = [](std::int64_t first, std::int64_t) {
+    if (first == 30 || first == 50 || first == 90)
+      throw std::runtime_error("chunk " + std::to_string(first));
+  };
+  for (int run = 0; run < 200; ++run) CHECK_THROWS_WITH(parallel_for(100, 10, 4, body), "chunk 30");
+}
+
+TEST_CASE("parallel: what a slow worker does not get to others do") {
+  std::vector<int> visits(64, 0);
+  parallel_for(64, 1, 2, [&](std::int64_t first, std::int64_t) {
+    if (first == 0) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    ++visits[static_cast<size_t>(first)];
+  });
+  CHECK(visits == std::vector<int>(64, 1));
 }
 
 TEST_CASE("parallel: a loop inside a loop ends") {

@@ -205,7 +205,7 @@ TEST_CASE("polygons: one that names a vertex twice is refused, or is one triangl
     Polygons polygons;
     polygons.corners = face;
     CHECK(polygons.close_polygon({}) ==
-          "face names a vertex twice; `--repair=duplicates` removes such faces");
+          "face names a vertex twice; `sphparam map --repair=duplicates` removes such faces");
   }
   Polygons polygons;
   for (const auto& faces : {bad, good, bad})

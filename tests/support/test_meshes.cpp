@@ -153,7 +153,9 @@ TriangleMesh random_sphere_mesh(int vertices, unsigned seed) {
     enter(g);
   }
   std::vector<Vector3> points;
-  const auto uniform = [&] { return 2 * static_cast<double>(random()) / static_cast<double>(random.max()) - 1; };
+  const auto uniform = [&] {
+    return 2 * static_cast<double>(random()) / static_cast<double>(random.max()) - 1;
+  };
   for (int v = 0; v < vertices; ++v) {
     Vector3 point;
     do {
@@ -185,6 +187,15 @@ TriangleMesh relabelled(const TriangleMesh& mesh, unsigned seed) {
     }
   }
   return result;
+}
+
+TriangleMesh gathered_sphere() {
+  TriangleMesh mesh = icosphere(5);
+  const double cap = -0.9;
+  for (Vertex v = 0; v < mesh.vertex_count(); ++v) {
+    if (mesh.positions(v, 2) > cap) mesh.positions.row(v) << 0, 0, 1;
+  }
+  return mesh;
 }
 
 Points wound_rays(int meridians, int rings, int turns) {

@@ -94,10 +94,10 @@ std::string path_of(const BakeArguments& arguments, const std::string& map) {
   return path;
 }
 
-/// No file may be written that is read or written besides. With --heat every image counts as one
-/// with a scale: which ones have it is known only once they are made.
-void require_apart(const BakeArguments& arguments, const std::vector<BakeOutput>& outputs) {
-  std::vector<std::pair<const char*, std::string>> written;
+/// With --heat every image counts as one with a scale: which ones have it is known only once they
+/// are made.
+void check_all_places(const BakeArguments& arguments, const std::vector<BakeOutput>& outputs) {
+  Outputs written;
   for (const BakeOutput& output : outputs) {
     written.emplace_back("-o", output.path);
     if (arguments.options.heat && !is_stream(output.path)) {
@@ -105,18 +105,7 @@ void require_apart(const BakeArguments& arguments, const std::vector<BakeOutput>
     }
   }
   written.emplace_back("--json", arguments.json);
-  for (size_t i = 0; i < written.size(); ++i) {
-    const auto& [option, path] = written[i];
-    for (const std::string& input :
-         {arguments.input, arguments.sphere, arguments.target, arguments.texture}) {
-      require_not_input(input, path, option);
-    }
-    for (size_t j = 0; j < i; ++j) {
-      if (!is_same_place(path, written[j].second)) continue;
-      throw UsageMistake(std::string(option) + ": " + path + " would also be written by " +
-                         written[j].first);
-    }
-  }
+  check_places({arguments.input, arguments.sphere, arguments.target, arguments.texture}, written);
 }
 
 void add_inputs(CLI::App& command, BakeArguments& arguments) {
@@ -254,7 +243,7 @@ std::vector<BakeOutput> bake_outputs(const BakeArguments& arguments) {
     }
     outputs.push_back({map, path});
   }
-  require_apart(arguments, outputs);
+  check_all_places(arguments, outputs);
   return outputs;
 }
 

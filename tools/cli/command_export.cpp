@@ -133,7 +133,7 @@ class Exporter {
       : arguments_(arguments), console_(console) {}
 
   void run() {
-    require_new_places();
+    check_first_places();
     mapped_ = read_mapped_source(arguments_.input, arguments_.sphere, arguments_.threads, console_);
     if (arguments_.source_uv && !has_texcoords(mapped_.source.file)) {
       throw UsageMistake("--source-uv: the mesh has no texture coordinates of its own");
@@ -160,34 +160,30 @@ class Exporter {
   }
 
   /// What can be told of the outputs before work: the images' names come later.
-  void require_new_places() {
-    require_new_place(arguments_.json, "--json");
+  void check_first_places() const {
+    Outputs outputs = {{"--json", arguments_.json}};
     const int files = arguments_.lod_style == LodStyle::Files ? arguments_.lods : 0;
     for (int level = 0; level <= files; ++level) {
       const std::string path = level_path(arguments_.output, level);
-      require_new_place(path, "-o");
+      outputs.emplace_back("-o", path);
       const std::string more = extension_of(path) == ".gltf"  ? ".bin"
                                : extension_of(path) == ".obj" ? ".mtl"
                                                               : "";
       if (more.empty() || arguments_.embedded) continue;
-      require_new_place(beside(path, fs::path(path).stem().string() + more), "-o");
+      outputs.emplace_back("-o", beside(path, fs::path(path).stem().string() + more));
     }
-    taken_.clear();
-    if (!arguments_.json.empty()) taken_.push_back(arguments_.json);
+    check_places(inputs(), outputs);
   }
 
-  /// Throws: UsageMistake where an output would replace an input or another output.
-  void require_new_place(const std::string& path, const std::string& option) {
-    if (path.empty()) return;
-    for (const std::string& input : {arguments_.input, arguments_.sphere, arguments_.texture,
-                                     arguments_.normal, arguments_.occlusion}) {
-      require_not_input(input, path, option);
-    }
-    for (const std::string& other : taken_) {
-      if (is_same_place(path, other))
-        throw UsageMistake(option + ": " + output_name(path) + " would be written twice");
-    }
-    taken_.push_back(path);
+  std::vector<std::string> inputs() const {
+    return {arguments_.input, arguments_.sphere, arguments_.texture, arguments_.normal,
+            arguments_.occlusion};
+  }
+
+  /// Notes an output; refuses it where it is an input or another output.
+  void take_place(const std::string& path) {
+    places_.emplace_back("-o", path);
+    check_places(inputs(), places_);
   }
 
   Asset new_asset(const ExportLook& look) const {
@@ -276,7 +272,7 @@ class Exporter {
     for (auto& [name, bytes] : written) {
       const std::string target =
           name.empty() ? path : (fs::path(path).parent_path() / name).string();
-      require_new_place(target, "-o");
+      take_place(target);
       report_.outputs.emplace_back(target, bytes.size());
       const bool checked = name.empty() && is_binary && readable;
       files_.add(target, std::move(bytes), [&](std::string_view on_disk) {
@@ -315,7 +311,7 @@ class Exporter {
   }
 
   void add(const std::string& path, std::string bytes, const BytesCheck& check = {}) {
-    require_new_place(path, "-o");
+    take_place(path);
     report_.outputs.emplace_back(path, bytes.size());
     files_.add(path, std::move(bytes), check);
   }
@@ -325,7 +321,7 @@ class Exporter {
   const Stopwatch stopwatch_;
   MappedSource mapped_;
   ExportLook look_;
-  std::vector<std::string> taken_;  // places of outputs
+  Outputs places_ = {{"--json", arguments_.json}};
   ExportReport report_;
   PendingFiles files_;
 };

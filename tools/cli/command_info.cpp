@@ -104,9 +104,7 @@ std::string figures(const Source& source) {
 std::string text_of(const InfoReport& report) {
   const Source& source = report.input.source;
   std::string text = display_name(report.input.file) + "\n" + figures(source);
-  if (has_map(report.input.source.file)) {
-    for (const auto& [key, value] : report.provenance) text += line("map " + key, value);
-  }
+  for (const auto& [key, value] : report.provenance) text += line("map " + key, value);
   for (const std::string& note : source.notes) text += line("note", note);
   if (!source.inspection.defects.empty()) {
     text += "What is odd or wrong:\n" + defect_list(source.inspection.defects);
@@ -120,10 +118,11 @@ int run_info(const InfoArguments& arguments) {
   const Source source = read_source(arguments.input);
   std::optional<RepairTrial> trial;
   if (!source.inspection.is_sphere()) trial = try_repair(source);
-  const InfoReport report = {.input = {arguments.input, source},
-                             .provenance = read_provenance(source.file),
-                             .repair = trial,
-                             .seconds = stopwatch.seconds()};
+  const InfoReport report = {
+      .input = {arguments.input, source},
+      .provenance = has_map(source.file) ? read_provenance(source.file) : Provenance{},
+      .repair = trial,
+      .seconds = stopwatch.seconds()};
   if (arguments.json) {
     write_file("-", to_json(report));
   } else if (!arguments.loudness.quiet) {

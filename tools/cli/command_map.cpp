@@ -169,10 +169,11 @@ Sphere sphere_for(const std::string& path, const Outcome& outcome,
   auto [rounding, least_area] = round_with_room(
       outcome.source.file.mesh, outcome.topology(), outcome.result.map,
       {.energy = options.energy, .threads = options.threads, .progress = options.progress});
-  if (least_area > 0 && !outcome.pins.empty()) {
+  const bool held = !outcome.pins.empty() || options.poles || options.meridian;
+  if (least_area > 0 && held) {
     throw NotCertifiedError(path +
-                            ": numbers of 32 bits cannot hold this map with its pins; "
-                            ".ply, .obj and .off can");
+                            ": numbers of 32 bits cannot hold this map with its pins, poles or "
+                            "meridian; .ply, .obj and .off can");
   }
   const bool certified = outcome.certificate.bijective();
   if (certified && !rounding.certificate.bijective()) {
@@ -189,12 +190,16 @@ void add_sphere(PendingFiles& files, const MapArguments& arguments, const Outcom
   ParameterizeOptions options = arguments.options;
   options.progress = [&](std::string_view stage, double f) { return console.progress(stage, f); };
   const Sphere sphere = sphere_for(path, outcome, options);
+  Provenance lines = provenance(arguments, outcome, sphere.verdict);
   if (sphere.least_area > 0) {
+    std::erase_if(lines, [](const auto& line) {  // they are of the other map
+      return line.first == "poles" || line.first == "meridian";
+    });
     console.say("  " + path + ": mapped anew for numbers of 32 bits: triangles under " +
                 short_number(sphere.least_area) + " of the mean area count as that large");
   }
-  std::string bytes = serialiser(path)(
-      sphere_mesh(outcome.source.file, sphere.map, provenance(arguments, outcome, sphere.verdict)));
+  std::string bytes =
+      serialiser(path)(sphere_mesh(outcome.source.file, sphere.map, std::move(lines)));
   files.add(path, std::move(bytes), [&](std::string_view written) {
     const MeshFile file = read_mesh(written, path, own_map);
     require_verdict(sphere.verdict, path,

@@ -15,6 +15,7 @@
 #include "cli/exit_codes.h"
 #include "cli/input_limits.h"
 #include "cli/interruption.h"
+#include "cli/measurable.h"
 #include "cli/measure_report.h"
 #include "cli/paths.h"
 #include "cli/wording.h"
@@ -90,18 +91,13 @@ void require_sensible(const MeasureArguments& arguments) {
   if (is_stream(arguments.first) && is_stream(arguments.second)) {
     throw UsageMistake("the two meshes cannot both come from standard input");
   }
-  if (is_same_place(arguments.per_vertex, arguments.json)) {
-    throw UsageMistake("--per-vertex and --json must go to different places");
-  }
   const std::string extension = extension_of(arguments.per_vertex);
   if (!extension.empty() && extension != ".ply") {
     throw UsageMistake("--per-vertex: the mesh is a PLY, the name must end in .ply, not " +
                        extension);
   }
-  for (const std::string& input : {arguments.first, arguments.second}) {
-    require_not_input(input, arguments.per_vertex, "--per-vertex");
-    require_not_input(input, arguments.json, "--json");
-  }
+  check_places({arguments.first, arguments.second},
+               {{"--per-vertex", arguments.per_vertex}, {"--json", arguments.json}});
 }
 
 SurfaceDistance measure(const MeasureArguments& arguments, const MeshFile& first,
@@ -113,8 +109,10 @@ SurfaceDistance measure(const MeasureArguments& arguments, const MeshFile& first
     console.clear_progress();
     return distance;
   } catch (const UnmeasurableSurface& error) {
-    const std::string& path = error.side() == Side::First ? arguments.first : arguments.second;
-    throw ReadError(display_name(path), error.what());
+    const bool first_is_it = error.side() == Side::First;
+    const std::string name = display_name(first_is_it ? arguments.first : arguments.second);
+    if ((first_is_it ? first : second).mesh.face_count() == 0) throw ReadError(name, error.what());
+    throw UnmeasurableMesh(name + ": " + error.what());
   }
 }
 

@@ -78,9 +78,7 @@ void require_sensible(const PaintArguments& arguments) {
   if (is_stream(arguments.input) && is_stream(arguments.image)) {
     throw UsageMistake("the mesh and --image cannot both come from standard input");
   }
-  for (const std::string& input : {arguments.input, arguments.image, arguments.sphere}) {
-    require_not_input(input, arguments.output, "-o");
-  }
+  check_places({arguments.input, arguments.image, arguments.sphere}, {{"-o", arguments.output}});
 }
 
 /// EXR holds linear light, the others sRGB.

@@ -69,8 +69,8 @@ void check_outputs(const RemeshArguments& arguments) {
   }
 }
 
-/// No file may be written that is read or written besides.
-void require_apart(const RemeshArguments& arguments, const std::vector<RemeshArguments>& levels) {
+void check_all_places(const RemeshArguments& arguments,
+                      const std::vector<RemeshArguments>& levels) {
   Outputs outputs = {{"-o", levels.front().output},
                      {"--limit-mesh", arguments.limit_output},
                      {"--displace", arguments.displacement},
@@ -84,13 +84,10 @@ void require_apart(const RemeshArguments& arguments, const std::vector<RemeshArg
   for (size_t level = 1; level < levels.size() && !one_file; ++level) {
     outputs.emplace_back("--lods", levels[level].output);
   }
-  for (const auto& [option, path] : outputs) {
-    require_not_input(arguments.input, path, option);
-    if (!arguments.sphere.empty()) require_not_input(arguments.sphere, path, option);
-    if (arguments.grid.starts_with(like_prefix))
-      require_not_input(arguments.grid.substr(like_prefix.size()), path, option);
-  }
-  require_distinct(outputs);
+  std::vector<std::string> inputs = {arguments.input, arguments.sphere};
+  if (arguments.grid.starts_with(like_prefix))
+    inputs.push_back(arguments.grid.substr(like_prefix.size()));
+  check_places(inputs, outputs);
 }
 
 /// What makes no sense is refused before work. The grid asked for, where it is none of a file.
@@ -233,7 +230,7 @@ int run_remesh(const RemeshArguments& arguments) {
   const Stopwatch stopwatch;
   const std::optional<GridSpec> spec = check_arguments(arguments);
   const std::vector<RemeshArguments> asked = levels_asked_for(arguments, spec);
-  require_apart(arguments, asked);
+  check_all_places(arguments, asked);
   Console console(arguments.loudness.verbosity(), arguments.progress);
   const OrderlyInterruption orderly;
   MappedSource mapped = read_mapped_source(arguments.input, arguments.sphere, arguments.threads,

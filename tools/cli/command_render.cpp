@@ -227,13 +227,13 @@ void require_png(const std::string& path) {
 
 int run_render(const RenderArguments& arguments) {
   require_png(arguments.output);
+  check_places({arguments.input}, {{"-o", arguments.output}});
   Console console(arguments.loudness.verbosity(), ProgressStyle::None);
   Subject subject = {.file = read_mesh(arguments.input, input_limits()), .map = std::nullopt};
   if (subject.file.mesh.face_count() == 0) {
     throw ReadError(display_name(arguments.input), "there are no triangles to draw");
   }
   subject.map = read_sphere(subject.file);
-  require_not_input(arguments.input, arguments.output, "-o");
   const std::vector<char> png = encode_image(picture(subject, arguments), ImageFormat::Png);
   write_file(arguments.output, {png.data(), png.size()});
   console.say(display_name(arguments.input) + " → " + output_name(arguments.output));

@@ -55,9 +55,9 @@ constexpr char summary[] =
     "by side, charts on the same scale. Ends with 0 also where maps fold.\n";
 
 /// What a page is not; any other ending, as that of page.v2, may be part of its name.
-constexpr std::array<std::string_view, 14> other_kinds = {".ply", ".obj",  ".off",  ".stl", ".gii",
-                                                          ".glb", ".gltf", ".png",  ".exr", ".jpg",
-                                                          ".svg", ".csv",  ".json", ".pdf"};
+constexpr std::array<std::string_view, 17> other_kinds = {
+    ".ply", ".obj",  ".off", ".stl",  ".gii", ".glb", ".gltf", ".png", ".exr",
+    ".jpg", ".jpeg", ".tif", ".tiff", ".svg", ".csv", ".json", ".pdf"};
 
 struct ReportArguments {
   std::vector<std::string> inputs;
@@ -95,15 +95,11 @@ void require_sense(const ReportArguments& arguments) {
   if (std::count_if(inputs.begin(), inputs.end(), is_stream) > 1) {
     throw UsageMistake("only one file can come from standard input");
   }
-  for (const std::string& input : inputs) {
-    require_not_input(input, arguments.output, "--output");
-    require_not_input(input, arguments.json, "--json");
-  }
-  require_distinct({{"--output", arguments.output}, {"--json", arguments.json}});
   const std::string kind = extension_of(arguments.output);
   if (std::find(other_kinds.begin(), other_kinds.end(), kind) != other_kinds.end()) {
     throw UsageMistake("-o: the page is written as .html, not as " + kind);
   }
+  check_places(inputs, {{"--output", arguments.output}, {"--json", arguments.json}});
 }
 
 /// A map that a file holds for the mesh: sx sy sz, or else the file is a sphere of it.

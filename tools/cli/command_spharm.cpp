@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/certified.h"
 #include "cli/choice.h"
 #include "cli/command.h"
 #include "cli/common_options.h"
@@ -133,19 +134,26 @@ MeshFile reconstruct(const SpharmArguments& arguments, MappedSource mapped,
   return attach_map(std::move(file), mapped.map, lines);
 }
 
-void require_sensible(const SpharmArguments& arguments) {
-  const Outputs outputs = {{"--json", arguments.json},
-                           {"--csv", arguments.csv},
-                           {"--reconstruct", arguments.reconstruction}};
-  for (const auto& [option, path] : outputs) {
-    require_not_input(arguments.input, path, option);
-    require_not_input(arguments.sphere, path, option);
+void add_reconstruction(PendingFiles& files, const SpharmArguments& arguments, MappedSource mapped,
+                        const Functions& values) {
+  const std::string& path = arguments.reconstruction;
+  const Topology topology = mapped.source.topology.value();
+  MeshFile file = reconstruct(arguments, std::move(mapped), values);
+  if (is_stream(path) || extension_of(path) == ".ply") {
+    add_certified(files, path, serialise_ply(file), topology, arguments.threads);
+  } else {
+    files.add(path, serialiser(path)(without_map(std::move(file))));
   }
-  require_distinct(outputs);
+}
+
+void require_sensible(const SpharmArguments& arguments) {
   const std::string& mesh = arguments.reconstruction;
   if (!mesh.empty() && !is_stream(mesh) && (!serialiser(mesh) || extension_of(mesh) == ".gii")) {
     throw UsageMistake("--reconstruct: the name must end in .ply, .obj or .off");
   }
+  check_places({arguments.input, arguments.sphere}, {{"--json", arguments.json},
+                                                     {"--csv", arguments.csv},
+                                                     {"--reconstruct", arguments.reconstruction}});
 }
 
 /// More coefficients than vertices: the residual at the vertices says nothing then.
@@ -192,13 +200,8 @@ int run_spharm(const SpharmArguments& arguments) {
   PendingFiles files;
   if (!arguments.json.empty()) files.add(arguments.json, to_json(report));
   if (!arguments.csv.empty()) files.add(arguments.csv, to_csv(report));
-  if (!arguments.reconstruction.empty()) {
-    const std::string& path = arguments.reconstruction;
-    const bool has_rays = is_stream(path) || extension_of(path) == ".ply";
-    MeshFile file = reconstruct(arguments, std::move(mapped), values);
-    files.add(path,
-              has_rays ? serialise_ply(file) : serialiser(path)(without_map(std::move(file))));
-  }
+  if (!arguments.reconstruction.empty())
+    add_reconstruction(files, arguments, std::move(mapped), values);
   if (interrupted()) throw Cancelled();
   files.publish();
   tell(report, stopwatch, console);

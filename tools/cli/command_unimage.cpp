@@ -131,8 +131,7 @@ int run_unimage(const UnimageArguments& arguments) {
   Console console(arguments.loudness.verbosity(), arguments.progress);
   const std::string kind = is_stream(arguments.output) ? ".ply" : extension_of(arguments.output);
   if (kind != ".ply" && kind != ".obj") throw UsageMistake("-o: written are .ply and .obj");
-  require_not_input(arguments.input, arguments.output, "-o");
-  require_not_input(arguments.normals, arguments.output, "-o");
+  check_places({arguments.input, arguments.normals}, {{"-o", arguments.output}});
   const OrderlyInterruption orderly;
   console.progress("read", 0);
   const ImageContents contents = read_contents(arguments.input, arguments.threads);

@@ -2,7 +2,7 @@
 
 #include "cli/flat_comparison.h"
 
-#include "measure/surface_distance.h"
+#include "cli/measurable.h"
 
 namespace sphparam::tools {
 
@@ -15,14 +15,17 @@ constexpr std::int64_t comparing_samples = 50'000;  // on each side
 void compare_with_flat(RemeshLevel& level, const TriangleMesh& flat, const MappedSource& mapped,
                        Console& console) {
   const auto rms = [&](const TriangleMesh& mesh) {
-    return measure_distance(mapped.source.file.mesh, mesh,
-                            {.samples = comparing_samples, .threads = level.arguments.threads})
+    return distance_on_grid(
+               mapped.source.file.mesh, mesh, level.arguments.grid,
+               {.samples = comparing_samples,
+                .threads = level.arguments.threads,
+                .progress = [&](std::string_view s, double f) { return console.progress(s, f); }})
         .rms();
   };
   SubdivisionFit& fit = level.fit.value();
   fit.two_sided_rms = rms(shown_mesh(level));
   fit.flat_rms = rms(flat);
-  if (fit.two_sided_rms < fit.flat_rms) return;
+  if (fit.two_sided_rms <= fit.flat_rms) return;
   console.warning(level.arguments.grid +
                   " is too coarse for a smooth surface: flat faces on it are nearer to the mesh "
                   "than what was fitted");

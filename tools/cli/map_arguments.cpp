@@ -114,16 +114,6 @@ void require_sensible_frame(const MapArguments& arguments) {
 }
 
 void require_sensible(const MapArguments& arguments) {
-  const bool same = is_same_place(arguments.sphere, arguments.output) ||
-                    is_same_place(arguments.json, arguments.output) ||
-                    is_same_place(arguments.json, arguments.sphere);
-  if (same) throw UsageMistake("-o, --sphere and --json must go to different places");
-  require_not_input(arguments.input, arguments.output, "-o");
-  require_not_input(arguments.input, arguments.sphere, "--sphere");
-  require_not_input(arguments.input, arguments.json, "--json");
-  require_not_input(arguments.pins, arguments.output, "-o");
-  require_not_input(arguments.pins, arguments.sphere, "--sphere");
-  require_not_input(arguments.pins, arguments.json, "--json");
   if (is_stream(arguments.input) && is_stream(arguments.pins)) {
     throw UsageMistake("the mesh and --pin cannot both come from standard input");
   }
@@ -135,6 +125,10 @@ void require_sensible(const MapArguments& arguments) {
   if (!arguments.sphere.empty() && !serialiser(arguments.sphere)) {
     throw UsageMistake("--sphere: the name must end in .ply, .obj, .off or .gii");
   }
+  check_places(
+      {arguments.input, arguments.pins},
+      {{"-o", arguments.output}, {"--sphere", arguments.sphere}, {"--json", arguments.json}},
+      arguments.charts);
 }
 
 /// Options that only the paper's method reads.

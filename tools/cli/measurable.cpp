@@ -29,11 +29,18 @@ void require_measurable(const TriangleMesh& mesh) {
   if (sized && has_area(mesh, extent)) return;
   if (extent == 0 || sized) {
     throw UnmeasurableMesh(
-        "this mesh can be mapped but not measured: it has no area, distances to it mean nothing");
+        "this mesh can be mapped but not fitted: it has no area, distances to it mean nothing");
   }
-  throw UnmeasurableMesh("this mesh can be mapped but not measured: it is too " +
+  throw UnmeasurableMesh("this mesh can be mapped but not fitted: it is too " +
                          std::string(extent < 1 ? "small" : "large") +
                          ", its extent is not between 1e-60 and 1e60; scale it");
+}
+
+SurfaceDistance distance_on_grid(const TriangleMesh& source, const TriangleMesh& made,
+                                 const std::string& grid, const DistanceOptions& options) try {
+  return measure_distance(source, made, options);
+} catch (const UnmeasurableSurface&) {
+  throw UnmeasurableMesh("on " + grid + " nothing of this mesh's area is left: use a finer grid");
 }
 
 }  // namespace sphparam::tools

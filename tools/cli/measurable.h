@@ -1,12 +1,14 @@
 #pragma once
 
 #include <stdexcept>
+#include <string>
 
+#include "measure/surface_distance.h"
 #include "sphparam/mesh/triangle_mesh.h"
 
 namespace sphparam::tools {
 
-/// A mesh that can be mapped but not measured: ends with `MeshUnusable`.
+/// A mesh that lengths cannot be taken of: ends with `MeshUnusable`.
 class UnmeasurableMesh : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -15,5 +17,10 @@ class UnmeasurableMesh : public std::runtime_error {
 /// Throws UnmeasurableMesh for a mesh that has a map but no distances: without area, or of a size
 /// whose powers doubles cannot hold. (Maps do not depend on size; fits and distances do.)
 void require_measurable(const TriangleMesh& mesh);
+
+/// How far a mesh made on a grid is from its source. Throws: UnmeasurableMesh where nothing of the
+/// area is left on the grid; Cancelled.
+SurfaceDistance distance_on_grid(const TriangleMesh& source, const TriangleMesh& made,
+                                 const std::string& grid, const DistanceOptions& options);
 
 }  // namespace sphparam::tools

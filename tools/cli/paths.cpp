@@ -3,6 +3,8 @@
 #include <filesystem>
 
 #include "cli/command.h"
+#include "image/file_extension.h"
+#include "mesh_io/safe_file.h"
 
 namespace sphparam::tools {
 
@@ -20,6 +22,27 @@ bool holds_one_output(const std::string& path) {
          std::filesystem::is_regular_file(status) || std::filesystem::is_directory(status);
 }
 
+void require_not_input(const std::string& input, const std::string& output,
+                       const std::string& option) {
+  if (input.empty() || is_stream(input) || is_stream(output) || output.empty()) return;
+  std::error_code missing;  // a file that is not there is no other file
+  const bool regular = std::filesystem::is_regular_file(output, missing);
+  if (!regular || !std::filesystem::equivalent(input, output, missing)) return;
+  throw UsageMistake(option + ": " + output + " is the input; it would be replaced");
+}
+
+void require_distinct(const Outputs& outputs) {
+  for (size_t i = 0; i < outputs.size(); ++i) {
+    for (size_t j = 0; j < i; ++j) {
+      const auto& [option, path] = outputs[i];
+      const auto& [other, place] = outputs[j];
+      if (!is_same_place(path, place) || !holds_one_output(path)) continue;
+      throw UsageMistake((other == option ? option + " twice: " : other + " and " + option + ": ") +
+                         "the same file, " + output_name(path));
+    }
+  }
+}
+
 }  // namespace
 
 std::string display_name(const std::string& path) {
@@ -32,7 +55,7 @@ std::string output_name(const std::string& path) {
 
 std::string stem_of(const std::string& path) {
   std::filesystem::path name = std::filesystem::path(path).stem();
-  if (name.extension() == ".sph") name = name.stem();
+  if (extension_of(name.string()) == ".sph") name = name.stem();
   return name.string();
 }
 
@@ -47,24 +70,17 @@ bool is_same_place(const std::string& one, const std::string& other) {
   return one_spelling(one) == one_spelling(other);
 }
 
-void require_distinct(const Outputs& outputs) {
-  for (size_t i = 0; i < outputs.size(); ++i) {
-    for (size_t j = 0; j < i; ++j) {
-      const auto& [option, path] = outputs[i];
-      const auto& [other, place] = outputs[j];
-      if (is_same_place(path, place) && holds_one_output(path))
-        throw UsageMistake(other + " and " + option + " name the same file: " + output_name(path));
-    }
+void check_places(const std::vector<std::string>& inputs, const Outputs& outputs,
+                  const std::string& new_folder) {
+  for (const auto& [option, path] : outputs) {
+    for (const std::string& input : inputs) require_not_input(input, path, option);
   }
-}
-
-void require_not_input(const std::string& input, const std::string& output,
-                       const std::string& option) {
-  if (is_stream(input) || is_stream(output) || output.empty()) return;
-  std::error_code missing;  // a file that is not there is no other file
-  const bool regular = std::filesystem::is_regular_file(output, missing);
-  if (!regular || !std::filesystem::equivalent(input, output, missing)) return;
-  throw UsageMistake(option + ": " + output + " is the input; it would be replaced");
+  require_distinct(outputs);
+  for (const auto& [option, path] : outputs) {
+    const std::filesystem::path in_new = std::filesystem::path(new_folder) / file_name(path);
+    const bool is_there = new_folder.empty() || !is_same_place(path, in_new.string());
+    if (!path.empty() && is_there) require_writable(path);
+  }
 }
 
 }  // namespace sphparam::tools

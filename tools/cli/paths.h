@@ -24,13 +24,13 @@ bool is_same_place(const std::string& one, const std::string& other);
 /// What is written where: option and path; empty paths are not written.
 using Outputs = std::vector<std::pair<std::string, std::string>>;
 
-/// Throws UsageMistake when two outputs are one place, however spelled. A device, as /dev/null, may
-/// be named twice.
-void require_distinct(const Outputs& outputs);
-
-/// Throws UsageMistake when an output would replace the input, also through links: a slip of the
-/// hand must not cost anybody their mesh. `option` names the output.
-void require_not_input(const std::string& input, const std::string& output,
-                       const std::string& option);
+/// Looks at what will be written before any work is done for it. Empty paths are not looked at.
+/// Throws: UsageMistake when an output would replace an input, also through links (a slip of the
+/// hand must not cost anybody their mesh), or when two outputs are one place, however spelled (a
+/// device, as /dev/null, may be named twice); WriteError when an output cannot be written: no
+/// folder, a folder's name, no permission. `new_folder`: one that will be made for the outputs in
+/// it.
+void check_places(const std::vector<std::string>& inputs, const Outputs& outputs,
+                  const std::string& new_folder = "");
 
 }  // namespace sphparam::tools

@@ -13,6 +13,7 @@
 #include "cli/certified.h"
 #include "cli/diagonal.h"
 #include "cli/exit_codes.h"
+#include "cli/measurable.h"
 #include "cli/paths.h"
 #include "cli/remesh_subdivision.h"
 #include "displace/displacement_file.h"
@@ -61,7 +62,7 @@ Progress progress_on(Console& console) {
 
 RebuildError error_of(const TriangleMesh& mesh, const TriangleMesh& source,
                       const RemeshArguments& arguments, Console& console) {
-  const SurfaceDistance distance = measure_distance(source, mesh,
+  const SurfaceDistance distance = distance_on_grid(source, mesh, arguments.grid,
                                                     {.samples = distance_samples,
                                                      .threads = arguments.threads,
                                                      .progress = progress_on(console)});
@@ -161,9 +162,6 @@ void check_displacement(const RemeshArguments& arguments) {
   if (!mesh.empty() && of_mesh != ".ply" && of_mesh != ".obj") {
     throw UsageMistake("--rebuild: the mesh is written as .ply or .obj, not as " +
                        output_name(mesh));
-  }
-  if (is_stream(mesh) && is_stream(arguments.output)) {
-    throw UsageMistake("-o and --rebuild cannot both go to standard output");
   }
 }
 

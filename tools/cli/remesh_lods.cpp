@@ -9,9 +9,9 @@
 #include "cli/diagonal.h"
 #include "cli/exit_codes.h"
 #include "cli/level_path.h"
+#include "cli/measurable.h"
 #include "cli/paths.h"
 #include "image/file_extension.h"
-#include "measure/surface_distance.h"
 #include "remesh/lods.h"
 
 namespace sphparam::tools {
@@ -62,8 +62,8 @@ std::vector<RemeshArguments> levels_asked_for(const RemeshArguments& arguments,
 void measure_levels(std::vector<RemeshLevel>& levels, const MappedSource& mapped,
                     Console& console) {
   for (RemeshLevel& level : levels) {
-    const SurfaceDistance distance = measure_distance(
-        mapped.source.file.mesh, shown_mesh(level),
+    const SurfaceDistance distance = distance_on_grid(
+        mapped.source.file.mesh, shown_mesh(level), level.arguments.grid,
         {.samples = distance_samples,
          .threads = level.arguments.threads,
          .progress = [&](std::string_view stage, double f) { return console.progress(stage, f); }});

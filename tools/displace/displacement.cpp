@@ -64,11 +64,12 @@ class Rows {
       locator_.locate_all(directions, std::span(on_mesh), 1);
       finder.start_anew();
       float* pixel = image.pixel(0, static_cast<int>(row));
+      constexpr double most = std::numeric_limits<float>::max();
       for (int c = 0; c < options_.width; ++c) {
         const double height =
             measure(finder.find(directions.row(c)), on_mesh[static_cast<size_t>(c)], tally);
         tally.add(height);
-        *pixel++ = static_cast<float>(height);
+        *pixel++ = static_cast<float>(std::clamp(height, -most, most));  // `greatest` tells of it
       }
     }
     return tally;

@@ -14,7 +14,7 @@ namespace sphparam::tools {
 
 namespace {
 
-constexpr double most_half = 65504;
+constexpr double most_half = 65504, least_half = 0x1p-17;  // 128 steps are left
 constexpr char about[] =
     "signed distance from the limit surface's point with the direction to the mesh, along the "
     "limit surface's unit normal";
@@ -52,23 +52,27 @@ double number_of(const ImageTexts& texts, const std::string& key, const std::str
   throw ImageError(file + ": no displacement: its metadata " + key + " is no number");
 }
 
-}  // namespace
-
-/// Numbers below it have a thousand steps or fewer left.
-double least_normal(ImageDepth depth) {
-  return depth == ImageDepth::Half ? 0x1p-14 : double{std::numeric_limits<float>::min()};
+/// The image in memory is of floats; half has fewer numbers still. Below the least one of full
+/// precision steps become coarse.
+void require_representable(double largest, ImageDepth depth) {
+  const bool half = depth == ImageDepth::Half;
+  const double most = half ? most_half : double{std::numeric_limits<float>::max()};
+  const double least = half ? least_half : double{std::numeric_limits<float>::min()};
+  const std::string precision = half ? "half" : "single";
+  if (largest > most)
+    throw std::range_error(precision + " precision has no number as large as " + shortest(largest));
+  if (largest > 0 && largest < least) {
+    throw std::range_error("displacements of at most " + shortest(largest) + " are too small for " +
+                           precision + " precision");
+  }
 }
+
+}  // namespace
 
 std::vector<char> encode_displacement(const Displacement& displacement, ImageDepth depth,
                                       const std::string& grid, const std::string& scheme) {
   const double largest = std::max(-displacement.least, displacement.greatest);
-  if (depth == ImageDepth::Half && largest > most_half) {
-    throw std::range_error("half precision has no number as large as " + shortest(largest));
-  }
-  if (depth != ImageDepth::Uint16 && largest > 0 && largest < least_normal(depth)) {
-    throw std::range_error("displacements of at most " + shortest(largest) + " are too small for " +
-                           name_of(depth) + " precision");
-  }
+  require_representable(largest, depth);
   const Coding coding = coding_of(displacement, depth);
   Image coded = displacement.image;
   if (depth == ImageDepth::Uint16) {

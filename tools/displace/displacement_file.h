@@ -15,7 +15,8 @@ namespace sphparam::tools {
 /// :direction, :scale, :midlevel, :convention, :u0, :turns, :grid, :scheme, :depth, :min, :max.
 /// Height = (value − midlevel)·scale, where value is the number in the file, of 16-bit integers
 /// divided by 65535: the two numbers that programs which displace ask for.
-/// Throws: ImageError; std::range_error where half precision has no such number.
+/// Throws: ImageError; std::range_error where the distances are too large or too
+/// small for the floats of the image, or for half.
 std::vector<char> encode_displacement(const Displacement& displacement, ImageDepth depth,
                                       const std::string& grid, const std::string& scheme);
 

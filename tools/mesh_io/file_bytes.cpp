@@ -37,8 +37,7 @@ ReadError over_limit(const std::string& name, std::uint64_t max_bytes) {
 FileBytes::FileBytes(const std::string& path, std::uint64_t max_bytes)
     : name_(path == "-" ? "standard input" : path) {
   const bool standard_input = path == "-";
-  const Descriptor file{standard_input ? STDIN_FILENO : open_to_read(path),
-                        !standard_input};
+  const Descriptor file{standard_input ? STDIN_FILENO : open_to_read(path), !standard_input};
   if (file.number < 0) throw ReadError(name_, std::strerror(errno));
   map_or_read(file.number, max_bytes);
 }

@@ -151,8 +151,8 @@ class Triangulator {
   void cut_polygon(std::span<const int> polygon) {
     const Vector3 normal = newell_normal(local_);
     const int degree = static_cast<int>(polygon.size());
-    const bool flat = normal.squaredNorm() > 0;
-    if (degree > kMaxClippedDegree || !flat || fan_is_good(polygon, normal)) {
+    const bool has_plane = normal.squaredNorm() > 0;
+    if (degree > kMaxClippedDegree || !has_plane || fan_is_good(polygon, normal)) {
       cut_fan(polygon, 0);
     } else {
       clip_ears(polygon, project(local_, normal), edges_, triples_);

@@ -18,7 +18,9 @@ ReadError ReadError::at_byte(const std::string& file, std::uint64_t byte,
   return error;
 }
 
-std::string repeated_corners_advice() { return "; `--repair=duplicates` removes such faces"; }
+std::string repeated_corners_advice() {
+  return "; `sphparam map --repair=duplicates` removes such faces";
+}
 
 std::string quoted(std::string_view text) {
   constexpr std::size_t kShown = 40;

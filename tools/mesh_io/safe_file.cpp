@@ -51,6 +51,26 @@ bool is_stream(const std::string& path) {
   return status && !S_ISREG(status->st_mode) && !S_ISDIR(status->st_mode);
 }
 
+/// What a path names, through links.
+struct Place {
+  fs::path target;
+  std::optional<struct stat> status;  // nothing: it is free
+};
+
+Place writable_place(const std::string& path) {
+  if (path.empty()) throw WriteError("''", "the name of the file is empty");
+  const fs::path target = followed(path);
+  const std::optional<struct stat> status = status_of(target);
+  if (!status) {
+    require_folder(target);
+  } else if (S_ISDIR(status->st_mode)) {
+    throw WriteError(path, "is a directory");
+  } else if (::access(target.c_str(), W_OK) != 0) {
+    throw WriteError(path, std::string("cannot be written: ") + std::strerror(errno));
+  }
+  return {target, status};
+}
+
 /// A temporary with these bytes, or, without any, one to be written.
 std::unique_ptr<TemporaryFile> make_temporary(const std::string& path,
                                               std::optional<std::string_view> bytes) {
@@ -58,14 +78,9 @@ std::unique_ptr<TemporaryFile> make_temporary(const std::string& path,
     return bytes ? std::make_unique<TemporaryFile>(target, *bytes, permissions)
                  : std::make_unique<TemporaryFile>(target, permissions);
   };
-  if (path.empty()) throw WriteError("''", "the name of the file is empty");
-  const fs::path target = followed(path);
-  const std::optional<struct stat> status = status_of(target);
-  if (!status) return make(target, std::nullopt);
-  if (S_ISDIR(status->st_mode)) throw WriteError(path, "is a directory");
-  if (::access(target.c_str(), W_OK) != 0)
-    throw WriteError(path, std::string("cannot be written: ") + std::strerror(errno));
-  return make(target, status->st_mode & 07777);
+  const Place place = writable_place(path);
+  if (!place.status) return make(place.target, std::nullopt);
+  return make(place.target, place.status->st_mode & 07777);
 }
 
 void check_on_disk(const TemporaryFile& file, std::size_t size, const BytesCheck& check) {
@@ -77,6 +92,10 @@ void check_on_disk(const TemporaryFile& file, std::size_t size, const BytesCheck
 }
 
 }  // namespace
+
+void require_writable(const std::string& path) {
+  if (!is_stream(path)) writable_place(path);
+}
 
 PendingFiles::PendingFiles() = default;
 PendingFiles::~PendingFiles() = default;

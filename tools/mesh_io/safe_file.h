@@ -63,6 +63,10 @@ class PendingFiles {
   std::vector<std::unique_ptr<TemporaryFile>> files_;
 };
 
+/// Throws the WriteError that writing to this path would begin with, where that can be told before:
+/// no folder, a folder's name, no permission. Nothing is touched.
+void require_writable(const std::string& path);
+
 /// Writes one file as `PendingFiles` does.
 /// Throws: WriteError; whatever `check` throws.
 void write_file(const std::string& path, std::string bytes, const BytesCheck& check = {});

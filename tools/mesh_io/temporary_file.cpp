@@ -101,10 +101,7 @@ void remove_stale_temporaries(const fs::path& target) {
 
 TemporaryFile::TemporaryFile(fs::path target, std::optional<mode_t> permissions)
     : target_(std::move(target)), path_(target_.string() + ".tmp." + std::to_string(::getpid())) {
-  std::error_code hidden;
-  const fs::path folder = folder_of(target_);
-  if (!fs::is_directory(folder, hidden))
-    throw WriteError(target_.string(), "the folder " + folder.string() + " does not exist");
+  require_folder(target_);
   remove_stale_temporaries(target_);
   watch(path_.c_str());
   try {
@@ -206,6 +203,13 @@ void sync_folder(const fs::path& folder, const std::string& path) {
 
 fs::path folder_of(const fs::path& file) {
   return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+void require_folder(const fs::path& file) {
+  std::error_code hidden;
+  const fs::path folder = folder_of(file);
+  if (!fs::is_directory(folder, hidden))
+    throw WriteError(file.string(), "the folder " + folder.string() + " does not exist");
 }
 
 }  // namespace sphparam::tools

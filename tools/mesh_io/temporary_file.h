@@ -74,4 +74,7 @@ void sync_folder(const std::filesystem::path& folder, const std::string& path);
 /// The folder of a file, "." where none is named.
 std::filesystem::path folder_of(const std::filesystem::path& file);
 
+/// Throws: WriteError when that folder is not there.
+void require_folder(const std::filesystem::path& file);
+
 }  // namespace sphparam::tools

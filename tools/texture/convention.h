@@ -29,7 +29,7 @@ const ConventionInfo& info_of(Convention convention);
 std::optional<Convention> convention_named(std::string_view name);
 
 /// Rows of texels in u = θ/2π, interleaved, with their columns where the convention has them.
-/// Requires: a width that its offset times is whole.
+/// Requires: a width whose product with the offset is whole.
 std::vector<float> in_convention(Convention convention, int width, int channels, int rows,
                                  const float* values);
 
