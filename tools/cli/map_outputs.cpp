@@ -1,0 +1,198 @@
+// All outputs wait under temporary names until what was read back from the disk is certified.
+
+#include "cli/map_outputs.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "cli/chart_report.h"
+#include "cli/exit_codes.h"
+#include "cli/file_numbers.h"
+#include "cli/interruption.h"
+#include "cli/json_report.h"
+#include "cli/paths.h"
+#include "cli/repairing.h"
+#include "image/file_extension.h"
+#include "mesh_io/mesh_reader.h"
+#include "mesh_io/mesh_writer.h"
+#include "mesh_io/read_back.h"
+#include "mesh_io/safe_file.h"
+#include "mesh_io/sphere_file.h"
+#include "report/charts.h"
+#include "sphparam/embedding/float_room.h"
+#include "sphparam/version.h"
+
+namespace sphparam::tools {
+
+namespace {
+
+/// What the map depends on, as options.
+std::string options_line(const MapArguments& arguments) {
+  if (std::holds_alternative<Method>(arguments.method))
+    return tools::options_line(arguments.options);
+  return arguments.options.repair_paper ? "--repair-map" : "none";
+}
+
+std::string words(const std::optional<Poles>& poles, const FileNumbers& numbers) {
+  if (!poles) return "none";
+  return std::to_string(numbers.number(poles->north)) + " " +
+         std::to_string(numbers.number(poles->south));
+}
+
+Provenance provenance(const MapArguments& arguments, const MapOutcome& outcome,
+                      const std::string& verdict) {
+  const FileNumbers numbers(outcome.source.file);
+  Provenance lines = {{"version", version},
+                      {"method", info_of(arguments.method).name},
+                      {"stage", outcome.result.made_by},
+                      {"options", options_line(arguments)},
+                      {"poles", words(outcome.result.poles, numbers)}};
+  if (outcome.account) lines.emplace_back("after", outcome.account->citation);
+  if (outcome.result.meridian) {
+    lines.emplace_back("meridian", std::to_string(numbers.number(*outcome.result.meridian)));
+  }
+  if (!outcome.pins.empty()) lines.emplace_back("pins", std::to_string(outcome.pins.size()));
+  lines.emplace_back("verdict", verdict);
+  return lines;
+}
+
+/// Throws NotCertifiedError unless the bytes of a written map hold what was found in memory.
+void require_verdict(const std::string& expected, const std::string& path,
+                     const Certificate& on_disk) {
+  if (verdict(on_disk) != expected) {
+    throw NotCertifiedError(path + ": as written, the map is " + verdict(on_disk));
+  }
+}
+
+/// A map as a file can hold it, and what is to be said of it there.
+struct Sphere {
+  SphereMap map;
+  std::string verdict;
+  double least_area = 0;  // of triangles, of the mean: what they had to be taken for
+};
+
+/// GIFTI has coordinates of 32 bits. Rounding must not cost a certified map its certificate; one
+/// that is folded anyway may get other folds.
+Sphere sphere_for(const std::string& path, const MapOutcome& outcome,
+                  const ParameterizeOptions& options) {
+  if (extension_of(path) != ".gii") {
+    return {outcome.result.map, outcome.verdict()};
+  }
+  auto [rounding, least_area] = round_with_room(
+      outcome.source.file.mesh, outcome.topology(), outcome.result.map,
+      {.energy = options.energy, .threads = options.threads, .progress = options.progress});
+  const bool held = !outcome.pins.empty() || options.poles || options.meridian;
+  if (least_area > 0 && held) {
+    throw NotCertifiedError(path +
+                            ": numbers of 32 bits cannot hold this map with its pins, poles or "
+                            "meridian; .ply, .obj and .off can");
+  }
+  const bool certified = outcome.certificate.bijective();
+  if (certified && !rounding.certificate.bijective()) {
+    throw NotCertifiedError(path + ": numbers of 32 bits cannot hold this map (" +
+                            verdict(rounding.certificate) + "); .ply, .obj and .off can");
+  }
+  return {std::move(rounding.map), certified ? outcome.verdict() : verdict(rounding.certificate),
+          least_area};
+}
+
+void add_sphere(PendingFiles& files, const MapArguments& arguments, const MapOutcome& outcome,
+                Console& console) {
+  const std::string& path = arguments.sphere;
+  ParameterizeOptions options = arguments.options;
+  options.progress = [&](std::string_view stage, double f) { return console.progress(stage, f); };
+  const Sphere sphere = sphere_for(path, outcome, options);
+  Provenance lines = provenance(arguments, outcome, sphere.verdict);
+  if (sphere.least_area > 0) {
+    std::erase_if(lines, [](const auto& line) {  // they are of the other map
+      return line.first == "poles" || line.first == "meridian";
+    });
+    console.say("  " + path + ": mapped anew for numbers of 32 bits: triangles under " +
+                short_number(sphere.least_area) + " of the mean area count as that large");
+  }
+  std::string bytes =
+      serialiser(path)(sphere_mesh(outcome.source.file, sphere.map, std::move(lines)));
+  files.add(path, std::move(bytes), [&](std::string_view written) {
+    const MeshFile file = read_mesh(written, path, own_map);
+    require_verdict(sphere.verdict, path,
+                    certify_read_back(file, {file.mesh.positions}, outcome.topology(),
+                                      arguments.options.threads));
+  });
+}
+
+void add_charts(PendingFiles& files, const std::string& folder, const std::string& name,
+                const Distortion& distortion) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw WriteError(folder, error.message());
+  for (const ChartFile& chart : write_charts(folder, name, distortion)) {
+    files.add(chart.path, chart.svg);
+  }
+}
+
+/// The charts and the report, which are written for folded maps too.
+void add_reports(PendingFiles& files, const MapArguments& arguments, const MapOutcome& outcome,
+                 Outputs outputs, const Stopwatch& stopwatch) {
+  if (!arguments.charts.empty() && outcome.distortion) {
+    const std::string name =
+        is_stream(arguments.input) ? "map" : std::filesystem::path(arguments.input).stem().string();
+    add_charts(files, arguments.charts, name, *outcome.distortion);
+    outputs.emplace_back("charts", arguments.charts);
+  }
+  if (arguments.json.empty()) return;
+  std::optional<ChartReport> chart;
+  if (outcome.certificate.bijective()) {
+    chart = report_chart(outcome.source.file.mesh, outcome.result.map, arguments.options.threads);
+  }
+  const MapReport report = {
+      .input = {arguments.input, outcome.source},
+      .method = info_of(arguments.method).name,
+      .options = arguments.options,
+      .repairs_wanted = words_of(wanted_repairs(arguments.repair).value_or(RepairOptions::none())),
+      .result = outcome.result,
+      .account = outcome.account,
+      .pins = outcome.pins,
+      .certificate = outcome.certificate,
+      .distortion = outcome.figures,
+      .chart = chart,
+      .outputs = outputs,
+      .seconds = stopwatch.seconds()};
+  files.add(arguments.json, to_json(report));
+}
+
+/// The mesh gets its map where it stands: a copy of all its attributes would be the peak of memory.
+void add_map(PendingFiles& files, const MapArguments& arguments, MapOutcome& outcome) {
+  const std::string& path = arguments.output;
+  const Provenance lines = provenance(arguments, outcome, outcome.verdict());
+  MeshFile& file = outcome.source.file;
+  file = attach_map(std::move(file), outcome.result.map, lines);
+  files.add(path, serialise_ply(file), [&](std::string_view written) {
+    const MeshFile reread = read_mesh(written, path, own_map);
+    require_verdict(outcome.verdict(), path,
+                    certify_read_back(reread, read_sphere(reread).value(), outcome.topology(),
+                                      arguments.options.threads));
+  });
+}
+
+}  // namespace
+
+void write_outputs(const MapArguments& arguments, MapOutcome& outcome, bool with_map,
+                   const Stopwatch& stopwatch, Console& console) {
+  PendingFiles files;
+  Outputs outputs;
+  if (with_map) {
+    add_map(files, arguments, outcome);
+    outputs.emplace_back("map", arguments.output);
+  }
+  if (with_map && !arguments.sphere.empty()) {
+    add_sphere(files, arguments, outcome, console);
+    outputs.emplace_back("sphere", arguments.sphere);
+  }
+  add_reports(files, arguments, outcome, outputs, stopwatch);
+  if (interrupted()) throw Cancelled();
+  files.publish();
+}
+
+}  // namespace sphparam::tools
