@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
-#include <random>
 #include <cmath>
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -109,6 +109,22 @@ TEST_CASE("progressive: shapes that have collapsed into three places are embedde
     const Topology topology(mesh);
     std::mt19937 random(seed);
     const Points places = mesh.positions.topRows(3);
+    for (Vertex v = 0; v < topology.vertex_count(); ++v) {
+      mesh.positions.row(v) = places.row(static_cast<Eigen::Index>(random() % 3));
+    }
+    const ProgressiveEmbedding embedding = embed_progressively(mesh, topology);
+    REQUIRE(embedding.map);
+    CHECK(certify(topology, *embedding.map).bijective());
+  }
+}
+
+TEST_CASE("progressive: where the shape leaves no room, connectivity alone does") {
+  for (const unsigned seed : {2u, 5u}) {  // these have none, whatever the weight of areas
+    TriangleMesh mesh = random_sphere_mesh(1500, seed);
+    const Topology topology(mesh);
+    std::mt19937 random(seed);
+    Points places(3, 3);
+    for (int i = 0; i < 3; ++i) places.row(i) = mesh.positions.row(random() % 1500);
     for (Vertex v = 0; v < topology.vertex_count(); ++v) {
       mesh.positions.row(v) = places.row(static_cast<Eigen::Index>(random() % 3));
     }

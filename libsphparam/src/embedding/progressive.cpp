@@ -291,6 +291,7 @@ ProgressiveEmbedding embed_by_valences(const TriangleMesh& mesh, const Topology&
   shapeless.positions.setZero();
   ProgressiveOptions draft = options;
   draft.quality = Quality::Draft;
+  draft.least_area = 1;  // all are as large as the mean: the source has the sphere's area
   ProgressiveEmbedding embedding = embed_with_room(shapeless, topology, draft, keep);
   if (!embedding.map) return embedding;
   embedding.map = relax(topology, measure_source(mesh, options.threads), *embedding.map,
