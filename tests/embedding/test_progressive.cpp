@@ -133,3 +133,18 @@ TEST_CASE("progressive: where the shape leaves no room, connectivity alone does"
     CHECK(certify(topology, *embedding.map).bijective());
   }
 }
+
+TEST_CASE("progressive: what was found by another energy is brought near the one asked for") {
+  const TriangleMesh mesh = tube(400, 12);  // has no room at λ = 1 until areas weigh more
+  const Topology topology(mesh);
+  const auto energy_of = [&](Quality quality) {
+    const ProgressiveEmbedding embedding =
+        embed_progressively(mesh, topology, {.quality = quality});
+    REQUIRE(embedding.map);
+    CHECK(certify(topology, *embedding.map).bijective());
+    return distortion_energy(topology, measure_source(mesh), *embedding.map, {});
+  };
+  const double best = energy_of(Quality::Best);
+  CHECK(energy_of(Quality::Normal) < 1.1 * best);
+  CHECK(energy_of(Quality::Draft) > 1.3 * best);
+}

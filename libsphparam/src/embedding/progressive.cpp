@@ -48,6 +48,30 @@ size_t at(int i) { return static_cast<size_t>(i); }
 
 using Image = std::vector<ImagePoint>;
 
+SphereMap map_of(const Image& image) {
+  SphereMap map;
+  map.points.resize(static_cast<Eigen::Index>(image.size()), 3);
+  for (size_t v = 0; v < image.size(); ++v) {
+    map.points.row(static_cast<Eigen::Index>(v)) = image[v].vector();
+  }
+  return map;
+}
+
+Image image_of(const SphereMap& map) {
+  Image image(static_cast<size_t>(map.points.rows()));
+  for (size_t v = 0; v < image.size(); ++v) {
+    image[v] = image_point(map.point(static_cast<Vertex>(v)));
+  }
+  return image;
+}
+
+FinishOptions finish_options(const ProgressiveOptions& options) {
+  return {.quality = options.quality,
+          .energy = options.energy,
+          .threads = options.threads,
+          .progress = options.progress};
+}
+
 /// Uses the hierarchy up: a level is given back as soon as the next finer one is done.
 class Embedder {
  public:
@@ -58,10 +82,7 @@ class Embedder {
         hierarchy_(build_hierarchy(mesh, topology, options.threads, keep)),
         options_(options),
         area_floor_(options.least_area * 4 * std::numbers::pi / topology.face_count()),
-        finish_(topology.vertex_count(), {.quality = options.quality,
-                                          .energy = options.energy,
-                                          .threads = options.threads,
-                                          .progress = options.progress}) {
+        finish_(topology.vertex_count(), finish_options(options)) {
     std::vector<Vertex> names;
     for (const Pin& pin : options.pins) names.push_back(pin.vertex);
     while (!names.empty() && std::count(names.begin(), names.end(), -1) == 0) {
@@ -96,15 +117,6 @@ class Embedder {
   }
 
  private:
-  static SphereMap map_of(const Image& image) {
-    SphereMap map;
-    map.points.resize(static_cast<Eigen::Index>(image.size()), 3);
-    for (size_t v = 0; v < image.size(); ++v) {
-      map.points.row(static_cast<Eigen::Index>(v)) = image[v].vector();
-    }
-    return map;
-  }
-
   static Image tetrahedron_image(const HierarchyLevel& level) {
     const double q = 1 / std::sqrt(3.0);
     Image image{{q, q, q, 0}, {-q, -q, q, 0}, {-q, q, -q, 0}, {q, -q, -q, 0}};
@@ -171,9 +183,7 @@ class Embedder {
                          .most_rounds = std::max(fewest_pin_rounds, rounds),
                          .threads = options_.threads,
                          .progress = options_.progress});
-    for (size_t v = 0; v < image_.size(); ++v) {
-      image_[v] = image_point(placement.map.point(static_cast<Vertex>(v)));
-    }
+    std::ranges::copy(image_of(placement.map), image_.begin());  // which keeps its room
     pins_placed_ = true;
     packs_ = pack(l, true, std::move(packs_));
     const int sweeps = sweeps_on(hierarchy_[l].vertex_count());
@@ -262,6 +272,16 @@ class Embedder {
   Finish finish_;
 };
 
+/// Towards the energy asked for, where the map was found by another one.
+void finish_map(const TriangleMesh& mesh, const Topology& topology,
+                const ProgressiveOptions& options, const KeptVertices& keep, SphereMap& map) {
+  if (options.quality == Quality::Draft) return;
+  Image image = image_of(map);
+  Finish(topology.vertex_count(), finish_options(options))
+      .improve(mesh, topology, keep.vertices, image);
+  map = map_of(image);
+}
+
 /// With the λ asked for, or else with greater ones: weighing areas more keeps limbs from shrinking
 /// to where doubles have no room left.
 ProgressiveEmbedding embed_with_room(const TriangleMesh& mesh, const Topology& topology,
@@ -278,6 +298,7 @@ ProgressiveEmbedding embed_with_room(const TriangleMesh& mesh, const Topology& t
     const int retries = embedding.report.retries;
     embedding = embed(roomier);
     embedding.report.retries += retries;
+    if (embedding.map) finish_map(mesh, topology, options, keep, *embedding.map);
   }
   return embedding;
 }
@@ -302,6 +323,7 @@ ProgressiveEmbedding embed_by_valences(const TriangleMesh& mesh, const Topology&
                          .progress = options.progress,
                          .measure_energy = false})
                       .map;
+  finish_map(mesh, topology, options, keep, *embedding.map);
   return embedding;
 }
 
