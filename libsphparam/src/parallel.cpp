@@ -62,7 +62,7 @@ class alignas(64) Range {
   std::atomic<std::uint64_t> ends_{0};
 };
 
-constexpr int most_ranges = 16;
+constexpr int most_ranges = 16;                   // more workers share them
 constexpr std::int64_t most_chunks = 0xffffffff;  // of a loop
 
 using Body = std::function<void(std::int64_t, std::int64_t)>;

@@ -283,7 +283,8 @@ void finish_map(const TriangleMesh& mesh, const Topology& topology,
 }
 
 /// With the λ asked for, or else with greater ones: weighing areas more keeps limbs from shrinking
-/// to where doubles have no room left.
+/// to where doubles have no room left. From such a map the finish goes back towards the λ asked
+/// for.
 ProgressiveEmbedding embed_with_room(const TriangleMesh& mesh, const Topology& topology,
                                      const ProgressiveOptions& options, const KeptVertices& keep) {
   const auto embed = [&](const ProgressiveOptions& how) {
@@ -303,8 +304,8 @@ ProgressiveEmbedding embed_with_room(const TriangleMesh& mesh, const Topology& t
   return embedding;
 }
 
-/// As if all triangles were equilateral, then relaxed for the shape they have. No shape is too hard
-/// for that, but what relaxation does not reach stays distorted.
+/// As if all triangles were equilateral, then relaxed and finished for the shape they have. No
+/// shape is too hard for that, but what neither reaches stays distorted.
 ProgressiveEmbedding embed_by_valences(const TriangleMesh& mesh, const Topology& topology,
                                        const ProgressiveOptions& options,
                                        const KeptVertices& keep) {

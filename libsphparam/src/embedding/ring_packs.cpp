@@ -72,8 +72,8 @@ struct Order {
   std::vector<int> colour_start;
 };
 
-/// The longest rings share a place in the order by valence. They are sorted, run by run, so
-/// that packs are not padded far.
+/// The longest rings share a place in the order by valence. They are sorted, run by run, so that
+/// packs are not padded far.
 void sort_long_rings(const Rings& rings, Order& order) {
   const auto is_long = [&](Vertex v) { return at(rings.valence(v)) >= valences - 1; };
   for (size_t c = 0; c + 1 < order.colour_start.size(); ++c) {
