@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <set>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "sample_meshes.h"
 #include "sphparam/mesh/edge_weights.h"
 #include "sphparam/mesh/topology.h"
+#include "support/places.h"
 
 namespace sphparam::bench {
 namespace {
@@ -70,8 +70,7 @@ TriangleMesh yardstick_mesh(const std::string& folder) {
 }
 
 std::string meshes_folder() {
-  const char* folder = std::getenv("SPHPARAM_MESHES");
-  return std::string(folder ? folder : SPHPARAM_DEFAULT_MESHES) + "/genus0/";
+  return (tests::meshes_folder() / "genus0" / "").string();
 }
 
 std::vector<std::filesystem::path> mesh_files(const std::string& folder) {

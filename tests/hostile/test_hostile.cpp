@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "support/places.h"
 #include "support/process.h"
 
 // Files that are wrong, and what the program says of them: see make_files.py. The program runs as
@@ -27,7 +28,7 @@ constexpr std::uint64_t kMemory = 512u << 20;
 #endif
 constexpr int kOk = 0;
 
-const fs::path folder = fs::path(SPHPARAM_SOURCE_DIR) / "tests/hostile";
+const fs::path folder = source_folder() / "tests/hostile";
 
 struct HostileFile {
   std::string name;

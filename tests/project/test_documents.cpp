@@ -6,13 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "support/places.h"
+
 // What the documents say of the tree, held against the tree.
 
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path root = SPHPARAM_SOURCE_DIR;
+const fs::path root = sphparam::tests::source_folder();
 
 std::string text_of(const std::string& name) {
   std::ifstream in(root / name);

@@ -7,13 +7,15 @@
 #include <string>
 #include <vector>
 
+#include "support/places.h"
+
 // The floors of ARCHITECTURE.md, read off the #include lines.
 
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path root = SPHPARAM_SOURCE_DIR;
+const fs::path root = sphparam::tests::source_folder();
 
 struct Include {
   fs::path file;  // relative to the root

@@ -14,6 +14,7 @@
 #include "sample_meshes.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/mesh/topology.h"
+#include "support/places.h"
 
 using namespace sphparam;
 using namespace sphparam::samples;
@@ -171,7 +172,7 @@ TEST_CASE("samples: the body's texture agrees with its vertex colours") {
 }
 
 TEST_CASE("samples: the texture in textures/ is the one that the program makes") {
-  const auto path = std::filesystem::path(SPHPARAM_SOURCE_DIR) / "textures" / "body.png";
+  const auto path = tests::source_folder() / "textures" / "body.png";
   const tools::Image stored = tools::read_image(path.string());
   const tools::Image made = make_body_texture();
   REQUIRE(stored.width == made.width);

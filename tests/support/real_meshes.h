@@ -1,21 +1,20 @@
 #pragma once
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "support/places.h"
+
 /// Meshes of others, for tests that want them: in SPHPARAM_MESHES, or beside the project.
 namespace sphparam::tests {
 
 /// Their folder "genus0" or "bad"; nothing, said so, where it is not there.
 inline std::filesystem::path real_mesh_folder(const std::string& name) {
-  const char* const given = std::getenv("SPHPARAM_MESHES");
-  const std::filesystem::path folder =
-      std::filesystem::path(given ? given : SPHPARAM_DEFAULT_MESHES) / name;
+  const std::filesystem::path folder = meshes_folder() / name;
   if (std::filesystem::is_directory(folder)) return folder;
   std::cout << "skipped: no folder " << folder << " (set SPHPARAM_MESHES)\n";
   return {};
