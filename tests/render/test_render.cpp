@@ -1,7 +1,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
+#include "render/drawing_size.h"
 #include "render/figure.h"
 #include "render/render.h"
 #include "render/vertex_normals.h"
@@ -159,6 +161,21 @@ TEST_CASE("render: the same pixels for 1, 2 and 4 threads") {
   CHECK((one.pixels == render(scene, 4).pixels));
 }
 
+TEST_CASE(
+    "render: texture coordinates that are no numbers, or beyond all, take no other's memory") {
+  RenderScene scene = ball_scene(40);
+  CornerTexcoords texcoords =
+      CornerTexcoords::Constant(3 * scene.objects[0].mesh.face_count(), 2, 0.5);
+  texcoords.topRows(600).setConstant(std::nan(""));
+  texcoords.middleRows(600, 600).setConstant(std::numeric_limits<double>::infinity());
+  texcoords.middleRows(1200, 600).setConstant(-1e300);
+  scene.objects[0].paint = TexturePaint{texcoords, Image(2, 2, 3)};
+  for (const float value : render(scene).pixels) {
+    CHECK(value >= 0);
+    CHECK(value <= 1);
+  }
+}
+
 TEST_CASE("render: degenerate triangles and points behind the eye are passed over") {
   RenderScene scene = ball_scene(40);
   scene.objects[0].mesh.positions.row(3) = scene.objects[0].mesh.positions.row(4).eval();
@@ -189,6 +206,55 @@ TEST_CASE("sky_visibility: a convex shape sees all of its sky, a pit only a part
   mesh.positions.rowwise().normalized().eval().col(2).maxCoeff(&north);
   CHECK(light[north] < 0.8F);
   CHECK(light[south] > 0.97F);
+}
+
+TEST_CASE("vertex_normals, sky_visibility: the same at every size that doubles have") {
+  const TriangleMesh ball = tests::icosphere(2);
+  const Points normals = vertex_normals(ball);
+  const Eigen::VectorXf light = sky_visibility(ball, normals, 32);
+  for (const int exponent : {-1000, -500, 500, 1000, 1023}) {
+    INFO("2^" << exponent);
+    TriangleMesh sized = ball;
+    for (double& x : sized.positions.reshaped()) x = std::ldexp(x, exponent);
+    CHECK(vertex_normals(sized) == normals);
+    CHECK(sky_visibility(sized, normals, 32) == light);
+  }
+}
+
+TEST_CASE(
+    "vertex_normals, sky_visibility: unit normals and shares of light for any finite points") {
+  const TriangleMesh ball = tests::icosphere(1);
+  for (const double far : {1.0, 1e160, -1.7e308}) {
+    TriangleMesh hurt = ball;
+    hurt.positions.topRows(12).rowwise() = Vector3(1, 2, 3).transpose();
+    hurt.positions.row(20) = Vector3(far, 1, -far);
+    TriangleMesh point = ball;
+    point.positions.rowwise() = Vector3(far, 2, 3).transpose();
+    for (const TriangleMesh& mesh : {hurt, point}) {
+      const Points normals = vertex_normals(mesh);
+      CHECK((normals.rowwise().norm().array() - 1).abs().maxCoeff() < 1e-12);
+      const Eigen::VectorXf light = sky_visibility(mesh, normals, 32);
+      CHECK(light.minCoeff() >= 0);
+      CHECK(light.maxCoeff() <= 1);
+    }
+    CHECK(sky_visibility(point, vertex_normals(point), 32).minCoeff() == 1);
+  }
+}
+
+TEST_CASE(
+    "at_drawing_size: ordinary meshes stay, others come to about unit size about the origin") {
+  const TriangleMesh ball = tests::icosphere(1);
+  CHECK(at_drawing_size(ball).positions == ball.positions);
+  for (const double size : {1.7e308, 1e160, 1e-160, 1e-310}) {
+    TriangleMesh sized = ball;
+    sized.positions *= size;
+    const Points drawn = at_drawing_size(sized).positions;
+    CHECK(drawn.cwiseAbs().maxCoeff() <= 2);
+    CHECK(drawn.cwiseAbs().maxCoeff() >= 1e-6);
+  }
+  TriangleMesh point = ball;
+  point.positions.setConstant(1e300);
+  CHECK(at_drawing_size(point).positions == Points::Zero(ball.vertex_count(), 3));
 }
 
 TEST_CASE("colour: linear light and back is the identity, the maps have their ends and middle") {

@@ -22,6 +22,7 @@
 #include "mesh_io/mesh_reader.h"
 #include "mesh_io/safe_file.h"
 #include "mesh_io/sphere_file.h"
+#include "render/drawing_size.h"
 #include "render/figure.h"
 #include "render/geodesic.h"
 #include "render/heat.h"
@@ -234,6 +235,7 @@ int run_render(const RenderArguments& arguments) {
     throw ReadError(display_name(arguments.input), "there are no triangles to draw");
   }
   subject.map = read_sphere(subject.file);
+  subject.file.mesh = at_drawing_size(std::move(subject.file.mesh));
   const std::vector<char> png = encode_image(picture(subject, arguments), ImageFormat::Png);
   write_file(arguments.output, {png.data(), png.size()});
   console.say(display_name(arguments.input) + " → " + output_name(arguments.output));

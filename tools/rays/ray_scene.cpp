@@ -103,13 +103,14 @@ Frame frame_of(const TriangleMesh& mesh) {
     lower = lower.cwiseMin(corner);
     upper = upper.cwiseMax(corner);
   }
-  const Vector3 size = upper - lower;
-  const double half = size.maxCoeff() / 2;
-  if (!size.allFinite()) throw std::invalid_argument("RayScene: too large");
+  // Halves first: the difference of two large numbers may be none.
+  const Vector3 halves = upper / 2 - lower / 2;
+  const double half = halves.maxCoeff();
   int exponent = 0;
   std::frexp(half, &exponent);
-  // A mesh that is a point, or as good as one, is not blown up.
-  return {lower + size / 2, half > 1e-150 ? std::ldexp(1.0, -exponent) : 1.0, size.stableNorm()};
+  constexpr int greatest = 1000;  // 2¹⁰²⁴ is infinite, and numbers below the normal ask for more
+  return {lower + halves, half > 0 ? std::ldexp(1.0, std::min(greatest, -exponent)) : 1.0,
+          2 * halves.stableNorm()};
 }
 
 template <class Ray>
@@ -234,9 +235,8 @@ class Search {
  public:
   Search(const TriangleMesh& mesh, const Frame& frame, const Vector3& point)
       : mesh_(mesh), frame_(frame), point_(point), centre_(frame.local(point)) {
-    const double distance = centre_.norm();
-    if (distance <= far_away) return;
-    centre_ *= far_away / distance;
+    if (centre_.squaredNorm() <= far_away * far_away) return;
+    centre_ = far_away * (point - frame.centre).stableNormalized();
     widening_ = squared_reach_of_cube;
   }
 

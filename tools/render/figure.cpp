@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/drawing_size.h"
 #include "render/geodesic.h"
 #include "render/heat.h"
 #include "sphparam/sphere/distortion.h"
@@ -144,7 +145,7 @@ Image in_a_row(const std::vector<Image>& images) {
 Image map_figure(const MeshFile& file, const SphereMap& map, const FigureOptions& options,
                  int threads) {
   RenderObject object = {
-      .mesh = file.mesh,
+      .mesh = at_drawing_size(file.mesh),
       .paint = options.paint ? *options.paint : choose_paint(file, map, options, threads)};
   if (options.graticule) object.graticule = Graticule{.rays = map.points};
   if (options.wireframe) object.wireframe = Wireframe{};
@@ -156,7 +157,7 @@ Image map_figure(const MeshFile& file, const SphereMap& map, const FigureOptions
   }
   if (options.with_sphere) {
     const RenderObject sphere = on_sphere(object, map.points);
-    const SphereView side = corresponding_view(file.mesh, map, options);
+    const SphereView side = corresponding_view(object.mesh, map, options);
     scenes.push_back(scene_of(sphere, side.direction, side.up, options));
     fit_camera_to_sphere(scenes.back());
     if (options.both_sides) {

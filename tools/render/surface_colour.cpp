@@ -59,8 +59,9 @@ GridPoint grid_point(const Points& rays, const Triangles& triangles, const Shade
            degrees * std::hypot(right.phi - here.phi, below.phi - here.phi) + least}};
 }
 
-/// Bilinear, repeated in both directions; v points up.
+/// Bilinear, repeated in both directions; v points up. Black where coordinates are no numbers.
 Rgb texel(const Image& image, const Eigen::Vector2d& uv) {
+  if (!uv.allFinite()) return Rgb::Zero();
   const double x = (uv.x() - std::floor(uv.x())) * image.width - 0.5;
   const double y = (1 - (uv.y() - std::floor(uv.y()))) * image.height - 0.5;
   const auto at = [&](double px, double py) {

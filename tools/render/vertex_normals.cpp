@@ -1,10 +1,13 @@
 #include "render/vertex_normals.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <vector>
 
+#include "render/drawing_size.h"
 #include "render/raster.h"
 #include "sphparam/parallel.h"
 
@@ -36,7 +39,8 @@ class SkyView {
   /// Share of the four cells about a point in which nothing is nearer to the sky than it.
   float visible(const Vector3& point) const {
     const Vector3 p = axes_ * point + offset_;
-    const int x = static_cast<int>(p.x() - 0.5), y = static_cast<int>(p.y() - 0.5);
+    if (!p.allFinite()) return 1;
+    const int x = cell_of(p.x()), y = cell_of(p.y());
     float seen = 0;
     for (const auto& [i, j] : {std::pair{x, y}, {x + 1, y}, {x, y + 1}, {x + 1, y + 1}}) {
       seen += p.z() >= depth_[static_cast<size_t>(j * kResolution + i)] ? 0.25F : 0;
@@ -58,6 +62,11 @@ class SkyView {
                     });
   }
 
+  /// The first of two neighbouring cells, both of the buffer.
+  static int cell_of(double place) {
+    return static_cast<int>(std::clamp(place - 0.5, 0.0, kResolution - 2.0));
+  }
+
   Eigen::Matrix3d axes_;
   Vector3 offset_;
   std::vector<float> depth_;
@@ -69,14 +78,27 @@ Vector3 sky_direction(int i, int count) {
   return {r * std::cos(angle), r * std::sin(angle), z};
 }
 
+/// A power of two that keeps sums of products of two edges finite, and those of tiny meshes above
+/// 0; 1 for meshes that need none.
+double harmless_scale(const TriangleMesh& mesh) {
+  constexpr int greatest = 480, least = -400;  // powers of two
+  const double largest = mesh.positions.size() > 0 ? mesh.positions.cwiseAbs().maxCoeff() : 0;
+  if (!(largest > 0)) return 1;
+  const int size = std::ilogb(largest);
+  if (size > greatest) return std::ldexp(1.0, greatest - size);
+  return size < least ? std::ldexp(1.0, std::min(1023, -size)) : 1;
+}
+
 }  // namespace
 
 Points vertex_normals(const TriangleMesh& mesh) {
   Points normals = Points::Zero(mesh.vertex_count(), 3);
+  const double scale = harmless_scale(mesh);
   for (Eigen::Index f = 0; f < mesh.face_count(); ++f) {
-    const Vector3 a = mesh.position(mesh.triangles(f, 0));
-    const Vector3 n =
-        (mesh.position(mesh.triangles(f, 1)) - a).cross(mesh.position(mesh.triangles(f, 2)) - a);
+    const auto corner = [&](int k) -> Vector3 {
+      return scale * mesh.position(mesh.triangles(f, k));
+    };
+    const Vector3 a = corner(0), n = (corner(1) - a).cross(corner(2) - a);
     for (int k = 0; k < 3; ++k) normals.row(mesh.triangles(f, k)) += n;
   }
   constexpr std::int64_t chunk_size = 8192;
@@ -93,13 +115,15 @@ Points vertex_normals(const TriangleMesh& mesh) {
   return normals;
 }
 
-Eigen::VectorXf sky_visibility(const TriangleMesh& mesh, const Points& normals, int directions,
+Eigen::VectorXf sky_visibility(const TriangleMesh& given, const Points& normals, int directions,
                                int threads) {
+  const TriangleMesh mesh = at_drawing_size(given);
   const Vector3 low = mesh.positions.colwise().minCoeff(),
                 high = mesh.positions.colwise().maxCoeff();
   const Vector3 centre = (low + high) / 2;
   const double radius = (high - low).norm() / 2;
   const Eigen::Index vertices = mesh.vertex_count();
+  if (!(radius > 0)) return Eigen::VectorXf::Ones(vertices);  // all in one point
   const auto chunks = (directions + kDirectionsPerChunk - 1) / kDirectionsPerChunk;
   std::vector<Eigen::VectorXf> seen(static_cast<size_t>(chunks), Eigen::VectorXf::Zero(vertices));
   std::vector<Eigen::VectorXf> total = seen;

@@ -6,6 +6,7 @@
 #include "compare/pictures.h"
 #include "gltf/chart_surface.h"
 #include "gltf/gltf_writer.h"
+#include "render/drawing_size.h"
 #include "sphparam/embedding/landmarks.h"
 
 // A map is free to turn its sphere; for the eye it is turned back, so that head stays head and the
@@ -35,7 +36,7 @@ Shape turned_like(const Shape& mesh, const Vector3& middle, Shape sphere) {
 std::string showcase_model(const std::string& name, const MeshFile& file,
                            const SphericalChart& chart, const Points& normals,
                            const std::vector<PaintedSurface>& surfaces, Up up, int threads) {
-  const Shape mesh = mesh_shape(chart, file.mesh, normals, up, threads);
+  const Shape mesh = mesh_shape(chart, at_drawing_size(file.mesh), normals, up, threads);
   const Vector3 middle = middle_of(mesh);
   const double radius = std::sqrt(area_of(mesh, chart) / (4 * std::numbers::pi));
   const Shape sphere =

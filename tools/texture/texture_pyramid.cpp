@@ -101,7 +101,8 @@ double near_zero(double x, TextureWrap wrap) {
   return x;
 }
 
-double bounded(double x) { return std::clamp(x, -1e9, 1e9); }
+/// What is no number, as coordinates of files may be, is 0.
+double bounded(double x) { return std::isnan(x) ? 0 : std::clamp(x, -1e9, 1e9); }
 
 class Sampler {
  public:
