@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "image/image_codec.h"
+#include "image/program_path.h"
 
 // A program linked to OpenImageIO takes 0.19 s and 262 shared objects to start. So the codecs live
 // in a module that is opened when the first image is touched, and is found beside the program
@@ -19,12 +20,12 @@ namespace {
 constexpr char kModuleName[] = "sphparam_image_oiio.so";
 
 std::filesystem::path find_module() {
-  std::error_code error;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (error) throw ImageError("cannot tell where this program is: " + error.message());
+  const std::filesystem::path program = program_path();
+  if (program.empty()) throw ImageError("cannot tell where this program is: is /proc mounted?");
   const std::filesystem::path folder = program.parent_path();
   const std::array<std::filesystem::path, 2> candidates{
       folder / kModuleName, folder.parent_path() / "lib" / "sphparam" / kModuleName};
+  std::error_code error;
   for (const auto& candidate : candidates) {
     if (std::filesystem::exists(candidate, error)) return candidate;
   }

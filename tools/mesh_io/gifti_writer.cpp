@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <new>
@@ -19,7 +20,7 @@ extern "C" {  // which the header forgets
 #include <gifti/gifti_io.h>
 }
 
-// libgiftiio writes files by name, so it gets the name of a file in memory. Its state is global:
+// libgiftiio writes files by name, so it gets the name of one in memory. Its state is global:
 // one caller at a time. It owns what is hung into its image, so all of it comes from malloc.
 
 namespace sphparam::tools {
@@ -30,12 +31,31 @@ struct FreeImage {
 };
 using Image = std::unique_ptr<gifti_image, FreeImage>;
 
-struct MemoryFile {
-  int descriptor = ::memfd_create("gifti", MFD_CLOEXEC);
-  ~MemoryFile() {
-    if (descriptor >= 0) ::close(descriptor);
+/// A file that has a name in /proc only; where nobody mounted that, a temporary one.
+class ScratchFile {
+ public:
+  ScratchFile() : descriptor_(::memfd_create("gifti", MFD_CLOEXEC)) {
+    path_ = "/proc/self/fd/" + std::to_string(descriptor_);
+    if (descriptor_ < 0 || ::access(path_.c_str(), W_OK) == 0) return;
+    ::close(descriptor_);
+    path_ = std::filesystem::temp_directory_path() / "sphparam-gifti-XXXXXX";
+    descriptor_ = ::mkostemp(path_.data(), O_CLOEXEC);
+    temporary_ = descriptor_ >= 0;
   }
-  std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor); }
+  ~ScratchFile() {
+    if (temporary_) ::unlink(path_.c_str());
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  ScratchFile(const ScratchFile&) = delete;
+  ScratchFile& operator=(const ScratchFile&) = delete;
+
+  bool is_there() const { return descriptor_ >= 0; }
+  const std::string& path() const { return path_; }
+
+ private:
+  int descriptor_;
+  std::string path_;
+  bool temporary_ = false;
 };
 
 /// Text that XML can hold: other bytes become question marks, and CDATA does not end early.
@@ -113,10 +133,10 @@ std::string serialise_gifti(const MeshFile& file, const GiftiOptions& options) {
   gifti_set_verb(0);
   gifti_set_update_ok(0);  // leave our metadata alone
   const Image image = build_image(file, options);
-  const MemoryFile memory;
-  if (memory.descriptor < 0 || gifti_write_image(image.get(), memory.path().c_str(), 1) != 0)
+  const ScratchFile scratch;
+  if (!scratch.is_there() || gifti_write_image(image.get(), scratch.path().c_str(), 1) != 0)
     throw WriteError("a GIFTI file", "libgiftiio could not make it in memory");
-  return std::string(FileBytes(memory.path(), ~std::uint64_t{0}).view());
+  return std::string(FileBytes(scratch.path(), ~std::uint64_t{0}).view());
 }
 
 }  // namespace sphparam::tools

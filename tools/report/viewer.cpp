@@ -3,10 +3,10 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <system_error>
 
 #include "gltf/gltf_writer.h"
 #include "gltf/uri.h"
+#include "image/program_path.h"
 #include "report/svg.h"
 #include "report/viewer_controls.h"
 
@@ -82,13 +82,14 @@ std::string controls_markup(const std::vector<ViewedSurface>& surfaces) {
 }  // namespace
 
 std::string viewer_folder() {
-  std::error_code error;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  const std::filesystem::path program = program_path();
+  if (program.empty()) return {};
   return program.parent_path().parent_path() / "share" / "sphparam" / "model-viewer";
 }
 
 std::optional<ViewerScript> installed_viewer() {
   const std::filesystem::path folder = viewer_folder();
+  if (folder.empty()) return std::nullopt;
   ViewerScript script{bytes_of(folder / "model-viewer-umd.min.js"), bytes_of(folder / "LICENSE")};
   if (script.code.empty() || script.licence.empty()) return std::nullopt;
   return script;

@@ -17,6 +17,7 @@ struct ViewerScript {
 };
 
 /// Where it belongs: ../share/sphparam as seen from the program, so that it moves with it.
+/// Empty where nobody can tell where the program is.
 std::string viewer_folder();
 
 /// Nothing where it is not there.
