@@ -12,7 +12,8 @@
 
 // A program linked to OpenImageIO takes 0.19 s and 262 shared objects to start. So the codecs live
 // in a module that is opened when the first image is touched, and is found beside the program
-// (build tree) or in ../lib/sphparam (installed): both move with it.
+// (build tree), in ../lib/sphparam (installed) or below ../lib by architecture (Debian packages):
+// it moves with the program.
 
 namespace sphparam::tools {
 namespace {
@@ -23,15 +24,17 @@ std::filesystem::path find_module() {
   const std::filesystem::path program = program_path();
   if (program.empty()) throw ImageError("cannot tell where this program is: is /proc mounted?");
   const std::filesystem::path folder = program.parent_path();
-  const std::array<std::filesystem::path, 2> candidates{
-      folder / kModuleName, folder.parent_path() / "lib" / "sphparam" / kModuleName};
+  const std::filesystem::path prefix = folder.parent_path();
+  const std::array<std::filesystem::path, 3> candidates{
+      folder / kModuleName, prefix / "lib" / "sphparam" / kModuleName,
+      prefix / SPHPARAM_MODULE_OF_PACKAGES / kModuleName};
   std::error_code error;
   for (const auto& candidate : candidates) {
     if (std::filesystem::exists(candidate, error)) return candidate;
   }
-  throw ImageError(std::string("the image module ") + kModuleName + " is neither in " +
-                   candidates[0].parent_path().string() + " nor in " +
-                   candidates[1].parent_path().string());
+  std::string folders;
+  for (const auto& candidate : candidates) folders += "\n  " + candidate.parent_path().string();
+  throw ImageError(std::string("the image module ") + kModuleName + " is in none of" + folders);
 }
 
 const SphparamImageTable& open_module() {
