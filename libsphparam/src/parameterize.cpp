@@ -7,9 +7,9 @@
 #include "embedding/freed_memory.h"
 #include "pipeline/balanced_embedding.h"
 #include "pipeline/frame.h"
-#include "pipeline/given_vertices.h"
 #include "pipeline/map_in_progress.h"
 #include "pipeline/repair_ladder.h"
+#include "pipeline/required_options.h"
 #include "sphparam/curvilinear/paper_map.h"
 #include "sphparam/curvilinear/sound_map.h"
 #include "sphparam/embedding/relaxation.h"
@@ -120,7 +120,6 @@ void map_by_method(MapInProgress& work) {
 
 Parameterization run(const TriangleMesh& mesh, const Topology& topology,
                      const ParameterizeOptions& options) {
-  require_given_vertices(topology, options);
   MapInProgress work(mesh, topology, options);
   map_by_method(work);
   if (options.repair && (options.method != Method::Paper || options.repair_paper)) repair(work);
@@ -130,7 +129,6 @@ Parameterization run(const TriangleMesh& mesh, const Topology& topology,
 
 Parameterization run_from(const SphereMap& map, const TriangleMesh& mesh, const Topology& topology,
                           const ParameterizeOptions& options) {
-  require_given_vertices(topology, options);
   MapInProgress work(mesh, topology, options);
   work.accept("given map", map);
   repair(work);
@@ -141,6 +139,8 @@ Parameterization run_from(const SphereMap& map, const TriangleMesh& mesh, const 
 }  // namespace
 
 Parameterization parameterize(const TriangleMesh& mesh, const ParameterizeOptions& options) {
+  require_domain(mesh, options);
+  report(options.progress, "topology", 0);
   Parameterization result = run(mesh, require_sphere(mesh), options);
   give_back_freed_memory();  // before the caller writes the map
   return result;
@@ -148,6 +148,7 @@ Parameterization parameterize(const TriangleMesh& mesh, const ParameterizeOption
 
 Parameterization parameterize(const TriangleMesh& mesh, const Topology& topology,
                               const ParameterizeOptions& options) {
+  require_domain(mesh, options);
   require_sphere(mesh, topology);
   Parameterization result = run(mesh, topology, options);
   give_back_freed_memory();
@@ -159,6 +160,7 @@ Parameterization repair_map(const TriangleMesh& mesh, const SphereMap& map,
   if (map.points.rows() != mesh.vertex_count() || !map.points.allFinite()) {
     throw std::invalid_argument("repair_map: one finite ray a vertex is needed");
   }
+  require_domain(mesh, options);
   return run_from(map, mesh, require_sphere(mesh), options);
 }
 

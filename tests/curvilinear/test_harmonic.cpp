@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+#include <type_traits>
 
 #include "curvilinear/cut_sphere.h"
 #include "sphparam/curvilinear/harmonic.h"
@@ -10,6 +11,15 @@ using namespace sphparam::tests;
 using Catch::Detail::Approx;
 
 namespace {
+
+// A solver keeps references to topology and cut mesh.
+template <class Mesh, class Cut>
+constexpr bool solver_takes =
+    std::is_constructible_v<HarmonicSolver, Mesh, Cut, ChartBoundary, bool>;
+static_assert(solver_takes<const Topology&, CutMesh&>);
+static_assert(!solver_takes<Topology, CutMesh&>);
+static_assert(!solver_takes<Topology&, CutMesh>);
+static_assert(!solver_takes<Topology, CutMesh>);
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kEpsilon = 0.02;

@@ -55,6 +55,25 @@ TEST_CASE("place_poles_on_axis: exact poles near the axis, certified, at next to
   }
 }
 
+TEST_CASE("place_poles: the poles of a map can change places, though one is at -z exactly") {
+  const Embedded e(tube(12, 8));
+  const auto placed = place_poles_on_axis(e.topology, e.source, e.map, {0, 0, 1});
+  REQUIRE(placed);
+  for (const bool turned : {false, true}) {
+    const Vertex north = turned ? placed->south : placed->north,
+                 south = turned ? placed->north : placed->south;
+    const auto again = place_poles(e.topology, e.source, placed->map, north, south, {.sweeps = 0});
+    REQUIRE(again);
+    CHECK(again->map.point(north) == up);
+    CHECK(again->map.point(south) == down);
+    // A rotation by no angle, or by half a turn about x, is exact.
+    for (Vertex v = 0; v < e.topology.vertex_count(); ++v) {
+      const Vector3 x = placed->map.point(v), y = again->map.point(v);
+      REQUIRE((y - (turned ? Vector3(x.x(), -x.y(), -x.z()) : x)).norm() < 1e-15);
+    }
+  }
+}
+
 TEST_CASE("nearest_vertices: as a search through all finds them, ties by index") {
   const SphereMap map{icosphere(3).positions};
   const Vector3 direction(0.3, -0.2, 0.5);

@@ -101,6 +101,36 @@ TEST_CASE("curvature: coinciding vertices and flat faces give finite values") {
   CHECK(curvature_of(mesh, 0.3).gauss.allFinite());
 }
 
+TEST_CASE("curvature: of a mesh 2^k times as large, 1/2^k times as large to the last bit") {
+  const TriangleMesh mesh = random_sphere_mesh(200, 5);
+  const Curvature one = curvature_of(mesh, 0.25);
+  for (const int k : {-520, -300, 300, 480}) {  // squares vanish, or overflow
+    TriangleMesh scaled = mesh;
+    scaled.positions = mesh.positions * std::ldexp(1.0, k);
+    const Curvature c = curvature_of(scaled, std::ldexp(0.25, k));
+    CHECK(c.mean == one.mean * std::ldexp(1.0, -k));
+    CHECK((k < 0 || c.gauss == one.gauss * std::ldexp(1.0, -2 * k)));
+    CHECK(c.gauss.allFinite());
+    CHECK(c.area.allFinite());
+    CHECK(equal_area_radius(scaled) == equal_area_radius(mesh) * std::ldexp(1.0, k));
+  }
+}
+
+TEST_CASE("curvature: one vertex far away leaves finite values, at every scale") {
+  for (const double far : {1e100, 1e160, 1e300}) {
+    TriangleMesh mesh = icosphere(2);
+    mesh.positions.row(17) *= far;
+    const double radius = equal_area_radius(mesh);
+    CHECK(std::isfinite(radius));
+    for (const double scale : {0.0, 0.01, 1.0}) {
+      const Curvature c = curvature_of(mesh, scale * radius);
+      CHECK(c.mean.allFinite());
+      CHECK(c.gauss.allFinite());
+      CHECK(c.area.allFinite());
+    }
+  }
+}
+
 TEST_CASE("curvature: the same bits for any number of threads") {
   const TriangleMesh mesh = icosphere(5);
   const Curvature one = curvature_of(mesh, 0.1, 1), many = curvature_of(mesh, 0.1, 3);

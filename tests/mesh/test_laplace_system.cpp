@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <random>
+#include <type_traits>
 
 #include "sphparam/errors.h"
 #include "sphparam/mesh/laplace_system.h"
@@ -10,6 +11,10 @@ using namespace sphparam::tests;
 using Catch::Detail::Approx;
 
 namespace {
+
+// A system keeps a reference to its topology.
+static_assert(!std::is_constructible_v<LaplaceSystem, Topology, std::vector<VertexRole>, bool>);
+static_assert(std::is_constructible_v<LaplaceSystem, Topology&, std::vector<VertexRole>, bool>);
 
 /// Random positive weights; equal for twins where `symmetric`.
 std::vector<double> random_weights(const Topology& topology, bool symmetric, unsigned seed) {

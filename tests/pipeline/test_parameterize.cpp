@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <string>
@@ -188,12 +189,41 @@ TEST_CASE("parameterize: bad meshes and bad poles are refused before any arithme
   TriangleMesh open = octahedron();
   open.triangles.conservativeResize(7, 3);
   CHECK_THROWS_AS(parameterize(open), MeshError);
-  CHECK_THROWS_AS(parameterize(octahedron(), {.poles = Poles{0, 6}}), MeshError);
+  CHECK_THROWS_WITH(parameterize(octahedron(), {.poles = Poles{0, 6}}),
+                    "poles.south is 6: it must be a vertex, from 0 to 5");
 }
 
 TEST_CASE("parameterize: a cancelled run throws") {
   const ParameterizeOptions options{.progress = [](std::string_view, double) { return false; }};
   CHECK_THROWS_AS(parameterize(icosphere(2), options), Cancelled);
+}
+
+TEST_CASE("parameterize: the callback is asked in every stage, by one call at a time, and obeyed") {
+  const TriangleMesh mesh = tube(40, 10);  // with limbs: Newton steps too
+  std::atomic<int> inside{0};
+  bool ended = false;
+  std::vector<std::string> stages;
+  const auto ask = [&](std::string_view stage) {
+    CHECK(++inside == 1);
+    CHECK_FALSE(ended);
+    stages.emplace_back(stage);
+    --inside;
+  };
+  parameterize(mesh, {.quality = Quality::Best, .progress = [&](std::string_view stage, double) {
+                        ask(stage);
+                        return true;
+                      }});
+  ended = true;
+  for (const char* stage : {"hierarchy", "embedding", "certificate", "poles"}) {
+    CHECK(std::ranges::count(stages, stage) > 0);
+  }
+  // Every single one of the questions may be answered with no.
+  for (size_t asked = 0; asked < stages.size(); asked += 1 + asked / 8) {
+    size_t left = asked;
+    const auto progress = [&](std::string_view, double) { return left-- > 0; };
+    CHECK_THROWS_AS(parameterize(mesh, {.quality = Quality::Best, .progress = progress}),
+                    Cancelled);
+  }
 }
 
 TEST_CASE("parameterize: every triangulation of the sphere with up to 10 vertices is certified") {

@@ -129,3 +129,23 @@ TEST_CASE("floors: public headers of the library need Eigen and nothing else") {
     CHECK((standard || starts_with(target, "sphparam/") || starts_with(target, "Eigen/")));
   }
 }
+
+TEST_CASE("floors: sines and logarithms are our own, for the C library's depend on the processor") {
+  const std::regex foreign(
+      "(std|Eigen::numext)::(a?(sin|cos|tan)h?|atan2|exp2?|expm1|log(2|10|1p|b)?|pow|cbrt|hypot|"
+      "[lt]gamma|erfc?|polar|arg)\\(|\\.(log(10)?|exp|a?(sin|cos|tan)h?)\\(\\)|\\.pow\\(");
+  CHECK(std::regex_search("x = std::sin(y);", foreign));
+  CHECK(std::regex_search("values.array().log()", foreign));
+  CHECK_FALSE(std::regex_search("elementary::sin(y) + std::sqrt(z) + std::ilogb(x)", foreign));
+  for (const char* folder : {"libsphparam", "tools"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+      const std::string extension = entry.path().extension();
+      if (extension != ".h" && extension != ".cpp") continue;
+      std::ifstream in(entry.path());
+      for (std::string line; std::getline(in, line);) {
+        INFO(entry.path().string() << ": " << line);
+        CHECK_FALSE(std::regex_search(line, foreign));
+      }
+    }
+  }
+}

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <type_traits>
 
 #include "sphparam/parameterize.h"
 #include "sphparam/sphere/certificate.h"
@@ -15,6 +16,12 @@ using namespace sphparam::tests;
 namespace {
 
 using Rational = boost::multiprecision::cpp_rational;
+
+// A locator keeps references: to nothing that ends with the expression.
+static_assert(std::is_constructible_v<SphereLocator, Topology&, const SphereMap&>);
+static_assert(!std::is_constructible_v<SphereLocator, Topology, const SphereMap&>);
+static_assert(!std::is_constructible_v<SphereLocator, const Topology&, SphereMap>);
+static_assert(!std::is_constructible_v<SphereLocator, Topology, SphereMap, int>);
 
 /// The sign of det(a, b, q) by other means than the library's.
 int sign_of_det(const Vector3& a, const Vector3& b, const Vector3& q) {
@@ -175,6 +182,6 @@ TEST_CASE("SphereLocator: length does not matter; what is no direction is refuse
   CHECK_THROWS_AS(locator.locate(Vector3(0, std::nan(""), 1)), std::invalid_argument);
   CHECK_THROWS_AS(locator.locate(Vector3(0, std::numeric_limits<double>::infinity(), 1)),
                   std::invalid_argument);
-  CHECK_THROWS_AS(SphereLocator(m.topology, SphereMap{m.map.points.topRows(3)}),
-                  std::invalid_argument);
+  const SphereMap of_three{m.map.points.topRows(3)};
+  CHECK_THROWS_AS(SphereLocator(m.topology, of_three), std::invalid_argument);
 }

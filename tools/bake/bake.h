@@ -15,7 +15,7 @@ struct BakeOptions {
   int samples = 1;  // N: N×N a texel, their mean
   Interpolation interpolation = Interpolation::Uv;
   int threads = 0;
-  // Called by any thread, one at a time, at least between some dozen samples; false ends the bake.
+  // Asked at least between some dozen samples; false ends the bake.
   Progress progress = {};
 };
 

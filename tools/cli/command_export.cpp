@@ -243,7 +243,7 @@ class Exporter {
   /// level to level.
   Remeshed coarser(int level) const {
     console_.progress("level " + std::to_string(level), 0);
-    const double vertices = static_cast<double>(mapped_.map.points.rows()) / std::pow(4, level);
+    const double vertices = std::ldexp(static_cast<double>(mapped_.map.points.rows()), -2 * level);
     const int size = std::max(1, static_cast<int>(std::lround(std::sqrt(vertices / 10))));
     return remesh(mapped_.source.file, mapped_.map,
                   make_grid({GridKind::IcosahedronCut, size}, {.threads = arguments_.threads}),

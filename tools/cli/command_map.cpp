@@ -37,6 +37,9 @@ void settle_vertices(const MapArguments& arguments, const MeshFile& file,
   if (options.poles) {
     options.poles =
         Poles{vertex("--poles", options.poles->north), vertex("--poles", options.poles->south)};
+    if (options.poles->north == options.poles->south) {
+      throw UsageMistake("--poles: the two are one vertex, welded where positions agree");
+    }
   }
   if (options.meridian) options.meridian = vertex("--meridian", *options.meridian);
   if (arguments.pins.empty()) return;

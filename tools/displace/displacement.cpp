@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "displace/normal_line.h"
+#include "sphparam/elementary.h"
 #include "sphparam/parallel.h"
 
 namespace sphparam::tools {
@@ -48,7 +49,7 @@ class Rows {
     around_.resize(options.width, 2);
     for (int c = 0; c < options.width; ++c) {
       const double theta = 2 * std::numbers::pi * (c + 0.5) / options.width;
-      around_.row(c) << std::cos(theta), std::sin(theta);
+      around_.row(c) << elementary::cos(theta), elementary::sin(theta);
     }
   }
 
@@ -59,8 +60,8 @@ class Rows {
     Tally tally;
     for (std::int64_t row = first; row < last; ++row) {
       const double phi = std::numbers::pi * (static_cast<double>(row) + 0.5) / options_.height;
-      directions.leftCols(2) = std::sin(phi) * around_;
-      directions.col(2).setConstant(std::cos(phi));
+      directions.leftCols(2) = elementary::sin(phi) * around_;
+      directions.col(2).setConstant(elementary::cos(phi));
       locator_.locate_all(directions, std::span(on_mesh), 1);
       finder.start_anew();
       float* pixel = image.pixel(0, static_cast<int>(row));

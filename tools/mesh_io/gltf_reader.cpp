@@ -10,6 +10,7 @@
 #include "mesh_io/gltf_accessors.h"
 #include "mesh_io/gltf_document.h"
 #include "mesh_io/gltf_nodes.h"
+#include "sphparam/elementary.h"
 
 // Every placed mesh in turn: positions go through x ↦ Ax + b, normals through A⁻ᵀ; where det A < 0
 // the triangles are turned over, as the specification says. Primitives of one placed mesh that
@@ -35,7 +36,7 @@ struct Column {
 /// Source: IEC 61966-2-1.
 double srgb(double linear) {
   const double x = std::clamp(linear, 0.0, 1.0);
-  const double encoded = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+  const double encoded = x <= 0.0031308 ? 12.92 * x : 1.055 * elementary::pow(x, 1 / 2.4) - 0.055;
   return static_cast<double>(static_cast<float>(encoded));
 }
 

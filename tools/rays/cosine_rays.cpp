@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "rays/random_numbers.h"
+#include "sphparam/elementary.h"
 
 namespace sphparam::tools {
 
@@ -29,7 +30,8 @@ CosineRays::CosineRays(int count) : spiral_(static_cast<size_t>((count + 1) / 2)
   for (size_t i = 0; i < spiral_.size(); ++i) {
     const double turn = static_cast<double>(i) / std::numbers::phi;
     const double angle = std::numbers::pi * (turn - std::floor(turn));
-    spiral_[i] = {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
+    spiral_[i] = {static_cast<float>(elementary::cos(angle)),
+                  static_cast<float>(elementary::sin(angle))};
   }
 }
 
@@ -37,7 +39,8 @@ void CosineRays::aim(const Eigen::Vector3f& axis, std::uint64_t seed,
                      std::span<Eigen::Vector3f> directions) const {
   const auto shift = static_cast<float>(random_fraction(seed, 0));
   const double turn = 2 * std::numbers::pi * random_fraction(seed, 1);
-  const auto c = static_cast<float>(std::cos(turn)), s = static_cast<float>(std::sin(turn));
+  const auto c = static_cast<float>(elementary::cos(turn)),
+             s = static_cast<float>(elementary::sin(turn));
   const auto [first, second] = tangents(axis);
   const Eigen::Vector3f x = c * first + s * second, y = c * second - s * first;
   const float share = 1 / static_cast<float>(spiral_.size());

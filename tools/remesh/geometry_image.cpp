@@ -12,6 +12,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "sphparam/elementary.h"
+
 namespace sphparam::tools {
 
 namespace {
@@ -74,7 +76,7 @@ std::array<Side, 6> sides() {
 
 ImageLayout cube_layout(int n, const Points& directions) {
   const auto place = [&](double tangent) {
-    return std::lround((std::atan(tangent) / (std::numbers::pi / 4) + 1) / 2 * n);
+    return std::lround((elementary::atan(tangent) / (std::numbers::pi / 4) + 1) / 2 * n);
   };
   const std::array<Side, 6> all = sides();
   Filling filling(n + 1, 6 * (n + 1));

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "sphparam/elementary.h"
+
 namespace sphparam::tools {
 
 namespace {
@@ -59,7 +61,7 @@ class Rings {
       for (int j = 0; j < 4 * q; ++j) {
         const double longitude = std::numbers::pi / (2 * q) * (j + (half(ring) ? 0.5 : 0.0));
         points.row(first(ring) + j) =
-            Vector3(radius * std::cos(longitude), radius * std::sin(longitude), z);
+            Vector3(radius * elementary::cos(longitude), radius * elementary::sin(longitude), z);
       }
     }
     return points;

@@ -95,6 +95,13 @@ std::vector<std::array<int, 2>> monomials(Scheme scheme) {
   return powers;
 }
 
+/// xⁿ; 0 for n < 0: what differentiation leaves of constants.
+double power(double x, int n) {
+  double result = n < 0 ? 0 : 1;
+  for (int i = 0; i < n; ++i) result *= x;
+  return result;
+}
+
 using ToCoefficients = Eigen::MatrixXd;
 
 /// From the control points of a regular patch to its polynomial's coefficients.
@@ -109,7 +116,7 @@ ToCoefficients to_coefficients(const BfrSurface& surface, Scheme scheme) {
                  t = powers[static_cast<size_t>(k)][1] / last;
     for (Eigen::Index m = 0; m < count; ++m) {
       const auto [i, j] = powers[static_cast<size_t>(m)];
-      values(k, m) = std::pow(s, i) * std::pow(t, j);
+      values(k, m) = power(s, i) * power(t, j);
     }
     const double place[2] = {s, t};
     surface.EvaluateStencil(place, row.data());
@@ -147,7 +154,6 @@ SecondDerivatives second_derivatives(const LimitPatch::Coefficients& c, Scheme s
                                      double t) {
   static const auto of_loop = monomials(Scheme::Loop), of_catmull = monomials(Scheme::CatmullClark);
   const auto& powers = scheme == Scheme::Loop ? of_loop : of_catmull;
-  const auto power = [](double x, int n) { return n < 0 ? 0.0 : n == 0 ? 1.0 : std::pow(x, n); };
   SecondDerivatives d;
   for (size_t m = 0; m < powers.size(); ++m) {
     const auto [i, j] = powers[m];

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sphparam/elementary.h"
 #include "sphparam/embedding/optimise.h"
 #include "sphparam/embedding/rest_areas.h"
 #include "sphparam/mesh/curvature.h"
@@ -46,7 +47,9 @@ Eigen::VectorXd sample_density(const TriangleMesh& mesh, const Topology& topolog
   const double spacing = equal_area_radius(unit, threads) *
                          std::sqrt(4 * std::numbers::pi / static_cast<double>(samples));
   const Curvature curvature = measure_curvature(unit, topology, scale * spacing, threads);
-  const Eigen::VectorXd bent = bending(curvature).min(most_bent / spacing).pow(exponent);
+  const Eigen::VectorXd bent = bending(curvature).min(most_bent / spacing).unaryExpr([](double x) {
+    return elementary::pow(x, exponent);
+  });
   const double mean = bent.dot(curvature.area) / curvature.area.sum();
   if (!(mean > 0) || !std::isfinite(mean)) return Eigen::VectorXd::Ones(bent.size());
   return spread_evenly + (1 - spread_evenly) / mean * bent.array();

@@ -13,6 +13,7 @@
 #include "remesh/healpix_grid.h"
 #include "remesh/lattice_grid.h"
 #include "remesh/subdivided_grid.h"
+#include "sphparam/elementary.h"
 #include "sphparam/parallel.h"
 
 namespace sphparam::tools {
@@ -89,7 +90,8 @@ void place_all(SphereGrid& grid, int threads, const Place& place) {
 Vector3 equal_angles(const Vector3& flat) {
   const double half = flat.cwiseAbs().maxCoeff();
   return flat.unaryExpr([&](double x) {
-    return std::abs(x) == half ? std::copysign(1.0, x) : std::tan(std::numbers::pi / 4 * x / half);
+    return std::abs(x) == half ? std::copysign(1.0, x)
+                               : elementary::tan(std::numbers::pi / 4 * x / half);
   });
 }
 

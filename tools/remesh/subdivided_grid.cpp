@@ -12,6 +12,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "sphparam/elementary.h"
 #include "sphparam/parallel.h"
 
 namespace sphparam::tools {
@@ -109,8 +110,8 @@ Polyhedron icosahedron() {
   const double height = 1 / std::sqrt(5.0), radius = 2 / std::sqrt(5.0);
   for (int i = 0; i < 10; ++i) {  // five to the north, then five to the south between them
     const double angle = (i < 5 ? 2 * i : 2 * i + 1) * std::numbers::pi / 5;
-    result.corners.push_back(
-        {radius * std::cos(angle), radius * std::sin(angle), i < 5 ? height : -height});
+    result.corners.push_back({radius * elementary::cos(angle), radius * elementary::sin(angle),
+                              i < 5 ? height : -height});
   }
   result.corners.push_back(-Vector3::UnitZ());
   for (int i = 0; i < 5; ++i) {

@@ -14,6 +14,7 @@
 #include "rays/ray_scene.h"
 #include "remesh/limit_stencils.h"
 #include "remesh/stencil_least_squares.h"
+#include "sphparam/elementary.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/sphere_locator.h"
 #include "sphparam/stopwatch.h"
@@ -37,8 +38,8 @@ double area_of_solid_angle(const TriangleMesh& mesh, const SphereMap& map,
                            const SurfacePoint& point) {
   Eigen::Matrix3d rays;
   for (int k = 0; k < 3; ++k) rays.col(k) = map.point(mesh.triangles(point.face, k));
-  return area_normal(mesh, point.face).norm() * std::pow((rays * point.barycentric).norm(), 3) /
-         rays.determinant();
+  return area_normal(mesh, point.face).norm() *
+         elementary::pow((rays * point.barycentric).norm(), 3) / rays.determinant();
 }
 
 /// A row for each vertex in the direction of a row.

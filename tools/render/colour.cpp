@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "sphparam/elementary.h"
+
 namespace sphparam::tools {
 namespace {
 
@@ -21,14 +23,17 @@ Rgb interpolate(const std::array<std::array<float, 3>, N>& table, double t) {
 }  // namespace
 
 Rgb to_linear(const Rgb& srgb) {
-  return srgb.unaryExpr(
-      [](float c) { return c <= 0.04045F ? c / 12.92F : std::pow((c + 0.055F) / 1.055F, 2.4F); });
+  return srgb.unaryExpr([](float c) {
+    return c <= 0.04045F ? c / 12.92F
+                         : static_cast<float>(elementary::pow((c + 0.055) / 1.055, 2.4));
+  });
 }
 
 Rgb to_srgb(const Rgb& linear) {
   return linear.unaryExpr([](float c) {
     c = std::clamp(c, 0.0F, 1.0F);
-    return c <= 0.0031308F ? c * 12.92F : 1.055F * std::pow(c, 1 / 2.4F) - 0.055F;
+    return c <= 0.0031308F ? c * 12.92F
+                           : static_cast<float>(1.055 * elementary::pow(c, 1 / 2.4) - 0.055);
   });
 }
 
@@ -63,7 +68,8 @@ Rgb diverging(double t) {
 std::vector<Rgb> ratio_colours(const Eigen::VectorXd& ratios, double reach) {
   std::vector<Rgb> colours;
   colours.reserve(static_cast<size_t>(ratios.size()));
-  for (const double ratio : ratios) colours.push_back(diverging(std::log(ratio) / std::log(reach)));
+  for (const double ratio : ratios)
+    colours.push_back(diverging(elementary::log(ratio) / elementary::log(reach)));
   return colours;
 }
 

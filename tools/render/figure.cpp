@@ -8,6 +8,7 @@
 #include "render/drawing_size.h"
 #include "render/geodesic.h"
 #include "render/heat.h"
+#include "sphparam/elementary.h"
 #include "sphparam/sphere/distortion.h"
 
 // The sphere is turned so that the pictures correspond: its side towards the eye is the mean ray of
@@ -110,7 +111,7 @@ void fit_camera(RenderScene& scene) {
   };
   camera.target = middle(right) + middle(up) + middle(back);
   // tan of half the field: what is nearer looks larger.
-  const double spread = 2 * std::tan(camera.field_of_view * std::numbers::pi / 360);
+  const double spread = 2 * elementary::tan(camera.field_of_view * std::numbers::pi / 360);
   double height = 0;
   for (Eigen::Index v = 0; v < points.rows(); ++v) {
     const Vector3 p = points.row(v).transpose() - camera.target;
@@ -122,9 +123,9 @@ void fit_camera(RenderScene& scene) {
 
 /// The whole unit sphere, also where a map covers only a part of it.
 void fit_camera_to_sphere(RenderScene& scene) {
-  const double spread = 2 * std::tan(scene.camera.field_of_view * std::numbers::pi / 360);
+  const double spread = 2 * elementary::tan(scene.camera.field_of_view * std::numbers::pi / 360);
   scene.camera.target = Vector3::Zero();
-  scene.camera.height = margin * std::hypot(2, spread);  // max of 2 sin t + spread cos t
+  scene.camera.height = margin * elementary::hypot(2, spread);  // max of 2 sin t + spread cos t
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <unordered_map>
 
+#include "sphparam/elementary.h"
+
 // The longest side of a triangle is halved as long as it is too long. Where a side is cut depends
 // on its two ends alone, so both triangles there agree, and the surface has no gaps. Points are
 // kept as they lie on the chords, for attributes are linear there; to halve the angle between a and
@@ -66,7 +68,7 @@ class Refinement {
  private:
   double angle(int a, int b) const {
     const Vector3 &p = point(a), &q = point(b);
-    return std::atan2(p.cross(q).norm(), p.dot(q));
+    return elementary::atan2(p.cross(q).norm(), p.dot(q));
   }
 
   const Vector3& point(int v) const { return points_[static_cast<size_t>(v)]; }

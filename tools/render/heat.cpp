@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "render/lettering.h"
+#include "sphparam/elementary.h"
 
 namespace sphparam::tools {
 namespace {
@@ -81,17 +82,18 @@ const HeatScale& heat_scale(Heat heat) {
 }
 
 Eigen::VectorXd heat_values(Heat heat, const Distortion& distortion) {
+  const auto log2 = [](double x) { return elementary::log2(x); };
   switch (heat) {
     case Heat::Area:
-      return distortion.area_ratio.array().log() / std::numbers::ln2;
+      return distortion.area_ratio.unaryExpr(log2);
     case Heat::Angle:
-      return distortion.angle_ratio.array().log().abs().rowwise().mean() / std::numbers::ln2;
+      return distortion.angle_ratio.unaryExpr(log2).cwiseAbs().rowwise().mean();
     case Heat::Stretch:
       break;
   }
   const auto squeeze = distortion.sigma_max.array().square().inverse() +
                        distortion.sigma_min.array().square().inverse();
-  return (squeeze / 2).log() / (2 * std::numbers::ln2);
+  return (squeeze / 2).unaryExpr(log2) / 2;
 }
 
 FacePaint heat_paint(Heat heat, const Distortion& distortion) {
@@ -102,7 +104,9 @@ FacePaint heat_paint(Heat heat, const Distortion& distortion) {
   return paint;
 }
 
-Rgb heat_colour(Heat heat, double ratio) { return heat_colour(heat_scale(heat), std::log2(ratio)); }
+Rgb heat_colour(Heat heat, double ratio) {
+  return heat_colour(heat_scale(heat), elementary::log2(ratio));
+}
 
 Image with_legend(const Image& picture, const HeatScale& scale) {
   constexpr int least = 160, heights_a_dot = 400;  // pixels

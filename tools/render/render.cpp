@@ -9,6 +9,7 @@
 #include "render/raster.h"
 #include "render/surface_colour.h"
 #include "render/vertex_normals.h"
+#include "sphparam/elementary.h"
 #include "sphparam/parallel.h"
 
 // Corners are projected once; triangles are sorted into tiles of the picture; each tile finds the
@@ -31,7 +32,7 @@ class Projection {
     scale_ = samples * height / camera.height;
     if (camera.field_of_view > 0) {
       const double half_angle = camera.field_of_view * std::numbers::pi / 360;
-      distance_ = 0.5 * camera.height / std::tan(half_angle);
+      distance_ = 0.5 * camera.height / elementary::tan(half_angle);
     }
   }
 
@@ -144,7 +145,7 @@ Rgb sample_colour(const Drawable& drawable, Face face, double x, double y, int s
   sample.weights_right = weights(x + samples, y);
   sample.weights_below = weights(x, y + samples);
   for (int k = 0; k < 3; ++k) {
-    const double slope = std::hypot(triangle.dx[k], triangle.dy[k]) * samples;
+    const double slope = elementary::hypot(triangle.dx[k], triangle.dy[k]) * samples;
     sample.edge_distance[k] = triangle.barycentric(x, y)[k] / slope;
     sample.altitude[k] = 1 / slope;
   }

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "render/vertex_normals.h"
+#include "sphparam/elementary.h"
 #include "sphparam/sphere/spherical_coordinates.h"
 
 // Colour of a point = paint, lines over it, then light: a warm key light from the upper left, a
@@ -52,11 +53,11 @@ GridPoint grid_point(const Points& rays, const Triangles& triangles, const Shade
                              below = at(sample.weights_below);
   const auto turn = [](double d) { return std::remainder(d, 2 * kPi); };
   constexpr double degrees = 180 / kPi, least = 1e-12;
-  return {{here.theta * degrees,
-           degrees * std::hypot(turn(right.theta - here.theta), turn(below.theta - here.theta)) +
-               least},
+  return {{here.theta * degrees, degrees * elementary::hypot(turn(right.theta - here.theta),
+                                                             turn(below.theta - here.theta)) +
+                                     least},
           {here.phi * degrees,
-           degrees * std::hypot(right.phi - here.phi, below.phi - here.phi) + least}};
+           degrees * elementary::hypot(right.phi - here.phi, below.phi - here.phi) + least}};
 }
 
 /// Bilinear, repeated in both directions; v points up. Black where coordinates are no numbers.
@@ -191,7 +192,7 @@ Rgb SurfaceColour::lit(const ShadedSample& sample, const Rgb& colour) const {
   const Rgb fill_light = Rgb(0.75F, 0.85F, 1.0F) * (0.17F * facing(fill));
   const auto upward = static_cast<float>(0.5 + 0.5 * normal.y());
   const Rgb sky_light = Rgb(0.95F, 0.98F, 1.0F) * ((0.26F + 0.17F * upward) * sky);
-  const float gloss = 0.045F * std::pow(facing(half), 36.0F) * sky;
+  const float gloss = 0.045F * static_cast<float>(elementary::pow(facing(half), 36)) * sky;
   return colour.cwiseProduct(key_light + fill_light + sky_light) + Rgb::Constant(gloss);
 }
 

@@ -9,6 +9,7 @@
 
 #include "render/drawing_size.h"
 #include "render/raster.h"
+#include "sphparam/elementary.h"
 #include "sphparam/parallel.h"
 
 // The sky is sampled in directions spread over the sphere by the golden angle. For each, the whole
@@ -75,7 +76,7 @@ class SkyView {
 Vector3 sky_direction(int i, int count) {
   const double z = 1 - (2.0 * i + 1) / count, r = std::sqrt(1 - z * z);
   const double angle = std::numbers::pi * (3 - std::sqrt(5.0)) * i;
-  return {r * std::cos(angle), r * std::sin(angle), z};
+  return {r * elementary::cos(angle), r * elementary::sin(angle), z};
 }
 
 /// A power of two that keeps sums of products of two edges finite, and those of tiny meshes above

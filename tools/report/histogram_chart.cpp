@@ -6,6 +6,7 @@
 
 #include "report/charts.h"
 #include "report/svg.h"
+#include "sphparam/elementary.h"
 
 // Fixed bins, so that charts of different maps compare at a glance.
 
@@ -29,7 +30,7 @@ struct Panel {
 Shares shares(const double* ratios, long count, int reach) {
   std::array<long, kBins> counts{};
   for (long i = 0; i < count; ++i) {
-    const double place = (std::log2(ratios[i]) + reach) / (2 * reach) * (kBins - 2) + 1;
+    const double place = (elementary::log2(ratios[i]) + reach) / (2 * reach) * (kBins - 2) + 1;
     const auto bin = static_cast<size_t>(std::clamp(place, 0.0, kBins - 1.0));
     ++counts[bin];
   }

@@ -6,6 +6,7 @@
 
 #include "report/charts.h"
 #include "report/svg.h"
+#include "sphparam/elementary.h"
 
 // Paper, Section 6: "the values are placed using the distortion value as the radius and the
 // triangle or angle index as the polar angle". A large mesh has more values than the picture has
@@ -165,7 +166,7 @@ class DotGrid {
     const double angle =
         2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(values.count);
     const double r = disk_.pixels(values[i]);
-    return {disk_.centre_x + r * std::cos(angle), kCentreY - r * std::sin(angle)};
+    return {disk_.centre_x + r * elementary::cos(angle), kCentreY - r * elementary::sin(angle)};
   }
 
   static constexpr long side_ = static_cast<long>(2 * kRadius / kCell) + 2;
@@ -187,8 +188,8 @@ std::string rim_marks(const Disk& disk, const Values& values, size_t series) {
     if (!marked[k]) continue;
     const double angle = (static_cast<double>(k) + 0.5) * kRimStep * std::numbers::pi / 180;
     const auto point = [&](double r) {
-      return std::to_string(std::lround(10 * (disk.centre_x + r * std::cos(angle)))) + ' ' +
-             std::to_string(std::lround(10 * (kCentreY - r * std::sin(angle))));
+      return std::to_string(std::lround(10 * (disk.centre_x + r * elementary::cos(angle)))) + ' ' +
+             std::to_string(std::lround(10 * (kCentreY - r * elementary::sin(angle))));
     };
     path += 'M' + point(inner) + 'L' + point(inner + kRimMark);
   }
@@ -237,7 +238,7 @@ std::string caption(const char* noun, const Values& values, size_t index, double
   double sum = 0, smallest = INFINITY, largest = 0;
   long within = 0;
   for (long i = 0; i < values.count; ++i) {
-    sum += std::abs(std::log(values[i]));
+    sum += std::abs(elementary::log(values[i]));
     smallest = std::min(smallest, values[i]);
     largest = std::max(largest, values[i]);
     within += values[i] >= 0.5 && values[i] <= 2 ? 1 : 0;

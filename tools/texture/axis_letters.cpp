@@ -10,6 +10,8 @@
 #include <limits>
 #include <span>
 
+#include "sphparam/elementary.h"
+
 namespace sphparam::tools {
 namespace {
 
@@ -36,7 +38,7 @@ double distance(const Point2& p, const Stroke& stroke) {
   const double dx = stroke.b.x - stroke.a.x, dy = stroke.b.y - stroke.a.y;
   const double t = ((p.x - stroke.a.x) * dx + (p.y - stroke.a.y) * dy) / (dx * dx + dy * dy);
   const double along = std::clamp(t, 0.0, 1.0);
-  return std::hypot(p.x - stroke.a.x - along * dx, p.y - stroke.a.y - along * dy);
+  return elementary::hypot(p.x - stroke.a.x - along * dx, p.y - stroke.a.y - along * dy);
 }
 
 double distance(const Point2& p, std::span<const Stroke> strokes) {

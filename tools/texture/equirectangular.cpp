@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sphparam/elementary.h"
 #include "sphparam/sphere/spherical_coordinates.h"
 
 namespace sphparam::tools {
@@ -60,13 +61,13 @@ std::array<float, 4> EquirectangularImage::look_up(const Vector3& direction, dou
   const SphericalCoordinates place = to_spherical(direction);
   const double u = convention_.turns * place.theta / (2 * pi) + convention_.offset;
   const double v = place.phi / pi;
-  const double radius = std::sin(place.phi);
+  const double radius = elementary::sin(place.phi);
   const double turns = std::min(1.0, width / (2 * pi * std::max(radius, width / (2 * pi))));
 
   const auto& levels = pyramid_->levels();
   const double texels = width / pi * levels.front().height;
-  const double depth =
-      std::clamp(std::log2(std::max(texels, 1.0)), 0.0, static_cast<double>(levels.size() - 1));
+  const double depth = std::clamp(elementary::log2(std::max(texels, 1.0)), 0.0,
+                                  static_cast<double>(levels.size() - 1));
   const auto fine = static_cast<size_t>(depth);
   const auto share = static_cast<float>(depth - static_cast<double>(fine));
   Colour colour = mean_along(levels[fine], u, v, turns);

@@ -2,15 +2,17 @@
 
 #include <cmath>
 
+#include "sphparam/elementary.h"
+
 namespace sphparam::tools {
 namespace {
 
 double decoded(double srgb) {
-  return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
+  return srgb <= 0.04045 ? srgb / 12.92 : elementary::pow((srgb + 0.055) / 1.055, 2.4);
 }
 
 double encoded(double linear) {
-  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * elementary::pow(linear, 1 / 2.4) - 0.055;
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <vector>
 
+#include "sphparam/elementary.h"
 #include "sphparam/parallel.h"
 #include "texture/axis_letters.h"
 #include "texture/srgb.h"
@@ -80,7 +81,7 @@ Rgb graticule(const Interval& u, const Interval& v) {
   static const Rgb ground = linear({0.94F, 0.94F, 0.92F}), line = linear({0.25F, 0.28F, 0.32F}),
                    equator = linear({0.10F, 0.33F, 0.75F}), date = linear({0.84F, 0.05F, 0.08F});
   // Lines keep their thickness on the sphere: towards the poles they take more of u.
-  const double radius = std::sin(pi * v.middle());
+  const double radius = elementary::sin(pi * v.middle());
   const bool at_pole = std::min(v.middle(), 1 - v.middle()) * kRows < 1;
   const auto along = [&](double half, int lines) {
     return share_of_lines(u.low * lines, u.high * lines,
@@ -104,10 +105,10 @@ Rgb graticule(const Interval& u, const Interval& v) {
 struct Turn {
   double cosine, sine;
 };
-Turn turn_of(double u) { return {std::cos(2 * pi * u), std::sin(2 * pi * u)}; }
+Turn turn_of(double u) { return {elementary::cos(2 * pi * u), elementary::sin(2 * pi * u)}; }
 Vector3 direction(const Turn& turn, double v) {
-  const double radius = std::sin(pi * v);
-  return {turn.cosine * radius, turn.sine * radius, std::cos(pi * v)};
+  const double radius = elementary::sin(pi * v);
+  return {turn.cosine * radius, turn.sine * radius, elementary::cos(pi * v)};
 }
 
 Rgb axes(const Interval& u, const Interval& v, const Turn& middle) {

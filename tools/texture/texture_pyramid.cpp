@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "sphparam/elementary.h"
 #include "sphparam/parallel.h"
 #include "texture/box_shares.h"
 #include "texture/srgb.h"
@@ -168,7 +169,7 @@ class Sampler {
     }
     taps_ = static_cast<int>(
         std::clamp(std::ceil(wide / std::max(narrow, 1.0)), 1.0, double{most_taps}));
-    const double level = std::log2(std::max({narrow, wide / taps_, 1.0}));
+    const double level = elementary::log2(std::max({narrow, wide / taps_, 1.0}));
     const auto last = static_cast<double>(levels_.size() - 1);
     level_ = static_cast<size_t>(std::min(std::floor(level), last));
     coarse_share_ = level >= last ? 0 : static_cast<float>(level - std::floor(level));
@@ -176,7 +177,7 @@ class Sampler {
     const double xx = a * a + b * b, xy = a * c + b * d, yy = c * c + d * d;
     double x = xx > yy ? p + q - yy : xy, y = xx > yy ? xy : p + q - xx;
     if (x == 0 && y == 0) x = 1;
-    const double length = std::hypot(x, y);
+    const double length = elementary::hypot(x, y);
     wide_[0] = x / length * wide / w;
     wide_[1] = y / length * wide / h;
   }

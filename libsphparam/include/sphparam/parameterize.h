@@ -26,16 +26,17 @@ enum class Method {
   Paper,        // what the paper prints, folds and all
 };
 
-/// What only `Method::Paper` reads. The defaults are the paper's.
+/// What only `Method::Paper` reads. The defaults are the paper's. No number is below 0.
 struct PaperSettings {
-  double epsilon = 0.02;                       // ϕ of the northern link, π − ϕ of the southern
-  int iterations = 3;                          // of the quasi-harmonic improvement
-  int rings = 5;                               // neighbourhood of the date line that is smoothed
-  int sweeps = 3;                              // of tangential smoothing
+  double epsilon = 0.02;  // ϕ of the northern link, π − ϕ of the southern;
+                          // above 0, to 1.5
+  int iterations = 3;     // of the quasi-harmonic improvement
+  int rings = 5;          // neighbourhood of the date line that is smoothed
+  int sweeps = 3;         // of tangential smoothing
   WeightKind weights = WeightKind::MeanValue;  // or Cotangent
 };
 
-/// A vertex that is to have exactly these coordinates.
+/// A vertex that is to have exactly these coordinates, which are finite.
 struct Landmark {
   Vertex vertex;
   SphericalCoordinates coordinates;
@@ -50,11 +51,12 @@ struct ParameterizeOptions {
   /// and the poles, fold their triangle, none is tried: a warning names the three.
   std::vector<Landmark> pins = {};
   PaperSettings paper = {};
-  DistortionEnergy energy = {};  // what is minimised; `lambda` weighs area against angle
+  // What is minimised; `lambda`, from 1e-10 to 1e6, weighs area against angle.
+  DistortionEnergy energy = {};
   // Of Method::Progressive: time against distortion; and what λ is to reach, if not a given value.
   Quality quality = Quality::Normal;
   Balance balance = Balance::Lambda;
-  double sweeps = 1.4;  // of Method::Progressive on the finest level; more: slower, better
+  double sweeps = 1.4;  // of Method::Progressive on the finest level, from 0; more: slower, better
   bool repair = true;   // untangle, and fall back; Method::Paper repairs only when `repair_paper`
   bool repair_paper = false;
   int threads = 0;              // 0: all cores. The result does not depend on it.
@@ -93,10 +95,14 @@ struct Parameterization {
 /// Ensures: with `repair`, a map that is not bijective is returned only after untangling and every
 ///          fallback have failed (Method::Paper: only with `repair_paper`).
 ///          `poles` is empty where given ones could not be reached: a warning says why.
-/// Throws: MeshError before any arithmetic if the mesh is not a closed genus-0 manifold, or a pole,
-///         pin or meridian is no vertex; std::invalid_argument if a vertex is pinned twice or two
-///         are pinned at one point; SolveError naming the system; Cancelled.
-/// Cost: a handful of sparse factorisations of #V unknowns.
+/// Throws: std::invalid_argument before anything else, naming the option that is outside of its
+///         domain: a number, or a pole, pin or meridian that is no vertex, poles that are one, a
+///         vertex that is pinned twice, two that are pinned at one point; MeshError before any
+///         arithmetic if the mesh is not a closed genus-0 manifold; SolveError naming the system;
+///         Cancelled.
+/// Cost: Method::Progressive: linear, some 2 µs and 200 bytes a triangle, with limbs or
+///       Quality::Best some times that. The other methods and the last rungs of the repair: a
+///       handful of sparse factorisations of #V unknowns.
 Parameterization parameterize(const TriangleMesh& mesh, const ParameterizeOptions& options = {});
 /// The same for a mesh whose topology is there already.
 Parameterization parameterize(const TriangleMesh& mesh, const Topology& topology,
@@ -108,8 +114,8 @@ Parameterization parameterize(const TriangleMesh& mesh, const Topology& topology
 /// there.
 ///
 /// Of the options, `paper`, `repair` and `repair_paper` are not read, and `method` only to hold no
-/// pins where it is Method::Paper. Throws: as `parameterize`;
-/// std::invalid_argument unless there is one finite ray a vertex.
+/// pins where it is Method::Paper. Throws: as `parameterize`; std::invalid_argument also unless
+/// there is one finite ray a vertex.
 Parameterization repair_map(const TriangleMesh& mesh, const SphereMap& map,
                             const ParameterizeOptions& options = {});
 

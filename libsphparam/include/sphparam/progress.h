@@ -8,7 +8,7 @@
 namespace sphparam {
 
 /// Told the stage and how much of it is done (0 to 1); returns false to cancel. May be empty.
-/// Called from the thread that called the library, never concurrently.
+/// Called by any thread that works for the caller, one call at a time; never after the call ends.
 using Progress = std::function<bool(std::string_view stage, double fraction)>;
 
 /// Throws: Cancelled, if the callback says so.

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "sphparam/elementary.h"
 #include "sphparam/sphere/orientation.h"
 
 // The edge from a to b meets the meridian plane of a ray c in ±(det(c, b)·a − det(c, a)·b), where
@@ -47,10 +48,11 @@ ChartPoint chart_point(const Vector3& ray) {
   const double x = ray.x(), y = ray.y(), z = ray.z();
   if (at_pole(ray)) return {0, z > 0 ? 0.0 : 1.0};
   const double square = x * x + y * y;
-  const double radius = square > 1e-280 ? std::sqrt(square) : std::hypot(x, y);
-  const double v = std::clamp(std::atan2(radius, z) * std::numbers::inv_pi, above_zero, below_one);
+  const double radius = square > 1e-280 ? std::sqrt(square) : elementary::hypot(x, y);
+  const double v =
+      std::clamp(elementary::atan2(radius, z) * std::numbers::inv_pi, above_zero, below_one);
   if (on_meridian(ray)) return {0, v};
-  const double turns = y == 0 ? 0.5 : std::atan2(y, x) * (0.5 * std::numbers::inv_pi);
+  const double turns = y == 0 ? 0.5 : elementary::atan2(y, x) * (0.5 * std::numbers::inv_pi);
   return {y < 0 ? std::clamp(1 + turns, 0.5, below_one) : std::clamp(turns, above_zero, 0.5), v};
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "chart/longitude.h"
+#include "sphparam/elementary.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/orientation.h"
 
@@ -52,7 +53,7 @@ class PolarSplitting {
         const Vector3& x = mesh_.point(mesh_.origin(h));
         if (x.z() * z <= 0) continue;
         if (at_pole(x)) return mesh_.origin(h);
-        const double distance = std::hypot(x.x(), x.y());
+        const double distance = elementary::hypot(x.x(), x.y());
         if (distance <= snapping_angle * std::abs(x.z())) near.emplace_back(distance, h);
       }
     }

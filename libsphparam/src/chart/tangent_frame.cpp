@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "sphparam/chart/carry_attributes.h"
+#include "sphparam/elementary.h"
 #include "sphparam/parallel.h"
 
 // On a triangle with edges e₁, e₂ and their (u₁, v₁), (u₂, v₂) the surface grows with u along
@@ -33,7 +34,7 @@ Vector3 direction_of(const Vector3& v) {
 }
 
 double angle_between(const Vector3& a, const Vector3& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
+  return elementary::atan2(a.cross(b).norm(), a.dot(b));
 }
 
 CornerDirections corner_directions(const SphericalChart& chart, const Points& positions, Face f) {

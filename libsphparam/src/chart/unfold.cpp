@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "chart/nudge.h"
+#include "sphparam/elementary.h"
 #include "sphparam/parallel.h"
 
 // A triangle that is positive on the sphere folds in (u, v) because the chords of its edges are not
@@ -107,7 +108,7 @@ class Unfolder {
     const auto [low, high] = std::minmax({from(h).u, to(h).u});
     const double u = simplest_between(low + margin * (high - low), high - margin * (high - low));
     const double theta = 2 * std::numbers::pi * u;
-    return cut(h, {std::cos(theta), std::sin(theta), 0}, u);
+    return cut(h, {elementary::cos(theta), elementary::sin(theta), 0}, u);
   }
 
   Cut cut(Halfedge h, const Vector3& through, double u) const {

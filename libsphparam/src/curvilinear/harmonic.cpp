@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "option_domain.h"
+#include "sphparam/elementary.h"
 #include "sphparam/errors.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/orientation.h"
@@ -53,7 +55,7 @@ std::vector<double> link_gaps(const TriangleMesh& mesh, Vertex pole,
   for (size_t i = 0; i < link.size(); ++i) {
     const Vector3 a = mesh.position(link[i]) - mesh.position(pole);
     const Vector3 b = mesh.position(link[(i + 1) % link.size()]) - mesh.position(pole);
-    gaps.push_back(std::atan2(a.cross(b).norm(), a.dot(b)));
+    gaps.push_back(elementary::atan2(a.cross(b).norm(), a.dot(b)));
     sum += gaps.back();
   }
   const double mean = 2 * kPi / static_cast<double>(link.size());
@@ -118,6 +120,8 @@ int chart_orientation(ChartPoint a, ChartPoint b, ChartPoint c) {
 
 ChartBoundary rectangle_boundary(const TriangleMesh& mesh, const CutMesh& cut_mesh,
                                  double epsilon) {
+  require_more_than("epsilon", epsilon, 0);
+  require_between("epsilon", epsilon, 0, greatest_epsilon);
   ChartBoundary boundary = empty_boundary(mesh, cut_mesh, epsilon, epsilon);
   boundary.free_twist = false;
   fix_link(boundary, cut_mesh.north_link(), epsilon,

@@ -1,5 +1,6 @@
 #include "sphparam/curvilinear/paper_map.h"
 
+#include "option_domain.h"
 #include "sphparam/curvilinear/harmonic.h"
 #include "sphparam/curvilinear/lift.h"
 #include "sphparam/curvilinear/quasi_harmonic.h"
@@ -8,10 +9,25 @@
 // (M, poles) → date line → disk → (θ, ϕ) → κ → (θ, ϕ) → … → sphere → smoothing, as in Figure 1.
 
 namespace sphparam {
+namespace {
+
+void require_domain(const PaperOptions& options, Poles poles, Eigen::Index vertices) {
+  require_more_than("epsilon", options.epsilon, 0);
+  require_between("epsilon", options.epsilon, 0, greatest_epsilon);
+  require_at_least("iterations", options.iterations, 0);
+  require_at_least("rings", options.rings, 0);
+  require_at_least("sweeps", options.sweeps, 0);
+  require_one_of("weights", options.weights, WeightKind::SymmetricMeanValue);
+  require_vertex("poles.north", poles.north, vertices);
+  require_vertex("poles.south", poles.south, vertices);
+}
+
+}  // namespace
 
 PaperResult map_as_paper(const TriangleMesh& mesh, const Topology& topology, Poles poles,
                          const PaperOptions& options, const Progress& progress,
                          const StageObserver& on_stage) {
+  require_domain(options, poles, mesh.vertex_count());
   PaperResult result;
   Stopwatch watch;
   report(progress, "date line", 0);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "edge_graph.h"
+#include "option_domain.h"
 
 // Farthest pair: the vertex a farthest from any one, b farthest from a, then c farthest from b; on
 // a tree b and c would be the ends of its longest path, on a surface they nearly are.
@@ -99,6 +100,8 @@ bool poles_are_usable(const Topology& topology, Poles poles) {
 }
 
 std::optional<Poles> nearest_usable_poles(const Topology& topology, Poles wanted) {
+  require_vertex("poles.north", wanted.north, topology.vertex_count());
+  require_vertex("poles.south", wanted.south, topology.vertex_count());
   ChordFreeVertices north(topology, wanted.north), south(topology, wanted.south);
   // Pairs in the order of how far both poles have moved together.
   for (size_t moves = 0; moves < 2 * kCandidates - 1; ++moves) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sphere/solid_angle.h"
+#include "sphparam/elementary.h"
 #include "sphparam/parallel.h"
 
 // The spherical area Ω of (a, b, c) is the solid angle of the three rays,
@@ -64,20 +65,20 @@ void accumulate_kappa(std::vector<double>& accumulated, const std::vector<double
   const std::int64_t faces = static_cast<std::int64_t>(kappa.size());
   parallel_for(faces, kGrain, threads, [&](std::int64_t first, std::int64_t last) {
     for (size_t f = static_cast<size_t>(first); f < static_cast<size_t>(last); ++f) {
-      accumulated[f] *= std::pow(kappa[f], power);
+      accumulated[f] *= elementary::pow(kappa[f], power);
     }
   });
 }
 
 double mean_abs_ln(const std::vector<double>& kappa, int threads) {
-  const double sum = parallel_sum(static_cast<std::int64_t>(kappa.size()), threads,
-                                  [&](std::int64_t first, std::int64_t last) {
-                                    double part = 0;
-                                    for (std::int64_t f = first; f < last; ++f) {
-                                      part += std::abs(std::log(kappa[static_cast<size_t>(f)]));
-                                    }
-                                    return part;
-                                  });
+  const double sum = parallel_sum(
+      static_cast<std::int64_t>(kappa.size()), threads, [&](std::int64_t first, std::int64_t last) {
+        double part = 0;
+        for (std::int64_t f = first; f < last; ++f) {
+          part += std::abs(elementary::log(kappa[static_cast<size_t>(f)]));
+        }
+        return part;
+      });
   return sum / static_cast<double>(kappa.size());
 }
 

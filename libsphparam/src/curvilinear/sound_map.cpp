@@ -4,8 +4,10 @@
 #include <cmath>
 #include <utility>
 
+#include "option_domain.h"
 #include "sphparam/curvilinear/lift.h"
 #include "sphparam/curvilinear/quasi_harmonic.h"
+#include "sphparam/elementary.h"
 
 // (M, date line) → cylinder → (θ, ϕ) → κ_acc ← κ → (θ, ϕ) → κ_acc ← κ_acc·√κ → (θ, ϕ) → … while it
 // gets better. The first step goes all the way, as the paper's does: far from the solution that is
@@ -27,7 +29,7 @@ double cap_angle(const TriangleMesh& mesh, const Topology& topology, Vertex pole
     star_area += 0.5 * (a - p).cross(b - p).norm();
   });
   const double share = total_area > 0 ? std::min(star_area / total_area, 0.5) : 0;
-  return std::clamp(std::acos(1 - 2 * share), least, greatest);
+  return std::clamp(elementary::acos(1 - 2 * share), least, greatest);
 }
 
 double surface_area(const TriangleMesh& mesh) {
@@ -49,10 +51,16 @@ ChartBoundary boundary_for(const TriangleMesh& mesh, const Topology& topology,
                            cap_angle(mesh, topology, south, area));
 }
 
+void require_domain(const SoundOptions& options) {
+  require_at_least("iterations", options.iterations, 0);
+  require_between("epsilon", options.epsilon, 0, greatest_epsilon);
+}
+
 }  // namespace
 
 SoundMap map_periodic(const TriangleMesh& mesh, const Topology& topology, DateLine date_line,
                       const SoundOptions& options, const Progress& progress) {
+  require_domain(options);
   const int threads = options.threads;
   report(progress, "harmonic map", 0);
   SoundMap best;
@@ -87,6 +95,9 @@ SoundMap map_periodic(const TriangleMesh& mesh, const Topology& topology, DateLi
 
 SoundMap map_periodic(const TriangleMesh& mesh, const Topology& topology, Poles poles,
                       const SoundOptions& options, const Progress& progress) {
+  require_domain(options);
+  require_vertex("poles.north", poles.north, mesh.vertex_count());
+  require_vertex("poles.south", poles.south, mesh.vertex_count());
   report(progress, "date line", 0);
   return map_periodic(mesh, topology,
                       induced_date_line(topology, shortest_date_line(mesh, topology, poles)),

@@ -1,5 +1,6 @@
 #include "sphparam/curvilinear/tangential_smoothing.h"
 
+#include "option_domain.h"
 #include "sphparam/mesh/edge_weights.h"
 
 // Gauss–Seidel on the sphere: each vertex moves to the weighted mean of its neighbours, seen in the
@@ -45,6 +46,9 @@ std::vector<Vertex> date_line_patch(const Topology& topology, const DateLine& da
 SphereMap smooth_date_line(const TriangleMesh& mesh, const Topology& topology,
                            const DateLine& date_line, SphereMap map,
                            const SmoothingOptions& options) {
+  require_at_least("rings", options.rings, 0);
+  require_at_least("sweeps", options.sweeps, 0);
+  require_one_of("laplacian", options.laplacian, SmoothingOptions::Operator::Uniform);
   std::vector<double> weights;  // empty: uniform
   if (options.laplacian == SmoothingOptions::Operator::MeanValue) {
     const EdgeWeights mean_value(mesh, topology, WeightKind::MeanValue, options.threads);

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <vector>
 
+#include "option_domain.h"
+#include "sphparam/elementary.h"
 #include "sphparam/parallel.h"
 
 // Density. A triangle of source area A, magnified s = Ω/A, at polar angle ϕ from an axis has
@@ -71,7 +73,8 @@ Points spread_directions(int count) {
   Points directions(count, 3);
   for (int k = 0; k < count; ++k) {
     const double z = (k + 0.5) / count, r = std::sqrt(1 - z * z);
-    directions.row(k) << r * std::cos(golden_angle * k), r * std::sin(golden_angle * k), z;
+    directions.row(k) << r * elementary::cos(golden_angle * k),
+        r * elementary::sin(golden_angle * k), z;
   }
   return directions;
 }
@@ -186,7 +189,7 @@ Survey survey_triangles(const Topology& topology, const SourceTriangles& source,
       const ImageCorners t = corners(topology, map, f);
       const double det = t.a.dot((t.b - t.a).cross(t.c - t.a)), area = source[at(f)].area;
       if (!(det > 0)) continue;
-      const double log = std::log2(det / (2 * area));
+      const double log = elementary::log2(det / (2 * area));
       part.cells[at(cell_of(t.a + t.b + t.c))].add({area, area * log, area * log * log});
       count_folds(t, det, axes, suspect, part.folds);
     }
@@ -206,7 +209,7 @@ double density_spread(const Cells& cells, const Points& centres, const Vector3& 
   double area = 0, linear = 0, quadratic = 0;
   for (int i = 0; i < cell_count; ++i) {
     const double cosine = axis.dot(centres.row(i));
-    const double l = std::log2(std::max(0.0, 1 - cosine * cosine) + blur) / 2;
+    const double l = elementary::log2(std::max(0.0, 1 - cosine * cosine) + blur) / 2;
     const Cell& cell = cells[at(i)];
     area += cell.area;
     linear += cell.logs - l * cell.area;
@@ -296,8 +299,8 @@ bool folds_in_chart(const Vector3& a, const Vector3& b, const Vector3& c) {
   for (size_t i = 0; i < 3; ++i) {
     const double r = x[i].head<2>().norm();
     if (r == 0) return false;
-    theta[i] = std::atan2(x[i].y(), x[i].x());
-    phi[i] = std::atan2(r, x[i].z());
+    theta[i] = elementary::atan2(x[i].y(), x[i].x());
+    phi[i] = elementary::atan2(r, x[i].z());
   }
   const auto short_way = [&](size_t i, size_t j) {
     const double d = theta[j] - theta[i];
@@ -311,6 +314,7 @@ bool folds_in_chart(const Vector3& a, const Vector3& b, const Vector3& c) {
 
 AxisChoice choose_axis(const Topology& topology, const SourceTriangles& source,
                        const SphereMap& map, const AxisOptions& options) {
+  require_at_least("candidates", options.candidates, 1);
   const Points axes = spread_directions(options.candidates);
   const Survey survey = survey_triangles(topology, source, map, Axes(axes), options.threads);
   Points centres(cell_count, 3);
@@ -349,7 +353,7 @@ double choose_meridian(const Topology& topology, const SphereMap& map, int threa
   const double d = 4.0 * static_cast<double>(best) / meridians;  // back to (x, y)
   const double y = d <= 1 ? d : (d <= 3 ? 2 - d : d - 4);
   const double x = (d <= 1 || d >= 3) ? 1 - std::abs(y) : std::abs(y) - 1;
-  const double theta = std::atan2(y, x);
+  const double theta = elementary::atan2(y, x);
   return theta < 0 ? theta + 2 * std::numbers::pi : theta;
 }
 

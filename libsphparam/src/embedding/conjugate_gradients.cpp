@@ -32,12 +32,13 @@ void add(Unknowns& a, double factor, const Unknowns& b) {
 
 LinearSolution solve_by_conjugate_gradients(const BlockMatrix<2>& matrix, Multigrid& multigrid,
                                             Unknowns r, double least_share, int most_iterations,
-                                            int threads) {
+                                            int threads, const std::function<void()>& ask) {
   const size_t n = r.size();
   LinearSolution solution{Unknowns(n, 0.0F)};
   Unknowns z(n), direction(n, 0.0F), image(n);
   double rz = 0;
   while (solution.iterations < most_iterations) {
+    if (ask) ask();
     multigrid.apply(r, z, image);
     const double next = dot(r, z, threads);
     const float share = rz > 0 ? static_cast<float>(next / rz) : 0.0F;

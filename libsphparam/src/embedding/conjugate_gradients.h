@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "embedding/block_matrix.h"
 
 namespace sphparam {
@@ -17,9 +19,10 @@ struct LinearSolution {
 /// and kept. At most `most_iterations`; none more after a direction whose curvature dᵀ A d is not
 /// positive (rounding, or nothing left to solve): x is then what it was before. Uses b up.
 /// Requires: A symmetric and positive semidefinite, least_share < 1.
+/// `ask` is called in every iteration and may throw.
 /// Ensures: same bits for any number of threads. Cost: linear an iteration.
 LinearSolution solve_by_conjugate_gradients(const BlockMatrix<2>& matrix, Multigrid& multigrid,
                                             Unknowns b, double least_share, int most_iterations,
-                                            int threads);
+                                            int threads, const std::function<void()>& ask = {});
 
 }  // namespace sphparam

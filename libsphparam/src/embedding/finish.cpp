@@ -69,6 +69,8 @@ void Finish::improve(const TriangleMesh& mesh, const Topology& topology,
                                : coarse_rest;
   GlobalNewton newton(topology, measure_source(mesh, options_.threads), image, pinned,
                       options_.threads);
+  double done = share.begin;
+  newton.ask_with([&] { report(options_.progress, "embedding", done); });
   double energy = newton.energy(options_.energy);
   last_gain_ = std::numeric_limits<double>::infinity();      // not known, should it end here
   if (!newton.can_move() || !std::isfinite(energy)) return;  // not finite: positive, not certain
@@ -77,8 +79,8 @@ void Finish::improve(const TriangleMesh& mesh, const Topology& topology,
   for (int step = 0; step < most_steps; ++step) {
     newton.step(options_.energy, least_share);
     newton.sweep(options_.energy, sweeps_between);
-    report(options_.progress, "embedding",
-           std::lerp(share.begin, share.end, (step + 1.0) / most_steps));
+    done = std::lerp(share.begin, share.end, (step + 1.0) / most_steps);
+    report(options_.progress, "embedding", done);
     const double before = std::exchange(energy, newton.energy(options_.energy));
     const double gain = 1 - energy / before;
     if (step == 0) last_gain_ = gain;

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "embedding/energy_domain.h"
 #include "sphparam/embedding/landmarks.h"
 #include "sphparam/embedding/progressive.h"
 
@@ -20,6 +21,7 @@ SphereMap turned_like(const SphereMap& from, const SphereMap& to) {
 
 RoomyRounding round_with_room(const TriangleMesh& mesh, const Topology& topology,
                               const SphereMap& map, const FloatRoomOptions& options) {
+  require_domain(options.energy);
   RoomyRounding result{round_to_float(topology, map, options.threads)};
   if (result.rounding.certificate.bijective()) return result;
   if (!certify(topology, map, options.threads).bijective()) return result;

@@ -178,7 +178,11 @@ double GlobalNewton::recentre(const DistortionEnergy& energy) {
   const double before = this->energy(energy);
   if (std::count(pinned_.begin(), pinned_.end(), 1) > 0) return before;
   return sphparam::recentre(
-      image_, before, [&](const Image& image) { return blocks_.energy(image, energy, threads_); },
+      image_, before,
+      [&](const Image& image) {
+        ask_();
+        return blocks_.energy(image, energy, threads_);
+      },
       threads_);
 }
 
@@ -210,6 +214,7 @@ void GlobalNewton::sweep(const DistortionEnergy& energy, int sweeps) {
   make_room();
   const RingPacks rings = pack_rings_of_all();
   for (int n = 0; n < sweeps * rings.colours(); ++n) {
+    if (n % rings.colours() == 0) ask_();
     const int c = n % rings.colours(), first = rings.colour_start[at(c)];
     const int count = rings.colour_start[at(c) + 1] - first;
     parallel_for(count, sweep_grain, threads_, [&](std::int64_t begin, std::int64_t end) {
@@ -233,13 +238,14 @@ LinearSolution GlobalNewton::solve(const DistortionEnergy& energy, double least_
   make_room();
   LinearSolution solution;
   if (assemble(energy)) {
+    ask_();
     if (multigrid_) {
       multigrid_->update(image_.data());
     } else {
       multigrid_.emplace(hessian_, order_, image_.data(), unit_.data(), pinned_, threads_);
     }
     solution = solve_by_conjugate_gradients(hessian_, *multigrid_, std::move(downhill_),
-                                            least_share, most_iterations, threads_);
+                                            least_share, most_iterations, threads_, ask_);
   }
   hessian_.off = std::vector<Block<2>>();  // = {} would keep the memory
   hessian_.diagonal = std::vector<Block<2>>();
@@ -257,10 +263,12 @@ GlobalNewton::Step GlobalNewton::step(const DistortionEnergy& energy, double lea
   Image candidate;
   double length = std::min(1.0, cap);
   for (int i = 0; i < halvings; ++i, length /= 2) {
+    ask_();
     move(solution.x, length, candidate);
     double after = blocks_.energy(candidate, energy, threads_);
     if (!(after < before + sufficient_decrease * length * slope)) continue;
     while (2 * length <= std::min(cap, most_expansion) && (i == 0 || length >= 1)) {
+      ask_();
       move(solution.x, 2 * length, candidate);
       const double further = blocks_.energy(candidate, energy, threads_);
       if (!(further < after)) {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "embedding/conjugate_gradients.h"
@@ -25,6 +27,10 @@ class GlobalNewton {
   GlobalNewton(const Topology& topology, const SourceTriangles& source,
                const std::vector<ImagePoint>& image, const std::vector<Vertex>& pinned,
                int threads);
+
+  /// `ask` is called between the parts of all that follows, at least once in a pass over the mesh,
+  /// and may throw; then the image is lost.
+  void ask_with(std::function<void()> ask) { ask_ = std::move(ask); }
 
   struct Step {
     double energy;   // after the step; before it, if nothing moved
@@ -68,6 +74,7 @@ class GlobalNewton {
   double longest(const Unknowns& direction) const;
 
   int threads_;
+  std::function<void()> ask_ = [] {};
   std::vector<Vertex> old_name_;
   Image image_;
   std::vector<char> pinned_;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "option_domain.h"
+#include "sphparam/elementary.h"
 #include "sphparam/mesh/edge_weights.h"
 #include "sphparam/mesh/laplace_system.h"
 #include "sphparam/sphere/certificate.h"
@@ -120,7 +122,7 @@ class DiskSystem {
       const double even = static_cast<double>(i) / static_cast<double>(n);
       const double by_length = total > 0 && std::isfinite(total) ? run / total : even;
       const double angle = std::numbers::pi * (even + by_length);
-      points.row(link[i]) << std::cos(angle), std::sin(angle);
+      points.row(link[i]) << elementary::cos(angle), elementary::sin(angle);
       run += length[i];
     }
     return points;
@@ -277,6 +279,7 @@ Vertex middle_vertex(const Topology& topology) {
 
 OneVertexDisk tutte_disk(const TriangleMesh& mesh, const Topology& topology, Vertex south,
                          int threads) {
+  require_vertex("south", south, topology.vertex_count());
   return DiskSystem(mesh, topology, south, threads).solve();
 }
 
@@ -335,6 +338,10 @@ SphereMap stereographic_lift(const OneVertexDisk& disk, const Eigen::VectorXd& a
 
 GnomonicEmbedding gnomonic_embedding(const TriangleMesh& mesh, const Topology& topology,
                                      const GnomonicOptions& options) {
+  if (options.south) require_vertex("south", *options.south, topology.vertex_count());
+  require_between("lambda", options.lambda, 0, greatest_lambda);
+  require_at_least("reweightings", options.reweightings, 0);
+  require_at_least("sweeps", options.sweeps, 0);
   const SourceTriangles source = measure_source(mesh);
   std::optional<GnomonicEmbedding> best;
   int attempts = 0;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "embedding/energy_domain.h"
 #include "embedding/kernel_placement.h"
 #include "sphparam/embedding/planar_drawing.h"
 #include "sphparam/sphere/certificate.h"
@@ -185,6 +186,8 @@ std::optional<Points> rays_without(const Topology& topology, const SourceTriangl
 
 GridLift grid_lift(const TriangleMesh& mesh, const Topology& topology,
                    const GridLiftOptions& options) {
+  require_domain(options.energy);
+  require_at_least("sweeps", options.sweeps, 0);
   report(options.progress, "grid lift", 0);
   const SourceTriangles source = measure_source(mesh);
   GridLift result;

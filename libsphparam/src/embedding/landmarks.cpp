@@ -9,7 +9,10 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "embedding/energy_domain.h"
 #include "embedding/orientations.h"
+#include "embedding/pin_domain.h"
+#include "sphparam/elementary.h"
 #include "sphparam/embedding/relaxation.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/orientation.h"
@@ -36,7 +39,7 @@ constexpr std::int64_t grain = 256;
 /// The tangent vector at `from` whose great circle reaches `to` after its length.
 Vector3 way(const Vector3& from, const Vector3& to) {
   const Vector3 side = to - from.dot(to) * from;
-  const double sine = side.norm(), angle = std::atan2(from.cross(to).norm(), from.dot(to));
+  const double sine = side.norm(), angle = elementary::atan2(from.cross(to).norm(), from.dot(to));
   if (angle == 0) return Vector3::Zero();
   if (sine < opposite && angle > 1) return angle * from.unitOrthogonal();  // any will do
   return angle / sine * side;
@@ -45,7 +48,7 @@ Vector3 way(const Vector3& from, const Vector3& to) {
 /// Once continuously differentiable (Matérn 3/2): pins that lie close keep the system regular.
 double kernel(double distance) {
   const double r = distance / kernel_width;
-  return (1 + r) * std::exp(-r);
+  return (1 + r) * elementary::exp(-r);
 }
 
 double sum(const std::vector<double>& values) {
@@ -268,7 +271,7 @@ std::vector<double> pin_residuals(const SphereMap& map, const std::vector<Pin>& 
   std::vector<double> residuals;
   for (const Pin& pin : pins) {
     const Vector3 x = map.point(pin.vertex);
-    const double angle = std::atan2(x.cross(pin.point).norm(), x.dot(pin.point));
+    const double angle = elementary::atan2(x.cross(pin.point).norm(), x.dot(pin.point));
     residuals.push_back(x == pin.point ? 0 : std::max(angle, std::numeric_limits<double>::min()));
   }
   return residuals;
@@ -277,6 +280,11 @@ std::vector<double> pin_residuals(const SphereMap& map, const std::vector<Pin>& 
 LandmarkPlacement place_landmarks(const Topology& topology, const SourceTriangles& source,
                                   const SphereMap& map, const std::vector<Pin>& pins,
                                   const LandmarkOptions& options) {
+  require_domain(options.energy);
+  require_at_least("sweeps", options.sweeps, 0);
+  require_at_least("most_rounds", options.most_rounds, 0);
+  require_at_least("most_detours", options.most_detours, 0);
+  require_pins(pins, topology.vertex_count());
   return Traveller(topology, source, map, pins, options).run();
 }
 

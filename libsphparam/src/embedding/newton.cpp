@@ -2,13 +2,26 @@
 
 #include <numeric>
 
+#include "embedding/energy_domain.h"
 #include "free_vertices.h"
 #include "newton_patch.h"
 
 namespace sphparam {
+namespace {
+
+void require_domain(const NewtonOptions& options, int vertices) {
+  require_domain(options.energy);
+  require_at_least("max_steps", options.max_steps, 0);
+  require_between("least_gain", options.least_gain, 0, 1);
+  if (options.vertices) require_vertices("vertices", *options.vertices, vertices);
+  require_vertices("pinned", options.pinned, vertices);
+}
+
+}  // namespace
 
 NewtonResult minimise_by_newton(const Topology& topology, const SourceTriangles& source,
                                 const SphereMap& map, const NewtonOptions& options) {
+  require_domain(options, topology.vertex_count());
   NewtonPatch patch(topology, source, map.points,
                     free_vertices(topology.vertex_count(), options.vertices, options.pinned));
   NewtonResult result{map, {}};

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "embedding/energy_domain.h"
 #include "embedding/global_newton.h"
+#include "sphparam/elementary.h"
 #include "sphparam/parallel.h"
 
 // A step: projected Newton (global_newton.cpp), then sweeps of guarded relaxation, which smooth
@@ -19,7 +21,6 @@ constexpr double least_recentring = 0.01;  // of `least_gain`: not worth a secon
 constexpr double on_the_way_gain = 1e-2;
 constexpr int on_the_way_steps = 12;
 constexpr double factor_down = 0.1, factor_up = 4;
-constexpr double least_lambda = 1e-10, greatest_lambda = 1e6;
 constexpr double no_difference = 2e-3;  // of the mean angle error, by a factor of λ
 
 /// A f of an isometry: what no map of small triangles gets below.
@@ -46,9 +47,9 @@ double area_error(const Topology& topology, const SourceTriangles& source,
     for (Face f = static_cast<Face>(first); f < static_cast<Face>(last); ++f) {
       const auto [a, b, c] = triangle_of(topology, image, f);
       const double det = a.dot((b - a).cross(c - a));
-      const double angle = 2 * std::atan2(det, 1 + a.dot(b) + b.dot(c) + c.dot(a));
+      const double angle = 2 * elementary::atan2(det, 1 + a.dot(b) + b.dot(c) + c.dot(a));
       const double source_area = source[static_cast<size_t>(f)].area;
-      sum += source_area * std::abs(std::log2(angle / source_area));
+      sum += source_area * std::abs(elementary::log2(angle / source_area));
     }
     return sum;
   };
@@ -58,7 +59,7 @@ double area_error(const Topology& topology, const SourceTriangles& source,
 /// The angle at `corner` of a triangle.
 double angle_at(const ImageTriangle& x, size_t corner) {
   const Vector3 a = x[(corner + 1) % 3] - x[corner], b = x[(corner + 2) % 3] - x[corner];
-  return std::atan2(a.cross(b).norm(), a.dot(b));
+  return elementary::atan2(a.cross(b).norm(), a.dot(b));
 }
 
 /// Mean |ln (angle of the chord triangle / angle of the source)| over all corners.
@@ -73,7 +74,7 @@ double angle_error(const Topology& topology, const SourceTriangles& source,
                                  Vector3(s.foot * base, 1 / s.inverse_height, 0)};
       const ImageTriangle after = triangle_of(topology, image, f);
       for (size_t k = 0; k < 3; ++k) {
-        sum += std::abs(std::log(angle_at(after, k) / angle_at(before, k)));
+        sum += std::abs(elementary::log(angle_at(after, k) / angle_at(before, k)));
       }
     }
     return sum;
@@ -101,6 +102,8 @@ SphereMap map_of(const std::vector<ImagePoint>& image) {
 /// Steps until converged; adds to the report's counts.
 void minimise(GlobalNewton& newton, double isometric, const OptimiseOptions& options,
               OptimiseReport& r) {
+  double done = 0;
+  newton.ask_with([&] { report(options.progress, "optimisation", done); });
   r.converged = false;
   r.energy_before = r.energy_after = newton.energy(options.energy);
   if (!std::isfinite(r.energy_before) || !newton.can_move()) return;
@@ -119,14 +122,25 @@ void minimise(GlobalNewton& newton, double isometric, const OptimiseOptions& opt
     r.converged = !(r.energy_after - after > options.least_gain * (after - isometric));
     r.energy_after = std::min(r.energy_after, after);
     ++r.steps;
-    report(options.progress, "optimisation", static_cast<double>(n + 1) / options.max_steps);
+    done = static_cast<double>(n + 1) / options.max_steps;
+    report(options.progress, "optimisation", done);
   }
+}
+
+void require_domain(const OptimiseOptions& options, int vertices) {
+  require_domain(options.energy);
+  require_between("least_gain", options.least_gain, 0, 1);
+  require_at_least("max_steps", options.max_steps, 0);
+  require_between("least_share", options.least_share, 0, 1);
+  require_at_least("sweeps", options.sweeps, 0);
+  require_vertices("pinned", options.pinned, vertices);
 }
 
 }  // namespace
 
 Optimisation optimise(const Topology& topology, const SourceTriangles& source, const SphereMap& map,
                       const OptimiseOptions& options) {
+  require_domain(options, topology.vertex_count());
   std::vector<ImagePoint> image = image_of(map);
   GlobalNewton newton(topology, source, image, options.pinned, options.threads);
   Optimisation result;
@@ -224,10 +238,19 @@ class Continuation {
   OptimiseReport report_;
 };
 
+void require_domain(const BalanceOptions& options, int vertices) {
+  require_domain(options.optimise, vertices);
+  require_one_of("balance", options.balance, Balance::EqualArea);
+  require_between("from_lambda", options.from_lambda, least_lambda, greatest_lambda);
+  require_between("energy.lambda", options.optimise.energy.lambda, least_lambda, greatest_lambda);
+  require_at_least("area_error", options.area_error, 0);
+}
+
 }  // namespace
 
 BalancedMap optimise_balance(const Topology& topology, const SourceTriangles& source,
                              const SphereMap& map, const BalanceOptions& options) {
+  require_domain(options, topology.vertex_count());
   return Continuation(topology, source, map, options).run();
 }
 

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "embedding/energy_domain.h"
 #include "embedding/orientations.h"
+#include "sphparam/elementary.h"
 #include "sphparam/embedding/relaxation.h"
 #include "sphparam/mesh/rings.h"
 #include "sphparam/parallel.h"
@@ -37,11 +39,31 @@ SphereMap moved(const SphereMap& map, int threads, const Move& move) {
   return result;
 }
 
+/// Rodrigues' formula for the shortest turn that takes the unit vector n to +z, about v = n × z:
+/// x ↦ c x + v × x + (v·x) v / (1 + c), c = n·z. Written out, for matrix products may be
+/// contracted.
+class TurnToNorth {
+ public:
+  explicit TurnToNorth(const Vector3& n)
+      : n_(n), share_(n.z() > 0 ? 1 / (1 + n.z()) : (1 - n.z()) / n.head<2>().squaredNorm()) {}
+
+  Vector3 operator()(const Vector3& x) const {
+    if (n_.x() == 0 && n_.y() == 0) return n_.z() > 0 ? x : Vector3(x.x(), -x.y(), -x.z());
+    const double along = share_ * (n_.y() * x.x() - n_.x() * x.y());
+    return {n_.z() * x.x() - n_.x() * x.z() + n_.y() * along,
+            n_.z() * x.y() - n_.y() * x.z() - n_.x() * along,
+            n_.z() * x.z() + n_.x() * x.x() + n_.y() * x.y()};
+  }
+
+ private:
+  Vector3 n_;
+  double share_;  // 1/(1 + c), in the south as (1 − c)/|v|²
+};
+
 SphereMap rotated_to_north(const SphereMap& map, Vertex north, int threads) {
-  const Eigen::Matrix3d rotation =
-      Eigen::Quaterniond::FromTwoVectors(map.point(north), Vector3::UnitZ()).toRotationMatrix();
+  const TurnToNorth turn(map.point(north));
   SphereMap result =
-      moved(map, threads, [&](const Vector3& x) -> Vector3 { return (rotation * x).normalized(); });
+      moved(map, threads, [&](const Vector3& x) -> Vector3 { return turn(x).normalized(); });
   result.points.row(north) = Vector3::UnitZ();
   return result;
 }
@@ -143,6 +165,12 @@ double bring_down(const Topology& topology, const SourceTriangles& source,
   return before - energy_around(topology, source, map, around, options.energy);
 }
 
+void require_domain(const PolePlacementOptions& options) {
+  require_domain(options.energy);
+  require_at_least("sweeps", options.sweeps, 0);
+  require_at_least("most_moves", options.most_moves, 1);
+}
+
 }  // namespace
 
 std::vector<Vertex> nearest_vertices(const SphereMap& map, const Vector3& direction, int count,
@@ -175,7 +203,10 @@ std::optional<PolePlacement> place_poles_on_axis(const Topology& topology,
                                                  const SourceTriangles& source,
                                                  const SphereMap& map, const Vector3& axis,
                                                  const PolePlacementOptions& options) {
+  require_domain(options);
+  require_more_than("axis: squared length", axis.squaredNorm(), 0);
   for (const auto& [north, south] : opposite_pairs(topology, map, axis, options.threads)) {
+    report(options.progress, "poles", 0);
     PolePlacement result{
         .map = rotated_to_north(map, north, options.threads), .north = north, .south = south};
     const double gain = bring_down(topology, source, options, result);
@@ -191,6 +222,9 @@ std::optional<PolePlacement> place_poles_on_axis(const Topology& topology,
 std::optional<PolePlacement> place_poles(const Topology& topology, const SourceTriangles& source,
                                          const SphereMap& map, Vertex north, Vertex south,
                                          const PolePlacementOptions& options) {
+  require_domain(options);
+  require_vertex("north", north, topology.vertex_count());
+  require_vertex("south", south, topology.vertex_count());
   PolePlacement result{
       .map = rotated_to_north(map, north, options.threads), .north = north, .south = south};
   result.energy_before = distortion_energy(topology, source, map, options.energy, options.threads);
@@ -225,8 +259,9 @@ std::optional<PolePlacement> place_poles(const Topology& topology, const SourceT
 }
 
 SphereMap turned_to_meridian(const SphereMap& map, Vertex meridian, int threads) {
+  require_vertex("meridian", meridian, map.points.rows());
   const Vector3 origin = map.point(meridian);
-  const double radius = std::hypot(origin.x(), origin.y());
+  const double radius = elementary::hypot(origin.x(), origin.y());
   const double c = origin.x() / radius, s = origin.y() / radius;
   SphereMap result = moved(map, threads, [&](const Vector3& x) -> Vector3 {
     return {c * x.x() + s * x.y(), c * x.y() - s * x.x(), x.z()};

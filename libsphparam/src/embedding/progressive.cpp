@@ -3,16 +3,20 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <numeric>
 #include <utility>
 #include <vector>
 
+#include "embedding/energy_domain.h"
 #include "embedding/finish.h"
 #include "embedding/freed_memory.h"
 #include "embedding/kernel_placement.h"
 #include "embedding/pack_kernel.h"
+#include "embedding/pin_domain.h"
 #include "embedding/ring_packs.h"
+#include "sphparam/elementary.h"
 #include "sphparam/embedding/relaxation.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/orientation.h"
@@ -79,7 +83,7 @@ class Embedder {
            const KeptVertices& keep)
       : mesh_(mesh),
         topology_(topology),
-        hierarchy_(build_hierarchy(mesh, topology, options.threads, keep)),
+        hierarchy_(build_hierarchy(mesh, topology, options.threads, keep, options.progress)),
         options_(options),
         area_floor_(options.least_area * 4 * std::numbers::pi / topology.face_count()),
         finish_(topology.vertex_count(), finish_options(options)) {
@@ -100,6 +104,7 @@ class Embedder {
     packs_ = room_for_rings(topology_.halfedge_count());
     double done = 0, all = 0;
     for (const HierarchyLevel& level : hierarchy_) all += level.vertex_count();
+    ask_ = [&] { report(options_.progress, "embedding", done / all); };
     for (size_t l = hierarchy_.size(); l-- > 0;) {
       if (l + 1 < hierarchy_.size() && !refine(l, result.report)) return result;
       hierarchy_.resize(l + 1);
@@ -108,7 +113,7 @@ class Embedder {
       const int vertices = hierarchy_[l].vertex_count();
       done += vertices;
       if (finish_.due(vertices)) finish(l, {before, done / all});
-      report(options_.progress, "embedding", done / all);
+      ask_();
     }
     packs_ = {};
     hierarchy_.clear();
@@ -134,6 +139,7 @@ class Embedder {
     complete_positions(hierarchy_[l], hierarchy_[l + 1], options_.threads);
     const HierarchyLevel &level = hierarchy_[l], &coarser = hierarchy_[l + 1];
     packs_ = pack(l, pins_placed_, std::move(packs_));
+    ask_();
     for (int attempt = 0;; ++attempt) {
       prolong(level, coarser);
       if (insert(level, report)) break;
@@ -141,11 +147,15 @@ class Embedder {
       ++report.retries;
       restrict(coarser);
       const RingPacks coarse = pack(l + 1, pins_placed_);
-      for (int sweep = 0; sweep < 10 << attempt; ++sweep) sweep_colours(coarse, 0, 1.0);
+      for (int sweep = 0; sweep < 10 << attempt; ++sweep) {
+        sweep_colours(coarse, 0, 1.0);
+        ask_();
+      }
     }
     const int sweeps = sweeps_on(level.vertex_count());
     // The first sweep need not move the removed vertices: they have just made their step.
     for (int sweep = 0; sweep < sweeps; ++sweep) {
+      ask_();
       sweep_colours(packs_, sweep == 0 ? 1 : 0, options_.over_relaxation);
     }
     return true;
@@ -188,6 +198,7 @@ class Embedder {
     packs_ = pack(l, true, std::move(packs_));
     const int sweeps = sweeps_on(hierarchy_[l].vertex_count());
     for (int sweep = 0; sweep < sweeps; ++sweep) {
+      ask_();
       sweep_colours(packs_, 0, options_.over_relaxation);
     }
     const double left = std::accumulate(residuals.begin(), residuals.end(), 0.0);
@@ -199,7 +210,7 @@ class Embedder {
   int sweeps_on(int vertices) const {
     const double finest = topology_.vertex_count();
     const double growth = finish_.sweeps_suffice() ? sweep_growth_without_limbs : sweep_growth;
-    const double wanted = options_.sweeps * std::pow(finest / vertices, growth);
+    const double wanted = options_.sweeps * elementary::pow(finest / vertices, growth);
     return static_cast<int>(std::lround(std::min<double>(options_.most_sweeps, wanted)));
   }
 
@@ -263,6 +274,7 @@ class Embedder {
   const Topology& topology_;
   MeshHierarchy hierarchy_;
   const ProgressiveOptions& options_;
+  std::function<void()> ask_;  // whether to go on; throws if not
   const double area_floor_;
   std::vector<std::vector<Vertex>> pinned_;  // per level that has all pins: their names there
   bool pins_placed_ = false;
@@ -328,10 +340,23 @@ ProgressiveEmbedding embed_by_valences(const TriangleMesh& mesh, const Topology&
   return embedding;
 }
 
+void require_domain(const ProgressiveOptions& options, int vertices) {
+  require_domain(options.energy);
+  require_one_of("quality", options.quality, Quality::Best);
+  require_at_least("sweeps", options.sweeps, 0);
+  require_at_least("most_sweeps", options.most_sweeps, 0);
+  require_between("over_relaxation", options.over_relaxation, 0, most_over_relaxation);
+  require_between("retries", options.retries, 0, most_retries);
+  require_at_least("pin_level", options.pin_level, 0);
+  require_between("least_area", options.least_area, 0, 1);
+  require_pins(options.pins, vertices);
+}
+
 }  // namespace
 
 ProgressiveEmbedding embed_progressively(const TriangleMesh& mesh, const Topology& topology,
                                          const ProgressiveOptions& options) {
+  require_domain(options, topology.vertex_count());
   report(options.progress, "hierarchy", 0);
   KeptVertices keep{{}, std::max(options.pin_level, 20 * static_cast<int>(options.pins.size()))};
   for (const Pin& pin : options.pins) keep.vertices.push_back(pin.vertex);

@@ -4,7 +4,9 @@
 #include <atomic>
 #include <limits>
 
+#include "embedding/energy_domain.h"
 #include "free_vertices.h"
+#include "sphparam/elementary.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/orientation.h"
 
@@ -199,7 +201,7 @@ class Ring {
 Eigen::Vector2d newton_step(const Ring::Model& model) {
   double h00 = model.hessian(0, 0), h11 = model.hessian(1, 1);
   const double h01 = model.hessian(0, 1);
-  const double middle = (h00 + h11) / 2, spread = std::hypot((h00 - h11) / 2, h01);
+  const double middle = (h00 + h11) / 2, spread = elementary::hypot((h00 - h11) / 2, h01);
   const double least = least_curvature * (std::abs(middle) + spread);
   const double shift = std::max(0.0, least - (middle - spread));
   h00 += shift;
@@ -259,10 +261,19 @@ void sweep(const Rings& rings, Points& points, const DistortionEnergy& energy,
   }
 }
 
+void require_domain(const RelaxationOptions& options, int vertices) {
+  require_domain(options.energy);
+  require_at_least("sweeps", options.sweeps, 0);
+  require_between("over_relaxation", options.over_relaxation, 0, most_over_relaxation);
+  if (options.vertices) require_vertices("vertices", *options.vertices, vertices);
+  require_vertices("pinned", options.pinned, vertices);
+}
+
 }  // namespace
 
 Relaxation relax(const Topology& topology, const SourceTriangles& source, const SphereMap& map,
                  const RelaxationOptions& options) {
+  require_domain(options, topology.vertex_count());
   DistortionEnergy energy = options.energy;
   energy.epsilon = 0;
   Relaxation result{map, {}};

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "newton_patch.h"
+#include "option_domain.h"
+#include "sphparam/elementary.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/orientation.h"
 
@@ -127,7 +129,7 @@ int unfold(NewtonPatch& patch, double share, const UntangleOptions& options) {
   int steps = 0, folds = patch.folds(), fewest = folds, waited = 0;
   Depth depth = depth_of(patch);
   for (double shallowest = depth.deepest; folds > 0 && waited < patience; ++steps) {
-    energy.epsilon = std::hypot(share_of_median * depth.median, share * depth.deepest);
+    energy.epsilon = elementary::hypot(share_of_median * depth.median, share * depth.deepest);
     if (steps == options.max_steps || !(energy.epsilon > 0) || !patch.step(energy).moved) break;
     folds = patch.folds();
     depth = depth_of(patch);
@@ -194,10 +196,21 @@ void unfold_all(const Topology& topology, const SourceTriangles& source, const P
   }
 }
 
+void require_domain(const UntangleOptions& options, int vertices) {
+  require_between("lambda", options.lambda, 0, greatest_lambda);
+  require_at_least("rings", options.rings, 0);
+  require_at_least("max_rounds", options.max_rounds, 0);
+  require_at_least("max_patch", options.max_patch, 0);
+  require_at_least("max_steps", options.max_steps, 0);
+  require_at_least("max_work", options.max_work, 0);
+  require_vertices("pinned", options.pinned, vertices);
+}
+
 }  // namespace
 
 Untangled untangle(const Topology& topology, const SourceTriangles& source, const SphereMap& map,
                    const UntangleOptions& options) {
+  require_domain(options, topology.vertex_count());
   const auto start = std::chrono::steady_clock::now();
   Untangled result{map, {}};
   UntangleReport& report = result.report;

@@ -1,12 +1,17 @@
 #include "sphparam/mesh/curvature.h"
 
 #include <Eigen/IterativeLinearSolvers>
+#include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
+#include "mesh/unit_size.h"
+#include "option_domain.h"
+#include "sphparam/elementary.h"
 #include "sphparam/errors.h"
 #include "sphparam/parallel.h"
 
@@ -22,7 +27,9 @@ namespace sphparam {
 namespace {
 
 constexpr std::int64_t kGrain = 4096;
-constexpr double kAreaFloor = 1e-9;   // of the mean area of a vertex
+constexpr double kAreaFloor = 1e-9;  // of the mean area of a vertex
+constexpr double kLeastArea = std::numeric_limits<double>::min();
+constexpr int kLeastExponent = -1000;
 constexpr double kGlue = 1e6;         // ½s²·weight of an edge without length, in mean areas
 constexpr double kTolerance = 1e-10;  // of the residual of the average
 constexpr int kMaxIterations = 20'000;
@@ -60,14 +67,14 @@ double bend(const TriangleMesh& mesh, const Topology& topology, const Faces& fac
   if (!(length > 0)) return 0;
   const Vector3 n = faces.normals.row(Topology::face(h));
   const Vector3 m = faces.normals.row(Topology::face(topology.twin(h)));
-  return length * std::atan2(n.cross(m).dot(edge) / length, n.dot(m));
+  return length * elementary::atan2(n.cross(m).dot(edge) / length, n.dot(m));
 }
 
 /// Between the half-edge and the one before it in its face.
 double angle_at_origin(const TriangleMesh& mesh, const Topology& topology, Halfedge h) {
   const Vector3 a = edge_vector(mesh, topology, h).stableNormalized();
   const Vector3 b = -edge_vector(mesh, topology, Topology::previous(h)).stableNormalized();
-  return std::atan2(a.cross(b).norm(), a.dot(b));
+  return elementary::atan2(a.cross(b).norm(), a.dot(b));
 }
 
 struct Measures {
@@ -133,37 +140,80 @@ SparseMatrix averaging_matrix(const TriangleMesh& mesh, const Topology& topology
   return matrix;
 }
 
-}  // namespace
-
-double equal_area_radius(const TriangleMesh& mesh, int threads) {
-  return std::sqrt(total_area(mesh, threads) / (4 * std::numbers::pi));
+/// For sizes that differ too much for iterations. Throws: SolveError.
+Eigen::VectorXd solved_directly(const SparseMatrix& matrix, const Eigen::VectorXd& measure) {
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(matrix);
+  Eigen::VectorXd density = factor.solve(measure);
+  if (factor.info() != Eigen::Success || !density.allFinite()) {
+    throw SolveError("the average of the curvature over its scale was not found");
+  }
+  return density;
 }
 
-Curvature measure_curvature(const TriangleMesh& mesh, const Topology& topology, double scale,
-                            int threads) {
+/// Of the mesh 2^exponent times as large; what is too large for a double is the largest.
+void enlarge(Curvature& curvature, int exponent) {
+  const auto times = [](int power) {
+    return [power](double x) {
+      constexpr double largest = std::numeric_limits<double>::max();
+      return std::clamp(std::ldexp(x, power), -largest, largest);
+    };
+  };
+  curvature.mean = curvature.mean.unaryExpr(times(-exponent)).eval();
+  curvature.gauss = curvature.gauss.unaryExpr(times(-2 * exponent)).eval();
+  curvature.area = curvature.area.unaryExpr(times(2 * exponent)).eval();
+}
+
+/// Requires: squares of the positions neither overflow nor vanish.
+Curvature measure_harmless(const TriangleMesh& mesh, const Topology& topology, double scale,
+                           int threads) {
   const Faces faces = measure_faces(mesh, threads);
   Measures measures = measure_vertices(mesh, topology, faces, threads);
   const double mean_area = measures.area.mean();
   Eigen::VectorXd& area = measures.area;
-  area = area.cwiseMax(mean_area > 0 ? kAreaFloor * mean_area : 1);
+  area = area.cwiseMax(mean_area > 0 ? std::max(kAreaFloor * mean_area, kLeastArea) : 1);
   Curvature curvature{measures.mean.cwiseQuotient(area), measures.gauss.cwiseQuotient(area), area,
                       scale};
   if (!(scale > 0) || !(mean_area > 0)) return curvature;
 
-  const SparseMatrix matrix = averaging_matrix(mesh, topology, faces, area, scale);
+  // By a power of two: the areas at about 1.
+  const double unit = std::ldexp(1.0, -std::max(std::ilogb(mean_area), kLeastExponent));
+  const SparseMatrix matrix = unit * averaging_matrix(mesh, topology, faces, area, scale);
   Eigen::ConjugateGradient<SparseMatrix, Eigen::Lower | Eigen::Upper> solver;
   solver.setTolerance(kTolerance);
   solver.setMaxIterations(kMaxIterations);
   solver.compute(matrix);
   const auto average = [&](const Eigen::VectorXd& measure) -> Eigen::VectorXd {
-    Eigen::VectorXd density = solver.solveWithGuess(measure, measure.cwiseQuotient(area));
-    if (solver.info() != Eigen::Success || !density.allFinite()) {
-      throw SolveError("the average of the curvature over its scale was not found");
-    }
-    return density;
+    const Eigen::VectorXd raw = measure.cwiseQuotient(area) / unit;
+    const Eigen::VectorXd density = solver.solveWithGuess(measure, raw);
+    if (solver.info() == Eigen::Success && density.allFinite()) return unit * density;
+    return unit * solved_directly(matrix, measure);
   };
   curvature.mean = average(measures.mean);
   curvature.gauss = average(measures.gauss);
+  return curvature;
+}
+
+double radius_of_harmless(const TriangleMesh& mesh, int threads) {
+  return std::sqrt(total_area(mesh, threads) / (4 * std::numbers::pi));
+}
+
+}  // namespace
+
+double equal_area_radius(const TriangleMesh& mesh, int threads) {
+  const auto unit = at_unit_size(mesh);
+  return unit ? std::ldexp(radius_of_harmless(unit->mesh, threads), unit->exponent)
+              : radius_of_harmless(mesh, threads);
+}
+
+Curvature measure_curvature(const TriangleMesh& mesh, const Topology& topology, double scale,
+                            int threads) {
+  require_at_least("scale", scale, 0);
+  const auto unit = at_unit_size(mesh);
+  if (!unit) return measure_harmless(mesh, topology, scale, threads);
+  Curvature curvature =
+      measure_harmless(unit->mesh, topology, std::ldexp(scale, -unit->exponent), threads);
+  enlarge(curvature, unit->exponent);
+  curvature.scale = scale;
   return curvature;
 }
 

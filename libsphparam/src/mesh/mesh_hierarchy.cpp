@@ -344,7 +344,7 @@ HierarchyLevel finest_level(const TriangleMesh& mesh, const Topology& topology, 
 }  // namespace
 
 MeshHierarchy build_hierarchy(const TriangleMesh& mesh, const Topology& topology, int threads,
-                              const KeptVertices& keep) {
+                              const KeptVertices& keep, const Progress& progress) {
   MeshHierarchy hierarchy;
   hierarchy.push_back(finest_level(mesh, topology, threads));
   std::vector<Vertex> kept = keep.vertices;
@@ -355,6 +355,8 @@ MeshHierarchy build_hierarchy(const TriangleMesh& mesh, const Topology& topology
     for (Vertex& v : kept) v = coarser_name(coarser, v);
     std::erase(kept, -1);
     hierarchy.push_back(std::move(coarser));
+    report(progress, "hierarchy",
+           1 - static_cast<double>(hierarchy.back().vertex_count()) / topology.vertex_count());
   }
   return hierarchy;
 }

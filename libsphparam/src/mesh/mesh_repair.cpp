@@ -5,6 +5,7 @@
 
 #include "mesh/repair_state.h"
 #include "mesh/union_find.h"
+#include "option_domain.h"
 
 // The steps are the table below, each blind to the others: one can be left out, and what one leaves
 // the next finds. Splitting an edge may touch a third sheet, dropping a face may open a hole: the
@@ -106,7 +107,7 @@ void keep_component(RepairState& state, int rank) {
   if (ranked.empty()) return;
   if (static_cast<size_t>(rank) > ranked.size()) {
     throw NoSuchComponent("there is no component " + std::to_string(rank) + ": the mesh has " +
-                            std::to_string(ranked.size()));
+                          std::to_string(ranked.size()));
   }
   const int chosen = ranked[rank - 1].root;
   for (const Part& part : ranked) {
@@ -119,6 +120,8 @@ void keep_component(RepairState& state, int rank) {
 }
 
 RepairedMesh repair_mesh(const TriangleMesh& mesh, const RepairOptions& options) {
+  require_at_least("component", options.component, 1);
+  require_at_least("largest_hole", options.largest_hole, 3);
   RepairState state(mesh);
   MeshInspection inspection = inspect_mesh(mesh);
   if (!mesh.positions.allFinite()) return as_result(std::move(state), std::move(inspection));

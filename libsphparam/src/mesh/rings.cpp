@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <utility>
 
+#include "option_domain.h"
+
 // Breadth first, a ring at a time.
 
 namespace sphparam {
 
 std::vector<Vertex> rings_around(const Topology& topology, const std::vector<Vertex>& vertices,
                                  int rings) {
+  require_vertices("vertices", vertices, topology.vertex_count());
+  require_at_least("rings", rings, 0);
   std::vector<char> seen(static_cast<size_t>(topology.vertex_count()), 0);
   std::vector<Vertex> found;
   const auto add = [&](Vertex v) {

@@ -1,35 +1,16 @@
 #include "pipeline/map_in_progress.h"
 
-#include <cmath>
-#include <cstdlib>
 #include <utility>
 
 // The gate: stages hand their maps in here, and each gets its certificate. What a stage has made is
 // taken as it is, folds and all; a change of frame is not worth a fold.
 
 namespace sphparam {
-namespace {
-
-/// The mesh at about unit size, if its squares could overflow or vanish; nothing if it is fine.
-/// A power of two changes no bit of any mantissa, and maps do not depend on size.
-std::optional<TriangleMesh> rescaled(const TriangleMesh& mesh) {
-  constexpr int harmless = 100;  // binary orders of magnitude
-  const int exponent = std::ilogb(mesh.positions.cwiseAbs().maxCoeff());
-  if (exponent == FP_ILOGB0 || std::abs(exponent) <= harmless) return std::nullopt;
-  TriangleMesh result = mesh;
-  for (Eigen::Index i = 0; i < result.positions.size(); ++i) {
-    result.positions.data()[i] = std::ldexp(result.positions.data()[i], -exponent);
-  }
-  return result;
-}
-
-}  // namespace
-
 MapInProgress::MapInProgress(const TriangleMesh& given, const Topology& given_topology,
                              const ParameterizeOptions& given_options)
-    : rescaled_(rescaled(given)),
+    : rescaled_(at_unit_size(given)),
       topology(given_topology),
-      mesh(rescaled_ ? *rescaled_ : given),
+      mesh(rescaled_ ? rescaled_->mesh : given),
       options(given_options),
       energy(given_options.energy) {}
 
@@ -44,6 +25,7 @@ void MapInProgress::forget_poles() {
 }
 
 void MapInProgress::accept(std::string made_by, SphereMap map) {
+  report(options.progress, "certificate", 0);
   result.certificate = certify(topology, map, options.threads);
   result.map = std::move(map);
   result.made_by = std::move(made_by);

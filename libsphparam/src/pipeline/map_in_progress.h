@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "mesh/unit_size.h"
 #include "sphparam/embedding/distortion_energy.h"
 #include "sphparam/mesh/topology.h"
 #include "sphparam/parameterize.h"
@@ -13,7 +14,7 @@ namespace sphparam {
 /// What the stages of the pipeline work on: the mesh, the wishes, and the map so far, with its
 /// certificate and the record of what was done.
 class MapInProgress {
-  const std::optional<TriangleMesh> rescaled_;
+  const std::optional<Rescaled> rescaled_;
 
  public:
   /// Borrows all three. Requires: `require_sphere` accepts them.

@@ -35,6 +35,7 @@ void move_to_poles(MapInProgress& work, Poles poles) {
 }
 
 void choose_poles_on_map(MapInProgress& work) {
+  report(work.options.progress, "poles", 0);
   const AxisChoice choice =
       choose_axis(work.topology, work.source(), work.result.map, {.threads = work.options.threads});
   std::optional<PolePlacement> placement = place_poles_on_axis(

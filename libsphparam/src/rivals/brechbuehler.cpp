@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "option_domain.h"
 #include "rivals/equal_areas.h"
 #include "rivals/number_text.h"
 #include "rivals/outcome.h"
@@ -136,6 +137,13 @@ const char* ending(RivalEnd end) {
 
 RivalResult map_brechbuehler(const TriangleMesh& mesh, const Topology& topology,
                              const BrechbuehlerOptions& options, const Progress& progress) {
+  if (options.poles) {
+    require_vertex("poles: north", options.poles->first, mesh.vertex_count());
+    require_vertex("poles: south", options.poles->second, mesh.vertex_count());
+  }
+  require_at_least("max_steps", options.max_steps, 0);
+  require_between("least_gain", options.least_gain, 0, 1);
+  require_at_least("greatest_penalty", options.greatest_penalty, 1);
   return run_rival([&](Outcome& outcome) {
     report(progress, "heat conduction", 0);
     const auto [north, south] = options.poles.value_or(extremes_of_z(mesh));

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "option_domain.h"
 #include "rivals/mobius_centring.h"
 #include "rivals/outcome.h"
 #include "rivals/rings.h"
@@ -122,6 +123,8 @@ DescentEnd descend(const Descent& descent, SphereMap& map, const char* stage,
 
 RivalResult map_conformal(const TriangleMesh& mesh, const Topology& topology,
                           const ConformalOptions& options, const Progress& progress) {
+  require_at_least("max_iterations", options.max_iterations, 0);
+  require_between("least_gain", options.least_gain, 0, 1);
   Outcome outcome;
   const Eigen::VectorXd mass = vertex_masses(mesh);
   SphereMap map = mobius_centred(gauss_map(mesh), mass, 60, options.threads);

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "option_domain.h"
 #include "rivals/mobius_centring.h"
 #include "rivals/number_text.h"
 #include "rivals/outcome.h"
@@ -120,6 +121,9 @@ SphereMap projected(const Points& x) {
 
 RivalResult map_flow(const TriangleMesh& mesh, const Topology& topology, const FlowOptions& options,
                      const Progress& progress) {
+  require_at_least("max_steps", options.max_steps, 0);
+  require_more_than("time_step", options.time_step, 0);
+  require_at_least("roundness", options.roundness, 0);
   return run_rival([&](Outcome& outcome) {
     report(progress, "curvature flow", 0);
     Points x = mesh.positions;

@@ -5,10 +5,12 @@
 #include <numbers>
 #include <utility>
 
+#include "option_domain.h"
 #include "rivals/number_text.h"
 #include "rivals/outcome.h"
 #include "rivals/rings.h"
 #include "rivals/tutte_equations.h"
+#include "sphparam/elementary.h"
 #include "sphparam/mesh/edge_weights.h"
 #include "sphparam/mesh/laplace_system.h"
 
@@ -69,7 +71,7 @@ SphereMap place_hemispheres(const TriangleMesh& mesh, const Topology& topology,
   for (size_t k = 0; k < bisection.seam.size(); ++k) {
     const Vertex v = bisection.seam[k];
     roles[static_cast<size_t>(v)] = VertexRole::Fixed;
-    plane.row(v) << std::cos(longitudes[k]), std::sin(longitudes[k]);
+    plane.row(v) << elementary::cos(longitudes[k]), elementary::sin(longitudes[k]);
   }
   LaplaceSystem system(topology, std::move(roles), true, threads);
   system.factorise(EdgeWeights(mesh, topology, WeightKind::SymmetricMeanValue, threads)
@@ -89,6 +91,13 @@ SphereMap place_hemispheres(const TriangleMesh& mesh, const Topology& topology,
 
 RivalResult map_hemispheres(const TriangleMesh& mesh, const Topology& topology,
                             const HemispheresOptions& options, const Progress& progress) {
+  require_one_of("weights", options.weights, WeightKind::SymmetricMeanValue);
+  if (options.weights == WeightKind::MeanValue) {
+    refuse_option("weights", static_cast<int>(options.weights), "a symmetric kind");
+  }
+  require_at_least("max_sweeps", options.max_sweeps, 0);
+  require_at_least("max_steps", options.max_steps, 0);
+  require_at_least("tolerance", options.tolerance, 0);
   return run_rival([&](Outcome& outcome) {
     report(progress, "bisection", 0);
     const Bisection bisection = bisect(mesh, topology, options.threads);

@@ -6,8 +6,10 @@
 #include <numbers>
 #include <vector>
 
+#include "option_domain.h"
 #include "rivals/outcome.h"
 #include "rivals/vertex_system.h"
+#include "sphparam/elementary.h"
 #include "sphparam/mesh/edge_weights.h"
 
 // D (u + iv) = a + ib with D_PQ = −½(cot R + cot S) and, for the cut triangle ABC with E = A + θ(B
@@ -37,7 +39,7 @@ Face triangle_to_cut(const TriangleMesh& mesh) {
     bool is_round = twice_area > 0;
     for (size_t k = 0; k < 3; ++k) {
       const Vector3 a = p[(k + 1) % 3] - p[k], b = p[(k + 2) % 3] - p[k];
-      const double angle = std::atan2(twice_area, a.dot(b));
+      const double angle = elementary::atan2(twice_area, a.dot(b));
       is_round = is_round && angle >= std::numbers::pi / 6 && angle <= 2 * std::numbers::pi / 3;
     }
     if (is_round < best_is_round || (is_round == best_is_round && twice_area <= best_area))
@@ -103,6 +105,9 @@ SphereMap to_sphere(Plane plane) {
 
 RivalResult map_stereographic(const TriangleMesh& mesh, const Topology& topology,
                               const StereographicOptions& options, const Progress& progress) {
+  if (options.cut) {
+    require_between("cut", *options.cut, 0, static_cast<double>(mesh.face_count() - 1));
+  }
   return run_rival([&](Outcome& outcome) {
     report(progress, "conformal map to the plane", 0);
     const Face cut = options.cut.value_or(triangle_to_cut(mesh));

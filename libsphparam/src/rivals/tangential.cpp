@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "option_domain.h"
 #include "rivals/outcome.h"
 #include "rivals/rings.h"
 #include "sphparam/mesh/edge_weights.h"
@@ -180,6 +181,10 @@ class Smoothing {
 
 RivalResult map_tangential(const TriangleMesh& mesh, const Topology& topology,
                            const TangentialOptions& options, const Progress& progress) {
+  require_one_of("laplacian", options.laplacian, TangentialOptions::Operator::Uniform);
+  require_at_least("max_sweeps", options.max_sweeps, 0);
+  require_at_least("sweeps_per_anchors", options.sweeps_per_anchors, 1);
+  require_at_least("rest", options.rest, 0);
   Outcome outcome;
   Smoothing smoothing(mesh, topology, options);
   outcome.finish_stage("central projection");

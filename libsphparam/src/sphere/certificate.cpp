@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "sphere/solid_angle.h"
+#include "sphparam/elementary.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/orientation.h"
 
@@ -49,7 +50,7 @@ class AngleSum {
  public:
   void add(double sine, double cosine) {
     if (!(std::abs(sine) < cosine)) {
-      sum_ += std::atan2(sine, cosine);
+      sum_ += elementary::atan2(sine, cosine);
       return;
     }
     const double t = sine / cosine, real = real_ - imaginary_ * t;
@@ -64,7 +65,7 @@ class AngleSum {
 
  private:
   void flush() {  // before the next factor, less than 45°, could pass 180°
-    sum_ += std::atan2(imaginary_, real_);
+    sum_ += elementary::atan2(imaginary_, real_);
     real_ = 1;
     imaginary_ = 0;
   }
@@ -149,7 +150,7 @@ std::array<Vector3, 64> generic_rays() {
     const double z = 2 * std::fmod(0.37 + static_cast<double>(i) * 0.7548776662466927, 1.0) - 1;
     const double turn = std::fmod(0.61 + static_cast<double>(i) * 0.5698402909980532, 1.0);
     const double r = std::sqrt(1 - z * z), theta = 2 * std::numbers::pi * turn;
-    rays[i] = {r * std::cos(theta), r * std::sin(theta), z};
+    rays[i] = {r * elementary::cos(theta), r * elementary::sin(theta), z};
   }
   return rays;
 }
@@ -181,7 +182,7 @@ int winding(const Topology& topology, const SphereMap& map, Vertex v) {
   topology.for_each_outgoing(v, [&](Halfedge h) {
     const Vector3 a = map.point(topology.target(h)), b = map.point(topology.apex(h));
     const Vector3 p = a - x * x.dot(a), q = b - x * x.dot(b);
-    angle += std::atan2(x.dot(p.cross(q)), p.dot(q));
+    angle += elementary::atan2(x.dot(p.cross(q)), p.dot(q));
   });
   return static_cast<int>(std::lround(angle / (2 * std::numbers::pi)));
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sphere/solid_angle.h"
+#include "sphparam/elementary.h"
 #include "sphparam/parallel.h"
 
 // One pass a triangle: source edges s0 s1 s2 (s_i faces corner i) and image chords e0 e1 e2. With
@@ -45,8 +46,8 @@ std::array<double, 3> angles(const PlaneTriangle& t) {
       static_cast<int>(std::max_element(t.squared.begin(), t.squared.end()) - t.squared.begin());
   const int i = (largest + 1) % 3, j = (largest + 2) % 3;
   std::array<double, 3> angle;
-  angle[i] = std::atan2(t.doubled_area, t.dots[i]);
-  angle[j] = std::atan2(t.doubled_area, t.dots[j]);
+  angle[i] = elementary::atan2(t.doubled_area, t.dots[i]);
+  angle[j] = elementary::atan2(t.doubled_area, t.dots[j]);
   // At least π/3, as the largest must be: where the area is a floor the sum of the three is not π.
   angle[largest] = std::max(std::numbers::pi / 3, std::numbers::pi - angle[i] - angle[j]);
   return angle;
@@ -56,7 +57,7 @@ std::array<double, 3> angles(const PlaneTriangle& t) {
 double unit_scale(const TriangleMesh& mesh) {
   const double extent = mesh.positions.cwiseAbs().maxCoeff();
   constexpr int greatest = 1023;  // 2¹⁰²⁴ is infinite, and subnormal coordinates ask for more
-  return extent > 0 ? std::exp2(std::min(greatest, -std::ilogb(extent))) : 1;
+  return extent > 0 ? std::ldexp(1.0, std::min(greatest, -std::ilogb(extent))) : 1;
 }
 
 /// The mesh, made about unit size.
@@ -112,14 +113,14 @@ struct Tally {
 
   void add(const Distortion& d, Eigen::Index f) {
     const double ratio = d.area_ratio[f], share = d.source_area[f];
-    const double ln_ratio = std::abs(std::log(ratio));
+    const double ln_ratio = std::abs(elementary::log(ratio));
     ln_area += ln_ratio;
     within_two += ratio >= 0.5 && ratio <= 2 ? 1 : 0;
     area_min = std::min(area_min, ratio);
     area_max = std::max(area_max, ratio);
     for (int k = 0; k < 3; ++k) {
       const double angle = d.angle_ratio(f, k);
-      ln_angle += std::abs(std::log(angle));
+      ln_angle += std::abs(elementary::log(angle));
       angle_max = std::max({angle_max, angle, 1 / angle});
     }
     const double s1 = d.sigma_max[f], s2 = d.sigma_min[f];

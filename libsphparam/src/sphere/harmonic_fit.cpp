@@ -2,7 +2,9 @@
 #include <stdexcept>
 #include <vector>
 
+#include "option_domain.h"
 #include "sphere/harmonic_degree.h"
+#include "sphparam/elementary.h"
 #include "sphparam/sphere/sphere_locator.h"
 #include "sphparam/sphere/spherical_harmonics.h"
 
@@ -21,7 +23,8 @@ Eigen::VectorXd solid_angles(const Topology& topology, const SphereMap& map) {
   for (Face f = 0; f < topology.face_count(); ++f) {
     const Vector3 a = map.point(topology.vertex(f, 0)), b = map.point(topology.vertex(f, 1)),
                   c = map.point(topology.vertex(f, 2));
-    const double angle = 2 * std::atan2(a.dot(b.cross(c)), 1 + a.dot(b) + b.dot(c) + c.dot(a));
+    const double angle =
+        2 * elementary::atan2(a.dot(b.cross(c)), 1 + a.dot(b) + b.dot(c) + c.dot(a));
     for (int k = 0; k < 3; ++k) shares[topology.vertex(f, k)] += angle / 3;
   }
   return shares;
@@ -93,6 +96,8 @@ class NormalEquations {
 HarmonicFit fit_harmonics(const Topology& topology, const SphereMap& map, const Functions& values,
                           const HarmonicFitOptions& options) {
   require_harmonic_degree(options.degree);
+  require_at_least("most_iterations", options.most_iterations, 0);
+  require_between("tolerance", options.tolerance, 0, 1);
   if (values.rows() != topology.vertex_count() || map.points.rows() != topology.vertex_count()) {
     throw std::invalid_argument("spherical harmonics: not one value and one ray a vertex");
   }

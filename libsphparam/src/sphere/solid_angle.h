@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "sphparam/elementary.h"
 #include "sphparam/mesh/triangle_mesh.h"
 
 namespace sphparam {
@@ -20,7 +21,7 @@ inline HalfSolidAngle half_solid_angle_of(const Vector3& a, const Vector3& b, co
 /// Paper: Van Oosterom and Strackee, "The solid angle of a plane triangle" (1983).
 inline double solid_angle(const Vector3& a, const Vector3& b, const Vector3& c) {
   const HalfSolidAngle half = half_solid_angle_of(a, b, c);
-  return 2 * std::atan2(half.sine, half.cosine);
+  return 2 * elementary::atan2(half.sine, half.cosine);
 }
 
 }  // namespace sphparam

@@ -3,22 +3,23 @@
 #include <cmath>
 #include <numbers>
 
+#include "sphparam/elementary.h"
 #include "sphparam/sphere/sphere_map.h"
 
 namespace sphparam {
 
 Vector3 to_cartesian(SphericalCoordinates c) {
-  const double s = std::sin(c.phi);
-  return {std::cos(c.theta) * s, std::sin(c.theta) * s, std::cos(c.phi)};
+  const double s = elementary::sin(c.phi);
+  return {elementary::cos(c.theta) * s, elementary::sin(c.theta) * s, elementary::cos(c.phi)};
 }
 
 SphericalCoordinates to_spherical(const Vector3& ray) {
   constexpr double two_pi = 2 * std::numbers::pi;
-  double theta = std::atan2(ray.y(), ray.x());
+  double theta = elementary::atan2(ray.y(), ray.x());
   if (ray.x() == 0 && ray.y() == 0) theta = 0;  // atan2(0, −0) is π
   if (theta < 0) theta += two_pi;
   if (theta >= two_pi) theta = 0;  // −1e-17 + 2π rounds to 2π
-  return {theta, std::atan2(std::hypot(ray.x(), ray.y()), ray.z())};
+  return {theta, elementary::atan2(elementary::hypot(ray.x(), ray.y()), ray.z())};
 }
 
 SphereMap normalised(Points rays) {

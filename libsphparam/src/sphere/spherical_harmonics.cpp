@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sphere/harmonic_degree.h"
+#include "sphparam/elementary.h"
 #include "sphparam/parallel.h"
 
 // Points are taken in blocks that stay in the nearest cache. For every order m the Legendre
@@ -263,7 +264,7 @@ void for_each_function(int group, Eigen::Index functions, const Visit& visit) {
 
 /// Node i of n of Gauss–Legendre quadrature on [−1, 1], from 1 downwards, and its weight.
 std::pair<double, double> gauss_legendre(int i, int n) {
-  double x = std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5)), slope = 1;
+  double x = elementary::cos(std::numbers::pi * (i + 0.75) / (n + 0.5)), slope = 1;
   for (int round = 0; round < 8; ++round) {  // Newton; three or four do
     double before = 1, now = x;
     for (int l = 2; l <= n; ++l) {
@@ -340,8 +341,8 @@ QuadratureGrid quadrature_grid(int degree) {
     const double radius = std::sqrt((1 - z) * (1 + z));
     for (int j = 0; j < columns; ++j) {
       const double theta = 2 * std::numbers::pi * j / columns;
-      grid.directions.row(Eigen::Index(i) * columns + j) << radius * std::cos(theta),
-          radius * std::sin(theta), z;
+      grid.directions.row(Eigen::Index(i) * columns + j) << radius * elementary::cos(theta),
+          radius * elementary::sin(theta), z;
       grid.weights[Eigen::Index(i) * columns + j] = weight * 2 * std::numbers::pi / columns;
     }
   }

@@ -22,9 +22,12 @@ struct ChartBoundary {
   bool free_twist;                // may the south link turn against the north one?
 };
 
+/// Of the rims about the poles, radians: below π/2, where they meet.
+constexpr double greatest_epsilon = 1.5;
+
 /// The paper's rectangle [0, 2π] × [ε, π−ε] with all four sides fixed: θ = 0 (and 2π) and ϕ in
 /// proportion to arc length on the date line; ϕ = ε, π−ε and θ in proportion to arc length on the
-/// links.  Paper: Section 3, ε = 0.02.
+/// links.  Paper: Section 3, ε = 0.02. Throws: std::invalid_argument unless 0 < ε ≤ 1.5.
 ChartBoundary rectangle_boundary(const TriangleMesh& mesh, const CutMesh& cut_mesh, double epsilon);
 
 /// A cylinder: the date line is free, θ has period 2π across it. On each link ϕ is fixed and θ
@@ -47,6 +50,9 @@ class HarmonicSolver {
   /// Requires: topology and cut mesh outlive the solver; usable poles.
   HarmonicSolver(const Topology& topology, const CutMesh& cut_mesh, ChartBoundary boundary,
                  bool symmetric, int threads = 0);
+  HarmonicSolver(const Topology&&, const CutMesh&, ChartBoundary, bool, int = 0) = delete;
+  HarmonicSolver(const Topology&, const CutMesh&&, ChartBoundary, bool, int = 0) = delete;
+  HarmonicSolver(const Topology&&, const CutMesh&&, ChartBoundary, bool, int = 0) = delete;
 
   /// weights: w[h] per half-edge, see EdgeWeights. Throws: SolveError; never for positive weights
   /// of a reasonable range.

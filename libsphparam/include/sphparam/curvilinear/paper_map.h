@@ -11,7 +11,7 @@
 namespace sphparam {
 
 struct PaperOptions {
-  double epsilon = 0.02;  // radians from the poles to the rims of the chart (Section 3)
+  double epsilon = 0.02;  // radians from poles to rims of the chart (Section 3); above 0, to 1.5
   int iterations = 3;     // of the secondary map: "two to three … largely sufficient" (Section 4)
   int rings = 5;          // of the sub-patch that is smoothed (Section 5)
   int sweeps = 3;         // of the smoothing (Section 5)
@@ -40,8 +40,8 @@ using StageObserver = std::function<void(const PaperStage& stage, const SphereMa
 /// sides fixed, quasi-harmonic iterations with κ of the last map, lift, poles back, tangential
 /// smoothing around the date line. Nothing is repaired; folds are counted, not avoided.
 /// Paper: Sections 3 to 5 and Figure 1.
-/// Requires: usable poles. Throws: SolveError (raw cotangents can make a singular system),
-/// Cancelled.
+/// Requires: usable poles. Throws: SolveError (raw cotangents can make a singular system);
+/// Cancelled; std::invalid_argument naming an option outside of its domain (none is below 0).
 PaperResult map_as_paper(const TriangleMesh& mesh, const Topology& topology, Poles poles,
                          const PaperOptions& options = {}, const Progress& progress = {},
                          const StageObserver& on_stage = {});

@@ -31,6 +31,7 @@ bool poles_are_usable(const Topology& topology, Poles poles);
 /// The given pair, each pole moved to a nearby vertex where needed to make the pair usable; nothing
 /// where no such pair is found among the 64 nearest candidates a pole (all vertices of
 /// a small mesh): so nothing for a tetrahedron, an octahedron, a bipyramid.
+/// Throws: std::invalid_argument for a pole that is no vertex.
 std::optional<Poles> nearest_usable_poles(const Topology& topology, Poles wanted);
 
 /// `farthest_poles`, made usable by `nearest_usable_poles`.

@@ -9,8 +9,8 @@
 namespace sphparam {
 
 struct SoundOptions {
-  int iterations = 2;  // quasi-harmonic iterations, at most; each costs a factorisation
-  double epsilon = 0;  // radians from the poles to the rims; 0: each cap gets its star's area
+  int iterations = 2;  // ≥ 0: quasi-harmonic iterations, at most; each costs a factorisation
+  double epsilon = 0;  // 0 to 1.5 radians from poles to rims; 0: each cap gets its star's area
   int threads = 0;     // 0: all cores
 };
 
@@ -34,7 +34,7 @@ struct SoundMap {
 ///
 /// Requires: usable poles; an induced date line from pole to pole; coordinates whose fourth powers
 /// neither overflow nor underflow.
-/// Throws: SolveError, Cancelled.
+/// Throws: SolveError; Cancelled; std::invalid_argument naming an option outside of its domain.
 SoundMap map_periodic(const TriangleMesh& mesh, const Topology& topology, DateLine date_line,
                       const SoundOptions& options = {}, const Progress& progress = {});
 

@@ -8,8 +8,8 @@
 namespace sphparam {
 
 struct SmoothingOptions {
-  int rings = 5;   // the sub-patch: all vertices within so many edges of the date line
-  int sweeps = 3;  // "in all our experiments three iterations revealed to be sufficient"
+  int rings = 5;   // ≥ 0; the sub-patch: all vertices within so many edges of the date line
+  int sweeps = 3;  // ≥ 0; "in all our experiments three iterations revealed to be sufficient"
   /// The operator 𝓛: mean value weights, which keep features along the date line, or uniform ones.
   enum class Operator { MeanValue, Uniform } laplacian = Operator::MeanValue;
   int threads = 0;  // of the weights; 0: all cores
@@ -19,6 +19,7 @@ struct SmoothingOptions {
 ///   x_i ← x_i + 𝓛(x_i) − ⟨𝓛(x_i), x_i⟩ x_i,   x_i ← x_i / ‖x_i‖.
 /// Paper: Section 5, to the letter; the vertices are taken ring by ring from the date line, poles
 /// included. It may fold triangles, the paper's "no risk" notwithstanding; `certify` tells.
+/// Throws: std::invalid_argument naming an option outside of its domain.
 SphereMap smooth_date_line(const TriangleMesh& mesh, const Topology& topology,
                            const DateLine& date_line, SphereMap map,
                            const SmoothingOptions& options = {});

@@ -5,7 +5,7 @@
 namespace sphparam {
 
 struct AxisOptions {
-  int candidates = 96;  // directions spread evenly over half the sphere
+  int candidates = 96;  // directions spread evenly over half the sphere; at least 1
   int threads = 0;      // 0: all cores
 };
 

@@ -60,9 +60,12 @@ enum class EnergyKind {
 /// triangle has no barrier where the spherical triangle degenerates.
 struct DistortionEnergy {
   EnergyKind kind = EnergyKind::AngleAndArea;
-  double lambda = 1;   // area against angle; towards 0 conformal, towards ∞ equal-area
-  double epsilon = 0;  // > 0: regularised
+  double lambda = 1;   // area against angle, 0 to `greatest_lambda`: conformal to equal-area
+  double epsilon = 0;  // > 0: regularised; finite
 };
+
+/// Beyond these weights of area against angle doubles forget one of the two.
+constexpr double least_lambda = 1e-10, greatest_lambda = 1e6;
 
 /// f and its derivatives; f is linear in d.
 struct EnergyDerivatives {

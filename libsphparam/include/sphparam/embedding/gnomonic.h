@@ -50,9 +50,9 @@ Eigen::VectorXd vertex_areas(const Topology& topology, const SourceTriangles& so
 struct GnomonicOptions {
   std::optional<Vertex> south = {};  // the vertex left out; chosen automatically if not given
   double lambda = 1;                 // area against angle, see DistortionEnergy
-  int reweightings = 4;              // more solves, with κ drawing the areas towards the source's
-  int sweeps = 30;                   // of guarded relaxation at the end
-  int threads = 0;                   // 0: all cores
+  int reweightings = 4;  // ≥ 0: more solves, κ drawing the areas towards the source's
+  int sweeps = 30;       // ≥ 0: of guarded relaxation at the end
+  int threads = 0;       // 0: all cores
   Progress progress = {};
 };
 
@@ -79,8 +79,9 @@ struct GnomonicEmbedding {
 /// adds no folds, solved again with κ ← κ·√(image area / source area) per triangle, the paper's
 /// weights accumulated (Section 5); the least E is kept. Folds are untangled; failing that, the
 /// gnomonic lift takes over, which cannot fold but for rounding. Last, guarded relaxation. Ensures:
-/// same bits for any number of threads. Requires: closed genus-0 mesh. Cost: 2 + `reweightings`
-/// factorisations, typically.
+/// same bits for any number of threads. Requires: closed genus-0 mesh. Throws: SolveError;
+/// Cancelled; std::invalid_argument naming an option outside of its domain. Cost: 2 +
+/// `reweightings` factorisations, typically.
 GnomonicEmbedding gnomonic_embedding(const TriangleMesh& mesh, const Topology& topology,
                                      const GnomonicOptions& options = {});
 

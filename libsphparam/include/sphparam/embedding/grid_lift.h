@@ -8,7 +8,7 @@ namespace sphparam {
 
 struct GridLiftOptions {
   DistortionEnergy energy = {};  // of the relaxation
-  int sweeps = 10;               // of guarded relaxation at the end
+  int sweeps = 10;               // ≥ 0: of guarded relaxation at the end
   int threads = 0;               // 0: all cores
   Progress progress = {};
 };

@@ -16,6 +16,7 @@ struct Pin {
 
 struct LandmarkOptions {
   DistortionEnergy energy = {};
+  // None below 0:
   int sweeps = 10;        // of pinned relaxation after every move
   int most_rounds = 400;  // of moves; it gives up earlier where they stall
   int most_detours = 4;   // tried by pins that stand in each other's way
@@ -40,8 +41,10 @@ struct LandmarkPlacement {
 /// block each other are let go for a moment, and all give way to the right, as people do in a
 /// corridor. Where the mesh does not allow the points (adjacent vertices at opposite points, a
 /// wrong cyclic order round a short ring) the pins stop on their way: the residuals tell how far
-/// from their points, the map is valid all the same. Requires: a bijective map; no vertex twice.
+/// from their points, the map is valid all the same. Requires: a bijective map.
 /// Ensures: no triangle folds; same bits for any number of threads.
+/// Throws: std::invalid_argument for pins that are no vertices, twice the same, or at points that
+///         are not of unit length to 1e-6, and for options outside of their domain; Cancelled.
 /// Cost: a round takes `sweeps` of relaxation and O(#V·#pins + #pins³): meant for coarse meshes,
 ///       see ProgressiveOptions::pins.
 /// Our own; the field is the kernel interpolation of Joshi and Miller, "Landmark matching via large

@@ -9,12 +9,12 @@ namespace sphparam {
 
 struct OptimiseOptions {
   DistortionEnergy energy = {};  // ε is not used: the map is valid at every moment
-  double least_gain = 1e-5;  // ends when a step lowers E by less than this share of what E has more
-                             // than an isometry
-  int max_steps = 100;
-  double least_share = 0.5;  // a system's iterations end with one that gains no more than this
-                             // share of what all of them have: more steps against cheaper ones
-  int sweeps = 4;            // of guarded relaxation after every step
+  double least_gain = 1e-5;  // 0 to 1; ends when a step lowers E by less than this share of what E
+                             // has more than an isometry
+  int max_steps = 100;       // ≥ 0
+  double least_share = 0.5;  // 0 to 1; a system's iterations end with one that gains no more than
+                             // this share of what all have: more steps against cheaper ones
+  int sweeps = 4;            // ≥ 0: of guarded relaxation after every step
   std::vector<Vertex> pinned = {};  // may not move
   int threads = 0;                  // 0: all cores
   Progress progress = {};           // told after every step
@@ -55,8 +55,9 @@ enum class Balance {
 
 struct BalanceOptions {
   Balance balance = Balance::Lambda;
-  double from_lambda = 1;         // for which the given map is about optimal
-  double area_error = 0.1;        // EqualArea: mean |log2 area ratio|, weighted by source area
+  // As energy.lambda from `least_lambda` to `greatest_lambda`: for which the map is about optimal.
+  double from_lambda = 1;
+  double area_error = 0.1;  // EqualArea: mean |log2 area ratio|, weighted by source area; ≥ 0
   OptimiseOptions optimise = {};  // at the λ aimed at; on the way there 1 % is good enough
 };
 
@@ -70,6 +71,7 @@ struct BalancedMap {
 /// Minimises E for a λ far from 1, by continuation: from λ to λ in factors of ten or four, each
 /// time from the map before. Straight from λ = 1 the steps would be many and short.
 /// Requires: EnergyKind::AngleAndArea. Ensures: as `optimise`, but for E itself.
+/// Throws: std::invalid_argument naming an option outside of its domain; Cancelled.
 /// Cost: 3 to 5 steps a factor. Source: our own.
 BalancedMap optimise_balance(const Topology& topology, const SourceTriangles& source,
                              const SphereMap& map, const BalanceOptions& options);

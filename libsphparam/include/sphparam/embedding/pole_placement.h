@@ -11,8 +11,8 @@ namespace sphparam {
 
 struct PolePlacementOptions {
   DistortionEnergy energy = {};
-  int sweeps = 10;       // of pinned relaxation after every partial move
-  int most_moves = 200;  // partial moves before it gives up
+  int sweeps = 10;       // ≥ 0: of pinned relaxation after every partial move
+  int most_moves = 200;  // ≥ 1: partial moves before it gives up
   int threads = 0;       // 0: all cores
   Progress progress = {};
 };
@@ -33,7 +33,8 @@ struct PolePlacement {
 /// Ensures: no triangle folds but by rounding in the rotation: certify; same bits for any number of
 ///          threads. Returns nothing where none of the eight best pairs can be brought opposite, or
 ///          all share an edge: in meshes of a few vertices.
-/// Requires: a bijective map. Cost: two passes over the vertices and one over the triangles.
+/// Requires: a bijective map; an axis that is not 0. Throws: std::invalid_argument naming an option
+/// outside of its domain; Cancelled. Cost: two passes over the vertices, one over the triangles.
 /// Our own; the energy around the south pole is what it costs: far below 1 % on real meshes.
 std::optional<PolePlacement> place_poles_on_axis(const Topology& topology,
                                                  const SourceTriangles& source,
@@ -48,7 +49,8 @@ std::optional<PolePlacement> place_poles_on_axis(const Topology& topology,
 /// between, both poles pinned. Sweeps alone converge slowly: ProgressiveOptions::pins gives better
 /// maps; this is for maps made otherwise.
 /// Requires: a bijective map; north and south share no edge (their geodesic would have no
-/// direction). Returns nothing when a part cannot be made however small. Our own.
+/// direction). Returns nothing when a part cannot be made however small. Throws: as above, also
+/// for what is no vertex. Our own.
 std::optional<PolePlacement> place_poles(const Topology& topology, const SourceTriangles& source,
                                          const SphereMap& map, Vertex north, Vertex south,
                                          const PolePlacementOptions& options = {});

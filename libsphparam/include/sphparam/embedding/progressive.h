@@ -5,6 +5,7 @@
 #include "sphparam/embedding/distortion_energy.h"
 #include "sphparam/embedding/landmarks.h"
 #include "sphparam/embedding/quality.h"
+#include "sphparam/embedding/relaxation.h"
 #include "sphparam/mesh/mesh_hierarchy.h"
 #include "sphparam/progress.h"
 
@@ -14,17 +15,20 @@ struct ProgressiveOptions {
   DistortionEnergy energy = {};  // ε is not used: the map is valid at every moment
   Quality quality = Quality::Normal;
   double sweeps = 1.4;   // on the finest level; a level of n vertices gets √(N/n) times that,
-                         // without limbs (N/n)^0.3
-  int most_sweeps = 60;  // on any level
-  double over_relaxation = 1.7;  // first step tried, in Newton steps
-  int retries = 5;               // of a level whose vertices found no room
+                         // without limbs (N/n)^0.3; ≥ 0
+  int most_sweeps = 60;  // on any level; ≥ 0
+  double over_relaxation = 1.7;  // first step tried, in Newton steps; 0 to `most_over_relaxation`
+  int retries = 5;               // of a level whose vertices found no room; 0 to `most_retries`
   std::vector<Pin> pins = {};    // vertices that lie at given points; no vertex twice
-  int pin_level = 400;  // vertices of the level where pins are placed, 20 a pin if that is more
-  /// Of the mean area: smaller triangles count as equilateral ones of that size.
+  int pin_level =
+      400;  // vertices of the level where pins are placed, 20 a pin if that is more; ≥ 0
+  /// Of the mean area, 0 to 1: smaller triangles count as equilateral ones of that size.
   double least_area = 1e-9;
   int threads = 0;  // 0: all cores
   Progress progress = {};
 };
+
+constexpr int most_retries = 20;  // each sweeps twice as often as the one before
 
 struct ProgressiveReport {
   int levels = 0;
@@ -47,7 +51,8 @@ struct ProgressiveEmbedding {
 /// Pinned vertices stay in the hierarchy down to a few hundred vertices; `place_landmarks` puts
 /// them there, and from there on up nothing moves them, so that the rest is optimal around them.
 /// Requires: genus 0, finite positions. Ensures: unit points; same bits for any number of threads
-///           and any vector width of the machine. Throws: Cancelled.
+///           and any vector width of the machine. Throws: Cancelled; std::invalid_argument naming
+///           an option outside of its domain.
 /// Cost: O(#F). Sweeps solve no linear system; where they stall, on long limbs and with
 /// Quality::Best, a bounded number of Newton steps does, each O(#F) by multigrid.
 /// Paper: Praun and Hoppe, "Spherical parametrization and remeshing" (2003); whole levels instead

@@ -7,6 +7,7 @@
 
 namespace sphparam {
 
+/// No number is below 0.
 struct UntangleOptions {
   double lambda = 1;                // of E, see DistortionEnergy
   int rings = 2;                    // around the folds, doubled from round to round
@@ -43,6 +44,7 @@ struct Untangled {
 /// without regularisation make it clear of folding.
 /// Ensures: never more folds than before; vertices outside the patches keep their bits; work is
 /// bounded by the options; same bits for any number of threads. No guarantee that no fold is left.
+/// Throws: std::invalid_argument naming an option outside of its domain; Cancelled.
 /// Paper: Garanzha et al., "Foldover-free maps in 50 lines of code" (2021); patches on the sphere,
 /// our own.
 Untangled untangle(const Topology& topology, const SourceTriangles& source, const SphereMap& map,

@@ -21,10 +21,12 @@ struct Curvature {
 /// averages both over neighbours, with standard deviation `scale` in each direction of the surface,
 /// by one implicit step of heat flow with positive weights: the result stays between the extremes,
 /// and what is small beside `scale` averages away.
-/// Requires: scale ≥ 0, finite, a length; positions finite, their squares as well.
+/// Requires: finite positions; scale is a length. Where a figure is beyond the doubles it is the
+/// nearest of them: 0, or the largest.
 /// Ensures: Σ area · gauss = 2π · χ (4π for genus 0), Σ area · mean = ½ Σ angle · length, up to
 ///          rounding, or 1e-8 of Σ |…| with a scale; finite. Same bits for any number of threads.
-/// Throws: SolveError if the average cannot be found. Source: measures: Cohen-Steiner and Morvan,
+/// Throws: SolveError if the average cannot be found; std::invalid_argument unless 0 ≤ scale < ∞.
+/// Source: measures: Cohen-Steiner and Morvan,
 /// "Restricted Delaunay triangulations and normal cycle" (2003); the average: our own.
 /// Cost: two passes; with a scale about 0.1 µs a vertex and edge length that it spans, and a sparse
 /// matrix, 100 bytes a vertex.

@@ -35,6 +35,7 @@ class LaplaceSystem {
   /// topology outlives the system.
   LaplaceSystem(const Topology& topology, std::vector<VertexRole> roles, bool symmetric,
                 int threads = 0);
+  LaplaceSystem(const Topology&&, std::vector<VertexRole>, bool, int = 0) = delete;
   ~LaplaceSystem();
   LaplaceSystem(LaplaceSystem&&) noexcept;
   LaplaceSystem& operator=(LaplaceSystem&&) noexcept;

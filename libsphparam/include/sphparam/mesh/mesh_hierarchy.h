@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "sphparam/mesh/topology.h"
+#include "sphparam/progress.h"
 
 namespace sphparam {
 
@@ -41,11 +42,12 @@ using MeshHierarchy = std::vector<HierarchyLevel>;
 /// Vertex names of level 0 are the mesh's own.
 /// Ensures: every level is a closed genus-0 triangulation without double edges; same levels for any
 ///          number of threads.
-/// Requires: genus 0, finite positions; no vertex kept twice. Cost: linear for any valences; about
-/// 0.2 µs a triangle. Our own: the full levels of a multigrid method, with the collapses of Hoppe,
-/// "Progressive meshes" (1996), so that batches run in parallel and nothing has to be undone.
+/// Requires: genus 0, finite positions; no vertex kept twice. Throws: Cancelled, between batches.
+/// Cost: linear for any valences; about 0.2 µs a triangle. Our own: the full levels of a multigrid
+/// method, with the collapses of Hoppe, "Progressive meshes" (1996), so that batches run in
+/// parallel and nothing has to be undone.
 MeshHierarchy build_hierarchy(const TriangleMesh& mesh, const Topology& topology, int threads = 0,
-                              const KeptVertices& keep = {});
+                              const KeptVertices& keep = {}, const Progress& progress = {});
 
 /// Makes `level.positions` those of all its vertices. Requires: `coarser`, the next level, is
 /// complete.

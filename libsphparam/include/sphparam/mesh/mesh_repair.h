@@ -96,8 +96,7 @@ struct RepairedMesh {
 /// edges are cut apart and their sheets paired across the material between them (Guéziec, Taubin,
 /// Lazarus & Horn, "Cutting and stitching", 2001); holes are filled by ears, or by the fan of a
 /// created vertex where every ear would double an edge. Repeated until nothing more is to be done.
-/// Requires: component ≥ 1; largest_hole ≥ 3.
-/// Throws: NoSuchComponent.
+/// Throws: NoSuchComponent; std::invalid_argument unless component ≥ 1 and largest_hole ≥ 3.
 /// Ensures: deterministic. Cost: O((#V + #F) log #F), for any valence and any hole.
 RepairedMesh repair_mesh(const TriangleMesh& mesh, const RepairOptions& options = {});
 

@@ -7,6 +7,7 @@
 namespace sphparam {
 
 /// These vertices and all that are at most `rings` edges away from one, in ascending order.
+/// Throws: std::invalid_argument for what is no vertex, or rings < 0.
 /// Cost: O(#V) to mark them, and their stars.
 std::vector<Vertex> rings_around(const Topology& topology, const std::vector<Vertex>& vertices,
                                  int rings);

@@ -12,9 +12,10 @@ namespace sphparam {
 struct BrechbuehlerOptions {
   /// North and south; without: the vertices of greatest and least z, as the authors take them.
   std::optional<std::pair<Vertex, Vertex>> poles = std::nullopt;
-  int max_steps = 50;        // of the optimisation; 0: the initial map
-  double least_gain = 1e-4;  // a step that lowers the merit by a smaller share is the last of its ρ
-  double greatest_penalty = 1000;  // ρ at the end; it starts at 1
+  int max_steps = 50;  // ≥ 0, of the optimisation; 0: the initial map
+  double least_gain =
+      1e-4;  // 0 to 1; a step that lowers the merit by a smaller share is the last of its ρ
+  double greatest_penalty = 1000;  // ρ at the end, at least 1; it starts at 1
   int threads = 0;                 // 0: all cores
 };
 

@@ -7,9 +7,10 @@
 namespace sphparam {
 
 struct ConformalOptions {
-  int max_iterations = 5000;  // of each of the two descents
-  double least_gain = 1e-7;   // a descent ends when a step lowers its energy by a smaller share
-  int threads = 0;            // 0: all cores
+  int max_iterations = 5000;  // ≥ 0, of each of the two descents
+  double least_gain =
+      1e-7;         // 0 to 1; a descent ends when a step lowers its energy by a smaller share
+  int threads = 0;  // 0: all cores
 };
 
 /// Harmonic maps to the sphere by descent: Gu and Yau, "Computing conformal structures of surfaces"

@@ -7,10 +7,11 @@
 namespace sphparam {
 
 struct FlowOptions {
-  int max_steps = 100;
-  double time_step = 0.05;  // of a surface of area 4π
-  double roundness = 1e-3;  // done when radii deviate by less from their mean, root mean square
-  int threads = 0;          // 0: all cores
+  int max_steps = 100;      // ≥ 0
+  double time_step = 0.05;  // > 0, of a surface of area 4π
+  double roundness =
+      1e-3;         // ≥ 0; done when radii deviate by less from their mean, root mean square
+  int threads = 0;  // 0: all cores
 };
 
 /// Conformalised mean curvature flow: Kazhdan, Solomon, Ben-Chen, "Can mean-curvature flow be

@@ -10,9 +10,9 @@ namespace sphparam {
 struct HemispheresOptions {
   /// Or Cotangent, which may be negative and then fold triangles. Requires: a symmetric kind.
   WeightKind weights = WeightKind::SymmetricMeanValue;
-  int max_sweeps = 100;     // of projected Gauss–Seidel; fewer where the residual rises
-  int max_steps = 30;       // of Newton
-  double tolerance = 1e-8;  // residual of the equations, of what it is for the two hemispheres
+  int max_sweeps = 100;     // ≥ 0, of projected Gauss–Seidel; fewer where the residual rises
+  int max_steps = 30;       // ≥ 0, of Newton
+  double tolerance = 1e-8;  // ≥ 0; residual of the equations, of what it is for the two hemispheres
   int threads = 0;          // 0: all cores
 };
 

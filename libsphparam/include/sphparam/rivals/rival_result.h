@@ -26,7 +26,8 @@ struct RivalStage {
 ///
 /// The methods of this room are those the paper measures itself against (Sections 1, 2, 6), each
 /// built from its authors' description, so that the comparison can be made again. They do not
-/// promise a one-to-one map: `certify` tells.
+/// promise a one-to-one map: `certify` tells. All throw std::invalid_argument for an option outside
+/// of its domain, by name.
 struct RivalResult {
   std::optional<SphereMap> map;  // unit rays, finite; nothing exactly if `end` is NoResult
   RivalEnd end = RivalEnd::NoResult;

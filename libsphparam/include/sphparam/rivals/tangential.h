@@ -9,9 +9,9 @@ namespace sphparam {
 struct TangentialOptions {
   /// The operator 𝓛: mean value weights (the paper's Figure 7), or all equal (Alexa).
   enum class Operator { MeanValue, Uniform } laplacian = Operator::MeanValue;
-  int max_sweeps = 10000;
-  int sweeps_per_anchors = 500;  // at most, before other anchors are taken
-  double rest = 1e-6;            // radians: a map whose vertices all move less has settled
+  int max_sweeps = 10000;        // ≥ 0
+  int sweeps_per_anchors = 500;  // at most, before other anchors are taken; ≥ 1
+  double rest = 1e-6;            // ≥ 0, radians: a map whose vertices all move less has settled
   int threads = 0;               // of the weights; 0: all cores
 };
 

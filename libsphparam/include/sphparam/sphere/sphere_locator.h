@@ -26,6 +26,9 @@ class SphereLocator {
   /// Throws: std::invalid_argument if their sizes differ.
   /// Cost: linear but for one sort; 0.3 µs and 100 bytes a triangle.
   SphereLocator(const Topology& topology, const SphereMap& map, int threads = 0);
+  SphereLocator(const Topology&&, const SphereMap&, int = 0) = delete;
+  SphereLocator(const Topology&, const SphereMap&&, int = 0) = delete;
+  SphereLocator(const Topology&&, const SphereMap&&, int = 0) = delete;
 
   /// The point of the surface that the map takes to the direction q: q ∥ Σ λᵢ xᵢ, λ barycentric.
   /// Ensures: the face contains q by exact signs. On an edge or at a vertex, where several do, it

@@ -47,8 +47,8 @@ struct HarmonicFitOptions {
   /// Least squares at the vertices, weighted by their share of the sphere; else by quadrature: the
   /// projection of the piecewise linear function on the geodesic map.
   bool least_squares = true;
-  int most_iterations = 100;  // of conjugate gradients
-  double tolerance = 1e-12;   // of their residual, relative to the right-hand side's
+  int most_iterations = 100;  // ≥ 0: of conjugate gradients
+  double tolerance = 1e-12;   // 0 to 1: of their residual, relative to the right-hand side's
   int threads = 0;
   Progress progress = {};
 };
@@ -65,7 +65,7 @@ struct HarmonicFit {
 /// something open (large triangles, great degrees) the piecewise linear function decides.
 /// Ensures: functions that are harmonics of degree ≤ L at the vertices are found up to rounding
 /// where the vertices determine them; same bits for any number of threads. Requires: a map that
-/// `certify` calls bijective, unit rays. Throws: std::invalid_argument for wrong sizes or degrees;
+/// `certify` calls bijective, unit rays. Throws: std::invalid_argument for wrong sizes or options;
 /// Cancelled. Cost: two transforms of #V points an iteration, few where triangles are small against
 /// a wave. Source: least squares: Brechbühler, Gerig and Kübler (1995), Section 4; conjugate
 /// gradients on the normal equations, and their start: our own.

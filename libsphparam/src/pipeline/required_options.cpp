@@ -1,0 +1,75 @@
+#include "pipeline/required_options.h"
+
+#include <array>
+#include <numbers>
+#include <set>
+#include <stdexcept>
+#include <string>
+
+#include "embedding/energy_domain.h"
+#include "option_domain.h"
+#include "sphparam/curvilinear/harmonic.h"
+
+namespace sphparam {
+namespace {
+
+void require_paper(const PaperSettings& paper) {
+  require_more_than("paper.epsilon", paper.epsilon, 0);
+  require_between("paper.epsilon", paper.epsilon, 0, greatest_epsilon);
+  require_at_least("paper.iterations", paper.iterations, 0);
+  require_at_least("paper.rings", paper.rings, 0);
+  require_at_least("paper.sweeps", paper.sweeps, 0);
+  require_one_of("paper.weights", paper.weights, WeightKind::SymmetricMeanValue);
+}
+
+void require_energy(const ParameterizeOptions& options) {
+  require_domain(options.energy);
+  if (options.energy.kind == EnergyKind::AngleAndArea) {
+    require_between("energy.lambda", options.energy.lambda, least_lambda, greatest_lambda);
+  }
+}
+
+void require_pins(const TriangleMesh& mesh, const ParameterizeOptions& options) {
+  std::set<Vertex> seen;
+  std::set<std::array<double, 3>> points;
+  if (options.poles) seen = {options.poles->north, options.poles->south};
+  for (const Landmark& pin : options.pins) {
+    require_vertex("pins: vertex", pin.vertex, mesh.vertex_count());
+    require_finite("pins: theta", pin.coordinates.theta);
+    require_finite("pins: phi", pin.coordinates.phi);
+    if (!seen.insert(pin.vertex).second) {
+      throw std::invalid_argument("vertex " + std::to_string(pin.vertex) + " is pinned twice");
+    }
+    const Vector3 x = to_cartesian(pin.coordinates);
+    if (!points.insert({x.x(), x.y(), x.z()}).second) {
+      throw std::invalid_argument("vertex " + std::to_string(pin.vertex) +
+                                  " is pinned where another one is");
+    }
+  }
+}
+
+void require_frame(const TriangleMesh& mesh, const ParameterizeOptions& options) {
+  if (options.poles) {
+    require_vertex("poles.north", options.poles->north, mesh.vertex_count());
+    require_vertex("poles.south", options.poles->south, mesh.vertex_count());
+    if (options.poles->north == options.poles->south) {
+      refuse_option("poles.south", options.poles->south, "another vertex than poles.north");
+    }
+  }
+  if (options.meridian) require_vertex("meridian", *options.meridian, mesh.vertex_count());
+  require_pins(mesh, options);
+}
+
+}  // namespace
+
+void require_domain(const TriangleMesh& mesh, const ParameterizeOptions& options) {
+  require_one_of("method", options.method, Method::Paper);
+  require_one_of("quality", options.quality, Quality::Best);
+  require_one_of("balance", options.balance, Balance::EqualArea);
+  require_at_least("sweeps", options.sweeps, 0);
+  require_paper(options.paper);
+  require_energy(options);
+  require_frame(mesh, options);
+}
+
+}  // namespace sphparam
