@@ -30,7 +30,6 @@ double processor_seconds(pid_t process) {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-constexpr std::int64_t batch_size = 200;
 constexpr int poll_milliseconds = 200;
 constexpr double patience = 10;  // wall time to processor time: the machine may be busy
 
@@ -65,8 +64,8 @@ class Crew {
   Crew(const Assignment& assignment, const Work& work, const Report& on_result,
        const Report& on_loss)
       : assignment_(assignment), work_(work), on_result_(on_result), on_loss_(on_loss) {
-    for (std::int64_t i = assignment.first; i < assignment.last; i += batch_size) {
-      queue_.push_back({i, std::min(i + batch_size, assignment.last)});
+    for (std::int64_t i = assignment.first; i < assignment.last; i += assignment.batch) {
+      queue_.push_back({i, std::min(i + assignment.batch, assignment.last)});
     }
   }
 

@@ -10,6 +10,7 @@ struct Assignment {
   std::int64_t first, last;  // items first … last − 1
   int jobs;                  // processes at a time
   double time_limit;         // seconds an item, of processor time; ten times that of wall time
+  std::int64_t batch = 200;  // items that a child gets at once
 };
 
 /// Works through items in child processes, so that one that crashes or hangs costs only itself.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
@@ -180,6 +181,40 @@ TEST_CASE("ray scene: the clearance frees rays from their own surface, at any pl
       }
       CHECK(hits == 0);
     }
+  }
+}
+
+TEST_CASE("ray scene: rays go the same ways at every size that doubles have") {
+  const TriangleMesh ball = octahedron();
+  const Vector3 origin(0.125, 0.0625, 0), towards = Vector3(1, 2, 4).normalized();
+  const RayHit unit = RayScene(ball).first_hit(origin, towards, 4);
+  REQUIRE(unit.face >= 0);
+  for (const int exponent : {-1000, -600, 600, 1020, 1023}) {
+    INFO("2^" << exponent);
+    const double size = std::ldexp(1.0, exponent);
+    TriangleMesh sized = ball;
+    sized.positions *= size;
+    const RayScene scene(sized);
+    const RayHit hit = scene.first_hit(size * origin, towards, scene.diagonal());
+    CHECK(hit.face == unit.face);
+    CHECK(hit.distance / size == unit.distance);
+  }
+}
+
+TEST_CASE(
+    "ray scene: rays that start beyond what floats hold meet nothing, of a mesh that is one "
+    "point") {
+  TriangleMesh point = octahedron();
+  point.positions.rowwise() = Vector3(1e159, 9e159, -5e159).transpose();
+  const RayScene scene(point);
+  const std::vector<Eigen::Vector3f> directions(9, Eigen::Vector3f::UnitX());
+  std::vector<std::uint8_t> blocked(directions.size(), 7);
+  std::vector<float> distances(directions.size());
+  for (const Vector3& origin : {point.position(0), Vector3(1.0000001 * point.position(0))}) {
+    scene.find_blocked(origin + Vector3(0, 1e150, 0), directions, 1, blocked);
+    scene.find_distances(origin + Vector3(0, 1e150, 0), directions, 1, distances);
+    CHECK(std::ranges::all_of(blocked, [](std::uint8_t hit) { return hit == 0; }));
+    CHECK(std::ranges::all_of(distances, [](float way) { return way == 1; }));
   }
 }
 

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+#include "rays/flat_normal.h"
 #include "rays/triangle_distance.h"
 
 namespace sphparam::tools {
@@ -70,6 +71,23 @@ TEST_CASE("nearest_on_triangle: the foot of the perpendicular, a side or a corne
   CHECK(nearest_on_triangle({-3, -4, 0}, a, b, c).squared_distance == 25);
   CHECK(nearest_on_triangle({1, 1, 0}, a, b, c).squared_distance == 0.5);
   CHECK(nearest_on_triangle(c, a, b, c).squared_distance == 0);
+}
+
+TEST_CASE("flat_normal: the same unit vector at every size that doubles have, 0 without area") {
+  const Vector3 a(0.25, 0.5, 1), b(1, -0.5, 0.125), c(-0.75, 0.5, -1);
+  const Vector3 normal = flat_normal(a, b, c);
+  CHECK(normal.norm() == Approx(1));
+  CHECK(std::abs(normal.dot(b - a)) < 1e-15);
+  CHECK(std::abs(normal.dot(c - a)) < 1e-15);
+  for (const int exponent : {-1050, -700, 700, 1023}) {
+    INFO("2^" << exponent);
+    const auto sized = [&](const Vector3& p) -> Vector3 {
+      return p.unaryExpr([&](double x) { return std::ldexp(x, exponent); });
+    };
+    CHECK(flat_normal(sized(a), sized(b), sized(c)) == normal);
+  }
+  CHECK(flat_normal(a, b, b) == Vector3::Zero());
+  CHECK(flat_normal(1e300 * a, 1e300 * a, 1e300 * a) == Vector3::Zero());
 }
 
 }  // namespace sphparam::tools

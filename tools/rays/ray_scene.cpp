@@ -89,6 +89,12 @@ struct Frame {
   double diagonal;
 
   Vector3 local(const Vector3& point) const { return (point - centre) * scale; }
+  /// As Embree takes it: beyond, and where a mesh is one point that rounding misses, a ray meets
+  /// nothing that floats could tell.
+  Eigen::Vector3f local_origin(const Vector3& point) const {
+    constexpr double farthest = 0x1p40;
+    return local(point).cwiseMax(-farthest).cwiseMin(farthest).cast<float>();
+  }
   float local_length(double length) const {
     return static_cast<float>(std::min<double>(length * scale, std::numeric_limits<float>::max()));
   }
@@ -182,7 +188,7 @@ double RayScene::diagonal() const { return tree_->frame.diagonal; }
 
 void RayScene::find_blocked(const Vector3& origin, std::span<const Eigen::Vector3f> directions,
                             double reach, std::span<std::uint8_t> blocked) const {
-  const Eigen::Vector3f from = tree_->frame.local(origin).cast<float>();
+  const Eigen::Vector3f from = tree_->frame.local_origin(origin);
   const float local_reach = tree_->frame.local_length(reach);
   std::array<RTCRay, bundle> rays;
   for (size_t first = 0; first < directions.size(); first += bundle) {
@@ -198,7 +204,7 @@ void RayScene::find_blocked(const Vector3& origin, std::span<const Eigen::Vector
 
 void RayScene::find_distances(const Vector3& origin, std::span<const Eigen::Vector3f> directions,
                               double reach, std::span<float> distances) const {
-  const Eigen::Vector3f from = tree_->frame.local(origin).cast<float>();
+  const Eigen::Vector3f from = tree_->frame.local_origin(origin);
   const float local_reach = tree_->frame.local_length(reach);
   std::array<RTCRayHit, bundle> rays;
   for (size_t first = 0; first < directions.size(); first += bundle) {
@@ -219,7 +225,7 @@ void RayScene::find_distances(const Vector3& origin, std::span<const Eigen::Vect
 RayHit RayScene::first_hit(const Vector3& origin, const Vector3& unit_direction,
                            double reach) const {
   RTCRayHit ray;
-  set_ray(ray.ray, tree_->frame.local(origin).cast<float>(), unit_direction.cast<float>(),
+  set_ray(ray.ray, tree_->frame.local_origin(origin), unit_direction.cast<float>(),
           tree_->frame.local_length(reach));
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   RTCIntersectContext context = scattered_rays();

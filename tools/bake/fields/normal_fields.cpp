@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "rays/flat_normal.h"
 #include "sphparam/chart/tangent_frame.h"
 
 namespace sphparam::tools {
@@ -24,8 +25,8 @@ Vector3 normal_at(const BakeSource& source, Face f, const Vector3& weights) {
   const auto corner = [&](int k) {
     return source.file.mesh.position(source.file.mesh.triangles(f, k));
   };
-  const Vector3 flat = (corner(1) - corner(0)).cross(corner(2) - corner(0));
-  return flat.squaredNorm() > 0 ? flat.normalized() : Vector3::UnitZ();
+  const Vector3 flat = flat_normal(corner(0), corner(1), corner(2));
+  return flat.isZero(0) ? Vector3::UnitZ() : flat;
 }
 
 void put(const Vector3& n, float*& values) {

@@ -11,6 +11,7 @@
 #include "bake/bake_scene.h"
 #include "bake/map_kinds.h"
 #include "rays/cosine_rays.h"
+#include "rays/flat_normal.h"
 
 namespace sphparam::tools {
 
@@ -42,7 +43,7 @@ struct RayCaster {
     const Vector3 smooth = (w[0] * normals.row(corners[0]) + w[1] * normals.row(corners[1]) +
                             w[2] * normals.row(corners[2]))
                                .transpose();
-    const Vector3 flat = (b - a).cross(c - a).stableNormalized();
+    const Vector3 flat = flat_normal(a, b, c);
     const double sign = static_cast<double>(side);
     // Of a triangle without area only the smooth normal is known; of opposed normals only the flat.
     const Vector3 plane = sign * (flat.isZero(0) ? smooth.stableNormalized() : flat);

@@ -1,6 +1,8 @@
 // The program: declares the subcommands, parses the command line, runs the one that was asked for,
 // and turns whatever goes wrong into a message and an exit code.
 
+#include "cli/program.h"
+
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -226,10 +228,7 @@ int guarded_main(int argc, char** argv) {
 
 }  // namespace
 
-}  // namespace sphparam::tools
-
-int main(int argc, char** argv) {
-  using namespace sphparam::tools;
+int run_sphparam(int argc, char** argv) {
   forbid_core_dumps();
   end_on_interruption();
   turn_signals_into_errors();
@@ -241,3 +240,5 @@ int main(int argc, char** argv) {
     return InternalError;
   }
 }
+
+}  // namespace sphparam::tools
