@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "rays/cosine_rays.h"
+#include "rays/distinct_faces.h"
 #include "rays/ray_scene.h"
 #include "rays/triangle_distance.h"
 #include "support/test_meshes.h"
@@ -83,6 +84,20 @@ TEST_CASE("ray scene: where many triangles are equally near, the first of them i
     check_nearest(ball, scene, 2 * ball.position(v), static_cast<Face>(ball.face_count() - 1));
   }
   check_nearest(ball, scene, Vector3::Zero(), 17);  // nearly the same distance from everywhere
+}
+
+TEST_CASE("ray scene: triangles that are the same are asked once, and the first of them is told") {
+  TriangleMesh ball = random_sphere_mesh(200, 5);
+  ball.positions.bottomRows(150).rowwise() = Vector3(0.1, 0.2, 0.3).transpose();
+  ball.positions.row(7) = ball.positions.row(8).eval();
+  const std::vector<Face> faces = distinct_faces(ball);
+  CHECK(std::ranges::is_sorted(faces));
+  CHECK(faces.size() < 0.7 * static_cast<double>(ball.face_count()));
+  CHECK(distinct_faces(icosphere(2)).size() == 320);
+  const RayScene scene(ball);
+  Random random;
+  for (int i = 0; i < 300; ++i) check_nearest(ball, scene, 1.5 * random.point(), i % 3 - 1);
+  check_nearest(ball, scene, {0.1, 0.2, 0.3}, -1);
 }
 
 TEST_CASE("ray scene: nearest points stay exact far away, far from the origin and at any scale") {

@@ -21,7 +21,9 @@
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
+#include "rays/distinct_faces.h"
 #include "rays/triangle_distance.h"
 
 namespace sphparam::tools {
@@ -147,7 +149,10 @@ RTCIntersectContext scattered_rays() {
 
 struct RayScene::Tree {
   explicit Tree(const TriangleMesh& triangles)
-      : mesh(triangles), frame(frame_of(triangles)), scene(device.handle) {
+      : mesh(triangles),
+        frame(frame_of(triangles)),
+        faces(distinct_faces(triangles)),
+        scene(device.handle) {
     Geometry geometry(device.handle);
     fill(geometry.handle);
     rtcCommitGeometry(geometry.handle);
@@ -159,11 +164,10 @@ struct RayScene::Tree {
 
   void fill(RTCGeometry geometry) const {
     const auto vertices = static_cast<size_t>(mesh.vertex_count());
-    const auto faces = static_cast<size_t>(mesh.face_count());
     auto* const positions = static_cast<float*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), vertices));
     auto* const indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), faces));
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), faces.size()));
     if (!positions || !indices) require_success(device.handle);
     for (size_t v = 0; v < vertices; ++v) {
       const Vector3 point = frame.local(mesh.position(static_cast<Vertex>(v)));
@@ -171,11 +175,14 @@ struct RayScene::Tree {
         positions[3 * v + axis] = static_cast<float>(point[static_cast<Eigen::Index>(axis)]);
       }
     }
-    std::copy_n(mesh.triangles.data(), 3 * faces, indices);
+    for (size_t i = 0; i < faces.size(); ++i) {
+      std::copy_n(mesh.triangles.row(faces[i]).data(), 3, indices + 3 * i);
+    }
   }
 
   const TriangleMesh& mesh;
   Frame frame;
+  std::vector<Face> faces;  // of the mesh, by Embree's numbers
   Device device;
   Scene scene;
 };
@@ -231,7 +238,7 @@ RayHit RayScene::first_hit(const Vector3& origin, const Vector3& unit_direction,
   RTCIntersectContext context = scattered_rays();
   rtcIntersect1(tree_->scene.handle, &context, &ray);
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-  return {static_cast<Face>(ray.hit.primID), ray.ray.tfar / tree_->frame.scale};
+  return {tree_->faces[ray.hit.primID], ray.ray.tfar / tree_->frame.scale};
 }
 
 namespace {
@@ -239,8 +246,9 @@ namespace {
 /// A search for the nearest point, as it goes on.
 class Search {
  public:
-  Search(const TriangleMesh& mesh, const Frame& frame, const Vector3& point)
-      : mesh_(mesh), frame_(frame), point_(point), centre_(frame.local(point)) {
+  Search(const TriangleMesh& mesh, const std::vector<Face>& faces, const Frame& frame,
+         const Vector3& point)
+      : mesh_(mesh), faces_(faces), frame_(frame), point_(point), centre_(frame.local(point)) {
     if (centre_.squaredNorm() <= far_away * far_away) return;
     centre_ = far_away * (point - frame.centre).stableNormalized();
     widening_ = squared_reach_of_cube;
@@ -248,6 +256,9 @@ class Search {
 
   const Vector3& centre() const { return centre_; }
   const NearestPoint& best() const { return best_; }
+
+  /// By Embree's number.
+  bool come_to(unsigned number) { return consider(faces_[number]); }
 
   /// Is this face nearer than the best so far?
   bool consider(Face face) {
@@ -277,6 +288,7 @@ class Search {
 
  private:
   const TriangleMesh& mesh_;
+  const std::vector<Face>& faces_;
   const Frame& frame_;
   const Vector3& point_;
   Vector3 centre_;       // p, or p' where p is far away; local
@@ -288,7 +300,7 @@ class Search {
 /// Returns true where the radius has changed, as Embree wants it.
 bool come_to_triangle(RTCPointQueryFunctionArguments* arguments) {
   auto& search = *static_cast<Search*>(arguments->userPtr);
-  if (!search.consider(static_cast<Face>(arguments->primID))) return false;
+  if (!search.come_to(arguments->primID)) return false;
   const float radius = search.radius();
   // Of two triangles equally near the second may have the wider radius, by rounding.
   if (!(radius < arguments->query->radius)) return false;
@@ -299,7 +311,7 @@ bool come_to_triangle(RTCPointQueryFunctionArguments* arguments) {
 }  // namespace
 
 NearestPoint RayScene::nearest(const Vector3& point, Face guess) const {
-  Search search(tree_->mesh, tree_->frame, point);
+  Search search(tree_->mesh, tree_->faces, tree_->frame, point);
   if (guess >= 0) search.consider(guess);
   RTCPointQuery query;
   query.x = static_cast<float>(search.centre().x());
