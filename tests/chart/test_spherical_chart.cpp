@@ -9,6 +9,7 @@
 #include "sphparam/parameterize.h"
 #include "sphparam/sphere/spherical_coordinates.h"
 #include "support/all_triangulations.h"
+#include "support/coil.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -245,6 +246,33 @@ TEST_CASE("chart: needles that lie on each other by the thousand take tens of sp
       CHECK(count_folds(chart) == 0);
     }
   }
+}
+
+TEST_CASE("chart: a tube wound often about the poles takes the splits allowed and says so") {
+  const TriangleMesh mesh = coil(20);
+  const Topology topology(mesh);
+  const SphereMap map = parameterize(mesh).map;
+  double last = 0;
+  const Progress progress = [&](std::string_view stage, double share) {
+    CHECK(stage == "chart");
+    CHECK((last <= share && share <= 1));
+    last = share;
+    return true;
+  };
+  const SphericalChart whole = spherical_chart(mesh, topology, map, 0, progress);
+  CHECK(whole.certificate.one_to_one());
+  CHECK_FALSE(whole.counts.at_limit);
+  CHECK(last == 1);
+  constexpr int some = 4096;
+  REQUIRE(whole.counts.fold_splits > some);
+  const SphericalChart cut = spherical_chart(mesh, topology, map, 0, {}, 0);
+  CHECK(cut.counts.at_limit);
+  CHECK(cut.counts.fold_splits == some);
+  CHECK_FALSE(cut.certificate.one_to_one());
+  CHECK_FALSE(cut.certificate.folded.empty());
+  CHECK(cut.triangles.rows() == mesh.face_count() + 2 * cut.counts.splits());
+  const Progress stop = [](std::string_view, double share) { return share == 0; };
+  CHECK_THROWS_AS(spherical_chart(mesh, topology, map, 0, stop), Cancelled);
 }
 
 TEST_CASE("chart: the same bytes for any number of threads") {

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "program.h"
+#include "support/coil.h"
 #include "support/test_meshes.h"
 
 namespace sphparam::tests {
@@ -97,6 +98,26 @@ TEST_CASE("map: the same bytes for 1, 2 and 4 threads") {
   CHECK(one.size() > 1000);
   for (const char* threads : {"2", "4"}) {
     CHECK(sphparam_program({"map", "-", "-o", "-", "--threads", threads}, tube_text).out == one);
+  }
+}
+
+TEST_CASE("map: the chart of the report is a stage; where it is too much, the map is there") {
+  const Folder folder;
+  const std::string map = folder / "coil.sph.ply";
+  for (const int turns : {3, 40}) {
+    const Ended ended =
+        sphparam_program({"map", "-", "-o", map, "--json", "-"}, obj_text(coil(turns)));
+    INFO(ended.err);
+    REQUIRE(ended.code == 0);
+    CHECK(sphparam_program({"verify", map}).code == 0);
+    const Json report = Json::parse(ended.out);
+    CHECK(report["stages"].back()["name"] == "chart");
+    const Json& chart = report["chart"];
+    CHECK(chart["certified"] == (turns == 3));
+    CHECK(chart.contains("not_made") == (turns == 40));
+    if (turns == 3) continue;
+    CHECK_THAT(chart["not_made"].get<std::string>(), Contains("more than the 27"));
+    CHECK_THAT(ended.err, Contains("warning: chart: not made: "));
   }
 }
 

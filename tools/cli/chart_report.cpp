@@ -1,5 +1,7 @@
 #include "cli/chart_report.h"
 
+#include <new>
+
 #include "sphparam/sphere/certificate.h"
 
 namespace sphparam::tools {
@@ -19,23 +21,42 @@ std::string failures(const ChartCertificate& certificate) {
   return text;
 }
 
+std::string limit_reached(const SphericalChart& chart) {
+  return "its " + std::to_string(chart.counts.folded_faces) +
+         " folds in (u, v) take more than the " + std::to_string(chart.counts.fold_splits) +
+         " splits that are made at most";
+}
+
+ChartReport figures_of(const SphericalChart& chart) {
+  if (chart.counts.at_limit) return {.not_made = limit_reached(chart)};
+  return {.counts = chart.counts,
+          .certificate = chart.certificate,
+          .vertices = chart.points.rows(),
+          .triangles = chart.triangles.rows(),
+          .wedges = chart.wedge_count()};
+}
+
 }  // namespace
 
-std::optional<ChartReport> report_chart(const TriangleMesh& mesh, const SphereMap& map,
-                                        int threads) {
+std::string chart_failure(const SphericalChart& chart) {
+  if (chart.counts.at_limit) return "its map is one-to-one, but " + limit_reached(chart);
+  return "its map is one-to-one, but thinner in (u, v) than doubles can tell: " +
+         std::to_string(chart.certificate.folded.size()) + " triangles fold there";
+}
+
+std::optional<ChartReport> report_chart(const TriangleMesh& mesh, const SphereMap& map, int threads,
+                                        const Progress& progress, int splits_a_vertex) try {
   const Topology topology(mesh);
   const SphereMap unit = normalised(map.points);
   if (!certify(topology, unit, threads).bijective()) return std::nullopt;
-  const SphericalChart chart = spherical_chart(mesh, topology, unit, threads);
-  return ChartReport{.counts = chart.counts,
-                     .certificate = chart.certificate,
-                     .vertices = chart.points.rows(),
-                     .triangles = chart.triangles.rows(),
-                     .wedges = chart.wedge_count()};
+  return figures_of(spherical_chart(mesh, topology, unit, threads, progress, splits_a_vertex));
+} catch (const std::bad_alloc&) {
+  return ChartReport{.not_made = "out of memory"};
 }
 
 std::string chart_line(const std::optional<ChartReport>& chart) {
   if (!chart) return "chart: none, the map is not one-to-one with rays of unit length";
+  if (!chart->not_made.empty()) return "chart: not made: " + chart->not_made;
   const ChartCounts& counts = chart->counts;
   const bool certified = chart->certificate.one_to_one();
   return "chart: " + std::string(certified ? "certified" : "not one-to-one") +

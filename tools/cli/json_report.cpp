@@ -191,6 +191,7 @@ Json certificate_json(const Certificate& c) {
 
 Json chart_json(const std::optional<ChartReport>& chart) {
   if (!chart) return nullptr;
+  if (!chart->not_made.empty()) return {{"certified", false}, {"not_made", chart->not_made}};
   const ChartCounts& counts = chart->counts;
   const ChartCertificate& certificate = chart->certificate;
   return {{"certified", certificate.one_to_one()},

@@ -132,9 +132,31 @@ void add_charts(PendingFiles& files, const std::string& folder, const std::strin
   }
 }
 
+/// The figures of the (u, v) chart, as a stage of its own. The map that was asked for is on the
+/// disk already, certified: a chart that cannot be made is told, and costs nothing else.
+///
+/// Figures alone are not worth the memory of a chart that somebody bakes for or exports.
+std::optional<ChartReport> figures_of_chart(const MapArguments& arguments, MapOutcome& outcome,
+                                            Console& console) {
+  if (!outcome.certificate.bijective()) return std::nullopt;
+  constexpr int splits_a_vertex = 4;
+  const Stopwatch stopwatch;
+  std::optional<ChartReport> chart = report_chart(
+      outcome.source.file.mesh, outcome.result.map, arguments.options.threads,
+      [&](std::string_view stage, double f) { return console.progress(stage, f); },
+      splits_a_vertex);
+  outcome.result.stages.push_back({.name = "chart", .seconds = stopwatch.seconds()});
+  console.detail("  chart: " + short_number(stopwatch.seconds()) + " s");
+  if (chart && !chart->not_made.empty()) {
+    outcome.result.warnings.push_back(chart_line(chart));
+    console.warning(chart_line(chart));
+  }
+  return chart;
+}
+
 /// The charts and the report, which are written for folded maps too.
-void add_reports(PendingFiles& files, const MapArguments& arguments, const MapOutcome& outcome,
-                 Outputs outputs, const Stopwatch& stopwatch) {
+void add_reports(PendingFiles& files, const MapArguments& arguments, MapOutcome& outcome,
+                 Outputs outputs, const Stopwatch& stopwatch, Console& console) {
   if (!arguments.charts.empty() && outcome.distortion) {
     const std::string name =
         is_stream(arguments.input) ? "map" : std::filesystem::path(arguments.input).stem().string();
@@ -142,10 +164,7 @@ void add_reports(PendingFiles& files, const MapArguments& arguments, const MapOu
     outputs.emplace_back("charts", arguments.charts);
   }
   if (arguments.json.empty()) return;
-  std::optional<ChartReport> chart;
-  if (outcome.certificate.bijective()) {
-    chart = report_chart(outcome.source.file.mesh, outcome.result.map, arguments.options.threads);
-  }
+  const std::optional<ChartReport> chart = figures_of_chart(arguments, outcome, console);
   const MapReport report = {
       .input = {arguments.input, outcome.source},
       .method = info_of(arguments.method).name,
@@ -190,7 +209,7 @@ void write_outputs(const MapArguments& arguments, MapOutcome& outcome, bool with
     add_sphere(files, arguments, outcome, console);
     outputs.emplace_back("sphere", arguments.sphere);
   }
-  add_reports(files, arguments, outcome, outputs, stopwatch);
+  add_reports(files, arguments, outcome, outputs, stopwatch, console);
   if (interrupted()) throw Cancelled();
   files.publish();
 }

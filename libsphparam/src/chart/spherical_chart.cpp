@@ -16,6 +16,7 @@ namespace sphparam {
 namespace {
 
 constexpr std::int64_t chunk_size = 8192;
+constexpr std::int64_t some_splits = 4096;  // small meshes may need many a vertex
 
 void check_sizes(const TriangleMesh& mesh, const Topology& topology, const SphereMap& map) {
   if (map.points.rows() != topology.vertex_count() || mesh.face_count() != topology.face_count())
@@ -153,19 +154,28 @@ Vertex find_pole(const RefinedMesh& mesh, const std::vector<Face>& faces, double
 }  // namespace
 
 SphericalChart spherical_chart(const TriangleMesh& mesh, const Topology& topology,
-                               const SphereMap& map, int threads) {
+                               const SphereMap& map, int threads, const Progress& progress,
+                               int splits_a_vertex) {
   check_sizes(mesh, topology, map);
+  report(progress, "chart", 0);
   FlatMesh flat{RefinedMesh(topology, map, mesh.triangles, threads)};
   const PolarFrame frame = split_at_poles_and_meridian(flat.mesh, threads);
   flat.north = frame.north;
   flat.south = frame.south;
   lay_out(flat, threads);
-  const Unfolding unfolding = unfold(flat, threads);
+  const std::int64_t most = std::int64_t{splits_a_vertex} * topology.vertex_count() + some_splits;
+  const Unfolding unfolding = unfold(flat, most, threads, progress);
 
   SphericalChart chart = surface_of(flat);
   WedgeBuilder(flat).build(chart, [&](Face f) { return touches_seam_from_west(flat, f); });
-  chart.counts = {frame.pole_splits,      frame.meridian_splits,  unfolding.splits,
-                  unfolding.folded_faces, frame.snapped_vertices, unfolding.nudged_vertices};
+  chart.counts = {.pole_splits = frame.pole_splits,
+                  .meridian_splits = frame.meridian_splits,
+                  .fold_splits = unfolding.splits,
+                  .folded_faces = unfolding.folded_faces,
+                  .snapped_vertices = frame.snapped_vertices,
+                  .nudged_vertices = unfolding.nudged_vertices,
+                  .at_limit = unfolding.at_limit};
+  report(progress, "chart", 1);
   chart.certificate = certify_chart(chart, threads);
   return chart;
 }

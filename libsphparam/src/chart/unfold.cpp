@@ -24,7 +24,7 @@ namespace {
 constexpr std::int64_t chunk_size = 8192;
 // Of what an edge spans in u, at either end: a line there would leave the long piece as it is.
 constexpr double margin = 0x1p-3;
-constexpr std::int64_t most_splits_a_fold = 256, most_splits_at_all = 4096;  // guards, not targets
+constexpr size_t faces_a_report = 4096;
 
 /// The number n / 2ᵏ between two, k least.
 double simplest_between(double low, double high) {
@@ -35,22 +35,25 @@ double simplest_between(double low, double high) {
 
 class Unfolder {
  public:
-  explicit Unfolder(FlatMesh& flat) : flat_(flat) {}
+  Unfolder(FlatMesh& flat, std::int64_t most_splits) : flat_(flat), most_splits_(most_splits) {}
 
-  Unfolding run(int threads) {
+  Unfolding run(int threads, const Progress& progress) {
     waiting_ = folded_faces(threads);
     result_.folded_faces = static_cast<int>(waiting_.size());
-    const std::int64_t most = most_splits_a_fold * result_.folded_faces + most_splits_at_all;
-    for (size_t i = 0; i < waiting_.size(); ++i) {
+    for (size_t i = 0; i < waiting_.size() && !result_.at_limit; ++i) {
+      if (i % faces_a_report == 0) report(progress, "chart", share_of_limit());
       const Face f = waiting_[i];
       if (flat_.positive(f)) continue;
       const Cut cut = choose_cut(f);
-      if (cut.halfedge < 0 || result_.splits >= most) {
+      if (cut.halfedge < 0) {
         result_.left.push_back(f);
-      } else {
+      } else if (result_.splits < most_splits_) {
         split(cut);
+      } else {
+        result_.at_limit = true;
       }
     }
+    if (result_.at_limit) return std::move(result_);  // the rest folds: nothing is worth mending
     keep_folded(result_.left);
     result_.nudged_vertices = nudge(flat_, result_.left);
     return std::move(result_);
@@ -151,13 +154,20 @@ class Unfolder {
     std::erase_if(faces, [&](Face f) { return flat_.positive(f); });
   }
 
+  double share_of_limit() const {
+    return static_cast<double>(result_.splits) / static_cast<double>(most_splits_);
+  }
+
   FlatMesh& flat_;
+  const std::int64_t most_splits_;
   std::vector<Face> waiting_;
   Unfolding result_;
 };
 
 }  // namespace
 
-Unfolding unfold(FlatMesh& flat, int threads) { return Unfolder(flat).run(threads); }
+Unfolding unfold(FlatMesh& flat, std::int64_t most_splits, int threads, const Progress& progress) {
+  return Unfolder(flat, most_splits).run(threads, progress);
+}
 
 }  // namespace sphparam

@@ -6,6 +6,7 @@
 #include "sphparam/chart/chart_certificate.h"
 #include "sphparam/mesh/surface_point.h"
 #include "sphparam/mesh/topology.h"
+#include "sphparam/progress.h"
 #include "sphparam/sphere/sphere_map.h"
 
 namespace sphparam {
@@ -29,6 +30,7 @@ struct ChartCounts {
   int folded_faces = 0;      // triangles between poles and meridian that folded before
   int snapped_vertices = 0;  // within rounding of ±z or the meridian: moved there
   int nudged_vertices = 0;   // moved in (u, v) by some roundings of it: too small a fold to split
+  bool at_limit = false;     // the folds need more splits than were allowed: some are left
 
   int splits() const { return pole_splits + meridian_splits + fold_splits; }
 };
@@ -77,16 +79,19 @@ struct SphericalChart {
 /// Ensures: `certificate` is certify_chart's of the data returned. It fails only where triangles,
 /// or
 ///          the strips between neighbouring edges, are as thin as the rounding of (u, v), some
-///          1e-15 radians, or if the splits run into their bound, 256 a fold and 4096 (not seen).
+///          1e-15 radians, or where folds need more than `splits_a_vertex`·#V + 4096 splits:
+///          `counts.at_limit` tells. Tubes wound dozens of times about the poles take tens a vertex.
 ///          Every split leaves the refined map positive on the sphere; where rounding does not let
 ///          it, `certificate.inverted` lists the faces. Same bytes for any number of threads.
-/// Throws: std::invalid_argument if the map's size is wrong, or where no face holds ±z.
+/// Progress is told of "chart": the share of the splits allowed that was needed so far.
+/// Throws: std::invalid_argument if the map's size is wrong, or where no face holds ±z; Cancelled.
 /// Our own; the need for it: Section 3 of the paper has the date line along edges, which a relaxed
 /// map leaves. Cost: a few passes, a tenth of the default map's time, half of it the certificate;
 /// and 1 to 3 µs a split: some 2 to 10 a fold, 10 to 75 where needles (1 : 1000) lie on each other
 /// by the thousand near ±z.
 SphericalChart spherical_chart(const TriangleMesh& mesh, const Topology& topology,
-                               const SphereMap& map, int threads = 0);
+                               const SphereMap& map, int threads = 0, const Progress& progress = {},
+                               int splits_a_vertex = 256);
 
 /// The same without new vertices: for those who must keep the topology. Triangles across the
 /// meridian get u up to 1.5 (wrap REPEAT), those at a pole vertex a fan wedge. The certificate
