@@ -109,6 +109,50 @@ TEST_CASE("tangent_frame: normals that cancel are replaced") {
   check_orthonormal(Framed(mesh, map, alternating).frame);
 }
 
+TEST_CASE(
+    "tangent_frame: normals of wedges that agree are those of vertices; others have their own") {
+  const Framed sphere = framed_sphere(3, 8);
+  const auto wedges = static_cast<int>(sphere.chart.wedge_count());
+  Points spread(wedges, 3);
+  for (int w = 0; w < wedges; ++w)
+    spread.row(w) = sphere.normals.row(sphere.chart.wedge_vertices[static_cast<size_t>(w)]);
+  const ShadingFrame same = tangent_frame(sphere.chart, sphere.positions, spread);
+  CHECK(same.tangents == sphere.frame.tangents);
+  CHECK(same.normals == sphere.frame.normals);
+
+  // Every face flat: a wedge for each corner, and its tangent in the plane of its face.
+  SphericalChart faceted = sphere.chart;
+  const Eigen::Index corners = faceted.wedges.size();
+  TextureCoordinates uv(corners, 2);
+  Points flat(corners, 3);
+  std::vector<Vertex> vertices;
+  std::vector<WedgeKind> kinds;
+  for (Eigen::Index corner = 0; corner < corners; ++corner) {
+    const auto w = static_cast<size_t>(sphere.chart.wedges.data()[corner]);
+    uv.row(corner) = sphere.chart.uv.row(static_cast<Eigen::Index>(w));
+    vertices.push_back(sphere.chart.wedge_vertices[w]);
+    kinds.push_back(sphere.chart.wedge_kinds[w]);
+    const auto triangle = sphere.chart.triangles.row(corner / 3);
+    const Vector3 a = sphere.positions.row(triangle[0]), b = sphere.positions.row(triangle[1]),
+                  c = sphere.positions.row(triangle[2]);
+    flat.row(corner) = (b - a).cross(c - a).normalized();
+    faceted.wedges.data()[corner] = static_cast<int>(corner);
+  }
+  faceted.uv = uv;
+  faceted.wedge_vertices = vertices;
+  faceted.wedge_kinds = kinds;
+  CHECK(certify_chart(faceted).one_to_one());
+  const ShadingFrame frame = tangent_frame(faceted, sphere.positions, flat);
+  check_orthonormal(frame);
+  CHECK(frame.normals == flat);
+  for (Eigen::Index corner = 0; corner < corners; corner += 3) {
+    // One direction of growing u in a flat triangle.
+    const Vector3 first = frame.tangents.row(corner).head<3>();
+    for (int k = 1; k < 3; ++k)
+      CHECK((first - frame.tangents.row(corner + k).head<3>().transpose()).norm() < 1e-12);
+  }
+}
+
 TEST_CASE("tangent_frame: the same bytes for any number of threads; wrong sizes are refused") {
   const Framed sphere = framed_sphere(5, 7);
   for (const int threads : {1, 2, 5}) {

@@ -16,6 +16,7 @@
 #include "mesh_io/mesh_reader.h"
 #include "mesh_io/sphere_file.h"
 #include "mesh_io/welding.h"
+#include "render/hard_edges.h"
 #include "sphparam/parameterize.h"
 #include "support/test_meshes.h"
 
@@ -95,7 +96,9 @@ void run(const Trial& trial, const MeshFile& file, const SphereMap& map, const T
   geometry.buffers.tangents = trial.normal_map;
   geometry.buffers.colours = true;
   geometry.buffers.source_texcoords = trial.source_uv && file.corner_texcoords.has_value();
-  const ExportChart chart = export_chart(file.mesh, topology, map, trial.chart);
+  ExportChart chart = export_chart(file.mesh, topology, map, trial.chart);
+  if (geometry.shape == ShapeKind::Mesh)
+    chart.wedge_normals = split_at_hard_edges(chart.chart, file);
   ExportGeometry made = export_geometry(chart, file, geometry);
   Material material{.name = "checker", .base_colour = 0, .unlit = trial.unlit};
   if (trial.normal_map) material.normal = 1;
@@ -135,7 +138,8 @@ struct Named {
   MeshFile file;
 };
 
-/// Four triangles; many faces without area; faces too small for float32; colours and own (u, v).
+/// Four triangles; many faces without area; faces too small for float32; colours and own (u, v), and
+/// a normal of its own at every corner.
 std::vector<Named> own_meshes() {
   std::vector<Named> meshes(4);
   meshes[0] = {"tetrahedron", {}};
@@ -154,6 +158,7 @@ std::vector<Named> own_meshes() {
   for (const char* channel : {"red", "green", "blue"})
     coloured.set_vertex_property({channel, ScalarType::Uint8, std::vector<double>(count, 99)});
   coloured.corner_texcoords = CornerTexcoords::Random(coloured.mesh.triangles.size(), 2);
+  coloured.corner_normals = CornerNormals::Random(coloured.mesh.triangles.size(), 3);
   return meshes;
 }
 

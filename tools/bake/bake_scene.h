@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "mesh_io/mesh_file.h"
@@ -26,6 +27,8 @@ struct BakeSource {
 struct BakeTarget {
   SphericalChart chart;
   Points positions, normals;  // of the refined vertices, chart.points.rows()×3; normals unit
+  // Unit, #W×3, where the mesh has hard edges; else `normals` light it.
+  std::optional<Points> wedge_normals = std::nullopt;
   bool is_source = true;
 };
 

@@ -7,8 +7,10 @@
 #include "image/file_extension.h"
 #include "image/image_codec.h"
 #include "mesh_io/gltf_files.h"
+#include "render/hard_edges.h"
 #include "render/shading_normals.h"
 #include "sphparam/chart/carry_attributes.h"
+#include "sphparam/chart/refine_poles.h"
 #include "sphparam/chart/tangent_frame.h"
 #include "texture/texture_pyramid.h"
 
@@ -44,12 +46,15 @@ std::shared_ptr<const TexturePyramid> decode(const BaseColour& colour, const std
 }  // namespace
 
 BakeTarget make_target(const MeshFile& file, const Topology& topology, const SphereMap& map,
-                       bool is_source, int threads) {
-  BakeTarget target{.chart = spherical_chart(file.mesh, topology, map, threads),
+                       bool is_source, int threads, int pole_wedges, const Progress& progress) {
+  BakeTarget target{.chart = spherical_chart(file.mesh, topology, map, threads, progress),
                     .positions = {},
                     .normals = {},
                     .is_source = is_source};
   const Triangles& triangles = file.mesh.triangles;
+  if (pole_wedges > 1 && target.chart.certificate.one_to_one())
+    target.chart = refine_poles(std::move(target.chart), triangles, pole_wedges, threads);
+  target.wedge_normals = split_at_hard_edges(target.chart, file, threads);
   target.positions = carry_vertex_attribute(target.chart, triangles, file.mesh.positions, threads);
   target.normals = carry_normals(target.chart, triangles, shading_normals(file), threads);
   return target;

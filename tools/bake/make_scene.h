@@ -3,13 +3,18 @@
 #include <string>
 
 #include "bake/bake_scene.h"
+#include "sphparam/progress.h"
 
 namespace sphparam::tools {
 
-/// The chart of a mesh with what bakes need on it.
-/// Requires: a certified map. Cost: that of `spherical_chart`.
+/// The chart of a mesh with what bakes need on it: where an exporter refines the triangles at the
+/// poles, or a mesh has hard edges, images must be baked for that very chart.
+/// `pole_wedges`: as `refine_poles` takes them. Progress is told of the chart.
+/// Requires: a certified map. Throws: std::invalid_argument as `refine_poles` does; Cancelled.
+/// Cost: that of `spherical_chart`.
 BakeTarget make_target(const MeshFile& file, const Topology& topology, const SphereMap& map,
-                       bool is_source, int threads);
+                       bool is_source, int threads, int pole_wedges = 1,
+                       const Progress& progress = {});
 
 /// A texture of the user's own for all of the mesh.
 /// Throws: ImageError.

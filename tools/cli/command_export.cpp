@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "bake/source_attributes.h"
+#include "cli/chart_report.h"
 #include "cli/exit_codes.h"
 #include "cli/export_arguments.h"
 #include "cli/export_look.h"
@@ -28,6 +29,7 @@
 #include "mesh_io/read_options.h"
 #include "mesh_io/safe_file.h"
 #include "remesh/remesh.h"
+#include "render/hard_edges.h"
 #include "sphparam/stopwatch.h"
 #include "sphparam/version.h"
 
@@ -57,31 +59,33 @@ GeometryOptions geometry_options(const ExportArguments& arguments, const MeshFil
   return options;
 }
 
-ExportChartOptions chart_options(const ExportArguments& arguments) {
+ExportChartOptions chart_options(const ExportArguments& arguments, Console& console) {
   return {.convention = arguments.convention,
           .refine_poles = arguments.refine_poles,
           .keep_topology = arguments.keep_topology,
-          .threads = arguments.threads};
+          .threads = arguments.threads,
+          .progress = [&console](std::string_view stage, double fraction) {
+            return console.progress(stage, fraction);
+          }};
 }
 
 /// Throws NotCertifiedError where a chart that should be one-to-one is not.
-ExportChart make_chart(const ExportArguments& arguments, const MeshFile& file,
-                       const SphereMap& map) {
+ExportChart make_chart(const ExportArguments& arguments, const MeshFile& file, const SphereMap& map,
+                       Console& console) {
   ExportChart chart = [&] {
     try {
       return export_chart(file.mesh, Topology(file.mesh, arguments.threads), map,
-                          chart_options(arguments));
+                          chart_options(arguments, console));
     } catch (const std::invalid_argument& error) {
       if (arguments.refine_poles <= 1) throw;
       throw UsageMistake(std::string("--refine-poles: ") + error.what());
     }
   }();
   if (!arguments.keep_topology && !chart.chart.certificate.one_to_one()) {
-    throw NotCertifiedError(
-        display_name(arguments.input) +
-        ": its map is one-to-one, but thinner in (u, v) than doubles can tell: " +
-        std::to_string(chart.chart.certificate.folded.size()) + " triangles fold there");
+    throw NotCertifiedError(display_name(arguments.input) + ": " + chart_failure(chart.chart));
   }
+  if (arguments.shape == ShapeKind::Mesh)
+    chart.wedge_normals = split_at_hard_edges(chart.chart, file, arguments.threads);
   return chart;
 }
 
@@ -203,13 +207,12 @@ class Exporter {
 
   Surface add_level(const MeshFile& file, const SphereMap& map, const ExportLook& look,
                     Asset& asset) {
-    console_.progress("chart", 0);
-    const ExportChart chart = make_chart(arguments_, file, map);
+    const ExportChart chart = make_chart(arguments_, file, map, console_);
     ExportGeometry geometry =
         export_geometry(chart, file, geometry_options(arguments_, file, look));
     tell_geometry(arguments_, chart, geometry, console_);
     if (asset.levels.empty()) {
-      for (auto& extra : chart_extras(chart, geometry, chart_options(arguments_)))
+      for (auto& extra : chart_extras(chart, geometry, chart_options(arguments_, console_)))
         asset.extras.push_back(std::move(extra));
     }
     report_.add_level(chart, geometry);
@@ -283,7 +286,7 @@ class Exporter {
 
   void write_text() {
     const MeshFile& file = mapped_.source.file;
-    const ExportChart chart = make_chart(arguments_, file, mapped_.map);
+    const ExportChart chart = make_chart(arguments_, file, mapped_.map, console_);
     MeshFile textured = textured_mesh(chart, file, arguments_.shape, arguments_.threads);
     const std::string path = arguments_.output, stem = fs::path(path).stem().string();
     ChartCertificate stored;

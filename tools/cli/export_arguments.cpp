@@ -26,6 +26,7 @@ constexpr char summary[] =
     "Any equirectangular image sits right: the mesh is split along the date line and at the "
     "poles,\n"
     "every pole triangle has a vertex of its own there, u runs from 0 to 1 and never folds.\n"
+    "Where the mesh has normals at corners, hard edges stay hard.\n"
     "Without an image the mesh shows its own texture, baked; else the colours of its vertices; "
     "else\n"
     "a checker.\n"
@@ -75,7 +76,7 @@ void add_chart(CLI::App& command, ExportArguments& arguments) {
                    "Add no vertices on the surface: triangles fold at the poles, they are listed");
   command
       .add_option("--refine-poles", arguments.refine_poles,
-                  "Cut each triangle at a pole into so many")
+                  "Cut each triangle at a pole into so many; images of `bake` must be baked for it")
       ->check(between(1, 1024, "1 to 1024"))
       ->type_name("N")
       ->capture_default_str();

@@ -15,6 +15,7 @@
 #include "gltf/gltf_writer.h"
 #include "gltf/written_check.h"
 #include "mesh_io/read_options.h"
+#include "render/hard_edges.h"
 
 namespace sphparam::tools {
 
@@ -46,6 +47,7 @@ ExportChart chart_of(const MappedSource& made, const RemeshArguments& arguments,
         arguments.grid + ": the grid is one-to-one, but thinner in (u, v) than doubles can tell: " +
         std::to_string(chart.chart.certificate.folded.size()) + " triangles fold there");
   }
+  chart.wedge_normals = split_at_hard_edges(chart.chart, made.source.file, arguments.threads);
   return chart;
 }
 

@@ -20,6 +20,9 @@ Shape shape_of(const ExportChart& chart, const MeshFile& source, const GeometryO
     case ShapeKind::Mesh:
       break;
   }
+  if (chart.wedge_normals) {
+    return lit_shape(chart.chart, source.mesh, *chart.wedge_normals, options.up, options.threads);
+  }
   return mesh_shape(chart.chart, source.mesh, shading_normals(source), options.up, options.threads);
 }
 

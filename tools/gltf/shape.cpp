@@ -45,8 +45,14 @@ Shape shape_of(const SphericalChart& chart, const Points& positions, const Point
 
 Shape mesh_shape(const SphericalChart& chart, const TriangleMesh& mesh, const Points& mesh_normals,
                  Up up, int threads) {
+  return lit_shape(chart, mesh, carry_normals(chart, mesh.triangles, mesh_normals, threads), up,
+                   threads);
+}
+
+Shape lit_shape(const SphericalChart& chart, const TriangleMesh& mesh, const Points& normals, Up up,
+                int threads) {
   return shape_of(chart, carry_vertex_attribute(chart, mesh.triangles, mesh.positions, threads),
-                  carry_normals(chart, mesh.triangles, mesh_normals, threads), up, threads);
+                  normals, up, threads);
 }
 
 Shape sphere_shape(const SphericalChart& chart, int threads) {

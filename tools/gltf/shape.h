@@ -18,6 +18,10 @@ enum class Up { Z, Y };
 Shape mesh_shape(const SphericalChart& chart, const TriangleMesh& mesh, const Points& mesh_normals,
                  Up up, int threads = 0);
 
+/// The same with unit normals of the chart, as `tangent_frame` takes them.
+Shape lit_shape(const SphericalChart& chart, const TriangleMesh& mesh, const Points& normals, Up up,
+                int threads = 0);
+
 /// Its image on the unit sphere, north up whatever the mesh's up is.
 Shape sphere_shape(const SphericalChart& chart, int threads = 0);
 

@@ -68,6 +68,11 @@ MeshFile textured_mesh(const ExportChart& exported, const MeshFile& source, Shap
         [&](const Attributes& values) { return carry_face_attribute(chart, triangles, values); });
   add_normals(file, is_sphere ? chart.points
                               : carry_normals(chart, triangles, shading_normals(source), threads));
+  if (exported.wedge_normals && !is_sphere) {
+    file.corner_normals = CornerNormals(chart.triangles.size(), 3);
+    for (Eigen::Index corner = 0; corner < chart.wedges.size(); ++corner)
+      file.corner_normals->row(corner) = exported.wedge_normals->row(chart.wedges.data()[corner]);
+  }
   CornerTexcoords texcoords(chart.triangles.size(), 2);
   for (Eigen::Index corner = 0; corner < texcoords.rows(); ++corner) {
     const auto uv = chart.uv.row(chart.wedges.data()[corner]);

@@ -9,7 +9,8 @@ enum class ShapeKind { Mesh, Sphere, Flat };
 
 /// The chart as a mesh file, for formats with texture coordinates at corners: the refined mesh, the
 /// (u, 1 − v) of its wedges at the corners, v upwards as these formats have it; vertex and face
-/// properties of the source, colours rounded to their type, normals interpolated; one material.
+/// properties of the source, colours rounded to their type, normals interpolated, those of corners
+/// at corners too; one material.
 /// `shape`: the mesh or its sphere. Axes stay as they are.
 MeshFile textured_mesh(const ExportChart& chart, const MeshFile& source, ShapeKind shape,
                        int threads = 0);

@@ -173,10 +173,15 @@ class ChartCertifier {
   bool fits(Halfedge h, Halfedge twin) const {
     const int a = wedge(h), b = wedge(Topology::next(h));
     const int other_a = wedge(Topology::next(twin)), other_b = wedge(twin);
-    if (on_same_rim(a, other_a)) return b == other_b || seam_copies(b, other_b);
-    if (on_same_rim(b, other_b)) return a == other_a || seam_copies(a, other_a);
-    if (a == other_a && b == other_b) return true;
+    if (on_same_rim(a, other_a)) return at_same_place(b, other_b) || seam_copies(b, other_b);
+    if (on_same_rim(b, other_b)) return at_same_place(a, other_a) || seam_copies(a, other_a);
+    if (at_same_place(a, other_a) && at_same_place(b, other_b)) return true;
     return seam_copies(a, other_a) && seam_copies(b, other_b) && point(a).u == point(b).u;
+  }
+
+  /// Wedges of a vertex may differ in what else they have, a normal for one.
+  bool at_same_place(int w, int other) const {
+    return w == other || (point(w).u == point(other).u && point(w).v == point(other).v);
   }
 
   bool on_same_rim(int w, int other) const {

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
+#include <tuple>
 
 #include "sphparam/chart/carry_attributes.h"
 #include "sphparam/elementary.h"
@@ -12,9 +14,9 @@
 
 // On a triangle with edges e₁, e₂ and their (u₁, v₁), (u₂, v₂) the surface grows with u along
 //   ∂p/∂u = (v₂ e₁ − v₁ e₂) / (u₁ v₂ − u₂ v₁),
-// of which only the direction matters. Its sums are per refined vertex, which welds the seam; a
-// pole fan's wedge belongs to one triangle and takes that one's. Faces in parallel, sums in the
-// order of the faces, wedges in parallel.
+// of which only the direction matters. Its sums are per refined vertex and normal there, which
+// welds the seam and keeps hard edges; a pole fan's wedge belongs to one triangle and takes that
+// one's. Faces in parallel, sums in the order of the faces, wedges in parallel.
 
 namespace sphparam {
 namespace {
@@ -73,9 +75,35 @@ Vector3 tangent_of(const Vector3& sum, const Vector3& normal) {
   return (unit - unit.dot(normal) * normal).normalized();
 }
 
-void require_rows(const Points& values, const SphericalChart& chart) {
-  if (values.rows() != static_cast<Eigen::Index>(chart.surface_points.size()))
-    throw std::invalid_argument("tangent_frame: not one row a refined vertex");
+Eigen::Index vertices_of(const SphericalChart& chart) {
+  return static_cast<Eigen::Index>(chart.surface_points.size());
+}
+
+/// Of each wedge, the first wedge of its vertex that has its normal.
+std::vector<int> first_alike(const SphericalChart& chart, const Points& wedge_normals) {
+  std::vector<int> order(chart.wedge_vertices.size()), first(order.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto key = [&](int w) {
+    const auto n = wedge_normals.row(w);
+    return std::tuple(chart.wedge_vertices[static_cast<size_t>(w)], n[0], n[1], n[2]);
+  };
+  std::ranges::stable_sort(order, {}, key);
+  for (size_t i = 0; i < order.size(); ++i) {
+    const bool alike = i > 0 && key(order[i]) == key(order[i - 1]);
+    first[static_cast<size_t>(order[i])] =
+        alike ? first[static_cast<size_t>(order[i - 1])] : order[i];
+  }
+  return first;
+}
+
+/// Of each wedge, which sum is its own: that of its vertex, or of its normal there.
+std::vector<int> sums_of(const SphericalChart& chart, const Points& normals) {
+  const bool of_wedges = normals.rows() == chart.wedge_count();
+  return of_wedges ? first_alike(chart, normals) : chart.wedge_vertices;
+}
+
+void require_rows(bool right) {
+  if (!right) throw std::invalid_argument("tangent_frame: not one row a refined vertex or wedge");
 }
 
 }  // namespace
@@ -94,9 +122,11 @@ Points carry_normals(const SphericalChart& chart, const Triangles& source, const
 
 ShadingFrame tangent_frame(const SphericalChart& chart, const Points& positions,
                            const Points& normals, int threads) {
-  require_rows(positions, chart);
-  require_rows(normals, chart);
   const Eigen::Index faces = chart.triangles.rows(), wedges = chart.wedge_count();
+  require_rows(positions.rows() == vertices_of(chart));
+  require_rows(normals.rows() == vertices_of(chart) || normals.rows() == wedges);
+  const bool of_wedges = normals.rows() == wedges;
+  const std::vector<int> sum_of = sums_of(chart, normals);
   std::vector<CornerDirections> directions(static_cast<size_t>(faces));
   parallel_for(faces, chunk_size, threads, [&](std::int64_t first, std::int64_t last) {
     for (auto f = static_cast<Face>(first); f < static_cast<Face>(last); ++f)
@@ -106,13 +136,13 @@ ShadingFrame tangent_frame(const SphericalChart& chart, const Points& positions,
   const auto is_fan = [&](int w) {
     return chart.wedge_kinds[static_cast<size_t>(w)] == WedgeKind::PoleFan;
   };
-  Points sums = Points::Zero(positions.rows(), 3), fans = Points::Zero(wedges, 3);
+  Points sums = Points::Zero(wedges, 3), fans = Points::Zero(wedges, 3);
   for (Face f = 0; f < static_cast<Face>(faces); ++f) {
     const CornerDirections& corners = directions[static_cast<size_t>(f)];
     for (int k = 0; k < 3; ++k) {
       const int w = chart.wedges(f, k);
       const Vector3 direction = corners.angles[static_cast<size_t>(k)] * corners.along;
-      is_fan(w) ? fans.row(w) += direction : sums.row(chart.triangles(f, k)) += direction;
+      is_fan(w) ? fans.row(w) += direction : sums.row(sum_of[static_cast<size_t>(w)]) += direction;
     }
   }
 
@@ -120,7 +150,8 @@ ShadingFrame tangent_frame(const SphericalChart& chart, const Points& positions,
   parallel_for(wedges, chunk_size, threads, [&](std::int64_t first, std::int64_t last) {
     for (auto w = static_cast<int>(first); w < static_cast<int>(last); ++w) {
       const Vertex v = chart.wedge_vertices[static_cast<size_t>(w)];
-      const Vector3 normal = normals.row(v), sum = is_fan(w) ? fans.row(w) : sums.row(v);
+      const Vector3 normal = normals.row(of_wedges ? w : v);
+      const Vector3 sum = is_fan(w) ? fans.row(w) : sums.row(sum_of[static_cast<size_t>(w)]);
       frame.normals.row(w) = normal;
       frame.tangents.row(w) << tangent_of(sum, normal).transpose(), 1;
     }

@@ -54,7 +54,8 @@ SurfaceField make_object_normal(const BakeScene& scene, const std::string&) {
 SurfaceField make_tangent_normal(const BakeScene& scene, const std::string&) {
   const BakeTarget& target = scene.target;
   const auto frame = std::make_shared<const ShadingFrame>(
-      tangent_frame(target.chart, target.positions, target.normals, scene.threads));
+      tangent_frame(target.chart, target.positions,
+                    target.wedge_normals ? *target.wedge_normals : target.normals, scene.threads));
   const double x_sign = scene.options.mirrored ? -1 : 1,
                y_sign = scene.options.normal_y_down ? -1 : 1;
   SurfaceField field{.name = "normal-tangent",

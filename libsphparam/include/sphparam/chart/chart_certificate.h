@@ -15,11 +15,11 @@ struct SphericalChart;
 /// empty, the mesh is closed, and each rim is run through once; the proof is in the source file.
 /// Signs are exact, of the doubles as given.
 struct ChartCertificate {
-  bool closed = false;            // every edge has two faces, every vertex one fan of them
-  std::vector<Face> malformed;    // a wedge that is none, or of another vertex; two corners on rims
-  std::vector<int> outside;       // wedges not finite or outside the rectangle, used or not
-  std::vector<Face> folded;       // pieces that are not strictly positive
-  std::vector<Halfedge> torn;     // edges whose sides are neither the same nor exact seam copies
+  bool closed = false;          // every edge has two faces, every vertex one fan of them
+  std::vector<Face> malformed;  // a wedge that is none, or of another vertex; two corners on rims
+  std::vector<int> outside;     // wedges not finite or outside the rectangle, used or not
+  std::vector<Face> folded;     // pieces that are not strictly positive
+  std::vector<Halfedge> torn;   // edges whose sides are neither at one place nor exact seam copies
   std::vector<Face> around_pole;  // of a wrapped chart: triangles with ±z inside, or on an edge
   int north_turns = 0, south_turns = 0;  // how often the pieces run through v = 0 and v = 1
   double max_shift = 0;  // max distance of (u, v) from that of the refined vertex, in turns

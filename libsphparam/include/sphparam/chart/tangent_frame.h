@@ -29,12 +29,16 @@ Points carry_normals(const SphericalChart& chart, const Triangles& source, const
 /// sum, so that light does not break at the seam; a pole fan's wedge keeps its own. Seen from
 /// outside u grows to the east and v to the south, so w = +1 and the bitangent points north: up in
 /// the image. Who mirrors u negates tangents and w.
-/// Requires: `positions` and `normals` #V′×3 of the refined vertices (`carry_vertex_attribute`,
-///           `carry_normals`); normals unit.
+///
+/// Where an edge is hard, a vertex has wedges with normals of their own: then each normal at a
+/// vertex has a sum of its own, over the triangles that meet there with it.
+/// Requires: `positions` #V′×3 of the refined vertices (`carry_vertex_attribute`); `normals` unit,
+///           #V′×3 of the refined vertices (`carry_normals`) or #W×3 of the wedges.
 /// Ensures: tangents are unit and orthogonal to the normals up to rounding, also where triangles
 ///          have no area or u does not grow.
-/// Throws: std::invalid_argument if a size is wrong. Cost: one pass. Same bytes for any number of
-/// threads. Source: our own; the format: glTF 2.0, Section 3.7.2.1.
+/// Throws: std::invalid_argument if a size is wrong. Cost: one pass; a sort, with normals of
+/// wedges. Same bytes for any number of threads. Source: our own; the format: glTF 2.0,
+/// Section 3.7.2.1.
 ShadingFrame tangent_frame(const SphericalChart& chart, const Points& positions,
                            const Points& normals, int threads = 0);
 

@@ -1,0 +1,152 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "../bake/scenes.h"
+#include "bake/map_kinds.h"
+#include "charted.h"
+#include "gltf/stored_chart.h"
+#include "gltf/textured_mesh.h"
+#include "mesh_io/mesh_reader.h"
+#include "mesh_io/mesh_writer.h"
+#include "mesh_io/read_back.h"
+#include "render/hard_edges.h"
+#include "render/shading_normals.h"
+#include "sphparam/chart/tangent_frame.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+using namespace sphparam::tools;
+
+namespace {
+
+Vector3 face_normal(const Points& positions, const int* corners) {
+  const Vector3 a = positions.row(corners[0]), b = positions.row(corners[1]),
+                c = positions.row(corners[2]);
+  return (b - a).cross(c - a).normalized();
+}
+
+/// Every corner has the normal of its face.
+CornerNormals flat_normals(const TriangleMesh& mesh) {
+  CornerNormals normals(mesh.triangles.size(), 3);
+  for (Eigen::Index corner = 0; corner < normals.rows(); ++corner)
+    normals.row(corner) =
+        face_normal(mesh.positions, mesh.triangles.data() + corner / 3 * 3).transpose();
+  return normals;
+}
+
+CornerNormals smooth_normals(const MeshFile& file) {
+  const Points of_vertices = shading_normals(file);
+  CornerNormals normals(file.mesh.triangles.size(), 3);
+  for (Eigen::Index corner = 0; corner < normals.rows(); ++corner)
+    normals.row(corner) = of_vertices.row(file.mesh.triangles.data()[corner]);
+  return normals;
+}
+
+struct Faceted : Charted {
+  explicit Faceted(const ExportChartOptions& options = {}) : Charted(options, 2) {
+    file.corner_normals = flat_normals(file.mesh);
+    chart.wedge_normals = split_at_hard_edges(chart.chart, file);
+  }
+};
+
+/// Mean angle, in degrees, between the normals of corners and those of their faces on the source.
+double mean_angle(const Faceted& egg, const Surface& surface) {
+  double sum = 0;
+  for (size_t corner = 0; corner < surface.indices.size(); ++corner) {
+    const Eigen::Vector3d n = surface.normals.row(surface.indices[corner]).cast<double>();
+    const Face source = egg.chart.chart.source_faces[corner / 3];
+    const Vector3 want = egg.file.corner_normals->row(3 * source);
+    sum += std::atan2(n.cross(want).norm(), n.dot(want)) * 180 / std::numbers::pi;
+  }
+  return sum / static_cast<double>(surface.indices.size());
+}
+
+}  // namespace
+
+TEST_CASE(
+    "hard edges: a faceted mesh keeps the normal of every corner, its chart stays certified") {
+  for (const ExportChartOptions& options : {ExportChartOptions{},
+                                            {.convention = Convention::Blender},
+                                            {.refine_poles = 4},
+                                            {.keep_topology = true}}) {
+    Faceted egg(options);
+    const GeometryOptions lit{.up = Up::Y, .buffers = {.tangents = true}};
+    const ExportGeometry hard = egg.geometry(lit);
+    CHECK(hard.stored.one_to_one() == !options.keep_topology);
+    CHECK(mean_angle(egg, hard.surface) < 1e-4);
+    for (Eigen::Index v = 0; v < hard.surface.positions.rows(); ++v) {
+      const Eigen::RowVector3f n = hard.surface.normals.row(v),
+                               t = hard.surface.tangents.row(v).leftCols(3);
+      CHECK(t.norm() == Approx(1));
+      CHECK(std::abs(n.dot(t)) < 1e-6F);
+    }
+    egg.chart.wedge_normals.reset();
+    CHECK(mean_angle(egg, egg.geometry(lit).surface) > 5);
+  }
+}
+
+TEST_CASE("hard edges: only where normals differ are there more wedges, and (u, v) stay") {
+  Charted egg({}, 2);
+  const SphericalChart before = egg.chart.chart;
+  SphericalChart smooth = before;
+  CHECK_FALSE(split_at_hard_edges(smooth, egg.file));
+  egg.file.corner_normals = smooth_normals(egg.file);
+  const std::optional<Points> same = split_at_hard_edges(smooth, egg.file);
+  REQUIRE(same);
+  CHECK(smooth.wedges == before.wedges);
+  CHECK(smooth.uv == before.uv);
+
+  // One face looks elsewhere: its corners get wedges of their own, but for those that come first.
+  const Face odd = before.source_faces.back();
+  for (int k = 0; k < 3; ++k) egg.file.corner_normals->row(3 * odd + k) << 0, 0, 1;
+  SphericalChart hard = before;
+  const std::optional<Points> normals = split_at_hard_edges(hard, egg.file);
+  REQUIRE(normals);
+  CHECK(normals->rows() == hard.wedge_count());
+  CHECK(hard.wedge_count() > before.wedge_count());
+  CHECK(hard.uv.topRows(before.uv.rows()) == before.uv);
+  for (Eigen::Index corner = 0; corner < hard.wedges.size(); ++corner) {
+    const int w = hard.wedges.data()[corner], old = before.wedges.data()[corner];
+    CHECK(hard.uv.row(w) == before.uv.row(old));
+    CHECK(hard.wedge_kinds[static_cast<size_t>(w)] == before.wedge_kinds[static_cast<size_t>(old)]);
+    const bool is_odd = before.source_faces[static_cast<size_t>(corner / 3)] == odd;
+    CHECK((normals->row(w) == Eigen::RowVector3d(0, 0, 1)) == is_odd);
+  }
+  CHECK(certify_chart(hard).one_to_one());
+}
+
+TEST_CASE("hard edges: a corner without a usable normal has that of its vertex") {
+  Charted egg({}, 1);
+  egg.file.corner_normals = CornerNormals::Zero(egg.file.mesh.triangles.size(), 3);
+  egg.file.corner_normals->row(4).setConstant(std::nan(""));
+  const std::optional<Points> normals = split_at_hard_edges(egg.chart.chart, egg.file);
+  REQUIRE(normals);
+  const Points of_vertices = shading_normals(egg.file);
+  for (Vertex v = 0; v < egg.file.mesh.vertex_count(); ++v)
+    CHECK((normals->row(v) - of_vertices.row(v)).norm() < 1e-12);
+}
+
+TEST_CASE("hard edges: OBJ and PLY have the normals of corners") {
+  const Faceted egg;
+  const MeshFile mesh = textured_mesh(egg.chart, egg.file, ShapeKind::Mesh);
+  for (const std::string& bytes : {serialise_ply(mesh), obj_with_library(mesh, "egg.mtl")}) {
+    const std::string name = bytes.starts_with("ply") ? "egg.ply" : "egg.obj";
+    const MeshFile read = read_mesh(bytes, name, own_file);
+    REQUIRE(read.corner_normals);
+    for (Eigen::Index corner = 0; corner < read.corner_normals->rows(); ++corner) {
+      const Face source = egg.chart.chart.source_faces[static_cast<size_t>(corner / 3)];
+      CHECK((read.corner_normals->row(corner) - egg.file.corner_normals->row(3 * source)).norm() <
+            1e-6);
+    }
+  }
+}
+
+TEST_CASE("hard edges: in its own tangent frame a faceted mesh is flat") {
+  const Faceted egg;
+  const auto scene = scene_of(egg.file, egg.map);
+  REQUIRE(scene->target.wedge_normals);
+  const std::vector<float> normals =
+      baked(*scene, make_field("normal-tangent", *scene), {.width = 64, .height = 32});
+  for (size_t i = 0; i < normals.size(); i += 3) CHECK(normals[i + 2] > 0.9999F);
+}
