@@ -125,6 +125,37 @@ TEST_CASE("bake: no output replaces an input") {
   }
 }
 
+TEST_CASE("bake: a low mesh must be on the sphere of the high one") {
+  const Folder folder;
+  TriangleMesh egg = icosphere(3);
+  egg.positions.col(0) *= 1.5;
+  egg.positions.col(2) *= 0.75;
+  const std::string high = folder / "high.sph.ply", low = folder / "low.sph.ply",
+                    own = folder / "own.sph.ply", image = folder / "x.png",
+                    report = folder / "x.json";
+  const std::string text = obj_text(egg);
+  REQUIRE(sphparam_program({"map", "-", "-o", high}, text).code == 0);
+  REQUIRE(sphparam_program({"remesh", high, "--grid", "ico:2", "-o", low}).code == 0);
+  // The same shape, mapped with other vertices at the poles.
+  REQUIRE(sphparam_program({"map", "-", "-o", own, "--poles", "100,300"}, text).code == 0);
+  const auto bake = [&](const std::string& target) {
+    return sphparam_program({"bake", high, "--for", target, "--map", "normal-tangent", "--size",
+                             "32", "-o", image, "--json", report});
+  };
+  const Ended good = bake(low);
+  INFO(good.err);
+  REQUIRE(good.code == 0);
+  CHECK_THAT(good.err, !Contains("warning"));
+  CHECK(nlohmann::json::parse(bytes_of(report))["for_distance"] < 1e-9);
+  fs::remove(image);
+  const Ended bad = bake(own);
+  INFO(bad.err);
+  CHECK(bad.code == 2);
+  CHECK_THAT(bad.err, Contains("own.sph.ply: is not on the same sphere"));
+  CHECK_THAT(bad.err, Contains("sphparam remesh " + high));
+  CHECK_FALSE(fs::exists(image));
+}
+
 TEST_CASE("bake: numbers of faces are exact or refused, and a misspelt property is found") {
   const Folder folder;
   const std::string exr = folder / "x.exr";

@@ -1,6 +1,8 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "mesh_io/mesh_reader.h"
+#include "mesh_io/welding.h"
 #include "program.h"
 #include "support/glb_json.h"
 #include "support/test_meshes.h"
@@ -206,6 +208,66 @@ TEST_CASE("export: a texture without texture coordinates is refused with the rea
   INFO(ended.err);
   CHECK(ended.code == 2);
   CHECK_THAT(ended.err, Contains("no texture coordinates"));
+}
+
+TEST_CASE("export: baked images go with the chart they were baked for, others with any") {
+  const Egg egg;
+  REQUIRE(egg.run("foreign.gltf").code == 0);
+  const auto bake = [&](const std::string& name, Names more) {
+    const std::string path = egg.folder / name;
+    Names arguments = {"bake", egg.mesh, "--map", "normal-object", "--size", "64", "-o", path};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    REQUIRE(sphparam_program(arguments).code == 0);
+    return path;
+  };
+  struct Case {
+    std::string image;
+    int wedges;  // 0: suits any
+  };
+  for (const auto& [image, wedges] :
+       {Case{bake("plain.png", {}), 1}, Case{bake("cut.png", {"--refine-poles", "5"}), 5},
+        Case{bake("cut.jpg", {"--refine-poles", "5"}), 5},
+        Case{bake("round.png", {"--interp", "sphere"}), 0},
+        Case{egg.folder / "foreign_checker.png", 0}}) {
+    for (const int wanted : {1, 5}) {
+      const Ended ended = egg.run(
+          "x.glb", {"--texture", image, "--refine-poles", std::to_string(wanted), "--lods", "1"});
+      INFO(image << " for " << wanted << ": " << ended.err);
+      const bool fits = wedges == 0 || wedges == wanted;
+      CHECK(ended.code == (fits ? 0 : 2));
+      if (fits) continue;
+      CHECK_THAT(ended.err, Contains("is baked for --refine-poles " + std::to_string(wedges)));
+      CHECK_THAT(ended.err, Contains("bake --refine-poles " + std::to_string(wanted)));
+    }
+  }
+}
+
+TEST_CASE("export: the hard edges of a cube stay hard, in .obj and .glb") {
+  const Egg egg;
+  const std::string cube = egg.folder / "cube.obj";
+  write_bytes(cube,
+              "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\n"
+              "v -1 1 1\nvn 0 0 -1\nvn 0 0 1\nvn 0 -1 0\nvn 1 0 0\nvn 0 1 0\nvn -1 0 0\n"
+              "f 4//1 3//1 2//1 1//1\nf 5//2 6//2 7//2 8//2\nf 1//3 2//3 6//3 5//3\n"
+              "f 2//4 3//4 7//4 6//4\nf 3//5 4//5 8//5 7//5\nf 4//6 1//6 5//6 8//6\n");
+  for (const char* name : {"x.obj", "x.glb"}) {
+    const std::string output = egg.folder / name;
+    const Ended ended =
+        sphparam_program({"export", cube, "-o", output, "--up", "y", "--image-size", "64"});
+    INFO(ended.err);
+    REQUIRE(ended.code == 0);
+    tools::MeshFile file = tools::read_mesh(output, tools::ReadOptions{});
+    if (!file.corner_normals) file = tools::weld_exact(file).file;
+    REQUIRE(file.corner_normals);
+    const TriangleMesh& mesh = file.mesh;
+    for (Eigen::Index corner = 0; corner < file.corner_normals->rows(); ++corner) {
+      const auto triangle = mesh.triangles.row(corner / 3);
+      const Vector3 a = mesh.position(triangle[0]), b = mesh.position(triangle[1]),
+                    c = mesh.position(triangle[2]);
+      const Vector3 flat = (b - a).cross(c - a).normalized();
+      CHECK((flat.transpose() - file.corner_normals->row(corner)).norm() < 1e-6);
+    }
+  }
 }
 
 TEST_CASE("export: the same bytes for any number of threads") {

@@ -137,7 +137,7 @@ void add_inputs(CLI::App& command, BakeArguments& arguments) {
       .add_option(
           "--for", arguments.target,
           "Another mesh on the same sphere that the images are for: its chart, its frame of "
-          "normals, its surface as base of heights")
+          "normals, its surface as base of heights; one with a map of its own is refused")
       ->type_name("FILE");
 }
 
@@ -155,6 +155,12 @@ void add_image_options(CLI::App& command, BakeArguments& arguments) {
       {{"uv", Interpolation::Uv}, {"sphere", Interpolation::Sphere}},
       "Between vertices: linear in (u, v), as GPUs draw; or on the sphere, for "
       "other meshes (default: uv)");
+  command
+      .add_option("--refine-poles", arguments.refine_poles,
+                  "For `export --refine-poles N`: the image belongs to that chart")
+      ->check(between(1, 1024, "1 to 1024"))
+      ->type_name("N")
+      ->capture_default_str();
   add_choice<TextureFilter>(command, "--filter", arguments.options.filter,
                             {{"nearest", TextureFilter::Nearest},
                              {"bilinear", TextureFilter::Bilinear},

@@ -23,6 +23,7 @@ struct BakeArguments {
   int width = 2048;
   int samples = 1;
   Interpolation interpolation = Interpolation::Uv;
+  int refine_poles = 1;
   Convention convention = Convention::Sphparam;
   std::optional<SampleType> depth;
   bool mip = false;

@@ -18,15 +18,18 @@ std::string to_json(const BakeReport& report) {
     if (image.range) one["range"] = {image.range->first, image.range->second};
     images.push_back(std::move(one));
   }
-  const Json json = {{"version", version},
-                     {"source", {{"file", report.input}, {"triangles", report.triangles}}},
-                     {"for", report.target.empty() ? Json() : Json(report.target)},
-                     {"width", report.width},
-                     {"height", report.height},
-                     {"samples", report.samples},
-                     {"convention", report.convention},
-                     {"images", std::move(images)},
-                     {"seconds", report.seconds}};
+  const Json json = {
+      {"version", version},
+      {"source", {{"file", report.input}, {"triangles", report.triangles}}},
+      {"for", report.target.empty() ? Json() : Json(report.target)},
+      {"for_distance", report.target_distance ? Json(*report.target_distance) : Json()},
+      {"width", report.width},
+      {"height", report.height},
+      {"samples", report.samples},
+      {"convention", report.convention},
+      {"refine_poles", report.refine_poles},
+      {"images", std::move(images)},
+      {"seconds", report.seconds}};
   return json.dump(2, ' ', false, decltype(json)::error_handler_t::replace) + "\n";
 }
 

@@ -16,7 +16,9 @@ struct BakeReport {
   };
   std::string input, target;
   int width, height, samples;
+  std::optional<double> target_distance;  // see `disagreement`; with --for
   std::string convention;
+  int refine_poles;
   long triangles;
   std::vector<Image> images;
   double seconds;

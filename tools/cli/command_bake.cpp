@@ -8,14 +8,18 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <stdexcept>
 
 #include "bake/bake.h"
+#include "bake/baked_chart.h"
 #include "bake/baked_file.h"
 #include "bake/fields/heat_field.h"
 #include "bake/make_scene.h"
 #include "bake/map_kinds.h"
+#include "bake/shared_sphere.h"
 #include "cli/bake_arguments.h"
 #include "cli/bake_report.h"
+#include "cli/chart_report.h"
 #include "cli/exit_codes.h"
 #include "cli/interruption.h"
 #include "cli/mapped_source.h"
@@ -90,7 +94,9 @@ class Baker {
                       .width = arguments_.width,
                       .height = arguments_.width / 2,
                       .samples = arguments_.samples,
+                      .target_distance = target_distance_,
                       .convention = info_of(arguments_.convention).name,
+                      .refine_poles = arguments_.refine_poles,
                       .triangles = scene_->source.file.mesh.face_count(),
                       .images = {},
                       .seconds = stopwatch_.seconds()};
@@ -126,29 +132,59 @@ class Baker {
   }
 
   BakeTarget target_of(const MappedSource& mapped, const Topology& topology) {
-    console_.progress("chart", 0);
-    const int threads = arguments_.threads;
     const std::string& path = arguments_.target.empty() ? arguments_.input : arguments_.target;
     BakeTarget target;
     if (arguments_.target.empty()) {
-      target = make_target(mapped.source.file, topology, mapped.map, true, threads);
+      target = target_on(mapped.source.file, topology, mapped.map, true);
     } else {
-      const MappedSource low = read_mapped_source(path, "", threads, console_);
+      const MappedSource low = read_mapped_source(path, "", arguments_.threads, console_);
       if (low.mapped_here) {
         throw NotCertifiedError(display_name(path) +
                                 ": carries no map, so it is on no sphere that it could share; "
                                 "`sphparam remesh` makes meshes on the source's sphere");
       }
-      target = make_target(low.source.file, low.source.topology.value(), low.map, false, threads);
+      require_one_sphere(mapped, topology, low);
+      target = target_on(low.source.file, low.source.topology.value(), low.map, false);
     }
-    const ChartCertificate& certificate = target.chart.certificate;
-    if (!certificate.one_to_one()) {
-      throw NotCertifiedError(display_name(path) +
-                              ": its map is one-to-one, but thinner in (u, v) than doubles can "
-                              "tell: " +
-                              std::to_string(certificate.folded.size()) + " triangles fold there");
+    if (!target.chart.certificate.one_to_one()) {
+      throw NotCertifiedError(display_name(path) + ": " + chart_failure(target.chart));
     }
     return target;
+  }
+
+  /// A map of its own would give every texel of the low mesh another place of the high one.
+  void require_one_sphere(const MappedSource& high, const Topology& topology,
+                          const MappedSource& low) {
+    const double apart = disagreement({high.source.file.mesh, topology, high.map},
+                                      {low.source.file.mesh, low.source.topology.value(), low.map},
+                                      arguments_.threads);
+    target_distance_ = apart;
+    if (apart <= doubtful_disagreement) return;
+    const std::string far = "in the same directions, half of its surface is more than " +
+                            short_number(100 * apart) + " % of the diagonal away from that of " +
+                            display_name(arguments_.input);
+    if (apart <= other_sphere_disagreement) {
+      console_.warning(display_name(arguments_.target) + ": " + far);
+      return;
+    }
+    throw UsageMistake("--for: " + display_name(arguments_.target) +
+                       ": is not on the same sphere: " + far + "; `sphparam remesh " +
+                       display_name(arguments_.input) +
+                       " --grid ico:6 -o LOW.sph.ply` makes a mesh on its sphere" +
+                       (high.mapped_here ? ", of a map that is kept (`sphparam map`)" : ""));
+  }
+
+  BakeTarget target_on(const MeshFile& file, const Topology& topology, const SphereMap& map,
+                       bool is_source) {
+    try {
+      return make_target(file, topology, map, is_source, arguments_.threads,
+                         arguments_.refine_poles, [&](std::string_view stage, double fraction) {
+                           return console_.progress(stage, fraction);
+                         });
+    } catch (const std::invalid_argument& error) {
+      if (arguments_.refine_poles <= 1) throw;
+      throw UsageMistake(std::string("--refine-poles: ") + error.what());
+    }
   }
 
   void read_source_textures() {
@@ -234,10 +270,10 @@ class Baker {
 
   std::vector<std::pair<std::string, std::string>> metadata() const {
     std::vector<std::pair<std::string, std::string>> lines = {
-        {"sphparam:version", version},
-        {"sphparam:source", display_name(arguments_.input)},
-        {"sphparam:interpolation",
-         arguments_.interpolation == Interpolation::Uv ? "uv" : "sphere"}};
+        {"sphparam:version", version}, {"sphparam:source", display_name(arguments_.input)}};
+    const bool linear = arguments_.interpolation == Interpolation::Uv;
+    for (auto& text : texts_of_chart(linear, arguments_.refine_poles))
+      lines.push_back(std::move(text));
     if (!arguments_.target.empty())
       lines.emplace_back("sphparam:for", display_name(arguments_.target));
     return lines;
@@ -320,6 +356,7 @@ class Baker {
   std::vector<BakeOutput> outputs_;
   std::unique_ptr<BakeScene> scene_;
   Provenance provenance_;
+  std::optional<double> target_distance_;  // of the diagonal
   PendingFiles files_;
   std::vector<Image> images_;  // write to files_, so they go first
 };

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "bake/baked_chart.h"
 #include "bake/make_scene.h"
 #include "bake/map_kinds.h"
 #include "bake/source_attributes.h"
@@ -71,7 +72,22 @@ class LookMaker {
   }
 
   int add_file(const std::string& path, const std::string& name) {
-    return path.empty() ? -1 : add(read_asset_image(path, name));
+    if (path.empty()) return -1;
+    ImageTexts texts;
+    AssetImage image = read_asset_image(path, name, &texts);
+    require_same_chart(path, texts);
+    return add(std::move(image));
+  }
+
+  /// Texels of `bake` belong to triangles of its chart: on those of another they tear at the poles.
+  void require_same_chart(const std::string& path, const ImageTexts& texts) const {
+    const std::optional<int> baked = pole_wedges_of(texts);
+    if (!baked || *baked == arguments_.refine_poles) return;
+    throw UsageMistake("--refine-poles: " + display_name(path) + " is baked for --refine-poles " +
+                       std::to_string(*baked) + ", and belongs to the triangles of that chart: `" +
+                       "sphparam bake --refine-poles " + std::to_string(arguments_.refine_poles) +
+                       "` makes it for this one, or export with --refine-poles " +
+                       std::to_string(*baked));
   }
 
   void choose_base_colour(const std::string& given) {
@@ -123,11 +139,11 @@ class LookMaker {
     console_.progress("bake", 0);
     const MeshFile& file = mapped_.source.file;
     const Topology topology(file.mesh);
-    const BakeScene scene{
-        .source = {file, mapped_.map, topology, shading_normals(file), textures_},
-        .target = make_target(file, topology, mapped_.map, true, arguments_.threads),
-        .options = {.heat = true},
-        .threads = arguments_.threads};
+    const BakeScene scene{.source = {file, mapped_.map, topology, shading_normals(file), textures_},
+                          .target = make_target(file, topology, mapped_.map, true,
+                                                arguments_.threads, arguments_.refine_poles),
+                          .options = {.heat = true},
+                          .threads = arguments_.threads};
     try {
       surfaces_ = painted_surfaces(scene, arguments_.image_width,
                                    [&](std::string_view stage, double fraction) {

@@ -44,11 +44,11 @@ std::string find_one(const std::vector<fs::path>& files, const std::string& fold
 
 }  // namespace
 
-AssetImage read_asset_image(const std::string& path, const std::string& name) {
+AssetImage read_asset_image(const std::string& path, const std::string& name, ImageTexts* texts) {
   const FileBytes file(path, most_bytes);
   const std::string_view bytes = file.view();
   if (is_exr(bytes)) throw ImageError(path + ": glTF holds PNG and JPEG, not EXR: bake to .png");
-  const Image image = decode_image({bytes.begin(), bytes.end()}, path);
+  const Image image = decode_image({bytes.begin(), bytes.end()}, path, {}, texts);
   if (*image_kind(bytes).mime) return {name, std::string(bytes)};
   const std::vector<char> png = encode_image(image, ImageFormat::Png);
   return {name, {png.begin(), png.end()}};
