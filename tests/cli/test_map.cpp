@@ -323,7 +323,7 @@ TEST_CASE("map: poles are named by their numbers in the file, also where vertice
   CHECK(sphparam_program({"map", "-", "-o", "-", "--poles", "0,42"}, text).code == 2);
 }
 
-TEST_CASE("map: a GIFTI sphere holds floats, and is certified as such") {
+TEST_CASE("map: a GIFTI sphere holds floats at radius 100, and is certified as such") {
   const Folder folder;
   write_bytes(folder / "ball.obj", obj_text(icosphere(3)));
   const Ended mapped = sphparam_program(
@@ -331,7 +331,14 @@ TEST_CASE("map: a GIFTI sphere holds floats, and is certified as such") {
   INFO(mapped.err);
   REQUIRE(mapped.code == 0);
   CHECK_THAT(bytes_of(folder / "ball.gii"), Contains("NIFTI_TYPE_FLOAT32"));
-  CHECK(sphparam_program({"verify", folder / "ball.gii"}).code == 0);
+  const Ended verified = sphparam_program({"verify", folder / "ball.gii", "--json"});
+  CHECK(verified.code == 0);
+  CHECK(Json::parse(verified.out)["mean_length"].get<double>() == Approx(100));
+  const Ended baked =
+      sphparam_program({"bake", folder / "ball.obj", "--sphere", folder / "ball.gii", "--map",
+                        "area", "--size", "64", "-o", folder / "a.exr"});
+  INFO(baked.err);
+  CHECK(baked.code == 0);
 }
 
 }  // namespace sphparam::tests

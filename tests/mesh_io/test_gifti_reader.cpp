@@ -6,6 +6,8 @@
 #include <random>
 
 #include "mesh_io/gifti_writer.h"
+#include "mesh_io/losses.h"
+#include "mesh_io/mesh_writer.h"
 #include "reading.h"
 #include "support/test_meshes.h"
 
@@ -127,10 +129,42 @@ TEST_CASE("gifti_reader: one number a vertex is a property, named by its metadat
   CHECK(file.find_vertex_property("LABEL")->type == ScalarType::Int32);
   CHECK(file.find_vertex_property("LABEL_2"));
   CHECK(file.vertex_properties.size() == 3);
-  CHECK(file.notes.size() == 2);
+  CHECK(tools::losses_among(file.notes).size() == 2);
 }
 
-TEST_CASE("gifti_reader: what the surface is comes as comments, its space as a note") {
+TEST_CASE("gifti_reader: a label table is kept as comments, and written to a PLY and back") {
+  const std::string table =
+      "<LabelTable><Label Key=\"0\" Red=\"1\" Green=\"1\" Blue=\"1\" Alpha=\"0\"><![CDATA[???]]>"
+      "</Label><Label Key=\"35\" Red=\"0.1\">G front &amp; Orb</Label><Label Index=\"-4\"/>"
+      "</LabelTable><DataArray ";
+  std::string text = tetrahedron_gifti();
+  text.replace(text.find("<DataArray "), 11, table);
+  const MeshFile file = read(text);
+  CHECK(file.comments == std::vector<std::string>{"gifti label 0 1 1 1 0 ???",
+                                                  "gifti label 35 0.1 0 0 1 G front & Orb",
+                                                  "gifti label -4 - "});
+  CHECK(read(tools::serialise_ply(file)).comments == file.comments);
+  CHECK(contains(complaint(replaced(text, "Key=\"35\"", "")), "label without a key"));
+  CHECK(contains(complaint(replaced(text, "\"35\"", "\"3.5\"")), "whole number"));
+  CHECK(contains(complaint(replaced(text, "\"0.1\"", "\"nan\"")), "expected a number"));
+}
+
+TEST_CASE("gifti_reader: blanks do not count as data that could unpack to something") {
+  const auto said = [](const std::string& data, const std::string& encoding, int rows) {
+    Array array = triangles(data);
+    array.encoding = encoding;
+    array.dimensions = "Dimensionality=\"2\" Dim0=\"" + std::to_string(rows) + "\" Dim1=\"3\"";
+    return complaint(gifti({points(), array}), "a.gii");
+  };
+  const std::string blanks(1 << 20, '\n');
+  for (const char* encoding : {"ASCII", "Base64Binary", "GZipBase64Binary"})
+    CHECK(contains(said(blanks, encoding, 1000), "cannot hold"));
+  const std::string corners = base64(packed(words(kCorners)));
+  CHECK(said(blanks + corners + blanks, "GZipBase64Binary", 4).empty());
+  CHECK(contains(said(blanks + corners, "GZipBase64Binary", 1 << 19), "cannot hold"));
+}
+
+TEST_CASE("gifti_reader: what the surface is comes as comments, a transform not applied is told") {
   Array array = points();
   array.inside =
       "<MetaData><MD><Name>AnatomicalStructurePrimary</Name><Value>CortexLeft</Value></MD>"
@@ -139,7 +173,15 @@ TEST_CASE("gifti_reader: what the surface is comes as comments, its space as a n
       "</MatrixData></CoordinateSystemTransformMatrix>";
   const MeshFile file = read(gifti({array, triangles()}));
   CHECK(file.comments == std::vector<std::string>{"gifti AnatomicalStructurePrimary CortexLeft"});
-  CHECK(contains(file.notes.at(0), "TALAIRACH"));
+  CHECK(file.notes.empty());  // the identity
+  for (const char* other : {"1 0 0 0 0 1 0 0 0 0 1 0 5 0 0 1", "1 0 0 0 0 1", "", "1 0 0 x"}) {
+    array.inside = replaced(array.inside, "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1", other);
+    const MeshFile moved = read(gifti({array, triangles()}));
+    REQUIRE(tools::losses_among(moved.notes).size() == 1);
+    CHECK(contains(moved.notes[0], "TALAIRACH"));
+    array.inside = replaced(array.inside, std::string("<MatrixData>") + other,
+                            "<MatrixData>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1");
+  }
 }
 
 TEST_CASE("gifti_reader: what breaks the rules is refused at its line") {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "mesh_io/gifti_writer.h"
@@ -53,6 +54,28 @@ TEST_CASE("gifti_writer: a map rounded to floats keeps its certificate in the fi
   CHECK_FALSE(contains(bytes, "Anatomical]]"));
   CHECK(contains(bytes, "CortexLeft"));
   CHECK(tools::read_provenance(again) == tools::Provenance{{"verdict", "certified"}});
+}
+
+TEST_CASE("gifti_writer: labels come back with their keys, colours and names") {
+  MeshFile file;
+  file.mesh = tetrahedron();
+  file.comments = {"gifti label 0 1 1 1 0 ???", "gifti label 35 0.25 0.5 0.1 1 G_front inf-Orbital",
+                   "gifti label -2 0 0 0 1 "};
+  const MeshFile again = read(serialise_gifti(file));
+  CHECK(std::vector<std::string>(again.comments.begin() + 1, again.comments.end()) ==
+        file.comments);
+  file.comments = {"gifti label 7 - no colour", "gifti label seven - no label"};
+  const MeshFile plain = read(serialise_gifti(file));
+  CHECK(std::count(plain.comments.begin(), plain.comments.end(), "gifti label 7 - no colour") == 1);
+}
+
+TEST_CASE("gifti_writer: a sphere is in no space but its own, whatever the surface is in") {
+  MeshFile file;
+  file.mesh = tetrahedron();
+  const std::string bytes = serialise_gifti(file, {.geometric_type = "Spherical"});
+  CHECK(contains(bytes, "<CoordinateSystemTransformMatrix>"));
+  CHECK(read(bytes).notes.empty());  // an identity
+  CHECK_FALSE(contains(serialise_gifti(file), "<CoordinateSystemTransformMatrix>"));
 }
 
 TEST_CASE("gifti_writer: what a stranger wrote into comments cannot break the XML") {

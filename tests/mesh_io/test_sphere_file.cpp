@@ -67,6 +67,15 @@ TEST_CASE("sphere_file: without its map a mesh has no verdict on one") {
                                                   "sphparam options --method paper --kappa 1",
                                                   "scanned by hand"});
   CHECK(has_map(sphere_mesh(file, map, kProvenance)));
+  CHECK(has_map(sphere_mesh(file, {100 * map.points}, kProvenance)));
+}
+
+TEST_CASE("sphere_file: of what surface a sphere is, it keeps which structure, not which layer") {
+  MeshFile file = icosphere_file();
+  file.comments = {"gifti AnatomicalStructurePrimary CortexLeft",
+                   "gifti AnatomicalStructureSecondary GrayWhite", "gifti label 1 - sulcus"};
+  const MeshFile sphere = sphere_mesh(file, {icosphere(2).positions}, {});
+  CHECK(sphere.comments == std::vector<std::string>{"gifti AnatomicalStructurePrimary CortexLeft"});
 }
 
 TEST_CASE("sphere_file: a mesh without all three coordinates carries no map") {

@@ -1,4 +1,6 @@
 #include <catch2/catch.hpp>
+#include <limits>
+#include <stdexcept>
 
 #include "sphparam/sphere/float_rounding.h"
 #include "support/test_meshes.h"
@@ -54,6 +56,27 @@ TEST_CASE(
     CHECK(rounding.moved > 0);
     CHECK(rounding.moved < topology.vertex_count() / 10);
   }
+}
+
+TEST_CASE("float_rounding: a sphere of another radius is certified in the numbers it has there") {
+  const TriangleMesh sphere = icosphere(5);
+  const Topology topology(sphere);
+  for (const double radius : {100.0, 0.3}) {
+    const FloatRounding plain = round_to_float(topology, {sphere.positions}, 0, radius);
+    CHECK(is_float(plain.map));
+    CHECK((plain.map.points - radius * sphere.positions).cwiseAbs().maxCoeff() <= radius * 0x1p-24);
+    for (const double factor : {1e-6, 1e-9}) {
+      const FloatRounding rounding =
+          round_to_float(topology, with_small_cap(sphere, factor), 0, radius);
+      CHECK(rounding.bad_before > 0);
+      CHECK(rounding.bad_after == 0);
+      CHECK(certify(topology, rounding.map).bijective());
+      CHECK(is_float(rounding.map));
+      CHECK((rounding.map.points.rowwise().norm().array() / radius - 1).abs().maxCoeff() < 1e-6);
+    }
+  }
+  for (const double radius : {0.0, -1.0, 1e9, std::numeric_limits<double>::quiet_NaN()})
+    CHECK_THROWS_AS(round_to_float(topology, {sphere.positions}, 0, radius), std::invalid_argument);
 }
 
 TEST_CASE("float_rounding: one flat triangle costs one vertex a few ulps, not a smoothing") {

@@ -173,7 +173,7 @@ void add_files(CLI::App& command, MapArguments& arguments) {
       ->required();
   command
       .add_option("--sphere", arguments.sphere,
-                  "The bare sphere too: .ply, .obj or .off in doubles, .gii in floats")
+                  "The bare sphere too: .ply, .obj or .off in doubles, .gii in floats of radius 100")
       ->type_name("FILE");
   command.add_option("--json", arguments.json, "A report; - for standard output")
       ->type_name("FILE");

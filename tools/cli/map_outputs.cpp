@@ -73,6 +73,9 @@ struct Sphere {
   double least_area = 0;  // of triangles, of the mean: what they had to be taken for
 };
 
+/// The radius that FreeSurfer, HCP and MSM give their spheres; areas are compared at it.
+constexpr double gifti_radius = 100;
+
 /// GIFTI has coordinates of 32 bits. Rounding must not cost a certified map its certificate; one
 /// that is folded anyway may get other folds.
 Sphere sphere_for(const std::string& path, const MapOutcome& outcome,
@@ -80,9 +83,12 @@ Sphere sphere_for(const std::string& path, const MapOutcome& outcome,
   if (extension_of(path) != ".gii") {
     return {outcome.result.map, outcome.verdict()};
   }
-  auto [rounding, least_area] = round_with_room(
-      outcome.source.file.mesh, outcome.topology(), outcome.result.map,
-      {.energy = options.energy, .threads = options.threads, .progress = options.progress});
+  auto [rounding, least_area] =
+      round_with_room(outcome.source.file.mesh, outcome.topology(), outcome.result.map,
+                      {.energy = options.energy,
+                       .radius = gifti_radius,
+                       .threads = options.threads,
+                       .progress = options.progress});
   const bool held = !outcome.pins.empty() || options.poles || options.meridian;
   if (least_area > 0 && held) {
     throw NotCertifiedError(path +

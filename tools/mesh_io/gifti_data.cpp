@@ -23,6 +23,12 @@ constexpr std::int64_t kMostNumbers = std::numeric_limits<int>::max();
 
 bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
+/// Characters of the data that are no blanks: only they can hold anything.
+std::size_t filled_characters(const GiftiArray& array) {
+  return static_cast<std::size_t>(
+      std::count_if(array.data.begin(), array.data.end(), [](char c) { return !is_blank(c); }));
+}
+
 /// The bytes behind base64 text, blanks between.
 std::vector<unsigned char> from_base64(const GiftiArray& array, const std::string& name) {
   static const std::array<int, 256> kDigits = [] {
@@ -35,7 +41,7 @@ std::vector<unsigned char> from_base64(const GiftiArray& array, const std::strin
     return digits;
   }();
   std::vector<unsigned char> bytes;
-  bytes.reserve(array.data.size() / 4 * 3);
+  bytes.reserve(filled_characters(array) / 4 * 3);
   std::uint32_t group = 0;
   int digits = 0, padding = 0;
   for (const char c : array.data) {
@@ -67,13 +73,16 @@ std::vector<unsigned char> inflated(std::vector<unsigned char> packed, std::size
   constexpr int kZlibOrGzip = 15 + 32;
   Inflation inflation;
   if (inflateInit2(&inflation.stream, kZlibOrGzip) != Z_OK) throw std::bad_alloc();
-  // One byte more than wanted shows that there is more.
-  std::vector<unsigned char> bytes(size + 1);
+  // One byte more than wanted shows that there is more. Room comes as bytes do: what a file says of
+  // its size is not believed.
+  const std::size_t most = size + 1;
+  std::vector<unsigned char> bytes;
   z_stream& stream = inflation.stream;
   std::size_t filled = 0, used = 0;
   int status = Z_OK;
-  while (status == Z_OK && filled < bytes.size()) {
-    constexpr std::size_t kMost = 1u << 30;
+  while (status == Z_OK && filled < most) {
+    constexpr std::size_t kMost = 1u << 30, kFirstRoom = 1u << 16;
+    if (filled == bytes.size()) bytes.resize(std::min(most, std::max(kFirstRoom, 2 * filled)));
     stream.next_in = packed.data() + used;
     stream.avail_in = static_cast<uInt>(std::min(kMost, packed.size() - used));
     stream.next_out = bytes.data() + filled;
@@ -86,7 +95,7 @@ std::vector<unsigned char> inflated(std::vector<unsigned char> packed, std::size
   if (status != Z_STREAM_END && filled <= size)
     fail_in_array(name, array, "has compressed data that is corrupt or cut short");
   if (filled != size) fail_in_array(name, array, "unpacks to another size than its dimensions say");
-  bytes.pop_back();
+  bytes.resize(size);
   return bytes;
 }
 
@@ -176,10 +185,10 @@ std::int64_t gifti_count(const GiftiArray& array, std::int64_t most_inflation,
   if (array.encoding == "ExternalFileBinary" || !array.external_file.empty())
     fail_in_array(name, array, "has its data in another file, which is not supported");
   const auto size = static_cast<std::int64_t>(size_in_bytes(gifti_type(array, name)));
-  const auto text = static_cast<std::int64_t>(array.data.size());
+  const auto text = static_cast<std::int64_t>(filled_characters(array));
   std::int64_t most = 0;
   if (array.encoding == kAscii)
-    most = (text + 1) / 2;
+    most = std::min(text, static_cast<std::int64_t>(array.data.size() + 1) / 2);
   else if (array.encoding == kBase64)
     most = text / 4 * 3 / size;
   else if (array.encoding == kCompressed)

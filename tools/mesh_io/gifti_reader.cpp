@@ -4,9 +4,13 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
+#include <locale>
+#include <sstream>
 
 #include "mesh_io/gifti_data.h"
+#include "mesh_io/gifti_labels.h"
 #include "mesh_io/gifti_xml.h"
+#include "mesh_io/losses.h"
 
 // The XML is taken apart (gifti_xml), the two arrays of the surface are decoded (gifti_data), then
 // the arrays that have one number a vertex.
@@ -33,7 +37,6 @@ class GiftiReader {
     for (const GiftiArray& array : document_.arrays)
       if (array.intent != kPointset && array.intent != kTriangle) read_property(array);
     add_comments(points);
-    for (const std::string& note : document_.notes) file_.notes.push_back(note);
     return std::move(file_);
   }
 
@@ -105,7 +108,7 @@ class GiftiReader {
       others = std::max(others, array.dimensions[i]);
     const std::string property = property_name(array);
     const auto leave = [&](const std::string& why) {
-      file_.notes.push_back("array '" + property + "' ignored: " + why);
+      add_loss(file_.notes, "array '" + property + "': " + why);
     };
     if (array.dimensions[0] != vertices || others != 1)
       return leave("it does not have one number a vertex");
@@ -157,9 +160,22 @@ class GiftiReader {
       if (!value.empty() && value.size() <= kLongest)
         file_.comments.push_back(one_line("gifti " + std::string(key) + " " + value));
     }
+    for (const GiftiLabel& label : document_.labels) file_.comments.push_back(comment_of(label));
     for (const auto& [from, to, matrix] : points.coordinate_systems)
-      file_.notes.push_back("coordinates are in the space " + quoted(from) + "; the transform to " +
-                            quoted(to) + " is not applied");
+      if (!is_identity(matrix))
+        add_loss(file_.notes, "the transform from the space " + quoted(from) + " to " + quoted(to) +
+                                  ": coordinates stay as they are");
+  }
+
+  /// Sixteen numbers as they are written: what cannot be read so is no identity.
+  static bool is_identity(const std::string& matrix) {
+    std::istringstream text(matrix);
+    text.imbue(std::locale::classic());
+    for (int i = 0; i < 16; ++i) {
+      double entry = 0;
+      if (!(text >> entry) || entry != (i % 5 == 0 ? 1 : 0)) return false;
+    }
+    return !(text >> std::ws).good();
   }
 
   const GiftiDocument& document_;

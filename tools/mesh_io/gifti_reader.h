@@ -15,9 +15,11 @@ bool looks_like_gifti(std::string_view bytes);
 /// NIFTI_INTENT_TRIANGLE.
 ///
 /// Arrays of one number a vertex (shape, labels, time series, …) become vertex properties with the
-/// name in their metadata. Coordinates are taken as written: coordinate systems are noted, not
-/// applied. Anatomical structure and geometric type become comments "gifti KEY VALUE", which
-/// `serialise_gifti` writes back; comments of our own (sphparam KEY VALUE) come back as such.
+/// name in their metadata, the label table comments (gifti_labels.h). Coordinates are taken as
+/// written: transforms other than the identity are told, not applied. Anatomical structure and
+/// geometric type become comments "gifti KEY VALUE"; `serialise_gifti` writes all these back.
+/// Comments of our own (sphparam KEY VALUE) come back as such. Arrays that are not one number a
+/// vertex are told as not carried.
 /// Refused: data in other files, dimensions that the data cannot hold, unknown types.
 /// Throws: ReadError with the line.
 MeshFile read_gifti(std::string_view bytes, const std::string& name,

@@ -6,13 +6,18 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <mutex>
 #include <new>
+#include <optional>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "mesh_io/file_bytes.h"
+#include "mesh_io/gifti_labels.h"
 #include "mesh_io/mesh_writer.h"
 #include "mesh_io/safe_file.h"
 
@@ -72,6 +77,15 @@ void add_metadata(giiMetaData& metadata, const std::string& key, const std::stri
     throw std::bad_alloc();
 }
 
+/// Memory that libgiftiio will free.
+template <class Number>
+Number* zeros(std::size_t count) {
+  auto* const numbers =
+      static_cast<Number*>(std::calloc(std::max<std::size_t>(count, 1), sizeof(Number)));
+  if (!numbers) throw std::bad_alloc();
+  return numbers;
+}
+
 /// Fills one array of rows of three.
 template <class Number, class Table>
 void fill(giiDataArray& array, int intent, int type, const Table& table) {
@@ -85,9 +99,7 @@ void fill(giiDataArray& array, int intent, int type, const Table& table) {
   array.endian = gifti_get_this_endian();
   array.nvals = table.size();
   array.nbyper = sizeof(Number);
-  auto* const numbers = static_cast<Number*>(std::calloc(
-      static_cast<std::size_t>(std::max<Eigen::Index>(table.size(), 1)), sizeof(Number)));
-  if (!numbers) throw std::bad_alloc();
+  auto* const numbers = zeros<Number>(static_cast<std::size_t>(table.size()));
   array.data = numbers;
   std::transform(table.data(), table.data() + table.size(), numbers,
                  [](auto number) { return static_cast<Number>(number); });
@@ -101,9 +113,40 @@ void add_comments(gifti_image& image, const MeshFile& file) {
     if (first == std::string::npos || second == std::string::npos) continue;
     const std::string key = comment.substr(first + 1, second - first - 1);
     const std::string value = comment.substr(second + 1);
-    if (comment.starts_with("gifti ")) add_metadata(of_points, key, value);
+    if (comment.starts_with("gifti ") && !label_in(comment)) add_metadata(of_points, key, value);
     if (comment.starts_with("sphparam ")) add_metadata(image.meta, "sphparam " + key, value);
   }
+}
+
+void add_labels(gifti_image& image, const MeshFile& file) {
+  std::vector<GiftiLabel> labels;
+  for (const std::string& comment : file.comments)
+    if (std::optional<GiftiLabel> label = label_in(comment)) labels.push_back(*std::move(label));
+  if (labels.empty()) return;
+  giiLabelTable& table = image.labeltable;
+  table.key = zeros<int>(labels.size());
+  table.label = zeros<char*>(labels.size());
+  const bool coloured = std::any_of(labels.begin(), labels.end(), [](const GiftiLabel& label) {
+    return label.colour.has_value();
+  });
+  if (coloured) table.rgba = zeros<float>(4 * labels.size());
+  table.length = static_cast<int>(labels.size());
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    table.key[i] = labels[i].key;
+    table.label[i] = ::strdup(in_cdata(labels[i].name).c_str());
+    if (!table.label[i]) throw std::bad_alloc();
+    if (labels[i].colour) std::copy_n(labels[i].colour->begin(), 4, table.rgba + 4 * i);
+  }
+}
+
+/// The space of a sphere is its own: the identity, which the field's files have too.
+void add_identity(giiDataArray& points) {
+  if (gifti_add_empty_CS(&points) != 0) throw std::bad_alloc();
+  giiCoordSystem& system = *points.coordsys[0];
+  for (char** const space : {&system.dataspace, &system.xformspace})
+    if (!(*space = ::strdup("NIFTI_XFORM_UNKNOWN"))) throw std::bad_alloc();
+  for (int i = 0; i < 4; ++i)
+    for (int k = 0; k < 4; ++k) system.xform[i][k] = i == k ? 1 : 0;
 }
 
 Image build_image(const MeshFile& file, const GiftiOptions& options) {
@@ -120,6 +163,8 @@ Image build_image(const MeshFile& file, const GiftiOptions& options) {
   add_metadata(points.meta, "AnatomicalStructurePrimary", "Other");
   add_metadata(image->darray[1]->meta, "TopologicalType", "Closed");
   add_comments(*image, file);
+  add_labels(*image, file);
+  if (options.geometric_type == "Spherical") add_identity(points);
   add_metadata(points.meta, "AnatomicalStructurePrimary", options.anatomical_structure);
   add_metadata(points.meta, "GeometricType", options.geometric_type);
   return image;

@@ -3,7 +3,9 @@
 #include <expat.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <cmath>
 #include <exception>
 #include <memory>
 
@@ -96,11 +98,12 @@ class Parser {
     if (element == "GIFTI") start_gifti(attributes);
     if (element == "DataArray") start_array(attributes);
     if (element == "Data") start_data();
+    if (element == "Label" && inside("LabelTable")) start_label(attributes);
     if (element == "MD" && inside("MetaData")) metadata().emplace_back();
     if (element == "CoordinateSystemTransformMatrix" && inside("DataArray"))
       array().coordinate_systems.emplace_back();
-    static constexpr std::string_view kTexts[] = {"Data",      "Name",       "Value",
-                                                  "DataSpace", "MatrixData", "TransformedSpace"};
+    static constexpr std::string_view kTexts[] = {
+        "Data", "Name", "Value", "Label", "DataSpace", "MatrixData", "TransformedSpace"};
     collecting_ = std::find(std::begin(kTexts), std::end(kTexts), element) != std::end(kTexts);
     text_.clear();
     path_.push_back(element);
@@ -151,13 +154,41 @@ class Parser {
     array().data_line = line();
   }
 
-  /// At most 2³¹ − 1, so that products of two cannot overflow.
-  std::int64_t whole_number(std::string_view text) const {
-    int value = 0;
+  void start_label(const XML_Char** attributes) {
+    static constexpr std::string_view kChannels[] = {"Red", "Green", "Blue", "Alpha"};
+    GiftiLabel label;
+    std::array<float, 4> colour = {0, 0, 0, 1};
+    bool has_key = false;
+    for (; *attributes; attributes += 2) {
+      const std::string_view name = attributes[0], value = attributes[1];
+      if (name == "Key" || name == "Index") {  // the first versions of GIFTI said Index
+        label.key = number<int>(value, "a whole number");
+        has_key = true;
+      }
+      const auto channel = std::find(std::begin(kChannels), std::end(kChannels), name);
+      if (channel == std::end(kChannels)) continue;
+      colour[static_cast<std::size_t>(channel - std::begin(kChannels))] =
+          number<float>(value, "a number");
+      label.colour = colour;
+    }
+    if (!has_key) fail("label without a key");
+    document_.labels.push_back(std::move(label));
+  }
+
+  template <class Number>
+  Number number(std::string_view text, const char* what) const {
+    Number value = 0;
     const char* const end = text.data() + text.size();
     const auto [stop, error] = std::from_chars(text.data(), end, value);
-    if (error != std::errc{} || stop != end || value < 0)
-      fail("expected a whole number, found " + quoted(text));
+    if (error != std::errc{} || stop != end || !std::isfinite(static_cast<double>(value)))
+      fail(std::string("expected ") + what + ", found " + quoted(text));
+    return value;
+  }
+
+  /// At most 2³¹ − 1, so that products of two cannot overflow.
+  std::int64_t whole_number(std::string_view text) const {
+    const int value = number<int>(text, "a whole number");
+    if (value < 0) fail("expected a whole number, found " + quoted(text));
     return value;
   }
 
@@ -173,6 +204,8 @@ class Parser {
   void keep_text(const std::string& element) {
     if (element == "Data") {
       array().data = std::move(text_);
+    } else if (element == "Label" && inside("LabelTable") && !document_.labels.empty()) {
+      document_.labels.back().name = std::move(text_);
     } else if (inside("MD") && !metadata().empty()) {
       (element == "Name" ? metadata().back().first : metadata().back().second) = std::move(text_);
     } else if (inside("CoordinateSystemTransformMatrix") && in_array() &&

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesh_io/gifti_labels.h"
 #include "mesh_io/read_options.h"
 
 namespace sphparam::tools {
@@ -30,7 +31,7 @@ struct GiftiArray {
 struct GiftiDocument {
   GiftiMetadata metadata;
   std::vector<GiftiArray> arrays;
-  std::vector<std::string> notes;
+  std::vector<GiftiLabel> labels;
 };
 
 /// Takes the XML of a GIFTI file apart. Attributes and nesting are checked, the data is not

@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::string_view kPrefix = "sphparam ";
 constexpr std::string_view kVerdict = "sphparam verdict ";
-constexpr double kRoundingOfFloats = 1e-6;  // of the length of a ray whose numbers have 32 bits
+constexpr double kRoundingOfFloats = 1e-6;   // relative, of a ray's length in numbers of 32 bits
+constexpr std::array kRadii = {1.0, 100.0};  // of bare spheres; GIFTI's are the larger ones
 constexpr std::array kRayNames = {"sx", "sy", "sz"};
 
 void replace_provenance(MeshFile& file, const Provenance& provenance) {
@@ -58,8 +59,10 @@ bool has_map(const MeshFile& file) {
                   [&](const char* name) { return file.find_vertex_property(name); }))
     return true;
   const Points& positions = file.mesh.positions;
-  return positions.rows() > 0 &&
-         ((positions.rowwise().norm().array() - 1).abs() <= kRoundingOfFloats).all();
+  const Eigen::ArrayXd lengths = positions.rowwise().norm();
+  return positions.rows() > 0 && std::any_of(kRadii.begin(), kRadii.end(), [&](double radius) {
+           return ((lengths - radius).abs() <= kRoundingOfFloats * radius).all();
+         });
 }
 
 std::optional<SphereMap> read_sphere(const MeshFile& file) {
@@ -89,7 +92,7 @@ MeshFile sphere_mesh(const MeshFile& file, const SphereMap& map, const Provenanc
   MeshFile sphere;
   sphere.mesh = {map.points, file.mesh.triangles};
   for (const std::string& comment : file.comments) {  // which hemisphere: brain viewers ask for it
-    if (comment.starts_with("gifti AnatomicalStructure")) sphere.comments.push_back(comment);
+    if (comment.starts_with("gifti AnatomicalStructurePrimary")) sphere.comments.push_back(comment);
   }
   replace_provenance(sphere, provenance);
   return sphere;

@@ -22,7 +22,7 @@ SphereMap turned_like(const SphereMap& from, const SphereMap& to) {
 RoomyRounding round_with_room(const TriangleMesh& mesh, const Topology& topology,
                               const SphereMap& map, const FloatRoomOptions& options) {
   require_domain(options.energy);
-  RoomyRounding result{round_to_float(topology, map, options.threads)};
+  RoomyRounding result{round_to_float(topology, map, options.threads, options.radius)};
   if (result.rounding.certificate.bijective()) return result;
   if (!certify(topology, map, options.threads).bijective()) return result;
   for (const double share : shares) {
@@ -35,7 +35,7 @@ RoomyRounding round_with_room(const TriangleMesh& mesh, const Topology& topology
                                                                 .progress = options.progress});
     if (!embedding.map) continue;
     FloatRounding rounding =
-        round_to_float(topology, turned_like(*embedding.map, map), options.threads);
+        round_to_float(topology, turned_like(*embedding.map, map), options.threads, options.radius);
     if (rounding.certificate.bijective()) return {std::move(rounding), share};
   }
   return result;

@@ -4,25 +4,25 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 #include "sphparam/mesh/rings.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/orientation.h"
 
-// Rounding moves a ray of unit length by at most δ = √3·2⁻²⁵. A triangle can only turn over if a
-// plane through 0 comes that near to its three corners, so one whose least altitude is above 2δ is
-// safe. What did turn over is mended in rounds: nudge single vertices on the grid of floats; what
-// is left is smoothed in double (towards the mean of the ring, by steps that keep every triangle
-// exactly positive and do not shrink the smallest one of the star) in a neighbourhood that doubles
-// from round to round, and rounded anew. All decisions are exact signs, in the order of vertices.
+// Rounding moves a ray of length r by at most δ = √3·ulp(r)/2, which for r = 1 is √3·2⁻²⁵: its
+// coordinates are below r. A triangle can only turn over if a plane through 0 comes that near to
+// its three corners, so one whose least altitude is above 2δ is safe. What did turn over is mended
+// in rounds: nudge single vertices on the grid of floats; what is left is smoothed in double
+// (towards the mean of the ring, by steps that keep every triangle exactly positive and do not
+// shrink the smallest one of the star) in a neighbourhood that doubles from round to round, and
+// rounded anew. All decisions are exact signs, in the order of vertices.
 
 namespace sphparam {
 namespace {
 
-const double kRoundingShift = std::sqrt(3.0) * 0x1p-25;
-// Twice what is safe: neighbours are rounded too.
-const double kSafeAltitude = 4 * kRoundingShift;
+constexpr double kLeastRadius = 1e-6, kMostRadius = 1e6;
 constexpr int kMostUlps = 8;
 constexpr int kFirstRings = 4;
 constexpr int kRounds = 6;   // so at most 128 rings around a fold
@@ -37,6 +37,14 @@ double to_float(double x) {
 }
 
 Vector3 to_float(const Vector3& x) { return {to_float(x[0]), to_float(x[1]), to_float(x[2])}; }
+
+/// Twice the altitude that is safe on the unit sphere when one of this radius is rounded:
+/// neighbours are rounded too.
+double safe_altitude(double radius) {
+  const double unit_spacing = std::ldexp(1.0, std::ilogb(radius) - 23);
+  const double largest_below = radius == std::ldexp(1.0, std::ilogb(radius)) ? 0.5 : 1;
+  return 4 * std::sqrt(3.0) * largest_below * unit_spacing / 2 / radius;
+}
 
 double stepped(double x, int ulps) {
   const float towards =
@@ -116,11 +124,11 @@ void nudge_all(const Topology& topology, SphereMap& rounded, const std::vector<F
     if (!star_is_positive(topology, rounded, v, rounded.point(v))) nudge(topology, rounded, v);
 }
 
-/// Moves v towards the mean of its ring if its star is too low for float32.
-void make_room(const Topology& topology, SphereMap& map, Vertex v) {
+/// Moves v towards the mean of its ring if its star is lower than `safe`, too low for float32.
+void make_room(const Topology& topology, SphereMap& map, Vertex v, double safe) {
   const Vector3 start = map.point(v);
   const StarSize before = star_size(topology, map, v, start);
-  if (before.least_altitude >= kSafeAltitude) return;
+  if (before.least_altitude >= safe) return;
   Vector3 sum = Vector3::Zero();
   topology.for_each_outgoing(v, [&](Halfedge h) { sum += map.point(topology.target(h)); });
   const Vector3 mean = sum.stableNormalized();
@@ -128,34 +136,35 @@ void make_room(const Topology& topology, SphereMap& map, Vertex v) {
   for (int halving = 0; halving < kHalvings; ++halving, step /= 2) {
     const Vector3 x = (start + step * (mean - start)).stableNormalized();
     const StarSize after = star_size(topology, map, v, x);
-    if (after.least_area < before.least_area && after.least_altitude < kSafeAltitude) continue;
+    if (after.least_area < before.least_area && after.least_altitude < safe) continue;
     if (!star_is_positive(topology, map, v, x)) continue;
     map.points.row(v) = x;
     return;
   }
 }
 
-void make_room(const Topology& topology, SphereMap& map, const std::vector<Vertex>& vertices) {
+void make_room(const Topology& topology, SphereMap& map, const std::vector<Vertex>& vertices,
+               double safe) {
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     if (sweep % 2 == 0) {
-      for (const Vertex v : vertices) make_room(topology, map, v);
+      for (const Vertex v : vertices) make_room(topology, map, v, safe);
     } else {
       std::for_each(vertices.rbegin(), vertices.rend(),
-                    [&](Vertex v) { make_room(topology, map, v); });
+                    [&](Vertex v) { make_room(topology, map, v, safe); });
     }
   }
 }
 
-/// Rounds `exact`, which may be changed where that gives triangles room.
+/// Rounds `exact`, unit rays, at the radius; they may be changed where that gives triangles room.
 SphereMap mended(const Topology& topology, SphereMap exact, SphereMap rounded,
-                 std::vector<Face> bad, int threads) {
+                 std::vector<Face> bad, int threads, double radius) {
   nudge_all(topology, rounded, bad);
   bad = bad_faces(topology, rounded, threads);
   int rings = kFirstRings;
   for (int round = 0; round < kRounds && !bad.empty(); ++round, rings *= 2) {
     const std::vector<Vertex> vertices = rings_around(topology, vertices_of(topology, bad), rings);
-    make_room(topology, exact, vertices);
-    for (const Vertex v : vertices) rounded.points.row(v) = to_float(exact.point(v));
+    make_room(topology, exact, vertices, safe_altitude(radius));
+    for (const Vertex v : vertices) rounded.points.row(v) = to_float(radius * exact.point(v));
     nudge_all(topology, rounded, bad_faces(topology, rounded, threads));
     bad = bad_faces(topology, rounded, threads);
   }
@@ -164,9 +173,12 @@ SphereMap mended(const Topology& topology, SphereMap exact, SphereMap rounded,
 
 }  // namespace
 
-FloatRounding round_to_float(const Topology& topology, const SphereMap& map, int threads) {
+FloatRounding round_to_float(const Topology& topology, const SphereMap& map, int threads,
+                             double radius) {
+  if (!(radius >= kLeastRadius && radius <= kMostRadius))
+    throw std::invalid_argument("the radius of a sphere in float32 is not from 1e-6 to 1e6");
   SphereMap nearest = map;
-  for (double& x : nearest.points.reshaped()) x = to_float(x);
+  for (double& x : nearest.points.reshaped()) x = to_float(radius * x);
   FloatRounding result{nearest, certify(topology, nearest, threads)};
   if (!result.certificate.unusable_points.empty()) return result;
   result.bad_before = result.bad_after = result.certificate.fold_count();
@@ -174,7 +186,7 @@ FloatRounding round_to_float(const Topology& topology, const SphereMap& map, int
 
   std::vector<Face> bad = result.certificate.folded;
   bad.insert(bad.end(), result.certificate.degenerate.begin(), result.certificate.degenerate.end());
-  result.map = mended(topology, map, nearest, std::move(bad), threads);
+  result.map = mended(topology, map, nearest, std::move(bad), threads, radius);
   result.certificate = certify(topology, result.map, threads);
   result.bad_after = result.certificate.fold_count();
   for (Eigen::Index v = 0; v < map.points.rows(); ++v)

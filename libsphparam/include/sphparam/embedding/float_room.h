@@ -8,6 +8,7 @@ namespace sphparam {
 
 struct FloatRoomOptions {
   DistortionEnergy energy = {};
+  double radius = 1;  // of the sphere whose coordinates are to be floats
   int threads = 0;
   Progress progress = {};
 };
@@ -25,11 +26,11 @@ struct RoomyRounding {
 ///
 /// Such a mesh is embedded anew with small triangles taken for larger ones, as little larger as
 /// will do, and turned as the given map is as nearly as a rotation can. It has no vertices at ±z
-/// then. Requires: unit rays up to rounding. Ensures: `rounding.map` equals its own float32 image;
-/// the same bytes for any number of threads; what `round_to_float` can hold is left to it, and so
-/// is a map that is folded. Cost: as `round_to_float`; an embedding more for each share that is
-/// tried. Our own: distortion where there was little to see is the price of a certificate in
-/// float32.
+/// then. Requires: unit rays up to rounding, a radius as `round_to_float` takes it. Ensures:
+/// `rounding.map` equals its own float32 image; the same bytes for any number of threads; what
+/// `round_to_float` can hold is left to it, and so is a map that is folded. Cost: as
+/// `round_to_float`; an embedding more for each share that is tried. Our own: distortion where
+/// there was little to see is the price of a certificate in float32.
 RoomyRounding round_with_room(const TriangleMesh& mesh, const Topology& topology,
                               const SphereMap& map, const FloatRoomOptions& options = {});
 
