@@ -4,6 +4,7 @@ right all the same. A line of the table: file, exit code of `map` and `info`, a 
 
     tests/hostile/make_files.py        # after a change here; both results are committed
 """
+import gzip
 import shutil
 import struct
 
@@ -95,7 +96,9 @@ def make_obj():
     bad("nul", changed(t, "v 1 1 1", "v 1 1 1\0"), ":1: NUL byte")
     bad("nul_in_comment", "# a\n# \0\n" + t, ":2: NUL byte")
     bad("nul_at_end", t + "\0", ":9: NUL byte")
-    bad("unknown_statement", t + "quux 1 2\n", ":9: unknown statement 'quux'")
+    ok("unknown_statement", t + "quux 1 2\n")
+    ok("unknown_statements", "quux\n" * 500 + t + "\xff\xfe\x01\n" * 500)
+    bad("unknown_statement_and_no_face", "v 1 1 1\nquux 1 2\nface 1 2 3\n", ":2: unknown statement 'quux'")
     bad("upper_case", t.replace("v ", "V "), "unknown statement 'V'")
     bad("binary_noise", "v 1 1 1\n" + "".join(chr(i) for i in range(1, 256)), "unknown statement")
     bad("html", "<html><body>404</body></html>\n", "unknown statement")
@@ -106,7 +109,8 @@ def make_obj():
     ok("first_line_ends_in_cr", changed(t, "\n", "\r"))
     bad("lone_cr_in_a_face", changed(t, "f 1 3 2\n", "f 1 3 2\r"), ":5: expected an index, found 'f'")
     bad("same_line", t.replace("\n", " "), "found 'v'")
-    bad("terminal_escape_in_word", "\x1b]0;owned\x07 1\n" + t, "unknown statement '?]0;owned?'")
+    bad("terminal_escape_in_word", "\x1b]0;owned\x07 1\n", "unknown statement '?]0;owned?'")
+    ok("terminal_escape_in_unknown_word", t + "\x1b]0;owned\x07 1\n")
     case("obj_blanks.obj", " \n\t\n", NO_SPHERE, "no faces")
     case("obj_points.obj", obj(P4, []), NO_SPHERE, "no faces")
     case("obj_comment.obj", "# nothing\n", NO_SPHERE, "no faces")
@@ -253,7 +257,21 @@ def make_ply():
     bad("z_missing", changed(t, "property float z\n", ""), "no property z")
     bad("y_twice", changed(t, "float z", "float y"), "second property 'y'")
     bad("x_list", changed(t, "float x", "list uchar float x"), "property x is a list")
-    bad("strips", changed(changed(t, "element face", "element tristrips"), "uchar int", "int int"), "triangle strips")
+    strips = changed(changed(t, "element face", "element tristrips"), "uchar int", "int int")
+    lists = lambda text, count=1: changed(strips[:strips.index("end_header")], "tristrips 4", "tristrips %d" % count) + (
+        "end_header\n" + "".join("%s %s %s\n" % p for p in P4) + text)
+    ok("strips", strips)
+    ok("strips_restarted", lists("15 0 2 1 -1 0 1 3 -1 0 3 2 -1 1 2 3\n"))
+    ok("strips_in_one", lists("6 1 2 0 3 1 2\n"))
+    ok("strips_of_nothing_too", lists("15 0 2 1 -1 0 1 3 -1 0 3 2 -1 1 2 3\n1 0\n0\n3 -1 -1 -1\n", 4))
+    case("ply_strips_of_nothing.ply", lists("4 0 1 -1 2\n"), NO_SPHERE, "no faces")
+    bad("strips_index_beyond", lists("4 0 2 1 4\n"), ":14: strip names vertex 4 of 4")
+    bad("strips_index_negative", lists("4 0 2 1 -2\n"), "strip names vertex -2 of 4")
+    bad("strips_length_negative", lists("-1 0 2 1\n"), "negative length")
+    bad("strips_length_huge", lists("2147483647 0 2 1\n"), "expected a whole number")
+    bad("strips_of_reals", changed(strips, "int int", "int float"), "floating-point type")
+    bad("strips_without_list", changed(strips, "list int int vertex_indices", "int a"), "strips have no list")
+    bad("strips_count_huge", changed(strips, "tristrips 4", "tristrips 99999999999"), "tristrips")
     bad("element_without_properties", changed(t, "end_header", "element a 5\nend_header"), "no properties")
     bad("65_elements", changed(t, "end_header", "".join("element e%d 0\n" % i for i in range(63)) + "end_header"),
         "more elements than the limit of 64")
@@ -396,16 +414,49 @@ def make_no_spheres():
 
 def make_foreign():
     for name, data, message in (
-            ("a.gz", b"\x1f\x8b\x08" + bytes(40), "gzip"), ("a.zip", b"PK\x03\x04" + bytes(40), "ZIP"),
+            ("a.gz", b"\x1f\x8b\x08" + bytes(40), "gzip data is corrupt"), ("a.zip", b"PK\x03\x04" + bytes(40), "ZIP"),
             ("a.xz", b"\xfd7zXZ\0", "xz"), ("a.bz2", b"BZh91AY", "bzip2"), ("a.mz3", b"MZ\x03\0", "MZ3"),
             ("lh.white", b"\xff\xff\xfe" + bytes(40), "FreeSurfer"), ("a.fbx", b"Kaydara FBX Binary  \0", "FBX"),
             ("a.png", b"\x89PNG\r\n\x1a\n" + bytes(40), "PNG"), ("a.jpg", b"\xff\xd8\xff\xe0" + bytes(40), "JPEG"),
             ("a.vtk", b"# vtk DataFile Version 3.0\n", "VTK"), ("a.txt", b"hello\n", "not recognised"),
             ("a.bin", bytes(range(256)), "not recognised"), ("zeros.bin", bytes(512), "not recognised"),
-            ("ones.bin", b"\xff" * 512, "not recognised"), ("gzip_named.obj", b"\x1f\x8b\x08\0", "gzip"),
+            ("ones.bin", b"\xff" * 512, "not recognised"),
+            ("gzip_named.obj", b"\x1f\x8b\x08\0", "gzip data is cut short"),
             ("png_named.ply", b"\x89PNG\r\n", "PNG"), ("noise_named.ply", bytes(range(255, 0, -1)), "magic word 'ply'"),
             ("noise_named.off", bytes(range(255, 0, -1)), "expected the keyword OFF")):
         case("foreign_" + name, data, UNREADABLE, message)
+
+
+def make_gzip():
+    pack = lambda data: gzip.compress(data.encode() if isinstance(data, str) else data, mtime=0)
+    t = obj(P4, F4)
+    packed = pack(t)
+    ok = lambda name, data: case("gzip_ok_" + name, data, OK)
+    bad = lambda name, data, message: case("gzip_" + name, data, UNREADABLE, message)
+    ok("plain.obj.gz", packed)
+    ok("named_as_if_unpacked.obj", packed)
+    ok("named_as_another.ply.gz", packed)
+    ok("without_a_name", pack(ply(P4, F4)))
+    ok("off.off.gz", pack(off(P4, F4)))
+    ok("binary.ply.gz", pack(binary_ply([tuple(map(float, p)) for p in P4], F4)))
+    ok("members.obj.gz", pack(t[:20]) + pack("") + pack(t[20:]))
+    ok("zeros_after.obj.gz", packed + bytes(1000))
+    ok("garbage_after.obj.gz", packed + b"garbage")
+    ok("not_packed.obj.gz", t)
+    for size in (2, 3, 9, 10, 11, len(packed) // 2, len(packed) - 8, len(packed) - 1):
+        bad("cut_%d.obj.gz" % size, packed[:size], "gzip data is cut short")
+    bad("second_member_cut.obj.gz", packed + packed[:15], "gzip data is cut short")
+    for name, at in (("method", 2), ("flags", 3), ("checksum", -8), ("length", -4)):
+        broken = bytearray(packed)
+        broken[at] ^= 0xE0
+        bad("%s.obj.gz" % name, bytes(broken), "gzip data is ")
+    bad("twice.obj.gz", pack(packed), "gzip-compressed data within gzip")
+    bad("of_nothing.obj.gz", pack(""), "the file is empty")
+    bad("of_a_picture.gz", pack(b"\x89PNG\r\n\x1a\n" + bytes(40)), "PNG")
+    bad("of_words.gz", pack("hello\n"), "not recognised")
+    bad("bomb_of_blanks.gz", pack(b" " * (24 << 20)), "not recognised")
+    bad("bomb_of_zeros.obj.gz", pack(bytes(24 << 20)), "NUL byte")
+    bad("bomb_of_vertices.obj.gz", pack(b"v 0 0 0\n" * (1 << 20) + b"f 1 2 3 4294967295\n"), "out of range")
 
 
 def main():
@@ -418,6 +469,7 @@ def main():
     make_binary_ply(">", "big")
     make_no_spheres()
     make_foreign()
+    make_gzip()
     other_formats.make_all()
     with open(HERE / "expected.tsv", "w") as table:
         for row in sorted(TABLE):

@@ -174,6 +174,10 @@ TEST_CASE("gifti_reader: what the surface is comes as comments, a transform not 
   const MeshFile file = read(gifti({array, triangles()}));
   CHECK(file.comments == std::vector<std::string>{"gifti AnatomicalStructurePrimary CortexLeft"});
   CHECK(file.notes.empty());  // the identity
+  Array signed_by = points();
+  signed_by.inside = "<MetaData><MD><Name>UserName</Name><Value>me</Value></MD></MetaData>";
+  CHECK(read(gifti({signed_by, triangles()})).notes ==
+        std::vector<std::string>{"not carried: metadata 'UserName'"});
   for (const char* other : {"1 0 0 0 0 1 0 0 0 0 1 0 5 0 0 1", "1 0 0 0 0 1", "", "1 0 0 x"}) {
     array.inside = replaced(array.inside, "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1", other);
     const MeshFile moved = read(gifti({array, triangles()}));

@@ -138,12 +138,37 @@ TEST_CASE("obj_reader: materials are numbered in order of first use") {
   CHECK(values_of(file.find_face_property("material")) == std::vector<double>{-1, 0, 1, 0});
 }
 
-TEST_CASE("obj_reader: other statements are ignored, lines and points noted") {
+TEST_CASE(
+    "obj_reader: what the material library holds is told, and what several groups are called") {
+  const std::string text = "mtllib a.mtl\nmtllib a.mtl\no x\no y\ng p\ns off\ns 1\nusemtl red\n" +
+                           kThree + "f 1 2 3\nusemtl blue\nf 3 2 1\n";
+  CHECK(read(text, "a.obj").notes ==
+        std::vector<std::string>{
+            "not carried: colours and textures of 2 materials in 'a.mtl', which is not read; their "
+            "names are",
+            "not carried: the names of 2 objects"});
+  CHECK(read("mtllib a.mtl\no x\ng x\ns 1\n" + kThree + "f 1 2 3\n", "a.obj").notes.empty());
+}
+
+TEST_CASE(
+    "obj_reader: statements that OBJ does not have are left out and told, with the first's line") {
+  const MeshFile file = read(kThree + "f 1 2 3\nquux 1 2\nv 9 9 9\nquux\n@ 1\nf 1 3 4\n", "a.obj");
+  CHECK(file.mesh.face_count() == 2);
+  CHECK(file.notes ==
+        std::vector<std::string>{"not carried: 3 unknown statements, the first 'quux' in line 5"});
+  // Without a face, or without a vertex for the faces, the text is no OBJ.
+  CHECK(contains(complaint(kThree + "quux\nf3 1 2 3\n", "a.obj"),
+                 "a.obj:4: unknown statement 'quux'"));
+  CHECK(contains(complaint("V 1 2 3\nf 1 1 1\n", "a.obj", {.repeated_corners = true}),
+                 "a.obj:1: unknown statement 'V'"));
+}
+
+TEST_CASE("obj_reader: other statements are ignored, lines and points told") {
   const MeshFile file =
       read("# made by\n#\n" + kThree + "o a\ng b c\ns off\nf 1 2 3\nl 1 2\nl 2 3\np 1\n", "a.obj");
   CHECK(file.comments == std::vector<std::string>{"made by", ""});
   CHECK(file.notes ==
-        std::vector<std::string>{"2 'l' statements ignored", "1 'p' statements ignored"});
+        std::vector<std::string>{"not carried: 2 'l' statements", "not carried: 1 'p' statement"});
 }
 
 TEST_CASE("obj_reader: what breaks the rules is refused at its line") {

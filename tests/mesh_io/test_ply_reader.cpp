@@ -170,9 +170,65 @@ TEST_CASE("ply_reader: files without faces are read") {
   const std::string header =
       "ply\nformat ascii 1.0\nelement vertex 1\nproperty int x\nproperty int y\nproperty int z\n";
   CHECK(read(header + "end_header\n1 2 3\n").mesh.face_count() == 0);
-  CHECK(contains(complaint(header + "element tristrips 1\nproperty list int int vertex_indices\n"
-                                    "end_header\n1 2 3\n3 0 0 0\n"),
-                 "triangle strips"));
+}
+
+namespace {
+
+/// Six vertices and one element of strips: its lists.
+std::string strips_ply(const std::string& type, const std::string& lists, int count = 1,
+                       const std::string& more = "") {
+  return "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty "
+         "float z\n" +
+         more + "element tristrips " + std::to_string(count) + "\nproperty list int " + type +
+         " vertex_indices\nend_header\n1 0 0\n-1 0 0\n0 1 0\n0 -1 0\n0 0 1\n0 0 -1\n" + lists;
+}
+
+}  // namespace
+
+TEST_CASE("ply_reader: strips are triangles, every other one turned over, anew after -1") {
+  Triangles expected(5, 3);
+  expected << 0, 2, 4, 4, 2, 1, 4, 1, 3, 5, 4, 3, 3, 4, 0;
+  const MeshFile file = read(strips_ply("int", "10 0 2 4 1 3 -1 5 4 3 0\n"));
+  CHECK(file.mesh.triangles == expected);
+  CHECK(file.notes.empty());
+  CHECK(read(strips_ply("int", "5 0 2 4 1 3\n4 5 4 3 0\n", 2)).mesh.triangles == expected);
+  CHECK(read(strips_ply("uint", "10 0 2 4 1 3 4294967295 5 4 3 0\n")).mesh.triangles == expected);
+  // A strip turns a corner by naming a vertex twice; the count goes on all the same.
+  const MeshFile turning = read(strips_ply("int", "6 0 2 4 4 1 2\n"));
+  CHECK(turning.mesh.face_count() == 2);
+  CHECK(turning.mesh.triangles.row(1) == Eigen::RowVector3i(1, 4, 2));
+  CHECK(turning.notes.size() == 1);
+  CHECK(read(strips_ply("int", "2 0 1\n0\n3 -1 -1 -1\n", 3)).mesh.face_count() == 0);
+}
+
+TEST_CASE("ply_reader: strips that break the rules are refused, those beside faces are told") {
+  CHECK(contains(complaint(strips_ply("int", "3 0 1 6\n")), "strip names vertex 6 of 6"));
+  CHECK(contains(complaint(strips_ply("int", "3 0 1 -2\n")), "strip names vertex -2"));
+  CHECK(contains(complaint(strips_ply("float", "3 0 1 2\n")), "floating-point"));
+  CHECK(contains(complaint(strips_ply("int", "-1\n")), "negative length"));
+  CHECK(contains(complaint(strips_ply("int", "9 0 1 2\n")), "a.ply") == false);
+  CHECK_FALSE(complaint(strips_ply("int", "9 0 1 2\n")).empty());
+  tools::ReadOptions two;
+  two.max_faces = 2;
+  CHECK(complaint(strips_ply("int", "4 0 1 2 3\n"), "a.ply", two).empty());
+  CHECK(contains(complaint(strips_ply("int", "5 0 1 2 3 4\n"), "a.ply", two), "limit of 2"));
+  const MeshFile both = read(strips_ply(
+      "int", "3 0 1 2\n3 3 4 5\n", 1, "element face 1\nproperty list uchar int vertex_indices\n"));
+  CHECK(both.mesh.triangles == Eigen::RowVector3i(0, 1, 2));
+  CHECK(both.notes == std::vector<std::string>{"not carried: 1 record of element 'tristrips'"});
+}
+
+TEST_CASE("ply_reader: strips in binary are those of text") {
+  std::string bytes = strips_ply("int", "");
+  bytes = replaced(bytes.substr(0, bytes.find("end_header")), "ascii", "binary_big_endian") +
+          "end_header\n";
+  const auto put = [&](std::uint32_t word) {
+    for (int i = 3; i >= 0; --i) bytes.push_back(static_cast<char>(word >> (8 * i)));
+  };
+  for (int i = 0; i < 18; ++i) put(0);
+  for (const std::uint32_t word : {5u, 0u, 1u, 2u, ~0u, 3u}) put(word);
+  CHECK(read(bytes).mesh.triangles == Eigen::RowVector3i(0, 1, 2));
+  CHECK(contains(complaint(bytes.substr(0, bytes.size() - 1)), "the file ends within tristrips 0"));
 }
 
 TEST_CASE("ply_reader: faces without texture coordinates are zero and noted") {

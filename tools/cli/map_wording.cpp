@@ -1,11 +1,15 @@
 #include "cli/map_wording.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "cli/file_numbers.h"
 #include "cli/paths.h"
+#include "cli/told_losses.h"
 #include "cli/wording.h"
+#include "mesh_io/losses.h"
 
 namespace sphparam::tools {
 
@@ -46,7 +50,10 @@ std::string advice(const MapArguments& arguments, bool written) {
 }  // namespace
 
 void tell_stages(const MapArguments& arguments, const MapOutcome& outcome, Console& console) {
-  for (const std::string& note : outcome.source.notes) console.detail("  note: " + note);
+  tell_losses(outcome.source, arguments.input, console);
+  const std::vector<std::string> told = losses_among(outcome.source.notes);
+  for (const std::string& note : outcome.source.notes)
+    if (std::find(told.begin(), told.end(), note) == told.end()) console.detail("  note: " + note);
   for (const RepairAction& repair : outcome.source.repairs) console.say("  " + repair.message);
   for (const MeshDefect& defect : outcome.source.inspection.defects) {
     // What looks wrong on the map is told unasked.

@@ -54,7 +54,9 @@ std::string output_name(const std::string& path) {
 }
 
 std::string stem_of(const std::string& path) {
-  std::filesystem::path name = std::filesystem::path(path).stem();
+  std::filesystem::path name = std::filesystem::path(path).filename();
+  if (extension_of(name.string()) == ".gz") name = name.stem();
+  name = name.stem();
   if (extension_of(name.string()) == ".sph") name = name.stem();
   return name.string();
 }

@@ -1,6 +1,7 @@
 #include "mesh_io/gifti_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <limits>
@@ -21,6 +22,9 @@ namespace {
 // Coordinates and triangles hardly pack; labels and masks may pack as well as anything.
 constexpr std::int64_t kMostSurfaceInflation = 100, kMostInflation = 1000;
 constexpr std::size_t kMostProperties = 64;
+constexpr std::array<std::string_view, 4> kKept = {"AnatomicalStructurePrimary",
+                                                   "AnatomicalStructureSecondary", "GeometricType",
+                                                   "TopologicalType"};
 constexpr std::string_view kPointset = "NIFTI_INTENT_POINTSET";
 constexpr std::string_view kTriangle = "NIFTI_INTENT_TRIANGLE";
 
@@ -154,17 +158,33 @@ class GiftiReader {
     for (const auto& [key, value] : document_.metadata)
       if (key.starts_with(kOurs) && value.size() <= kLongest)
         file_.comments.push_back(one_line(key + " " + value));
-    for (const char* key : {"AnatomicalStructurePrimary", "AnatomicalStructureSecondary",
-                            "GeometricType", "TopologicalType"}) {
+    for (const std::string_view key : kKept) {
       const std::string value = value_of(points.metadata, key);
       if (!value.empty() && value.size() <= kLongest)
         file_.comments.push_back(one_line("gifti " + std::string(key) + " " + value));
     }
+    note_metadata();
     for (const GiftiLabel& label : document_.labels) file_.comments.push_back(comment_of(label));
     for (const auto& [from, to, matrix] : points.coordinate_systems)
       if (!is_identity(matrix))
         add_loss(file_.notes, "the transform from the space " + quoted(from) + " to " + quoted(to) +
                                   ": coordinates stay as they are");
+  }
+
+  void note_metadata() {
+    std::vector<std::string> keys;
+    const auto add = [&](const GiftiMetadata& metadata) {
+      for (const auto& [key, value] : metadata) {
+        const bool known = key.empty() || key == "Name" || key.starts_with("sphparam ") ||
+                           std::find(kKept.begin(), kKept.end(), key) != kKept.end();
+        if (!known && std::find(keys.begin(), keys.end(), quoted(key)) == keys.end() &&
+            keys.size() < kMostProperties)
+          keys.push_back(quoted(key));
+      }
+    };
+    add(document_.metadata);
+    for (const GiftiArray& array : document_.arrays) add(array.metadata);
+    if (!keys.empty()) add_loss(file_.notes, "metadata " + enumerated(keys));
   }
 
   /// Sixteen numbers as they are written: what cannot be read so is no identity.

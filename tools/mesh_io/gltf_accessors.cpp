@@ -77,7 +77,7 @@ ScalarType GltfAccessors::type(int id) const {
 
 GltfAccessors::Range GltfAccessors::range(int accessor, int view_id, std::uint64_t offset,
                                           std::uint64_t count, std::size_t element_bytes,
-                                          std::size_t component_bytes, bool may_have_stride) const {
+                                          std::size_t component_bytes, bool may_have_stride) {
   const auto check = [&](bool good, const char* message) {
     if (!good) fail(accessor, message);
   };
@@ -88,14 +88,15 @@ GltfAccessors::Range GltfAccessors::range(int accessor, int view_id, std::uint64
   const auto& buffer = document_.buffers[static_cast<std::size_t>(view.buffer)];
   check(view.offset <= buffer.size() && view.length <= buffer.size() - view.offset,
         "its view runs past the end of the buffer");
-  check((view.offset + offset) % component_bytes == 0, "its bytes are not aligned");
   check(view.stride == 0 || may_have_stride, "its view has a stride, which it may not have");
   const std::uint64_t stride = view.stride == 0 ? element_bytes : view.stride;
-  check(stride >= element_bytes && stride % component_bytes == 0,
-        "the stride of its view is wrong");
+  check(stride >= element_bytes, "the stride of its view is wrong");
   const bool fits = offset <= view.length && element_bytes <= view.length - offset &&
                     count - 1 <= (view.length - offset - element_bytes) / stride;
   check(fits, "its elements do not fit into the buffer view");
+  // Numbers are copied byte by byte, so nothing but the rule is broken.
+  if ((view.offset + offset) % component_bytes != 0 || stride % component_bytes != 0)
+    misaligned_.insert(accessor);
   return {buffer.data() + view.offset + offset, stride};
 }
 
@@ -137,7 +138,7 @@ std::vector<double> GltfAccessors::read(int id) {
   return numbers;
 }
 
-void GltfAccessors::apply_sparse(int id, std::vector<double>& numbers) const {
+void GltfAccessors::apply_sparse(int id, std::vector<double>& numbers) {
   const GltfDocument::Accessor& described = accessor(id);
   const GltfDocument::Sparse& sparse = *described.sparse;
   const ScalarType index_type = component_type(id, sparse.index_type);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -11,8 +12,9 @@
 namespace sphparam::tools {
 
 /// The numbers behind the accessors of a glTF file. Everything is checked before it is read:
-/// component types, alignment, strides, byte ranges, sparse indices (strictly increasing), finite
-/// values. Every failure is a ReadError that names the accessor.
+/// component types, strides, byte ranges, sparse indices (strictly increasing), finite values.
+/// Every failure is a ReadError that names the accessor. Numbers that are not aligned as glTF wants
+/// them are read all the same, and counted.
 class GltfAccessors {
  public:
   /// Requires: both arguments outlive it.
@@ -31,6 +33,9 @@ class GltfAccessors {
   /// does not have.
   ScalarType type(int accessor) const;
 
+  /// Accessors read so far whose numbers are not aligned.
+  long misaligned() const { return static_cast<long>(misaligned_.size()); }
+
   [[noreturn]] void fail(int accessor, const std::string& message) const;
 
   /// Bytes of all buffers: what a file may ask for is measured by them.
@@ -42,10 +47,10 @@ class GltfAccessors {
     std::uint64_t stride;
   };
   Range range(int accessor, int view, std::uint64_t offset, std::uint64_t count,
-              std::size_t element_bytes, std::size_t component_bytes, bool may_have_stride) const;
+              std::size_t element_bytes, std::size_t component_bytes, bool may_have_stride);
   ScalarType component_type(int accessor, int code) const;
   std::vector<double> read(int accessor);
-  void apply_sparse(int accessor, std::vector<double>& numbers) const;
+  void apply_sparse(int accessor, std::vector<double>& numbers);
   void spend(int accessor, std::uint64_t numbers);
 
   const GltfDocument& document_;
@@ -53,6 +58,7 @@ class GltfAccessors {
   std::map<int, std::vector<double>> kept_;
   std::uint64_t buffer_bytes_ = 0;
   std::uint64_t numbers_read_ = 0;
+  std::set<int> misaligned_;
 };
 
 }  // namespace sphparam::tools

@@ -7,6 +7,7 @@
 
 #include "mesh_io/gltf_files.h"
 #include "mesh_io/gltf_json.h"
+#include "mesh_io/losses.h"
 #include "mesh_io/mesh_file.h"
 
 // The only file that knows tinygltf, and that as a stranger: the container and the JSON are checked
@@ -318,6 +319,39 @@ BaseColour base_colour_of(const tinygltf::Model& model, const tinygltf::Material
   return colour;
 }
 
+/// What a material says beside its base colour.
+std::vector<std::string> others_of(const tinygltf::Material& material) {
+  const auto& pbr = material.pbrMetallicRoughness;
+  const auto& emission = material.emissiveFactor;
+  const bool shines =
+      std::any_of(emission.begin(), emission.end(), [](double x) { return x != 0; });
+  std::vector<std::string> words;
+  const auto add = [&](bool said, const std::string& word) {
+    if (said) words.push_back(word);
+  };
+  add(pbr.metallicRoughnessTexture.index >= 0 || pbr.metallicFactor != 1 ||
+          pbr.roughnessFactor != 1,
+      "metallic and roughness");
+  add(material.normalTexture.index >= 0, "normal texture");
+  add(material.occlusionTexture.index >= 0, "occlusion texture");
+  add(material.emissiveTexture.index >= 0 || shines, "emission");
+  add(!material.alphaMode.empty() && material.alphaMode != "OPAQUE", "alpha mode");
+  add(material.doubleSided, "double sides");
+  for (const auto& [extension, value] : material.extensions) words.push_back(tools::quoted(extension));
+  return words;
+}
+
+void note_losses(const tinygltf::Model& model, GltfDocument& document) {
+  std::vector<std::string> words;
+  const auto add = [&](std::size_t count, const char* thing) {
+    if (count > 0) words.push_back(counted(static_cast<long>(count), thing));
+  };
+  add(model.animations.size(), "animation");
+  add(model.cameras.size(), "camera");
+  add(model.lights.size(), "light");
+  if (!words.empty()) add_loss(document.notes, enumerated(words));
+}
+
 GltfDocument::Node plain(const tinygltf::Node& node) {
   return {.mesh = node.mesh,
           .skinned = node.skin >= 0,
@@ -338,7 +372,8 @@ void copy_model(tinygltf::Model& model, const std::string& name, GltfDocument& d
     document.meshes.emplace_back();
     for (const tinygltf::Primitive& primitive : mesh.primitives)
       document.meshes.back().push_back({primitive.mode, primitive.indices, primitive.material,
-                                        !primitive.targets.empty(), primitive.attributes});
+                                        static_cast<int>(primitive.targets.size()),
+                                        primitive.attributes});
   }
   for (const tinygltf::Node& node : model.nodes) document.nodes.push_back(plain(node));
   for (const tinygltf::Scene& scene : model.scenes) document.scenes.push_back(scene.nodes);
@@ -346,7 +381,8 @@ void copy_model(tinygltf::Model& model, const std::string& name, GltfDocument& d
   Images images(model, document, name);
   for (const tinygltf::Material& material : model.materials)
     document.materials.push_back({one_line(material.name), base_colour(model, material),
-                                  base_colour_of(model, material, images)});
+                                  base_colour_of(model, material, images), others_of(material)});
+  note_losses(model, document);
 }
 
 }  // namespace

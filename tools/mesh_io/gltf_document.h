@@ -37,7 +37,7 @@ struct GltfDocument {
     int mode = 0;
     int indices = -1;
     int material = -1;
-    bool has_morph_targets = false;
+    int morph_targets = 0;
     std::map<std::string, int> attributes;
   };
   struct Node {
@@ -50,6 +50,7 @@ struct GltfDocument {
     std::string name;
     std::string words = {};  // texture and factor in words; empty when there is no texture
     BaseColour base_colour = {};
+    std::vector<std::string> others = {};  // what else it says, in words
   };
 
   std::vector<std::vector<unsigned char>> buffers;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "mesh_io/losses.h"
+
 // The nodes of a scene form trees; each is visited once, with the product of the transforms above
 // it. The stack is our own: trees may be as deep as they like.
 
@@ -21,8 +23,8 @@ class NodeWalk {
       if (scene >= static_cast<int>(document_.scenes.size()))
         fail("scene " + std::to_string(scene) + " is not there");
       if (document_.scenes.size() > 1)
-        notes_.push_back("scene " + std::to_string(scene) + " of " +
-                         std::to_string(document_.scenes.size()) + " read");
+        add_loss(notes_, "all scenes but number " + std::to_string(scene) + " of " +
+                             std::to_string(document_.scenes.size()));
       return document_.scenes[static_cast<std::size_t>(scene)];
     }
     // Without a scene: every node that is no child.

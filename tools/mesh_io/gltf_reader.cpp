@@ -5,11 +5,14 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <set>
+#include <string_view>
 #include <utility>
 
 #include "mesh_io/gltf_accessors.h"
 #include "mesh_io/gltf_document.h"
 #include "mesh_io/gltf_nodes.h"
+#include "mesh_io/losses.h"
 #include "sphparam/elementary.h"
 
 // Every placed mesh in turn: positions go through x ↦ Ax + b, normals through A⁻ᵀ; where det A < 0
@@ -18,6 +21,9 @@
 
 namespace sphparam::tools {
 namespace {
+
+/// What `export --theta-phi` writes: two angles a vertex.
+constexpr std::string_view kThetaPhi = "_THETA_PHI";
 
 enum Mode { kPoints = 0, kTriangles = 4, kStrip = 5, kFan = 6 };
 
@@ -65,7 +71,7 @@ class SceneReader {
   void add_mesh(const PlacedMesh& placed) {
     const Transform& transform = placed.transform;
     const bool turn_over = transform.linear.determinant() < 0;
-    skinned_ |= placed.skinned;
+    skinned_ += placed.skinned;
     std::map<std::map<std::string, int>, int> first_vertex;  // by the accessors of the vertices
     const auto& primitives = document_.meshes[static_cast<std::size_t>(placed.mesh)];
     for (std::size_t p = 0; p < primitives.size(); ++p) {
@@ -121,14 +127,17 @@ class SceneReader {
     for (const auto& [attribute, accessor] : primitive.attributes)
       if (accessor != position)
         add_attribute(attribute, accessor, transform, before, xyz.size() / 3);
-    morphed_ |= primitive.has_morph_targets;
+    morph_targets_ = std::max(morph_targets_, primitive.morph_targets);
   }
 
   void add_attribute(const std::string& attribute, int accessor, const Transform& transform,
                      std::size_t before, std::size_t count) {
-    const bool known = attribute == "NORMAL" || attribute == "TEXCOORD_0" ||
-                       attribute == "COLOR_0" || attribute.starts_with("_");
-    if (!known) return;
+    if (!has_place(attribute, accessor)) {
+      // Joints and weights belong to skins, which are told of.
+      const bool of_skin = attribute.starts_with("JOINTS_") || attribute.starts_with("WEIGHTS_");
+      if (!of_skin) not_carried_.insert(one_line(attribute));
+      return;
+    }
     if (accessors_.accessor(accessor).count != count)
       accessors_.fail(accessor, where_ + " has " + std::to_string(count) + " vertices");
     if (attribute == "NORMAL") {
@@ -139,11 +148,20 @@ class SceneReader {
       add_column("t", ScalarType::Float32, accessor, 1, before, [](double v) { return 1 - v; });
     } else if (attribute == "COLOR_0") {
       add_colours(accessor, before);
-    } else if (accessors_.accessor(accessor).components == 1) {
+    } else if (attribute == kThetaPhi) {
+      add_column("theta", accessors_.type(accessor), accessor, 0, before);
+      add_column("phi", accessors_.type(accessor), accessor, 1, before);
+    } else {
       std::string property = one_line(attribute);
       std::replace(property.begin(), property.end(), ' ', '_');
       add_column(property, accessors_.type(accessor), accessor, 0, before);
     }
+  }
+
+  bool has_place(const std::string& attribute, int accessor) const {
+    if (attribute == "NORMAL" || attribute == "TEXCOORD_0" || attribute == "COLOR_0") return true;
+    const int components = accessors_.accessor(accessor).components;
+    return attribute.starts_with("_") && components == (attribute == kThetaPhi ? 2 : 1);
   }
 
   template <class Change = std::identity>
@@ -268,19 +286,36 @@ class SceneReader {
   }
 
   void add_material(int id) {
-    const auto& [name, words, base_colour] = document_.materials[static_cast<std::size_t>(id)];
+    const auto& [name, words, base_colour, others] =
+        document_.materials[static_cast<std::size_t>(id)];
     file_.materials.push_back(name.empty() ? "material " + std::to_string(id) : name);
     file_.base_colours.push_back(base_colour);
     if (!words.empty())
       file_.comments.push_back("base colour of " + file_.materials.back() + ": " + words);
+    materials_with_others_ += !others.empty();
+    for (const std::string& other : others)
+      if (std::find(others_.begin(), others_.end(), other) == others_.end())
+        others_.push_back(other);
   }
 
   void add_notes() {
     if (degenerate_ > 0)
       file_.notes.push_back(std::to_string(degenerate_) +
                             " triangles that name a vertex twice dropped");
-    if (skinned_) file_.notes.push_back("skins ignored: the mesh is read as it rests");
-    if (morphed_) file_.notes.push_back("morph targets ignored");
+    if (materials_with_others_ > 0)
+      add_loss(file_.notes, enumerated(others_) + " of " + std::to_string(materials_with_others_) +
+                                " of " +
+                                counted(static_cast<long>(file_.materials.size()), "material") +
+                                ", only base colours are");
+    if (skinned_ > 0)
+      add_loss(file_.notes, counted(skinned_, "skin") + ": the mesh is read as it rests");
+    if (morph_targets_ > 0) add_loss(file_.notes, counted(morph_targets_, "morph target"));
+    if (!not_carried_.empty())
+      add_loss(file_.notes,
+               "of the vertices " + enumerated({not_carried_.begin(), not_carried_.end()}));
+    if (accessors_.misaligned() > 0)
+      file_.notes.push_back(counted(accessors_.misaligned(), "accessor") +
+                            " not aligned as glTF wants it: read all the same");
     for (const std::string& note : document_.notes) file_.notes.push_back(note);
   }
 
@@ -294,8 +329,12 @@ class SceneReader {
   std::vector<int> triangles_;
   std::vector<int> material_of_;  // of each triangle, as numbered in the file
   std::map<std::string, Column> columns_;
-  std::vector<std::string> order_;  // of the columns, as first seen
-  bool skinned_ = false, morphed_ = false;
+  std::vector<std::string> order_;   // of the columns, as first seen
+  std::vector<std::string> others_;  // what materials say beside base colours, each once
+  long materials_with_others_ = 0;
+  std::set<std::string> not_carried_;  // attributes
+  long skinned_ = 0;                   // meshes placed with a skin
+  int morph_targets_ = 0;
   long degenerate_ = 0;
   MeshFile file_;
 };

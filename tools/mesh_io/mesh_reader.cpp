@@ -9,6 +9,7 @@
 #include "mesh_io/file_bytes.h"
 #include "mesh_io/gifti_reader.h"
 #include "mesh_io/gltf_reader.h"
+#include "mesh_io/gzip.h"
 #include "mesh_io/obj_reader.h"
 #include "mesh_io/off_reader.h"
 #include "mesh_io/ply_reader.h"
@@ -24,7 +25,6 @@ struct ForeignFormat {
 
 // Formats that are recognised to be refused by name.
 constexpr ForeignFormat kForeignMagic[] = {
-    {"\x1f\x8b", "gzip-compressed data (unpack it first)"},
     {"PK\x03\x04", "a ZIP archive (unpack it first)"},
     {"\xfd"
      "7zXZ",
@@ -40,25 +40,18 @@ constexpr ForeignFormat kForeignMagic[] = {
 };
 
 constexpr ForeignFormat kForeignExtensions[] = {
-    {"gz", "gzip-compressed data (unpack it first)"},
-    {"mz3", "MZ3"},
-    {"fbx", "FBX"},
-    {"dae", "COLLADA"},
-    {"3ds", "3DS"},
-    {"vtk", "legacy VTK"},
-    {"vtp", "VTK"},
-    {"msh", "MSH"},
-    {"stp", "STEP"},
-    {"step", "STEP"},
+    {"mz3", "MZ3"}, {"fbx", "FBX"}, {"dae", "COLLADA"}, {"3ds", "3DS"},   {"vtk", "legacy VTK"},
+    {"vtp", "VTK"}, {"msh", "MSH"}, {"stp", "STEP"},    {"step", "STEP"},
 };
 
+/// In lower case; of "statue.obj.gz" the one of what is in it.
 std::string extension_of(const std::string& name) {
   const std::size_t dot = name.rfind('.');
   if (dot == std::string::npos || name.find('/', dot) != std::string::npos) return {};
   std::string extension = name.substr(dot + 1);
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
+  return extension == "gz" ? extension_of(name.substr(0, dot)) : extension;
 }
 
 bool looks_like_ply(std::string_view bytes) {
@@ -95,7 +88,7 @@ constexpr const char* kSupported = "OBJ, PLY, OFF, STL, glTF, GLB and GIFTI file
 }
 
 void refuse_foreign_content(std::string_view bytes, const std::string& name) {
-  if (extension_of(name) == "mz3") refuse(name, "MZ3");  // which is compressed, most of the time
+  if (extension_of(name) == "mz3") refuse(name, "MZ3");
   for (const auto& [magic, format] : kForeignMagic) {
     // An OBJ may open with any comment, also with "# vtk DataFile".
     if (bytes.starts_with(magic) && !(magic.front() == '#' && looks_like_obj(bytes)))
@@ -104,13 +97,10 @@ void refuse_foreign_content(std::string_view bytes, const std::string& name) {
 }
 
 /// `folder` is where the buffers of a glTF may be, if anywhere.
-MeshFile read_bytes(std::string_view bytes, const std::string& name,
-                    const std::optional<std::filesystem::path>& folder,
-                    const ReadOptions& options) {
+MeshFile read_unpacked(std::string_view bytes, const std::string& name,
+                       const std::optional<std::filesystem::path>& folder,
+                       const ReadOptions& options) {
   constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-  if (bytes.size() > options.max_file_bytes)
-    throw ReadError(
-        name, "is larger than the limit of " + std::to_string(options.max_file_bytes) + " bytes");
   if (bytes.starts_with(kByteOrderMark)) bytes.remove_prefix(kByteOrderMark.size());
   if (bytes.empty()) throw ReadError(name, "the file is empty");
 
@@ -132,6 +122,27 @@ MeshFile read_bytes(std::string_view bytes, const std::string& name,
   for (const auto& [foreign, format] : kForeignExtensions)
     if (extension == foreign) refuse(name, format);
   throw ReadError(name, std::string("the format is not recognised; ") + kSupported);
+}
+
+MeshFile read_gzip(std::string_view bytes, const std::string& name,
+                   const std::optional<std::filesystem::path>& folder, const ReadOptions& options) {
+  const Unzipped unzipped = unzip(bytes, name, options.max_file_bytes);
+  if (looks_like_gzip(unzipped.bytes)) refuse(name, "gzip-compressed data within gzip");
+  MeshFile file = read_unpacked(unzipped.bytes, name, folder, options);
+  file.format += ", gzip";
+  if (unzipped.trailing_data) file.notes.push_back("data after the end of the gzip data ignored");
+  return file;
+}
+
+MeshFile read_bytes(std::string_view bytes, const std::string& name,
+                    const std::optional<std::filesystem::path>& folder,
+                    const ReadOptions& options) {
+  if (bytes.size() > options.max_file_bytes)
+    throw ReadError(
+        name, "is larger than the limit of " + std::to_string(options.max_file_bytes) + " bytes");
+  const bool packed = looks_like_gzip(bytes) && extension_of(name) != "mz3";  // which is gzip too
+  return packed ? read_gzip(bytes, name, folder, options)
+                : read_unpacked(bytes, name, folder, options);
 }
 
 }  // namespace

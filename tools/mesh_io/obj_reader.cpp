@@ -6,7 +6,10 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
+#include <utility>
 
+#include "mesh_io/losses.h"
 #include "mesh_io/polygons.h"
 #include "mesh_io/text_scanner.h"
 
@@ -44,6 +47,12 @@ class ForwardReferences {
   std::vector<Reference> found_;
 };
 
+/// The names that statements of one kind have given so far.
+struct Names {
+  std::string last;
+  std::set<std::string> distinct;
+};
+
 /// A kind of thing that corners point at: v, vt or vn.
 struct IndexedKind {
   const char* name;
@@ -78,6 +87,8 @@ class ObjReader {
 
   MeshFile read() {
     while (scanner_.next_line()) read_line();
+    if (unknown_ > 0 && (polygons_.count() == 0 || vertices_.count == 0))
+      scanner_.fail_at(first_unknown_line_, "unknown statement " + first_unknown_);
     check_forward_references();
     return finish();
   }
@@ -97,7 +108,7 @@ class ObjReader {
     if (keyword == "vt") return read_texcoord();
     if (keyword == "vn") return read_normal();
     if (keyword == "usemtl") return read_material();
-    read_ignored(keyword);
+    read_ignored(std::string(keyword));
   }
 
   void read_vertex() {
@@ -186,19 +197,33 @@ class ObjReader {
     material_ = found->second;
   }
 
-  void read_ignored(std::string_view keyword) {
-    static constexpr std::string_view kSilent[] = {
-        "g",         "o",     "s",        "mg",       "lod",    "mtllib", "shadow_obj",
-        "trace_obj", "bevel", "c_interp", "d_interp", "maplib", "usemap"};
+  void read_ignored(const std::string& keyword) {
+    static constexpr std::string_view kNamed[] = {"g", "o", "s", "mtllib"};
+    static constexpr std::string_view kSilent[] = {"mg",        "lod",    "shadow_obj",
+                                                   "trace_obj", "bevel",  "c_interp",
+                                                   "d_interp",  "maplib", "usemap"};
     static constexpr std::string_view kNoted[] = {
         "l",    "p",    "vp",   "cstype", "deg", "bmat", "step", "curv",  "curv2", "surf",
         "parm", "trim", "hole", "scrv",   "sp",  "end",  "con",  "ctech", "stech"};
     const auto is_in = [&](const auto& list) {
       return std::find(std::begin(list), std::end(list), keyword) != std::end(list);
     };
+    if (is_in(kNamed)) return note_name(names_[keyword]);
     if (is_in(kSilent)) return;
-    if (!is_in(kNoted)) scanner_.fail("unknown statement " + quoted(keyword));
-    ++ignored_[std::string(keyword)];
+    if (is_in(kNoted)) {
+      ++ignored_[keyword];
+    } else if (unknown_++ == 0) {
+      first_unknown_ = quoted(keyword);
+      first_unknown_line_ = scanner_.line_number();
+    }
+  }
+
+  // Most files say the same name again and again, or none but one.
+  void note_name(Names& names) {
+    const std::string_view name = scanner_.rest();
+    if (name.empty() || name == names.last) return;
+    names.last = name;
+    names.distinct.insert(names.last);
   }
 
   void expect_line_end() {
@@ -235,9 +260,8 @@ class ObjReader {
   void add_colours() {
     if (colour_channels_ == 0) return;
     if (coloured_ != vertices_.count) {
-      file_.notes.push_back("only " + std::to_string(coloured_) + " of " +
-                            std::to_string(vertices_.count) +
-                            " vertices have colours: colours dropped");
+      add_loss(file_.notes, "colours: only " + std::to_string(coloured_) + " of " +
+                                std::to_string(vertices_.count) + " vertices have them");
       return;
     }
     const char* const names[] = {"red", "green", "blue", "alpha"};
@@ -309,9 +333,39 @@ class ObjReader {
   }
 
   void add_notes() {
+    note_libraries();
+    note_groups();
     for (const auto& [keyword, count] : ignored_)
-      file_.notes.push_back(std::to_string(count) + " '" + keyword + "' statements ignored");
-    if (weights_) file_.notes.push_back("fourth coordinates of vertices (weights) ignored");
+      add_loss(file_.notes, counted(count, "'" + keyword + "' statement"));
+    if (weights_) add_loss(file_.notes, "fourth coordinates of vertices (weights)");
+    if (unknown_ > 0)
+      add_loss(file_.notes, counted(unknown_, "unknown statement") + ", the first " +
+                                first_unknown_ + " in line " + std::to_string(first_unknown_line_));
+  }
+
+  void note_libraries() {
+    std::vector<std::string> libraries;
+    for (const std::string& library : names_["mtllib"].distinct)
+      libraries.push_back(quoted(library));
+    if (libraries.empty() || file_.materials.empty()) return;
+    add_loss(file_.notes, "colours and textures of " +
+                              counted(static_cast<long>(file_.materials.size()), "material") +
+                              " in " + enumerated(libraries) +
+                              ", which is not read; their names are");
+  }
+
+  /// One group that holds everything says nothing.
+  void note_groups() {
+    static constexpr std::pair<const char*, const char*> kKinds[] = {
+        {"o", "object"}, {"g", "group"}, {"s", "smoothing group"}};
+    std::vector<std::string> words;
+    for (const auto& [keyword, what] : kKinds) {
+      std::set<std::string>& names = names_[keyword].distinct;
+      if (*keyword == 's')
+        std::erase_if(names, [](auto& name) { return name == "off" || name == "0"; });
+      if (names.size() > 1) words.push_back(counted(static_cast<long>(names.size()), what));
+    }
+    if (!words.empty()) add_loss(file_.notes, "the names of " + enumerated(words));
   }
 
   static constexpr std::int64_t kMostVertices = std::numeric_limits<int>::max();
@@ -333,7 +387,11 @@ class ObjReader {
   int material_ = kNone;
   std::vector<int> material_of_;  // per polygon, from the first one with a material
   std::map<std::string, int> material_ids_;
-  std::map<std::string, long> ignored_;
+  std::map<std::string, Names> names_;   // by keyword
+  std::map<std::string, long> ignored_;  // by keyword
+  long unknown_ = 0;
+  std::string first_unknown_;
+  long first_unknown_line_ = 0;
 
   MeshFile file_;
 };

@@ -12,8 +12,9 @@ namespace sphparam::tools {
 ///
 /// Kept: v with optional colours (x y z r g b [a]), vt per corner, vn per vertex where each vertex
 /// has one normal and per corner where not, polygons, usemtl as the face property `material`, the
-/// comments at the top. Groups, objects and smoothing groups are ignored; lines, points and
-/// free-form geometry are ignored and noted. No other file is ever opened (mtllib).
+/// comments at the top. Told as not carried: groups, objects and smoothing groups where there are
+/// several, lines, points, free-form geometry, materials' libraries (no other file is ever opened),
+/// statements that OBJ does not have. A text with such a statement and no face is no OBJ.
 /// Throws: ReadError with the line.
 MeshFile read_obj(std::string_view text, const std::string& name, const ReadOptions& options = {});
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "mesh_io/losses.h"
 #include "mesh_io/polygons.h"
 #include "mesh_io/text_scanner.h"
 
@@ -178,9 +179,12 @@ class OffReader {
       scanner_.fail("vertex has " + std::to_string(width) +
                     " numbers after its coordinates, which " + file_.format + " does not explain");
     unexplained_ = width;
-    file_.notes.push_back(
-        width == 0 ? "the keyword is " + file_.format + " but vertices hold coordinates only"
-                   : std::to_string(width) + " numbers after the coordinates of vertices ignored");
+    if (width == 0)
+      file_.notes.push_back("the keyword is " + file_.format +
+                            " but vertices hold coordinates only");
+    else
+      add_loss(file_.notes,
+               std::to_string(width) + " numbers after the coordinates of each vertex");
   }
 
   void read_vertex_columns() {
@@ -259,7 +263,7 @@ class OffReader {
         (face_colours_.whole_bytes ||
          std::all_of(face_colours_.values.begin(), face_colours_.values.end(), is_fraction));
     if (!colours) {
-      file_.notes.push_back("numbers after the faces ignored: not one colour a face");
+      add_loss(file_.notes, "numbers after the faces: they are not one colour a face");
       return;
     }
     face_colours_.names = {"red", "green", "blue"};

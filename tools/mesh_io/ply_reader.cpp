@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 
+#include "mesh_io/losses.h"
 #include "mesh_io/ply_header.h"
 #include "mesh_io/polygons.h"
 #include "mesh_io/text_scanner.h"
@@ -166,6 +167,8 @@ class PlyReader {
         read_vertices(element);
       else if (&element == face_element_)
         read_faces(element);
+      else if (&element == strip_element_)
+        read_strips(element);
       else
         skip_element(element);
     }
@@ -189,22 +192,25 @@ class PlyReader {
       if (property->is_list)
         fail_at(vertex_element_->line, std::string("vertex property ") + axis + " is a list");
     }
-    if (face_element_) check_face_element();
-    if (!face_element_ && header_.find("tristrips"))
-      fail_at(header_.find("tristrips")->line, "triangle strips are not supported");
+    // Strips stand in for faces: of a file with both, the faces are the mesh.
+    strip_element_ =
+        face_element_ && face_element_->count > 0 ? nullptr : header_.find("tristrips");
+    if (strip_element_) face_element_ = nullptr;
+    if (face_element_) check_corner_lists(*face_element_, "face");
+    if (strip_element_) check_corner_lists(*strip_element_, "strip");
   }
 
-  void check_face_element() {
-    check_count(*face_element_, options_.max_faces);
-    const PlyProperty* const indices = face_element_->find("vertex_indices");
-    const PlyProperty* const index = face_element_->find("vertex_index");
-    if (indices && index) fail_at(face_element_->line, "faces have two lists of vertices");
+  void check_corner_lists(const PlyElement& element, const std::string& what) {
+    check_count(element, options_.max_faces);
+    const PlyProperty* const indices = element.find("vertex_indices");
+    const PlyProperty* const index = element.find("vertex_index");
+    if (indices && index) fail_at(element.line, what + "s have two lists of vertices");
     index_property_ = indices ? indices : index;
-    if (!index_property_) fail_at(face_element_->line, "faces have no list vertex_indices");
+    if (!index_property_) fail_at(element.line, what + "s have no list vertex_indices");
     if (!index_property_->is_list)
-      fail_at(face_element_->line, "face property " + index_property_->name + " is no list");
+      fail_at(element.line, what + " property " + index_property_->name + " is no list");
     if (is_floating(index_property_->type))
-      fail_at(face_element_->line, "vertex indices of a floating-point type");
+      fail_at(element.line, "vertex indices of a floating-point type");
   }
 
   void check_count(const PlyElement& element, std::int64_t limit) const {
@@ -285,8 +291,8 @@ class PlyReader {
       if (std::find(handled.begin(), handled.end(), property.name) != handled.end()) continue;
       if (!is_wanted(element, property)) continue;
       if (property.is_list)
-        file_.notes.push_back("list " + quoted(property.name) + " of element " +
-                              quoted(element.name) + " ignored");
+        add_loss(file_.notes,
+                 "list " + quoted(property.name) + " of element " + quoted(element.name));
       else
         result.push_back({property.name, property.type,
                           std::vector<double>(static_cast<std::size_t>(element.count))});
@@ -345,13 +351,19 @@ class PlyReader {
     if (degree > options_.max_polygon_degree)
       body_.fail("face has more corners than the limit of " +
                  std::to_string(options_.max_polygon_degree));
-    for (std::int64_t i = 0; i < degree; ++i) {
-      const std::int64_t v = body_.integer(property.type);
-      if (v < 0 || v >= vertex_element_->count)
-        body_.fail("face names vertex " + std::to_string(v) + " of " +
-                   std::to_string(vertex_element_->count) + " (counted from 0)");
-      polygons_.add_corner(static_cast<int>(v));
-    }
+    for (std::int64_t i = 0; i < degree; ++i)
+      polygons_.add_corner(checked_vertex(body_.integer(property.type), "face"));
+    close_polygon();
+  }
+
+  int checked_vertex(std::int64_t v, const char* what) const {
+    if (v < 0 || v >= vertex_element_->count)
+      body_.fail(std::string(what) + " names vertex " + std::to_string(v) + " of " +
+                 std::to_string(vertex_element_->count) + " (counted from 0)");
+    return static_cast<int>(v);
+  }
+
+  void close_polygon() {
     const std::string problem = polygons_.close_polygon(options_);
     if (!problem.empty()) body_.fail(problem);
   }
@@ -378,12 +390,59 @@ class PlyReader {
                  std::to_string(list.values.size() - before) + " numbers of " + list.what);
   }
 
+  // --- Triangle strips ---
+
+  void read_strips(const PlyElement& element) {
+    for (const PlyProperty& property : element.properties)
+      if (&property != index_property_)
+        add_loss(file_.notes, "property " + quoted(property.name) + " of triangle strips");
+    for (std::int64_t s = 0; s < element.count; ++s) {
+      body_.begin({&element, s});
+      for (const PlyProperty& property : element.properties)
+        &property == index_property_ ? read_strip(property) : skip(property);
+      body_.end();
+    }
+    if (turns_ > 0)
+      file_.notes.push_back(
+          std::to_string(turns_) +
+          " triangles of strips name a vertex twice: left out, as strips turn so");
+  }
+
+  // Each index makes a triangle with the two before it, every other one turned over; −1 starts
+  // anew. A list may hold the whole mesh: no limit on corners counts here, that on faces does.
+  void read_strip(const PlyProperty& property) {
+    constexpr std::int64_t kRestart = -1;
+    const std::int64_t unsigned_restart = std::numeric_limits<std::uint32_t>::max();
+    std::array<int, 2> before{};
+    std::int64_t in_strip = 0;
+    const std::int64_t length = list_length(property);
+    for (std::int64_t i = 0; i < length; ++i) {
+      const std::int64_t index = body_.integer(property.type);
+      if (index == kRestart || index == unsigned_restart) {
+        in_strip = 0;
+        continue;
+      }
+      const int v = checked_vertex(index, "strip");
+      if (++in_strip > 2) add_strip_triangle(before[0], before[1], v, in_strip % 2 == 0);
+      before = {before[1], v};
+    }
+  }
+
+  void add_strip_triangle(int a, int b, int c, bool turned) {
+    if (a == b || b == c || c == a) {
+      ++turns_;
+      return;
+    }
+    for (const int v : {turned ? b : a, turned ? a : b, c}) polygons_.add_corner(v);
+    close_polygon();
+  }
+
   // --- The rest ---
 
   void skip_element(const PlyElement& element) {
     if (element.count == 0) return;
-    file_.notes.push_back(std::to_string(element.count) + " records of element " +
-                          quoted(element.name) + " ignored");
+    add_loss(file_.notes, counted(static_cast<long>(element.count), "record") + " of element " +
+                              quoted(element.name));
     for (std::int64_t i = 0; i < element.count; ++i) {
       body_.begin({&element, i});
       for (const PlyProperty& property : element.properties) skip(property);
@@ -434,7 +493,9 @@ class PlyReader {
   const ReadOptions& options_;
   const PlyElement* vertex_element_ = nullptr;
   const PlyElement* face_element_ = nullptr;
-  const PlyProperty* index_property_ = nullptr;
+  const PlyElement* strip_element_ = nullptr;
+  const PlyProperty* index_property_ = nullptr;  // of faces, or of the strips in their stead
+  long turns_ = 0;                               // triangles of strips that name a vertex twice
 
   Polygons polygons_;
   bool has_texcoords_ = false, has_normals_ = false;

@@ -12,8 +12,9 @@ namespace sphparam::tools {
 ///
 /// Kept: all scalar properties of vertices and faces in their own types, polygons, the face lists
 /// `texcoord` (two numbers a corner, as MeshLab writes them) and `normal` (three a corner, as
-/// serialise_ply writes them), comments, materials. Other lists and other elements are skipped and
-/// noted; triangle strips are refused.
+/// serialise_ply writes them), comments, materials. Where there are no faces, the element
+/// `tristrips` is read in their stead, as Stanford's files have it: every other triangle of a strip
+/// is turned over, −1 starts a new one. Other lists and other elements are told as not carried.
 /// Throws: ReadError with the line, or with the byte in a binary body.
 MeshFile read_ply(std::string_view bytes, const std::string& name, const ReadOptions& options = {});
 

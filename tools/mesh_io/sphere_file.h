@@ -23,8 +23,7 @@ MeshFile attach_map(MeshFile file, const SphereMap& map, const Provenance& prove
 /// on them; the other comments stay.
 MeshFile without_map(MeshFile file);
 
-/// Whether there is a map in a file: rays, or positions that are the rays, as in a bare sphere of
-/// radius 1 or 100.
+/// Whether there is a map in a file: rays, or positions that are the rays, as in a bare sphere.
 bool has_map(const MeshFile& file);
 
 /// The map that a mesh file carries in sx, sy, sz; nothing if one of them is missing.
