@@ -323,6 +323,24 @@ TEST_CASE("map: poles are named by their numbers in the file, also where vertice
   CHECK(sphparam_program({"map", "-", "-o", "-", "--poles", "0,42"}, text).code == 2);
 }
 
+TEST_CASE("map: what a file carries and no output does is told unasked, in bake and info too") {
+  const Folder folder;
+  const std::string mesh = folder / "ball.obj", map = folder / "ball.sph.ply";
+  write_bytes(mesh, "mtllib paint.mtl\nusemtl red\n" + obj_text(icosphere(2)) + "quux\n");
+  const Ended mapped = sphparam_program({"map", mesh, "-o", map});
+  REQUIRE(mapped.code == 0);
+  CHECK_THAT(mapped.err, Contains("ball.obj: not carried: colours and textures of 1 material in "
+                                  "'paint.mtl'") &&
+                             Contains("1 unknown statement, the first 'quux'"));
+  CHECK(sphparam_program({"map", mesh, "-o", map, "-q"}).err.empty());
+  CHECK_THAT(sphparam_program({"map", map, "-o", folder / "again.sph.ply"}).err,
+             !Contains("not carried"));
+  CHECK_THAT(sphparam_program({"info", mesh}).out, Contains("not carried: colours and textures"));
+  CHECK_THAT(
+      sphparam_program({"bake", mesh, "--map", "area", "--size", "64", "-o", folder / "a.exr"}).err,
+      Contains("not carried: colours and textures"));
+}
+
 TEST_CASE("map: a GIFTI sphere holds floats at radius 100, and is certified as such") {
   const Folder folder;
   write_bytes(folder / "ball.obj", obj_text(icosphere(3)));

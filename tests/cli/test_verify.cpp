@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "program.h"
@@ -100,6 +101,53 @@ TEST_CASE("verify: two files of one connectivity are compared and the distortion
   REQUIRE(large.code == 0);
   CHECK(Json::parse(large.out)["distortion"]["symmetric_dirichlet"].get<double>() ==
         Approx(Json::parse(ended.out)["distortion"]["symmetric_dirichlet"].get<double>()));
+}
+
+TEST_CASE("verify: a mesh of quads and its sphere are one, however each would be cut alone") {
+  // A cube with its top twisted against its bottom, and one twisted the other way.
+  const std::string quads = "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+  const auto corners = [](double bend) {
+    std::string text;
+    for (int i = 0; i < 8; ++i) {
+      const double turn = (i % 4 + 0.5) * 1.5707963267948966 + (i < 4 ? bend : -bend);
+      Vector3 x(std::cos(turn), std::sin(turn), i < 4 ? -0.7 : 0.7);
+      x.normalize();
+      text += "v " + std::to_string(x[0]) + " " + std::to_string(x[1]) + " " +
+              std::to_string(x[2]) + "\n";
+    }
+    return text;
+  };
+  const Folder folder;
+  write_bytes(folder / "shape.obj", corners(0.2) + quads);
+  write_bytes(folder / "sphere.obj", corners(-0.2) + quads);
+  const Ended ended = sphparam_program({"verify", folder / "shape.obj", folder / "sphere.obj"});
+  INFO(ended.err);
+  CHECK(ended.code == 0);
+  CHECK_THAT(ended.out, Contains("of its polygons cut as in the mesh"));
+  const Ended baked =
+      sphparam_program({"bake", folder / "shape.obj", "--sphere", folder / "sphere.obj", "--map",
+                        "area", "--size", "64", "-o", folder / "a.exr"});
+  INFO(baked.err);
+  CHECK(baked.code == 0);
+}
+
+TEST_CASE("verify: what --theta-phi wrote into glTF is the map that is judged") {
+  const Folder folder;
+  const std::string mesh = folder / "mesh.obj", with = folder / "with.glb",
+                    without = folder / "without.glb";
+  TriangleMesh egg = icosphere(3);
+  egg.positions.col(0) *= 2;
+  write_bytes(mesh, obj_text(egg));
+  REQUIRE(sphparam_program({"export", mesh, "-o", with, "--theta-phi"}).code == 0);
+  REQUIRE(sphparam_program({"export", mesh, "-o", without}).code == 0);
+  const Ended ended = sphparam_program({"verify", with, "--json"});
+  INFO(ended.out << ended.err);
+  CHECK(ended.code == 0);
+  const Json report = Json::parse(ended.out);
+  CHECK(report["rays"] == "attribute _THETA_PHI");
+  CHECK(report["mean_length"].get<double>() == Approx(1));
+  CHECK(report["distortion"].is_object());
+  CHECK_THAT(sphparam_program({"verify", without}).err, Contains("--theta-phi"));
 }
 
 TEST_CASE("verify: files of different connectivity end with 3 and the place is named") {

@@ -129,7 +129,7 @@ std::vector<Added> parse_added(const CompareArguments& arguments) {
 Contender read_contender(const Added& added, const Source& source, const std::string& mesh_name,
                          int threads) {
   const Source sphere = read_source(added.path);
-  const std::string where = connectivity_difference(source.file.mesh, sphere.file.mesh);
+  const std::string where = connectivity_difference(source.file, sphere.file);
   if (!where.empty()) {
     throw ReadError(display_name(added.path), "not a sphere of " + mesh_name + ": " + where);
   }

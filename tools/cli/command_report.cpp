@@ -24,6 +24,7 @@
 #include "cli/paths.h"
 #include "cli/repairing.h"
 #include "cli/source.h"
+#include "cli/told_losses.h"
 #include "cli/wording.h"
 #include "image/file_extension.h"
 #include "image/image_codec.h"
@@ -114,7 +115,7 @@ Exhibit read_exhibit(const std::string& path, const std::string& name, const Mes
 Exhibit other_exhibit(const std::string& path, const std::string& name, const MeshFile& mesh,
                       const std::string& mesh_path, int threads) {
   const Source source = read_source(path);
-  const std::string difference = connectivity_difference(mesh.mesh, source.file.mesh);
+  const std::string difference = connectivity_difference(mesh, source.file);
   if (!difference.empty()) {
     throw ReadError(display_name(path),
                     "not a map of " + display_name(mesh_path) + ": " + difference);
@@ -245,6 +246,7 @@ int run_report(const ReportArguments& arguments) {
   require_sense(arguments);
   Console console(arguments.loudness.verbosity(), arguments.progress);
   const Source source = read_source(arguments.inputs.front());
+  tell_losses(source, arguments.inputs.front(), console);
   require_mappable(source);
   const OrderlyInterruption orderly;
   const std::vector<Exhibit> exhibits = all_exhibits(arguments, source.file, console);

@@ -10,6 +10,7 @@
 #include "cli/exit_codes.h"
 #include "cli/paths.h"
 #include "cli/repairing.h"
+#include "cli/told_losses.h"
 #include "cli/wording.h"
 #include "mesh_io/connectivity.h"
 #include "mesh_io/read_options.h"
@@ -31,7 +32,7 @@ struct WrittenMap {
 WrittenMap map_of_sphere(const Source& shape, const std::string& shape_path,
                          const std::string& path) {
   const MeshFile sphere = read_source(path).file;
-  const std::string difference = connectivity_difference(shape.file.mesh, sphere.mesh);
+  const std::string difference = connectivity_difference(shape.file, sphere);
   if (!difference.empty()) {
     throw ReadError(display_name(path),
                     "not a sphere of " + display_name(shape_path) + ": " + difference);
@@ -81,6 +82,7 @@ MappedSource read_mapped_source(const std::string& path, const std::string& sphe
                                 Console& console, double lambda) {
   MappedSource mapped;
   mapped.source = read_source(path);
+  tell_losses(mapped.source, path, console);
   require_mappable(mapped.source);
   std::optional<WrittenMap> written = written_map(mapped.source, path, sphere);
   mapped.mapped_here = !written;
