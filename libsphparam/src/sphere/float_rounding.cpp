@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <utility>
 
+#include "option_domain.h"
 #include "sphparam/mesh/rings.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/orientation.h"
@@ -175,8 +175,7 @@ SphereMap mended(const Topology& topology, SphereMap exact, SphereMap rounded,
 
 FloatRounding round_to_float(const Topology& topology, const SphereMap& map, int threads,
                              double radius) {
-  if (!(radius >= kLeastRadius && radius <= kMostRadius))
-    throw std::invalid_argument("the radius of a sphere in float32 is not from 1e-6 to 1e6");
+  require_between("radius", radius, kLeastRadius, kMostRadius);
   SphereMap nearest = map;
   for (double& x : nearest.points.reshaped()) x = to_float(radius * x);
   FloatRounding result{nearest, certify(topology, nearest, threads)};
