@@ -63,9 +63,9 @@ struct VerifyArguments {
 struct Claim {
   TriangleMesh mesh;
   SphereMap map;
-  bool has_shape = false;  // the positions are a shape, not the sphere itself
-  std::string rays;        // where they were found
-  std::string way_out;     // what to do where they turn out to be no sphere
+  bool has_shape = false;    // the positions are a shape, not the sphere itself
+  std::string rays;          // where they were found
+  std::string way_out = {};  // what to do where they turn out to be no sphere
   std::vector<std::string> notes;
 };
 
