@@ -40,7 +40,11 @@ struct Draft {
   /// Returns how many steps were made.
   int finish(Quality quality, int finest) {
     int steps = 0;
-    const auto count = [&](std::string_view, double) { return ++steps > 0; };
+    double done = 0;  // grows with every step; it is asked more often
+    const auto count = [&](std::string_view, double fraction) {
+      if (fraction > std::exchange(done, fraction)) ++steps;
+      return true;
+    };
     Finish(finest, {.quality = quality, .progress = count}).improve(mesh, topology, {}, image);
     return steps;
   }
@@ -101,7 +105,7 @@ TEST_CASE("finish: levels are due at every fourfold size, large ones only after 
   CHECK(after_limb.due(40'960));
 }
 
-TEST_CASE("finish: can be cancelled after every step") {
+TEST_CASE("finish: can be cancelled in every step") {
   Draft limb{tube(60, 16)};
   int told = 0;
   const auto cancel = [&](std::string_view stage, double) {
@@ -127,7 +131,7 @@ TEST_CASE("finish: the progress of an embedding rises to one, at every step") {
   };
   const std::vector<double> normal = reports(Quality::Normal);
   CHECK(std::is_sorted(normal.begin(), normal.end()));
-  CHECK(normal.front() == 0);
+  CHECK(normal.front() > 0);
   CHECK(normal.back() == 1);
   const std::vector<double> draft = reports(Quality::Draft);
   CHECK(normal.size() > draft.size() + 10);
