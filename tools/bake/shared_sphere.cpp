@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sphparam/elementary.h"
 #include "sphparam/sphere/sphere_locator.h"
 
 // Even directions: the spiral of the golden angle, one turn of it a step, equal steps in z.
@@ -18,7 +19,8 @@ Points spread_evenly() {
   const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));
   for (int i = 0; i < even_directions; ++i) {
     const double z = 1 - (2 * i + 1.0) / even_directions, r = std::sqrt(1 - z * z);
-    directions.row(i) << r * std::cos(i * golden_angle), r * std::sin(i * golden_angle), z;
+    directions.row(i) << r * elementary::cos(i * golden_angle),
+        r * elementary::sin(i * golden_angle), z;
   }
   return directions;
 }
