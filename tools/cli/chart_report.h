@@ -10,10 +10,10 @@ namespace sphparam::tools {
 
 /// What became of the (u, v) chart of a map: is it certified, and what had to be split for that.
 struct ChartReport {
-  ChartCounts counts;
-  ChartCertificate certificate;
+  ChartCounts counts = {};
+  ChartCertificate certificate = {};
   long vertices = 0, triangles = 0, wedges = 0;  // of the chart, splits included
-  std::string not_made;  // why there is no chart, nor any figure of one; empty: there is one
+  std::string not_made = {};  // why there is no chart, nor any figure of one; empty: there is one
 };
 
 /// Makes the chart and keeps its figures. The rays may have any length.
