@@ -15,11 +15,7 @@ template <class Value>
 std::vector<char> file_of(const SurfaceField& field, const BakedFileOptions& options,
                           const Value& value) {
   std::vector<char> bytes;
-  BakedFile file(field, options, [&](std::int64_t offset, std::string_view part) {
-    const auto at = static_cast<size_t>(offset);
-    if (bytes.size() < at + part.size()) bytes.resize(at + part.size());
-    std::copy(part.begin(), part.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at));
-  });
+  BakedFile file(field, options, in_memory(bytes));
   for (int row = 0; row < options.height; row += 3) {
     const int rows = std::min(3, options.height - row);
     std::vector<float> values;
@@ -138,7 +134,7 @@ TEST_CASE("baked file: levels are means of boxes, from odd sizes too") {
 
 TEST_CASE("baked file: what a format cannot hold is refused") {
   const SurfaceField four{.name = "basecolor", .channels = 4, .kind = FieldKind::Colour};
-  const WriteAt nowhere = [](std::int64_t, std::string_view) {};
+  const ImagePlace nowhere;
   CHECK_THROWS_AS(BakedFile(four, {.width = 4, .height = 2, .format = ImageFormat::Jpeg}, nowhere),
                   ImageError);
   CHECK_THROWS_AS(
@@ -152,7 +148,8 @@ TEST_CASE("baked file: a file that cannot be written says so") {
   CHECK_THROWS_AS(
       [&] {
         BakedFile file(data, {.width = 64, .height = 32},
-                       [](std::int64_t, std::string_view) { throw std::runtime_error("full"); });
+                       {[](std::int64_t, std::string_view) { throw std::runtime_error("full"); },
+                        [](std::int64_t, char*, size_t) { return size_t{0}; }});
         const std::vector<float> rows(64 * 32, 0.5F);
         file.write_rows(32, rows.data());
         file.close();
@@ -170,7 +167,8 @@ TEST_CASE("baked file: one that is given up writes nothing more") {
     bool given_up = false, written = false;
     {
       BakedFile file(field, {.width = 64, .height = 32, .format = format, .sample_type = type},
-                     [&](std::int64_t, std::string_view) { written |= given_up; });
+                     {[&](std::int64_t, std::string_view) { written |= given_up; },
+                      [](std::int64_t, char*, size_t) { return size_t{0}; }});
       file.write_rows(16, rows.data());
       given_up = true;
     }

@@ -122,9 +122,8 @@ Timed bake_colour(const BakeScene& scene, int width, bool keep) {
 
 double encode_png(const std::vector<std::uint8_t>& pixels, int width) {
   const Stopwatch stopwatch;
-  size_t size = 0;
-  ImageWriter writer({.width = width, .height = width / 2, .channels = 3},
-                     [&](std::int64_t, std::string_view bytes) { size += bytes.size(); });
+  std::vector<char> bytes;
+  ImageWriter writer({.width = width, .height = width / 2, .channels = 3}, in_memory(bytes));
   constexpr int rows = 32;
   for (int row = 0; row < width / 2; row += rows) {
     writer.write_rows(&pixels[3 * static_cast<size_t>(row) * static_cast<size_t>(width)],

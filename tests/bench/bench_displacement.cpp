@@ -55,12 +55,13 @@ Seconds bake_positions(const MeshFile& file, const SphereMap& map, int width) {
   std::vector<SurfaceField> fields;
   fields.push_back(make_field("position", scene));
   double encoding = 0;
+  std::vector<char> bytes;
   ImageWriter writer({.width = width,
                       .height = width / 2,
                       .channels = 3,
                       .format = ImageFormat::Exr,
                       .sample_type = SampleType::Float},
-                     [](std::int64_t, std::string_view) {});
+                     in_memory(bytes));
   bake(scene, fields, {.width = width, .height = width / 2, .threads = threads},
        [&](size_t, int, int rows, const float* values) {
          const Stopwatch writing;

@@ -5,7 +5,9 @@
 #include <optional>
 
 #include "image/image_codec.h"
+#include "mapped.h"
 #include "program.h"
+#include "support/image_headers.h"
 #include "support/test_meshes.h"
 
 namespace sphparam::tests {
@@ -76,6 +78,42 @@ TEST_CASE("bake: conventions show the same colours elsewhere") {
     const auto json = nlohmann::json::parse(bytes_of(folder / "ball.json"));
     CHECK(json["convention"] == convention);
     CHECK(json["images"][0]["map"] == "basecolor");
+  }
+}
+
+TEST_CASE("bake: every format and depth holds colours, directions, data and labels") {
+  const Mapped mapped(200);
+  const std::vector<std::pair<std::string, std::vector<std::string>>> formats = {
+      {".png", {"u8", "u16"}},
+      {".tif", {"u8", "u16", "float"}},
+      {".exr", {"half", "float"}},
+      {".jpg", {"u8"}}};
+  for (const auto& [ending, depths] : formats) {
+    for (const std::string& depth : depths) {
+      INFO(ending << " " << depth);
+      const std::string image = mapped.folder / (depth + "_{map}" + ending);
+      const Ended ended =
+          sphparam_program({"bake", mapped.path, "--map",
+                            "axes,checker,graticule,normal-object,position,curvature,id:face",
+                            "--size", "64", "--depth", depth, "-o", image});
+      const Ended heat =
+          sphparam_program({"bake", mapped.path, "--map", "area", "--heat", "--size", "64",
+                            "--depth", depth, "-o", mapped.folder / (depth + "_heat" + ending)});
+      INFO(ended.err << heat.err);
+      REQUIRE(ended.code == 0);
+      REQUIRE(heat.code == 0);
+      for (const std::string& name : mapped.folder.names()) {
+        const bool scale = name.find("scale") != std::string::npos;
+        if (scale || !name.starts_with(depth + "_") || !name.ends_with(ending)) continue;
+        INFO(name);
+        const std::string bytes = bytes_of(mapped.folder / name);
+        const ImageHeader header = image_header(bytes);
+        CHECK(header.width == 64);
+        CHECK(header.height == 32);
+        CHECK(header.bits == (depth == "u8" ? 8U : depth == "float" ? 32U : 16U));
+        CHECK(read_image(mapped.folder / name).width == 64);
+      }
+    }
   }
 }
 

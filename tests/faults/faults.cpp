@@ -135,7 +135,7 @@ class Scene {
   std::vector<std::string> temporaries() const {
     std::vector<std::string> names;
     for (const auto& entry : fs::directory_iterator(folder_))
-      if (entry.path().string().find(".tmp.") != std::string::npos)
+      if (entry.path().string().find(".sphparam-") != std::string::npos)
         names.push_back(entry.path().filename());
     return names;
   }
@@ -173,6 +173,7 @@ std::vector<Fault> call_faults(const Scene& scene) {
   const std::map<std::string, std::vector<int>> errors = {{"open", {EACCES, EMFILE, EINTR, EIO}},
                                                           {"write", {ENOSPC, EIO, EINTR, EDQUOT}},
                                                           {"fsync", {EIO, ENOSPC, EINTR}},
+                                                          {"fcntl", {ENOLCK, EMFILE, EINTR}},
                                                           {"close", {EIO, EINTR}},
                                                           {"rename", {EIO, ENOSPC, EACCES}}};
   std::vector<Fault> faults;

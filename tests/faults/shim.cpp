@@ -1,6 +1,6 @@
 // Loaded into the program with LD_PRELOAD: makes the n-th call of one kind fail. The environment
 // says which: SPHPARAM_FAULT="CALL N ACTION", where CALL is malloc (also operator new), open,
-// write, fsync, close or rename, N counts from 1, and ACTION is
+// write, fsync, fcntl, close or rename, N counts from 1, and ACTION is
 //   E<errno>     fails with this error            A<errno>    so do all later calls
 //   short        writes half                      S<signal>   raises a signal before the call
 //   T<signal>    raises it after the call
@@ -30,8 +30,9 @@ void* __libc_memalign(std::size_t, std::size_t);
 
 namespace {
 
-enum Call { Malloc, Open, Write, Fsync, Close, Rename, CallCount };
-constexpr const char* names[CallCount] = {"malloc", "open", "write", "fsync", "close", "rename"};
+enum Call { Malloc, Open, Write, Fsync, Fcntl, Close, Rename, CallCount };
+constexpr const char* names[CallCount] = {"malloc", "open",  "write", "fsync",
+                                          "fcntl",  "close", "rename"};
 
 struct Fault {
   int call = -1;
@@ -163,6 +164,19 @@ int fsync(int file) {
   const Fault* const due = turn(Fsync);
   return fails(due) ? -1 : after(due, static_cast<int>(syscall(SYS_fsync, file)));
 }
+
+// Locks, and second descriptors of a file.
+int fcntl(int file, int command, ...) {
+  va_list list;
+  va_start(list, command);
+  void* const argument = va_arg(list, void*);
+  va_end(list);
+  const Fault* const due = turn(Fcntl);
+  if (fails(due)) return -1;
+  return after(due, static_cast<int>(syscall(SYS_fcntl, file, command, argument)));
+}
+
+int fcntl64(int file, int command, ...) __attribute__((alias("fcntl")));
 
 // A close that fails has closed.
 int close(int file) {

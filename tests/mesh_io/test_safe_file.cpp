@@ -1,11 +1,17 @@
+#include <fcntl.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <sys/xattr.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
+#include "mesh_io/read_options.h"
 #include "mesh_io/safe_file.h"
 #include "mesh_io/temporary_file.h"
 #include "reading.h"
@@ -28,7 +34,69 @@ struct Folder {
   long entries() const {
     return std::distance(fs::directory_iterator(path), fs::directory_iterator());
   }
+  std::vector<std::string> names() const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(path)) names.push_back(entry.path().filename());
+    std::sort(names.begin(), names.end());
+    return names;
+  }
 };
+
+/// Another process with a pending file.
+class Writer {
+ public:
+  explicit Writer(const std::string& path) {
+    int ready[2];
+    REQUIRE(::pipe(ready) == 0);
+    pid_ = ::fork();
+    if (pid_ == 0) {
+      PendingFiles files;
+      files.add(path, "of another process");
+      static_cast<void>(::write(ready[1], "x", 1));
+      for (;;) ::pause();
+    }
+    ::close(ready[1]);
+    char byte = 0;
+    CHECK(::read(ready[0], &byte, 1) == 1);
+    ::close(ready[0]);
+  }
+  ~Writer() { kill(); }
+  Writer(const Writer&) = delete;
+  Writer& operator=(const Writer&) = delete;
+
+  void kill() {
+    if (pid_ > 0) {
+      ::kill(pid_, SIGKILL);
+      ::waitpid(pid_, nullptr, 0);
+    }
+    pid_ = 0;
+  }
+
+ private:
+  pid_t pid_ = 0;
+};
+
+/// An open file, locked as those do who are still writing it.
+class OpenAndLocked {
+ public:
+  explicit OpenAndLocked(const std::string& path) : descriptor_(::open(path.c_str(), O_RDONLY)) {
+    struct flock everything {};
+    everything.l_type = F_RDLCK;
+    REQUIRE(::fcntl(descriptor_, F_OFD_SETLK, &everything) == 0);
+  }
+  ~OpenAndLocked() { ::close(descriptor_); }
+  OpenAndLocked(const OpenAndLocked&) = delete;
+  OpenAndLocked& operator=(const OpenAndLocked&) = delete;
+
+ private:
+  int descriptor_;
+};
+
+mode_t mode_of(const std::string& path) {
+  struct stat status {};
+  REQUIRE(::stat(path.c_str(), &status) == 0);
+  return status.st_mode & 07777;
+}
 
 /// The working folder while it lives.
 class WorkingFolder {
@@ -101,16 +169,131 @@ TEST_CASE("safe_file: permissions are kept, links are followed") {
         (fs::perms::owner_read | fs::perms::owner_write));
 }
 
-TEST_CASE("safe_file: temporaries of killed processes are removed, others stay") {
+TEST_CASE("safe_file: what a killed process left is removed, what a living one writes is not") {
   const Folder folder;
-  const std::string dead = folder.file("a.tmp.999999999"), alive = folder.file("a.tmp.1"),
-                    other = folder.file("b.tmp.999999999"), odd = folder.file("a.tmp.9x");
-  for (const std::string& name : {dead, alive, other, odd}) std::ofstream(name) << "x";
+  Writer writer(folder.file("a"));
+  const std::vector<std::string> live = folder.names();
+  REQUIRE(live.size() == 1);
+  write_file(folder.file("b"), "x");
+  CHECK(folder.names() == std::vector{live.front(), std::string("b")});
+  writer.kill();
+  write_file(folder.file("b"), "x");
+  CHECK(folder.names() == std::vector<std::string>{"b"});
+}
+
+TEST_CASE("safe_file: files of strangers stay, whatever they are called") {
+  const Folder folder;
+  const std::vector<std::string> strangers = {".sphparam-0123456789abcdef01234567.tmp",
+                                              ".sphparam-.tmp",
+                                              ".sphparam-0123456789abcdef.tmp",
+                                              "a.tmp",
+                                              "a.tmp.1",
+                                              "a.tmp.999999999"};
+  for (const std::string& name : strangers) std::ofstream(folder.file(name)) << "x";
   write_file(folder.file("a"), "new");
-  CHECK_FALSE(fs::exists(dead));
-  CHECK(fs::exists(alive));
-  CHECK(fs::exists(other));
-  CHECK(fs::exists(odd));
+  for (const std::string& name : strangers) CHECK(fs::exists(folder.file(name)));
+}
+
+TEST_CASE("safe_file: the name of a left file alone is no proof: who holds its lock keeps it") {
+  const Folder folder;
+  std::string left;
+  {
+    Writer writer(folder.file("a"));
+    left = folder.names().front();
+    writer.kill();
+  }
+  {
+    const OpenAndLocked somebody(folder.file(left));
+    write_file(folder.file("a"), "x");
+    CHECK(fs::exists(folder.file(left)));
+  }
+  write_file(folder.file("a"), "x");
+  CHECK_FALSE(fs::exists(folder.file(left)));
+}
+
+TEST_CASE("safe_file: names may be as long as the file system lets them") {
+  const Folder folder;
+  const std::string longest(255, 'n');
+  write_file(folder.file(longest), "old");
+  write_file(folder.file(longest), "new");
+  CHECK(content(folder.file(longest)) == "new");
+  CHECK_THROWS_WITH(write_file(folder.file(longest + "n"), "x"), Catch::Contains("too long"));
+}
+
+TEST_CASE("safe_file: a new file is as the umask wants it, a replaced one hands on what it had") {
+  const Folder folder;
+  const mode_t before = ::umask(027);
+  write_file(folder.file("new"), "x");
+  ::umask(before);
+  CHECK(mode_of(folder.file("new")) == 0640);
+  for (const mode_t mode : {0600, 0644, 0664, 0755}) {
+    ::chmod(folder.file("new").c_str(), mode);
+    write_file(folder.file("new"), "y");
+    CHECK(mode_of(folder.file("new")) == mode);
+  }
+}
+
+TEST_CASE("safe_file: attributes of a replaced file are kept, where the file system has them") {
+  const Folder folder;
+  write_file(folder.file("a"), "old");
+  if (::setxattr(folder.file("a").c_str(), "user.note", "mine", 4, 0) != 0) return;
+  write_file(folder.file("a"), "new");
+  char value[8] = {};
+  CHECK(::getxattr(folder.file("a").c_str(), "user.note", value, sizeof value) == 4);
+  CHECK(std::string(value) == "mine");
+}
+
+TEST_CASE("safe_file: owner and group of a replaced file are kept by who may give them") {
+  if (::geteuid() != 0) return;
+  const Folder folder;
+  write_file(folder.file("a"), "old");
+  REQUIRE(::chown(folder.file("a").c_str(), 1234, 2345) == 0);
+  ::chmod(folder.file("a").c_str(), 04754);
+  write_file(folder.file("a"), "new");
+  struct stat status {};
+  REQUIRE(::stat(folder.file("a").c_str(), &status) == 0);
+  CHECK(status.st_uid == 1234);
+  CHECK(status.st_gid == 2345);
+  CHECK(mode_of(folder.file("a")) == 04754);
+}
+
+TEST_CASE("safe_file: a file that may not be read is replaced all the same, and stays so") {
+  const Folder folder;
+  write_file(folder.file("a"), "old");
+  ::chmod(folder.file("a").c_str(), 0200);
+  write_file(folder.file("a"), "new");
+  CHECK(mode_of(folder.file("a")) == 0200);
+}
+
+TEST_CASE("safe_file: other names of a replaced file keep the old bytes") {
+  const Folder folder;
+  write_file(folder.file("a"), "old");
+  fs::create_hard_link(folder.file("a"), folder.file("other"));
+  write_file(folder.file("a"), "new");
+  CHECK(content(folder.file("a")) == "new");
+  CHECK(content(folder.file("other")) == "old");
+}
+
+TEST_CASE("safe_file: a file written piece by piece is read back where it is") {
+  const Folder folder;
+  PendingFiles files;
+  const PendingFiles::Pieces file = files.open(folder.file("a"));
+  file.write(3, "def");
+  file.write(0, "abc");
+  char bytes[8] = {};
+  CHECK(file.read(1, bytes, sizeof bytes) == 5);
+  CHECK(std::string(bytes) == "bcdef");
+  CHECK(file.read(100, bytes, sizeof bytes) == 0);
+  files.publish();
+  CHECK(content(folder.file("a")) == "abcdef");
+}
+
+TEST_CASE("safe_file: what was written and cannot be parsed is told of the file that was wanted") {
+  const Folder folder;
+  const auto refuse = [](std::string_view) -> void { throw ReadError("a", "is no mesh"); };
+  CHECK_THROWS_AS(write_file(folder.file("a"), "x", refuse), WriteError);
+  CHECK_THROWS_WITH(write_file(folder.file("a"), "x", refuse),
+                    Catch::Contains(folder.file("a")) && !Catch::Contains(".sphparam-"));
 }
 
 TEST_CASE("safe_file: devices are written directly, after the check") {
@@ -162,7 +345,8 @@ TEST_CASE("safe_file: when one file cannot take its name, the others give theirs
     files.add(folder.file("b"), "new b");
     files.add(folder.file("c"), "new c");
     files.add(folder.file("d"), "new d");
-    fs::remove(folder.file("c.tmp." + std::to_string(::getpid())));
+    for (const std::string& name : folder.names())
+      if (content(folder.file(name)) == "new c") fs::remove(folder.file(name));
     CHECK_THROWS_AS(files.publish(), WriteError);
   }
   CHECK(content(folder.file("a")) == "old");

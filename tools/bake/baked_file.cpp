@@ -78,7 +78,7 @@ std::vector<Sample> integers(const float* values, size_t count, const SurfaceFie
 
 }  // namespace
 
-BakedFile::BakedFile(const SurfaceField& field, const BakedFileOptions& options, WriteAt file)
+BakedFile::BakedFile(const SurfaceField& field, const BakedFileOptions& options, ImagePlace file)
     : field_(field), options_(options), writer_(file_options(field, options), std::move(file)) {
   field_.evaluate = {};
   field_.evaluate_runs = {};

@@ -38,10 +38,11 @@ class BakedFile {
  public:
   /// Requires: a range for data in integers; where the convention shifts by a quarter, a width that
   /// is a multiple of 4. Throws: ImageError for what the format cannot hold.
-  BakedFile(const SurfaceField& field, const BakedFileOptions& options, WriteAt file);
+  BakedFile(const SurfaceField& field, const BakedFileOptions& options, ImagePlace file);
   ~BakedFile();
 
   void write_rows(int rows, const float* values);
+  /// Reads the file back, as `ImageWriter::close` does. Throws: ImageError.
   void close();
 
  private:

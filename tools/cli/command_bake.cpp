@@ -70,8 +70,9 @@ class Baker {
     find_ranges();
     for (Image& image : images_) {
       image.options.metadata = metadata();
-      image.file =
-          std::make_unique<BakedFile>(image.field, image.options, files_.open(image.output.path));
+      PendingFiles::Pieces pieces = files_.open(image.output.path);
+      image.file = std::make_unique<BakedFile>(
+          image.field, image.options, ImagePlace{std::move(pieces.write), std::move(pieces.read)});
       add_scale(image);
     }
     draw_test_images();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <system_error>
 
 #include "image/file_extension.h"
@@ -49,8 +50,15 @@ const char* format_of(const std::vector<char>& bytes) {
   return nullptr;
 }
 
-bool suits(ImageFormat format, SampleType type) {
-  return std::ranges::count(sample_types_of(format), type) > 0;
+/// Clamped to [0, 1]; what is no number becomes 0.
+template <class Sample>
+std::vector<Sample> integers(const float* values, size_t count) {
+  constexpr float full = std::numeric_limits<Sample>::max();
+  std::vector<Sample> samples(count);
+  std::transform(values, values + count, samples.begin(), [](float x) {
+    return x > 0 ? static_cast<Sample>(std::min(x, 1.0F) * full + 0.5F) : Sample{0};
+  });
+  return samples;
 }
 
 std::vector<char> read_bytes(const std::string& path, const ImageLimits& limits) {
@@ -92,30 +100,29 @@ Image read_image(const std::string& path, const ImageLimits& limits, ImageTexts*
 
 std::vector<char> encode_image(const Image& image, ImageFormat format,
                                const ImageWriteOptions& options) {
-  if (image.width <= 0 || image.height <= 0 || image.channels <= 0) {
-    throw ImageError("an image without pixels cannot be written");
-  }
-  const char* name = name_of(format);
-  if (!suits(format, options.sample_type)) {
-    throw ImageError(std::string(name) + " images have no samples of type " +
-                     name_of(options.sample_type));
-  }
-  if (format != ImageFormat::Exr && image.channels > most_channels(format)) {
-    throw ImageError(std::string(name) + " images have at most " +
-                     std::to_string(most_channels(format)) + " channels");
-  }
-  std::vector<const char*> metadata;
-  for (const auto& [key, value] : options.metadata) {
-    metadata.push_back(key.c_str());
-    metadata.push_back(value.c_str());
-  }
   std::vector<char> bytes;
-  std::string error;
-  if (image_codecs().encode(name, name_of(options.sample_type), image.pixels.data(), image.width,
-                            image.height, image.channels, metadata.data(), options.metadata.size(),
-                            append_bytes, &bytes, append_text, &error) != 0) {
-    throw ImageError(std::string("cannot encode the image as ") + name + ": " + error);
+  ImageWriter writer({.width = image.width,
+                      .height = image.height,
+                      .channels = image.channels,
+                      .format = format,
+                      .sample_type = options.sample_type,
+                      .metadata = options.metadata},
+                     in_memory(bytes));
+  constexpr int rows_at_once = 64;
+  for (int row = 0; row < image.height; row += rows_at_once) {
+    const int rows = std::min(rows_at_once, image.height - row);
+    const float* const pixels = image.pixel(0, row);
+    const size_t count = static_cast<size_t>(rows) * static_cast<size_t>(image.width) *
+                         static_cast<size_t>(image.channels);
+    if (options.sample_type == SampleType::Uint8) {
+      writer.write_rows(integers<std::uint8_t>(pixels, count).data(), rows);
+    } else if (options.sample_type == SampleType::Uint16) {
+      writer.write_rows(integers<std::uint16_t>(pixels, count).data(), rows);
+    } else {
+      writer.write_rows(pixels, rows);
+    }
   }
+  writer.close();
   return bytes;
 }
 

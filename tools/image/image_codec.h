@@ -50,7 +50,7 @@ Image read_image(const std::string& path, const ImageLimits& limits = {},
 Image decode_image(const std::vector<char>& bytes, std::string_view name,
                    const ImageLimits& limits = {}, ImageTexts* texts = nullptr);
 
-/// The bytes of an image file. Values are clamped to [0, 1] for integer types.
+/// The bytes of an image file, read back as `ImageWriter` does; in integers clamped to [0, 1].
 /// Ensures: same bytes for the same input (EXR carries the time SOURCE_DATE_EPOCH, or 1970).
 /// Throws: ImageError; also for a sample type the format does not have.
 std::vector<char> encode_image(const Image& image, ImageFormat format,

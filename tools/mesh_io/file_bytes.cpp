@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <limits>
+#include <utility>
 
 namespace sphparam::tools {
 namespace {
@@ -40,6 +42,11 @@ FileBytes::FileBytes(const std::string& path, std::uint64_t max_bytes)
   const Descriptor file{standard_input ? STDIN_FILENO : open_to_read(path), !standard_input};
   if (file.number < 0) throw ReadError(name_, std::strerror(errno));
   map_or_read(file.number, max_bytes);
+}
+
+FileBytes::FileBytes(int descriptor, std::string name) : name_(std::move(name)) {
+  ::lseek(descriptor, 0, SEEK_SET);
+  map_or_read(descriptor, std::numeric_limits<std::uint64_t>::max());
 }
 
 FileBytes::~FileBytes() {

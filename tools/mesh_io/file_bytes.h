@@ -13,6 +13,8 @@ class FileBytes {
  public:
   /// Throws: ReadError when the file cannot be opened, is a directory or is over `max_bytes`.
   FileBytes(const std::string& path, std::uint64_t max_bytes);
+  /// All bytes of a file that is open already, and stays so; `name` is for messages.
+  FileBytes(int descriptor, std::string name);
   ~FileBytes();
   FileBytes(const FileBytes&) = delete;
   FileBytes& operator=(const FileBytes&) = delete;

@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <limits>
 #include <optional>
 #include <set>
 #include <utility>
@@ -51,6 +50,16 @@ bool is_stream(const std::string& path) {
   return status && !S_ISREG(status->st_mode) && !S_ISDIR(status->st_mode);
 }
 
+/// Device and number of the files that no output may replace.
+std::vector<std::pair<dev_t, ino_t>>& kept_files() {
+  static std::vector<std::pair<dev_t, ino_t>> files;
+  return files;
+}
+
+bool is_kept(const struct stat& status) {
+  return std::ranges::count(kept_files(), std::pair(status.st_dev, status.st_ino)) > 0;
+}
+
 /// What a path names, through links.
 struct Place {
   fs::path target;
@@ -67,6 +76,8 @@ Place writable_place(const std::string& path) {
     throw WriteError(path, "is a directory");
   } else if (::access(target.c_str(), W_OK) != 0) {
     throw WriteError(path, std::string("cannot be written: ") + std::strerror(errno));
+  } else if (is_kept(*status)) {
+    throw WriteError(path, "is read by this command; it would be replaced");
   }
   return {target, status};
 }
@@ -74,24 +85,32 @@ Place writable_place(const std::string& path) {
 /// A temporary with these bytes, or, without any, one to be written.
 std::unique_ptr<TemporaryFile> make_temporary(const std::string& path,
                                               std::optional<std::string_view> bytes) {
-  const auto make = [&](const fs::path& target, std::optional<mode_t> permissions) {
-    return bytes ? std::make_unique<TemporaryFile>(target, *bytes, permissions)
-                 : std::make_unique<TemporaryFile>(target, permissions);
-  };
   const Place place = writable_place(path);
-  if (!place.status) return make(place.target, std::nullopt);
-  return make(place.target, place.status->st_mode & 07777);
+  const struct stat* const replaced = place.status ? &*place.status : nullptr;
+  return bytes ? std::make_unique<TemporaryFile>(place.target, *bytes, replaced)
+               : std::make_unique<TemporaryFile>(place.target, replaced);
 }
 
-void check_on_disk(const TemporaryFile& file, std::size_t size, const BytesCheck& check) {
-  const FileBytes on_disk(file.path(), std::numeric_limits<std::uint64_t>::max());
-  if (on_disk.view().size() != size)
-    throw WriteError(file.target().string(),
-                     "the disk holds another number of bytes than were written");
-  check(on_disk.view());
+void check_on_disk(const TemporaryFile& file, std::string_view bytes, const BytesCheck& check) {
+  const std::string name = file.target().string();
+  try {
+    const FileBytes on_disk(file.descriptor(), name);
+    if (on_disk.view() != bytes)
+      throw WriteError(name, "the disk holds other bytes than were written");
+    if (check) check(on_disk.view());
+  } catch (const ReadError& error) {  // of what we wrote: it is no input that is at fault
+    throw WriteError(name, std::string("what was written cannot be read back: ") + error.what());
+  }
 }
 
 }  // namespace
+
+void keep_from_outputs(const std::vector<std::string>& paths) {
+  for (const std::string& path : paths) {
+    struct stat status {};
+    if (::stat(path.c_str(), &status) == 0) kept_files().emplace_back(status.st_dev, status.st_ino);
+  }
+}
 
 void require_writable(const std::string& path) {
   if (!is_stream(path)) writable_place(path);
@@ -108,22 +127,29 @@ void PendingFiles::add(const std::string& path, std::string bytes, const BytesCh
   }
   if (is_pending(path)) throw WriteError(path, "two outputs go to this file");
   auto file = make_temporary(path, bytes);
-  if (check) check_on_disk(*file, bytes.size(), check);
+  check_on_disk(*file, bytes, check);
   files_.push_back(std::move(file));
 }
 
-PendingFiles::WriteAt PendingFiles::open(const std::string& path) {
+PendingFiles::Pieces PendingFiles::open(const std::string& path) {
   if (is_stream(path)) {
     Stream* stream = streams_.emplace_back(std::make_unique<Stream>(Stream{path, {}})).get();
-    return [stream](std::int64_t offset, std::string_view bytes) {
-      const auto at = static_cast<std::size_t>(offset);
-      if (stream->bytes.size() < at + bytes.size()) stream->bytes.resize(at + bytes.size());
-      bytes.copy(stream->bytes.data() + at, bytes.size());
-    };
+    return {[stream](std::int64_t offset, std::string_view bytes) {
+              const auto at = static_cast<std::size_t>(offset);
+              if (stream->bytes.size() < at + bytes.size()) stream->bytes.resize(at + bytes.size());
+              bytes.copy(stream->bytes.data() + at, bytes.size());
+            },
+            [stream](std::int64_t offset, char* bytes, std::size_t size) {
+              const auto at = static_cast<std::size_t>(offset);
+              return at < stream->bytes.size() ? stream->bytes.copy(bytes, size, at) : 0;
+            }};
   }
   if (is_pending(path)) throw WriteError(path, "two outputs go to this file");
   TemporaryFile* file = files_.emplace_back(make_temporary(path, std::nullopt)).get();
-  return [file](std::int64_t offset, std::string_view bytes) { file->write_at(offset, bytes); };
+  return {[file](std::int64_t offset, std::string_view bytes) { file->write_at(offset, bytes); },
+          [file](std::int64_t offset, char* bytes, std::size_t size) {
+            return file->read_at(offset, bytes, size);
+          }};
 }
 
 bool PendingFiles::is_pending(const std::string& path) const {

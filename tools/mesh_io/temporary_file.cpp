@@ -1,20 +1,25 @@
 #include "mesh_io/temporary_file.h"
 
 #include <fcntl.h>
-#include <signal.h>
-#include <sys/stat.h>
+#include <sys/random.h>
 #include <unistd.h>
 
 #include <array>
 #include <atomic>
 #include <cerrno>
-#include <charconv>
 #include <cstdio>
 #include <cstring>
+#include <random>
 #include <utility>
 
+#include "mesh_io/handed_on.h"
 #include "mesh_io/safe_file.h"
 
+// Of a file under a temporary name, those who live hold a shared lock, and who finds it takes an
+// exclusive one before removing it. The lock lies beyond the end of the file, where no system's
+// locks keep anybody from reading or writing. Between making a file and locking it, another process
+// may take it for a left one: then it has no name any more, and another is made.
+//
 // A name is taken with renameat2(RENAME_EXCHANGE) where there is an old file and the file system
 // can, so that the old file is at hand for `take_back`; otherwise with rename. Both are one step:
 // no moment shows less than a whole file. Calls that a signal interrupted are made again.
@@ -75,62 +80,119 @@ class OutputDescriptor {
   int number_;
 };
 
-/// The process that made a temporary of `target`, told by its name.
-std::optional<pid_t> maker_of(const std::string& name, const fs::path& target) {
-  const std::string prefix = target.filename().string() + ".tmp.";
-  if (!name.starts_with(prefix)) return std::nullopt;
-  pid_t pid = 0;
-  const char* const end = name.data() + name.size();
-  const auto [stop, error] = std::from_chars(name.data() + prefix.size(), end, pid);
-  if (error != std::errc{} || stop != end || pid <= 0) return std::nullopt;
-  return pid;
+constexpr std::string_view kPrefix = ".sphparam-", kSuffix = ".tmp";
+constexpr std::size_t kRandomDigits = 16, kCheckDigits = 8;
+
+std::string hex_digits(std::uint64_t number, std::size_t count) {
+  constexpr std::string_view digits = "0123456789abcdef";
+  std::string text(count, '0');
+  for (std::size_t i = count; i-- > 0; number >>= 4) text[i] = digits[number & 15];
+  return text;
 }
 
-void remove_stale_temporaries(const fs::path& target) {
-  std::error_code error;
-  for (fs::directory_iterator entry(folder_of(target), error), end; !error && entry != end;
-       entry.increment(error)) {
-    const std::optional<pid_t> maker = maker_of(entry->path().filename().string(), target);
-    if (!maker) continue;
-    const bool gone = *maker == ::getpid() || (::kill(*maker, 0) != 0 && errno == ESRCH);
-    if (gone) ::unlink(entry->path().c_str());
+/// What must follow the random digits (FNV-1a, begun with the prefix).
+std::string check_digits(std::string_view digits) {
+  std::uint32_t hash = 2166136261U;
+  for (const std::string_view part : {kPrefix, digits})
+    for (const char c : part) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619U;
+  return hex_digits(hash, kCheckDigits);
+}
+
+std::string new_name() {
+  std::uint64_t number = 0;
+  if (::getrandom(&number, sizeof number, 0) != sizeof number) {
+    std::random_device device;
+    number = (std::uint64_t{device()} << 32) ^ device();
   }
+  const std::string digits = hex_digits(number, kRandomDigits);
+  return std::string(kPrefix) + digits + check_digits(digits) + std::string(kSuffix);
+}
+
+bool is_our_name(std::string_view name) {
+  if (name.size() != kPrefix.size() + kRandomDigits + kCheckDigits + kSuffix.size()) return false;
+  if (!name.starts_with(kPrefix) || !name.ends_with(kSuffix)) return false;
+  const std::string_view digits = name.substr(kPrefix.size(), kRandomDigits);
+  return name.substr(kPrefix.size() + kRandomDigits, kCheckDigits) == check_digits(digits);
+}
+
+/// Locks an open file, shared (F_RDLCK) or exclusively (F_WRLCK), until its descriptor is closed.
+bool lock(int descriptor, short kind, bool wait) {
+  struct flock range {};
+  range.l_type = kind;
+  range.l_whence = SEEK_SET;
+  range.l_start = off_t{1} << 62;
+  range.l_len = 1;
+  return uninterrupted(
+             [&] { return ::fcntl(descriptor, wait ? F_OFD_SETLKW : F_OFD_SETLK, &range); }) == 0;
+}
+
+void remove_left(const fs::path& folder) {
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (!is_our_name(entry->path().filename().string())) continue;
+    constexpr int kAsItIs = O_WRONLY | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC;
+    const OutputDescriptor file(
+        uninterrupted([&] { return ::open(entry->path().c_str(), kAsItIs); }));
+    if (file.number() >= 0 && lock(file.number(), F_WRLCK, false)) ::unlink(entry->path().c_str());
+  }
+}
+
+bool has_a_name(int descriptor) {
+  struct stat status {};
+  return ::fstat(descriptor, &status) != 0 || status.st_nlink > 0;
 }
 
 }  // namespace
 
-TemporaryFile::TemporaryFile(fs::path target, std::optional<mode_t> permissions)
-    : target_(std::move(target)), path_(target_.string() + ".tmp." + std::to_string(::getpid())) {
+TemporaryFile::TemporaryFile(fs::path target, const struct stat* replaced)
+    : target_(std::move(target)) {
   require_folder(target_);
-  remove_stale_temporaries(target_);
-  watch(path_.c_str());
+  remove_left(folder_of(target_));
+  constexpr mode_t kUsual = 0666, kOurs = 0600;
   try {
-    open(permissions);
+    open(replaced ? kOurs : kUsual);
+    if (replaced) hand_on(target_.string(), *replaced, held_);
   } catch (...) {
-    forget(path_.c_str());
+    close();
     throw;
   }
 }
 
-TemporaryFile::TemporaryFile(fs::path target, std::string_view bytes,
-                             std::optional<mode_t> permissions)
-    : TemporaryFile(std::move(target), permissions) {
+TemporaryFile::TemporaryFile(fs::path target, std::string_view bytes, const struct stat* replaced)
+    : TemporaryFile(std::move(target), replaced) {
   write_all(descriptor_, bytes, target_.string());
   sync();
 }
 
 TemporaryFile::~TemporaryFile() {
-  if (descriptor_ >= 0) ::close(descriptor_);
   if (place_ == Place::Temporary || place_ == Place::Exchanged) ::unlink(path_.c_str());
-  forget(path_.c_str());
+  close();
 }
 
-void TemporaryFile::open(std::optional<mode_t> permissions) {
-  constexpr mode_t kUsual = 0666;
-  constexpr int kNew = O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC;
-  descriptor_ = uninterrupted([&] { return ::open(path_.c_str(), kNew, kUsual); });
-  if (descriptor_ < 0) fail(target_.string(), "cannot make a file in its folder");
-  if (permissions) static_cast<void>(::fchmod(descriptor_, *permissions));
+void TemporaryFile::close() noexcept {
+  forget(path_.c_str());
+  for (const int descriptor : {descriptor_, held_, old_})
+    if (descriptor >= 0) ::close(descriptor);
+}
+
+void TemporaryFile::open(mode_t permissions) {
+  constexpr int kNew = O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC;
+  do {
+    forget(path_.c_str());
+    if (descriptor_ >= 0) ::close(descriptor_);
+    path_ = (folder_of(target_) / new_name()).string();
+    watch(path_.c_str());
+    descriptor_ = uninterrupted([&] { return ::open(path_.c_str(), kNew, permissions); });
+    if (descriptor_ < 0) fail(target_.string(), "cannot make a file in its folder");
+    lock(descriptor_, F_RDLCK, true);
+  } while (!has_a_name(descriptor_));
+  held_ = ::fcntl(descriptor_, F_DUPFD_CLOEXEC, 0);
+  if (held_ >= 0) return;
+  const int why = errno;
+  ::unlink(path_.c_str());
+  errno = why;
+  fail(target_.string(), "cannot make a file in its folder");
 }
 
 void TemporaryFile::write_at(std::int64_t offset, std::string_view bytes) {
@@ -144,6 +206,20 @@ void TemporaryFile::write_at(std::int64_t offset, std::string_view bytes) {
   }
 }
 
+std::size_t TemporaryFile::read_at(std::int64_t offset, char* bytes, std::size_t size) const {
+  std::size_t filled = 0;
+  while (filled < size) {
+    const ssize_t count = uninterrupted([&] {
+      return ::pread(held_, bytes + filled, size - filled,
+                     offset + static_cast<std::int64_t>(filled));
+    });
+    if (count < 0) fail(target_.string(), "cannot be read back");
+    if (count == 0) break;
+    filled += static_cast<std::size_t>(count);
+  }
+  return filled;
+}
+
 void TemporaryFile::sync() {
   if (descriptor_ < 0) return;
   if (uninterrupted([&] { return ::fsync(descriptor_); }) != 0)
@@ -153,6 +229,9 @@ void TemporaryFile::sync() {
 }
 
 void TemporaryFile::publish() {
+  constexpr int kAsItIs = O_RDONLY | O_NONBLOCK | O_CLOEXEC;
+  old_ = uninterrupted([&] { return ::open(target_.c_str(), kAsItIs); });
+  if (old_ >= 0) lock(old_, F_RDLCK, false);
   if (::renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) == 0) {
     place_ = Place::Exchanged;
     return;

@@ -48,6 +48,13 @@ std::string refusal(const OIIO::ImageSpec& spec, size_t file_size, int64_t max_m
   return "";
 }
 
+void tell_texts(const OIIO::ImageSpec& spec, SphparamTextSink text, void* context) {
+  for (const OIIO::ParamValue& value : spec.extra_attribs) {
+    const bool is_text = value.type() == OIIO::TypeDesc::STRING;
+    if (is_text) text(context, value.name().c_str(), value.get_ustring().c_str());
+  }
+}
+
 int decode(const char* format, const char* bytes, size_t size, int64_t max_megabytes,
            int max_channels, SphparamPixelRoom room, void* room_context, SphparamTextSink text,
            void* text_context, SphparamBytesSink error, void* error_context) try {
@@ -67,10 +74,7 @@ int decode(const char* format, const char* bytes, size_t size, int64_t max_megab
   if (!input->open(std::string("memory.") + format, spec, config)) return fail(input->geterror());
   const std::string refused = refusal(spec, size, max_megabytes, max_channels);
   if (!refused.empty()) return fail(refused);
-  for (const OIIO::ParamValue& value : spec.extra_attribs) {
-    const bool is_text = value.type() == OIIO::TypeDesc::STRING;
-    if (text && is_text) text(text_context, value.name().c_str(), value.get_ustring().c_str());
-  }
+  if (text) tell_texts(spec, text, text_context);
   float* pixels = room(room_context, spec.width, spec.height, spec.nchannels);
   if (!pixels) return fail("not enough memory");
   if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels)) {
@@ -93,54 +97,29 @@ std::string reproducible_date() {
   return text;
 }
 
-int encode(const char* format, const char* sample_type, const float* pixels, int width, int height,
-           int channels, const char* const* metadata, size_t metadata_count, SphparamBytesSink out,
-           void* out_context, SphparamBytesSink error, void* error_context) try {
-  const auto fail = [&](const std::string& why) {
-    tell(error, error_context, why);
-    return 1;
-  };
-  OIIO::ImageSpec spec(width, height, channels, OIIO::TypeDesc(sample_type));
-  spec.attribute("oiio:UnassociatedAlpha", 1);
-  if (std::string(format) == "exr") {
-    spec.attribute("DateTime", reproducible_date());
-    spec.attribute("compression", "zip");
-  } else {
-    spec.attribute("png:compressionLevel", 6);
-  }
-  for (size_t i = 0; i < metadata_count; ++i) spec.attribute(metadata[2 * i], metadata[2 * i + 1]);
-  std::vector<unsigned char> buffer;
-  OIIO::Filesystem::IOVecOutput memory(buffer);
-  const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
-  if (!output) return fail(OIIO::geterror());
-  if (!output->set_ioproxy(&memory)) return fail("this encoder cannot write to memory");
-  if (!output->open(std::string("memory.") + format, spec) ||
-      !output->write_image(OIIO::TypeDesc::FLOAT, pixels) || !output->close()) {
-    return fail(output->geterror());
-  }
-  out(out_context, reinterpret_cast<const char*>(buffer.data()), buffer.size());
-  return 0;
-} catch (const std::exception& e) {
-  tell(error, error_context, e.what());
-  return 1;
-}
-
-/// A file of the caller's, as OpenImageIO writes to it.
+/// A file of the caller's, as OpenImageIO writes it or reads it.
 class CallersFile : public OIIO::Filesystem::IOProxy {
  public:
-  CallersFile(SphparamBytesAt write_at, void* context)
-      : IOProxy("", Write), write_at_(write_at), context_(context) {}
+  CallersFile(Mode mode, SphparamBytesAt write_at, SphparamBytesFrom read_from, void* context,
+              size_t size)
+      : IOProxy("", mode),
+        write_at_(write_at),
+        read_from_(read_from),
+        context_(context),
+        size_(size) {}
 
   const char* proxytype() const override { return "callers_file"; }
   size_t write(const void* bytes, size_t size) override {
-    const size_t written = pwrite(bytes, size, m_pos);
-    m_pos += static_cast<int64_t>(written);
-    return written;
+    return advanced(pwrite(bytes, size, m_pos));
   }
   size_t pwrite(const void* bytes, size_t size, int64_t offset) override {
     if (write_at_(context_, offset, bytes, size) != 0) return 0;
     size_ = std::max(size_, static_cast<size_t>(offset) + size);
     return size;
+  }
+  size_t read(void* bytes, size_t size) override { return advanced(pread(bytes, size, m_pos)); }
+  size_t pread(void* bytes, size_t size, int64_t offset) override {
+    return read_from_(context_, offset, bytes, size);
   }
   bool seek(int64_t offset) override {
     m_pos = offset;
@@ -149,9 +128,15 @@ class CallersFile : public OIIO::Filesystem::IOProxy {
   size_t size() const override { return size_; }
 
  private:
+  size_t advanced(size_t count) {
+    m_pos += static_cast<int64_t>(count);
+    return count;
+  }
+
   SphparamBytesAt write_at_;
+  SphparamBytesFrom read_from_;
   void* context_;
-  size_t size_ = 0;
+  size_t size_;
 };
 
 /// An image under way. The encoder goes before the file it writes to.
@@ -162,11 +147,11 @@ struct OpenImage {
   OIIO::TypeDesc type;  // of the rows that come
 };
 
-template <class Work>
-int guarded(SphparamBytesSink error, void* error_context, const OpenImage& image,
+template <class Codec, class Work>
+int guarded(SphparamBytesSink error, void* error_context, const Codec& codec,
             const Work& work) try {
   if (work()) return 0;
-  tell(error, error_context, image.output->geterror());
+  tell(error, error_context, codec.geterror());
   return 1;
 } catch (const std::exception& e) {
   tell(error, error_context, e.what());
@@ -181,6 +166,9 @@ OIIO::ImageSpec spec_of(const SphparamImageFile& file) {
     spec.attribute("DateTime", reproducible_date());
     spec.attribute("compression", "zip");
   }
+  // A second directory, for the colour space: libtiff would have to read what it wrote, which
+  // OpenImageIO does not let it. Colours in integers are sRGB for every reader without it.
+  if (format == "tiff") spec.attribute("tiff:write_exif", 0);
   if (format == "png") spec.attribute("png:compressionLevel", 6);
   if (format == "jpeg") spec.attribute("compression", "jpeg:95");
   if (file.tile > 0) {
@@ -198,15 +186,19 @@ OIIO::ImageSpec spec_of(const SphparamImageFile& file) {
     spec.attribute(name, value);
     if (name.starts_with("sphparam:")) all += (all.empty() ? "" : "\n") + name + "=" + value;
   }
-  if (format == "jpeg" || format == "tiff") spec.attribute("ImageDescription", all);
+  const bool one_text = format == "jpeg" || format == "tiff";
+  if (one_text && !all.empty()) spec.attribute("ImageDescription", all);
   return spec;
 }
 
+OIIO::TypeDesc type_of_rows(const OIIO::ImageSpec& spec) {
+  return spec.format == OIIO::TypeDesc::HALF ? OIIO::TypeDesc(OIIO::TypeDesc::FLOAT) : spec.format;
+}
+
 void* open(const SphparamImageFile* file, SphparamBytesSink error, void* error_context) try {
-  auto image = std::make_unique<OpenImage>(
-      OpenImage{{file->write, file->context}, nullptr, spec_of(*file), {}});
-  image->type = image->spec.format == OIIO::TypeDesc::HALF ? OIIO::TypeDesc(OIIO::TypeDesc::FLOAT)
-                                                           : image->spec.format;
+  auto image = std::make_unique<OpenImage>(OpenImage{
+      {CallersFile::Write, file->write, nullptr, file->context, 0}, nullptr, spec_of(*file), {}});
+  image->type = type_of_rows(image->spec);
   image->output = OIIO::ImageOutput::create(file->format);
   if (!image->output) {
     tell(error, error_context, OIIO::geterror());
@@ -226,7 +218,7 @@ void* open(const SphparamImageFile* file, SphparamBytesSink error, void* error_c
 int write_rows(void* handle, int first_row, int rows, const void* samples, SphparamBytesSink error,
                void* error_context) {
   auto& image = *static_cast<OpenImage*>(handle);
-  return guarded(error, error_context, image, [&] {
+  return guarded(error, error_context, *image.output, [&] {
     return image.spec.tile_width > 0
                ? image.output->write_tiles(0, image.spec.width, first_row, first_row + rows, 0, 1,
                                            image.type, samples)
@@ -238,7 +230,7 @@ int next_level(void* handle, int width, int height, SphparamBytesSink error, voi
   auto& image = *static_cast<OpenImage*>(handle);
   image.spec.width = image.spec.full_width = width;
   image.spec.height = image.spec.full_height = height;
-  return guarded(error, error_context, image, [&] {
+  return guarded(error, error_context, *image.output, [&] {
     return image.output->open("memory.openexr", image.spec, OIIO::ImageOutput::AppendMIPLevel);
   });
 }
@@ -246,13 +238,92 @@ int next_level(void* handle, int width, int height, SphparamBytesSink error, voi
 int close(void* handle, int give_up, SphparamBytesSink error, void* error_context) {
   const std::unique_ptr<OpenImage> image(static_cast<OpenImage*>(handle));
   const int failed =
-      guarded(error, error_context, *image, [&] { return image->output->close(); });
+      guarded(error, error_context, *image->output, [&] { return image->output->close(); });
   image->output.reset();
   return give_up ? 0 : failed;
 }
 
-constexpr SphparamImageTable kTable{
-    kSphparamImageTableVersion, decode, encode, open, write_rows, next_level, close};
+/// A file that is read back. The decoder goes before the file it reads from.
+struct WrittenImage {
+  std::vector<char> bytes;  // of JPEG, whose decoder reads from memory only
+  std::unique_ptr<OIIO::Filesystem::IOProxy> file;
+  std::unique_ptr<OIIO::ImageInput> input;
+};
+
+std::unique_ptr<WrittenImage> written_image(const std::string& format, SphparamBytesFrom read,
+                                            void* context, size_t size) {
+  auto image = std::make_unique<WrittenImage>();
+  if (format == "jpeg") {
+    image->bytes.resize(size);
+    image->bytes.resize(read(context, 0, image->bytes.data(), size));
+    image->file =
+        std::make_unique<OIIO::Filesystem::IOMemReader>(image->bytes.data(), image->bytes.size());
+  } else {
+    image->file = std::make_unique<CallersFile>(CallersFile::Read, nullptr, read, context, size);
+  }
+  image->input = OIIO::ImageInput::create(format, false);
+  return image;
+}
+
+void* open_written(const char* format, SphparamBytesFrom read, void* context, int64_t size,
+                   SphparamTextSink text, void* text_context, SphparamBytesSink error,
+                   void* error_context) try {
+  OIIO::attribute("limits:imagesize_MB", 0);
+  OIIO::attribute("limits:channels", 0);
+  auto image = written_image(format, read, context, static_cast<size_t>(size));
+  const auto fail = [&](const std::string& why) {
+    tell(error, error_context, why);
+    return nullptr;
+  };
+  if (!image->input) return fail(OIIO::geterror());
+  OIIO::ImageSpec config, spec;
+  config.attribute("oiio:UnassociatedAlpha", 1);
+  if (!image->input->set_ioproxy(image->file.get()) ||
+      !image->input->open(std::string("memory.") + format, spec, config)) {
+    return fail(image->input->geterror());
+  }
+  tell_texts(spec, text, text_context);
+  return image.release();
+} catch (const std::exception& e) {
+  tell(error, error_context, e.what());
+  return nullptr;
+}
+
+int level_written(void* handle, int level, SphparamImageLevel* out) {
+  const OIIO::ImageSpec spec = static_cast<WrittenImage*>(handle)->input->spec_dimensions(0, level);
+  if (spec.format == OIIO::TypeDesc::UNKNOWN) return 1;
+  *out = {spec.format.c_str(), spec.width, spec.height, spec.nchannels, spec.tile_width};
+  return 0;
+}
+
+int read_rows(void* handle, int level, int first_row, int rows, void* samples,
+              SphparamBytesSink error, void* error_context) {
+  OIIO::ImageInput& input = *static_cast<WrittenImage*>(handle)->input;
+  return guarded(error, error_context, input, [&] {
+    const OIIO::ImageSpec spec = input.spec_dimensions(0, level);
+    const OIIO::TypeDesc type = type_of_rows(spec);
+    const int end = first_row + rows;
+    return spec.tile_width > 0 ? input.read_tiles(0, level, 0, spec.width, first_row, end, 0, 1, 0,
+                                                  spec.nchannels, type, samples)
+                               : input.read_scanlines(0, level, first_row, end, 0, 0,
+                                                      spec.nchannels, type, samples);
+  });
+}
+
+void close_written(void* handle) {
+  const std::unique_ptr<WrittenImage> image(static_cast<WrittenImage*>(handle));
+}
+
+constexpr SphparamImageTable kTable{kSphparamImageTableVersion,
+                                    decode,
+                                    open,
+                                    write_rows,
+                                    next_level,
+                                    close,
+                                    open_written,
+                                    level_written,
+                                    read_rows,
+                                    close_written};
 
 }  // namespace
 
