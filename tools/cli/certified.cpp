@@ -1,8 +1,10 @@
 #include "cli/certified.h"
 
+#include <cmath>
 #include <utility>
 
 #include "cli/exit_codes.h"
+#include "cli/measurable.h"
 #include "cli/wording.h"
 #include "image/file_extension.h"
 #include "mesh_io/mesh_reader.h"
@@ -12,6 +14,40 @@
 #include "remesh/polygon_ply.h"
 
 namespace sphparam::tools {
+
+namespace {
+
+[[noreturn]] void refuse_numbers(const std::string& path, const std::string& what, Eigen::Index at,
+                                 std::int64_t count, Eigen::Index all) {
+  throw UnmeasurableMesh(path + ": not written: " + what + " of vertex " + std::to_string(at) +
+                         (count > 1 ? " and " + std::to_string(count - 1) + " more" : "") + " of " +
+                         std::to_string(all) +
+                         " would be no finite number; is the mesh very large or small? scale it");
+}
+
+}  // namespace
+
+void require_numbers(const MeshFile& file, const std::string& path) {
+  const Eigen::Index all = file.mesh.vertex_count();
+  const auto require = [&](const std::string& what, const auto& is_held) {
+    std::int64_t count = 0;
+    Eigen::Index first = 0;
+    for (Eigen::Index v = all; v-- > 0;) {
+      if (is_held(v)) continue;
+      ++count;
+      first = v;
+    }
+    if (count > 0) refuse_numbers(path, what, first, count, all);
+  };
+  require("the position", [&](Eigen::Index v) {
+    const auto position = file.mesh.positions.row(v);
+    return std::isfinite(position[0]) && std::isfinite(position[1]) && std::isfinite(position[2]);
+  });
+  for (const Property& property : file.vertex_properties) {
+    require("'" + property.name + "'",
+            [&](Eigen::Index v) { return std::isfinite(property.values[static_cast<size_t>(v)]); });
+  }
+}
 
 void require_certified(const Certificate& certificate, const std::string& what) {
   if (certificate.bijective()) return;
@@ -40,6 +76,7 @@ void add_certified(PendingFiles& files, const std::string& path, std::string byt
 
 void add_mapped(PendingFiles& files, const std::string& path, MeshFile file, const Polygons& faces,
                 const Topology& topology, int threads) {
+  require_numbers(file, path);
   if (extension_of(path) == ".obj") {
     const SphereMap map = read_sphere(file).value();
     add_certified(files, path, serialise_polygon_obj(without_map(std::move(file)), faces), topology,

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "mesh_io/mesh_file.h"
 #include "mesh_io/polygons.h"
 #include "mesh_io/safe_file.h"
 #include "sphparam/mesh/topology.h"
@@ -11,6 +12,10 @@ namespace sphparam::tools {
 
 /// Throws NotCertifiedError unless the certificate says one-to-one: `what`, and the faces at fault.
 void require_certified(const Certificate& certificate, const std::string& what);
+
+/// Throws UnmeasurableMesh where a mesh that was made here, to be written as `path`, has positions
+/// or values that are no finite numbers.
+void require_numbers(const MeshFile& file, const std::string& path);
 
 /// Adds the bytes of a PLY that carries a map. They are read back once written, and their map must
 /// be one-to-one: NotCertifiedError if not. `topology` is that of the faces in them.
@@ -23,7 +28,7 @@ void add_certified(PendingFiles& files, const std::string& path, std::string byt
 
 /// Adds a mesh that carries a map, proved like this: as .obj without the map, and without a
 /// verdict, else as PLY. `faces`: the polygons that its triangles are cut of, as
-/// `adopt_triangulation` does.
+/// `adopt_triangulation` does. Throws: UnmeasurableMesh as `require_numbers`.
 void add_mapped(PendingFiles& files, const std::string& path, MeshFile file, const Polygons& faces,
                 const Topology& topology, int threads);
 

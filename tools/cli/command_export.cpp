@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "bake/source_attributes.h"
+#include "cli/certified.h"
 #include "cli/chart_report.h"
 #include "cli/exit_codes.h"
 #include "cli/export_arguments.h"
@@ -289,6 +290,7 @@ class Exporter {
     const ExportChart chart = make_chart(arguments_, file, mapped_.map, console_);
     MeshFile textured = textured_mesh(chart, file, arguments_.shape, arguments_.threads);
     const std::string path = arguments_.output, stem = fs::path(path).stem().string();
+    require_numbers(textured, path);
     ChartCertificate stored;
     const BytesCheck check = [&](std::string_view on_disk) {
       stored = certify_written(on_disk, path, chart, arguments_.threads);

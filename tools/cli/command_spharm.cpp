@@ -139,6 +139,7 @@ void add_reconstruction(PendingFiles& files, const SpharmArguments& arguments, M
   const std::string& path = arguments.reconstruction;
   const Topology topology = mapped.source.topology.value();
   MeshFile file = reconstruct(arguments, std::move(mapped), values);
+  require_numbers(file, path);
   if (is_stream(path) || extension_of(path) == ".ply") {
     add_certified(files, path, serialise_ply(file), topology, arguments.threads);
   } else {

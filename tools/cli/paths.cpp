@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "cli/command.h"
+#include "cli/files_read.h"
 #include "image/file_extension.h"
 #include "mesh_io/safe_file.h"
 
@@ -76,6 +77,7 @@ void check_places(const std::vector<std::string>& inputs, const Outputs& outputs
                   const std::string& new_folder) {
   for (const auto& [option, path] : outputs) {
     for (const std::string& input : inputs) require_not_input(input, path, option);
+    require_not_read(option, path);
   }
   require_distinct(outputs);
   for (const auto& [option, path] : outputs) {

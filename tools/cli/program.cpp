@@ -16,6 +16,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_codes.h"
+#include "cli/files_read.h"
 #include "cli/input_limits.h"
 #include "cli/interruption.h"
 #include "cli/measurable.h"
@@ -155,7 +156,9 @@ int run_program(int argc, char** argv) {
   try {
     program.parse(argc, argv);
     for (const Command& command : commands) {
-      if (command.options->parsed()) return command.run();
+      if (!command.options->parsed()) continue;
+      note_files_read(*command.options);
+      return command.run();
     }
   } catch (const CLI::Success& help_or_version) {
     return program.exit(help_or_version);

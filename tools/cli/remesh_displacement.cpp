@@ -83,6 +83,7 @@ bool add_rebuilt(PendingFiles& files, const RemeshArguments& arguments, const Di
   const std::string& path = arguments.rebuilt;
   MeshFile file;
   file.mesh = rebuilt.mesh;
+  require_numbers(file, path);
   const Topology topology(file.mesh, arguments.threads);
   const bool certified = certify(topology, rebuilt.map, arguments.threads).bijective();
   if (certified) {

@@ -1,0 +1,203 @@
+#include <sys/stat.h>
+
+#include <catch2/catch.hpp>
+#include <set>
+#include <sstream>
+
+#include "image/image_codec.h"
+#include "mapped.h"
+#include "program.h"
+#include "support/test_meshes.h"
+
+namespace sphparam::tests {
+
+namespace {
+
+using Catch::Contains;
+
+using Words = std::vector<std::string>;
+
+/// What a subcommand reads and writes: options, or parts of a word that end where the file's name
+/// begins. An empty one is a positional argument.
+struct Subcommand {
+  std::string name;
+  Words reads, writes;
+  Words needed = {};   // options that it cannot do without
+  int positional = 1;  // arguments before `reads` come
+};
+
+const std::vector<Subcommand> subcommands = {
+    {"bake", {"", "--texture", "--sphere", "--for"}, {"-o", "--json"}},
+    {"compare", {"", "--add x="}, {"-o"}},
+    {"export",
+     {"", "--sphere", "--texture", "--normal", "--occlusion", "--textures"},
+     {"-o", "--json"}},
+    {"map", {"", "--pin"}, {"-o", "--sphere", "--json", "--charts"}},
+    {"measure", {"", ""}, {"--per-vertex", "--json"}, {}, 2},
+    {"paint", {"", "--image", "--sphere"}, {"-o"}, {"--image"}},
+    {"remesh",
+     {"", "--sphere", "--grid like:"},
+     {"-o", "--geometry-image", "--normals", "--attribute-image q=", "--limit-mesh", "--displace",
+      "--rebuild", "--csv", "--json"},
+     {"--grid"}},
+    {"render", {"", "--texture"}, {"-o"}},
+    {"report", {"", "--sphere", "--texture"}, {"-o", "--json"}},
+    {"spharm", {"", "--sphere"}, {"--json", "--csv", "--reconstruct"}},
+    {"unimage", {"", "--normals", "--attribute q="}, {"-o"}},
+};
+
+bool contains(const Words& words, const std::string& word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+/// Adds "--attribute" and "q=FILE" of "--attribute q=", or "--json" and "FILE".
+void add(Words& line, const std::string& option, const std::string& file) {
+  const size_t blank = option.find(' ');
+  line.push_back(option.substr(0, blank));
+  line.push_back((blank == std::string::npos ? "" : option.substr(blank + 1)) + file);
+}
+
+/// A command line that reads `input` and writes `output` with these options, and names other files
+/// wherever one must be named.
+Words command_line(const Subcommand& command, const std::string& read, const std::string& input,
+                   const std::string& write, const std::string& output) {
+  Words line = {command.name};
+  for (int i = 0; i < command.positional; ++i)
+    line.push_back(read.empty() && i + 1 == command.positional ? input : "other.ply");
+  if (!read.empty()) add(line, read, input);
+  for (const std::string& option : command.needed)
+    if (!read.starts_with(option)) add(line, option, "other");
+  add(line, write, output);
+  if (write != "-o") add(line, "-o", "elsewhere.ply");
+  if (contains({"measure", "spharm"}, command.name) && write != "-o") line.resize(line.size() - 2);
+  return line;
+}
+
+std::string as_text(const Words& words) {
+  std::string text;
+  for (const std::string& word : words) text += word + " ";
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("outputs: no option of any subcommand may write what another one reads") {
+  const Folder folder;
+  const std::string input = folder / "input.ply";
+  write_bytes(input, "precious");
+  fs::create_symlink("input.ply", folder / "symbolic.ply");
+  fs::create_hard_link(input, folder / "hard.ply");
+  fs::create_directory(folder / "sub");
+  const Words spellings = {input, folder / "./input.ply", folder / "sub/../input.ply",
+                           folder / "symbolic.ply", folder / "hard.ply"};
+  for (const Subcommand& command : subcommands) {
+    for (const std::string& read : command.reads) {
+      for (const std::string& write : command.writes) {
+        // Every spelling with one option, one of them with the others.
+        for (const std::string& output : spellings) {
+          if (output != input && write != command.writes.front()) continue;
+          const Words line = command_line(command, read, input, write, output);
+          INFO(as_text(line));
+          const Ended ended = sphparam_program(line);
+          CHECK(ended.code == 2);
+          CHECK_THAT(ended.err, Contains("would be replaced"));
+        }
+      }
+    }
+  }
+  CHECK(bytes_of(input) == "precious");
+}
+
+TEST_CASE("outputs: every option that takes a file is known to read or to write it") {
+  const std::set<std::string> kinds = {"FILE", "IMAGE", "PNG", "FOLDER", "PAGE.html", "NAME=FILE"};
+  int found = 0;
+  for (const Subcommand& command : subcommands) {
+    std::istringstream help(sphparam_program({command.name, "--help"}).out);
+    for (std::string text; std::getline(help, text);) {
+      std::istringstream words(text);
+      std::string names, kind;
+      if (!(words >> names >> kind) || !names.starts_with("-") || !kinds.contains(kind)) continue;
+      ++found;
+      const std::string name = names.substr(0, names.find(','));
+      INFO(command.name << " " << name);
+      const auto is_it = [&](const std::string& option) {
+        return option.substr(0, option.find(' ')) == name;
+      };
+      CHECK(std::any_of(command.reads.begin(), command.reads.end(), is_it) !=
+            std::any_of(command.writes.begin(), command.writes.end(), is_it));
+    }
+  }
+  CHECK(found > 30);
+}
+
+TEST_CASE("outputs: subcommands that are not in this test write no file") {
+  std::set<std::string> known = {"info", "verify", "manual", "completion"};
+  for (const Subcommand& command : subcommands) known.insert(command.name);
+  std::istringstream help(sphparam_program({"--help"}).out);
+  bool in_list = false;
+  for (std::string text; std::getline(help, text);) {
+    if (text.starts_with("Subcommands:")) in_list = true;
+    if (!in_list) continue;
+    if (text.empty()) break;
+    std::istringstream words(text);
+    if (std::string name; text.starts_with("  ") && text[2] != ' ' && words >> name)
+      CHECK(known.contains(name));
+  }
+  CHECK(in_list);
+}
+
+TEST_CASE("outputs: the texture that a glTF file names is read too, and not replaced") {
+  const Mapped mapped(100);
+  tools::write_image(mapped.folder / "skin.png", tools::Image(8, 4, 3));
+  const Ended exported =
+      sphparam_program({"export", mapped.path, "--texture", mapped.folder / "skin.png", "-o",
+                        mapped.folder / "a.gltf"});
+  INFO(exported.err);
+  REQUIRE(exported.code == 0);
+  std::string texture;
+  for (const std::string& name : mapped.folder.names())
+    if (name.starts_with("a") && name.ends_with(".png")) texture = mapped.folder / name;
+  REQUIRE_FALSE(texture.empty());
+  const std::string before = bytes_of(texture);
+  const Ended baked = sphparam_program(
+      {"bake", mapped.folder / "a.gltf", "--map", "axes", "--size", "16", "-o", texture});
+  CHECK(baked.code == 3);
+  CHECK_THAT(baked.err, Contains("would be replaced"));
+  CHECK(bytes_of(texture) == before);
+}
+
+TEST_CASE("outputs: a file may be replaced again, and keeps its permissions") {
+  const Mapped mapped(100);
+  const std::string picture = mapped.folder / "a.png";
+  const Words line = {"bake", mapped.path, "--map", "axes", "--size", "16", "-o", picture};
+  REQUIRE(sphparam_program(line).code == 0);
+  ::chmod(picture.c_str(), 0640);
+  REQUIRE(sphparam_program(line).code == 0);
+  CHECK((fs::status(picture).permissions() & fs::perms::all) ==
+        (fs::perms::owner_read | fs::perms::owner_write | fs::perms::group_read));
+}
+
+TEST_CASE("outputs: results that are no numbers are told as what they are, and not written") {
+  const Folder folder;
+  TriangleMesh mesh = icosphere(2);
+  mesh.positions.row(80) *= 1e160;
+  write_bytes(folder / "spike.obj", obj_text(mesh));
+  const std::string made = folder / "made.ply";
+  const Ended ended = sphparam_program(
+      {"remesh", folder / "spike.obj", "--grid", "healpix:3", "--sample", "cell", "-o", made});
+  CHECK(ended.code == 4);
+  CHECK_THAT(ended.err, Contains("made.ply: not written") && Contains("no finite number") &&
+                            !Contains("byte") && !Contains(".tmp"));
+  CHECK(folder.names() == Words{"spike.obj"});
+}
+
+TEST_CASE("outputs: names may be as long as the file system lets them") {
+  const Mapped mapped(100);
+  const std::string longest = mapped.folder / (std::string(251, 'n') + ".ply");
+  const Ended ended = sphparam_program({"remesh", mapped.path, "--grid", "ico:2", "-o", longest});
+  INFO(ended.err);
+  CHECK(ended.code == 0);
+  CHECK(fs::exists(longest));
+}
+
+}  // namespace sphparam::tests
