@@ -1,9 +1,14 @@
+#include <array>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 
 #include "sphparam/sphere/orientation.h"
+
+#ifdef __SSE2__
+#include <xmmintrin.h>
+#endif
 
 using namespace sphparam;
 
@@ -68,3 +73,30 @@ TEST_CASE("orientation: swapping two rays turns the sign, rotating them does not
     REQUIRE(orientation(a, b, c) == -orientation(b, a, c));
   }
 }
+
+#ifdef __SSE2__
+TEST_CASE(
+    "orientation: signs hold in programs that flush subnormal numbers, as -ffast-math has it") {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  // Products that underflow, beside others that make the filter's permanent large enough.
+  const auto entry = [&] {
+    return std::ldexp(uniform(random),
+                      -(std::array{0, 0, 500, 540, 900, 1030, 1060})[random() % 7]);
+  };
+  const auto vector = [&] { return Vector3(entry(), entry(), entry()); };
+  for (int i = 0; i < 20000; ++i) {
+    const Vector3 a = vector(), b = vector(), c = i % 3 ? vector() : Vector3(a + b);
+    const Vector3 large = 0x1p64 * a;
+    const int sign = rational_sign(a, b, c);
+    const unsigned mode = _mm_getcsr();
+    _mm_setcsr(mode | 0x8040);  // results and operands
+    const int flushed = orientation(a, b, c), exact = exact_orientation(a, b, c);
+    const int of_large = orientation(large, b, c);
+    _mm_setcsr(mode);
+    REQUIRE(flushed == sign);
+    REQUIRE(exact == sign);
+    REQUIRE(of_large == rational_sign(large, b, c));
+  }
+}
+#endif

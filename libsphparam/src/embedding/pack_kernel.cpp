@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "embedding/lanes.h"
+#include "sphere/ieee_arithmetic.h"
 
 // The inner loop of the progressive embedding: the vertices of a pack move at once, one a lane.
 //
@@ -23,7 +24,7 @@
 // mᵢ² ≤ (|A|² − Aᵢ²)(|B|² − Bᵢ²), whose sum is at most 2|A|²|B|²; with |x| < 1.01 and
 // 2|A||B| ≤ |A|² + |B|² that is less than 2.6u (|A|² + |B|²) + η < 3e-16 (|A|² + |B|²) + η. The
 // margin 1e-14 is thirty times as much; the roundings of |A|² + |B|² itself change it by 1e-15 of
-// its value. A dozen operations on numbers below 10 underflow by less than η = 100 · 2⁻¹⁰⁷⁴, and
+// its value. A dozen operations on numbers below 10 underflow by less than η = 100 · 2⁻¹⁰²², and
 // least is 1e-290. ∎ So no exact predicate is needed, and none is used.
 //
 // Slots beyond a lane's valence have α = β = 0 and twice the same neighbour: with S set to 1 there,

@@ -2,8 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "sphere/ieee_arithmetic.h"
 
 // The filter. Let u = 2⁻⁵³ and all entries exact. Each of the six products x·y is off by at most u
 // of itself, each difference of two by another u, the product with the third factor by another, and
@@ -11,8 +16,9 @@
 // carries at most five factors (1 + δ), |δ| ≤ u. So the error is at most 5u + O(u²) times the
 // permanent Σ|aᵢ|(|bⱼcₖ| + |bₖcⱼ|); the permanent itself is computed too small by at most the same
 // factor. 8u = 2⁻⁵⁰ covers both. Products may underflow or overflow only outside the window that
-// is tested for the permanent: each triple product is either at least 1e-280·2⁻⁶⁰ or so small that
-// its absolute error, at most 2⁻¹⁰⁷⁴ (times an entry ≤ 2⁶⁴), drowns in 2⁻⁵²·1e-280.
+// is tested for the permanent: each triple product is either at least 1e-270·2⁻⁶⁰ or so small that
+// its absolute error, at most 2⁻¹⁰²² where subnormal numbers are flushed to zero (times an entry
+// ≤ 2⁶⁴), drowns in 2⁻⁵²·1e-270.
 // Contraction to fused multiply-adds would not hurt the bound, but is off for identical bits.
 
 namespace sphparam {
@@ -20,24 +26,31 @@ namespace {
 
 using BigInteger = boost::multiprecision::cpp_int;
 
+struct Scaled {
+  std::int64_t mantissa;
+  int exponent;
+};
+
+/// x = mantissa·2^exponent, from its bits: arithmetic may take a subnormal x for zero.
+Scaled scaled(double x) {
+  constexpr std::uint64_t one = std::uint64_t{1} << 52;
+  const auto bits = std::bit_cast<std::uint64_t>(x);
+  const auto biased = static_cast<int>(bits >> 52 & 0x7ff);
+  const auto size = static_cast<std::int64_t>((bits & (one - 1)) | (biased > 0 ? one : 0));
+  return {bits >> 63 ? -size : size, std::max(biased, 1) - 1075};
+}
+
 /// A row scaled by a power of two to integers: the sign of the determinant does not change.
 std::array<BigInteger, 3> integer_row(const Vector3& row) {
-  std::array<long long, 3> mantissa{};
-  std::array<int, 3> exponent{};
-  int lowest = 0;
-  bool any = false;
-  for (int i = 0; i < 3; ++i) {
-    const double scaled = std::ldexp(std::frexp(row[i], &exponent[static_cast<size_t>(i)]), 53);
-    mantissa[static_cast<size_t>(i)] = static_cast<long long>(scaled);
-    if (row[i] == 0) continue;
-    lowest =
-        any ? std::min(lowest, exponent[static_cast<size_t>(i)]) : exponent[static_cast<size_t>(i)];
-    any = true;
+  const std::array<Scaled, 3> entries{scaled(row[0]), scaled(row[1]), scaled(row[2])};
+  int lowest = std::numeric_limits<int>::max();
+  for (const Scaled& entry : entries) {
+    if (entry.mantissa != 0) lowest = std::min(lowest, entry.exponent);
   }
   std::array<BigInteger, 3> result;
   for (size_t i = 0; i < 3; ++i) {
-    result[i] = mantissa[i];
-    if (mantissa[i] != 0) result[i] <<= exponent[i] - lowest;
+    result[i] = entries[i].mantissa;
+    if (entries[i].mantissa != 0) result[i] <<= entries[i].exponent - lowest;
   }
   return result;
 }
@@ -59,7 +72,7 @@ int orientation(const Vector3& a, const Vector3& b, const Vector3& c) {
   const double permanent = std::abs(a[0]) * (std::abs(bc) + std::abs(cb)) +
                            std::abs(a[1]) * (std::abs(ca) + std::abs(ac)) +
                            std::abs(a[2]) * (std::abs(ab) + std::abs(ba));
-  if (permanent > 1e-280 && permanent < 1e300) {
+  if (permanent > 1e-270 && permanent < 1e300) {
     const double bound = 0x1p-50 * permanent;
     if (det > bound) return 1;
     if (-det > bound) return -1;
