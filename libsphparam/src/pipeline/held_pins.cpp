@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "pipeline/balanced_embedding.h"
+#include "pipeline/mirrored_pins.h"
 #include "pipeline/poles_on_map.h"
 #include "sphparam/embedding/distortion_energy.h"
 #include "sphparam/embedding/landmarks.h"
@@ -56,6 +57,9 @@ void hold(MapInProgress& work, const std::vector<Pin>& pins) {
     work.warn(words_of_fold(work.topology, *face));
     note_residuals(work, pins);
     return;
+  }
+  if (const std::optional<std::string> suspicion = suspicion_of_mirror(work.result.map, pins)) {
+    work.warn(*suspicion);
   }
   const DistortionEnergy measure = work.energy;
   const double energy = distortion_energy(work.topology, work.source(), work.result.map, measure,
