@@ -124,6 +124,7 @@ Parameterization run(const TriangleMesh& mesh, const Topology& topology,
   map_by_method(work);
   if (options.repair && (options.method != Method::Paper || options.repair_paper)) repair(work);
   if (work.certified()) place_frame(work);
+  if (work.certified()) warn_of_balance(work);
   return std::move(work.result);
 }
 

@@ -132,6 +132,30 @@ TEST_CASE("parameterize: where three pins fold a triangle no other pin is tried,
   CHECK(result.warnings[0].find(names_of_triangle(mesh, 7)) != std::string::npos);
 }
 
+TEST_CASE("parameterize: the balance that was found is told, and what falls short of its name") {
+  const TriangleMesh limb = tube(12, 8);
+  CHECK_FALSE(parameterize(limb).balance);
+  const Parameterization even = parameterize(limb, {.balance = Balance::EqualArea});
+  REQUIRE(even.balance);
+  CHECK(even.balance->moved);
+  CHECK(even.balance->lambda > 1);
+  const double error = summarise(measure_distortion(limb, even.map)).weighted_abs_log2_area;
+  CHECK(even.balance->area_error == error);
+  CHECK(error <= 0.1);
+  CHECK(even.warnings.empty());
+  const Parameterization conformal = parameterize(limb, {.balance = Balance::Conformal});
+  REQUIRE(conformal.balance);
+  CHECK(conformal.balance->lambda < 1);
+  CHECK(conformal.warnings.empty());
+
+  // A vertex of the regular octahedron may go nowhere: there is nothing to gain.
+  const Parameterization regular = parameterize(octahedron(), {.balance = Balance::Conformal});
+  REQUIRE(regular.balance);
+  REQUIRE_FALSE(regular.balance->moved);
+  REQUIRE(regular.warnings.size() == 1);
+  CHECK(regular.warnings[0].starts_with("conformal: the mean |ln angle ratio| is "));
+}
+
 TEST_CASE("repair_map: the paper's method has one residual a pin, poles or not") {
   const TriangleMesh mesh = icosphere(3);
   SphereMap collapsed{mesh.positions};

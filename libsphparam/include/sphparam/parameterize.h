@@ -73,6 +73,13 @@ struct StageRecord {
   std::optional<DistortionSummary> distortion = std::nullopt;  // with `measure_stages`
 };
 
+/// What a balance of angles against areas has reached.
+struct BalanceRecord {
+  double lambda;      // the map is minimised for it
+  double area_error;  // mean |log2 area ratio|, weighted by source area
+  bool moved;         // false: no step was possible, the map is that of λ = 1
+};
+
 struct Parameterization {
   SphereMap map;
   Certificate certificate;     // of `map`
@@ -81,6 +88,8 @@ struct Parameterization {
   /// Share by which the poles (and pins) of a finished map raised its energy; 0 where none were
   /// tried.
   double pole_cost = 0;
+  /// Of Method::Progressive with a `balance` to find, or a λ far from 1; empty where none was made.
+  std::optional<BalanceRecord> balance;
   std::optional<Vertex> meridian;  // a vertex with θ = 0 that was asked for or chosen
   /// Per pin, radians from its point; 0: exactly there. Of pins that were not tried, too.
   std::vector<double> pin_residuals;
@@ -94,7 +103,9 @@ struct Parameterization {
 ///
 /// Ensures: with `repair`, a map that is not bijective is returned only after untangling and every
 ///          fallback have failed (Method::Paper: only with `repair_paper`).
-///          `poles` is empty where given ones could not be reached: a warning says why.
+///          `poles` and `meridian` are empty where given ones could not be reached: a warning says
+///          why. So does one where a balance is not what its name promises, or where pins fit the
+///          mirror image of the surface far better than the surface.
 /// Throws: std::invalid_argument before anything else, naming the option that is outside of its
 ///         domain: a number, or a pole, pin or meridian that is no vertex, poles that are one, a
 ///         vertex that is pinned twice, two that are pinned at one point; MeshError before any

@@ -112,7 +112,7 @@ double energy_around(const Topology& topology, const SourceTriangles& source, co
 /// ones first.
 std::vector<std::pair<Vertex, Vertex>> opposite_pairs(const Topology& topology,
                                                       const SphereMap& map, const Vector3& axis,
-                                                      int threads) {
+                                                      std::optional<Vertex> no_pole, int threads) {
   struct Pair {
     double miss;  // |north + south|²
     Vertex north, south;
@@ -130,6 +130,7 @@ std::vector<std::pair<Vertex, Vertex>> opposite_pairs(const Topology& topology,
   for (const auto& [miss, north, south] : pairs) {
     if (std::ssize(result) == pairs_tried) break;
     if (north == south || topology.find_halfedge(north, south) >= 0) continue;
+    if (north == no_pole || south == no_pole) continue;
     result.push_back({north, south});
   }
   return result;
@@ -205,7 +206,8 @@ std::optional<PolePlacement> place_poles_on_axis(const Topology& topology,
                                                  const PolePlacementOptions& options) {
   require_domain(options);
   require_more_than("axis: squared length", axis.squaredNorm(), 0);
-  for (const auto& [north, south] : opposite_pairs(topology, map, axis, options.threads)) {
+  for (const auto& [north, south] :
+       opposite_pairs(topology, map, axis, options.no_pole, options.threads)) {
     report(options.progress, "poles", 0);
     PolePlacement result{
         .map = rotated_to_north(map, north, options.threads), .north = north, .south = south};

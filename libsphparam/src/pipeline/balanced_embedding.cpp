@@ -1,10 +1,14 @@
 #include "pipeline/balanced_embedding.h"
 
 #include <algorithm>
+#include <iomanip>
+#include <sstream>
+#include <string>
 #include <utility>
 
 #include "sphparam/embedding/optimise.h"
 #include "sphparam/embedding/progressive.h"
+#include "sphparam/sphere/distortion.h"
 
 // The embedding's own sweeps and steps serve λ near 1; from there on λ goes step by step.
 
@@ -44,11 +48,43 @@ SphereMap balance(MapInProgress& work, const SphereMap& map, double from_lambda,
                                                       .threads = work.options.threads,
                                                       .progress = work.options.progress}});
   work.energy.lambda = result.lambda;
+  work.result.balance = {result.lambda, result.area_error,
+                         result.report.steps > 0 && result.lambda != from_lambda};
   work.record("balance", result.map);
   return std::move(result.map);
 }
 
+/// Three digits, as people read.
+std::string figure(double value) {
+  std::ostringstream text;
+  text << std::setprecision(3) << value;
+  return text.str();
+}
+
 }  // namespace
+
+void warn_of_balance(MapInProgress& work) {
+  const Balance wanted = work.options.balance;
+  if (work.options.method != Method::Progressive || wanted == Balance::Lambda) return;
+  const std::string name = wanted == Balance::Conformal ? "conformal" : "equal-area";
+  std::optional<BalanceRecord>& balance = work.result.balance;
+  if (!balance) {
+    return work.warn(name + ": the map is not balanced: it was made by the " + work.result.made_by);
+  }
+  const Distortion distortion =
+      measure_distortion(work.mesh, work.result.map, work.options.threads);
+  const DistortionSummary summary = summarise(distortion, work.options.threads);
+  balance->area_error = summary.weighted_abs_log2_area;
+  const bool even = balance->area_error <= BalanceOptions{}.area_error;
+  if (wanted == Balance::EqualArea ? even : balance->moved) return;
+  work.warn(name +
+            (wanted == Balance::EqualArea
+                 ? ": the mean |log2 area ratio| is " + figure(balance->area_error) +
+                       ", not at most " + figure(BalanceOptions{}.area_error)
+                 : ": the mean |ln angle ratio| is " + figure(summary.mean_abs_ln_angle)) +
+            (balance->moved ? " (lambda " + figure(balance->lambda) + ")"
+                            : ", as in the map of lambda 1: nothing could be gained"));
+}
 
 bool embed(MapInProgress& work, const std::vector<Pin>& pins) {
   work.tried_to_embed = true;
@@ -66,7 +102,7 @@ bool embed(MapInProgress& work, const std::vector<Pin>& pins) {
   if (!embedding.map) return false;
   work.record(pins.empty() ? "progressive embedding" : "pinned embedding", *embedding.map);
   if (balanced) *embedding.map = balance(work, *embedding.map, energy.lambda, pins);
-  work.accept(balanced ? "balance" : "progressive embedding", std::move(*embedding.map));
+  work.accept(balanced ? balanced_map : "progressive embedding", std::move(*embedding.map));
   return true;
 }
 

@@ -13,4 +13,8 @@ namespace sphparam {
 /// certified or not.
 bool embed(MapInProgress& work, const std::vector<Pin>& pins);
 
+/// Warns where the map is not what the balance asked for promises, with the figure it reached:
+/// `work.result.balance` gets that of the finished map.
+void warn_of_balance(MapInProgress& work);
+
 }  // namespace sphparam

@@ -11,6 +11,9 @@
 
 namespace sphparam {
 
+/// `made_by` of a map that a balance of angles against areas came last to.
+inline constexpr char balanced_map[] = "balance";
+
 /// What the stages of the pipeline work on: the mesh, the wishes, and the map so far, with its
 /// certificate and the record of what was done.
 class MapInProgress {

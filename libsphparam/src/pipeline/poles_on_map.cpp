@@ -1,6 +1,7 @@
 #include "pipeline/poles_on_map.h"
 
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "pipeline/meridian.h"
@@ -20,8 +21,15 @@ PolePlacementOptions pole_options(const MapInProgress& work) {
   return {.energy = work.energy,
           .sweeps = pole_sweeps,
           .most_moves = most_pole_moves,
+          .no_pole = work.options.meridian,
           .threads = work.options.threads,
           .progress = work.options.progress};
+}
+
+/// A meridian needs none.
+void go_without_poles(MapInProgress& work, const std::string& reason) {
+  work.warn(reason + ": the map has no poles");
+  if (work.options.meridian) turn(work, work.result.map, *work.options.meridian);
 }
 
 }  // namespace
@@ -40,12 +48,12 @@ void choose_poles_on_map(MapInProgress& work) {
       choose_axis(work.topology, work.source(), work.result.map, {.threads = work.options.threads});
   std::optional<PolePlacement> placement = place_poles_on_axis(
       work.topology, work.source(), work.result.map, choice.axis, pole_options(work));
-  if (!placement) return work.warn("no vertex could be moved to -z: the map has no poles");
+  if (!placement) return go_without_poles(work, "no vertex could be moved to -z");
   const Vertex meridian =
       work.options.meridian ? *work.options.meridian : quiet_meridian(work, placement->map);
   if (!turn(work, placement->map, meridian) &&
       !work.accept_if_certified(std::move(placement->map))) {
-    return work.warn("turning the map to its poles folds it by rounding: it has no poles");
+    return go_without_poles(work, "turning the map to its poles folds it by rounding");
   }
   work.result.poles = {placement->north, placement->south};
   work.result.pole_cost = placement->energy_after / placement->energy_before - 1;
