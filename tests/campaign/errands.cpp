@@ -92,7 +92,7 @@ class Maker {
 
 void info(Maker& make) {
   Words words = {"info", make.mesh("mesh")};
-  make.maybe(words, 0.5, {"--json"});
+  make.maybe(words, 0.5, {"--json", "-"});
   make.errand.commands.push_back(words);
 }
 

@@ -109,6 +109,60 @@ TEST_CASE("map: pins that cannot be reached end with 5, each residual told, no m
   }
 }
 
+TEST_CASE("map: poles that cannot be reached end with 5, each residual told, no map written") {
+  const Folder folder;
+  const TriangleMesh mesh = icosphere(1);
+  const std::string edge = std::to_string(mesh.triangles(0, 0)) + "," +
+                           std::to_string(mesh.triangles(0, 1));  // no geodesic joins opposite ends
+  for (const bool keep : {false, true}) {
+    std::vector<std::string> arguments = {
+        "map",     "-q", "-", "-o", folder / "map.sph.ply", "--json", folder / "map.json",
+        "--poles", edge};
+    if (keep) arguments.push_back("--keep-folded");
+    const Ended ended = sphparam_program(arguments, obj_text(mesh));
+    CHECK(ended.code == 5);
+    CHECK_THAT(ended.err, Contains("the poles are not at ±z") && Contains("radians from +z") &&
+                              Contains("no map written"));
+    CHECK(folder.names() == std::vector<std::string>{"map.json"});
+    const Json report = Json::parse(bytes_of(folder / "map.json"));
+    CHECK(report["poles"].is_null());
+    CHECK(report["pole_residuals"]["north"].get<double>() +
+              report["pole_residuals"]["south"].get<double>() >
+          0.5);
+  }
+  CHECK(report_of(folder, {"--poles", "5,40"})["pole_residuals"]["south"] == 0);
+  CHECK(report_of(folder, {})["pole_residuals"].is_null());
+}
+
+TEST_CASE("map: a vertex that is to be the meridian is not chosen as a pole") {
+  const Folder folder;
+  const Json chosen = report_of(folder, {})["poles"];
+  for (const char* end : {"north", "south"}) {
+    const std::string vertex = std::to_string(chosen[end].get<int>());
+    const Json report = report_of(folder, {"--meridian", vertex});
+    CHECK(report["meridian"] == chosen[end]);
+    CHECK(report["poles"]["north"].is_number());
+  }
+}
+
+TEST_CASE("map: a meridian is kept where no poles can be chosen, else the map is refused") {
+  const Folder folder;
+  // Each two vertices share an edge: none can be opposite.
+  const std::string mesh = obj_text(tetrahedron());
+  const Json report = report_of(folder, {"--meridian", "2"}, mesh);
+  CHECK(report["poles"].is_null());
+  CHECK(report["meridian"] == 2);
+  // Where poles are where the paper puts them, the meridian may be one of them.
+  const Json curvilinear = report_of(folder, {"--method", "curvilinear"});
+  const std::string pole = std::to_string(curvilinear["poles"]["north"].get<int>());
+  const Ended refused = sphparam_program(
+      {"map", "-", "-o", folder / "none.ply", "--method", "curvilinear", "--meridian", pole}, ball);
+  CHECK(refused.code == 5);
+  CHECK_THAT(refused.err, Contains("vertex " + pole + " is not at theta = 0") &&
+                              Contains("a pole has no longitude"));
+  CHECK_FALSE(fs::exists(folder / "none.ply"));
+}
+
 TEST_CASE("map: vertices are named by their numbers in the file, also where some were dropped") {
   const Folder folder;
   const std::string mesh = with_two_unused(icosphere(3));
@@ -151,19 +205,19 @@ TEST_CASE("map: a file of pins that makes no sense ends with 3 and its line") {
   CHECK(sphparam_program({"map", "-", "-o", "-", "--pin", folder / "none"}, ball).code == 3);
 }
 
-TEST_CASE("map: a GIFTI sphere that is mapped anew claims no poles, and may not lose given ones") {
+TEST_CASE("map: a GIFTI sphere that is mapped anew claims no poles, and may not lose a meridian") {
   const Folder folder;
   const std::string mesh = obj_text(gathered_sphere());
   const std::string map = folder / "map.sph.ply", sphere = folder / "sphere.gii";
-  const Ended free = sphparam_program({"map", "-", "-o", map, "--sphere", sphere}, mesh);
+  const Ended free = sphparam_program({"map", "-", "-o", map, "--write-sphere", sphere}, mesh);
   REQUIRE(free.code == 0);
   CHECK_THAT(free.err, Contains("mapped anew"));
   CHECK_THAT(bytes_of(map), Contains("poles"));
   CHECK_THAT(bytes_of(sphere), !Contains("poles"));
   for (const std::vector<std::string>& held :
-       {std::vector<std::string>{"--poles", "5,4"}, std::vector<std::string>{"--meridian", "7"}}) {
+       {std::vector<std::string>{"--meridian", "7"}, {"--poles", "none", "--meridian", "9"}}) {
     fs::remove(sphere);
-    std::vector<std::string> arguments = {"map", "-", "-o", map, "--sphere", sphere};
+    std::vector<std::string> arguments = {"map", "-", "-o", map, "--write-sphere", sphere};
     arguments.insert(arguments.end(), held.begin(), held.end());
     const Ended refused = sphparam_program(arguments, mesh);
     CHECK(refused.code == 5);

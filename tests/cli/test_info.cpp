@@ -36,7 +36,7 @@ TriangleMesh torus(int around, int across) {
 }  // namespace
 
 TEST_CASE("info: a sphere is mappable, its figures are right") {
-  const Ended ended = sphparam_program({"info", "-", "--json"}, obj_text(icosphere(3)));
+  const Ended ended = sphparam_program({"info", "-", "--json", "-"}, obj_text(icosphere(3)));
   REQUIRE(ended.code == 0);
   const Json report = Json::parse(ended.out);
   for (const char* key :
@@ -62,7 +62,7 @@ TEST_CASE("info: a torus ends with 4 and its genus is named") {
 TEST_CASE("info: lists every defect of a bad mesh with ids") {
   TriangleMesh bad = icosphere(1);
   bad.triangles.row(3) = bad.triangles.row(4);
-  const Ended ended = sphparam_program({"info", "-", "--json"}, obj_text(bad));
+  const Ended ended = sphparam_program({"info", "-", "--json", "-"}, obj_text(bad));
   REQUIRE(ended.code == 4);
   const Json defects = Json::parse(ended.out)["inspection"]["defects"];
   CHECK(defects.size() >= 2);
@@ -83,7 +83,7 @@ TEST_CASE("info: shows the provenance of a written map") {
   REQUIRE(
       sphparam_program({"map", "-", "-o", map, "--method", "curvilinear"}, obj_text(icosphere(2)))
           .code == 0);
-  const Ended ended = sphparam_program({"info", map, "--json"});
+  const Ended ended = sphparam_program({"info", map, "--json", "-"});
   REQUIRE(ended.code == 0);
   const Json provenance = Json::parse(ended.out)["provenance"];
   CHECK(provenance["method"] == "curvilinear");

@@ -83,7 +83,7 @@ TEST_CASE("limits: two spellings of one output are refused before any work") {
   const Folder folder;
   write_bytes(folder / "mesh.obj", obj_text(octahedron()));
   const Ended ended = sphparam_program(
-      {"map", folder / "mesh.obj", "-o", folder / "out.ply", "--sphere",
+      {"map", folder / "mesh.obj", "-o", folder / "out.ply", "--write-sphere",
        folder / "../" + fs::path(folder / "x").parent_path().filename().string() + "/./out.ply"});
   CHECK(ended.code == 2);
   CHECK_THAT(ended.err, Contains("the same file, out.ply"));
@@ -96,7 +96,7 @@ TEST_CASE("limits: where one output cannot be written, no other is there") {
   const auto map = [&](const std::string& output, const std::string& sphere,
                        const std::string& json) {
     return sphparam_program(
-        {"map", folder / "mesh.obj", "-o", output, "--sphere", sphere, "--json", json});
+        {"map", folder / "mesh.obj", "-o", output, "--write-sphere", sphere, "--json", json});
   };
   CHECK(map(folder / "a.ply", folder / "b.obj", folder / "no/c.json").code == 3);
   CHECK(map(folder / "a.ply", folder / "no/b.obj", folder / "c.json").code == 3);

@@ -142,12 +142,12 @@ TEST_CASE("map: --json has the documented keys") {
   CHECK(report["outputs"]["map"] == folder / "ball.sph.ply");
 }
 
-TEST_CASE("map: --sphere writes the bare sphere, which verify certifies on its own") {
+TEST_CASE("map: --write-sphere writes the bare sphere, which verify certifies on its own") {
   const Folder folder;
   write_bytes(folder / "ball.obj", obj_text(icosphere(2)));
   for (const char* name : {"sphere.ply", "sphere.obj", "sphere.off", "SPHERE.PLY", "SPHERE.OBJ"}) {
-    const Ended ended = sphparam_program(
-        {"map", folder / "ball.obj", "-o", folder / "ball.sph.ply", "--sphere", folder / name});
+    const Ended ended = sphparam_program({"map", folder / "ball.obj", "-o", folder / "ball.sph.ply",
+                                          "--write-sphere", folder / name});
     REQUIRE(ended.code == 0);
     CHECK(sphparam_program({"verify", folder / name}).code == 0);
     CHECK(sphparam_program({"verify", folder / "ball.obj", folder / name}).code == 0);
@@ -228,7 +228,7 @@ TEST_CASE("map: an output that cannot be written ends with 3") {
   CHECK(sphparam_program({"map", "-", "-o", nowhere}, ball).code == 3);
   const std::string there = folder / "map.sph.ply";
   CHECK(sphparam_program({"map", "-", "-o", there, "--json", nowhere}, ball).code == 3);
-  CHECK(sphparam_program({"map", "-", "-o", there, "--sphere", nowhere}, ball).code == 3);
+  CHECK(sphparam_program({"map", "-", "-o", there, "--write-sphere", nowhere}, ball).code == 3);
   CHECK(folder.names().empty());
 }
 
@@ -344,8 +344,8 @@ TEST_CASE("map: what a file carries and no output does is told unasked, in bake 
 TEST_CASE("map: a GIFTI sphere holds floats at radius 100, and is certified as such") {
   const Folder folder;
   write_bytes(folder / "ball.obj", obj_text(icosphere(3)));
-  const Ended mapped = sphparam_program(
-      {"map", folder / "ball.obj", "-o", folder / "ball.sph.ply", "--sphere", folder / "ball.gii"});
+  const Ended mapped = sphparam_program({"map", folder / "ball.obj", "-o", folder / "ball.sph.ply",
+                                         "--write-sphere", folder / "ball.gii"});
   INFO(mapped.err);
   REQUIRE(mapped.code == 0);
   CHECK_THAT(bytes_of(folder / "ball.gii"), Contains("NIFTI_TYPE_FLOAT32"));

@@ -79,7 +79,7 @@ TEST_CASE("measure: the distance of every vertex, as a property and as colours")
   const Balls balls;
   const std::string file = balls.folder / "error.ply";
   REQUIRE(balls.measure({"--per-vertex", file}).code == 0);
-  const Ended info = sphparam_program({"info", file, "--json"});
+  const Ended info = sphparam_program({"info", file, "--json", "-"});
   REQUIRE(info.code == 0);
   const Json properties = Json::parse(info.out)["input"]["vertex_properties"];
   for (const char* name : {"error", "red", "green", "blue"}) {

@@ -17,9 +17,14 @@ TriangleMesh with_a_hole() {
   return mesh;
 }
 
+TriangleMesh scaled(TriangleMesh mesh, double factor) {
+  mesh.positions *= factor;
+  return mesh;
+}
+
 /// A ball and, away from it, a coarser one whose first vertex is number 162.
-TriangleMesh two_bodies() {
-  const TriangleMesh ball = icosphere(2), other = icosphere(1);
+TriangleMesh two_bodies(double size_of_other = 1) {
+  const TriangleMesh ball = icosphere(2), other = scaled(icosphere(1), size_of_other);
   TriangleMesh mesh;
   mesh.positions.resize(ball.vertex_count() + other.vertex_count(), 3);
   mesh.positions << ball.positions, (other.positions.array() + 5).matrix();
@@ -82,13 +87,126 @@ TEST_CASE("repair: single repairs do only what they say") {
   CHECK(other.code == 4);
   CHECK_THAT(other.err, Contains("3 boundary edges"));
   CHECK(sphparam_program({"map", "-", "-o", "-", "--repair=holes"}, two).code == 4);
-  CHECK(sphparam_program({"map", "-", "-o", "-", "--repair=components"}, two).code == 0);
+  CHECK(sphparam_program({"map", "-", "-o", "-", "--repair=components"}, two).code == 4);
+  CHECK(sphparam_program({"map", "-", "-o", "-", "--repair=components"}, obj_text(two_bodies(0.1)))
+            .code == 0);
+}
+
+TEST_CASE("repair: where a component is kept, the shares that are kept and lost are told") {
+  const Folder folder;
+  const std::string map = folder / "map.sph.ply";
+  const Ended mended = sphparam_program({"map", "-", "-o", map, "--json", "-", "--repair"},
+                                        obj_text(two_bodies(0.1)));
+  INFO(mended.err);
+  REQUIRE(mended.code == 0);
+  CHECK_THAT(mended.err, Contains("1 component dropped: with vertices 162") &&
+                             Contains("kept 99.063 % of the area and 80 % of the faces, lost "
+                                      "0.94 % and 20 %"));
+  const Json parts = Json::parse(mended.out)["components"];
+  CHECK(parts["count"] == 2);
+  CHECK(parts["area_kept"].get<double>() == Approx(0.9906).epsilon(1e-3));
+  CHECK(parts["faces_kept"] == 0.8);
+  CHECK(parts["largest"][1]["triangles"] == 80);
+  CHECK(parts["largest"][1]["vertex"] == 162);
+  const Ended whole =
+      sphparam_program({"map", "-", "-o", map, "--json", "-", "--repair"}, obj_text(with_a_hole()));
+  CHECK(Json::parse(whole.out)["components"].is_null());
+}
+
+TEST_CASE("repair: more than specks is lost only where a component or a share is named") {
+  const Folder folder;
+  const std::string two = obj_text(two_bodies()), map = folder / "map.sph.ply";
+  for (const std::vector<std::string>& asked :
+       {std::vector<std::string>{"--repair"}, {"--min-kept", "0.6"}, {"--min-kept=52%"}}) {
+    std::vector<std::string> arguments = {"map", "-", "-o", map};
+    arguments.insert(arguments.end(), asked.begin(), asked.end());
+    const Ended refused = sphparam_program(arguments, two);
+    INFO(refused.err);
+    CHECK(refused.code == 4);
+    CHECK_THAT(refused.err, Contains("2 separate components") &&
+                                Contains("1: 51.4 % of the area, 80 % of the faces (320), with "
+                                         "vertex 0") &&
+                                Contains("2: 48.6 % of the area, 20 % of the faces (80), with "
+                                         "vertex 162") &&
+                                Contains("--component N keeps the N-th, --min-kept 0.51 the") &&
+                                Contains("--repair --component 1 would mend it"));
+    CHECK(folder.names().empty());
+  }
+  for (const std::vector<std::string>& asked :
+       {std::vector<std::string>{"--repair", "--component", "1"},
+        {"--min-kept", "0.5"},
+        {"--repair", "--min-kept=50%"}}) {
+    std::vector<std::string> arguments = {"map", "-", "-o", map};
+    arguments.insert(arguments.end(), asked.begin(), asked.end());
+    const Ended kept = sphparam_program(arguments, two);
+    INFO(kept.err);
+    CHECK(kept.code == 0);
+    CHECK_THAT(kept.err, Contains("320 triangles") && Contains("lost 49 % and 20 %"));
+  }
+  // `info` says the same before.
+  const Json info = Json::parse(sphparam_program({"info", "-", "--json", "-"}, two).out)["repair"];
+  CHECK(info["mends"] == false);
+  CHECK(info["mends_with"] == "--repair --component 1");
+  CHECK(info["components"]["largest"].size() == 2);
+  for (const char* share : {"0.5x", "", "1.1", "101%", "-0.1", "nan"}) {
+    CHECK(sphparam_program({"map", "-", "-o", map, "--min-kept", share}, two).code == 2);
+  }
+  CHECK(sphparam_program({"map", "-", "-o", map, "--component", "1", "--min-kept", "0.1"}, two)
+            .code == 2);
+}
+
+TEST_CASE("repair: a hole over the limit is named with the option that closes it") {
+  TriangleMesh open = uv_sphere(600, 3);  // without the triangles at its first pole
+  Eigen::Index kept = 0;
+  for (Face f = 0; f < open.face_count(); ++f) {
+    const Eigen::RowVector3i face = open.triangles.row(f);
+    if ((face.array() != 0).all()) open.triangles.row(kept++) = face;
+  }
+  open.triangles.conservativeResize(kept, 3);
+  const std::string text = obj_text(open);
+  const std::string with_option = "--repair --max-hole 600 would mend it";
+  CHECK_THAT(sphparam_program({"info", "-"}, text).out, Contains(with_option));
+  const Ended refused = sphparam_program({"map", "-", "-o", "-", "--repair"}, text);
+  CHECK(refused.code == 4);
+  CHECK_THAT(refused.err, Contains(with_option));
+  CHECK(sphparam_program({"map", "-", "-o", "-", "--repair", "--max-hole", "600"}, text).code == 0);
+}
+
+TEST_CASE("repair: subcommands without --repair name the one that has it") {
+  const Folder folder;
+  const std::string mesh = folder / "an open mesh.obj";
+  write_bytes(mesh, obj_text(with_a_hole()));
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"export", mesh, "-o", folder / "x.glb"},
+        {"remesh", mesh, "--grid", "ico:1", "-o", folder / "x.ply"}}) {
+    const Ended refused = sphparam_program(command);
+    CHECK(refused.code == 4);
+    CHECK_THAT(refused.err, Contains("`sphparam map '" + mesh + "' --repair -o mended.sph.ply`"));
+  }
+}
+
+TEST_CASE("repair: what is true only after welding says so") {
+  // An icosphere of loose triangles, two of whose corners lie in one place.
+  TriangleMesh mesh = icosphere(1);
+  mesh.positions.row(mesh.triangles(0, 0)) = mesh.positions.row(mesh.triangles(0, 1)).eval();
+  std::string loose, faces;
+  for (int i = 0; i < mesh.triangles.size(); ++i) {
+    const Vector3 p = mesh.position(mesh.triangles(i / 3, i % 3));
+    loose += "v";
+    for (int k = 0; k < 3; ++k) loose.append(" ").append(std::to_string(p[k]));
+    loose += "\n";
+    faces.append(i % 3 ? " " : "\nf ").append(std::to_string(i + 1));
+  }
+  const Ended refused = sphparam_program({"map", "-", "-o", "-"}, loose + faces + "\n");
+  INFO(refused.err);
+  CHECK(refused.code == 4);
+  CHECK_THAT(refused.err, Contains("after welding, 2 faces name one vertex twice"));
 }
 
 TEST_CASE("repair: --component keeps the one that is asked for, with the numbers of the file") {
   const Folder folder;
   const std::string map = folder / "map.sph.ply", sphere = folder / "map.json";
-  const std::string two = obj_text(two_bodies());
+  const std::string two = obj_text(two_bodies());  // the coarser one has less area
   const Ended mapped =
       sphparam_program({"map", "-", "-o", map, "--json", sphere, "--component", "2"}, two);
   INFO(mapped.err);
@@ -182,10 +300,12 @@ TEST_CASE("repair: info says what --repair would do") {
   CHECK(text.code == 4);
   CHECK_THAT(text.out, Contains("--repair would mend it") && Contains("1 hole filled"));
   const Json json =
-      Json::parse(sphparam_program({"info", "-", "--json"}, obj_text(with_a_hole())).out);
+      Json::parse(sphparam_program({"info", "-", "--json", "-"}, obj_text(with_a_hole())).out);
   CHECK(json["repair"]["mends"] == true);
+  CHECK(json["repair"]["mends_with"] == "--repair");
   CHECK(json["repair"]["actions"][0]["kind"] == "hole-filled");
-  CHECK(Json::parse(sphparam_program({"info", "-", "--json"}, obj_text(icosphere(1))).out)["repair"]
+  CHECK(Json::parse(
+            sphparam_program({"info", "-", "--json", "-"}, obj_text(icosphere(1))).out)["repair"]
             .is_null());
 }
 

@@ -1,4 +1,6 @@
 #include <catch2/catch.hpp>
+#include <string>
+#include <vector>
 
 #include "program.h"
 #include "support/test_meshes.h"
@@ -69,8 +71,8 @@ TEST_CASE("program: command lines that make no sense end with code 2 and touch n
       {"map", "x.obj", "-o", "y.ply", "--method", "curvilinear", "--sweeps", "1"},
       {"map", "x.obj", "-o", "-", "--json", "-"},
       {"map", "x.obj", "-o", "y.obj"},
-      {"map", "x.obj", "-o", "y.ply", "--sphere", "y.stl"},
-      {"map", "x.obj", "-o", "y.ply", "--sphere", "y.ply"},
+      {"map", "x.obj", "-o", "y.ply", "--write-sphere", "y.stl"},
+      {"map", "x.obj", "-o", "y.ply", "--write-sphere", "y.ply"},
       {"info"},
       {"verify"},
       {"verify", "a", "b", "c"},
@@ -84,6 +86,111 @@ TEST_CASE("program: command lines that make no sense end with code 2 and touch n
     CHECK(ended.out.empty());
     CHECK_THAT(ended.err, Contains("error:") && Contains("--help"));
   }
+}
+
+TEST_CASE("program: options that all subcommands have may stand before them") {
+  const std::string ball = obj_text(icosphere(1));
+  const Ended quiet = sphparam_program({"-q", "--threads", "1", "map", "-", "-o", "-"}, ball);
+  CHECK(quiet.code == 0);
+  CHECK(quiet.err.empty());
+  CHECK(quiet.out == sphparam_program({"map", "-", "-o", "-", "-q", "--threads", "1"}, ball).out);
+  const Ended told = sphparam_program({"--progress=json", "-v", "map", "-", "-o", "-"}, ball);
+  CHECK(told.code == 0);
+  CHECK_THAT(told.err, Contains("\"percent\":") && Contains("certificate: "));
+  for (const char* command : {"info", "verify"}) {
+    CHECK(sphparam_program({"-q", command, "-"}, ball).out.empty());
+    CHECK(sphparam_program({"--progress", "none", command, "-"}, ball).code == 0);
+  }
+  CHECK(sphparam_program({"-q"}).code == 2);
+  CHECK(sphparam_program({"-q", "mpa", "x.obj"}).code == 2);
+}
+
+TEST_CASE("program: numbers are decimal, and what is none is refused and named") {
+  const std::vector<std::vector<std::string>> numbers = {
+      {"map", "--lambda"},          {"map", "--meridian"},
+      {"map", "--epsilon"},         {"map", "--iterations"},
+      {"map", "--rings"},           {"map", "--sweeps"},
+      {"map", "--component"},       {"map", "--max-hole"},
+      {"map", "--min-kept"},        {"map", "--threads"},
+      {"map", "--max-memory"},      {"render", "--size"},
+      {"compare", "--size"},        {"spharm", "--degree"},
+      {"remesh", "--lods"},         {"remesh", "--displace-size"},
+      {"measure", "--samples"},     {"measure", "--seed"},
+      {"measure", "--max-rms"},     {"measure", "--max-distance"},
+      {"paint", "--atlas"},         {"paint", "--padding"},
+      {"report", "--size"},         {"export", "--image-size"},
+      {"export", "--refine-poles"}, {"export", "--lods"},
+      {"bake", "--size"},           {"bake", "--samples"},
+      {"bake", "--rays"},           {"bake", "--max-dist"}};
+  for (const std::vector<std::string>& number : numbers) {
+    for (const char* garbage : {"abc", "1z", "0x10", "nan", "1e999", "true"}) {
+      const Ended ended = sphparam_program({number[0], number[1] + "=" + garbage});
+      INFO(number[0] << " " << number[1] << "=" << garbage << "\n" << ended.err);
+      CHECK(ended.code == 2);
+      CHECK_THAT(ended.err, Contains(number[1]));
+    }
+  }
+  // It would be 8, as in C.
+  CHECK_THAT(sphparam_program({"map", "x.obj", "-o", "y.ply", "--component", "010"}).err,
+             Contains("--component: expected a number from 1 on"));
+}
+
+TEST_CASE("program: --json is a file in every subcommand, - for standard output") {
+  const Folder folder;
+  const std::string ball = folder / "ball.obj", json = folder / "a.json";
+  write_bytes(ball, obj_text(icosphere(1)));
+  for (const char* command : {"info", "verify"}) {
+    const Ended both = sphparam_program({command, ball, "--json", json});
+    CHECK(both.code == 0);
+    CHECK_THAT(both.out, Contains("ball.obj"));
+    const std::string report = bytes_of(json);
+    CHECK_THAT(report, Contains("\"command\": \"" + std::string(command) + "\""));
+    CHECK(sphparam_program({command, ball, "--json", "-"}).out.substr(0, 60) ==
+          report.substr(0, 60));
+    // As it was once written, without a file.
+    for (const std::vector<std::string>& former :
+         {std::vector<std::string>{command, ball, "--json"}, {command, "--json", "a.txt"}}) {
+      const Ended ended = sphparam_program(former);
+      CHECK(ended.code == 2);
+      CHECK_THAT(ended.err, Contains("`--json -` is standard output"));
+    }
+  }
+  const std::string before = bytes_of(ball);
+  for (const std::string& mesh : {ball, folder / "other.ply"}) {
+    const Ended ended = sphparam_program({"verify", ball, "--json", mesh});
+    CHECK(ended.code == 2);
+    CHECK_THAT(ended.err, Contains("is the name of a mesh"));
+  }
+  CHECK(bytes_of(ball) == before);
+}
+
+TEST_CASE("program: map --sphere, which once wrote, ends with 2 and names what writes now") {
+  const Folder folder;
+  write_bytes(folder / "ball.obj", obj_text(icosphere(1)));
+  write_bytes(folder / "sphere.obj", "mine");
+  const Ended ended = sphparam_program(
+      {"map", folder / "ball.obj", "-o", folder / "m.ply", "--sphere", folder / "sphere.obj"});
+  CHECK(ended.code == 2);
+  CHECK_THAT(ended.err, Contains("--write-sphere FILE writes it"));
+  CHECK(bytes_of(folder / "sphere.obj") == "mine");
+}
+
+TEST_CASE("program: -q leaves errors, also where a mesh or a map is refused") {
+  TriangleMesh open = icosphere(1), folded = icosphere(1);
+  open.triangles.conservativeResize(open.face_count() - 1, 3);
+  folded.positions.row(3) *= -1;
+  const Ended info = sphparam_program({"info", "-q", "-"}, obj_text(open));
+  CHECK(info.code == 4);
+  CHECK(info.out.empty());
+  CHECK_THAT(info.err, Contains("error:") && Contains("not a closed genus-0 mesh"));
+  const Ended verify = sphparam_program({"verify", "-q", "-"}, obj_text(folded));
+  CHECK(verify.code == 5);
+  CHECK(verify.out.empty());
+  CHECK_THAT(verify.err, Contains("error:") && Contains("folded"));
+  const Ended map = sphparam_program({"map", "-q", "-", "-o", "-", "--method", "paper"},
+                                     obj_text(random_sphere_mesh(60, 7)));
+  CHECK(map.code == 5);
+  CHECK_THAT(map.err, Contains("error:") && Contains("no map written"));
 }
 
 TEST_CASE("program: standard output that cannot be written ends with 3") {

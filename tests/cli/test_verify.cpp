@@ -21,7 +21,7 @@ TriangleMesh scaled(TriangleMesh mesh, double factor, const Vector3& shift) {
 }  // namespace
 
 TEST_CASE("verify: a sphere of any radius is certified, and its radius reported") {
-  const Ended ended = sphparam_program({"verify", "-", "--json"},
+  const Ended ended = sphparam_program({"verify", "-", "--json", "-"},
                                        obj_text(scaled(icosphere(2), 100, Vector3::Zero())));
   REQUIRE(ended.code == 0);
   const Json report = Json::parse(ended.out);
@@ -39,7 +39,7 @@ TEST_CASE("verify: a sphere beside the origin is certified as rays, with a warni
 TEST_CASE("verify: one vertex pulled across the sphere is found by its faces") {
   TriangleMesh folded = icosphere(2);
   folded.positions.row(7) *= -1;
-  const Ended ended = sphparam_program({"verify", "-", "--json"}, obj_text(folded));
+  const Ended ended = sphparam_program({"verify", "-", "--json", "-"}, obj_text(folded));
   REQUIRE(ended.code == 5);
   const Json certificate = Json::parse(ended.out)["certificate"];
   CHECK(certificate["one_to_one"] == false);
@@ -52,7 +52,7 @@ TEST_CASE("verify: one vertex pulled across the sphere is found by its faces") {
 TEST_CASE("verify: a sphere covered twice has no fold and is refused") {
   TriangleMesh wound = uv_sphere(12, 5);
   wound.positions = wound_rays(12, 5, 2);
-  const Ended ended = sphparam_program({"verify", "-", "--json"}, obj_text(wound));
+  const Ended ended = sphparam_program({"verify", "-", "--json", "-"}, obj_text(wound));
   REQUIRE(ended.code == 5);
   const Json certificate = Json::parse(ended.out)["certificate"];
   CHECK(certificate["folds"] == 0);
@@ -62,14 +62,15 @@ TEST_CASE("verify: a sphere covered twice has no fold and is refused") {
 TEST_CASE("verify: a sphere seen from inside is one-to-one and said to be reversed") {
   TriangleMesh mirrored = icosphere(2);
   mirrored.positions.col(0) *= -1;
-  const Ended ended = sphparam_program({"verify", "-", "--json"}, obj_text(mirrored));
+  const Ended ended = sphparam_program({"verify", "-", "--json", "-"}, obj_text(mirrored));
   REQUIRE(ended.code == 0);
   CHECK(Json::parse(ended.out)["certificate"]["reversed"] == true);
 }
 
 TEST_CASE("verify: --chart proves the chart of a map, from outside and from inside") {
   TriangleMesh sphere = icosphere(3);
-  const Ended outside = sphparam_program({"verify", "-", "--chart", "--json"}, obj_text(sphere));
+  const Ended outside =
+      sphparam_program({"verify", "-", "--chart", "--json", "-"}, obj_text(sphere));
   REQUIRE(outside.code == 0);
   const Json chart = Json::parse(outside.out)["chart"];
   CHECK(chart["certified"] == true);
@@ -89,7 +90,7 @@ TEST_CASE("verify: two files of one connectivity are compared and the distortion
   write_bytes(folder / "source.obj", obj_text(scaled(ball, 3, Vector3(1, 2, 3))));
   write_bytes(folder / "sphere.obj", obj_text(ball));
   const Ended ended =
-      sphparam_program({"verify", folder / "source.obj", folder / "sphere.obj", "--json"});
+      sphparam_program({"verify", folder / "source.obj", folder / "sphere.obj", "--json", "-"});
   REQUIRE(ended.code == 0);
   CHECK(Json::parse(ended.out)["distortion"]["mean_abs_ln_angle"].get<double>() ==
         Approx(0).margin(1e-9));
@@ -97,7 +98,7 @@ TEST_CASE("verify: two files of one connectivity are compared and the distortion
   // The radius of the sphere is not distortion.
   write_bytes(folder / "large.obj", obj_text(scaled(ball, 8, Vector3::Zero())));
   const Ended large =
-      sphparam_program({"verify", folder / "source.obj", folder / "large.obj", "--json"});
+      sphparam_program({"verify", folder / "source.obj", folder / "large.obj", "--json", "-"});
   REQUIRE(large.code == 0);
   CHECK(Json::parse(large.out)["distortion"]["symmetric_dirichlet"].get<double>() ==
         Approx(Json::parse(ended.out)["distortion"]["symmetric_dirichlet"].get<double>()));
@@ -169,7 +170,7 @@ TEST_CASE("verify: files of different connectivity end with 3 and the place is n
 TEST_CASE("verify: a file without faces is refused, not proved") {
   const Ended ended = sphparam_program({"verify", "-"}, "v 0 0 1\nv 1 0 0\n");
   CHECK(ended.code == 4);
-  CHECK(sphparam_program({"verify", "-", "--json", "--chart"}, "v 0 0 1\n").code == 4);
+  CHECK(sphparam_program({"verify", "-", "--json", "-", "--chart"}, "v 0 0 1\n").code == 4);
 }
 
 }  // namespace sphparam::tests

@@ -108,9 +108,10 @@ class Scene {
   ProcessEnd run(const Fault& fault, std::vector<std::string> environment) {
     if (!environment.empty()) environment.push_back("LD_PRELOAD=" + shim_);
     const auto path = [this](const char* name) { return (folder_ / name).string(); };
-    return run_process({program_, "map", path("mesh.off"), "-o", path("map.sph.ply"), "--sphere",
-                        path("sphere.obj"), "--json", path("report.json"), "--threads", "1", "-q"},
-                       environment, fault.limits, fault.signal);
+    return run_process(
+        {program_, "map", path("mesh.off"), "-o", path("map.sph.ply"), "--write-sphere",
+         path("sphere.obj"), "--json", path("report.json"), "--threads", "1", "-q"},
+        environment, fault.limits, fault.signal);
   }
 
   void reset(bool fresh) {

@@ -4,6 +4,8 @@
 #include <random>
 #include <set>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "sphparam/mesh/mesh_repair.h"
 #include "sphparam/mesh/topology.h"
@@ -146,11 +148,12 @@ TEST_CASE(
       }
     }
     INFO(story);
-    const RepairedMesh repaired = repair_mesh(mesh);
+    const RepairOptions whatever_is_lost{.least_kept = 0};
+    const RepairedMesh repaired = repair_mesh(mesh, whatever_is_lost);
     check_is_sphere(repaired);
     check_origins(mesh, repaired);
     CHECK(repaired.inspection.volume > 3);
-    CHECK(same(repair_mesh(mesh).mesh, repaired.mesh));
+    CHECK(same(repair_mesh(mesh, whatever_is_lost).mesh, repaired.mesh));
     const RepairedMesh again = repair_mesh(repaired.mesh);
     CHECK(again.actions.empty());
     CHECK(same(again.mesh, repaired.mesh));
@@ -220,7 +223,7 @@ TEST_CASE("mesh_repair: bodies that touch along an edge, inside out or not, come
     CHECK(apart.inspection.components == 2);
     CHECK(apart.mesh.vertex_count() == 8);
     CHECK(Topology::try_build(apart.mesh.triangles, 8).has_value());
-    check_is_sphere(repair_mesh(mesh));
+    check_is_sphere(repair_mesh(mesh, {.component = 1}));
   }
 }
 
@@ -243,7 +246,7 @@ TEST_CASE("mesh_repair: an inner wall goes, the surface about it stays") {
   TriangleMesh mesh = octahedron();
   append_face(mesh, 0, 2, 1);  // across the middle: edges 0-2 and 2-1 have three faces
   append_face(mesh, 0, 1, 3);
-  const RepairedMesh repaired = repair_mesh(mesh);
+  const RepairedMesh repaired = repair_mesh(mesh, {.component = 1});
   check_is_sphere(repaired);
   CHECK(repaired.mesh.face_count() == 8);
   CHECK(repaired.inspection.volume == Approx(inspect_mesh(octahedron()).volume));
@@ -267,12 +270,68 @@ TEST_CASE("mesh_repair: a vertex of valence two keeps its place, the other diago
 
 TEST_CASE("mesh_repair: the component that is asked for is kept") {
   const TriangleMesh mesh = joined(joined(octahedron(), icosphere(1)), moved(tetrahedron(), 9));
-  CHECK(repair_mesh(mesh).mesh.face_count() == 80);
-  CHECK(repair_mesh(mesh, {.component = 2}).mesh.face_count() == 8);
-  CHECK(repair_mesh(mesh, {.component = 3}).mesh.face_count() == 4);
-  CHECK(count(repair_mesh(mesh), RepairKind::ComponentDropped) == 2);
+  std::vector<Eigen::Index> faces;
+  for (const int component : {1, 2, 3}) {
+    const RepairedMesh repaired = repair_mesh(mesh, {.component = component});
+    check_is_sphere(repaired);
+    CHECK(count(repaired, RepairKind::ComponentDropped) == 2);
+    const SurfacePart& part = repaired.parts.largest.at(static_cast<size_t>(component - 1));
+    CHECK(part.faces == repaired.mesh.face_count());
+    CHECK(part.area_share == Approx(repaired.inspection.area / inspect_mesh(mesh).area));
+    CHECK(repaired.parts.area_share == part.area_share);
+    CHECK(repaired.parts.face_share == Approx(static_cast<double>(part.faces) / 92));
+    faces.push_back(repaired.mesh.face_count());
+  }
+  CHECK(faces == std::vector<Eigen::Index>{4, 80, 8});  // by area
   CHECK_THROWS_AS(repair_mesh(mesh, {.component = 4}), NoSuchComponent);
   CHECK_THROWS_AS(repair_mesh(icosphere(1), {.component = 2}), NoSuchComponent);
+}
+
+TEST_CASE("mesh_repair: the largest component has the most area, not the most faces") {
+  TriangleMesh handle = icosphere(3);
+  handle.positions *= 0.1;
+  const TriangleMesh mug = icosphere(1), both = joined(handle, moved(mug, 5));
+  REQUIRE(handle.face_count() > mug.face_count());
+  const RepairedMesh repaired = repair_mesh(both);  // the handle has 1.1 % of the area
+  check_is_sphere(repaired);
+  CHECK(repaired.mesh.face_count() == mug.face_count());
+  CHECK(repaired.parts.count == 2);
+  CHECK(repaired.parts.area_share == Approx(inspect_mesh(mug).area / inspect_mesh(both).area));
+  CHECK(repair_mesh(both, {.component = 2}).mesh.face_count() == handle.face_count());
+  CHECK_THAT(inspect_mesh(both).defects.front().message,
+             Catch::Contains("the largest has 80 faces and 98.9 % of the area"));
+}
+
+TEST_CASE("mesh_repair: what would cost more than specks is not dropped unless it is asked for") {
+  const TriangleMesh two = joined(icosphere(2), moved(icosphere(2), 5));
+  const RepairedMesh refused = repair_mesh(two);
+  CHECK_FALSE(refused.inspection.is_sphere());
+  CHECK(refused.mesh.face_count() == two.face_count());
+  CHECK(count(refused, RepairKind::ComponentDropped) == 0);
+  CHECK(refused.parts.refused);
+  REQUIRE(refused.parts.largest.size() == 2);
+  CHECK(refused.parts.largest[0].vertex == 0);  // of equal ones that with the lowest vertex
+  CHECK(refused.parts.largest[1].area_share == Approx(0.5));
+  CHECK(repair_mesh(two, {.least_kept = 0.6}).parts.refused);
+  for (const RepairOptions& asked :
+       {RepairOptions{.least_kept = 0.4}, RepairOptions{.component = 1}}) {
+    const RepairedMesh kept = repair_mesh(two, asked);
+    check_is_sphere(kept);
+    CHECK_FALSE(kept.parts.refused);
+    CHECK(kept.vertex_origin.front() == 0);
+    CHECK(kept.parts.area_share == Approx(0.5));
+  }
+  const RepairedMesh whole = repair_mesh(icosphere(2));
+  CHECK(whole.parts.count == 0);
+  CHECK(whole.parts.area_share == 1);
+}
+
+TEST_CASE("mesh_repair: components without any area go by their faces") {
+  TriangleMesh flat = joined(octahedron(), icosphere(1));
+  flat.positions.setZero();
+  const RepairedMesh repaired = repair_mesh(flat, {.least_kept = 0.9});
+  check_is_sphere(repaired);
+  CHECK(repaired.parts.area_share == Approx(80.0 / 88));
 }
 
 TEST_CASE("mesh_repair: holes up to the limit are filled, larger ones are not") {
@@ -280,10 +339,13 @@ TEST_CASE("mesh_repair: holes up to the limit are filled, larger ones are not") 
   for (Face f = static_cast<Face>(mesh.face_count()) - 1; f >= 0; --f) {
     if ((mesh.triangles.row(f).array() == 0).any()) remove_face(mesh, f);
   }
-  CHECK_FALSE(repair_mesh(mesh, {.largest_hole = 11}).inspection.is_sphere());
+  const RepairedMesh open = repair_mesh(mesh, {.largest_hole = 11});
+  CHECK_FALSE(open.inspection.is_sphere());
+  CHECK(open.largest_hole_left == 12);
   const RepairedMesh filled = repair_mesh(mesh, {.largest_hole = 12});
   check_is_sphere(filled);
   CHECK(count(filled, RepairKind::HoleFilled) == 1);
+  CHECK(filled.largest_hole_left == 0);
   CHECK(filled.created.empty());
   CHECK(filled.inspection.volume > 0.9 * inspect_mesh(uv_sphere(12, 5)).volume);
 }
@@ -381,11 +443,28 @@ TEST_CASE("mesh_repair: what has handles, one side or no numbers stays refused")
   moebius.positions = Points::Random(5, 3);
   moebius.triangles.resize(5, 3);
   moebius.triangles << 0, 1, 2, 1, 2, 3, 2, 3, 4, 3, 4, 0, 4, 0, 1;
-  CHECK_FALSE(repair_mesh(moebius).inspection.is_sphere());
+  const MeshInspection one_sided = repair_mesh(moebius).inspection;
+  CHECK_FALSE(one_sided.is_sphere());
+  const auto says_so = [](const MeshDefect& defect) {
+    return defect.message.find("one-sided") != std::string::npos;
+  };
+  CHECK(std::ranges::any_of(one_sided.defects, says_so));
+  TriangleMesh turned = icosphere(1);  // two-sided, with a face turned over
+  turn_face(turned, 3);
+  CHECK(std::ranges::none_of(inspect_mesh(turned).defects, says_so));
 
   TriangleMesh not_finite = icosphere(1);
   not_finite.positions(3, 1) = std::numeric_limits<double>::quiet_NaN();
   CHECK(repair_mesh(not_finite).actions.empty());
+}
+
+TEST_CASE("mesh_repair: what a repair has made itself is not named by numbers nobody has") {
+  RepairAction action = {RepairKind::FlatFaceTurned, 2, {-1, -1}, {}};
+  CHECK_THAT(describe(action), Catch::EndsWith(": 2 made by this repair"));
+  action = {RepairKind::FlatFaceTurned, 3, {4, -1, 7}, {}};
+  CHECK_THAT(describe(action), Catch::EndsWith(": faces 4, 7 and 1 made by this repair"));
+  action = {RepairKind::EdgeSplit, 2, {4, -1, 7, 8}, {}};
+  CHECK_THAT(describe(action), Catch::EndsWith("between vertices 7-8 and 1 made by this repair"));
 }
 
 TEST_CASE("mesh_repair: random faces over few vertices never crash and never claim too much") {

@@ -204,7 +204,7 @@ CLI::App* declare_bake_arguments(CLI::App& program, BakeArguments& arguments) {
   CLI::App* command = program.add_subcommand("bake", summary());
   add_inputs(*command, arguments);
   add_image_options(*command, arguments);
-  command->add_option("--json", arguments.json, "A report for programs")->type_name("FILE");
+  add_json(*command, arguments.json);
   add_threads(*command, arguments.threads);
   add_progress(*command, arguments.progress);
   add_loudness(*command, arguments.loudness);

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -35,14 +37,17 @@ CLI::Option* add_choice(CLI::App& command, const std::string& name, Value& value
   return command.add_option_function<std::string>(name, choose, description)->type_name(all);
 }
 
-/// A number between two others, both allowed.
+/// A decimal number between two others, both allowed. (CLI11 takes 010 for 8, and 0x10 for 16.)
 template <class Number>
 CLI::Validator between(Number least, Number most, const std::string& words) {
   return CLI::Validator(
       [=](const std::string& text) -> std::string {
         Number value{};
-        const bool inside =
-            CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
+        const std::string digits = text.substr(text.starts_with('+') ? 1 : 0);
+        const char* const end = digits.data() + digits.size();
+        const auto [stop, error] = std::from_chars(digits.data(), end, value);
+        bool inside = error == std::errc{} && stop == end && value >= least && value <= most;
+        if constexpr (std::is_integral_v<Number>) inside &= digits == std::to_string(value);
         return inside ? "" : "expected a number from " + words;
       },
       "");

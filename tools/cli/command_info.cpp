@@ -9,6 +9,7 @@
 
 #include "cli/command.h"
 #include "cli/common_options.h"
+#include "cli/console.h"
 #include "cli/exit_codes.h"
 #include "cli/json_report.h"
 #include "cli/paths.h"
@@ -29,7 +30,7 @@ constexpr char summary[] =
     "\n"
     "Examples:\n"
     "  sphparam info statue.obj\n"
-    "  sphparam info statue.ply --json\n"
+    "  sphparam info statue.ply --json -\n"
     "  cat statue.off | sphparam info -\n"
     "\n"
     "Ends with 0 when the mesh can be mapped to a sphere, with 4 when it cannot.\n";
@@ -38,7 +39,8 @@ constexpr int figure_digits = 6;
 
 struct InfoArguments {
   std::string input;
-  bool json = false;
+  std::string json;
+  ProgressStyle progress = ProgressStyle::Auto;
   Loudness loudness;
 };
 
@@ -110,11 +112,15 @@ std::string text_of(const InfoReport& report) {
     text += "What is odd or wrong:\n" + defect_list(source.inspection.defects);
   }
   if (source.inspection.is_sphere()) return text + "A closed genus-0 mesh: it can be mapped.\n";
-  return text + "This mesh cannot be mapped to a sphere as it is.\n" + words_of(*report.repair);
+  return text + "This mesh cannot be mapped to a sphere as it is.\n" +
+         words_of(*report.repair, source.path);
 }
 
 int run_info(const InfoArguments& arguments) {
   const Stopwatch stopwatch;
+  require_report_place({arguments.input}, arguments.json);
+  Console console(arguments.loudness.verbosity(), arguments.progress);
+  console.progress("inspection", 0);
   const Source source = read_source(arguments.input);
   std::optional<RepairTrial> trial;
   if (!source.inspection.is_sphere()) trial = try_repair(source);
@@ -123,12 +129,14 @@ int run_info(const InfoArguments& arguments) {
       .provenance = has_map(source.file) ? read_provenance(source.file) : Provenance{},
       .repair = trial,
       .seconds = stopwatch.seconds()};
-  if (arguments.json) {
-    write_file("-", to_json(report));
-  } else if (!arguments.loudness.quiet) {
-    write_file("-", text_of(report));
+  console.clear_progress();
+  if (!arguments.json.empty()) write_file(arguments.json, to_json(report));
+  if (!is_stream(arguments.json) && !arguments.loudness.quiet) write_file("-", text_of(report));
+  if (source.inspection.is_sphere()) return Ok;
+  if (arguments.loudness.quiet) {
+    print_error(display_name(arguments.input) + ": this is not a closed genus-0 mesh");
   }
-  return source.inspection.is_sphere() ? Ok : MeshUnusable;
+  return MeshUnusable;
 }
 
 }  // namespace
@@ -141,7 +149,8 @@ Command declare_info(CLI::App& program) {
                    "OBJ, PLY, OFF, STL, glTF, GLB or GIFTI; - for standard input")
       ->type_name(" ")
       ->required();
-  command->add_flag("--json", arguments->json, "The report as JSON");
+  add_json(*command, arguments->json);
+  add_progress(*command, arguments->progress);
   add_loudness(*command, arguments->loudness);
   return {command, [arguments] { return run_info(*arguments); }};
 }

@@ -61,6 +61,8 @@ MapOutcome compute(Source source, const MapArguments& arguments, Console& consol
   options.progress = [&](std::string_view stage, double f) { return console.progress(stage, f); };
   settle_vertices(arguments, outcome.source.file, options);
   outcome.pins = options.pins;
+  outcome.poles = options.poles;
+  outcome.meridian = options.meridian;
   MethodRun run = run_method(arguments.method, mesh, outcome.topology(), options);
   outcome.result = std::move(run.result);
   outcome.account = std::move(run.account);
@@ -90,7 +92,7 @@ int run_map(const MapArguments& arguments) {
   MapOutcome outcome = compute(std::move(source), arguments, console);
   tell_stages(arguments, outcome, console);
   tell_frame(arguments, outcome, console);
-  const bool writes = outcome.has_map() && outcome.pins_hold() &&
+  const bool writes = outcome.has_map() && outcome.frame_holds() &&
                       (outcome.certificate.bijective() || arguments.keep_folded);
   write_outputs(arguments, outcome, writes, stopwatch, console);
   try {

@@ -2,7 +2,10 @@
 // closed or not.
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -64,7 +67,9 @@ std::optional<LengthLimit> parse_length(std::string text) {
   LengthLimit limit;
   limit.of_diagonal = !text.empty() && text.back() == '%';
   if (limit.of_diagonal) text.pop_back();
-  const bool number = CLI::detail::lexical_cast(text, limit.value) && std::isfinite(limit.value);
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, limit.value);
+  const bool number = error == std::errc{} && stop == end && std::isfinite(limit.value);
   return number && limit.value >= 0 ? std::optional(limit) : std::nullopt;
 }
 
@@ -210,6 +215,7 @@ void add_sampling(CLI::App& command, MeasureArguments& arguments) {
       ->type_name("N")
       ->capture_default_str();
   command.add_option("--seed", arguments.options.seed, "Of the samples' places")
+      ->check(between<std::uint64_t>(0, std::numeric_limits<std::uint64_t>::max(), "0 on"))
       ->type_name("N")
       ->capture_default_str();
   command
@@ -236,8 +242,7 @@ Command declare_measure(CLI::App& program) {
       ->add_option("--per-vertex", arguments->per_vertex,
                    "A with each vertex's distance to B: property error, and colours")
       ->type_name("FILE");
-  command->add_option("--json", arguments->json, "A report; - for standard output")
-      ->type_name("FILE");
+  add_json(*command, arguments->json);
   add_length(*command, "--max-rms", arguments->max_rms,
              "End with 6 where the larger RMS is more; % of A's diagonal");
   add_length(*command, "--max-distance", arguments->max_distance,

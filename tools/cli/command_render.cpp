@@ -68,6 +68,7 @@ struct RenderArguments {
   bool no_legend = false;
   int size = 800;
   int threads = 0;
+  ProgressStyle progress = ProgressStyle::Auto;
   Loudness loudness;
 };
 
@@ -229,7 +230,8 @@ void require_png(const std::string& path) {
 int run_render(const RenderArguments& arguments) {
   require_png(arguments.output);
   check_places({arguments.input}, {{"-o", arguments.output}});
-  Console console(arguments.loudness.verbosity(), ProgressStyle::None);
+  Console console(arguments.loudness.verbosity(), arguments.progress);
+  console.progress("picture", 0);
   Subject subject = {.file = read_mesh(arguments.input, input_limits()), .map = std::nullopt};
   if (subject.file.mesh.face_count() == 0) {
     throw ReadError(display_name(arguments.input), "there are no triangles to draw");
@@ -286,6 +288,7 @@ Command declare_render(CLI::App& program) {
       ->type_name("N")
       ->capture_default_str();
   add_threads(*command, arguments->threads);
+  add_progress(*command, arguments->progress);
   add_loudness(*command, arguments->loudness);
   return {command, [arguments] { return run_render(*arguments); }};
 }

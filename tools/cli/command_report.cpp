@@ -292,7 +292,7 @@ Command declare_report(CLI::App& program) {
       ->capture_default_str();
   command->add_flag("--no-viewer", arguments->no_viewer,
                     "Pictures instead of 3D models: a smaller page without scripts");
-  command->add_option("--json", arguments->json, "All figures, as JSON")->type_name("FILE");
+  add_json(*command, arguments->json, "All figures");
   add_threads(*command, arguments->threads);
   add_progress(*command, arguments->progress);
   add_loudness(*command, arguments->loudness);

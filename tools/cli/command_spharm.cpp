@@ -229,8 +229,7 @@ void add_options(CLI::App& command, SpharmArguments& arguments) {
                    {{"least-squares", true}, {"quadrature", false}},
                    "At the vertices, weighted by their solid angles, or the integral over the "
                    "sphere (default: least-squares)");
-  command.add_option("--json", arguments.json, "Coefficients and figures; - for standard output")
-      ->type_name("FILE");
+  add_json(command, arguments.json, "Coefficients and figures");
   command.add_option("--csv", arguments.csv, "Coefficients, a line each; - for standard output")
       ->type_name("FILE");
   command

@@ -38,7 +38,7 @@ constexpr char summary[] =
     "Examples:\n"
     "  sphparam verify statue.sph.ply                 a map with sx sy sz, as `map` writes it\n"
     "  sphparam verify sphere.obj                     a bare sphere about the origin\n"
-    "  sphparam verify statue.obj sphere.obj --json   a mesh and its sphere, with the distortion\n"
+    "  sphparam verify statue.obj sphere.obj --json -   a mesh and its sphere, with figures\n"
     "  sphparam verify statue.glb                     what `export --theta-phi` wrote\n"
     "  sphparam verify statue.sph.ply --chart         the texture chart too\n"
     "\n"
@@ -54,8 +54,9 @@ struct VerifyArguments {
   std::string file;
   std::string sphere;  // empty: the map is in `file`
   bool chart = false;
-  bool json = false;
+  std::string json;
   int threads = 0;
+  ProgressStyle progress = ProgressStyle::Auto;
   Loudness loudness;
 };
 
@@ -161,7 +162,9 @@ std::string text_of(const VerifyReport& report, Eigen::Index triangles) {
 
 int run_verify(const VerifyArguments& arguments) {
   const Stopwatch stopwatch;
-  Console console(arguments.loudness.verbosity(), ProgressStyle::None);
+  require_report_place({arguments.file, arguments.sphere}, arguments.json);
+  Console console(arguments.loudness.verbosity(), arguments.progress);
+  console.progress("certificate", 0);
   const Claim claim = arguments.sphere.empty() ? claim_of_file(arguments.file)
                                                : claim_of_pair(arguments.file, arguments.sphere);
   const Certificate certificate = certify_either_way(claim, arguments.threads);
@@ -188,14 +191,15 @@ int run_verify(const VerifyArguments& arguments) {
   report.chart_wanted = arguments.chart;
   if (arguments.chart) report.chart = chart_of(claim, certificate, arguments.threads);
   report.seconds = stopwatch.seconds();
-  if (arguments.json) {
-    write_file("-", to_json(report));
-  } else if (!arguments.loudness.quiet) {
-    write_file("-", text_of(report, claim.mesh.face_count()));
-  }
+  console.clear_progress();
+  if (!arguments.json.empty()) write_file(arguments.json, to_json(report));
+  const std::string text = text_of(report, claim.mesh.face_count());
+  if (!is_stream(arguments.json) && !arguments.loudness.quiet) write_file("-", text);
   const bool chart_holds =
       !arguments.chart || (report.chart && report.chart->certificate.one_to_one());
-  return certificate.bijective() && chart_holds ? Ok : NotCertified;
+  if (certificate.bijective() && chart_holds) return Ok;
+  if (arguments.loudness.quiet) print_error(text.substr(0, text.size() - 1));
+  return NotCertified;
 }
 
 }  // namespace
@@ -210,8 +214,9 @@ Command declare_verify(CLI::App& program) {
       ->type_name(" ");
   command->add_flag("--chart", arguments->chart,
                     "Make the (u, v) chart for textures too, and prove it");
-  command->add_flag("--json", arguments->json, "The report as JSON");
+  add_json(*command, arguments->json);
   add_threads(*command, arguments->threads);
+  add_progress(*command, arguments->progress);
   add_loudness(*command, arguments->loudness);
   return {command, [arguments] { return run_verify(*arguments); }};
 }

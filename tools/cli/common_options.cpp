@@ -1,8 +1,11 @@
 #include "cli/common_options.h"
 
 #include <CLI/CLI.hpp>
+#include <set>
 
 #include "cli/choice.h"
+#include "cli/paths.h"
+#include "image/file_extension.h"
 
 namespace sphparam::tools {
 
@@ -18,6 +21,19 @@ void add_progress(CLI::App& command, ProgressStyle& progress) {
       command, "--progress", progress,
       {{"auto", ProgressStyle::Auto}, {"none", ProgressStyle::None}, {"json", ProgressStyle::Json}},
       "How far it is; auto: on a terminal (default: auto)");
+}
+
+void add_json(CLI::App& command, std::string& json, const std::string& what) {
+  command.add_option("--json", json, what + "; - for standard output")->type_name("FILE");
+}
+
+void require_report_place(const std::vector<std::string>& inputs, const std::string& json) {
+  const std::set<std::string> of_meshes = {".obj", ".ply", ".off", ".stl", ".gltf", ".glb", ".gii"};
+  if (of_meshes.contains(extension_of(json))) {
+    throw UsageMistake("--json: " + json +
+                       " is the name of a mesh, not of a report; `--json -` is standard output");
+  }
+  check_places(inputs, {{"--json", json}});
 }
 
 void add_loudness(CLI::App& command, Loudness& loudness) {

@@ -46,6 +46,11 @@ Console::Console(Verbosity verbosity, ProgressStyle progress)
 
 Console::~Console() { clear_progress(); }
 
+void Console::error(const std::string& text) {
+  clear_progress();
+  print_error(text);
+}
+
 void Console::warning(const std::string& text) {
   if (verbosity_ == Verbosity::Quiet) return;
   clear_progress();

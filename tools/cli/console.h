@@ -18,6 +18,7 @@ class Console {
   Console(Verbosity verbosity, ProgressStyle progress);
   ~Console();
 
+  void error(const std::string& text);    // always
   void warning(const std::string& text);  // unless quiet
   void say(const std::string& text);      // the result, unless quiet
   void detail(const std::string& text);   // when verbose

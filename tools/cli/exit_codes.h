@@ -30,8 +30,8 @@ inline constexpr ExitMeaning exit_meanings[] = {
      "the mesh is not a closed genus-0 manifold; or has no area or no sensible size, where lengths "
      "matter"},
     {NotCertified,
-     "the map is not one-to-one, or a pin is not at its point; no map written but with "
-     "--keep-folded"},
+     "the map is not one-to-one, or a pin, pole or meridian is not at its place; no map written "
+     "but with --keep-folded"},
     {LimitExceeded, "what was measured exceeds the limit; all outputs are written"},
     {Interrupted, "interrupted"},
 };

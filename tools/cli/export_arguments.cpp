@@ -128,7 +128,7 @@ CLI::App* declare_export_arguments(CLI::App& program, ExportArguments& arguments
                    ".glb, .gltf, .obj or .ply; - for a .glb on standard output")
       ->type_name("FILE")
       ->required();
-  command->add_option("--json", arguments.json, "A report for programs")->type_name("FILE");
+  add_json(*command, arguments.json);
   add_images(*command, arguments);
   add_chart(*command, arguments);
   add_buffers(*command, arguments);

@@ -45,13 +45,31 @@ Json repairs_json(const std::vector<RepairAction>& repairs) {
   return result;
 }
 
+/// What choosing a component kept, or may choose from; null where there was one only.
+Json parts_json(const KeptParts& parts) {
+  if (parts.count == 0) return nullptr;
+  Json largest = Json::array();
+  for (const SurfacePart& part : parts.largest) {
+    largest.push_back({{"area_share", part.area_share},
+                       {"face_share", part.face_share},
+                       {"triangles", part.faces},
+                       {"vertex", part.vertex}});
+  }
+  return {{"count", parts.count},
+          {"area_kept", parts.area_share},
+          {"faces_kept", parts.face_share},
+          {"largest", largest}};
+}
+
 /// What --repair would do; null for a mesh that needs none.
 Json trial_json(const std::optional<RepairTrial>& trial) {
   if (!trial) return nullptr;
   Json remaining = Json::array();
   for (const MeshDefect& defect : trial->remaining) remaining.push_back(defect_json(defect));
   return {{"mends", trial->mends()},
+          {"mends_with", trial->can_mend() ? Json("--repair" + trial->further) : Json()},
           {"actions", repairs_json(trial->actions)},
+          {"components", parts_json(trial->parts)},
           {"remaining", remaining}};
 }
 
@@ -116,6 +134,27 @@ Json pins_json(const MapReport& report) {
                       {"residual", i < residuals.size() ? Json(residuals[i]) : Json()}});
   }
   return result;
+}
+
+Json pole_residuals_json(const std::vector<double>& residuals) {
+  if (residuals.empty()) return nullptr;
+  return {{"north", residuals[0]}, {"south", residuals[1]}};
+}
+
+/// The λ that the map is minimised for, where one is.
+Json lambda_json(const MapReport& report) {
+  const ParameterizeOptions& options = report.options;
+  const bool minimises = !report.account && options.method != Method::Paper &&
+                         options.energy.kind == EnergyKind::AngleAndArea;
+  if (!minimises) return nullptr;
+  return report.result.balance ? report.result.balance->lambda : options.energy.lambda;
+}
+
+Json balance_json(const std::optional<BalanceRecord>& balance) {
+  if (!balance) return nullptr;
+  return {{"lambda", balance->lambda},
+          {"mean_abs_log2_area", balance->area_error},
+          {"moved", balance->moved}};
 }
 
 Json options_json(const MapReport& report) {
@@ -265,13 +304,17 @@ std::string to_json(const MapReport& report) {
                {"input", input_json(report.input)},
                {"inspection", inspection_json(report.input.source.inspection)},
                {"repairs", repairs_json(report.input.source.repairs)},
+               {"components", parts_json(report.input.source.parts)},
                {"options", options_json(report)},
                {"account", account_json(report.account)},
                {"stages", stages},
                {"made_by", report.result.made_by},
                {"poles", poles_json(report.result.poles, numbers)},
                {"meridian", vertex_json(report.result.meridian, numbers)},
+               {"pole_residuals", pole_residuals_json(report.pole_residuals)},
                {"pins", pins_json(report)},
+               {"lambda", lambda_json(report)},
+               {"balance", balance_json(report.result.balance)},
                {"energy_cost", report.result.pole_cost},
                {"certificate", certificate_json(report.certificate)},
                {"distortion", distortion_json(report.distortion)},

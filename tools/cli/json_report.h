@@ -32,6 +32,7 @@ struct MapReport {
   const Parameterization& result;
   const std::optional<RivalAccount>& account;  // of a method of others
   const std::vector<Landmark>& pins;           // of vertices of the mesh
+  std::vector<double> pole_residuals;          // of poles asked for, in radians; empty: none were
   const Certificate& certificate;              // of what was written, where something was
   const std::optional<DistortionSummary>& distortion;
   const std::optional<ChartReport>& chart;

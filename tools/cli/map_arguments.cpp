@@ -29,7 +29,7 @@ constexpr char summary[] =
     "Examples:\n"
     "  sphparam map statue.obj -o statue.sph.ply\n"
     "  sphparam map statue.ply -o statue.sph.ply --json map.json --charts charts/\n"
-    "  sphparam map statue.off -o statue.sph.ply --sphere sphere.obj --poles 17,4203\n"
+    "  sphparam map statue.off -o statue.sph.ply --write-sphere sphere.obj --poles 17,4203\n"
     "  sphparam map statue.obj -o placed.sph.ply --pin eyes.txt\n"
     "  sphparam map statue.obj -o even.sph.ply --balance equal-area --quality best\n"
     "  cat statue.obj | sphparam map - -o - > statue.sph.ply\n"
@@ -120,14 +120,14 @@ void require_sensible(const MapArguments& arguments) {
   const std::string extension = extension_of(arguments.output);
   if (!extension.empty() && extension != ".ply") {
     throw UsageMistake("-o: the map is a PLY, the name must end in .ply; for " + extension +
-                       " see --sphere");
+                       " see --write-sphere");
   }
   if (!arguments.sphere.empty() && !serialiser(arguments.sphere)) {
-    throw UsageMistake("--sphere: the name must end in .ply, .obj, .off or .gii");
+    throw UsageMistake("--write-sphere: the name must end in .ply, .obj, .off or .gii");
   }
   check_places(
       {arguments.input, arguments.pins},
-      {{"-o", arguments.output}, {"--sphere", arguments.sphere}, {"--json", arguments.json}},
+      {{"-o", arguments.output}, {"--write-sphere", arguments.sphere}, {"--json", arguments.json}},
       arguments.charts);
 }
 
@@ -172,11 +172,10 @@ void add_files(CLI::App& command, MapArguments& arguments) {
       ->type_name("FILE")
       ->required();
   command
-      .add_option("--sphere", arguments.sphere,
+      .add_option("--write-sphere", arguments.sphere,
                   "The bare sphere too: .ply, .obj or .off in doubles, .gii in floats of radius 100")
       ->type_name("FILE");
-  command.add_option("--json", arguments.json, "A report; - for standard output")
-      ->type_name("FILE");
+  add_json(command, arguments.json);
   command.add_option("--charts", arguments.charts, "The distortion as SVG charts")
       ->type_name("FOLDER");
 }

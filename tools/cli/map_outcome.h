@@ -21,7 +21,10 @@ struct MapOutcome {
   Certificate certificate = {};
   std::optional<Distortion> distortion = std::nullopt;
   std::optional<DistortionSummary> figures = std::nullopt;
-  std::vector<Landmark> pins = {};  // vertices of the mesh
+  // What was asked for, as vertices of the mesh:
+  std::vector<Landmark> pins = {};
+  std::optional<Poles> poles = std::nullopt;
+  std::optional<Vertex> meridian = std::nullopt;
 
   /// The paper's method makes none where no pair of poles is usable.
   bool has_map() const { return result.map.points.rows() > 0; }
@@ -30,8 +33,21 @@ struct MapOutcome {
     return pins.empty() ||
            (result.pin_residuals.size() == pins.size() && all_exact(result.pin_residuals));
   }
+  bool poles_hold() const {
+    return !poles || (result.poles && result.poles->north == poles->north &&
+                      result.poles->south == poles->south);
+  }
+  bool meridian_holds() const { return !meridian || result.meridian == meridian; }
+  /// Radians of the poles asked for from +z and from −z; empty where none were, or no map was made.
+  std::vector<double> pole_residuals() const {
+    if (!poles || !has_map()) return {};
+    return pin_residuals(result.map,
+                         {{poles->north, Vector3::UnitZ()}, {poles->south, -Vector3::UnitZ()}});
+  }
+  /// All that was asked for is where it was wanted: else no map is written.
+  bool frame_holds() const { return pins_hold() && poles_hold() && meridian_holds(); }
   /// What the program is for: exit code 0.
-  bool succeeded() const { return certificate.bijective() && pins_hold(); }
+  bool succeeded() const { return certificate.bijective() && frame_holds(); }
   const Topology& topology() const { return source.topology.value(); }
   std::string verdict() const { return has_map() ? tools::verdict(certificate) : "no map"; }
 };

@@ -179,6 +179,7 @@ void add_reports(PendingFiles& files, const MapArguments& arguments, MapOutcome&
       .result = outcome.result,
       .account = outcome.account,
       .pins = outcome.pins,
+      .pole_residuals = outcome.pole_residuals(),
       .certificate = outcome.certificate,
       .distortion = outcome.figures,
       .chart = chart,

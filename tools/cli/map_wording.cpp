@@ -7,6 +7,7 @@
 
 #include "cli/file_numbers.h"
 #include "cli/paths.h"
+#include "cli/repairing.h"
 #include "cli/told_losses.h"
 #include "cli/wording.h"
 #include "mesh_io/losses.h"
@@ -24,18 +25,44 @@ std::string stage_line(const StageRecord& stage) {
   return line;
 }
 
-/// Every pin that is not at its point, by its number in the file.
-std::string complaint_of_pins(const MapOutcome& outcome) {
-  if (outcome.pins_hold() || outcome.result.pin_residuals.size() != outcome.pins.size()) return "";
+std::string residual_line(const std::string& what, long number, double residual,
+                          const std::string& place) {
+  if (residual == 0) return "";
+  return "  " + what + " " + std::to_string(number) + " is " + short_number(residual) +
+         " radians from " + place + "\n";
+}
+
+/// Every pin and pole that is not at its point, by its number in the file.
+std::string complaint_of_frame(const MapOutcome& outcome) {
   const FileNumbers numbers(outcome.source.file);
   std::string lines;
-  for (size_t i = 0; i < outcome.pins.size(); ++i) {
-    const double residual = outcome.result.pin_residuals[i];
-    if (residual == 0) continue;
-    lines += "  pin " + std::to_string(numbers.number(outcome.pins[i].vertex)) + " is " +
-             short_number(residual) + " radians from its point\n";
+  for (size_t i = 0; i < std::min(outcome.pins.size(), outcome.result.pin_residuals.size()); ++i) {
+    lines += residual_line("pin", numbers.number(outcome.pins[i].vertex),
+                           outcome.result.pin_residuals[i], "its point");
+  }
+  const std::vector<double> of_poles = outcome.pole_residuals();
+  if (!outcome.poles_hold() && !of_poles.empty()) {
+    lines += residual_line("pole", numbers.number(outcome.poles->north), of_poles[0], "+z") +
+             residual_line("pole", numbers.number(outcome.poles->south), of_poles[1], "-z");
+  }
+  if (!outcome.meridian_holds()) {
+    lines +=
+        "  vertex " + std::to_string(numbers.number(*outcome.meridian)) + " is not at theta = 0\n";
   }
   return lines;
+}
+
+/// "certified one-to-one", or what the map lacks.
+std::string verdict_words(const MapOutcome& outcome) {
+  if (!outcome.certificate.bijective()) return "not one-to-one: " + outcome.verdict();
+  std::string missing;
+  const auto add = [&](bool holds, const char* what) {
+    if (!holds) missing += (missing.empty() ? "" : ", ") + std::string(what);
+  };
+  add(outcome.pins_hold(), "pins are not at their points");
+  add(outcome.poles_hold(), "the poles are not at ±z");
+  add(outcome.meridian_holds(), "the meridian is not at theta = 0");
+  return missing.empty() ? "certified one-to-one" : "one-to-one, but " + missing;
 }
 
 std::string advice(const MapArguments& arguments, bool written) {
@@ -55,6 +82,8 @@ void tell_stages(const MapArguments& arguments, const MapOutcome& outcome, Conso
   for (const std::string& note : outcome.source.notes)
     if (std::find(told.begin(), told.end(), note) == told.end()) console.detail("  note: " + note);
   for (const RepairAction& repair : outcome.source.repairs) console.say("  " + repair.message);
+  const std::string kept = line_of(outcome.source.parts);
+  if (!kept.empty()) console.say("  " + kept);
   for (const MeshDefect& defect : outcome.source.inspection.defects) {
     // What looks wrong on the map is told unasked.
     const bool visible = defect.kind == DefectKind::InsideOut;
@@ -67,6 +96,10 @@ void tell_stages(const MapArguments& arguments, const MapOutcome& outcome, Conso
   for (const StageRecord& stage : outcome.result.stages) {
     const bool asked = arguments.method == AnyMethod(Method::Paper);
     asked ? console.say(stage_line(stage)) : console.detail(stage_line(stage));
+  }
+  if (const std::optional<BalanceRecord>& balance = outcome.result.balance) {
+    console.detail("  balanced at lambda " + short_number(balance->lambda, 6) +
+                   ", mean |log2 area ratio| " + short_number(balance->area_error));
   }
   for (const std::string& warning : outcome.result.warnings) console.warning(warning);
 }
@@ -92,20 +125,21 @@ void tell_frame(const MapArguments& arguments, const MapOutcome& outcome, Consol
 
 void tell_result(const MapArguments& arguments, const MapOutcome& outcome, bool written,
                  const Stopwatch& stopwatch, Console& console) {
-  const bool certified = outcome.certificate.bijective();
   std::string line = display_name(arguments.input) + ": " +
                      std::to_string(outcome.source.file.mesh.face_count()) + " triangles, " +
-                     (!certified            ? "not one-to-one: " + outcome.verdict()
-                      : outcome.pins_hold() ? "certified one-to-one"
-                                            : "one-to-one, but pins are not at their points");
+                     verdict_words(outcome);
   if (outcome.has_map()) line += " (" + outcome.result.made_by + ")";
   if (outcome.figures) line += ", " + distortion_line(*outcome.figures);
   line += ", " + short_number(stopwatch.seconds()) + " s";
   line += written ? " → " + output_name(arguments.output) : ", no map written";
-  console.say(line);
-  if (!certified) console.say(complaint(outcome.certificate) + advice(arguments, written));
-  if (!outcome.pins_hold())
-    console.say(complaint_of_pins(outcome) + "  no map is written without them");
+  if (outcome.succeeded()) return console.say(line);
+  if (!outcome.certificate.bijective()) {
+    line += "\n" + complaint(outcome.certificate) + advice(arguments, written);
+  }
+  if (!outcome.frame_holds()) {
+    line += "\n" + complaint_of_frame(outcome) + "  no map is written without them";
+  }
+  console.error(line);
 }
 
 }  // namespace sphparam::tools

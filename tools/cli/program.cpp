@@ -11,6 +11,7 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/command.h"
@@ -19,6 +20,7 @@
 #include "cli/files_read.h"
 #include "cli/input_limits.h"
 #include "cli/interruption.h"
+#include "cli/leading_options.h"
 #include "cli/measurable.h"
 #include "cli/memory_limit.h"
 #include "cli/repairing.h"
@@ -52,6 +54,8 @@ constexpr char summary[] =
 std::string footer() {
   std::string text =
       "Files: `-` is standard input or output. Messages go to standard error.\n"
+      "-q, -v, --progress, --threads, --max-memory and --limit may stand before the subcommand "
+      "too.\n"
       "\n"
       "Exit codes:\n";
   for (const ExitMeaning& exit : exit_meanings) {
@@ -96,6 +100,23 @@ std::string with_suggestion(const std::string& complaint, const std::string& mea
   return meant.empty() ? complaint : complaint + "; did you mean " + meant + "?";
 }
 
+/// What to type now, for options that have changed their name.
+std::string present_spelling(const std::string& command, const std::string& option) {
+  if (command != "map" || option != "--sphere") return "";
+  return "map: --sphere names a sphere that is read, in other subcommands; --write-sphere FILE "
+         "writes it";
+}
+
+/// Once a flag in `info` and `verify`: where its file is missing, or it took the place of another.
+std::string hint_of_json(const CLI::App& command, const CLI::ParseError& error) {
+  const CLI::Option* json = command.get_option_no_throw("--json");
+  if (!json) return "";
+  const bool missing = std::string_view(error.what()).starts_with("--json:") &&
+                       error.get_name() == "ArgumentMismatch";
+  const bool swallowed = json->count() > 0 && error.get_name() == "RequiredError";
+  return missing || swallowed ? "; --json takes a file, `--json -` is standard output" : "";
+}
+
 /// What is wrong with a command line, the mistyped word first: the other complaints follow from it.
 std::string explain(const CLI::App& program, const CLI::ParseError& error) {
   const std::vector<CLI::App*> chosen = program.get_subcommands();
@@ -104,6 +125,8 @@ std::string explain(const CLI::App& program, const CLI::ParseError& error) {
     const bool is_option = word.size() > 1 && word.front() == '-';
     if (is_option) {
       const std::string name = word.substr(0, word.find('='));
+      const std::string now = present_spelling(app.get_name(), name);
+      if (!now.empty()) return now;
       return with_suggestion("unknown option " + name, nearest_word(name, option_names(app)));
     }
     if (chosen.empty()) {
@@ -111,7 +134,7 @@ std::string explain(const CLI::App& program, const CLI::ParseError& error) {
                              nearest_word(word, command_names(program)));
     }
   }
-  return error.what();
+  return error.what() + hint_of_json(app, error);
 }
 
 int usage_error(const CLI::App& program, const std::string& message) {
@@ -154,6 +177,7 @@ int run_program(int argc, char** argv) {
     add_input_limits(*command.options);
   }
   try {
+    put_subcommand_first(argc, argv);
     program.parse(argc, argv);
     for (const Command& command : commands) {
       if (!command.options->parsed()) continue;

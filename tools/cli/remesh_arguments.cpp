@@ -63,7 +63,7 @@ void add_outputs(CLI::App& command, RemeshArguments& arguments) {
   command
       .add_option("--csv", arguments.csv, "A row for each vertex: direction, position, properties")
       ->type_name("FILE");
-  command.add_option("--json", arguments.json, "A report for programs")->type_name("FILE");
+  add_json(command, arguments.json);
 }
 
 }  // namespace

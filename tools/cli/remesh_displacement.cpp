@@ -125,6 +125,14 @@ void declare_displacement_options(CLI::App& command, RemeshArguments& arguments)
       ->type_name("FILE");
   command
       .add_option("--displace-size", arguments.displacement_size, "Columns and rows of that image")
+      ->check(CLI::Validator(
+          [](const std::string& text) {
+            return size_named(text) ? std::string()
+                                    : "expected columns and rows, as in 4096x2048, columns even, "
+                                      "at most " +
+                                          std::to_string(most_texels) + " texels, not " + text;
+          },
+          ""))
       ->type_name("WxH")
       ->capture_default_str();
   command
@@ -152,12 +160,6 @@ void check_displacement(const RemeshArguments& arguments) {
   }
   if ((depth_of(arguments) == ImageDepth::Uint16) != (kind == ".png")) {
     throw UsageMistake("--displace: half and float go into .exr, u16 into .png");
-  }
-  if (!size_named(arguments.displacement_size)) {
-    throw UsageMistake(
-        "--displace-size: expected columns and rows, as in 4096x2048, columns even, "
-        "at most " +
-        std::to_string(most_texels) + " texels, not " + arguments.displacement_size);
   }
   const std::string of_mesh = is_stream(mesh) ? ".ply" : extension_of(mesh);
   if (!mesh.empty() && of_mesh != ".ply" && of_mesh != ".obj") {

@@ -1,6 +1,7 @@
 #include "cli/repair_arguments.h"
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -59,6 +60,18 @@ RepairOptions only(const std::string& words) {
   return options;
 }
 
+/// "0.5" or "50%": a share from 0 to 1.
+std::optional<double> parse_share(std::string text) {
+  const bool percent = !text.empty() && text.back() == '%';
+  if (percent) text.pop_back();
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (percent) value /= 100;
+  const bool good = error == std::errc{} && stop == end && value >= 0 && value <= 1;
+  return good ? std::optional(value) : std::nullopt;
+}
+
 }  // namespace
 
 void add_repair_options(CLI::App& command, RepairArguments& arguments) {
@@ -71,9 +84,21 @@ void add_repair_options(CLI::App& command, RepairArguments& arguments) {
       ->group(group);
   command
       .add_option("--component", arguments.component,
-                  "Keep the N-th largest component (--repair keeps the largest)")
+                  "Keep the N-th largest component by area, whatever its share")
       ->check(between(1, most, "1 on"))
       ->type_name("N")
+      ->group(group);
+  command
+      .add_option_function<std::string>(
+          "--min-kept",
+          [&arguments](const std::string& text) {
+            arguments.least_kept = parse_share(text);
+            if (arguments.least_kept) return;
+            throw CLI::ValidationError("--min-kept", "expected a share, as in 0.5 or 50%");
+          },
+          "Keep the largest component if it has this share of the area; else end with 4 "
+          "(--repair: 98%)")
+      ->type_name("SHARE")
       ->group(group);
   command
       .add_option("--max-hole", arguments.largest_hole,
@@ -85,16 +110,19 @@ void add_repair_options(CLI::App& command, RepairArguments& arguments) {
 }
 
 std::optional<RepairOptions> wanted_repairs(const RepairArguments& arguments) {
-  if (arguments.words.empty() && !arguments.component && !arguments.largest_hole) {
-    return std::nullopt;
+  const bool chosen = arguments.component > 0 || arguments.least_kept;
+  if (arguments.words.empty() && !chosen && !arguments.largest_hole) return std::nullopt;
+  if (arguments.component && arguments.least_kept) {
+    throw UsageMistake(
+        "--component and --min-kept contradict each other: a component that is named is kept "
+        "whatever its share");
   }
   RepairOptions options = arguments.words == without_words ? RepairOptions{}
                           : arguments.words.empty()        ? RepairOptions::none()
                                                            : only(arguments.words);
-  if (arguments.component) {
-    options.components = true;
-    options.component = arguments.component;
-  }
+  if (chosen) options.components = true;
+  options.component = arguments.component;
+  options.least_kept = arguments.least_kept.value_or(options.least_kept);
   if (arguments.largest_hole) {
     options.holes = true;
     options.largest_hole = arguments.largest_hole;

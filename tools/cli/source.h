@@ -12,12 +12,14 @@ namespace sphparam::tools {
 
 /// A mesh file as the map takes it, and what was found on the way.
 struct Source {
+  std::string path;                  // as it was named
   MeshFile file;                     // welded where needed, without unused vertices
   std::optional<Topology> topology;  // of it; nothing where it is no closed manifold
   MeshInspection inspection;  // with the ids of the file, or after welding if that was needed
   bool welded = false;
   std::vector<std::string> notes;     // of the reader, then what was done to the mesh
   std::vector<RepairAction> repairs;  // with the numbers of the file; see cli/repairing.h
+  KeptParts parts;                    // what they kept of the surface, so numbered too
 };
 
 /// Throws: ReadError. A mesh that is no sphere is returned all the same: see `inspection`.

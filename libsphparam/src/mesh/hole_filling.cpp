@@ -183,11 +183,16 @@ void fill_holes(RepairState& state, int largest_hole) {
   edges.reserve(sides.size());
   for_each_edge(sides, [&](size_t i, size_t) { edges.insert(sides[i].low, sides[i].high); });
   std::vector<char> seen(state.positions.size(), 0);
+  state.largest_hole_left = 0;
   const Vertex vertices = state.vertex_count();
   for (Vertex v = 0; v < vertices; ++v) {
     if (into[v] < 0 || seen[v]) continue;
     const Rim rim = walk(state, into, v, seen);
-    if (rim.size() < 3 || rim.size() > static_cast<size_t>(largest_hole)) continue;
+    if (rim.size() > static_cast<size_t>(largest_hole)) {
+      state.largest_hole_left = std::max(state.largest_hole_left, static_cast<long>(rim.size()));
+      continue;
+    }
+    if (rim.size() < 3) continue;
     const bool one_face = rim.size() == 3 && into[rim[0].vertex] / 3 == into[rim[1].vertex] / 3 &&
                           into[rim[0].vertex] / 3 == into[rim[2].vertex] / 3;
     HoleFiller(state, edges, rim).fill(!one_face);

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <iomanip>
 #include <optional>
 #include <sstream>
 
@@ -134,11 +135,30 @@ class Inspector {
       if (!mesh_.positions.row(v).allFinite()) places.add({v});
     }
     finite_ = places.count == 0;
+    if (finite_ && faces_ > 0) measure_box();
     if (finite_) return;
     add_fatal(DefectKind::NonFinitePosition, places.count, places.elements,
               plural(places.count, "vertex has", "vertices have") +
                   " a coordinate that is not a finite number" + place_list(places, "vertices", 1),
               "");
+  }
+
+  void measure_box() {
+    result_.lower = mesh_.positions.colwise().minCoeff();
+    result_.upper = mesh_.positions.colwise().maxCoeff();
+    centre_ = 0.5 * result_.lower + 0.5 * result_.upper;
+    const double extent = (result_.upper / 2 - result_.lower / 2).maxCoeff() * 2;
+    if (extent > 0) scale_ = extent;
+  }
+
+  /// In the unit box, so that 1e±300 neither overflows nor vanishes.
+  Vector3 scaled_corner(Face f, int k) const {
+    return (mesh_.position(corner(f, k)) - centre_) / scale_;
+  }
+
+  double scaled_area(Face f) const {
+    const Vector3 a = scaled_corner(f, 0);
+    return (scaled_corner(f, 1) - a).cross(scaled_corner(f, 2) - a).norm() / 2;
   }
 
   void check_edges() {
@@ -175,12 +195,32 @@ class Inspector {
                 "remove inner or duplicate faces");
     }
     if (misoriented.count > 0) {
+      const bool one_sided = is_one_sided();
       add_fatal(DefectKind::InconsistentOrientation, misoriented.count, misoriented.elements,
                 plural(misoriented.count, "edge is", "edges are") +
                     " run through the same way by both faces" +
+                    (one_sided ? " of a one-sided (non-orientable) surface" : "") +
                     place_list(misoriented, "between vertices", 2),
-                "orient the faces consistently; a one-sided surface cannot be mapped");
+                one_sided ? "however its faces are turned, some edge is run through the same way"
+                          : "orient the faces consistently");
     }
+  }
+
+  /// Each face as it is, and turned over: joined across edges where they agree. One-sided is what
+  /// comes back to a face the other way round.
+  bool is_one_sided() const {
+    UnionFind ways(static_cast<size_t>(faces_) * 2);
+    for_each_edge(sides_, [&](size_t i, size_t j) {
+      if (j - i != 2) return;
+      const Face f = sides_[i].halfedge / 3, g = sides_[i + 1].halfedge / 3;
+      const int turned = sides_[i].forward == sides_[i + 1].forward ? 1 : 0;
+      ways.unite(2 * f, 2 * g + turned);
+      ways.unite(2 * f + 1, 2 * g + 1 - turned);
+    });
+    for (Face f = 0; f < faces_; ++f) {
+      if (ways.find(2 * f) == ways.find(2 * f + 1)) return true;
+    }
+    return false;
   }
 
   void check_duplicate_faces() {
@@ -255,13 +295,9 @@ class Inspector {
     result_.euler_characteristic = result_.used_vertices - result_.edges + sound_faces;
     used_ = std::move(used);
     if (result_.components > 1) {
-      std::vector<long> size(static_cast<size_t>(vertices_), 0);
-      for (Face f = 0; f < faces_; ++f) {
-        if (is_sound(f)) ++size[static_cast<size_t>(parts.find(corner(f, 0)))];
-      }
       add_fatal(DefectKind::SeveralComponents, result_.components, {},
                 std::to_string(result_.components) + " separate components; the largest has " +
-                    plural(*std::max_element(size.begin(), size.end()), "face", "faces"),
+                    words_of_largest(parts),
                 "keep one of them");
     }
     const bool clean = result_.defects.empty() && result_.components == 1;
@@ -274,6 +310,31 @@ class Inspector {
                     "): only surfaces without handles map to the sphere",
                 "cut each handle open and close both ends");
     }
+  }
+
+  /// "33104 faces and 99.2 % of the area"; the largest by area, where there is any.
+  std::string words_of_largest(UnionFind& parts) const {
+    struct Size {
+      double area = 0;
+      long faces = 0;
+      auto operator<=>(const Size&) const = default;
+    };
+    std::vector<Size> sizes(static_cast<size_t>(vertices_));
+    double all = 0;
+    for (Face f = 0; f < faces_; ++f) {
+      if (!is_sound(f)) continue;
+      Size& size = sizes[static_cast<size_t>(parts.find(corner(f, 0)))];
+      const double area = finite_ ? scaled_area(f) : 0;
+      size.area += area;
+      all += area;
+      ++size.faces;
+    }
+    const Size largest = *std::max_element(sizes.begin(), sizes.end());
+    std::ostringstream text;
+    text << plural(largest.faces, "face", "faces");
+    if (all > 0)
+      text << " and " << std::setprecision(3) << 100 * largest.area / all << " % of the area";
+    return text.str();
   }
 
   void check_usage() {
@@ -290,26 +351,16 @@ class Inspector {
 
   void check_shape() {
     if (!finite_ || faces_ == 0) return;
-    result_.lower = mesh_.positions.colwise().minCoeff();
-    result_.upper = mesh_.positions.colwise().maxCoeff();
-    // Scaled to the unit box, so that 1e±300 neither overflows nor vanishes.
-    const Vector3 centre = 0.5 * result_.lower + 0.5 * result_.upper;
-    const double extent = (result_.upper / 2 - result_.lower / 2).maxCoeff() * 2;
-    const double scale = extent > 0 ? extent : 1;
     Places flat;
     for (Face f = 0; f < faces_; ++f) {
       if (!is_sound(f)) continue;
-      const auto point = [&](int k) -> Vector3 {
-        return (mesh_.position(corner(f, k)) - centre) / scale;
-      };
-      const Vector3 a = point(0), b = point(1), c = point(2);
-      const double area = (b - a).cross(c - a).norm() / 2;
-      result_.area += area;
+      const Vector3 a = scaled_corner(f, 0), b = scaled_corner(f, 1), c = scaled_corner(f, 2);
+      result_.area += scaled_area(f);
       result_.volume += a.dot(b.cross(c)) / 6;
       if (is_flat(a, b, c)) flat.add({f});
     }
-    result_.area *= scale * scale;
-    result_.volume *= scale * scale * scale;
+    result_.area *= scale_ * scale_;
+    result_.volume *= scale_ * scale_ * scale_;
     if (flat.count > 0) {
       add_remark(
           DefectKind::ZeroAreaFace, flat,
@@ -364,6 +415,8 @@ class Inspector {
   std::vector<char> used_;       // per vertex
   std::vector<FaceSide> sides_;  // sorted by edge
   bool finite_ = true;
+  Vector3 centre_ = Vector3::Zero();  // of the bounding box
+  double scale_ = 1;                  // its longest side, where it has one
   MeshInspection result_;
 };
 

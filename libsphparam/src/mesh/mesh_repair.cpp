@@ -1,10 +1,8 @@
 #include "sphparam/mesh/mesh_repair.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "mesh/repair_state.h"
-#include "mesh/union_find.h"
 #include "option_domain.h"
 
 // The steps are the table below, each blind to the others: one can be left out, and what one leaves
@@ -15,24 +13,6 @@ namespace sphparam {
 namespace {
 
 constexpr int most_rounds = 5;
-
-struct Part {
-  int root;
-  long faces;
-};
-
-/// Largest first, of equal ones that with the lowest vertex.
-std::vector<Part> parts_by_size(const RepairState& state, UnionFind& parts) {
-  std::vector<long> size(state.positions.size(), 0);
-  for (const auto& face : state.faces) ++size[parts.find(face[0])];
-  std::vector<Part> ranked;
-  for (int v = 0; v < state.vertex_count(); ++v) {
-    if (size[v] > 0) ranked.push_back({v, size[v]});
-  }
-  std::stable_sort(ranked.begin(), ranked.end(),
-                   [](const Part& x, const Part& y) { return x.faces > y.faces; });
-  return ranked;
-}
 
 bool turn_outward(RepairState& state, const MeshInspection& inspection) {
   const auto inside_out = [](const MeshDefect& d) { return d.kind == DefectKind::InsideOut; };
@@ -56,14 +36,22 @@ void drop_unused(RepairState& state) {
   state.drop_unused_vertices();
 }
 
-void run_round(RepairState& state, const RepairOptions& options, int component) {
+/// Later rounds work on what the first has chosen.
+void choose_component(RepairState& state, const RepairOptions& options, bool first_round) {
+  if (state.parts.refused) return;
+  const bool named = options.component > 0;
+  keep_component(state, first_round && named ? options.component : 1,
+                 named ? 0 : options.least_kept);
+}
+
+void run_round(RepairState& state, const RepairOptions& options, bool first) {
   if (options.duplicates) {
     remove_invalid_faces(state);
     remove_duplicate_faces(state);
   }
   if (options.orientation) orient_alike(state);
   if (options.non_manifold) split_non_manifold(state);
-  if (options.components) keep_component(state, component);
+  if (options.components) choose_component(state, options, first);
   if (options.holes) fill_holes(state, options.largest_hole);
   if (options.flat_faces) mend_flat_faces(state);
   if (options.unused) drop_unused(state);
@@ -82,6 +70,8 @@ RepairedMesh as_result(RepairState&& state, MeshInspection inspection) {
   result.vertex_origin = std::move(state.vertex_origin);
   result.face_origin = std::move(state.face_origin);
   result.actions = std::move(state.actions);
+  result.parts = std::move(state.parts);
+  result.largest_hole_left = state.largest_hole_left;
   result.inspection = std::move(inspection);
   for (const auto& corners : state.corner_origin) {
     result.corner_origin.insert(result.corner_origin.end(), corners.begin(), corners.end());
@@ -97,40 +87,20 @@ RepairedMesh as_result(RepairState&& state, MeshInspection inspection) {
 
 }  // namespace
 
-void keep_component(RepairState& state, int rank) {
-  UnionFind parts(state.positions.size());
-  for (const auto& [a, b, c] : state.faces) {
-    parts.unite(a, b);
-    parts.unite(b, c);
-  }
-  const std::vector<Part> ranked = parts_by_size(state, parts);
-  if (ranked.empty()) return;
-  if (static_cast<size_t>(rank) > ranked.size()) {
-    throw NoSuchComponent("there is no component " + std::to_string(rank) + ": the mesh has " +
-                          std::to_string(ranked.size()));
-  }
-  const int chosen = ranked[rank - 1].root;
-  for (const Part& part : ranked) {
-    if (part.root == chosen) continue;
-    state.log(RepairKind::ComponentDropped, {state.vertex_origin[part.root]});
-  }
-  std::vector<char> kept(state.faces.size());
-  for (Face f = 0; f < state.face_count(); ++f) kept[f] = parts.find(state.faces[f][0]) == chosen;
-  state.keep_faces(kept);
-}
-
 RepairedMesh repair_mesh(const TriangleMesh& mesh, const RepairOptions& options) {
-  require_at_least("component", options.component, 1);
+  require_at_least("component", options.component, 0);
+  require_between("least_kept", options.least_kept, 0, 1);
   require_at_least("largest_hole", options.largest_hole, 3);
   RepairState state(mesh);
   MeshInspection inspection = inspect_mesh(mesh);
   if (!mesh.positions.allFinite()) return as_result(std::move(state), std::move(inspection));
   for (int round = 0; round < most_rounds; ++round) {
-    const bool other_component = round == 0 && options.components && options.component > 1;
+    const bool first = round == 0;
+    const bool other_component = first && options.components && options.component > 1;
     if (inspection.defects.empty() && !other_component) break;
     if (!options.duplicates && !all_indices_inside(state)) break;
     const long done_before = state.log_size();
-    run_round(state, options, round == 0 ? options.component : 1);
+    run_round(state, options, first);
     if (state.log_size() > done_before) inspection = inspect_mesh(state.mesh());
     if (options.orientation && turn_outward(state, inspection)) {
       inspection = inspect_mesh(state.mesh());

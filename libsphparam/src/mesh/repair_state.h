@@ -20,6 +20,8 @@ struct RepairState {
   std::vector<std::array<int, 3>> corner_origin;
   std::vector<std::vector<Vertex>> mean_of;  // #V: of created vertices, else empty
   std::vector<RepairAction> actions;         // one a kind
+  KeptParts parts;
+  long largest_hole_left = 0;  // found when holes were last looked for
 
   int vertex_count() const { return static_cast<int>(positions.size()); }
   int face_count() const { return static_cast<int>(faces.size()); }
@@ -46,7 +48,7 @@ void remove_invalid_faces(RepairState& state);
 void remove_duplicate_faces(RepairState& state);
 void orient_alike(RepairState& state);
 void split_non_manifold(RepairState& state);
-void keep_component(RepairState& state, int rank);
+void keep_component(RepairState& state, int rank, double least_kept);
 void fill_holes(RepairState& state, int largest_hole);
 void mend_flat_faces(RepairState& state);
 

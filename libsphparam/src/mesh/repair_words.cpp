@@ -38,7 +38,10 @@ std::pair<std::string, const char*> words(RepairKind kind, long n) {
     case RepairKind::TurnedOutward:
       return {"the whole surface turned over: it was inside out", ""};
     case RepairKind::FlatFaceTurned:
-      return {counted(n, "face", "faces") + " without area turned into its neighbour", "faces"};
+      return {counted(n, "face", "faces") +
+                  " without area turned, with the neighbour across the "
+                  "longest edge",
+              "faces"};
     case RepairKind::FlatFaceCollapsed:
       return {counted(n, "vertex", "vertices") +
                   " merged with another at the same place, to be rid of faces without area",
@@ -77,14 +80,23 @@ std::string describe(const RepairAction& action) {
   auto [text, noun] = words(action.kind, action.count);
   if (*noun == '\0') return text;
   const size_t ids = place_of(action.kind) == RepairPlace::Edges ? 2 : 1;
-  const auto name = [](int id) { return id < 0 ? std::string("(new)") : std::to_string(id); };
-  text += std::string(": ") + noun + " ";
+  std::string names;
+  long made_here = 0;
   for (size_t i = 0; i < action.elements.size(); i += ids) {
-    if (i > 0) text += ", ";
-    text += name(action.elements[i]);
-    if (ids == 2) text.append("-").append(name(action.elements[i + 1]));
+    const int first = action.elements[i], second = action.elements[i + ids - 1];
+    if (first < 0 || second < 0) {
+      ++made_here;
+      continue;
+    }
+    names += (names.empty() ? "" : ", ") + std::to_string(first);
+    if (ids == 2) names.append("-").append(std::to_string(second));
   }
-  return text + (static_cast<long>(action.elements.size() / ids) < action.count ? ", …" : "");
+  if (!names.empty()) names = ": " + std::string(noun) + " " + names;
+  if (made_here > 0) {
+    names += (names.empty() ? ": " : " and ") + std::to_string(made_here) + " made by this repair";
+  }
+  return text + names +
+         (static_cast<long>(action.elements.size() / ids) < action.count ? ", …" : "");
 }
 
 }  // namespace sphparam

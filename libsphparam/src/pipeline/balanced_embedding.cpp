@@ -48,8 +48,8 @@ SphereMap balance(MapInProgress& work, const SphereMap& map, double from_lambda,
                                                       .threads = work.options.threads,
                                                       .progress = work.options.progress}});
   work.energy.lambda = result.lambda;
-  work.result.balance = {result.lambda, result.area_error,
-                         result.report.steps > 0 && result.lambda != from_lambda};
+  const bool moved = result.report.steps > 0 && result.lambda != from_lambda;
+  work.result.balance = {moved ? result.lambda : from_lambda, result.area_error, moved};
   work.record("balance", result.map);
   return std::move(result.map);
 }

@@ -20,12 +20,15 @@ struct RepairOptions {
   bool duplicates = true;    // remove faces that name a vertex twice, and copies of faces
   bool orientation = true;   // orient faces alike, by majority; the closed surface outward
   bool non_manifold = true;  // give each sheet its own copy of the edges and vertices it shares
-  bool components = true;    // keep one component
+  bool components = true;    // keep one component, where that loses no more than specks
   bool holes = true;         // fill holes
   bool flat_faces = true;    // turn or collapse faces without area where the surface stays a sphere
   bool unused = true;        // drop vertices that no face uses
 
-  int component = 1;       // which to keep: 1 is the one with the most faces, 2 the next, …
+  /// Which to keep, whatever its share: 1 is the one with the largest area, 2 the next, …
+  /// 0: the largest, if it has `least_kept` of the area of all; else none is dropped.
+  int component = 0;
+  double least_kept = 0.98;
   int largest_hole = 500;  // edges of a hole that may be filled
 
   /// Nothing at all is wanted; then single ones are switched on.
@@ -77,6 +80,24 @@ struct CreatedVertex {
   std::vector<Vertex> mean_of;  // ids in the input; repeated ones weigh more
 };
 
+/// A component, as it was when one of them was to be kept. Shares are of all of them; of a mesh
+/// without area, those of the faces stand for it.
+struct SurfacePart {
+  double area_share = 1;
+  double face_share = 1;
+  long faces = 0;
+  Vertex vertex = -1;  // the one with the lowest id in the input
+};
+
+/// What choosing a component kept of the surface.
+struct KeptParts {
+  long count = 0;                    // of components there were; 0: there was nothing to choose
+  std::vector<SurfacePart> largest;  // the first of them, by area: those that can be asked for
+  bool refused = false;   // none was dropped: the largest has too small a share of the area
+  double area_share = 1;  // kept, over all rounds
+  double face_share = 1;
+};
+
 /// The mended mesh, and where everything in it comes from.
 struct RepairedMesh {
   TriangleMesh mesh;
@@ -85,7 +106,9 @@ struct RepairedMesh {
   std::vector<int> corner_origin;      // #F·3: corner 3·face + k of the input that it is like
   std::vector<CreatedVertex> created;  // by vertex
   std::vector<RepairAction> actions;   // in the order of RepairKind; empty: nothing was done
-  MeshInspection inspection;           // of `mesh`; `is_sphere()` tells whether it can be mapped
+  KeptParts parts;
+  long largest_hole_left = 0;  // edges of the largest hole that the limit alone kept open; or 0
+  MeshInspection inspection;   // of `mesh`; `is_sphere()` tells whether it can be mapped
 };
 
 /// Mends what can be mended without changing what the surface is: faults of files and of modelling
@@ -96,7 +119,10 @@ struct RepairedMesh {
 /// edges are cut apart and their sheets paired across the material between them (Guéziec, Taubin,
 /// Lazarus & Horn, "Cutting and stitching", 2001); holes are filled by ears, or by the fan of a
 /// created vertex where every ear would double an edge. Repeated until nothing more is to be done.
-/// Throws: NoSuchComponent; std::invalid_argument unless component ≥ 1 and largest_hole ≥ 3.
+/// Components are ranked by area; of equal ones the one with more faces comes first, then the one
+/// with the lowest vertex.
+/// Throws: NoSuchComponent; std::invalid_argument unless component ≥ 0, least_kept from 0 to 1 and
+///         largest_hole ≥ 3.
 /// Ensures: deterministic. Cost: O((#V + #F) log #F), for any valence and any hole.
 RepairedMesh repair_mesh(const TriangleMesh& mesh, const RepairOptions& options = {});
 
