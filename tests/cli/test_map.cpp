@@ -349,7 +349,7 @@ TEST_CASE("map: a GIFTI sphere holds floats at radius 100, and is certified as s
   INFO(mapped.err);
   REQUIRE(mapped.code == 0);
   CHECK_THAT(bytes_of(folder / "ball.gii"), Contains("NIFTI_TYPE_FLOAT32"));
-  const Ended verified = sphparam_program({"verify", folder / "ball.gii", "--json"});
+  const Ended verified = sphparam_program({"verify", folder / "ball.gii", "--json", "-"});
   CHECK(verified.code == 0);
   CHECK(Json::parse(verified.out)["mean_length"].get<double>() == Approx(100));
   const Ended baked =

@@ -141,7 +141,7 @@ TEST_CASE("verify: what --theta-phi wrote into glTF is the map that is judged") 
   write_bytes(mesh, obj_text(egg));
   REQUIRE(sphparam_program({"export", mesh, "-o", with, "--theta-phi"}).code == 0);
   REQUIRE(sphparam_program({"export", mesh, "-o", without}).code == 0);
-  const Ended ended = sphparam_program({"verify", with, "--json"});
+  const Ended ended = sphparam_program({"verify", with, "--json", "-"});
   INFO(ended.out << ended.err);
   CHECK(ended.code == 0);
   const Json report = Json::parse(ended.out);

@@ -28,12 +28,12 @@ void add_json(CLI::App& command, std::string& json, const std::string& what) {
 }
 
 void require_report_place(const std::vector<std::string>& inputs, const std::string& json) {
+  check_places(inputs, {{"--json", json}});
   const std::set<std::string> of_meshes = {".obj", ".ply", ".off", ".stl", ".gltf", ".glb", ".gii"};
   if (of_meshes.contains(extension_of(json))) {
     throw UsageMistake("--json: " + json +
                        " is the name of a mesh, not of a report; `--json -` is standard output");
   }
-  check_places(inputs, {{"--json", json}});
 }
 
 void add_loudness(CLI::App& command, Loudness& loudness) {

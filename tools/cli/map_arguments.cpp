@@ -172,8 +172,9 @@ void add_files(CLI::App& command, MapArguments& arguments) {
       ->type_name("FILE")
       ->required();
   command
-      .add_option("--write-sphere", arguments.sphere,
-                  "The bare sphere too: .ply, .obj or .off in doubles, .gii in floats of radius 100")
+      .add_option(
+          "--write-sphere", arguments.sphere,
+          "The bare sphere too: .ply, .obj or .off in doubles, .gii in floats of radius 100")
       ->type_name("FILE");
   add_json(command, arguments.json);
   command.add_option("--charts", arguments.charts, "The distortion as SVG charts")
