@@ -81,4 +81,19 @@ TEST_CASE("farthest point: what is known already is kept where nothing is farthe
   CHECK(found.at_most == 100);
 }
 
+TEST_CASE(
+    "farthest point: the bound is within twice of what is found where triangles run from end to "
+    "end") {
+  // Sheaves of needles: as many triangles as may be looked into at first, each with a large bound.
+  const int around = 6000;
+  TriangleMesh thin = tube(2, around), other = tube(3, around);
+  thin.positions.leftCols<2>() *= 1e-2;
+  other.positions.leftCols<2>() *= 1e-2;
+  other.positions.col(2) /= 2;
+  other.positions.col(0).array() += 1e-3;
+  const FarthestPoint found = farthest(thin, other);
+  CHECK(found.distance > 5e-4);
+  CHECK(found.at_most <= 2 * found.distance);
+}
+
 }  // namespace sphparam::tools

@@ -100,6 +100,25 @@ TEST_CASE("ray scene: triangles that are the same are asked once, and the first 
   check_nearest(ball, scene, {0.1, 0.2, 0.3}, -1);
 }
 
+TEST_CASE("ray scene: where long triangles lie across the axes, all answers are the same") {
+  TriangleMesh sheaf = tube(2, 60), across = sheaf;
+  for (TriangleMesh* mesh : {&sheaf, &across}) mesh->positions.leftCols<2>() *= 1e-3;
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(0.8, Vector3(1, 2, -1).normalized()).toRotationMatrix();
+  across.positions = sheaf.positions * turn.transpose();
+  const RayScene along_axis(sheaf), scene(across);
+  Random random;
+  for (int i = 0; i < 200; ++i) check_nearest(across, scene, random.point(), i % 3 - 1);
+  for (int i = 0; i < 20; ++i) {
+    const Vector3 origin(0.5, 0.1 * random.point().x(), 0.3 * random.point().y());
+    const Vector3 towards = Vector3(-origin.x(), -origin.y(), 0.1).normalized();
+    const RayHit one = along_axis.first_hit(origin, towards, 4),
+                 two = scene.first_hit(turn * origin, turn * towards, 4);
+    CHECK((one.face >= 0) == (two.face >= 0));
+    CHECK(one.distance == Approx(two.distance).margin(1e-5));
+  }
+}
+
 TEST_CASE("ray scene: nearest points stay exact far away, far from the origin and at any scale") {
   Random random;
   TriangleMesh soup = triangle_soup(200, 0.3);

@@ -20,6 +20,8 @@ namespace {
 
 constexpr size_t most_measurements = 1 << 14;
 constexpr double worthwhile = 1.001;  // times the farthest so far
+constexpr double loose = 2;  // a bound that many times the farthest is worth further measurements …
+constexpr size_t most_a_face = 4;  // … but not more than so many a triangle
 
 struct Corner {
   Vector3 point;
@@ -91,12 +93,16 @@ Candidates promising_faces(const Way& way, double known, int threads) {
     if (bounds[f] > known) result.faces.push_back(static_cast<Face>(f));
   }
   if (result.faces.size() <= most_measurements) return result;
-  const auto first_left = result.faces.begin() + most_measurements;
-  std::nth_element(result.faces.begin(), first_left, result.faces.end(), [&](Face a, Face b) {
-    const double of_a = bounds[static_cast<size_t>(a)], of_b = bounds[static_cast<size_t>(b)];
-    return of_a != of_b ? of_a > of_b : a < b;
+  const auto bound = [&](Face f) { return bounds[static_cast<size_t>(f)]; };
+  const auto last_of_most = result.faces.begin() + most_measurements;
+  std::nth_element(result.faces.begin(), last_of_most, result.faces.end(), [&](Face a, Face b) {
+    return bound(a) != bound(b) ? bound(a) > bound(b) : a < b;
   });
-  result.bound_of_rest = bounds[static_cast<size_t>(*first_left)];
+  const auto first_left = std::stable_partition(last_of_most, result.faces.end(),
+                                                [&](Face f) { return bound(f) > loose * known; });
+  for (auto f = first_left; f != result.faces.end(); ++f) {
+    result.bound_of_rest = std::max(result.bound_of_rest, bound(*f));
+  }
   result.faces.erase(first_left, result.faces.end());
   return result;
 }
@@ -125,8 +131,10 @@ FarthestPoint find_farthest(const TriangleMesh& from, const VertexDistances& ver
   std::vector<Piece> heap;
   for (const Face face : candidates.faces) heap.push_back(way.piece(face));
   std::make_heap(heap.begin(), heap.end(), promises_less);
-  for (size_t measured = 0; measured < most_measurements && !heap.empty(); ++measured) {
-    if (heap.front().bound <= worthwhile * best.distance) break;
+  const size_t most = most_measurements + most_a_face * static_cast<size_t>(from.face_count());
+  for (size_t measured = 0; measured < most && !heap.empty(); ++measured) {
+    const double enough = measured < most_measurements ? worthwhile : loose;
+    if (heap.front().bound <= enough * best.distance) break;
     std::pop_heap(heap.begin(), heap.end(), promises_less);
     const Piece piece = heap.back();
     heap.pop_back();

@@ -1,5 +1,6 @@
 // Embree, and the only file that knows it. The mesh is moved and scaled by a power of two into the
-// cube [−1, 1]³ in doubles, then rounded: each coordinate is off by at most 2⁻²⁵.
+// cube [−1, 1]³ in doubles (turned where triangles are long and lie across the axes), then rounded:
+// each coordinate is off by at most 2⁻²⁵, turned by 2⁻²⁴.
 //
 // Nearest points: Embree walks its tree by boxes in floats; here every triangle it comes to is
 // judged in doubles. A box may be passed over only if no triangle in it can be the nearest, so the
@@ -14,11 +15,13 @@
 
 #include <embree3/rtcore.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <new>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -89,8 +92,15 @@ struct Frame {
   Vector3 centre;
   double scale;  // a power of two
   double diagonal;
+  std::optional<Eigen::Matrix3d> turn;  // see `turned`
 
-  Vector3 local(const Vector3& point) const { return (point - centre) * scale; }
+  Vector3 local(const Vector3& point) const {
+    const Vector3 moved = (point - centre) * scale;
+    return turn ? Vector3(*turn * moved) : moved;
+  }
+  Eigen::Vector3f local_direction(const Eigen::Vector3f& direction) const {
+    return turn ? Eigen::Vector3f(turn->cast<float>() * direction) : direction;
+  }
   /// As Embree takes it: beyond, and where a mesh is one point that rounding misses, a ray meets
   /// nothing that floats could tell.
   Eigen::Vector3f local_origin(const Vector3& point) const {
@@ -118,7 +128,48 @@ Frame frame_of(const TriangleMesh& mesh) {
   std::frexp(half, &exponent);
   constexpr int greatest = 1000;  // 2¹⁰²⁴ is infinite, and numbers below the normal ask for more
   return {lower + halves, half > 0 ? std::ldexp(1.0, std::min(greatest, -exponent)) : 1.0,
-          2 * halves.stableNorm()};
+          2 * halves.stableNorm(), std::nullopt};
+}
+
+/// How many boxes of triangles a place of the mesh's box is in, by and large: Σ surface of their
+/// boxes / surface of the mesh's. Some 4 where triangles are compact, as many as there are where
+/// each goes from end to end.
+double overlap(const TriangleMesh& mesh, const Frame& frame) {
+  const auto half_surface = [](const Vector3& size) {
+    return size.x() * size.y() + size.y() * size.z() + size.z() * size.x();
+  };
+  Eigen::AlignedBox3d whole;
+  double sum = 0;
+  for (Eigen::Index f = 0; f < mesh.face_count(); ++f) {
+    Eigen::AlignedBox3d box;
+    for (int k = 0; k < 3; ++k) box.extend(frame.local(mesh.position(mesh.triangles(f, k))));
+    sum += half_surface(box.sizes());
+    whole.extend(box);
+  }
+  const double all = half_surface(whole.sizes());
+  return all > 0 ? sum / all : 0;
+}
+
+/// Triangles that are long and lie across the axes have boxes that overlap, so that a search goes
+/// through all of them. Where that is so, and many have one direction, that direction becomes an
+/// axis: the principal axes of the sides, each weighted by its squared length. The turned cube
+/// reaches √3 from the centre, as the cube does.
+Frame turned(const TriangleMesh& mesh, Frame frame) {
+  constexpr double crowded = 32, worthwhile = 0.5;
+  const double given = overlap(mesh, frame);
+  if (!(given > crowded)) return frame;
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  for (Eigen::Index f = 0; f < mesh.face_count(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      const Vector3 side = frame.local(mesh.position(mesh.triangles(f, (k + 1) % 3))) -
+                           frame.local(mesh.position(mesh.triangles(f, k)));
+      squares += side * side.transpose();
+    }
+  }
+  Frame other = frame;
+  other.turn =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(squares).eigenvectors().transpose().eval();
+  return overlap(mesh, other) < worthwhile * given ? other : frame;
 }
 
 template <class Ray>
@@ -150,7 +201,7 @@ RTCIntersectContext scattered_rays() {
 struct RayScene::Tree {
   explicit Tree(const TriangleMesh& triangles)
       : mesh(triangles),
-        frame(frame_of(triangles)),
+        frame(turned(triangles, frame_of(triangles))),
         faces(distinct_faces(triangles)),
         scene(device.handle) {
     Geometry geometry(device.handle);
@@ -200,7 +251,9 @@ void RayScene::find_blocked(const Vector3& origin, std::span<const Eigen::Vector
   std::array<RTCRay, bundle> rays;
   for (size_t first = 0; first < directions.size(); first += bundle) {
     const size_t count = std::min(bundle, directions.size() - first);
-    for (size_t i = 0; i < count; ++i) set_ray(rays[i], from, directions[first + i], local_reach);
+    for (size_t i = 0; i < count; ++i) {
+      set_ray(rays[i], from, tree_->frame.local_direction(directions[first + i]), local_reach);
+    }
     RTCIntersectContext context = scattered_rays();
     rtcOccluded1M(tree_->scene.handle, &context, rays.data(), static_cast<unsigned>(count),
                   sizeof(RTCRay));
@@ -217,7 +270,7 @@ void RayScene::find_distances(const Vector3& origin, std::span<const Eigen::Vect
   for (size_t first = 0; first < directions.size(); first += bundle) {
     const size_t count = std::min(bundle, directions.size() - first);
     for (size_t i = 0; i < count; ++i) {
-      set_ray(rays[i].ray, from, directions[first + i], local_reach);
+      set_ray(rays[i].ray, from, tree_->frame.local_direction(directions[first + i]), local_reach);
       rays[i].hit.geomID = RTC_INVALID_GEOMETRY_ID;
     }
     RTCIntersectContext context = scattered_rays();
@@ -232,7 +285,8 @@ void RayScene::find_distances(const Vector3& origin, std::span<const Eigen::Vect
 RayHit RayScene::first_hit(const Vector3& origin, const Vector3& unit_direction,
                            double reach) const {
   RTCRayHit ray;
-  set_ray(ray.ray, tree_->frame.local_origin(origin), unit_direction.cast<float>(),
+  set_ray(ray.ray, tree_->frame.local_origin(origin),
+          tree_->frame.local_direction(unit_direction.cast<float>()),
           tree_->frame.local_length(reach));
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   RTCIntersectContext context = scattered_rays();
@@ -250,7 +304,8 @@ class Search {
          const Vector3& point)
       : mesh_(mesh), faces_(faces), frame_(frame), point_(point), centre_(frame.local(point)) {
     if (centre_.squaredNorm() <= far_away * far_away) return;
-    centre_ = far_away * (point - frame.centre).stableNormalized();
+    const Vector3 away = (point - frame.centre).stableNormalized();
+    centre_ = far_away * (frame.turn ? Vector3(*frame.turn * away) : away);
     widening_ = squared_reach_of_cube;
   }
 
