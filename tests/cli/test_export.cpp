@@ -182,6 +182,19 @@ TEST_CASE("export: a normal map is of the finest mesh alone") {
   CHECK(variants[1]["variants"][0] == 1);
 }
 
+TEST_CASE(
+    "export: under a normal or occlusion map a mesh without colours is white, not a checker") {
+  const Egg egg;
+  REQUIRE(egg.run("a.gltf").code == 0);
+  for (const char* map : {"--normal", "--occlusion"}) {
+    REQUIRE(egg.run("x.glb", {map, egg.folder / "a_checker.png"}).code == 0);
+    const Json gltf = json_of(bytes_of(egg.folder / "x.glb"));
+    CHECK(gltf["materials"][0]["name"] == "plain");
+    CHECK(gltf["images"][0]["name"] == "white");
+    CHECK(gltf["images"].size() == 2);
+  }
+}
+
 TEST_CASE("export: names in Latin-1, and images in capitals") {
   Egg egg;
   fs::create_directory(egg.folder / "bake");

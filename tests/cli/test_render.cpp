@@ -81,4 +81,125 @@ TEST_CASE("render: what needs a map says so") {
   }
 }
 
+TEST_CASE("up: y where a mesh comes from glTF, also by way of a map or a new mesh; else z") {
+  const Folder folder;
+  TriangleMesh egg = icosphere(2);
+  egg.positions.col(2) *= 1.5;
+  write_bytes(folder / "egg.obj", obj_text(egg));
+  const auto make = [&](std::vector<std::string> arguments) {
+    const Ended ended = sphparam_program(arguments);
+    INFO(ended.err);
+    REQUIRE(ended.code == 0);
+    return ended.out;
+  };
+  make({"export", folder / "egg.obj", "-o", folder / "egg.glb", "--image-size", "16"});
+  make({"map", folder / "egg.glb", "-o", folder / "map.sph.ply"});
+  make({"remesh", folder / "egg.glb", "--grid", "ico:3", "-o", folder / "low.sph.ply"});
+  make({"export", folder / "egg.glb", "-o", folder / "chart.ply", "--image-size", "16"});
+  for (const char* name : {"egg.obj", "egg.glb", "map.sph.ply", "low.sph.ply", "chart.ply"}) {
+    INFO(name);
+    const auto drawn = [&](const std::string& up) {
+      return make({"render", folder / name, "-o", "-", "--size", "40", "--view", "mesh", "--colour",
+                   "plain", "--up", up});
+    };
+    const bool stands_on_y = std::string(name) != "egg.obj";
+    CHECK(drawn("auto") == drawn(stands_on_y ? "y" : "z"));
+    CHECK(drawn("y") != drawn("z"));
+  }
+  const auto exported = [&](const std::string& up) {
+    return make({"export", folder / "map.sph.ply", "-o", "-", "--image-size", "16", "--up", up});
+  };
+  CHECK(exported("auto") == exported("y"));
+  const auto compared = [&](const std::string& up) {
+    make({"compare", folder / "map.sph.ply", "-o", folder / up, "--methods", "progressive",
+          "--size", "40", "--up", up});
+    return bytes_of(folder / (up + "/mesh.png"));
+  };
+  CHECK(compared("auto") == compared("y"));
+  CHECK(compared("y") != compared("z"));
+}
+
+TEST_CASE("render: north is up on the sphere, whatever axis of the mesh is") {
+  const Folder folder;
+  const std::string map = folder / "map.sph.ply";
+  REQUIRE(sphparam_program({"map", "-", "-o", map}, obj_text(tube(6, 8))).code == 0);
+  const auto sphere = [&](const std::string& up) {
+    return sphparam_program({"render", map, "-o", "-", "--size", "40", "--view", "sphere",
+                             "--colour", "checker", "--up", up})
+        .out;
+  };
+  CHECK_FALSE(sphere("z").empty());
+  CHECK(sphere("y") == sphere("z"));
+}
+
+TEST_CASE(
+    "render, report: the texture in a glTF file is shown; a map of it says that it has none") {
+  const Folder folder;
+  TriangleMesh egg = icosphere(2);
+  egg.positions.col(2) *= 1.5;
+  write_bytes(folder / "egg.obj", obj_text(egg));
+  const auto run = [&](std::vector<std::string> arguments) {
+    const Ended ended = sphparam_program(arguments);
+    INFO(ended.err);
+    REQUIRE(ended.code == 0);
+    return ended;
+  };
+  // One colour everywhere: how the image goes on beyond its borders makes no difference.
+  const std::string image = folder / "skin_flat_normals.png";
+  run({"export", folder / "egg.obj", "-o", folder / "skin.gltf", "--tangents"});
+  for (const char* name : {"egg.glb", "egg.gltf"}) {
+    run({"export", folder / "egg.obj", "-o", folder / name, "--texture", image});
+  }
+  const std::string glb = folder / "egg.glb", map = folder / "map.sph.ply";
+  const std::string page = folder / "page.html";
+  run({"map", glb, "-o", map});
+  const auto drawn = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "render");
+    arguments.insert(arguments.end(), {"-o", "-", "--size", "40"});
+    return run(arguments);
+  };
+  const Ended own = drawn({glb});
+  CHECK(own.out == drawn({folder / "egg.gltf"}).out);
+  CHECK(own.out == drawn({glb, "--texture", image}).out);
+  CHECK(own.out != drawn({glb, "--colour", "normals"}).out);
+  CHECK_THAT(own.err, !Contains("warning"));
+
+  const Ended bare = drawn({map});
+  CHECK_THAT(bare.err, Contains("shown without its texture") && Contains("--texture"));
+  CHECK(bare.out == drawn({map, "--colour", "normals"}).out);
+  const Ended both = drawn({glb, "--sphere", map});
+  CHECK_THAT(both.err, !Contains("warning"));
+  CHECK(both.out == drawn({map, "--texture", image}).out);
+
+  const std::vector<std::string> on_page = {"-o", page, "--no-viewer", "--size", "64"};
+  const auto reported = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "report");
+    arguments.insert(arguments.end(), on_page.begin(), on_page.end());
+    const Ended ended = run(arguments);
+    const std::string html = bytes_of(page);
+    return std::pair{ended.err, html.substr(0, html.find("<h2>"))};
+  };
+  CHECK_THAT(reported({map}).first, Contains("shown without its texture"));
+  const auto textured = reported({glb, "--sphere", map});
+  CHECK_THAT(textured.first, !Contains("warning"));
+  const auto from_first_picture = [&](const std::string& html) {
+    return html.substr(html.find("<img"), html.find("<figcaption>") - html.find("<img"));
+  };
+  CHECK(from_first_picture(textured.second) != from_first_picture(reported({map}).second));
+}
+
+TEST_CASE("render: a sphere in a file of its own is that of the mesh, or refused") {
+  const Folder folder;
+  write_bytes(folder / "ball.obj", obj_text(icosphere(1)));
+  write_bytes(folder / "other.obj", obj_text(icosphere(2)));
+  const auto drawn = [&](const std::string& sphere) {
+    return sphparam_program(
+        {"render", folder / "ball.obj", "--sphere", sphere, "-o", "-", "--size", "32"});
+  };
+  CHECK(drawn(folder / "ball.obj").out.substr(16, 4) == std::string("\0\0\0\x40", 4));
+  const Ended other = drawn(folder / "other.obj");
+  CHECK(other.code == 3);
+  CHECK_THAT(other.err, Contains("not a sphere of ball.obj"));
+}
+
 }  // namespace sphparam::tests

@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "program.h"
@@ -55,6 +56,48 @@ TEST_CASE("report: maps of one mesh stand side by side, under names that differ"
                           folder / "more/one-sphere.obj", "--size", "64", "--no-viewer", "-o",
                           folder / "again.html", "--threads", "1"})
             .code == 0);
+}
+
+TEST_CASE("report: a program without the viewer says so and how to get it") {
+  const Folder folder;
+  write_bytes(folder / "ball.obj", obj_text(icosphere(1)));
+  const std::string page = folder / "page.html";
+  const Ended ended = sphparam_program({"report", folder / "ball.obj", "-o", page, "--size", "64"});
+  REQUIRE(ended.code == 0);
+  const bool has_viewer = bytes_of(page).find("<model-viewer") != std::string::npos;
+  const bool told = ended.err.find("-DSPHPARAM_VIEWER=FOLDER") != std::string::npos;
+  CHECK(has_viewer != told);
+  const Ended unwanted =
+      sphparam_program({"report", folder / "ball.obj", "-o", page, "--size", "64", "--no-viewer"});
+  CHECK_THAT(unwanted.err, !Contains("SPHPARAM_VIEWER"));
+}
+
+TEST_CASE("report: one texture for a mesh of several materials, and none without coordinates") {
+  const Folder folder;
+  std::string text = obj_text(icosphere(1));
+  write_bytes(folder / "bare.obj", text);
+  std::string faces = "vt 0 0\nvt 1 0\nvt 0 1\n";
+  long face = 0;
+  for (size_t at = text.find("f "); at != std::string::npos; at = text.find("f ", at + 1)) {
+    int a = 0, b = 0, c = 0;
+    REQUIRE(std::sscanf(text.c_str() + at, "f %d %d %d", &a, &b, &c) == 3);
+    faces += "usemtl m" + std::to_string(face++ % 3) + "\nf " + std::to_string(a) + "/1 " +
+             std::to_string(b) + "/2 " + std::to_string(c) + "/3\n";
+  }
+  write_bytes(folder / "ball.obj", text.substr(0, text.find("f ")) + faces);
+  REQUIRE(
+      sphparam_program({"render", folder / "bare.obj", "-o", folder / "skin.png", "--size", "16"})
+          .code == 0);
+  const auto report = [&](const char* mesh) {
+    return sphparam_program({"report", folder / mesh, "--texture", folder / "skin.png", "-o",
+                             folder / "page.html", "--size", "64", "--no-viewer"});
+  };
+  const Ended ended = report("ball.obj");
+  INFO(ended.err);
+  CHECK(ended.code == 0);
+  const Ended bare = report("bare.obj");
+  CHECK(bare.code == 2);
+  CHECK_THAT(bare.err, Contains("bare.obj has no texture coordinates"));
 }
 
 TEST_CASE("report: a page may have any name that is not of another kind") {

@@ -9,6 +9,7 @@
 #include "render/vertex_normals.h"
 #include "sphparam/sphere/sphere_map.h"
 #include "support/test_meshes.h"
+#include "texture/texture_pyramid.h"
 
 using namespace sphparam;
 using namespace sphparam::tools;
@@ -37,6 +38,10 @@ double share_covered(const Image& rgba) {
     for (int x = 0; x < rgba.width; ++x) sum += rgba.pixel(x, y)[3];
   }
   return sum / (rgba.width * rgba.height);
+}
+
+SourceTexture texture_of(const Image& image) {
+  return {.image = std::make_shared<const TexturePyramid>(image)};
 }
 
 /// Red wins clearly over the other channels.
@@ -139,9 +144,10 @@ TEST_CASE("render: a texture is put where its coordinates say, v upwards") {
   TexturePaint paint;
   paint.texcoords.resize(6, 2);
   paint.texcoords << 0, 0, 1, 0, 1, 1, 0, 0, 1, 1, 0, 1;
-  paint.image = Image(2, 2, 3);
-  paint.image.pixel(0, 0)[0] = 1;  // upper left red
-  paint.image.pixel(1, 1)[1] = 1;  // lower right green
+  Image image_of_four(2, 2, 3);
+  image_of_four.pixel(0, 0)[0] = 1;  // upper left red
+  image_of_four.pixel(1, 1)[1] = 1;  // lower right green
+  paint.textures = {texture_of(image_of_four)};
   object.paint = paint;
   scene.objects.push_back(object);
   const Image image = render(scene);
@@ -149,6 +155,33 @@ TEST_CASE("render: a texture is put where its coordinates say, v upwards") {
   CHECK(greenish(image.pixel(30, 30)));
   CHECK_FALSE(reddish(image.pixel(30, 10)));
   CHECK_FALSE(greenish(image.pixel(10, 30)));
+}
+
+TEST_CASE("render: a texture finer than pixels is seen as its mean, not as noise") {
+  RenderScene scene;
+  scene.width = scene.height = 20;
+  scene.camera = {Vector3(0, 0.5, 0.5), Vector3::UnitX(), Vector3::UnitZ(), 1};
+  RenderObject object;
+  object.mesh.positions.resize(4, 3);
+  object.mesh.positions << 0, 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1;
+  object.mesh.triangles.resize(2, 3);
+  object.mesh.triangles << 0, 1, 2, 0, 2, 3;
+  Image stripes(512, 512, 3);
+  for (int y = 0; y < 512; ++y) {
+    for (int x = 0; x < 512; x += 2) std::fill_n(stripes.pixel(x, y), 3, 1.0F);
+  }
+  TexturePaint paint;
+  paint.texcoords.resize(6, 2);
+  paint.texcoords << 0, 0, 1, 0, 1, 1, 0, 0, 1, 1, 0, 1;
+  paint.textures = {texture_of(stripes)};
+  object.paint = paint;
+  scene.objects.push_back(object);
+  const Image image = render(scene);
+  for (int y = 2; y < 18; ++y) {
+    for (int x = 2; x < 18; ++x) {
+      CHECK(image.pixel(x, y)[1] == Approx(image.pixel(10, 10)[1]).margin(1.0 / 255));
+    }
+  }
 }
 
 TEST_CASE("render: the same pixels for 1, 2 and 4 threads") {
@@ -169,7 +202,7 @@ TEST_CASE(
   texcoords.topRows(600).setConstant(std::nan(""));
   texcoords.middleRows(600, 600).setConstant(std::numeric_limits<double>::infinity());
   texcoords.middleRows(1200, 600).setConstant(-1e300);
-  scene.objects[0].paint = TexturePaint{texcoords, Image(2, 2, 3)};
+  scene.objects[0].paint = TexturePaint{texcoords, {texture_of(Image(2, 2, 3))}};
   for (const float value : render(scene).pixels) {
     CHECK(value >= 0);
     CHECK(value <= 1);

@@ -136,6 +136,58 @@ TEST_CASE("report page: without the viewer it says so and has no script") {
                        Contains("without the 3D viewer") && Contains("class=\"still\"><img"));
 }
 
+TEST_CASE("report page: without the viewer the mesh and the sphere of each map are seen") {
+  const MeshFile file = ball();
+  ReportOptions options = quick();
+  options.viewer.reset();
+  const std::string still = "class=\"still\"><img";
+  const std::string one = report_page("ball", file, {good("one", file)}, options);
+  CHECK(count(one, still) == 2);
+  CHECK_THAT(one, Contains("alt=\"The mesh ball\"") && Contains("The sphere of one: "));
+  const std::string three = report_page(
+      "ball", file, {good("one", file), good("two", file), folded("three", file)}, options);
+  CHECK(count(three, still) == 4);
+  CHECK_THAT(three, Contains("The sphere of two: ") && Contains("The sphere of three: "));
+}
+
+TEST_CASE("report page: who misses the viewer is told how builds get it, who wants none is not") {
+  const MeshFile file = ball(1);
+  ReportOptions options = quick();
+  options.viewer.reset();
+  CHECK_THAT(report_page("ball", file, {good("ball", file)}, options),
+             !Contains("SPHPARAM_VIEWER"));
+  options.viewer_is_missing = true;
+  CHECK_THAT(report_page("ball", file, {good("ball", file)}, options),
+             Contains("without the 3D viewer") && Contains("-DSPHPARAM_VIEWER=FOLDER"));
+}
+
+TEST_CASE("report page: the pictures show the texture, one for all materials or one for each") {
+  MeshFile file = ball(1);
+  file.corner_texcoords = CornerTexcoords::Constant(file.mesh.triangles.size(), 2, 0.5);
+  Property material{"material", ScalarType::Int32, {}};
+  for (Face f = 0; f < file.mesh.face_count(); ++f) material.values.push_back(f % 2);
+  file.set_face_property(material);
+  ReportOptions options = quick();
+  options.viewer.reset();
+  const auto page = [&](const MeshTextures& textures, const Exhibit& exhibit) {
+    options.textures = textures;
+    const std::string html = report_page("ball", file, {exhibit}, options);
+    return html.substr(0, html.find("<h2>"));  // what is above the heat maps
+  };
+  const auto colour = [](float red, float green) {
+    return SourceTexture{.factor = {red, green, 0, 1}};
+  };
+  for (const Exhibit& exhibit : {good("good", file), folded("folded", file)}) {
+    const std::string none = page({}, exhibit);
+    const std::string red = page({{colour(1, 0)}, true}, exhibit);
+    const std::string each = page({{colour(1, 0), colour(0, 1)}}, exhibit);
+    CHECK(none != red);
+    CHECK(red != each);
+    CHECK(none != each);
+    CHECK(red == page({{colour(1, 0), colour(0, 1)}, true}, exhibit));
+  }
+}
+
 TEST_CASE("report page: a mesh with colours shows them first, one without its directions last") {
   MeshFile file = ball(1);
   const std::string plain = report_page("ball", file, {good("ball", file)}, quick());

@@ -2,16 +2,10 @@
 
 #include <optional>
 
+#include "mesh_io/appearance.h"
 #include "mesh_io/mesh_file.h"
 
 namespace sphparam::tools {
-
-/// Whether a file has texture coordinates, at corners or as s, t of vertices.
-bool has_texcoords(const MeshFile& file);
-
-/// Texture coordinates of the corners, t upwards: the file's own, else those of the vertices there;
-/// nothing where there are none.
-std::optional<CornerTexcoords> texcoords_of(const MeshFile& file);
 
 /// #V×3 colours of the vertices in linear light, which a mesh has in sRGB; nothing where there
 /// are none.

@@ -20,8 +20,10 @@
 #include "cli/json_report.h"
 #include "cli/paths.h"
 #include "cli/repairing.h"
+#include "cli/shown_textures.h"
 #include "cli/source.h"
 #include "cli/suggestion.h"
+#include "cli/up_option.h"
 #include "cli/wording.h"
 #include "compare/comparison.h"
 #include "mesh_io/connectivity.h"
@@ -62,7 +64,7 @@ struct CompareArguments {
   std::string methods = "all";
   std::vector<std::string> added;
   bool no_pictures = false;
-  Vector3 up = Vector3::UnitZ();
+  UpAxis up = UpAxis::Automatic;
   int size = PictureOptions{}.size;
   int threads = 0;
   ProgressStyle progress = ProgressStyle::Auto;
@@ -192,11 +194,14 @@ int run_compare(const CompareArguments& arguments) {
   const std::string name = is_stream(arguments.input)
                                ? "standard input"
                                : std::filesystem::path(arguments.input).stem().string();
-  PictureOptions look = seen_with_up(arguments.up);
+  PictureOptions look = seen_with_up(direction_of(up_of(arguments.up, source.file)));
   look.size = arguments.size;
   look.threads = arguments.threads;
-  FolderFiles files = comparison_files(name, source.file, contenders,
-                                       {.pictures = !arguments.no_pictures, .look = look});
+  ComparisonOptions options{.pictures = !arguments.no_pictures, .look = look};
+  if (options.pictures) {
+    options.textures = shown_textures(source.file, arguments.input, "", arguments.threads, console);
+  }
+  FolderFiles files = comparison_files(name, source.file, contenders, options);
   files.emplace_back("compare.json", to_json(CompareReport{.input = {arguments.input, source},
                                                            .contenders = contenders,
                                                            .seconds = stopwatch.seconds()}));
@@ -207,9 +212,7 @@ int run_compare(const CompareArguments& arguments) {
 
 void add_look(CLI::App& command, CompareArguments& arguments) {
   command.add_flag("--no-pictures", arguments.no_pictures, "Without the spheres: much quicker");
-  add_choice<Vector3>(command, "--up", arguments.up,
-                      {{"z", Vector3::UnitZ()}, {"y", Vector3::UnitY()}},
-                      "The axis of the mesh that points up in pictures (default: z)");
+  add_up(command, arguments.up);
   command.add_option("--size", arguments.size, "Pixels, of each side of a picture")
       ->check(between(16, 4096, "16 to 4096"))
       ->type_name("N")

@@ -40,16 +40,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Up up_of(const ExportArguments& arguments, const MeshFile& file) {
-  if (arguments.up != UpAxis::Automatic) return arguments.up == UpAxis::Y ? Up::Y : Up::Z;
-  return file.format.starts_with("glTF") ? Up::Y : Up::Z;
-}
-
 GeometryOptions geometry_options(const ExportArguments& arguments, const MeshFile& file,
                                  const ExportLook& look) {
   GeometryOptions options{.shape = arguments.shape,
                           .morph = arguments.morph,
-                          .up = up_of(arguments, file),
+                          .up = up_of(arguments.up, file),
                           .threads = arguments.threads};
   options.buffers = {.uv = {.sixteen_bits = arguments.quantise && !arguments.keep_topology},
                      .tangents = look.has_normals(),

@@ -2,8 +2,6 @@
 // one sees where each part of the shape went. The only subcommand that opens the image module.
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <array>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -17,8 +15,12 @@
 #include "cli/exit_codes.h"
 #include "cli/input_limits.h"
 #include "cli/paths.h"
+#include "cli/shown_textures.h"
+#include "cli/source.h"
+#include "cli/up_option.h"
 #include "image/file_extension.h"
 #include "image/image_codec.h"
+#include "mesh_io/connectivity.h"
 #include "mesh_io/mesh_reader.h"
 #include "mesh_io/safe_file.h"
 #include "mesh_io/sphere_file.h"
@@ -26,8 +28,9 @@
 #include "render/figure.h"
 #include "render/geodesic.h"
 #include "render/heat.h"
+#include "render/own_paint.h"
 #include "render/render.h"
-#include "render/vertex_normals.h"
+#include "render/shading_normals.h"
 #include "sphparam/sphere/distortion.h"
 
 namespace sphparam::tools {
@@ -41,11 +44,13 @@ constexpr char summary[] =
     "  sphparam render statue.sph.ply -o statue.png\n"
     "  sphparam render statue.sph.ply -o area.png --colour area --wire\n"
     "  sphparam render statue.sph.ply -o ball.png --view sphere --colour checker --size 1200\n"
-    "  sphparam render statue.obj -o front.png --texture statue_skin.png --from 1,0,0.3 --up y\n"
+    "  sphparam render statue.obj -o front.png --texture statue_skin.png --from 1,0.3,0 --up y\n"
+    "  sphparam render duck.glb --sphere duck.sph.ply -o duck.png\n"
     "\n"
-    "Colours: own (texture or vertex colours; else normals), plain, normals, checker (of "
-    "longitude\n"
-    "and latitude), area (red grows, blue shrinks, full at a factor of 8), angle (the factor by "
+    "Colours: own (the texture, of --texture or of a glTF file; else the colours of vertices; else "
+    "of\n"
+    "materials; else normals), plain, normals, checker (of longitude and latitude), area (red "
+    "grows, blue shrinks, full at a factor of 8), angle (the factor by "
     "which\n"
     "a triangle's angles are off in the mean, dark 1 to yellow 8).\n";
 
@@ -56,12 +61,13 @@ enum class Colouring { Own, Plain, Normals, Checker, Area, Angle };
 
 struct RenderArguments {
   std::string input;
+  std::string sphere;  // a map of the mesh in a file of its own; empty: none
   std::string output;
   std::string texture;  // empty: none
   std::optional<View> view;
   Colouring colouring = Colouring::Own;
   std::string from = "";  // empty: in front, to the right, above
-  Vector3 up = Vector3::UnitZ();
+  UpAxis up = UpAxis::Automatic;
   bool wire = false;
   bool graticule = false;
   bool occlusion = false;
@@ -83,42 +89,11 @@ Vector3 parse_direction(const std::string& text) {
   return direction;
 }
 
-/// Colours of vertices as the file has them, Uint8 or Float32.
-std::optional<VertexPaint> own_colours(const MeshFile& file) {
-  std::array<const Property*, 3> channels = {file.find_vertex_property("red"),
-                                             file.find_vertex_property("green"),
-                                             file.find_vertex_property("blue")};
-  if (std::count(channels.begin(), channels.end(), nullptr) > 0) return std::nullopt;
-  VertexPaint paint;
-  paint.colours.resize(static_cast<size_t>(file.mesh.vertex_count()));
-  for (int channel = 0; channel < 3; ++channel) {
-    const Property& property = *channels[static_cast<size_t>(channel)];
-    const bool is_float =
-        property.type == ScalarType::Float32 || property.type == ScalarType::Float64;
-    const double full = is_float ? 1 : 255;
-    for (size_t v = 0; v < paint.colours.size(); ++v) {
-      paint.colours[v][channel] =
-          static_cast<float>(std::clamp(property.values[v] / full, 0.0, 1.0));
-    }
-  }
-  return paint;
-}
-
-/// Each direction of the surface has its own pastel colour: features stay recognisable wherever
-/// they are mapped to.
-VertexPaint normal_colours(const TriangleMesh& mesh) {
-  VertexPaint paint;
-  const Points normals = vertex_normals(mesh);  // named: it must outlive the loop
-  for (const auto& normal : normals.rowwise()) {
-    paint.colours.push_back((0.7 + 0.25 * normal.array()).cast<float>().matrix().transpose());
-  }
-  return paint;
-}
-
 /// What is drawn: a mesh and, where it is known, its map.
 struct Subject {
   MeshFile file;
   std::optional<SphereMap> map;
+  MeshTextures textures;
 
   const SphereMap& required_map(const char* why) const {
     if (!map) throw UsageMistake(std::string(why) + " needs a map: run `sphparam map` first");
@@ -133,25 +108,14 @@ std::optional<Heat> heat_of(Colouring colouring) {
   return std::nullopt;
 }
 
-Paint own_paint(const Subject& subject, const std::string& texture) {
-  if (!texture.empty()) {
-    if (!subject.file.corner_texcoords) {
-      throw UsageMistake("--texture: the mesh has no texture coordinates at its corners");
-    }
-    return TexturePaint{*subject.file.corner_texcoords, read_image(texture)};
-  }
-  if (const auto colours = own_colours(subject.file)) return *colours;
-  return normal_colours(subject.file.mesh);
-}
-
 Paint make_paint(const Subject& subject, const RenderArguments& arguments) {
   switch (arguments.colouring) {
     case Colouring::Own:
-      return own_paint(subject, arguments.texture);
+      return own_paint(subject.file, subject.textures);
     case Colouring::Plain:
       return UniformPaint{};
     case Colouring::Normals:
-      return normal_colours(subject.file.mesh);
+      return direction_paint(subject.file.mesh);
     case Colouring::Checker:
       return CheckerPaint{.rays = subject.required_map("--colour checker").points};
     case Colouring::Area:
@@ -165,16 +129,23 @@ Paint make_paint(const Subject& subject, const RenderArguments& arguments) {
 }
 
 /// Where the eye is: as asked for, or in front, to the right and above, whatever axis is up.
-Vector3 eye(const RenderArguments& arguments) {
+Vector3 eye(const RenderArguments& arguments, Up up) {
   if (!arguments.from.empty()) return parse_direction(arguments.from);
-  return arguments.up.y() == 1 ? Vector3(1, 0.45, 0.6) : Vector3(1, -0.6, 0.45);
+  return up == Up::Y ? Vector3(1, 0.45, 0.6) : Vector3(1, -0.6, 0.45);
 }
 
-/// Looks at the middle of what is seen from there, all of it in the picture.
-Camera framing(const Points& points, const RenderArguments& arguments) {
+enum class Shape { Mesh, Sphere };
+
+/// Looks at the middle of what is seen from there, all of it in the picture. North is up on the
+/// sphere: it is seen from where the mesh is once its axis has been turned to z.
+Camera framing(Shape shape, const Points& points, Up up, const RenderArguments& arguments) {
   Camera camera;
-  camera.direction = eye(arguments).normalized();
-  camera.up = arguments.up;
+  camera.direction = eye(arguments, up).normalized();
+  camera.up = direction_of(up);
+  if (shape == Shape::Sphere && up == Up::Y) {
+    camera.direction = Vector3(camera.direction.x(), -camera.direction.z(), camera.direction.y());
+    camera.up = direction_of(Up::Z);
+  }
   if (camera.up.cross(camera.direction).isZero()) {
     throw UsageMistake("--from: this is the direction that is up; choose another --up");
   }
@@ -189,11 +160,10 @@ Camera framing(const Points& points, const RenderArguments& arguments) {
   return camera;
 }
 
-enum class Shape { Mesh, Sphere };
-
 Image draw(Shape shape, const Paint& paint, const Subject& subject,
            const RenderArguments& arguments) {
-  RenderObject object = {.mesh = subject.file.mesh, .paint = paint};
+  RenderObject object = {
+      .mesh = subject.file.mesh, .normals = shading_normals(subject.file), .paint = paint};
   object.occlusion = arguments.occlusion;
   if (arguments.wire) object.wireframe = Wireframe{};
   if (arguments.graticule) {
@@ -203,7 +173,8 @@ Image draw(Shape shape, const Paint& paint, const Subject& subject,
     object = on_sphere(object, normalised(subject.required_map("--view sphere").points).points);
   }
   return render({.objects = {object},
-                 .camera = framing(object.mesh.positions, arguments),
+                 .camera = framing(shape, object.mesh.positions, up_of(arguments.up, subject.file),
+                                   arguments),
                  .width = arguments.size,
                  .height = arguments.size},
                 arguments.threads);
@@ -227,17 +198,44 @@ void require_png(const std::string& path) {
   throw UsageMistake("-o: the picture is a PNG, the name must end in .png, not " + extension);
 }
 
-int run_render(const RenderArguments& arguments) {
-  require_png(arguments.output);
-  check_places({arguments.input}, {{"-o", arguments.output}});
-  Console console(arguments.loudness.verbosity(), arguments.progress);
-  console.progress("picture", 0);
-  Subject subject = {.file = read_mesh(arguments.input, input_limits()), .map = std::nullopt};
+/// Of the file `--sphere`. Throws: ReadError when its connectivity is another.
+SphereMap map_of_sphere(const RenderArguments& arguments, const MeshFile& mesh) {
+  const MeshFile sphere = read_source(arguments.sphere).file;
+  const std::string difference = connectivity_difference(mesh, sphere);
+  if (!difference.empty()) {
+    throw ReadError(display_name(arguments.sphere),
+                    "not a sphere of " + display_name(arguments.input) + ": " + difference);
+  }
+  return read_sphere(sphere).value_or(SphereMap{sphere.mesh.positions});
+}
+
+/// As the file has its vertices; where a sphere is named, welded as maps need them.
+Subject read_subject(const RenderArguments& arguments) {
+  Subject subject;
+  const bool alone = arguments.sphere.empty();
+  subject.file =
+      alone ? read_mesh(arguments.input, input_limits()) : read_source(arguments.input).file;
   if (subject.file.mesh.face_count() == 0) {
     throw ReadError(display_name(arguments.input), "there are no triangles to draw");
   }
-  subject.map = read_sphere(subject.file);
+  subject.map = alone ? read_sphere(subject.file) : map_of_sphere(arguments, subject.file);
   subject.file.mesh = at_drawing_size(std::move(subject.file.mesh));
+  return subject;
+}
+
+int run_render(const RenderArguments& arguments) {
+  require_png(arguments.output);
+  if (is_stream(arguments.input) && is_stream(arguments.sphere)) {
+    throw UsageMistake("the mesh and --sphere cannot both come from standard input");
+  }
+  check_places({arguments.input, arguments.sphere, arguments.texture}, {{"-o", arguments.output}});
+  Console console(arguments.loudness.verbosity(), arguments.progress);
+  console.progress("picture", 0);
+  Subject subject = read_subject(arguments);
+  if (arguments.colouring == Colouring::Own) {
+    subject.textures = shown_textures(subject.file, arguments.input, arguments.texture,
+                                      arguments.threads, console);
+  }
   const std::vector<char> png = encode_image(picture(subject, arguments), ImageFormat::Png);
   write_file(arguments.output, {png.data(), png.size()});
   console.say(display_name(arguments.input) + " → " + output_name(arguments.output));
@@ -257,7 +255,9 @@ void add_look(CLI::App& command, RenderArguments& arguments) {
                          {"area", Colouring::Area},
                          {"angle", Colouring::Angle}},
                         "See above (default: own)");
-  command.add_option("--texture", arguments.texture, "Image for the mesh's texture coordinates")
+  command
+      .add_option("--texture", arguments.texture,
+                  "Image for the mesh's texture coordinates, instead of its own")
       ->type_name("IMAGE");
   command.add_flag("--wire", arguments.wire, "The edges of the triangles");
   command.add_flag("--graticule", arguments.graticule, "Lines of longitude and latitude");
@@ -276,13 +276,13 @@ Command declare_render(CLI::App& program) {
   command->add_option("-o,--output", arguments->output, "The picture; - for standard output")
       ->type_name("PNG")
       ->required();
+  command->add_option("--sphere", arguments->sphere, "The map of the mesh, in a file of its own")
+      ->type_name("FILE");
   add_look(*command, *arguments);
   command
       ->add_option("--from", arguments->from, "Where the eye is (default: 1,-0.6,0.45 with z up)")
       ->type_name("X,Y,Z");
-  add_choice<Vector3>(*command, "--up", arguments->up,
-                      {{"z", Vector3::UnitZ()}, {"y", Vector3::UnitY()}},
-                      "The axis that points up (default: z)");
+  add_up(*command, arguments->up);
   command->add_option("--size", arguments->size, "Pixels, of each side of a picture")
       ->check(between(16, 16384, "16 to 16384"))
       ->type_name("N")

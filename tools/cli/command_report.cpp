@@ -12,8 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "bake/make_scene.h"
-#include "bake/map_kinds.h"
 #include "cli/choice.h"
 #include "cli/command.h"
 #include "cli/common_options.h"
@@ -23,8 +21,10 @@
 #include "cli/json_report.h"
 #include "cli/paths.h"
 #include "cli/repairing.h"
+#include "cli/shown_textures.h"
 #include "cli/source.h"
 #include "cli/told_losses.h"
+#include "cli/up_option.h"
 #include "cli/wording.h"
 #include "image/file_extension.h"
 #include "image/image_codec.h"
@@ -64,7 +64,7 @@ struct ReportArguments {
   std::vector<std::string> inputs;
   std::string sphere, texture, output, json;
   bool no_viewer = false;
-  Vector3 up = Vector3::UnitZ();
+  UpAxis up = UpAxis::Automatic;
   int size = ReportOptions{}.image_width;
   int threads = 0;
   ProgressStyle progress = ProgressStyle::Auto;
@@ -171,7 +171,8 @@ std::string command_line(const ReportArguments& arguments) {
   add(" --sphere", arguments.sphere);
   add(" --texture", arguments.texture);
   add(" -o", arguments.output);
-  if (arguments.up == Vector3::UnitY()) line += " --up y";
+  if (arguments.up == UpAxis::Y) line += " --up y";
+  if (arguments.up == UpAxis::Z) line += " --up z";
   if (arguments.size != ReportOptions{}.image_width) {
     line += " --size " + std::to_string(arguments.size);
   }
@@ -186,35 +187,23 @@ std::string input_line(const ReportArguments& arguments, const Source& source) {
          " triangles";
 }
 
-/// A picture that cannot be read is no reason to show nothing.
-std::vector<SourceTexture> textures_of(const ReportArguments& arguments, const MeshFile& file,
-                                       Console& console) {
-  if (!arguments.texture.empty()) {
-    return {read_texture(arguments.texture, TextureWrap::Repeat, arguments.threads)};
-  }
-  try {
-    return read_textures(file, arguments.threads);
-  } catch (const ImageError& error) {
-    console.warning(std::string(error.what()) + ": shown without");
-    return {};
-  }
-}
-
 ReportOptions page_options(const ReportArguments& arguments, const Source& source,
                            Console& console) {
   ReportOptions options;
   if (!arguments.no_viewer) {
     options.viewer = installed_viewer();
+    options.viewer_is_missing = !options.viewer;
     if (!options.viewer) {
-      console.warning("the 3D viewer is not installed (" + viewer_folder() +
-                      "): the page has pictures instead");
+      console.warning("this build has no 3D viewer (" + viewer_folder() +
+                      "): the page has pictures instead; CMake's " + viewer_option + " brings it");
     }
   }
   const int size = options.look.size;
-  options.look = seen_with_up(arguments.up);
+  options.look = seen_with_up(direction_of(up_of(arguments.up, source.file)));
   options.look.size = size;
   options.image_width = arguments.size;
-  options.textures = textures_of(arguments, source.file, console);
+  options.textures = shown_textures(source.file, arguments.inputs.front(), arguments.texture,
+                                    arguments.threads, console);
   options.threads = arguments.threads;
   options.facts = {{"mesh", input_line(arguments, source)},
                    {"command", command_line(arguments)},
@@ -225,13 +214,8 @@ ReportOptions page_options(const ReportArguments& arguments, const Source& sourc
 
 std::string page_of(const ReportArguments& arguments, const Source& source,
                     const std::vector<Exhibit>& exhibits, Console& console) {
-  const std::string& mesh = arguments.inputs.front();
-  try {
-    return report_page(name_of_map(mesh), source.file, exhibits,
-                       page_options(arguments, source, console));
-  } catch (const MapError& error) {  // a texture, and no coordinates for it
-    throw UsageMistake(display_name(mesh) + ": " + error.what());
-  }
+  return report_page(name_of_map(arguments.inputs.front()), source.file, exhibits,
+                     page_options(arguments, source, console));
 }
 
 void tell(const Exhibit& exhibit, Console& console) {
@@ -283,9 +267,7 @@ Command declare_report(CLI::App& program) {
       ->type_name("FILE");
   command->add_option("--texture", arguments->texture, "The texture of the mesh")
       ->type_name("IMAGE");
-  add_choice<Vector3>(*command, "--up", arguments->up,
-                      {{"z", Vector3::UnitZ()}, {"y", Vector3::UnitY()}},
-                      "The axis of the mesh that points up (default: z)");
+  add_up(*command, arguments->up);
   command->add_option("--size", arguments->size, "Pixels, the width of textures and heat maps")
       ->check(between(64, 8192, "64 to 8192"))
       ->type_name("N")

@@ -29,7 +29,7 @@ constexpr char summary[] =
     "Where the mesh has normals at corners, hard edges stay hard.\n"
     "Without an image the mesh shows its own texture, baked; else the colours of its vertices; "
     "else\n"
-    "a checker.\n"
+    "a checker, or white where a normal or occlusion map is given.\n"
     "Texture coordinates are certified as they are stored, rounding included; what folds there is "
     "told.\n"
     "A .glb, .obj or .ply is read back from the disk and compared, but for --compress. A normal "
@@ -88,9 +88,7 @@ void add_chart(CLI::App& command, ExportArguments& arguments) {
                     {{"none", Morph::None}, {"sphere", Morph::Sphere}, {"flat", Morph::Flat}},
                     "An animation that turns the mesh into its sphere, then unrolls it (default: "
                     "none)");
-  add_choice<UpAxis>(command, "--up", arguments.up,
-                     {{"auto", UpAxis::Automatic}, {"z", UpAxis::Z}, {"y", UpAxis::Y}},
-                     "The axis of the mesh that points up (default: y if read from glTF, else z)");
+  add_up(command, arguments.up);
 }
 
 void add_buffers(CLI::App& command, ExportArguments& arguments) {

@@ -5,6 +5,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "cli/up_option.h"
 #include "gltf/export_asset.h"
 
 namespace CLI {
@@ -13,7 +14,6 @@ class App;
 
 namespace sphparam::tools {
 
-enum class UpAxis { Automatic, Y, Z };
 enum class LodStyle { Files, Msft };
 
 /// The command line of `sphparam export`.

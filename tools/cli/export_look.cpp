@@ -52,7 +52,7 @@ class LookMaker {
   ExportLook make() {
     require_known(arguments_.variants);
     const BakedImages given = images_given(arguments_);
-    choose_base_colour(given.base_colour);
+    choose_base_colour(given);
     if (!arguments_.unlit) {
       material_.normal = add_file(given.normal, "normal");
       look_.normals_given = material_.normal >= 0;
@@ -90,12 +90,12 @@ class LookMaker {
                        std::to_string(*baked));
   }
 
-  void choose_base_colour(const std::string& given) {
+  void choose_base_colour(const BakedImages& given) {
     const MeshFile& file = mapped_.source.file;
     material_.unlit = arguments_.unlit;
     material_.name = "baked";
-    if (!given.empty()) {
-      material_.base_colour = add_file(given, "basecolor");
+    if (!given.base_colour.empty()) {
+      material_.base_colour = add_file(given.base_colour, "basecolor");
       return;
     }
     textures_ = read_textures(file, arguments_.threads);
@@ -106,6 +106,10 @@ class LookMaker {
       material_.name = "colours";
       material_.base_colour = add(white_asset_image());
       look_.vertex_colours = true;
+    } else if (!given.normal.empty() || !given.occlusion.empty()) {
+      // A relief is to be seen, and a mesh without colours has the one of glTF's own materials.
+      material_.name = "plain";
+      material_.base_colour = add(white_asset_image());
     } else {
       material_.name = "checker";
       material_.base_colour = add(drawn(TestImage::Checker));

@@ -23,7 +23,8 @@ struct ExportLook {
 ExportLook without_given_normals(ExportLook look);
 
 /// What is seen: the images that the arguments name; else the mesh's own textures, baked; else the
-/// colours of its vertices; else a checker. The variants asked for follow.
+/// colours of its vertices; else white under a normal or occlusion map, a checker without. The
+/// variants asked for follow.
 /// Throws: UsageMistake for unknown variants, and for a texture without texture coordinates;
 /// ImageError; ReadError; Cancelled.
 ExportLook make_export_look(const ExportArguments& arguments, const MappedSource& mapped,

@@ -29,11 +29,10 @@ ExportLook look_of(const RemeshArguments& arguments, const MappedSource& mapped,
   return make_export_look(exporting, textured ? mapped : made, console);
 }
 
-/// The new mesh as a source; colours and axes are the kind of the old one's.
-MappedSource as_source(const MappedSource& mapped, const Remeshed& result) {
+/// The new mesh as a source.
+MappedSource as_source(const Remeshed& result) {
   MappedSource made;
   made.source.file = result.file;
-  made.source.file.format = mapped.source.file.format;
   made.map = result.map;
   return made;
 }
@@ -74,18 +73,16 @@ Asset make_asset(const RemeshArguments& arguments, const MappedSource& mapped,
                  std::span<const RemeshLevel> levels, const Provenance& provenance,
                  Console& console) {
   const ExportChartOptions options{.threads = arguments.threads};
-  ExportLook look = look_of(arguments, mapped, as_source(mapped, levels.front().mesh), console);
+  ExportLook look = look_of(arguments, mapped, as_source(levels.front().mesh), console);
   const bool colours = look.vertex_colours;
   Asset asset = new_asset(arguments, provenance, std::move(look));
   for (const RemeshLevel& level : levels) {
-    const MappedSource made = as_source(mapped, level.mesh);
+    const MappedSource made = as_source(level.mesh);
     const MeshFile& file = made.source.file;
     const ExportChart chart = chart_of(made, level.arguments, options);
-    ExportGeometry geometry =
-        export_geometry(chart, file,
-                        {.up = file.format.starts_with("glTF") ? Up::Y : Up::Z,
-                         .buffers = {.colours = colours},
-                         .threads = arguments.threads});
+    ExportGeometry geometry = export_geometry(
+        chart, file,
+        {.up = up_axis(file), .buffers = {.colours = colours}, .threads = arguments.threads});
     if (asset.levels.empty()) {
       for (auto& extra : chart_extras(chart, geometry, options))
         asset.extras.push_back(std::move(extra));

@@ -40,12 +40,14 @@ std::vector<std::string> statements(const std::vector<Contender>& contenders) {
 }
 
 void add_pictures(Page& page, FolderFiles& files, const MeshFile& file,
-                  const std::vector<Contender>& contenders, const PictureOptions& look) {
-  files.emplace_back("mesh.png", png(mesh_picture(file, shape_paint(file, {}), look)));
+                  const std::vector<Contender>& contenders, const ComparisonOptions& options) {
+  const PictureOptions& look = options.look;
+  files.emplace_back("mesh.png",
+                     png(mesh_picture(file, shape_paint(file, {}, options.textures), look)));
   std::vector<PageFigure> spheres = {{"mesh.png", "The mesh", "the mesh"}}, heats;
   for (const Contender& c : contenders) {
     if (!c.distortion) continue;
-    spheres.push_back(sphere_figure(files, "sphere-" + c.name, file, c, look));
+    spheres.push_back(sphere_figure(files, "sphere-" + c.name, file, c, look, options.textures));
     heats.push_back(heat_figure(files, "area-" + c.name, file, c, look));
   }
   page.heading("Spheres side by side");
@@ -96,9 +98,10 @@ void add_polar_charts(Page& page, FolderFiles& files, const std::string& name,
 }
 
 PageFigure sphere_figure(FolderFiles& files, const std::string& name, const MeshFile& file,
-                         const Contender& contender, const PictureOptions& look) {
+                         const Contender& contender, const PictureOptions& look,
+                         const MeshTextures& textures) {
   const Image image =
-      sphere_picture(file, contender.map, shape_paint(file, folds_of(contender)), look);
+      sphere_picture(file, contender.map, shape_paint(file, folds_of(contender), textures), look);
   files.emplace_back(name + ".png", png(image));
   const std::string caption = contender.name + ": " + short_verdict(contender);
   return {name + ".png", "The sphere of " + caption, caption};
@@ -113,7 +116,7 @@ FolderFiles comparison_files(const std::string& name, const MeshFile& file,
                  grouped(file.mesh.vertex_count()) + " vertices.");
   page.table(contender_table(contenders));
   page.list(statements(contenders));
-  if (options.pictures) add_pictures(page, files, file, contenders, options.look);
+  if (options.pictures) add_pictures(page, files, file, contenders, options);
   add_charts(page, files, contenders);
   files.emplace_back("index.html", page.html());
   return files;

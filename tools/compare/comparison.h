@@ -16,6 +16,7 @@ using FolderFiles = std::vector<std::pair<std::string, std::string>>;
 struct ComparisonOptions {
   bool pictures = true;  // of the spheres; they need the image module
   PictureOptions look = {};
+  MeshTextures textures = {};  // of the mesh
 };
 
 /// The page index.html about the maps of one mesh, and what it shows: table, spheres side by side
@@ -33,6 +34,7 @@ void add_polar_charts(Page& page, FolderFiles& files, const std::string& name,
 
 /// The sphere of a contender as NAME.png in `files`, and the figure that shows it.
 PageFigure sphere_figure(FolderFiles& files, const std::string& name, const MeshFile& file,
-                         const Contender& contender, const PictureOptions& look);
+                         const Contender& contender, const PictureOptions& look,
+                         const MeshTextures& textures = {});
 
 }  // namespace sphparam::tools

@@ -1,10 +1,11 @@
 #include "compare/pictures.h"
 
-#include <optional>
+#include <utility>
+#include <variant>
 
 #include "image/image_codec.h"
 #include "render/figure.h"
-#include "render/vertex_normals.h"
+#include "render/own_paint.h"
 
 namespace sphparam::tools {
 
@@ -12,29 +13,28 @@ namespace {
 
 const Rgb red_of_folds(0.85F, 0.05F, 0.08F);
 
-/// The file's colours of vertices, Uint8 or Float32; nothing if it has none.
-std::optional<std::vector<Rgb>> own_colours(const MeshFile& file) {
-  std::vector<Rgb> colours(static_cast<size_t>(file.mesh.vertex_count()));
-  int channel = 0;
-  for (const char* name : {"red", "green", "blue"}) {
-    const Property* property = file.find_vertex_property(name);
-    if (!property) return std::nullopt;
-    const double full = property->type == ScalarType::Uint8 ? 255 : 1;
-    for (size_t v = 0; v < colours.size(); ++v) {
-      colours[v][channel] = static_cast<float>(property->values[v] / full);
-    }
-    ++channel;
+/// Triangles have one colour each, the mean of their corners'.
+FacePaint with_red(const VertexPaint& paint, const TriangleMesh& mesh,
+                   const std::vector<Face>& red) {
+  FacePaint faces;
+  for (Face f = 0; f < mesh.face_count(); ++f) {
+    Rgb sum = Rgb::Zero();
+    for (int k = 0; k < 3; ++k) sum += paint.colours[static_cast<size_t>(mesh.triangles(f, k))];
+    faces.colours.push_back(sum / 3);
   }
-  return colours;
+  for (const Face f : red) faces.colours[static_cast<size_t>(f)] = red_of_folds;
+  return faces;
 }
 
-std::vector<Rgb> colours_of_directions(const TriangleMesh& mesh) {
-  std::vector<Rgb> colours;
-  const Points normals = vertex_normals(mesh);
-  for (const auto& normal : normals.rowwise()) {
-    colours.push_back((0.6 + 0.35 * normal.array()).cast<float>().matrix().transpose());
+/// Red is one texture more, of one colour.
+TexturePaint with_red(TexturePaint paint, const TriangleMesh& mesh, const std::vector<Face>& red) {
+  const Rgb colour = to_linear(red_of_folds);
+  if (paint.texture_of.empty()) paint.texture_of.assign(static_cast<size_t>(mesh.face_count()), 0);
+  for (const Face f : red) {
+    paint.texture_of[static_cast<size_t>(f)] = static_cast<int>(paint.textures.size());
   }
-  return colours;
+  paint.textures.push_back({.factor = {colour[0], colour[1], colour[2], 1}});
+  return paint;
 }
 
 FigureOptions figure_options(const Paint& paint, const PictureOptions& options) {
@@ -58,18 +58,14 @@ PictureOptions seen_with_up(const Vector3& up) {
   return options;
 }
 
-Paint shape_paint(const MeshFile& file, const std::vector<Face>& red) {
-  const std::optional<std::vector<Rgb>> own = own_colours(file);
-  const std::vector<Rgb> colours = own ? *own : colours_of_directions(file.mesh);
-  if (red.empty()) return VertexPaint{colours};
-  FacePaint paint;
-  for (Face f = 0; f < file.mesh.face_count(); ++f) {
-    Rgb sum = Rgb::Zero();
-    for (int k = 0; k < 3; ++k) sum += colours[static_cast<size_t>(file.mesh.triangles(f, k))];
-    paint.colours.push_back(sum / 3);
+Paint shape_paint(const MeshFile& file, const std::vector<Face>& red,
+                  const MeshTextures& textures) {
+  Paint paint = own_paint(file, textures);
+  if (red.empty()) return paint;
+  if (auto* texture = std::get_if<TexturePaint>(&paint)) {
+    return with_red(std::move(*texture), file.mesh, red);
   }
-  for (const Face f : red) paint.colours[static_cast<size_t>(f)] = red_of_folds;
-  return paint;
+  return with_red(std::get<VertexPaint>(paint), file.mesh, red);
 }
 
 Image mesh_picture(const MeshFile& file, const Paint& paint, const PictureOptions& options) {

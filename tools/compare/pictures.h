@@ -22,9 +22,9 @@ struct PictureOptions {
 /// Looks at a mesh of that up direction from in front, a little from the right and from above.
 PictureOptions seen_with_up(const Vector3& up);
 
-/// Colours that say where a part of the shape went: the file's own, or pastel ones of the
-/// directions it faces; `red` faces in red.
-Paint shape_paint(const MeshFile& file, const std::vector<Face>& red);
+/// Colours that say where a part of the shape went: `own_paint`, with `red` faces in red.
+Paint shape_paint(const MeshFile& file, const std::vector<Face>& red,
+                  const MeshTextures& textures = {});
 
 /// The mesh, and the sphere of a map with the same paint, seen from the corresponding side.
 Image mesh_picture(const MeshFile& file, const Paint& paint, const PictureOptions& options);

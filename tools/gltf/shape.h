@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mesh_io/mesh_file.h"
+#include "mesh_io/up_axis.h"
 #include "sphparam/chart/tangent_frame.h"
 
 namespace sphparam::tools {
@@ -11,10 +12,8 @@ struct Shape {
   ShadingFrame frame;
 };
 
-/// The axis of a mesh that points up. z: (x, y, z) becomes (x, z, −y).
-enum class Up { Z, Y };
-
-/// The mesh itself. `mesh_normals` #V×3, unit (`shading_normals`).
+/// The mesh itself; with z up, (x, y, z) becomes (x, z, −y). `mesh_normals` #V×3, unit
+/// (`shading_normals`).
 Shape mesh_shape(const SphericalChart& chart, const TriangleMesh& mesh, const Points& mesh_normals,
                  Up up, int threads = 0);
 

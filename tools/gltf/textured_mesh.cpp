@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mesh_io/mesh_writer.h"
+#include "mesh_io/up_axis.h"
 #include "render/shading_normals.h"
 #include "sphparam/chart/carry_attributes.h"
 #include "sphparam/chart/tangent_frame.h"
@@ -79,6 +80,7 @@ MeshFile textured_mesh(const ExportChart& exported, const MeshFile& source, Shap
     texcoords.row(corner) << (exported.mirrored ? 1 - uv[0] : uv[0]), 1 - uv[1];
   }
   file.corner_texcoords = std::move(texcoords);
+  if (!is_sphere && up_axis(source) == Up::Y) file.comments.push_back(comment_of_y_up());
   file.materials = {material_name};
   file.set_face_property({"material", ScalarType::Int32,
                           std::vector<double>(static_cast<size_t>(chart.triangles.rows()), 0)});

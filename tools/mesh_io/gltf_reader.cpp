@@ -13,6 +13,7 @@
 #include "mesh_io/gltf_document.h"
 #include "mesh_io/gltf_nodes.h"
 #include "mesh_io/losses.h"
+#include "mesh_io/up_axis.h"
 #include "sphparam/elementary.h"
 
 // Every placed mesh in turn: positions go through x ↦ Ax + b, normals through A⁻ᵀ; where det A < 0
@@ -347,6 +348,7 @@ MeshFile read_gltf(std::string_view bytes, const std::string& name,
   MeshFile file = SceneReader(document, name, options).read();
   file.format = bytes.starts_with("glTF") ? "glTF binary" : "glTF";
   file.position_type = ScalarType::Float32;
+  file.comments.push_back(comment_of_y_up());
   return file;
 }
 

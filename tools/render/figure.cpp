@@ -7,9 +7,9 @@
 
 #include "render/drawing_size.h"
 #include "render/geodesic.h"
-#include "render/heat.h"
+#include "render/own_paint.h"
+#include "render/shading_normals.h"
 #include "sphparam/elementary.h"
-#include "sphparam/sphere/distortion.h"
 
 // The sphere is turned so that the pictures correspond: its side towards the eye is the mean ray of
 // the triangles that face the eye on the mesh, and its up the way that this mean moves with height.
@@ -19,45 +19,6 @@ namespace {
 
 constexpr double kFieldOfView = 18;  // degrees: a long lens
 constexpr double margin = 1.08;      // of the picture around what is drawn
-
-std::optional<std::vector<Rgb>> vertex_colours(const MeshFile& file) {
-  const Property* channels[] = {file.find_vertex_property("red"),
-                                file.find_vertex_property("green"),
-                                file.find_vertex_property("blue")};
-  if (!channels[0] || !channels[1] || !channels[2]) return std::nullopt;
-  const bool bytes = channels[0]->type == ScalarType::Uint8;
-  std::vector<Rgb> colours(static_cast<size_t>(file.mesh.vertex_count()));
-  for (size_t v = 0; v < colours.size(); ++v) {
-    for (int k = 0; k < 3; ++k) {
-      const double value = channels[k]->values[v];
-      colours[v][k] = static_cast<float>(bytes ? value / 255 : value);
-    }
-  }
-  return colours;
-}
-
-Paint choose_paint(const MeshFile& file, const SphereMap& map, const FigureOptions& options,
-                   int threads) {
-  switch (options.colours) {
-    case FigureColours::Plain:
-      break;
-    case FigureColours::Vertex:
-      if (auto colours = vertex_colours(file)) return VertexPaint{std::move(*colours)};
-      break;
-    case FigureColours::Area:
-      return heat_paint(Heat::Area, measure_distortion(file.mesh, map, threads));
-    case FigureColours::Angle:
-      return heat_paint(Heat::Angle, measure_distortion(file.mesh, map, threads));
-    case FigureColours::Checker:
-      return CheckerPaint{map.points};
-    case FigureColours::Texture:
-      if (file.corner_texcoords && options.texture) {
-        return TexturePaint{*file.corner_texcoords, *options.texture};
-      }
-      break;
-  }
-  return UniformPaint{};
-}
 
 struct SphereView {
   Vector3 direction;
@@ -145,9 +106,9 @@ Image in_a_row(const std::vector<Image>& images) {
 
 Image map_figure(const MeshFile& file, const SphereMap& map, const FigureOptions& options,
                  int threads) {
-  RenderObject object = {
-      .mesh = at_drawing_size(file.mesh),
-      .paint = options.paint ? *options.paint : choose_paint(file, map, options, threads)};
+  RenderObject object = {.mesh = at_drawing_size(file.mesh),
+                         .normals = shading_normals(file),
+                         .paint = options.paint ? *options.paint : own_paint(file)};
   if (options.graticule) object.graticule = Graticule{.rays = map.points};
   if (options.wireframe) object.wireframe = Wireframe{};
   std::vector<RenderScene> scenes;

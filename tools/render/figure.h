@@ -8,18 +8,8 @@
 
 namespace sphparam::tools {
 
-enum class FigureColours {
-  Plain,
-  Vertex,   // the mesh's red green blue; plain where it has none
-  Area,     // see heat_paint
-  Angle,    // see heat_paint
-  Checker,  // fields of the (θ, ϕ) grid
-  Texture,  // the mesh's texture coordinates and `texture`
-};
-
 struct FigureOptions {
-  FigureColours colours = FigureColours::Vertex;
-  std::optional<Paint> paint = std::nullopt;     // instead of `colours`
+  std::optional<Paint> paint = std::nullopt;     // none: `own_paint`, without textures
   bool with_mesh = true, with_sphere = true;     // what the row shows
   bool graticule = true;                         // lines of θ and ϕ every 15°, the date line red
   bool wireframe = false;                        // the triangles
@@ -29,7 +19,6 @@ struct FigureOptions {
   Vector3 view{1, -1.6, 0.5};                    // from the mesh towards the eye
   Vector3 up{0, 0, 1};                           // of the mesh
   std::optional<Rgb> background = Rgb(1, 1, 1);  // none: transparent
-  std::optional<Image> texture = std::nullopt;
 };
 
 /// The standard picture of a map, after the paper's Figures 1 and 8: left the mesh, right the

@@ -140,7 +140,13 @@ FacePaint refined(const FacePaint& paint, const Refinement& refinement) {
 }
 
 TexturePaint refined(const TexturePaint& paint, const Refinement& refinement) {
-  TexturePaint result{{}, paint.image};
+  TexturePaint result{.texcoords = {}, .textures = paint.textures};
+  if (!paint.texture_of.empty()) {
+    for (const Piece& piece : refinement.pieces()) {
+      result.texture_of.push_back(paint.texture_of[static_cast<size_t>(piece.source)]);
+    }
+  }
+  if (paint.texcoords.rows() == 0) return result;
   result.texcoords.resize(3 * static_cast<Eigen::Index>(refinement.pieces().size()), 2);
   Eigen::Index row = 0;
   for (const Piece& piece : refinement.pieces()) {

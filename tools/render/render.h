@@ -9,6 +9,7 @@
 #include "mesh_io/mesh_file.h"
 #include "render/colour.h"
 #include "sphparam/mesh/triangle_mesh.h"
+#include "texture/source_texture.h"
 
 namespace sphparam::tools {
 
@@ -40,10 +41,11 @@ struct CheckerPaint {
   Rgb light{0.93F, 0.92F, 0.88F};
   Rgb dark{0.22F, 0.42F, 0.55F};
 };
-/// An image through texture coordinates, repeated, v upwards.
+/// Textures through texture coordinates, v upwards, filtered by what a pixel covers of them.
 struct TexturePaint {
-  CornerTexcoords texcoords;
-  Image image;  // 3 or 4 channels
+  CornerTexcoords texcoords;            // empty where no texture has an image
+  std::vector<SourceTexture> textures;  // alpha is not looked at
+  std::vector<int> texture_of = {};     // a face, −1: white; empty: the first for all
 };
 using Paint = std::variant<UniformPaint, VertexPaint, FacePaint, CheckerPaint, TexturePaint>;
 

@@ -9,6 +9,7 @@
 #include "render/vertex_normals.h"
 #include "sphparam/elementary.h"
 #include "sphparam/sphere/spherical_coordinates.h"
+#include "texture/texture_pyramid.h"
 
 // Colour of a point = paint, lines over it, then light: a warm key light from the upper left, a
 // weak cool fill from the right, and the sky, which the visible share of it scales. Everything in
@@ -60,21 +61,31 @@ GridPoint grid_point(const Points& rays, const Triangles& triangles, const Shade
            degrees * elementary::hypot(right.phi - here.phi, below.phi - here.phi) + least}};
 }
 
-/// Bilinear, repeated in both directions; v points up. Black where coordinates are no numbers.
-Rgb texel(const Image& image, const Eigen::Vector2d& uv) {
-  if (!uv.allFinite()) return Rgb::Zero();
-  const double x = (uv.x() - std::floor(uv.x())) * image.width - 0.5;
-  const double y = (1 - (uv.y() - std::floor(uv.y()))) * image.height - 0.5;
-  const auto at = [&](double px, double py) {
-    const int column = (static_cast<int>(px) + image.width) % image.width;
-    const int row = (static_cast<int>(py) + image.height) % image.height;
-    return to_linear(Rgb(image.pixel(column, row)));
-  };
-  const double x0 = std::floor(x), y0 = std::floor(y);
-  const auto u = static_cast<float>(x - x0), v = static_cast<float>(y - y0);
-  const Rgb top = (1 - u) * at(x0, y0) + u * at(x0 + 1, y0);
-  const Rgb bottom = (1 - u) * at(x0, y0 + 1) + u * at(x0 + 1, y0 + 1);
-  return (1 - v) * top + v * bottom;
+const SourceTexture& texture_of(const TexturePaint& paint, Face face) {
+  static const SourceTexture white;
+  if (paint.texture_of.empty()) return paint.textures.front();
+  const int texture = paint.texture_of[static_cast<size_t>(face)];
+  return texture < 0 ? white : paint.textures[static_cast<size_t>(texture)];
+}
+
+/// The steps to the next pixels say how much of the image this one covers; a triangle seen edge-on
+/// has none. Black where coordinates are no numbers.
+Rgb texture_colour(const TexturePaint& paint, const ShadedSample& sample) {
+  Eigen::Vector2d here(0, 1), right(0, 0), below(0, 0);
+  if (paint.texcoords.rows() > 0) {
+    const Eigen::Matrix<double, 2, 3> corners =
+        paint.texcoords.middleRows<3>(3 * sample.face).transpose();
+    here = corners * sample.weights;
+    right = corners * (sample.weights_right - sample.weights);
+    below = corners * (sample.weights_below - sample.weights);
+  }
+  if (!here.allFinite()) return Rgb::Zero();
+  if (!right.allFinite() || !below.allFinite()) right = below = Eigen::Vector2d::Zero();
+  const TextureLine line{
+      {here.x(), 1 - here.y()}, {right.x(), -right.y()}, {below.x(), -below.y()}, 1};
+  Rgb colour;
+  sample_texture(texture_of(paint, sample.face), TextureFilter::Bilinear, line, colour.data(), 3);
+  return colour;
 }
 
 Rgb checker_colour(const CheckerPaint& paint, const Triangles& triangles,
@@ -126,13 +137,7 @@ Rgb SurfaceColour::painted(const ShadedSample& sample) const {
             return to_linear(paint.colours[static_cast<size_t>(sample.face)]);
           },
           [&](const CheckerPaint& paint) { return checker_colour(paint, triangles, sample); },
-          [&](const TexturePaint& paint) {
-            Eigen::Vector2d uv = Eigen::Vector2d::Zero();
-            for (int k = 0; k < 3; ++k) {
-              uv += sample.weights[k] * paint.texcoords.row(3 * sample.face + k);
-            }
-            return texel(paint.image, uv);
-          }},
+          [&](const TexturePaint& paint) { return texture_colour(paint, sample); }},
       object_->paint);
 }
 

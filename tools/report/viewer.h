@@ -16,6 +16,10 @@ struct ViewerScript {
   std::string licence;
 };
 
+/// The option of CMake that brings it to builds without network, as it is told to people.
+inline constexpr char viewer_option[] =
+    "-DSPHPARAM_VIEWER=FOLDER (the npm package @google/model-viewer, unpacked)";
+
 /// Where it belongs: ../share/sphparam as seen from the program, so that it moves with it.
 /// Empty where nobody can tell where the program is.
 std::string viewer_folder();

@@ -102,7 +102,7 @@ class Reporter {
 
   BakeScene scene_of(const Exhibit& exhibit) const {
     return {.source = {file_, exhibit.contender.map, Topology(file_.mesh), shading_normals(file_),
-                       options_.textures},
+                       options_.textures.of_materials, options_.textures.one_for_all},
             .target = *exhibit.target,
             .options = {.heat = true},
             .threads = options_.threads};
@@ -119,21 +119,31 @@ class Reporter {
             (many() ? c.name + ": " : "") + noun + " distortion"};
   }
 
+  std::string mesh_png() const {
+    return png(mesh_picture(file_, shape_paint(file_, {}, options_.textures), look()));
+  }
+
+  ViewedModel sphere_view(const Exhibit& exhibit) const {
+    std::vector<Face> folds = exhibit.contender.certificate.folded;
+    const std::vector<Face>& flat = exhibit.contender.certificate.degenerate;
+    folds.insert(folds.end(), flat.begin(), flat.end());
+    ViewedModel view{.name = many() || !exhibit.contender.certificate.bijective() ? about(exhibit)
+                                                                                  : "Its sphere",
+                     .alt = "The sphere of " + about(exhibit),
+                     .glb = "",
+                     .picture = ""};
+    if (exhibit.contender.distortion) {
+      const Paint paint = shape_paint(file_, folds, options_.textures);
+      view.picture = png(sphere_picture(file_, exhibit.contender.map, paint, look()));
+    }
+    return view;
+  }
+
   Shown show(const Exhibit& exhibit) const {
     const bool certified = exhibit.chart() && exhibit.chart()->certificate.one_to_one();
     Shown shown;
-    shown.model.name = many() || !certified ? about(exhibit) : "";
-    if (!certified) {
-      std::vector<Face> folds = exhibit.contender.certificate.folded;
-      const std::vector<Face>& flat = exhibit.contender.certificate.degenerate;
-      folds.insert(folds.end(), flat.begin(), flat.end());
-      shown.model.alt = "The sphere of " + about(exhibit);
-      if (exhibit.contender.distortion) {
-        shown.model.picture =
-            png(sphere_picture(file_, exhibit.contender.map, shape_paint(file_, folds), look()));
-      }
-      return shown;
-    }
+    if (!certified || !options_.viewer) shown.model = sphere_view(exhibit);
+    if (!certified) return shown;
     const BakeScene scene = scene_of(exhibit);
     const std::vector<PaintedSurface> surfaces =
         painted_surfaces(scene, options_.image_width, options_.progress);
@@ -144,12 +154,13 @@ class Reporter {
         shown.heat_maps.push_back(heat_figure(exhibit, heat, surface.image));
       }
     }
-    shown.model.alt = "Model of " + name_ + " that changes from the mesh to its sphere";
-    shown.model.picture = png(mesh_picture(file_, shape_paint(file_, {}), look()));
     if (options_.viewer) {
       const Up up = options_.look.up == Vector3::UnitY() ? Up::Y : Up::Z;
-      shown.model.glb = showcase_model(name_, file_, *exhibit.chart(), scene.source.normals,
-                                       surfaces, up, options_.threads);
+      shown.model = {.name = many() ? about(exhibit) : "",
+                     .alt = "Model of " + name_ + " that changes from the mesh to its sphere",
+                     .glb = showcase_model(name_, file_, *exhibit.chart(), scene.source.normals,
+                                           surfaces, up, options_.threads),
+                     .picture = mesh_png()};
     }
     return shown;
   }
@@ -169,8 +180,13 @@ class Reporter {
       if (surfaces.empty()) surfaces = std::move(shown.surfaces);
       std::move(shown.heat_maps.begin(), shown.heat_maps.end(), std::back_inserter(heat_maps));
     }
+    if (std::ranges::all_of(models, [](const ViewedModel& model) { return model.glb.empty(); })) {
+      models.insert(
+          models.begin(),
+          {.name = "The mesh", .alt = "The mesh " + name_, .glb = "", .picture = mesh_png()});
+    }
     add_viewer(page, models, surfaces, options_.viewer);
-    if (!options_.viewer) page.paragraph("This page was made without the 3D viewer.");
+    if (!options_.viewer) page.insert("<p class=\"hint\">" + escaped(without_viewer()) + "</p>\n");
     if (heat_maps.empty()) return;
     page.heading("Distortion over the sphere");
     page.paragraph(
@@ -180,6 +196,14 @@ class Reporter {
     page.insert("<div class=\"heat-keys\">\n" + heat_key(Heat::Area) + heat_key(Heat::Angle) +
                 "</div>\n");
     page.figures(heat_maps, heat_width);
+  }
+
+  std::string without_viewer() const {
+    if (!options_.viewer_is_missing) return "This page was made without the 3D viewer.";
+    return std::string(
+               "This page was made without the 3D viewer: the program that made it was "
+               "built without it. CMake's ") +
+           viewer_option + " brings it.";
   }
 
   // --- charts ---

@@ -15,10 +15,11 @@
 namespace sphparam::tools {
 
 struct ReportOptions {
-  std::optional<ViewerScript> viewer = std::nullopt;            // none: pictures only
-  PictureOptions look = {.size = 640};                          // of pictures, and what is up
-  int image_width = 1024;                                       // of textures and heat maps
-  std::vector<SourceTexture> textures = {};                     // of the mesh; see BakeSource
+  std::optional<ViewerScript> viewer = std::nullopt;  // none: pictures only
+  bool viewer_is_missing = false;                     // the program has none; the page says so
+  PictureOptions look = {.size = 640};                // of pictures, and what is up
+  int image_width = 1024;                             // of textures and heat maps
+  MeshTextures textures = {};                         // of the mesh
   std::vector<std::pair<std::string, std::string>> facts = {};  // program, command line, …
   int threads = 0;
   Progress progress = {};
@@ -26,7 +27,8 @@ struct ReportOptions {
 
 /// One page that shows maps of a mesh and needs nothing else: models that change into their
 /// spheres, heat maps, the paper's polar charts, histograms, tables, provenance. Several maps stand
-/// side by side, their charts on the same scale; those that fold are shown as pictures.
+/// side by side, their charts on the same scale; those that fold are shown as pictures. Where there
+/// are no models, there is a picture of the mesh and one of each sphere, in the mesh's own colours.
 /// Ensures: loads nothing from anywhere; same bytes for the same input and any number of threads,
 /// but for times. Throws: ImageError; Cancelled; MapError.
 /// Requires: at least one exhibit, each with a map.

@@ -24,4 +24,10 @@ struct SourceTexture {
   std::array<float, 4> factor = {1, 1, 1, 1};  // linear red, green, blue, alpha
 };
 
+/// The textures of a mesh: one a material of its file, or the first for all faces; empty: none.
+struct MeshTextures {
+  std::vector<SourceTexture> of_materials = {};
+  bool one_for_all = false;  // whatever the materials
+};
+
 }  // namespace sphparam::tools

@@ -1,0 +1,90 @@
+#include <catch2/catch.hpp>
+
+#include "render/geodesic.h"
+#include "render/own_paint.h"
+#include "support/test_meshes.h"
+#include "texture/texture_pyramid.h"
+
+using namespace sphparam;
+using namespace sphparam::tools;
+
+namespace {
+
+SourceTexture coloured(float red, float green, float blue) {
+  return {.factor = {red, green, blue, 1}};
+}
+
+SourceTexture with_image() {
+  return {.image = std::make_shared<const TexturePyramid>(Image(1, 1, 3))};
+}
+
+/// Two materials, of every other face; one face has none.
+MeshFile two_materials() {
+  MeshFile file;
+  file.mesh = tests::icosphere(1);
+  Property material{"material", ScalarType::Int32, {}};
+  for (Face f = 0; f < file.mesh.face_count(); ++f) material.values.push_back(f % 2);
+  material.values[7] = -1;
+  file.set_face_property(material);
+  file.corner_texcoords = CornerTexcoords::Constant(file.mesh.triangles.size(), 2, 0.5);
+  return file;
+}
+
+void add_colours(MeshFile& file, ScalarType type, double value) {
+  for (const char* name : {"red", "green", "blue"}) {
+    file.set_vertex_property(
+        {name, type, std::vector<double>(static_cast<size_t>(file.mesh.vertex_count()), value)});
+  }
+}
+
+/// The colour of a ball of that paint where it faces the eye.
+Rgb seen(const TriangleMesh& mesh, const Paint& paint) {
+  RenderScene scene;
+  scene.width = scene.height = 9;
+  scene.objects.push_back({.mesh = mesh, .paint = paint});
+  return Rgb(render(scene).pixel(4, 4));
+}
+
+}  // namespace
+
+TEST_CASE(
+    "own_paint: an image, else colours of vertices, else those of materials, else directions") {
+  MeshFile file = two_materials();
+  CHECK(std::holds_alternative<VertexPaint>(own_paint(file)));
+  CHECK(std::get<VertexPaint>(own_paint(file)).colours == direction_paint(file.mesh).colours);
+  const MeshTextures plain{.of_materials = {coloured(1, 0, 0), coloured(0, 1, 0)}};
+  CHECK(std::get<TexturePaint>(own_paint(file, plain)).texture_of[1] == 1);
+  add_colours(file, ScalarType::Uint8, 51);
+  CHECK(std::get<VertexPaint>(own_paint(file, plain)).colours[3] == Rgb::Constant(0.2F));
+  const MeshTextures painted{.of_materials = {coloured(1, 0, 0), with_image()}};
+  CHECK(std::holds_alternative<TexturePaint>(own_paint(file, painted)));
+}
+
+TEST_CASE("own_paint: colours of every type of number are the same colours") {
+  for (const auto& [type, full] : {std::pair{ScalarType::Uint8, 255.0},
+                                   {ScalarType::Uint16, 65535.0},
+                                   {ScalarType::Float32, 1.0}}) {
+    MeshFile file = two_materials();
+    add_colours(file, type, full);
+    CHECK(std::get<VertexPaint>(own_paint(file)).colours[0] == Rgb::Ones());
+  }
+}
+
+TEST_CASE("own_paint: each face has its material's texture, on the sphere too, or one has all") {
+  const MeshFile file = two_materials();
+  const MeshTextures textures{.of_materials = {coloured(1, 0, 0), coloured(0, 1, 0)}};
+  const auto paint = std::get<TexturePaint>(own_paint(file, textures));
+  for (Face f = 0; f < file.mesh.face_count(); ++f) {
+    CHECK(paint.texture_of[static_cast<size_t>(f)] == (f == 7 ? -1 : f % 2));
+  }
+  const RenderObject sphere = on_sphere({.mesh = file.mesh, .paint = paint}, file.mesh.positions);
+  CHECK(std::ssize(std::get<TexturePaint>(sphere.paint).texture_of) == sphere.mesh.face_count());
+
+  MeshTextures one = textures;
+  one.one_for_all = true;
+  const Rgb red = seen(file.mesh, own_paint(file, one));
+  CHECK(red[0] > 2 * red[1]);
+  one.of_materials = {coloured(0, 1, 0)};
+  const Rgb green = seen(file.mesh, own_paint(file, one));
+  CHECK(green[1] > 2 * green[0]);
+}
