@@ -154,6 +154,7 @@ TemporaryFile::TemporaryFile(fs::path target, const struct stat* replaced)
     open(replaced ? kOurs : kUsual);
     if (replaced) hand_on(target_.string(), *replaced, held_);
   } catch (...) {
+    if (descriptor_ >= 0) ::unlink(path_.c_str());
     close();
     throw;
   }
@@ -188,11 +189,7 @@ void TemporaryFile::open(mode_t permissions) {
     lock(descriptor_, F_RDLCK, true);
   } while (!has_a_name(descriptor_));
   held_ = ::fcntl(descriptor_, F_DUPFD_CLOEXEC, 0);
-  if (held_ >= 0) return;
-  const int why = errno;
-  ::unlink(path_.c_str());
-  errno = why;
-  fail(target_.string(), "cannot make a file in its folder");
+  if (held_ < 0) fail(target_.string(), "cannot make a file in its folder");
 }
 
 void TemporaryFile::write_at(std::int64_t offset, std::string_view bytes) {
