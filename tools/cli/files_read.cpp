@@ -23,7 +23,8 @@ const std::map<std::string, Names> writing_options = {
     {"bake", {"--output", "--json"}},
     {"compare", {"--output"}},
     {"export", {"--output", "--json"}},
-    {"map", {"--output", "--sphere", "--json", "--charts"}},
+    {"info", {"--json"}},
+    {"map", {"--output", "--write-sphere", "--json", "--charts"}},
     {"measure", {"--per-vertex", "--json"}},
     {"paint", {"--output"}},
     {"remesh",
@@ -33,6 +34,7 @@ const std::map<std::string, Names> writing_options = {
     {"report", {"--output", "--json"}},
     {"spharm", {"--json", "--csv", "--reconstruct"}},
     {"unimage", {"--output"}},
+    {"verify", {"--json"}},
 };
 
 Names& files_read() {
