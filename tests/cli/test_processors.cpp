@@ -58,7 +58,10 @@ std::map<std::string, std::string> made_files() {
   run({"render", map, "--size", "96", "-o", folder / "shape.png"});
   std::map<std::string, std::string> files;
   for (const std::string& name : folder.names()) {
-    if (name != "charts") files[name] = bytes_of(folder / name);
+    if (name == "charts") continue;
+    std::string& bytes = files[name] = bytes_of(folder / name);
+    const std::string here = folder / "";  // told in reports; every folder has a name of its own
+    for (size_t at; (at = bytes.find(here)) != std::string::npos;) bytes.erase(at, here.size());
   }
   return files;
 }
