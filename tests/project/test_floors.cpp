@@ -133,9 +133,11 @@ TEST_CASE("floors: public headers of the library need Eigen and nothing else") {
 TEST_CASE("floors: sines and logarithms are our own, for the C library's depend on the processor") {
   const std::regex foreign(
       "(std|Eigen::numext)::(a?(sin|cos|tan)h?|atan2|exp2?|expm1|log(2|10|1p|b)?|pow|cbrt|hypot|"
-      "[lt]gamma|erfc?|polar|arg)\\(|\\.(log(10)?|exp|a?(sin|cos|tan)h?)\\(\\)|\\.pow\\(");
+      "[lt]gamma|erfc?|polar|arg)\\(|\\.(log(10)?|exp|a?(sin|cos|tan)h?)\\(\\)|\\.pow\\(|"
+      "Eigen::(AngleAxis|Rotation2D)");
   CHECK(std::regex_search("x = std::sin(y);", foreign));
   CHECK(std::regex_search("values.array().log()", foreign));
+  CHECK(std::regex_search("Eigen::AngleAxisd(angle, axis)", foreign));
   CHECK_FALSE(std::regex_search("elementary::sin(y) + std::sqrt(z) + std::ilogb(x)", foreign));
   for (const char* folder : {"libsphparam", "tools"}) {
     for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {

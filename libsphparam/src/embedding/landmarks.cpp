@@ -130,7 +130,8 @@ class Traveller {
       const Vector3 x = result_.map.point(pin.vertex);
       Vector3 w = way(x, pin.point);
       if (turn != 0 && w.norm() > 0) {
-        w = longest_move * Vector3(Eigen::AngleAxisd(turn, x) * w.normalized());
+        const Vector3 ahead = w.normalized(), aside = x.cross(ahead);
+        w = longest_move * (elementary::cos(turn) * ahead + elementary::sin(turn) * aside);
       }
       result.row(i) = w;
     }

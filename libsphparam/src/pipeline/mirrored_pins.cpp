@@ -6,6 +6,8 @@
 #include <numbers>
 #include <sstream>
 
+#include "sphparam/elementary.h"
+
 // A map without pins is the mesh on the sphere up to a rotation R. True pins p lie near R x,
 // mirrored ones near a reflection Q x; both are fitted by least squares. If deviations are normal,
 // of one unknown size, n pins have 2n coordinates and each fit takes 3 of them, so the reflection
@@ -29,8 +31,10 @@ double sum_of_squares(const Points& from, const Points& to, const Eigen::Matrix3
 /// Root of the mean square, in degrees.
 std::string degrees(double sum, size_t pins) {
   const double chord = std::sqrt(sum / static_cast<double>(pins));
+  const double sine = std::min(1.0, chord / 2);  // of half the angle
+  const double angle = 2 * elementary::atan2(sine, std::sqrt(1 - sine * sine));
   std::ostringstream text;
-  text << std::setprecision(2) << 2 * std::asin(std::fmin(1, chord / 2)) * 180 / std::numbers::pi;
+  text << std::setprecision(2) << angle * 180 / std::numbers::pi;
   return text.str();
 }
 
@@ -48,7 +52,7 @@ std::optional<std::string> suspicion_of_mirror(const SphereMap& map, const std::
   const double rotated = sum_of_squares(from, to, best_rotation(from, to));
   const double mirrored = sum_of_squares(from, to, -best_rotation(from, Points(-to)));
   const double exponent = static_cast<double>(2 * pins.size() - 3) / 2;
-  const double least = std::max(least_ratio, std::pow(least_odds, 1 / exponent));
+  const double least = std::max(least_ratio, elementary::pow(least_odds, 1 / exponent));
   const double rounded = rounding * rounding * static_cast<double>(pins.size());
   if (!(rotated > least * mirrored) || rotated < rounded) return std::nullopt;
   return "the pins look mirrored: they are " + degrees(mirrored, pins.size()) +

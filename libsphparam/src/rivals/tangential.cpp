@@ -12,6 +12,7 @@
 #include "option_domain.h"
 #include "rivals/outcome.h"
 #include "rivals/rings.h"
+#include "sphparam/elementary.h"
 #include "sphparam/mesh/edge_weights.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/orientation.h"
@@ -55,10 +56,13 @@ SphereMap central_projection(const TriangleMesh& mesh) {
 std::array<Vector3, 4> tetrahedron(int turn) {
   const double sign = turn % 2 == 0 ? 1 : -1;
   const double angle = turn / 2 % 2 == 0 ? 0 : std::numbers::pi / 4;
-  const Eigen::AngleAxisd turned(angle, Vector3::UnitZ());
+  const double c = elementary::cos(angle), s = elementary::sin(angle);
+  const auto turned = [&](const Vector3& x) {
+    return Vector3(c * x.x() - s * x.y(), s * x.x() + c * x.y(), x.z());
+  };
   std::array<Vector3, 4> corners = {Vector3(1, 1, 1), Vector3(1, -1, -1), Vector3(-1, 1, -1),
                                     Vector3(-1, -1, 1)};
-  for (Vector3& corner : corners) corner = sign * (turned * corner).normalized();
+  for (Vector3& corner : corners) corner = sign * turned(corner).normalized();
   return corners;
 }
 
