@@ -138,8 +138,8 @@ struct Named {
   MeshFile file;
 };
 
-/// Four triangles; many faces without area; faces too small for float32; colours and own (u, v), and
-/// a normal of its own at every corner.
+/// Four triangles; many faces without area; faces too small for float32; colours and own (u, v),
+/// and a normal of its own at every corner.
 std::vector<Named> own_meshes() {
   std::vector<Named> meshes(4);
   meshes[0] = {"tetrahedron", {}};

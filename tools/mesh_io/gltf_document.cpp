@@ -337,7 +337,8 @@ std::vector<std::string> others_of(const tinygltf::Material& material) {
   add(material.emissiveTexture.index >= 0 || shines, "emission");
   add(!material.alphaMode.empty() && material.alphaMode != "OPAQUE", "alpha mode");
   add(material.doubleSided, "double sides");
-  for (const auto& [extension, value] : material.extensions) words.push_back(tools::quoted(extension));
+  for (const auto& [extension, value] : material.extensions)
+    words.push_back(tools::quoted(extension));
   return words;
 }
 

@@ -80,7 +80,7 @@ struct SphericalChart {
 /// or
 ///          the strips between neighbouring edges, are as thin as the rounding of (u, v), some
 ///          1e-15 radians, or where folds need more than `splits_a_vertex`·#V + 4096 splits:
-///          `counts.at_limit` tells. Tubes wound dozens of times about the poles take tens a vertex.
+///          `counts.at_limit` tells. Tubes wound dozens of times about ±z take tens a vertex.
 ///          Every split leaves the refined map positive on the sphere; where rounding does not let
 ///          it, `certificate.inverted` lists the faces. Same bytes for any number of threads.
 /// Progress is told of "chart": the share of the splits allowed that was needed so far.

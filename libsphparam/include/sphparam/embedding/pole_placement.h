@@ -14,7 +14,7 @@ struct PolePlacementOptions {
   int sweeps = 10;       // ≥ 0: of pinned relaxation after every partial move
   int most_moves = 200;  // ≥ 1: partial moves before it gives up
   std::optional<Vertex> no_pole = std::nullopt;  // of an axis: this vertex becomes none
-  int threads = 0;       // 0: all cores
+  int threads = 0;                               // 0: all cores
   Progress progress = {};
 };
 
