@@ -11,10 +11,18 @@
 // One method for all: an argument is brought near 0 without loss, as the sum of two doubles; there
 // the Taylor series beyond its first term is so small beside that term that doubles will do for it;
 // the first term is added last.
-//   sin, cos   r = x − n·π/2, |r| ≤ π/4, n·π/2 subtracted in parts that products with n are exact
-//   of atan       atan q = atan c + atan t, t = (q − c)/(1 + q c), c the multiple of 1/8 nearest to
-//   q log        x = 2ᵉ m, ln m = 2 artanh s, s = (m − 1)/(m + 1): the same series, other signs exp
-//   eˣ = 2ⁿ eʳ, r = x − n·ln 2, |r| ≤ ln 2 / 2
+//
+// Sine and cosine: r = x − n·π/2, |r| ≤ π/4; n·π/2 is subtracted in parts whose products with n are
+// exact.
+//
+// Arctangent of q: atan q = atan c + atan t, where c is the multiple of 1/8 nearest to q, and
+// t = (q − c)/(1 + q c).
+//
+// Logarithm: x = 2ᵉ m, and ln m = 2 artanh s, s = (m − 1)/(m + 1): the arctangent's series, with
+// other signs.
+//
+// Exponential: eˣ = 2ⁿ eʳ, where r = x − n·ln 2, |r| ≤ ln 2 / 2.
+//
 // Of the C library, only functions that have no rounding are called: frexp, ldexp, nearbyint, and
 // √, which IEEE 754 defines. Contraction to fused multiply-adds is off (the project's CMakeLists).
 
@@ -100,11 +108,11 @@ double polynomial(const std::array<double, n>& c, double x) {
 template <size_t n>
 constexpr std::array<double, n> inverse_factorials(int first, int step, double sign) {
   std::array<double, n> result{};
-  long double factorial = 1;  // below 2⁶⁴, so exact
+  double factorial = 1;  // exact to 20!: its odd part has fewer than 53 bits
   for (int i = 2; i <= first; ++i) factorial *= i;
   double turn = 1;
   for (size_t k = 0; k < n; ++k) {
-    result[k] = static_cast<double>(turn / factorial);
+    result[k] = turn / factorial;
     const int at = first + static_cast<int>(k) * step;
     for (int i = at + 1; i <= at + step; ++i) factorial *= i;
     turn *= sign;
