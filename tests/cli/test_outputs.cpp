@@ -41,7 +41,7 @@ const std::vector<Subcommand> subcommands = {
      {"-o", "--geometry-image", "--normals", "--attribute-image q=", "--limit-mesh", "--displace",
       "--rebuild", "--csv", "--json"},
      {"--grid"}},
-    {"render", {"", "--texture"}, {"-o"}},
+    {"render", {"", "--texture", "--sphere"}, {"-o"}},
     {"report", {"", "--sphere", "--texture"}, {"-o", "--json"}},
     {"spharm", {"", "--sphere"}, {"--json", "--csv", "--reconstruct"}},
     {"unimage", {"", "--normals", "--attribute q="}, {"-o"}},
