@@ -200,6 +200,26 @@ TEST_CASE("render: a sphere in a file of its own is that of the mesh, or refused
   const Ended other = drawn(folder / "other.obj");
   CHECK(other.code == 3);
   CHECK_THAT(other.err, Contains("not a sphere of ball.obj"));
+  TriangleMesh bad = icosphere(1);
+  bad.positions.row(5).setZero();
+  write_bytes(folder / "bad.obj", obj_text(bad));
+  const Ended centre = drawn(folder / "bad.obj");
+  CHECK(centre.code == 3);
+  CHECK_THAT(centre.err, Contains("is at the centre"));
+}
+
+TEST_CASE("render: heat does not depend on the radius of a sphere in a file of its own") {
+  const Folder folder;
+  TriangleMesh sphere = icosphere(1);
+  write_bytes(folder / "unit.obj", obj_text(sphere));
+  sphere.positions *= 128;
+  write_bytes(folder / "large.obj", obj_text(sphere));
+  const auto drawn = [&](const char* name) {
+    return sphparam_program({"render", folder / "unit.obj", "--sphere", folder / name, "-o", "-",
+                             "--view", "mesh", "--colour", "area", "--size", "32"});
+  };
+  CHECK(drawn("unit.obj").code == 0);
+  CHECK(drawn("large.obj").out == drawn("unit.obj").out);
 }
 
 }  // namespace sphparam::tests

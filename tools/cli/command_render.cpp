@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/choice.h"
@@ -13,7 +14,9 @@
 #include "cli/common_options.h"
 #include "cli/console.h"
 #include "cli/exit_codes.h"
+#include "cli/file_numbers.h"
 #include "cli/input_limits.h"
+#include "cli/mapped_source.h"
 #include "cli/paths.h"
 #include "cli/shown_textures.h"
 #include "cli/source.h"
@@ -198,7 +201,8 @@ void require_png(const std::string& path) {
   throw UsageMistake("-o: the picture is a PNG, the name must end in .png, not " + extension);
 }
 
-/// Of the file `--sphere`. Throws: ReadError when its connectivity is another.
+/// Of the file `--sphere`, which may have any radius, as unit rays. Throws: ReadError when its
+/// connectivity is another, or a vertex lies at the centre.
 SphereMap map_of_sphere(const RenderArguments& arguments, const MeshFile& mesh) {
   const MeshFile sphere = read_source(arguments.sphere).file;
   const std::string difference = connectivity_difference(mesh, sphere);
@@ -206,7 +210,16 @@ SphereMap map_of_sphere(const RenderArguments& arguments, const MeshFile& mesh) 
     throw ReadError(display_name(arguments.sphere),
                     "not a sphere of " + display_name(arguments.input) + ": " + difference);
   }
-  return read_sphere(sphere).value_or(SphereMap{sphere.mesh.positions});
+  SphereMap map = read_sphere(sphere).value_or(SphereMap{sphere.mesh.positions});
+  for (Eigen::Index v = 0; v < map.points.rows(); ++v) {
+    if (map.points.row(v).isZero(0)) {
+      throw ReadError(display_name(arguments.sphere),
+                      "vertex " +
+                          std::to_string(FileNumbers(sphere).number(static_cast<Vertex>(v))) +
+                          " is at the centre, in no direction");
+    }
+  }
+  return unit_rays(std::move(map));
 }
 
 /// As the file has its vertices; where a sphere is named, welded as maps need them.
