@@ -1,7 +1,5 @@
 #include "cli/chart_report.h"
 
-#include <new>
-
 #include "sphparam/sphere/certificate.h"
 
 namespace sphparam::tools {
@@ -45,13 +43,11 @@ std::string chart_failure(const SphericalChart& chart) {
 }
 
 std::optional<ChartReport> report_chart(const TriangleMesh& mesh, const SphereMap& map, int threads,
-                                        const Progress& progress, int splits_a_vertex) try {
+                                        const Progress& progress, int splits_a_vertex) {
   const Topology topology(mesh);
   const SphereMap unit = normalised(map.points);
   if (!certify(topology, unit, threads).bijective()) return std::nullopt;
   return figures_of(spherical_chart(mesh, topology, unit, threads, progress, splits_a_vertex));
-} catch (const std::bad_alloc&) {
-  return ChartReport{.not_made = "out of memory"};
 }
 
 std::string chart_line(const std::optional<ChartReport>& chart) {

@@ -18,9 +18,9 @@ struct ChartReport {
 
 /// Makes the chart and keeps its figures. The rays may have any length.
 /// Returns nothing where the map is not one-to-one once its rays have unit length: no chart then.
-/// Where memory ends, or folds need more splits than are made, the report says so and the caller
-/// goes on: whoever wants figures of a chart has a map already.
-/// `splits_a_vertex`: as `spherical_chart` takes it. Throws: Cancelled.
+/// Where folds need more splits than are made, the report says so and the caller goes on: whoever
+/// wants figures of a chart has a map already.
+/// `splits_a_vertex`: as `spherical_chart` takes it. Throws: Cancelled; std::bad_alloc.
 std::optional<ChartReport> report_chart(const TriangleMesh& mesh, const SphereMap& map, int threads,
                                         const Progress& progress = {}, int splits_a_vertex = 256);
 

@@ -3,6 +3,7 @@
 #include "cli/map_outputs.h"
 
 #include <filesystem>
+#include <new>
 #include <optional>
 #include <string>
 #include <utility>
@@ -138,19 +139,27 @@ void add_charts(PendingFiles& files, const std::string& folder, const std::strin
   }
 }
 
-/// The figures of the (u, v) chart, as a stage of its own. The map that was asked for is on the
-/// disk already, certified: a chart that cannot be made is told, and costs nothing else.
-///
-/// Figures alone are not worth the memory of a chart that somebody bakes for or exports.
-std::optional<ChartReport> figures_of_chart(const MapArguments& arguments, MapOutcome& outcome,
-                                            Console& console) {
-  if (!outcome.certificate.bijective()) return std::nullopt;
+/// Figures alone are not worth the memory of a chart that somebody bakes for or exports; where
+/// there is too little even for these, the map is none the worse.
+std::optional<ChartReport> affordable_chart(const MapArguments& arguments,
+                                            const MapOutcome& outcome, Console& console) try {
   constexpr int splits_a_vertex = 4;
-  const Stopwatch stopwatch;
-  std::optional<ChartReport> chart = report_chart(
+  return report_chart(
       outcome.source.file.mesh, outcome.result.map, arguments.options.threads,
       [&](std::string_view stage, double f) { return console.progress(stage, f); },
       splits_a_vertex);
+} catch (const std::bad_alloc&) {
+  return ChartReport{.not_made = "out of memory"};
+}
+
+/// The figures of the (u, v) chart, as a stage of its own. The map that was asked for is written
+/// and certified by now, under its temporary name: a chart that cannot be made is told, and costs
+/// nothing else.
+std::optional<ChartReport> figures_of_chart(const MapArguments& arguments, MapOutcome& outcome,
+                                            Console& console) {
+  if (!outcome.certificate.bijective()) return std::nullopt;
+  const Stopwatch stopwatch;
+  std::optional<ChartReport> chart = affordable_chart(arguments, outcome, console);
   outcome.result.stages.push_back({.name = "chart", .seconds = stopwatch.seconds()});
   console.detail("  chart: " + short_number(stopwatch.seconds()) + " s");
   if (chart && !chart->not_made.empty()) {
