@@ -162,10 +162,14 @@ TEST_CASE("outputs: the texture that a glTF file names is read too, and not repl
     if (name.starts_with("a") && name.ends_with(".png")) texture = mapped.folder / name;
   REQUIRE_FALSE(texture.empty());
   const std::string before = bytes_of(texture);
-  const Ended baked = sphparam_program(
-      {"bake", mapped.folder / "a.gltf", "--map", "axes", "--size", "16", "-o", texture});
-  CHECK(baked.code == 3);
-  CHECK_THAT(baked.err, Contains("would be replaced"));
+  for (const Words& options : {Words{"bake", "--map", "axes"}, Words{"render"}}) {
+    Words line = {options.front(), mapped.folder / "a.gltf", "--size", "16", "-o", texture};
+    line.insert(line.end(), options.begin() + 1, options.end());
+    const Ended ended = sphparam_program(line);
+    INFO(as_text(line));
+    CHECK(ended.code == 3);
+    CHECK_THAT(ended.err, Contains("would be replaced"));
+  }
   CHECK(bytes_of(texture) == before);
 }
 

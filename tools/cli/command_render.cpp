@@ -1,5 +1,5 @@
 // `sphparam render`: pictures of a mesh and of its map, side by side, in the same colours, so that
-// one sees where each part of the shape went. The only subcommand that opens the image module.
+// one sees where each part of the shape went.
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -228,6 +228,7 @@ Subject read_subject(const RenderArguments& arguments) {
   const bool alone = arguments.sphere.empty();
   subject.file =
       alone ? read_mesh(arguments.input, input_limits()) : read_source(arguments.input).file;
+  keep_textures(subject.file);
   if (subject.file.mesh.face_count() == 0) {
     throw ReadError(display_name(arguments.input), "there are no triangles to draw");
   }

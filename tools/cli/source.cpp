@@ -10,14 +10,6 @@ namespace sphparam::tools {
 
 namespace {
 
-/// Textures that a file names are read too: no output may replace them.
-void keep_textures(const MeshFile& file) {
-  for (const BaseColour& colour : file.base_colours) {
-    if (colour.path.empty()) continue;
-    keep_from_outputs({(std::filesystem::path(colour.folder) / colour.path).string()});
-  }
-}
-
 long count_of(const MeshInspection& inspection, DefectKind kind) {
   for (const MeshDefect& defect : inspection.defects) {
     if (defect.kind == kind) return defect.count;
@@ -36,6 +28,13 @@ MeshInspection inspect_welded(const TriangleMesh& mesh, const MeshInspection& as
 }
 
 }  // namespace
+
+void keep_textures(const MeshFile& file) {
+  for (const BaseColour& colour : file.base_colours) {
+    if (colour.path.empty()) continue;
+    keep_from_outputs({(std::filesystem::path(colour.folder) / colour.path).string()});
+  }
+}
 
 Source read_source(const std::string& path, const ReadOptions& options) {
   Source source;

@@ -25,4 +25,8 @@ struct Source {
 /// Throws: ReadError. A mesh that is no sphere is returned all the same: see `inspection`.
 Source read_source(const std::string& path, const ReadOptions& options = input_limits());
 
+/// The textures that a file names are read too: from now on no output may replace them.
+/// `read_source` sees to it; whoever reads a mesh otherwise and shows its textures calls it.
+void keep_textures(const MeshFile& file);
+
 }  // namespace sphparam::tools
