@@ -74,6 +74,19 @@ TEST_CASE("place_poles: the poles of a map can change places, though one is at -
   }
 }
 
+TEST_CASE("place_poles: a pole that is nearer to -z than squares can tell becomes +z") {
+  const Embedded e(tube(12, 8));
+  const auto placed = place_poles_on_axis(e.topology, e.source, e.map, {0, 0, 1});
+  REQUIRE(placed);
+  SphereMap map = placed->map;
+  map.points.row(placed->south) << 1e-170, 0, -1;
+  const auto again =
+      place_poles(e.topology, e.source, map, placed->south, placed->north, {.sweeps = 0});
+  REQUIRE(again);
+  CHECK(again->map.point(placed->south) == up);
+  CHECK(again->map.points.allFinite());
+}
+
 TEST_CASE("nearest_vertices: as a search through all finds them, ties by index") {
   const SphereMap map{icosphere(3).positions};
   const Vector3 direction(0.3, -0.2, 0.5);

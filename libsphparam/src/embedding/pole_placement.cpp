@@ -48,7 +48,8 @@ class TurnToNorth {
       : n_(n), share_(n.z() > 0 ? 1 / (1 + n.z()) : (1 - n.z()) / n.head<2>().squaredNorm()) {}
 
   Vector3 operator()(const Vector3& x) const {
-    if (n_.x() == 0 && n_.y() == 0) return n_.z() > 0 ? x : Vector3(x.x(), -x.y(), -x.z());
+    if (n_.x() == 0 && n_.y() == 0 && n_.z() > 0) return x;
+    if (std::isinf(share_)) return {x.x(), -x.y(), -x.z()};  // −z, or nearer than |v|² can tell
     const double along = share_ * (n_.y() * x.x() - n_.x() * x.y());
     return {n_.z() * x.x() - n_.x() * x.z() + n_.y() * along,
             n_.z() * x.y() - n_.y() * x.z() - n_.x() * along,
