@@ -29,7 +29,8 @@ void add_json(CLI::App& command, std::string& json, const std::string& what) {
 
 void require_report_place(const std::vector<std::string>& inputs, const std::string& json) {
   check_places(inputs, {{"--json", json}});
-  const std::set<std::string> of_meshes = {".obj", ".ply", ".off", ".stl", ".gltf", ".glb", ".gii"};
+  const std::set<std::string> of_meshes = {".obj",  ".ply", ".off", ".stl",
+                                           ".gltf", ".glb", ".gii", ".gz"};
   if (of_meshes.contains(extension_of(json))) {
     throw UsageMistake("--json: " + json +
                        " is the name of a mesh, not of a report; `--json -` is standard output");
