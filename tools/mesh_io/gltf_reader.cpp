@@ -295,8 +295,7 @@ class SceneReader {
       file_.comments.push_back("base colour of " + file_.materials.back() + ": " + words);
     materials_with_others_ += !others.empty();
     for (const std::string& other : others)
-      if (std::find(others_.begin(), others_.end(), other) == others_.end())
-        others_.push_back(other);
+      if (others_seen_.insert(other).second) others_.push_back(other);
   }
 
   void add_notes() {
@@ -332,6 +331,7 @@ class SceneReader {
   std::map<std::string, Column> columns_;
   std::vector<std::string> order_;   // of the columns, as first seen
   std::vector<std::string> others_;  // what materials say beside base colours, each once
+  std::set<std::string> others_seen_;
   long materials_with_others_ = 0;
   std::set<std::string> not_carried_;  // attributes
   long skinned_ = 0;                   // meshes placed with a skin
