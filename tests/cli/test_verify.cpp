@@ -151,6 +151,29 @@ TEST_CASE("verify: what --theta-phi wrote into glTF is the map that is judged") 
   CHECK_THAT(sphparam_program({"verify", without}).err, Contains("--theta-phi"));
 }
 
+TEST_CASE("verify: a sphere is judged by its positions, whatever angles are noted beside them") {
+  const TriangleMesh sphere = icosphere(1);
+  std::string text = "ply\nformat ascii 1.0\nelement vertex " +
+                     std::to_string(sphere.vertex_count()) +
+                     "\nproperty double x\nproperty double y\nproperty double z\n"
+                     "property double theta\nproperty double phi\nelement face " +
+                     std::to_string(sphere.face_count()) +
+                     "\nproperty list uchar int vertex_indices\nend_header\n";
+  for (const auto& p : sphere.positions.rowwise()) {
+    for (int k = 0; k < 3; ++k) text += std::to_string(7 * p[k]) + " ";
+    text += "0 0\n";
+  }
+  for (const auto& corners : sphere.triangles.rowwise()) {
+    text += "3";
+    for (int k = 0; k < 3; ++k) text += " " + std::to_string(corners[k]);
+    text += "\n";
+  }
+  const Ended ended = sphparam_program({"verify", "-", "--json", "-"}, text);
+  INFO(ended.err);
+  CHECK(ended.code == 0);
+  CHECK(Json::parse(ended.out)["rays"] == "vertex positions");
+}
+
 TEST_CASE("verify: files of different connectivity end with 3 and the place is named") {
   const Folder folder;
   TriangleMesh other = icosphere(2);

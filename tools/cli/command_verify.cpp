@@ -84,11 +84,27 @@ Source read_mapped(const std::string& path) {
 
 bool is_gltf(const MeshFile& file) { return file.format.starts_with("glTF"); }
 
+struct Radius {
+  double mean = 0;
+  double deviation = 0;  // largest | |x| / mean − 1 |
+};
+
+Radius measure_radius(const Points& rays) {
+  const Eigen::VectorXd lengths = rays.rowwise().norm();
+  const double mean = lengths.mean();
+  return {mean, (lengths.array() / mean - 1).abs().maxCoeff()};
+}
+
+/// Angles beside a sphere are somebody's notes: the sphere is the claim. In glTF they are ours.
+bool has_angles_only(const MeshFile& file) {
+  return is_gltf(file) || !(measure_radius(file.mesh.positions).deviation <= roundness);
+}
+
 Claim claim_of_file(const std::string& path) {
   Source source = read_mapped(path);
   std::optional<SphereMap> map = read_sphere(source.file);
   std::string rays = "properties sx sy sz";
-  if (!map && (map = read_angles(source.file)))
+  if (!map && has_angles_only(source.file) && (map = read_angles(source.file)))
     rays = is_gltf(source.file) ? "attribute _THETA_PHI" : "properties theta phi";
   return {.mesh = source.file.mesh,
           .map = map ? *map : SphereMap{source.file.mesh.positions},
@@ -134,17 +150,6 @@ Certificate certify_either_way(const Claim& claim, int threads) {
   certificate = certify(Topology(mirrored(claim.mesh)), claim.map, threads);
   certificate.reversed = true;
   return certificate;
-}
-
-struct Radius {
-  double mean = 0;
-  double deviation = 0;  // largest | |x| / mean − 1 |
-};
-
-Radius measure_radius(const Points& rays) {
-  const Eigen::VectorXd lengths = rays.rowwise().norm();
-  const double mean = lengths.mean();
-  return {mean, (lengths.array() / mean - 1).abs().maxCoeff()};
 }
 
 std::string text_of(const VerifyReport& report, Eigen::Index triangles) {
