@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "bake/source_attributes.h"
+#include "cli/chart_report.h"
 #include "cli/exit_codes.h"
 #include "cli/export_look.h"
 #include "cli/paths.h"
@@ -42,9 +43,7 @@ ExportChart chart_of(const MappedSource& made, const RemeshArguments& arguments,
   const TriangleMesh& mesh = made.source.file.mesh;
   ExportChart chart = export_chart(mesh, Topology(mesh, arguments.threads), made.map, options);
   if (!chart.chart.certificate.one_to_one()) {
-    throw NotCertifiedError(
-        arguments.grid + ": the grid is one-to-one, but thinner in (u, v) than doubles can tell: " +
-        std::to_string(chart.chart.certificate.folded.size()) + " triangles fold there");
+    throw NotCertifiedError(arguments.grid + ": " + chart_failure(chart.chart));
   }
   chart.wedge_normals = split_at_hard_edges(chart.chart, made.source.file, arguments.threads);
   return chart;
