@@ -1,13 +1,14 @@
 // Sends meshes with hurt positions through every subcommand of the program, with options by chance.
 //
-// Usage: command_campaign [--command NAME,… | all] [--seed 1] [--count 10000] [--first 0] [--jobs
-// N]
-//                         [--limit SECONDS] [--memory MIB] [--keep FOLDER]
+// Usage: command_campaign [--command NAME,… | all] [--seed 1] [--count 10000] [--first 0]
+//                         [--jobs N] [--limit SECONDS] [--memory MIB] [--keep FOLDER]
+//
 // Seed, command and number name an errand for good; those that end as none should are kept in
 // FOLDER with the script that repeats them. An errand may end with the documented codes 0 and 2 to
 // 6; a signal, exit code 1 (an internal error), and what is beyond the limits of a run are
-// failures. Exit code 0: none failed; 1 otherwise. The long one:
-// build/release/tests/command_campaign --count 10000
+// failures. Exit code 0: none failed; 1 otherwise.
+//
+// The long one: build/release/tests/command_campaign --count 10000
 
 #include <unistd.h>
 
