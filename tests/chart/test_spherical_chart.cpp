@@ -273,6 +273,7 @@ TEST_CASE("chart: a tube wound often about the poles takes the splits allowed an
   CHECK(cut.triangles.rows() == mesh.face_count() + 2 * cut.counts.splits());
   const Progress stop = [](std::string_view, double share) { return share == 0; };
   CHECK_THROWS_AS(spherical_chart(mesh, topology, map, 0, stop), Cancelled);
+  CHECK_THROWS_AS(spherical_chart(mesh, topology, map, 0, {}, -1), std::invalid_argument);
 }
 
 TEST_CASE("chart: the same bytes for any number of threads") {

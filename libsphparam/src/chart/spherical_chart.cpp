@@ -6,6 +6,7 @@
 #include "chart/flat_mesh.h"
 #include "chart/pole_and_meridian.h"
 #include "chart/unfold.h"
+#include "option_domain.h"
 #include "sphparam/parallel.h"
 
 // 1. ±z become vertices, the meridian edges (pole_and_meridian).  2. Every vertex gets its (u, v).
@@ -157,6 +158,7 @@ SphericalChart spherical_chart(const TriangleMesh& mesh, const Topology& topolog
                                const SphereMap& map, int threads, const Progress& progress,
                                int splits_a_vertex) {
   check_sizes(mesh, topology, map);
+  require_at_least("splits_a_vertex", splits_a_vertex, 0);
   report(progress, "chart", 0);
   FlatMesh flat{RefinedMesh(topology, map, mesh.triangles, threads)};
   const PolarFrame frame = split_at_poles_and_meridian(flat.mesh, threads);
