@@ -79,7 +79,7 @@ Functions functions_of(const MeshFile& file, const std::vector<std::string>& sca
   for (size_t k = 0; k < scalars.size(); ++k) {
     const Property& property = scalar_named(file, scalars[k]);
     values.col(3 + static_cast<Eigen::Index>(k)) =
-        Eigen::Map<const Eigen::VectorXd>(property.values.data(), file.mesh.vertex_count());
+        Eigen::Map<const VectorX>(property.values.data(), file.mesh.vertex_count());
   }
   return values;
 }
@@ -125,7 +125,7 @@ MeshFile reconstruct(const SpharmArguments& arguments, MappedSource mapped,
   file.corner_normals.reset();
   remove_properties(file.vertex_properties, {"nx", "ny", "nz"});
   for (size_t k = 0; k < arguments.scalars.size(); ++k) {
-    const Eigen::VectorXd column = values.col(3 + static_cast<Eigen::Index>(k));
+    const VectorX column = values.col(3 + static_cast<Eigen::Index>(k));
     file.set_vertex_property({arguments.scalars[k], ScalarType::Float64,
                               std::vector<double>(column.begin(), column.end())});
   }

@@ -14,9 +14,9 @@ struct HarmonicsReport {
   Provenance map;                      // of the map that was used
   std::vector<std::string> functions;  // "x", "y", "z", then scalars by name: one a column
   bool least_squares = true;
-  HarmonicFit fit;            // its residuals are weighted by solid angle
-  Eigen::VectorXd plain_rms;  // of what is left at the vertices, each counted once
-  double diagonal = 0;        // of the bounding box: the scale of the residuals of x, y, z
+  HarmonicFit fit;      // its residuals are weighted by solid angle
+  VectorX plain_rms;    // of what is left at the vertices, each counted once
+  double diagonal = 0;  // of the bounding box: the scale of the residuals of x, y, z
 
   int degree() const;
   /// Of the distances, not of one coordinate: weighted by solid angle, and plain.

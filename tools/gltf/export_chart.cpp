@@ -16,7 +16,7 @@ namespace {
 /// θ grows by a number of right angles: signs and places of coordinates change, nothing is rounded.
 SphereMap turned(SphereMap map, int quarters) {
   for (int i = 0; i < quarters; ++i) {
-    const Eigen::VectorXd x = map.points.col(0);
+    const VectorX x = map.points.col(0);
     map.points.col(0) = -map.points.col(1);
     map.points.col(1) = x;
   }

@@ -34,7 +34,7 @@ template <class Carry>
 void carry(const std::vector<Property>& properties, std::vector<Property>& to, Carry&& carried) {
   for (const Property& property : properties) {
     if (is_made_anew(property.name)) continue;
-    const Attributes values = Eigen::Map<const Eigen::VectorXd>(
+    const Attributes values = Eigen::Map<const VectorX>(
         property.values.data(), static_cast<Eigen::Index>(property.values.size()));
     const Attributes refined = carried(values);
     to.push_back(rounded({property.name, property.type,
@@ -45,7 +45,7 @@ void carry(const std::vector<Property>& properties, std::vector<Property>& to, C
 void add_normals(MeshFile& file, const Points& normals) {
   int axis = 0;
   for (const char* name : {"nx", "ny", "nz"}) {
-    const Eigen::VectorXd column = normals.col(axis++);
+    const VectorX column = normals.col(axis++);
     file.set_vertex_property({name, ScalarType::Float64,
                               std::vector<double>(column.data(), column.data() + column.size())});
   }

@@ -8,7 +8,7 @@ namespace sphparam::tools {
 
 /// The nearest points on another surface of a mesh's vertices.
 struct VertexDistances {
-  Eigen::VectorXd distances;
+  VectorX distances;
   std::vector<Face> nearest;  // the other surface's face
 };
 

@@ -28,7 +28,7 @@ struct OneSidedDistance {
   double mean = 0, rms = 0;            // of the samples
   std::int64_t samples = 0;            // those of mean and rms
   Vector3 farthest = Vector3::Zero();  // the point at `max`
-  Eigen::VectorXd at_vertices;         // of every vertex
+  VectorX at_vertices;                 // of every vertex
 };
 
 struct SurfaceDistance {

@@ -20,8 +20,8 @@ struct Property {
 };
 
 /// #F·3 rows, one per corner (row 3·face + corner).
-using CornerTexcoords = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
-using CornerNormals = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+using CornerTexcoords = RowTable<double, 2>;
+using CornerNormals = RowTable<double, 3>;
 
 /// What a material says outside [0, 1] of its texture, in the direction of s or t.
 enum class Wrapping { Repeat, Mirror, Clamp };
@@ -51,12 +51,12 @@ struct MeshFile {
   ScalarType corner_texcoord_type = ScalarType::Float64;
   std::optional<CornerNormals> corner_normals;
   ScalarType corner_normal_type = ScalarType::Float64;
-  std::vector<std::string> materials;  // names, in order of first use
+  std::vector<std::string> materials;         // names, in order of first use
   std::vector<BaseColour> base_colours = {};  // one a material, or none (glTF only)
-  std::vector<std::string> comments;   // of the header, without the keyword
-  std::vector<std::string> notes;      // what was odd about the file but harmless
-  std::string format;                  // "PLY binary little-endian", "OBJ", …
-  long polygons = 0;                   // faces of the file that were not triangles
+  std::vector<std::string> comments;          // of the header, without the keyword
+  std::vector<std::string> notes;             // what was odd about the file but harmless
+  std::string format;                         // "PLY binary little-endian", "OBJ", …
+  long polygons = 0;                          // faces of the file that were not triangles
 
   const Property* find_vertex_property(const std::string& name) const;
   const Property* find_face_property(const std::string& name) const;

@@ -277,7 +277,7 @@ class ObjReader {
   template <int Width>
   auto gather(const Triangulation& triangulation, CornerIndices& indices,
               const std::vector<double>& values, const char* what) {
-    using Table = Eigen::Matrix<double, Eigen::Dynamic, Width, Eigen::RowMajor>;
+    using Table = RowTable<double, Width>;
     indices.values.resize(polygons_.corners.size(), kNone);
     const long missing = std::count(indices.values.begin(), indices.values.end(), kNone);
     if (missing > 0)

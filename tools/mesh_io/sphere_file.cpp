@@ -70,8 +70,7 @@ std::optional<SphereMap> read_sphere(const MeshFile& file) {
   for (int axis = 0; axis < 3; ++axis) {
     const Property* const ray = file.find_vertex_property(kRayNames[axis]);
     if (!ray) return std::nullopt;
-    map.points.col(axis) =
-        Eigen::Map<const Eigen::VectorXd>(ray->values.data(), file.mesh.vertex_count());
+    map.points.col(axis) = Eigen::Map<const VectorX>(ray->values.data(), file.mesh.vertex_count());
   }
   return map;
 }

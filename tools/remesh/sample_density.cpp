@@ -41,24 +41,24 @@ Eigen::ArrayXd bending(const Curvature& curvature) {
 
 }  // namespace
 
-Eigen::VectorXd sample_density(const TriangleMesh& mesh, const Topology& topology,
-                               std::int64_t samples, int threads) {
+VectorX sample_density(const TriangleMesh& mesh, const Topology& topology, std::int64_t samples,
+                       int threads) {
   const TriangleMesh unit = at_unit_size(mesh);
   const double spacing = equal_area_radius(unit, threads) *
                          std::sqrt(4 * std::numbers::pi / static_cast<double>(samples));
   const Curvature curvature = measure_curvature(unit, topology, scale * spacing, threads);
-  const Eigen::VectorXd bent = bending(curvature).min(most_bent / spacing).unaryExpr([](double x) {
+  const VectorX bent = bending(curvature).min(most_bent / spacing).unaryExpr([](double x) {
     return elementary::pow(x, exponent);
   });
   const double mean = bent.dot(curvature.area) / curvature.area.sum();
-  if (!(mean > 0) || !std::isfinite(mean)) return Eigen::VectorXd::Ones(bent.size());
+  if (!(mean > 0) || !std::isfinite(mean)) return VectorX::Ones(bent.size());
   return spread_evenly + (1 - spread_evenly) / mean * bent.array();
 }
 
 Adaptation adapt_map(const TriangleMesh& mesh, const Topology& topology, const SphereMap& map,
                      std::int64_t samples, const AdaptationOptions& options) {
   report(options.progress, "sample density", 0);
-  const Eigen::VectorXd density = sample_density(mesh, topology, samples, options.threads);
+  const VectorX density = sample_density(mesh, topology, samples, options.threads);
   Optimisation relaxed = optimise(
       topology, with_density(topology, measure_source(mesh, options.threads), density), map,
       {.energy = {.lambda = options.lambda},

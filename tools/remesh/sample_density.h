@@ -27,8 +27,8 @@ constexpr double remeshing_lambda = 5;
 /// Requires: positions finite; samples ≥ 1. Ensures: positive and finite; does not depend on the
 /// mesh's size; same bits for any number of threads. Throws: SolveError as `measure_curvature`.
 /// Source: our own. Cost: that of `measure_curvature`.
-Eigen::VectorXd sample_density(const TriangleMesh& mesh, const Topology& topology,
-                               std::int64_t samples, int threads = 0);
+VectorX sample_density(const TriangleMesh& mesh, const Topology& topology, std::int64_t samples,
+                       int threads = 0);
 
 struct AdaptationOptions {
   double lambda = remeshing_lambda;

@@ -43,7 +43,7 @@ void sort_by_key(std::int64_t count, int keys, const KeyOf& key_of, std::vector<
 }  // namespace
 
 StencilLeastSquares::StencilLeastSquares(const LimitStencils& stencils, const Polygons& faces,
-                                         Eigen::VectorXd weights, int threads)
+                                         VectorX weights, int threads)
     : stencils_(stencils), weights_(std::move(weights)), threads_(threads) {
   list_entries();
   list_neighbours(faces);
@@ -82,7 +82,7 @@ void StencilLeastSquares::list_neighbours(const Polygons& faces) {
 
 void StencilLeastSquares::list_thin_vertices() {
   const int vertices = stencils_.vertex_count();
-  Eigen::VectorXd seen(vertices);  // Σ W² w
+  VectorX seen(vertices);  // Σ W² w
   const std::int64_t m = std::ssize(stencils_.places());
   parallel_for(vertices, vertex_grain, threads_, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t v = first; v < last; ++v) {
@@ -175,7 +175,7 @@ Points StencilLeastSquares::gather(const AtSamples& at_samples) const {
                    const auto w = weights_.segment(p * m, m);
                    if (tangential_ < 1) {
                      const auto n = normals_.middleRows(p * m, m);
-                     const Eigen::VectorXd along =
+                     const VectorX along =
                          (1 - tangential_) * n.cwiseProduct(y).rowwise().sum().cwiseProduct(w);
                      y = tangential_ * (w.asDiagonal() * y).eval();
                      y += along.asDiagonal() * n;

@@ -23,7 +23,7 @@ class StencilLeastSquares {
  public:
   /// Requires: finite weights ≥ 0, one a point, not all 0; `faces` those of the stencils, which
   /// outlive this.
-  StencilLeastSquares(const LimitStencils& stencils, const Polygons& faces, Eigen::VectorXd weights,
+  StencilLeastSquares(const LimitStencils& stencils, const Polygons& faces, VectorX weights,
                       int threads);
 
   /// From now on distances along `normals` (unit, a row a point) count in full, others by
@@ -67,7 +67,7 @@ class StencilLeastSquares {
   Points precondition(const Points& residual) const;
 
   const LimitStencils& stencils_;
-  Eigen::VectorXd weights_;
+  VectorX weights_;
   int threads_;
   Points normals_;
   double tangential_ = 1;

@@ -101,10 +101,10 @@ class Samples {
     });
   }
 
-  Points in_place;          // the source in the samples' directions
-  Eigen::VectorXd weights;  // areas; 1 in the mean
+  Points in_place;  // the source in the samples' directions
+  VectorX weights;  // areas; 1 in the mean
   Points targets, normals;
-  Eigen::VectorXd squared_distances;
+  VectorX squared_distances;
 
  private:
   template <class Visit>
@@ -196,7 +196,7 @@ SubdivisionFit fit_subdivision(const TriangleMesh& source, const SphereMap& map,
 LimitVertices limit_at_vertices(const LimitSurface& surface, const Polygons& faces, int threads) {
   const Eigen::Index count = surface.topology().vertex_count();
   const Scheme scheme = surface.topology().scheme();
-  Eigen::VectorXd patches = Eigen::VectorXd::Zero(count);
+  VectorX patches = VectorX::Zero(count);
   for (const int v : faces.corners) patches[v] += 1;
   std::vector<LimitPlace> places, bends;  // where normals are taken, and where curvatures
   for (int f = 0; f < static_cast<int>(faces.count()); ++f) {
@@ -209,8 +209,8 @@ LimitVertices limit_at_vertices(const LimitSurface& surface, const Polygons& fac
   }
   const std::vector<LimitPoint> points = surface.evaluate_all(places, threads);
   const std::vector<LimitCurvature> curvatures = surface.curvature_all(bends, threads);
-  LimitVertices result{Points::Zero(count, 3), Points::Zero(count, 3), Eigen::VectorXd::Zero(count),
-                       Eigen::VectorXd::Zero(count)};
+  LimitVertices result{Points::Zero(count, 3), Points::Zero(count, 3), VectorX::Zero(count),
+                       VectorX::Zero(count)};
   for (size_t i = 0; i < places.size(); ++i) {
     const int v = faces.corners[i];
     result.positions.row(v) += points[i].position;

@@ -59,8 +59,8 @@ SubdivisionFit fit_subdivision(const TriangleMesh& source, const SphereMap& map,
 
 /// Where the vertices of a grid lie on its limit surface.
 struct LimitVertices {
-  Points positions, normals;    // unit, outwards
-  Eigen::VectorXd mean, gauss;  // curvature: of a sphere of radius r, 1/r and 1/r²
+  Points positions, normals;  // unit, outwards
+  VectorX mean, gauss;        // curvature: of a sphere of radius r, 1/r and 1/r²
 };
 
 /// Normals and curvatures are means over the patches about a vertex, which agree where the valence

@@ -65,7 +65,7 @@ Rgb diverging(double t) {
   return interpolate(table, (t + 1) / 2);
 }
 
-std::vector<Rgb> ratio_colours(const Eigen::VectorXd& ratios, double reach) {
+std::vector<Rgb> ratio_colours(const VectorX& ratios, double reach) {
   std::vector<Rgb> colours;
   colours.reserve(static_cast<size_t>(ratios.size()));
   for (const double ratio : ratios)
@@ -73,7 +73,7 @@ std::vector<Rgb> ratio_colours(const Eigen::VectorXd& ratios, double reach) {
   return colours;
 }
 
-std::vector<Rgb> value_colours(const Eigen::VectorXd& values, double low, double high) {
+std::vector<Rgb> value_colours(const VectorX& values, double low, double high) {
   std::vector<Rgb> colours;
   colours.reserve(static_cast<size_t>(values.size()));
   for (const double value : values) colours.push_back(viridis((value - low) / (high - low)));

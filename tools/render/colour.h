@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "sphparam/mesh/triangle_mesh.h"
+
 namespace sphparam::tools {
 
 /// sRGB as stored in files, each channel in [0, 1].
@@ -20,9 +22,9 @@ Rgb diverging(double t);
 
 /// Colours of positive ratios on a diverging logarithmic scale: white at 1, full red at `reach`
 /// and beyond, full blue at 1/reach.
-std::vector<Rgb> ratio_colours(const Eigen::VectorXd& ratios, double reach);
+std::vector<Rgb> ratio_colours(const VectorX& ratios, double reach);
 
 /// Colours of values on viridis from `low` to `high`.
-std::vector<Rgb> value_colours(const Eigen::VectorXd& values, double low, double high);
+std::vector<Rgb> value_colours(const VectorX& values, double low, double high);
 
 }  // namespace sphparam::tools

@@ -67,7 +67,7 @@ void fit_camera(RenderScene& scene) {
   const Vector3 right = camera.up.cross(back).normalized(), up = back.cross(right);
   const Points& points = scene.objects[0].mesh.positions;
   const auto middle = [&](const Vector3& axis) {
-    const Eigen::VectorXd along = points * axis;
+    const VectorX along = points * axis;
     return (along.minCoeff() + along.maxCoeff()) / 2 * axis;
   };
   camera.target = middle(right) + middle(up) + middle(back);

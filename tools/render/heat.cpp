@@ -81,7 +81,7 @@ const HeatScale& heat_scale(Heat heat) {
   return scales[static_cast<size_t>(heat)];
 }
 
-Eigen::VectorXd heat_values(Heat heat, const Distortion& distortion) {
+VectorX heat_values(Heat heat, const Distortion& distortion) {
   const auto log2 = [](double x) { return elementary::log2(x); };
   switch (heat) {
     case Heat::Area:

@@ -30,7 +30,7 @@ const HeatScale& heat_scale(Heat heat);
 /// One value a triangle, log₂ of a ratio: of areas; of the factor by which angles are off, in the
 /// geometric mean; of how far the image is stretched over the surface, √((σ₁⁻² + σ₂⁻²)/2), the L²
 /// stretch of Sander et al. 2001.
-Eigen::VectorXd heat_values(Heat heat, const Distortion& distortion);
+VectorX heat_values(Heat heat, const Distortion& distortion);
 
 FacePaint heat_paint(Heat heat, const Distortion& distortion);
 

@@ -61,8 +61,8 @@ class Projection {
 /// A mesh ready to be drawn.
 struct Drawable {
   const RenderObject* object;
-  Points screen;              // #V×3
-  Eigen::VectorXd inverse_w;  // #V
+  Points screen;      // #V×3
+  VectorX inverse_w;  // #V
   SurfaceColour colour;
 
   Vector3 corner(Face f, int k) const { return screen.row(object->mesh.triangles(f, k)); }
@@ -70,7 +70,7 @@ struct Drawable {
 
 Drawable prepare(const RenderObject& object, const Projection& projection, int threads) {
   const Eigen::Index vertices = object.mesh.vertex_count();
-  Drawable d{&object, Points(vertices, 3), Eigen::VectorXd(vertices),
+  Drawable d{&object, Points(vertices, 3), VectorX(vertices),
              SurfaceColour(object, projection.axes(), threads)};
   for (Eigen::Index v = 0; v < vertices; ++v) {
     const auto [point, inverse_w] = projection(object.mesh.positions.row(v));

@@ -24,8 +24,7 @@ std::optional<Points> own_normals(const MeshFile& file) {
   for (const char* name : {"nx", "ny", "nz"}) {
     const Property* property = file.find_vertex_property(name);
     if (!property) return std::nullopt;
-    normals.col(axis++) =
-        Eigen::Map<const Eigen::VectorXd>(property->values.data(), normals.rows());
+    normals.col(axis++) = Eigen::Map<const VectorX>(property->values.data(), normals.rows());
   }
   return normals;
 }

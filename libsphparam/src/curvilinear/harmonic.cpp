@@ -75,8 +75,8 @@ ChartBoundary empty_boundary(const TriangleMesh& mesh, const CutMesh& cut_mesh,
                              double epsilon_north, double epsilon_south) {
   ChartBoundary boundary;
   boundary.roles.assign(static_cast<size_t>(mesh.vertex_count()), VertexRole::Free);
-  boundary.values.theta = Eigen::VectorXd::Zero(mesh.vertex_count());
-  boundary.values.phi = Eigen::VectorXd::Zero(mesh.vertex_count());
+  boundary.values.theta = VectorX::Zero(mesh.vertex_count());
+  boundary.values.phi = VectorX::Zero(mesh.vertex_count());
   boundary.epsilon_north = epsilon_north;
   boundary.epsilon_south = epsilon_south;
   const auto [north, south] = cut_mesh.poles();
@@ -162,13 +162,13 @@ CurvilinearMap HarmonicSolver::solve(std::vector<double> weights, int threads) {
 }
 
 CurvilinearMap HarmonicSolver::solve_factorised(int threads) const {
-  Eigen::MatrixXd values(boundary_.values.theta.size(), 2);
+  MatrixX values(boundary_.values.theta.size(), 2);
   values << boundary_.values.theta, boundary_.values.phi;
   values = system_.solve(values, {cut_mesh_.jumps(), {}}, threads);
   CurvilinearMap map{values.col(0), values.col(1)};
   if (!boundary_.free_twist) return map;
   const double north = boundary_.epsilon_north, south = kPi - boundary_.epsilon_south;
-  Eigen::VectorXd eta = (map.phi.array() - north) / (south - north);
+  VectorX eta = (map.phi.array() - north) / (south - north);
   const auto poles = cut_mesh_.poles();
   eta[poles.north] = eta[poles.south] = 0;
   const double twist = best_twist(map.theta, eta);
@@ -177,7 +177,7 @@ CurvilinearMap HarmonicSolver::solve_factorised(int threads) const {
   return map;
 }
 
-double HarmonicSolver::best_twist(const Eigen::VectorXd& theta, const Eigen::VectorXd& eta) const {
+double HarmonicSolver::best_twist(const VectorX& theta, const VectorX& eta) const {
   double theta_flux = 0, eta_flux = 0;
   for (const Vertex i : cut_mesh_.south_link()) {
     topology_.for_each_outgoing(i, [&](Halfedge h) {

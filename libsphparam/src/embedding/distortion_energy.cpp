@@ -117,7 +117,7 @@ TriangleEnergy triangle_energy(const DistortionEnergy& energy, const SourceTrian
   result.value = source.area * f.f;
   result.gradient = source.area * (f.f_d * d_tau + f.f_s * s_tau);
   // ∇²f = f_ds(∇d∇sᵀ + ∇s∇dᵀ) + f_ss ∇s∇sᵀ + f_d ∇²d + f_s ∇²s
-  Eigen::Matrix<double, 6, 6>& h = result.hessian;
+  auto& h = result.hessian;
   h = f.f_ds * (d_tau * s_tau.transpose() + s_tau * d_tau.transpose()) +
       f.f_ss * (s_tau * s_tau.transpose());
   for (int i = 0; i < 3; ++i) {

@@ -103,8 +103,7 @@ class DiskSystem {
     return roles;
   }
 
-  static Eigen::MatrixXd place_link(const TriangleMesh& mesh, const Topology& topology,
-                                    Vertex south) {
+  static MatrixX place_link(const TriangleMesh& mesh, const Topology& topology, Vertex south) {
     std::vector<Vertex> link;
     topology.for_each_outgoing(south, [&](Halfedge h) { link.push_back(topology.target(h)); });
     std::reverse(link.begin(), link.end());
@@ -116,7 +115,7 @@ class DiskSystem {
       total += length[i];
     }
     // An edge is at most half of a closed polygon: each gap is at most 2π(1/2n + 1/4) ≤ 5π/6.
-    Eigen::MatrixXd points = Eigen::MatrixXd::Zero(mesh.vertex_count(), 2);
+    MatrixX points = MatrixX::Zero(mesh.vertex_count(), 2);
     double run = 0;
     for (size_t i = 0; i < n; ++i) {
       const double even = static_cast<double>(i) / static_cast<double>(n);
@@ -132,7 +131,7 @@ class DiskSystem {
   Vertex south_;
   int threads_;
   EdgeWeights weights_;
-  Eigen::MatrixXd link_;
+  MatrixX link_;
   LaplaceSystem system_;
 };
 
@@ -251,7 +250,7 @@ class Attempt {
   const Topology& topology_;
   const SourceTriangles& source_;
   const GnomonicOptions& options_;
-  Eigen::VectorXd areas_;
+  VectorX areas_;
   DiskSystem system_;
   OneVertexDisk disk_;
   GnomonicReport report_;
@@ -283,15 +282,15 @@ OneVertexDisk tutte_disk(const TriangleMesh& mesh, const Topology& topology, Ver
   return DiskSystem(mesh, topology, south, threads).solve();
 }
 
-Eigen::VectorXd vertex_areas(const Topology& topology, const SourceTriangles& source) {
-  Eigen::VectorXd areas = Eigen::VectorXd::Zero(topology.vertex_count());
+VectorX vertex_areas(const Topology& topology, const SourceTriangles& source) {
+  VectorX areas = VectorX::Zero(topology.vertex_count());
   for (Halfedge h = 0; h < topology.halfedge_count(); ++h) {
     areas[topology.origin(h)] += source[static_cast<size_t>(Topology::face(h))].area / 3;
   }
   return areas;
 }
 
-SphereMap gnomonic_lift(const OneVertexDisk& disk, const Eigen::VectorXd& areas) {
+SphereMap gnomonic_lift(const OneVertexDisk& disk, const VectorX& areas) {
   // z = 1/√(1 + ρ²r²) has mean ½ where the weights are even over the half sphere. Only powers of
   // two are tried: they keep the disk's orientations exactly.
   const double wanted = (areas.sum() - areas[disk.south]) / 2;
@@ -311,7 +310,7 @@ SphereMap gnomonic_lift(const OneVertexDisk& disk, const Eigen::VectorXd& areas)
   return normalised(std::move(rays));
 }
 
-SphereMap stereographic_lift(const OneVertexDisk& disk, const Eigen::VectorXd& areas) {
+SphereMap stereographic_lift(const OneVertexDisk& disk, const VectorX& areas) {
   // Newton's method on the mean of the images under the Möbius transformations that the plane's
   // translations and scalings are: a shift by a in the ball moves x by 2(a − (a·x)x).
   Eigen::RowVector2d centre = Eigen::RowVector2d::Zero();

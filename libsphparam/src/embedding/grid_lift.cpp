@@ -126,14 +126,14 @@ std::vector<Weight> face_weights(const FilledHole& hole, const SourceTriangles& 
 /// length.
 Weight cone_height(const FilledHole& hole, const PlanarDrawing& drawing,
                    const SourceTriangles& source) {
-  Eigen::VectorXd area = Eigen::VectorXd::Zero(hole.topology.vertex_count());
+  VectorX area = VectorX::Zero(hole.topology.vertex_count());
   for (size_t i = 0; i < hole.origin.size(); ++i) {
     for (int k = 0; k < 3; ++k) {
       area[hole.topology.vertex(static_cast<Face>(i), k)] += source[at(hole.origin[i])].area;
     }
   }
   const double total = static_cast<double>(drawing.total);
-  const Eigen::VectorXd radius =
+  const VectorX radius =
       (3 * drawing.coordinates.cast<double>().array() - total).matrix().rowwise().norm();
   Weight height = drawing.total;
   for (int i = 0; i < most_halvings && height > 1; ++i) {

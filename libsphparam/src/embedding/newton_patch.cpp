@@ -20,7 +20,7 @@ constexpr double sufficient_decrease = 1e-4;
 constexpr int halvings = 40;
 constexpr double first_shift = 1e-9, last_shift = 1e-1;  // of the diagonal
 
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Matrix6 = decltype(TriangleEnergy::hessian);
 
 Eigen::Matrix3d positive_part(const Eigen::Matrix3d& h) {
   const double scale = h.cwiseAbs().maxCoeff();
@@ -200,7 +200,7 @@ void NewtonPatch::scatter(const Corners& corners, const Corners& blocks, const M
 }
 
 void NewtonPatch::assemble(const DistortionEnergy& energy, const Frames& frames) {
-  gradient_ = Eigen::VectorXd::Zero(2 * free_count());
+  gradient_ = VectorX::Zero(2 * free_count());
   std::fill_n(hessian_.valuePtr(), hessian_.nonZeros(), 0.0);
   for (size_t f = 0; f < triangles_.size(); ++f) {
     const Corners& t = triangles_[f];
@@ -218,20 +218,20 @@ void NewtonPatch::assemble(const DistortionEnergy& energy, const Frames& frames)
 }
 
 /// −H⁻¹g, the diagonal raised as little as makes that a descent direction; else −g / diagonal.
-Eigen::VectorXd NewtonPatch::newton_direction() {
-  const Eigen::VectorXd diagonal = hessian_.diagonal();
+VectorX NewtonPatch::newton_direction() {
+  const VectorX diagonal = hessian_.diagonal();
   for (double shift = first_shift; shift <= last_shift; shift *= 1e4) {
     hessian_.diagonal() = (1 + shift) * diagonal;
     factor_.factorize(hessian_);
     if (factor_.info() != Eigen::Success) continue;
-    Eigen::VectorXd direction = factor_.solve(-gradient_);
+    VectorX direction = factor_.solve(-gradient_);
     if (direction.allFinite() && gradient_.dot(direction) < 0) return direction;
   }
   const double floor = std::numeric_limits<double>::min();
   return -gradient_.cwiseQuotient(diagonal.cwiseMax(floor));
 }
 
-Points NewtonPatch::moved(const Eigen::VectorXd& direction, double t, const Frames& frames) const {
+Points NewtonPatch::moved(const VectorX& direction, double t, const Frames& frames) const {
   Points points = points_;
   for (int v = 0; v < free_count(); ++v) {
     points.row(v) = frames[static_cast<size_t>(v)].at(points_.row(v), t * direction[2 * v],
@@ -247,7 +247,7 @@ NewtonPatch::Step NewtonPatch::step(const DistortionEnergy& energy) {
   }
   const double before = energy_of(energy, points_);
   assemble(energy, frames);
-  const Eigen::VectorXd direction = newton_direction();
+  const VectorX direction = newton_direction();
   const double decrement = -gradient_.dot(direction);
   double longest = 0;
   for (int v = 0; v < free_count(); ++v) {

@@ -53,9 +53,9 @@ class NewtonPatch {
   void make_pattern();
   void assemble(const DistortionEnergy& energy, const Frames& frames);
   void scatter(const Corners& corners, const Corners& blocks,
-               const Eigen::Matrix<double, 6, 6>& hessian);
-  Eigen::VectorXd newton_direction();
-  Points moved(const Eigen::VectorXd& direction, double t, const Frames& frames) const;
+               const decltype(TriangleEnergy::hessian)& hessian);
+  VectorX newton_direction();
+  Points moved(const VectorX& direction, double t, const Frames& frames) const;
 
   std::vector<Vertex> free_;             // in the mesh; local vertices 0 … free_count()−1
   Points points_;                        // of the local vertices, free ones first
@@ -63,7 +63,7 @@ class NewtonPatch {
   SourceTriangles source_;               // of the local triangles
   Eigen::SparseMatrix<double> hessian_;  // lower triangle
   std::vector<Corners> blocks_;  // per edge k → k+1 of a triangle: its block's first entry
-  Eigen::VectorXd gradient_;
+  VectorX gradient_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
 };
 

@@ -8,12 +8,12 @@
 namespace sphparam {
 
 SourceTriangles with_density(const Topology& topology, SourceTriangles source,
-                             const Eigen::VectorXd& density) {
+                             const VectorX& density) {
   if (density.size() != topology.vertex_count() || !density.allFinite() ||
       !(density.array() > 0).all()) {
     throw std::invalid_argument("with_density: not one positive finite density a vertex");
   }
-  const Eigen::VectorXd relative = density / density[0];
+  const VectorX relative = density / density[0];
   const auto of_face = [&](Face f) {
     return (relative[topology.vertex(f, 0)] + relative[topology.vertex(f, 1)] +
             relative[topology.vertex(f, 2)]) /

@@ -37,12 +37,12 @@ constexpr int kMaxIterations = 20'000;
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 struct Faces {
-  Points normals;        // unit; zero where there is none
-  Eigen::VectorXd area;  // #F
+  Points normals;  // unit; zero where there is none
+  VectorX area;    // #F
 };
 
 Faces measure_faces(const TriangleMesh& mesh, int threads) {
-  Faces faces{Points(mesh.face_count(), 3), Eigen::VectorXd(mesh.face_count())};
+  Faces faces{Points(mesh.face_count(), 3), VectorX(mesh.face_count())};
   parallel_for(mesh.face_count(), kGrain, threads, [&](std::int64_t first, std::int64_t last) {
     for (Eigen::Index f = first; f < last; ++f) {
       const Vector3 a = mesh.position(mesh.triangles(f, 0));
@@ -78,13 +78,13 @@ double angle_at_origin(const TriangleMesh& mesh, const Topology& topology, Halfe
 }
 
 struct Measures {
-  Eigen::VectorXd mean, gauss, area;
+  VectorX mean, gauss, area;
 };
 
 Measures measure_vertices(const TriangleMesh& mesh, const Topology& topology, const Faces& faces,
                           int threads) {
   const Eigen::Index count = mesh.vertex_count();
-  Measures measures{Eigen::VectorXd(count), Eigen::VectorXd(count), Eigen::VectorXd(count)};
+  Measures measures{VectorX(count), VectorX(count), VectorX(count)};
   parallel_for(count, kGrain, threads, [&](std::int64_t first, std::int64_t last) {
     for (Vertex v = static_cast<Vertex>(first); v < last; ++v) {
       double bends = 0, angles = 0, area = 0;
@@ -117,7 +117,7 @@ double total_area(const TriangleMesh& mesh, int threads) {
 
 /// A + ½s² L.
 SparseMatrix averaging_matrix(const TriangleMesh& mesh, const Topology& topology,
-                              const Faces& faces, const Eigen::VectorXd& area, double scale) {
+                              const Faces& faces, const VectorX& area, double scale) {
   const Eigen::Index count = area.size();
   const double time = scale * scale / 2, glue = kGlue * area.mean();
   std::vector<Eigen::Triplet<double>> entries;
@@ -169,7 +169,7 @@ Curvature measure_harmless(const TriangleMesh& mesh, const Topology& topology, d
   const Faces faces = measure_faces(mesh, threads);
   Measures measures = measure_vertices(mesh, topology, faces, threads);
   const double mean_area = measures.area.mean();
-  Eigen::VectorXd& area = measures.area;
+  VectorX& area = measures.area;
   area = area.cwiseMax(mean_area > 0 ? std::max(kAreaFloor * mean_area, kLeastArea) : 1);
   Curvature curvature{measures.mean.cwiseQuotient(area), measures.gauss.cwiseQuotient(area), area,
                       scale};
@@ -182,9 +182,9 @@ Curvature measure_harmless(const TriangleMesh& mesh, const Topology& topology, d
   solver.setTolerance(kTolerance);
   solver.setMaxIterations(kMaxIterations);
   solver.compute(matrix);
-  const auto average = [&](const Eigen::VectorXd& measure) -> Eigen::VectorXd {
-    const Eigen::VectorXd raw = measure.cwiseQuotient(area) / unit;
-    const Eigen::VectorXd density = solver.solveWithGuess(measure, raw);
+  const auto average = [&](const VectorX& measure) -> VectorX {
+    const VectorX raw = measure.cwiseQuotient(area) / unit;
+    const VectorX density = solver.solveWithGuess(measure, raw);
     if (solver.info() == Eigen::Success && density.allFinite()) return unit * density;
     return unit * solved_directly(matrix, measure);
   };

@@ -141,10 +141,10 @@ void LaplaceSystem::factorise(std::vector<double> weights, int threads) {
   factor_->symmetric ? factorise_by(*factor_->cholesky) : factorise_by(*factor_->lu);
 }
 
-Eigen::VectorXd LaplaceSystem::right_hand_side(const Eigen::Ref<const Eigen::VectorXd>& values,
-                                               const std::vector<Jump>& jumps) const {
+VectorX LaplaceSystem::right_hand_side(const Eigen::Ref<const VectorX>& values,
+                                       const std::vector<Jump>& jumps) const {
   // b_i = Σ_{j fixed} w_ij U_j + Σ_j w_ij jump_ij
-  Eigen::VectorXd b = Eigen::VectorXd::Zero(unknown_count());
+  VectorX b = VectorX::Zero(unknown_count());
   for (Vertex v = 0; v < topology_->vertex_count(); ++v) {
     if (roles_[static_cast<size_t>(v)] != VertexRole::Fixed) continue;
     topology_->for_each_outgoing(v, [&](Halfedge h) {
@@ -161,18 +161,17 @@ Eigen::VectorXd LaplaceSystem::right_hand_side(const Eigen::Ref<const Eigen::Vec
   return b;
 }
 
-Eigen::MatrixXd LaplaceSystem::solve(const Eigen::MatrixXd& values,
-                                     const std::vector<std::vector<Jump>>& jumps,
-                                     int threads) const {
-  Eigen::MatrixXd result = values;
+MatrixX LaplaceSystem::solve(const MatrixX& values, const std::vector<std::vector<Jump>>& jumps,
+                             int threads) const {
+  MatrixX result = values;
   if (unknown_count() == 0) return result;
   parallel_for(values.cols(), 1, threads, [&](std::int64_t first, std::int64_t last) {
     for (Eigen::Index k = first; k < last; ++k) {
       const std::vector<Jump> none;
-      const Eigen::VectorXd b =
+      const VectorX b =
           right_hand_side(values.col(k), jumps.empty() ? none : jumps[static_cast<size_t>(k)]);
-      Eigen::VectorXd x = factor_->symmetric ? Eigen::VectorXd(factor_->cholesky->solve(b))
-                                             : Eigen::VectorXd(factor_->lu->solve(b));
+      VectorX x = factor_->symmetric ? VectorX(factor_->cholesky->solve(b))
+                                     : VectorX(factor_->lu->solve(b));
       if (!x.allFinite()) {
         throw SolveError("Laplace system of " + std::to_string(unknown_count()) +
                          " unknowns: the solution is not finite");

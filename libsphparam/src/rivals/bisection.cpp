@@ -32,11 +32,11 @@ Vertex farthest(const Topology& topology, Vertex from) {
   return queue.back();
 }
 
-Eigen::VectorXd harmonic_height(const TriangleMesh& mesh, const Topology& topology, int threads) {
+VectorX harmonic_height(const TriangleMesh& mesh, const Topology& topology, int threads) {
   const Vertex low = farthest(topology, 0), high = farthest(topology, low);
   std::vector<VertexRole> roles(static_cast<size_t>(topology.vertex_count()), VertexRole::Free);
   roles[static_cast<size_t>(low)] = roles[static_cast<size_t>(high)] = VertexRole::Fixed;
-  Eigen::MatrixXd values = Eigen::MatrixXd::Zero(topology.vertex_count(), 1);
+  MatrixX values = MatrixX::Zero(topology.vertex_count(), 1);
   values(high, 0) = 1;
   LaplaceSystem system(topology, std::move(roles), true, threads);
   system.factorise(EdgeWeights(mesh, topology, WeightKind::SymmetricMeanValue, threads)
@@ -47,7 +47,7 @@ Eigen::VectorXd harmonic_height(const TriangleMesh& mesh, const Topology& topolo
 
 class Growth {
  public:
-  Growth(const Topology& topology, const Eigen::VectorXd& height)
+  Growth(const Topology& topology, const VectorX& height)
       : topology_(topology),
         height_(height),
         joined_(static_cast<size_t>(topology.face_count()), 0),
@@ -103,7 +103,7 @@ class Growth {
   }
 
   const Topology& topology_;
-  const Eigen::VectorXd& height_;
+  const VectorX& height_;
   std::vector<char> joined_, touched_;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
 };
@@ -111,7 +111,7 @@ class Growth {
 }  // namespace
 
 Bisection bisect(const TriangleMesh& mesh, const Topology& topology, int threads) {
-  const Eigen::VectorXd height = harmonic_height(mesh, topology, threads);
+  const VectorX height = harmonic_height(mesh, topology, threads);
   const std::vector<char> low = Growth(topology, height).grow();
   Bisection result;
   for (const char joined : low) result.side.push_back(joined ? 1 : 0);

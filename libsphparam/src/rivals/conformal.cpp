@@ -52,7 +52,7 @@ struct State {
 
 struct Descent {
   const Rings& rings;
-  const Eigen::VectorXd& mass;
+  const VectorX& mass;
   const ConformalOptions& options;
 
   State measured(SphereMap map) const {
@@ -126,7 +126,7 @@ RivalResult map_conformal(const TriangleMesh& mesh, const Topology& topology,
   require_at_least("max_iterations", options.max_iterations, 0);
   require_between("least_gain", options.least_gain, 0, 1);
   Outcome outcome;
-  const Eigen::VectorXd mass = vertex_masses(mesh);
+  const VectorX mass = vertex_masses(mesh);
   SphereMap map = mobius_centred(gauss_map(mesh), mass, 60, options.threads);
   outcome.finish_stage("Gauss map");
 

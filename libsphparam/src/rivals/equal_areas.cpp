@@ -143,8 +143,8 @@ void EqualAreas::add_areas(const SphereMap& map, double penalty, double damping,
   }
 }
 
-Eigen::VectorXd EqualAreas::step(const SphereMap& map, double penalty, double damping,
-                                 const std::vector<char>& active) {
+VectorX EqualAreas::step(const SphereMap& map, double penalty, double damping,
+                         const std::vector<char>& active) {
   diagonal_.assign(4 * static_cast<size_t>(topology_.vertex_count()), 0);
   off_diagonal_.assign(4 * static_cast<size_t>(topology_.halfedge_count()), 0);
   force_.setZero(2 * topology_.vertex_count());
@@ -154,7 +154,7 @@ Eigen::VectorXd EqualAreas::step(const SphereMap& map, double penalty, double da
   return system_.solve(force_);
 }
 
-SphereMap EqualAreas::moved(const SphereMap& map, const Eigen::VectorXd& step) const {
+SphereMap EqualAreas::moved(const SphereMap& map, const VectorX& step) const {
   SphereMap next = map;
   for (Vertex v = 0; v < topology_.vertex_count(); ++v) {
     const Vector3 x = map.point(v);

@@ -23,9 +23,9 @@ class EqualAreas {
 
   /// The Gauss–Newton step with Levenberg–Marquardt damping; two numbers a vertex.
   /// active: per face, 1 where the area may not change (to first order). Throws: SolveError.
-  Eigen::VectorXd step(const SphereMap& map, double penalty, double damping,
-                       const std::vector<char>& active);
-  SphereMap moved(const SphereMap& map, const Eigen::VectorXd& step) const;
+  VectorX step(const SphereMap& map, double penalty, double damping,
+               const std::vector<char>& active);
+  SphereMap moved(const SphereMap& map, const VectorX& step) const;
 
  private:
   double area_term(const SphereMap& map) const;
@@ -39,7 +39,7 @@ class EqualAreas {
   VertexSystem system_;
   // The system of the step at hand.
   std::vector<double> diagonal_, off_diagonal_;
-  Eigen::VectorXd force_;
+  VectorX force_;
 };
 
 }  // namespace sphparam

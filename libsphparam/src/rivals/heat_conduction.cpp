@@ -24,19 +24,18 @@ std::vector<double> equal_conductances(const Topology& topology) {
   return std::vector<double>(static_cast<size_t>(topology.halfedge_count()), 1.0);
 }
 
-Eigen::VectorXd conduct_latitude(const Topology& topology, Vertex north, Vertex south,
-                                 int threads) {
+VectorX conduct_latitude(const Topology& topology, Vertex north, Vertex south, int threads) {
   LaplaceSystem system(topology, roles_with(topology, VertexRole::Fixed, north, south), true,
                        threads);
   system.factorise(equal_conductances(topology), threads);
-  Eigen::MatrixXd values = Eigen::MatrixXd::Zero(topology.vertex_count(), 1);
+  MatrixX values = MatrixX::Zero(topology.vertex_count(), 1);
   values(south, 0) = std::numbers::pi;
   return system.solve(values, {}, threads);
 }
 
 /// Empty where rounding leaves no way up: latitude is flat on limbs that are too long for doubles.
-std::vector<Vertex> steepest_path(const Topology& topology, const Eigen::VectorXd& latitude,
-                                  Vertex north, Vertex south) {
+std::vector<Vertex> steepest_path(const Topology& topology, const VectorX& latitude, Vertex north,
+                                  Vertex south) {
   std::vector<Vertex> path = {north};
   while (path.back() != south) {
     const Vertex here = path.back();
@@ -65,14 +64,14 @@ std::vector<Jump> date_line_jumps(const Topology& topology, const std::vector<Ve
   return jumps;
 }
 
-Eigen::VectorXd conduct_longitude(const Topology& topology, const std::vector<Vertex>& date_line,
-                                  int threads) {
+VectorX conduct_longitude(const Topology& topology, const std::vector<Vertex>& date_line,
+                          int threads) {
   std::vector<VertexRole> roles =
       roles_with(topology, VertexRole::Removed, date_line.front(), date_line.back());
   roles[static_cast<size_t>(date_line[1])] = VertexRole::Fixed;
   LaplaceSystem system(topology, std::move(roles), true, threads);
   system.factorise(equal_conductances(topology), threads);
-  return system.solve(Eigen::MatrixXd::Zero(topology.vertex_count(), 1),
+  return system.solve(MatrixX::Zero(topology.vertex_count(), 1),
                       {date_line_jumps(topology, date_line)}, threads);
 }
 

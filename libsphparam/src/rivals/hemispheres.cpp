@@ -66,7 +66,7 @@ std::string describe(const TutteSolution& solution, double tolerance) {
 SphereMap place_hemispheres(const TriangleMesh& mesh, const Topology& topology,
                             const Bisection& bisection, int threads) {
   std::vector<VertexRole> roles(static_cast<size_t>(topology.vertex_count()), VertexRole::Free);
-  Eigen::MatrixXd plane = Eigen::MatrixXd::Zero(topology.vertex_count(), 2);
+  MatrixX plane = MatrixX::Zero(topology.vertex_count(), 2);
   const std::vector<double> longitudes = seam_longitudes(mesh, bisection.seam);
   for (size_t k = 0; k < bisection.seam.size(); ++k) {
     const Vertex v = bisection.seam[k];

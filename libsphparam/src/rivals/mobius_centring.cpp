@@ -23,7 +23,7 @@ struct Moments {
 };
 
 /// Of the points translated by a. Partial sums in fixed chunks.
-Moments moments(const Points& points, const Eigen::VectorXd& mass, const Vector3& a, int threads) {
+Moments moments(const Points& points, const VectorX& mass, const Vector3& a, int threads) {
   std::vector<Moments> parts(static_cast<size_t>((points.rows() + kGrain - 1) / kGrain));
   parallel_for(points.rows(), kGrain, threads, [&](std::int64_t first, std::int64_t last) {
     Moments& part = parts[static_cast<size_t>(first / kGrain)];
@@ -50,7 +50,7 @@ Vector3 mobius_translated(const Vector3& x, const Vector3& a) {
   return ((1 - a.squaredNorm()) / length2 * d - a).normalized();
 }
 
-SphereMap mobius_centred(SphereMap map, const Eigen::VectorXd& mass, int max_steps, int threads) {
+SphereMap mobius_centred(SphereMap map, const VectorX& mass, int max_steps, int threads) {
   const double total = mass.sum();
   if (!(total > 0)) return map;
   Moments now = moments(map.points, mass, Vector3::Zero(), threads);
@@ -76,8 +76,8 @@ SphereMap mobius_centred(SphereMap map, const Eigen::VectorXd& mass, int max_ste
   return map;
 }
 
-Eigen::VectorXd vertex_masses(const TriangleMesh& mesh) {
-  Eigen::VectorXd mass = Eigen::VectorXd::Zero(mesh.vertex_count());
+VectorX vertex_masses(const TriangleMesh& mesh) {
+  VectorX mass = VectorX::Zero(mesh.vertex_count());
   for (Face f = 0; f < mesh.face_count(); ++f) {
     const auto t = mesh.triangles.row(f);
     const Vector3 p = mesh.position(t[0]);
@@ -85,8 +85,8 @@ Eigen::VectorXd vertex_masses(const TriangleMesh& mesh) {
     for (int k = 0; k < 3; ++k) mass[t[k]] += area / 3;
   }
   const double total = mass.sum();
-  return total > 0 ? Eigen::VectorXd(mass / total)
-                   : Eigen::VectorXd::Constant(mass.size(), 1.0 / double(mass.size()));
+  return total > 0 ? VectorX(mass / total)
+                   : VectorX::Constant(mass.size(), 1.0 / double(mass.size()));
 }
 
 }  // namespace sphparam

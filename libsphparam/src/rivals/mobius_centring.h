@@ -13,10 +13,9 @@ Vector3 mobius_translated(const Vector3& x, const Vector3& a);
 /// Newton's method on the centre, by repeated translation. Ensures: |Σ mass·x| ≤ 1e-10·Σ mass, if a
 /// centre exists (no point has half of the mass) and `max_steps` suffice; unit rays.
 /// Paper: Baden, Crane, Kazhdan, "Möbius registration" (2018), Algorithm 1.
-SphereMap mobius_centred(SphereMap map, const Eigen::VectorXd& mass, int max_steps = 60,
-                         int threads = 0);
+SphereMap mobius_centred(SphereMap map, const VectorX& mass, int max_steps = 60, int threads = 0);
 
 /// A third of the area of the triangles at each vertex; the sum is 1. Shapes: #V.
-Eigen::VectorXd vertex_masses(const TriangleMesh& mesh);
+VectorX vertex_masses(const TriangleMesh& mesh);
 
 }  // namespace sphparam

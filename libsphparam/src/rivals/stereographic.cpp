@@ -81,7 +81,7 @@ Plane solve_plane(const TriangleMesh& mesh, const Topology& topology, Face cut, 
   return system.solve(side);
 }
 
-double median(Eigen::VectorXd values) {
+double median(VectorX values) {
   double* middle = values.data() + values.size() / 2;
   std::nth_element(values.data(), middle, values.data() + values.size());
   return *middle;

@@ -36,7 +36,7 @@ Fields conformal_fields(const Vector3& x) {
   return fields;
 }
 
-SphereMap moved(const SphereMap& map, const Eigen::VectorXd& step, double share) {
+SphereMap moved(const SphereMap& map, const VectorX& step, double share) {
   SphereMap next = map;
   for (Eigen::Index v = 0; v < map.points.rows(); ++v) {
     const Vector3 x = map.points.row(v);
@@ -105,7 +105,7 @@ TutteSolution TutteEquations::sweep(SphereMap map, int max_sweeps, const Progres
   return best;
 }
 
-Eigen::VectorXd TutteEquations::newton_step(VertexSystem& system, const SphereMap& map) const {
+VectorX TutteEquations::newton_step(VertexSystem& system, const SphereMap& map) const {
   const size_t n = static_cast<size_t>(topology_.vertex_count());
   std::vector<double> diagonal(4 * n, 0);
   std::vector<double> off_diagonal(4 * static_cast<size_t>(topology_.halfedge_count()));
@@ -143,7 +143,7 @@ TutteSolution TutteEquations::newton(TutteSolution now, int max_steps, double to
   VertexSystem system(topology_, 2);
   while (now.steps < max_steps && now.residual > tolerance) {
     report(progress, "Newton", double(now.steps) / max_steps);
-    const Eigen::VectorXd step = newton_step(system, now.map);
+    const VectorX step = newton_step(system, now.map);
     double longest = 0;
     for (Eigen::Index i = 0; i < step.size(); i += 2) {
       longest = std::max(longest, step.segment<2>(i).norm());

@@ -31,7 +31,7 @@ class TutteEquations {
  private:
   std::vector<double> image_areas(const SphereMap& map) const;
   double residual(const SphereMap& map) const;
-  Eigen::VectorXd newton_step(VertexSystem& system, const SphereMap& map) const;
+  VectorX newton_step(VertexSystem& system, const SphereMap& map) const;
 
   const Topology& topology_;
   std::vector<double> weights_;

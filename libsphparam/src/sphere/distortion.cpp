@@ -160,7 +160,7 @@ Tally tally(const Distortion& distortion, int threads) {
 }
 
 /// The values at 1, 50 and 99 % of the sorted list, nearest rank.
-std::array<double, 3> percentiles(const Eigen::VectorXd& values) {
+std::array<double, 3> percentiles(const VectorX& values) {
   std::vector<double> v(values.begin(), values.end());
   const auto begin = v.begin();
   const auto select = [&](double share, auto first, auto last) {
@@ -179,11 +179,7 @@ std::array<double, 3> percentiles(const Eigen::VectorXd& values) {
 
 Distortion measure_distortion(const TriangleMesh& mesh, const SphereMap& map, int threads) {
   const Eigen::Index faces = mesh.face_count();
-  Distortion result{Eigen::VectorXd(faces),
-                    {},
-                    Eigen::VectorXd(faces),
-                    Eigen::VectorXd(faces),
-                    Eigen::VectorXd(faces)};
+  Distortion result{VectorX(faces), {}, VectorX(faces), VectorX(faces), VectorX(faces)};
   result.angle_ratio.resize(faces, 3);
   if (faces == 0) return result;
 

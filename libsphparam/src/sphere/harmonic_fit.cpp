@@ -18,8 +18,8 @@ namespace sphparam {
 namespace {
 
 /// Each vertex's share of the sphere: a third of its triangles' solid angles. Sums to 4π.
-Eigen::VectorXd solid_angles(const Topology& topology, const SphereMap& map) {
-  Eigen::VectorXd shares = Eigen::VectorXd::Zero(topology.vertex_count());
+VectorX solid_angles(const Topology& topology, const SphereMap& map) {
+  VectorX shares = VectorX::Zero(topology.vertex_count());
   for (Face f = 0; f < topology.face_count(); ++f) {
     const Vector3 a = map.point(topology.vertex(f, 0)), b = map.point(topology.vertex(f, 1)),
                   c = map.point(topology.vertex(f, 2));
@@ -49,7 +49,7 @@ Functions look_up(const Topology& topology, const SphereMap& map, const Function
 /// Conjugate gradients on YᵀWY c = YᵀW f, all functions side by side, each with its own steps.
 class NormalEquations {
  public:
-  NormalEquations(const Points& directions, const Eigen::VectorXd& weights,
+  NormalEquations(const Points& directions, const VectorX& weights,
                   const HarmonicFitOptions& options)
       : directions_(directions), weights_(weights), options_(options) {}
 
@@ -87,7 +87,7 @@ class NormalEquations {
   }
 
   const Points& directions_;
-  const Eigen::VectorXd& weights_;
+  const VectorX& weights_;
   const HarmonicFitOptions& options_;
 };
 
@@ -107,7 +107,7 @@ HarmonicFit fit_harmonics(const Topology& topology, const SphereMap& map, const 
   fit.coefficients =
       analyse(options.degree, grid.directions, grid.weights,
               look_up(topology, map, values, grid.directions, options.threads), options.threads);
-  const Eigen::VectorXd shares = solid_angles(topology, map);
+  const VectorX shares = solid_angles(topology, map);
   if (options.least_squares) {
     fit.iterations = NormalEquations(map.points, shares, options).solve(values, fit.coefficients);
   }

@@ -301,7 +301,7 @@ Functions synthesise(const Functions& coefficients, const Points& directions, in
   return values;
 }
 
-Functions analyse(int degree, const Points& directions, const Eigen::VectorXd& weights,
+Functions analyse(int degree, const Points& directions, const VectorX& weights,
                   const Functions& values, int threads) {
   require_harmonic_degree(degree);
   if (weights.size() != directions.rows() || values.rows() != directions.rows()) {
@@ -335,7 +335,7 @@ QuadratureGrid quadrature_grid(int degree) {
   require_harmonic_degree(degree);
   const int rows = degree + 1, columns = 2 * degree + 2;
   QuadratureGrid grid{Points(Eigen::Index(rows) * columns, 3),
-                      Eigen::VectorXd(Eigen::Index(rows) * columns)};
+                      VectorX(Eigen::Index(rows) * columns)};
   for (int i = 0; i < rows; ++i) {
     const auto [z, weight] = gauss_legendre(i, rows);
     const double radius = std::sqrt((1 - z) * (1 + z));

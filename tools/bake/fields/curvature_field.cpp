@@ -19,8 +19,7 @@ constexpr double kScale = 0.02;   // of the radius of the sphere of the same are
 constexpr double kWithin = 0.98;  // share of the area that the range holds
 
 /// The |value| that all but the rest of the area stay within.
-double weighted_quantile(const Eigen::VectorXd& values, const Eigen::VectorXd& weights,
-                         double share) {
+double weighted_quantile(const VectorX& values, const VectorX& weights, double share) {
   std::vector<Vertex> order(static_cast<size_t>(values.size()));
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](Vertex a, Vertex b) {
@@ -57,7 +56,7 @@ SurfaceField curvature_field(const BakeScene& scene, const std::string& argument
   const TriangleMesh& mesh = scene.source.file.mesh;
   const double scale = kScale * equal_area_radius(mesh, scene.threads);
   const Curvature curvature = measure_curvature(mesh, scene.source.topology, scale, scene.threads);
-  const Eigen::VectorXd& values = gauss ? curvature.gauss : curvature.mean;
+  const VectorX& values = gauss ? curvature.gauss : curvature.mean;
   const double reach = weighted_quantile(values, curvature.area, kWithin);
   const double high = reach > 0 ? reach : 1;
   SurfaceField field = linear_field<1>(

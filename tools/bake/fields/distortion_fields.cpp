@@ -15,8 +15,7 @@ SurfaceField distortion_field(Heat heat, const char* name, const char* about,
                               const BakeScene& scene) {
   const Distortion distortion =
       measure_distortion(scene.source.file.mesh, scene.source.map, scene.threads);
-  const Eigen::VectorXd values =
-      heat_values(heat, distortion).cwiseMax(-kExtreme).cwiseMin(kExtreme);
+  const VectorX values = heat_values(heat, distortion).cwiseMax(-kExtreme).cwiseMin(kExtreme);
   const HeatScale& scale = heat_scale(heat);
   SurfaceField field = linear_field<1>(
       {.name = name, .about = about, .range = {{scale.low, scale.high}}},

@@ -5,7 +5,7 @@
 namespace sphparam {
 
 /// Any number of columns, one item a row: of a vertex, a face, or a corner (3·face + corner).
-using Attributes = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using Attributes = RowTable<double, Eigen::Dynamic>;
 using AttributesView = Eigen::Ref<const Attributes>;
 
 /// Interpolates an attribute of the source's vertices, #V×k (positions, colours, a property), to

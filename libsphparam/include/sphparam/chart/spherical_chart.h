@@ -12,7 +12,7 @@
 namespace sphparam {
 
 /// #W×2 texture coordinates, one (u, v) a row. u in turns, so that the seam 0 ≡ 1 is exact.
-using TextureCoordinates = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
+using TextureCoordinates = RowTable<double, 2>;
 
 /// What a wedge is there for.
 enum class WedgeKind : std::uint8_t {

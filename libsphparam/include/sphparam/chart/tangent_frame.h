@@ -6,7 +6,7 @@ namespace sphparam {
 
 /// #W×4 rows (tx, ty, tz, w): unit tangent, and w = ±1 so that the bitangent is w · N × T. glTF's
 /// TANGENT.
-using Tangents = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
+using Tangents = RowTable<double, 4>;
 
 /// The frame that a tangent-space normal map of a chart is written in and read with. One row a
 /// wedge. Between wedges a viewer interpolates normals and tangents linearly, without making them

@@ -9,8 +9,8 @@ namespace sphparam {
 /// Longitude and polar angle of every vertex, on the eastern bank of the date line: a wedge has
 /// θ(vertex) + 2π·turn. θ of the poles is 0.
 struct CurvilinearMap {
-  Eigen::VectorXd theta;  // #V, radians, any real numbers
-  Eigen::VectorXd phi;    // #V, radians, 0 at the north pole, π at the south pole
+  VectorX theta;  // #V, radians, any real numbers
+  VectorX phi;    // #V, radians, 0 at the north pole, π at the south pole
 };
 
 /// What is prescribed at the rims of the chart, and which vertices are left to the equation.
@@ -60,7 +60,7 @@ class HarmonicSolver {
 
  private:
   CurvilinearMap solve_factorised(int threads) const;
-  double best_twist(const Eigen::VectorXd& theta, const Eigen::VectorXd& eta) const;
+  double best_twist(const VectorX& theta, const VectorX& eta) const;
 
   const Topology& topology_;
   const CutMesh& cut_mesh_;

@@ -126,8 +126,8 @@ inline TangentFrame tangent_frame(const Vector3& x) {
 /// the three frames, taken at the frames' origins. The Hessian is symmetric, not definite.
 struct TriangleEnergy {
   double value;
-  Eigen::Matrix<double, 6, 1> gradient;
-  Eigen::Matrix<double, 6, 6> hessian;
+  Eigen::Matrix<double, 6, 1, Eigen::DontAlign> gradient;
+  Eigen::Matrix<double, 6, 6, Eigen::DontAlign> hessian;
 };
 
 /// Requires: the frames belong to the image points; energy finite there.

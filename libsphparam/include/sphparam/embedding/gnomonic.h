@@ -11,8 +11,8 @@ namespace sphparam {
 
 /// A mesh without one vertex, embedded in a disk around 0 of the plane.
 struct OneVertexDisk {
-  Vertex south;  // the vertex left out; its row is 0
-  Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> points;  // #V×2
+  Vertex south;            // the vertex left out; its row is 0
+  RowTable<double, 2> points;  // #V×2
 };
 
 /// The vertex in the middle of the mesh: the one whose greater distance to the two ends of a
@@ -37,15 +37,15 @@ OneVertexDisk tutte_disk(const TriangleMesh& mesh, const Topology& topology, Ver
 /// det((u₁,v₁,1), (u₂,v₂,1), (u₃,v₃,1)) is twice the signed area: the map is one-to-one exactly
 /// where the disk is. All but the star of `south` lies in the northern half.
 /// areas: weight of each vertex; ρ > 0 spreads them evenly over that half. Our own.
-SphereMap gnomonic_lift(const OneVertexDisk& disk, const Eigen::VectorXd& areas);
+SphereMap gnomonic_lift(const OneVertexDisk& disk, const VectorX& areas);
 
 /// The inverse of the stereographic projection, the disk first moved and scaled so that the
 /// weighted mean of the points lies near the centre. Conformal where the disk is, so its limbs are
 /// far less crowded than a gnomonic lift's; but a wide triangle may fold.
-SphereMap stereographic_lift(const OneVertexDisk& disk, const Eigen::VectorXd& areas);
+SphereMap stereographic_lift(const OneVertexDisk& disk, const VectorX& areas);
 
 /// A third of the source area of the triangles at each vertex. Shapes: #V.
-Eigen::VectorXd vertex_areas(const Topology& topology, const SourceTriangles& source);
+VectorX vertex_areas(const Topology& topology, const SourceTriangles& source);
 
 struct GnomonicOptions {
   std::optional<Vertex> south = {};  // the vertex left out; chosen automatically if not given

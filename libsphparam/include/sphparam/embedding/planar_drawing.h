@@ -9,7 +9,7 @@ namespace sphparam {
 
 /// A triangulated sphere drawn with straight edges inside one of its faces, on an integer grid.
 struct PlanarDrawing {
-  using Coordinates = Eigen::Matrix<std::int64_t, Eigen::Dynamic, 3, Eigen::RowMajor>;
+  using Coordinates = RowTable<std::int64_t, 3>;
 
   Coordinates coordinates;  // #V×3 barycentric: none negative, every row adds up to `total`
   std::int64_t total = 0;   // weight of all faces but the outer one

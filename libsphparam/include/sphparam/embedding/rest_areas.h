@@ -12,6 +12,6 @@ namespace sphparam {
 /// gives back the bytes of `source`. Requires: finite and positive.
 /// Throws: std::invalid_argument if not. Cost: one pass. Our own.
 SourceTriangles with_density(const Topology& topology, SourceTriangles source,
-                             const Eigen::VectorXd& density);
+                             const VectorX& density);
 
 }  // namespace sphparam

@@ -7,10 +7,10 @@ namespace sphparam {
 /// Curvature at the vertices, averaged over a stated distance. Positive where the surface is
 /// convex.
 struct Curvature {
-  Eigen::VectorXd mean;   // #V: H = (κ₁ + κ₂)/2, in 1/length of the mesh
-  Eigen::VectorXd gauss;  // #V: K = κ₁·κ₂, in 1/length²
-  Eigen::VectorXd area;   // #V: a third of the triangles at the vertex, floored at 1e-9 of the mean
-  double scale = 0;       // of the average, as asked for
+  VectorX mean;      // #V: H = (κ₁ + κ₂)/2, in 1/length of the mesh
+  VectorX gauss;     // #V: K = κ₁·κ₂, in 1/length²
+  VectorX area;      // #V: a third of the triangles at the vertex, floored at 1e-9 of the mean
+  double scale = 0;  // of the average, as asked for
 };
 
 /// Mean and Gauss curvature of a closed mesh as densities of its curvature measures.

@@ -49,8 +49,8 @@ class LaplaceSystem {
   /// Returns #V×k: the solution at free vertices, `values` elsewhere.
   /// Requires: factorise was called. Throws: SolveError if the result is not finite.
   /// Same bits for any number of threads (one right-hand side each).
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& values,
-                        const std::vector<std::vector<Jump>>& jumps = {}, int threads = 0) const;
+  MatrixX solve(const MatrixX& values, const std::vector<std::vector<Jump>>& jumps = {},
+                int threads = 0) const;
 
   /// Gives the memory of the weights back: the next ones are usually made before `factorise` gets
   /// them. `solve` then needs `factorise` again.
@@ -63,8 +63,8 @@ class LaplaceSystem {
   struct Factor;
   void number_unknowns(int threads);
   void build_pattern(bool upper_half, int threads);
-  Eigen::VectorXd right_hand_side(const Eigen::Ref<const Eigen::VectorXd>& values,
-                                  const std::vector<Jump>& jumps) const;
+  VectorX right_hand_side(const Eigen::Ref<const VectorX>& values,
+                          const std::vector<Jump>& jumps) const;
 
   const Topology* topology_;
   std::vector<VertexRole> roles_;

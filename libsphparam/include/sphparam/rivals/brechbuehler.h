@@ -42,8 +42,8 @@ RivalResult map_brechbuehler(const TriangleMesh& mesh, const Topology& topology,
 
 /// The initial map in the authors' coordinates.
 struct LatitudeLongitude {
-  Eigen::VectorXd latitude;       // #V: 0 at the north pole to π at the south pole
-  Eigen::VectorXd longitude;      // #V: any real numbers; of the poles 0
+  VectorX latitude;               // #V: 0 at the north pole to π at the south pole
+  VectorX longitude;              // #V: any real numbers; of the poles 0
   std::vector<Vertex> date_line;  // from pole to pole
 };
 

@@ -11,11 +11,11 @@ namespace sphparam {
 /// singular values are of the linear map from the source triangle (total source area 4π) to the
 /// chord triangle. Source areas are floored at 1e-9 of their mean.
 struct Distortion {
-  Eigen::VectorXd area_ratio;                                             // #F: |Ω| / A
-  Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> angle_ratio;  // #F×3, corner by corner
-  Eigen::VectorXd sigma_max;    // #F: larger singular value
-  Eigen::VectorXd sigma_min;    // #F: smaller singular value
-  Eigen::VectorXd source_area;  // #F: share of the total source area
+  VectorX area_ratio;           // #F: |Ω| / A
+  RowTable<double, 3> angle_ratio;  // #F×3, corner by corner
+  VectorX sigma_max;            // #F: larger singular value
+  VectorX sigma_min;            // #F: smaller singular value
+  VectorX source_area;          // #F: share of the total source area
 };
 
 /// Figures of a distortion. Each measure has one name; those that differ differ in name.
@@ -41,8 +41,8 @@ struct DistortionSummary {
 /// Cost: one pass; 0.15 µs a triangle on one thread.
 Distortion measure_distortion(const TriangleMesh& mesh, const SphereMap& map, int threads = 0);
 
-/// Ensures: never NaN; a mean that a collapsed triangle makes infinite is infinite; same bits for any
-/// number of threads.
+/// Ensures: never NaN; a mean that a collapsed triangle makes infinite is infinite; same bits for
+/// any number of threads.
 DistortionSummary summarise(const Distortion& distortion, int threads = 0);
 
 }  // namespace sphparam

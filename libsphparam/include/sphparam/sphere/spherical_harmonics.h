@@ -8,7 +8,7 @@ namespace sphparam {
 
 /// Values of k functions at points, one point a row; or their coefficients, one basis function a
 /// row, (L + 1)² of them: Y_lm in row l² + l + m, −l ≤ m ≤ l.
-using Functions = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using Functions = RowTable<double, Eigen::Dynamic>;
 
 /// The row of Y_lm.
 constexpr int harmonic_index(int l, int m) { return l * l + l + m; }
@@ -31,14 +31,14 @@ Functions synthesise(const Functions& coefficients, const Points& directions, in
 /// Σ_i weights_i · values_i · Y(direction_i), (L + 1)²×k: where the weights are those of a
 /// quadrature, the coefficients; else the transpose of `synthesise`. Same requirements and cost.
 /// Ensures: same bits for any number of threads.
-Functions analyse(int degree, const Points& directions, const Eigen::VectorXd& weights,
+Functions analyse(int degree, const Points& directions, const VectorX& weights,
                   const Functions& values, int threads = 0);
 
 /// A Gauss–Legendre grid that integrates products of two functions of degree L exactly: (L + 1) ×
 /// (2L + 2) directions, row by row from the north, and their weights, which sum to 4π.
 struct QuadratureGrid {
   Points directions;
-  Eigen::VectorXd weights;
+  VectorX weights;
 };
 QuadratureGrid quadrature_grid(int degree);
 
@@ -55,7 +55,7 @@ struct HarmonicFitOptions {
 
 struct HarmonicFit {
   Functions coefficients;  // (L + 1)²×k
-  Eigen::VectorXd rms;  // k: of what is left at the vertices, weighted by their share of the sphere
+  VectorX rms;  // k: of what is left at the vertices, weighted by their share of the sphere
   int iterations = 0;
 };
 
