@@ -236,7 +236,10 @@ TEST_CASE("safe_file: a new file is as the umask wants it, a replaced one hands 
 TEST_CASE("safe_file: attributes of a replaced file are kept, where the file system has them") {
   const Folder folder;
   write_file(folder.file("a"), "old");
-  if (::setxattr(folder.file("a").c_str(), "user.note", "mine", 4, 0) != 0) return;
+  if (::setxattr(folder.file("a").c_str(), "user.note", "mine", 4, 0) != 0) {
+    WARN("skipped: this file system has no attributes of users");
+    return;
+  }
   write_file(folder.file("a"), "new");
   char value[8] = {};
   CHECK(::getxattr(folder.file("a").c_str(), "user.note", value, sizeof value) == 4);
