@@ -143,6 +143,19 @@ TEST_CASE("baked file: what a format cannot hold is refused") {
   CHECK_THROWS_AS(BakedFile(four, {.width = 4, .height = 2, .tiles = true}, nowhere), ImageError);
 }
 
+TEST_CASE("baked file: halves are not written where they would be infinite") {
+  const SurfaceField position{.name = "position", .channels = 1};
+  BakedFileOptions options{.width = 4, .height = 2, .format = ImageFormat::Exr};
+  options.sample_type = SampleType::Half;
+  const auto baked = [&](double largest) {
+    return read(file_of(position, options, [&](int, int, int) { return -largest; }));
+  };
+  CHECK(baked(65504).pixels[0] == -65504);
+  CHECK_THROWS_AS(baked(65505), ImageError);
+  options.sample_type = SampleType::Float;
+  CHECK(baked(65505).pixels[0] == -65505);
+}
+
 TEST_CASE("baked file: a file that cannot be written says so") {
   const SurfaceField data{.name = "x", .range = std::pair(0.0, 1.0)};
   CHECK_THROWS_AS(

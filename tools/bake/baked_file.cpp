@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <limits>
 
 #include "bake/image_level.h"
@@ -17,6 +18,18 @@ std::string shortest(double x) {
   char text[32];
   const auto end = std::to_chars(text, text + sizeof text, x).ptr;
   return {text, end};
+}
+
+/// Beyond these halves are infinite: positions of bodies in metres, say.
+void require_halves(const float* values, size_t count) {
+  constexpr float most = 65504;
+  const float* const end = values + count;
+  const float* const large =
+      std::find_if(values, end, [](float x) { return std::isfinite(x) && std::abs(x) > most; });
+  if (large != end) {
+    throw ImageError("half precision has no number as large as " + shortest(*large) +
+                     ": --depth float has");
+  }
 }
 
 ImageFileOptions file_options(const SurfaceField& field, const BakedFileOptions& options) {
@@ -99,6 +112,8 @@ void BakedFile::encode(const float* values, int rows) {
     case SampleType::Uint16:
       return writer_.write_rows(integers<std::uint16_t>(values, count, field_).data(), rows);
     case SampleType::Half:
+      require_halves(values, count);
+      return writer_.write_rows(values, rows);
     case SampleType::Float:
       return writer_.write_rows(values, rows);
   }
