@@ -45,6 +45,8 @@ function prepare(mesh) {
       '-o', join(output, `${name}_{map}.png`));
   run('bake', map, '-q', '--size', '2048', '--map', 'axes', '--convention', 'envmap',
       '-o', join(output, `${name}_envmap_{map}.png`));
+  run('bake', map, '-q', '--size', '2048', '--map', 'checker', '--refine-poles', '16',
+      '-o', join(output, `${name}_poles_{map}.png`));
   const export_ = (as, texture, ...options) => {
     run('export', map, '-q', '--unlit', '--up', 'z', '--texture', join(output, `${name}_${texture}.png`),
         '-o', join(output, `${name}_${as}.glb`), ...options);
@@ -60,7 +62,7 @@ function prepare(mesh) {
     if (texture === 'axes') add('region', file, 'region', false);
     comparisons.push({ a: `${name}_${texture}`, b: `${name}_${texture}_rays`, region: `${name}_region` });
   }
-  const poles = export_('poles', 'checker', '--morph', 'sphere', '--refine-poles', '16');
+  const poles = export_('poles', 'poles_checker', '--morph', 'sphere', '--refine-poles', '16');
   add('poles', poles, 'uv', true);
   comparisons.push({ a: `${name}_poles`, b: `${name}_checker_rays`, region: `${name}_region` });
   const envmap = export_('envmap', 'envmap_axes', '--convention', 'envmap');
