@@ -41,7 +41,7 @@ TEST_CASE("report: maps of one mesh stand side by side, under names that differ"
     const bool first = method == std::string("progressive");
     const std::string path = folder / (first ? "one" : "more/one");
     REQUIRE(sphparam_program({"map", folder / "one.obj", "--method", method, "-o",
-                              path + ".sph.ply", "--sphere", path + "-sphere.obj"})
+                              path + ".sph.ply", "--write-sphere", path + "-sphere.obj"})
                 .code == 0);
   }
   const Ended ended = sphparam_program({"report", folder / "one.sph.ply",
