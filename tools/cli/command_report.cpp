@@ -200,7 +200,7 @@ ReportOptions page_options(const ReportArguments& arguments, const Source& sourc
   }
   const int size = options.look.size;
   options.look = seen_with_up(direction_of(up_of(arguments.up, source.file)));
-  options.look.size = size;
+  options.look.size = std::min(size, arguments.size);
   options.image_width = arguments.size;
   options.textures = shown_textures(source.file, arguments.inputs.front(), arguments.texture,
                                     arguments.threads, console);
@@ -268,7 +268,9 @@ Command declare_report(CLI::App& program) {
   command->add_option("--texture", arguments->texture, "The texture of the mesh")
       ->type_name("IMAGE");
   add_up(*command, arguments->up);
-  command->add_option("--size", arguments->size, "Pixels, the width of textures and heat maps")
+  command
+      ->add_option("--size", arguments->size,
+                   "Pixels, the width of textures and heat maps, and the most of pictures")
       ->check(between(64, 8192, "64 to 8192"))
       ->type_name("N")
       ->capture_default_str();
