@@ -137,3 +137,14 @@ TEST_CASE("curvature: the same bits for any number of threads") {
   CHECK(one.mean == many.mean);
   CHECK(one.gauss == many.gauss);
 }
+
+TEST_CASE("curvature: more area than a sphere in the range of doubles has is told as the largest") {
+  constexpr double largest = std::numeric_limits<double>::max();
+  TriangleMesh mesh = random_sphere_mesh(200, 5);
+  for (Vertex v = 0; v < mesh.vertex_count(); ++v) {  // corners of a box, a hundred times each
+    for (int i = 0; i < 3; ++i) mesh.positions(v, i) = (v * 7 / 3) >> i & 1 ? largest : -largest;
+  }
+  const double radius = equal_area_radius(mesh);
+  CHECK(radius == largest);
+  CHECK(measure_curvature(mesh, Topology(mesh), 0.02 * radius).mean.allFinite());
+}

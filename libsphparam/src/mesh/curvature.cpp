@@ -201,8 +201,10 @@ double radius_of_harmless(const TriangleMesh& mesh, int threads) {
 
 double equal_area_radius(const TriangleMesh& mesh, int threads) {
   const auto unit = at_unit_size(mesh);
-  return unit ? std::ldexp(radius_of_harmless(unit->mesh, threads), unit->exponent)
-              : radius_of_harmless(mesh, threads);
+  if (!unit) return radius_of_harmless(mesh, threads);
+  // Triangles that lie over one another may have more area than a sphere in the range of doubles.
+  return std::min(std::ldexp(radius_of_harmless(unit->mesh, threads), unit->exponent),
+                  std::numeric_limits<double>::max());
 }
 
 Curvature measure_curvature(const TriangleMesh& mesh, const Topology& topology, double scale,

@@ -33,7 +33,8 @@ struct Curvature {
 Curvature measure_curvature(const TriangleMesh& mesh, const Topology& topology, double scale = 0,
                             int threads = 0);
 
-/// √(A / 4π), the radius of the sphere of the mesh's area: a length to state scales in.
+/// √(A / 4π), the radius of the sphere of the mesh's area: a length to state scales in. The
+/// largest double where it is beyond them.
 double equal_area_radius(const TriangleMesh& mesh, int threads = 0);
 
 }  // namespace sphparam
