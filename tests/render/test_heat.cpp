@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <limits>
 
 #include "render/heat.h"
 #include "render/lettering.h"
@@ -60,6 +61,22 @@ TEST_CASE("with_legend: the scale runs from its first to its last colour; small 
     CHECK(last);
     CHECK(with_legend(white(100, 100), heat).pixels == white(100, 100).pixels);
   }
+}
+
+TEST_CASE("with_legend: a scale may be as wide as all doubles, or a single value") {
+  constexpr double largest = std::numeric_limits<double>::max();
+  const Image picture = white(400, 200);
+  const HeatScale unit{"x", -1, 1}, widest{"x", -largest, largest}, single{"x", 2, 2};
+  // The same strip but for its numbers: the first line below the title.
+  const Image expected = with_legend(picture, unit), found = with_legend(picture, widest);
+  const int row = picture.height + 2 * text_height(1) + 1, left = 3 * text_height(1);
+  for (const int x : {1, 20, 49, 80, 98}) {
+    for (int k = 0; k < 3; ++k) {
+      CHECK(found.pixel(left + x, row)[k] ==
+            Catch::Detail::Approx(expected.pixel(left + x, row)[k]));
+    }
+  }
+  CHECK(with_legend(picture, single).height == expected.height);
 }
 
 TEST_CASE("draw_text: dots of the letters, as large as asked, cut off at the rim") {

@@ -29,6 +29,18 @@ std::string number_label(double value) {
   return text;
 }
 
+// Halves below: the ends of a scale may be farther apart than the largest double.
+
+/// From 0 at the low end to 1 at the high one; 0 where they are one.
+double share_of(const HeatScale& scale, double value) {
+  const double half_span = scale.high / 2 - scale.low / 2;
+  return half_span > 0 ? (value / 2 - scale.low / 2) / half_span : 0;
+}
+
+double value_at(const HeatScale& scale, double share) {
+  return 2 * (scale.low / 2 + (scale.high / 2 - scale.low / 2) * share);
+}
+
 /// Every power of two, or the ends and the middle.
 std::vector<Tick> ticks(const HeatScale& scale) {
   std::vector<Tick> all;
@@ -38,7 +50,7 @@ std::vector<Tick> ticks(const HeatScale& scale) {
     }
     return all;
   }
-  for (const double value : {scale.low, (scale.low + scale.high) / 2, scale.high}) {
+  for (const double value : {scale.low, value_at(scale, 0.5), scale.high}) {
     all.push_back({value, number_label(value)});
   }
   return all;
@@ -56,12 +68,10 @@ void draw_scale(Image& image, const HeatScale& scale, int left, int top, int wid
   const Rgb ink(0.2F, 0.2F, 0.2F);
   draw_text(image, scale.title, left, top - line - 2 * dot, dot, ink);
   for (int x = 0; x < width; ++x) {
-    const double value = scale.low + (scale.high - scale.low) * (x + 0.5) / width;
-    fill_column(image, left + x, top, line, heat_colour(scale, value));
+    fill_column(image, left + x, top, line, heat_colour(scale, value_at(scale, (x + 0.5) / width)));
   }
   for (const Tick& tick : ticks(scale)) {
-    const double share = (tick.value - scale.low) / (scale.high - scale.low);
-    const int x = left + static_cast<int>(share * (width - 1));
+    const int x = left + static_cast<int>(share_of(scale, tick.value) * (width - 1));
     fill_column(image, x, top, line + 2 * dot, ink);
     draw_text(image, tick.label, x - text_width(tick.label, dot) / 2, top + line + 3 * dot, dot,
               ink);
@@ -72,7 +82,7 @@ void draw_scale(Image& image, const HeatScale& scale, int left, int top, int wid
 
 Rgb heat_colour(const HeatScale& scale, double value) {
   if (scale.diverges()) return diverging(value / scale.high);
-  return viridis((value - scale.low) / (scale.high - scale.low));
+  return viridis(share_of(scale, value));
 }
 
 const HeatScale& heat_scale(Heat heat) {
