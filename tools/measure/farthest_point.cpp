@@ -21,8 +21,7 @@ namespace {
 constexpr size_t most_measurements = 1 << 14;
 constexpr double worthwhile = 1.001;  // times the farthest so far
 constexpr double loose = 2;  // a bound that many times the farthest is worth further measurements …
-constexpr size_t patience = 1 << 19;   // … but not more than so many …
-constexpr size_t patience_a_face = 4;  // … or so many a triangle
+constexpr size_t most_a_face = 4;  // … but not more than so many a triangle
 
 struct Corner {
   Vector3 point;
@@ -132,7 +131,7 @@ FarthestPoint find_farthest(const TriangleMesh& from, const VertexDistances& ver
   std::vector<Piece> heap;
   for (const Face face : candidates.faces) heap.push_back(way.piece(face));
   std::make_heap(heap.begin(), heap.end(), promises_less);
-  const size_t most = std::max(patience, patience_a_face * static_cast<size_t>(from.face_count()));
+  const size_t most = most_measurements + most_a_face * static_cast<size_t>(from.face_count());
   for (size_t measured = 0; measured < most && !heap.empty(); ++measured) {
     const double enough = measured < most_measurements ? worthwhile : loose;
     if (heap.front().bound <= enough * best.distance) break;

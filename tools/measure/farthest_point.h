@@ -23,7 +23,7 @@ struct FarthestPoint {
 /// other surface is a convex function: in a triangle it is largest at a corner, which bounds the
 /// distance from the surface. Triangles of the largest bound are halved until none promises a
 /// thousandth more than the farthest point found, or 16,384 distances have been measured; then
-/// until none promises twice as much, or 524,288 have been, or four a triangle where that is more.
+/// until none promises twice as much, or four more a triangle have been.
 /// Source: branch and bound as in Tang, Lee and Kim, "Interactive Hausdorff distance computation
 /// for general polygonal models" (2009).
 /// Requires: `to` is the scene of `other`. Ensures: known.distance ≤ distance ≤ at_most; the same
