@@ -44,6 +44,25 @@ SourceTexture texture_of(const Image& image) {
   return {.image = std::make_shared<const TexturePyramid>(image)};
 }
 
+/// A square that fills the picture, the whole texture on it.
+RenderScene textured_square(const Image& texture, int size) {
+  RenderScene scene;
+  scene.width = scene.height = size;
+  scene.camera = {Vector3(0, 0.5, 0.5), Vector3::UnitX(), Vector3::UnitZ(), 1};
+  RenderObject object;
+  object.mesh.positions.resize(4, 3);
+  object.mesh.positions << 0, 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1;
+  object.mesh.triangles.resize(2, 3);
+  object.mesh.triangles << 0, 1, 2, 0, 2, 3;
+  TexturePaint paint;
+  paint.texcoords.resize(6, 2);
+  paint.texcoords << 0, 0, 1, 0, 1, 1, 0, 0, 1, 1, 0, 1;
+  paint.textures = {texture_of(texture)};
+  object.paint = paint;
+  scene.objects.push_back(object);
+  return scene;
+}
+
 /// Red wins clearly over the other channels.
 bool reddish(const float* p) { return p[0] > 2 * p[1] && p[0] > 2 * p[2]; }
 bool greenish(const float* p) { return p[1] > 2 * p[0] && p[1] > 2 * p[2]; }
@@ -133,24 +152,10 @@ TEST_CASE("render: the date line runs from pole to pole, and only at θ = 0") {
 }
 
 TEST_CASE("render: a texture is put where its coordinates say, v upwards") {
-  RenderScene scene;
-  scene.width = scene.height = 40;
-  scene.camera = {Vector3(0, 0.5, 0.5), Vector3::UnitX(), Vector3::UnitZ(), 1};
-  RenderObject object;
-  object.mesh.positions.resize(4, 3);
-  object.mesh.positions << 0, 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1;
-  object.mesh.triangles.resize(2, 3);
-  object.mesh.triangles << 0, 1, 2, 0, 2, 3;
-  TexturePaint paint;
-  paint.texcoords.resize(6, 2);
-  paint.texcoords << 0, 0, 1, 0, 1, 1, 0, 0, 1, 1, 0, 1;
   Image image_of_four(2, 2, 3);
   image_of_four.pixel(0, 0)[0] = 1;  // upper left red
   image_of_four.pixel(1, 1)[1] = 1;  // lower right green
-  paint.textures = {texture_of(image_of_four)};
-  object.paint = paint;
-  scene.objects.push_back(object);
-  const Image image = render(scene);
+  const Image image = render(textured_square(image_of_four, 40));
   CHECK(reddish(image.pixel(10, 10)));
   CHECK(greenish(image.pixel(30, 30)));
   CHECK_FALSE(reddish(image.pixel(30, 10)));
@@ -158,28 +163,18 @@ TEST_CASE("render: a texture is put where its coordinates say, v upwards") {
 }
 
 TEST_CASE("render: a texture finer than pixels is seen as its mean, not as noise") {
-  RenderScene scene;
-  scene.width = scene.height = 20;
-  scene.camera = {Vector3(0, 0.5, 0.5), Vector3::UnitX(), Vector3::UnitZ(), 1};
-  RenderObject object;
-  object.mesh.positions.resize(4, 3);
-  object.mesh.positions << 0, 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1;
-  object.mesh.triangles.resize(2, 3);
-  object.mesh.triangles << 0, 1, 2, 0, 2, 3;
-  Image stripes(512, 512, 3);
+  Image stripes(512, 512, 3), white = stripes;
+  std::fill(white.pixels.begin(), white.pixels.end(), 1.0F);
   for (int y = 0; y < 512; ++y) {
     for (int x = 0; x < 512; x += 2) std::fill_n(stripes.pixel(x, y), 3, 1.0F);
   }
-  TexturePaint paint;
-  paint.texcoords.resize(6, 2);
-  paint.texcoords << 0, 0, 1, 0, 1, 1, 0, 0, 1, 1, 0, 1;
-  paint.textures = {texture_of(stripes)};
-  object.paint = paint;
-  scene.objects.push_back(object);
-  const Image image = render(scene);
+  const Image image = render(textured_square(stripes, 20));
+  const float mean = image.pixel(10, 10)[1];
+  CHECK(mean > 0.2F);
+  CHECK(mean < 0.9F * render(textured_square(white, 20)).pixel(10, 10)[1]);
   for (int y = 2; y < 18; ++y) {
     for (int x = 2; x < 18; ++x) {
-      CHECK(image.pixel(x, y)[1] == Approx(image.pixel(10, 10)[1]).margin(1.0 / 255));
+      CHECK(image.pixel(x, y)[1] == Approx(mean).margin(1.0 / 255));
     }
   }
 }
