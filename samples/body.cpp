@@ -97,9 +97,9 @@ Colour colour_at(const Vector3& d) {
 
 }  // namespace
 
-tools::MeshFile make_body(int frequency) {
+sphparam::MeshFile make_body(int frequency) {
   GeodesicSphere sphere = geodesic_sphere(frequency, kMargin);
-  tools::MeshFile file;
+  sphparam::MeshFile file;
   file.mesh = std::move(sphere.mesh);
   file.corner_texcoords = std::move(sphere.texcoords);
   std::vector<Colour> colours(static_cast<size_t>(file.mesh.vertex_count()));
@@ -115,8 +115,8 @@ tools::MeshFile make_body(int frequency) {
   return file;
 }
 
-tools::Image make_body_texture(int square) {
-  tools::Image image(5 * square, 2 * square, 3);
+sphparam::Image make_body_texture(int square) {
+  sphparam::Image image(5 * square, 2 * square, 3);
   parallel_for(image.height, 4, 0, [&](std::int64_t first, std::int64_t last) {
     for (int y = static_cast<int>(first); y < last; ++y) {
       for (int x = 0; x < image.width; ++x) {

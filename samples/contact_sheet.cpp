@@ -13,8 +13,8 @@
 
 namespace {
 
-using sphparam::tools::Image;
-using sphparam::tools::Rgb;
+using sphparam::Image;
+using sphparam::Rgb;
 
 constexpr char kUsage[] =
     "Put images on one sheet, to be looked at together.\n"
@@ -65,7 +65,7 @@ std::string label_of(const std::string& path) {
 Image sheet_of(const std::vector<std::string>& paths) {
   const int count = static_cast<int>(paths.size());
   const int columns = std::min(kColumns, count), rows = (count + columns - 1) / columns;
-  const int line = sphparam::tools::text_height(kDot) + kGap / 2;
+  const int line = sphparam::text_height(kDot) + kGap / 2;
   Image sheet(kGap + columns * (kWidth + kGap), kGap + rows * (kHeight + line + kGap), 3);
   std::ranges::fill(sheet.pixels, 1.0F);
   for (int i = 0; i < count; ++i) {
@@ -73,7 +73,7 @@ Image sheet_of(const std::vector<std::string>& paths) {
     const int top = kGap + i / columns * (kHeight + line + kGap);
     const std::string& path = paths[static_cast<size_t>(i)];
     draw_text(sheet, label_of(path), left, top, kDot, Rgb::Constant(0.15F));
-    paste(sheet, sphparam::tools::read_image(path), left, top + line);
+    paste(sheet, sphparam::read_image(path), left, top + line);
   }
   return sheet;
 }
@@ -86,7 +86,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    sphparam::tools::write_image(argv[1], sheet_of({argv + 2, argv + argc}));
+    sphparam::write_image(argv[1], sheet_of({argv + 2, argv + argc}));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "contact_sheet: %s\n", error.what());
     return 3;

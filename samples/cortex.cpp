@@ -85,7 +85,7 @@ Colour colour_at(const Vector3& d) {
 
 }  // namespace
 
-tools::MeshFile make_cortex() {
+sphparam::MeshFile make_cortex() {
   const Field field = [](const Vector3& p) {
     const Vector3 q = unbent(p);
     const double r = q.norm();
@@ -96,7 +96,7 @@ tools::MeshFile make_cortex() {
     const Vector3 d = start.positions.row(v);
     start.positions.row(v) = bent(radius_at(d) * d);
   }
-  tools::MeshFile file;
+  sphparam::MeshFile file;
   file.mesh = relaxed_on_surface(start, field, {.rounds = 25});
   std::vector<Colour> colours;
   for (Eigen::Index v = 0; v < file.mesh.vertex_count(); ++v) {

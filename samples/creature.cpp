@@ -150,11 +150,11 @@ Colour colour_at(const Vector3& p, const Vector3& normal) {
 
 }  // namespace
 
-tools::MeshFile make_creature() {
+sphparam::MeshFile make_creature() {
   const std::vector<Limb> limbs = make_limbs();
   const Field skin = [&](const Vector3& p) { return distance(limbs, p); };
   const TriangleMesh rough = level_set(skin, {-2.5, -0.8, -0.2}, {2.0, 0.8, 3.2}, kCube);
-  tools::MeshFile file;
+  sphparam::MeshFile file;
   file.mesh = relaxed_on_surface(rough, skin, {.rounds = 40});
   std::vector<Colour> colours;
   for (Eigen::Index v = 0; v < file.mesh.vertex_count(); ++v) {

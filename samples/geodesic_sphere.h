@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "mesh_io/mesh_file.h"
+#include "sphparam/io/mesh_file.h"
 
 namespace sphparam::samples {
 
@@ -19,7 +19,7 @@ const Icosahedron& icosahedron();
 /// square, `margin` (a share of a square) away from their borders.
 struct GeodesicSphere {
   TriangleMesh mesh;
-  tools::CornerTexcoords texcoords;
+  sphparam::CornerTexcoords texcoords;
 };
 GeodesicSphere geodesic_sphere(int frequency, double margin);
 

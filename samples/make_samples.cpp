@@ -11,13 +11,13 @@
 #include <string>
 
 #include "image/image_codec.h"
-#include "mesh_io/mesh_writer.h"
+#include "sphparam/io/mesh_writer.h"
 #include "sample_meshes.h"
 #include "sphparam/mesh/mesh_defects.h"
 
 namespace {
 
-using sphparam::tools::MeshFile;
+using sphparam::MeshFile;
 
 constexpr char kUsage[] =
     "Make the sample meshes: closed genus-0 triangle meshes with vertex colours, as PLY.\n"
@@ -62,7 +62,7 @@ Arguments parse(int count, char** values) {
 
 void write_mesh(const std::filesystem::path& path, const MeshFile& file) {
   sphparam::require_sphere(file.mesh);
-  const std::string bytes = sphparam::tools::serialise_ply(file);
+  const std::string bytes = sphparam::serialise_ply(file);
   std::ofstream out(path, std::ios::binary);
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   out.close();
@@ -81,7 +81,7 @@ void make(const Arguments& arguments) {
     body.comments.push_back("TextureFile body.png");
     write_mesh(directory / "body.ply", body);
     const std::string texture = (directory / "body.png").string();
-    sphparam::tools::write_image(texture, sphparam::samples::make_body_texture());
+    sphparam::write_image(texture, sphparam::samples::make_body_texture());
     std::printf("%s\n", texture.c_str());
   }
   if (names.contains("creature")) {

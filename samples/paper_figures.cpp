@@ -129,7 +129,7 @@ void add_figure_5(Album album, const std::vector<Trial>& trials) {
 
 // --- against others -----------------------------------------------------------------------------
 
-struct Rivalry {
+struct Baselinery {
   const char* spheres;  // the number of the paper's figure
   const char* charts;
   const char* model;
@@ -137,10 +137,10 @@ struct Rivalry {
   const char* claim;
 };
 
-void add_rivalry(Album album, const std::vector<Trial>& trials, const Rivalry& rivalry) {
+void add_rivalry(Album album, const std::vector<Trial>& trials, const Baselinery& rivalry) {
   const Trial& trial = model_or_other(trials, rivalry.model);
   const std::string tag = "figure" + std::string(rivalry.spheres);
-  const Contender& rival = trial.by(rivalry.rival);
+  const Entry& rival = trial.by(rivalry.rival);
   album.page.heading("Figures " + std::string(rivalry.spheres) + " and " + rivalry.charts +
                      ": against " + rivalry.rival);
   album.page.paragraph(of_model(trial, rivalry.model) + ". " + rivalry.claim);
@@ -151,9 +151,9 @@ void add_rivalry(Album album, const std::vector<Trial>& trials, const Rivalry& r
   const PictureOptions look = look_at(trial);
   std::vector<PageFigure> figures = {mesh_figure(album, tag + "-mesh", trial, look)};
   for (const char* name : {rivalry.rival, "paper", "progressive"}) {
-    const Contender& contender = trial.by(name);
-    if (!contender.distortion) continue;
-    figures.push_back(sphere_figure(album.files, tag + "-" + name, trial.file, contender, look));
+    const Entry& entry = trial.by(name);
+    if (!entry.distortion) continue;
+    figures.push_back(sphere_figure(album.files, tag + "-" + name, trial.file, entry, look));
   }
   album.page.figures(figures, least_width);
   for (const char* ours : {"paper", "progressive"}) {
@@ -196,10 +196,10 @@ void add_gallery(Album album, const std::vector<Trial>& trials) {
     const PictureOptions look = look_at(trial);
     figures.push_back(mesh_figure(album, "model-" + trial.name, trial, look));
     for (const char* name : {"paper", "progressive"}) {
-      const Contender& contender = trial.by(name);
-      if (!contender.distortion) continue;
+      const Entry& entry = trial.by(name);
+      if (!entry.distortion) continue;
       figures.push_back(sphere_figure(album.files, "model-" + trial.name + "-" + name, trial.file,
-                                      contender, look));
+                                      entry, look));
     }
   }
   album.page.figures(figures, least_width);

@@ -11,9 +11,9 @@
 #include <string>
 #include <thread>
 
-#include "mesh_io/mesh_reader.h"
-#include "mesh_io/safe_file.h"
-#include "mesh_io/welding.h"
+#include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/safe_file.h"
+#include "io/polygons/welding.h"
 #include "paper_figures.h"
 #include "paper_tables.h"
 #include "paper_trial.h"
@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace sphparam;
 using namespace sphparam::samples;
-using namespace sphparam::tools;
+using namespace sphparam;
 
 constexpr char usage[] =
     "The evaluation of \"Curvilinear Spherical Parameterization\" made again, as one page.\n"

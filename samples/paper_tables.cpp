@@ -160,12 +160,12 @@ void add_smoothing(Page& page, const std::vector<const Trial*>& trials) {
 // --- all methods × all meshes ------------------------------------------------------------------
 
 void add_matrix(Page& page, const std::vector<Trial>& trials, const std::string& caption,
-                const std::function<std::string(const Contender&)>& cell) {
+                const std::function<std::string(const Entry&)>& cell) {
   PageTable table = {caption, {"mesh", "triangles"}, {}};
   for (const MethodInfo& info : all_methods()) table.header.emplace_back(info.name);
   for (const Trial& trial : trials) {
     Row row = {trial.name, grouped(trial.file.mesh.face_count())};
-    for (const Contender& c : trial.contenders) row.push_back(c.has_map() ? cell(c) : "no map");
+    for (const Entry& c : trial.entries) row.push_back(c.has_map() ? cell(c) : "no map");
     table.rows.push_back(row);
   }
   page.table(table);
@@ -173,20 +173,20 @@ void add_matrix(Page& page, const std::vector<Trial>& trials, const std::string&
 
 void add_matrices(Page& page, const std::vector<Trial>& trials) {
   const auto figure = [](double DistortionSummary::*value) {
-    return [=](const Contender& c) {
+    return [=](const Entry& c) {
       return number(c.figures ? (*c.figures).*value : 0, c.figures.has_value());
     };
   };
   add_matrix(
       page, trials, "Folds; “yes” where the map is certified one-to-one.",
-      [](const Contender& c) { return c.certificate.bijective() ? "yes" : short_verdict(c); });
+      [](const Entry& c) { return c.certificate.bijective() ? "yes" : short_verdict(c); });
   add_matrix(page, trials, "Mean |ln area ratio|.", figure(&DistortionSummary::mean_abs_ln_area));
   add_matrix(page, trials, "Mean |ln angle ratio|.", figure(&DistortionSummary::mean_abs_ln_angle));
   add_matrix(page, trials, "Weighted |log2 area ratio|.",
              figure(&DistortionSummary::weighted_abs_log2_area));
   add_matrix(page, trials, "Symmetric Dirichlet energy; 4 is an isometry.",
              figure(&DistortionSummary::symmetric_dirichlet));
-  add_matrix(page, trials, "Seconds.", [](const Contender& c) { return number(*c.seconds); });
+  add_matrix(page, trials, "Seconds.", [](const Entry& c) { return number(*c.seconds); });
 }
 
 struct Duel {
@@ -198,7 +198,7 @@ struct Duel {
 Duel duel(const std::vector<Trial>& trials, const std::string& ours, const std::string& other) {
   Duel result;
   for (const Trial& trial : trials) {
-    const Contender &a = trial.by(ours), &b = trial.by(other);
+    const Entry &a = trial.by(ours), &b = trial.by(other);
     if (!a.figures || !b.figures) continue;
     const double areas = b.figures->mean_abs_ln_area / a.figures->mean_abs_ln_area;
     const double angles = b.figures->mean_abs_ln_angle / a.figures->mean_abs_ln_angle;

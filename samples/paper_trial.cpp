@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "sphparam/curvilinear/paper_map.h"
+#include "curvilinear/paper_map.h"
 #include "sphparam/errors.h"
 #include "sphparam/mesh/mesh_defects.h"
 
@@ -72,7 +72,7 @@ std::optional<PaperSteps> paper_steps(const TriangleMesh& mesh, const Topology& 
     steps.printed = observe(mesh, topology, *poles, printed, steps.patch, keep_maps);
     steps.further = observe(mesh, topology, *poles, {.iterations = further_iterations, .sweeps = 0},
                             steps.patch, false);
-  } catch (const SolveError&) {  // the contender says so too
+  } catch (const SolveError&) {  // the entry says so too
     return std::nullopt;
   }
   if (steps.further.back().name == "smoothing") steps.further.pop_back();  // of no sweeps
@@ -89,21 +89,21 @@ const std::vector<PaperModel>& paper_models() {
   return models;
 }
 
-const Contender& Trial::by(const std::string& method) const {
-  return *std::find_if(contenders.begin(), contenders.end(),
-                       [&](const Contender& c) { return c.name == method; });
+const Entry& Trial::by(const std::string& method) const {
+  return *std::find_if(entries.begin(), entries.end(),
+                       [&](const Entry& c) { return c.name == method; });
 }
 
 Trial try_mesh(std::string name, MeshFile file, bool keep_maps) {
   Trial trial = {std::move(name), std::move(file), {}, std::nullopt};
   const Topology topology = require_sphere(trial.file.mesh);
   for (const MethodInfo& info : all_methods()) {
-    Contender contender = run_contender(info.method, trial.file.mesh, {});
+    Entry entry = run_entry(info.method, trial.file.mesh, {});
     if (!keep_maps) {
-      contender.map.points.resize(contender.has_map() ? 1 : 0, 3);
-      contender.distortion.reset();
+      entry.map.points.resize(entry.has_map() ? 1 : 0, 3);
+      entry.distortion.reset();
     }
-    trial.contenders.push_back(std::move(contender));
+    trial.entries.push_back(std::move(entry));
   }
   trial.steps = paper_steps(trial.file.mesh, topology, keep_maps);
   return trial;

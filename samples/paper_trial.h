@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "compare/contender.h"
-#include "mesh_io/mesh_file.h"
+#include "compare/entry.h"
+#include "sphparam/io/mesh_file.h"
 
 /// The evaluation of "Curvilinear Spherical Parameterization" made again: what is measured.
 namespace sphparam::samples {
@@ -41,15 +41,15 @@ struct PaperSteps {
 /// Everything that is measured on a mesh.
 struct Trial {
   std::string name;
-  tools::MeshFile file;
-  std::vector<tools::Contender> contenders;  // all methods
+  sphparam::MeshFile file;
+  std::vector<sphparam::Entry> entries;  // all methods
   std::optional<PaperSteps> steps;           // nothing where the paper's method does not apply
 
-  const tools::Contender& by(const std::string& method) const;
+  const sphparam::Entry& by(const std::string& method) const;
 };
 
 /// Runs all of it. Maps and distortions are kept only with `keep_maps`: figures need them, tables
 /// do not. Throws: MeshError.
-Trial try_mesh(std::string name, tools::MeshFile file, bool keep_maps);
+Trial try_mesh(std::string name, sphparam::MeshFile file, bool keep_maps);
 
 }  // namespace sphparam::samples

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "image/image.h"
-#include "mesh_io/mesh_file.h"
+#include "sphparam/io/mesh_file.h"
 
 /// Meshes to try the toolkit on: closed, genus 0, z up, vertex colours red green blue (Uint8).
 /// All are made by formulas from fixed seeds: the same on every run.
@@ -9,17 +9,17 @@ namespace sphparam::samples {
 
 /// A lumpy small body with craters, star-shaped about the origin, with texture coordinates a corner
 /// (v upwards) into the image of `make_body_texture`. Ensures: 20·frequency² triangles.
-tools::MeshFile make_body(int frequency = 32);
+sphparam::MeshFile make_body(int frequency = 32);
 
 /// What the body's surface looks like, finer than its mesh: 5 × 2 squares of `square` pixels, each
 /// two neighbouring faces of the icosahedron. RGB, sRGB.
-tools::Image make_body_texture(int square = 176);
+sphparam::Image make_body_texture(int square = 176);
 
 /// A four-legged creature with a long neck, horns and a long tail; about 20,000 triangles of equal
 /// size on a smooth surface.
-tools::MeshFile make_creature();
+sphparam::MeshFile make_creature();
 
 /// A deeply folded surface like a brain's cortex, with overhangs; 40,500 triangles.
-tools::MeshFile make_cortex();
+sphparam::MeshFile make_cortex();
 
 }  // namespace sphparam::samples

@@ -7,10 +7,10 @@ namespace sphparam::samples {
 
 Colour mix(const Colour& a, const Colour& b, double t) { return a + t * (b - a); }
 
-void add_vertex_colours(const std::vector<Colour>& colours, tools::MeshFile& file) {
+void add_vertex_colours(const std::vector<Colour>& colours, sphparam::MeshFile& file) {
   const char* names[] = {"red", "green", "blue"};
   for (int channel = 0; channel < 3; ++channel) {
-    tools::Property property{names[channel], tools::ScalarType::Uint8, {}};
+    sphparam::Property property{names[channel], sphparam::ScalarType::Uint8, {}};
     property.values.reserve(colours.size());
     for (const Colour& colour : colours) {
       property.values.push_back(std::round(255 * std::clamp(colour[channel], 0.0, 1.0)));

@@ -1,4 +1,4 @@
-#include "sphparam/elementary.h"
+#include "elementary.h"
 
 #include <algorithm>
 #include <array>

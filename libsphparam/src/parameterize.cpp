@@ -4,17 +4,17 @@
 #include <string>
 #include <utility>
 
-#include "embedding/freed_memory.h"
+#include "embedding/newton/freed_memory.h"
 #include "pipeline/balanced_embedding.h"
 #include "pipeline/frame.h"
 #include "pipeline/map_in_progress.h"
 #include "pipeline/repair_ladder.h"
 #include "pipeline/required_options.h"
-#include "sphparam/curvilinear/paper_map.h"
-#include "sphparam/curvilinear/sound_map.h"
-#include "sphparam/embedding/relaxation.h"
+#include "curvilinear/paper_map.h"
+#include "curvilinear/curvilinear_map.h"
+#include "embedding/sweeps/relaxation.h"
 #include "sphparam/mesh/mesh_defects.h"
-#include "sphparam/mesh/rings.h"
+#include "mesh/rings.h"
 
 // The table of contents. Three methods, each a straight line of stages:
 //   paper        poles → date line, cut, harmonic, quasi-harmonic, lift, smoothing
@@ -79,7 +79,7 @@ void map_curvilinear(MapInProgress& work) {
   if (!poles) return work.warn("no usable pair of poles");
   SoundMap sound;
   try {
-    sound = map_periodic(work.mesh, work.topology, *poles, {.threads = work.options.threads},
+    sound = map_curvilinear(work.mesh, work.topology, *poles, {.threads = work.options.threads},
                          work.options.progress);
   } catch (const SolveError& error) {  // no area anywhere, or limbs where doubles underflow
     return work.warn(error.what());

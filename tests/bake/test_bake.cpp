@@ -18,7 +18,6 @@
 #include "support/test_meshes.h"
 
 using namespace sphparam;
-using namespace sphparam::tools;
 using namespace sphparam::tests;
 
 namespace {

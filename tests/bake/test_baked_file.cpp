@@ -6,7 +6,7 @@
 #include "bake/image_level.h"
 #include "image/image_codec.h"
 
-using namespace sphparam::tools;
+using namespace sphparam;
 
 namespace {
 

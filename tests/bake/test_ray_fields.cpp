@@ -7,7 +7,7 @@
 #include "sphparam/parallel.h"
 #include "support/test_meshes.h"
 
-namespace sphparam::tools {
+namespace sphparam {
 
 namespace {
 
@@ -234,4 +234,4 @@ TEST_CASE("ray fields: triangles without area and opposed normals give numbers a
   }
 }
 
-}  // namespace sphparam::tools
+}  // namespace sphparam

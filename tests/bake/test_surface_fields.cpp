@@ -10,7 +10,7 @@
 #include "bake/map_kinds.h"
 #include "support/test_meshes.h"
 
-namespace sphparam::tools {
+namespace sphparam {
 
 namespace {
 
@@ -210,4 +210,4 @@ TEST_CASE("as_heat: the colours of the scale, with the same range and a legend o
   CHECK_THROWS_AS(as_heat(field), std::invalid_argument);
 }
 
-}  // namespace sphparam::tools
+}  // namespace sphparam

@@ -20,8 +20,8 @@
 #include "bake/make_scene.h"
 #include "bake/source_attributes.h"
 #include "image/image_codec.h"
-#include "mesh_io/mesh_reader.h"
-#include "mesh_io/welding.h"
+#include "sphparam/io/mesh_reader.h"
+#include "io/polygons/welding.h"
 #include "render/shading_normals.h"
 #include "sphparam/chart/carry_attributes.h"
 #include "sphparam/parallel.h"
@@ -30,7 +30,6 @@
 #include "texture/texture_pyramid.h"
 
 using namespace sphparam;
-using namespace sphparam::tools;
 
 namespace {
 

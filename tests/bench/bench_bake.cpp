@@ -14,8 +14,8 @@
 #include "bake/fields/base_colour.h"
 #include "bake/make_scene.h"
 #include "image/image_writer.h"
-#include "mesh_io/mesh_reader.h"
-#include "mesh_io/welding.h"
+#include "sphparam/io/mesh_reader.h"
+#include "io/polygons/welding.h"
 #include "rays/ray_scene.h"
 #include "render/shading_normals.h"
 #include "sphparam/parallel.h"
@@ -27,7 +27,6 @@
 #include "texture/texture_pyramid.h"
 
 using namespace sphparam;
-using namespace sphparam::tools;
 
 namespace {
 

@@ -15,8 +15,8 @@
 #include "bake/map_kinds.h"
 #include "displace/displacement_file.h"
 #include "image/image_writer.h"
-#include "mesh_io/mesh_reader.h"
-#include "mesh_io/welding.h"
+#include "sphparam/io/mesh_reader.h"
+#include "io/polygons/welding.h"
 #include "remesh/subdivision_fit.h"
 #include "render/shading_normals.h"
 #include "sphparam/parameterize.h"
@@ -24,7 +24,6 @@
 #include "support/test_meshes.h"
 
 using namespace sphparam;
-using namespace sphparam::tools;
 
 namespace {
 

@@ -17,17 +17,16 @@
 #include "gltf/gltf_writer.h"
 #include "gltf/variant_images.h"
 #include "gltf/written_check.h"
-#include "mesh_io/mesh_reader.h"
-#include "mesh_io/mesh_writer.h"
-#include "mesh_io/sphere_file.h"
-#include "mesh_io/welding.h"
+#include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/mesh_writer.h"
+#include "sphparam/io/sphere_file.h"
+#include "io/polygons/welding.h"
 #include "render/shading_normals.h"
 #include "sphparam/parameterize.h"
 #include "sphparam/stopwatch.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
-using namespace sphparam::tools;
 
 namespace {
 

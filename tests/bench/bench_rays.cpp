@@ -20,7 +20,6 @@
 #include "yardstick.h"
 
 using namespace sphparam;
-using namespace sphparam::tools;
 using namespace sphparam::bench;
 
 namespace {

@@ -20,9 +20,9 @@
 #include <memory>
 #include <random>
 
-#include "mesh_io/mesh_reader.h"
-#include "mesh_io/sphere_file.h"
-#include "mesh_io/welding.h"
+#include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/sphere_file.h"
+#include "io/polygons/welding.h"
 #include "remesh/remesh.h"
 #include "remesh/subdivided_grid.h"
 #include "sample_meshes.h"
@@ -32,7 +32,6 @@
 #include "yardstick.h"
 
 using namespace sphparam;
-using namespace sphparam::tools;
 using namespace sphparam::bench;
 
 namespace {

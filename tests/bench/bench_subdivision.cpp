@@ -11,8 +11,8 @@
 #include <iostream>
 #include <limits>
 
-#include "mesh_io/mesh_reader.h"
-#include "mesh_io/welding.h"
+#include "sphparam/io/mesh_reader.h"
+#include "io/polygons/welding.h"
 #include "remesh/limit_stencils.h"
 #include "remesh/subdivision_fit.h"
 #include "sample_meshes.h"
@@ -20,7 +20,6 @@
 #include "yardstick.h"
 
 using namespace sphparam;
-using namespace sphparam::tools;
 using namespace sphparam::bench;
 
 namespace {

@@ -24,20 +24,19 @@
 #include <string>
 #include <vector>
 
-#include "embedding/lanes.h"
+#include "embedding/energy/lanes.h"
 #include "loop_subdivision.h"
-#include "mesh_io/mesh_reader.h"
-#include "mesh_io/mesh_writer.h"
-#include "mesh_io/read_back.h"
-#include "mesh_io/sphere_file.h"
-#include "mesh_io/welding.h"
+#include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/mesh_writer.h"
+#include "io/files/read_back.h"
+#include "sphparam/io/sphere_file.h"
+#include "io/polygons/welding.h"
 #include "sample_meshes.h"
-#include "sphparam/embedding/progressive.h"
+#include "embedding/constructions/progressive.h"
 #include "sphparam/parameterize.h"
 #include "yardstick.h"
 
 using namespace sphparam;
-using namespace sphparam::tools;
 using namespace sphparam::bench;
 
 namespace {

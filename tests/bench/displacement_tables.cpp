@@ -14,15 +14,14 @@
 #include "displace/displacement_file.h"
 #include "displace/rebuild.h"
 #include "measure/surface_distance.h"
-#include "mesh_io/mesh_reader.h"
-#include "mesh_io/welding.h"
+#include "sphparam/io/mesh_reader.h"
+#include "io/polygons/welding.h"
 #include "remesh/sample_density.h"
 #include "remesh/subdivision_fit.h"
 #include "sphparam/parameterize.h"
 #include "sphparam/stopwatch.h"
 
 using namespace sphparam;
-using namespace sphparam::tools;
 
 namespace {
 

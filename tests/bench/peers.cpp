@@ -15,14 +15,13 @@
 #include <string>
 #include <vector>
 
-#include "mesh_io/mesh_reader.h"
-#include "mesh_io/sphere_file.h"
+#include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/sphere_file.h"
 #include "sphparam/mesh/topology.h"
 #include "sphparam/parameterize.h"
 #include "yardstick.h"
 
 using namespace sphparam;
-using namespace sphparam::tools;
 
 namespace {
 

@@ -23,7 +23,6 @@
 #include "sphparam/parameterize.h"
 
 using namespace sphparam;
-using namespace sphparam::tools;
 
 namespace {
 

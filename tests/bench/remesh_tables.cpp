@@ -10,14 +10,13 @@
 #include <vector>
 
 #include "measure/surface_distance.h"
-#include "mesh_io/mesh_reader.h"
-#include "mesh_io/welding.h"
+#include "sphparam/io/mesh_reader.h"
+#include "io/polygons/welding.h"
 #include "remesh/remesh.h"
 #include "sphparam/parameterize.h"
 #include "yardstick.h"
 
 using namespace sphparam;
-using namespace sphparam::tools;
 
 namespace {
 

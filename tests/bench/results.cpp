@@ -18,13 +18,12 @@
 #include <string>
 #include <vector>
 
-#include "mesh_io/mesh_reader.h"
-#include "mesh_io/welding.h"
+#include "sphparam/io/mesh_reader.h"
+#include "io/polygons/welding.h"
 #include "sphparam/parameterize.h"
 #include "yardstick.h"
 
 using namespace sphparam;
-using namespace sphparam::tools;
 
 namespace {
 

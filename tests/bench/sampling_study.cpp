@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "measure/surface_distance.h"
-#include "mesh_io/mesh_reader.h"
-#include "mesh_io/welding.h"
+#include "sphparam/io/mesh_reader.h"
+#include "io/polygons/welding.h"
 #include "panels.h"
 #include "remesh/remesh.h"
 #include "remesh/sample_density.h"
@@ -27,7 +27,6 @@
 #include "yardstick.h"
 
 using namespace sphparam;
-using namespace sphparam::tools;
 
 namespace {
 

@@ -19,15 +19,14 @@
 
 #include "geodesic_sphere.h"
 #include "measure/surface_distance.h"
-#include "mesh_io/mesh_reader.h"
-#include "mesh_io/welding.h"
+#include "sphparam/io/mesh_reader.h"
+#include "io/polygons/welding.h"
 #include "sample_meshes.h"
 #include "sphparam/parameterize.h"
 #include "sphparam/sphere/spherical_harmonics.h"
 #include "yardstick.h"
 
 using namespace sphparam;
-using namespace sphparam::tools;
 
 namespace {
 

@@ -13,8 +13,8 @@
 
 #include "geodesic_sphere.h"
 #include "measure/surface_distance.h"
-#include "mesh_io/mesh_reader.h"
-#include "mesh_io/welding.h"
+#include "sphparam/io/mesh_reader.h"
+#include "io/polygons/welding.h"
 #include "remesh/patch_net.h"
 #include "remesh/remesh.h"
 #include "remesh/subdivision_fit.h"
@@ -23,7 +23,6 @@
 #include "yardstick.h"
 
 using namespace sphparam;
-using namespace sphparam::tools;
 
 namespace {
 

@@ -14,14 +14,13 @@
 #include <string>
 #include <vector>
 
-#include "mesh_io/mesh_reader.h"
-#include "mesh_io/welding.h"
+#include "sphparam/io/mesh_reader.h"
+#include "io/polygons/welding.h"
 #include "panels.h"
 #include "report/svg.h"
 #include "sphparam/parameterize.h"
 
 using namespace sphparam;
-using namespace sphparam::tools;
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-#include "mesh_io/mesh_reader.h"
+#include "sphparam/io/mesh_reader.h"
 #include "sample_meshes.h"
 #include "sphparam/mesh/edge_weights.h"
 #include "sphparam/mesh/topology.h"
@@ -65,7 +65,7 @@ double measure_yardstick(const TriangleMesh& mesh) {
 
 TriangleMesh yardstick_mesh(const std::string& folder) {
   const std::string path = folder + "nefertiti-lowres.obj";
-  if (std::filesystem::exists(path)) return tools::read_mesh(path).mesh;
+  if (std::filesystem::exists(path)) return sphparam::read_mesh(path).mesh;
   return samples::make_body(body_parallels).mesh;
 }
 

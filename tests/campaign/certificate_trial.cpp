@@ -16,7 +16,7 @@
 #include <cstdio>
 
 #include "random.h"
-#include "sphparam/embedding/progressive.h"
+#include "embedding/constructions/progressive.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/certificate.h"
 #include "sphparam/sphere/orientation.h"

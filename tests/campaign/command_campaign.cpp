@@ -215,7 +215,7 @@ int main(int argc, char** argv) {
   plan.limits.bytes = mebibytes << 20;
   plan.keep = fs::absolute(plan.keep).string();
   if (plan.commands == std::vector<std::string>{"all"}) plan.commands = errand_names();
-  tools::image_codecs();  // loads the image module, once for all runs
+  sphparam::image_codecs();  // loads the image module, once for all runs
   const std::string picture = make_picture(scratch_folder());
   std::cout << "seed " << plan.seed << ", errands " << plan.first << " to "
             << plan.first + plan.count - 1 << ", limits of a run: " << plan.limits.seconds

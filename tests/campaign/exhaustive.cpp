@@ -14,9 +14,9 @@
 #include <utility>
 #include <vector>
 
-#include "sphparam/embedding/gnomonic.h"
-#include "sphparam/embedding/grid_lift.h"
-#include "sphparam/embedding/progressive.h"
+#include "embedding/constructions/gnomonic.h"
+#include "embedding/constructions/grid_lift.h"
+#include "embedding/constructions/progressive.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/certificate.h"
 #include "sphparam/stopwatch.h"

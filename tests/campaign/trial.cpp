@@ -4,7 +4,7 @@
 #include <ctime>
 #include <exception>
 
-#include "sphparam/embedding/float_room.h"
+#include "embedding/constructions/float32_safe.h"
 #include "sphparam/parameterize.h"
 
 namespace sphparam::campaign {

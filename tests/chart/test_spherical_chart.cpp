@@ -5,7 +5,7 @@
 #include "exact_area.h"
 #include "maps.h"
 #include "sphparam/chart/spherical_chart.h"
-#include "sphparam/embedding/gnomonic.h"
+#include "embedding/constructions/gnomonic.h"
 #include "sphparam/parameterize.h"
 #include "sphparam/sphere/spherical_coordinates.h"
 #include "support/all_triangulations.h"
@@ -189,7 +189,7 @@ TEST_CASE("chart: hubs of huge valence cost no more than others") {
   if (usable(mesh, turned)) CHECK(chart_of(mesh, turned).certificate.one_to_one());
 }
 
-TEST_CASE("chart: clusters squashed to 1e-10, anywhere on the sphere") {
+TEST_CASE("chart: aggregates squashed to 1e-10, anywhere on the sphere") {
   std::mt19937 random(7);
   const TriangleMesh mesh = icosphere(3);
   for (const double factor : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10}) {
@@ -201,7 +201,7 @@ TEST_CASE("chart: clusters squashed to 1e-10, anywhere on the sphere") {
   }
 }
 
-TEST_CASE("chart: clusters squashed to 1e-12 that lie on the seam") {
+TEST_CASE("chart: aggregates squashed to 1e-12 that lie on the seam") {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> latitude(0.3, 1.3);
   const TriangleMesh mesh = icosphere(3);

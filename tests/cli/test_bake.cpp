@@ -15,7 +15,7 @@ namespace sphparam::tests {
 namespace {
 
 using Catch::Contains;
-using namespace sphparam::tools;
+using namespace sphparam;
 
 /// A ball whose texture coordinates are x and y: a picture laid on it from above.
 std::string textured_ball() {

@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "mesh_io/mesh_reader.h"
-#include "mesh_io/welding.h"
+#include "sphparam/io/mesh_reader.h"
+#include "io/polygons/welding.h"
 #include "program.h"
 #include "support/glb_json.h"
 #include "support/test_meshes.h"
@@ -269,8 +269,8 @@ TEST_CASE("export: the hard edges of a cube stay hard, in .obj and .glb") {
         sphparam_program({"export", cube, "-o", output, "--up", "y", "--image-size", "64"});
     INFO(ended.err);
     REQUIRE(ended.code == 0);
-    tools::MeshFile file = tools::read_mesh(output, tools::ReadOptions{});
-    if (!file.corner_normals) file = tools::weld_exact(file).file;
+    sphparam::MeshFile file = sphparam::read_mesh(output, sphparam::ReadOptions{});
+    if (!file.corner_normals) file = sphparam::weld_exact(file).file;
     REQUIRE(file.corner_normals);
     const TriangleMesh& mesh = file.mesh;
     for (Eigen::Index corner = 0; corner < file.corner_normals->rows(); ++corner) {

@@ -151,7 +151,7 @@ TEST_CASE("outputs: subcommands that are not in this test write no file") {
 
 TEST_CASE("outputs: the texture that a glTF file names is read too, and not replaced") {
   const Mapped mapped(100);
-  tools::write_image(mapped.folder / "skin.png", tools::Image(8, 4, 3));
+  sphparam::write_image(mapped.folder / "skin.png", sphparam::Image(8, 4, 3));
   const Ended exported =
       sphparam_program({"export", mapped.path, "--texture", mapped.folder / "skin.png", "-o",
                         mapped.folder / "a.gltf"});

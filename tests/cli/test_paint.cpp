@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "image/image_codec.h"
-#include "mesh_io/mesh_reader.h"
-#include "mesh_io/sphere_file.h"
+#include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/sphere_file.h"
 #include "program.h"
 #include "support/direction_image.h"
 #include "support/test_meshes.h"
@@ -14,7 +14,7 @@ namespace sphparam::tests {
 namespace {
 
 using Catch::Contains;
-using namespace sphparam::tools;
+using namespace sphparam;
 
 /// The mesh with a square of a grid for each of its faces.
 std::string obj_with_atlas(const TriangleMesh& mesh, bool overlapping = false) {

@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mapped.h"
-#include "mesh_io/mesh_reader.h"
+#include "sphparam/io/mesh_reader.h"
 #include "program.h"
 #include "support/glb_json.h"
 #include "support/test_meshes.h"
@@ -96,7 +96,7 @@ TEST_CASE("remesh: an .obj has the quads and the words of the .ply, levels and u
     INFO(grid);
     REQUIRE(mapped.remesh({"--grid", grid, "-o", ply}).code == 0);
     REQUIRE(mapped.remesh({"--grid", grid, "-o", obj}).code == 0);
-    const tools::MeshFile one = tools::read_mesh(ply), other = tools::read_mesh(obj);
+    const sphparam::MeshFile one = sphparam::read_mesh(ply), other = sphparam::read_mesh(obj);
     CHECK(other.polygons > 0);
     CHECK(other.polygons == one.polygons);
     CHECK(other.mesh.triangles == one.mesh.triangles);
@@ -110,9 +110,9 @@ TEST_CASE("remesh: an .obj has the quads and the words of the .ply, levels and u
   }
   REQUIRE(mapped.remesh({"--grid", "cube:4", "-o", obj, "--lods", "1", "--geometry-image", image})
               .code == 0);
-  CHECK(tools::read_mesh(mapped.folder / "a_lod1.obj").polygons == 24);
+  CHECK(sphparam::read_mesh(mapped.folder / "a_lod1.obj").polygons == 24);
   REQUIRE(sphparam_program({"unimage", image, "-o", back}).code == 0);
-  CHECK(tools::read_mesh(back).polygons == 96);
+  CHECK(sphparam::read_mesh(back).polygons == 96);
 }
 
 TEST_CASE("remesh: two outputs at one place are refused, however they are spelled") {

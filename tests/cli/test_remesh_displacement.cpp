@@ -4,8 +4,8 @@
 #include <csignal>
 #include <nlohmann/json.hpp>
 
-#include "mesh_io/mesh_reader.h"
-#include "mesh_io/sphere_file.h"
+#include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/sphere_file.h"
 #include "program.h"
 #include "support/glb_json.h"
 #include "support/test_meshes.h"
@@ -91,7 +91,7 @@ TEST_CASE("remesh --displace: an image so coarse that it does harm is told") {
   CHECK_THAT(ended.err, Contains("warning: --displace makes it worse"));
   CHECK_THAT(bytes_of(folder / "r.obj"), Contains("# sphparam method rebuild"));
   CHECK(rebuilt["certified"] == true);
-  const tools::MeshFile written = tools::read_mesh(folder / "r.obj");
+  const sphparam::MeshFile written = sphparam::read_mesh(folder / "r.obj");
   CHECK(written.polygons > 0);
   CHECK(2 * written.polygons == rebuilt["triangles"].get<long>());
 }
@@ -183,17 +183,17 @@ TEST_CASE("remesh --lods: nested meshes, each certified, with errors that grow")
   REQUIRE(ended.code == 0);
   const Json levels = Json::parse(bytes_of(folder / "j.json"))["lods"];
   REQUIRE(levels.size() == 3);
-  tools::MeshFile finer = tools::read_mesh(folder / "x.ply");
+  sphparam::MeshFile finer = sphparam::read_mesh(folder / "x.ply");
   for (size_t level = 1; level < 3; ++level) {
     const std::string path = folder / ("x_lod" + std::to_string(level) + ".ply");
     CHECK(levels[level]["file"] == path);
     CHECK(levels[level]["rms"].get<double>() > levels[level - 1]["rms"].get<double>());
     CHECK(sphparam_program({"verify", path}).code == 0);
-    const tools::MeshFile coarse = tools::read_mesh(path);
+    const sphparam::MeshFile coarse = sphparam::read_mesh(path);
     const Eigen::Index count = coarse.mesh.vertex_count();
     CHECK(coarse.mesh.face_count() * 4 == finer.mesh.face_count());
     CHECK(coarse.mesh.positions == finer.mesh.positions.topRows(count));
-    CHECK(tools::read_sphere(coarse)->points == tools::read_sphere(finer)->points.topRows(count));
+    CHECK(sphparam::read_sphere(coarse)->points == sphparam::read_sphere(finer)->points.topRows(count));
     finer = coarse;
   }
 }

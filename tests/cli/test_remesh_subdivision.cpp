@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mapped.h"
-#include "mesh_io/mesh_reader.h"
+#include "sphparam/io/mesh_reader.h"
 #include "program.h"
 #include "support/test_meshes.h"
 
@@ -30,13 +30,13 @@ TEST_CASE("remesh --subdiv-fit: control mesh and limit mesh are written certifie
     REQUIRE(ended.code == 0);
     for (const std::string& file : {out, limit}) {
       CHECK(sphparam_program({"verify", file}).code == 0);
-      const tools::MeshFile read = tools::read_mesh(std::filesystem::path(file));
+      const sphparam::MeshFile read = sphparam::read_mesh(std::filesystem::path(file));
       for (const char* name : {"nx", "ny", "nz", "mean_curvature", "gauss_curvature"}) {
         CHECK(read.find_vertex_property(name));
       }
     }
-    CHECK(tools::read_mesh(std::filesystem::path(out)).mesh.positions !=
-          tools::read_mesh(std::filesystem::path(limit)).mesh.positions);
+    CHECK(sphparam::read_mesh(std::filesystem::path(out)).mesh.positions !=
+          sphparam::read_mesh(std::filesystem::path(limit)).mesh.positions);
     const Json fit = Json::parse(bytes_of(json))["subdivision"];
     CHECK(fit["scheme"] == asked[1]);
     CHECK(fit["rms"] <= fit["max"]);
@@ -104,12 +104,12 @@ TEST_CASE("remesh --subdiv-fit: .obj and .glb too, the same bytes for one thread
     CHECK(bytes_of(mapped.folder / ("1" + kind)) == bytes_of(mapped.folder / ("3" + kind)));
   }
   const std::filesystem::path obj = mapped.folder / "1.obj", ply = mapped.folder / "1.ply";
-  CHECK(tools::read_mesh(obj).polygons == 384);
-  CHECK(tools::read_mesh(obj).mesh.triangles == tools::read_mesh(ply).mesh.triangles);
-  std::vector<std::string> words = tools::read_mesh(ply).comments;
+  CHECK(sphparam::read_mesh(obj).polygons == 384);
+  CHECK(sphparam::read_mesh(obj).mesh.triangles == sphparam::read_mesh(ply).mesh.triangles);
+  std::vector<std::string> words = sphparam::read_mesh(ply).comments;
   CHECK(words.back() == "sphparam verdict one-to-one");
   words.pop_back();  // on rays, which an .obj has not
-  CHECK(tools::read_mesh(obj).comments == words);
+  CHECK(sphparam::read_mesh(obj).comments == words);
 }
 
 TEST_CASE("remesh --subdiv-fit: an .obj of the limit surface has quads too; the RMS is one way") {
@@ -118,7 +118,7 @@ TEST_CASE("remesh --subdiv-fit: an .obj of the limit surface has quads too; the 
       mapped.remesh({"--grid", "cube:4", "--subdiv-fit", "catmark", "-o", mapped.folder / "a.obj",
                      "--limit-mesh", mapped.folder / "b.obj"});
   REQUIRE(ended.code == 0);
-  CHECK(tools::read_mesh(mapped.folder / "b.obj").polygons == 96);
+  CHECK(sphparam::read_mesh(mapped.folder / "b.obj").polygons == 96);
   CHECK_THAT(ended.err, Catch::Contains("of the diagonal, one way, from"));
 }
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "mesh_io/mesh_reader.h"
+#include "sphparam/io/mesh_reader.h"
 #include "program.h"
 #include "sphparam/mesh/triangle_mesh.h"
 #include "support/test_meshes.h"
@@ -117,7 +117,7 @@ TEST_CASE("spharm: residuals are told weighted by solid angle, and plain") {
                         folder / "smooth.ply", "--json", folder / "egg.json"});
   REQUIRE(ended.code == 0);
   const std::filesystem::path smooth = folder / "smooth.ply";
-  const Points left = tools::read_mesh(smooth).mesh.positions - egg.positions;
+  const Points left = sphparam::read_mesh(smooth).mesh.positions - egg.positions;
   const Json report = Json::parse(bytes_of(folder / "egg.json"));
   const double plain = report["position_rms_unweighted"];
   CHECK(plain == Approx(std::sqrt(left.rowwise().squaredNorm().mean())));

@@ -7,7 +7,7 @@
 
 using namespace sphparam;
 using namespace sphparam::tests;
-using namespace sphparam::tools;
+using namespace sphparam;
 using Catch::Matchers::Contains;
 
 namespace {
@@ -27,31 +27,31 @@ SphereMap folded(const TriangleMesh& mesh) {
 
 }  // namespace
 
-TEST_CASE("contender: a sphere made elsewhere is certified as it is, whatever its radius") {
+TEST_CASE("entry: a sphere made elsewhere is certified as it is, whatever its radius") {
   const TriangleMesh mesh = icosphere(2);
-  const Contender good = given_contender("peer", "peer.obj", mesh, {7 * mesh.positions}, 0);
+  const Entry good = given_entry("peer", "peer.obj", mesh, {7 * mesh.positions}, 0);
   CHECK(good.certificate.bijective());
   CHECK(good.figures->mean_abs_ln_angle < 0.1);
   CHECK_FALSE(good.seconds);
   CHECK(short_verdict(good) == "one-to-one");
-  const Contender bad = given_contender("peer", "peer.obj", mesh, folded(mesh), 0);
+  const Entry bad = given_entry("peer", "peer.obj", mesh, folded(mesh), 0);
   CHECK_FALSE(bad.certificate.bijective());
   CHECK(short_verdict(bad) == std::to_string(bad.certificate.fold_count()) + " folds");
   SphereMap unusable = folded(mesh);
   unusable.points.row(3).setZero();
-  const Contender none = given_contender("peer", "peer.obj", mesh, unusable, 0);
+  const Entry none = given_entry("peer", "peer.obj", mesh, unusable, 0);
   CHECK_FALSE(none.distortion);
   CHECK(short_verdict(none) == "1 unusable point");
 }
 
-TEST_CASE("contender: the table has a row each, with as many cells as its header") {
+TEST_CASE("entry: the table has a row each, with as many cells as its header") {
   const TriangleMesh mesh = icosphere(2);
   SphereMap unusable = folded(mesh);
   unusable.points.row(3).setZero();
   const PageTable table =
-      contender_table({run_contender(Method::Progressive, mesh, {}),
-                       given_contender("folded", "", mesh, folded(mesh), 0),
-                       given_contender("unusable", "", mesh, unusable, 0), Contender{"none", ""}});
+      contender_table({run_entry(Method::Progressive, mesh, {}),
+                       given_entry("folded", "", mesh, folded(mesh), 0),
+                       given_entry("unusable", "", mesh, unusable, 0), Entry{"none", ""}});
   REQUIRE(table.rows.size() == 4);
   for (const auto& row : table.rows) CHECK(row.size() == table.header.size());
   CHECK(table.rows[0][4] == "yes");
@@ -61,10 +61,10 @@ TEST_CASE("contender: the table has a row each, with as many cells as its header
 
 TEST_CASE("comparison: the page names every file beside it, and nothing else") {
   const MeshFile file = ball(2);
-  const std::vector<Contender> contenders = {
-      run_contender(Method::Progressive, file.mesh, {}),
-      given_contender("peer", "peer.obj", file.mesh, folded(file.mesh), 0)};
-  FolderFiles files = comparison_files("ball", file, contenders, {.look = {.size = 32}});
+  const std::vector<Entry> entries = {
+      run_entry(Method::Progressive, file.mesh, {}),
+      given_entry("peer", "peer.obj", file.mesh, folded(file.mesh), 0)};
+  FolderFiles files = comparison_files("ball", file, entries, {.look = {.size = 32}});
   const auto page = std::find_if(files.begin(), files.end(),
                                  [](const auto& f) { return f.first == "index.html"; });
   REQUIRE(page != files.end());
@@ -80,7 +80,7 @@ TEST_CASE("comparison: the page names every file beside it, and nothing else") {
   const std::string& html = page->second;
   CHECK(std::count(html.begin(), html.end(), '\n') > 10);
   CHECK_THAT(html, Contains("progressive against peer"));
-  CHECK(comparison_files("ball", file, contenders, {.pictures = false}).size() == 2 + 1);
+  CHECK(comparison_files("ball", file, entries, {.pictures = false}).size() == 2 + 1);
 }
 
 TEST_CASE("pictures: folds are red, all else has the mesh's colours") {

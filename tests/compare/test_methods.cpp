@@ -8,7 +8,7 @@
 
 using namespace sphparam;
 using namespace sphparam::tests;
-using namespace sphparam::tools;
+using namespace sphparam;
 
 TEST_CASE("methods: every one has a name of its own, under which it is found") {
   std::set<std::string> names;
@@ -32,7 +32,7 @@ TEST_CASE("methods: each runs, and the certificate is of the map it made") {
     const Certificate again = certify(topology, run.result.map);
     CHECK(again.bijective() == run.result.certificate.bijective());
     CHECK(again.fold_count() == run.result.certificate.fold_count());
-    const bool of_others = std::holds_alternative<Rival>(info.method);
+    const bool of_others = std::holds_alternative<Baseline>(info.method);
     CHECK(run.account.has_value() == of_others);
     if (!of_others) continue;
     CHECK(run.result.made_by == info.name);
@@ -46,7 +46,7 @@ TEST_CASE("methods: what others fold is mended when asked, and only then") {
   const Topology topology(mesh);
   long folded = 0;
   for (const MethodInfo& info : all_methods()) {
-    if (!std::holds_alternative<Rival>(info.method)) continue;
+    if (!std::holds_alternative<Baseline>(info.method)) continue;
     INFO(info.name);
     const MethodRun as_made = run_method(info.method, mesh, topology, {});
     const MethodRun mended = run_method(info.method, mesh, topology, {.repair_paper = true});

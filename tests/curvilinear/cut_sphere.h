@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "sphparam/curvilinear/cut_mesh.h"
+#include "curvilinear/cut_mesh.h"
 #include "support/test_meshes.h"
 
 namespace sphparam::tests {

@@ -4,7 +4,7 @@
 #include <type_traits>
 
 #include "curvilinear/cut_sphere.h"
-#include "sphparam/curvilinear/harmonic.h"
+#include "curvilinear/harmonic.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;

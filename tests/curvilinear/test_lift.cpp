@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "curvilinear/cut_sphere.h"
-#include "sphparam/curvilinear/lift.h"
+#include "curvilinear/lift.h"
 #include "sphparam/sphere/spherical_coordinates.h"
 
 using namespace sphparam;

@@ -1,10 +1,10 @@
 #include <catch2/catch.hpp>
 
 #include "curvilinear/cut_sphere.h"
-#include "sphparam/curvilinear/harmonic.h"
-#include "sphparam/curvilinear/lift.h"
-#include "sphparam/curvilinear/paper_map.h"
-#include "sphparam/curvilinear/quasi_harmonic.h"
+#include "curvilinear/harmonic.h"
+#include "curvilinear/lift.h"
+#include "curvilinear/paper_map.h"
+#include "curvilinear/quasi_harmonic.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;

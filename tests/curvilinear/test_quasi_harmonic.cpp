@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "curvilinear/cut_sphere.h"
-#include "sphparam/curvilinear/lift.h"
-#include "sphparam/curvilinear/quasi_harmonic.h"
+#include "curvilinear/lift.h"
+#include "curvilinear/quasi_harmonic.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;

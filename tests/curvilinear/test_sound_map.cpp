@@ -2,33 +2,33 @@
 #include <cstring>
 
 #include "curvilinear/cut_sphere.h"
-#include "sphparam/curvilinear/quasi_harmonic.h"
-#include "sphparam/curvilinear/sound_map.h"
+#include "curvilinear/quasi_harmonic.h"
+#include "curvilinear/curvilinear_map.h"
 #include "sphparam/sphere/certificate.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;
 using Catch::Detail::Approx;
 
-TEST_CASE("sound_map: the chart has no folds, whatever the mesh") {
+TEST_CASE("curvilinear_map: the chart has no folds, whatever the mesh") {
   for (const TriangleMesh& mesh : various_spheres()) {
     const CutSphere s(mesh);
-    const SoundMap result = map_periodic(s.mesh, s.topology, s.poles);
+    const SoundMap result = map_curvilinear(s.mesh, s.topology, s.poles);
     CHECK(result.planar_folds == 0);
     CHECK(is_induced(s.topology, result.date_line));
     CHECK((result.map.points.rowwise().norm().array() - 1).abs().maxCoeff() < 1e-15);
   }
 }
 
-TEST_CASE("sound_map: on a fine round mesh the lift is one-to-one as well, and right way out") {
+TEST_CASE("curvilinear_map: on a fine round mesh the lift is one-to-one as well, and right way out") {
   const CutSphere s(icosphere(4));
-  CHECK(certify(s.topology, map_periodic(s.mesh, s.topology, s.poles).map).bijective());
+  CHECK(certify(s.topology, map_curvilinear(s.mesh, s.topology, s.poles).map).bijective());
 }
 
-TEST_CASE("sound_map: every iteration that is kept lowers the area distortion") {
+TEST_CASE("curvilinear_map: every iteration that is kept lowers the area distortion") {
   for (const TriangleMesh& mesh : various_spheres()) {
     const CutSphere s(mesh);
-    const SoundMap result = map_periodic(s.mesh, s.topology, s.poles, {.iterations = 12});
+    const SoundMap result = map_curvilinear(s.mesh, s.topology, s.poles, {.iterations = 12});
     REQUIRE(result.area_distortion.size() == static_cast<size_t>(result.iterations) + 1);
     for (size_t i = 1; i < result.area_distortion.size(); ++i) {
       CHECK(result.area_distortion[i] < result.area_distortion[i - 1]);
@@ -37,18 +37,18 @@ TEST_CASE("sound_map: every iteration that is kept lowers the area distortion") 
   }
 }
 
-TEST_CASE("sound_map: fewer iterations are a prefix of more") {
+TEST_CASE("curvilinear_map: fewer iterations are a prefix of more") {
   const CutSphere s(tube(15, 9));
-  const SoundMap two = map_periodic(s.mesh, s.topology, s.poles, {.iterations = 2});
-  const SoundMap four = map_periodic(s.mesh, s.topology, s.poles, {.iterations = 4});
+  const SoundMap two = map_curvilinear(s.mesh, s.topology, s.poles, {.iterations = 2});
+  const SoundMap four = map_curvilinear(s.mesh, s.topology, s.poles, {.iterations = 4});
   REQUIRE(two.iterations == 2);
   REQUIRE(four.area_distortion.size() > 2);
   CHECK(two.area_distortion[2] == four.area_distortion[2]);
 }
 
-TEST_CASE("sound_map: the caps get the share of area that their stars have") {
+TEST_CASE("curvilinear_map: the caps get the share of area that their stars have") {
   const CutSphere s(icosphere(3));
-  const SoundMap result = map_periodic(s.mesh, s.topology, s.poles, {.iterations = 0});
+  const SoundMap result = map_curvilinear(s.mesh, s.topology, s.poles, {.iterations = 0});
   double star = 0, whole = 0;
   for (Face f = 0; f < s.topology.face_count(); ++f) {
     const auto t = s.mesh.triangles.row(f);
@@ -61,19 +61,19 @@ TEST_CASE("sound_map: the caps get the share of area that their stars have") {
   CHECK((1 - rim.z()) / 2 == Approx(star / whole));
 }
 
-TEST_CASE("sound_map: it can be cancelled") {
+TEST_CASE("curvilinear_map: it can be cancelled") {
   const CutSphere s(icosphere(2));
   int calls = 0;
-  CHECK_THROWS_AS(map_periodic(s.mesh, s.topology, s.poles, {},
+  CHECK_THROWS_AS(map_curvilinear(s.mesh, s.topology, s.poles, {},
                                [&](std::string_view, double) { return ++calls < 4; }),
                   Cancelled);
 }
 
-TEST_CASE("sound_map: the same bytes for 1, 2 and 4 threads") {
+TEST_CASE("curvilinear_map: the same bytes for 1, 2 and 4 threads") {
   const CutSphere s(icosphere(5));
-  const SoundMap one = map_periodic(s.mesh, s.topology, s.poles, {.threads = 1});
+  const SoundMap one = map_curvilinear(s.mesh, s.topology, s.poles, {.threads = 1});
   for (const int threads : {2, 4}) {
-    const SoundMap more = map_periodic(s.mesh, s.topology, s.poles, {.threads = threads});
+    const SoundMap more = map_curvilinear(s.mesh, s.topology, s.poles, {.threads = threads});
     CHECK(std::memcmp(more.map.points.data(), one.map.points.data(),
                       sizeof(double) * static_cast<size_t>(one.map.points.size())) == 0);
   }

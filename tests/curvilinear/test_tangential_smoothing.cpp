@@ -3,7 +3,7 @@
 #include <set>
 
 #include "curvilinear/cut_sphere.h"
-#include "sphparam/curvilinear/tangential_smoothing.h"
+#include "curvilinear/tangential_smoothing.h"
 #include "sphparam/mesh/edge_weights.h"
 
 using namespace sphparam;

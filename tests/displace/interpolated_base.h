@@ -7,8 +7,8 @@ namespace sphparam::tests {
 
 /// Control points whose limit surface goes through given points at the grid's vertices, to a
 /// thousandth: each is moved by what its limit is off, again and again.
-inline Points interpolating_control(const tools::SphereGrid& grid, const Points& targets,
-                                    tools::Scheme scheme) {
+inline Points interpolating_control(const sphparam::SphereGrid& grid, const Points& targets,
+                                    sphparam::Scheme scheme) {
   using namespace tools;
   const auto topology =
       std::make_shared<const LimitTopology>(grid.faces, static_cast<int>(targets.rows()), scheme);

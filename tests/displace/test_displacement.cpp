@@ -12,7 +12,6 @@
 #include "support/test_meshes.h"
 
 using namespace sphparam;
-using namespace sphparam::tools;
 
 namespace {
 

@@ -6,7 +6,6 @@
 #include "support/test_meshes.h"
 
 using namespace sphparam;
-using namespace sphparam::tools;
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "embedding/multigrid.h"
+#include "embedding/multigrid/multigrid.h"
 #include "sphparam/embedding/distortion_energy.h"
 #include "sphparam/mesh/topology.h"
 

@@ -3,8 +3,8 @@
 #include <numbers>
 
 #include "folded_maps.h"
-#include "sphparam/embedding/axis_choice.h"
-#include "sphparam/embedding/progressive.h"
+#include "embedding/frame/axis_choice.h"
+#include "embedding/constructions/progressive.h"
 #include "sphparam/sphere/spherical_coordinates.h"
 #include "support/test_meshes.h"
 
@@ -126,7 +126,7 @@ TEST_CASE("axis choice: the same for any number of threads") {
   const TriangleMesh mesh = icosphere(5);
   const Topology topology(mesh);
   const SphereMap map = with_noise({mesh.positions}, 0.005, 4);
-  const SourceTriangles source = measure_source(mesh);
+  const RestTriangles source = measure_source(mesh);
   const AxisChoice one = choose_axis(topology, source, map, {.threads = 1});
   const AxisChoice three = choose_axis(topology, source, map, {.threads = 3});
   CHECK(one.axis == three.axis);

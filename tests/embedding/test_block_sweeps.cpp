@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "elastic_network.h"
-#include "embedding/block_sweeps.h"
+#include "embedding/multigrid/block_gauss_seidel.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "embedding/boosts.h"
+#include "embedding/frame/mobius_recentring.h"
 #include "sphparam/embedding/distortion_energy.h"
 #include "support/test_meshes.h"
 
@@ -10,7 +10,7 @@ using namespace sphparam::tests;
 TEST_CASE("recentre: finds the way back from a Möbius transformation, lower at every step") {
   const TriangleMesh mesh = icosphere(3);
   const Topology topology(mesh);
-  const SourceTriangles source = measure_source(mesh);
+  const RestTriangles source = measure_source(mesh);
   const auto energy_of = [&](const std::vector<ImagePoint>& image) {
     SphereMap map;
     map.points.resize(topology.vertex_count(), 3);

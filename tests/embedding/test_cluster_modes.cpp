@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "elastic_network.h"
-#include "embedding/cluster_modes.h"
+#include "embedding/multigrid/near_nullspace.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -10,16 +10,16 @@ using namespace sphparam::tests;
 
 namespace {
 
-/// A network's points, clustered twice.
+/// A network's points, aggregated twice.
 struct TwoLevels {
   Network network{icosphere(4), 1e-3};
   PointRows rows{network.points.data(), network.units.data()};
-  Clusters clusters = cluster(network.matrix, {}, 0.05), parents;
-  std::vector<ClusterSite> sites = gather_sites(rows, clusters, 2), parent_sites;
+  Aggregates aggregates = aggregate(network.matrix, {}, 0.05), parents;
+  std::vector<AggregateSite> sites = gather_sites(rows, aggregates, 2), parent_sites;
 
-  /// Eight clusters of clusters: the octants.
+  /// Eight aggregates of aggregates: the octants.
   TwoLevels() {
-    for (const ClusterSite& s : sites) {
+    for (const AggregateSite& s : sites) {
       const Vector3& c = s.centre;
       parents.of_row.push_back((c.x() > 0) + 2 * (c.y() > 0) + 4 * (c.z() > 0));
     }
@@ -28,10 +28,10 @@ struct TwoLevels {
   }
 };
 
-/// The amounts by which clusters turn with the sphere.
-Unknowns turns(const std::vector<ClusterSite>& sites, const Vector3& omega) {
+/// The amounts by which aggregates turn with the sphere.
+Unknowns turns(const std::vector<AggregateSite>& sites, const Vector3& omega) {
   Unknowns y;
-  for (const ClusterSite& s : sites) {
+  for (const AggregateSite& s : sites) {
     const TangentFrame frame = tangent_frame(s.centre);
     for (const double amount :
          {omega.dot(frame.u) / s.radius, omega.dot(frame.v) / s.radius, omega.dot(s.centre), 0.0}) {
@@ -43,14 +43,14 @@ Unknowns turns(const std::vector<ClusterSite>& sites, const Vector3& omega) {
 
 /// P y, with P in blocks.
 template <int N>
-Unknowns times(const std::vector<Block<N, cluster_modes>>& p, const Clusters& clusters,
+Unknowns times(const std::vector<Block<N, near_nullspace>>& p, const Aggregates& aggregates,
                const Unknowns& y) {
   Unknowns x;
   for (size_t row = 0; row < p.size(); ++row) {
     for (int i = 0; i < N; ++i) {
       float sum = 0;
-      for (int k = 0; k < cluster_modes; ++k) {
-        sum += p[row](i, k) * y[cluster_modes * at(clusters.of_row[row]) + at(k)];
+      for (int k = 0; k < near_nullspace; ++k) {
+        sum += p[row](i, k) * y[near_nullspace * at(aggregates.of_row[row]) + at(k)];
       }
       x.push_back(sum);
     }
@@ -60,12 +60,12 @@ Unknowns times(const std::vector<Block<N, cluster_modes>>& p, const Clusters& cl
 
 }  // namespace
 
-TEST_CASE("cluster modes: turns of the whole sphere are among them, on every level") {
+TEST_CASE("aggregate modes: turns of the whole sphere are among them, on every level") {
   const TwoLevels levels;
   const Vector3 omega(0.3, -0.5, 0.8);
   const Unknowns children = turns(levels.sites, omega), parents = turns(levels.parent_sites, omega);
   Unknowns x(levels.network.size(), 0.0F);
-  prolong_to_points(levels.rows, levels.clusters, levels.sites, children.data(), x.data(), 2);
+  prolong_to_points(levels.rows, levels.aggregates, levels.sites, children.data(), x.data(), 2);
   for (size_t v = 0; v < levels.network.points.size(); ++v) {
     const Vector3 point = levels.network.points[v].vector(), velocity = omega.cross(point);
     const TangentFrame frame = tangent_frame(point);
@@ -78,15 +78,15 @@ TEST_CASE("cluster modes: turns of the whole sphere are among them, on every lev
   for (size_t i = 0; i < found.size(); ++i) CHECK(found[i] == Approx(children[i]).margin(1e-4));
 }
 
-TEST_CASE("cluster modes: a dilation draws every point towards its cluster's centre") {
+TEST_CASE("aggregate modes: a dilation draws every point towards its aggregate's centre") {
   const TwoLevels levels;
-  Unknowns dilation(cluster_modes * levels.sites.size(), 0.0F);
-  for (size_t c = 0; c < levels.sites.size(); ++c) dilation[cluster_modes * c + 3] = 1;
+  Unknowns dilation(near_nullspace * levels.sites.size(), 0.0F);
+  for (size_t c = 0; c < levels.sites.size(); ++c) dilation[near_nullspace * c + 3] = 1;
   Unknowns x(levels.network.size(), 0.0F);
-  prolong_to_points(levels.rows, levels.clusters, levels.sites, dilation.data(), x.data(), 1);
+  prolong_to_points(levels.rows, levels.aggregates, levels.sites, dilation.data(), x.data(), 1);
   for (size_t v = 0; v < levels.network.points.size(); ++v) {
     const Vector3 point = levels.network.points[v].vector();
-    const Vector3 way = levels.sites[at(levels.clusters.of_row[v])].centre - point;
+    const Vector3 way = levels.sites[at(levels.aggregates.of_row[v])].centre - point;
     const TangentFrame frame = tangent_frame(point);
     const double unit = levels.network.units[v];
     CHECK(unit * x[2 * v] == Approx(way.dot(frame.u)).margin(1e-6));
@@ -94,18 +94,18 @@ TEST_CASE("cluster modes: a dilation draws every point towards its cluster's cen
   }
 }
 
-TEST_CASE("cluster modes: a parent's dilation draws its children's points towards its own centre") {
+TEST_CASE("aggregate modes: a parent's dilation draws its children's points towards its own centre") {
   const TwoLevels levels;
   const auto p = site_prolongation(levels.sites, levels.parents, levels.parent_sites);
-  Unknowns dilation(cluster_modes * levels.parent_sites.size(), 0.0F);
-  for (size_t c = 0; c < levels.parent_sites.size(); ++c) dilation[cluster_modes * c + 3] = 1;
+  Unknowns dilation(near_nullspace * levels.parent_sites.size(), 0.0F);
+  for (size_t c = 0; c < levels.parent_sites.size(); ++c) dilation[near_nullspace * c + 3] = 1;
   const Unknowns y = times(p, levels.parents, dilation);
   Unknowns x(levels.network.size(), 0.0F);
-  prolong_to_points(levels.rows, levels.clusters, levels.sites, y.data(), x.data(), 1);
+  prolong_to_points(levels.rows, levels.aggregates, levels.sites, y.data(), x.data(), 1);
   double error = 0, size = 0;
   for (size_t v = 0; v < levels.network.points.size(); ++v) {
     const Vector3 point = levels.network.points[v].vector();
-    const int parent = levels.parents.of_row[at(levels.clusters.of_row[v])];
+    const int parent = levels.parents.of_row[at(levels.aggregates.of_row[v])];
     const Vector3 way = levels.parent_sites[at(parent)].centre - point;
     const TangentFrame frame = tangent_frame(point);
     const double unit = levels.network.units[v];
@@ -117,15 +117,15 @@ TEST_CASE("cluster modes: a parent's dilation draws its children's points toward
 }
 
 TEST_CASE(
-    "cluster modes: P in blocks is the P that is made at every use, and so is its transpose") {
+    "aggregate modes: P in blocks is the P that is made at every use, and so is its transpose") {
   const TwoLevels levels;
-  const auto p = point_prolongation(levels.rows, levels.clusters, levels.sites, 2);
-  const Unknowns y = random_vector(cluster_modes * levels.sites.size(), 1);
+  const auto p = point_prolongation(levels.rows, levels.aggregates, levels.sites, 2);
+  const Unknowns y = random_vector(near_nullspace * levels.sites.size(), 1);
   const Unknowns r = random_vector(levels.network.size(), 2),
-                 expected = times(p, levels.clusters, y);
+                 expected = times(p, levels.aggregates, y);
   Unknowns x(r.size(), 0.0F), b(y.size());
-  prolong_to_points(levels.rows, levels.clusters, levels.sites, y.data(), x.data(), 2);
+  prolong_to_points(levels.rows, levels.aggregates, levels.sites, y.data(), x.data(), 2);
   for (size_t i = 0; i < x.size(); ++i) CHECK(x[i] == Approx(expected[i]).margin(1e-5));
-  restrict_from_points(levels.rows, levels.clusters, levels.sites, r.data(), b.data(), 2);
+  restrict_from_points(levels.rows, levels.aggregates, levels.sites, r.data(), b.data(), 2);
   CHECK(dot(b, y) == Approx(dot(r, x)).epsilon(1e-4));
 }

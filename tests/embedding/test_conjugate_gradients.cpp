@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "elastic_network.h"
-#include "embedding/conjugate_gradients.h"
+#include "embedding/newton/conjugate_gradients.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;

@@ -37,7 +37,7 @@ TriangleMesh one_triangle(const Vector3& a, const Vector3& b, const Vector3& c) 
 }
 
 struct Sample {
-  SourceTriangle source;
+  RestTriangle source;
   ImageTriangle image;
   std::array<TangentFrame, 3> frames;
 
@@ -130,7 +130,7 @@ TEST_CASE("distortion_energy: d is the cotangent energy over 4A, s the determina
   for (int i = 0; i < 100; ++i) {
     const std::array<Vector3, 3> v{random_vector(random), random_vector(random),
                                    random_vector(random)};
-    const SourceTriangle source = measure_source(one_triangle(v[0], v[1], v[2]))[0];
+    const RestTriangle source = measure_source(one_triangle(v[0], v[1], v[2]))[0];
     const ImageTriangle x{random_vector(random), random_vector(random), random_vector(random)};
     double sum = 0;  // Σ c_k |e_k|² with the cotangent of the source's angle k
     for (size_t k = 0; k < 3; ++k) {
@@ -151,7 +151,7 @@ TEST_CASE("distortion_energy: renumbering the corners changes nothing") {
     const auto [d, s] = distortion(sample.source, sample.image);
     for (int k = 1; k < 3; ++k) {
       const size_t n = static_cast<size_t>(k);
-      const SourceTriangle other = rotated(sample.source, k);
+      const RestTriangle other = rotated(sample.source, k);
       const auto [d2, s2] = distortion(
           other, {sample.image[n], sample.image[(n + 1) % 3], sample.image[(n + 2) % 3]});
       CHECK(other.area == sample.source.area);
@@ -183,7 +183,7 @@ TEST_CASE("distortion_energy: frames are right-handed and orthonormal everywhere
 TEST_CASE("distortion_energy: a fold or a flat triangle costs +inf, with epsilon a finite price") {
   const TriangleMesh mesh = icosphere(1);
   const Topology topology(mesh);
-  const SourceTriangles source = measure_source(mesh);
+  const RestTriangles source = measure_source(mesh);
   SphereMap map{mesh.positions};
   CHECK(std::isfinite(distortion_energy(topology, source, map, {})));
   const Vertex v = 20, w = topology.target(topology.outgoing(v));
@@ -204,7 +204,7 @@ TEST_CASE(
     "distortion_energy: an isometry of a fine sphere costs little more than 4 pi (1 + lambda)") {
   const TriangleMesh mesh = icosphere(4);
   const Topology topology(mesh);
-  const SourceTriangles source = measure_source(mesh);
+  const RestTriangles source = measure_source(mesh);
   const SphereMap map{mesh.positions};
   for (const double lambda : {0.1, 1.0, 10.0}) {
     const double least = 4 * std::numbers::pi * (1 + lambda);
@@ -257,10 +257,10 @@ TEST_CASE("distortion_energy: degenerate source triangles have finite constants 
         o.transpose(), x.transpose(), y.transpose();
     mesh.triangles.resize(2, 3);
     mesh.triangles << 0, 1, 2, 3, 4, 5;
-    const SourceTriangle thin = measure_source(mesh)[0];
+    const RestTriangle thin = measure_source(mesh)[0];
     CHECK(thin.area >= 0.99e-9 * 2 * std::numbers::pi);
     for (int k = 0; k < 3; ++k) {
-      const SourceTriangle t = rotated(thin, k);
+      const RestTriangle t = rotated(thin, k);
       for (const double entry : {t.area, t.inverse_base, t.inverse_height}) {
         CHECK(std::isfinite(entry));
         CHECK(entry > 0);
@@ -269,14 +269,14 @@ TEST_CASE("distortion_energy: degenerate source triangles have finite constants 
       CHECK(2 * t.area * t.inverse_base * t.inverse_height == Approx(1).epsilon(1e-6));
     }
   }
-  const SourceTriangle nothing = measure_source(one_triangle(x, x, x))[0];
+  const RestTriangle nothing = measure_source(one_triangle(x, x, x))[0];
   CHECK(nothing.inverse_height / nothing.inverse_base == Approx(2 / std::numbers::sqrt3));
 }
 
 TEST_CASE("distortion_energy: the same bits for 1, 2 and 4 threads") {
   const TriangleMesh mesh = icosphere(5);
   const Topology topology(mesh);
-  const SourceTriangles source = measure_source(mesh);
+  const RestTriangles source = measure_source(mesh);
   const SphereMap map = with_noise({mesh.positions}, 1e-3, 5);
   const double one = distortion_energy(topology, source, map, {}, 1);
   CHECK(distortion_energy(topology, source, map, {}, 2) == one);

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "embedding/finish.h"
-#include "sphparam/embedding/progressive.h"
+#include "embedding/newton/newton_refinement.h"
+#include "embedding/constructions/progressive.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;

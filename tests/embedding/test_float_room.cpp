@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
-#include "sphparam/embedding/float_room.h"
-#include "sphparam/embedding/landmarks.h"
+#include "embedding/constructions/float32_safe.h"
+#include "embedding/frame/landmarks.h"
 #include "sphparam/parameterize.h"
 #include "support/test_meshes.h"
 

@@ -4,7 +4,7 @@
 
 #include "support/all_triangulations.h"
 #include "folded_maps.h"
-#include "sphparam/embedding/gnomonic.h"
+#include "embedding/constructions/gnomonic.h"
 #include "sphparam/sphere/certificate.h"
 #include "support/test_meshes.h"
 
@@ -79,7 +79,7 @@ TEST_CASE("gnomonic_lift: a link of 100000 vertices is still strictly convex") {
 TEST_CASE("stereographic_lift: centres the weights, and maps a round sphere nearly to itself") {
   const TriangleMesh mesh = icosphere(4);
   const Topology topology(mesh);
-  const SourceTriangles source = measure_source(mesh);
+  const RestTriangles source = measure_source(mesh);
   const Eigen::VectorXd areas = vertex_areas(topology, source);
   CHECK(areas.sum() == Approx(4 * std::numbers::pi));
   const SphereMap map = stereographic_lift(tutte_disk(mesh, topology, 77), areas);

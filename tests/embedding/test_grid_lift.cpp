@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "sphparam/embedding/grid_lift.h"
+#include "embedding/constructions/grid_lift.h"
 #include "sphparam/sphere/certificate.h"
 #include "support/all_triangulations.h"
 #include "support/test_meshes.h"
@@ -62,7 +62,7 @@ TEST_CASE("grid_lift: leaves out a vertex of valence five or less, the one with 
 TEST_CASE("grid_lift: relaxation lowers the energy, and keeps the map one-to-one") {
   const TriangleMesh mesh = icosphere(4);
   const Topology topology(mesh);
-  const SourceTriangles source = measure_source(mesh);
+  const RestTriangles source = measure_source(mesh);
   const auto energy = [&](int sweeps) {
     return distortion_energy(topology, source, grid_lift(mesh, topology, {.sweeps = sweeps}).map,
                              {});

@@ -3,7 +3,7 @@
 #include <numbers>
 #include <random>
 
-#include "embedding/kernel_placement.h"
+#include "embedding/sweeps/kernel_placement.h"
 #include "sphparam/sphere/orientation.h"
 
 using namespace sphparam;

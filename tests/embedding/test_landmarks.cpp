@@ -3,8 +3,8 @@
 #include <random>
 
 #include "folded_maps.h"
-#include "sphparam/embedding/landmarks.h"
-#include "sphparam/embedding/progressive.h"
+#include "embedding/frame/landmarks.h"
+#include "embedding/constructions/progressive.h"
 #include "sphparam/parameterize.h"
 #include "sphparam/sphere/certificate.h"
 #include "sphparam/sphere/spherical_coordinates.h"
@@ -57,7 +57,7 @@ TEST_CASE("pin_residuals: 0 exactly where all bits agree") {
 TEST_CASE("place_landmarks: pins end at their points, bit by bit, and nothing folds") {
   const TriangleMesh mesh = icosphere(3);
   const Topology topology(mesh);
-  const SourceTriangles source = measure_source(mesh);
+  const RestTriangles source = measure_source(mesh);
   for (const double away : {0.0, 0.1, 0.4}) {
     const std::vector<Pin> pins = pins_near({mesh.positions}, 10, away, 7);
     const LandmarkPlacement placed = place_landmarks(topology, source, {mesh.positions}, pins);
@@ -134,7 +134,7 @@ TEST_CASE("face_folded_by: the triangle whose pinned corners are clockwise or in
 TEST_CASE("place_landmarks: the same bits for any number of threads") {
   const TriangleMesh mesh = icosphere(4);
   const Topology topology(mesh);
-  const SourceTriangles source = measure_source(mesh);
+  const RestTriangles source = measure_source(mesh);
   const std::vector<Pin> pins = pins_near({mesh.positions}, 8, 0.3, 3);
   const auto one = place_landmarks(topology, source, {mesh.positions}, pins, {.threads = 1});
   const auto three = place_landmarks(topology, source, {mesh.positions}, pins, {.threads = 3});

@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 
 #include "folded_maps.h"
-#include "sphparam/embedding/newton.h"
-#include "sphparam/embedding/relaxation.h"
+#include "support/reference_newton.h"
+#include "embedding/sweeps/relaxation.h"
 #include "sphparam/sphere/certificate.h"
 #include "support/test_meshes.h"
 
@@ -22,7 +22,7 @@ TriangleMesh stretched_sphere() {
 TEST_CASE("newton: reaches a minimum that relaxation cannot lower, in a few steps") {
   const TriangleMesh mesh = stretched_sphere();
   const Topology topology(mesh);
-  const SourceTriangles source = measure_source(mesh);
+  const RestTriangles source = measure_source(mesh);
   const SphereMap start{icosphere(3).positions};
   for (const auto kind : {EnergyKind::AngleAndArea, EnergyKind::SymmetricDirichlet}) {
     const DistortionEnergy energy{.kind = kind};
@@ -43,7 +43,7 @@ TEST_CASE("newton: reaches a minimum that relaxation cannot lower, in a few step
 TEST_CASE("newton: moves nothing but the vertices that may move") {
   const TriangleMesh mesh = stretched_sphere();
   const Topology topology(mesh);
-  const SourceTriangles source = measure_source(mesh);
+  const RestTriangles source = measure_source(mesh);
   const SphereMap start{icosphere(3).positions};
   std::vector<Vertex> patch;
   for (Vertex v = 100; v < 200; ++v) patch.push_back(v);
@@ -60,7 +60,7 @@ TEST_CASE("newton: moves nothing but the vertices that may move") {
 TEST_CASE("newton: gives a folded map back as it was, and unfolds it when regularised") {
   const TriangleMesh mesh = icosphere(3);
   const Topology topology(mesh);
-  const SourceTriangles source = measure_source(mesh);
+  const RestTriangles source = measure_source(mesh);
   const SphereMap folded = with_swaps(topology, {mesh.positions}, 3, 1);
   const size_t folds = folded_faces(topology, folded).size();
   REQUIRE(folds > 0);

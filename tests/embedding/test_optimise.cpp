@@ -2,10 +2,10 @@
 #include <cmath>
 #include <limits>
 
-#include "embedding/global_newton.h"
-#include "sphparam/embedding/newton.h"
-#include "sphparam/embedding/optimise.h"
-#include "sphparam/embedding/progressive.h"
+#include "embedding/newton/global_newton.h"
+#include "support/reference_newton.h"
+#include "embedding/newton/optimise.h"
+#include "embedding/constructions/progressive.h"
 #include "sphparam/sphere/certificate.h"
 #include "sphparam/sphere/distortion.h"
 #include "support/test_meshes.h"
@@ -20,7 +20,7 @@ struct Stretched {
   TriangleMesh mesh;
   SphereMap start{mesh.positions};
   Topology topology{mesh};
-  SourceTriangles source;
+  RestTriangles source;
 
   explicit Stretched(double factor, int level = 4) : mesh(icosphere(level)) {
     mesh.positions.col(0) *= factor;
@@ -104,7 +104,7 @@ TEST_CASE("optimise: tiny meshes and large valences") {
 TEST_CASE("optimise_balance: towards conformal the angles win, towards equal area the areas") {
   TriangleMesh mesh = tube(40, 12);
   const Topology topology(mesh);
-  const SourceTriangles source = measure_source(mesh);
+  const RestTriangles source = measure_source(mesh);
   const SphereMap start = embedded(mesh, Quality::Normal);
   const DistortionSummary middle = summarise(measure_distortion(mesh, start));
 

@@ -4,10 +4,10 @@
 #include <random>
 #include <vector>
 
-#include "embedding/lanes.h"
-#include "embedding/pack_kernel.h"
-#include "embedding/triangle_packs.h"
-#include "sphparam/embedding/progressive.h"
+#include "embedding/energy/lanes.h"
+#include "embedding/sweeps/pack_kernel.h"
+#include "embedding/energy/triangle_packs.h"
+#include "embedding/constructions/progressive.h"
 #include "sphparam/sphere/orientation.h"
 #include "support/test_meshes.h"
 

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "sphparam/embedding/planar_drawing.h"
+#include "embedding/constructions/planar_drawing.h"
 #include "sphparam/sphere/orientation.h"
 #include "support/all_triangulations.h"
 #include "support/test_meshes.h"

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "folded_maps.h"
-#include "sphparam/embedding/pole_placement.h"
-#include "sphparam/embedding/progressive.h"
+#include "embedding/frame/pole_placement.h"
+#include "embedding/constructions/progressive.h"
 #include "sphparam/parameterize.h"
 #include "sphparam/sphere/certificate.h"
 #include "sphparam/sphere/spherical_coordinates.h"
@@ -26,7 +26,7 @@ struct Embedded {
 
   TriangleMesh mesh;
   Topology topology;
-  SourceTriangles source;
+  RestTriangles source;
   SphereMap map;
 };
 

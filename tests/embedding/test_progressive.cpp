@@ -4,9 +4,9 @@
 #include <utility>
 #include <vector>
 
-#include "embedding/kernel_placement.h"
-#include "sphparam/embedding/progressive.h"
-#include "sphparam/embedding/relaxation.h"
+#include "embedding/sweeps/kernel_placement.h"
+#include "embedding/constructions/progressive.h"
+#include "embedding/sweeps/relaxation.h"
 #include "sphparam/sphere/certificate.h"
 #include "sphparam/sphere/orientation.h"
 #include "support/test_meshes.h"
@@ -55,7 +55,7 @@ TEST_CASE("progressive: the same bits for 1, 2 and 4 threads, for both energies"
 TEST_CASE("progressive: a sphere comes out nearly isometric") {
   const TriangleMesh mesh = icosphere(4);
   const Topology topology(mesh);
-  const SourceTriangles source = measure_source(mesh);
+  const RestTriangles source = measure_source(mesh);
   const DistortionEnergy energy;
   const ProgressiveEmbedding embedding = embed_progressively(mesh, topology, {.energy = energy});
   const double ideal = distortion_energy(topology, source, {mesh.positions}, energy);
@@ -66,7 +66,7 @@ TEST_CASE("progressive: vector steps and scalar relaxation lower the same energy
   // Where the sweeps have ended, scalar Newton steps find next to nothing to gain.
   const TriangleMesh mesh = uv_sphere(40, 20);
   const Topology topology(mesh);
-  const SourceTriangles source = measure_source(mesh);
+  const RestTriangles source = measure_source(mesh);
   for (const EnergyKind kind : {EnergyKind::AngleAndArea, EnergyKind::SymmetricDirichlet}) {
     const DistortionEnergy energy{.kind = kind};
     const SphereMap map =

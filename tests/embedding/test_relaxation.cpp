@@ -2,7 +2,7 @@
 #include <set>
 
 #include "folded_maps.h"
-#include "sphparam/embedding/relaxation.h"
+#include "embedding/sweeps/relaxation.h"
 #include "sphparam/sphere/certificate.h"
 #include "support/test_meshes.h"
 
@@ -25,7 +25,7 @@ bool keeps_what_is_positive(const Topology& topology, const SphereMap& before,
 TEST_CASE("relax: lowers E sweep by sweep and keeps the map one-to-one") {
   const TriangleMesh mesh = icosphere(3);
   const Topology topology(mesh);
-  const SourceTriangles source = measure_source(mesh);
+  const RestTriangles source = measure_source(mesh);
   SphereMap map = with_noise({mesh.positions}, 0.02, 1);
   REQUIRE(certify(topology, map).bijective());
   for (const auto kind : {EnergyKind::AngleAndArea, EnergyKind::SymmetricDirichlet}) {
@@ -45,7 +45,7 @@ TEST_CASE("relax: lowers E sweep by sweep and keeps the map one-to-one") {
 TEST_CASE("relax: finds its way back to the isometry") {
   const TriangleMesh mesh = icosphere(3);
   const Topology topology(mesh);
-  const SourceTriangles source = measure_source(mesh);
+  const RestTriangles source = measure_source(mesh);
   const double isometry = distortion_energy(topology, source, {mesh.positions}, {});
   const Relaxation r =
       relax(topology, source, with_noise({mesh.positions}, 0.03, 2), {.sweeps = 60});
@@ -87,7 +87,7 @@ TEST_CASE("relax: folds stay where they are, nothing else folds, whatever the ma
   cases.push_back({fan, with_noise({fan.positions}, 1e-4, 1)});
   for (const Case& c : cases) {
     const Topology topology(c.mesh);
-    const SourceTriangles source = measure_source(c.mesh);
+    const RestTriangles source = measure_source(c.mesh);
     const Relaxation r = relax(topology, source, c.map, {.sweeps = 5});
     CHECK(keeps_what_is_positive(topology, c.map, r.map));
     const bool folded = !folded_faces(topology, c.map).empty();
@@ -99,7 +99,7 @@ TEST_CASE("relax: folds stay where they are, nothing else folds, whatever the ma
 TEST_CASE("relax: only the vertices that may move do") {
   const TriangleMesh mesh = icosphere(2);
   const Topology topology(mesh);
-  const SourceTriangles source = measure_source(mesh);
+  const RestTriangles source = measure_source(mesh);
   const SphereMap map = with_noise({mesh.positions}, 0.02, 4);
   const std::vector<Vertex> vertices{5, 17, 80, 81, 82, 17, 83};
   const Relaxation r = relax(topology, source, map, {.vertices = vertices, .pinned = {81, 3}});
@@ -118,7 +118,7 @@ TEST_CASE("relax: more weight on area gives truer areas, more on angles truer an
   TriangleMesh mesh = icosphere(3);
   mesh.positions.col(0) *= 3;
   const Topology topology(mesh);
-  const SourceTriangles source = measure_source(mesh);
+  const RestTriangles source = measure_source(mesh);
   const SphereMap map = radial_map(icosphere(3));
   const auto angle_part = [&](double lambda) {
     const Relaxation r = relax(topology, source, map, {.energy = {.lambda = lambda}, .sweeps = 40});
@@ -131,7 +131,7 @@ TEST_CASE("relax: more weight on area gives truer areas, more on angles truer an
 TEST_CASE("relax: the same bytes for 1, 2 and 4 threads") {
   const TriangleMesh mesh = icosphere(4);
   const Topology topology(mesh);
-  const SourceTriangles source = measure_source(mesh);
+  const RestTriangles source = measure_source(mesh);
   const SphereMap map = with_noise({mesh.positions}, 0.01, 6);
   const Relaxation one = relax(topology, source, map, {.threads = 1});
   for (const int threads : {2, 4}) {

@@ -3,8 +3,8 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "sphparam/embedding/optimise.h"
-#include "sphparam/embedding/rest_areas.h"
+#include "embedding/newton/optimise.h"
+#include "embedding/energy/rest_areas.h"
 #include "sphparam/sphere/certificate.h"
 #include "support/test_meshes.h"
 
@@ -13,9 +13,9 @@ using namespace sphparam::tests;
 
 namespace {
 
-double total_area(const SourceTriangles& source) {
+double total_area(const RestTriangles& source) {
   double area = 0;
-  for (const SourceTriangle& triangle : source) area += triangle.area;
+  for (const RestTriangle& triangle : source) area += triangle.area;
   return area;
 }
 
@@ -29,9 +29,9 @@ Eigen::VectorXd northern(const TriangleMesh& mesh) {
 TEST_CASE("One density everywhere, of whatever unit, changes no bit") {
   const TriangleMesh mesh = random_sphere_mesh(200, 4);
   const Topology topology(mesh);
-  const SourceTriangles source = measure_source(mesh);
+  const RestTriangles source = measure_source(mesh);
   for (const double density : {1.0, 0.3, 1e9}) {
-    const SourceTriangles same =
+    const RestTriangles same =
         with_density(topology, source, Eigen::VectorXd::Constant(mesh.vertex_count(), density));
     for (size_t f = 0; f < source.size(); ++f) {
       CHECK(same[f].area == source[f].area);
@@ -45,9 +45,9 @@ TEST_CASE("One density everywhere, of whatever unit, changes no bit") {
 TEST_CASE("Densities move area between triangles and leave their shapes and the total") {
   const TriangleMesh mesh = icosphere(3);
   const Topology topology(mesh);
-  const SourceTriangles source = measure_source(mesh);
+  const RestTriangles source = measure_source(mesh);
   const Eigen::VectorXd density = northern(mesh);
-  const SourceTriangles weighted = with_density(topology, source, density);
+  const RestTriangles weighted = with_density(topology, source, density);
   CHECK(total_area(weighted) == Approx(4 * std::numbers::pi));
   for (size_t f = 0; f < source.size(); ++f) {
     const double mean = (density[mesh.triangles(static_cast<Face>(f), 0)] +
@@ -67,7 +67,7 @@ TEST_CASE("Densities move area between triangles and leave their shapes and the 
 TEST_CASE("A map made for densities gives dense places more of the sphere, and stays one-to-one") {
   const TriangleMesh mesh = icosphere(4);
   const Topology topology(mesh);
-  const SourceTriangles source = with_density(topology, measure_source(mesh), northern(mesh));
+  const RestTriangles source = with_density(topology, measure_source(mesh), northern(mesh));
   const SphereMap map =
       optimise(topology, source, {mesh.positions}, {.energy = {.lambda = 100}}).map;
   CHECK(certify(topology, map).bijective());
@@ -87,7 +87,7 @@ TEST_CASE("A map made for densities gives dense places more of the sphere, and s
 TEST_CASE("What is no density is refused") {
   const TriangleMesh mesh = icosahedron();
   const Topology topology(mesh);
-  const SourceTriangles source = measure_source(mesh);
+  const RestTriangles source = measure_source(mesh);
   Eigen::VectorXd density = Eigen::VectorXd::Ones(12);
   CHECK_THROWS_AS(with_density(topology, source, Eigen::VectorXd::Ones(11)), std::invalid_argument);
   for (const double wrong : {0.0, -1.0, std::nan(""), HUGE_VAL}) {

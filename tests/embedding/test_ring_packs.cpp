@@ -2,7 +2,7 @@
 #include <cstring>
 #include <utility>
 
-#include "embedding/ring_packs.h"
+#include "embedding/sweeps/ring_packs.h"
 #include "sphparam/mesh/topology.h"
 #include "support/test_meshes.h"
 

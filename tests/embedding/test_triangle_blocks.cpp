@@ -5,7 +5,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "embedding/triangle_blocks.h"
+#include "embedding/energy/triangle_blocks.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -17,7 +17,7 @@ namespace {
 struct LaidOut {
   TriangleMesh mesh = icosphere(4);
   Topology topology{mesh};
-  SourceTriangles source = measure_source(mesh);
+  RestTriangles source = measure_source(mesh);
   std::vector<Vertex> old_name = patch_order(topology);
   std::vector<int> new_name, start{0}, column;
   std::vector<ImagePoint> image;

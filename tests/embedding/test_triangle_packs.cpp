@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "embedding/triangle_packs.h"
+#include "embedding/energy/triangle_packs.h"
 #include "sphparam/mesh/topology.h"
 #include "support/test_meshes.h"
 
@@ -14,7 +14,7 @@ TEST_CASE("triangle packs: energy and gradient are those of the scalar formulas"
   TriangleMesh mesh = icosphere(1);
   mesh.positions.col(2) *= 1.7;
   const Topology topology(mesh);
-  const SourceTriangles source = measure_source(mesh);
+  const RestTriangles source = measure_source(mesh);
   std::vector<ImagePoint> points;
   for (Vertex v = 0; v < topology.vertex_count(); ++v) {
     points.push_back(image_point(Vector3(mesh.position(v) + Vector3(0.1, 0, 0.05)).normalized()));
@@ -22,9 +22,9 @@ TEST_CASE("triangle packs: energy and gradient are those of the scalar formulas"
   for (const auto kind : {EnergyKind::AngleAndArea, EnergyKind::SymmetricDirichlet}) {
     const DistortionEnergy energy{.kind = kind, .lambda = 0.4};
     TrianglePack pack{};
-    std::array<SourceTriangle, pack_width> rounded;
+    std::array<RestTriangle, pack_width> rounded;
     for (int lane = 0; lane < pack_width; ++lane) {
-      const SourceTriangle& s = source[static_cast<size_t>(lane)];
+      const RestTriangle& s = source[static_cast<size_t>(lane)];
       fill_lane(s, {topology.vertex(lane, 0), topology.vertex(lane, 1), topology.vertex(lane, 2)},
                 lane, pack);
       const double base = pack.inverse_base[lane], height = pack.inverse_height[lane];

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "folded_maps.h"
-#include "sphparam/embedding/untangle.h"
+#include "embedding/constructions/untangle.h"
 #include "sphparam/sphere/certificate.h"
 #include "support/test_meshes.h"
 
@@ -11,7 +11,7 @@ using namespace sphparam::tests;
 TEST_CASE("untangle: repairs swapped vertices and leaves everything far from them alone") {
   for (const TriangleMesh& mesh : {icosphere(4), uv_sphere(48, 24), uv_sphere(500, 5)}) {
     const Topology topology(mesh);
-    const SourceTriangles source = measure_source(mesh);
+    const RestTriangles source = measure_source(mesh);
     for (unsigned seed = 0; seed < 10; ++seed) {
       const SphereMap folded = with_swaps(topology, radial_map(mesh), 8, seed);
       const Untangled r = untangle(topology, source, folded);
@@ -54,7 +54,7 @@ TEST_CASE("untangle: vertices more than the ring number away keep their bits") {
 TEST_CASE("untangle: repairs noise that folds a good part of the sphere") {
   const TriangleMesh mesh = icosphere(3);
   const Topology topology(mesh);
-  const SourceTriangles source = measure_source(mesh);
+  const RestTriangles source = measure_source(mesh);
   for (unsigned seed = 0; seed < 5; ++seed) {
     const SphereMap folded = with_noise({mesh.positions}, 0.15, seed);
     REQUIRE(folded_faces(topology, folded).size() > 50);
@@ -93,7 +93,7 @@ TEST_CASE("untangle: never more folds than before, however little it may do") {
   for (unsigned seed = 0; seed < 8; ++seed) {
     const TriangleMesh mesh = random_sphere_mesh(300, seed);
     const Topology topology(mesh);
-    const SourceTriangles source = measure_source(mesh);
+    const RestTriangles source = measure_source(mesh);
     const SphereMap folded = radial_map(mesh);
     for (const UntangleOptions& options :
          {UntangleOptions{.rings = 0, .max_rounds = 1}, UntangleOptions{.max_rounds = 2},
@@ -113,7 +113,7 @@ TEST_CASE("untangle: never more folds than before, however little it may do") {
 TEST_CASE("untangle: pinned vertices stay, a sound map comes back as it was") {
   const TriangleMesh mesh = icosphere(3);
   const Topology topology(mesh);
-  const SourceTriangles source = measure_source(mesh);
+  const RestTriangles source = measure_source(mesh);
   const SphereMap sound{mesh.positions};
   CHECK(untangle(topology, source, sound).map.points == sound.points);
   SphereMap folded = sound;
@@ -127,7 +127,7 @@ TEST_CASE("untangle: pinned vertices stay, a sound map comes back as it was") {
 TEST_CASE("untangle: the same bytes for 1, 2 and 4 threads") {
   const TriangleMesh mesh = icosphere(4);
   const Topology topology(mesh);
-  const SourceTriangles source = measure_source(mesh);
+  const RestTriangles source = measure_source(mesh);
   const SphereMap folded = with_swaps(topology, {mesh.positions}, 30, 9);
   const Untangled one = untangle(topology, source, folded, {.threads = 1});
   for (const int threads : {2, 4}) {

@@ -10,9 +10,9 @@
 #include <string>
 
 #include "expect.h"
-#include "mesh_io/mesh_reader.h"
-#include "mesh_io/mesh_writer.h"
-#include "mesh_io/sphere_file.h"
+#include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/mesh_writer.h"
+#include "sphparam/io/sphere_file.h"
 #include "recipe.h"
 #include "sphparam/parameterize.h"
 #include "sphparam/sphere/certificate.h"
@@ -20,7 +20,6 @@
 namespace {
 
 using namespace sphparam;
-using namespace sphparam::tools;
 using namespace sphparam::tests;
 
 ParameterizeOptions options_of(Recipe& recipe, int vertices) {

@@ -6,15 +6,14 @@
 #include <string_view>
 
 #include "expect.h"
-#include "mesh_io/mesh_reader.h"
-#include "mesh_io/mesh_writer.h"
-#include "mesh_io/welding.h"
+#include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/mesh_writer.h"
+#include "io/polygons/welding.h"
 #include "sphparam/mesh/mesh_defects.h"
 
 namespace {
 
 using namespace sphparam;
-using namespace sphparam::tools;
 using sphparam::tests::expect;
 
 void expect_promises(const MeshFile& file) {

@@ -6,10 +6,10 @@
 #include <string_view>
 
 #include "expect.h"
-#include "mesh_io/mesh_reader.h"
-#include "mesh_io/mesh_writer.h"
-#include "mesh_io/sphere_file.h"
-#include "mesh_io/welding.h"
+#include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/mesh_writer.h"
+#include "sphparam/io/sphere_file.h"
+#include "io/polygons/welding.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/sphere/certificate.h"
 #include "sphparam/sphere/distortion.h"
@@ -17,7 +17,6 @@
 namespace {
 
 using namespace sphparam;
-using namespace sphparam::tools;
 using sphparam::tests::expect;
 
 void verify(MeshFile source) {

@@ -10,25 +10,25 @@
 namespace sphparam::tests {
 
 struct Charted {
-  tools::MeshFile file;
+  sphparam::MeshFile file;
   SphereMap map;
-  tools::ExportChart chart;
+  sphparam::ExportChart chart;
 
-  explicit Charted(const tools::ExportChartOptions& options = {}, int level = 3) {
+  explicit Charted(const sphparam::ExportChartOptions& options = {}, int level = 3) {
     std::mt19937 random(4);
     file.mesh = icosphere(level);
     map = rotated({file.mesh.positions}, random_rotation(random));
     // An egg: no two axes alike.
     file.mesh.positions.col(0) *= 1.5;
     file.mesh.positions.col(2) *= 0.75;
-    chart = tools::export_chart(file.mesh, Topology(file.mesh), map, options);
+    chart = sphparam::export_chart(file.mesh, Topology(file.mesh), map, options);
   }
 
-  tools::ExportGeometry geometry(const tools::GeometryOptions& options = {}) const {
-    return tools::export_geometry(chart, file, options);
+  sphparam::ExportGeometry geometry(const sphparam::GeometryOptions& options = {}) const {
+    return sphparam::export_geometry(chart, file, options);
   }
 
-  tools::Asset asset(const tools::GeometryOptions& options = {}) const {
+  sphparam::Asset asset(const sphparam::GeometryOptions& options = {}) const {
     return {.name = "egg",
             .levels = {geometry(options).surface},
             .images = {},

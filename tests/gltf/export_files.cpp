@@ -13,15 +13,14 @@
 #include "gltf/variant_images.h"
 #include "gltf/written_check.h"
 #include "image/image_codec.h"
-#include "mesh_io/mesh_reader.h"
-#include "mesh_io/sphere_file.h"
-#include "mesh_io/welding.h"
+#include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/sphere_file.h"
+#include "io/polygons/welding.h"
 #include "render/hard_edges.h"
 #include "sphparam/parameterize.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
-using namespace sphparam::tools;
 
 namespace {
 

@@ -6,7 +6,7 @@
 
 using namespace sphparam;
 using namespace sphparam::tests;
-using namespace sphparam::tools;
+using namespace sphparam;
 
 namespace {
 

@@ -7,7 +7,7 @@
 
 using namespace sphparam;
 using namespace sphparam::tests;
-using namespace sphparam::tools;
+using namespace sphparam;
 
 TEST_CASE("export_chart: u is where each convention has it, and runs from 0 to 1") {
   for (const ConventionInfo& info : all_conventions()) {

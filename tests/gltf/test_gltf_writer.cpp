@@ -7,12 +7,12 @@
 #include "gltf/uri.h"
 #include "gltf/variant_images.h"
 #include "gltf/written_check.h"
-#include "mesh_io/mesh_reader.h"
+#include "sphparam/io/mesh_reader.h"
 #include "support/glb_json.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;
-using namespace sphparam::tools;
+using namespace sphparam;
 using nlohmann::json;
 
 namespace {

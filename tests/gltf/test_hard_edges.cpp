@@ -7,16 +7,16 @@
 #include "charted.h"
 #include "gltf/stored_chart.h"
 #include "gltf/textured_mesh.h"
-#include "mesh_io/mesh_reader.h"
-#include "mesh_io/mesh_writer.h"
-#include "mesh_io/read_back.h"
+#include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/mesh_writer.h"
+#include "io/files/read_back.h"
 #include "render/hard_edges.h"
 #include "render/shading_normals.h"
 #include "sphparam/chart/tangent_frame.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;
-using namespace sphparam::tools;
+using namespace sphparam;
 
 namespace {
 

@@ -4,12 +4,12 @@
 #include "charted.h"
 #include "gltf/textured_mesh.h"
 #include "gltf/written_check.h"
-#include "mesh_io/mesh_reader.h"
-#include "mesh_io/mesh_writer.h"
+#include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/mesh_writer.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;
-using namespace sphparam::tools;
+using namespace sphparam;
 
 TEST_CASE("textured_mesh: read back from OBJ and PLY, the chart is still certified") {
   for (const Convention convention : {Convention::Sphparam, Convention::Envmap}) {

@@ -15,7 +15,7 @@
 #include <sanitizer/lsan_interface.h>
 #endif
 
-using namespace sphparam::tools;
+using namespace sphparam;
 using Catch::Detail::Approx;
 using Catch::Matchers::Contains;
 

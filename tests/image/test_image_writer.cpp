@@ -9,7 +9,7 @@
 #include "image/meant_rows.h"
 #include "support/image_headers.h"
 
-using namespace sphparam::tools;
+using namespace sphparam;
 using namespace sphparam::tests;
 using Catch::Matchers::Contains;
 

@@ -3,7 +3,7 @@
 
 #include "image/program_path.h"
 
-using sphparam::tools::program_path;
+using sphparam::program_path;
 
 TEST_CASE(
     "program path: the name that the program was started by leads to the same file as /proc") {

@@ -9,7 +9,7 @@
 #include <random>
 #include <utility>
 
-#include "sphparam/elementary.h"
+#include "elementary.h"
 
 // The law is the bits: they are written down here, from one machine, and hold on all. How near they
 // are to the exact values is measured against long double where that has more digits.

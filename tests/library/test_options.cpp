@@ -6,28 +6,28 @@
 #include <stdexcept>
 #include <string>
 
-#include "sphparam/curvilinear/paper_map.h"
-#include "sphparam/curvilinear/sound_map.h"
-#include "sphparam/curvilinear/tangential_smoothing.h"
-#include "sphparam/embedding/axis_choice.h"
-#include "sphparam/embedding/float_room.h"
-#include "sphparam/embedding/gnomonic.h"
-#include "sphparam/embedding/grid_lift.h"
-#include "sphparam/embedding/newton.h"
-#include "sphparam/embedding/optimise.h"
-#include "sphparam/embedding/pole_placement.h"
-#include "sphparam/embedding/progressive.h"
-#include "sphparam/embedding/untangle.h"
+#include "curvilinear/paper_map.h"
+#include "curvilinear/curvilinear_map.h"
+#include "curvilinear/tangential_smoothing.h"
+#include "embedding/frame/axis_choice.h"
+#include "embedding/constructions/float32_safe.h"
+#include "embedding/constructions/gnomonic.h"
+#include "embedding/constructions/grid_lift.h"
+#include "support/reference_newton.h"
+#include "embedding/newton/optimise.h"
+#include "embedding/frame/pole_placement.h"
+#include "embedding/constructions/progressive.h"
+#include "embedding/constructions/untangle.h"
 #include "sphparam/mesh/curvature.h"
 #include "sphparam/mesh/mesh_repair.h"
-#include "sphparam/mesh/rings.h"
+#include "mesh/rings.h"
 #include "sphparam/parameterize.h"
-#include "sphparam/rivals/brechbuehler.h"
-#include "sphparam/rivals/conformal.h"
-#include "sphparam/rivals/curvature_flow.h"
-#include "sphparam/rivals/hemispheres.h"
-#include "sphparam/rivals/stereographic.h"
-#include "sphparam/rivals/tangential.h"
+#include "sphparam/baselines/brechbuehler.h"
+#include "sphparam/baselines/conformal.h"
+#include "sphparam/baselines/curvature_flow.h"
+#include "sphparam/baselines/hemispheres.h"
+#include "sphparam/baselines/stereographic.h"
+#include "sphparam/baselines/tangential.h"
 #include "sphparam/sphere/spherical_harmonics.h"
 #include "support/test_meshes.h"
 
@@ -45,7 +45,7 @@ constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 struct Shape {
   TriangleMesh mesh = icosphere(2);
   Topology topology{mesh};
-  SourceTriangles source = measure_source(mesh);
+  RestTriangles source = measure_source(mesh);
   SphereMap map = normalised(mesh.positions);
 };
 
@@ -309,11 +309,11 @@ TEST_CASE("options: the paper's methods refuse what is outside of a domain, by n
   check_refused("poles.south", [&] { map_as_paper(mesh, topology, {0, beyond}, {}, never()); });
 
   const auto sound = [&](const SoundOptions& o) {
-    map_periodic(mesh, topology, poles, o, never());
+    map_curvilinear(mesh, topology, poles, o, never());
   };
   Numbers<SoundOptions>(sound).of("epsilon", &SoundOptions::epsilon, {no_number, -1, 1.6});
   Counts<SoundOptions>(sound).of("iterations", &SoundOptions::iterations, {-1});
-  check_refused("poles.north", [&] { map_periodic(mesh, topology, Poles{-1, 0}, {}, never()); });
+  check_refused("poles.north", [&] { map_curvilinear(mesh, topology, Poles{-1, 0}, {}, never()); });
 
   const DateLine line = shortest_date_line(mesh, topology, poles);
   const auto smooth = [&](const SmoothingOptions& o) {

@@ -4,7 +4,7 @@
 #include "measure/farthest_point.h"
 #include "support/test_meshes.h"
 
-namespace sphparam::tools {
+namespace sphparam {
 
 namespace {
 
@@ -96,4 +96,4 @@ TEST_CASE(
   CHECK(found.at_most <= 2 * found.distance);
 }
 
-}  // namespace sphparam::tools
+}  // namespace sphparam

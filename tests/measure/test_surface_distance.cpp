@@ -5,7 +5,7 @@
 #include "sphparam/errors.h"
 #include "support/test_meshes.h"
 
-namespace sphparam::tools {
+namespace sphparam {
 
 namespace {
 
@@ -172,4 +172,4 @@ TEST_CASE("distance: nothing to measure, no samples, no area, and a word to stop
   CHECK_THROWS_AS(measure_distance(ball, ball, {.progress = stop}), Cancelled);
 }
 
-}  // namespace sphparam::tools
+}  // namespace sphparam

@@ -4,7 +4,7 @@
 #include "measure/surface_samples.h"
 #include "support/test_meshes.h"
 
-namespace sphparam::tools {
+namespace sphparam {
 
 using namespace sphparam::tests;
 
@@ -79,4 +79,4 @@ TEST_CASE("samples: a function of the seed and their number") {
   CHECK(some(42) != other(42));
 }
 
-}  // namespace sphparam::tools
+}  // namespace sphparam

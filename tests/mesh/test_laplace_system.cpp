@@ -3,7 +3,7 @@
 #include <type_traits>
 
 #include "sphparam/errors.h"
-#include "sphparam/mesh/laplace_system.h"
+#include "mesh/laplace_system.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;

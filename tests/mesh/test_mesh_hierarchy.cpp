@@ -3,7 +3,7 @@
 #include <set>
 #include <utility>
 
-#include "sphparam/mesh/mesh_hierarchy.h"
+#include "mesh/mesh_hierarchy.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "sphparam/mesh/rings.h"
+#include "mesh/rings.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;

@@ -3,7 +3,7 @@
 
 #include "paint/padding.h"
 
-using namespace sphparam::tools;
+using namespace sphparam;
 
 namespace {
 

@@ -6,7 +6,6 @@
 #include "texture/srgb.h"
 
 using namespace sphparam;
-using namespace sphparam::tools;
 using namespace sphparam::tests;
 
 namespace {

@@ -5,7 +5,7 @@
 #include "rays/random_numbers.h"
 #include "support/test_meshes.h"
 
-namespace sphparam::tools {
+namespace sphparam {
 
 namespace {
 
@@ -75,4 +75,4 @@ TEST_CASE("random numbers: in [0, 1), even, and neighbours have nothing to do wi
   CHECK(product / count == Approx(0).margin(0.003));
 }
 
-}  // namespace sphparam::tools
+}  // namespace sphparam

@@ -10,7 +10,7 @@
 #include "rays/triangle_distance.h"
 #include "support/test_meshes.h"
 
-namespace sphparam::tools {
+namespace sphparam {
 
 namespace {
 
@@ -259,4 +259,4 @@ TEST_CASE("ray scene: a mesh without triangles or with numbers that are none is 
   CHECK_THROWS_AS(RayScene(ball), std::invalid_argument);
 }
 
-}  // namespace sphparam::tools
+}  // namespace sphparam

@@ -4,7 +4,7 @@
 #include "rays/flat_normal.h"
 #include "rays/triangle_distance.h"
 
-namespace sphparam::tools {
+namespace sphparam {
 
 namespace {
 
@@ -90,4 +90,4 @@ TEST_CASE("flat_normal: the same unit vector at every size that doubles have, 0 
   CHECK(flat_normal(1e300 * a, 1e300 * a, 1e300 * a) == Vector3::Zero());
 }
 
-}  // namespace sphparam::tools
+}  // namespace sphparam

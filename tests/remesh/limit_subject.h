@@ -8,9 +8,9 @@ namespace sphparam::tests {
 /// A grid of the sphere as control mesh of a limit surface.
 struct LimitSubject {
   const char* name;
-  tools::Scheme scheme;
+  sphparam::Scheme scheme;
 
-  tools::SphereGrid grid() const { return tools::make_grid(tools::parse_grid(name)); }
+  sphparam::SphereGrid grid() const { return sphparam::make_grid(sphparam::parse_grid(name)); }
 };
 
 }  // namespace sphparam::tests

@@ -8,7 +8,6 @@
 #include "remesh/geometry_image.h"
 
 using namespace sphparam;
-using namespace sphparam::tools;
 
 namespace {
 

@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 
-#include "remesh/lods.h"
+#include "remesh/levels_of_detail.h"
 
-using namespace sphparam::tools;
+using namespace sphparam;
 
 TEST_CASE("levels of detail: the coarser grid's vertices are the finer one's first, bit for bit") {
   for (const char* name : {"ico:3", "octa:17", "cube:8"}) {

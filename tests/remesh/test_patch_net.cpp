@@ -10,7 +10,6 @@
 #include "sphparam/mesh/topology.h"
 
 using namespace sphparam;
-using namespace sphparam::tools;
 
 namespace {
 

@@ -1,15 +1,15 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
-#include "mesh_io/mesh_reader.h"
-#include "mesh_io/welding.h"
+#include "sphparam/io/mesh_reader.h"
+#include "io/polygons/welding.h"
 #include "remesh/remesh.h"
 #include "sphparam/parameterize.h"
 #include "support/real_meshes.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;
-using namespace sphparam::tools;
+using namespace sphparam;
 namespace fs = std::filesystem;
 
 TEST_CASE("real meshes: on every grid they are closed, of genus 0, certified") {

@@ -3,9 +3,9 @@
 #include <random>
 #include <stdexcept>
 
-#include "mesh_io/mesh_reader.h"
-#include "mesh_io/sphere_file.h"
-#include "remesh/polygon_ply.h"
+#include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/sphere_file.h"
+#include "io/formats/polygon_ply.h"
 #include "remesh/remesh.h"
 #include "sphparam/mesh/topology.h"
 #include "sphparam/parameterize.h"
@@ -14,7 +14,7 @@
 
 using namespace sphparam;
 using namespace sphparam::tests;
-using namespace sphparam::tools;
+using namespace sphparam;
 
 namespace {
 

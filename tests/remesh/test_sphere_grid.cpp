@@ -10,7 +10,6 @@
 #include "sphparam/sphere/certificate.h"
 
 using namespace sphparam;
-using namespace sphparam::tools;
 
 namespace {
 

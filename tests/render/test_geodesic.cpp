@@ -7,7 +7,6 @@
 #include "support/test_meshes.h"
 
 using namespace sphparam;
-using namespace sphparam::tools;
 using Catch::Detail::Approx;
 
 namespace {

@@ -6,7 +6,6 @@
 #include "render/lettering.h"
 
 using namespace sphparam;
-using namespace sphparam::tools;
 
 namespace {
 

@@ -6,7 +6,6 @@
 #include "texture/texture_pyramid.h"
 
 using namespace sphparam;
-using namespace sphparam::tools;
 
 namespace {
 

@@ -12,7 +12,6 @@
 #include "texture/texture_pyramid.h"
 
 using namespace sphparam;
-using namespace sphparam::tools;
 using Catch::Detail::Approx;
 
 namespace {

@@ -4,11 +4,10 @@
 #include <limits>
 #include <string>
 
-#include "report/charts.h"
+#include "report/plots.h"
 #include "report/svg.h"
 
 using namespace sphparam;
-using namespace sphparam::tools;
 using Catch::Matchers::Contains;
 
 namespace {

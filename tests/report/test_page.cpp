@@ -3,7 +3,7 @@
 
 #include "report/page.h"
 
-using namespace sphparam::tools;
+using namespace sphparam;
 using Catch::Matchers::Contains;
 
 TEST_CASE("page: needs nothing but its own figures, and fits a phone") {

@@ -3,7 +3,7 @@
 
 #include "report/viewer.h"
 
-using namespace sphparam::tools;
+using namespace sphparam;
 using Catch::Matchers::Contains;
 
 namespace {

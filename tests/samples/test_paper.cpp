@@ -8,7 +8,7 @@
 using namespace sphparam;
 using namespace sphparam::samples;
 using namespace sphparam::tests;
-using namespace sphparam::tools;
+using namespace sphparam;
 using Catch::Matchers::Contains;
 
 namespace {
@@ -23,7 +23,7 @@ MeshFile small_mesh() {
 
 TEST_CASE("paper: a trial has every method, and every stage of the paper's") {
   const Trial trial = try_mesh("cow", small_mesh(), true);
-  CHECK(trial.contenders.size() == all_methods().size());
+  CHECK(trial.entries.size() == all_methods().size());
   REQUIRE(trial.steps);
   REQUIRE(trial.steps->printed.size() == 5);  // initial, three iterations, smoothing
   REQUIRE(trial.steps->further.size() == 11);

@@ -49,15 +49,15 @@ double mean_quality(const TriangleMesh& mesh) {
   return sum / static_cast<double>(mesh.face_count());
 }
 
-void check_sample(const tools::MeshFile& file) {
+void check_sample(const sphparam::MeshFile& file) {
   const MeshInspection inspection = inspect_mesh(file.mesh);
   CHECK(inspection.is_sphere());
   CHECK(inspection.euler_characteristic == 2);
   CHECK(inspection.defects.empty());
   CHECK(inspection.volume > 0);
   REQUIRE(file.vertex_properties.size() == 3);
-  for (const tools::Property& colour : file.vertex_properties) {
-    CHECK(colour.type == tools::ScalarType::Uint8);
+  for (const sphparam::Property& colour : file.vertex_properties) {
+    CHECK(colour.type == sphparam::ScalarType::Uint8);
     REQUIRE(colour.values.size() == static_cast<size_t>(file.mesh.vertex_count()));
     const auto [low, high] = std::minmax_element(colour.values.begin(), colour.values.end());
     CHECK(*low >= 0);
@@ -141,7 +141,7 @@ TEST_CASE(
 }
 
 TEST_CASE("samples: the body is a sphere of the asked size, star-shaped, with its atlas") {
-  const tools::MeshFile body = make_body(12);
+  const sphparam::MeshFile body = make_body(12);
   check_sample(body);
   CHECK(body.mesh.face_count() == 20 * 12 * 12);
   for (Eigen::Index f = 0; f < body.mesh.face_count(); ++f) {
@@ -154,8 +154,8 @@ TEST_CASE("samples: the body is a sphere of the asked size, star-shaped, with it
 }
 
 TEST_CASE("samples: the body's texture agrees with its vertex colours") {
-  const tools::MeshFile body = make_body(12);
-  const tools::Image texture = make_body_texture(176);
+  const sphparam::MeshFile body = make_body(12);
+  const sphparam::Image texture = make_body_texture(176);
   double worst = 0, sum = 0;
   for (Eigen::Index c = 0; c < 3 * body.mesh.face_count(); ++c) {
     const Vertex v = body.mesh.triangles(c / 3, static_cast<int>(c % 3));
@@ -173,8 +173,8 @@ TEST_CASE("samples: the body's texture agrees with its vertex colours") {
 
 TEST_CASE("samples: the texture in textures/ is the one that the program makes") {
   const auto path = tests::source_folder() / "textures" / "body.png";
-  const tools::Image stored = tools::read_image(path.string());
-  const tools::Image made = make_body_texture();
+  const sphparam::Image stored = sphparam::read_image(path.string());
+  const sphparam::Image made = make_body_texture();
   REQUIRE(stored.width == made.width);
   REQUIRE(stored.height == made.height);
   REQUIRE(stored.channels == 3);
@@ -187,7 +187,7 @@ TEST_CASE("samples: the texture in textures/ is the one that the program makes")
 }
 
 TEST_CASE("samples: the creature is a sphere with limbs and triangles of good shape") {
-  const tools::MeshFile creature = make_creature();
+  const sphparam::MeshFile creature = make_creature();
   check_sample(creature);
   CHECK(creature.mesh.face_count() > 15000);
   CHECK(creature.mesh.face_count() < 25000);
@@ -198,7 +198,7 @@ TEST_CASE("samples: the creature is a sphere with limbs and triangles of good sh
 }
 
 TEST_CASE("samples: the cortex is a sphere, deeply folded, with overhangs") {
-  const tools::MeshFile cortex = make_cortex();
+  const sphparam::MeshFile cortex = make_cortex();
   check_sample(cortex);
   CHECK(cortex.mesh.face_count() == 40500);
   const MeshInspection inspection = inspect_mesh(cortex.mesh);

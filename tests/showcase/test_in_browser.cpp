@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "showcase/exhibit.h"
+#include "showcase/page_entry.h"
 #include "showcase/report_page.h"
 #include "support/process.h"
 #include "support/test_meshes.h"
@@ -18,7 +18,7 @@
 
 using namespace sphparam;
 using namespace sphparam::tests;
-using namespace sphparam::tools;
+using namespace sphparam;
 using Catch::Matchers::Contains;
 
 namespace {
@@ -147,13 +147,13 @@ TEST_CASE("page in Chromium: slider, variants and play change what is seen, offl
     return;
   }
   const MeshFile file = stretched();
-  const Exhibit exhibit = make_exhibit(run_contender(Method::Progressive, file.mesh, {}), {}, file);
+  const PageEntry page_entry = make_page_entry(run_entry(Method::Progressive, file.mesh, {}), {}, file);
   ReportOptions options;
   options.viewer = viewer;
   options.image_width = 512;
   options.look.size = 200;
   const TemporaryFolder folder;
-  const std::string page = with_visitor(report_page("ball", file, {exhibit}, options));
+  const std::string page = with_visitor(report_page("ball", file, {page_entry}, options));
   const std::string messages = visit(folder.path, page, 600);
   INFO(messages);
   CHECK_THAT(messages, Contains("PAGE done") && !Contains("BAD"));

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <string>
 
-#include "showcase/exhibit.h"
+#include "showcase/page_entry.h"
 #include "showcase/report_page.h"
 #include "showcase/tables.h"
 #include "sphparam/errors.h"
@@ -10,7 +10,7 @@
 
 using namespace sphparam;
 using namespace sphparam::tests;
-using namespace sphparam::tools;
+using namespace sphparam;
 using Catch::Matchers::Contains;
 
 namespace {
@@ -21,16 +21,16 @@ MeshFile ball(int level = 2) {
   return file;
 }
 
-Exhibit exhibit_of(const std::string& name, const MeshFile& file, const SphereMap& map) {
-  return make_exhibit(given_contender(name, name + ".sph.ply", file.mesh, map, 0),
+PageEntry exhibit_of(const std::string& name, const MeshFile& file, const SphereMap& map) {
+  return make_page_entry(given_entry(name, name + ".sph.ply", file.mesh, map, 0),
                       {{"method", "by hand"}}, file);
 }
 
-Exhibit good(const std::string& name, const MeshFile& file) {
+PageEntry good(const std::string& name, const MeshFile& file) {
   return exhibit_of(name, file, normalised(file.mesh.positions));
 }
 
-Exhibit folded(const std::string& name, const MeshFile& file) {
+PageEntry folded(const std::string& name, const MeshFile& file) {
   SphereMap map = normalised(file.mesh.positions);
   map.points.row(0) = -map.points.row(0);
   return exhibit_of(name, file, map);
@@ -107,12 +107,12 @@ TEST_CASE("report page: names with markup stay text, and a script cannot be ende
 
 TEST_CASE("report page: the same bytes for the same maps, on any number of threads") {
   const MeshFile file = ball();
-  const std::vector<Exhibit> exhibits = {good("one", file), folded("two", file)};
+  const std::vector<PageEntry> page_entries = {good("one", file), folded("two", file)};
   ReportOptions options = quick();
   options.threads = 1;
-  const std::string page = report_page("ball", file, exhibits, options);
+  const std::string page = report_page("ball", file, page_entries, options);
   options.threads = 3;
-  CHECK(report_page("ball", file, exhibits, options) == page);
+  CHECK(report_page("ball", file, page_entries, options) == page);
 }
 
 TEST_CASE("report page: maps that fold are shown as pictures, beside models of those that do not") {
@@ -169,22 +169,22 @@ TEST_CASE("report page: the pictures show the texture, one for all materials or 
   file.set_face_property(material);
   ReportOptions options = quick();
   options.viewer.reset();
-  const auto page = [&](const MeshTextures& textures, const Exhibit& exhibit) {
+  const auto page = [&](const MeshTextures& textures, const PageEntry& page_entry) {
     options.textures = textures;
-    const std::string html = report_page("ball", file, {exhibit}, options);
+    const std::string html = report_page("ball", file, {page_entry}, options);
     return html.substr(0, html.find("<h2>"));  // what is above the heat maps
   };
   const auto colour = [](float red, float green) {
     return SourceTexture{.factor = {red, green, 0, 1}};
   };
-  for (const Exhibit& exhibit : {good("good", file), folded("folded", file)}) {
-    const std::string none = page({}, exhibit);
-    const std::string red = page({{colour(1, 0)}, true}, exhibit);
-    const std::string each = page({{colour(1, 0), colour(0, 1)}}, exhibit);
+  for (const PageEntry& page_entry : {good("good", file), folded("folded", file)}) {
+    const std::string none = page({}, page_entry);
+    const std::string red = page({{colour(1, 0)}, true}, page_entry);
+    const std::string each = page({{colour(1, 0), colour(0, 1)}}, page_entry);
     CHECK(none != red);
     CHECK(red != each);
     CHECK(none != each);
-    CHECK(red == page({{colour(1, 0), colour(0, 1)}, true}, exhibit));
+    CHECK(red == page({{colour(1, 0), colour(0, 1)}, true}, page_entry));
   }
 }
 
@@ -208,25 +208,25 @@ TEST_CASE("report page: progress may cancel it") {
   CHECK_THROWS_AS(report_page("ball", file, {good("ball", file)}, options), Cancelled);
 }
 
-TEST_CASE("exhibit: only one-to-one maps get a chart") {
+TEST_CASE("page_entry: only one-to-one maps get a chart") {
   const MeshFile file = ball();
   CHECK(good("a", file).chart()->certificate.one_to_one());
   CHECK_FALSE(folded("b", file).chart());
   CHECK(chart_table({folded("b", file)}).rows.empty());
 }
 
-TEST_CASE("exhibit: tables have a column a map, and a dash where a map has no such figure") {
+TEST_CASE("page_entry: tables have a column a map, and a dash where a map has no such figure") {
   const MeshFile file = ball();
-  const std::vector<Exhibit> exhibits = {good("a", file), folded("b", file)};
-  for (const PageTable& table : {distortion_table(exhibits), certificate_table(exhibits),
-                                 chart_table(exhibits), provenance_table(exhibits)}) {
+  const std::vector<PageEntry> page_entries = {good("a", file), folded("b", file)};
+  for (const PageTable& table : {distortion_table(page_entries), certificate_table(page_entries),
+                                 chart_table(page_entries), provenance_table(page_entries)}) {
     REQUIRE_FALSE(table.rows.empty());
     CHECK(table.header[1] == "a");
     CHECK(table.header[2] == "b");
     for (const auto& row : table.rows) CHECK(row.size() == table.header.size());
   }
-  CHECK(chart_table(exhibits).rows[0][2] == "–");
-  CHECK(certificate_table(exhibits).rows[0][1] == "one-to-one");
+  CHECK(chart_table(page_entries).rows[0][2] == "–");
+  CHECK(certificate_table(page_entries).rows[0][1] == "one-to-one");
 }
 
 TEST_CASE("report page: red alone is no colour") {

@@ -9,8 +9,8 @@
 namespace sphparam::tests {
 
 /// The equirectangular image of ½ + ½ · direction.
-inline tools::Image direction_image(int width) {
-  tools::Image image(width, width / 2, 3);
+inline sphparam::Image direction_image(int width) {
+  sphparam::Image image(width, width / 2, 3);
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < width; ++x) {
       const Vector3 direction = to_cartesian(
@@ -23,8 +23,8 @@ inline tools::Image direction_image(int width) {
   return image;
 }
 
-inline tools::Image uniform_image(int width, float value) {
-  tools::Image image(width, width / 2, 3);
+inline sphparam::Image uniform_image(int width, float value) {
+  sphparam::Image image(width, width / 2, 3);
   std::fill(image.pixels.begin(), image.pixels.end(), value);
   return image;
 }

@@ -7,7 +7,6 @@
 #include "texture/equirectangular.h"
 
 using namespace sphparam;
-using namespace sphparam::tools;
 using namespace sphparam::tests;
 
 namespace {

@@ -8,7 +8,6 @@
 #include "texture/test_images.h"
 
 using namespace sphparam;
-using namespace sphparam::tools;
 
 namespace {
 

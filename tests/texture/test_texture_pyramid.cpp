@@ -5,7 +5,7 @@
 #include "texture/srgb.h"
 #include "texture/texture_pyramid.h"
 
-using namespace sphparam::tools;
+using namespace sphparam;
 
 namespace {
 

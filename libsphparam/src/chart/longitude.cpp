@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "sphparam/elementary.h"
+#include "elementary.h"
 #include "sphparam/sphere/orientation.h"
 
 // The edge from a to b meets the meridian plane of a ray c in ±(det(c, b)·a − det(c, a)·b), where

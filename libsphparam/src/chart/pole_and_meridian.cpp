@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "chart/longitude.h"
-#include "sphparam/elementary.h"
+#include "elementary.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/orientation.h"
 

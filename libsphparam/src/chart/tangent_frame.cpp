@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "sphparam/chart/carry_attributes.h"
-#include "sphparam/elementary.h"
+#include "elementary.h"
 #include "sphparam/parallel.h"
 
 // On a triangle with edges e₁, e₂ and their (u₁, v₁), (u₂, v₂) the surface grows with u along

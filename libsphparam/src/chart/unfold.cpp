@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "chart/nudge.h"
-#include "sphparam/elementary.h"
+#include "elementary.h"
 #include "sphparam/parallel.h"
 
 // A triangle that is positive on the sphere folds in (u, v) because the chords of its edges are not

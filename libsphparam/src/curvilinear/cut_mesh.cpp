@@ -1,4 +1,4 @@
-#include "sphparam/curvilinear/cut_mesh.h"
+#include "curvilinear/cut_mesh.h"
 
 // Walk around each inner vertex v of the date line, counter-clockwise seen from outside. From the
 // edge that goes on south to the edge that came from north lie the faces of the eastern bank

@@ -1,4 +1,4 @@
-#include "sphparam/curvilinear/harmonic.h"
+#include "curvilinear/harmonic.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "option_domain.h"
-#include "sphparam/elementary.h"
+#include "elementary.h"
 #include "sphparam/errors.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/orientation.h"

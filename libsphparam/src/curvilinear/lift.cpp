@@ -1,4 +1,4 @@
-#include "sphparam/curvilinear/lift.h"
+#include "curvilinear/lift.h"
 
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/spherical_coordinates.h"

@@ -1,9 +1,9 @@
-#include "sphparam/curvilinear/paper_map.h"
+#include "curvilinear/paper_map.h"
 
 #include "option_domain.h"
-#include "sphparam/curvilinear/harmonic.h"
-#include "sphparam/curvilinear/lift.h"
-#include "sphparam/curvilinear/quasi_harmonic.h"
+#include "curvilinear/harmonic.h"
+#include "curvilinear/lift.h"
+#include "curvilinear/quasi_harmonic.h"
 #include "sphparam/stopwatch.h"
 
 // (M, poles) → date line → disk → (θ, ϕ) → κ → (θ, ϕ) → … → sphere → smoothing, as in Figure 1.

@@ -1,10 +1,10 @@
-#include "sphparam/curvilinear/quasi_harmonic.h"
+#include "curvilinear/quasi_harmonic.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "sphere/solid_angle.h"
-#include "sphparam/elementary.h"
+#include "elementary.h"
 #include "sphparam/parallel.h"
 
 // The spherical area Ω of (a, b, c) is the solid angle of the three rays,

@@ -1,4 +1,4 @@
-#include "sphparam/curvilinear/tangential_smoothing.h"
+#include "curvilinear/tangential_smoothing.h"
 
 #include "option_domain.h"
 #include "sphparam/mesh/edge_weights.h"

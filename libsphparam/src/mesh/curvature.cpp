@@ -11,7 +11,7 @@
 
 #include "mesh/unit_size.h"
 #include "option_domain.h"
-#include "sphparam/elementary.h"
+#include "elementary.h"
 #include "sphparam/errors.h"
 #include "sphparam/parallel.h"
 

@@ -1,4 +1,4 @@
-#include "sphparam/mesh/laplace_system.h"
+#include "mesh/laplace_system.h"
 
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseLU>

@@ -1,4 +1,4 @@
-#include "sphparam/mesh/mesh_hierarchy.h"
+#include "mesh/mesh_hierarchy.h"
 
 #include <algorithm>
 #include <bit>

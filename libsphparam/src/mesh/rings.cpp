@@ -1,4 +1,4 @@
-#include "sphparam/mesh/rings.h"
+#include "mesh/rings.h"
 
 #include <algorithm>
 #include <utility>

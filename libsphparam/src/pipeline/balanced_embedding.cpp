@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "sphparam/embedding/optimise.h"
-#include "sphparam/embedding/progressive.h"
+#include "embedding/newton/optimise.h"
+#include "embedding/constructions/progressive.h"
 #include "sphparam/sphere/distortion.h"
 
 // The embedding's own sweeps and steps serve λ near 1; from there on λ goes step by step.

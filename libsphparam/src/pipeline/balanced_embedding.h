@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "pipeline/map_in_progress.h"
-#include "sphparam/embedding/landmarks.h"
+#include "embedding/frame/landmarks.h"
 
 namespace sphparam {
 

@@ -14,7 +14,7 @@ MapInProgress::MapInProgress(const TriangleMesh& given, const Topology& given_to
       options(given_options),
       energy(given_options.energy) {}
 
-const SourceTriangles& MapInProgress::source() {
+const RestTriangles& MapInProgress::source() {
   if (source_.empty()) source_ = measure_source(mesh, options.threads);
   return source_;
 }

@@ -34,7 +34,7 @@ class MapInProgress {
   Parameterization result;
 
   /// Of the mesh; measured when first needed.
-  const SourceTriangles& source();
+  const RestTriangles& source();
 
   bool certified() const { return result.certificate.bijective(); }
 
@@ -56,7 +56,7 @@ class MapInProgress {
   std::optional<DistortionSummary> measured(const SphereMap& map) const;
 
  private:
-  SourceTriangles source_;
+  RestTriangles source_;
   Stopwatch stopwatch_;
 };
 

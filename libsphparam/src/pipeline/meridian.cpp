@@ -2,8 +2,8 @@
 
 #include <numbers>
 
-#include "sphparam/embedding/axis_choice.h"
-#include "sphparam/embedding/pole_placement.h"
+#include "embedding/frame/axis_choice.h"
+#include "embedding/frame/pole_placement.h"
 #include "sphparam/sphere/spherical_coordinates.h"
 
 // Turning a map rounds it: it is certified again.

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "sphparam/elementary.h"
+#include "elementary.h"
 
 // A map without pins is the mesh on the sphere up to a rotation R. True pins p lie near R x,
 // mirrored ones near a reflection Q x; both are fitted by least squares. If deviations are normal,

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sphparam/embedding/landmarks.h"
+#include "embedding/frame/landmarks.h"
 
 namespace sphparam {
 

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "pipeline/meridian.h"
-#include "sphparam/embedding/axis_choice.h"
-#include "sphparam/embedding/pole_placement.h"
+#include "embedding/frame/axis_choice.h"
+#include "embedding/frame/pole_placement.h"
 
 // The axis crosses the map where poles disturb least; the vertices nearest to it are moved there,
 // and pinned sweeps make good what that cost.

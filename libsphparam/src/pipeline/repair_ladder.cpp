@@ -3,9 +3,9 @@
 #include <utility>
 
 #include "pipeline/balanced_embedding.h"
-#include "sphparam/embedding/gnomonic.h"
-#include "sphparam/embedding/grid_lift.h"
-#include "sphparam/embedding/untangle.h"
+#include "embedding/constructions/gnomonic.h"
+#include "embedding/constructions/grid_lift.h"
+#include "embedding/constructions/untangle.h"
 #include "sphparam/errors.h"
 
 // The rungs, from the one that keeps most of the map to the one that always has room: untangling

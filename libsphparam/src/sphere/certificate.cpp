@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "sphere/solid_angle.h"
-#include "sphparam/elementary.h"
+#include "elementary.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/orientation.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "sphere/solid_angle.h"
-#include "sphparam/elementary.h"
+#include "elementary.h"
 #include "sphparam/parallel.h"
 
 // One pass a triangle: source edges s0 s1 s2 (s_i faces corner i) and image chords e0 e1 e2. With

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "option_domain.h"
-#include "sphparam/mesh/rings.h"
+#include "mesh/rings.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/orientation.h"
 

@@ -4,7 +4,7 @@
 
 #include "option_domain.h"
 #include "sphere/harmonic_degree.h"
-#include "sphparam/elementary.h"
+#include "elementary.h"
 #include "sphparam/sphere/sphere_locator.h"
 #include "sphparam/sphere/spherical_harmonics.h"
 

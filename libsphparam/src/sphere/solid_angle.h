@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "sphparam/elementary.h"
+#include "elementary.h"
 #include "sphparam/mesh/triangle_mesh.h"
 
 namespace sphparam {

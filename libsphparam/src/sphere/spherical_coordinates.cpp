@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sphparam/elementary.h"
+#include "elementary.h"
 #include "sphparam/sphere/sphere_map.h"
 
 namespace sphparam {

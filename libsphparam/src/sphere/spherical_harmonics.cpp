@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "sphere/harmonic_degree.h"
-#include "sphparam/elementary.h"
+#include "elementary.h"
 #include "sphparam/parallel.h"
 
 // Points are taken in blocks that stay in the nearest cache. For every order m the Legendre

@@ -16,7 +16,7 @@ namespace sphparam {
 ///
 /// Our own: inverse edge lengths instead of cotangents. The squared norm of the Jacobian becomes a
 /// sum of squares that no rounding makes negative, however bad the triangle.
-struct SourceTriangle {
+struct RestTriangle {
   double area;
   double inverse_base;    // 1 / |v1 − v0|
   double inverse_height;  // 1 / height of v2 above v0 v1
@@ -24,19 +24,19 @@ struct SourceTriangle {
 };
 
 /// All source triangles. 32 bytes a triangle.
-using SourceTriangles = std::vector<SourceTriangle>;
+using RestTriangles = std::vector<RestTriangle>;
 
 /// Measures the source. Triangles with less than 1e-9 of the mean area (coincident corners,
 /// collinear corners) count as equilateral ones of that size.
 /// Ensures: all entries finite and, but for `foot`, positive; Σ area = 4π up to the floors.
 /// Requires: finite positions.
-SourceTriangles measure_source(const TriangleMesh& mesh, int threads = 0);
+RestTriangles measure_source(const TriangleMesh& mesh, int threads = 0);
 
 /// The same triangle, its corners renumbered so that `corner` comes first.
-SourceTriangle rotated(const SourceTriangle& triangle, int corner);
+RestTriangle rotated(const RestTriangle& triangle, int corner);
 
 /// The same triangle in a source scaled to `factor` times the area.
-SourceTriangle scaled(const SourceTriangle& triangle, double factor);
+RestTriangle scaled(const RestTriangle& triangle, double factor);
 
 /// What the energies know of the map of one triangle with image points x0, x1, x2 on the sphere:
 /// d = ½‖J‖² of the map to the chord triangle, s = det(x0, x1, x2) / 2A. At an isometry of a small
@@ -101,7 +101,7 @@ inline double energy_density(const DistortionEnergy& energy, double d, double s)
 /// Corner points of an image triangle, in the order of the source triangle's corners.
 using ImageTriangle = std::array<Vector3, 3>;
 
-TriangleDistortion distortion(const SourceTriangle& source, const ImageTriangle& image);
+TriangleDistortion distortion(const RestTriangle& source, const ImageTriangle& image);
 
 /// Two unit vectors that make (u, v, x) a right-handed orthonormal frame.
 struct TangentFrame {
@@ -131,13 +131,13 @@ struct TriangleEnergy {
 };
 
 /// Requires: the frames belong to the image points; energy finite there.
-TriangleEnergy triangle_energy(const DistortionEnergy& energy, const SourceTriangle& source,
+TriangleEnergy triangle_energy(const DistortionEnergy& energy, const RestTriangle& source,
                                const ImageTriangle& image,
                                const std::array<TangentFrame, 3>& frames);
 
 /// Σ A f over all triangles; 4π(1 + λ) is the value for an isometry, which triangles that are not
 /// small do not reach. Same bits for any number of threads.
-double distortion_energy(const Topology& topology, const SourceTriangles& source,
+double distortion_energy(const Topology& topology, const RestTriangles& source,
                          const SphereMap& map, const DistortionEnergy& energy, int threads = 0);
 
 }  // namespace sphparam

@@ -9,4 +9,11 @@ enum class Quality {
   Best,    // converged
 };
 
+/// What a map gives up for what.
+enum class Balance {
+  Lambda,     // as energy.lambda says
+  Conformal,  // angles, whatever the areas: λ towards 0 as long as the mean angle error falls
+  EqualArea,  // areas within `area_error`, then angles: the least λ that does it
+};
+
 }  // namespace sphparam

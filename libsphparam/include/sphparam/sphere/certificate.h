@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "sphparam/mesh/topology.h"
@@ -33,5 +34,14 @@ struct Certificate {
 /// Certifies a map. Cost: 4 signs a triangle, one pass.
 /// Requires: one ray a vertex. Same result for any number of threads.
 Certificate certify(const Topology& topology, const SphereMap& map, int threads = 0);
+
+/// "one-to-one", "folded N" (N faces are not positive), "unusable points N", or "degree N".
+std::string verdict(const Certificate& certificate);
+
+/// Several lines for people: what is not one-to-one, with the first ids. Empty when nothing.
+std::string complaint(const Certificate& certificate);
+
+/// Throws NotCertifiedError unless the certificate says one-to-one: `what`, and the faces at fault.
+void require_certified(const Certificate& certificate, const std::string& what);
 
 }  // namespace sphparam

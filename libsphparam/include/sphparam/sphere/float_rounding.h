@@ -18,7 +18,7 @@ struct FloatRounding {
 /// Rounds a map, on a sphere of the given radius, to float32 and mends what rounding breaks.
 ///
 /// Triangles lower than the spacing of floats may fold. Their vertices are nudged by up to 8 ulp
-/// where that makes all their triangles positive; where whole clusters fell together, the vertices
+/// where that makes all their triangles positive; where whole aggregates fell together, the vertices
 /// of triangles too low for float32 are first moved apart in double, never folding a triangle, and
 /// rounded again. Everything else keeps its nearest floats. A map that is folded already is rounded
 /// and nothing more.

@@ -1,0 +1,103 @@
+# The components beside the map: what each is made of, and the libraries that only it needs.
+#
+# SPHPARAM_COMPONENTS chooses them; what they stand on comes along. Who adds this folder to a project
+# of their own gets the map alone unless they ask for more.
+set(all_components io image measure render bake remesh gltf report)
+set(default_components)
+if(PROJECT_IS_TOP_LEVEL)
+  set(default_components ${all_components})
+endif()
+set(SPHPARAM_COMPONENTS "${default_components}" CACHE STRING
+  "Components beside the map: ${all_components}")
+
+# What stands on what.
+set(needs_io)
+set(needs_image io)
+set(needs_measure)
+set(needs_render io image)
+set(needs_bake io image measure render)
+set(needs_remesh io image measure)
+set(needs_gltf io image render bake)
+set(needs_report io image render gltf)
+set(SPHPARAM_BUILT)
+foreach(component IN LISTS all_components)  # in the order of building
+  set(wanted FALSE)
+  foreach(other IN LISTS SPHPARAM_COMPONENTS)
+    if(NOT other IN_LIST all_components)
+      message(FATAL_ERROR "SPHPARAM_COMPONENTS: no ${other} among ${all_components}")
+    endif()
+    if(other STREQUAL component OR component IN_LIST needs_${other})
+      set(wanted TRUE)
+    endif()
+  endforeach()
+  if(wanted)
+    list(APPEND SPHPARAM_BUILT ${component})
+  endif()
+endforeach()
+
+# A component of rooms; its libraries are private to it.
+function(add_component component)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "ROOMS;LIBRARIES")
+  set(sources)
+  foreach(room IN LISTS arg_ROOMS)
+    file(GLOB_RECURSE room_sources CONFIGURE_DEPENDS src/${room}/*.cpp)
+    list(APPEND sources ${room_sources})
+  endforeach()
+  list(FILTER sources EXCLUDE REGEX "/oiio/")
+  add_library(sphparam_${component} STATIC ${sources})
+  add_library(sphparam::${component} ALIAS sphparam_${component})
+  set_target_properties(sphparam_${component} PROPERTIES EXPORT_NAME ${component})
+  target_include_directories(sphparam_${component} PUBLIC
+    $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/src>)
+  target_link_libraries(sphparam_${component} PUBLIC sphparam::sphparam PRIVATE ${arg_LIBRARIES})
+  foreach(other IN LISTS needs_${component})
+    target_link_libraries(sphparam_${component} PUBLIC sphparam_${other})
+  endforeach()
+  # They read files from strangers.
+  target_compile_options(sphparam_${component} PRIVATE ${SPHPARAM_HARDENING})
+endfunction()
+
+set(CMAKE_FIND_PACKAGE_TARGETS_GLOBAL ON)  # tests and benchmarks use them too
+list(PREPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_SOURCE_DIR}/cmake/modules)
+if(io IN_LIST SPHPARAM_BUILT)
+  # glTF by tinygltf; GIFTI read by expat and zlib, written by libgiftiio, which is built on them.
+  find_package(TinyGLTF REQUIRED)
+  find_package(nlohmann_json 3.11 REQUIRED)
+  find_package(EXPAT REQUIRED)
+  find_package(ZLIB REQUIRED)
+  find_path(GIFTIIO_INCLUDE_DIR gifti/gifti_io.h REQUIRED)
+  find_path(NIFTIIO_INCLUDE_DIR nifti1_io.h PATH_SUFFIXES nifti REQUIRED)
+  find_library(GIFTIIO_LIBRARY giftiio REQUIRED)
+  add_component(io ROOMS io
+    LIBRARIES TinyGLTF::TinyGLTF nlohmann_json::nlohmann_json ${GIFTIIO_LIBRARY} EXPAT::EXPAT
+      ZLIB::ZLIB)
+  target_include_directories(sphparam_io SYSTEM PRIVATE ${GIFTIIO_INCLUDE_DIR}
+    ${NIFTIIO_INCLUDE_DIR})
+endif()
+if(image IN_LIST SPHPARAM_BUILT)
+  add_component(image ROOMS image texture LIBRARIES ${CMAKE_DL_LIBS})
+  include(image_module.cmake)
+endif()
+if(measure IN_LIST SPHPARAM_BUILT)
+  find_package(embree 3.13 REQUIRED)
+  add_component(measure ROOMS rays measure LIBRARIES embree)
+endif()
+if(render IN_LIST SPHPARAM_BUILT)
+  add_component(render ROOMS render)
+endif()
+if(bake IN_LIST SPHPARAM_BUILT)
+  add_component(bake ROOMS bake paint)
+endif()
+if(remesh IN_LIST SPHPARAM_BUILT)
+  find_package(OpenSubdiv REQUIRED MODULE)
+  add_component(remesh ROOMS remesh displace LIBRARIES OpenSubdiv::osdCPU)
+endif()
+if(gltf IN_LIST SPHPARAM_BUILT)
+  find_package(meshoptimizer REQUIRED)
+  add_component(gltf ROOMS gltf
+    LIBRARIES meshoptimizer::meshoptimizer nlohmann_json::nlohmann_json)
+endif()
+if(report IN_LIST SPHPARAM_BUILT)
+  add_component(report ROOMS report compare showcase)
+  include(src/report/viewer.cmake)
+endif()

@@ -1,0 +1,27 @@
+# Images for programs that must start in milliseconds: the codecs are a module of their own, opened
+# on first use. find_package(OpenImageIO) fails on Debian 12 (its target names a folder that is not
+# there), pkg-config works.
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(OIIO REQUIRED IMPORTED_TARGET OpenImageIO)
+add_library(sphparam_image_oiio MODULE src/image/oiio/oiio_module.cpp)
+target_include_directories(sphparam_image_oiio PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
+target_compile_features(sphparam_image_oiio PRIVATE cxx_std_20)
+target_compile_options(sphparam_image_oiio PRIVATE ${SPHPARAM_HARDENING})
+target_link_libraries(sphparam_image_oiio PRIVATE PkgConfig::OIIO)
+get_target_property(oiio_headers PkgConfig::OIIO INTERFACE_INCLUDE_DIRECTORIES)
+if(oiio_headers)
+  target_include_directories(sphparam_image_oiio SYSTEM PRIVATE ${oiio_headers})
+endif()
+set_target_properties(sphparam_image_oiio PROPERTIES PREFIX "" CXX_VISIBILITY_PRESET hidden
+  LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib/sphparam)  # as seen from bin/ and tests/
+add_dependencies(sphparam_image sphparam_image_oiio)
+
+install(TARGETS sphparam_image_oiio LIBRARY DESTINATION lib/sphparam COMPONENT image)
+# Debian's packages keep what is compiled by architecture.
+set(module_of_packages lib/${CMAKE_LIBRARY_ARCHITECTURE}/sphparam)
+if(CMAKE_LIBRARY_ARCHITECTURE)
+  install(TARGETS sphparam_image_oiio LIBRARY DESTINATION ${module_of_packages}
+    COMPONENT debian_image EXCLUDE_FROM_ALL)
+endif()
+set_source_files_properties(src/image/open_module.cpp PROPERTIES
+  COMPILE_DEFINITIONS SPHPARAM_MODULE_OF_PACKAGES="${module_of_packages}")

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+
+#include "sphparam/io/mesh_file.h"
+#include "sphparam/io/polygons.h"
+#include "sphparam/io/safe_file.h"
+#include "sphparam/mesh/topology.h"
+#include "sphparam/sphere/certificate.h"
+
+namespace sphparam {
+
+/// Throws UnmeasurableMesh where a mesh that was made here, to be written as `path`, has positions
+/// or values that are no finite numbers.
+void require_numbers(const MeshFile& file, const std::string& path);
+
+/// Adds the bytes of a PLY that carries a map. They are read back once written, and their map must
+/// be one-to-one: NotCertifiedError if not. `topology` is that of the faces in them.
+void add_certified(PendingFiles& files, const std::string& path, std::string bytes,
+                   const Topology& topology, int threads);
+
+/// The same for a mesh that carries no map: `map` has a ray for each of its vertices.
+void add_certified(PendingFiles& files, const std::string& path, std::string bytes,
+                   const Topology& topology, const SphereMap& map, int threads);
+
+/// Adds a mesh that carries a map, proved like this: as .obj without the map, and without a
+/// verdict, else as PLY. `faces`: the polygons that its triangles are cut of, as
+/// `adopt_triangulation` does. Throws: UnmeasurableMesh as `require_numbers`.
+void add_mapped(PendingFiles& files, const std::string& path, MeshFile file, const Polygons& faces,
+                const Topology& topology, int threads);
+
+}  // namespace sphparam

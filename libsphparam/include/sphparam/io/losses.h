@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sphparam/io/mesh_file.h"
+
+namespace sphparam {
+
+// What a file carries and a mesh file has no room for is told, never dropped in silence: a note of
+// its own kind, so that a program can tell these unasked and the harmless ones when asked.
+
+/// Notes "not carried: WHAT". `what` says how many, or which.
+void add_loss(std::vector<std::string>& notes, const std::string& what);
+
+/// Those of the notes that `add_loss` made, in their order.
+std::vector<std::string> losses_among(const std::vector<std::string>& notes);
+
+/// "a, b and c"; of more than eight words the first ones, and how many others.
+std::string enumerated(const std::vector<std::string>& words);
+
+/// "1 skin", "3 skins".
+std::string counted(long count, std::string_view thing);
+
+}  // namespace sphparam

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sphparam/io/scalar_type.h"
+#include "sphparam/mesh/triangle_mesh.h"
+
+namespace sphparam {
+
+/// One named number per vertex or per triangle, kept as doubles (exact for every ScalarType).
+struct Property {
+  std::string name;
+  ScalarType type = ScalarType::Float64;
+  std::vector<double> values;
+};
+
+/// #F·3 rows, one per corner (row 3·face + corner).
+using CornerTexcoords = RowTable<double, 2>;
+using CornerNormals = RowTable<double, 3>;
+
+/// What a material says outside [0, 1] of its texture, in the direction of s or t.
+enum class Wrapping { Repeat, Mirror, Clamp };
+
+/// The base colour of a material, as glTF has it: factor · image. Images are not decoded here.
+struct BaseColour {
+  std::array<double, 4> factor = {1, 1, 1, 1};  // linear red, green, blue, alpha
+  std::string image = {};                       // its name, for people; empty: the factor alone
+  std::shared_ptr<const std::vector<char>> bytes = nullptr;  // of an image inside the mesh's file
+  std::string folder = {}, path = {};  // of one in a file of its own, below the folder
+  Wrapping wrap_s = Wrapping::Repeat, wrap_t = Wrapping::Repeat;
+  std::string problem = {};  // why the image cannot be used; empty: nothing is known against it
+};
+
+/// A triangle mesh with everything its file carried. Polygons are triangulated on reading.
+///
+/// Conventional names: normals nx ny nz, colours red green blue [alpha] (Uint8 0–255 or Float32
+/// 0–1), per-vertex texture coordinates s t, `source_vertex` (0-based id in the file; only where
+/// vertices were welded or dropped). Faces: `material` (index into `materials`, −1 for none),
+/// `source_face` (polygon of the file, 0-based; only where a polygon was split).
+struct MeshFile {
+  TriangleMesh mesh;
+  ScalarType position_type = ScalarType::Float64;  // what the file held; see `lossless_type`
+  std::vector<Property> vertex_properties;
+  std::vector<Property> face_properties;
+  std::optional<CornerTexcoords> corner_texcoords;
+  ScalarType corner_texcoord_type = ScalarType::Float64;
+  std::optional<CornerNormals> corner_normals;
+  ScalarType corner_normal_type = ScalarType::Float64;
+  std::vector<std::string> materials;         // names, in order of first use
+  std::vector<BaseColour> base_colours = {};  // one a material, or none (glTF only)
+  std::vector<std::string> comments;          // of the header, without the keyword
+  std::vector<std::string> notes;             // what was odd about the file but harmless
+  std::string format;                         // "PLY binary little-endian", "OBJ", …
+  long polygons = 0;                          // faces of the file that were not triangles
+
+  const Property* find_vertex_property(const std::string& name) const;
+  const Property* find_face_property(const std::string& name) const;
+
+  /// Adds a property, or replaces the one of that name where it stands.
+  void set_vertex_property(Property property);
+  void set_face_property(Property property);
+};
+
+/// Takes the properties of these names away, whichever are there.
+void remove_properties(std::vector<Property>& properties, const std::vector<std::string>& names);
+
+/// The text as it can stand in a comment or a name of any format: line ends become blanks.
+std::string one_line(std::string_view text);
+
+}  // namespace sphparam

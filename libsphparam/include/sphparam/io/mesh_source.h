@@ -1,0 +1,69 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sphparam/io/mesh_file.h"
+#include "sphparam/io/read_options.h"
+#include "sphparam/mesh/mesh_defects.h"
+#include "sphparam/mesh/mesh_repair.h"
+#include "sphparam/mesh/topology.h"
+
+namespace sphparam {
+
+/// A mesh file as the map takes it, and what was found on the way.
+struct MeshSource {
+  std::string path;                  // as it was named
+  MeshFile file;                     // welded where needed, without unused vertices
+  std::optional<Topology> topology;  // of it; nothing where it is no closed manifold
+  MeshInspection inspection;  // with the ids of the file, or after welding if that was needed
+  bool welded = false;
+  std::vector<std::string> notes;     // of the reader, then what was done to the mesh
+  std::vector<RepairAction> repairs;  // with the numbers of the file; see `repaired`
+  KeptParts parts;                    // what they kept of the surface, so numbered too
+};
+
+/// Throws: ReadError. A mesh that is no sphere is returned all the same: see `inspection`.
+MeshSource read_source(const std::string& path, const ReadOptions& options = {});
+
+/// The textures that a file names are read too: from now on no output may replace them.
+/// `read_source` sees to it; whoever reads a mesh otherwise and shows its textures calls it.
+void keep_textures(const MeshFile& file);
+
+/// What repair would do to a mesh, tried out: as it is; where that is not enough, with the
+/// component and the holes that it does not take unasked.
+struct RepairTrial {
+  RepairOptions options;              // that mend it, or would most
+  std::vector<RepairAction> actions;  // by the numbers of the file
+  std::vector<MeshDefect> remaining;  // those that stand in the way even then
+  KeptParts parts;                    // those that can be chosen from; so numbered too
+  bool can_mend() const { return remaining.empty(); }
+  bool mends_unasked() const;  // without choosing a component or a larger hole
+};
+RepairTrial try_repair(const MeshSource& source);
+
+/// A mesh that cannot be mapped, and what could be done about it.
+class MeshRefusal : public MeshError {
+ public:
+  MeshRefusal(const MeshSource& source, std::optional<RepairTrial> trial);
+  const std::string& path() const { return path_; }
+  /// Nothing where there was no memory to find out.
+  const std::optional<RepairTrial>& trial() const { return trial_; }
+  const std::vector<RepairAction>& done() const { return done_; }  // before it was refused
+
+ private:
+  std::string path_;
+  std::optional<RepairTrial> trial_;
+  std::vector<RepairAction> done_;
+};
+
+/// The mesh mended, with the inspection of what it is then; `repairs`, `parts` and `notes` say what
+/// was done, by the numbers of the file.
+/// Throws: NoSuchComponent; MeshRefusal where it cannot be mapped even then.
+MeshSource repaired(MeshSource source, const RepairOptions& options);
+
+/// Throws MeshRefusal unless the mesh can be mapped. Only then is a repair tried out.
+void require_mappable(const MeshSource& source);
+
+}  // namespace sphparam

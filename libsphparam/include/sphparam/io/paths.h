@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+namespace sphparam {
+
+/// ".ply" of "STATUE.PLY": in lower case, with its dot; empty where there is none.
+std::string extension_of(const std::string& path);
+
+/// Is this path the name of standard input or output?
+inline bool is_stream(const std::string& path) { return path == "-"; }
+
+/// A file as people want to see it: no folders; "-" becomes "standard input".
+std::string display_name(const std::string& path);
+
+/// The same for a file that is written.
+std::string output_name(const std::string& path);
+
+/// "statue" of "folder/statue.ply" and of "folder/statue.sph.ply".
+std::string stem_of(const std::string& path);
+
+}  // namespace sphparam

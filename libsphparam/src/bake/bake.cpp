@@ -1,0 +1,237 @@
+// Rows in bands, bands in parallel, a few at a time; then the sink gets them in order. Within a
+// band: the points of all texels, then field by field the values of some thousand texels at once,
+// so that what a field costs is not lost in calls.
+
+#include "bake/bake.h"
+
+#include <algorithm>
+
+#include "bake/bake_progress.h"
+#include "bake/crowded_texels.h"
+#include "bake/image_level.h"
+#include "bake/sample_seed.h"
+#include "sphparam/parallel.h"
+#include "texture/srgb.h"
+
+namespace sphparam {
+namespace {
+
+constexpr int bands_a_thread = 4;                // before the sink gets them …
+constexpr std::int64_t group_bytes = 256 << 20;  // … but for images so wide that they fill this
+constexpr int texels_a_batch = 4096;             // some more where runs are long
+constexpr size_t samples_a_look = 64;            // at the progress: rays may take ms a sample
+
+struct Work {
+  const BakeScene& scene;
+  std::span<const SurfaceField> fields;
+  const BakeOptions& options;
+  const TexelFinder& finder;
+  BakeProgress& progress;
+};
+
+using BandValues = std::vector<std::vector<float>>;  // a field, a band
+
+SurfacePoint place_of(const RasterRun& run, int i) {
+  const double a = run.weights[0] + i * run.step[0], b = run.weights[1] + i * run.step[1];
+  return {run.face, {a, b, 1 - a - b}};
+}
+
+/// Consecutive runs, and the samples they stand for where a field asks for those.
+class Batch {
+ public:
+  Batch(std::span<const SurfaceRun> runs, std::span<const RasterRun> places, std::int64_t texel,
+        int sample, BakeProgress& progress)
+      : runs_(runs), places_(places), texel_(texel), sample_(sample), progress_(progress) {}
+
+  /// The values of a field, colours linear.
+  void evaluate(const SurfaceField& field, float* values) {
+    progress_.look();
+    if (field.evaluate_runs) return field.evaluate_runs(runs_, values);
+    expand();
+    const auto channels = static_cast<size_t>(field.channels);
+    for (size_t i = 0; i < samples_.size(); i += samples_a_look) {
+      const size_t count = std::min(samples_a_look, samples_.size() - i);
+      field.evaluate(std::span(samples_).subspan(i, count), values + channels * i);
+      progress_.look();
+    }
+    if (field.kind != FieldKind::Colour) return;
+    const SrgbCurves& curves = SrgbCurves::get();
+    const int colours = std::min(field.channels, 3);
+    for (size_t i = 0; i < samples_.size(); ++i, values += field.channels) {
+      for (int c = 0; c < colours; ++c) values[c] = curves.to_linear(values[c]);
+    }
+  }
+
+ private:
+  void expand() {
+    if (!samples_.empty()) return;
+    for (const SurfaceRun& run : runs_) {
+      for (int i = 0; i < run.count; ++i) {
+        samples_.push_back({{run.face, run.first + i * run.step},
+                            sample_seed(texel_ + std::ssize(samples_), sample_),
+                            {}});
+      }
+    }
+    size_t next = 0;
+    for (const RasterRun& run : places_) {
+      for (int i = 0; i < run.count; ++i) samples_[next++].place = place_of(run, i);
+    }
+  }
+
+  std::span<const SurfaceRun> runs_;
+  std::span<const RasterRun> places_;
+  std::int64_t texel_;  // of the first
+  int sample_;
+  BakeProgress& progress_;
+  std::vector<SurfaceSample> samples_;
+};
+
+/// Calls visit(batch, its first texel in the band, its size) for all texels of a band.
+template <class Visit>
+void for_each_batch(const Work& work, int band, double x, double y, int sample, Visit&& visit) {
+  const TexelPoints points = work.finder.points(band, x, y);
+  const std::int64_t start =
+      static_cast<std::int64_t>(work.finder.raster().first_row(band)) * work.options.width;
+  const std::span<const SurfaceRun> runs = points.runs;
+  const std::span<const RasterRun> places = points.places;
+  std::int64_t texel = 0;
+  for (size_t run = 0, place = 0; run < runs.size();) {
+    // A batch ends where both lists have come equally far.
+    const size_t first_run = run, first_place = place;
+    std::int64_t in_runs = 0, in_places = 0;
+    while (run < runs.size() && (in_runs < texels_a_batch || in_runs != in_places)) {
+      if (in_runs <= in_places) in_runs += runs[run++].count;
+      while (in_places < in_runs) in_places += places[place++].count;
+    }
+    Batch batch(runs.subspan(first_run, run - first_run),
+                places.subspan(first_place, place - first_place), start + texel, sample,
+                work.progress);
+    visit(batch, static_cast<size_t>(texel), static_cast<size_t>(in_places));
+    texel += in_places;
+  }
+}
+
+/// Adds weight · value of every texel at one point of it; for a single sample writes it.
+void add_samples(const Work& work, int band, double x, double y, int sample, float weight,
+                 bool labels, BandValues& values) {
+  std::vector<float> buffer;
+  for_each_batch(work, band, x, y, sample, [&](Batch& batch, size_t texel, size_t count) {
+    for (size_t f = 0; f < work.fields.size(); ++f) {
+      const SurfaceField& field = work.fields[f];
+      if ((field.kind == FieldKind::Label) != labels) continue;
+      const auto channels = static_cast<size_t>(field.channels);
+      float* out = &values[f][texel * channels];
+      if (weight == 1) {
+        batch.evaluate(field, out);
+        continue;
+      }
+      buffer.resize(count * channels);
+      batch.evaluate(field, buffer.data());
+      for (size_t i = 0; i < count * channels; ++i) out[i] += weight * buffer[i];
+    }
+    work.progress.add(static_cast<std::int64_t>(count));
+  });
+}
+
+/// Replaces the texels that hold many triangles by their means.
+void average_crowded(const Work& work, int band, BandValues& values) {
+  const CrowdedTexels crowded(work.scene, work.finder, band);
+  if (crowded.texels.empty()) return;
+  const std::int64_t start =
+      static_cast<std::int64_t>(work.finder.raster().first_row(band)) * work.options.width;
+  std::vector<float> buffer;
+  for (size_t f = 0; f < work.fields.size(); ++f) {
+    const SurfaceField& field = work.fields[f];
+    if (field.kind == FieldKind::Label) continue;
+    const auto channels = static_cast<size_t>(field.channels);
+    buffer.resize(crowded.points.runs.size() * channels);
+    Batch(crowded.points.runs, crowded.points.places, start * crowded_seeds, 0, work.progress)
+        .evaluate(field, buffer.data());
+    for (const CrowdedTexels::Texel& texel : crowded.texels) {
+      float* out = &values[f][texel.index * channels];
+      std::fill_n(out, channels, 0.0F);
+      for (size_t i = texel.first; i < texel.last; ++i) {
+        for (size_t c = 0; c < channels; ++c) {
+          out[c] += crowded.weights[i] * buffer[i * channels + c];
+        }
+      }
+    }
+  }
+}
+
+bool is_label(const SurfaceField& field) { return field.kind == FieldKind::Label; }
+
+/// How often the texels are gone through.
+int passes(std::span<const SurfaceField> fields, const BakeOptions& options) {
+  const int with_labels = std::ranges::any_of(fields, is_label) ? 1 : 0;
+  const bool only_labels = std::ranges::all_of(fields, is_label);
+  return with_labels + (only_labels ? 0 : options.samples * options.samples);
+}
+
+BandValues bake_band(const Work& work, int band) {
+  work.progress.look();
+  const auto texels = static_cast<size_t>(work.finder.raster().rows(band)) *
+                      static_cast<size_t>(work.options.width);
+  BandValues values;
+  for (const SurfaceField& field : work.fields) {
+    values.emplace_back(texels * static_cast<size_t>(field.channels), 0.0F);
+  }
+  const int n = work.options.samples;
+  if (!std::ranges::all_of(work.fields, is_label)) {
+    for (int s = 0; s < n * n; ++s) {
+      add_samples(work, band, (s % n + 0.5) / n, (s / n + 0.5) / n, s,
+                  1.0F / static_cast<float>(n * n), false, values);
+    }
+    average_crowded(work, band, values);
+  }
+  if (std::ranges::any_of(work.fields, is_label)) {
+    add_samples(work, band, 0.5, 0.5, 0, 1, true, values);
+  }
+  for (size_t f = 0; f < work.fields.size(); ++f) {
+    if (work.fields[f].kind == FieldKind::Direction) make_unit(values[f]);
+  }
+  return values;
+}
+
+int bands_at_once(std::span<const SurfaceField> fields, int width, int threads) {
+  std::int64_t channels = 0;
+  for (const SurfaceField& field : fields) channels += field.channels;
+  const std::int64_t band = channels * UvRaster::rows_a_band * width * 4;
+  const auto fit = static_cast<int>(std::min<std::int64_t>(
+      group_bytes / std::max<std::int64_t>(band, 1), bands_a_thread * threads));
+  return std::max(threads, fit);
+}
+
+}  // namespace
+
+void bake(const BakeScene& scene, std::span<const SurfaceField> fields, const BakeOptions& options,
+          const RowSink& sink) {
+  const UvRaster raster(scene.target.chart, options.width, options.height);
+  report(options.progress, "bake", 0);
+  const TexelFinder finder(scene, raster, options.interpolation, options.threads);
+  BakeProgress progress(options.progress,
+                        std::int64_t{options.width} * options.height * passes(fields, options));
+  const Work work{scene, fields, options, finder, progress};
+  const int threads = resolve_threads(options.threads);
+  const int group = bands_at_once(fields, options.width, threads);
+  for (int first = 0; first < raster.band_count(); first += group) {
+    const int count = std::min(group, raster.band_count() - first);
+    std::vector<BandValues> done(static_cast<size_t>(count));
+    parallel_for(count, 1, threads, [&](std::int64_t from, std::int64_t to) {
+      for (std::int64_t b = from; b < to; ++b) {
+        done[static_cast<size_t>(b)] = bake_band(work, first + static_cast<int>(b));
+      }
+    });
+    parallel_for(std::ssize(fields), 1, threads, [&](std::int64_t from, std::int64_t to) {
+      for (auto f = static_cast<size_t>(from); f < static_cast<size_t>(to); ++f) {
+        for (int b = 0; b < count; ++b) {
+          sink(f, raster.first_row(first + b), raster.rows(first + b),
+               done[static_cast<size_t>(b)][f].data());
+        }
+      }
+    });
+  }
+  report(options.progress, "bake", 1);
+}
+
+}  // namespace sphparam

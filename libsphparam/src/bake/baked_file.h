@@ -1,0 +1,59 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bake/surface_field.h"
+#include "image/image_writer.h"
+#include "texture/convention.h"
+
+namespace sphparam {
+
+struct BakedFileOptions {
+  int width, height;
+  ImageFormat format = ImageFormat::Png;
+  SampleType sample_type = SampleType::Uint8;
+  Convention convention = Convention::Sphparam;
+  bool tiles = false;                                              // EXR with all levels
+  std::vector<std::pair<std::string, std::string>> metadata = {};  // besides its own
+};
+
+class ImageLevel;
+
+/// Writes the baked values of a field as an image file, as rows come.
+///
+/// Colours become sRGB in integer files and stay linear in others; directions become ½ + ½·n, data
+/// the part of their range from 0 to 1 in integers (what is no number becomes 0), and stay as they
+/// are in others. Rows are in
+/// θ on entry and in the convention's u in the file. Metadata: sphparam:map, :about, :convention,
+/// :u0 (u = turns·θ/2π + u0), :min and :max (what 0 and 1 stand for), oiio:ColorSpace.
+///
+/// Levels of tiled files are means of boxes of texels, of unit length again for directions, the
+/// first texel for labels. A box never reaches beyond the seam or a pole, so levels wrap as the
+/// image does. Memory: some rows; with tiles, a third of the image besides.
+class BakedFile {
+ public:
+  /// Requires: a range for data in integers; where the convention shifts by a quarter, a width that
+  /// is a multiple of 4. Throws: ImageError for what the format cannot hold.
+  BakedFile(const SurfaceField& field, const BakedFileOptions& options, ImagePlace file);
+  ~BakedFile();
+
+  void write_rows(int rows, const float* values);
+  /// Reads the file back, as `ImageWriter::close` does. Throws: ImageError.
+  void close();
+
+ private:
+  void write_level_rows(const float* values, int rows);
+  void encode(const float* values, int rows);
+
+  SurfaceField field_;  // without its functions
+  BakedFileOptions options_;
+  ImageWriter writer_;
+  std::vector<float> pending_;              // rows of a tiled file that fill no tile yet
+  std::unique_ptr<ImageLevel> next_level_;  // of a tiled file
+};
+
+}  // namespace sphparam

@@ -1,0 +1,257 @@
+// Triangles that are small against a texel mark the texels they touch; then all triangles are
+// clipped to those texels.
+
+#include "bake/crowded_texels.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "bake/chart_piece.h"
+
+namespace sphparam {
+namespace {
+
+constexpr double small_area = 0.5;  // of a texel: such a triangle may own none, wherever it lies
+
+constexpr int finest_grid = 8;  // of points in a texel
+
+/// A convex polygon under clipping: each of four cuts adds a corner at most.
+struct Clip {
+  std::array<UvPoint, 8> points;
+  size_t size = 0;
+
+  explicit Clip(std::span<const UvPoint> outline) : points{}, size(outline.size()) {
+    std::ranges::copy(outline, points.begin());
+  }
+
+  /// Keeps what has sign·(coordinate − limit) ≥ 0.
+  void cut(double UvPoint::*coordinate, double limit, int sign) {
+    std::array<UvPoint, 8> kept{};
+    size_t count = 0;
+    for (size_t k = 0; k < size; ++k) {
+      const UvPoint &a = points[k], &b = points[(k + 1) % size];
+      const double in_a = sign * (a.*coordinate - limit), in_b = sign * (b.*coordinate - limit);
+      if (in_a >= 0 && count < kept.size()) kept[count++] = a;
+      if ((in_a < 0) != (in_b < 0) && count < kept.size()) {
+        const double t = in_a / (in_a - in_b);
+        kept[count] = {a.v + t * (b.v - a.v), a.u + t * (b.u - a.u)};
+        kept[count++].*coordinate = limit;
+      }
+    }
+    points = kept;
+    size = count;
+  }
+
+  /// Area and centroid.
+  std::pair<double, UvPoint> measure() const {
+    double twice = 0, v = 0, u = 0;
+    for (size_t k = 1; k + 1 < size; ++k) {
+      const UvPoint &a = points[0], &b = points[k], &c = points[k + 1];
+      const double part = (b.v - a.v) * (c.u - a.u) - (b.u - a.u) * (c.v - a.v);
+      twice += part;
+      v += part * (a.v + b.v + c.v) / 3;
+      u += part * (a.u + b.u + c.u) / 3;
+    }
+    return {twice / 2, {v / twice, u / twice}};
+  }
+};
+
+/// A point of a texel.
+struct Deposit {
+  size_t texel;
+  RasterRun place;
+  SurfaceRun run;
+  double weight;
+};
+
+/// Of what the two steps span on the surface.
+double area_of_step(const TriangleMesh& mesh, const SurfaceRun& run) {
+  Vector3 step = Vector3::Zero(), below = Vector3::Zero();
+  for (int k = 0; k < 3; ++k) {
+    const Vector3 corner = mesh.position(mesh.triangles(run.face, k));
+    step += run.step[k] * corner;
+    below += run.below[k] * corner;
+  }
+  return step.cross(below).norm();
+}
+
+class Collector {
+ public:
+  Collector(const BakeScene& scene, const TexelFinder& finder, int band)
+      : target_(scene.target),
+        finder_(finder),
+        raster_(finder.raster()),
+        band_(band),
+        width_(finder.raster().width()),
+        marked_(static_cast<size_t>(finder.raster().rows(band)) * static_cast<size_t>(width_), 0),
+        row_marked_(static_cast<size_t>(finder.raster().rows(band)), 0) {}
+
+  std::vector<Deposit> collect() {
+    bool any = false;
+    const double limit = small_area / (static_cast<double>(width_) * raster_.height());
+    for (const Face f : raster_.faces(band_)) {
+      const ChartPiece piece(target_.chart, f);
+      if (piece.is_trapezoid() || piece.area() >= limit) continue;
+      any = true;
+      for_each_strip(piece, [&](int row, Clip&, int first, int last) {
+        row_marked_[static_cast<size_t>(row)] = 1;
+        std::fill(mark(row, first), mark(row, last) + 1, char{1});
+      });
+    }
+    if (!any) return {};
+    for (const Face f : raster_.faces(band_)) add(ChartPiece(target_.chart, f));
+    std::ranges::stable_sort(deposits_, {}, &Deposit::texel);
+    return std::move(deposits_);
+  }
+
+ private:
+  std::vector<char>::iterator mark(int row, int column) {
+    return marked_.begin() + static_cast<std::ptrdiff_t>(row) * width_ + column;
+  }
+
+  /// visit(row of the band, what lies in it, first and last column it may touch).
+  template <class Visit>
+  void for_each_strip(const ChartPiece& piece, Visit&& visit) {
+    const double height = raster_.height();
+    const int first_row = raster_.first_row(band_);
+    const int top = std::max(0, static_cast<int>(piece.low() * height) - first_row);
+    const int bottom =
+        std::min(raster_.rows(band_) - 1, static_cast<int>(piece.high() * height) - first_row);
+    for (int row = top; row <= bottom; ++row) {
+      Clip strip(piece.outline());
+      strip.cut(&UvPoint::v, (first_row + row) / height, 1);
+      strip.cut(&UvPoint::v, (first_row + row + 1) / height, -1);
+      if (strip.size < 3) continue;
+      double least = 1, greatest = 0;
+      for (size_t k = 0; k < strip.size; ++k) {
+        least = std::min(least, strip.points[k].u);
+        greatest = std::max(greatest, strip.points[k].u);
+      }
+      visit(row, strip, std::clamp(static_cast<int>(least * width_), 0, width_ - 1),
+            std::clamp(static_cast<int>(greatest * width_), 0, width_ - 1));
+    }
+  }
+
+  void add(const ChartPiece& piece) {
+    const double outline = piece.area();
+    if (!(outline > 0)) return;
+    const double density = surface_area(piece.face()) / outline;
+    for_each_strip(piece, [&](int row, const Clip& strip, int first, int last) {
+      if (!row_marked_[static_cast<size_t>(row)]) return;
+      for (int column = first; column <= last; ++column) {
+        if (!*mark(row, column)) continue;
+        Clip part = strip;
+        part.cut(&UvPoint::u, static_cast<double>(column) / width_, 1);
+        part.cut(&UvPoint::u, static_cast<double>(column + 1) / width_, -1);
+        const auto [area, centre] = part.measure();
+        if (area > 0) deposit(piece, row, column, area, density, centre);
+      }
+    });
+  }
+
+  /// A point stands for as much of the texel as it has of its area, also for texture filters.
+  void deposit(const ChartPiece& piece, int row, int column, double area, double density,
+               const UvPoint& centre) {
+    const double share = std::sqrt(area * width_ * raster_.height());
+    RasterRun place{piece.face(),
+                    raster_.first_row(band_) + row,
+                    column,
+                    1,
+                    piece.weights(centre),
+                    piece.gradient(1),
+                    piece.gradient(0)};
+    for (size_t k = 0; k < 2; ++k) {
+      place.step[k] *= share / width_;
+      place.below[k] *= share / raster_.height();
+    }
+    deposits_.push_back({.texel = static_cast<size_t>(mark(row, column) - marked_.begin()),
+                         .place = place,
+                         .run = finder_.run_in_source(place),
+                         .weight = area * density});
+  }
+
+  double surface_area(Face f) const {
+    const auto corner = [&](int k) -> Vector3 {
+      return target_.positions.row(target_.chart.triangles(f, k));
+    };
+    return (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm() / 2;
+  }
+
+  const BakeTarget& target_;
+  const TexelFinder& finder_;
+  const UvRaster& raster_;
+  int band_, width_;
+  std::vector<char> marked_, row_marked_;
+  std::vector<Deposit> deposits_;
+};
+
+/// How many triangles a texel spans, the longer way.
+double extent(const SurfaceRun& run) {
+  return std::max(run.step.cwiseAbs().maxCoeff(), run.below.cwiseAbs().maxCoeff());
+}
+
+/// Grids of points in texels that span more than a triangle, or have neighbours that do.
+std::vector<Deposit> grids(const BakeScene& scene, const TexelFinder& finder, int band) {
+  const int width = finder.raster().width(), rows = finder.raster().rows(band);
+  const TexelPoints centres = finder.points(band, 0.5, 0.5);
+  std::vector<char> fineness(centres.runs.size(), 1);  // points along a side of the texel's grid
+  const auto texel = [&](int row, int column) {
+    return static_cast<size_t>(row) * static_cast<size_t>(width) +
+           static_cast<size_t>((column + width) % width);
+  };
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < width; ++column) {
+      const double spanned = extent(centres.runs[texel(row, column)]);
+      if (!(spanned > 1)) continue;
+      const auto n = static_cast<char>(std::min(std::ceil(spanned) + 1, double{finest_grid}));
+      for (int r = std::max(0, row - 1); r <= std::min(rows - 1, row + 1); ++r) {
+        for (int c = column - 1; c <= column + 1; ++c) {
+          fineness[texel(r, c)] = std::max(fineness[texel(r, c)], n);
+        }
+      }
+    }
+  }
+  std::vector<Deposit> deposits;
+  size_t i = 0;
+  for (const RasterRun& run : centres.places) {
+    for (int k = 0; k < run.count; ++k, ++i) {
+      const int n = fineness[i];
+      if (n == 1) continue;
+      RasterRun place = run;
+      place.count = 1;
+      for (size_t c = 0; c < 2; ++c) place.weights[c] += k * run.step[c];
+      for (int s = 0; s < n * n; ++s) {
+        const SurfaceRun point =
+            finder.beside(place, (s % n + 0.5) / n - 0.5, (s / n + 0.5) / n - 0.5, n);
+        deposits.push_back({i, place, point, area_of_step(scene.source.file.mesh, point)});
+      }
+    }
+  }
+  return deposits;
+}
+
+}  // namespace
+
+CrowdedTexels::CrowdedTexels(const BakeScene& scene, const TexelFinder& finder, int band) {
+  const std::vector<Deposit> deposits =
+      finder.by_location() ? grids(scene, finder, band) : Collector(scene, finder, band).collect();
+  for (size_t i = 0; i < deposits.size();) {
+    size_t end = i;
+    double total = 0;
+    while (end < deposits.size() && deposits[end].texel == deposits[i].texel) {
+      total += deposits[end++].weight;
+    }
+    if (total > 0) {  // else nothing there has an area, and the centre's value stays
+      texels.push_back({deposits[i].texel, weights.size(), weights.size() + end - i});
+      for (; i < end; ++i) {
+        weights.push_back(static_cast<float>(deposits[i].weight / total));
+        points.places.push_back(deposits[i].place);
+        points.runs.push_back(deposits[i].run);
+      }
+    }
+    i = end;
+  }
+}
+
+}  // namespace sphparam

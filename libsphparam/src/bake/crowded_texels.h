@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "bake/bake_scene.h"
+#include "bake/texel_points.h"
+
+namespace sphparam {
+
+/// Seeds of the samples of crowded texels are taken from here on, times the texel's index.
+inline constexpr std::int64_t crowded_seeds = 1 << 10;
+
+/// The texels of a band that hold triangles smaller than themselves, and what lies in them: points,
+/// weighted by the area on the surface that each stands for. The mean of a field is then that over
+/// the part of the surface which the texel shows, the best constant for it in the sense of least
+/// squares; a limb that has shrunk to a fraction of a texel is as visible as it is large.
+///
+/// Where the chart is the source's own, a point is a triangle's, the centre of what the texel cuts
+/// out of it in (u, v): no triangle is missed. Where points are found by direction, texels that
+/// cover more than a triangle, and their neighbours in the band, get a grid of up to 8 × 8 points.
+struct CrowdedTexels {
+  /// Cost: one clipped polygon for each triangle and crowded texel that meet; or, by direction, the
+  /// points of the band once more.
+  CrowdedTexels(const BakeScene& scene, const TexelFinder& finder, int band);
+
+  struct Texel {
+    size_t index;        // in the band
+    size_t first, last;  // its points
+  };
+  std::vector<Texel> texels;
+  TexelPoints points;
+  std::vector<float> weights;  // a point; they sum to 1 in every texel
+};
+
+}  // namespace sphparam

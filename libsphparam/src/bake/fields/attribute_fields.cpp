@@ -1,0 +1,166 @@
+// Properties are interpolated linearly over faces, those of faces are constant on them.
+
+#include "bake/fields/attribute_fields.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "bake/fields/linear_field.h"
+#include "bake/source_attributes.h"
+
+namespace sphparam {
+namespace {
+
+std::string names_of(const std::vector<Property>& properties) {
+  std::string names;
+  for (const Property& property : properties) names += (names.empty() ? "" : ", ") + property.name;
+  return names;
+}
+
+std::pair<double, double> range_of(const std::vector<double>& values) {
+  const auto [least, greatest] = std::ranges::minmax_element(values);
+  return {*least, *greatest};
+}
+
+/// Mixes the lower 24 bits one to one; 0 stays 0. Our own: each step, x ^ x >> 12 and a product
+/// with an odd number modulo 2^24, has an inverse.
+std::uint32_t mixed(std::uint32_t x) {
+  constexpr std::uint32_t low_bits = (1 << 24) - 1;
+  x &= low_bits;
+  for (const std::uint32_t odd : {0x9e3779U, 0x5bd1e9U}) {
+    x = (x ^ x >> 12) * odd & low_bits;
+  }
+  return x ^ x >> 12;
+}
+
+/// A label, one a face.
+SurfaceField label_field(const BakeScene& scene, std::string name, std::vector<int> labels) {
+  SurfaceField field{.name = std::move(name), .kind = FieldKind::Label};
+  const int greatest = *std::ranges::max_element(labels);
+  if (!scene.options.ids_as_colours) {
+    field.about = "numbers from 0, -1 for none";
+    field.range = std::pair<double, double>(0, greatest);
+    field.evaluate_runs = [labels = std::move(labels)](std::span<const SurfaceRun> runs,
+                                                       float* values) {
+      for (const SurfaceRun& run : runs) {
+        values = std::fill_n(values, run.count,
+                             static_cast<float>(labels[static_cast<size_t>(run.face)]));
+      }
+    };
+    return field;
+  }
+  field.channels = 3;
+  field.about = "a colour each, without meaning; black for none";
+  field.range = std::pair<double, double>(0, 1);
+  field.evaluate_runs = [labels = std::move(labels)](std::span<const SurfaceRun> runs,
+                                                     float* values) {
+    for (const SurfaceRun& run : runs) {
+      const int label = labels[static_cast<size_t>(run.face)];
+      const std::uint32_t bits = label < 0 ? 0 : mixed(static_cast<std::uint32_t>(label) + 1);
+      for (int i = 0; i < run.count; ++i) {
+        for (int c = 0; c < 3; ++c) {
+          *values++ = static_cast<float>(bits >> (8 * c) & 255) / 255;
+        }
+      }
+    }
+  };
+  return field;
+}
+
+std::vector<int> materials_of(const MeshFile& file) {
+  const Property* material = file.find_face_property("material");
+  if (!material) {
+    throw MapError("id:material: the mesh has no materials; id:face gives every triangle one");
+  }
+  return {material->values.begin(), material->values.end()};
+}
+
+}  // namespace
+
+SurfaceField make_position(const BakeScene& scene, const std::string&) {
+  const TriangleMesh& mesh = scene.source.file.mesh;
+  return linear_field<3>(
+      {.name = "position",
+       .about = "x y z of the mesh, its own unit and axes; one range for all three",
+       .range = std::pair(mesh.positions.minCoeff(), mesh.positions.maxCoeff())},
+      [&mesh](Face f, int k, std::array<double, 3>& value) {
+        const int v = mesh.triangles(f, k);
+        for (int c = 0; c < 3; ++c) value[static_cast<size_t>(c)] = mesh.positions(v, c);
+      });
+}
+
+SurfaceField make_vertex_colour(const BakeScene& scene, const std::string&) {
+  const auto colours = linear_colours(scene.source.file);
+  if (!colours) {
+    throw MapError("vcolor: the mesh has no colours at its vertices (red, green, blue)");
+  }
+  const Triangles& triangles = scene.source.file.mesh.triangles;
+  return linear_field<3>(
+      {.name = "vcolor", .kind = FieldKind::Colour, .about = "colours of the vertices"},
+      [colours, &triangles](Face f, int k, std::array<double, 3>& value) {
+        for (size_t c = 0; c < 3; ++c) value[c] = (*colours)(triangles(f, k), static_cast<int>(c));
+      });
+}
+
+SurfaceField make_texcoords(const BakeScene& scene, const std::string&) {
+  const auto corners = texcoords_of(scene.source.file);
+  if (!corners) throw MapError("uv: the mesh has no texture coordinates");
+  return linear_field<3>(
+      {.name = "uv",
+       .about = "texture coordinates s t of the source, t upwards; the third channel is 0",
+       .range = std::pair(std::min(0.0, corners->minCoeff()), std::max(1.0, corners->maxCoeff()))},
+      [corners](Face f, int k, std::array<double, 3>& value) {
+        value = {(*corners)(3 * f + k, 0), (*corners)(3 * f + k, 1), 0};
+      });
+}
+
+SurfaceField make_scalar(const BakeScene& scene, const std::string& name) {
+  const MeshFile& file = scene.source.file;
+  const SurfaceField described{.name = "scalar:" + name, .about = "property " + name};
+  if (const Property* property = file.find_vertex_property(name)) {
+    SurfaceField field = described;
+    field.range = range_of(property->values);
+    return linear_field<1>(
+        std::move(field), [&file, property](Face f, int k, std::array<double, 1>& value) {
+          value[0] = property->values[static_cast<size_t>(file.mesh.triangles(f, k))];
+        });
+  }
+  if (const Property* property = file.find_face_property(name)) {
+    SurfaceField field = described;
+    field.range = range_of(property->values);
+    return linear_field<1>(std::move(field), [property](Face f, int, std::array<double, 1>& value) {
+      value[0] = property->values[static_cast<size_t>(f)];
+    });
+  }
+  const std::string vertices = names_of(file.vertex_properties),
+                    faces = names_of(file.face_properties);
+  std::vector<std::string> known;
+  for (const Property& property : file.vertex_properties) known.push_back(property.name);
+  for (const Property& property : file.face_properties) known.push_back(property.name);
+  throw MapError("scalar:" + name + ": the mesh has no such property; its vertices have " +
+                     (vertices.empty() ? "none" : vertices) + ", its faces " +
+                     (faces.empty() ? "none" : faces),
+                 name, std::move(known));
+}
+
+SurfaceField make_id(const BakeScene& scene, const std::string& what) {
+  const MeshFile& file = scene.source.file;
+  const auto count = static_cast<size_t>(file.mesh.face_count());
+  const std::string chosen = !what.empty()                         ? what
+                             : file.find_face_property("material") ? "material"
+                                                                   : "face";
+  std::vector<int> labels(count, 0);  // of a closed surface of genus 0 there is one component
+  if (chosen == "face") {
+    const Property* polygons = file.find_face_property("source_face");
+    for (size_t f = 0; f < count; ++f) {
+      labels[f] = polygons ? static_cast<int>(polygons->values[f]) : static_cast<int>(f);
+    }
+  } else if (chosen == "material") {
+    labels = materials_of(file);
+  } else if (chosen != "component") {
+    throw MapError("id:" + chosen + ": there are id:face, id:material and id:component");
+  }
+  return label_field(scene, "id:" + chosen, std::move(labels));
+}
+
+}  // namespace sphparam

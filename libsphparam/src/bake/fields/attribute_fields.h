@@ -1,0 +1,21 @@
+#pragma once
+
+#include "bake/map_kinds.h"
+
+namespace sphparam {
+
+/// What the mesh file says at its vertices, corners and faces. All throw MapError where it has not
+/// what they need.
+SurfaceField make_position(const BakeScene& scene, const std::string&);
+/// Colours of vertices, linear light between them.
+SurfaceField make_vertex_colour(const BakeScene& scene, const std::string&);
+/// Texture coordinates of the source: (s, t, 0), t upwards.
+SurfaceField make_texcoords(const BakeScene& scene, const std::string&);
+/// A property of vertices or faces, by its name.
+SurfaceField make_scalar(const BakeScene& scene, const std::string& name);
+/// What a point belongs to: "face", "component" or "material" (default: material where the file has
+/// some, else face). As colours in integer images, in others as numbers. The colours of labels
+/// below 2^24 − 1 all differ, in 8 bits too, and none of them is black.
+SurfaceField make_id(const BakeScene& scene, const std::string& what);
+
+}  // namespace sphparam

@@ -1,0 +1,72 @@
+#include "bake/fields/curvature_field.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+#include <vector>
+
+#include "bake/fields/heat_field.h"
+#include "bake/fields/linear_field.h"
+#include "bake/map_kinds.h"
+#include "sphparam/mesh/curvature.h"
+
+namespace sphparam {
+namespace {
+
+constexpr double kScale = 0.02;   // of the radius of the sphere of the same area
+constexpr double kWithin = 0.98;  // share of the area that the range holds
+
+/// The |value| that all but the rest of the area stay within.
+double weighted_quantile(const VectorX& values, const VectorX& weights, double share) {
+  std::vector<Vertex> order(static_cast<size_t>(values.size()));
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](Vertex a, Vertex b) {
+    return std::abs(values[a]) != std::abs(values[b]) ? std::abs(values[a]) < std::abs(values[b])
+                                                      : a < b;
+  });
+  double sum = 0;
+  const double enough = share * weights.sum();
+  for (const Vertex v : order) {
+    sum += weights[v];
+    if (sum >= enough) return std::abs(values[v]);
+  }
+  return std::abs(values[order.back()]);
+}
+
+std::string about(bool gauss, double scale) {
+  char text[160];
+  std::snprintf(
+      text, sizeof text,
+      "%s, positive where convex, averaged over %.4g (2 %% of the radius of the sphere "
+      "of the same area)",
+      gauss ? "Gauss curvature k1*k2 in 1/length^2" : "mean curvature (k1+k2)/2 in 1/length",
+      scale);
+  return text;
+}
+
+}  // namespace
+
+SurfaceField curvature_field(const BakeScene& scene, const std::string& argument) {
+  const bool gauss = argument == "gauss";
+  if (!gauss && argument != "mean" && !argument.empty()) {
+    throw MapError("curvature: there are curvature:mean and curvature:gauss, not " + argument);
+  }
+  const TriangleMesh& mesh = scene.source.file.mesh;
+  const double scale = kScale * equal_area_radius(mesh, scene.threads);
+  const Curvature curvature = measure_curvature(mesh, scene.source.topology, scale, scene.threads);
+  const VectorX& values = gauss ? curvature.gauss : curvature.mean;
+  const double reach = weighted_quantile(values, curvature.area, kWithin);
+  const double high = reach > 0 ? reach : 1;
+  SurfaceField field = linear_field<1>(
+      {.name = gauss ? "curvature:gauss" : "curvature:mean",
+       .about = about(gauss, scale),
+       .range = {{-high, high}}},
+      [values, &triangles = mesh.triangles](Face face, int k, std::array<double, 1>& value) {
+        value[0] = values[triangles(face, k)];
+      });
+  return scene.options.heat ? as_heat(std::move(field)) : field;
+}
+
+}  // namespace sphparam

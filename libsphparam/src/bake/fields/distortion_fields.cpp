@@ -1,0 +1,48 @@
+#include "bake/fields/distortion_fields.h"
+
+#include <array>
+
+#include "bake/fields/heat_field.h"
+#include "bake/fields/linear_field.h"
+#include "sphparam/sphere/distortion.h"
+
+namespace sphparam {
+namespace {
+
+constexpr double kExtreme = 32;  // log₂ of what stands for 0 and ∞
+
+SurfaceField distortion_field(Heat heat, const char* name, const char* about,
+                              const BakeScene& scene) {
+  const Distortion distortion =
+      measure_distortion(scene.source.file.mesh, scene.source.map, scene.threads);
+  const VectorX values = heat_values(heat, distortion).cwiseMax(-kExtreme).cwiseMin(kExtreme);
+  const HeatScale& scale = heat_scale(heat);
+  SurfaceField field = linear_field<1>(
+      {.name = name, .about = about, .range = {{scale.low, scale.high}}},
+      [values](Face face, int, std::array<double, 1>& value) { value[0] = values[face]; });
+  return scene.options.heat ? as_heat(std::move(field)) : field;
+}
+
+}  // namespace
+
+SurfaceField area_field(const BakeScene& scene, const std::string&) {
+  return distortion_field(Heat::Area, "area",
+                          "log2 of area on the sphere / area on the mesh, total areas made equal",
+                          scene);
+}
+
+SurfaceField angle_field(const BakeScene& scene, const std::string&) {
+  return distortion_field(Heat::Angle, "angle",
+                          "mean |log2(angle on the sphere / angle on the mesh)| of a triangle",
+                          scene);
+}
+
+SurfaceField stretch_field(const BakeScene& scene, const std::string&) {
+  return distortion_field(
+      Heat::Stretch, "stretch",
+      "log2 of length on the mesh / length on the sphere, root mean square over directions, total "
+      "areas made equal",
+      scene);
+}
+
+}  // namespace sphparam

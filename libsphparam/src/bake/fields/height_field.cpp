@@ -1,0 +1,52 @@
+// A point of the target and the point of the source with the same direction on the sphere:
+//   h = (p_source − p_target) · n_target
+// where the target's surface moved by h along its normals is nearest to the source's.
+
+#include "bake/fields/height_field.h"
+
+#include "bake/map_kinds.h"
+#include "rays/interpolation.h"
+
+namespace sphparam {
+namespace {
+
+SurfaceField radial_height(const TriangleMesh& mesh) {
+  SurfaceField field = {.name = "height",
+                        .about = "distance from the origin, in units of the mesh"};
+  field.evaluate = [&mesh](std::span<const SurfaceSample> samples, float* values) {
+    for (const SurfaceSample& sample : samples) {
+      *values++ =
+          static_cast<float>(interpolate(mesh.positions, mesh.triangles, sample.point).norm());
+    }
+  };
+  return field;
+}
+
+SurfaceField height_above(const TriangleMesh& mesh, const BakeTarget& target) {
+  SurfaceField field = {
+      .name = "height",
+      .about = "height above the mesh that is baked for, along its normals, in units of the mesh"};
+  field.evaluate = [&mesh, &target](std::span<const SurfaceSample> samples, float* values) {
+    const Triangles& base = target.chart.triangles;
+    for (const SurfaceSample& sample : samples) {
+      const Vector3 normal = interpolate(target.normals, base, sample.place).normalized();
+      const Vector3 from = interpolate(target.positions, base, sample.place);
+      const Vector3 to = interpolate(mesh.positions, mesh.triangles, sample.point);
+      *values++ = static_cast<float>((to - from).dot(normal));
+    }
+  };
+  return field;
+}
+
+}  // namespace
+
+SurfaceField height_field(const BakeScene& scene, const std::string& argument) {
+  if (!argument.empty() && argument != "radial") {
+    throw MapError("height: there are height and height:radial, not " + argument);
+  }
+  const bool radial = argument == "radial" || scene.options.height_radial || scene.target.is_source;
+  return radial ? radial_height(scene.source.file.mesh)
+                : height_above(scene.source.file.mesh, scene.target);
+}
+
+}  // namespace sphparam

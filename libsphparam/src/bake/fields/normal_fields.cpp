@@ -1,0 +1,91 @@
+// A viewer that reads (x, y, z) makes x T + y B + z N unit: so the matrix (T B N), as it
+// interpolates it, is inverted at every sample.
+
+#include "bake/fields/normal_fields.h"
+
+#include <memory>
+
+#include "rays/flat_normal.h"
+#include "sphparam/chart/tangent_frame.h"
+
+namespace sphparam {
+namespace {
+
+Vector3 corner_normal(const BakeSource& source, Face f, int k) {
+  if (source.file.corner_normals) return source.file.corner_normals->row(3 * f + k);
+  return source.normals.row(source.file.mesh.triangles(f, k));
+}
+
+/// Where opposite normals cancel, that of the face.
+Vector3 normal_at(const BakeSource& source, Face f, const Vector3& weights) {
+  Vector3 normal = Vector3::Zero();
+  for (int k = 0; k < 3; ++k) normal += weights[k] * corner_normal(source, f, k);
+  const double length = normal.norm();
+  if (length > 0) return normal / length;
+  const auto corner = [&](int k) {
+    return source.file.mesh.position(source.file.mesh.triangles(f, k));
+  };
+  const Vector3 flat = flat_normal(corner(0), corner(1), corner(2));
+  return flat.isZero(0) ? Vector3::UnitZ() : flat;
+}
+
+void put(const Vector3& n, float*& values) {
+  for (int c = 0; c < 3; ++c) *values++ = static_cast<float>(n[c]);
+}
+
+}  // namespace
+
+SurfaceField make_object_normal(const BakeScene& scene, const std::string&) {
+  const BakeSource& source = scene.source;
+  SurfaceField field{.name = "normal-object",
+                     .channels = 3,
+                     .kind = FieldKind::Direction,
+                     .about = "unit normal in the axes of the mesh"};
+  field.evaluate_runs = [&source](std::span<const SurfaceRun> runs, float* values) {
+    for (const SurfaceRun& run : runs) {
+      for (int i = 0; i < run.count; ++i) {
+        put(normal_at(source, run.face, run.first + i * run.step), values);
+      }
+    }
+  };
+  return field;
+}
+
+SurfaceField make_tangent_normal(const BakeScene& scene, const std::string&) {
+  const BakeTarget& target = scene.target;
+  const auto frame = std::make_shared<const ShadingFrame>(
+      tangent_frame(target.chart, target.positions,
+                    target.wedge_normals ? *target.wedge_normals : target.normals, scene.threads));
+  const double x_sign = scene.options.mirrored ? -1 : 1,
+               y_sign = scene.options.normal_y_down ? -1 : 1;
+  SurfaceField field{.name = "normal-tangent",
+                     .channels = 3,
+                     .kind = FieldKind::Direction,
+                     .about = scene.options.normal_y_down ? "tangent space, +Y down (DirectX)"
+                                                          : "tangent space, +Y up (OpenGL, glTF)"};
+  field.evaluate = [&scene, frame, x_sign, y_sign](std::span<const SurfaceSample> samples,
+                                                   float* values) {
+    const Triangles& wedges = scene.target.chart.wedges;
+    for (const SurfaceSample& sample : samples) {
+      Vector3 tangent = Vector3::Zero(), normal = Vector3::Zero();
+      double sign = 0;
+      for (int k = 0; k < 3; ++k) {
+        const int wedge = wedges(sample.place.face, k);
+        const double weight = sample.place.barycentric[k];
+        tangent += weight * frame->tangents.row(wedge).head<3>();
+        normal += weight * frame->normals.row(wedge);
+        sign += weight * frame->tangents(wedge, 3);
+      }
+      Eigen::Matrix3d axes;
+      axes << tangent, (sign < 0 ? -1 : 1) * normal.cross(tangent), normal;
+      const Vector3 n = normal_at(scene.source, sample.point.face, sample.point.barycentric);
+      Vector3 local = axes.inverse() * n;
+      // Where a frame has no room (normals or tangents that cancel), nothing can be told of it.
+      local = local.allFinite() && local.squaredNorm() > 0 ? local.normalized() : Vector3::UnitZ();
+      put({x_sign * local[0], y_sign * local[1], local[2]}, values);
+    }
+  };
+  return field;
+}
+
+}  // namespace sphparam

@@ -1,0 +1,195 @@
+// One bundle of cosine-distributed rays a sample, from a point lifted off its triangle by the
+// scene's clearance. They come in opposite pairs, so a mean over rays that nothing blocks is the
+// normal itself, without noise.
+
+#include "bake/fields/ray_fields.h"
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "bake/bake_scene.h"
+#include "bake/map_kinds.h"
+#include "rays/cosine_rays.h"
+#include "rays/flat_normal.h"
+
+namespace sphparam {
+
+namespace {
+
+/// Which way the rays go.
+enum class Side { Outwards = 1, Inwards = -1 };
+
+/// A point of the surface as rays start there.
+struct Start {
+  Vector3 origin;
+  Eigen::Vector3f axis;   // of the rays: the smooth normal, outwards or inwards
+  Eigen::Vector3f plane;  // the triangle's normal on that side
+};
+
+/// What all three fields share. One copy serves all threads.
+struct RayCaster {
+  std::shared_ptr<const RayScene> scene;
+  const TriangleMesh& mesh;
+  const Points& normals;
+  CosineRays rays;
+  double reach;
+
+  Start start(const SurfacePoint& at, Side side) const {
+    const auto corners = mesh.triangles.row(at.face);
+    const Vector3 a = mesh.position(corners[0]), b = mesh.position(corners[1]),
+                  c = mesh.position(corners[2]);
+    const Vector3& w = at.barycentric;
+    const Vector3 smooth = (w[0] * normals.row(corners[0]) + w[1] * normals.row(corners[1]) +
+                            w[2] * normals.row(corners[2]))
+                               .transpose();
+    const Vector3 flat = flat_normal(a, b, c);
+    const double sign = static_cast<double>(side);
+    // Of a triangle without area only the smooth normal is known; of opposed normals only the flat.
+    const Vector3 plane = sign * (flat.isZero(0) ? smooth.stableNormalized() : flat);
+    const Vector3 axis = sign * (smooth.isZero(0) ? flat : smooth.stableNormalized());
+    return {w[0] * a + w[1] * b + w[2] * c + scene->clearance() * plane, axis.cast<float>(),
+            plane.cast<float>()};
+  }
+};
+
+/// Rays of one thread, used again from sample to sample.
+struct Bundle {
+  explicit Bundle(const RayCaster& caster)
+      : wanted(static_cast<size_t>(caster.rays.count())), cast(wanted.size()) {}
+
+  void aim(const RayCaster& caster, const Start& start, std::uint64_t seed) {
+    caster.rays.aim(start.axis, seed, wanted);
+    for (size_t i = 0; i < wanted.size(); ++i) {
+      const float height = wanted[i].dot(start.plane);
+      cast[i] = height < 0 ? Eigen::Vector3f(wanted[i] - 2 * height * start.plane) : wanted[i];
+    }
+  }
+
+  std::vector<Eigen::Vector3f> wanted;  // about the smooth normal
+  std::vector<Eigen::Vector3f> cast;    // none of them into its own triangle
+};
+
+RayCaster caster_of(std::shared_ptr<const RayScene> scene, const TriangleMesh& mesh,
+                    const Points& normals, const RayFieldOptions& options) {
+  const double reach = options.reach * scene->diagonal();
+  return {std::move(scene), mesh, normals, CosineRays(options.rays), reach};
+}
+
+/// Calls visit(i, start, bundle, blocked) for every sample.
+template <class Visit>
+void cast_outwards(const RayCaster& caster, std::span<const SurfaceSample> samples,
+                   const Visit& visit) {
+  Bundle bundle(caster);
+  std::vector<std::uint8_t> blocked(bundle.cast.size());
+  for (size_t i = 0; i < samples.size(); ++i) {
+    const Start start = caster.start(samples[i].point, Side::Outwards);
+    bundle.aim(caster, start, samples[i].seed);
+    caster.scene->find_blocked(start.origin, bundle.cast, caster.reach, blocked);
+    visit(i, start, bundle, blocked);
+  }
+}
+
+std::string reach_text(const RayFieldOptions& options) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%d rays, reach %g of the diagonal", options.rays,
+                options.reach);
+  return text;
+}
+
+}  // namespace
+
+SurfaceField occlusion_field(std::shared_ptr<const RayScene> scene, const TriangleMesh& mesh,
+                             const Points& normals, const RayFieldOptions& options) {
+  const RayCaster caster = caster_of(std::move(scene), mesh, normals, options);
+  const auto evaluate = [caster](std::span<const SurfaceSample> samples, float* values) {
+    cast_outwards(caster, samples,
+                  [values](size_t i, const Start&, const Bundle&, const auto& hit) {
+                    int open = 0;
+                    for (const std::uint8_t blocked : hit) open += !blocked;
+                    values[i] = static_cast<float>(open) / static_cast<float>(hit.size());
+                  });
+  };
+  return {.name = "ao",
+          .channels = 1,
+          .kind = FieldKind::Data,
+          .about = "share of the sky that is seen, cosine-weighted, " + reach_text(options),
+          .range = {{0, 1}},
+          .evaluate = evaluate};
+}
+
+SurfaceField bent_normal_field(std::shared_ptr<const RayScene> scene, const TriangleMesh& mesh,
+                               const Points& normals, const RayFieldOptions& options) {
+  const RayCaster caster = caster_of(std::move(scene), mesh, normals, options);
+  const auto evaluate = [caster](std::span<const SurfaceSample> samples, float* values) {
+    cast_outwards(caster, samples,
+                  [values](size_t i, const Start& start, const Bundle& bundle, const auto& hit) {
+                    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+                    // The directions wanted, not the mirrored ones: those would tilt with every
+                    // facet.
+                    for (size_t ray = 0; ray < hit.size(); ++ray) {
+                      if (!hit[ray]) sum += bundle.wanted[ray];
+                    }
+                    const float length = sum.norm();
+                    Eigen::Map<Eigen::Vector3f>(values + 3 * i) =
+                        length > 0 ? sum / length : start.axis;
+                  });
+  };
+  return {.name = "bent",
+          .channels = 3,
+          .kind = FieldKind::Direction,
+          .about = "mean unblocked direction, object space, " + reach_text(options),
+          .range = {{-1, 1}},
+          .evaluate = evaluate};
+}
+
+SurfaceField thickness_field(std::shared_ptr<const RayScene> scene, const TriangleMesh& mesh,
+                             const Points& normals, const RayFieldOptions& options) {
+  const RayCaster caster = caster_of(std::move(scene), mesh, normals, options);
+  const auto evaluate = [caster](std::span<const SurfaceSample> samples, float* values) {
+    Bundle bundle(caster);
+    std::vector<float> distances(bundle.cast.size());
+    for (size_t i = 0; i < samples.size(); ++i) {
+      const Start start = caster.start(samples[i].point, Side::Inwards);
+      bundle.aim(caster, start, samples[i].seed);
+      caster.scene->find_distances(start.origin, bundle.cast, caster.reach, distances);
+      double sum = 0;
+      for (const float distance : distances) sum += distance;
+      values[i] = static_cast<float>(sum / static_cast<double>(distances.size()));
+    }
+  };
+  return {.name = "thickness",
+          .channels = 1,
+          .kind = FieldKind::Data,
+          .about = "mean way inwards, cosine-weighted, units of the mesh, " + reach_text(options),
+          .evaluate = evaluate};
+}
+
+namespace {
+
+using MakeRayField = SurfaceField(std::shared_ptr<const RayScene>, const TriangleMesh&,
+                                  const Points&, const RayFieldOptions&);
+
+SurfaceField make_of_scene(MakeRayField* make, const BakeScene& scene, const std::string& argument,
+                           double reach) {
+  if (!argument.empty()) throw MapError("no argument is known here: " + argument);
+  const TriangleMesh& mesh = scene.source.file.mesh;
+  return make(std::make_shared<const RayScene>(mesh), mesh, scene.source.normals,
+              {.rays = scene.options.rays, .reach = reach});
+}
+
+}  // namespace
+
+SurfaceField make_occlusion(const BakeScene& scene, const std::string& argument) {
+  return make_of_scene(occlusion_field, scene, argument, scene.options.max_ray_distance);
+}
+
+SurfaceField make_bent_normal(const BakeScene& scene, const std::string& argument) {
+  return make_of_scene(bent_normal_field, scene, argument, scene.options.max_ray_distance);
+}
+
+SurfaceField make_thickness(const BakeScene& scene, const std::string& argument) {
+  return make_of_scene(thickness_field, scene, argument, 1);
+}
+
+}  // namespace sphparam

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "bake/bake_scene.h"
+#include "sphparam/progress.h"
+
+namespace sphparam {
+
+/// The chart of a mesh with what bakes need on it: where an exporter refines the triangles at the
+/// poles, or a mesh has hard edges, images must be baked for that very chart.
+/// `pole_wedges`: as `refine_poles` takes them. Progress is told of the chart.
+/// Requires: a certified map. Throws: std::invalid_argument as `refine_poles` does; Cancelled.
+/// Cost: that of `spherical_chart`.
+BakeTarget make_target(const MeshFile& file, const Topology& topology, const SphereMap& map,
+                       bool is_source, int threads, int pole_wedges = 1,
+                       const Progress& progress = {});
+
+/// A texture of the user's own for all of the mesh.
+/// Throws: ImageError.
+SourceTexture read_texture(const std::string& path, TextureWrap wrap, int threads);
+
+/// The textures of a file's materials, decoded; empty where it has none. An image that several
+/// materials use is decoded once.
+/// Throws: ImageError that names material and image, for one that is missing, broken or unusable.
+std::vector<SourceTexture> read_textures(const MeshFile& file, int threads);
+
+}  // namespace sphparam

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sphparam/mesh/surface_point.h"
+
+namespace sphparam {
+
+/// What the values of a field are, and so how they may be filtered and stored.
+enum class FieldKind : std::uint8_t {
+  Colour,     // sRGB in [0, 1] as stored; averaged in linear light
+  Data,       // averaged as it is, never colour-converted
+  Direction,  // unit vectors: averaged, then made unit again; stored as ½ + ½·n in integers
+  Label,      // never averaged: the value at the texel's centre
+};
+
+/// A point of the source surface that a texel asks for.
+struct SurfaceSample {
+  SurfacePoint point;       // in the source mesh
+  std::uint64_t seed;       // of the texel and sample: the same for any number of threads and tiles
+  SurfacePoint place = {};  // in the chart that the image is for (chart.triangles, chart.wedges)
+};
+
+/// Samples of neighbouring texels of a row on one face of the source: the i-th has the barycentric
+/// weights first + i·step, some roundings outside the face at most.
+struct SurfaceRun {
+  Face face;
+  int count;
+  Vector3 first, step;
+  Vector3 below;  // what the weights change by from a row to the next
+};
+
+/// Something that has a value everywhere on the source mesh: a texture, a property, what rays see.
+struct SurfaceField {
+  std::string name;  // "position", "scalar:thickness"
+  int channels = 1;  // 1, 3 or 4
+  FieldKind kind = FieldKind::Data;
+  std::string about = {};  // one line for metadata: unit, space, convention
+  // Where values of integer images come from and go to; none: known only once all are baked.
+  std::optional<std::pair<double, double>> range = std::nullopt;
+  /// Fills values[channels·i …] for sample i. Called from many threads at once.
+  std::function<void(std::span<const SurfaceSample> samples, float* values)> evaluate = {};
+  /// The same for runs, the values of all in their order. For fields that can do with less than a
+  /// whole sample a texel, and for those that want to know how large a texel is on the surface;
+  /// `evaluate` is not called then. Colours are linear here: to be averaged they would be made so.
+  std::function<void(std::span<const SurfaceRun> runs, float* values)> evaluate_runs = {};
+};
+
+}  // namespace sphparam

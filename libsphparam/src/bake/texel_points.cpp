@@ -1,0 +1,167 @@
+#include "bake/texel_points.h"
+
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+
+#include "sphparam/sphere/spherical_coordinates.h"
+
+// A refined face lies in one source face, and its map to it is affine in (u, v): a run of the chart
+// is a run of the source. (Not so on the sphere, where the rays of new vertices have unit length.)
+// Through another mesh, λ of the source is projective in the direction q: λ ∝ M⁻¹q, M = (x₀ x₁ x₂);
+// its derivative, λ̇ = (M⁻¹q̇ − λ Σ M⁻¹q̇) / Σ M⁻¹q, is what a texel covers.
+
+namespace sphparam {
+namespace {
+
+Vector3 three(const std::array<double, 2>& weights) {
+  return {weights[0], weights[1], 1 - weights[0] - weights[1]};
+}
+Vector3 change(const std::array<double, 2>& weights) {
+  return {weights[0], weights[1], -weights[0] - weights[1]};
+}
+
+Eigen::Matrix3d rays(const Triangles& triangles, const Points& points, Face f) {
+  Eigen::Matrix3d columns;
+  for (int k = 0; k < 3; ++k) columns.col(k) = points.row(triangles(f, k));
+  return columns;
+}
+
+RasterRun single(const SurfacePoint& point, int row, int column) {
+  return {point.face, row, column, 1, {point.barycentric[0], point.barycentric[1]}, {0, 0}, {0, 0}};
+}
+
+}  // namespace
+
+TexelFinder::TexelFinder(const BakeScene& scene, const UvRaster& raster,
+                         Interpolation interpolation, int threads)
+    : scene_(&scene), raster_(&raster), interpolation_(interpolation) {
+  const SphericalChart& chart = scene.target.chart;
+  if (scene.target.is_source) {
+    const Triangles& source = scene.source.file.mesh.triangles;
+    refined_.assign(static_cast<size_t>(chart.triangles.rows()), -1);
+    for (Face f = 0; f < chart.triangles.rows(); ++f) {
+      const Face parent = chart.source_faces[static_cast<size_t>(f)];
+      if (f == parent && chart.triangles.row(f) == source.row(f)) continue;
+      Eigen::Matrix3d corners;
+      for (int k = 0; k < 3; ++k) {
+        const auto v = static_cast<size_t>(chart.triangles(f, k));
+        corners.col(k) = barycentric_in(parent, chart.surface_points[v], source);
+      }
+      refined_[static_cast<size_t>(f)] = static_cast<int>(corners_.size());
+      corners_.push_back(corners);
+    }
+  }
+  const bool sphere = interpolation == Interpolation::Sphere;
+  if (sphere || !scene.target.is_source) {
+    source_.emplace(scene.source.topology, scene.source.map, threads);
+  }
+  if (sphere) {
+    if (!chart.certificate.inverted.empty()) {
+      throw std::invalid_argument("the chart's points are no sphere map");
+    }
+    chart_topology_.emplace(chart.triangles, static_cast<int>(chart.points.rows()), threads);
+    chart_map_ = SphereMap{chart.points};
+    chart_.emplace(*chart_topology_, *chart_map_, threads);
+  }
+}
+
+SurfaceRun TexelFinder::run_in_source(const RasterRun& place) const {
+  SurfaceRun run{place.face, place.count, three(place.weights), change(place.step),
+                 change(place.below)};
+  const int refined = refined_[static_cast<size_t>(place.face)];
+  if (refined >= 0) {
+    const Eigen::Matrix3d& corners = corners_[static_cast<size_t>(refined)];
+    run.face = scene_->target.chart.source_faces[static_cast<size_t>(place.face)];
+    run.first = corners * run.first;
+    run.step = corners * run.step;
+    run.below = corners * run.below;
+  }
+  return run;
+}
+
+namespace {
+
+/// What the weights of q's point change by as q moves to the east and to the south.
+std::array<Vector3, 2> derivatives(const Eigen::Matrix3d& corners, const SurfacePoint& point,
+                                   const Vector3& q, const Vector3& east, const Vector3& south) {
+  const Eigen::Matrix3d inverse = corners.inverse();
+  const double size = (inverse * q).sum();
+  const auto derivative = [&](const Vector3& dq) -> Vector3 {
+    const Vector3 raw = inverse * dq;
+    const Vector3 result = (raw - point.barycentric * raw.sum()) / size;
+    return result.allFinite() ? result : Vector3::Zero();
+  };
+  return {derivative(east), derivative(south)};
+}
+
+}  // namespace
+
+SurfaceRun TexelFinder::located(const Vector3& q, const Vector3& east, const Vector3& south) const {
+  const SurfacePoint point = source_->locate(q);
+  const BakeSource& source = scene_->source;
+  const auto [step, below] = derivatives(
+      rays(source.file.mesh.triangles, source.map.points, point.face), point, q, east, south);
+  return {point.face, 1, point.barycentric, step, below};
+}
+
+/// The points of the source below those of a run of the target.
+void TexelFinder::locate(const RasterRun& place, std::vector<SurfaceRun>& runs) const {
+  const SphericalChart& chart = scene_->target.chart;
+  const Eigen::Matrix3d corners = rays(chart.triangles, chart.points, place.face);
+  const Vector3 first = corners * three(place.weights), east = corners * change(place.step),
+                south = corners * change(place.below);
+  for (int i = 0; i < place.count; ++i) runs.push_back(located(first + i * east, east, south));
+}
+
+SurfaceRun TexelFinder::beside(const RasterRun& place, double x, double y, int n) const {
+  const SphericalChart& chart = scene_->target.chart;
+  const Eigen::Matrix3d corners = rays(chart.triangles, chart.points, place.face);
+  const Vector3 east = corners * change(place.step), south = corners * change(place.below);
+  return located(corners * three(place.weights) + x * east + y * south, east / n, south / n);
+}
+
+TexelPoints TexelFinder::by_direction(int band, double x, double y) const {
+  TexelPoints texels;
+  const SphericalChart& chart = scene_->target.chart;
+  const int width = raster_->width(), first = raster_->first_row(band);
+  const auto direction = [&](double row, double column) {
+    constexpr double pi = std::numbers::pi;
+    return to_cartesian({2 * pi * (column + x) / width, pi * (row + y) / raster_->height()});
+  };
+  for (int row = first; row < first + raster_->rows(band); ++row) {
+    Points directions(width, 3);
+    for (int column = 0; column < width; ++column) directions.row(column) = direction(row, column);
+    const std::vector<SurfacePoint> places = chart_->locate_all(directions, 1);
+    for (int column = 0; column < width; ++column) {
+      const SurfacePoint& place = places[static_cast<size_t>(column)];
+      const Vector3 q = directions.row(column);
+      const Vector3 east = direction(row, column + 1) - q, south = direction(row + 1, column) - q;
+      const auto [step, below] =
+          derivatives(rays(chart.triangles, chart.points, place.face), place, q, east, south);
+      RasterRun run = single(place, row, column);
+      run.step = {step[0], step[1]};
+      run.below = {below[0], below[1]};
+      texels.places.push_back(run);
+      texels.runs.push_back(located(q, east, south));
+    }
+  }
+  return texels;
+}
+
+TexelPoints TexelFinder::points(int band, double x, double y) const {
+  if (interpolation_ == Interpolation::Sphere) return by_direction(band, x, y);
+  TexelPoints texels;
+  texels.places = raster_->runs(band, x, y);
+  texels.runs.reserve(texels.places.size());
+  for (const RasterRun& place : texels.places) {
+    if (scene_->target.is_source) {
+      texels.runs.push_back(run_in_source(place));
+    } else {
+      locate(place, texels.runs);
+    }
+  }
+  return texels;
+}
+
+}  // namespace sphparam

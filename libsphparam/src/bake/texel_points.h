@@ -1,0 +1,73 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "bake/bake_scene.h"
+#include "bake/surface_field.h"
+#include "bake/uv_raster.h"
+#include "sphparam/sphere/sphere_locator.h"
+
+namespace sphparam {
+
+/// How a texel finds its point of the surface.
+enum class Interpolation {
+  Uv,      // linear in (u, v) on the triangles of the chart, as a GPU does
+  Sphere,  // by the direction of the texel, on the geodesic map: for other spheres
+};
+
+/// The points of some texels, row by row from the west: runs[i] in the source mesh, and, for as
+/// many texels, places[i] in the target's chart.
+struct TexelPoints {
+  std::vector<SurfaceRun> runs;
+  std::vector<RasterRun> places;
+};
+
+/// Finds the points of the source mesh that the texels of an image show.
+///
+/// With `Uv`, the texel's owner in the target's chart gives a point of the target; where that is
+/// another mesh than the source, the direction that its map takes the point to leads to the point
+/// of the source. With `Sphere`, the direction of the texel's centre is located in the maps.
+/// Source: our own. Source and target share the sphere: no ray is cast, no cage needed.
+class TexelFinder {
+ public:
+  /// Both outlive it. Requires for `Sphere`: no inverted faces in the chart (else throws
+  /// std::invalid_argument).
+  TexelFinder(const BakeScene& scene, const UvRaster& raster, Interpolation interpolation,
+              int threads);
+
+  /// The points of the texels of a band at (column + x, row + y), 0 < x, y < 1.
+  /// Ensures: same result for any number of threads. Cost: some ns a texel where the source is the
+  /// target and `Uv`; else some 0.1 µs.
+  TexelPoints points(int band, double x, double y) const;
+
+  /// The source run of a run of the chart. Requires: the source is the target.
+  SurfaceRun run_in_source(const RasterRun& place) const;
+
+  /// The point of the source that lies (x, y) texels east and south of one that has its own run of
+  /// the chart, beyond its face too, and what an n-th of a texel covers there.
+  /// Requires: the source is not the target, or `Sphere`.
+  SurfaceRun beside(const RasterRun& place, double x, double y, int n) const;
+
+  /// Whether texels find their points by direction; else the chart's triangles lead to them.
+  bool by_location() const { return source_.has_value(); }
+  const UvRaster& raster() const { return *raster_; }
+
+ private:
+  void locate(const RasterRun& place, std::vector<SurfaceRun>& runs) const;
+  SurfaceRun located(const Vector3& q, const Vector3& east, const Vector3& south) const;
+  TexelPoints by_direction(int band, double x, double y) const;
+
+  const BakeScene* scene_;
+  const UvRaster* raster_;
+  Interpolation interpolation_;
+  // Of faces that are not the source's own: columns are the weights of the corners in the source.
+  std::vector<int> refined_;  // per chart face, into corners_; −1: the source's own
+  std::vector<Eigen::Matrix3d> corners_;
+  std::optional<SphereLocator> source_;  // of the source's map
+  std::optional<Topology> chart_topology_;
+  std::optional<SphereMap> chart_map_;
+  std::optional<SphereLocator> chart_;  // of the chart's refined map
+};
+
+}  // namespace sphparam

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "compare/entry.h"
+#include "compare/pictures.h"
+#include "sphparam/io/mesh_file.h"
+
+namespace sphparam {
+
+/// Files of a folder, as name and bytes; nothing touches the disk here.
+using FolderFiles = std::vector<std::pair<std::string, std::string>>;
+
+struct ComparisonOptions {
+  bool pictures = true;  // of the spheres; they need the image module
+  PictureOptions look = {};
+  MeshTextures textures = {};  // of the mesh
+};
+
+/// The page index.html about the maps of one mesh, and what it shows: table, spheres side by side
+/// (as they are, folds in red, and coloured by area distortion), and the polar charts of the first
+/// entry, blue, against every other one, red.
+/// Paper: Figures 6, 7, 10 and 11. Throws: ImageError.
+FolderFiles comparison_files(const std::string& name, const MeshFile& file,
+                             const std::vector<Entry>& entries,
+                             const ComparisonOptions& options = {});
+
+/// A heading of one pair of charts, area and angle, on the page; the SVGs are added to `files` as
+/// NAME-area.svg and NAME-angle.svg. Requires: both have a distortion.
+void add_polar_charts(Page& page, FolderFiles& files, const std::string& name,
+                      const Entry& ours, const Entry& other);
+
+/// The sphere of a entry as NAME.png in `files`, and the figure that shows it.
+PageFigure sphere_figure(FolderFiles& files, const std::string& name, const MeshFile& file,
+                         const Entry& entry, const PictureOptions& look,
+                         const MeshTextures& textures = {});
+
+}  // namespace sphparam

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "remesh/limit_surface.h"
+#include "remesh/patch_net.h"
+#include "remesh/sphere_grid.h"
+#include "sphparam/mesh/topology.h"
+#include "sphparam/sphere/sphere_locator.h"
+
+namespace sphparam {
+
+/// A limit surface over the sphere: at each place a point in space and a direction.
+///
+/// The direction of a place is that of the limit point which the grid's directions, as control
+/// points, have there: as smooth as the surface itself, without kinks along the grid's edges. Our
+/// own. Patches are faces: triangles among quads are first divided into quads, which leaves the
+/// surface as it is.
+class DirectedBase {
+ public:
+  /// Requires: a grid that is certified one-to-one, however quads are cut; a control point a
+  /// vertex. Throws: std::invalid_argument, as LimitTopology does. Cost: some 4 µs a face.
+  DirectedBase(const SphereGrid& grid, const Points& control, Scheme scheme, int threads = 0);
+  DirectedBase(const DirectedBase&) = delete;
+  DirectedBase& operator=(const DirectedBase&) = delete;
+
+  const Polygons& faces() const { return faces_; }
+  const LimitSurface& surface() const { return *surface_; }
+  const LimitSurface& directions() const { return *directions_; }
+  const PatchNet& net() const { return *net_; }
+
+  /// Near the place with that direction: where it is on the flat faces of the grid.
+  LimitPlace guess(const Vector3& direction) const;
+
+ private:
+  Polygons faces_;
+  bool divided_ = false;
+  std::unique_ptr<PatchNet> net_;
+  std::unique_ptr<LimitSurface> surface_, directions_;
+  Polygons grid_faces_;
+  Triangulation cut_;  // of the grid
+  SphereMap grid_map_;
+  std::unique_ptr<Topology> grid_topology_;
+  std::unique_ptr<SphereLocator> locator_;
+};
+
+/// Both of a base's surfaces on one patch.
+struct DirectedPatch {
+  LimitPatch surface, direction;
+};
+
+/// Finds the places of directions, fast where one is near the one before. One for each thread.
+class PlaceFinder {
+ public:
+  explicit PlaceFinder(const DirectedBase& base);
+
+  struct Found {
+    LimitPlace place;            // within its patch
+    const DirectedPatch* patch;  // until the next search
+    bool exact;  // else the grid's own place, where the directions' surface folds or Newton fails
+  };
+  /// Requires: unit direction. Ensures: where `exact`, the place's direction is the one asked for,
+  /// to 1e-7 of a face. `start_anew` forgets the search before, so that what is found does not
+  /// depend on it, not even by rounding.
+  Found find(const Vector3& direction);
+  void start_anew() { last_.reset(); }
+
+  const DirectedPatch& patch(int index);
+
+ private:
+  std::optional<LimitPlace> newton(const Vector3& direction, LimitPlace place);
+
+  const DirectedBase& base_;
+  std::vector<std::unique_ptr<DirectedPatch>> kept_;  // by the last bits of their numbers
+  std::optional<LimitPlace> last_, before_last_;
+};
+
+}  // namespace sphparam

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <optional>
+
+#include "sphparam/embedding/distortion_energy.h"
+#include "embedding/frame/landmarks.h"
+#include "sphparam/embedding/quality.h"
+#include "embedding/sweeps/relaxation.h"
+#include "mesh/mesh_hierarchy.h"
+#include "sphparam/progress.h"
+
+namespace sphparam {
+
+struct ProgressiveOptions {
+  DistortionEnergy energy = {};  // ε is not used: the map is valid at every moment
+  Quality quality = Quality::Normal;
+  double sweeps = 1.4;   // on the finest level; a level of n vertices gets √(N/n) times that,
+                         // without limbs (N/n)^0.3; ≥ 0
+  int most_sweeps = 60;  // on any level; ≥ 0
+  double over_relaxation = 1.7;  // first step tried, in Newton steps; 0 to `most_over_relaxation`
+  int retries = 5;               // of a level whose vertices found no room; 0 to `most_retries`
+  std::vector<Pin> pins = {};    // vertices that lie at given points; no vertex twice
+  int pin_level =
+      400;  // vertices of the level where pins are placed, 20 a pin if that is more; ≥ 0
+  /// Of the mean area, 0 to 1: smaller triangles count as equilateral ones of that size.
+  double least_area = 1e-9;
+  int threads = 0;  // 0: all cores
+  Progress progress = {};
+};
+
+constexpr int most_retries = 20;  // each sweeps twice as often as the one before
+
+struct ProgressiveReport {
+  int levels = 0;
+  int retries = 0;             // levels that had to be relaxed again before vertices found room
+  long kernel_placements = 0;  // vertices for which the mean of their ring was not good enough
+  std::vector<double> pin_residuals = {};  // radians from the point asked for; 0 is exact
+};
+
+struct ProgressiveEmbedding {
+  std::optional<SphereMap> map;  // nothing, when a vertex found no room although retried
+  ProgressiveReport report;
+};
+
+/// Embeds a mesh on the sphere from coarse to fine: a tetrahedron first, then level by level the
+/// removed vertices inside the kernels of their rings, then guarded relaxation of the level.
+///
+/// In exact arithmetic a kernel is never empty, so the method cannot fail; in doubles limbs of
+/// extreme length can run out of room, hence the retries and the optional result. Every triangle's
+/// orientation is certain at every moment, none is ever folded.
+/// Pinned vertices stay in the hierarchy down to a few hundred vertices; `place_landmarks` puts
+/// them there, and from there on up nothing moves them, so that the rest is optimal around them.
+/// Requires: genus 0, finite positions. Ensures: unit points; same bits for any number of threads
+///           and any vector width of the machine. Throws: Cancelled; std::invalid_argument naming
+///           an option outside of its domain.
+/// Cost: O(#F). Sweeps solve no linear system; where they stall, on long limbs and with
+/// Quality::Best, a bounded number of Newton steps does, each O(#F) by multigrid.
+/// Paper: Praun and Hoppe, "Spherical parametrization and remeshing" (2003); whole levels instead
+/// of single vertices, the energy, the guard and the over-relaxed sweeps are our own.
+ProgressiveEmbedding embed_progressively(const TriangleMesh& mesh, const Topology& topology,
+                                         const ProgressiveOptions& options = {});
+
+}  // namespace sphparam

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+
+#include "embedding/sweeps/pack_kernel.h"
+#include "sphparam/embedding/distortion_energy.h"
+
+namespace sphparam {
+
+/// Eight triangles, one a lane. What the energy needs of a RestTriangle, in floats: as if the
+/// source had been rounded. The area is 1 / (2 inverse_base inverse_height).
+struct alignas(8 * pack_width) TrianglePack {
+  float inverse_base[pack_width];
+  float inverse_height[pack_width];
+  float foot[pack_width];
+  Vertex corner[3][pack_width];
+};
+
+/// Gradient and projected Hessian of A f of eight triangles, in the tangent coordinates of their
+/// corners' frames (`tangent_frame`).
+struct alignas(8 * pack_width) TriangleTerms {
+  double gradient[3][2][pack_width];
+  float diagonal[3][3][pack_width];  // corner k with itself: entries 00, 01, 11
+  float off[3][4][pack_width];       // corner k (rows) with corner k + 1 (columns): 00, 01, 10, 11
+};
+
+/// Puts a triangle into a lane.
+void fill_lane(const RestTriangle& source, const std::array<Vertex, 3>& corners, int lane,
+               TrianglePack& pack);
+
+/// Sum of A f of the first `count` triangles; +∞ unless the orientation of every one, of the rest
+/// of the last pack too, is certain to be positive.
+double guarded_energy(const TrianglePack* packs, int count, const ImagePoint* points,
+                      const DistortionEnergy& energy);
+
+/// Of `count` packs. Requires: determinants positive. The Hessians are positive semidefinite.
+void differentiate_triangles(const TrianglePack* packs, int count, const ImagePoint* points,
+                             const DistortionEnergy& energy, TriangleTerms* terms);
+
+}  // namespace sphparam

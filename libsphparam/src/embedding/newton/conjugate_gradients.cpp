@@ -1,0 +1,61 @@
+#include "embedding/newton/conjugate_gradients.h"
+
+#include <cstdint>
+
+#include "embedding/multigrid/multigrid.h"
+#include "sphparam/parallel.h"
+
+// The method of Hestenes and Stiefel, a V-cycle before every direction. Vectors are floats, their
+// products are summed in doubles.
+
+namespace sphparam {
+namespace {
+
+double dot(const Unknowns& a, const Unknowns& b, int threads) {
+  return parallel_sum(
+      static_cast<std::int64_t>(a.size()), threads, [&](std::int64_t first, std::int64_t last) {
+        double sum = 0;
+        for (auto i = static_cast<size_t>(first); i < static_cast<size_t>(last); ++i) {
+          sum += static_cast<double>(a[i]) * b[i];
+        }
+        return sum;
+      });
+}
+
+/// a += factor · b
+void add(Unknowns& a, double factor, const Unknowns& b) {
+  const float f = static_cast<float>(factor);
+  for (size_t i = 0; i < a.size(); ++i) a[i] += f * b[i];
+}
+
+}  // namespace
+
+LinearSolution solve_by_conjugate_gradients(const BlockMatrix<2>& matrix, Multigrid& multigrid,
+                                            Unknowns r, double least_share, int most_iterations,
+                                            int threads, const std::function<void()>& ask) {
+  const size_t n = r.size();
+  LinearSolution solution{Unknowns(n, 0.0F)};
+  Unknowns z(n), direction(n, 0.0F), image(n);
+  double rz = 0;
+  while (solution.iterations < most_iterations) {
+    if (ask) ask();
+    multigrid.apply(r, z, image);
+    const double next = dot(r, z, threads);
+    const float share = rz > 0 ? static_cast<float>(next / rz) : 0.0F;
+    for (size_t i = 0; i < n; ++i) direction[i] = z[i] + share * direction[i];
+    rz = next;
+    multiply(matrix, direction.data(), image.data(), threads);
+    const double curvature = dot(direction, image, threads);
+    if (!(curvature > 0)) break;
+    add(solution.x, rz / curvature, direction);
+    const double gain = rz * rz / curvature;  // b·d = r·z: directions are conjugate
+    solution.gain += gain;
+    ++solution.iterations;
+    // Of what is left nothing is known but this: asking the preconditioner costs an iteration.
+    if (!(gain > least_share * solution.gain)) break;
+    add(r, -rz / curvature, image);
+  }
+  return solution;
+}
+
+}  // namespace sphparam

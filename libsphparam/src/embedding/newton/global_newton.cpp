@@ -1,0 +1,292 @@
+#include "embedding/newton/global_newton.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "embedding/frame/mobius_recentring.h"
+#include "embedding/newton/freed_memory.h"
+#include "sphparam/parallel.h"
+
+// Assembly goes block by block of vertices: the terms of all triangles that touch the block are
+// computed into a buffer that stays in the cache, then each vertex gathers its row. Triangles on
+// the rim of a block are computed twice; nothing is written from two sides, so blocks run in
+// parallel with the same result.
+//
+// What a step needs and what the sweeps after it need are never alive at the same time: at a
+// million triangles making them anew costs less than their room would.
+
+namespace sphparam {
+namespace {
+
+constexpr std::int64_t vertex_grain = 512;
+constexpr int least_parallel_vertices = 1024;  // below it waking other threads costs more
+constexpr int least_trimmed_vertices = 4096;   // below it freed memory is not worth a system call
+constexpr int most_iterations = 60;
+constexpr double longest_step = 0.7;  // radians, of any vertex
+constexpr double sufficient_decrease = 1e-4;
+constexpr int halvings = 40;
+constexpr double most_expansion = 8;      // of a Newton step: clamped Hessians are too stiff
+constexpr int least_exponent = -60;       // of units: their products are floats
+constexpr double over_relaxation = 1.5;   // of the sweeps
+constexpr std::int64_t sweep_grain = 16;  // packs
+
+}  // namespace
+
+GlobalNewton::GlobalNewton(const Topology& topology, const RestTriangles& source,
+                           const std::vector<ImagePoint>& image, const std::vector<Vertex>& pinned,
+                           int threads)
+    : threads_(topology.vertex_count() < least_parallel_vertices ? 1 : threads),
+      old_name_(patch_order(topology)) {
+  const int n = topology.vertex_count();
+  std::vector<int> new_name(at(n));
+  image_.resize(at(n));
+  for (int v = 0; v < n; ++v) {
+    new_name[at(old_name_[at(v)])] = v;
+    image_[at(v)] = image[at(old_name_[at(v)])];
+  }
+  pinned_.assign(at(n), 0);
+  for (const Vertex v : pinned) pinned_[at(new_name[at(v)])] = 1;
+  make_pattern(topology, new_name);
+  blocks_ = TriangleBlocks(topology, source, old_name_, new_name, hessian_.start);
+  measure_units();
+  order_ = order_sweeps(hessian_.start, hessian_.column, TriangleBlocks::size);
+}
+
+void GlobalNewton::make_pattern(const Topology& topology, const std::vector<int>& new_name) {
+  const int n = topology.vertex_count();
+  hessian_.start.assign(1, 0);
+  hessian_.start.reserve(at(n) + 1);
+  hessian_.column.reserve(at(topology.halfedge_count()));
+  for (int v = 0; v < n; ++v) {
+    topology.for_each_outgoing(old_name_[at(v)], [&](Halfedge h) {
+      hessian_.column.push_back(new_name[at(topology.target(h))]);
+    });
+    hessian_.start.push_back(static_cast<int>(hessian_.column.size()));
+  }
+}
+
+/// A power of two near the shortest edge of each vertex's image.
+void GlobalNewton::measure_units() {
+  unit_.resize(image_.size());
+  parallel_for(
+      std::ssize(image_), vertex_grain, threads_, [&](std::int64_t begin, std::int64_t end) {
+        for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
+          const Vector3 x = image_[at(v)].vector();
+          double least = 1;
+          for (int e = hessian_.start[at(v)]; e < hessian_.start[at(v) + 1]; ++e) {
+            least =
+                std::min(least, (image_[at(hessian_.column[at(e)])].vector() - x).squaredNorm());
+          }
+          const int exponent = least > 0 ? std::ilogb(least) / 2 : least_exponent;
+          unit_[at(v)] = std::ldexp(1.0F, std::max(exponent, least_exponent));
+        }
+      });
+}
+
+void GlobalNewton::gather_row(int row, const TriangleTerms* terms,
+                              std::vector<std::array<double, 4>>& off) {
+  const int first = hessian_.start[at(row)], valence = hessian_.start[at(row) + 1] - first;
+  std::array<double, 3> d{};
+  std::array<double, 2> g{};
+  off.assign(at(valence), {});
+  for (int e = 0; e < valence; ++e) {
+    const int triangle = blocks_.triangle(first + e), k = blocks_.corner(first + e);
+    const TriangleTerms& t = terms[triangle / pack_width];
+    const int lane = triangle % pack_width, before = (k + 2) % 3;
+    for (size_t i = 0; i < 3; ++i) d[i] += t.diagonal[k][i][lane];
+    for (size_t i = 0; i < 2; ++i) g[i] += t.gradient[k][i][lane];
+    std::array<double, 4>& to_next = off[at(e)];
+    std::array<double, 4>& to_previous = off[at(e + 1 < valence ? e + 1 : 0)];
+    for (size_t i = 0; i < 4; ++i) to_next[i] += t.off[k][i][lane];
+    to_previous[0] += t.off[before][0][lane];
+    to_previous[1] += t.off[before][2][lane];
+    to_previous[2] += t.off[before][1][lane];
+    to_previous[3] += t.off[before][3][lane];
+  }
+  const double unit = unit_[at(row)];
+  const auto store = [](double value, float& to) { to = static_cast<float>(value); };
+  for (int e = 0; e < valence; ++e) {
+    const double units = unit * unit_[at(hessian_.column[at(first + e)])];
+    for (size_t i = 0; i < 4; ++i) store(units * off[at(e)][i], hessian_.off[at(first + e)].a[i]);
+  }
+  std::array<float, 4>& diagonal = hessian_.diagonal[at(row)].a;
+  store(unit * unit * d[0], diagonal[0]);
+  store(unit * unit * d[1], diagonal[1]);
+  store(unit * unit * d[1], diagonal[2]);
+  store(unit * unit * d[2], diagonal[3]);
+  for (size_t i = 0; i < 2; ++i) store(-unit * g[i], downhill_[2 * at(row) + i]);
+}
+
+/// False: numbers of a limb are beyond floats.
+bool GlobalNewton::assemble(const DistortionEnergy& energy) {
+  hessian_.off.resize(hessian_.column.size());
+  hessian_.diagonal.resize(image_.size());
+  downhill_.resize(2 * image_.size());
+  int most_packs = 0;
+  for (int b = 0; b < blocks_.count(); ++b) {
+    most_packs = std::max(most_packs, blocks_.pack_count(b));
+  }
+  parallel_for(blocks_.count(), TriangleBlocks::grain, threads_,
+               [&](std::int64_t first, std::int64_t last) {
+                 const auto terms = std::make_unique_for_overwrite<TriangleTerms[]>(at(most_packs));
+                 std::vector<std::array<double, 4>> off;
+                 for (int b = static_cast<int>(first); b < static_cast<int>(last); ++b) {
+                   differentiate_triangles(blocks_.packs_of(b), blocks_.pack_count(b),
+                                           image_.data(), energy, terms.get());
+                   const int end = std::min((b + 1) * TriangleBlocks::size, hessian_.rows());
+                   for (int row = b * TriangleBlocks::size; row < end; ++row) {
+                     gather_row(row, terms.get(), off);
+                   }
+                 }
+               });
+  bool finite = true;
+  for (int row = 0; row < hessian_.rows(); ++row) {
+    const bool fixed = pinned_[at(row)];
+    for (int e = hessian_.start[at(row)]; e < hessian_.start[at(row) + 1]; ++e) {
+      if (fixed || pinned_[at(hessian_.column[at(e)])]) hessian_.off[at(e)] = {};
+    }
+    std::array<float, 4>& diagonal = hessian_.diagonal[at(row)].a;
+    finite &= std::isfinite(diagonal[0] + diagonal[3]);
+    if (!fixed) continue;
+    diagonal = {1, 0, 0, 1};
+    downhill_[2 * at(row)] = downhill_[2 * at(row) + 1] = 0;
+  }
+  return finite;
+}
+
+void GlobalNewton::move(const Unknowns& direction, double length, Image& image) const {
+  image.resize(image_.size());
+  parallel_for(static_cast<std::int64_t>(image_.size()), vertex_grain, threads_,
+               [&](std::int64_t first, std::int64_t last) {
+                 for (auto v = static_cast<size_t>(first); v < static_cast<size_t>(last); ++v) {
+                   if (pinned_[v]) {
+                     image[v] = image_[v];
+                     continue;
+                   }
+                   const Vector3 x = image_[v].vector();
+                   const double factor = length * unit_[v];
+                   image[v] = image_point(tangent_frame(x).at(x, factor * direction[2 * v],
+                                                              factor * direction[2 * v + 1]));
+                 }
+               });
+}
+
+double GlobalNewton::recentre(const DistortionEnergy& energy) {
+  const double before = this->energy(energy);
+  if (std::count(pinned_.begin(), pinned_.end(), 1) > 0) return before;
+  return sphparam::recentre(
+      image_, before,
+      [&](const Image& image) {
+        ask_();
+        return blocks_.energy(image, energy, threads_);
+      },
+      threads_);
+}
+
+/// Radians.
+double GlobalNewton::longest(const Unknowns& direction) const {
+  double squared = 0;
+  for (size_t v = 0; v < image_.size(); ++v) {
+    const double unit = unit_[v], a = unit * direction[2 * v], b = unit * direction[2 * v + 1];
+    squared = std::max(squared, a * a + b * b);
+  }
+  return std::sqrt(squared);
+}
+
+RingPacks GlobalNewton::pack_rings_of_all() const {
+  std::vector<Vertex> pinned;
+  for (size_t v = 0; v < pinned_.size(); ++v) {
+    if (pinned_[v]) pinned.push_back(static_cast<Vertex>(v));
+  }
+  return pack_rings(
+      hessian_.start, hessian_.column,
+      [&](int row, int lane, RingSlot* slots) {
+        blocks_.measure_ring(row, hessian_.start[at(row)], hessian_.start[at(row) + 1], lane,
+                             slots);
+      },
+      threads_, pinned);
+}
+
+void GlobalNewton::sweep(const DistortionEnergy& energy, int sweeps) {
+  make_room();
+  const RingPacks rings = pack_rings_of_all();
+  for (int n = 0; n < sweeps * rings.colours(); ++n) {
+    if (n % rings.colours() == 0) ask_();
+    const int c = n % rings.colours(), first = rings.colour_start[at(c)];
+    const int count = rings.colour_start[at(c) + 1] - first;
+    parallel_for(count, sweep_grain, threads_, [&](std::int64_t begin, std::int64_t end) {
+      step_packs(rings, first + static_cast<int>(begin), first + static_cast<int>(end),
+                 image_.data(), energy, over_relaxation);
+    });
+  }
+}
+
+bool GlobalNewton::can_move() const {
+  return std::find(pinned_.begin(), pinned_.end(), 0) != pinned_.end();
+}
+
+void GlobalNewton::make_room() const {
+  if (hessian_.rows() >= least_trimmed_vertices) give_back_freed_memory();
+}
+
+/// The direction of a step; nothing where `assemble` fails. Leaves nothing of the Hessian but its
+/// pattern.
+LinearSolution GlobalNewton::solve(const DistortionEnergy& energy, double least_share) {
+  make_room();
+  LinearSolution solution;
+  if (assemble(energy)) {
+    ask_();
+    if (multigrid_) {
+      multigrid_->update(image_.data());
+    } else {
+      multigrid_.emplace(hessian_, order_, image_.data(), unit_.data(), pinned_, threads_);
+    }
+    solution = solve_by_conjugate_gradients(hessian_, *multigrid_, std::move(downhill_),
+                                            least_share, most_iterations, threads_, ask_);
+  }
+  hessian_.off = std::vector<Block<2>>();  // = {} would keep the memory
+  hessian_.diagonal = std::vector<Block<2>>();
+  downhill_ = Unknowns();
+  return solution;
+}
+
+GlobalNewton::Step GlobalNewton::step(const DistortionEnergy& energy, double least_share) {
+  const double before = this->energy(energy);
+  const LinearSolution solution = solve(energy, least_share);
+  const double slope = -solution.gain;
+  if (!(slope < 0) || !std::isfinite(slope)) return {before, solution.iterations, 0};
+  const double cap = longest_step / longest(solution.x);
+
+  Image candidate;
+  double length = std::min(1.0, cap);
+  for (int i = 0; i < halvings; ++i, length /= 2) {
+    ask_();
+    move(solution.x, length, candidate);
+    double after = blocks_.energy(candidate, energy, threads_);
+    if (!(after < before + sufficient_decrease * length * slope)) continue;
+    while (2 * length <= std::min(cap, most_expansion) && (i == 0 || length >= 1)) {
+      ask_();
+      move(solution.x, 2 * length, candidate);
+      const double further = blocks_.energy(candidate, energy, threads_);
+      if (!(further < after)) {
+        move(solution.x, length, candidate);  // again: cheaper than room for both
+        break;
+      }
+      after = further;
+      length *= 2;
+    }
+    image_.swap(candidate);
+    return {after, solution.iterations, length};
+  }
+  return {before, solution.iterations, 0};
+}
+
+void GlobalNewton::write_to(std::vector<ImagePoint>& image) const {
+  image.resize(image_.size());
+  for (size_t v = 0; v < image_.size(); ++v) image[at(old_name_[v])] = image_[v];
+}
+
+}  // namespace sphparam

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "embedding/newton/conjugate_gradients.h"
+#include "embedding/multigrid/multigrid.h"
+#include "embedding/sweeps/ring_packs.h"
+#include "embedding/energy/triangle_blocks.h"
+#include "sphparam/mesh/topology.h"
+
+namespace sphparam {
+
+/// A whole mesh laid out for Newton steps on its energy: vertices renamed so that neighbours are
+/// near in memory, cut into blocks; each block with the triangles that touch it.
+///
+/// Memory, bytes a triangle: 80 always, of which 40 for the source triangles and 16 for the image;
+/// in a step 60 for the Hessian, 60 for the multigrid, 20 for the solver's vectors; in sweeps 55
+/// for the rings instead of the Hessian and the vectors.
+class GlobalNewton {
+ public:
+  /// Keeps nothing of what it is given. Requires: every determinant certain to be positive.
+  /// Cost: linear.
+  GlobalNewton(const Topology& topology, const RestTriangles& source,
+               const std::vector<ImagePoint>& image, const std::vector<Vertex>& pinned,
+               int threads);
+
+  /// `ask` is called between the parts of all that follows, at least once in a pass over the mesh,
+  /// and may throw; then the image is lost.
+  void ask_with(std::function<void()> ask) { ask_ = std::move(ask); }
+
+  struct Step {
+    double energy;   // after the step; before it, if nothing moved
+    int iterations;  // of the linear solver
+    double length;   // of the step, in Newton steps; 0: nothing moved
+  };
+
+  /// Is there a vertex that is not pinned?
+  bool can_move() const;
+
+  /// One projected Newton step, the system solved as long as iterations bring `least_share` (see
+  /// `solve_by_conjugate_gradients`), with line search. No orientation is lost, decided by the
+  /// guard.
+  Step step(const DistortionEnergy& energy, double least_share);
+
+  /// Guarded relaxation of every vertex, so many times: smooths what a step has creased.
+  void sweep(const DistortionEnergy& energy, int sweeps);
+
+  /// Carries the whole map by a Möbius transformation that lowers the energy (see mobius_recentring.h), unless
+  /// a vertex is pinned. Towards λ = 0 the energy hardly feels them, and projected Hessians are far
+  /// too stiff for them. Returns the energy.
+  double recentre(const DistortionEnergy& energy);
+
+  /// +∞ unless every orientation is certain to be positive.
+  double energy(const DistortionEnergy& energy) const {
+    return blocks_.energy(image_, energy, threads_);
+  }
+  void write_to(std::vector<ImagePoint>& image) const;
+
+ private:
+  using Image = std::vector<ImagePoint>;
+
+  void measure_units();
+  void make_pattern(const Topology& topology, const std::vector<int>& new_name);
+  bool assemble(const DistortionEnergy& energy);
+  void gather_row(int row, const TriangleTerms* terms, std::vector<std::array<double, 4>>& off);
+  void make_room() const;
+  LinearSolution solve(const DistortionEnergy& energy, double least_share);
+  RingPacks pack_rings_of_all() const;
+  void move(const Unknowns& direction, double length, Image& image) const;
+  double longest(const Unknowns& direction) const;
+
+  int threads_;
+  std::function<void()> ask_ = [] {};
+  std::vector<Vertex> old_name_;
+  Image image_;
+  std::vector<char> pinned_;
+  std::vector<float> unit_;  // of the vertex's tangent coordinates: a power of two near its edges
+  BlockMatrix<2> hessian_;   // in these units; entries only in a step
+  Unknowns downhill_;        // − the gradient; only in a step
+  SweepOrder order_;
+  TriangleBlocks blocks_;
+  std::optional<Multigrid> multigrid_;
+};
+
+}  // namespace sphparam

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <vector>
+
+#include "embedding/sweeps/pack_kernel.h"
+#include "sphparam/embedding/distortion_energy.h"
+#include "sphparam/embedding/quality.h"
+#include "sphparam/mesh/topology.h"
+#include "sphparam/progress.h"
+
+namespace sphparam {
+
+struct RefinementOptions {
+  Quality quality = Quality::Normal;
+  DistortionEnergy energy = {};
+  int threads = 0;  // 0: all cores
+  Progress progress = {};
+};
+
+/// Which part of the progress of a whole embedding a level's steps are: fractions.
+struct ProgressShare {
+  double begin = 0, end = 1;
+};
+
+/// Newton steps on some levels of a progressive embedding, for shapes with long limbs: sweeps creep
+/// along the curved valley of their energy, Newton steps do not. On other shapes one cheap step on
+/// the coarse levels finds that out, and nothing else is done.
+/// Our own. Cost: see finish.cpp.
+class Finish {
+ public:
+  Finish(int finest_vertices, RefinementOptions options);
+
+  /// Is a level with so many vertices to be improved?
+  bool due(int vertices) const;
+  /// Has it found that sweeps do all there is to do? False as long as it does not know.
+  bool sweeps_suffice() const;
+  /// Lowers the energy of the image, as far as it pays. `pinned` vertices stay. Reports after
+  /// every step, within its share of the progress. Throws: Cancelled; then the image is lost.
+  void improve(const TriangleMesh& mesh, const Topology& topology,
+               const std::vector<Vertex>& pinned, std::vector<ImagePoint>& image,
+               ProgressShare share = {});
+
+ private:
+  RefinementOptions options_;
+  int finest_;
+  int next_;          // vertices of the next level to be improved, at least
+  double last_gain_;  // on the level improved last, by the first step
+};
+
+}  // namespace sphparam

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "sphparam/embedding/distortion_energy.h"
+#include "mesh/mesh_hierarchy.h"
+
+namespace sphparam {
+
+/// Vertices that move together, whatever the machine: the result has the same bits everywhere.
+inline constexpr int pack_width = 8;
+
+/// One triangle of the ring of each of a pack's vertices: the neighbour that begins it and what
+/// the energy needs of the source triangle (v, neighbour, next neighbour). See ring_packs.cpp.
+struct alignas(32) RingSlot {
+  Vertex neighbour[pack_width];
+  float alpha[pack_width];  // A² / 2|a|²
+  float beta[pack_width];   // |a|² / 8; zero marks a slot beyond the vertex's valence
+  float shear[pack_width];  // a·b / |a|²
+};
+
+/// Up to eight vertices of one colour (no two share an edge) and of similar valence.
+struct RingPack {
+  Vertex vertex[pack_width];  // −1: an empty lane
+  int valence;                // largest of the lanes: number of slots
+  size_t first_slot;
+};
+
+/// A level laid out for sweeps. Colour 0 holds the level's removed vertices, which are independent.
+struct RingPacks {
+  std::vector<RingPack> packs;  // colour by colour
+  std::unique_ptr<RingSlot[]> slots;
+  size_t room = 0;                // for so many slots
+  std::vector<int> colour_start;  // #colours + 1, into `packs`
+  int largest_valence = 0;
+
+  int colours() const { return static_cast<int>(colour_start.size()) - 1; }
+};
+
+/// Packs of nothing with room for the rings of a mesh, most likely. Memory that no level has needed
+/// yet is not touched.
+RingPacks room_for_rings(std::int64_t halfedges);
+
+/// Colours, sorts and packs the vertices of a level. Triangles smaller than `area_floor` count as
+/// equilateral ones of that area. `pinned`: vertices in no pack. `used`: packs that nobody needs
+/// any more; their memory serves again.
+RingPacks pack_rings(const HierarchyLevel& level, double area_floor, int threads,
+                     const std::vector<Vertex>& pinned = {}, RingPacks used = {});
+
+/// The same for any rings (as in HierarchyLevel). `measure(v, lane, slots)` fills in the numbers of
+/// v's source triangles, slot by slot, in that lane; called by several threads at once.
+RingPacks pack_rings(const std::vector<int>& start, const std::vector<Vertex>& ring,
+                     const std::function<void(Vertex v, int lane, RingSlot* slots)>& measure,
+                     int threads, const std::vector<Vertex>& pinned);
+
+}  // namespace sphparam

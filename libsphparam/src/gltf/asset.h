@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sphparam/mesh/triangle_mesh.h"
+
+namespace sphparam {
+
+/// Rows of float32 numbers, as a vertex buffer holds them.
+using FloatRows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// What a morph target adds to the vertices. `tangents` is empty where the surface has none.
+struct MorphTarget {
+  std::string name;
+  FloatRows positions, normals, tangents;  // #N×3
+};
+
+/// A vertex attribute of our own; its name starts with an underscore.
+struct CustomAttribute {
+  std::string name;
+  FloatRows values;  // #N×1 … #N×4
+};
+
+/// The vertex and index buffers of one primitive. What a mesh does not have is empty.
+struct Surface {
+  FloatRows positions;                                // #N×3, y up
+  FloatRows normals;                                  // #N×3, unit
+  FloatRows tangents;                                 // #N×4
+  std::vector<FloatRows> texcoords;                   // #N×2 each, v downwards
+  std::vector<std::array<std::uint16_t, 4>> colours;  // #N, linear light, alpha not multiplied in
+  std::vector<CustomAttribute> custom;
+  std::vector<std::uint32_t> indices;  // three a triangle
+  std::vector<MorphTarget> targets;
+
+  std::size_t vertex_count() const { return static_cast<std::size_t>(positions.rows()); }
+};
+
+/// An image file, PNG or JPEG; its first bytes say which.
+struct AssetImage {
+  std::string name;
+  std::string bytes;
+};
+
+/// Numbers of images; −1: none.
+struct Material {
+  std::string name;
+  int base_colour = -1, normal = -1, occlusion = -1;
+  bool unlit = false;
+};
+
+/// Everything that a glTF file of one object holds.
+struct Asset {
+  std::string name;
+  std::vector<Surface> levels;  // of detail, finest first; at least one
+  std::vector<AssetImage> images;
+  bool coarse_levels_have_normal_maps = true;  // false where one was baked for the finest alone
+  std::vector<Material> materials;  // the first is the one that is seen; the others are variants
+  std::vector<std::pair<std::string, std::string>> extras;  // of the asset, below "sphparam"
+};
+
+}  // namespace sphparam

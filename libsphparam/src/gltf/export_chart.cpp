@@ -1,0 +1,50 @@
+#include "gltf/export_chart.h"
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+
+#include "sphparam/chart/refine_poles.h"
+
+// A convention has u = turns·u₀ + offset. The chart of the map turned by θ ↦ θ + 2πr has
+// u₀ + r modulo 1: r = offset where turns is 1; where it is −1, 1 − (u₀ + r) with r = −offset.
+
+namespace sphparam {
+namespace {
+
+/// θ grows by a number of right angles: signs and places of coordinates change, nothing is rounded.
+SphereMap turned(SphereMap map, int quarters) {
+  for (int i = 0; i < quarters; ++i) {
+    const VectorX x = map.points.col(0);
+    map.points.col(0) = -map.points.col(1);
+    map.points.col(1) = x;
+  }
+  return map;
+}
+
+}  // namespace
+
+ExportChart export_chart(const TriangleMesh& mesh, const Topology& topology, const SphereMap& map,
+                         const ExportChartOptions& options) {
+  if (options.keep_topology && options.refine_poles > 1)
+    throw std::invalid_argument("refined poles need new vertices");
+  const ConventionInfo& info = info_of(options.convention);
+  const int quarters = (4 + info.turns * static_cast<int>(std::lround(4 * info.offset))) % 4;
+  const std::optional<SphereMap> copy =
+      quarters > 0 ? std::optional(turned(map, quarters)) : std::nullopt;
+  const SphereMap& aligned = copy ? *copy : map;
+  ExportChart result;
+  result.chart = options.keep_topology
+                     ? wrapped_chart(mesh, topology, aligned, options.threads)
+                     : spherical_chart(mesh, topology, aligned, options.threads, options.progress);
+  if (options.refine_poles > 1 && result.chart.certificate.one_to_one()) {
+    result.chart = refine_poles(std::move(result.chart), mesh.triangles, options.refine_poles,
+                                options.threads);
+  }
+  result.mirrored = info.turns < 0;
+  result.theta_offset = -quarters * std::numbers::pi / 2;
+  return result;
+}
+
+}  // namespace sphparam

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string_view>
+
+namespace sphparam {
+
+/// What an image file is, by its first bytes: "image/png" and ".png", or those of JPEG. Empty for
+/// all others, which glTF does not take.
+struct ImageKind {
+  const char* mime = "";
+  const char* extension = "";
+};
+
+inline ImageKind image_kind(std::string_view bytes) {
+  if (bytes.starts_with("\x89PNG")) return {"image/png", ".png"};
+  if (bytes.starts_with("\xFF\xD8\xFF")) return {"image/jpeg", ".jpg"};
+  return {};
+}
+
+}  // namespace sphparam

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "gltf/asset.h"
+#include "image/image_codec.h"
+
+namespace sphparam {
+
+/// An image file as glTF takes it: PNG and JPEG as they are, after they were decoded once; TIFF
+/// becomes PNG. Throws: ReadError, ImageError; also for EXR, whose numbers no viewer shows.
+/// `texts`, where given, gets the texts of its metadata.
+AssetImage read_asset_image(const std::string& path, const std::string& name,
+                            ImageTexts* texts = nullptr);
+
+/// Images of a folder by the names that `bake` gives them: NAME.png or anything-NAME, -_ before it.
+struct BakedImages {
+  std::string base_colour, normal, occlusion;  // paths; empty: not there
+};
+
+/// Throws: ReadError where the folder cannot be read, holds none of them, or two of one kind.
+BakedImages find_baked_images(const std::string& folder);
+
+}  // namespace sphparam

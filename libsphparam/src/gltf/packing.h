@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "gltf/asset.h"
+#include "gltf/buffer_views.h"
+
+namespace sphparam {
+
+enum class Bounds { Omit, Store };
+
+/// Rows as float32. Bounds are exact for the numbers stored.
+PackedRows pack_floats(const FloatRows& rows, Bounds bounds = Bounds::Omit);
+
+/// Numbers in [−1, 1] as normalised 16-bit integers, each row padded to a multiple of 4 bytes.
+PackedRows pack_signed(const FloatRows& rows);
+/// The same for [0, 1], unsigned.
+PackedRows pack_unsigned(const FloatRows& rows);
+
+PackedRows pack_colours(std::span<const std::array<std::uint16_t, 4>> colours);
+
+/// 16-bit where no index is above 65,534.
+PackedRows pack_indices(std::span<const std::uint32_t> indices, std::size_t vertex_count);
+
+/// One scale for all axes, so that normals keep their angles: position = offset + scale · integer.
+struct Quantisation {
+  Eigen::RowVector3d offset = Eigen::RowVector3d::Zero();
+  double scale = 1;
+};
+Quantisation quantisation_of(const FloatRows& positions);
+
+/// Positions as 16-bit integers with exact bounds.
+PackedRows pack_quantised(const FloatRows& positions, const Quantisation& quantisation);
+
+/// What pack_unsigned makes of a number: q of q / 65,535.
+std::uint16_t to_unsigned16(double value);
+
+}  // namespace sphparam

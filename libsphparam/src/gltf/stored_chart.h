@@ -1,0 +1,22 @@
+#pragma once
+
+#include "gltf/asset.h"
+#include "sphparam/chart/spherical_chart.h"
+
+namespace sphparam {
+
+/// How texture coordinates come to stand in a file.
+struct UvStorage {
+  bool mirrored = false;      // 1 − u: for conventions seen from inside
+  bool sixteen_bits = false;  // as multiples of 1/65,535; else float32
+};
+
+/// The (u, v) of a chart's wedges as a file has them. Rounding keeps their order, and 0 and 1.
+FloatRows stored_uv(const SphericalChart& chart, const UvStorage& storage);
+
+/// What is proved of the chart with its (u, v) as stored. Triangles smaller than the spacing of
+/// these numbers fold; they cover less than a texel of any image.
+ChartCertificate certify_stored(const SphericalChart& chart, const FloatRows& uv,
+                                const UvStorage& storage, int threads = 0);
+
+}  // namespace sphparam

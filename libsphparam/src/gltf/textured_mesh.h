@@ -1,0 +1,22 @@
+#pragma once
+
+#include "gltf/export_chart.h"
+#include "sphparam/io/mesh_file.h"
+
+namespace sphparam {
+
+enum class ShapeKind { Mesh, Sphere, Flat };
+
+/// The chart as a mesh file, for formats with texture coordinates at corners: the refined mesh, the
+/// (u, 1 − v) of its wedges at the corners, v upwards as these formats have it; vertex and face
+/// properties of the source, colours rounded to their type, normals interpolated, those of corners
+/// at corners too; one material.
+/// `shape`: the mesh or its sphere. Axes stay as they are.
+MeshFile textured_mesh(const ExportChart& chart, const MeshFile& source, ShapeKind shape,
+                       int threads = 0);
+
+/// An OBJ that names its material library, and that library: one material with an image.
+std::string obj_with_library(const MeshFile& mesh, const std::string& library);
+std::string material_library(const std::string& image);
+
+}  // namespace sphparam

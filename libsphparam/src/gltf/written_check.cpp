@@ -1,0 +1,85 @@
+#include "gltf/written_check.h"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "gltf/packing.h"
+#include "io/formats/gltf/gltf_reader.h"
+#include "sphparam/io/mesh_reader.h"
+#include "io/files/read_back.h"
+
+namespace sphparam {
+namespace {
+
+[[noreturn]] void fail(const std::string& name, const std::string& what) {
+  throw std::runtime_error(name + ", read back: " + what);
+}
+
+void compare_triangles(const MeshFile& file, const Surface& surface, const std::string& name) {
+  if (file.mesh.vertex_count() != surface.positions.rows()) fail(name, "other vertices");
+  if (file.mesh.triangles.size() != static_cast<Eigen::Index>(surface.indices.size()))
+    fail(name, "other triangles");
+  for (size_t i = 0; i < surface.indices.size(); ++i) {
+    if (file.mesh.triangles.data()[i] != static_cast<int>(surface.indices[i]))
+      fail(name, "triangle " + std::to_string(i / 3) + " differs");
+  }
+}
+
+void compare_positions(const MeshFile& file, const Surface& surface, bool quantised,
+                       const std::string& name) {
+  // Half a step, and the rounding of the node's transform.
+  constexpr double share_of_step = 0.5 + 1e-6;
+  const double tolerance = quantised ? share_of_step * quantisation_of(surface.positions).scale : 0;
+  const Points stored = surface.positions.cast<double>();
+  const double size = stored.cwiseAbs().maxCoeff();
+  const double rounding = quantised ? 4 * std::numeric_limits<double>::epsilon() * size : 0;
+  if ((file.mesh.positions - stored).cwiseAbs().maxCoeff() > tolerance + rounding)
+    fail(name, "positions differ");
+}
+
+void compare_uv(const MeshFile& file, const Surface& surface, bool quantised,
+                const std::string& name) {
+  const FloatRows& uv = surface.texcoords.front();
+  const bool sixteen_bits = quantised && uv.minCoeff() >= 0 && uv.maxCoeff() <= 1;
+  const Property* s = file.find_vertex_property("s");
+  const Property* t = file.find_vertex_property("t");
+  if (!s || !t) fail(name, "no texture coordinates");
+  for (Eigen::Index i = 0; i < uv.rows(); ++i) {
+    double u = uv(i, 0), v = uv(i, 1);
+    if (sixteen_bits) {
+      u = to_unsigned16(u) / 65535.0;
+      v = to_unsigned16(v) / 65535.0;
+    }
+    if (s->values[static_cast<size_t>(i)] != u || t->values[static_cast<size_t>(i)] != 1 - v)
+      fail(name, "the texture coordinates of vertex " + std::to_string(i) + " differ");
+  }
+}
+
+}  // namespace
+
+void check_written(std::string_view glb, const std::string& name, const Asset& asset,
+                   const GltfOptions& options) {
+  const MeshFile file = read_gltf(glb, name, std::nullopt, own_file);
+  const Surface& surface = asset.levels.front();
+  compare_triangles(file, surface, name);
+  compare_positions(file, surface, options.quantise, name);
+  compare_uv(file, surface, options.quantise, name);
+}
+
+ChartCertificate certify_written(std::string_view bytes, const std::string& name,
+                                 const ExportChart& exported, int threads) {
+  const MeshFile file = read_mesh(bytes, name, own_file);
+  SphericalChart chart = exported.chart;
+  if (file.mesh.triangles != chart.triangles) fail(name, "triangles differ");
+  if (!file.corner_texcoords) fail(name, "no texture coordinates");
+  for (Eigen::Index corner = 0; corner < chart.wedges.size(); ++corner) {
+    const auto st = file.corner_texcoords->row(corner);
+    chart.uv.row(chart.wedges.data()[corner]) << (exported.mirrored ? 1 - st[0] : st[0]), 1 - st[1];
+  }
+  ChartCertificate certificate = certify_chart(chart, threads);
+  certificate.around_pole = exported.chart.certificate.around_pole;  // what only the rays can tell
+  return certificate;
+}
+
+}  // namespace sphparam

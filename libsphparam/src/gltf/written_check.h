@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "gltf/export_chart.h"
+#include "gltf/gltf_writer.h"
+
+namespace sphparam {
+
+/// Reads a .glb back by the reader of strangers' files and compares its first level with the asset:
+/// the same triangles, positions and (u, v), number by number; quantised ones within half a step.
+/// So what was certified of the asset holds for the file. Compressed files are not for that reader:
+/// `encode_vertices` and `encode_triangles` decode what they made.
+/// Throws: std::runtime_error that names what differs; ReadError.
+void check_written(std::string_view glb, const std::string& name, const Asset& asset,
+                   const GltfOptions& options);
+
+/// Reads an .obj or .ply of `textured_mesh` back and certifies the chart with the texture
+/// coordinates that stand there. `name`: its extension decides where the content does not. Throws:
+/// std::runtime_error where triangles or coordinates are missing or differ; ReadError.
+ChartCertificate certify_written(std::string_view bytes, const std::string& name,
+                                 const ExportChart& chart, int threads = 0);
+
+}  // namespace sphparam

@@ -1,0 +1,142 @@
+#include "image/image_codec.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <system_error>
+
+#include "sphparam/io/paths.h"
+#include "image/image_writer.h"
+#include "image/open_module.h"
+
+// Whole images in memory, decoded and encoded by the module.
+
+namespace sphparam {
+namespace {
+
+void append_bytes(void* context, const char* bytes, size_t size) {
+  auto& out = *static_cast<std::vector<char>*>(context);
+  out.insert(out.end(), bytes, bytes + size);
+}
+
+void append_text(void* context, const char* bytes, size_t size) {
+  static_cast<std::string*>(context)->append(bytes, size);
+}
+
+void append_pair(void* context, const char* name, const char* value) {
+  static_cast<ImageTexts*>(context)->emplace_back(name, value);
+}
+
+float* make_room(void* context, int width, int height, int channels) {
+  auto& image = *static_cast<Image*>(context);
+  try {
+    image = Image(width, height, channels);
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
+  return image.pixels.data();
+}
+
+/// OpenImageIO's name of the format, told by the first bytes; null for what is not allowed.
+const char* format_of(const std::vector<char>& bytes) {
+  using namespace std::string_view_literals;
+  const std::string_view head(bytes.data(), std::min<size_t>(bytes.size(), 8));
+  if (head.starts_with("\x89PNG\r\n\x1a\n"sv)) return "png";
+  if (head.starts_with("\xff\xd8\xff"sv)) return "jpeg";
+  if (head.starts_with("II*\0"sv) || head.starts_with("MM\0*"sv)) return "tiff";
+  if (head.starts_with("II+\0"sv) || head.starts_with("MM\0+"sv)) return "tiff";  // BigTIFF
+  if (head.starts_with("\x76\x2f\x31\x01"sv)) return "openexr";
+  return nullptr;
+}
+
+/// Clamped to [0, 1]; what is no number becomes 0.
+template <class Sample>
+std::vector<Sample> integers(const float* values, size_t count) {
+  constexpr float full = std::numeric_limits<Sample>::max();
+  std::vector<Sample> samples(count);
+  std::transform(values, values + count, samples.begin(), [](float x) {
+    return x > 0 ? static_cast<Sample>(std::min(x, 1.0F) * full + 0.5F) : Sample{0};
+  });
+  return samples;
+}
+
+std::vector<char> read_bytes(const std::string& path, const ImageLimits& limits) {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error) throw ImageError(path + ": " + error.message());
+  if (size > static_cast<std::uintmax_t>(limits.file_bytes)) {
+    throw ImageError(path + ": " + std::to_string(size) + " bytes, more than the limit of " +
+                     std::to_string(limits.file_bytes));
+  }
+  std::vector<char> bytes(size);
+  std::ifstream file(path, std::ios::binary);
+  if (!file.read(bytes.data(), static_cast<std::streamsize>(size))) {
+    throw ImageError(path + ": cannot be read");
+  }
+  return bytes;
+}
+
+}  // namespace
+
+Image decode_image(const std::vector<char>& bytes, std::string_view name, const ImageLimits& limits,
+                   ImageTexts* texts) {
+  const std::string prefix = std::string(name) + ": ";
+  const char* format = format_of(bytes);
+  if (!format) throw ImageError(prefix + "not a PNG, JPEG, TIFF or EXR image");
+  Image image;
+  std::string error;
+  if (image_codecs().decode(format, bytes.data(), bytes.size(), limits.decoded_megabytes,
+                            limits.channels, make_room, &image, texts ? append_pair : nullptr,
+                            texts, append_text, &error) != 0) {
+    throw ImageError(prefix + (error.empty() ? "broken image" : error));
+  }
+  return image;
+}
+
+Image read_image(const std::string& path, const ImageLimits& limits, ImageTexts* texts) {
+  return decode_image(read_bytes(path, limits), path, limits, texts);
+}
+
+std::vector<char> encode_image(const Image& image, ImageFormat format,
+                               const ImageWriteOptions& options) {
+  std::vector<char> bytes;
+  ImageWriter writer({.width = image.width,
+                      .height = image.height,
+                      .channels = image.channels,
+                      .format = format,
+                      .sample_type = options.sample_type,
+                      .metadata = options.metadata},
+                     in_memory(bytes));
+  constexpr int rows_at_once = 64;
+  for (int row = 0; row < image.height; row += rows_at_once) {
+    const int rows = std::min(rows_at_once, image.height - row);
+    const float* const pixels = image.pixel(0, row);
+    const size_t count = static_cast<size_t>(rows) * static_cast<size_t>(image.width) *
+                         static_cast<size_t>(image.channels);
+    if (options.sample_type == SampleType::Uint8) {
+      writer.write_rows(integers<std::uint8_t>(pixels, count).data(), rows);
+    } else if (options.sample_type == SampleType::Uint16) {
+      writer.write_rows(integers<std::uint16_t>(pixels, count).data(), rows);
+    } else {
+      writer.write_rows(pixels, rows);
+    }
+  }
+  writer.close();
+  return bytes;
+}
+
+void write_image(const std::string& path, const Image& image, const ImageWriteOptions& options) {
+  const std::string extension = extension_of(path);
+  if (extension != ".png" && extension != ".exr") {
+    throw ImageError(path + ": images are written as .png or .exr");
+  }
+  const ImageFormat format = extension == ".png" ? ImageFormat::Png : ImageFormat::Exr;
+  const std::vector<char> bytes = encode_image(image, format, options);
+  std::ofstream file(path, std::ios::binary);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  if (!file) throw ImageError(path + ": cannot be written");
+}
+
+}  // namespace sphparam

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "image/image.h"
+
+namespace sphparam {
+
+/// An image that cannot be read or written, or the image module that cannot be found.
+class ImageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+enum class SampleType { Uint8, Uint16, Half, Float };
+enum class ImageFormat { Png, Exr, Jpeg, Tiff };  // `encode_image` writes the first two
+
+/// What is refused before any pixel is allocated.
+struct ImageLimits {
+  std::int64_t file_bytes = std::int64_t{2} << 30;
+  std::int64_t decoded_megabytes = 512;  // in the file's own sample type
+  int channels = 8;
+};
+
+/// Names and values.
+using ImageTexts = std::vector<std::pair<std::string, std::string>>;
+
+struct ImageWriteOptions {
+  SampleType sample_type = SampleType::Uint8;  // PNG: Uint8 or Uint16; EXR: Half or Float
+  std::vector<std::pair<std::string, std::string>> metadata = {};  // text, name and value
+};
+
+/// Pixels as they are in the file, integers scaled to [0, 1], alpha not multiplied in, no colour
+/// conversion. The format is told by the first bytes, never by the name.
+///
+/// The decoders are OpenImageIO's, in a module opened on first use: a program that touches no
+/// image never loads them.
+/// `texts`, where given, gets the texts of the file's metadata.
+/// Throws: ImageError with the file's name, for what is no PNG, JPEG, TIFF or EXR file, for broken
+/// ones and for what is beyond the limits.
+Image read_image(const std::string& path, const ImageLimits& limits = {},
+                 ImageTexts* texts = nullptr);
+
+/// The same from memory; `name` is for error messages.
+Image decode_image(const std::vector<char>& bytes, std::string_view name,
+                   const ImageLimits& limits = {}, ImageTexts* texts = nullptr);
+
+/// The bytes of an image file, read back as `ImageWriter` does; in integers clamped to [0, 1].
+/// Ensures: same bytes for the same input (EXR carries the time SOURCE_DATE_EPOCH, or 1970).
+/// Throws: ImageError; also for a sample type the format does not have.
+std::vector<char> encode_image(const Image& image, ImageFormat format,
+                               const ImageWriteOptions& options = {});
+
+/// Writes a .png or .exr file, as the name says in whatever case. Throws: ImageError.
+void write_image(const std::string& path, const Image& image,
+                 const ImageWriteOptions& options = {});
+
+}  // namespace sphparam

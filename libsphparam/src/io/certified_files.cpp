@@ -1,0 +1,82 @@
+#include "sphparam/io/certified_files.h"
+
+#include <cmath>
+#include <utility>
+
+#include "sphparam/io/paths.h"
+#include "sphparam/errors.h"
+#include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/mesh_writer.h"
+#include "io/files/read_back.h"
+#include "sphparam/io/sphere_file.h"
+#include "io/formats/polygon_ply.h"
+
+namespace sphparam {
+
+namespace {
+
+[[noreturn]] void refuse_numbers(const std::string& path, const std::string& what, Eigen::Index at,
+                                 std::int64_t count, Eigen::Index all) {
+  throw UnmeasurableMesh(path + ": not written: " + what + " of vertex " + std::to_string(at) +
+                         (count > 1 ? " and " + std::to_string(count - 1) + " more" : "") + " of " +
+                         std::to_string(all) +
+                         " would be no finite number; is the mesh very large or small? scale it");
+}
+
+}  // namespace
+
+void require_numbers(const MeshFile& file, const std::string& path) {
+  const Eigen::Index all = file.mesh.vertex_count();
+  const auto require = [&](const std::string& what, const auto& is_held) {
+    std::int64_t count = 0;
+    Eigen::Index first = 0;
+    for (Eigen::Index v = all; v-- > 0;) {
+      if (is_held(v)) continue;
+      ++count;
+      first = v;
+    }
+    if (count > 0) refuse_numbers(path, what, first, count, all);
+  };
+  require("the position", [&](Eigen::Index v) {
+    const auto position = file.mesh.positions.row(v);
+    return std::isfinite(position[0]) && std::isfinite(position[1]) && std::isfinite(position[2]);
+  });
+  for (const Property& property : file.vertex_properties) {
+    require("'" + property.name + "'",
+            [&](Eigen::Index v) { return std::isfinite(property.values[static_cast<size_t>(v)]); });
+  }
+}
+
+void add_certified(PendingFiles& files, const std::string& path, std::string bytes,
+                   const Topology& topology, int threads) {
+  files.add(path, std::move(bytes), [&](std::string_view written) {
+    const MeshFile read = read_mesh(written, path, own_file);
+    require_certified(certify_read_back(read, read_sphere(read).value(), topology, threads),
+                      path + ", as written");
+  });
+}
+
+void add_certified(PendingFiles& files, const std::string& path, std::string bytes,
+                   const Topology& topology, const SphereMap& map, int threads) {
+  files.add(path, std::move(bytes), [&](std::string_view written) {
+    const MeshFile read = read_mesh(written, path, own_file);
+    require_certified(certify_read_back(read, map, topology, threads), path + ", as written");
+  });
+}
+
+void add_mapped(PendingFiles& files, const std::string& path, MeshFile file, const Polygons& faces,
+                const Topology& topology, int threads) {
+  require_numbers(file, path);
+  if (extension_of(path) == ".obj") {
+    const SphereMap map = read_sphere(file).value();
+    add_certified(files, path, serialise_polygon_obj(without_map(std::move(file)), faces), topology,
+                  map, threads);
+  } else {
+    const bool triangles_only = std::ssize(faces.corners) == 3 * faces.count();
+    std::string bytes =
+        triangles_only ? serialise_ply(file) : serialise_polygon_ply(std::move(file), faces);
+    add_certified(files, path, std::move(bytes), topology, threads);
+  }
+}
+
+}  // namespace sphparam

@@ -1,0 +1,95 @@
+#include "io/files/gzip.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <new>
+
+#include "sphparam/io/read_options.h"
+
+// zlib checks the length and the CRC of each member. Members follow one another, as gunzip takes
+// them; what follows them and is no member is left, as gunzip leaves it.
+
+namespace sphparam {
+namespace {
+
+class Inflater {
+ public:
+  Inflater(std::string_view bytes, const std::string& name, std::uint64_t max_bytes)
+      : packed_(bytes), name_(name), max_bytes_(max_bytes) {
+    constexpr int kGzip = 15 + 16;
+    if (inflateInit2(&stream_, kGzip) != Z_OK) throw std::bad_alloc();
+  }
+  ~Inflater() { inflateEnd(&stream_); }
+  Inflater(const Inflater&) = delete;
+  Inflater& operator=(const Inflater&) = delete;
+
+  Unzipped run() {
+    do {
+      inflateReset(&stream_);
+      unpack_member();
+    } while (looks_like_gzip(packed_));
+    bytes_.resize(filled_);
+    const bool trailing = packed_.find_first_not_of('\0') != std::string_view::npos;
+    return {std::move(bytes_), trailing};
+  }
+
+ private:
+  void unpack_member() {
+    for (int status = Z_OK; status != Z_STREAM_END;) {
+      make_room();
+      status = unpack_piece();
+      require_within_limit();
+      if (status == Z_MEM_ERROR) throw std::bad_alloc();
+      if (status == Z_OK || status == Z_STREAM_END) continue;
+      const bool cut = status == Z_BUF_ERROR && packed_.empty();
+      throw ReadError(name_, cut ? "its gzip data is cut short" : "its gzip data is corrupt");
+    }
+  }
+
+  void require_within_limit() const {
+    if (filled_ > max_bytes_)
+      throw ReadError(name_,
+                      "unpacks to more than the limit of " + std::to_string(max_bytes_) + " bytes");
+  }
+
+  // One byte more than allowed shows that there is more.
+  void make_room() {
+    constexpr std::uint64_t kFirstRoom = 1 << 16;
+    if (filled_ < bytes_.size()) return;
+    const std::uint64_t most = std::min<std::uint64_t>(max_bytes_, bytes_.max_size() - 1) + 1;
+    bytes_.resize(std::min(most, std::max<std::uint64_t>(kFirstRoom, 2 * filled_)));
+  }
+
+  int unpack_piece() {
+    constexpr std::size_t kMost = 1u << 30;  // zlib counts in 32 bits
+    const auto given = static_cast<uInt>(std::min(kMost, packed_.size()));
+    const auto room = static_cast<uInt>(std::min(kMost, bytes_.size() - filled_));
+    // zlib does not write here, but its interface does not say so.
+    stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed_.data()));
+    stream_.avail_in = given;
+    stream_.next_out = reinterpret_cast<Bytef*>(bytes_.data() + filled_);
+    stream_.avail_out = room;
+    const int status = inflate(&stream_, Z_NO_FLUSH);
+    packed_.remove_prefix(given - stream_.avail_in);
+    filled_ += room - stream_.avail_out;
+    return status;
+  }
+
+  std::string_view packed_;  // what is left of it
+  const std::string& name_;
+  std::uint64_t max_bytes_;
+  z_stream stream_{};
+  std::string bytes_;
+  std::size_t filled_ = 0;
+};
+
+}  // namespace
+
+bool looks_like_gzip(std::string_view bytes) { return bytes.starts_with("\x1f\x8b"); }
+
+Unzipped unzip(std::string_view bytes, const std::string& name, std::uint64_t max_bytes) {
+  return Inflater(bytes, name, max_bytes).run();
+}
+
+}  // namespace sphparam

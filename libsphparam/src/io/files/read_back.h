@@ -1,0 +1,32 @@
+#pragma once
+
+#include <limits>
+
+#include "sphparam/io/mesh_file.h"
+#include "sphparam/io/read_options.h"
+#include "sphparam/mesh/topology.h"
+#include "sphparam/sphere/certificate.h"
+
+namespace sphparam {
+
+// What is claimed of a file is claimed of its bytes: they are read back before they get their name.
+
+/// What we wrote may be larger than what strangers may send.
+inline constexpr ReadOptions own_file = {
+    .max_file_bytes = std::numeric_limits<std::uint64_t>::max(),
+    .max_line_bytes = std::numeric_limits<std::int64_t>::max(),
+    .max_ply_properties = std::numeric_limits<std::int64_t>::max()};
+
+/// To prove a written map, the map is enough.
+inline constexpr ReadOptions own_map = [] {
+  ReadOptions options = own_file;
+  options.only_map = true;
+  return options;
+}();
+
+/// The certificate of a map on the faces that were read back. `written` saves building their
+/// topology anew where they are the faces that were to be written. Throws: as `Topology`.
+Certificate certify_read_back(const MeshFile& file, const SphereMap& map, const Topology& written,
+                              int threads = 0);
+
+}  // namespace sphparam

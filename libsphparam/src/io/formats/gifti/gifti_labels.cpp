@@ -1,0 +1,62 @@
+#include "io/formats/gifti/gifti_labels.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "sphparam/io/mesh_file.h"
+
+namespace sphparam {
+namespace {
+
+constexpr std::string_view kPrefix = "gifti label ";
+
+/// The text up to the next blank, which is taken off the front with it.
+std::string_view take_word(std::string_view& text) {
+  const std::size_t blank = std::min(text.find(' '), text.size());
+  const std::string_view word = text.substr(0, blank);
+  text.remove_prefix(std::min(blank + 1, text.size()));
+  return word;
+}
+
+template <class Number>
+bool parse(std::string_view word, Number& number) {
+  const char* const end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(word.data(), end, number);
+  return error == std::errc{} && stop == end;
+}
+
+std::string shortest(float number) {
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, number).ptr};
+}
+
+}  // namespace
+
+std::string comment_of(const GiftiLabel& label) {
+  std::string text = std::string(kPrefix) + std::to_string(label.key);
+  if (label.colour) {
+    for (const float channel : *label.colour) text += " " + shortest(channel);
+  } else {
+    text += " -";
+  }
+  return text + " " + one_line(label.name);
+}
+
+std::optional<GiftiLabel> label_in(std::string_view comment) {
+  if (!comment.starts_with(kPrefix)) return std::nullopt;
+  comment.remove_prefix(kPrefix.size());
+  GiftiLabel label;
+  if (!parse(take_word(comment), label.key)) return std::nullopt;
+  if (comment == "-" || comment.starts_with("- ")) {
+    take_word(comment);
+  } else {
+    label.colour.emplace();
+    for (float& channel : *label.colour)
+      if (!parse(take_word(comment), channel) || !std::isfinite(channel)) return std::nullopt;
+  }
+  label.name = comment;
+  return label;
+}
+
+}  // namespace sphparam

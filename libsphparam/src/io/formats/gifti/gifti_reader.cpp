@@ -1,0 +1,224 @@
+#include "io/formats/gifti/gifti_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <locale>
+#include <sstream>
+
+#include "io/formats/gifti/gifti_data.h"
+#include "io/formats/gifti/gifti_labels.h"
+#include "io/formats/gifti/gifti_xml.h"
+#include "sphparam/io/losses.h"
+
+// The XML is taken apart (gifti_xml), the two arrays of the surface are decoded (gifti_data), then
+// the arrays that have one number a vertex.
+
+namespace sphparam {
+namespace {
+
+// Coordinates and triangles hardly pack; labels and masks may pack as well as anything.
+constexpr std::int64_t kMostSurfaceInflation = 100, kMostInflation = 1000;
+constexpr std::size_t kMostProperties = 64;
+constexpr std::array<std::string_view, 4> kKept = {"AnatomicalStructurePrimary",
+                                                   "AnatomicalStructureSecondary", "GeometricType",
+                                                   "TopologicalType"};
+constexpr std::string_view kPointset = "NIFTI_INTENT_POINTSET";
+constexpr std::string_view kTriangle = "NIFTI_INTENT_TRIANGLE";
+
+class GiftiReader {
+ public:
+  GiftiReader(const GiftiDocument& document, const std::string& name, const ReadOptions& options)
+      : document_(document), name_(name), options_(options) {}
+
+  MeshFile read() {
+    file_.format = "GIFTI";
+    const GiftiArray& points = the_only(kPointset);
+    read_points(points);
+    read_triangles(the_only(kTriangle));
+    for (const GiftiArray& array : document_.arrays)
+      if (array.intent != kPointset && array.intent != kTriangle) read_property(array);
+    add_comments(points);
+    return std::move(file_);
+  }
+
+ private:
+  const GiftiArray& the_only(std::string_view intent) const {
+    const GiftiArray* found = nullptr;
+    for (const GiftiArray& array : document_.arrays) {
+      if (array.intent != intent) continue;
+      if (found) fail_in_array(name_, array, "is the second one");
+      found = &array;
+    }
+    if (!found) throw ReadError(name_, "is no surface: it has no array of " + std::string(intent));
+    return *found;
+  }
+
+  /// Decodes an array of rows of three.
+  std::vector<double> triples(const GiftiArray& array, std::int64_t limit, const char* what) const {
+    const std::int64_t count = gifti_count(array, kMostSurfaceInflation, name_);
+    if (array.dimensions.size() != 2 || array.dimensions[1] != 3)
+      fail_in_array(name_, array, "does not have rows of three");
+    if (array.dimensions[0] > limit || count > std::numeric_limits<int>::max())
+      fail_in_array(
+          name_, array,
+          "has more " + std::string(what) + " than the limit of " + std::to_string(limit));
+    return decode_gifti(array, name_);
+  }
+
+  void read_points(const GiftiArray& array) {
+    if (!is_floating(gifti_type(array, name_)))
+      fail_in_array(name_, array, "has coordinates that are no real numbers");
+    const std::vector<double> xyz = triples(array, options_.max_vertices, "vertices");
+    for (std::size_t i = 0; i < xyz.size(); ++i)
+      if (!std::isfinite(xyz[i]))
+        fail_in_array(
+            name_, array,
+            "has a coordinate of vertex " + std::to_string(i / 3) + " that is not finite");
+    file_.mesh.positions = Eigen::Map<const Points>(xyz.data(), array.dimensions[0], 3);
+    file_.position_type = gifti_type(array, name_);
+  }
+
+  void read_triangles(const GiftiArray& array) {
+    if (is_floating(gifti_type(array, name_)))
+      fail_in_array(name_, array, "has indices that are no whole numbers");
+    const std::vector<double> corners = triples(array, options_.max_faces, "triangles");
+    const auto vertices = static_cast<double>(file_.mesh.vertex_count());
+    Triangles& triangles = file_.mesh.triangles;
+    triangles.resize(array.dimensions[0], 3);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      if (corners[i] < 0 || corners[i] >= vertices)
+        fail_in_array(name_, array,
+                      "names vertex " + std::to_string(static_cast<long>(corners[i])) + " of " +
+                          std::to_string(file_.mesh.vertex_count()) + " in triangle " +
+                          std::to_string(i / 3));
+      triangles.data()[i] = static_cast<int>(corners[i]);
+    }
+    for (Eigen::Index f = 0; f < triangles.rows() && !options_.repeated_corners; ++f) {
+      const int a = triangles(f, 0), b = triangles(f, 1), c = triangles(f, 2);
+      if (a == b || b == c || c == a)
+        fail_in_array(
+            name_, array,
+            "names a vertex twice in triangle " + std::to_string(f) + repeated_corners_advice());
+    }
+  }
+
+  void read_property(const GiftiArray& array) {
+    const std::int64_t vertices = file_.mesh.vertex_count();
+    std::int64_t others = 1;
+    for (std::size_t i = 1; i < array.dimensions.size(); ++i)
+      others = std::max(others, array.dimensions[i]);
+    const std::string property = property_name(array);
+    const auto leave = [&](const std::string& why) {
+      add_loss(file_.notes, "array '" + property + "': " + why);
+    };
+    if (array.dimensions[0] != vertices || others != 1)
+      return leave("it does not have one number a vertex");
+    if (file_.vertex_properties.size() == kMostProperties)
+      return leave("only " + std::to_string(kMostProperties) + " are kept");
+    gifti_count(array, kMostInflation, name_);
+    std::vector<double> values = decode_gifti(array, name_);
+    const bool finite = std::all_of(values.begin(), values.end(),
+                                    [](double value) { return std::isfinite(value); });
+    if (!finite) return leave("it has values that are not finite");
+    file_.vertex_properties.push_back({property, gifti_type(array, name_), std::move(values)});
+  }
+
+  /// From the metadata, else from the intent; unlike those that are there already.
+  std::string property_name(const GiftiArray& array) const {
+    constexpr std::string_view kPrefix = "NIFTI_INTENT_";
+    constexpr std::size_t kLongest = 64;
+    std::string name = value_of(array.metadata, "Name");
+    if (name.empty())
+      name = array.intent.substr(array.intent.starts_with(kPrefix) * kPrefix.size());
+    name = one_line(name.substr(0, kLongest));
+    for (char& c : name)
+      if (!std::isgraph(static_cast<unsigned char>(c))) c = '_';
+    const auto taken = [this](const std::string& candidate) {
+      return candidate.empty() || candidate == "x" || candidate == "y" || candidate == "z" ||
+             file_.find_vertex_property(candidate);
+    };
+    if (!taken(name)) return name;
+    int number = 2;
+    while (taken(name + "_" + std::to_string(number))) ++number;
+    return name + "_" + std::to_string(number);
+  }
+
+  static std::string value_of(const GiftiMetadata& metadata, std::string_view key) {
+    for (const auto& [name, value] : metadata)
+      if (name == key) return value;
+    return {};
+  }
+
+  void add_comments(const GiftiArray& points) {
+    constexpr std::string_view kOurs = "sphparam ";
+    constexpr std::size_t kLongest = 1000;
+    for (const auto& [key, value] : document_.metadata)
+      if (key.starts_with(kOurs) && value.size() <= kLongest)
+        file_.comments.push_back(one_line(key + " " + value));
+    for (const std::string_view key : kKept) {
+      const std::string value = value_of(points.metadata, key);
+      if (!value.empty() && value.size() <= kLongest)
+        file_.comments.push_back(one_line("gifti " + std::string(key) + " " + value));
+    }
+    note_metadata();
+    for (const GiftiLabel& label : document_.labels) file_.comments.push_back(comment_of(label));
+    for (const auto& [from, to, matrix] : points.coordinate_systems)
+      if (!is_identity(matrix))
+        add_loss(file_.notes, "the transform from the space " + quoted(from) + " to " + quoted(to) +
+                                  ": coordinates stay as they are");
+  }
+
+  void note_metadata() {
+    std::vector<std::string> keys;
+    const auto add = [&](const GiftiMetadata& metadata) {
+      for (const auto& [key, value] : metadata) {
+        const bool known = key.empty() || key == "Name" || key.starts_with("sphparam ") ||
+                           std::find(kKept.begin(), kKept.end(), key) != kKept.end();
+        if (!known && std::find(keys.begin(), keys.end(), quoted(key)) == keys.end() &&
+            keys.size() < kMostProperties)
+          keys.push_back(quoted(key));
+      }
+    };
+    add(document_.metadata);
+    for (const GiftiArray& array : document_.arrays) add(array.metadata);
+    if (!keys.empty()) add_loss(file_.notes, "metadata " + enumerated(keys));
+  }
+
+  /// Sixteen numbers as they are written: what cannot be read so is no identity.
+  static bool is_identity(const std::string& matrix) {
+    std::istringstream text(matrix);
+    text.imbue(std::locale::classic());
+    for (int i = 0; i < 16; ++i) {
+      double entry = 0;
+      if (!(text >> entry) || entry != (i % 5 == 0 ? 1 : 0)) return false;
+    }
+    return !(text >> std::ws).good();
+  }
+
+  const GiftiDocument& document_;
+  const std::string& name_;
+  const ReadOptions& options_;
+  MeshFile file_;
+};
+
+}  // namespace
+
+bool looks_like_gifti(std::string_view bytes) {
+  constexpr std::size_t kPrologue = 4096;
+  const std::size_t start = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
+  bytes.remove_prefix(start);
+  if (!bytes.starts_with("<")) return false;
+  const std::string_view prologue = bytes.substr(0, kPrologue);
+  return prologue.find("<GIFTI") != std::string_view::npos ||
+         prologue.find("<!DOCTYPE GIFTI") != std::string_view::npos;
+}
+
+MeshFile read_gifti(std::string_view bytes, const std::string& name, const ReadOptions& options) {
+  const GiftiDocument document = parse_gifti_xml(bytes, name);
+  return GiftiReader(document, name, options).read();
+}
+
+}  // namespace sphparam

@@ -1,0 +1,132 @@
+#include "io/formats/gltf/gltf_nodes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "sphparam/io/losses.h"
+
+// The nodes of a scene form trees; each is visited once, with the product of the transforms above
+// it. The stack is our own: trees may be as deep as they like.
+
+namespace sphparam {
+namespace {
+
+class NodeWalk {
+ public:
+  NodeWalk(const GltfDocument& document, const std::string& name, std::vector<std::string>& notes)
+      : document_(document), name_(name), notes_(notes) {}
+
+  std::vector<int> roots() {
+    if (!document_.scenes.empty()) {
+      const int scene = std::max(document_.default_scene, 0);
+      if (scene >= static_cast<int>(document_.scenes.size()))
+        fail("scene " + std::to_string(scene) + " is not there");
+      if (document_.scenes.size() > 1)
+        add_loss(notes_, "all scenes but number " + std::to_string(scene) + " of " +
+                             std::to_string(document_.scenes.size()));
+      return document_.scenes[static_cast<std::size_t>(scene)];
+    }
+    // Without a scene: every node that is no child.
+    std::vector<char> is_child(document_.nodes.size());
+    for (const GltfDocument::Node& node : document_.nodes)
+      for (const int child : node.children)
+        if (child >= 0 && child < static_cast<int>(is_child.size()))
+          is_child[static_cast<std::size_t>(child)] = 1;
+    std::vector<int> roots;
+    for (std::size_t node = 0; node < is_child.size(); ++node)
+      if (!is_child[node]) roots.push_back(static_cast<int>(node));
+    return roots;
+  }
+
+  std::vector<PlacedMesh> visit(const std::vector<int>& roots) const {
+    std::vector<PlacedMesh> placed;
+    std::vector<char> seen(document_.nodes.size());
+    std::vector<Visit> waiting;
+    const auto wait_for = [&](const std::vector<int>& nodes, const Transform& above) {
+      for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
+        if (*node < 0 || *node >= static_cast<int>(document_.nodes.size()))
+          fail("node " + std::to_string(*node) + " is not there");
+        if (std::exchange(seen[static_cast<std::size_t>(*node)], 1))
+          fail("node " + std::to_string(*node) + " has two parents");
+        waiting.push_back({*node, above});
+      }
+    };
+    wait_for(roots, {});
+    while (!waiting.empty()) {
+      const Visit here = waiting.back();
+      waiting.pop_back();
+      const GltfDocument::Node& node = document_.nodes[static_cast<std::size_t>(here.node)];
+      const Transform transform = here.above * local_transform(here.node);
+      if (node.mesh >= 0) {
+        check_placement(here.node, transform);
+        placed.push_back({node.mesh, transform, node.skinned});
+      }
+      wait_for(node.children, transform);
+    }
+    return placed;
+  }
+
+ private:
+  struct Visit {
+    int node;
+    Transform above;
+  };
+
+  [[noreturn]] void fail(const std::string& message) const { throw ReadError(name_, message); }
+
+  void check_placement(int id, const Transform& transform) const {
+    const int mesh = document_.nodes[static_cast<std::size_t>(id)].mesh;
+    if (mesh >= static_cast<int>(document_.meshes.size()))
+      fail("mesh " + std::to_string(mesh) + " is not there");
+    const double determinant = transform.linear.determinant();
+    if (!(std::abs(determinant) > 0) || !std::isfinite(determinant))
+      fail("node " + std::to_string(id) + ": its transform is singular");
+  }
+
+  Transform local_transform(int id) const {
+    const GltfDocument::Node& node = document_.nodes[static_cast<std::size_t>(id)];
+    const auto check = [&](bool good, const char* message) {
+      if (!good) fail("node " + std::to_string(id) + ": " + message);
+    };
+    const auto has_size = [](const std::vector<double>& numbers, std::size_t size) {
+      return numbers.empty() || numbers.size() == size;
+    };
+    check(has_size(node.matrix, 16) && has_size(node.translation, 3) &&
+              has_size(node.rotation, 4) && has_size(node.scale, 3),
+          "its transform has the wrong number of numbers");
+    Transform transform;
+    if (!node.matrix.empty()) {
+      const Eigen::Matrix4d matrix = Eigen::Map<const Eigen::Matrix4d>(node.matrix.data());
+      check(matrix.row(3) == Eigen::RowVector4d(0, 0, 0, 1), "its matrix is not affine");
+      transform.linear = matrix.topLeftCorner<3, 3>();
+      transform.shift = matrix.topRightCorner<3, 1>();
+      return transform;
+    }
+    if (!node.rotation.empty()) {
+      const auto& r = node.rotation;
+      const Eigen::Quaterniond rotation(r[3], r[0], r[1], r[2]);
+      check(rotation.norm() > 0, "its rotation is zero");
+      transform.linear = rotation.normalized().toRotationMatrix();
+    }
+    if (!node.scale.empty())
+      transform.linear *= Eigen::Map<const Vector3>(node.scale.data()).asDiagonal();
+    if (!node.translation.empty())
+      transform.shift = Eigen::Map<const Vector3>(node.translation.data());
+    return transform;
+  }
+
+  const GltfDocument& document_;
+  const std::string& name_;
+  std::vector<std::string>& notes_;
+};
+
+}  // namespace
+
+std::vector<PlacedMesh> placed_meshes(const GltfDocument& document, const std::string& name,
+                                      std::vector<std::string>& notes) {
+  NodeWalk walk(document, name, notes);
+  return walk.visit(walk.roots());
+}
+
+}  // namespace sphparam

@@ -1,0 +1,355 @@
+#include "io/formats/gltf/gltf_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "io/formats/gltf/gltf_accessors.h"
+#include "io/formats/gltf/gltf_document.h"
+#include "io/formats/gltf/gltf_nodes.h"
+#include "sphparam/io/losses.h"
+#include "sphparam/io/up_axis.h"
+#include "elementary.h"
+
+// Every placed mesh in turn: positions go through x ↦ Ax + b, normals through A⁻ᵀ; where det A < 0
+// the triangles are turned over, as the specification says. Primitives of one placed mesh that
+// share their vertices share them here too, so that a mesh closed in the file is closed in memory.
+
+namespace sphparam {
+namespace {
+
+/// What `export --theta-phi` writes: two angles a vertex.
+constexpr std::string_view kThetaPhi = "_THETA_PHI";
+
+enum Mode { kPoints = 0, kTriangles = 4, kStrip = 5, kFan = 6 };
+
+/// One file may name the same bytes over and over: what is made of them is bounded by their number.
+constexpr std::uint64_t kMostTrianglesPerByte = 2;
+
+/// A vertex property under construction: primitives without it leave gaps.
+struct Column {
+  ScalarType type = ScalarType::Float32;
+  double gap = 0;
+  std::vector<double> values;
+  std::size_t written = 0;
+};
+
+/// COLOR_0 is linear light; colours of all other formats, and so those of `MeshFile`, are sRGB.
+/// Source: IEC 61966-2-1.
+double srgb(double linear) {
+  const double x = std::clamp(linear, 0.0, 1.0);
+  const double encoded = x <= 0.0031308 ? 12.92 * x : 1.055 * elementary::pow(x, 1 / 2.4) - 0.055;
+  return static_cast<double>(static_cast<float>(encoded));
+}
+
+class SceneReader {
+ public:
+  SceneReader(const GltfDocument& document, const std::string& name, const ReadOptions& options)
+      : document_(document), name_(name), options_(options), accessors_(document, name) {}
+
+  MeshFile read() {
+    for (const PlacedMesh& placed : placed_meshes(document_, name_, file_.notes)) add_mesh(placed);
+    if (triangles_.empty()) fail("holds no triangles");
+    file_.mesh.positions = Eigen::Map<const Points>(positions_.data(), vertex_count(), 3);
+    file_.mesh.triangles = Eigen::Map<const Triangles>(triangles_.data(), triangle_count(), 3);
+    finish_columns();
+    finish_materials();
+    add_notes();
+    return std::move(file_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& message) const { throw ReadError(name_, message); }
+
+  Eigen::Index vertex_count() const { return static_cast<Eigen::Index>(positions_.size() / 3); }
+  Eigen::Index triangle_count() const { return static_cast<Eigen::Index>(triangles_.size() / 3); }
+
+  void add_mesh(const PlacedMesh& placed) {
+    const Transform& transform = placed.transform;
+    const bool turn_over = transform.linear.determinant() < 0;
+    skinned_ += placed.skinned;
+    std::map<std::map<std::string, int>, int> first_vertex;  // by the accessors of the vertices
+    const auto& primitives = document_.meshes[static_cast<std::size_t>(placed.mesh)];
+    for (std::size_t p = 0; p < primitives.size(); ++p) {
+      const GltfDocument::Primitive& primitive = primitives[p];
+      where_ = "mesh " + std::to_string(placed.mesh) + " primitive " + std::to_string(p);
+      const int position = check_primitive(primitive);
+      const auto [first, is_new] =
+          first_vertex.try_emplace(primitive.attributes, static_cast<int>(vertex_count()));
+      if (is_new) add_vertices(primitive, position, transform);
+      add_triangles(primitive, accessors_.accessor(position).count, first->second, turn_over);
+    }
+  }
+
+  /// The accessor of the positions.
+  int check_primitive(const GltfDocument::Primitive& primitive) const {
+    if (primitive.mode < kPoints || primitive.mode > kFan)
+      fail(where_ + " has the unknown mode " + std::to_string(primitive.mode));
+    if (primitive.mode < kTriangles)
+      fail(where_ + " holds " + (primitive.mode == kPoints ? "points" : "lines") +
+           ", which are not supported; triangles are");
+    const auto position = primitive.attributes.find("POSITION");
+    if (position == primitive.attributes.end()) fail(where_ + " has no positions");
+    require_components(position->second, {3});
+    if (accessors_.type(position->second) == ScalarType::Uint32)
+      accessors_.fail(position->second, "positions of this type are not allowed");
+    return position->second;
+  }
+
+  void require_components(int accessor, std::initializer_list<int> allowed) const {
+    const int components = accessors_.accessor(accessor).components;
+    if (std::find(allowed.begin(), allowed.end(), components) == allowed.end())
+      accessors_.fail(accessor, where_ + " needs another number of components");
+  }
+
+  void add_vertices(const GltfDocument::Primitive& primitive, int position,
+                    const Transform& transform) {
+    const std::vector<double>& xyz = accessors_.numbers(position);
+    const auto count = static_cast<std::int64_t>(xyz.size() / 3);
+    const std::int64_t limit =
+        std::min<std::int64_t>(options_.max_vertices, std::numeric_limits<int>::max());
+    const std::int64_t in_bytes =
+        static_cast<std::int64_t>(3 * kMostTrianglesPerByte * accessors_.buffer_bytes());
+    if (count > std::min(limit, in_bytes) - vertex_count())
+      fail(where_ + ": more vertices than the limit of " +
+           std::to_string(std::min(limit, in_bytes)));
+    const auto before = static_cast<std::size_t>(vertex_count());
+    for (std::size_t i = 0; i < xyz.size(); i += 3) {
+      const Vector3 x =
+          transform.linear * Eigen::Map<const Vector3>(xyz.data() + i) + transform.shift;
+      if (!x.allFinite()) fail(where_ + ": a transformed position is not finite");
+      positions_.insert(positions_.end(), x.begin(), x.end());
+    }
+    for (const auto& [attribute, accessor] : primitive.attributes)
+      if (accessor != position)
+        add_attribute(attribute, accessor, transform, before, xyz.size() / 3);
+    morph_targets_ = std::max(morph_targets_, primitive.morph_targets);
+  }
+
+  void add_attribute(const std::string& attribute, int accessor, const Transform& transform,
+                     std::size_t before, std::size_t count) {
+    if (!has_place(attribute, accessor)) {
+      // Joints and weights belong to skins, which are told of.
+      const bool of_skin = attribute.starts_with("JOINTS_") || attribute.starts_with("WEIGHTS_");
+      if (!of_skin) not_carried_.insert(one_line(attribute));
+      return;
+    }
+    if (accessors_.accessor(accessor).count != count)
+      accessors_.fail(accessor, where_ + " has " + std::to_string(count) + " vertices");
+    if (attribute == "NORMAL") {
+      add_normals(accessor, transform, before);
+    } else if (attribute == "TEXCOORD_0") {
+      require_components(accessor, {2});
+      add_column("s", ScalarType::Float32, accessor, 0, before);
+      add_column("t", ScalarType::Float32, accessor, 1, before, [](double v) { return 1 - v; });
+    } else if (attribute == "COLOR_0") {
+      add_colours(accessor, before);
+    } else if (attribute == kThetaPhi) {
+      add_column("theta", accessors_.type(accessor), accessor, 0, before);
+      add_column("phi", accessors_.type(accessor), accessor, 1, before);
+    } else {
+      std::string property = one_line(attribute);
+      std::replace(property.begin(), property.end(), ' ', '_');
+      add_column(property, accessors_.type(accessor), accessor, 0, before);
+    }
+  }
+
+  bool has_place(const std::string& attribute, int accessor) const {
+    if (attribute == "NORMAL" || attribute == "TEXCOORD_0" || attribute == "COLOR_0") return true;
+    const int components = accessors_.accessor(accessor).components;
+    return attribute.starts_with("_") && components == (attribute == kThetaPhi ? 2 : 1);
+  }
+
+  template <class Change = std::identity>
+  void add_column(const std::string& property, ScalarType type, int accessor, std::size_t component,
+                  std::size_t before, Change change = {}) {
+    const std::vector<double>& numbers = accessors_.numbers(accessor);
+    const auto width = static_cast<std::size_t>(accessors_.accessor(accessor).components);
+    std::vector<double> values;
+    for (std::size_t i = component; i < numbers.size(); i += width)
+      values.push_back(change(numbers[i]));
+    append(property, type, before, values);
+  }
+
+  void append(const std::string& property, ScalarType type, std::size_t before,
+              const std::vector<double>& values) {
+    const auto [found, is_new] = columns_.try_emplace(property);
+    Column& column = found->second;
+    if (is_new) {
+      order_.push_back(property);
+      column = {type, property == "alpha" ? 1.0 : 0.0, {}};
+    } else if (column.type != type) {
+      column.type = ScalarType::Float64;
+    }
+    column.values.resize(before, column.gap);
+    column.values.insert(column.values.end(), values.begin(), values.end());
+    column.written += values.size();
+  }
+
+  void add_normals(int accessor, const Transform& transform, std::size_t before) {
+    require_components(accessor, {3});
+    const Eigen::Matrix3d cotransform = transform.linear.inverse().transpose();
+    const bool as_written = transform.linear == Eigen::Matrix3d::Identity();
+    const std::vector<double>& xyz = accessors_.numbers(accessor);
+    std::vector<double> turned[3];
+    for (std::size_t i = 0; i < xyz.size(); i += 3) {
+      Vector3 normal = Eigen::Map<const Vector3>(xyz.data() + i);
+      if (!as_written) normal = (cotransform * normal).stableNormalized();
+      for (int axis = 0; axis < 3; ++axis)
+        turned[axis].push_back(std::isfinite(normal[axis]) ? normal[axis] : 0);
+    }
+    const char* const names[] = {"nx", "ny", "nz"};
+    for (int axis = 0; axis < 3; ++axis)
+      append(names[axis], ScalarType::Float32, before, turned[axis]);
+  }
+
+  void add_colours(int accessor, std::size_t before) {
+    require_components(accessor, {3, 4});
+    const char* const names[] = {"red", "green", "blue"};
+    for (std::size_t channel = 0; channel < 3; ++channel)
+      add_column(names[channel], ScalarType::Float32, accessor, channel, before, srgb);
+    if (accessors_.accessor(accessor).components == 4)
+      add_column("alpha", ScalarType::Float32, accessor, 3, before);
+  }
+
+  void add_triangles(const GltfDocument::Primitive& primitive, std::uint64_t vertices, int first,
+                     bool turn_over) {
+    std::vector<std::uint32_t> indices;
+    if (primitive.indices >= 0) indices = accessors_.indices(primitive.indices, vertices);
+    const std::uint64_t corners = primitive.indices >= 0 ? indices.size() : vertices;
+    const auto corner = [&](std::uint64_t i) {
+      return first + static_cast<int>(primitive.indices >= 0 ? indices[i] : i);
+    };
+    const bool list = primitive.mode == kTriangles;
+    if (corners < 3 || (list && corners % 3 != 0))
+      fail(where_ + ": " + std::to_string(corners) + " corners make no whole triangles");
+    const std::uint64_t count = list ? corners / 3 : corners - 2;
+    require_room_for(count);
+    for (std::uint64_t t = 0; t < count; ++t) {
+      // A strip turns every other triangle over; a fan has its first corner in each.
+      const std::uint64_t start = list ? 3 * t : t;
+      const std::uint64_t odd = primitive.mode == kStrip ? t % 2 : 0;
+      const bool fan = primitive.mode == kFan;
+      const int a = fan ? corner(t + 1) : corner(start);
+      const int b = fan ? corner(t + 2) : corner(start + 1 + odd);
+      const int c = fan ? corner(0) : corner(start + 2 - odd);
+      add_triangle(a, turn_over ? c : b, turn_over ? b : c, primitive.material);
+    }
+  }
+
+  void require_room_for(std::uint64_t count) const {
+    const auto limit = static_cast<std::uint64_t>(
+        std::min<std::int64_t>(options_.max_faces, std::numeric_limits<int>::max() / 3));
+    const std::uint64_t most = std::min(limit, kMostTrianglesPerByte * accessors_.buffer_bytes());
+    if (count + static_cast<std::uint64_t>(triangle_count()) > most)
+      fail(where_ + ": more triangles than the limit of " + std::to_string(most));
+  }
+
+  void add_triangle(int a, int b, int c, int material) {
+    if (a == b || b == c || c == a) {
+      ++degenerate_;
+      return;
+    }
+    triangles_.insert(triangles_.end(), {a, b, c});
+    material_of_.push_back(material);
+  }
+
+  void finish_columns() {
+    const auto count = static_cast<std::size_t>(vertex_count());
+    for (const std::string& name : order_) {
+      Column& column = columns_.at(name);
+      if (column.written < count && name != "alpha")
+        file_.notes.push_back(std::to_string(count - column.written) + " vertices have no '" +
+                              name + "': set to zero");
+      column.values.resize(count, column.gap);
+      file_.vertex_properties.push_back({name, column.type, std::move(column.values)});
+    }
+  }
+
+  void finish_materials() {
+    std::map<int, int> ids;  // in order of first use
+    Property property{"material", ScalarType::Int32, {}};
+    for (const int material : material_of_) {
+      if (material < 0 || material >= static_cast<int>(document_.materials.size())) {
+        property.values.push_back(-1);
+        continue;
+      }
+      const auto [found, is_new] = ids.try_emplace(material, static_cast<int>(ids.size()));
+      if (is_new) add_material(material);
+      property.values.push_back(found->second);
+    }
+    if (!ids.empty()) file_.set_face_property(std::move(property));
+  }
+
+  void add_material(int id) {
+    const auto& [name, words, base_colour, others] =
+        document_.materials[static_cast<std::size_t>(id)];
+    file_.materials.push_back(name.empty() ? "material " + std::to_string(id) : name);
+    file_.base_colours.push_back(base_colour);
+    if (!words.empty())
+      file_.comments.push_back("base colour of " + file_.materials.back() + ": " + words);
+    materials_with_others_ += !others.empty();
+    for (const std::string& other : others)
+      if (others_seen_.insert(other).second) others_.push_back(other);
+  }
+
+  void add_notes() {
+    if (degenerate_ > 0)
+      file_.notes.push_back(std::to_string(degenerate_) +
+                            " triangles that name a vertex twice dropped");
+    if (materials_with_others_ > 0)
+      add_loss(file_.notes, enumerated(others_) + " of " + std::to_string(materials_with_others_) +
+                                " of " +
+                                counted(static_cast<long>(file_.materials.size()), "material") +
+                                ", only base colours are");
+    if (skinned_ > 0)
+      add_loss(file_.notes, counted(skinned_, "skin") + ": the mesh is read as it rests");
+    if (morph_targets_ > 0) add_loss(file_.notes, counted(morph_targets_, "morph target"));
+    if (!not_carried_.empty())
+      add_loss(file_.notes,
+               "of the vertices " + enumerated({not_carried_.begin(), not_carried_.end()}));
+    if (accessors_.misaligned() > 0)
+      file_.notes.push_back(counted(accessors_.misaligned(), "accessor") +
+                            " not aligned as glTF wants it: read all the same");
+    for (const std::string& note : document_.notes) file_.notes.push_back(note);
+  }
+
+  const GltfDocument& document_;
+  const std::string& name_;
+  const ReadOptions& options_;
+  GltfAccessors accessors_;
+  std::string where_;  // "mesh 0 primitive 1", for messages
+
+  std::vector<double> positions_;
+  std::vector<int> triangles_;
+  std::vector<int> material_of_;  // of each triangle, as numbered in the file
+  std::map<std::string, Column> columns_;
+  std::vector<std::string> order_;   // of the columns, as first seen
+  std::vector<std::string> others_;  // what materials say beside base colours, each once
+  std::set<std::string> others_seen_;
+  long materials_with_others_ = 0;
+  std::set<std::string> not_carried_;  // attributes
+  long skinned_ = 0;                   // meshes placed with a skin
+  int morph_targets_ = 0;
+  long degenerate_ = 0;
+  MeshFile file_;
+};
+
+}  // namespace
+
+MeshFile read_gltf(std::string_view bytes, const std::string& name,
+                   const std::optional<std::filesystem::path>& folder, const ReadOptions& options) {
+  const GltfDocument document = load_gltf(bytes, name, folder, options);
+  MeshFile file = SceneReader(document, name, options).read();
+  file.format = bytes.starts_with("glTF") ? "glTF binary" : "glTF";
+  file.position_type = ScalarType::Float32;
+  file.comments.push_back(comment_of_y_up());
+  return file;
+}
+
+}  // namespace sphparam

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "sphparam/io/mesh_file.h"
+#include "sphparam/io/read_options.h"
+
+namespace sphparam {
+
+/// Reads the default scene of a glTF 2.0 file, text or binary (GLB): all meshes of all nodes,
+/// transformed, as one mesh.
+///
+/// Vertices are those of the file: where normals or texture coordinates split them,
+/// `prepare_for_mapping` welds them by position and keeps both at the corners. Kept: NORMAL,
+/// TEXCOORD_0 (t upwards, as in OBJ: 1 − v), COLOR_0 (its linear light as sRGB in [0, 1], Float32),
+/// scalars named _…, the angles of _THETA_PHI as theta and phi, the material of each face and its
+/// base colour; textures are named in comments too, and never decoded here; one says that y is up.
+/// Told as not carried: what else materials say, other attributes, skins, morph targets,
+/// animations, cameras, lights, other scenes. Triangles, strips and fans, with or without indices;
+/// triangles that name a vertex twice are dropped and counted in a note. Refused by name: points,
+/// lines, glTF 1.0, required extensions other than KHR_mesh_quantization and those of materials,
+/// textures and lights. `folder` is where buffers in files of their own may be; without it they are
+/// refused. Throws: ReadError that names the accessor, mesh or node.
+MeshFile read_gltf(std::string_view bytes, const std::string& name,
+                   const std::optional<std::filesystem::path>& folder,
+                   const ReadOptions& options = {});
+
+}  // namespace sphparam

@@ -1,0 +1,405 @@
+#include "io/formats/obj_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "sphparam/io/losses.h"
+#include "sphparam/io/polygons.h"
+#include "io/files/text_scanner.h"
+
+// One pass over the lines fills flat arrays; faces hold three indices a corner (v/vt/vn), vt and vn
+// only from the first corner that has one. An index may name a vertex of a later line, so indices
+// beyond the current count are remembered with their line and judged at the end. Polygons are cut
+// when all positions are known; corner attributes follow the corners.
+
+namespace sphparam {
+namespace {
+
+constexpr int kNone = -1;
+
+/// Indices that name something not read yet, in order of appearance. Only new maxima are kept: the
+/// first index out of range at the end is one of them.
+class ForwardReferences {
+ public:
+  void note(std::int64_t index, std::int64_t count, long line) {
+    if (index >= count && (found_.empty() || index > found_.back().index))
+      found_.push_back({index, line});
+  }
+
+  void check(std::int64_t count, const char* what, const TextScanner& scanner) const {
+    for (const auto& [index, line] : found_)
+      if (index >= count)
+        scanner.fail_at(line, std::string("face names ") + what + " " + std::to_string(index + 1) +
+                                  " of " + std::to_string(count));
+  }
+
+ private:
+  struct Reference {
+    std::int64_t index;
+    long line;
+  };
+  std::vector<Reference> found_;
+};
+
+/// The names that statements of one kind have given so far.
+struct Names {
+  std::string last;
+  std::set<std::string> distinct;
+};
+
+/// A kind of thing that corners point at: v, vt or vn.
+struct IndexedKind {
+  const char* name;
+  std::int64_t count = 0;
+  ForwardReferences forward;
+};
+
+/// One index a corner, stored from the first corner that has one.
+struct CornerIndices {
+  std::vector<int> values;
+
+  void set(std::size_t corner, int index) {
+    if (index == kNone) return;
+    values.resize(corner, kNone);
+    values.push_back(index);
+  }
+  bool used() const { return !values.empty(); }
+};
+
+class ObjReader {
+ public:
+  ObjReader(std::string_view text, const std::string& name, const ReadOptions& options)
+      : scanner_(text, name, options), options_(options) {
+    scanner_.require_text();
+    // A line of a vertex or a face has about 25 bytes.
+    constexpr std::size_t kUsualLineBytes = 25;
+    const std::size_t lines = text.size() / kUsualLineBytes;
+    positions_.reserve(lines);
+    polygons_.corners.reserve(2 * lines);
+    polygons_.starts.reserve(lines);
+  }
+
+  MeshFile read() {
+    while (scanner_.next_line()) read_line();
+    if (unknown_ > 0 && (polygons_.count() == 0 || vertices_.count == 0))
+      scanner_.fail_at(first_unknown_line_, "unknown statement " + first_unknown_);
+    check_forward_references();
+    return finish();
+  }
+
+ private:
+  void read_line() {
+    if (scanner_.at_line_end()) {
+      if (in_header_ && scanner_.at_comment())
+        file_.comments.push_back(one_line(scanner_.comment()));
+      return;
+    }
+    in_header_ = false;
+    scanner_.join_continued_lines();
+    const std::string_view keyword = scanner_.word();
+    if (keyword == "v") return read_vertex();
+    if (keyword == "f") return read_face();
+    if (keyword == "vt") return read_texcoord();
+    if (keyword == "vn") return read_normal();
+    if (keyword == "usemtl") return read_material();
+    read_ignored(std::string(keyword));
+  }
+
+  void read_vertex() {
+    for (int i = 0; i < 3; ++i) positions_.push_back(scanner_.real());
+    if (++vertices_.count > std::min(options_.max_vertices, kMostVertices))
+      scanner_.fail("more vertices than the limit of " + std::to_string(options_.max_vertices));
+    if (!scanner_.at_line_end()) read_vertex_extras();
+    expect_line_end();
+  }
+
+  // x y z w, or x y z r g b [a].
+  void read_vertex_extras() {
+    std::array<float, 4> extras{};
+    std::size_t count = 0;
+    while (count < extras.size() && !scanner_.at_line_end()) extras[count++] = scanner_.real32();
+    if (count == 1) {
+      weights_ |= extras[0] != 1;
+      return;
+    }
+    if (count < 3) scanner_.fail("vertex has 5 numbers: neither coordinates nor colours");
+    if (colour_channels_ == 0) colour_channels_ = count;
+    if (count == colour_channels_) {
+      colours_.insert(colours_.end(), extras.begin(), extras.begin() + count);
+      ++coloured_;
+    }
+  }
+
+  void read_texcoord() {
+    const double s = scanner_.real();
+    const double t = scanner_.at_line_end() ? 0 : scanner_.real();
+    if (!scanner_.at_line_end()) scanner_.real();  // the third coordinate of volume textures
+    expect_line_end();
+    texcoord_values_.insert(texcoord_values_.end(), {s, t});
+    ++texcoords_.count;
+  }
+
+  void read_normal() {
+    for (int i = 0; i < 3; ++i) normal_values_.push_back(scanner_.real());
+    expect_line_end();
+    ++normals_.count;
+  }
+
+  void read_face() {
+    const std::size_t first = polygons_.corners.size();
+    for (std::size_t corner = first; !scanner_.at_line_end(); ++corner) read_corner(corner);
+    const std::string problem = polygons_.close_polygon(options_);
+    if (!problem.empty()) scanner_.fail(problem);
+    if (material_ != kNone || !material_of_.empty()) {
+      material_of_.resize(static_cast<std::size_t>(polygons_.count() - 1), kNone);
+      material_of_.push_back(material_);
+    }
+  }
+
+  // v, v/vt, v//vn or v/vt/vn.
+  void read_corner(std::size_t corner) {
+    polygons_.add_corner(read_index(vertices_));
+    if (!scanner_.skip('/')) return;
+    if (!scanner_.at_token_end() && !scanner_.skip('/')) {
+      corner_texcoords_.set(corner, read_index(texcoords_));
+      if (!scanner_.skip('/')) return;
+    }
+    if (!scanner_.at_token_end()) corner_normals_.set(corner, read_index(normals_));
+    if (!scanner_.at_token_end()) scanner_.fail("corner has more than three indices");
+  }
+
+  int read_index(IndexedKind& kind) {
+    const long written = scanner_.index();
+    if (written == 0) scanner_.fail(std::string(kind.name) + " index 0: indices start at 1");
+    const std::int64_t index = written > 0 ? written - 1 : kind.count + written;
+    if (index < 0)
+      scanner_.fail(std::string("relative ") + kind.name + " index " + std::to_string(written) +
+                    " points before the first of " + std::to_string(kind.count));
+    if (index > std::numeric_limits<int>::max())
+      scanner_.fail(std::string(kind.name) + " index " + std::to_string(written) +
+                    " is out of range");
+    if (index >= kind.count) [[unlikely]]
+      kind.forward.note(index, kind.count, scanner_.line_number());
+    return static_cast<int>(index);
+  }
+
+  void read_material() {
+    const std::string name = one_line(scanner_.rest());
+    const auto [found, is_new] =
+        material_ids_.try_emplace(name, static_cast<int>(file_.materials.size()));
+    if (is_new) file_.materials.push_back(name);
+    material_ = found->second;
+  }
+
+  void read_ignored(const std::string& keyword) {
+    static constexpr std::string_view kNamed[] = {"g", "o", "s", "mtllib"};
+    static constexpr std::string_view kSilent[] = {"mg",        "lod",    "shadow_obj",
+                                                   "trace_obj", "bevel",  "c_interp",
+                                                   "d_interp",  "maplib", "usemap"};
+    static constexpr std::string_view kNoted[] = {
+        "l",    "p",    "vp",   "cstype", "deg", "bmat", "step", "curv",  "curv2", "surf",
+        "parm", "trim", "hole", "scrv",   "sp",  "end",  "con",  "ctech", "stech"};
+    const auto is_in = [&](const auto& list) {
+      return std::find(std::begin(list), std::end(list), keyword) != std::end(list);
+    };
+    if (is_in(kNamed)) return note_name(names_[keyword]);
+    if (is_in(kSilent)) return;
+    if (is_in(kNoted)) {
+      ++ignored_[keyword];
+    } else if (unknown_++ == 0) {
+      first_unknown_ = quoted(keyword);
+      first_unknown_line_ = scanner_.line_number();
+    }
+  }
+
+  // Most files say the same name again and again, or none but one.
+  void note_name(Names& names) {
+    const std::string_view name = scanner_.rest();
+    if (name.empty() || name == names.last) return;
+    names.last = name;
+    names.distinct.insert(names.last);
+  }
+
+  void expect_line_end() {
+    if (!scanner_.at_line_end())
+      scanner_.fail("unexpected " + quoted(scanner_.peek_word()) + " at the end of the line");
+  }
+
+  void check_forward_references() const {
+    vertices_.forward.check(vertices_.count, "vertex", scanner_);
+    texcoords_.forward.check(texcoords_.count, "texture coordinate", scanner_);
+    normals_.forward.check(normals_.count, "normal", scanner_);
+  }
+
+  MeshFile finish() {
+    file_.format = "OBJ";
+    file_.mesh.positions = Eigen::Map<const Points>(positions_.data(), vertices_.count, 3);
+    const Triangulation triangulation = triangulate(file_.mesh.positions, polygons_);
+    add_materials();
+    adopt_triangulation(file_, triangulation);
+    add_colours();
+    add_texcoords(triangulation);
+    add_normals(triangulation);
+    add_notes();
+    return std::move(file_);
+  }
+
+  void add_materials() {
+    if (file_.materials.empty()) return;
+    material_of_.resize(static_cast<std::size_t>(polygons_.count()), kNone);
+    file_.set_face_property(
+        {"material", ScalarType::Int32, {material_of_.begin(), material_of_.end()}});
+  }
+
+  void add_colours() {
+    if (colour_channels_ == 0) return;
+    if (coloured_ != vertices_.count) {
+      add_loss(file_.notes, "colours: only " + std::to_string(coloured_) + " of " +
+                                std::to_string(vertices_.count) + " vertices have them");
+      return;
+    }
+    const char* const names[] = {"red", "green", "blue", "alpha"};
+    for (std::size_t channel = 0; channel < colour_channels_; ++channel) {
+      Property colour{names[channel], ScalarType::Float32, {}};
+      for (std::size_t i = channel; i < colours_.size(); i += colour_channels_)
+        colour.values.push_back(colours_[i]);
+      file_.vertex_properties.push_back(std::move(colour));
+    }
+  }
+
+  /// Rows of `values`, `Width` numbers each, as the corners of the triangles name them.
+  template <int Width>
+  auto gather(const Triangulation& triangulation, CornerIndices& indices,
+              const std::vector<double>& values, const char* what) {
+    using Table = RowTable<double, Width>;
+    indices.values.resize(polygons_.corners.size(), kNone);
+    const long missing = std::count(indices.values.begin(), indices.values.end(), kNone);
+    if (missing > 0)
+      file_.notes.push_back(std::to_string(missing) + " corners have no " + what + ": set to zero");
+    Table table(3 * triangulation.triangles.rows(), Width);
+    for (Eigen::Index i = 0; i < table.rows(); ++i) {
+      const int index = indices.values[triangulation.corner_of(i)];
+      for (int k = 0; k < Width; ++k)
+        table(i, k) = index == kNone ? 0 : values[static_cast<std::size_t>(Width) * index + k];
+    }
+    return table;
+  }
+
+  void add_texcoords(const Triangulation& triangulation) {
+    if (corner_texcoords_.used())
+      file_.corner_texcoords =
+          gather<2>(triangulation, corner_texcoords_, texcoord_values_, "texture coordinates");
+  }
+
+  void add_normals(const Triangulation& triangulation) {
+    if (!corner_normals_.used()) return;
+    if (const std::optional<std::vector<int>> normal_of = one_normal_a_vertex())
+      return add_vertex_normals(*normal_of);
+    file_.corner_normals = gather<3>(triangulation, corner_normals_, normal_values_, "normals");
+  }
+
+  /// For each vertex the normal that all its corners name, by value; nothing if two differ.
+  std::optional<std::vector<int>> one_normal_a_vertex() const {
+    std::vector<int> normal_of(static_cast<std::size_t>(vertices_.count), kNone);
+    const auto same = [this](int a, int b) {
+      const double* const values = normal_values_.data();
+      return a == b || std::equal(values + 3L * a, values + 3L * a + 3, values + 3L * b);
+    };
+    for (std::size_t i = 0; i < corner_normals_.values.size(); ++i) {
+      const int normal = corner_normals_.values[i];
+      int& known = normal_of[polygons_.corners[i]];
+      if (normal == kNone) continue;
+      if (known == kNone) known = normal;
+      if (!same(known, normal)) return std::nullopt;
+    }
+    return normal_of;
+  }
+
+  void add_vertex_normals(const std::vector<int>& normal_of) {
+    const char* const names[] = {"nx", "ny", "nz"};
+    for (int axis = 0; axis < 3; ++axis) {
+      Property property{names[axis], ScalarType::Float64, {}};
+      property.values.reserve(normal_of.size());
+      for (const int normal : normal_of)
+        property.values.push_back(normal == kNone ? 0 : normal_values_[3L * normal + axis]);
+      file_.vertex_properties.push_back(std::move(property));
+    }
+  }
+
+  void add_notes() {
+    note_libraries();
+    note_groups();
+    for (const auto& [keyword, count] : ignored_)
+      add_loss(file_.notes, counted(count, "'" + keyword + "' statement"));
+    if (weights_) add_loss(file_.notes, "fourth coordinates of vertices (weights)");
+    if (unknown_ > 0)
+      add_loss(file_.notes, counted(unknown_, "unknown statement") + ", the first " +
+                                first_unknown_ + " in line " + std::to_string(first_unknown_line_));
+  }
+
+  void note_libraries() {
+    std::vector<std::string> libraries;
+    for (const std::string& library : names_["mtllib"].distinct)
+      libraries.push_back(quoted(library));
+    if (libraries.empty() || file_.materials.empty()) return;
+    add_loss(file_.notes, "colours and textures of " +
+                              counted(static_cast<long>(file_.materials.size()), "material") +
+                              " in " + enumerated(libraries) +
+                              ", which is not read; their names are");
+  }
+
+  /// One group that holds everything says nothing.
+  void note_groups() {
+    static constexpr std::pair<const char*, const char*> kKinds[] = {
+        {"o", "object"}, {"g", "group"}, {"s", "smoothing group"}};
+    std::vector<std::string> words;
+    for (const auto& [keyword, what] : kKinds) {
+      std::set<std::string>& names = names_[keyword].distinct;
+      if (*keyword == 's')
+        std::erase_if(names, [](auto& name) { return name == "off" || name == "0"; });
+      if (names.size() > 1) words.push_back(counted(static_cast<long>(names.size()), what));
+    }
+    if (!words.empty()) add_loss(file_.notes, "the names of " + enumerated(words));
+  }
+
+  static constexpr std::int64_t kMostVertices = std::numeric_limits<int>::max();
+
+  TextScanner scanner_;
+  const ReadOptions& options_;
+  bool in_header_ = true;  // only comments so far
+
+  IndexedKind vertices_{"vertex", 0, {}}, texcoords_{"texture coordinate", 0, {}},
+      normals_{"normal", 0, {}};
+  std::vector<double> positions_, texcoord_values_, normal_values_;
+  std::vector<float> colours_;
+  std::size_t colour_channels_ = 0;
+  std::int64_t coloured_ = 0;  // vertices with that many channels
+  bool weights_ = false;
+
+  Polygons polygons_;
+  CornerIndices corner_texcoords_, corner_normals_;
+  int material_ = kNone;
+  std::vector<int> material_of_;  // per polygon, from the first one with a material
+  std::map<std::string, int> material_ids_;
+  std::map<std::string, Names> names_;   // by keyword
+  std::map<std::string, long> ignored_;  // by keyword
+  long unknown_ = 0;
+  std::string first_unknown_;
+  long first_unknown_line_ = 0;
+
+  MeshFile file_;
+};
+
+}  // namespace
+
+MeshFile read_obj(std::string_view text, const std::string& name, const ReadOptions& options) {
+  return ObjReader(text, name, options).read();
+}
+
+}  // namespace sphparam

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "sphparam/io/mesh_file.h"
+#include "sphparam/io/read_options.h"
+
+namespace sphparam {
+
+/// Reads a Wavefront OBJ file.
+///
+/// Kept: v with optional colours (x y z r g b [a]), vt per corner, vn per vertex where each vertex
+/// has one normal and per corner where not, polygons, usemtl as the face property `material`, the
+/// comments at the top. Told as not carried: groups, objects and smoothing groups where there are
+/// several, lines, points, free-form geometry, materials' libraries (no other file is ever opened),
+/// statements that OBJ does not have. A text with such a statement and no face is no OBJ.
+/// Throws: ReadError with the line.
+MeshFile read_obj(std::string_view text, const std::string& name, const ReadOptions& options = {});
+
+}  // namespace sphparam

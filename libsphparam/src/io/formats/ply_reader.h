@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "sphparam/io/mesh_file.h"
+#include "sphparam/io/read_options.h"
+
+namespace sphparam {
+
+/// Reads a PLY file: ASCII, binary little-endian or binary big-endian.
+///
+/// Kept: all scalar properties of vertices and faces in their own types, polygons, the face lists
+/// `texcoord` (two numbers a corner, as MeshLab writes them) and `normal` (three a corner, as
+/// serialise_ply writes them), comments, materials. Where there are no faces, the element
+/// `tristrips` is read in their stead, as Stanford's files have it: every other triangle of a strip
+/// is turned over, −1 starts a new one. Other lists and other elements are told as not carried.
+/// Throws: ReadError with the line, or with the byte in a binary body.
+MeshFile read_ply(std::string_view bytes, const std::string& name, const ReadOptions& options = {});
+
+/// Comments of this form carry the names of MeshFile::materials, in order.
+inline constexpr std::string_view kMaterialComment = "sphparam material ";
+
+}  // namespace sphparam

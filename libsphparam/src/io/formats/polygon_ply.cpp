@@ -1,0 +1,115 @@
+// The vertices and the header are those of `serialise_ply` without faces; faces of several degrees
+// have records of several lengths, which are appended one by one.
+
+#include "io/formats/polygon_ply.h"
+
+#include <bit>
+#include <cstring>
+#include <vector>
+
+#include "sphparam/io/mesh_writer.h"
+
+namespace sphparam {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little);
+
+void put(std::string& bytes, ScalarType type, double value) {
+  with_scalar(type, [&](auto scalar) {
+    const auto number = static_cast<decltype(scalar)>(value);
+    bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+  });
+}
+
+/// What has a value at each corner of the triangles.
+struct CornerList {
+  std::string name;
+  ScalarType type;
+  const double* values;
+  int width;
+};
+
+template <class Table>
+void add_list(std::vector<CornerList>& lists, const char* name, const std::optional<Table>& table,
+              ScalarType declared) {
+  if (!table) return;
+  lists.push_back({name, lossless_type(declared, table->data(), table->size()), table->data(),
+                   static_cast<int>(table->cols())});
+}
+
+/// The faces of a file, its triangles put together again.
+class FaceRecords {
+ public:
+  FaceRecords(const MeshFile& file, const Polygons& faces)
+      : faces_(faces), corners_(corners_in(file.mesh.triangles, faces)) {
+    add_list(lists_, "texcoord", file.corner_texcoords, file.corner_texcoord_type);
+    add_list(lists_, "normal", file.corner_normals, file.corner_normal_type);
+    for (const Property& property : file.face_properties) {
+      if (property.name == "source_face") continue;
+      const auto count = static_cast<Eigen::Index>(property.values.size());
+      properties_.push_back(&property);
+      types_.push_back(lossless_type(property.type, property.values.data(), count));
+    }
+  }
+
+  std::string declarations() const {
+    std::string text = "element face " + std::to_string(faces_.count()) +
+                       "\nproperty list uchar int vertex_indices\n";
+    for (const CornerList& list : lists_) {
+      text += "property list uchar " + std::string(ply_name(list.type)) + " " + list.name + "\n";
+    }
+    for (size_t i = 0; i < properties_.size(); ++i) {
+      text += "property " + std::string(ply_name(types_[i])) + " " +
+              one_line(properties_[i]->name) + "\n";
+    }
+    return text;
+  }
+
+  void append_to(std::string& bytes) const {
+    for (std::int64_t p = 0; p < faces_.count(); ++p) {
+      const int degree = faces_.degree(p), first = faces_.starts[p];
+      bytes.push_back(static_cast<char>(degree));
+      for (const int v : faces_.polygon(p)) put(bytes, ScalarType::Int32, v);
+      for (const CornerList& list : lists_) {
+        bytes.push_back(static_cast<char>(degree * list.width));
+        for (int i = first; i < first + degree; ++i) {
+          const double* const row = list.values + std::int64_t{corners_[i]} * list.width;
+          for (int k = 0; k < list.width; ++k) put(bytes, list.type, row[k]);
+        }
+      }
+      for (size_t i = 0; i < properties_.size(); ++i) {
+        put(bytes, types_[i], properties_[i]->values[corners_[first] / 3]);
+      }
+    }
+  }
+
+ private:
+  const Polygons& faces_;
+  std::vector<int> corners_;  // of the triangles, one a corner of the polygons
+  std::vector<CornerList> lists_;
+  std::vector<const Property*> properties_;
+  std::vector<ScalarType> types_;
+};
+
+}  // namespace
+
+std::string serialise_polygon_ply(MeshFile file, const Polygons& faces) {
+  MeshFile of_faces;
+  of_faces.mesh.triangles.swap(file.mesh.triangles);
+  of_faces.face_properties.swap(file.face_properties);
+  of_faces.corner_texcoords.swap(file.corner_texcoords);
+  of_faces.corner_normals.swap(file.corner_normals);
+  of_faces.corner_texcoord_type = file.corner_texcoord_type;
+  of_faces.corner_normal_type = file.corner_normal_type;
+  const FaceRecords records(of_faces, faces);
+
+  std::string bytes = serialise_ply(file);
+  const size_t declaration = bytes.find("element face 0\n");
+  const size_t end = bytes.find("end_header\n", declaration);
+  bytes.replace(declaration, end - declaration, records.declarations());
+  records.append_to(bytes);
+  return bytes;
+}
+
+}  // namespace sphparam

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "sphparam/io/mesh_file.h"
+#include "sphparam/io/read_options.h"
+
+namespace sphparam {
+
+/// True when the length is what the triangle count of a binary STL asks for. Binary files that
+/// start with "solid" exist, so this is asked first; no text can be taken for one.
+bool looks_like_binary_stl(std::string_view bytes);
+
+/// True when the text starts with the word `solid`.
+bool looks_like_ascii_stl(std::string_view bytes);
+
+/// Reads an STL file, ASCII or binary.
+///
+/// Corners of the same coordinates (−0 = +0, never by a tolerance) are one vertex, in the order of
+/// first use. A facet that then names a vertex twice stays, `inspect_mesh` lists it. Facet normals
+/// are not kept: they follow from the corners. Kept: the face property `solid` where an ASCII file
+/// has several, `attribute` (two bytes a facet, often a colour) where a binary file uses them,
+/// names and header as comments. Throws: ReadError with the line, or with the byte. Cost:
+/// O(triangles), expected.
+MeshFile read_stl(std::string_view bytes, const std::string& name, const ReadOptions& options = {});
+
+}  // namespace sphparam

@@ -1,0 +1,163 @@
+// Whoever uses a map first proves it: the certificate costs little, and nothing that follows holds
+// without it.
+
+#include "sphparam/io/mapped_mesh.h"
+
+#include <mutex>
+#include <utility>
+
+#include "sphparam/errors.h"
+#include "sphparam/io/certified_files.h"
+#include "sphparam/io/connectivity.h"
+#include "sphparam/io/paths.h"
+#include "sphparam/io/safe_file.h"
+#include "sphparam/names.h"
+#include "sphparam/version.h"
+
+namespace sphparam {
+
+/// What maps of one mesh share.
+struct MappedMesh::Shape {
+  MeshFile file;
+  Topology topology;
+  std::optional<Polygons> polygons;
+  std::vector<std::string> notes;
+  std::string name;
+  int threads;
+};
+
+struct MappedMesh::State {
+  std::shared_ptr<const Shape> shape;
+  SphereMap map;
+  Certificate certificate;
+  Provenance provenance;
+  bool mapped_here;
+  mutable std::once_flag locator_is_made = {};
+  mutable std::optional<SphereLocator> locator = {};
+};
+
+namespace {
+
+struct WrittenMap {
+  SphereMap map;
+  Provenance provenance;
+};
+
+WrittenMap map_of_sphere(const MeshSource& shape, const LoadOptions& options) {
+  const MeshFile sphere = read_source(options.sphere, options.read).file;
+  const std::string difference = connectivity_difference(shape.file, sphere);
+  if (!difference.empty()) {
+    throw ReadError(display_name(options.sphere),
+                    "not a sphere of " + display_name(shape.path) + ": " + difference);
+  }
+  std::optional<SphereMap> map = read_sphere(sphere);
+  return {map ? std::move(*map) : SphereMap{sphere.mesh.positions}, read_provenance(sphere)};
+}
+
+std::optional<WrittenMap> written_map(const MeshSource& source, const LoadOptions& options) {
+  if (!options.sphere.empty()) return map_of_sphere(source, options);
+  std::optional<SphereMap> map = read_sphere(source.file);
+  if (!map) return std::nullopt;
+  return WrittenMap{std::move(*map), read_provenance(source.file)};
+}
+
+WrittenMap made_map(const MeshSource& source, const ParameterizeOptions& options) {
+  Parameterization result = parameterize(source.file.mesh, source.topology.value(), options);
+  if (!result.certificate.bijective()) {
+    throw NotCertifiedError(display_name(source.path) +
+                            ": no one-to-one map was found: " + verdict(result.certificate));
+  }
+  return {std::move(result.map),
+          {{"version", version},
+           {"method", name_of(options.method)},
+           {"stage", result.made_by},
+           {"options", options_line(options)},
+           {"verdict", verdict(result.certificate)}}};
+}
+
+}  // namespace
+
+MappedMesh::MappedMesh(Parts parts, int threads) {
+  Topology topology =
+      parts.topology ? std::move(*parts.topology) : Topology(parts.file.mesh, threads);
+  shape_.reset(new Shape{std::move(parts.file), std::move(topology), std::move(parts.polygons),
+                         std::move(parts.notes), std::move(parts.name), threads});
+  prove(std::move(parts.map), std::move(parts.provenance), parts.mapped_here);
+}
+
+MappedMesh::MappedMesh(std::shared_ptr<const Shape> shape) : shape_(std::move(shape)) {}
+
+void MappedMesh::prove(SphereMap map, Provenance provenance, bool mapped_here) {
+  const Shape& shape = *shape_;
+  Certificate certificate = certify(shape.topology, map, shape.threads);
+  require_certified(certificate, shape.name);
+  SphereMap units = unit_rays(map);
+  if (units.points != map.points) {
+    certificate = certify(shape.topology, units, shape.threads);
+    require_certified(certificate, shape.name + ", with rays of unit length");
+  }
+  state_.reset(new State{shape_, std::move(units), std::move(certificate), std::move(provenance),
+                         mapped_here});
+}
+
+MappedMesh MappedMesh::with_map(SphereMap map, Provenance provenance) const {
+  MappedMesh other(shape_);
+  other.prove(std::move(map), std::move(provenance), true);
+  return other;
+}
+
+const TriangleMesh& MappedMesh::mesh() const { return shape_->file.mesh; }
+const MeshFile& MappedMesh::file() const { return shape_->file; }
+const Topology& MappedMesh::topology() const { return shape_->topology; }
+const SphereMap& MappedMesh::map() const { return state_->map; }
+const Certificate& MappedMesh::certificate() const { return state_->certificate; }
+const Provenance& MappedMesh::provenance() const { return state_->provenance; }
+const std::optional<Polygons>& MappedMesh::polygons() const { return shape_->polygons; }
+const std::vector<std::string>& MappedMesh::notes() const { return shape_->notes; }
+bool MappedMesh::mapped_here() const { return state_->mapped_here; }
+const std::string& MappedMesh::name() const { return shape_->name; }
+
+const SphereLocator& MappedMesh::locator() const {
+  std::call_once(state_->locator_is_made,
+                 [&] { state_->locator.emplace(topology(), map(), shape_->threads); });
+  return *state_->locator;
+}
+
+SphereMap unit_rays(SphereMap map) {
+  constexpr double roundings = 8 * 2.22e-16;
+  const Eigen::ArrayXd deviation = map.points.rowwise().norm().array() - 1;
+  return (deviation.abs() <= roundings).all() ? map : normalised(std::move(map.points));
+}
+
+MappedMesh mapped_mesh(MeshSource source, const LoadOptions& options) {
+  if (options.repair) source = repaired(std::move(source), *options.repair);
+  require_mappable(source);
+  std::optional<WrittenMap> written = written_map(source, options);
+  const bool mapped_here = !written;
+  if (!written) written = made_map(source, options.map);
+  const std::string& named = options.sphere.empty() ? source.path : options.sphere;
+  return MappedMesh({.file = std::move(source.file),
+                     .map = std::move(written->map),
+                     .provenance = std::move(written->provenance),
+                     .topology = std::move(source.topology),
+                     .notes = std::move(source.notes),
+                     .mapped_here = mapped_here,
+                     .name = display_name(named)},
+                    options.map.threads);
+}
+
+MappedMesh load_mapped(const std::string& path, const LoadOptions& options) {
+  ReadOptions read = options.read;
+  if (options.repair) read.repeated_corners = options.repair->duplicates;
+  return mapped_mesh(read_source(path, read), options);
+}
+
+void save_mapped(const std::string& path, const MappedMesh& mapped, int threads) {
+  PendingFiles files;
+  MeshFile file = attach_map(mapped.file(), mapped.map(), mapped.provenance());
+  const Polygons triangles = mapped.polygons() ? *mapped.polygons() : polygons_of(mapped.mesh().triangles);
+  add_mapped(files, path, std::move(file), triangles, mapped.topology(), threads);
+  files.publish();
+}
+
+}  // namespace sphparam

@@ -1,0 +1,114 @@
+// The library's repair names elements of the mesh it was given; people know the numbers of the file,
+// which welding and dropping vertices have changed.
+
+#include <new>
+#include <utility>
+
+#include "io/repaired_file.h"
+#include "sphparam/io/file_numbers.h"
+#include "sphparam/io/mesh_source.h"
+
+namespace sphparam {
+
+namespace {
+
+std::vector<RepairAction> by_file_numbers(std::vector<RepairAction> actions,
+                                          const MeshSource& source) {
+  const FileNumbers numbers(source.file);
+  for (RepairAction& action : actions) {
+    if (place_of(action.kind) != RepairPlace::Faces) {
+      for (int& vertex : action.elements) {
+        if (vertex >= 0) vertex = static_cast<int>(numbers.number(vertex));
+      }
+      action.message = describe(action);
+    }
+    const bool made_by_welding = action.kind == RepairKind::InvalidFaceRemoved ||
+                                 action.kind == RepairKind::DuplicateFaceRemoved;
+    if (source.welded && made_by_welding) action.message = "after welding, " + action.message;
+  }
+  return actions;
+}
+
+KeptParts by_file_numbers(KeptParts parts, const MeshSource& source) {
+  const FileNumbers numbers(source.file);
+  for (SurfacePart& part : parts.largest) {
+    if (part.vertex >= 0) part.vertex = static_cast<Vertex>(numbers.number(part.vertex));
+  }
+  return parts;
+}
+
+std::vector<MeshDefect> fatal_ones(const MeshInspection& inspection) {
+  std::vector<MeshDefect> fatal;
+  for (const MeshDefect& defect : inspection.defects) {
+    if (defect.fatal) fatal.push_back(defect);
+  }
+  return fatal;
+}
+
+MeshSource with_repairs(MeshSource source, RepairedMesh mended) {
+  source.repairs = by_file_numbers(mended.actions, source);
+  source.parts = by_file_numbers(mended.parts, source);
+  source.file = repaired_file(source.file, mended);
+  source.inspection = std::move(mended.inspection);
+  source.topology = Topology::try_build(source.file.mesh.triangles,
+                                        static_cast<int>(source.file.mesh.vertex_count()));
+  return source;
+}
+
+/// Whether repair would help; nothing where there is no memory to find out.
+std::optional<RepairTrial> affordable_trial(const MeshSource& source) {
+  try {
+    return try_repair(source);
+  } catch (const std::bad_alloc&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+bool RepairTrial::mends_unasked() const {
+  return can_mend() && options.component == 0 &&
+         options.largest_hole == RepairOptions{}.largest_hole;
+}
+
+MeshRefusal::MeshRefusal(const MeshSource& source, std::optional<RepairTrial> trial)
+    : MeshError(source.inspection.defects),
+      path_(source.path),
+      trial_(std::move(trial)),
+      done_(source.repairs) {}
+
+MeshSource repaired(MeshSource source, const RepairOptions& options) {
+  RepairedMesh mended = repair_mesh(source.file.mesh, options);
+  if (mended.inspection.is_sphere()) return with_repairs(std::move(source), std::move(mended));
+  // Components are numbered as they are in the mesh that was given.
+  std::optional<RepairTrial> trial = affordable_trial(source);
+  source = with_repairs(std::move(source), std::move(mended));
+  throw MeshRefusal(source, std::move(trial));
+}
+
+RepairTrial try_repair(const MeshSource& source) {
+  RepairOptions options;
+  KeptParts parts;
+  for (;;) {
+    const RepairedMesh mended = repair_mesh(source.file.mesh, options);
+    const bool choose = mended.parts.refused;
+    if (options.component == 0) parts = mended.parts;
+    if (!mended.inspection.is_sphere() && (choose || mended.largest_hole_left > 0)) {
+      if (choose) {
+        options.component = 1;
+      } else {
+        options.largest_hole = static_cast<int>(mended.largest_hole_left);
+      }
+      continue;
+    }
+    return {options, by_file_numbers(mended.actions, source), fatal_ones(mended.inspection),
+            by_file_numbers(std::move(parts), source)};
+  }
+}
+
+void require_mappable(const MeshSource& source) {
+  if (source.inspection.is_sphere()) return;
+  throw MeshRefusal(source, affordable_trial(source));
+}
+
+}  // namespace sphparam

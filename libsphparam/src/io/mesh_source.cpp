@@ -1,0 +1,55 @@
+#include "sphparam/io/mesh_source.h"
+
+#include <filesystem>
+
+#include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/safe_file.h"
+#include "io/polygons/welding.h"
+
+namespace sphparam {
+
+namespace {
+
+long count_of(const MeshInspection& inspection, DefectKind kind) {
+  for (const MeshDefect& defect : inspection.defects) {
+    if (defect.kind == kind) return defect.count;
+  }
+  return 0;
+}
+
+/// The inspection of the welded mesh; what is not true of the faces as the file has them says so.
+MeshInspection inspect_welded(const TriangleMesh& mesh, const MeshInspection& as_indexed) {
+  MeshInspection inspection = inspect_mesh(mesh);
+  for (MeshDefect& defect : inspection.defects) {
+    const bool more = defect.count > count_of(as_indexed, defect.kind);
+    if (more) defect.message = "after welding, " + defect.message;
+  }
+  return inspection;
+}
+
+}  // namespace
+
+void keep_textures(const MeshFile& file) {
+  for (const BaseColour& colour : file.base_colours) {
+    if (colour.path.empty()) continue;
+    keep_from_outputs({(std::filesystem::path(colour.folder) / colour.path).string()});
+  }
+}
+
+MeshSource read_source(const std::string& path, const ReadOptions& options) {
+  MeshSource source;
+  source.path = path;
+  source.file = read_mesh(path, options);
+  keep_textures(source.file);
+  source.inspection = inspect_mesh(source.file.mesh);
+  source.notes = source.file.notes;
+  MappableMesh mappable = make_mappable(std::move(source.file), &source.notes);
+  source.file = std::move(mappable.file);
+  source.topology = std::move(mappable.topology);
+  // Dropping unused vertices leaves all used ones; welding merges some of these.
+  source.welded = source.file.mesh.vertex_count() < source.inspection.used_vertices;
+  if (source.welded) source.inspection = inspect_welded(source.file.mesh, source.inspection);
+  return source;
+}
+
+}  // namespace sphparam

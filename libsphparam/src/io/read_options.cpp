@@ -1,0 +1,32 @@
+#include "sphparam/io/read_options.h"
+
+namespace sphparam {
+
+ReadError::ReadError(const std::string& file, const std::string& message)
+    : ReadError(file + ": " + message) {}
+
+ReadError ReadError::at_line(const std::string& file, long line, const std::string& message) {
+  ReadError error(file + ":" + std::to_string(line) + ": " + message);
+  error.line_ = line;
+  return error;
+}
+
+ReadError ReadError::at_byte(const std::string& file, std::uint64_t byte,
+                             const std::string& message) {
+  ReadError error(file + ": byte " + std::to_string(byte) + ": " + message);
+  error.byte_ = byte;
+  return error;
+}
+
+std::string repeated_corners_advice() {
+  return "; `sphparam map --repair=duplicates` removes such faces";
+}
+
+std::string quoted(std::string_view text) {
+  constexpr std::size_t kShown = 40;
+  std::string shown = "'";
+  for (const char c : text.substr(0, kShown)) shown += c >= ' ' && c <= '~' ? c : '?';
+  return shown + (text.size() > kShown ? "…'" : "'");
+}
+
+}  // namespace sphparam

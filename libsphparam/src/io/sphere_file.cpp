@@ -1,0 +1,100 @@
+#include "sphparam/io/sphere_file.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "sphparam/sphere/spherical_coordinates.h"
+
+// sx, sy, sz are what is certified; theta and phi are derived from them for the convenience of
+// viewers, and cannot hold the seam (0 and 2π are one longitude).
+
+namespace sphparam {
+namespace {
+
+constexpr std::string_view kPrefix = "sphparam ";
+constexpr std::string_view kVerdict = "sphparam verdict ";
+constexpr double kRoundingOfFloats = 1e-6;   // relative, of a ray's length in numbers of 32 bits
+constexpr std::array kRadii = {1.0, 100.0};  // of bare spheres; GIFTI's are the larger ones
+constexpr std::array kRayNames = {"sx", "sy", "sz"};
+
+void replace_provenance(MeshFile& file, const Provenance& provenance) {
+  std::erase_if(file.comments,
+                [](const std::string& comment) { return comment.starts_with(kPrefix); });
+  for (const auto& [key, value] : provenance)
+    file.comments.push_back(std::string(kPrefix) + key + " " + value);
+}
+
+}  // namespace
+
+MeshFile attach_map(MeshFile file, const SphereMap& map, const Provenance& provenance) {
+  const auto count = static_cast<std::size_t>(map.points.rows());
+  Property theta{"theta", ScalarType::Float64, std::vector<double>(count)};
+  Property phi{"phi", ScalarType::Float64, std::vector<double>(count)};
+  for (std::size_t v = 0; v < count; ++v) {
+    const SphericalCoordinates coordinates = to_spherical(map.point(static_cast<Vertex>(v)));
+    theta.values[v] = coordinates.theta;
+    phi.values[v] = coordinates.phi;
+  }
+  file.set_vertex_property(std::move(theta));
+  file.set_vertex_property(std::move(phi));
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto column = map.points.col(axis);
+    file.set_vertex_property(
+        {kRayNames[axis], ScalarType::Float64, {column.begin(), column.end()}});
+  }
+  replace_provenance(file, provenance);
+  return file;
+}
+
+MeshFile without_map(MeshFile file) {
+  remove_properties(file.vertex_properties, {"theta", "phi", "sx", "sy", "sz"});
+  std::erase_if(file.comments,
+                [](const std::string& comment) { return comment.starts_with(kVerdict); });
+  return file;
+}
+
+bool has_map(const MeshFile& file) {
+  if (std::all_of(kRayNames.begin(), kRayNames.end(),
+                  [&](const char* name) { return file.find_vertex_property(name); }))
+    return true;
+  const Points& positions = file.mesh.positions;
+  const Eigen::ArrayXd lengths = positions.rowwise().norm();
+  return positions.rows() > 0 && std::any_of(kRadii.begin(), kRadii.end(), [&](double radius) {
+           return ((lengths - radius).abs() <= kRoundingOfFloats * radius).all();
+         });
+}
+
+std::optional<SphereMap> read_sphere(const MeshFile& file) {
+  SphereMap map{Points(file.mesh.vertex_count(), 3)};
+  for (int axis = 0; axis < 3; ++axis) {
+    const Property* const ray = file.find_vertex_property(kRayNames[axis]);
+    if (!ray) return std::nullopt;
+    map.points.col(axis) = Eigen::Map<const VectorX>(ray->values.data(), file.mesh.vertex_count());
+  }
+  return map;
+}
+
+Provenance read_provenance(const MeshFile& file) {
+  Provenance provenance;
+  for (std::string_view comment : file.comments) {
+    if (!comment.starts_with(kPrefix)) continue;
+    comment.remove_prefix(kPrefix.size());
+    const std::size_t blank = std::min(comment.find(' '), comment.size());
+    provenance.emplace_back(comment.substr(0, blank),
+                            comment.substr(std::min(blank + 1, comment.size())));
+  }
+  return provenance;
+}
+
+MeshFile sphere_mesh(const MeshFile& file, const SphereMap& map, const Provenance& provenance) {
+  MeshFile sphere;
+  sphere.mesh = {map.points, file.mesh.triangles};
+  for (const std::string& comment : file.comments) {  // which hemisphere: brain viewers ask for it
+    if (comment.starts_with("gifti AnatomicalStructurePrimary")) sphere.comments.push_back(comment);
+  }
+  replace_provenance(sphere, provenance);
+  return sphere;
+}
+
+}  // namespace sphparam

@@ -1,0 +1,261 @@
+// Every used vertex, then samples on faces and edges, each asked for its nearest point on the other
+// surface; last, what lies between them and could be farther. Samples ascend over the faces, so
+// that the face found last is a good guess for the next.
+
+#include "measure/surface_distance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "measure/farthest_point.h"
+#include "measure/surface_samples.h"
+#include "rays/ray_scene.h"
+#include "sphparam/parallel.h"
+
+namespace sphparam {
+
+namespace {
+
+constexpr std::int64_t chunk = 1024;        // that one thread measures at once
+constexpr std::int64_t block = 64 * chunk;  // between two calls of the progress
+
+// a + u (b − a) + v (c − a) is off by at most some twenty roundings of the largest coordinate.
+constexpr double sample_rounding = 0x1p-48;
+
+// Beyond, coordinates are scaled by a power of two, so that their squares are numbers.
+constexpr double largest_unscaled = 1e100, smallest_unscaled = 1e-100;
+
+struct Tally {
+  double max = -1, min = std::numeric_limits<double>::infinity(), sum = 0, squares = 0;
+  std::int64_t count = 0;
+  Vector3 farthest = Vector3::Zero();
+
+  void add(double distance, const Vector3& point) {
+    if (distance > max) {
+      max = distance;
+      farthest = point;
+    }
+    min = std::min(min, distance);
+    sum += distance;
+    squares += distance * distance;
+    ++count;
+  }
+  /// The other's points come after these: of equal maxima, the first stays.
+  void add(const Tally& other) {
+    if (other.max > max) {
+      max = other.max;
+      farthest = other.farthest;
+    }
+    min = std::min(min, other.min);
+    sum += other.sum;
+    squares += other.squares;
+    count += other.count;
+  }
+};
+
+/// Says how much of one direction is done.
+struct Meter {
+  const Progress& progress;
+  std::string_view stage;
+  double total;
+  double done = 0;
+
+  void advance(std::int64_t points) {
+    done += static_cast<double>(points);
+    report(progress, stage, std::min(1.0, done / total));
+  }
+};
+
+/// One surface's points on the way to another.
+struct Direction {
+  const TriangleMesh& from;
+  const RayScene& to;
+  int threads;
+  Meter meter;
+
+  /// measure(i, distance, face, point, tally) is told how far point_at(i) is from the other
+  /// surface, and from which of its faces.
+  template <class PointAt, class Measure>
+  Tally measure(std::int64_t count, const PointAt& point_at, const Measure& measure) {
+    Tally all;
+    for (std::int64_t start = 0; start < count; start += block) {
+      const std::int64_t points = std::min(block, count - start);
+      std::vector<Tally> parts(static_cast<size_t>((points + chunk - 1) / chunk));
+      parallel_for(points, chunk, threads, [&](std::int64_t first, std::int64_t last) {
+        Tally& part = parts[static_cast<size_t>(first / chunk)];
+        Face guess = -1;
+        for (std::int64_t i = start + first; i < start + last; ++i) {
+          const Vector3 point = point_at(i);
+          const NearestPoint found = to.nearest(point, guess);
+          guess = found.on.face;
+          measure(i, std::sqrt(found.squared_distance), found.on.face, point, part);
+        }
+      });
+      for (const Tally& part : parts) all.add(part);
+      meter.advance(points);
+    }
+    return all;
+  }
+};
+
+/// Of the vertices that triangles use.
+double largest_coordinate(const TriangleMesh& mesh) {
+  double largest = 0;
+  for (Eigen::Index i = 0; i < mesh.triangles.size(); ++i) {
+    const Vertex v = mesh.triangles.data()[i];
+    largest = std::max(largest, mesh.positions.row(v).cwiseAbs().maxCoeff());
+  }
+  return largest;
+}
+
+std::vector<char> used_vertices(const TriangleMesh& mesh) {
+  std::vector<char> used(static_cast<size_t>(mesh.vertex_count()), 0);
+  for (Eigen::Index i = 0; i < mesh.triangles.size(); ++i) {
+    used[static_cast<size_t>(mesh.triangles.data()[i])] = 1;
+  }
+  return used;
+}
+
+Tally measure_vertices(Direction& direction, VertexDistances& result) {
+  const std::vector<char> used = used_vertices(direction.from);
+  result.distances.resize(direction.from.vertex_count());
+  result.nearest.resize(used.size());
+  return direction.measure(
+      direction.from.vertex_count(),
+      [&](std::int64_t v) { return direction.from.position(static_cast<Vertex>(v)); },
+      [&](std::int64_t v, double distance, Face face, const Vector3& point, Tally& tally) {
+        result.distances[v] = distance;
+        result.nearest[static_cast<size_t>(v)] = face;
+        if (used[static_cast<size_t>(v)]) tally.add(distance, point);
+      });
+}
+
+template <class Samples>
+Tally measure_samples(Direction& direction, const Samples& samples) {
+  const double noise = sample_rounding * largest_coordinate(direction.from);
+  return direction.measure(
+      samples.count(), samples,
+      [noise](std::int64_t, double distance, Face, const Vector3& point, Tally& tally) {
+        tally.add(distance < noise ? 0 : distance, point);
+      });
+}
+
+/// Throws: UnmeasurableSurface where there is nothing to draw from.
+template <class Samples>
+Samples samples_of(const TriangleMesh& mesh, Side side, const char* size,
+                   const DistanceOptions& options) {
+  try {
+    return Samples(mesh, options.samples, options.seed);
+  } catch (const std::invalid_argument&) {
+    throw UnmeasurableSurface(side, std::string("there is no ") + size + " to take samples of");
+  }
+}
+
+OneSidedDistance measure_one_side(Side side, const TriangleMesh& from, const TriangleMesh& other,
+                                  const RayScene& to, const DistanceOptions& options) {
+  const std::string_view stage = side == Side::First ? "first to second" : "second to first";
+  const std::int64_t points =
+      from.vertex_count() + options.samples * (int{options.faces} + int{options.edges});
+  Direction direction = {
+      from, to, options.threads, {options.progress, stage, static_cast<double>(points)}};
+  OneSidedDistance result;
+  VertexDistances at_vertices;
+  const Tally vertices = measure_vertices(direction, at_vertices);
+  Tally samples;
+  if (options.vertices) samples.add(vertices);
+  if (options.edges) {
+    const auto on_edges = samples_of<EdgeSamples>(from, side, "length of edges", options);
+    samples.add(measure_samples(direction, on_edges));
+  }
+  if (options.faces) {
+    const auto on_faces = samples_of<FaceSamples>(from, side, "area", options);
+    samples.add(measure_samples(direction, on_faces));
+  }
+  const auto count = static_cast<double>(samples.count);
+  result.samples = samples.count;
+  result.mean = samples.sum / count;
+  result.rms = std::sqrt(samples.squares / count);
+  Tally all = vertices;
+  all.add(samples);
+  result.min = all.min;
+  const FarthestPoint farthest = find_farthest(
+      from, at_vertices, other, to, {.point = all.farthest, .distance = all.max}, options.threads);
+  const bool noise = farthest.distance < sample_rounding * largest_coordinate(from);
+  result.max = noise ? all.max : farthest.distance;
+  result.max_bound = farthest.at_most;
+  result.farthest = farthest.point;
+  result.at_vertices = std::move(at_vertices.distances);
+  return result;
+}
+
+void require_measurable(const TriangleMesh& mesh, Side side) {
+  if (mesh.face_count() == 0) throw UnmeasurableSurface(side, "there are no triangles to measure");
+  if (!mesh.positions.allFinite()) {
+    throw UnmeasurableSurface(side, "a coordinate is not a finite number");
+  }
+}
+
+/// A power of two that brings the largest coordinate near 1, where squares would not be numbers;
+/// else 1.
+double common_scale(const TriangleMesh& first, const TriangleMesh& second) {
+  const double largest =
+      std::max(first.positions.cwiseAbs().maxCoeff(), second.positions.cwiseAbs().maxCoeff());
+  if (largest == 0 || (largest > smallest_unscaled && largest < largest_unscaled)) return 1;
+  return std::ldexp(1.0, -std::clamp(std::ilogb(largest), -1000, 1000));
+}
+
+void scale_lengths(SurfaceDistance& distance, double scale) {
+  for (OneSidedDistance* side : {&distance.forth, &distance.back}) {
+    for (double* length : {&side->max, &side->max_bound, &side->min, &side->mean, &side->rms}) {
+      *length *= scale;
+    }
+    side->farthest *= scale;
+    side->at_vertices *= scale;
+  }
+  distance.diagonal_first *= scale;
+  distance.diagonal_second *= scale;
+}
+
+SurfaceDistance measure_in_range(const TriangleMesh& first, const TriangleMesh& second,
+                                 const DistanceOptions& options) {
+  report(options.progress, "trees", 0);
+  const RayScene first_scene(first);
+  report(options.progress, "trees", 0.5);
+  const RayScene second_scene(second);
+  SurfaceDistance result;
+  result.forth = measure_one_side(Side::First, first, second, second_scene, options);
+  result.back = measure_one_side(Side::Second, second, first, first_scene, options);
+  result.diagonal_first = first_scene.diagonal();
+  result.diagonal_second = second_scene.diagonal();
+  return result;
+}
+
+}  // namespace
+
+double SurfaceDistance::max() const { return std::max(forth.max, back.max); }
+double SurfaceDistance::max_bound() const { return std::max(forth.max_bound, back.max_bound); }
+double SurfaceDistance::mean() const { return std::max(forth.mean, back.mean); }
+double SurfaceDistance::rms() const { return std::max(forth.rms, back.rms); }
+
+SurfaceDistance measure_distance(const TriangleMesh& first, const TriangleMesh& second,
+                                 const DistanceOptions& options) {
+  require_measurable(first, Side::First);
+  require_measurable(second, Side::Second);
+  if (!(options.faces || options.edges || options.vertices) || options.samples < 1) {
+    throw std::invalid_argument("measure_distance: no samples");
+  }
+  const double scale = common_scale(first, second);
+  if (scale == 1) return measure_in_range(first, second, options);
+  SurfaceDistance result = measure_in_range({scale * first.positions, first.triangles},
+                                            {scale * second.positions, second.triangles}, options);
+  scale_lengths(result, 1 / scale);
+  return result;
+}
+
+}  // namespace sphparam

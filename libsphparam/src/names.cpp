@@ -1,0 +1,160 @@
+#include "sphparam/names.h"
+
+#include <charconv>
+
+namespace sphparam {
+
+namespace {
+
+/// All digits that matter, no more.
+std::string shortest(double value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+}  // namespace
+
+std::string name_of(Method method) {
+  switch (method) {
+    case Method::Progressive:
+      return "progressive";
+    case Method::Curvilinear:
+      return "curvilinear";
+    case Method::Paper:
+      return "paper";
+  }
+  return "";
+}
+
+std::string name_of(Balance balance) {
+  switch (balance) {
+    case Balance::Lambda:
+      return "balanced";
+    case Balance::Conformal:
+      return "conformal";
+    case Balance::EqualArea:
+      return "equal-area";
+  }
+  return "";
+}
+
+std::string name_of(Quality quality) {
+  switch (quality) {
+    case Quality::Draft:
+      return "draft";
+    case Quality::Normal:
+      return "normal";
+    case Quality::Best:
+      return "best";
+  }
+  return "";
+}
+
+std::string name_of(EnergyKind energy) {
+  switch (energy) {
+    case EnergyKind::AngleAndArea:
+      return "angle-and-area";
+    case EnergyKind::SymmetricDirichlet:
+      return "symmetric-dirichlet";
+  }
+  return "";
+}
+
+std::string name_of(WeightKind weights) {
+  switch (weights) {
+    case WeightKind::Cotangent:
+      return "cotangent";
+    case WeightKind::MeanValue:
+      return "mean-value";
+    case WeightKind::SymmetricMeanValue:
+      return "symmetric-mean-value";
+  }
+  return "";
+}
+
+std::string name_of(DefectKind kind) {
+  switch (kind) {
+    case DefectKind::Empty:
+      return "empty";
+    case DefectKind::IndexOutOfRange:
+      return "index-out-of-range";
+    case DefectKind::NonFinitePosition:
+      return "non-finite-position";
+    case DefectKind::RepeatedVertex:
+      return "repeated-vertex";
+    case DefectKind::DuplicateFace:
+      return "duplicate-face";
+    case DefectKind::BoundaryEdge:
+      return "boundary-edge";
+    case DefectKind::NonManifoldEdge:
+      return "non-manifold-edge";
+    case DefectKind::InconsistentOrientation:
+      return "inconsistent-orientation";
+    case DefectKind::NonManifoldVertex:
+      return "non-manifold-vertex";
+    case DefectKind::SeveralComponents:
+      return "several-components";
+    case DefectKind::WrongGenus:
+      return "wrong-genus";
+    case DefectKind::UnusedVertex:
+      return "unused-vertex";
+    case DefectKind::ZeroAreaFace:
+      return "zero-area-face";
+    case DefectKind::CoincidentVertices:
+      return "coincident-vertices";
+    case DefectKind::InsideOut:
+      return "inside-out";
+  }
+  return "";
+}
+
+std::string name_of(RepairKind kind) {
+  switch (kind) {
+    case RepairKind::InvalidFaceRemoved:
+      return "invalid-face-removed";
+    case RepairKind::DuplicateFaceRemoved:
+      return "duplicate-face-removed";
+    case RepairKind::FaceTurned:
+      return "face-turned";
+    case RepairKind::EdgeSplit:
+      return "edge-split";
+    case RepairKind::DiagonalTurned:
+      return "diagonal-turned";
+    case RepairKind::EdgeMidpointAdded:
+      return "edge-midpoint-added";
+    case RepairKind::VertexSplit:
+      return "vertex-split";
+    case RepairKind::ComponentDropped:
+      return "component-dropped";
+    case RepairKind::HoleFilled:
+      return "hole-filled";
+    case RepairKind::TurnedOutward:
+      return "turned-outward";
+    case RepairKind::FlatFaceTurned:
+      return "flat-face-turned";
+    case RepairKind::FlatFaceCollapsed:
+      return "flat-face-collapsed";
+    case RepairKind::UnusedVertexDropped:
+      return "unused-vertex-dropped";
+  }
+  return "";
+}
+
+std::string options_line(const ParameterizeOptions& options) {
+  const PaperSettings& paper = options.paper;
+  const std::string lambda = "--lambda " + shortest(options.energy.lambda);
+  if (options.method == Method::Curvilinear) return lambda;
+  if (options.method == Method::Progressive) {
+    const std::string rest =
+        "--quality " + name_of(options.quality) + " --energy " + name_of(options.energy.kind);
+    if (options.energy.kind == EnergyKind::SymmetricDirichlet) return rest;  // it has no weight
+    const bool given = options.balance == Balance::Lambda;  // else it follows from the balance
+    return (given ? lambda + " " : "") + "--balance " + name_of(options.balance) + " " + rest;
+  }
+  return "--weights " + name_of(paper.weights) + " --epsilon " + shortest(paper.epsilon) +
+         " --iterations " + std::to_string(paper.iterations) + " --rings " +
+         std::to_string(paper.rings) + " --sweeps " + std::to_string(paper.sweeps) +
+         (options.repair_paper ? " --repair-map" : "");
+}
+
+}  // namespace sphparam

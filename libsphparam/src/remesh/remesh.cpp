@@ -1,0 +1,308 @@
+// Directions → places on the source → values there. The place of a face's middle decides on which
+// side of a seam its corners are.
+
+#include "remesh/remesh.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+#include "remesh/cell_means.h"
+#include "remesh/resampling.h"
+#include "remesh/seams.h"
+#include "sphparam/parallel.h"
+#include "sphparam/sphere/sphere_locator.h"
+#include "sphparam/stopwatch.h"
+
+namespace sphparam {
+
+namespace {
+
+constexpr std::int64_t grain = 4096;
+constexpr std::int64_t located_at_once = 1 << 20;  // between two looks whether to go on
+
+using Names = std::vector<std::string>;
+
+bool contains(const Names& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+const Names colours = {"red", "green", "blue", "alpha"};
+const Names normals = {"nx", "ny", "nz"};
+const Names texcoords = {"s", "t"};
+/// What belongs to the source's own numbering and map.
+const Names not_carried = {"theta", "phi", "sx", "sy", "sz", "source_vertex", "source_face"};
+
+/// Which of the source's values are wanted.
+class Wanted {
+ public:
+  Wanted(const Names& words, const MeshFile& source) : words_(words) {
+    const Names known = {"all", "none", "position", "color", "colour", "normal", "uv", "material"};
+    for (const std::string& word : words) {
+      if (contains(known, word) || source.find_vertex_property(word) ||
+          source.find_face_property(word)) {
+        continue;
+      }
+      throw std::invalid_argument("no property " + word + " to transfer; there are " +
+                                  list_of(source));
+    }
+  }
+
+  bool property(const std::string& name) const {
+    if (contains(not_carried, name)) return false;
+    const auto group = [&](const Names& names, const char* word) {
+      return contains(names, name) && contains(words_, word);
+    };
+    return contains(words_, "all") || contains(words_, name) || group(colours, "color") ||
+           group(colours, "colour") || group(normals, "normal") || group(texcoords, "uv");
+  }
+  bool corner_texcoords() const { return contains(words_, "all") || contains(words_, "uv"); }
+  bool corner_normals() const { return contains(words_, "all") || contains(words_, "normal"); }
+
+ private:
+  static std::string list_of(const MeshFile& source) {
+    std::string names = "position";
+    for (const auto* properties : {&source.vertex_properties, &source.face_properties}) {
+      for (const Property& property : *properties) {
+        if (!contains(not_carried, property.name)) names += ", " + property.name;
+      }
+    }
+    if (source.corner_texcoords) names += ", uv";
+    if (source.corner_normals) names += ", normal";
+    return names;
+  }
+
+  const Names& words_;
+};
+
+std::vector<SurfacePoint> locate(const SphereLocator& locator, const Points& directions,
+                                 const char* stage, const RemeshOptions& options) {
+  const std::int64_t all = directions.rows();
+  std::vector<SurfacePoint> points(static_cast<size_t>(all));
+  for (std::int64_t first = 0; first < all; first += located_at_once) {
+    report(options.progress, stage, static_cast<double>(first) / static_cast<double>(all));
+    const std::int64_t count = std::min(located_at_once, all - first);
+    locator.locate_all(
+        directions.middleRows(first, count),
+        std::span(points).subspan(static_cast<size_t>(first), static_cast<size_t>(count)),
+        options.threads);
+  }
+  return points;
+}
+
+/// The middle of each face, as a direction of any length.
+Points middles(const SphereGrid& grid) {
+  Points result(grid.faces.count(), 3);
+  for (std::int64_t f = 0; f < grid.faces.count(); ++f) {
+    Vector3 sum = Vector3::Zero();
+    for (const int v : grid.faces.polygon(f)) sum += grid.directions.row(v);
+    result.row(f) = sum.normalized();
+  }
+  return result;
+}
+
+/// Any cut will do where only directions matter.
+Triangles as_triangles(const Polygons& faces) {
+  std::int64_t count = 0;
+  for (std::int64_t f = 0; f < faces.count(); ++f) count += faces.degree(f) - 2;
+  Triangles triangles(count, 3);
+  std::int64_t t = 0;
+  for (std::int64_t f = 0; f < faces.count(); ++f) {
+    const auto corners = faces.polygon(f);
+    for (size_t k = 2; k < corners.size(); ++k) {
+      triangles.row(t++) << corners[0], corners[k - 1], corners[k];
+    }
+  }
+  return triangles;
+}
+
+/// Rows of three numbers made unit, but for those of a source vertex as it is, and zeros.
+void make_unit(double* rows, std::int64_t count, const std::vector<SurfacePoint>* points) {
+  for (std::int64_t i = 0; i < count; ++i) {
+    if (points && (*points)[static_cast<size_t>(i)].barycentric.maxCoeff() == 1) continue;
+    Eigen::Map<Vector3> row(rows + 3 * i);
+    const double length = row.norm();
+    if (length > 0) row /= length;
+  }
+}
+
+class Transfer {
+ public:
+  Transfer(const MeshFile& source, const SphereMap& map, const SphereGrid& grid,
+           const RemeshOptions& options)
+      : source_(source),
+        wanted_(options.transfer, source),
+        grid_(grid),
+        options_(options),
+        topology_(source.mesh, options.threads),
+        locator_(topology_, map, options.threads) {
+    const Stopwatch stopwatch;
+    points_ = locate(locator_, grid.directions, "locate", options);
+    locate_seconds = stopwatch.seconds();
+    if (options.sample == SampleMode::Cell) {
+      report(options.progress, "gather", 0);
+      const Topology of_grid(as_triangles(grid.faces), static_cast<int>(grid.directions.rows()),
+                             options.threads);
+      cells_ = gather_cells(source.mesh, map, of_grid, SphereMap{grid.directions}, options.threads);
+    }
+  }
+
+  Points positions() const {
+    const std::vector<double> rows = resample(resampling(), source_.mesh.positions.data(), 3);
+    return Eigen::Map<const Points>(rows.data(), static_cast<Eigen::Index>(rows.size() / 3), 3);
+  }
+
+  void vertex_properties(MeshFile& file) const {
+    for (const Property& property : source_.vertex_properties) {
+      if (!wanted_.property(property.name)) continue;
+      report(options_.progress, "transfer", 0);
+      const bool is_colour = contains(colours, property.name);
+      file.vertex_properties.push_back({property.name, property.type,
+                                        is_colour ? resample_colour(resampling(), property)
+                                        : is_floating(property.type)
+                                            ? resample_property(resampling(), property)
+                                            : resample_labels(resampling(), property)});
+    }
+    renormalise(file);
+  }
+
+  /// Faces and corners need to know where the middles lie.
+  void of_faces(MeshFile& file, const Triangulation& cut) const {
+    const bool uv = source_.corner_texcoords && wanted_.corner_texcoords();
+    const bool normal = source_.corner_normals && wanted_.corner_normals();
+    const bool any_property =
+        std::any_of(source_.face_properties.begin(), source_.face_properties.end(),
+                    [&](const Property& property) { return wanted_.property(property.name); });
+    if (!uv && !normal && !any_property) return;
+    const Points directions = middles(grid_);
+    const auto places = locate(locator_, directions, "locate faces", options_);
+    if (any_property) face_properties(file, places, cut);
+    report(options_.progress, "corners", 0);
+    if (uv) {
+      file.corner_texcoords =
+          corners(*source_.corner_texcoords, source_.corner_texcoord_type, directions, places, cut);
+      file.corner_texcoord_type = source_.corner_texcoord_type;
+    }
+    if (normal) {
+      file.corner_normals =
+          corners(*source_.corner_normals, source_.corner_normal_type, directions, places, cut);
+      file.corner_normal_type = source_.corner_normal_type;
+    }
+  }
+
+  long averaged() const {
+    long count = 0;
+    for (std::int64_t i = 0; i < cells_.count(); ++i) {
+      const auto at = static_cast<size_t>(i);
+      count += cells_.starts[at + 1] > cells_.starts[at];
+    }
+    return count;
+  }
+
+  double locate_seconds = 0;
+
+ private:
+  Resampling resampling() const {
+    return {source_.mesh.triangles, points_, cells_, options_.threads};
+  }
+
+  void renormalise(MeshFile& file) const {
+    std::array<Property*, 3> of_file{};
+    for (Property& property : file.vertex_properties) {
+      const auto at = std::find(normals.begin(), normals.end(), property.name);
+      if (at != normals.end()) of_file[static_cast<size_t>(at - normals.begin())] = &property;
+    }
+    if (std::count(of_file.begin(), of_file.end(), nullptr) > 0) return;
+    std::vector<double> rows(3 * points_.size());
+    for (size_t i = 0; i < rows.size(); ++i) rows[i] = of_file[i % 3]->values[i / 3];
+    make_unit(rows.data(), static_cast<std::int64_t>(points_.size()), &points_);
+    for (size_t i = 0; i < rows.size(); ++i) {
+      Property& property = *of_file[i % 3];
+      property.values[i / 3] = property.type == ScalarType::Float32
+                                   ? static_cast<double>(static_cast<float>(rows[i]))
+                                   : rows[i];
+    }
+  }
+
+  void face_properties(MeshFile& file, const std::vector<SurfacePoint>& places,
+                       const Triangulation& cut) const {
+    for (const Property& property : source_.face_properties) {
+      if (!wanted_.property(property.name)) continue;
+      std::vector<double> values(static_cast<size_t>(cut.triangles.rows()));
+      for (size_t t = 0; t < values.size(); ++t) {
+        const auto polygon = static_cast<size_t>(cut.polygon_of(static_cast<std::int64_t>(t)));
+        values[t] = property.values[static_cast<size_t>(places[polygon].face)];
+      }
+      file.set_face_property({property.name, property.type, std::move(values)});
+      if (property.name == "material") file.materials = source_.materials;
+    }
+  }
+
+  template <class Table>
+  Table corners(const Table& of_source, ScalarType type, const Points& directions,
+                const std::vector<SurfacePoint>& places, const Triangulation& cut) const {
+    constexpr int width = Table::ColsAtCompileTime;
+    const Seams seams(topology_, locator_, of_source.data(), width);
+    const Polygons& faces = grid_.faces;
+    Table of_polygons(static_cast<Eigen::Index>(faces.corners.size()), width);
+    parallel_for(faces.count(), grain, options_.threads,
+                 [&](std::int64_t first, std::int64_t last) {
+                   for (std::int64_t f = first; f < last; ++f) {
+                     const Middle middle{directions.row(f), places[static_cast<size_t>(f)]};
+                     for (int i = faces.starts[static_cast<size_t>(f)];
+                          i < faces.starts[static_cast<size_t>(f) + 1]; ++i) {
+                       const int v = faces.corners[static_cast<size_t>(i)];
+                       const SurfacePoint& at = points_[static_cast<size_t>(v)];
+                       double* const row = of_polygons.row(i).data();
+                       seams.evaluate(middle, grid_.directions.row(v), at, row);
+                       if (width == 3 && at.barycentric.maxCoeff() < 1) make_unit(row, 1, nullptr);
+                       if (type == ScalarType::Float32) {
+                         for (int k = 0; k < width; ++k)
+                           row[k] = static_cast<double>(static_cast<float>(row[k]));
+                       }
+                     }
+                   }
+                 });
+    if (cut.corner.empty()) return of_polygons;
+    Table result(3 * cut.triangles.rows(), width);
+    for (Eigen::Index i = 0; i < result.rows(); ++i)
+      result.row(i) = of_polygons.row(cut.corner_of(i));
+    return result;
+  }
+
+  const MeshFile& source_;
+  Wanted wanted_;
+  const SphereGrid& grid_;
+  const RemeshOptions& options_;
+  Topology topology_;
+  SphereLocator locator_;
+  std::vector<SurfacePoint> points_;
+  Gather cells_;
+};
+
+}  // namespace
+
+Remeshed remesh(const MeshFile& source, const SphereMap& map, SphereGrid grid,
+                const RemeshOptions& options) {
+  Remeshed result;
+  Transfer transfer(source, map, grid, options);
+  result.locate_seconds = transfer.locate_seconds;
+  result.averaged = transfer.averaged();
+  const Stopwatch stopwatch;
+  result.file.position_type = source.position_type;
+  result.file.comments = source.comments;
+  result.file.mesh.positions = transfer.positions();
+  result.transfer_seconds = stopwatch.seconds();
+  const Triangulation cut = triangulate(result.file.mesh.positions, grid.faces);
+  transfer.vertex_properties(result.file);
+  adopt_triangulation(result.file, cut);
+  transfer.of_faces(result.file, cut);
+  result.faces = std::move(grid.faces);
+  result.map.points = std::move(grid.directions);
+  return result;
+}
+
+}  // namespace sphparam

@@ -1,0 +1,54 @@
+#include "remesh/sample_table.h"
+
+#include <charconv>
+
+#include "sphparam/sphere/spherical_coordinates.h"
+
+namespace sphparam {
+
+namespace {
+
+template <class Number>
+void put(std::string& text, Number number) {
+  char digits[32];
+  text.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
+}
+
+/// A name as it can stand between commas (RFC 4180).
+std::string quoted_name(const std::string& name) {
+  if (name.find_first_of(",\"\n\r") == std::string::npos) return name;
+  std::string quoted(1, '"');
+  for (const char c : name) quoted.append(c == '"' ? 2 : 1, c);
+  quoted += '"';
+  return quoted;
+}
+
+}  // namespace
+
+std::string sample_table(const MeshFile& file, const SphereMap& map) {
+  constexpr size_t expected_bytes = 100;  // of a row
+  std::string text = "vertex,theta,phi,x,y,z";
+  for (const Property& property : file.vertex_properties)
+    text.append(",").append(quoted_name(property.name));
+  text += "\n";
+  const auto count = static_cast<size_t>(file.mesh.vertex_count());
+  text.reserve(text.size() + expected_bytes * count);
+  for (size_t v = 0; v < count; ++v) {
+    const auto row = static_cast<Vertex>(v);
+    const SphericalCoordinates place = to_spherical(map.point(row));
+    put(text, row);
+    for (const double x : {place.theta, place.phi, file.mesh.positions(row, 0),
+                           file.mesh.positions(row, 1), file.mesh.positions(row, 2)}) {
+      text += ',';
+      put(text, x);
+    }
+    for (const Property& property : file.vertex_properties) {
+      text += ',';
+      put(text, property.values[v]);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace sphparam

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "sphparam/io/polygons.h"
+#include "sphparam/mesh/triangle_mesh.h"
+
+namespace sphparam {
+
+/// The grids of the sphere that meshes are resampled on, but for `like:`, which is a file's.
+enum class GridKind {
+  Icosahedron,     // ico:L: each edge halved L times, midpoints on the sphere
+  IcosahedronCut,  // ico:f=N: each edge of the icosahedron cut into N, as class I domes are
+  Octahedron,      // octa:N: the flat octahedron of a square image of N×N samples, N odd
+  Cube,            // cube:N: quads, N an edge, at equal angles (tan warp)
+  Geographic,      // uv:WxH: W meridians, H rows of cells, a vertex at each pole
+  Healpix,         // healpix:NSIDE: pixel centres in RING order (Górski et al. 2005)
+};
+
+struct GridSpec {
+  GridKind kind = GridKind::Icosahedron;
+  int size = 0;    // L, N, W or NSIDE
+  int height = 0;  // H of uv:WxH
+
+  bool operator==(const GridSpec&) const = default;
+};
+
+/// The grid that "ico:7", "uv:512x256" … names.
+/// Throws: std::invalid_argument, saying what was expected, also for more than
+/// `most_grid_vertices`.
+GridSpec parse_grid(const std::string& text);
+/// The inverse.
+std::string name_of(const GridSpec& spec);
+
+/// Half-edges are numbered by int, and there are six to a vertex.
+constexpr std::int64_t most_grid_vertices = std::int64_t{1} << 28;
+std::int64_t vertex_count(const GridSpec& spec);
+
+/// A mesh of the unit sphere: closed, genus 0, counter-clockwise from outside; every diagonal of a
+/// quad leaves two positive triangles, so that it may be cut either way.
+struct SphereGrid {
+  Points directions;  // unit
+  Polygons faces;     // triangles and quads
+
+  /// Grids by subdivision (`ico:L`; `octa:N` with (N − 1)/2, `cube:N` with N a power of two): how
+  /// many vertices each level has, coarse to fine; empty for others. Vertices of a level come
+  /// first in the next one, and face f of a level lies in face f/4 of the level above.
+  std::vector<int> level_vertices;
+  /// With `ancestry`: what each vertex is the middle of, two or four vertices of the level before;
+  /// −1 fills up; a vertex of level 0 names itself.
+  std::vector<std::array<int, 4>> parents;
+};
+
+struct GridOptions {
+  bool ancestry = false;
+  int threads = 0;
+};
+
+/// Ensures: the same bytes for any number of threads.
+/// Cost: linear; subdivided topology is OpenSubdiv's, some 0.5 µs a vertex.
+SphereGrid make_grid(const GridSpec& spec, const GridOptions& options = {});
+
+}  // namespace sphparam

@@ -1,0 +1,136 @@
+#include "render/heat.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <vector>
+
+#include "render/lettering.h"
+#include "elementary.h"
+
+namespace sphparam {
+namespace {
+
+struct Tick {
+  double value;
+  std::string label;
+};
+
+std::string ratio_label(int log2) {
+  const std::string power = std::to_string(1 << std::abs(log2));
+  return log2 < 0 ? "1/" + power : power;
+}
+
+std::string number_label(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+// Halves below: the ends of a scale may be farther apart than the largest double.
+
+/// From 0 at the low end to 1 at the high one; 0 where they are one.
+double share_of(const HeatScale& scale, double value) {
+  const double half_span = scale.high / 2 - scale.low / 2;
+  return half_span > 0 ? (value / 2 - scale.low / 2) / half_span : 0;
+}
+
+double value_at(const HeatScale& scale, double share) {
+  return 2 * (scale.low / 2 + (scale.high / 2 - scale.low / 2) * share);
+}
+
+/// Every power of two, or the ends and the middle.
+std::vector<Tick> ticks(const HeatScale& scale) {
+  std::vector<Tick> all;
+  if (scale.log_ratios) {
+    for (int k = static_cast<int>(std::ceil(scale.low)); k <= scale.high; ++k) {
+      all.push_back({static_cast<double>(k), ratio_label(k)});
+    }
+    return all;
+  }
+  for (const double value : {scale.low, value_at(scale, 0.5), scale.high}) {
+    all.push_back({value, number_label(value)});
+  }
+  return all;
+}
+
+void fill_column(Image& image, int x, int top, int height, const Rgb& colour) {
+  for (int y = top; y < top + height; ++y) {
+    std::fill_n(image.pixel(x, y), image.channels, 1.0F);
+    std::copy_n(colour.data(), std::min(3, image.channels), image.pixel(x, y));
+  }
+}
+
+void draw_scale(Image& image, const HeatScale& scale, int left, int top, int width, int dot) {
+  const int line = text_height(dot);
+  const Rgb ink(0.2F, 0.2F, 0.2F);
+  draw_text(image, scale.title, left, top - line - 2 * dot, dot, ink);
+  for (int x = 0; x < width; ++x) {
+    fill_column(image, left + x, top, line, heat_colour(scale, value_at(scale, (x + 0.5) / width)));
+  }
+  for (const Tick& tick : ticks(scale)) {
+    const int x = left + static_cast<int>(share_of(scale, tick.value) * (width - 1));
+    fill_column(image, x, top, line + 2 * dot, ink);
+    draw_text(image, tick.label, x - text_width(tick.label, dot) / 2, top + line + 3 * dot, dot,
+              ink);
+  }
+}
+
+}  // namespace
+
+Rgb heat_colour(const HeatScale& scale, double value) {
+  if (scale.diverges()) return diverging(value / scale.high);
+  return viridis(share_of(scale, value));
+}
+
+const HeatScale& heat_scale(Heat heat) {
+  static const std::array<HeatScale, 3> scales = {
+      {{"area ratio", -3, 3, true}, {"angle ratio", 0, 3, true}, {"stretch ratio", -3, 3, true}}};
+  return scales[static_cast<size_t>(heat)];
+}
+
+VectorX heat_values(Heat heat, const Distortion& distortion) {
+  const auto log2 = [](double x) { return elementary::log2(x); };
+  switch (heat) {
+    case Heat::Area:
+      return distortion.area_ratio.unaryExpr(log2);
+    case Heat::Angle:
+      return distortion.angle_ratio.unaryExpr(log2).cwiseAbs().rowwise().mean();
+    case Heat::Stretch:
+      break;
+  }
+  const auto squeeze = distortion.sigma_max.array().square().inverse() +
+                       distortion.sigma_min.array().square().inverse();
+  return (squeeze / 2).unaryExpr(log2) / 2;
+}
+
+FacePaint heat_paint(Heat heat, const Distortion& distortion) {
+  FacePaint paint;
+  for (const double value : heat_values(heat, distortion)) {
+    paint.colours.push_back(heat_colour(heat_scale(heat), value));
+  }
+  return paint;
+}
+
+Rgb heat_colour(Heat heat, double ratio) {
+  return heat_colour(heat_scale(heat), elementary::log2(ratio));
+}
+
+Image with_legend(const Image& picture, const HeatScale& scale) {
+  constexpr int least = 160, heights_a_dot = 400;  // pixels
+  if (picture.height < least || picture.width < least) return picture;
+  const int dot = std::max(1, picture.height / heights_a_dot), line = text_height(dot);
+  Image image(picture.width, picture.height + 5 * line, picture.channels);
+  std::fill(image.pixels.begin(), image.pixels.end(), 1.0F);
+  std::copy(picture.pixels.begin(), picture.pixels.end(), image.pixels.begin());
+  draw_scale(image, scale, 3 * line, picture.height + 2 * line, picture.height / 2, dot);
+  return image;
+}
+
+Image with_legend(const Image& picture, Heat heat) {
+  return with_legend(picture, heat_scale(heat));
+}
+
+}  // namespace sphparam

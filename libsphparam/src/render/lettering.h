@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string_view>
+
+#include "image/image.h"
+#include "render/colour.h"
+
+namespace sphparam {
+
+/// The size of a text, in pixels, at `scale` pixels a dot.
+int text_width(std::string_view text, int scale);
+int text_height(int scale);
+
+/// Writes into a picture, (x, y) the upper left corner; what does not fit is cut off. Figures,
+/// small letters, blank and / + - . : are known; others are left blank.
+void draw_text(Image& image, std::string_view text, int x, int y, int scale, const Rgb& colour);
+
+}  // namespace sphparam

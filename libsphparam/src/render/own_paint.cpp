@@ -1,0 +1,53 @@
+#include "render/own_paint.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "io/appearance.h"
+#include "render/vertex_normals.h"
+
+namespace sphparam {
+namespace {
+
+bool any_image(const MeshTextures& textures) {
+  return std::ranges::any_of(textures.of_materials,
+                             [](const auto& texture) { return texture.image != nullptr; });
+}
+
+TexturePaint texture_paint(const MeshFile& file, const MeshTextures& textures) {
+  TexturePaint paint{.texcoords = {}, .textures = textures.of_materials};
+  if (auto corners = texcoords_of(file)) paint.texcoords = std::move(*corners);
+  const Property* const material = file.find_face_property("material");
+  if (material && !textures.one_for_all) {
+    paint.texture_of.assign(material->values.begin(), material->values.end());
+  }
+  return paint;
+}
+
+VertexPaint colour_paint(const Points& colours) {
+  VertexPaint paint;
+  for (const auto& colour : colours.rowwise()) {
+    paint.colours.push_back(colour.cwiseMax(0.0).cwiseMin(1.0).cast<float>().transpose());
+  }
+  return paint;
+}
+
+}  // namespace
+
+Paint own_paint(const MeshFile& file, const MeshTextures& textures) {
+  if (any_image(textures)) return texture_paint(file, textures);
+  if (const auto colours = vertex_colours(file)) return colour_paint(*colours);
+  if (!textures.of_materials.empty()) return texture_paint(file, textures);
+  return direction_paint(file.mesh);
+}
+
+VertexPaint direction_paint(const TriangleMesh& mesh) {
+  VertexPaint paint;
+  const Points normals = vertex_normals(mesh);  // named: it must outlive the loop
+  for (const auto& normal : normals.rowwise()) {
+    paint.colours.push_back((0.6 + 0.35 * normal.array()).cast<float>().matrix().transpose());
+  }
+  return paint;
+}
+
+}  // namespace sphparam

@@ -1,0 +1,45 @@
+#include "render/shading_normals.h"
+
+#include <cmath>
+#include <optional>
+
+#include "render/vertex_normals.h"
+
+// A vertex whose own normal is missing, zero or not finite takes that of its faces.
+
+namespace sphparam {
+namespace {
+
+std::optional<Points> own_normals(const MeshFile& file) {
+  if (file.corner_normals) {
+    Points sums = Points::Zero(file.mesh.vertex_count(), 3);
+    for (Eigen::Index f = 0; f < file.mesh.face_count(); ++f) {
+      for (int k = 0; k < 3; ++k)
+        sums.row(file.mesh.triangles(f, k)) += file.corner_normals->row(3 * f + k);
+    }
+    return sums;
+  }
+  Points normals(file.mesh.vertex_count(), 3);
+  int axis = 0;
+  for (const char* name : {"nx", "ny", "nz"}) {
+    const Property* property = file.find_vertex_property(name);
+    if (!property) return std::nullopt;
+    normals.col(axis++) = Eigen::Map<const VectorX>(property->values.data(), normals.rows());
+  }
+  return normals;
+}
+
+}  // namespace
+
+Points shading_normals(const MeshFile& file) {
+  const std::optional<Points> own = own_normals(file);
+  Points normals = vertex_normals(file.mesh);
+  if (!own) return normals;
+  for (Eigen::Index v = 0; v < normals.rows(); ++v) {
+    const double length = own->row(v).stableNorm();
+    if (length > 0 && std::isfinite(length)) normals.row(v) = own->row(v) / length;
+  }
+  return normals;
+}
+
+}  // namespace sphparam

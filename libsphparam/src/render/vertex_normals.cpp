@@ -1,0 +1,155 @@
+#include "render/vertex_normals.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "render/drawing_size.h"
+#include "render/raster.h"
+#include "elementary.h"
+#include "sphparam/parallel.h"
+
+// The sky is sampled in directions spread over the sphere by the golden angle. For each, the whole
+// mesh is drawn into a small depth buffer seen from there; a vertex sees that part of the sky if
+// nothing in the buffer lies clearly before it. Four neighbouring cells are asked, so that shadows
+// have soft borders.
+
+namespace sphparam {
+namespace {
+
+constexpr int kResolution = 384;
+constexpr std::int64_t kDirectionsPerChunk = 8;  // each chunk keeps a sum a vertex
+
+/// The depth buffer of the mesh seen from one direction.
+class SkyView {
+ public:
+  SkyView(const TriangleMesh& mesh, const Vector3& centre, double radius, const Vector3& direction)
+      : depth_(static_cast<size_t>(kResolution * kResolution),
+               -std::numeric_limits<float>::infinity()) {
+    const Vector3 side = direction.unitOrthogonal();
+    const double scale = kResolution / (2.1 * radius);
+    axes_ << scale * side.transpose(), scale * direction.cross(side).transpose(),
+        direction.transpose();
+    offset_ = Vector3(0.5 * kResolution, 0.5 * kResolution, 0) - axes_ * centre;
+    for (Eigen::Index f = 0; f < mesh.face_count(); ++f) draw(mesh, f);
+  }
+
+  /// Share of the four cells about a point in which nothing is nearer to the sky than it.
+  float visible(const Vector3& point) const {
+    const Vector3 p = axes_ * point + offset_;
+    if (!p.allFinite()) return 1;
+    const int x = cell_of(p.x()), y = cell_of(p.y());
+    float seen = 0;
+    for (const auto& [i, j] : {std::pair{x, y}, {x + 1, y}, {x, y + 1}, {x + 1, y + 1}}) {
+      seen += p.z() >= depth_[static_cast<size_t>(j * kResolution + i)] ? 0.25F : 0;
+    }
+    return seen;
+  }
+
+ private:
+  void draw(const TriangleMesh& mesh, Eigen::Index f) {
+    const auto corner = [&](int k) -> Vector3 {
+      return axes_ * mesh.position(mesh.triangles(f, k)) + offset_;
+    };
+    const Vector3 a = corner(0), b = corner(1), c = corner(2);
+    const Vector3 depths(a.z(), b.z(), c.z());
+    for_each_sample(a, b, c, 0, 0, kResolution, kResolution,
+                    [&](int x, int y, const Eigen::Vector3d& weights) {
+                      float& cell = depth_[static_cast<size_t>(y * kResolution + x)];
+                      cell = std::max(cell, static_cast<float>(weights.dot(depths)));
+                    });
+  }
+
+  /// The first of two neighbouring cells, both of the buffer.
+  static int cell_of(double place) {
+    return static_cast<int>(std::clamp(place - 0.5, 0.0, kResolution - 2.0));
+  }
+
+  Eigen::Matrix3d axes_;
+  Vector3 offset_;
+  std::vector<float> depth_;
+};
+
+Vector3 sky_direction(int i, int count) {
+  const double z = 1 - (2.0 * i + 1) / count, r = std::sqrt(1 - z * z);
+  const double angle = std::numbers::pi * (3 - std::sqrt(5.0)) * i;
+  return {r * elementary::cos(angle), r * elementary::sin(angle), z};
+}
+
+/// A power of two that keeps sums of products of two edges finite, and those of tiny meshes above
+/// 0; 1 for meshes that need none.
+double harmless_scale(const TriangleMesh& mesh) {
+  constexpr int greatest = 480, least = -400;  // powers of two
+  const double largest = mesh.positions.size() > 0 ? mesh.positions.cwiseAbs().maxCoeff() : 0;
+  if (!(largest > 0)) return 1;
+  const int size = std::ilogb(largest);
+  if (size > greatest) return std::ldexp(1.0, greatest - size);
+  return size < least ? std::ldexp(1.0, std::min(1023, -size)) : 1;
+}
+
+}  // namespace
+
+Points vertex_normals(const TriangleMesh& mesh) {
+  Points normals = Points::Zero(mesh.vertex_count(), 3);
+  const double scale = harmless_scale(mesh);
+  for (Eigen::Index f = 0; f < mesh.face_count(); ++f) {
+    const auto corner = [&](int k) -> Vector3 {
+      return scale * mesh.position(mesh.triangles(f, k));
+    };
+    const Vector3 a = corner(0), n = (corner(1) - a).cross(corner(2) - a);
+    for (int k = 0; k < 3; ++k) normals.row(mesh.triangles(f, k)) += n;
+  }
+  constexpr std::int64_t chunk_size = 8192;
+  parallel_for(normals.rows(), chunk_size, 0, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t v = first; v < last; ++v) {
+      const double length = normals.row(v).stableNorm();
+      if (length > 0) {
+        normals.row(v) /= length;
+      } else {
+        normals.row(v) = Vector3::UnitZ();
+      }
+    }
+  });
+  return normals;
+}
+
+Eigen::VectorXf sky_visibility(const TriangleMesh& given, const Points& normals, int directions,
+                               int threads) {
+  const TriangleMesh mesh = at_drawing_size(given);
+  const Vector3 low = mesh.positions.colwise().minCoeff(),
+                high = mesh.positions.colwise().maxCoeff();
+  const Vector3 centre = (low + high) / 2;
+  const double radius = (high - low).norm() / 2;
+  const Eigen::Index vertices = mesh.vertex_count();
+  if (!(radius > 0)) return Eigen::VectorXf::Ones(vertices);  // all in one point
+  const auto chunks = (directions + kDirectionsPerChunk - 1) / kDirectionsPerChunk;
+  std::vector<Eigen::VectorXf> seen(static_cast<size_t>(chunks), Eigen::VectorXf::Zero(vertices));
+  std::vector<Eigen::VectorXf> total = seen;
+  parallel_for(directions, kDirectionsPerChunk, threads,
+               [&](std::int64_t first, std::int64_t last) {
+                 const auto chunk = static_cast<size_t>(first / kDirectionsPerChunk);
+                 for (std::int64_t i = first; i < last; ++i) {
+                   const Vector3 direction = sky_direction(static_cast<int>(i), directions);
+                   const SkyView view(mesh, centre, radius, direction);
+                   for (Eigen::Index v = 0; v < vertices; ++v) {
+                     const auto cosine = static_cast<float>(normals.row(v).dot(direction));
+                     if (cosine <= 0) continue;
+                     // Lifted off the surface by about two cells, or it would shade itself.
+                     const Vector3 lifted =
+                         mesh.positions.row(v) + normals.row(v) * (4.2 * radius / kResolution);
+                     total[chunk][v] += cosine;
+                     seen[chunk][v] += cosine * view.visible(lifted);
+                   }
+                 }
+               });
+  for (size_t c = 1; c < seen.size(); ++c) {
+    seen[0] += seen[c];
+    total[0] += total[c];
+  }
+  return (seen[0].array() / total[0].array().max(1e-6F)).matrix();
+}
+
+}  // namespace sphparam

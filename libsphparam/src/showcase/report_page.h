@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "compare/pictures.h"
+#include "report/viewer.h"
+#include "showcase/page_entry.h"
+#include "sphparam/progress.h"
+#include "texture/source_texture.h"
+
+namespace sphparam {
+
+struct ReportOptions {
+  std::optional<ViewerScript> viewer = std::nullopt;  // none: pictures only
+  bool viewer_is_missing = false;                     // the program has none; the page says so
+  PictureOptions look = {.size = 640};                // of pictures, and what is up
+  int image_width = 1024;                             // of textures and heat maps
+  MeshTextures textures = {};                         // of the mesh
+  std::vector<std::pair<std::string, std::string>> facts = {};  // program, command line, …
+  int threads = 0;
+  Progress progress = {};
+};
+
+/// One page that shows maps of a mesh and needs nothing else: models that change into their
+/// spheres, heat maps, the paper's polar charts, histograms, tables, provenance. Several maps stand
+/// side by side, their charts on the same scale; those that fold are shown as pictures. Where there
+/// are no models, there is a picture of the mesh and one of each sphere, in the mesh's own colours.
+/// Ensures: loads nothing from anywhere; same bytes for the same input and any number of threads,
+/// but for times. Throws: ImageError; Cancelled; MapError.
+/// Requires: at least one page_entry, each with a map.
+std::string report_page(const std::string& name, const MeshFile& file,
+                        const std::vector<PageEntry>& page_entries, const ReportOptions& options = {});
+
+}  // namespace sphparam

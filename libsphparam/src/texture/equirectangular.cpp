@@ -1,0 +1,79 @@
+#include "texture/equirectangular.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "elementary.h"
+#include "sphparam/sphere/spherical_coordinates.h"
+
+namespace sphparam {
+namespace {
+
+using Level = TexturePyramid::Level;
+using Colour = Eigen::Array4f;
+
+constexpr double pi = std::numbers::pi;
+
+/// A texel of row −1 or `height`, beyond a pole, is one of the last row, half a turn away.
+Colour bilinear_in_row(const Level& level, int row, double u) {
+  if (row < 0 || row >= level.height) {
+    row = row < 0 ? -1 - row : 2 * level.height - 1 - row;
+    u += 0.5;
+  }
+  row = std::clamp(row, 0, level.height - 1);
+  const double x = (u - std::floor(u)) * level.width - 0.5;
+  const double left = std::floor(x);
+  const auto share = static_cast<float>(x - left);
+  const auto column = [&](int i) { return (i + level.width) % level.width; };
+  const auto texel = [&](int i) -> Colour {
+    const size_t index = static_cast<size_t>(row) * static_cast<size_t>(level.width) +
+                         static_cast<size_t>(column(i));
+    return Eigen::Map<const Eigen::Array<std::uint16_t, 4, 1>>(&level.texels[4 * index])
+        .cast<float>();
+  };
+  const int first = static_cast<int>(left);
+  const Colour at = texel(first);
+  return at + share * (texel(first + 1) - at);
+}
+
+Colour bilinear(const Level& level, double u, double v) {
+  const double y = v * level.height - 0.5, above = std::floor(y);
+  const auto share = static_cast<float>(y - above);
+  const int row = static_cast<int>(above);
+  const Colour at = bilinear_in_row(level, row, u);
+  return at + share * (bilinear_in_row(level, row + 1, u) - at);
+}
+
+/// The mean over `turns` of longitude about u.
+Colour mean_along(const Level& level, double u, double v, double turns) {
+  const int samples = std::clamp(static_cast<int>(turns * level.width + 0.5), 1, level.width);
+  Colour sum = Colour::Zero();
+  for (int i = 0; i < samples; ++i) {
+    sum += bilinear(level, u + turns * ((i + 0.5) / samples - 0.5), v);
+  }
+  return sum / static_cast<float>(samples);
+}
+
+}  // namespace
+
+std::array<float, 4> EquirectangularImage::look_up(const Vector3& direction, double width) const {
+  const SphericalCoordinates place = to_spherical(direction);
+  const double u = convention_.turns * place.theta / (2 * pi) + convention_.offset;
+  const double v = place.phi / pi;
+  const double radius = elementary::sin(place.phi);
+  const double turns = std::min(1.0, width / (2 * pi * std::max(radius, width / (2 * pi))));
+
+  const auto& levels = pyramid_->levels();
+  const double texels = width / pi * levels.front().height;
+  const double depth = std::clamp(elementary::log2(std::max(texels, 1.0)), 0.0,
+                                  static_cast<double>(levels.size() - 1));
+  const auto fine = static_cast<size_t>(depth);
+  const auto share = static_cast<float>(depth - static_cast<double>(fine));
+  Colour colour = mean_along(levels[fine], u, v, turns);
+  if (share > 0) colour += share * (mean_along(levels[fine + 1], u, v, turns) - colour);
+  colour /= 65535;
+  return {colour[0], colour[1], colour[2], colour[3]};
+}
+
+}  // namespace sphparam

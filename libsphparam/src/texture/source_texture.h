@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "image/image.h"
+
+namespace sphparam {
+
+/// What a texture says outside [0, 1].
+enum class TextureWrap { Repeat, Mirror, Clamp };
+
+enum class TextureFilter { Nearest, Bilinear, Bicubic };
+
+/// The levels of an image, each half as wide and high, in linear light; four channels a texel.
+class TexturePyramid;
+
+/// The texture of a material, as a mesh's own coordinates look it up: colours are
+/// factor · image(s, t), t upwards. Copies share the pixels.
+struct SourceTexture {
+  std::shared_ptr<const TexturePyramid> image = nullptr;  // none: the factor alone
+  TextureWrap wrap_s = TextureWrap::Repeat, wrap_t = TextureWrap::Repeat;
+  std::array<float, 4> factor = {1, 1, 1, 1};  // linear red, green, blue, alpha
+};
+
+/// The textures of a mesh: one a material of its file, or the first for all faces; empty: none.
+struct MeshTextures {
+  std::vector<SourceTexture> of_materials = {};
+  bool one_for_all = false;  // whatever the materials
+};
+
+}  // namespace sphparam

@@ -1,0 +1,670 @@
+#include <unistd.h>
+
+#include <bit>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include "io/formats/gltf/gltf_files.h"
+#include "sphparam/io/losses.h"
+#include "io/sphere_angles.h"
+#include "sphparam/io/sphere_file.h"
+#include "io/polygons/welding.h"
+#include "reading.h"
+#include "sphparam/mesh/mesh_defects.h"
+#include "sphparam/sphere/spherical_coordinates.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+using sphparam::MeshFile;
+using sphparam::ScalarType;
+namespace fs = std::filesystem;
+
+namespace {
+
+void append(std::string& bytes, std::uint32_t word, int width = 4) {
+  for (int i = 0; i < width; ++i) bytes.push_back(static_cast<char>(word >> (8 * i)));
+}
+
+std::string floats(const std::vector<double>& numbers) {
+  std::string bytes;
+  for (const double number : numbers)
+    append(bytes, std::bit_cast<std::uint32_t>(static_cast<float>(number)));
+  return bytes;
+}
+
+std::string integers(const std::vector<std::uint32_t>& numbers, int width) {
+  std::string bytes;
+  for (const std::uint32_t number : numbers) append(bytes, number, width);
+  return bytes;
+}
+
+std::string chunk(const std::string& kind, std::string bytes, char padding) {
+  while (bytes.size() % 4 != 0) bytes.push_back(padding);
+  std::string result;
+  append(result, static_cast<std::uint32_t>(bytes.size()));
+  return result + kind + bytes;
+}
+
+std::string glb(const std::string& json, const std::string& binary) {
+  const std::string body = chunk("JSON", json, ' ') +
+                           (binary.empty() ? std::string() : chunk({"BIN\0", 4}, binary, '\0'));
+  std::string header = "glTF";
+  append(header, 2);
+  append(header, static_cast<std::uint32_t>(12 + body.size()));
+  return header + body;
+}
+
+/// A glTF file in the making: one binary chunk, a view and an accessor for each block of bytes.
+struct Gltf {
+  std::string binary, views, accessors;
+  int count = 0;
+  std::string meshes = R"([{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}])";
+  std::string rest = R"("nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],"scene":0)";
+  std::string asset = R"({"version":"2.0"})";
+
+  Gltf& add(const std::string& bytes, int component_type, std::size_t elements,
+            const std::string& type, const std::string& more = "") {
+    const std::string comma = count > 0 ? "," : "";
+    views += comma + R"({"buffer":0,"byteOffset":)" + std::to_string(binary.size()) +
+             R"(,"byteLength":)" + std::to_string(bytes.size()) + "}";
+    accessors += comma + R"({"bufferView":)" + std::to_string(count) + R"(,"componentType":)" +
+                 std::to_string(component_type) + R"(,"count":)" + std::to_string(elements) +
+                 R"(,"type":")" + type + "\"" + more + "}";
+    binary += bytes;
+    while (binary.size() % 4 != 0) binary.push_back('\0');
+    ++count;
+    return *this;
+  }
+
+  std::string json(const std::string& uri = "") const {
+    return R"({"asset":)" + asset + R"(,"buffers":[{"byteLength":)" +
+           std::to_string(binary.size()) + (uri.empty() ? "" : R"(,"uri":")" + uri + "\"") +
+           R"(}],"bufferViews":[)" + views + R"(],"accessors":[)" + accessors + R"(],"meshes":)" +
+           meshes + "," + rest + "}";
+  }
+  std::string bytes() const { return glb(json(), binary); }
+};
+
+std::vector<double> coordinates(const TriangleMesh& mesh) {
+  return {mesh.positions.data(), mesh.positions.data() + mesh.positions.size()};
+}
+std::vector<std::uint32_t> corners(const TriangleMesh& mesh) {
+  return {mesh.triangles.data(), mesh.triangles.data() + mesh.triangles.size()};
+}
+
+/// The tetrahedron (1 1 1), (−1 −1 1), (−1 1 −1), (1 −1 −1).
+Gltf tetrahedron_gltf() {
+  const TriangleMesh mesh = tetrahedron();
+  return Gltf()
+      .add(floats(coordinates(mesh)), 5126, 4, "VEC3")
+      .add(integers(corners(mesh), 2), 5123, 12, "SCALAR");
+}
+
+std::string with(const std::string& from, const std::string& to) {
+  Gltf gltf = tetrahedron_gltf();
+  for (std::string* part : {&gltf.meshes, &gltf.rest, &gltf.asset, &gltf.views, &gltf.accessors})
+    *part = replaced(*part, from, to);
+  return gltf.bytes();
+}
+
+}  // namespace
+
+TEST_CASE("gltf_reader: a binary file gives its mesh") {
+  const MeshFile file = read(tetrahedron_gltf().bytes());
+  CHECK(file.format == "glTF binary");
+  CHECK(file.mesh.positions == tetrahedron().positions);
+  CHECK(file.mesh.triangles == tetrahedron().triangles);
+  CHECK(file.position_type == ScalarType::Float32);
+  CHECK(file.notes.empty());
+}
+
+TEST_CASE("gltf_reader: indices of every type, or none, mean the same triangles") {
+  const TriangleMesh mesh = tetrahedron();
+  for (const auto& [type, width] : {std::pair{5121, 1}, {5123, 2}, {5125, 4}}) {
+    const std::string bytes = Gltf()
+                                  .add(floats(coordinates(mesh)), 5126, 4, "VEC3")
+                                  .add(integers(corners(mesh), width), type, 12, "SCALAR")
+                                  .bytes();
+    CHECK(read(bytes).mesh.triangles == mesh.triangles);
+  }
+  Gltf soup;
+  std::vector<double> all;
+  for (const std::uint32_t corner : corners(mesh))
+    for (int axis = 0; axis < 3; ++axis)
+      all.push_back(mesh.positions(static_cast<Eigen::Index>(corner), axis));
+  soup.add(floats(all), 5126, 12, "VEC3");
+  soup.meshes = R"([{"primitives":[{"attributes":{"POSITION":0}}]}])";
+  CHECK(inspect_mesh(sphparam::prepare_for_mapping(read(soup.bytes())).mesh).is_sphere());
+}
+
+TEST_CASE("gltf_reader: strips and fans are turned as the specification says") {
+  const auto shape = [](int mode, std::vector<std::uint32_t> indices) {
+    Gltf gltf;
+    gltf.add(floats(coordinates(tetrahedron())), 5126, 4, "VEC3")
+        .add(integers(indices, 1), 5121, indices.size(), "SCALAR");
+    gltf.meshes = R"([{"primitives":[{"attributes":{"POSITION":0},"indices":1,"mode":)" +
+                  std::to_string(mode) + "}]}]";
+    return read(gltf.bytes());
+  };
+  // A tetrahedron is a strip of four triangles.
+  const MeshFile strip = shape(5, {0, 1, 2, 3, 0, 1});
+  CHECK(strip.mesh.face_count() == 4);
+  CHECK(inspect_mesh(strip.mesh).is_sphere());
+  CHECK(strip.mesh.triangles.row(1) == Eigen::RowVector3i(1, 3, 2));
+  const MeshFile stitched = shape(5, {0, 1, 2, 2, 2, 3});
+  CHECK(stitched.mesh.face_count() == 1);
+  CHECK(contains(stitched.notes.at(0), "3 triangles"));
+  const MeshFile fan = shape(6, {3, 0, 1, 2});
+  CHECK(fan.mesh.triangles.row(0) == Eigen::RowVector3i(0, 1, 3));
+  CHECK(fan.mesh.triangles.row(1) == Eigen::RowVector3i(1, 2, 3));
+}
+
+TEST_CASE("gltf_reader: transforms are those of the node and all above it") {
+  const auto placed = [](const std::string& nodes) {
+    Gltf gltf = tetrahedron_gltf();
+    gltf.rest = std::string("\"nodes\":") + nodes + R"(,"scenes":[{"nodes":[0]}])";
+    return read(gltf.bytes()).mesh;
+  };
+  const TriangleMesh plain = tetrahedron();
+  const TriangleMesh moved =
+      placed(R"([{"children":[1],"translation":[1,2,3]},{"mesh":0,"scale":[2,2,2]}])");
+  CHECK(moved.position(0) == Vector3(3, 4, 5));
+  const TriangleMesh other_order =
+      placed(R"([{"children":[1],"scale":[2,2,2]},{"mesh":0,"translation":[1,2,3]}])");
+  CHECK(other_order.position(0) == Vector3(4, 6, 8));
+  // A quarter turn about z: x → y.
+  const TriangleMesh turned = placed(
+      R"([{"mesh":0,"rotation":[0,0,0.7071067811865476,0.7071067811865476],"scale":[3,1,1]}])");
+  CHECK((turned.position(0) - Vector3(-1, 3, 1)).norm() < 1e-12);
+  const TriangleMesh by_matrix =
+      placed(R"([{"mesh":0,"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,5,6,7,1]}])");
+  CHECK(by_matrix.position(0) == Vector3(6, 7, 8));
+  CHECK(by_matrix.triangles == plain.triangles);
+}
+
+TEST_CASE("gltf_reader: a mirrored node keeps its outside outside") {
+  Gltf gltf = tetrahedron_gltf();
+  gltf.rest = R"("nodes":[{"mesh":0,"scale":[-1,1,1]}])";  // and no scene: the roots are read
+  const MeshFile file = read(gltf.bytes());
+  CHECK(file.mesh.position(0) == Vector3(-1, 1, 1));
+  const auto volume = [](const TriangleMesh& mesh) {
+    double sum = 0;
+    for (Eigen::Index f = 0; f < mesh.face_count(); ++f)
+      sum +=
+          mesh.position(mesh.triangles(f, 0))
+              .dot(mesh.position(mesh.triangles(f, 1)).cross(mesh.position(mesh.triangles(f, 2))));
+    return sum;
+  };
+  CHECK(volume(file.mesh) == volume(tetrahedron()));
+}
+
+TEST_CASE("gltf_reader: all meshes and primitives are one mesh, shared vertices stay shared") {
+  const TriangleMesh mesh = tetrahedron();
+  std::vector<std::uint32_t> all = corners(mesh);
+  const std::vector<std::uint32_t> first(all.begin(), all.begin() + 6),
+      second(all.begin() + 6, all.end());
+  Gltf gltf;
+  gltf.add(floats(coordinates(mesh)), 5126, 4, "VEC3")
+      .add(integers(first, 2), 5123, 6, "SCALAR")
+      .add(integers(second, 2), 5123, 6, "SCALAR");
+  gltf.meshes = R"([{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":1},)"
+                R"({"attributes":{"POSITION":0},"indices":2,"material":0}]}])";
+  gltf.rest = R"("nodes":[{"mesh":0},{"mesh":0,"translation":[9,0,0]}],"scenes":[{"nodes":[0,1]}],)"
+              R"("materials":[{"name":"red"},{}])";
+  const MeshFile file = read(gltf.bytes());
+  CHECK(file.mesh.vertex_count() == 8);
+  CHECK(file.mesh.face_count() == 8);
+  CHECK(file.materials == std::vector<std::string>{"material 1", "red"});
+  CHECK(values_of(file.find_face_property("material")) ==
+        std::vector<double>{0, 0, 1, 1, 0, 0, 1, 1});
+}
+
+TEST_CASE("gltf_reader: attributes survive, and welding moves them to the corners") {
+  // A tetrahedron whose last face has vertices of its own, with other texture coordinates.
+  TriangleMesh mesh = tetrahedron();
+  std::vector<double> xyz = coordinates(mesh), uv(14), normals;
+  std::vector<std::uint32_t> indices = corners(mesh), colours;
+  for (int k = 0; k < 3; ++k) {
+    const std::uint32_t corner = indices[static_cast<std::size_t>(9 + k)];
+    for (int axis = 0; axis < 3; ++axis)
+      xyz.push_back(mesh.positions(static_cast<Eigen::Index>(corner), axis));
+    indices[static_cast<std::size_t>(9 + k)] = static_cast<std::uint32_t>(4 + k);
+    uv[static_cast<std::size_t>(8 + 2 * k)] = 0.5;
+    uv[static_cast<std::size_t>(9 + 2 * k)] = 0.25;
+  }
+  for (std::uint32_t v = 0; v < 7; ++v) {
+    normals.insert(normals.end(), {0, 0, 1});
+    colours.insert(colours.end(), {255, 10 * v, 0, 128});
+  }
+  Gltf gltf;
+  gltf.add(floats(xyz), 5126, 7, "VEC3")
+      .add(integers(indices, 2), 5123, 12, "SCALAR")
+      .add(floats(uv), 5126, 7, "VEC2")
+      .add(floats(normals), 5126, 7, "VEC3")
+      .add(integers(colours, 1), 5121, 7, "VEC4", R"(,"normalized":true)")
+      .add(integers({1, 2, 3, 4, 5, 6, 7}, 2), 5123, 7, "SCALAR");
+  gltf.views = replaced(gltf.views, R"("byteLength":14})", R"("byteLength":14})");
+  gltf.meshes =
+      R"([{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":2,"NORMAL":3,"COLOR_0":4,)"
+      R"("_RANK":5,"TEXCOORD_1":2},"indices":1}]}])";
+  const MeshFile file = read(gltf.bytes());
+  CHECK(values_of(file.find_vertex_property("t"))[4] == 0.75);  // upwards
+  // Linear light in the file, sRGB in memory: 30/255 is 0.3775; alpha is as it is.
+  CHECK(file.find_vertex_property("green")->type == ScalarType::Float32);
+  CHECK(values_of(file.find_vertex_property("red"))[3] == 1);
+  CHECK(values_of(file.find_vertex_property("green"))[3] == Approx(0.37751).epsilon(1e-4));
+  CHECK(values_of(file.find_vertex_property("blue"))[3] == 0);
+  CHECK(values_of(file.find_vertex_property("alpha"))[3] == Approx(128 / 255.0));
+  CHECK(values_of(file.find_vertex_property("_RANK"))[6] == 7);
+  CHECK(file.find_vertex_property("_RANK")->type == ScalarType::Uint16);
+
+  const MeshFile welded = sphparam::prepare_for_mapping(file);
+  CHECK(inspect_mesh(welded.mesh).is_sphere());
+  REQUIRE(welded.corner_texcoords);
+  CHECK((*welded.corner_texcoords)(11, 0) == 0.5);
+  CHECK((*welded.corner_texcoords)(0, 0) == 0);
+  CHECK(values_of(welded.find_vertex_property("nz"))[0] == 1);  // the same in all copies
+}
+
+TEST_CASE("gltf_reader: quantised and sparse accessors are decoded") {
+  Gltf gltf;
+  gltf.asset = R"({"version":"2.0"},"extensionsRequired":["KHR_mesh_quantization"])";
+  std::string bytes;
+  for (const int n : {127, 127, 127, 0, -127, -127, 127, 0, -128, 127, -127, 0, 127, -127, -127, 0})
+    bytes.push_back(static_cast<char>(n));
+  gltf.add(bytes, 5120, 4, "VEC3", R"(,"normalized":true)")
+      .add(integers(corners(tetrahedron()), 2), 5123, 12, "SCALAR")
+      .add(integers({1, 3}, 1), 5121, 2, "SCALAR")
+      .add(integers({0x81, 0x81, 0, 0x7f, 0x7f, 0x7f}, 1), 5120, 2, "VEC3");
+  gltf.views = replaced(gltf.views, R"("byteLength":16})", R"("byteLength":16,"byteStride":4})");
+  CHECK(read(gltf.bytes()).mesh.positions == tetrahedron().positions);  // −128 is −1 too
+  gltf.accessors = replaced(
+      gltf.accessors, R"("normalized":true)",
+      R"("normalized":true,"sparse":{"count":2,"indices":{"bufferView":2,"componentType":5121},)"
+      R"("values":{"bufferView":3}})");
+  const Points positions = read(gltf.bytes()).mesh.positions;
+  CHECK(positions.row(1) == Eigen::RowVector3d(-1, -1, 0));
+  CHECK(positions.row(2) == tetrahedron().positions.row(2));
+  CHECK(positions.row(3) == Eigen::RowVector3d(1, 1, 1));
+
+  gltf.binary[gltf.binary.size() - 12] = 3;  // sparse indices 3, 3
+  CHECK(contains(complaint(gltf.bytes()), "do not increase"));
+  gltf.binary[gltf.binary.size() - 12] = 1;
+  gltf.binary[gltf.binary.size() - 11] = 4;
+  CHECK(contains(complaint(gltf.bytes()), "sparse index is out of range"));
+}
+
+TEST_CASE("gltf_reader: buffers come from data URIs or from files next to the glTF, nowhere else") {
+  const fs::path folder = fs::temp_directory_path() / ("sphparam_gltf_" + std::to_string(getpid()));
+  fs::create_directories(folder / "inner");
+  const Gltf gltf = tetrahedron_gltf();
+  const auto write = [](const fs::path& path, const std::string& bytes) {
+    std::ofstream(path, std::ios::binary) << bytes;
+  };
+  write(folder / "inner" / "a b+c.bin", gltf.binary);
+  write(folder / "secret.bin", gltf.binary);
+  fs::create_symlink("../secret.bin", folder / "inner" / "link.bin");
+  fs::create_directory(folder / "inner" / "folder.bin");
+  const fs::path path = folder / "inner" / "a.gltf";
+  const auto said = [&](const std::string& uri) {
+    write(path, gltf.json(uri));
+    try {
+      sphparam::read_mesh(path.string());
+    } catch (const sphparam::ReadError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CHECK(said("a%20b+c.bin").empty());
+  CHECK(said("./a%20b+c.bin").empty());
+  CHECK(contains(said("../secret.bin"), "'..'"));
+  CHECK(contains(said("%2e%2e/secret.bin"), "'..'"));
+  CHECK(contains(said("..%5Csecret.bin"), "backslash"));
+  CHECK(contains(said((folder / "secret.bin").string()), "absolute"));
+  CHECK(contains(said("file:secret.bin"), "scheme"));
+  CHECK(contains(said("http://a/b.bin"), "scheme"));
+  CHECK(contains(said("a.bin%00.png"), "control"));
+  CHECK(contains(said("a%zz"), "hexadecimal"));
+  CHECK(contains(said("link.bin"), "out of the folder"));
+  CHECK(contains(said("folder.bin"), "no regular file"));
+  CHECK(contains(said("missing.bin"), "No such file"));
+  CHECK(contains(said("data:text/html,x"), "data URI"));
+  CHECK(contains(complaint(gltf.json("a%20b+c.bin")), "only a glTF read from a file"));
+  fs::remove_all(folder);
+
+  Gltf tiny;  // one triangle, its 36 bytes as base64
+  tiny.add(floats({0, 0, 0, 1, 0, 0, 0, 1, 0}), 5126, 3, "VEC3");
+  tiny.meshes = R"([{"primitives":[{"attributes":{"POSITION":0}}]}])";
+  const MeshFile file = read(tiny.json(
+      "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"));
+  CHECK(file.format == "glTF");
+  CHECK(file.mesh.position(1) == Vector3(1, 0, 0));
+}
+
+TEST_CASE("gltf_reader: images are never opened") {
+  Gltf gltf = tetrahedron_gltf();
+  gltf.meshes = replaced(gltf.meshes, R"("indices":1)", R"("indices":1,"material":0)");
+  gltf.rest +=
+      R"(,"materials":[{"name":"m","pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],)"
+      R"("textures":[{"source":0}],"images":[{"uri":"../../no/such.png"}])";
+  const MeshFile file = read(gltf.bytes());
+  CHECK(contains(file.comments.at(0), "base colour of m: texture ../../no/such.png"));
+  gltf.rest = replaced(gltf.rest, R"("uri":"../../no/such.png")",
+                       R"("bufferView":0,"mimeType":"image/png")");
+  CHECK(complaint(gltf.bytes()).empty());
+}
+
+TEST_CASE("gltf_reader: what is not supported is refused by name") {
+  const auto refused = [](const std::string& from, const std::string& to,
+                          const std::string& expected) {
+    const std::string message = complaint(with(from, to), "a.glb");
+    INFO(to << " -> " << message);
+    CHECK(contains(message, expected));
+  };
+  const auto required = [&](const std::string& extension) {
+    refused(R"("version":"2.0"})",
+            R"("version":"2.0"},"extensionsRequired":[")" + extension + R"("])", extension);
+  };
+  required("KHR_draco_mesh_compression");
+  required("EXT_meshopt_compression");
+  required("EXT_mesh_gpu_instancing");
+  refused("\"2.0\"", "\"1.0\"", "glTF '1.0'");
+  refused(R"("indices":1)", R"("indices":1,"mode":0)", "points");
+  refused(R"("indices":1)", R"("indices":1,"mode":1)", "lines");
+  refused(R"("indices":1)", R"("indices":1,"mode":7)", "mode 7");
+}
+
+TEST_CASE("gltf_reader: what breaks the rules is refused, with its place") {
+  const auto refused = [](const std::string& from, const std::string& to,
+                          const std::string& expected) {
+    const std::string message = complaint(with(from, to), "a.glb");
+    INFO(to << " -> " << message);
+    CHECK(contains(message, expected));
+    CHECK(contains(message, "a.glb: "));
+  };
+  refused(R"("count":12)", R"("count":13)", "accessor 1: its elements do not fit");
+  refused(R"("count":12)", R"("count":4611686018427387904)", "out of range");
+  refused(R"("count":12)", R"("count":1073741824)", "accessor 1");
+  refused(R"("count":12)", R"("count":0)", "no elements");
+  refused(R"("count":12)", R"("count":-1)", "not a positive integer");
+  refused(R"("count":12)", R"("count":11)", "whole triangles");
+  refused(R"("componentType":5123)", R"("componentType":5122)", "unsigned");
+  refused(R"("componentType":5123)", R"("componentType":5124)", "5124");
+  refused(R"("componentType":5123)", R"("componentType":5121)", "");
+  refused(R"("byteOffset":48)", R"("byteOffset":52)", "past the end");
+  refused(R"("byteOffset":48)", R"("byteOffset":18446744073709551608)", "out of range");
+  refused(R"("byteLength":48)", R"("byteLength":48,"byteStride":8)", "stride");
+  refused(R"("buffer":0,"byteOffset":48)", R"("buffer":7,"byteOffset":48)", "buffer");
+  refused(R"("bufferView":1)", R"("bufferView":9)", "bufferView");
+  refused(R"("bufferView":0)", R"("bufferView":-1)", "no data");
+  refused(R"("bufferView":0,)", "", "no data");
+  refused(R"("byteOffset":0)", R"("byteOffset":-4)", "byteOffset is out of range");
+  refused(R"("VEC3")", R"("VEC2")", "components");
+  refused(R"("VEC3")", R"("MAT3")", "components");
+  refused(R"("POSITION":0)", R"("POSITION":5)", "there are 2");
+  refused(R"("POSITION":0)", R"("NORMAL":0)", "no positions");
+  refused(R"({"POSITION":0})", R"([])", "without attributes");
+  refused(R"("indices":1)", R"("indices":1.5)", "no whole number");
+  refused(R"("indices":1)", R"("indices":4294967297)", "out of range");
+  refused(R"("indices":1)", R"("indices":3)", "out of bounds");
+  refused(R"("mesh":0)", R"("mesh":3)", "mesh 3 is not there");
+  refused(R"("mesh":0)", R"("mesh":0,"children":[0])", "two parents");
+  refused(R"("mesh":0)", R"("mesh":0,"children":[8])", "node 8 is not there");
+  refused(R"("mesh":0)", R"("mesh":0,"scale":[1,0,1])", "singular");
+  refused(R"("mesh":0)", R"("mesh":0,"scale":[1,1])", "wrong number");
+  refused(R"("mesh":0)", R"("mesh":0,"matrix":[1,0,0,1,0,1,0,0,0,0,1,0,0,0,0,1])", "affine");
+  refused(R"("mesh":0)", R"("mesh":0,"rotation":[0,0,0,0])", "rotation is zero");
+  refused(R"("scene":0)", R"("scene":2)", "scene 2");
+  refused(R"("scene":0)", R"("scene":0,)", "byte");
+  refused(R"("scene":0)", R"("scene":0,"scene":nan)", "malformed");
+
+  Gltf gltf = tetrahedron_gltf();
+  gltf.binary[49] = 1;  // the first index becomes 256 + …
+  CHECK(contains(complaint(gltf.bytes()), "accessor 1: index 0 names vertex"));
+  gltf = tetrahedron_gltf();
+  gltf.binary.replace(0, 4, std::string("\0\0\xc0\x7f", 4));
+  CHECK(contains(complaint(gltf.bytes()), "element 0 is no finite number"));
+}
+
+TEST_CASE("gltf_reader: the container is checked before its JSON") {
+  const std::string good = tetrahedron_gltf().bytes();
+  const auto patched = [&](std::size_t at, std::uint32_t word) {
+    std::string bytes = good;
+    std::string patch;
+    append(patch, word);
+    return complaint(bytes.replace(at, 4, patch), "a.glb");
+  };
+  CHECK(contains(patched(4, 1), "version 2 is"));
+  CHECK(contains(patched(8, static_cast<std::uint32_t>(good.size() + 4)), "the file has"));
+  CHECK(contains(patched(8, 8), "length"));
+  CHECK(contains(patched(8, 16), "header of a chunk"));
+  CHECK(contains(patched(12, 0xfffffff0), "past the end"));
+  CHECK(contains(patched(12, 6), "multiple of 4"));
+  CHECK(contains(patched(16, 0), "no JSON"));
+  CHECK(contains(complaint("glTF"), "too short"));
+  CHECK(read(good + "more").notes.size() == 1);
+  // Every cut of the file is an error, none is a crash.
+  for (std::size_t size = 4; size < good.size(); ++size)
+    CHECK_FALSE(complaint(good.substr(0, size), "a.glb").empty());
+}
+
+TEST_CASE("gltf_reader: few bytes do not become many") {
+  // Nodes that name the same mesh over and over.
+  Gltf gltf = tetrahedron_gltf();
+  std::string nodes, roots;
+  for (int i = 0; i < 1000; ++i) {
+    nodes.append(i ? "," : "").append(R"({"mesh":0})");
+    roots.append(i ? "," : "").append(std::to_string(i));
+  }
+  gltf.rest = R"("nodes":[)" + nodes + R"(],"scenes":[{"nodes":[)" + roots + "]}]";
+  CHECK(contains(complaint(gltf.bytes()), "than the limit"));
+  // An accessor of zeros with one sparse element.
+  gltf = tetrahedron_gltf();
+  gltf.accessors = replaced(gltf.accessors, R"("bufferView":0,)", "");
+  gltf.accessors = replaced(gltf.accessors, R"("count":4,)",
+                            R"("count":200000000,"sparse":{"count":1,"indices":{"bufferView":1,)"
+                            R"("componentType":5121},"values":{"bufferView":0}},)");
+  CHECK(contains(complaint(gltf.bytes()), "more numbers than"));
+  // A second buffer that would copy the binary chunk again.
+  CHECK(contains(
+      complaint(replaced(tetrahedron_gltf().bytes(), R"(}],"bufferViews")", R"(}],"bufferviews")")),
+      "accessor"));
+  const std::string json = tetrahedron_gltf().json();
+  CHECK(contains(complaint(glb(replaced(json, R"("buffers":[)", R"("buffers":[{"byteLength":4},)"),
+                               tetrahedron_gltf().binary)),
+                 "neither a URI nor"));
+}
+
+TEST_CASE("gltf_reader: the limits on JSON hold at their values and not beyond") {
+  const Gltf gltf = tetrahedron_gltf();
+  const std::string bytes = gltf.bytes();
+  const auto check_limit = [&](auto member, std::int64_t value) {
+    for (const int step : {-1, 0, 1}) {
+      sphparam::ReadOptions options;
+      options.*member = value + step;
+      INFO(value + step << ": " << complaint(bytes, "a.glb", options));
+      CHECK(complaint(bytes, "a.glb", options).empty() == (step >= 0));
+    }
+  };
+  check_limit(&sphparam::ReadOptions::max_json_bytes,
+              static_cast<std::int64_t>((gltf.json().size() + 3) / 4 * 4));
+  check_limit(&sphparam::ReadOptions::max_json_depth, 6);
+  check_limit(&sphparam::ReadOptions::max_json_objects, 12);
+  check_limit(&sphparam::ReadOptions::max_json_values, 41);
+  check_limit(&sphparam::ReadOptions::max_vertices, 4);
+  check_limit(&sphparam::ReadOptions::max_faces, 4);
+  CHECK(contains(complaint(R"({"a":)" + std::string(1000000, '[')), "nested deeper"));
+}
+
+TEST_CASE("gltf_reader: damaged files give a mesh or a ReadError, nothing else") {
+  const std::string seed = tetrahedron_gltf().bytes();
+  std::mt19937 random(2013);
+  long accepted = 0, refused = 0;
+  for (int round = 0; round < 20000; ++round) {
+    std::string bytes = seed;
+    for (auto edits = random() % 3 + 1; edits > 0; --edits) {
+      const std::size_t at = random() % bytes.size();
+      const char digits[] = "0123456789-.,[]{}\":";
+      bytes[at] = random() % 2 ? static_cast<char>(random()) : digits[random() % 19];
+    }
+    try {
+      const MeshFile file = read(bytes, "a.glb");
+      ++accepted;
+      REQUIRE(file.mesh.positions.allFinite());
+      REQUIRE(file.mesh.triangles.minCoeff() >= 0);
+      REQUIRE(file.mesh.triangles.maxCoeff() < file.mesh.vertex_count());
+    } catch (const sphparam::ReadError&) {
+      ++refused;
+    }
+  }
+  CHECK(accepted > 500);
+  CHECK(refused > 500);
+}
+
+TEST_CASE("gltf_reader: a material brings its base colour: factor, image, wrap modes") {
+  Gltf gltf = tetrahedron_gltf();
+  gltf.meshes = replaced(gltf.meshes, R"("indices":1)", R"("indices":1,"material":1)");
+  gltf.rest +=
+      R"(,"materials":[{"name":"unused"},{"name":"m","pbrMetallicRoughness":{)"
+      R"("baseColorFactor":[0.5,0.25,1,0.75],"baseColorTexture":{"index":0}}}],)"
+      R"("textures":[{"source":0,"sampler":0}],"samplers":[{"wrapS":33071,"wrapT":33648}],)"
+      R"("images":[{"bufferView":0,"mimeType":"image/png"}])";
+  const MeshFile inside = read(gltf.bytes());
+  REQUIRE(inside.base_colours.size() == 1);
+  const sphparam::BaseColour& colour = inside.base_colours[0];
+  CHECK(colour.factor == std::array{0.5, 0.25, 1.0, 0.75});
+  CHECK(colour.wrap_s == sphparam::Wrapping::Clamp);
+  CHECK(colour.wrap_t == sphparam::Wrapping::Mirror);
+  CHECK(colour.problem.empty());
+  REQUIRE(colour.bytes);
+  CHECK(std::string(colour.bytes->begin(), colour.bytes->end()) ==
+        gltf.binary.substr(0, colour.bytes->size()));
+
+  const std::string in_view = R"("bufferView":0,"mimeType":"image/png")";
+  const auto with_image = [&](const std::string& image) {
+    Gltf other = gltf;
+    other.rest = replaced(other.rest, in_view, image);
+    return read(other.bytes()).base_colours.at(0);
+  };
+  CHECK(contains(with_image(R"("uri":"../secret.png")").problem, "'..'"));
+  CHECK(contains(with_image(R"("uri":"skin.png")").problem, "only a glTF read from a file"));
+  CHECK(with_image(R"("uri":"skin.png")").path == "skin.png");
+  Gltf transformed = gltf;
+  transformed.rest = replaced(
+      transformed.rest, R"("baseColorTexture":{"index":0})",
+      R"("baseColorTexture":{"index":0,"extensions":{"KHR_texture_transform":{"scale":[2,2]}}})");
+  CHECK(contains(read(transformed.bytes()).base_colours[0].problem, "transformed"));
+  Gltf second = gltf;
+  second.rest = replaced(second.rest, R"("index":0})", R"("index":0,"texCoord":1})");
+  CHECK(contains(read(second.bytes()).base_colours[0].problem, "other texture coordinates"));
+}
+
+namespace {
+
+/// A tetrahedron with `count` materials, each with an image of its own, all of the view `view`.
+Gltf with_images(int count, const std::string& view) {
+  Gltf gltf = tetrahedron_gltf();
+  std::string materials, textures, images;
+  for (int i = 0; i < count; ++i) {
+    const std::string comma = i > 0 ? "," : "", number = std::to_string(i);
+    materials +=
+        comma + R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":)" + number + "}}}";
+    textures += comma + R"({"source":)" + number + "}";
+    images += comma + R"({"bufferView":)" + std::to_string(gltf.count + (i % 2)) + "}";
+  }
+  gltf.views += "," + view + "," + view;
+  gltf.meshes = replaced(gltf.meshes, R"("indices":1)", R"("indices":1,"material":0)");
+  gltf.rest += R"(,"materials":[)" + materials + R"(],"textures":[)" + textures +
+               R"(],"images":[)" + images + "]";
+  return gltf;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "gltf_reader: images of views that run past their buffer are refused, wherever they end") {
+  for (const std::string view :
+       {R"({"buffer":0,"byteLength":1000000})", R"({"buffer":0,"byteOffset":72,"byteLength":1})",
+        R"({"buffer":0,"byteOffset":2000000000,"byteLength":4})",
+        R"({"buffer":0,"byteOffset":9007199254740991,"byteLength":9007199254740991})",
+        R"({"buffer":7,"byteLength":4})"}) {
+    INFO(view);
+    CHECK_FALSE(complaint(with_images(1, view).bytes()).empty());
+  }
+}
+
+TEST_CASE("gltf_reader: bytes that many images show are kept once, and no more than the file has") {
+  const std::string view = R"({"buffer":0,"byteLength":72})";
+  CHECK(read(with_images(100, view).bytes()).base_colours[0].bytes->size() == 72);
+  // Two overlapping views of most of the buffer are more than it holds.
+  Gltf greedy = with_images(2, view);
+  greedy.views = replaced(greedy.views, view + "," + view,
+                          view + R"(,{"buffer":0,"byteOffset":4,"byteLength":68})");
+  greedy.rest =
+      replaced(greedy.rest, R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":1}}})",
+               R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})");
+  CHECK(complaint(greedy.bytes()).empty());  // nothing uses the second
+  greedy.rest =
+      replaced(greedy.rest, R"([{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}})",
+               R"([{"pbrMetallicRoughness":{"baseColorTexture":{"index":1}})");
+  CHECK(contains(complaint(greedy.bytes()), "more bytes than the buffers hold"));
+}
+
+TEST_CASE("gltf_reader: numbers that are not aligned are read as they are, and noted") {
+  const TriangleMesh mesh = tetrahedron();
+  Gltf gltf = Gltf()
+                  .add(integers({7}, 1) + floats(coordinates(mesh)), 5126, 4, "VEC3")
+                  .add(integers(corners(mesh), 2), 5123, 12, "SCALAR");
+  gltf.views = replaced(gltf.views, R"("byteOffset":0,"byteLength":49)",
+                        R"("byteOffset":1,"byteLength":48)");
+  const MeshFile file = read(gltf.bytes());
+  CHECK(file.mesh.positions == mesh.positions);
+  REQUIRE(file.notes.size() == 1);
+  CHECK(contains(file.notes[0], "1 accessor not aligned"));
+}
+
+TEST_CASE("gltf_reader: what a file says beside shape and base colours is told, a line a kind") {
+  Gltf gltf = tetrahedron_gltf();
+  gltf.add(floats(std::vector<double>(16, 1)), 5126, 4, "VEC4")
+      .add(floats(std::vector<double>(8, 0)), 5126, 4, "VEC2");
+  gltf.meshes =
+      R"([{"primitives":[{"attributes":{"POSITION":0,"TANGENT":2,"TEXCOORD_1":3,"_PAIR":3,)"
+      R"("WEIGHTS_0":2},"indices":1,"material":0,"targets":[{"POSITION":0},{"POSITION":0}]},)"
+      R"({"attributes":{"POSITION":0,"TANGENT":2,"TEXCOORD_1":3,"_PAIR":3,"WEIGHTS_0":2},)"
+      R"("indices":1,"material":1,"targets":[{"POSITION":0},{"POSITION":0}]}]}])";
+  gltf.rest = R"("nodes":[{"mesh":0,"skin":0},{}],"scenes":[{"nodes":[0]}],"scene":0,)"
+              R"("skins":[{"joints":[1]}],)"
+              R"("cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":0.1}}],)"
+              R"("materials":[{"name":"plain","pbrMetallicRoughness":{"metallicFactor":1}},)"
+              R"({"name":"glow","emissiveFactor":[0,1,0],"doubleSided":true,"alphaMode":"MASK"}])";
+  const std::vector<std::string> losses = sphparam::losses_among(read(gltf.bytes()).notes);
+  CHECK(losses ==
+        std::vector<std::string>{
+            "not carried: emission, alpha mode and double sides of 1 of 2 materials, only base "
+            "colours are",
+            "not carried: 1 skin: the mesh is read as it rests", "not carried: 2 morph targets",
+            "not carried: of the vertices TANGENT, TEXCOORD_1 and _PAIR", "not carried: 1 camera"});
+}
+
+TEST_CASE("gltf_reader: the angles of _THETA_PHI are a map") {
+  Gltf gltf = tetrahedron_gltf();
+  std::vector<double> angles;
+  for (Eigen::Index v = 0; v < 4; ++v) {
+    const SphericalCoordinates at = to_spherical(tetrahedron().position(static_cast<int>(v)));
+    angles.insert(angles.end(), {at.theta, at.phi});
+  }
+  gltf.add(floats(angles), 5126, 4, "VEC2");
+  gltf.meshes = R"([{"primitives":[{"attributes":{"POSITION":0,"_THETA_PHI":2},"indices":1}]}])";
+  const MeshFile file = read(gltf.bytes());
+  CHECK(file.notes.empty());
+  CHECK_FALSE(sphparam::read_sphere(file));
+  const auto map = sphparam::read_angles(file);
+  REQUIRE(map);
+  CHECK((std::sqrt(3.0) * map->points - tetrahedron().positions).cwiseAbs().maxCoeff() < 1e-6);
+  CHECK_FALSE(sphparam::read_angles(read(tetrahedron_gltf().bytes())));
+}

@@ -1,0 +1,165 @@
+#include <catch2/catch.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include "sphparam/io/mesh_writer.h"
+#include "reading.h"
+#include "sphparam/mesh/mesh_repair.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+using sphparam::MeshFile;
+using sphparam::ReadOptions;
+
+TEST_CASE("mesh_reader: content decides the format before the name does") {
+  CHECK(read(kTetrahedronPly, "a.obj").format == "PLY ASCII");
+  CHECK(read(kTetrahedronOff, "a.ply").format == "OFF");
+  CHECK(read(kTetrahedronObj, "standard input").format == "OBJ");
+  CHECK(read("# a comment first\n" + kTetrahedronObj, "mesh").format == "OBJ");
+}
+
+TEST_CASE("mesh_reader: other formats are refused by name") {
+  const auto refused = [](const std::string& bytes, const std::string& name,
+                          const std::string& expected) {
+    INFO(expected);
+    CHECK(contains(complaint(bytes, name), expected));
+  };
+  refused("MZ\x03", "a.mz3", "MZ3");
+  refused("\x1f\x8b\x08", "a.mz3", "MZ3");
+  refused("<?xml version", "a.dae", "XML other than GIFTI");
+  refused("\xff\xff\xfe", "lh.white", "FreeSurfer");
+  refused("hello", "a.txt", "not recognised");
+  refused("hello", "a.ply", "a.ply:1: expected the magic word");
+  refused("", "a.obj", "empty");
+  refused("\xef\xbb\xbf", "a.obj", "empty");
+}
+
+TEST_CASE("mesh_reader: files that cannot be opened say so") {
+  using Catch::Matchers::Contains;
+  CHECK_THROWS_WITH(sphparam::read_mesh("no/such/file.obj"), Contains("no/such/file.obj: No such"));
+  CHECK_THROWS_WITH(sphparam::read_mesh("/"), Contains("is a directory"));
+}
+
+TEST_CASE("mesh_reader: a file on disk reads like its bytes") {
+  const auto path = std::filesystem::temp_directory_path() / "sphparam_test_reader.off";
+  std::ofstream(path) << kTetrahedronOff;
+  CHECK(sphparam::read_mesh(path.string()).mesh.triangles == read(kTetrahedronOff).mesh.triangles);
+  ReadOptions options;
+  options.max_file_bytes = kTetrahedronOff.size();
+  CHECK_NOTHROW(sphparam::read_mesh(path.string(), options));
+  options.max_file_bytes -= 1;
+  CHECK_THROWS_AS(sphparam::read_mesh(path.string(), options), sphparam::ReadError);
+  std::filesystem::remove(path);
+}
+
+TEST_CASE(
+    "mesh_reader: faces that name a vertex twice come through for a repair, and it removes them") {
+  const std::string faulty[] = {kTetrahedronObj + "f 1 2 1\nf 4 3 2 1 4 2\n",
+                                replaced(replaced(kTetrahedronOff, "4 4 6", "4 6 6"), "3 0 1 3\n",
+                                         "3 0 1 3\n4 0 1 2 1\n3 3 3 3\n"),
+                                replaced(replaced(kTetrahedronPly, "face 4", "face 6"), "3 0 1 3\n",
+                                         "3 0 1 3\n3 2 1 2\n5 0 1 2 0 3\n")};
+  const sphparam::MeshFile sound = read(kTetrahedronObj);
+  for (const std::string& bytes : faulty) {
+    CHECK(contains(complaint(bytes), "face names a vertex twice"));
+    const MeshFile file = read(bytes, "mesh", {.repeated_corners = true});
+    CHECK(file.mesh.face_count() == 6);
+    RepairOptions options = RepairOptions::none();
+    options.duplicates = true;
+    const RepairedMesh repaired = repair_mesh(file.mesh, options);
+    REQUIRE(repaired.actions.size() == 1);
+    CHECK(repaired.actions[0].kind == RepairKind::InvalidFaceRemoved);
+    CHECK(repaired.actions[0].count == 2);
+    CHECK(repaired.mesh.triangles == sound.mesh.triangles);
+    CHECK(repaired.inspection.is_sphere());
+  }
+}
+
+TEST_CASE("mesh_reader: every limit holds at its value and not beyond") {
+  const std::string pentagon_obj =
+      "v 0 0 0\nv 1 0 0\nv 2 1 0\nv 1 2 0\nv 0 1 0\nf 1 2 3 4 5\n# 345678901234567890\n";
+  const std::string pentagon_off =
+      "OFF\n5 1 0\n0 0 0\n1 0 0\n2 1 0\n1 2 0\n0 1 0\n5 0 1 2 3 4\n# 345678901234567890\n";
+  const std::string pentagon_ply =
+      "ply\nformat ascii 1.0\ncomment 8901234567890123456789012345678901234567\n"
+      "element vertex 5\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 1\nproperty list uchar int vertex_index\nend_header\n"
+      "0 0 0\n1 0 0\n2 1 0\n1 2 0\n0 1 0\n5 0 1 2 3 4\n";
+  const auto check_limit = [](const std::string& bytes, auto member, auto value) {
+    for (const int step : {-1, 0, 1}) {
+      ReadOptions options;
+      options.*member = value + step;
+      INFO(bytes.substr(0, 3) << " limit " << value + step << ": "
+                              << complaint(bytes, "a.obj", options));
+      CHECK(complaint(bytes, "a.obj", options).empty() == (step >= 0));
+    }
+  };
+  for (const std::string& bytes : {pentagon_obj, pentagon_off, pentagon_ply}) {
+    check_limit(bytes, &ReadOptions::max_file_bytes, bytes.size());
+    check_limit(bytes, &ReadOptions::max_vertices, 5);
+    check_limit(bytes, &ReadOptions::max_faces, 3);  // triangles
+    check_limit(bytes, &ReadOptions::max_polygon_degree, 5);
+  }
+  check_limit(pentagon_obj, &ReadOptions::max_line_bytes, 20);
+  check_limit(pentagon_off, &ReadOptions::max_line_bytes, 20);
+  check_limit(pentagon_ply, &ReadOptions::max_line_bytes, 48);
+  check_limit(pentagon_ply, &ReadOptions::max_ply_elements, 2);
+  check_limit(pentagon_ply, &ReadOptions::max_ply_properties, 3);
+  check_limit(replaced(pentagon_obj, " 4 5", " \\\n 4 5"), &ReadOptions::max_line_bytes, 20);
+}
+
+TEST_CASE("mesh_reader: damaged files give a mesh or a ReadError, nothing else") {
+  MeshFile rich = read(
+      "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 0 0 1\nv 0 1 0.5 1 1 1\nvt 0 0\nvt 1 1\nvn 0 0 1\n"
+      "vn 1 0 0\nusemtl a\nf 1/1/1 2/2/1 3/1/1\nusemtl b\nf 1/2/2 3/2/2 4/1/1\nf -1 -2 -3 -4\n",
+      "a.obj");
+  const std::string seeds[] = {kTetrahedronObj,
+                               kTetrahedronOff,
+                               kTetrahedronPly,
+                               serialise_ply(rich),
+                               serialise_obj(rich),
+                               serialise_off(rich),
+                               "OFF 3 1\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 5 6 7\n"};
+  std::mt19937 random(2006);
+  long accepted = 0, refused = 0;
+  for (const std::string& seed : seeds)
+    for (int round = 0; round < 4000; ++round) {
+      std::string bytes = seed;
+      for (auto edits = random() % 3 + 1; edits > 0; --edits) {
+        const std::size_t at = random() % bytes.size();
+        switch (random() % 5) {
+          case 0:
+            bytes[at] = static_cast<char>(random());
+            break;
+          case 1:
+            bytes[at] = "0123456789-/. \n#\\ef"[random() % 19];
+            break;
+          case 2:
+            bytes.resize(at + 1);
+            break;
+          case 3:
+            bytes.erase(at, random() % 8);
+            break;
+          default:
+            bytes.insert(at, bytes.substr(random() % bytes.size(), random() % 12));
+        }
+        if (bytes.empty()) bytes.push_back('x');
+      }
+      try {
+        const MeshFile file = read(bytes, "a.obj");
+        ++accepted;
+        const auto& triangles = file.mesh.triangles;
+        REQUIRE(file.mesh.positions.allFinite());
+        if (triangles.size() > 0) {
+          REQUIRE(triangles.minCoeff() >= 0);
+          REQUIRE(triangles.maxCoeff() < file.mesh.vertex_count());
+        }
+      } catch (const sphparam::ReadError&) {
+        ++refused;
+      }
+    }
+  CHECK(accepted > 1000);
+  CHECK(refused > 1000);
+}

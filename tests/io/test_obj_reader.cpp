@@ -1,0 +1,218 @@
+#include <catch2/catch.hpp>
+
+#include "reading.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+using sphparam::MeshFile;
+
+namespace {
+
+const std::string kThree = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+const std::string kFour = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+Eigen::RowVector3i first_triangle(const std::string& text) {
+  return read(text, "a.obj").mesh.triangles.row(0);
+}
+
+}  // namespace
+
+TEST_CASE("obj_reader: a tetrahedron has its vertices and triangles") {
+  const MeshFile file = read(kTetrahedronObj, "a.obj");
+  CHECK(file.format == "OBJ");
+  CHECK(file.mesh.vertex_count() == 4);
+  CHECK(file.mesh.face_count() == 4);
+  CHECK(file.mesh.position(1) == Vector3(-1, -1, 1));
+  CHECK(file.mesh.triangles.row(0) == Eigen::RowVector3i(0, 2, 1));
+  CHECK(file.polygons == 0);
+  CHECK(file.notes.empty());
+}
+
+TEST_CASE("obj_reader: line ends, byte order mark and a missing final newline change nothing") {
+  const Triangles expected = read(kTetrahedronObj).mesh.triangles;
+  const std::string unended = kTetrahedronObj.substr(0, kTetrahedronObj.size() - 1);
+  for (const std::string& text :
+       {replaced(kTetrahedronObj, "\n", "\r\n"), replaced(kTetrahedronObj, "\n", "\r"), unended,
+        "\xef\xbb\xbf" + kTetrahedronObj, replaced(kTetrahedronObj, " ", " \t "),
+        replaced(kTetrahedronObj, "\n", " # comment\n\n"),
+        replaced(kTetrahedronObj, " ", " \\\n ")}) {
+    const MeshFile file = read(text, "a.obj");
+    CHECK(file.mesh.triangles == expected);
+    CHECK(file.mesh.position(3) == Vector3(1, -1, -1));
+  }
+}
+
+TEST_CASE("obj_reader: numbers of all spellings") {
+  const MeshFile file = read("v +1.5 -.5 1e-3\nv 1E2 0. -0\nv 1e-400 3 7\nf 1 2 3\n", "a.obj");
+  CHECK(file.mesh.position(0) == Vector3(1.5, -0.5, 1e-3));
+  CHECK(file.mesh.position(1) == Vector3(100, 0, 0));
+  CHECK(file.mesh.position(2).x() == 0);  // underflow is zero
+}
+
+TEST_CASE("obj_reader: relative indices count from the vertices read so far") {
+  CHECK(first_triangle(kThree + "f -3 -2 -1\nv 9 9 9\n") == Eigen::RowVector3i(0, 1, 2));
+  CHECK(first_triangle(kThree + "vt 0 0\nvn 0 0 1\nf -3/-1/-1 -2/-1/-1 -1/-1/-1\n") ==
+        Eigen::RowVector3i(0, 1, 2));
+}
+
+TEST_CASE("obj_reader: a face may name vertices of later lines") {
+  CHECK(first_triangle("f 1 2 3\n" + kThree) == Eigen::RowVector3i(0, 1, 2));
+  // The first index that stays out of range is reported, not the largest.
+  CHECK(complaint("f 1 2 3\nf 1 2 4\nf 1 2 9\n" + kThree, "a.obj") ==
+        "a.obj:2: face names vertex 4 of 3");
+}
+
+TEST_CASE("obj_reader: every form of a corner") {
+  const std::string attributes = kThree + "vt 0.25 0.5\nvt 1 0\nvn 0 0 1\n";
+  for (const char* face : {"f 1 2 3", "f 1/ 2/ 3/", "f 1// 2// 3//"}) {
+    const MeshFile file = read(attributes + face, "a.obj");
+    CHECK_FALSE(file.corner_texcoords);
+    CHECK(file.vertex_properties.empty());
+  }
+  for (const char* face : {"f 1/1 2/2 3/1", "f 1/1/1 2/2/1 3/1/1"}) {
+    const MeshFile file = read(attributes + face, "a.obj");
+    REQUIRE(file.corner_texcoords);
+    CHECK(file.corner_texcoords->row(0) == Eigen::RowVector2d(0.25, 0.5));
+    CHECK(file.corner_texcoords->row(1) == Eigen::RowVector2d(1, 0));
+  }
+  for (const char* face : {"f 1//1 2//1 3//1", "f 1/1/1 2/2/1 3/1/1"})
+    CHECK(values_of(read(attributes + face, "a.obj").find_vertex_property("nz")) ==
+          std::vector<double>{1, 1, 1});
+}
+
+TEST_CASE("obj_reader: normals go to the vertices when each has one, else to the corners") {
+  const std::string vertices = kFour + "vn 0 0 1\nvn 0 0 1\nvn 1 0 0\n";
+  // Different indices, same value: one normal.
+  const MeshFile smooth = read(vertices + "f 1//1 2//1 3//2\nf 1//2 3//1 4//1\n", "a.obj");
+  CHECK_FALSE(smooth.corner_normals);
+  CHECK(values_of(smooth.find_vertex_property("nz")) == std::vector<double>{1, 1, 1, 1});
+  const MeshFile creased = read(vertices + "f 1//1 2//1 3//1\nf 1//3 3//3 4//3\n", "a.obj");
+  CHECK_FALSE(creased.find_vertex_property("nx"));
+  REQUIRE(creased.corner_normals);
+  CHECK(creased.corner_normals->row(2) == Eigen::RowVector3d(0, 0, 1));
+  CHECK(creased.corner_normals->row(3) == Eigen::RowVector3d(1, 0, 0));
+}
+
+TEST_CASE("obj_reader: corners of a split polygon keep their texture coordinates") {
+  const MeshFile file =
+      read(kFour + "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 4/4 1/1 2/2 3/3\n", "a.obj");
+  REQUIRE(file.mesh.face_count() == 2);
+  CHECK(file.polygons == 1);
+  CHECK(values_of(file.find_face_property("source_face")) == std::vector<double>{0, 0});
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    const int v = file.mesh.triangles.data()[i];
+    CHECK(file.corner_texcoords->row(i) == file.mesh.positions.row(v).head<2>());
+  }
+}
+
+TEST_CASE("obj_reader: missing corner attributes are zero and noted") {
+  const MeshFile file = read(kFour + "vt 1 1\nf 1 2 3\nf 1/1 3/1 4/1\n", "a.obj");
+  REQUIRE(file.corner_texcoords);
+  CHECK(file.corner_texcoords->row(0) == Eigen::RowVector2d(0, 0));
+  CHECK(file.corner_texcoords->row(3) == Eigen::RowVector2d(1, 1));
+  CHECK(file.notes ==
+        std::vector<std::string>{"3 corners have no texture coordinates: set to zero"});
+}
+
+TEST_CASE("obj_reader: colours after the coordinates") {
+  const MeshFile file = read("v 0 0 0 1 0.5 0\nv 1 0 0 0 0 0\nv 0 1 0 0 0 1\nf 1 2 3\n", "a.obj");
+  REQUIRE(file.find_vertex_property("green"));
+  CHECK(file.find_vertex_property("green")->type == sphparam::ScalarType::Float32);
+  CHECK(values_of(file.find_vertex_property("green")) == std::vector<double>{0.5, 0, 0});
+  CHECK_FALSE(file.find_vertex_property("alpha"));
+
+  const MeshFile partly = read("v 0 0 0 1 1 1\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "a.obj");
+  CHECK(partly.vertex_properties.empty());
+  CHECK(partly.notes.size() == 1);
+
+  const MeshFile weighted = read("v 0 0 0 2\nv 1 0 0 1\nv 0 1 0 1\nf 1 2 3\n", "a.obj");
+  CHECK(weighted.notes.size() == 1);
+}
+
+TEST_CASE("obj_reader: materials are numbered in order of first use") {
+  const MeshFile file = read(kThree +
+                                 "mtllib no such file.mtl\nf 1 2 3\nusemtl red paint\n"
+                                 "f 1 2 3\nusemtl b\nf 1 2 3\nusemtl red paint\nf 1 2 3\n",
+                             "a.obj");
+  CHECK(file.materials == std::vector<std::string>{"red paint", "b"});
+  CHECK(values_of(file.find_face_property("material")) == std::vector<double>{-1, 0, 1, 0});
+}
+
+TEST_CASE(
+    "obj_reader: what the material library holds is told, and what several groups are called") {
+  const std::string text = "mtllib a.mtl\nmtllib a.mtl\no x\no y\ng p\ns off\ns 1\nusemtl red\n" +
+                           kThree + "f 1 2 3\nusemtl blue\nf 3 2 1\n";
+  CHECK(read(text, "a.obj").notes ==
+        std::vector<std::string>{
+            "not carried: colours and textures of 2 materials in 'a.mtl', which is not read; their "
+            "names are",
+            "not carried: the names of 2 objects"});
+  CHECK(read("mtllib a.mtl\no x\ng x\ns 1\n" + kThree + "f 1 2 3\n", "a.obj").notes.empty());
+}
+
+TEST_CASE(
+    "obj_reader: statements that OBJ does not have are left out and told, with the first's line") {
+  const MeshFile file = read(kThree + "f 1 2 3\nquux 1 2\nv 9 9 9\nquux\n@ 1\nf 1 3 4\n", "a.obj");
+  CHECK(file.mesh.face_count() == 2);
+  CHECK(file.notes ==
+        std::vector<std::string>{"not carried: 3 unknown statements, the first 'quux' in line 5"});
+  // Without a face, or without a vertex for the faces, the text is no OBJ.
+  CHECK(contains(complaint(kThree + "quux\nf3 1 2 3\n", "a.obj"),
+                 "a.obj:4: unknown statement 'quux'"));
+  CHECK(contains(complaint("V 1 2 3\nf 1 1 1\n", "a.obj", {.repeated_corners = true}),
+                 "a.obj:1: unknown statement 'V'"));
+}
+
+TEST_CASE("obj_reader: other statements are ignored, lines and points told") {
+  const MeshFile file =
+      read("# made by\n#\n" + kThree + "o a\ng b c\ns off\nf 1 2 3\nl 1 2\nl 2 3\np 1\n", "a.obj");
+  CHECK(file.comments == std::vector<std::string>{"made by", ""});
+  CHECK(file.notes ==
+        std::vector<std::string>{"not carried: 2 'l' statements", "not carried: 1 'p' statement"});
+}
+
+TEST_CASE("obj_reader: what breaks the rules is refused at its line") {
+  const auto refused = [](const std::string& line, const std::string& expected) {
+    const std::string message = complaint(kThree + line + "\n" + kThree, "a.obj");
+    INFO(line << " -> " << message);
+    CHECK(contains(message, "a.obj:4: "));
+    CHECK(contains(message, expected));
+  };
+  refused("f 1 2 0", "start at 1");
+  refused("f 1 2 7", "vertex 7 of 6");
+  refused("f 1 2 99999999999", "out of range");
+  refused("f 1 2 99999999999999999999", "expected an index");
+  refused("f -1 -2 -4", "before the first");
+  refused("f 1/1 2/1 3/1", "texture coordinate 1 of 0");
+  refused("f 1//1 2//1 3//1", "normal 1 of 0");
+  refused("f 1 2 2", "twice");
+  refused("f 1 2", "fewer than 3");
+  refused("f", "fewer than 3");
+  refused("f 1 2 3x", "expected an index");
+  refused("f 1 2 1.5", "expected an index");
+  refused("f 1/1/1/1 2 3", "three indices");
+  refused("v 1 2", "found the end of the line");
+  refused("v 1 2 nan", "'nan'");
+  refused("v 1 2 -inf", "'-inf'");
+  refused("v 1 2 0x10", "'0x10'");
+  refused("v 1 2 1e999", "within range");
+  refused("v 1,5 2 3", "decimal point");
+  refused("v 1 2 3junk", "'3junk'");
+  refused("v 1 2 +-3", "'+-3'");
+  refused("v 1 2 3 4 5", "5 numbers");
+  refused("v 1 2 3 4 5 6 7 8", "unexpected '8'");
+  refused("vt", "expected a number");
+  refused("vn 0 0", "expected a number");
+  refused("vn 0 0 1 1", "unexpected");
+  refused("w 1 2 3", "unknown statement 'w'");
+  refused("f 1 2 \x01\x02",
+          "'?"
+          "?'");
+  refused(std::string("v 1 2\0 3", 8), "NUL");
+}
+
+TEST_CASE("obj_reader: errors after continued lines name the right line") {
+  CHECK(contains(complaint(kThree + "f 1 \\\n2 \\\n3\nf 1 2 x\n", "a.obj"), "a.obj:7: "));
+  CHECK(contains(complaint(kThree + "f 1 \\\n2 \\\nx\n", "a.obj"), "a.obj:4: "));
+  CHECK(contains(complaint(kThree + "f 1 2 \\", "a.obj"), "a.obj:4: face has fewer"));
+}

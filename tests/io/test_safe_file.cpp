@@ -1,0 +1,413 @@
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <sys/xattr.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "sphparam/io/read_options.h"
+#include "sphparam/io/safe_file.h"
+#include "io/files/temporary_file.h"
+#include "reading.h"
+
+using namespace sphparam::tests;
+using namespace sphparam;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A new folder that is gone at the end.
+struct Folder {
+  fs::path path;
+  Folder() {
+    std::string name = (fs::temp_directory_path() / "sphparam_test_XXXXXX").string();
+    path = ::mkdtemp(name.data());
+  }
+  ~Folder() { fs::remove_all(path); }
+  std::string file(const std::string& name) const { return (path / name).string(); }
+  long entries() const {
+    return std::distance(fs::directory_iterator(path), fs::directory_iterator());
+  }
+  std::vector<std::string> names() const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(path)) names.push_back(entry.path().filename());
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+};
+
+/// Another process with a pending file.
+class Writer {
+ public:
+  explicit Writer(const std::string& path) {
+    int ready[2];
+    REQUIRE(::pipe(ready) == 0);
+    pid_ = ::fork();
+    if (pid_ == 0) {
+      PendingFiles files;
+      files.add(path, "of another process");
+      static_cast<void>(::write(ready[1], "x", 1));
+      for (;;) ::pause();
+    }
+    ::close(ready[1]);
+    char byte = 0;
+    CHECK(::read(ready[0], &byte, 1) == 1);
+    ::close(ready[0]);
+  }
+  ~Writer() { kill(); }
+  Writer(const Writer&) = delete;
+  Writer& operator=(const Writer&) = delete;
+
+  void kill() {
+    if (pid_ > 0) {
+      ::kill(pid_, SIGKILL);
+      ::waitpid(pid_, nullptr, 0);
+    }
+    pid_ = 0;
+  }
+
+ private:
+  pid_t pid_ = 0;
+};
+
+/// An open file, locked as those do who are still writing it.
+class OpenAndLocked {
+ public:
+  explicit OpenAndLocked(const std::string& path) : descriptor_(::open(path.c_str(), O_RDONLY)) {
+    struct flock everything {};
+    everything.l_type = F_RDLCK;
+    REQUIRE(::fcntl(descriptor_, F_OFD_SETLK, &everything) == 0);
+  }
+  ~OpenAndLocked() { ::close(descriptor_); }
+  OpenAndLocked(const OpenAndLocked&) = delete;
+  OpenAndLocked& operator=(const OpenAndLocked&) = delete;
+
+ private:
+  int descriptor_;
+};
+
+mode_t mode_of(const std::string& path) {
+  struct stat status {};
+  REQUIRE(::stat(path.c_str(), &status) == 0);
+  return status.st_mode & 07777;
+}
+
+/// The working folder while it lives.
+class WorkingFolder {
+ public:
+  explicit WorkingFolder(const fs::path& folder) { fs::current_path(folder); }
+  ~WorkingFolder() { fs::current_path(before_); }
+  WorkingFolder(const WorkingFolder&) = delete;
+  WorkingFolder& operator=(const WorkingFolder&) = delete;
+
+ private:
+  fs::path before_ = fs::current_path();
+};
+
+std::string content(const std::string& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+}  // namespace
+
+TEST_CASE("safe_file: a file holds what was written, and the check saw it on disk") {
+  const Folder folder;
+  const std::string bytes("a\0b\n", 4);
+  std::string seen;
+  write_file(folder.file("a.ply"), bytes, [&](std::string_view read) {
+    seen = read;
+    CHECK(folder.entries() == 1);                   // the temporary,
+    CHECK_FALSE(fs::exists(folder.file("a.ply")));  // not yet the file
+  });
+  CHECK(seen == bytes);
+  CHECK(content(folder.file("a.ply")) == bytes);
+  CHECK(folder.entries() == 1);
+  write_file(folder.file("empty"), "", [](std::string_view read) { CHECK(read.empty()); });
+  CHECK(fs::file_size(folder.file("empty")) == 0);
+}
+
+TEST_CASE("safe_file: when the check throws, the old file stays and no temporary does") {
+  const Folder folder;
+  write_file(folder.file("a"), "old");
+  const auto refuse = [](std::string_view) { throw std::logic_error("not certified"); };
+  CHECK_THROWS_AS(write_file(folder.file("a"), "new", refuse), std::logic_error);
+  CHECK_THROWS_AS(write_file(folder.file("b"), "new", refuse), std::logic_error);
+  CHECK(content(folder.file("a")) == "old");
+  CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("safe_file: places that cannot be written are named") {
+  using Catch::Matchers::Contains;
+  const Folder folder;
+  CHECK_THROWS_WITH(write_file(folder.path.string(), "x"), Contains("is a directory"));
+  CHECK_THROWS_WITH(write_file(folder.file("no/such/a"), "x"), Contains("does not exist"));
+  CHECK_THROWS_AS(write_file("", "x"), WriteError);
+  CHECK_THROWS_AS(write_file("/proc/version", "x"), WriteError);
+  if (::geteuid() == 0) return;  // root may write anywhere
+  write_file(folder.file("a"), "old");
+  ::chmod(folder.file("a").c_str(), 0444);
+  CHECK_THROWS_WITH(write_file(folder.file("a"), "x"), Contains("Permission denied"));
+}
+
+TEST_CASE("safe_file: permissions are kept, links are followed") {
+  const Folder folder;
+  write_file(folder.file("a"), "old");
+  fs::permissions(folder.file("a"), fs::perms::owner_read | fs::perms::owner_write);
+  fs::create_symlink("a", folder.file("link"));
+  write_file(folder.file("link"), "new");
+  CHECK(fs::is_symlink(folder.file("link")));
+  CHECK(content(folder.file("a")) == "new");
+  CHECK(fs::status(folder.file("a")).permissions() ==
+        (fs::perms::owner_read | fs::perms::owner_write));
+}
+
+TEST_CASE("safe_file: what a killed process left is removed, what a living one writes is not") {
+  const Folder folder;
+  Writer writer(folder.file("a"));
+  const std::vector<std::string> live = folder.names();
+  REQUIRE(live.size() == 1);
+  write_file(folder.file("b"), "x");
+  CHECK(folder.names() == std::vector{live.front(), std::string("b")});
+  writer.kill();
+  write_file(folder.file("b"), "x");
+  CHECK(folder.names() == std::vector<std::string>{"b"});
+}
+
+TEST_CASE("safe_file: files of strangers stay, whatever they are called") {
+  const Folder folder;
+  const std::vector<std::string> strangers = {".sphparam-0123456789abcdef01234567.tmp",
+                                              ".sphparam-.tmp",
+                                              ".sphparam-0123456789abcdef.tmp",
+                                              "a.tmp",
+                                              "a.tmp.1",
+                                              "a.tmp.999999999"};
+  for (const std::string& name : strangers) std::ofstream(folder.file(name)) << "x";
+  write_file(folder.file("a"), "new");
+  for (const std::string& name : strangers) CHECK(fs::exists(folder.file(name)));
+}
+
+TEST_CASE("safe_file: the name of a left file alone is no proof: who holds its lock keeps it") {
+  const Folder folder;
+  std::string left;
+  {
+    Writer writer(folder.file("a"));
+    left = folder.names().front();
+    writer.kill();
+  }
+  {
+    const OpenAndLocked somebody(folder.file(left));
+    write_file(folder.file("a"), "x");
+    CHECK(fs::exists(folder.file(left)));
+  }
+  write_file(folder.file("a"), "x");
+  CHECK_FALSE(fs::exists(folder.file(left)));
+}
+
+TEST_CASE("safe_file: names may be as long as the file system lets them") {
+  const Folder folder;
+  const std::string longest(255, 'n');
+  write_file(folder.file(longest), "old");
+  write_file(folder.file(longest), "new");
+  CHECK(content(folder.file(longest)) == "new");
+  CHECK_THROWS_WITH(write_file(folder.file(longest + "n"), "x"), Catch::Contains("too long"));
+}
+
+TEST_CASE("safe_file: a new file is as the umask wants it, a replaced one hands on what it had") {
+  const Folder folder;
+  const mode_t before = ::umask(027);
+  write_file(folder.file("new"), "x");
+  ::umask(before);
+  CHECK(mode_of(folder.file("new")) == 0640);
+  for (const mode_t mode : {0600, 0644, 0664, 0755}) {
+    ::chmod(folder.file("new").c_str(), mode);
+    write_file(folder.file("new"), "y");
+    CHECK(mode_of(folder.file("new")) == mode);
+  }
+}
+
+TEST_CASE("safe_file: attributes of a replaced file are kept, where the file system has them") {
+  const Folder folder;
+  write_file(folder.file("a"), "old");
+  if (::setxattr(folder.file("a").c_str(), "user.note", "mine", 4, 0) != 0) {
+    WARN("skipped: this file system has no attributes of users");
+    return;
+  }
+  write_file(folder.file("a"), "new");
+  char value[8] = {};
+  CHECK(::getxattr(folder.file("a").c_str(), "user.note", value, sizeof value) == 4);
+  CHECK(std::string(value) == "mine");
+}
+
+TEST_CASE("safe_file: owner and group of a replaced file are kept by who may give them") {
+  if (::geteuid() != 0) {
+    WARN("skipped: only root may give files to others");
+    return;
+  }
+  const Folder folder;
+  write_file(folder.file("a"), "old");
+  REQUIRE(::chown(folder.file("a").c_str(), 1234, 2345) == 0);
+  ::chmod(folder.file("a").c_str(), 04754);
+  write_file(folder.file("a"), "new");
+  struct stat status {};
+  REQUIRE(::stat(folder.file("a").c_str(), &status) == 0);
+  CHECK(status.st_uid == 1234);
+  CHECK(status.st_gid == 2345);
+  CHECK(mode_of(folder.file("a")) == 04754);
+}
+
+TEST_CASE("safe_file: a file that may not be read is replaced all the same, and stays so") {
+  const Folder folder;
+  write_file(folder.file("a"), "old");
+  ::chmod(folder.file("a").c_str(), 0200);
+  write_file(folder.file("a"), "new");
+  CHECK(mode_of(folder.file("a")) == 0200);
+}
+
+TEST_CASE("safe_file: other names of a replaced file keep the old bytes") {
+  const Folder folder;
+  write_file(folder.file("a"), "old");
+  fs::create_hard_link(folder.file("a"), folder.file("other"));
+  write_file(folder.file("a"), "new");
+  CHECK(content(folder.file("a")) == "new");
+  CHECK(content(folder.file("other")) == "old");
+}
+
+TEST_CASE("safe_file: a file written piece by piece is read back where it is") {
+  const Folder folder;
+  PendingFiles files;
+  const PendingFiles::Pieces file = files.open(folder.file("a"));
+  file.write(3, "def");
+  file.write(0, "abc");
+  char bytes[8] = {};
+  CHECK(file.read(1, bytes, sizeof bytes) == 5);
+  CHECK(std::string(bytes) == "bcdef");
+  CHECK(file.read(100, bytes, sizeof bytes) == 0);
+  files.publish();
+  CHECK(content(folder.file("a")) == "abcdef");
+}
+
+TEST_CASE("safe_file: what was written and cannot be parsed is told of the file that was wanted") {
+  const Folder folder;
+  const auto refuse = [](std::string_view) -> void { throw ReadError("a", "is no mesh"); };
+  CHECK_THROWS_AS(write_file(folder.file("a"), "x", refuse), WriteError);
+  CHECK_THROWS_WITH(write_file(folder.file("a"), "x", refuse),
+                    Catch::Contains(folder.file("a")) && !Catch::Contains(".sphparam-"));
+}
+
+TEST_CASE("safe_file: devices are written directly, after the check") {
+  bool checked = false;
+  write_file("/dev/null", "x", [&](std::string_view bytes) { checked = bytes == "x"; });
+  CHECK(checked);
+  CHECK(fs::is_character_file("/dev/null"));
+  CHECK_THROWS_AS(write_file("/dev/full", "x"), WriteError);
+}
+
+TEST_CASE("safe_file: nothing reaches standard output when the check throws") {
+  const auto refuse = [](std::string_view) { throw std::logic_error("not certified"); };
+  CHECK_THROWS_AS(write_file("-", "must not appear\n", refuse), std::logic_error);
+}
+
+TEST_CASE("safe_file: pending files get their names together, and not before") {
+  const Folder folder;
+  write_file(folder.file("a"), "old");
+  PendingFiles files;
+  files.add(folder.file("a"), "new a");
+  files.add(folder.file("b"), "new b");
+  CHECK(content(folder.file("a")) == "old");
+  CHECK_FALSE(fs::exists(folder.file("b")));
+  files.publish();
+  CHECK(content(folder.file("a")) == "new a");
+  CHECK(content(folder.file("b")) == "new b");
+  CHECK(folder.entries() == 2);
+}
+
+TEST_CASE("safe_file: pending files that are given up leave nothing") {
+  const Folder folder;
+  write_file(folder.file("a"), "old");
+  {
+    PendingFiles files;
+    files.add(folder.file("a"), "new a");
+    files.add(folder.file("b"), "new b");
+    CHECK_THROWS_AS(files.add(folder.file("no/c"), "new c"), WriteError);
+  }
+  CHECK(content(folder.file("a")) == "old");
+  CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("safe_file: when one file cannot take its name, the others give theirs back") {
+  const Folder folder;
+  write_file(folder.file("a"), "old");
+  {
+    PendingFiles files;
+    files.add(folder.file("a"), "new a");
+    files.add(folder.file("b"), "new b");
+    files.add(folder.file("c"), "new c");
+    files.add(folder.file("d"), "new d");
+    for (const std::string& name : folder.names())
+      if (content(folder.file(name)) == "new c") fs::remove(folder.file(name));
+    CHECK_THROWS_AS(files.publish(), WriteError);
+  }
+  CHECK(content(folder.file("a")) == "old");
+  CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("safe_file: two spellings of one path are one file") {
+  const Folder folder;
+  fs::create_symlink(folder.file("a"), folder.file("link"));
+  fs::create_directory(folder.file("sub"));
+  PendingFiles files;
+  files.add(folder.file("a"), "x");
+  for (const char* spelling : {"a", "./a", "sub/../a", "link"})
+    CHECK_THROWS_WITH(files.add(folder.file(spelling), "y"), Catch::Contains("two outputs"));
+}
+
+TEST_CASE("safe_file: a name without folder and one with a point before it are one file") {
+  const Folder folder;
+  const WorkingFolder working(folder.path);
+  PendingFiles files;
+  files.add("new", "x");
+  CHECK_THROWS_WITH(files.add("./new", "y"), Catch::Contains("two outputs"));
+  CHECK_THROWS_WITH(files.add(folder.file("new"), "y"), Catch::Contains("two outputs"));
+}
+
+TEST_CASE("safe_file: a link to nothing is followed, and stays") {
+  const Folder folder;
+  fs::create_directory(folder.file("sub"));
+  fs::create_symlink("sub/a", folder.file("link"));
+  fs::create_symlink("link", folder.file("second"));
+  write_file(folder.file("second"), "new");
+  CHECK(fs::is_symlink(folder.file("link")));
+  CHECK(fs::is_symlink(folder.file("second")));
+  CHECK(content(folder.file("sub/a")) == "new");
+  fs::create_symlink("no/such", folder.file("lost"));
+  CHECK_THROWS_WITH(write_file(folder.file("lost"), "x"), Catch::Contains("does not exist"));
+  fs::create_symlink("loop", folder.file("loop"));
+  CHECK_THROWS_AS(write_file(folder.file("loop"), "x"), WriteError);
+}
+
+TEST_CASE("safe_file: a signal handler can remove the temporaries that are there") {
+  const Folder folder;
+  PendingFiles files;
+  files.add(folder.file("a"), "x");
+  files.add(folder.file("b"), "y");
+  CHECK(folder.entries() == 2);
+  remove_temporaries_on_signal();
+  CHECK(folder.entries() == 0);
+}
+
+TEST_CASE("safe_file: streams are written when the files get their names") {
+  const Folder folder;
+  PendingFiles files;
+  files.add("/dev/full", "x");
+  files.add(folder.file("a"), "x");
+  CHECK_THROWS_AS(files.publish(), WriteError);
+  CHECK_FALSE(fs::exists(folder.file("a")));
+}

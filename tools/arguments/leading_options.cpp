@@ -1,0 +1,35 @@
+#include "arguments/leading_options.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace sphparam::cli {
+
+namespace {
+
+constexpr std::array<std::string_view, 4> flags = {"-q", "--quiet", "-v", "--verbose"};
+constexpr std::array<std::string_view, 4> with_value = {"--progress", "--threads", "--max-memory",
+                                                        "--limit"};
+
+bool is_among(const std::array<std::string_view, 4>& names, std::string_view word) {
+  return std::find(names.begin(), names.end(), word) != names.end();
+}
+
+/// How many words the option takes, with its value; 0: it is none of these.
+int words_of_option(std::string_view word) {
+  if (is_among(flags, word)) return 1;
+  if (is_among(with_value, word)) return 2;
+  return is_among(with_value, word.substr(0, word.find('='))) ? 1 : 0;
+}
+
+}  // namespace
+
+void put_subcommand_first(int argc, char** argv) {
+  int at = 1;
+  while (at < argc && words_of_option(argv[at]) > 0) at += words_of_option(argv[at]);
+  if (at == 1 || at >= argc || argv[at][0] == '-') return;
+  std::rotate(argv + 1, argv + at, argv + at + 1);
+}
+
+}  // namespace sphparam::cli

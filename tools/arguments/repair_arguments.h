@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sphparam/mesh/mesh_repair.h"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace sphparam::cli {
+
+/// What the command line says about repairs.
+struct RepairArguments {
+  std::string words;  // of --repair: empty when it was not given, "true" when it was without words
+  int component = 0;  // 0: not given
+  std::optional<double> least_kept;
+  int largest_hole = 0;
+};
+
+/// --repair[=WORD,…], --component N, --min-kept SHARE and --max-hole N.
+void add_repair_options(CLI::App& command, RepairArguments& arguments);
+
+/// What is wanted, or nothing. --repair alone wants everything; --component, --min-kept and
+/// --max-hole want their own repair also without it.
+/// Throws: UsageMistake for a word that is none, or for --component with --min-kept.
+std::optional<RepairOptions> wanted_repairs(const RepairArguments& arguments);
+
+/// The names of what is switched on, as --repair takes them.
+std::vector<std::string> words_of(const RepairOptions& options);
+
+}  // namespace sphparam::cli

@@ -1,0 +1,48 @@
+// Edit distance with swaps of neighbours (Damerau 1964, the restricted form): insertions,
+// deletions, replacements and swaps cost one each. A word is "meant" when at most a third of it
+// must be changed.
+
+#include "arguments/suggestion.h"
+
+#include <algorithm>
+
+namespace sphparam::cli {
+
+namespace {
+
+size_t edit_distance(const std::string& a, const std::string& b) {
+  const size_t columns = b.size() + 1;
+  std::vector<size_t> table((a.size() + 1) * columns);
+  const auto d = [&](size_t i, size_t j) -> size_t& { return table[i * columns + j]; };
+  for (size_t i = 0; i <= a.size(); ++i) d(i, 0) = i;
+  for (size_t j = 0; j <= b.size(); ++j) d(0, j) = j;
+  for (size_t i = 1; i <= a.size(); ++i) {
+    for (size_t j = 1; j <= b.size(); ++j) {
+      const size_t replace = d(i - 1, j - 1) + (a[i - 1] == b[j - 1] ? 0 : 1);
+      d(i, j) = std::min({d(i - 1, j) + 1, d(i, j - 1) + 1, replace});
+      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (swapped) d(i, j) = std::min(d(i, j), d(i - 2, j - 2) + 1);
+    }
+  }
+  return d(a.size(), b.size());
+}
+
+}  // namespace
+
+std::string nearest_word(const std::string& typed, const std::vector<std::string>& known) {
+  // The table is quadratic; nobody means a known word by a very long one.
+  constexpr size_t longest = 64;
+  std::string nearest;
+  size_t least = std::max<size_t>(1, typed.size() / 3) + 1;
+  if (typed.size() > longest) return nearest;
+  for (const std::string& word : known) {
+    const size_t distance = edit_distance(typed, word);
+    if (distance < least) {
+      least = distance;
+      nearest = word;
+    }
+  }
+  return nearest;
+}
+
+}  // namespace sphparam::cli

@@ -1,9 +1,0 @@
-#pragma once
-
-namespace sphparam::tools {
-
-/// The program: what `main` is called with → its exit code. Sets the signal handlers and limits of
-/// the whole process, and is to be called once in it.
-int run_sphparam(int argc, char** argv);
-
-}  // namespace sphparam::tools

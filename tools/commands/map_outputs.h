@@ -1,0 +1,16 @@
+#pragma once
+
+#include "console/console.h"
+#include "arguments/map_arguments.h"
+#include "commands/map_outcome.h"
+#include "sphparam/stopwatch.h"
+
+namespace sphparam::cli {
+
+/// Writes the map (if `with_map`), the sphere, charts and report that are asked for, all of them
+/// or, where one fails, none. The map and the sphere are read back and must have the verdict of the
+/// map in memory. Throws: NotCertifiedError if not; WriteError; Cancelled.
+void write_outputs(const MapArguments& arguments, MapOutcome& outcome, bool with_map,
+                   const Stopwatch& stopwatch, Console& console);
+
+}  // namespace sphparam::cli

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "sphparam/errors.h"
+
+namespace sphparam::cli {
+
+/// What the program answers to its caller. Documented in `sphparam --help`: never renumber.
+enum ExitCode : int {
+  Ok = 0,             // for `map`: what is on disk is certified
+  InternalError = 1,  // a fault of ours, or out of memory
+  UsageError = 2,     // the command line makes no sense
+  FileError = 3,      // a file cannot be read, parsed or written
+  MeshUnusable = 4,   // the mesh is not a closed genus-0 manifold, or cannot be measured
+  NotCertified = 5,   // the map is not one-to-one
+  LimitExceeded = 6,  // a measured limit was exceeded
+  Interrupted = 130,  // SIGINT or SIGTERM
+};
+
+/// What people read about them, in --help and in the manual.
+struct ExitMeaning {
+  ExitCode code;
+  const char* meaning;
+};
+inline constexpr ExitMeaning exit_meanings[] = {
+    {Ok, "done; for map: what is on disk is certified one-to-one"},
+    {InternalError, "internal error, or out of memory"},
+    {UsageError, "the command line makes no sense"},
+    {FileError, "a file cannot be read, parsed or written"},
+    {MeshUnusable,
+     "the mesh is not a closed genus-0 manifold; or has no area or no sensible size, where lengths "
+     "matter"},
+    {NotCertified,
+     "the map is not one-to-one, or a pin, pole or meridian is not at its place; no map written "
+     "but with --keep-folded"},
+    {LimitExceeded, "what was measured exceeds the limit; all outputs are written"},
+    {Interrupted, "interrupted"},
+};
+
+}  // namespace sphparam::cli

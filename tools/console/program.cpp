@@ -1,0 +1,271 @@
+// The program: declares the subcommands, parses the command line, runs the one that was asked for,
+// and turns whatever goes wrong into a message and an exit code.
+
+#include "console/program.h"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "commands/command.h"
+#include "console/console.h"
+#include "console/exit_codes.h"
+#include "console/files_read.h"
+#include "arguments/input_limits.h"
+#include "console/interruption.h"
+#include "arguments/leading_options.h"
+#include "commands/measurable.h"
+#include "console/memory_limit.h"
+#include "commands/repairing.h"
+#include "arguments/suggestion.h"
+#include "reports/wording.h"
+#include "image/image_codec.h"
+#include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/safe_file.h"
+#include "io/files/temporary_file.h"
+#include "sphparam/errors.h"
+#include "sphparam/mesh/mesh_defects.h"
+#include "sphparam/version.h"
+
+namespace sphparam::cli {
+
+namespace {
+
+constexpr char summary[] =
+    "Maps closed genus-0 triangle meshes one-to-one onto the sphere, and proves it.\n"
+    "\n"
+    "Examples:\n"
+    "  sphparam info statue.obj                       what it is, what is wrong with it\n"
+    "  sphparam map statue.obj -o statue.sph.ply      map it, prove it, write it\n"
+    "  sphparam verify statue.sph.ply                 prove a written map again\n"
+    "  sphparam render statue.sph.ply -o statue.png   look at it\n"
+    "  sphparam compare statue.obj -o statue/         all methods, side by side\n"
+    "  sphparam report statue.obj -o statue.html      a page to look at a map\n"
+    "  sphparam remesh statue.sph.ply --grid ico:7 -o statue_ico7.sph.ply\n"
+    "  sphparam measure statue.obj statue_ico7.sph.ply   how far two surfaces are apart\n";
+
+std::string footer() {
+  std::string text =
+      "Files: `-` is standard input or output. Messages go to standard error.\n"
+      "-q, -v, --progress, --threads, --max-memory and --limit may stand before the subcommand "
+      "too.\n"
+      "\n"
+      "Exit codes:\n";
+  for (const ExitMeaning& exit : exit_meanings) {
+    const std::string code = std::to_string(exit.code);
+    text += std::string(5 - code.size(), ' ') + code + "  " + exit.meaning + "\n";
+  }
+  return text;
+}
+
+/// Help as CLI11 makes it, without its remarks in the description.
+class Help : public CLI::Formatter {
+ public:
+  Help() { column_width(34); }
+  std::string make_description(const CLI::App* app) const override {
+    return app->get_description() + "\n";
+  }
+  /// In the list of subcommands, the first line of each one's description.
+  std::string make_subcommand(const CLI::App* command) const override {
+    const std::string text = command->get_description();
+    std::stringstream line;
+    CLI::detail::format_help(line, command->get_name(), text.substr(0, text.find('\n')),
+                             get_column_width());
+    return line.str();
+  }
+};
+
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+std::vector<std::string> command_names(const CLI::App& program) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+std::string with_suggestion(const std::string& complaint, const std::string& meant) {
+  return meant.empty() ? complaint : complaint + "; did you mean " + meant + "?";
+}
+
+/// What to type now, for options that have changed their name.
+std::string present_spelling(const std::string& command, const std::string& option) {
+  if (command != "map" || option != "--sphere") return "";
+  return "map: --sphere names a sphere that is read, in other subcommands; --write-sphere FILE "
+         "writes it";
+}
+
+/// Once a flag in `info` and `verify`: where its file is missing, or it took the place of another.
+std::string hint_of_json(const CLI::App& command, const CLI::ParseError& error) {
+  const CLI::Option* json = command.get_option_no_throw("--json");
+  if (!json) return "";
+  const bool missing = std::string_view(error.what()).starts_with("--json:") &&
+                       error.get_name() == "ArgumentMismatch";
+  const bool swallowed = json->count() > 0 && error.get_name() == "RequiredError";
+  return missing || swallowed ? "; --json takes a file, `--json -` is standard output" : "";
+}
+
+/// What is wrong with a command line, the mistyped word first: the other complaints follow from it.
+std::string explain(const CLI::App& program, const CLI::ParseError& error) {
+  const std::vector<CLI::App*> chosen = program.get_subcommands();
+  const CLI::App& app = chosen.empty() ? program : *chosen.front();
+  for (const std::string& word : app.remaining()) {
+    const bool is_option = word.size() > 1 && word.front() == '-';
+    if (is_option) {
+      const std::string name = word.substr(0, word.find('='));
+      const std::string now = present_spelling(app.get_name(), name);
+      if (!now.empty()) return now;
+      return with_suggestion("unknown option " + name, nearest_word(name, option_names(app)));
+    }
+    if (chosen.empty()) {
+      return with_suggestion("unknown subcommand " + word,
+                             nearest_word(word, command_names(program)));
+    }
+  }
+  return error.what() + hint_of_json(app, error);
+}
+
+int usage_error(const CLI::App& program, const std::string& message) {
+  const std::vector<CLI::App*> chosen = program.get_subcommands();
+  const std::string name = chosen.empty() ? "sphparam" : "sphparam " + chosen.front()->get_name();
+  print_error(message);
+  std::fprintf(stderr, "Try '%s --help'.\n", name.c_str());
+  return UsageError;
+}
+
+int run_program(int argc, char** argv) {
+  CLI::App program(summary, "sphparam");
+  program.formatter(std::make_shared<Help>());
+  program.footer(footer());
+  program.set_version_flag("--version", std::string("sphparam ") + version);
+  program.require_subcommand(0, 1);
+  std::vector<Command> commands;
+  for (const auto declare : {
+           declare_info,
+           declare_map,
+           declare_verify,
+           declare_render,
+           declare_compare,
+           declare_spharm,
+           declare_remesh,
+           declare_unimage,
+           declare_measure,
+           declare_paint,
+           declare_report,
+           declare_export,
+           declare_bake,
+           declare_manual,
+           declare_completion,
+       }) {
+    commands.push_back(declare(program));
+  }
+  for (const Command& command : commands) {
+    if (!command.options->get_option_no_throw("--quiet")) continue;  // reads no mesh
+    add_memory_limit(*command.options);
+    add_input_limits(*command.options);
+  }
+  try {
+    put_subcommand_first(argc, argv);
+    program.parse(argc, argv);
+    for (const Command& command : commands) {
+      if (!command.options->parsed()) continue;
+      note_files_read(*command.options);
+      return command.run();
+    }
+  } catch (const CLI::Success& help_or_version) {
+    return program.exit(help_or_version);
+  } catch (const CLI::ParseError& error) {
+    return usage_error(program, explain(program, error));
+  } catch (const UsageMistake& mistake) {
+    return usage_error(program, mistake.what());
+  }
+  std::fprintf(stderr, "%s\nMore: sphparam --help\n", summary);
+  return UsageError;
+}
+
+/// A crash must not leave gigabytes of core dump where a batch runs.
+void forbid_core_dumps() {
+  const rlimit none = {0, 0};
+  setrlimit(RLIMIT_CORE, &none);
+}
+
+/// Where an exception can go no further: memory that runs out in a destructor, which happens in the
+/// libraries for JSON and for options.
+[[noreturn]] void end_at_once() {
+  const char* message = "sphparam: error: internal error\n";
+  try {
+    if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
+  } catch (const std::bad_alloc&) {
+    message = out_of_memory_message();
+  } catch (...) {
+  }
+  std::fputs(message, stderr);
+  remove_temporaries_on_signal();
+  _exit(InternalError);
+}
+
+int guarded_main(int argc, char** argv) {
+  try {
+    return run_program(argc, argv);
+  } catch (const MeshRefusal& error) {
+    print_error("this is not a closed genus-0 mesh:");
+    std::fputs((defect_list(error.defects()) + advice_of(error)).c_str(), stderr);
+    return MeshUnusable;
+  } catch (const MeshError& error) {
+    print_error("this is not a closed genus-0 mesh:");
+    std::fputs(defect_list(error.defects()).c_str(), stderr);
+    return MeshUnusable;
+  } catch (const UnmeasurableMesh& error) {
+    print_error(error.what());
+    return MeshUnusable;
+  } catch (const NotCertifiedError& error) {
+    print_error(error.what());
+    return NotCertified;
+  } catch (const ReadError& error) {
+    print_error(error.what());
+    return FileError;
+  } catch (const ImageError& error) {
+    print_error(error.what());
+    return FileError;
+  } catch (const WriteError& error) {
+    print_error(error.what());
+    return FileError;
+  } catch (const Cancelled&) {
+    print_error("interrupted");
+    return Interrupted;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    print_error(std::string("internal error: ") + error.what());
+    return InternalError;
+  }
+}
+
+}  // namespace
+
+int run_sphparam(int argc, char** argv) {
+  forbid_core_dumps();
+  end_on_interruption();
+  turn_signals_into_errors();
+  std::set_terminate(end_at_once);
+  try {
+    return guarded_main(argc, argv);
+  } catch (...) {  // memory ran out, perhaps while another error was being told
+    std::fputs(out_of_memory_message(), stderr);
+    return InternalError;
+  }
+}
+
+}  // namespace sphparam::cli

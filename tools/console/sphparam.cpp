@@ -1,0 +1,5 @@
+// Apart from the program itself, which tests run in processes of their own making.
+
+#include "console/program.h"
+
+int main(int argc, char** argv) { return sphparam::run_sphparam(argc, argv); }

@@ -1,0 +1,91 @@
+#include "reports/harmonics_report.h"
+
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "sphparam/version.h"
+
+namespace sphparam::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr char basis[] =
+    "real, orthonormal on the unit sphere, without the Condon-Shortley phase; row l*l + l + m; "
+    "m > 0: cos(m theta), m < 0: sin(|m| theta); Y_11, Y_1-1, Y_10 = sqrt(3/(4 pi)) (x, y, z)";
+
+constexpr char rms_meaning[] =
+    "of what is left at the vertices, each weighted by its solid angle on the sphere, as the least "
+    "squares are; unweighted: each vertex counts the same";
+
+Json column(const Functions& values, Eigen::Index k) {
+  Json result = Json::array();
+  for (Eigen::Index i = 0; i < values.rows(); ++i) result.push_back(values(i, k));
+  return result;
+}
+
+/// Shortest digits that read back as the same double.
+void append_number(std::string& text, double value) {
+  char digits[32];
+  const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
+  text.append(digits, end);
+}
+
+}  // namespace
+
+int HarmonicsReport::degree() const {
+  return static_cast<int>(std::lround(std::sqrt(double(fit.coefficients.rows())))) - 1;
+}
+
+std::string to_json(const HarmonicsReport& report) {
+  const Functions power = power_per_degree(report.fit.coefficients);
+  Json functions = Json::array();
+  for (size_t k = 0; k < report.functions.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    functions.push_back({{"name", report.functions[k]},
+                         {"rms_residual", report.fit.rms[i]},
+                         {"rms_residual_unweighted", report.plain_rms[i]},
+                         {"power_per_degree", column(power, i)},
+                         {"coefficients", column(report.fit.coefficients, i)}});
+  }
+  Json map = Json::object();
+  for (const auto& [key, value] : report.map) map[key] = value;
+  Json json = {{"sphparam", version},
+               {"mesh", report.mesh},
+               {"map", map},
+               {"degree", report.degree()},
+               {"basis", basis},
+               {"fit", report.least_squares ? "least-squares" : "quadrature"},
+               {"iterations", report.fit.iterations},
+               {"position_rms", report.position_rms()},
+               {"position_rms_relative", report.position_rms() / report.diagonal},
+               {"position_rms_unweighted", report.plain_position_rms()},
+               {"rms", rms_meaning}};
+  if (report.degree() >= 1) {
+    const Vector3 axes = first_order_ellipsoid(report.fit.coefficients.leftCols(3));
+    json["first_order_ellipsoid"] = {axes[0], axes[1], axes[2]};
+  }
+  json["functions"] = functions;
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string to_csv(const HarmonicsReport& report) {
+  std::string text = "l,m";
+  for (const std::string& name : report.functions) text += "," + name;
+  text += "\n";
+  for (int l = 0; l <= report.degree(); ++l) {
+    for (int m = -l; m <= l; ++m) {
+      text += std::to_string(l) + "," + std::to_string(m);
+      for (Eigen::Index k = 0; k < report.fit.coefficients.cols(); ++k) {
+        text += ",";
+        append_number(text, report.fit.coefficients(harmonic_index(l, m), k));
+      }
+      text += "\n";
+    }
+  }
+  return text;
+}
+
+}  // namespace sphparam::cli

@@ -1,0 +1,145 @@
+#include "reports/map_wording.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "sphparam/io/file_numbers.h"
+#include "console/paths.h"
+#include "commands/repairing.h"
+#include "reports/told_losses.h"
+#include "reports/wording.h"
+#include "sphparam/io/losses.h"
+
+namespace sphparam::cli {
+
+namespace {
+
+/// "harmonic: 0.12 s, 3 folds, angle 0.55 area 0.59"
+std::string stage_line(const StageRecord& stage) {
+  std::string line = "  " + stage.name + ": " + short_number(stage.seconds) + " s";
+  if (stage.planar_folds >= 0) line += ", " + std::to_string(stage.planar_folds) + " planar folds";
+  if (stage.folds >= 0) line += ", " + std::to_string(stage.folds) + " folds";
+  if (stage.distortion) line += ", " + distortion_line(*stage.distortion);
+  return line;
+}
+
+std::string residual_line(const std::string& what, long number, double residual,
+                          const std::string& place) {
+  if (residual == 0) return "";
+  return "  " + what + " " + std::to_string(number) + " is " + short_number(residual) +
+         " radians from " + place + "\n";
+}
+
+/// Every pin and pole that is not at its point, by its number in the file.
+std::string complaint_of_frame(const MapOutcome& outcome) {
+  const FileNumbers numbers(outcome.source.file);
+  std::string lines;
+  for (size_t i = 0; i < std::min(outcome.pins.size(), outcome.result.pin_residuals.size()); ++i) {
+    lines += residual_line("pin", numbers.number(outcome.pins[i].vertex),
+                           outcome.result.pin_residuals[i], "its point");
+  }
+  const std::vector<double> of_poles = outcome.pole_residuals();
+  if (!outcome.poles_hold() && !of_poles.empty()) {
+    lines += residual_line("pole", numbers.number(outcome.poles->north), of_poles[0], "+z") +
+             residual_line("pole", numbers.number(outcome.poles->south), of_poles[1], "-z");
+  }
+  if (!outcome.meridian_holds()) {
+    lines +=
+        "  vertex " + std::to_string(numbers.number(*outcome.meridian)) + " is not at theta = 0\n";
+  }
+  return lines;
+}
+
+/// "certified one-to-one", or what the map lacks.
+std::string verdict_words(const MapOutcome& outcome) {
+  if (!outcome.certificate.bijective()) return "not one-to-one: " + outcome.verdict();
+  std::string missing;
+  const auto add = [&](bool holds, const char* what) {
+    if (!holds) missing += (missing.empty() ? "" : ", ") + std::string(what);
+  };
+  add(outcome.pins_hold(), "pins are not at their points");
+  add(outcome.poles_hold(), "the poles are not at ±z");
+  add(outcome.meridian_holds(), "the meridian is not at theta = 0");
+  return missing.empty() ? "certified one-to-one" : "one-to-one, but " + missing;
+}
+
+std::string advice(const MapArguments& arguments, bool written) {
+  if (written) return "  written all the same and marked in its header (--keep-folded)";
+  const bool ours = arguments.method == AnyMethod(Method::Progressive) ||
+                    arguments.method == AnyMethod(Method::Curvilinear);
+  const bool as_printed = !ours && !arguments.options.repair_paper;
+  return as_printed ? "  --repair-map mends it, --keep-folded writes it as it is"
+                    : "  --keep-folded writes it as it is";
+}
+
+}  // namespace
+
+void tell_stages(const MapArguments& arguments, const MapOutcome& outcome, Console& console) {
+  tell_losses(outcome.source, arguments.input, console);
+  const std::vector<std::string> told = losses_among(outcome.source.notes);
+  for (const std::string& note : outcome.source.notes)
+    if (std::find(told.begin(), told.end(), note) == told.end()) console.detail("  note: " + note);
+  for (const RepairAction& repair : outcome.source.repairs) console.say("  " + repair.message);
+  const std::string kept = line_of(outcome.source.parts);
+  if (!kept.empty()) console.say("  " + kept);
+  for (const MeshDefect& defect : outcome.source.inspection.defects) {
+    // What looks wrong on the map is told unasked.
+    const bool visible = defect.kind == DefectKind::InsideOut;
+    visible ? console.warning(defect.message + ": " + defect.hint)
+            : console.detail("  note: " + defect.message);
+  }
+  if (outcome.account) {
+    console.say("  " + outcome.account->citation + ": " + outcome.account->statement);
+  }
+  for (const StageRecord& stage : outcome.result.stages) {
+    const bool asked = arguments.method == AnyMethod(Method::Paper);
+    asked ? console.say(stage_line(stage)) : console.detail(stage_line(stage));
+  }
+  if (const std::optional<BalanceRecord>& balance = outcome.result.balance) {
+    console.detail("  balanced at lambda " + short_number(balance->lambda, 6) +
+                   ", mean |log2 area ratio| " + short_number(balance->area_error));
+  }
+  for (const std::string& warning : outcome.result.warnings) console.warning(warning);
+}
+
+void tell_frame(const MapArguments& arguments, const MapOutcome& outcome, Console& console) {
+  const Parameterization& result = outcome.result;
+  const bool given = arguments.options.poles || !arguments.pins.empty();
+  if (!outcome.succeeded() || (!result.poles && outcome.pins.empty())) return;
+  const FileNumbers numbers(outcome.source.file);
+  std::string line = "  ";
+  if (result.poles) {
+    line += "vertices " + std::to_string(numbers.number(result.poles->north)) + " and " +
+            std::to_string(numbers.number(result.poles->south)) + " at ±z";
+  }
+  if (!outcome.pins.empty()) {
+    line += (result.poles ? ", " : "") + std::to_string(outcome.pins.size()) + " pinned";
+  }
+  const double percent = 100 * result.pole_cost;
+  line += ": " + short_number(std::abs(percent)) + " % " + (percent < 0 ? "less" : "more") +
+          " energy than before";
+  given ? console.say(line) : console.detail(line);
+}
+
+void tell_result(const MapArguments& arguments, const MapOutcome& outcome, bool written,
+                 const Stopwatch& stopwatch, Console& console) {
+  std::string line = display_name(arguments.input) + ": " +
+                     std::to_string(outcome.source.file.mesh.face_count()) + " triangles, " +
+                     verdict_words(outcome);
+  if (outcome.has_map()) line += " (" + outcome.result.made_by + ")";
+  if (outcome.figures) line += ", " + distortion_line(*outcome.figures);
+  line += ", " + short_number(stopwatch.seconds()) + " s";
+  line += written ? " → " + output_name(arguments.output) : ", no map written";
+  if (outcome.succeeded()) return console.say(line);
+  if (!outcome.certificate.bijective()) {
+    line += "\n" + complaint(outcome.certificate) + advice(arguments, written);
+  }
+  if (!outcome.frame_holds()) {
+    line += "\n" + complaint_of_frame(outcome) + "  no map is written without them";
+  }
+  console.error(line);
+}
+
+}  // namespace sphparam::cli

@@ -1,0 +1,138 @@
+// Distances as JSON and as a table: absolute, and relative to the diagonal of the first mesh.
+
+#include "reports/measure_report.h"
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "console/paths.h"
+#include "reports/wording.h"
+#include "sphparam/version.h"
+
+namespace sphparam::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json mesh_json(const std::string& path, const MeshFile& file, double diagonal) {
+  return {{"file", path},
+          {"format", file.format},
+          {"vertices", file.mesh.vertex_count()},
+          {"triangles", file.mesh.face_count()},
+          {"diagonal", diagonal},
+          {"notes", file.notes}};
+}
+
+Json side_json(const OneSidedDistance& side, double own_diagonal, double other_diagonal,
+               double reference) {
+  return {{"RMS", side.rms},
+          {"max", side.max},
+          {"mean", side.mean},
+          {"min", side.min},
+          {"n_samples", side.samples},
+          {"diag_mesh_0", own_diagonal},
+          {"diag_mesh_1", other_diagonal},
+          {"max_bound", side.max_bound},
+          {"farthest", {side.farthest.x(), side.farthest.y(), side.farthest.z()}},
+          {"relative",
+           {{"RMS", side.rms / reference},
+            {"max", side.max / reference},
+            {"mean", side.mean / reference},
+            {"min", side.min / reference}}}};
+}
+
+Json sampled_json(const DistanceOptions& options) {
+  Json on = Json::array();
+  if (options.faces) on.push_back("faces");
+  if (options.edges) on.push_back("edges");
+  if (options.vertices) on.push_back("vertices");
+  return {{"on", on}, {"samples", options.samples}, {"seed", options.seed}};
+}
+
+Json limits_json(const std::vector<LimitReport>& limits) {
+  Json all = Json::array();
+  for (const LimitReport& limit : limits) {
+    all.push_back({{"option", limit.option},
+                   {"limit", limit.limit},
+                   {"measured", limit.measured},
+                   {"exceeded", limit.exceeded()}});
+  }
+  return all;
+}
+
+/// One line of the table: four lengths, each with its share of the diagonal.
+std::string row(const std::string& name, double max, double mean, double rms, double min,
+                double diagonal) {
+  char text[32];
+  std::string line = name;
+  for (const double length : {max, mean, rms, min}) {
+    std::snprintf(text, sizeof text, "%13.6g", length);
+    line += text;
+    std::snprintf(text, sizeof text, " %8.3g%%", 100 * length / diagonal);
+    line += text;
+  }
+  return line + "\n";
+}
+
+std::string row(const std::string& name, const OneSidedDistance& side, double diagonal) {
+  return row(name, side.max, side.mean, side.rms, side.min, diagonal);
+}
+
+std::string place(const Vector3& point) {
+  char text[96];
+  std::snprintf(text, sizeof text, "%.6g %.6g %.6g", point.x(), point.y(), point.z());
+  return text;
+}
+
+}  // namespace
+
+std::string to_json(const MeasureReport& report) {
+  const SurfaceDistance& distance = report.distance;
+  const double first = distance.diagonal_first, second = distance.diagonal_second;
+  Json outputs = Json::object();
+  for (const auto& [what, where] : report.outputs) outputs[what] = where;
+  const Json json = {{"sphparam", version},
+                     {"command", "measure"},
+                     {"first", mesh_json(report.first, report.first_file, first)},
+                     {"second", mesh_json(report.second, report.second_file, second)},
+                     {"sampled", sampled_json(report.options)},
+                     {"first_to_second", side_json(distance.forth, first, second, first)},
+                     {"second_to_first", side_json(distance.back, second, first, first)},
+                     {"two_sided",
+                      {{"RMS", distance.rms()},
+                       {"max", distance.max()},
+                       {"max_bound", distance.max_bound()},
+                       {"mean", distance.mean()},
+                       {"relative",
+                        {{"RMS", distance.rms() / first},
+                         {"max", distance.max() / first},
+                         {"mean", distance.mean() / first}}}}},
+                     {"limits", limits_json(report.limits)},
+                     {"outputs", outputs},
+                     {"seconds", report.seconds}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string to_text(const MeasureReport& report) {
+  const SurfaceDistance& distance = report.distance;
+  const std::string first = display_name(report.first), second = display_name(report.second);
+  char diagonal[32];
+  std::snprintf(diagonal, sizeof diagonal, "%.6g", distance.diagonal_first);
+  std::string text = "1: " + first + "\n2: " + second + "\n%: of the diagonal of 1, " + diagonal +
+                     "; " + std::to_string(distance.forth.samples) + " and " +
+                     std::to_string(distance.back.samples) + " samples\n\n";
+  text +=
+      "                       max                   mean                    RMS"
+      "                    min\n";
+  text += row("1 to 2", distance.forth, distance.diagonal_first);
+  text += row("2 to 1", distance.back, distance.diagonal_first);
+  text += row("larger", distance.max(), distance.mean(), distance.rms(),
+              std::max(distance.forth.min, distance.back.min), distance.diagonal_first);
+  text += "\nfarthest: " + place(distance.forth.farthest) + " of 1, " +
+          place(distance.back.farthest) + " of 2; no point is farther than " +
+          short_number(distance.max_bound(), 6) + "\n";
+  return text;
+}
+
+}  // namespace sphparam::cli
