@@ -7,7 +7,6 @@
 
 namespace sphparam::samples {
 
-using namespace tools;
 
 namespace {
 

@@ -9,7 +9,6 @@
 
 namespace sphparam::samples {
 
-using namespace tools;
 
 namespace {
 

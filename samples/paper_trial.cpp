@@ -10,7 +10,6 @@
 
 namespace sphparam::samples {
 
-using namespace tools;
 
 namespace {
 

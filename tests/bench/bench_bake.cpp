@@ -17,7 +17,7 @@
 #include "sphparam/io/mesh_reader.h"
 #include "io/polygons/welding.h"
 #include "rays/ray_scene.h"
-#include "render/shading_normals.h"
+#include "io/attributes/shading_normals.h"
 #include "sphparam/parallel.h"
 #include "sphparam/parameterize.h"
 #include "sphparam/sphere/spherical_coordinates.h"

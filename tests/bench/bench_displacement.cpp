@@ -18,7 +18,7 @@
 #include "sphparam/io/mesh_reader.h"
 #include "io/polygons/welding.h"
 #include "remesh/subdivision_fit.h"
-#include "render/shading_normals.h"
+#include "io/attributes/shading_normals.h"
 #include "sphparam/parameterize.h"
 #include "sphparam/stopwatch.h"
 #include "support/test_meshes.h"

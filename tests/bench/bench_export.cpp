@@ -21,7 +21,7 @@
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/sphere_file.h"
 #include "io/polygons/welding.h"
-#include "render/shading_normals.h"
+#include "io/attributes/shading_normals.h"
 #include "sphparam/parameterize.h"
 #include "sphparam/stopwatch.h"
 #include "support/test_meshes.h"

@@ -16,7 +16,7 @@
 #include "bake/fields/ray_fields.h"
 #include "measure/surface_samples.h"
 #include "rays/cosine_rays.h"
-#include "render/vertex_normals.h"
+#include "mesh/vertex_normals.h"
 #include "yardstick.h"
 
 using namespace sphparam;

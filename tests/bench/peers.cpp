@@ -53,7 +53,7 @@ Row ours(const TriangleMesh& mesh, const ParameterizeOptions& options, const std
   return {name, cpu_now() - start, std::move(result.map), std::move(result.certificate)};
 }
 
-std::string verdict(const Certificate& certificate) {
+std::string verdict_words(const Certificate& certificate) {
   if (certificate.bijective()) return "yes";
   return std::to_string(certificate.fold_count()) + " folded, degree " +
          std::to_string(certificate.degree);
@@ -63,7 +63,7 @@ void print(const TriangleMesh& mesh, const Row& row) {
   const DistortionSummary d = summarise(measure_distortion(mesh, row.map));
   std::printf("| %s | ", row.name.c_str());
   row.cpu_seconds ? std::printf("%.3g", *row.cpu_seconds) : std::printf("–");
-  std::printf(" | %s | %.4f | %.4f | %.4g |\n", verdict(row.certificate).c_str(),
+  std::printf(" | %s | %.4f | %.4f | %.4g |\n", verdict_words(row.certificate).c_str(),
               d.mean_abs_ln_angle, d.weighted_abs_log2_area, d.symmetric_dirichlet);
   std::fflush(stdout);
 }

@@ -9,7 +9,6 @@ namespace sphparam::tests {
 /// thousandth: each is moved by what its limit is off, again and again.
 inline Points interpolating_control(const sphparam::SphereGrid& grid, const Points& targets,
                                     sphparam::Scheme scheme) {
-  using namespace tools;
   const auto topology =
       std::make_shared<const LimitTopology>(grid.faces, static_cast<int>(targets.rows()), scheme);
   std::vector<LimitPlace> places(static_cast<size_t>(targets.rows()), LimitPlace{-1, 0, 0});

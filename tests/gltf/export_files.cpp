@@ -16,7 +16,7 @@
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/sphere_file.h"
 #include "io/polygons/welding.h"
-#include "render/hard_edges.h"
+#include "io/attributes/hard_edges.h"
 #include "sphparam/parameterize.h"
 #include "support/test_meshes.h"
 

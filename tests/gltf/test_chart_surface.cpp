@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "charted.h"
-#include "render/shading_normals.h"
+#include "io/attributes/shading_normals.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;

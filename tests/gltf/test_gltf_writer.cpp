@@ -4,7 +4,7 @@
 #include "charted.h"
 #include "gltf/gltf_writer.h"
 #include "gltf/material_images.h"
-#include "gltf/uri.h"
+#include "io/uri.h"
 #include "gltf/variant_images.h"
 #include "gltf/written_check.h"
 #include "sphparam/io/mesh_reader.h"

@@ -10,8 +10,8 @@
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/mesh_writer.h"
 #include "io/files/read_back.h"
-#include "render/hard_edges.h"
-#include "render/shading_normals.h"
+#include "io/attributes/hard_edges.h"
+#include "io/attributes/shading_normals.h"
 #include "sphparam/chart/tangent_frame.h"
 
 using namespace sphparam;

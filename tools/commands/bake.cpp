@@ -27,7 +27,7 @@
 #include "arguments/suggestion.h"
 #include "reports/wording.h"
 #include "sphparam/io/safe_file.h"
-#include "render/shading_normals.h"
+#include "io/attributes/shading_normals.h"
 #include "sphparam/stopwatch.h"
 #include "sphparam/version.h"
 #include "texture/srgb.h"

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "bake/source_attributes.h"
+#include "io/attributes/source_attributes.h"
 #include "sphparam/io/certified_files.h"
 #include "reports/chart_report.h"
 #include "console/exit_codes.h"
@@ -30,7 +30,7 @@
 #include "sphparam/io/read_options.h"
 #include "sphparam/io/safe_file.h"
 #include "remesh/remesh.h"
-#include "render/hard_edges.h"
+#include "io/attributes/hard_edges.h"
 #include "sphparam/stopwatch.h"
 #include "sphparam/version.h"
 

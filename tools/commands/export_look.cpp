@@ -9,12 +9,12 @@
 #include "bake/baked_chart.h"
 #include "bake/make_scene.h"
 #include "bake/map_kinds.h"
-#include "bake/source_attributes.h"
+#include "io/attributes/source_attributes.h"
 #include "console/paths.h"
 #include "arguments/suggestion.h"
 #include "gltf/material_images.h"
 #include "gltf/variant_images.h"
-#include "render/shading_normals.h"
+#include "io/attributes/shading_normals.h"
 #include "showcase/surfaces.h"
 
 namespace sphparam::cli {

@@ -29,7 +29,7 @@ SphereGrid read_like_grid(const std::string& path, int threads) {
   }
   SphereGrid grid;
   grid.directions = std::move(map.points);
-  grid.faces = polygons_of(mesh.triangles);
+  grid.faces = triangles_as_polygons(mesh.triangles);
   return grid;
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "bake/source_attributes.h"
+#include "io/attributes/source_attributes.h"
 #include "arguments/choice.h"
 #include "commands/command.h"
 #include "arguments/common_options.h"

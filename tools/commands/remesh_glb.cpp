@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "bake/source_attributes.h"
+#include "io/attributes/source_attributes.h"
 #include "reports/chart_report.h"
 #include "console/exit_codes.h"
 #include "commands/export_look.h"
@@ -16,7 +16,7 @@
 #include "gltf/gltf_writer.h"
 #include "gltf/written_check.h"
 #include "sphparam/io/read_options.h"
-#include "render/hard_edges.h"
+#include "io/attributes/hard_edges.h"
 
 namespace sphparam::cli {
 

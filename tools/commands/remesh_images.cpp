@@ -8,7 +8,7 @@
 #include "console/paths.h"
 #include "sphparam/io/paths.h"
 #include "image/image_codec.h"
-#include "render/vertex_normals.h"
+#include "mesh/vertex_normals.h"
 
 namespace sphparam::cli {
 

@@ -33,7 +33,7 @@
 #include "render/heat.h"
 #include "render/own_paint.h"
 #include "render/render.h"
-#include "render/shading_normals.h"
+#include "io/attributes/shading_normals.h"
 #include "sphparam/sphere/distortion.h"
 
 namespace sphparam::cli {

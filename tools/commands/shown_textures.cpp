@@ -7,7 +7,7 @@
 #include "commands/command.h"
 #include "console/paths.h"
 #include "image/image_codec.h"
-#include "io/appearance.h"
+#include "io/attributes/appearance.h"
 
 namespace sphparam::cli {
 

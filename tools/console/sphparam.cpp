@@ -2,4 +2,4 @@
 
 #include "console/program.h"
 
-int main(int argc, char** argv) { return sphparam::run_sphparam(argc, argv); }
+int main(int argc, char** argv) { return sphparam::cli::run_sphparam(argc, argv); }

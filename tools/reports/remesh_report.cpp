@@ -21,7 +21,7 @@ std::string to_json(const RemeshReport& report) {
   json["input"]["file"] = report.arguments.input;
   json["input"]["vertices"] = report.source.file().mesh.vertex_count();
   json["input"]["triangles"] = report.source.file().mesh.face_count();
-  json["input"]["mapped_now"] = report.source.mapped_here;
+  json["input"]["mapped_now"] = report.source.mapped_here();
   json["grid"]["name"] = report.arguments.grid;
   json["grid"]["vertices"] = result.map.points.rows();
   json["grid"]["faces"] = result.faces.count();

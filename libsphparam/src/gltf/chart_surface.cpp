@@ -7,7 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "bake/source_attributes.h"
+#include "io/attributes/source_attributes.h"
 #include "io/polygons/distinct_rows.h"
 #include "sphparam/chart/carry_attributes.h"
 #include "sphparam/parallel.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "render/shading_normals.h"
+#include "io/attributes/shading_normals.h"
 #include "sphparam/sphere/orientation.h"
 
 // The sphere that a mesh is morphed into has its area and its middle, and so has the rectangle.

@@ -9,7 +9,7 @@
 
 #include "gltf/image_kind.h"
 #include "gltf/packing.h"
-#include "gltf/uri.h"
+#include "io/uri.h"
 #include "sphparam/version.h"
 
 // Buffers are packed, placed in the one buffer and described by JSON as they come; the container is

@@ -5,7 +5,7 @@
 
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/up_axis.h"
-#include "render/shading_normals.h"
+#include "io/attributes/shading_normals.h"
 #include "sphparam/chart/carry_attributes.h"
 #include "sphparam/chart/tangent_frame.h"
 

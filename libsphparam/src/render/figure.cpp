@@ -8,7 +8,7 @@
 #include "render/drawing_size.h"
 #include "render/geodesic.h"
 #include "render/own_paint.h"
-#include "render/shading_normals.h"
+#include "io/attributes/shading_normals.h"
 #include "elementary.h"
 
 // The sphere is turned so that the pictures correspond: its side towards the eye is the mean ray of

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "io/appearance.h"
-#include "render/vertex_normals.h"
+#include "io/attributes/appearance.h"
+#include "mesh/vertex_normals.h"
 
 namespace sphparam {
 namespace {

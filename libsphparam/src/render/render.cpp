@@ -6,9 +6,9 @@
 #include <limits>
 #include <numbers>
 
-#include "render/raster.h"
+#include "image/raster.h"
 #include "render/surface_colour.h"
-#include "render/vertex_normals.h"
+#include "mesh/vertex_normals.h"
 #include "elementary.h"
 #include "sphparam/parallel.h"
 

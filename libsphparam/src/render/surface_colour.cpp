@@ -6,7 +6,8 @@
 #include <limits>
 #include <numbers>
 
-#include "render/vertex_normals.h"
+#include "mesh/vertex_normals.h"
+#include "render/sky_visibility.h"
 #include "elementary.h"
 #include "sphparam/sphere/spherical_coordinates.h"
 #include "texture/texture_pyramid.h"

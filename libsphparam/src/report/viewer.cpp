@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "gltf/gltf_writer.h"
-#include "gltf/uri.h"
+#include "io/uri.h"
 #include "image/program_path.h"
 #include "report/svg.h"
 #include "report/viewer_controls.h"

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "bake/bake_scene.h"
-#include "gltf/uri.h"
+#include "io/uri.h"
 #include "render/heat.h"
-#include "render/shading_normals.h"
+#include "io/attributes/shading_normals.h"
 #include "report/plots.h"
 #include "report/svg.h"
 #include "showcase/heat_key.h"

@@ -4,7 +4,7 @@
 
 #include "bake/bake.h"
 #include "bake/map_kinds.h"
-#include "bake/source_attributes.h"
+#include "io/attributes/source_attributes.h"
 #include "texture/srgb.h"
 #include "texture/test_images.h"
 

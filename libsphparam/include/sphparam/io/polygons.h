@@ -73,7 +73,7 @@ struct Triangulation {
 Triangulation triangulate(const Points& positions, const Polygons& polygons);
 
 /// Triangles as polygons, in their order.
-Polygons polygons_of(const Triangles& triangles);
+Polygons triangles_as_polygons(const Triangles& triangles);
 
 /// Of each corner of the polygons one of the triangles (3·triangle + corner) at the same vertex.
 /// Requires: the triangles are the polygons cut, in their order; none names a vertex twice.

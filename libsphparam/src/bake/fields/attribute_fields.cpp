@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "bake/fields/linear_field.h"
-#include "bake/source_attributes.h"
+#include "io/attributes/source_attributes.h"
 
 namespace sphparam {
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "bake/fields/attribute_fields.h"
-#include "bake/source_attributes.h"
+#include "io/attributes/source_attributes.h"
 #include "texture/texture_pyramid.h"
 
 namespace sphparam {

@@ -290,7 +290,7 @@ Triangulation triangulate(const Points& positions, const Polygons& polygons) {
   return result;
 }
 
-Polygons polygons_of(const Triangles& triangles) {
+Polygons triangles_as_polygons(const Triangles& triangles) {
   Polygons polygons;
   polygons.corners.assign(triangles.data(), triangles.data() + triangles.size());
   polygons.starts.resize(static_cast<std::size_t>(triangles.rows()) + 1);

@@ -1,4 +1,4 @@
-#include "io/appearance.h"
+#include "io/attributes/appearance.h"
 
 #include <array>
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "io/appearance.h"
+#include "io/attributes/appearance.h"
 #include "sphparam/io/mesh_file.h"
 
 namespace sphparam {

@@ -1,4 +1,4 @@
-#include "gltf/uri.h"
+#include "io/uri.h"
 
 #include <cctype>
 #include <cstdint>

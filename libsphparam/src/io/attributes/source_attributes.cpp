@@ -1,4 +1,4 @@
-#include "bake/source_attributes.h"
+#include "io/attributes/source_attributes.h"
 
 #include "texture/srgb.h"
 

@@ -1,9 +1,9 @@
-#include "render/shading_normals.h"
+#include "io/attributes/shading_normals.h"
 
 #include <cmath>
 #include <optional>
 
-#include "render/vertex_normals.h"
+#include "mesh/vertex_normals.h"
 
 // A vertex whose own normal is missing, zero or not finite takes that of its faces.
 

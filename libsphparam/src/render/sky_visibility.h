@@ -4,10 +4,6 @@
 
 namespace sphparam {
 
-/// Unit normals, the mean of the faces' weighted by area; +z where that is zero. #V×3.
-/// Requires: finite positions, of any size.
-Points vertex_normals(const TriangleMesh& mesh);
-
 /// How much of the sky each vertex sees, in [0, 1], weighted by the cosine. #V.
 ///
 /// Visibility is looked up in depth buffers of the mesh from `directions` sides. A mesh that is one

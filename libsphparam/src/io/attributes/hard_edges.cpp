@@ -1,10 +1,10 @@
-#include "render/hard_edges.h"
+#include "io/attributes/hard_edges.h"
 
 #include <bit>
 #include <cmath>
 
 #include "io/polygons/distinct_rows.h"
-#include "render/shading_normals.h"
+#include "io/attributes/shading_normals.h"
 #include "sphparam/chart/carry_attributes.h"
 #include "sphparam/chart/tangent_frame.h"
 

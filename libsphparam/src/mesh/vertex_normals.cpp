@@ -1,0 +1,49 @@
+#include "mesh/vertex_normals.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "sphparam/parallel.h"
+
+namespace sphparam {
+namespace {
+
+/// A power of two that keeps sums of products of two edges finite, and those of tiny meshes above
+/// 0; 1 for meshes that need none.
+double harmless_scale(const TriangleMesh& mesh) {
+  constexpr int greatest = 480, least = -400;  // powers of two
+  const double largest = mesh.positions.size() > 0 ? mesh.positions.cwiseAbs().maxCoeff() : 0;
+  if (!(largest > 0)) return 1;
+  const int size = std::ilogb(largest);
+  if (size > greatest) return std::ldexp(1.0, greatest - size);
+  return size < least ? std::ldexp(1.0, std::min(1023, -size)) : 1;
+}
+
+}  // namespace
+
+Points vertex_normals(const TriangleMesh& mesh) {
+  Points normals = Points::Zero(mesh.vertex_count(), 3);
+  const double scale = harmless_scale(mesh);
+  for (Eigen::Index f = 0; f < mesh.face_count(); ++f) {
+    const auto corner = [&](int k) -> Vector3 {
+      return scale * mesh.position(mesh.triangles(f, k));
+    };
+    const Vector3 a = corner(0), n = (corner(1) - a).cross(corner(2) - a);
+    for (int k = 0; k < 3; ++k) normals.row(mesh.triangles(f, k)) += n;
+  }
+  constexpr std::int64_t chunk_size = 8192;
+  parallel_for(normals.rows(), chunk_size, 0, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t v = first; v < last; ++v) {
+      const double length = normals.row(v).stableNorm();
+      if (length > 0) {
+        normals.row(v) /= length;
+      } else {
+        normals.row(v) = Vector3::UnitZ();
+      }
+    }
+  });
+  return normals;
+}
+
+}  // namespace sphparam
