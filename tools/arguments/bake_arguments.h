@@ -8,7 +8,7 @@
 #include "bake/texel_points.h"
 #include "commands/command.h"
 #include "image/image_codec.h"
-#include "texture/convention.h"
+#include "sphparam/texture/convention.h"
 
 namespace sphparam::cli {
 

@@ -19,7 +19,7 @@
 #include "bake/shared_sphere.h"
 #include "arguments/bake_arguments.h"
 #include "reports/bake_report.h"
-#include "reports/chart_report.h"
+#include "sphparam/chart/chart_failure.h"
 #include "console/exit_codes.h"
 #include "console/interruption.h"
 #include "commands/mapped_source.h"

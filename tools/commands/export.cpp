@@ -12,7 +12,7 @@
 
 #include "io/attributes/source_attributes.h"
 #include "sphparam/io/certified_files.h"
-#include "reports/chart_report.h"
+#include "sphparam/chart/chart_failure.h"
 #include "console/exit_codes.h"
 #include "arguments/export_arguments.h"
 #include "commands/export_look.h"

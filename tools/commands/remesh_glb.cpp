@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "io/attributes/source_attributes.h"
-#include "reports/chart_report.h"
+#include "sphparam/chart/chart_failure.h"
 #include "console/exit_codes.h"
 #include "commands/export_look.h"
 #include "console/paths.h"

@@ -1,5 +1,6 @@
 #include "reports/chart_report.h"
 
+#include "sphparam/chart/chart_failure.h"
 #include "sphparam/sphere/certificate.h"
 
 namespace sphparam::cli {
@@ -19,14 +20,8 @@ std::string failures(const ChartCertificate& certificate) {
   return text;
 }
 
-std::string limit_reached(const SphericalChart& chart) {
-  return "its " + std::to_string(chart.counts.folded_faces) +
-         " folds in (u, v) take more than the " + std::to_string(chart.counts.fold_splits) +
-         " splits that are made at most";
-}
-
 ChartReport figures_of(const SphericalChart& chart) {
-  if (chart.counts.at_limit) return {.not_made = limit_reached(chart)};
+  if (chart.counts.at_limit) return {.not_made = split_limit_reached(chart)};
   return {.counts = chart.counts,
           .certificate = chart.certificate,
           .vertices = chart.points.rows(),
@@ -35,12 +30,6 @@ ChartReport figures_of(const SphericalChart& chart) {
 }
 
 }  // namespace
-
-std::string chart_failure(const SphericalChart& chart) {
-  if (chart.counts.at_limit) return "its map is one-to-one, but " + limit_reached(chart);
-  return "its map is one-to-one, but thinner in (u, v) than doubles can tell: " +
-         std::to_string(chart.certificate.folded.size()) + " triangles fold there";
-}
 
 std::optional<ChartReport> report_chart(const TriangleMesh& mesh, const SphereMap& map, int threads,
                                         const Progress& progress, int splits_a_vertex) {

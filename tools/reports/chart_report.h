@@ -24,9 +24,6 @@ struct ChartReport {
 std::optional<ChartReport> report_chart(const TriangleMesh& mesh, const SphereMap& map, int threads,
                                         const Progress& progress = {}, int splits_a_vertex = 256);
 
-/// Why a chart is not one-to-one though its map is: "…: 12 triangles fold there".
-std::string chart_failure(const SphericalChart& chart);
-
 /// "chart: certified, 12 splits (2 at ±z, 9 along the meridian, 1 of folds), …" or "chart: not
 /// made: …", without line end.
 std::string chart_line(const std::optional<ChartReport>& chart);

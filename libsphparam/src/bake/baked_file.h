@@ -8,7 +8,7 @@
 
 #include "bake/surface_field.h"
 #include "image/image_writer.h"
-#include "texture/convention.h"
+#include "sphparam/texture/convention.h"
 
 namespace sphparam {
 

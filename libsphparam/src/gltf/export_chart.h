@@ -5,7 +5,7 @@
 #include "sphparam/chart/spherical_chart.h"
 #include "sphparam/mesh/topology.h"
 #include "sphparam/progress.h"
-#include "texture/convention.h"
+#include "sphparam/texture/convention.h"
 
 namespace sphparam {
 

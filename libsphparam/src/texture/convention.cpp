@@ -1,4 +1,4 @@
-#include "texture/convention.h"
+#include "sphparam/texture/convention.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "sphparam/mesh/triangle_mesh.h"
-#include "texture/convention.h"
+#include "sphparam/texture/convention.h"
 #include "texture/texture_pyramid.h"
 
 namespace sphparam {

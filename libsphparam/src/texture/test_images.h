@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "image/image.h"
-#include "texture/convention.h"
+#include "sphparam/texture/convention.h"
 
 namespace sphparam {
 
