@@ -2,6 +2,9 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <sstream>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "geodesic_sphere.h"
@@ -83,7 +86,47 @@ Colour colour_at(const Vector3& d) {
   return colour * (1 + 0.07 * fine);
 }
 
+struct Lobe {
+  const char* name;
+  Colour colour;
+};
+
+// Left and right halves of four lobes, numbered from 1: the left ones are odd.
+const std::array<Lobe, 4> kLobes{{{"frontal", {0.86, 0.37, 0.30}},
+                                  {"parietal", {0.95, 0.77, 0.30}},
+                                  {"temporal", {0.33, 0.62, 0.42}},
+                                  {"occipital", {0.30, 0.45, 0.76}}}};
+
+/// The lobe of a direction from the centre; the face looks along +x.
+int lobe_at(const Vector3& d) {
+  if (d.x() > 0.30) return 0;
+  if (d.x() < -0.62) return 3;
+  return d.z() < -0.10 ? 2 : 1;
+}
+
+/// A line of a label table, as a comment: what `lobe` stands for (GIFTI files keep it as theirs).
+std::string label_comment(int key, const char* side, const Lobe& lobe) {
+  std::ostringstream text;
+  text << "gifti label " << key << ' ' << lobe.colour.x() << ' ' << lobe.colour.y() << ' '
+       << lobe.colour.z() << " 1 " << side << ' ' << lobe.name;
+  return text.str();
+}
+
 }  // namespace
+
+void add_lobes(sphparam::MeshFile& cortex) {
+  sphparam::Property property{"lobe", sphparam::ScalarType::Int32, {}};
+  for (Eigen::Index v = 0; v < cortex.mesh.vertex_count(); ++v) {
+    const Vector3 d = unbent(cortex.mesh.positions.row(v)).normalized();
+    property.values.push_back(2 * lobe_at(d) + (d.y() < 0 ? 2 : 1));
+  }
+  cortex.set_vertex_property(std::move(property));
+  for (int i = 0; i < static_cast<int>(kLobes.size()); ++i) {
+    const Lobe& lobe = kLobes[static_cast<size_t>(i)];
+    cortex.comments.push_back(label_comment(2 * i + 1, "left", lobe));
+    cortex.comments.push_back(label_comment(2 * i + 2, "right", lobe));
+  }
+}
 
 sphparam::MeshFile make_cortex() {
   const Field field = [](const Vector3& p) {

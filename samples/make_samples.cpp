@@ -11,8 +11,8 @@
 #include <string>
 
 #include "image/image_codec.h"
-#include "sphparam/io/mesh_writer.h"
 #include "sample_meshes.h"
+#include "sphparam/io/mesh_writer.h"
 #include "sphparam/mesh/mesh_defects.h"
 
 namespace {
@@ -87,8 +87,11 @@ void make(const Arguments& arguments) {
   if (names.contains("creature")) {
     write_mesh(directory / "creature.ply", sphparam::samples::make_creature());
   }
-  if (names.contains("cortex"))
-    write_mesh(directory / "cortex.ply", sphparam::samples::make_cortex());
+  if (names.contains("cortex")) {
+    MeshFile cortex = sphparam::samples::make_cortex();
+    sphparam::samples::add_lobes(cortex);
+    write_mesh(directory / "cortex.ply", cortex);
+  }
 }
 
 }  // namespace

@@ -22,4 +22,8 @@ sphparam::MeshFile make_creature();
 /// A deeply folded surface like a brain's cortex, with overhangs; 40,500 triangles.
 sphparam::MeshFile make_cortex();
 
+/// Names each vertex of the cortex: property `lobe`, 1 to 8, and a label table of what the numbers
+/// stand for, four lobes of two halves, as comments that GIFTI files keep as theirs.
+void add_lobes(sphparam::MeshFile& cortex);
+
 }  // namespace sphparam::samples

@@ -1,9 +1,9 @@
-// Writes the README's tables of results: every mesh of a folder by every method, and by the default
+// Writes the tables of docs/results.md: every mesh of a folder by every method, and by the default
 // method in its qualities and balances.
 //
 // Each time is of the run with the median ratio to the yardstick (see benchmark.cpp), of a few.
 //
-// Usage: results FOLDER [--into README.md]   (replaces what stands between the markers)
+// Usage: results FOLDER [--into docs/results.md]   (replaces what stands between the markers)
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

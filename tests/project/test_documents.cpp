@@ -1,8 +1,12 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <regex>
+#include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -16,8 +20,9 @@ namespace fs = std::filesystem;
 
 const fs::path root = sphparam::tests::source_folder();
 
-std::string text_of(const std::string& name) {
+std::string text_of(const fs::path& name) {
   std::ifstream in(root / name);
+  INFO(name.string());
   REQUIRE(in);
   return {std::istreambuf_iterator<char>(in), {}};
 }
@@ -33,7 +38,8 @@ std::vector<std::string> all_in(const std::string& text, const std::string& patt
 }
 
 bool names_something(const std::string& name) {
-  for (const char* folder : {"", "libsphparam/include/sphparam", "libsphparam/src", "tools"}) {
+  for (const char* folder :
+       {"", "libsphparam/include", "libsphparam/include/sphparam", "libsphparam/src", "tools"}) {
     for (const char* extension : {"", ".h", ".cpp"}) {
       if (fs::exists(root / folder / (name + extension))) return true;
     }
@@ -41,21 +47,85 @@ bool names_something(const std::string& name) {
   return false;
 }
 
-}  // namespace
-
-TEST_CASE("documents: what ARCHITECTURE.md names by room and file is there") {
+void check_names(const fs::path& page, size_t least) {
   const std::vector<std::string> names =
-      all_in(text_of("ARCHITECTURE.md"), "`([a-z_]+/[a-z_/]+(\\.cpp|\\.h)?)");
-  REQUIRE(names.size() > 30);
+      all_in(text_of(page), "`([a-z_0-9]+/[a-z_0-9/]+(\\.cpp|\\.h|\\.cmake)?)");
+  CHECK(names.size() >= least);
   for (const std::string& name : names) {
-    INFO(name);
+    INFO(page.string() << " names " << name);
     CHECK(names_something(name));
   }
 }
 
+/// All pages, by their names from the root.
+std::vector<fs::path> all_pages() {
+  std::vector<fs::path> pages{"README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md",
+                              "textures/README.md"};
+  for (const auto& entry : fs::recursive_directory_iterator(root / "docs")) {
+    if (entry.path().extension() == ".md") pages.push_back(fs::relative(entry.path(), root));
+  }
+  return pages;
+}
+
+/// The lines of a page that are not in a fenced block.
+std::vector<std::string> prose_of(const fs::path& page) {
+  std::istringstream in(text_of(page));
+  std::vector<std::string> lines;
+  bool fenced = false;
+  for (std::string line; std::getline(in, line);) {
+    const bool fence = line.rfind("```", 0) == 0;
+    if (!fenced && !fence) lines.push_back(line);
+    if (fence) fenced = !fenced;
+  }
+  return lines;
+}
+
+/// The anchor of a heading, as GitHub makes it: small letters, blanks as hyphens, no punctuation.
+std::string anchor_of(const std::string& heading) {
+  std::string anchor;
+  for (const char c : heading) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == ' ' || c == '-') {
+      anchor += '-';
+    } else if (std::isalnum(byte) || c == '_' || byte >= 0x80) {
+      anchor += static_cast<char>(std::tolower(byte));
+    }
+  }
+  return anchor;
+}
+
+std::set<std::string> anchors_of(const fs::path& page) {
+  std::set<std::string> anchors;
+  for (const std::string& line : prose_of(page)) {
+    const size_t level = line.find_first_not_of('#');
+    if (level == 0 || level == std::string::npos || line[level] != ' ') continue;
+    anchors.insert(anchor_of(line.substr(level + 1)));
+  }
+  return anchors;
+}
+
+/// Whether a link that stands on a page leads somewhere within the tree.
+bool leads_somewhere(const fs::path& page, const std::string& link) {
+  const size_t hash = link.find('#');
+  const std::string file = link.substr(0, hash);
+  const fs::path target = file.empty() ? page : (page.parent_path() / file).lexically_normal();
+  if (!fs::exists(root / target)) return false;
+  return hash == std::string::npos || anchors_of(target).contains(link.substr(hash + 1));
+}
+
+}  // namespace
+
+TEST_CASE("documents: what ARCHITECTURE.md names by room and file is there") {
+  check_names("ARCHITECTURE.md", 60);
+}
+
+TEST_CASE("documents: the proofs and formulas that the mathematics names are there") {
+  check_names("docs/mathematics.md", 20);
+}
+
 TEST_CASE("documents: every room has its line in ARCHITECTURE.md") {
   const std::string text = text_of("ARCHITECTURE.md");
-  for (const char* floor : {"libsphparam/include/sphparam", "tools"}) {
+  for (const char* floor : {"libsphparam/include/sphparam", "libsphparam/src", "tools"}) {
     for (const auto& entry : fs::directory_iterator(root / floor)) {
       if (!entry.is_directory()) continue;
       INFO(entry.path().string());
@@ -64,8 +134,23 @@ TEST_CASE("documents: every room has its line in ARCHITECTURE.md") {
   }
 }
 
-TEST_CASE("documents: every program that measures has its place in README.md") {
-  const std::string text = text_of("README.md");
+TEST_CASE("documents: every component is in the tables of ARCHITECTURE.md and docs/building.md") {
+  const std::vector<std::string> lists =
+      all_in(text_of("libsphparam/components.cmake"), "set\\(all_components ([a-z ]+)\\)");
+  REQUIRE(lists.size() == 1);
+  std::istringstream components(lists.front());
+  int count = 0;
+  for (std::string component; components >> component; ++count) {
+    for (const char* page : {"ARCHITECTURE.md", "docs/building.md"}) {
+      INFO(component << " in " << page);
+      CHECK(text_of(page).find("\n| `" + component + "` |") != std::string::npos);
+    }
+  }
+  CHECK(count >= 8);
+}
+
+TEST_CASE("documents: every program that measures has its place in docs/results.md") {
+  const std::string text = text_of("docs/results.md");
   const std::vector<std::string> programs =
       all_in(text_of("tests/bench/CMakeLists.txt"), "add_executable\\(\\s*([a-z_]+)");
   REQUIRE(programs.size() > 10);
@@ -73,5 +158,42 @@ TEST_CASE("documents: every program that measures has its place in README.md") {
     INFO(program);
     const std::regex named("[`/]" + program + "[ `]");
     CHECK(std::regex_search(text, named));
+  }
+}
+
+TEST_CASE("documents: README.md is read in a few minutes") {
+  CHECK(text_of("README.md").size() <= 9000);
+}
+
+TEST_CASE("documents: every link within the tree leads to a file, and to a heading that is there") {
+  int count = 0;
+  for (const fs::path& page : all_pages()) {
+    for (const std::string& line : prose_of(page)) {
+      for (const std::string& link : all_in(line, "\\]\\(([^)\\s]+)\\)")) {
+        if (link.find("://") != std::string::npos) continue;
+        INFO(page.string() << " links to " << link);
+        CHECK(leads_somewhere(page, link));
+        ++count;
+      }
+    }
+  }
+  CHECK(count > 100);
+}
+
+TEST_CASE("documents: every page of docs is linked from another, every picture is shown") {
+  std::string all;
+  for (const fs::path& page : all_pages()) {
+    for (const std::string& line : prose_of(page)) {
+      for (const std::string& link : all_in(line, "\\]\\(([^)#\\s]+)[)#]")) {
+        all += (page.parent_path() / link).lexically_normal().string() + "\n";
+      }
+    }
+  }
+  for (const auto& entry : fs::recursive_directory_iterator(root / "docs")) {
+    const std::string extension = entry.path().extension();
+    if (extension != ".md" && extension != ".png") continue;
+    const std::string name = fs::relative(entry.path(), root);
+    INFO(name);
+    CHECK((name == "docs/index.md" || all.find(name + "\n") != std::string::npos));
   }
 }

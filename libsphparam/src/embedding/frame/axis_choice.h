@@ -26,7 +26,7 @@ struct AxisChoice {
 /// map shows the source small (the tips of limbs) even that out; poles beside long stretched
 /// triangles make them fold. The paper leaves the choice to the user.
 /// Evidence (17 real meshes, 622 to 199,034 triangles; chosen against the mean of 384 axes, all
-/// triangles counted): see tests/embedding/test_axis_choice.cpp for the law, README for the table.
+/// triangles counted): see tests/embedding/test_axis_choice.cpp for the law.
 /// Folds are counted among triangles longer than four of their heights, the others fold only where
 /// a pole touches them; densities on 216 cells of the sphere.
 /// Requires: a bijective map. Ensures: same bits for any number of threads. Our own.
