@@ -18,8 +18,8 @@
 #include <string>
 #include <vector>
 
-#include "sphparam/io/mesh_reader.h"
 #include "io/polygons/welding.h"
+#include "sphparam/io/mesh_reader.h"
 #include "sphparam/parameterize.h"
 #include "yardstick.h"
 

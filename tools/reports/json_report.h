@@ -15,8 +15,8 @@
 namespace sphparam::cli {
 
 /// What `--json` tells, gathered by a subcommand while it works. References are to values that
-/// outlive the report. The keys are documented in docs/commands/index.md and never
-/// change their meaning.
+/// outlive the report. The keys are documented in docs/commands/index.md and
+/// never change their meaning.
 
 using NamedTexts = std::vector<std::pair<std::string, std::string>>;
 
