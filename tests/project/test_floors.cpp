@@ -75,7 +75,7 @@ const std::map<std::string, std::set<std::string>> below{
     {"chart", {"sphere", "mesh"}},
     {"pipeline", {"curvilinear", "embedding", "sphere", "mesh"}},
     {"io", {"chart", "sphere", "mesh"}},
-    {"image", {"io"}},
+    {"image", {"io", "mesh"}},
     {"texture", {"image", "sphere", "mesh"}},
     {"rays", {"mesh"}},
     {"measure", {"rays", "mesh"}},
@@ -85,7 +85,7 @@ const std::map<std::string, std::set<std::string>> below{
     {"remesh", {"embedding", "rays", "measure", "image", "texture", "io", "sphere", "mesh"}},
     {"displace", {"remesh", "rays", "measure", "image", "io", "sphere", "mesh"}},
     {"gltf", {"texture", "image", "io", "chart", "sphere", "mesh"}},
-    {"report", {"image", "io", "sphere"}},
+    {"report", {"gltf", "image", "io", "sphere"}},
     {"compare", {"baselines", "report", "render", "image", "io", "sphere", "mesh"}},
     {"showcase", {"compare", "gltf", "report", "bake", "render", "texture", "image", "io", "embedding",
                   "sphere", "mesh"}}};
