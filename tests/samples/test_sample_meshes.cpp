@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <set>
 #include <string>
 
 #include "geodesic_sphere.h"
@@ -211,6 +212,23 @@ TEST_CASE("samples: the cortex is a sphere, deeply folded, with overhangs") {
     if (normal.dot(face_centre(cortex.mesh, f)) < 0) hanging += normal.norm() / 2;
   }
   CHECK(hanging > 0.05 * inspection.area);
+}
+
+TEST_CASE("samples: each vertex of the cortex has a lobe that the label table names") {
+  sphparam::MeshFile cortex = make_cortex();
+  add_lobes(cortex);
+  const sphparam::Property* lobe = cortex.find_vertex_property("lobe");
+  REQUIRE(lobe != nullptr);
+  CHECK(lobe->type == sphparam::ScalarType::Int32);
+  REQUIRE(lobe->values.size() == static_cast<size_t>(cortex.mesh.vertex_count()));
+  const std::set<double> used(lobe->values.begin(), lobe->values.end());
+  CHECK(used == std::set<double>{1, 2, 3, 4, 5, 6, 7, 8});
+  REQUIRE(cortex.comments.size() == 8);
+  for (size_t i = 0; i < 8; ++i) {
+    CHECK(cortex.comments[i].rfind("gifti label " + std::to_string(i + 1) + " ", 0) == 0);
+    const char* side = i % 2 == 0 ? " left " : " right ";
+    CHECK(cortex.comments[i].find(side) != std::string::npos);
+  }
 }
 
 TEST_CASE("samples: every run makes the same numbers") {
