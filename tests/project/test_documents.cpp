@@ -135,8 +135,8 @@ TEST_CASE("documents: every room has its line in ARCHITECTURE.md") {
 }
 
 TEST_CASE("documents: every component is in the tables of ARCHITECTURE.md and docs/building.md") {
-  const std::vector<std::string> lists =
-      all_in(text_of("libsphparam/components.cmake"), "set\\(all_components ([a-z ]+)\\)");
+  const std::string plan = text_of("libsphparam/components.cmake");
+  const std::vector<std::string> lists = all_in(plan, "set\\(all_components ([a-z ]+)\\)");
   REQUIRE(lists.size() == 1);
   std::istringstream components(lists.front());
   int count = 0;
@@ -145,8 +145,32 @@ TEST_CASE("documents: every component is in the tables of ARCHITECTURE.md and do
       INFO(component << " in " << page);
       CHECK(text_of(page).find("\n| `" + component + "` |") != std::string::npos);
     }
+    // What it stands on, as the table says it.
+    std::string needs;
+    for (const std::string& words : all_in(plan, "set\\(needs_" + component + " ([a-z ]+)\\)")) {
+      needs = std::regex_replace(words, std::regex(" "), ", ");
+    }
+    INFO(component << " needs " << needs);
+    const std::regex row("\n\\| `" + component + "` \\|[^|\n]*\\|[^|\n]*\\| " + needs +
+                         (needs.empty() ? "" : " ") + "\\|");
+    CHECK(std::regex_search(text_of("docs/building.md"), row));
   }
   CHECK(count >= 8);
+}
+
+TEST_CASE("documents: the ten lines of README.md are those that tests compile") {
+  const std::string readme = text_of("README.md");
+  const size_t begin = readme.find("```cpp\n");
+  REQUIRE(begin != std::string::npos);
+  std::istringstream lines(readme.substr(begin + 7, readme.find("```", begin + 7) - begin - 7));
+  int count = 0;
+  for (std::string line; std::getline(lines, line); count += !line.empty()) {
+    for (const char* place : {"tests/consumer/ten_lines.cpp", "docs/tutorials/ten-lines.md"}) {
+      INFO(place << " has not: " << line);
+      CHECK(text_of(place).find(line) != std::string::npos);
+    }
+  }
+  CHECK(count == 11);
 }
 
 TEST_CASE("documents: every program that measures has its place in docs/results.md") {
