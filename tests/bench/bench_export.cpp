@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "gltf/export_asset.h"
-#include "gltf/gltf_writer.h"
+#include "sphparam/gltf/gltf_writer.h"
 #include "gltf/variant_images.h"
 #include "gltf/written_check.h"
 #include "sphparam/io/mesh_reader.h"

@@ -1,9 +1,9 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "sphparam/io/mesh_reader.h"
 #include "io/polygons/welding.h"
 #include "program.h"
+#include "sphparam/io/mesh_reader.h"
 #include "support/glb_json.h"
 #include "support/test_meshes.h"
 
@@ -123,6 +123,29 @@ TEST_CASE("export: triangles that rounding folds are told without being asked") 
   INFO(ended.err);
   REQUIRE(ended.code == 0);
   CHECK_THAT(ended.err, Contains("fold in (u, v) as stored"));
+}
+
+TEST_CASE("export: a chart that is not one-to-one ends with 5, also where the look is baked") {
+  const Egg egg;
+  // Two apexes over a ring, of which six vertices stand closer below θ = 2π than u can tell.
+  std::string ball = "v 0 0 1\nv 0 0 -1\nv 1 1 0\nv -1 1 0\nv -1 -1 0\nv 1 -1 0\n";
+  for (int i = 6; i > 0; --i) ball += "v 1 -0.0000010000000000000" + std::to_string(i) + " 0\n";
+  for (int i = 0; i < 10; ++i) {
+    const std::string edge = " " + std::to_string(3 + i) + " " + std::to_string(3 + (i + 1) % 10);
+    ball += "f 1" + edge + "\nf 2 " + edge.substr(edge.rfind(' ') + 1) + " " +
+            edge.substr(1, edge.rfind(' ') - 1) + "\n";
+  }
+  const std::string path = egg.folder / "ball.obj";
+  write_bytes(path, ball);
+  for (const Names& more : {Names{}, Names{"--variants", "area"}}) {
+    Names arguments = {"export", path, "--sphere", path, "-o", egg.folder / "x.glb"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Ended ended = sphparam_program(arguments);
+    INFO(ended.err);
+    CHECK(ended.code == 5);
+    CHECK_THAT(ended.err, Contains("ball.obj: its map is one-to-one, but thinner in (u, v)"));
+  }
+  CHECK(egg.folder.names() == Names{"ball.obj", "egg.obj"});
 }
 
 TEST_CASE("export: no output replaces an input or another output") {

@@ -9,14 +9,14 @@
 #include <vector>
 
 #include "gltf/export_asset.h"
-#include "gltf/gltf_writer.h"
 #include "gltf/variant_images.h"
 #include "gltf/written_check.h"
 #include "image/image_codec.h"
+#include "io/attributes/hard_edges.h"
+#include "io/polygons/welding.h"
+#include "sphparam/gltf/gltf_writer.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/sphere_file.h"
-#include "io/polygons/welding.h"
-#include "io/attributes/hard_edges.h"
 #include "sphparam/parameterize.h"
 #include "support/test_meshes.h"
 

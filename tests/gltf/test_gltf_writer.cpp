@@ -2,11 +2,11 @@
 #include <nlohmann/json.hpp>
 
 #include "charted.h"
-#include "gltf/gltf_writer.h"
 #include "gltf/material_images.h"
-#include "io/uri.h"
 #include "gltf/variant_images.h"
 #include "gltf/written_check.h"
+#include "io/uri.h"
+#include "sphparam/gltf/gltf_writer.h"
 #include "sphparam/io/mesh_reader.h"
 #include "support/glb_json.h"
 

@@ -84,7 +84,7 @@ const std::map<std::string, std::set<std::string>> below{
     {"paint", {"texture", "image", "io", "chart", "sphere", "mesh"}},
     {"remesh", {"embedding", "rays", "measure", "image", "texture", "io", "sphere", "mesh"}},
     {"displace", {"remesh", "rays", "measure", "image", "io", "sphere", "mesh"}},
-    {"gltf", {"texture", "image", "io", "chart", "sphere", "mesh"}},
+    {"gltf", {"bake", "texture", "image", "io", "chart", "sphere", "mesh"}},
     {"report", {"gltf", "image", "io", "sphere"}},
     {"compare", {"baselines", "report", "render", "image", "io", "sphere", "mesh"}},
     {"showcase", {"compare", "gltf", "report", "bake", "render", "texture", "image", "io", "embedding",

@@ -6,6 +6,7 @@
 
 #include "arguments/choice.h"
 #include "arguments/common_options.h"
+#include "arguments/up_option.h"
 #include "console/paths.h"
 #include "sphparam/io/paths.h"
 
@@ -36,23 +37,23 @@ constexpr char summary[] =
     "map\n"
     "is of one mesh: coarser --lods are without.\n";
 
-void add_images(CLI::App& command, ExportArguments& arguments) {
-  command.add_option("--texture", arguments.texture, "The equirectangular image, row 0 north")
+void add_images(CLI::App& command, LookOptions& look) {
+  command.add_option("--texture", look.texture, "The equirectangular image, row 0 north")
       ->type_name("IMAGE");
-  command.add_option("--normal", arguments.normal, "A tangent-space normal map as `bake` makes it")
+  command.add_option("--normal", look.normal, "A tangent-space normal map as `bake` makes it")
       ->type_name("IMAGE");
-  command.add_option("--occlusion", arguments.occlusion, "Ambient occlusion")->type_name("IMAGE");
+  command.add_option("--occlusion", look.occlusion, "Ambient occlusion")->type_name("IMAGE");
   command
-      .add_option("--textures", arguments.textures,
+      .add_option("--textures", look.folder,
                   "A folder of `bake`: its basecolor, normal-tangent and ao")
       ->type_name("FOLDER");
   command
       .add_option(
-          "--variants", arguments.variants,
+          "--variants", look.variants,
           "More materials to switch to, with commas between: axes, checker, graticule, area, angle")
       ->type_name("NAMES")
       ->delimiter(',');
-  command.add_option("--image-size", arguments.image_width, "Width of images that are made here")
+  command.add_option("--image-size", look.image_width, "Width of images that are made here")
       ->check(between(16, 16384, "16 to 16384"))
       ->check(CLI::Validator(
           [](const std::string& text) {
@@ -62,43 +63,45 @@ void add_images(CLI::App& command, ExportArguments& arguments) {
           ""))
       ->type_name("N")
       ->capture_default_str();
-  command.add_flag("--unlit", arguments.unlit, "Show the colours as they are, without light");
+  command.add_flag("--unlit", look.unlit, "Show the colours as they are, without light");
 }
 
-void add_chart(CLI::App& command, ExportArguments& arguments) {
+void add_chart(CLI::App& command, ExportOptions& options) {
   std::vector<std::pair<std::string, Convention>> conventions;
   for (const ConventionInfo& info : all_conventions()) {
     conventions.emplace_back(info.name, info.convention);
   }
-  add_choice<Convention>(command, "--convention", arguments.convention, conventions,
+  add_choice<Convention>(command, "--convention", options.convention, conventions,
                          "Where longitude goes in the images (default: sphparam)");
-  command.add_flag("--keep-topology", arguments.keep_topology,
+  command.add_flag("--keep-topology", options.keep_topology,
                    "Add no vertices on the surface: triangles fold at the poles, they are listed");
   command
-      .add_option("--refine-poles", arguments.refine_poles,
+      .add_option("--refine-poles", options.refine_poles,
                   "Cut each triangle at a pole into so many; images of `bake` must be baked for it")
       ->check(between(1, 1024, "1 to 1024"))
       ->type_name("N")
       ->capture_default_str();
   add_choice<ShapeKind>(
-      command, "--shape", arguments.shape,
+      command, "--shape", options.shape,
       {{"mesh", ShapeKind::Mesh}, {"sphere", ShapeKind::Sphere}, {"flat", ShapeKind::Flat}},
       "The mesh, its image on the sphere, or the (u, v) rectangle (default: mesh)");
-  add_choice<Morph>(command, "--morph", arguments.morph,
+  add_choice<Morph>(command, "--morph", options.morph,
                     {{"none", Morph::None}, {"sphere", Morph::Sphere}, {"flat", Morph::Flat}},
                     "An animation that turns the mesh into its sphere, then unrolls it (default: "
                     "none)");
-  add_up(command, arguments.up);
+  add_up(command, options.up);
 }
 
 void add_buffers(CLI::App& command, ExportArguments& arguments) {
-  command.add_flag("--tangents", arguments.tangents,
+  command.add_flag("--tangents", arguments.exported.look.tangents,
                    "Tangents also without a normal map: a flat one is bound");
-  command.add_flag("--theta-phi", arguments.theta_phi, "θ and ϕ as the attribute _THETA_PHI");
-  command.add_flag("--source-uv", arguments.source_uv,
+  command.add_flag("--theta-phi", arguments.exported.theta_phi,
+                   "θ and ϕ as the attribute _THETA_PHI");
+  command.add_flag("--source-uv", arguments.exported.source_uv,
                    "The mesh's own texture coordinates as TEXCOORD_1");
   command.add_flag("--embedded", arguments.embedded, ".gltf only: everything in the one file");
-  command.add_flag("--quantize", arguments.quantise, "16-bit numbers (KHR_mesh_quantization)");
+  command.add_flag("--quantize", arguments.exported.quantise,
+                   "16-bit numbers (KHR_mesh_quantization)");
   command.add_flag("--compress", arguments.compress, "EXT_meshopt_compression");
   command
       .add_option("--lods", arguments.lods,
@@ -127,10 +130,10 @@ CLI::App* declare_export_arguments(CLI::App& program, ExportArguments& arguments
       ->type_name("FILE")
       ->required();
   add_json(*command, arguments.json);
-  add_images(*command, arguments);
-  add_chart(*command, arguments);
+  add_images(*command, arguments.exported.look);
+  add_chart(*command, arguments.exported);
   add_buffers(*command, arguments);
-  add_threads(*command, arguments.threads);
+  add_threads(*command, arguments.exported.threads);
   add_progress(*command, arguments.progress);
   add_loudness(*command, arguments.loudness);
   return command;
@@ -145,39 +148,41 @@ void refuse(bool wrong, const char* message) {
 }  // namespace
 
 void check_export_arguments(const ExportArguments& a) {
+  const ExportOptions& e = a.exported;
+  const LookOptions& look = e.look;
   const std::string extension = is_stream(a.output) ? ".glb" : extension_of(a.output);
   const bool is_gltf = extension == ".glb" || extension == ".gltf";
   if (!is_gltf && extension != ".obj" && extension != ".ply") {
     throw UsageMistake("-o: expected .glb, .gltf, .obj or .ply, not " +
                        (extension.empty() ? output_name(a.output) : extension));
   }
-  refuse(a.keep_topology && a.refine_poles > 1,
+  refuse(e.keep_topology && e.refine_poles > 1,
          "--refine-poles adds vertices, --keep-topology forbids them");
-  refuse(a.morph != Morph::None && a.shape != ShapeKind::Mesh,
+  refuse(e.morph != Morph::None && e.shape != ShapeKind::Mesh,
          "--morph starts from the mesh: leave out --shape");
-  refuse(a.morph != Morph::None && a.lods > 0,
+  refuse(e.morph != Morph::None && a.lods > 0,
          "--lods are of meshes that do not change: leave out --morph");
-  refuse(a.keep_topology && a.lods > 0, "--lods are new meshes: leave out --keep-topology");
-  refuse(a.shape != ShapeKind::Mesh && a.lods > 0, "--lods are of the mesh: leave out --shape");
-  refuse(a.source_uv && a.lods > 0,
+  refuse(e.keep_topology && a.lods > 0, "--lods are new meshes: leave out --keep-topology");
+  refuse(e.shape != ShapeKind::Mesh && a.lods > 0, "--lods are of the mesh: leave out --shape");
+  refuse(e.source_uv && a.lods > 0,
          "--lods have no texture coordinates of the mesh: leave out --source-uv");
   refuse(a.embedded && extension != ".gltf", "--embedded is for .gltf; a .glb is one file anyway");
   refuse(a.lods > 0 && is_stream(a.output) && a.lod_style == LodStyle::Files,
          "--lods are files: give -o a name");
-  refuse(a.unlit && (a.tangents || !a.normal.empty() || !a.occlusion.empty()),
+  refuse(look.unlit && (look.tangents || !look.normal.empty() || !look.occlusion.empty()),
          "--unlit shows no light: leave out --normal, --occlusion and --tangents");
   if (is_gltf) return;
   const std::string only = " is for .glb and .gltf, not for " + extension;
-  for (const auto& [given, option] : {std::pair{a.morph != Morph::None, "--morph"},
-                                      {a.shape == ShapeKind::Flat, "--shape flat"},
-                                      {!a.variants.empty(), "--variants"},
-                                      {!a.normal.empty(), "--normal"},
-                                      {!a.occlusion.empty(), "--occlusion"},
-                                      {a.unlit, "--unlit"},
-                                      {a.tangents, "--tangents"},
-                                      {a.theta_phi, "--theta-phi"},
-                                      {a.source_uv, "--source-uv"},
-                                      {a.quantise, "--quantize"},
+  for (const auto& [given, option] : {std::pair{e.morph != Morph::None, "--morph"},
+                                      {e.shape == ShapeKind::Flat, "--shape flat"},
+                                      {!look.variants.empty(), "--variants"},
+                                      {!look.normal.empty(), "--normal"},
+                                      {!look.occlusion.empty(), "--occlusion"},
+                                      {look.unlit, "--unlit"},
+                                      {look.tangents, "--tangents"},
+                                      {e.theta_phi, "--theta-phi"},
+                                      {e.source_uv, "--source-uv"},
+                                      {e.quantise, "--quantize"},
                                       {a.compress, "--compress"},
                                       {a.lods > 0, "--lods"},
                                       {a.lod_style == LodStyle::Msft, "--lod msft"}}) {

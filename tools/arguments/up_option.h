@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "sphparam/io/up_axis.h"
 
 namespace CLI {
@@ -8,12 +10,7 @@ class App;
 
 namespace sphparam::cli {
 
-enum class UpAxis { Automatic, Z, Y };
-
-/// --up, the same wherever a mesh is drawn or exported.
-void add_up(CLI::App& command, UpAxis& up);
-
-/// The axis asked for, else the one that the file says.
-Up up_of(UpAxis asked, const MeshFile& file);
+/// --up, the same wherever a mesh is drawn or exported; nothing: as its file says.
+void add_up(CLI::App& command, std::optional<Up>& up);
 
 }  // namespace sphparam::cli

@@ -64,7 +64,7 @@ struct CompareArguments {
   std::string methods = "all";
   std::vector<std::string> added;
   bool no_pictures = false;
-  UpAxis up = UpAxis::Automatic;
+  std::optional<Up> up;
   int size = PictureOptions{}.size;
   int threads = 0;
   ProgressStyle progress = ProgressStyle::Auto;
@@ -194,7 +194,7 @@ int run_compare(const CompareArguments& arguments) {
   const std::string name = is_stream(arguments.input)
                                ? "standard input"
                                : std::filesystem::path(arguments.input).stem().string();
-  PictureOptions look = seen_with_up(direction_of(up_of(arguments.up, source.file)));
+  PictureOptions look = seen_with_up(direction_of(arguments.up.value_or(up_axis(source.file))));
   look.size = arguments.size;
   look.threads = arguments.threads;
   ComparisonOptions options{.pictures = !arguments.no_pictures, .look = look};

@@ -70,7 +70,7 @@ struct RenderArguments {
   std::optional<View> view;
   Colouring colouring = Colouring::Own;
   std::string from = "";  // empty: in front, to the right, above
-  UpAxis up = UpAxis::Automatic;
+  std::optional<Up> up;
   bool wire = false;
   bool graticule = false;
   bool occlusion = false;
@@ -176,7 +176,7 @@ Image draw(Shape shape, const Paint& paint, const Subject& subject,
     object = on_sphere(object, normalised(subject.required_map("--view sphere").points).points);
   }
   return render({.objects = {object},
-                 .camera = framing(shape, object.mesh.positions, up_of(arguments.up, subject.file),
+                 .camera = framing(shape, object.mesh.positions, arguments.up.value_or(up_axis(subject.file)),
                                    arguments),
                  .width = arguments.size,
                  .height = arguments.size},

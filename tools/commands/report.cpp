@@ -64,7 +64,7 @@ struct ReportArguments {
   std::vector<std::string> inputs;
   std::string sphere, texture, output, json;
   bool no_viewer = false;
-  UpAxis up = UpAxis::Automatic;
+  std::optional<Up> up;
   int size = ReportOptions{}.image_width;
   int threads = 0;
   ProgressStyle progress = ProgressStyle::Auto;
@@ -171,8 +171,8 @@ std::string command_line(const ReportArguments& arguments) {
   add(" --sphere", arguments.sphere);
   add(" --texture", arguments.texture);
   add(" -o", arguments.output);
-  if (arguments.up == UpAxis::Y) line += " --up y";
-  if (arguments.up == UpAxis::Z) line += " --up z";
+  if (arguments.up == Up::Y) line += " --up y";
+  if (arguments.up == Up::Z) line += " --up z";
   if (arguments.size != ReportOptions{}.image_width) {
     line += " --size " + std::to_string(arguments.size);
   }
@@ -199,7 +199,7 @@ ReportOptions page_options(const ReportArguments& arguments, const MeshSource& s
     }
   }
   const int size = options.look.size;
-  options.look = seen_with_up(direction_of(up_of(arguments.up, source.file)));
+  options.look = seen_with_up(direction_of(arguments.up.value_or(up_axis(source.file))));
   options.look.size = std::min(size, arguments.size);
   options.image_width = arguments.size;
   options.textures = shown_textures(source.file, arguments.inputs.front(), arguments.texture,

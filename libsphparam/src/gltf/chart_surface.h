@@ -1,8 +1,8 @@
 #pragma once
 
-#include "gltf/asset.h"
 #include "gltf/shape.h"
 #include "gltf/stored_chart.h"
+#include "sphparam/gltf/asset.h"
 #include "sphparam/io/mesh_file.h"
 
 namespace sphparam {

@@ -4,14 +4,12 @@
 #include <utility>
 #include <vector>
 
-#include "gltf/asset.h"
 #include "gltf/chart_surface.h"
 #include "gltf/export_chart.h"
 #include "gltf/textured_mesh.h"
+#include "sphparam/gltf/asset.h"
 
 namespace sphparam {
-
-enum class Morph { None, Sphere, Flat };
 
 /// What a mesh becomes in an asset, beside its chart and its materials.
 struct GeometryOptions {

@@ -1,4 +1,4 @@
-#include "gltf/gltf_writer.h"
+#include "sphparam/gltf/gltf_writer.h"
 
 #include <cstdint>
 #include <limits>

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "gltf/asset.h"
 #include "image/image_codec.h"
+#include "sphparam/gltf/asset.h"
 
 namespace sphparam {
 

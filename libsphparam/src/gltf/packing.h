@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <span>
 
-#include "gltf/asset.h"
 #include "gltf/buffer_views.h"
+#include "sphparam/gltf/asset.h"
 
 namespace sphparam {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "gltf/asset.h"
 #include "sphparam/chart/spherical_chart.h"
+#include "sphparam/gltf/asset.h"
 
 namespace sphparam {
 

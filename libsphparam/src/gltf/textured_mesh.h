@@ -1,11 +1,10 @@
 #pragma once
 
 #include "gltf/export_chart.h"
+#include "sphparam/gltf/export.h"
 #include "sphparam/io/mesh_file.h"
 
 namespace sphparam {
-
-enum class ShapeKind { Mesh, Sphere, Flat };
 
 /// The chart as a mesh file, for formats with texture coordinates at corners: the refined mesh, the
 /// (u, 1 − v) of its wedges at the corners, v upwards as these formats have it; vertex and face

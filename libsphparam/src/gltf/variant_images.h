@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "gltf/asset.h"
 #include "image/image.h"
+#include "sphparam/gltf/asset.h"
 #include "texture/test_images.h"
 
 namespace sphparam {

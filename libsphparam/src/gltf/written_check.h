@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "gltf/export_chart.h"
-#include "gltf/gltf_writer.h"
+#include "sphparam/gltf/gltf_writer.h"
 
 namespace sphparam {
 

@@ -4,11 +4,11 @@
 #include <fstream>
 #include <iterator>
 
-#include "gltf/gltf_writer.h"
-#include "io/uri.h"
 #include "image/program_path.h"
+#include "io/uri.h"
 #include "report/svg.h"
 #include "report/viewer_controls.h"
+#include "sphparam/gltf/gltf_writer.h"
 
 namespace sphparam {
 namespace {

@@ -4,10 +4,10 @@
 #include <numbers>
 
 #include "compare/pictures.h"
-#include "gltf/chart_surface.h"
-#include "gltf/gltf_writer.h"
-#include "render/drawing_size.h"
 #include "embedding/frame/landmarks.h"
+#include "gltf/chart_surface.h"
+#include "render/drawing_size.h"
+#include "sphparam/gltf/gltf_writer.h"
 
 // A map is free to turn its sphere; for the eye it is turned back, so that head stays head and the
 // morph is short.

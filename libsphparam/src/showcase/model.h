@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
+#include "gltf/painted_surfaces.h"
 #include "gltf/shape.h"
-#include "sphparam/io/mesh_file.h"
 #include "showcase/page_entry.h"
-#include "showcase/surfaces.h"
+#include "sphparam/io/mesh_file.h"
 
 namespace sphparam {
 

@@ -3,14 +3,14 @@
 #include <algorithm>
 
 #include "bake/bake_scene.h"
+#include "gltf/painted_surfaces.h"
+#include "io/attributes/shading_normals.h"
 #include "io/uri.h"
 #include "render/heat.h"
-#include "io/attributes/shading_normals.h"
 #include "report/plots.h"
 #include "report/svg.h"
 #include "showcase/heat_key.h"
 #include "showcase/model.h"
-#include "showcase/surfaces.h"
 #include "showcase/tables.h"
 #include "sphparam/errors.h"
 
@@ -41,8 +41,8 @@ struct Shown {
 
 class Reporter {
  public:
-  Reporter(const std::string& name, const MeshFile& file, const std::vector<PageEntry>& page_entries,
-           const ReportOptions& options)
+  Reporter(const std::string& name, const MeshFile& file,
+           const std::vector<PageEntry>& page_entries, const ReportOptions& options)
       : name_(name), file_(file), exhibits_(page_entries), options_(options) {}
 
   std::string html() {
@@ -128,7 +128,7 @@ class Reporter {
     const std::vector<Face>& flat = page_entry.entry.certificate.degenerate;
     folds.insert(folds.end(), flat.begin(), flat.end());
     ViewedModel view{.name = many() || !page_entry.entry.certificate.bijective() ? about(page_entry)
-                                                                                  : "Its sphere",
+                                                                                 : "Its sphere",
                      .alt = "The sphere of " + about(page_entry),
                      .glb = "",
                      .picture = ""};

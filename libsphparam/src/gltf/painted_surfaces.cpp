@@ -1,4 +1,4 @@
-#include "showcase/surfaces.h"
+#include "gltf/painted_surfaces.h"
 
 #include <cstring>
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "gltf/asset.h"
+#include "sphparam/gltf/asset.h"
 
 namespace sphparam {
 
@@ -18,7 +18,7 @@ enum class GltfContainer {
 struct GltfOptions {
   GltfContainer container = GltfContainer::Binary;
   std::string stem = "mesh";  // of the names of files beside a .gltf
-  bool quantise = false;      // KHR_mesh_quantization, 16 bits
+  bool quantise = false;      // KHR_mesh_quantization, 16 bits; see `ExportOptions::quantise`
   bool compress = false;      // EXT_meshopt_compression, which few viewers lack and many tools do
 };
 

@@ -1,44 +1,42 @@
 // Images given are embedded as they are; test images are drawn in the convention asked for; what is
 // baked comes in u = θ/2π and has its columns moved, by quarters of the width.
 
-#include "commands/export_look.h"
-
 #include <algorithm>
 #include <optional>
 
 #include "bake/baked_chart.h"
 #include "bake/make_scene.h"
 #include "bake/map_kinds.h"
-#include "io/attributes/source_attributes.h"
-#include "console/paths.h"
-#include "arguments/suggestion.h"
+#include "gltf/export_names.h"
 #include "gltf/material_images.h"
+#include "gltf/painted_surfaces.h"
 #include "gltf/variant_images.h"
 #include "io/attributes/shading_normals.h"
-#include "showcase/surfaces.h"
+#include "io/attributes/source_attributes.h"
+#include "sphparam/chart/chart_failure.h"
+#include "sphparam/gltf/export.h"
+#include "sphparam/io/paths.h"
 
-namespace sphparam::cli {
+namespace sphparam {
 
 namespace {
 
-BakedImages images_given(const ExportArguments& arguments) {
+BakedImages images_given(const LookOptions& options) {
   BakedImages images;
-  if (!arguments.textures.empty()) images = find_baked_images(arguments.textures);
-  if (!arguments.texture.empty()) images.base_colour = arguments.texture;
-  if (!arguments.normal.empty()) images.normal = arguments.normal;
-  if (!arguments.occlusion.empty()) images.occlusion = arguments.occlusion;
+  if (!options.folder.empty()) images = find_baked_images(options.folder);
+  if (!options.texture.empty()) images.base_colour = options.texture;
+  if (!options.normal.empty()) images.normal = options.normal;
+  if (!options.occlusion.empty()) images.occlusion = options.occlusion;
   return images;
 }
 
 void require_known(const std::vector<std::string>& names) {
-  const std::vector<std::string>& words = export_variants();
+  const std::vector<std::string>& words = variant_names();
   for (const std::string& name : names) {
     if (std::ranges::find(words, name) != words.end()) continue;
     std::string all;
     for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
-    const std::string meant = nearest_word(name, words);
-    throw UsageMistake("--variants: no " + name + " among " + all +
-                       (meant.empty() ? "" : "; did you mean " + meant + "?"));
+    throw LookError("no variant " + name + " among " + all);
   }
 }
 
@@ -46,22 +44,22 @@ bool has_colours(const MeshFile& file) { return linear_colours(file).has_value()
 
 class LookMaker {
  public:
-  LookMaker(const ExportArguments& arguments, const MappedMesh& mapped, Console& console)
-      : arguments_(arguments), mapped_(mapped), console_(console) {}
+  LookMaker(const MappedMesh& mapped, const ExportOptions& options)
+      : mapped_(mapped), options_(options), wanted_(options.look) {}
 
-  ExportLook make() {
-    require_known(arguments_.variants);
-    const BakedImages given = images_given(arguments_);
+  Look make() {
+    require_known(wanted_.variants);
+    const BakedImages given = images_given(wanted_);
     choose_base_colour(given);
-    if (!arguments_.unlit) {
+    if (!wanted_.unlit) {
       material_.normal = add_file(given.normal, "normal");
       look_.normals_given = material_.normal >= 0;
       material_.occlusion = add_file(given.occlusion, "occlusion");
       // Tangents that no material uses are taken for a mistake: these are used and change nothing.
-      if (material_.normal < 0 && arguments_.tangents) material_.normal = add(flat_normals_image());
+      if (material_.normal < 0 && wanted_.tangents) material_.normal = add(flat_normals_image());
     }
     look_.materials.push_back(material_);
-    for (const std::string& name : arguments_.variants) add_variant(name);
+    for (const std::string& name : wanted_.variants) add_variant(name);
     return std::move(look_);
   }
 
@@ -75,32 +73,22 @@ class LookMaker {
     if (path.empty()) return -1;
     ImageTexts texts;
     AssetImage image = read_asset_image(path, name, &texts);
-    require_same_chart(path, texts);
-    return add(std::move(image));
-  }
-
-  /// Texels of `bake` belong to triangles of its chart: on those of another they tear at the poles.
-  void require_same_chart(const std::string& path, const ImageTexts& texts) const {
     const std::optional<int> baked = pole_wedges_of(texts);
-    if (!baked || *baked == arguments_.refine_poles) return;
-    throw UsageMistake("--refine-poles: " + display_name(path) + " is baked for --refine-poles " +
-                       std::to_string(*baked) + ", and belongs to the triangles of that chart: `" +
-                       "sphparam bake --refine-poles " + std::to_string(arguments_.refine_poles) +
-                       "` makes it for this one, or export with --refine-poles " +
-                       std::to_string(*baked));
+    if (baked && *baked != options_.refine_poles) throw ImageOfOtherChart(path, *baked);
+    return add(std::move(image));
   }
 
   void choose_base_colour(const BakedImages& given) {
     const MeshFile& file = mapped_.file();
-    material_.unlit = arguments_.unlit;
+    material_.unlit = wanted_.unlit;
     material_.name = "baked";
     if (!given.base_colour.empty()) {
       material_.base_colour = add_file(given.base_colour, "basecolor");
       return;
     }
-    textures_ = read_textures(file, arguments_.threads);
+    textures_ = read_textures(file, options_.threads);
     // Vertex colours would tint all variants: where there are some, they are baked too.
-    if (!textures_.empty() || (has_colours(file) && !arguments_.variants.empty())) {
+    if (!textures_.empty() || (has_colours(file) && !wanted_.variants.empty())) {
       material_.base_colour = add(baked("baked"));
     } else if (has_colours(file)) {
       material_.name = "colours";
@@ -128,40 +116,38 @@ class LookMaker {
   }
 
   AssetImage drawn(TestImage image) const {
-    return test_asset_image(image, arguments_.image_width, arguments_.convention,
-                            arguments_.threads);
+    return test_asset_image(image, wanted_.image_width, options_.convention, options_.threads);
   }
 
   /// "baked", "area" or "angle".
   AssetImage baked(const std::string& name) {
     if (surfaces_.empty()) bake_surfaces();
     const auto found = std::ranges::find(surfaces_, name, &PaintedSurface::name);
-    return as_png(name, in_convention(found->image, arguments_.convention));
+    return as_png(name, in_convention(found->image, options_.convention));
   }
 
   void bake_surfaces() {
-    console_.progress("bake", 0);
+    report(options_.progress, "bake", 0);
     const MeshFile& file = mapped_.file();
-    const Topology topology(file.mesh);
-    const BakeScene scene{.source = {file, mapped_.map(), topology, shading_normals(file), textures_},
-                          .target = make_target(file, topology, mapped_.map(), true,
-                                                arguments_.threads, arguments_.refine_poles),
-                          .options = {.heat = true},
-                          .threads = arguments_.threads};
+    const Topology& topology = mapped_.topology();
+    const BakeScene scene{
+        .source = {file, mapped_.map(), topology, shading_normals(file), textures_},
+        .target = make_target(file, topology, mapped_.map(), true, options_.threads,
+                              options_.refine_poles),
+        .options = {.heat = true},
+        .threads = options_.threads};
+    require_one_to_one(scene.target.chart, source_name(mapped_, options_));
     try {
-      surfaces_ = painted_surfaces(scene, arguments_.image_width,
-                                   [&](std::string_view stage, double fraction) {
-                                     return console_.progress(stage, fraction);
-                                   });
+      surfaces_ = painted_surfaces(scene, wanted_.image_width, options_.progress);
     } catch (const MapError& error) {
-      throw UsageMistake(display_name(arguments_.input) + ": " + error.what());
+      throw LookError(source_name(mapped_, options_) + ": " + error.what());
     }
   }
 
-  const ExportArguments& arguments_;
   const MappedMesh& mapped_;
-  Console& console_;
-  ExportLook look_;
+  const ExportOptions& options_;
+  const LookOptions& wanted_;
+  Look look_;
   Material material_;
   std::vector<SourceTexture> textures_;
   std::vector<PaintedSurface> surfaces_;
@@ -169,12 +155,19 @@ class LookMaker {
 
 }  // namespace
 
-const std::vector<std::string>& export_variants() {
+ImageOfOtherChart::ImageOfOtherChart(const std::string& path, int refine_poles)
+    : std::runtime_error(display_name(path) + " is baked for triangles at the poles cut into " +
+                         std::to_string(refine_poles) +
+                         ", and belongs to the triangles of that chart"),
+      path_(path),
+      refine_poles_(refine_poles) {}
+
+const std::vector<std::string>& variant_names() {
   static const std::vector<std::string> words = {"axes", "checker", "graticule", "area", "angle"};
   return words;
 }
 
-ExportLook without_given_normals(ExportLook look) {
+Look without_given_normals(Look look) {
   if (!look.normals_given) return look;
   const int dropped = look.materials.front().normal;
   look.images.erase(look.images.begin() + dropped);
@@ -188,9 +181,9 @@ ExportLook without_given_normals(ExportLook look) {
   return look;
 }
 
-ExportLook make_export_look(const ExportArguments& arguments, const MappedMesh& mapped,
-                            Console& console) {
-  return LookMaker(arguments, mapped, console).make();
+Look make_look(const MappedMesh& mapped, const ExportOptions& options) {
+  report(options.progress, "images", 0);
+  return LookMaker(mapped, options).make();
 }
 
-}  // namespace sphparam::cli
+}  // namespace sphparam

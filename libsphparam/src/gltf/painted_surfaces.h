@@ -5,8 +5,6 @@
 
 #include "bake/bake_scene.h"
 #include "image/image.h"
-#include "render/heat.h"
-#include "showcase/page_entry.h"
 #include "sphparam/progress.h"
 
 namespace sphparam {

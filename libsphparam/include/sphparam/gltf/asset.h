@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "sphparam/chart/chart_certificate.h"
 #include "sphparam/mesh/triangle_mesh.h"
 
 namespace sphparam {
@@ -52,6 +53,15 @@ struct Material {
   bool unlit = false;
 };
 
+/// What is proved of the (u, v) of a level.
+struct ChartFigures {
+  long triangles = 0, vertices = 0;  // of the chart; vertices as buffers count them: a (u, v) each
+  long splits = 0;                   // of edges and faces, so that nothing folds
+  ChartCertificate chart;            // with (u, v) as doubles
+  ChartCertificate stored;           // as the file has them; what folds is less than a texel
+  long sphere_folds = -1;  // of a sphere: triangles that float32 turns over; −1: it is no sphere
+};
+
 /// Everything that a glTF file of one object holds.
 struct Asset {
   std::string name;
@@ -60,6 +70,11 @@ struct Asset {
   bool coarse_levels_have_normal_maps = true;  // false where one was baked for the finest alone
   std::vector<Material> materials;  // the first is the one that is seen; the others are variants
   std::vector<std::pair<std::string, std::string>> extras;  // of the asset, below "sphparam"
+
+  // What `make_asset` says besides, which no file holds.
+  bool quantised = false;                  // its (u, v) are certified as 16-bit numbers
+  std::vector<ChartFigures> charts = {};   // of the levels
+  std::vector<std::string> warnings = {};  // for people: what folds as stored, what is left out
 };
 
 }  // namespace sphparam

@@ -1,0 +1,168 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sphparam/gltf/asset.h"
+#include "sphparam/gltf/gltf_writer.h"
+#include "sphparam/io/mapped_mesh.h"
+#include "sphparam/io/safe_file.h"
+#include "sphparam/io/up_axis.h"
+#include "sphparam/progress.h"
+#include "sphparam/texture/convention.h"
+
+namespace sphparam {
+
+// A mapped mesh → its (u, v) chart → vertex buffers, images, materials → files. Any equirectangular
+// image sits right on it: the mesh is split along the date line and at the poles, every pole
+// triangle has a vertex of its own there, u runs from 0 to 1 and never folds.
+
+/// What the vertices of an asset are: the mesh, its image on the unit sphere, the (u, v) rectangle.
+enum class ShapeKind { Mesh, Sphere, Flat };
+
+/// What an animation turns the mesh into; Flat: first into the sphere, then into the rectangle.
+enum class Morph { None, Sphere, Flat };
+
+/// What an asset shows. Paths of images; empty: none. Of PNG, JPEG and TIFF.
+struct LookOptions {
+  std::string texture = {};    // an equirectangular image, row 0 north
+  std::string normal = {};     // a normal map in the tangent frame of the asset, as `bake` makes it
+  std::string occlusion = {};  // ambient occlusion
+  std::string folder = {};  // of `bake`: its basecolor, normal-tangent and ao, but for those above
+  std::vector<std::string> variants = {};  // more materials to switch to, of `variant_names`
+  int image_width = 2048;  // of images that are made here; 16 to 16384, a multiple of 4
+  bool unlit = false;      // the colours as they are, without light: no normal map, no occlusion
+  bool tangents = false;   // also without a normal map: a flat one is bound
+};
+
+struct ExportOptions {
+  std::string name = {};    // of the asset; empty: the mesh's, without its ending
+  std::string source = {};  // the mesh for extras and warnings; empty: its name
+  LookOptions look = {};
+  Convention convention = Convention::Sphparam;  // where longitude goes in the images
+  int refine_poles = 1;        // each triangle at a pole is cut into so many, 1 to 1024
+  bool keep_topology = false;  // no vertex is added on the surface: triangles fold at the poles
+  ShapeKind shape = ShapeKind::Mesh;
+  Morph morph = Morph::None;             // from the mesh: with ShapeKind::Mesh
+  std::optional<Up> up = std::nullopt;   // the axis of the mesh that points up; nothing: its file's
+  bool theta_phi = false;                // _THETA_PHI, radians; θ in [0, 2π), ϕ in [0, π]
+  bool source_uv = false;                // TEXCOORD_1: the texture coordinates of the mesh itself
+  bool quantise = false;                 // (u, v) and all else as 16-bit numbers: certified so
+  std::vector<MappedMesh> coarser = {};  // levels of detail on the same sphere, in the same file
+  int threads = 0;                       // 0: all cores
+  Progress progress = {};
+};
+
+/// The words for `LookOptions::variants`: axes, checker, graticule, area, angle.
+const std::vector<std::string>& variant_names();
+
+/// A look that the mesh cannot have: a variant that nobody knows, a texture of its own without
+/// texture coordinates. Says which.
+class LookError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// An image that `bake` made for another chart, with triangles at the poles cut otherwise: its
+/// texels would stand on the wrong ones there.
+class ImageOfOtherChart : public std::runtime_error {
+ public:
+  ImageOfOtherChart(const std::string& path, int refine_poles);
+  const std::string& path() const { return path_; }
+  int refine_poles() const { return refine_poles_; }  // of the chart that it was baked for
+
+ private:
+  std::string path_;
+  int refine_poles_;
+};
+
+/// The images of an asset and the materials made of them, the one that is seen first.
+struct Look {
+  std::vector<AssetImage> images;
+  std::vector<Material> materials;
+  bool normals_given = false;   // by a map for the tangent frame of one mesh
+  bool vertex_colours = false;  // what is seen are the colours of the vertices
+
+  bool has_normals() const { return !materials.empty() && materials.front().normal >= 0; }
+};
+
+/// What is seen: the images that are named; else the mesh's own textures, baked; else the colours
+/// of its vertices; else white under a normal or occlusion map, a checker without. The variants
+/// follow. Of `options`: look, convention, refine_poles, source, threads, progress.
+/// Throws: LookError; ImageOfOtherChart; ImageError and ReadError for images that cannot be read;
+/// NotCertifiedError where something must be baked and (u, v) is not one-to-one;
+/// std::invalid_argument for more `refine_poles` than a chart can hold; Cancelled.
+Look make_look(const MappedMesh& mapped, const ExportOptions& options = {});
+
+/// The same for another mesh on the same sphere, whose tangent frame is another: no normal map that
+/// was given.
+Look without_given_normals(Look look);
+
+/// The warning that goes with it.
+inline constexpr char normals_left_out[] =
+    "the normal map is of the finest mesh: coarser levels are without";
+
+/// The mesh as vertex buffers with (u, v) certified as a file will store them, and its look.
+/// Coarser levels share the look, but for a normal map that was given. Ensures: the same asset for
+/// any number of threads. Throws: as `make_look`; NotCertifiedError, named by the mesh's name,
+/// where the (u, v) of a level are not one-to-one, unless the topology is kept; std::range_error
+/// where a position is beyond float32; std::invalid_argument where `keep_topology` and
+/// `refine_poles` are both wanted, more `refine_poles` than a chart can hold, or the texture
+/// coordinates of a mesh that has none. Cost: some 2 µs a triangle; images that are baked, as
+/// `bake`.
+Asset make_asset(const MappedMesh& mapped, const ExportOptions& options = {});
+
+/// The same with a look made before, of this mesh or of another one on the same sphere.
+Asset make_asset(const MappedMesh& mapped, const Look& look, const ExportOptions& options = {});
+
+/// Names and sizes of files.
+using WrittenFiles = std::vector<std::pair<std::string, std::size_t>>;
+
+/// The files that an asset becomes, the one named first: of .gltf also a .bin and images, unless
+/// they are embedded.
+std::vector<std::string> asset_files(const std::string& path, const Asset& asset,
+                                     const GltfOptions& options = {});
+
+/// Adds the files of an asset: one .glb; a .gltf beside a .bin and images, or by
+/// GltfContainer::Embedded alone. The path decides: container and stem of the options do not count
+/// otherwise; "-" is a .glb on standard output. What is on the disk is read back and compared
+/// number by number, unless it is compressed.
+/// Throws: WriteError; std::length_error where a .glb would be beyond 4 GiB; std::runtime_error
+/// where what was read back differs; std::invalid_argument for other endings.
+WrittenFiles add_asset(PendingFiles& files, const std::string& path, const Asset& asset,
+                       const GltfOptions& options = {});
+
+/// Writes them, all or none.
+void write_asset(const std::string& path, const Asset& asset, const GltfOptions& options = {});
+
+// The same for programs that read texts: numbers are doubles, properties of vertices and faces come
+// along, axes stay as they are. One material with the first image of the look.
+
+struct TexturedFiles {
+  ChartFigures chart;                 // `stored`: of the texture coordinates read back
+  std::vector<std::string> warnings;  // for people
+  WrittenFiles files;
+};
+
+/// Of an .obj its .mtl and an image, of a .ply an image that a comment names.
+std::vector<std::string> textured_files(const std::string& path, const Look& look);
+
+/// Adds an .obj or .ply with (u, v) at corners, and what it names. What is on the disk is read back
+/// and its (u, v) are certified. Of `options`: convention, refine_poles, keep_topology, source,
+/// threads, progress; `shape`: the mesh or its sphere.
+/// Throws: WriteError; UnmeasurableMesh for positions that are no finite numbers;
+/// std::runtime_error where what was read back differs; NotCertifiedError and
+/// std::invalid_argument as `make_asset`, and for other endings.
+TexturedFiles add_textured_mesh(PendingFiles& files, const std::string& path,
+                                const MappedMesh& mapped, const Look& look,
+                                const ExportOptions& options = {});
+
+/// Writes them with the look of the options, all or none.
+TexturedFiles write_textured_mesh(const std::string& path, const MappedMesh& mapped,
+                                  const ExportOptions& options = {});
+
+}  // namespace sphparam

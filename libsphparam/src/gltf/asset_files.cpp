@@ -1,0 +1,153 @@
+// Files of an asset and of a textured mesh: what they are called, what is checked once they are on
+// the disk.
+
+#include <filesystem>
+#include <stdexcept>
+
+#include "gltf/export_names.h"
+#include "gltf/image_kind.h"
+#include "gltf/level.h"
+#include "gltf/textured_mesh.h"
+#include "gltf/written_check.h"
+#include "sphparam/gltf/export.h"
+#include "sphparam/io/certified_files.h"
+#include "sphparam/io/mesh_writer.h"
+#include "sphparam/io/paths.h"
+
+namespace sphparam {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string stem_of_path(const std::string& path) { return fs::path(path).stem().string(); }
+
+std::string beside(const std::string& path, const std::string& name) {
+  return (fs::path(path).parent_path() / name).string();
+}
+
+/// What the path says, and the asset.
+GltfOptions resolved(GltfOptions options, const std::string& path, const Asset& asset) {
+  const std::string extension = is_stream(path) ? ".glb" : extension_of(path);
+  if (extension != ".glb" && extension != ".gltf")
+    throw std::invalid_argument("an asset is written as .glb or .gltf, not as " + extension);
+  if (extension == ".glb") {
+    options.container = GltfContainer::Binary;
+  } else if (options.container == GltfContainer::Binary) {
+    options.container = GltfContainer::Separate;
+  }
+  options.stem = stem_of_path(path);
+  options.quantise = options.quantise || asset.quantised;
+  return options;
+}
+
+std::string image_file(const std::string& path, const AssetImage& image) {
+  return beside(path, stem_of_path(path) + "_" + image.name + image_kind(image.bytes).extension);
+}
+
+bool is_obj(const std::string& path) {
+  const std::string extension = extension_of(path);
+  if (extension != ".obj" && extension != ".ply")
+    throw std::invalid_argument("a textured mesh is written as .obj or .ply, not as " + extension);
+  return extension == ".obj";
+}
+
+/// Files added one after the other, with their sizes.
+class Adder {
+ public:
+  explicit Adder(PendingFiles& files) : files_(files) {}
+
+  void add(const std::string& path, std::string bytes, const BytesCheck& check = {}) {
+    written_.emplace_back(path, bytes.size());
+    files_.add(path, std::move(bytes), check);
+  }
+  WrittenFiles take() { return std::move(written_); }
+
+ private:
+  PendingFiles& files_;
+  WrittenFiles written_;
+};
+
+}  // namespace
+
+std::vector<std::string> asset_files(const std::string& path, const Asset& asset,
+                                     const GltfOptions& given) {
+  const GltfOptions options = resolved(given, path, asset);
+  std::vector<std::string> names = {path};
+  if (options.container != GltfContainer::Separate) return names;
+  names.push_back(beside(path, options.stem + ".bin"));
+  if (options.compress) return names;  // images are in the buffer then
+  for (const AssetImage& image : asset.images) names.push_back(image_file(path, image));
+  return names;
+}
+
+WrittenFiles add_asset(PendingFiles& files, const std::string& path, const Asset& asset,
+                       const GltfOptions& given) {
+  const GltfOptions options = resolved(given, path, asset);
+  const bool is_binary = options.container == GltfContainer::Binary;
+  const auto check = [&](std::string_view glb) {
+    if (!options.compress) check_written(glb, output_name(path), asset, options);
+  };
+  GltfFiles made = write_gltf(asset, options);
+  if (!is_binary && !options.compress) check(glb_bytes(asset, options));
+  Adder adder(files);
+  for (auto& [name, bytes] : made) {
+    const bool is_checked = name.empty() && is_binary;
+    adder.add(name.empty() ? path : beside(path, name), std::move(bytes),
+              is_checked ? BytesCheck(check) : BytesCheck());
+  }
+  return adder.take();
+}
+
+void write_asset(const std::string& path, const Asset& asset, const GltfOptions& options) {
+  PendingFiles files;
+  add_asset(files, path, asset, options);
+  files.publish();
+}
+
+std::vector<std::string> textured_files(const std::string& path, const Look& look) {
+  std::vector<std::string> names = {path};
+  if (is_obj(path)) names.push_back(beside(path, stem_of_path(path) + ".mtl"));
+  names.push_back(image_file(path, look.images.front()));
+  return names;
+}
+
+TexturedFiles add_textured_mesh(PendingFiles& files, const std::string& path,
+                                const MappedMesh& mapped, const Look& look,
+                                const ExportOptions& options) {
+  const bool obj = is_obj(path);
+  const ExportChart chart = chart_of_level(mapped, options);
+  MeshFile textured = textured_mesh(chart, mapped.file(), options.shape, options.threads);
+  require_numbers(textured, path);
+  TexturedFiles result{.chart = figures_of(chart), .warnings = {}, .files = {}};
+  const BytesCheck check = [&](std::string_view on_disk) {
+    result.chart.stored = certify_written(on_disk, path, chart, options.threads);
+  };
+  const AssetImage& image = look.images.front();
+  const std::string image_path = image_file(path, image);
+  const std::string image_name = fs::path(image_path).filename().string();
+  Adder adder(files);
+  if (obj) {
+    const std::string library = stem_of_path(path) + ".mtl";
+    adder.add(path, obj_with_library(textured, library), check);
+    adder.add(beside(path, library), material_library(image_name));
+  } else {
+    textured.comments.push_back("TextureFile " + image_name);
+    adder.add(path, serialise_ply(textured), check);
+  }
+  adder.add(image_path, image.bytes);
+  result.files = adder.take();
+  warn_of_folds(source_name(mapped, options), result.chart, options.keep_topology, result.warnings);
+  return result;
+}
+
+TexturedFiles write_textured_mesh(const std::string& path, const MappedMesh& mapped,
+                                  const ExportOptions& options) {
+  PendingFiles files;
+  TexturedFiles written =
+      add_textured_mesh(files, path, mapped, make_look(mapped, options), options);
+  files.publish();
+  return written;
+}
+
+}  // namespace sphparam

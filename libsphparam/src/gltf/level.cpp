@@ -1,0 +1,58 @@
+#include "gltf/level.h"
+
+#include <algorithm>
+
+#include "io/attributes/hard_edges.h"
+#include "sphparam/chart/chart_failure.h"
+
+namespace sphparam {
+
+ExportChartOptions chart_options(const ExportOptions& options) {
+  return {.convention = options.convention,
+          .refine_poles = options.refine_poles,
+          .keep_topology = options.keep_topology,
+          .threads = options.threads,
+          .progress = options.progress};
+}
+
+ExportChart chart_of_level(const MappedMesh& mapped, const ExportOptions& options) {
+  ExportChart chart =
+      export_chart(mapped.mesh(), mapped.topology(), mapped.map(), chart_options(options));
+  if (!options.keep_topology) require_one_to_one(chart.chart, mapped.name());
+  if (options.shape == ShapeKind::Mesh)
+    chart.wedge_normals = split_at_hard_edges(chart.chart, mapped.file(), options.threads);
+  return chart;
+}
+
+void warn_of_folds(const std::string& name, const ChartFigures& figures, bool topology_is_kept,
+                   std::vector<std::string>& warnings) {
+  const ChartCertificate& stored = figures.stored;
+  std::vector<Face> wrong = stored.folded;
+  wrong.insert(wrong.end(), stored.around_pole.begin(), stored.around_pole.end());
+  std::ranges::sort(wrong);
+  wrong.erase(std::ranges::unique(wrong).begin(), wrong.end());
+  if (wrong.empty() && !stored.one_to_one()) {
+    warnings.push_back(name + ": not one-to-one in (u, v) as stored, " +
+                       std::to_string(stored.torn.size()) + " edges torn");
+  }
+  if (wrong.empty()) return;
+  std::string line = std::to_string(wrong.size()) + " of " + std::to_string(figures.triangles) +
+                     " triangles fold in (u, v)" +
+                     (topology_is_kept ? ", as no vertex may be added:"
+                                       : " as stored, being smaller than its rounding:");
+  constexpr size_t most_listed = 10;
+  for (size_t i = 0; i < std::min(wrong.size(), most_listed); ++i)
+    line += " " + std::to_string(wrong[i]);
+  if (wrong.size() > most_listed) line += " …";
+  warnings.push_back(name + ": " + line);
+}
+
+ChartFigures figures_of(const ExportChart& chart) {
+  return {.triangles = static_cast<long>(chart.chart.triangles.rows()),
+          .vertices = static_cast<long>(chart.chart.wedge_count()),
+          .splits = chart.chart.counts.splits(),
+          .chart = chart.chart.certificate,
+          .stored = {}};
+}
+
+}  // namespace sphparam

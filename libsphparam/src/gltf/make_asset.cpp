@@ -1,0 +1,81 @@
+#include <filesystem>
+
+#include "gltf/export_asset.h"
+#include "gltf/export_names.h"
+#include "gltf/level.h"
+#include "sphparam/gltf/export.h"
+
+namespace sphparam {
+
+namespace {
+
+GeometryOptions geometry_options(const ExportOptions& options, const MappedMesh& mapped,
+                                 const Look& look) {
+  GeometryOptions geometry{.shape = options.shape,
+                           .morph = options.morph,
+                           .up = options.up.value_or(up_axis(mapped.file())),
+                           .threads = options.threads};
+  // What wraps beyond 1 has no place in normalised integers.
+  geometry.buffers = {.uv = {.sixteen_bits = options.quantise && !options.keep_topology},
+                      .tangents = look.has_normals(),
+                      .colours = look.vertex_colours,
+                      .theta_phi = options.theta_phi,
+                      .position_lo = options.shape == ShapeKind::Sphere,
+                      .source_texcoords = options.source_uv};
+  return geometry;
+}
+
+std::string name_of_asset(const MappedMesh& mapped, const ExportOptions& options) {
+  if (!options.name.empty()) return options.name;
+  return std::filesystem::path(mapped.name()).filename().stem().string();
+}
+
+Asset without_levels(const MappedMesh& mapped, const Look& look, const ExportOptions& options) {
+  Asset asset{.name = name_of_asset(mapped, options),
+              .levels = {},
+              .images = look.images,
+              .coarse_levels_have_normal_maps = !look.normals_given,
+              .materials = look.materials,
+              .extras = {{"source", source_name(mapped, options)}},
+              .quantised = options.quantise};
+  for (const auto& [key, value] : mapped.provenance())
+    asset.extras.emplace_back("map_" + key, value);
+  return asset;
+}
+
+void add_level(Asset& asset, const MappedMesh& mapped, const std::string& name, const Look& look,
+               const ExportOptions& options) {
+  const ExportChart chart = chart_of_level(mapped, options);
+  ExportGeometry geometry =
+      export_geometry(chart, mapped.file(), geometry_options(options, mapped, look));
+  if (asset.levels.empty()) {
+    for (auto& extra : chart_extras(chart, geometry, chart_options(options)))
+      asset.extras.push_back(std::move(extra));
+  }
+  ChartFigures figures = figures_of(chart);
+  figures.stored = std::move(geometry.stored);
+  figures.sphere_folds = geometry.stored_sphere_folds;
+  warn_of_folds(name, figures, options.keep_topology, asset.warnings);
+  asset.charts.push_back(std::move(figures));
+  asset.levels.push_back(std::move(geometry.surface));
+}
+
+}  // namespace
+
+Asset make_asset(const MappedMesh& mapped, const Look& look, const ExportOptions& options) {
+  Asset asset = without_levels(mapped, look, options);
+  const std::string name = source_name(mapped, options);
+  add_level(asset, mapped, name, look, options);
+  if (options.coarser.empty()) return asset;
+  if (look.normals_given) asset.warnings.emplace_back(normals_left_out);
+  const Look coarse_look = without_given_normals(look);
+  for (const MappedMesh& coarse : options.coarser)
+    add_level(asset, coarse, name, coarse_look, options);
+  return asset;
+}
+
+Asset make_asset(const MappedMesh& mapped, const ExportOptions& options) {
+  return make_asset(mapped, make_look(mapped, options), options);
+}
+
+}  // namespace sphparam

@@ -1,0 +1,137 @@
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+
+#include "../chart/maps.h"
+#include "sphparam/gltf/export.h"
+#include "sphparam/io/mesh_reader.h"
+#include "support/glb_json.h"
+#include "support/test_meshes.h"
+
+/// What a program gets that links the library: mapped meshes in, files out.
+namespace sphparam::tests {
+
+namespace {
+
+using Names = std::vector<std::string>;
+
+MappedMesh mapped_egg(int level) {
+  MeshFile file;
+  file.mesh = icosphere(level);
+  SphereMap map{file.mesh.positions};
+  file.mesh.positions.col(2) *= 1.3;
+  return MappedMesh({.file = std::move(file), .map = std::move(map), .name = "egg.obj"});
+}
+
+struct Place {
+  std::filesystem::path folder =
+      std::filesystem::temp_directory_path() /
+      ("sphparam_export_" + std::to_string(reinterpret_cast<std::uintptr_t>(this)));
+
+  Place() { std::filesystem::create_directories(folder); }
+  ~Place() { std::filesystem::remove_all(folder); }
+  Place(const Place&) = delete;
+  Place& operator=(const Place&) = delete;
+
+  std::string operator/(const std::string& name) const { return (folder / name).string(); }
+  Names names() const {
+    Names names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+      names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+};
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+const ExportOptions small{.look = {.image_width = 64}};
+
+}  // namespace
+
+TEST_CASE("export: an asset has a look, a proof of its coordinates and the mesh's name") {
+  const Asset asset = make_asset(mapped_egg(2), small);
+  CHECK(asset.name == "egg");
+  REQUIRE(asset.charts.size() == 1);
+  CHECK(asset.charts[0].stored.one_to_one());
+  CHECK(asset.charts[0].vertices == static_cast<long>(asset.levels[0].vertex_count()));
+  CHECK(asset.materials.front().name == "checker");
+  CHECK(asset.extras.front() == std::pair<std::string, std::string>("source", "egg.obj"));
+  CHECK(asset.warnings.empty());
+}
+
+TEST_CASE("export: the path decides what is written, and names of files are known before") {
+  const Place place;
+  const Asset asset = make_asset(mapped_egg(2), small);
+  write_asset(place / "a.glb", asset);
+  CHECK(json_of(bytes_of(place / "a.glb"))["nodes"].size() == 1);
+  write_asset(place / "b.gltf", asset);
+  write_asset(place / "c.gltf", asset, {.container = GltfContainer::Embedded});
+  CHECK(place.names() == Names{"a.glb", "b.bin", "b.gltf", "b_checker.png", "c.gltf"});
+  CHECK(asset_files(place / "b.gltf", asset) ==
+        Names{place / "b.gltf", place / "b.bin", place / "b_checker.png"});
+  CHECK_THROWS_AS(write_asset(place / "d.obj", asset), std::invalid_argument);
+}
+
+TEST_CASE("export: files that are not published leave nothing behind") {
+  const Place place;
+  {
+    PendingFiles files;
+    const WrittenFiles written =
+        add_asset(files, place / "a.gltf", make_asset(mapped_egg(1), small));
+    CHECK(written.size() == 3);
+  }
+  CHECK(place.names().empty());
+}
+
+TEST_CASE("export: coarser meshes on the same sphere are levels of the one file") {
+  ExportOptions options = small;
+  options.coarser = {mapped_egg(1)};
+  const Asset asset = make_asset(mapped_egg(2), options);
+  REQUIRE(asset.levels.size() == 2);
+  CHECK(asset.charts[1].triangles < asset.charts[0].triangles);
+  CHECK(json_of(glb_bytes(asset))["extensionsUsed"][0] == "MSFT_lod");
+}
+
+TEST_CASE("export: what is certified as 16-bit numbers is written so") {
+  const Place place;
+  ExportOptions options = small;
+  options.quantise = true;
+  write_asset(place / "q.glb", make_asset(mapped_egg(2), options));
+  CHECK(json_of(bytes_of(place / "q.glb"))["extensionsUsed"][0] == "KHR_mesh_quantization");
+}
+
+TEST_CASE("export: a kept topology is told, with the triangles that fold") {
+  ExportOptions options = small;
+  options.keep_topology = true;
+  MappedMesh turned = mapped_egg(2);
+  std::mt19937 random(4);
+  turned = turned.with_map(rotated(turned.map(), random_rotation(random)), {});
+  const Asset asset = make_asset(turned, options);
+  REQUIRE(asset.warnings.size() == 1);
+  CHECK_THAT(asset.warnings[0], Catch::StartsWith("egg.obj: "));
+  CHECK_THAT(asset.warnings[0], Catch::Contains("fold in (u, v), as no vertex may be added"));
+}
+
+TEST_CASE("export: textured meshes are certified as read back, with the files they name") {
+  const Place place;
+  const TexturedFiles obj = write_textured_mesh(place / "a.obj", mapped_egg(2), small);
+  CHECK(obj.chart.stored.one_to_one());
+  CHECK(obj.files.size() == 3);
+  write_textured_mesh(place / "b.ply", mapped_egg(2), small);
+  CHECK(place.names() == Names{"a.mtl", "a.obj", "a_checker.png", "b.ply", "b_checker.png"});
+  CHECK(read_mesh(place / "b.ply").corner_texcoords.has_value());
+  CHECK_THROWS_AS(write_textured_mesh(place / "c.stl", mapped_egg(1), small),
+                  std::invalid_argument);
+}
+
+TEST_CASE("export: a look that cannot be is an error that says why") {
+  ExportOptions options = small;
+  options.look.variants = {"chekcer"};
+  CHECK_THROWS_AS(make_look(mapped_egg(1), options), LookError);
+}
+
+}  // namespace sphparam::tests
