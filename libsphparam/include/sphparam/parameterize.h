@@ -7,7 +7,6 @@
 #include "sphparam/curvilinear/date_line.h"
 #include "sphparam/curvilinear/poles.h"
 #include "sphparam/embedding/distortion_energy.h"
-#include "embedding/newton/optimise.h"
 #include "sphparam/embedding/quality.h"
 #include "sphparam/mesh/edge_weights.h"
 #include "sphparam/mesh/mesh_defects.h"
