@@ -13,7 +13,7 @@
 
 #include "displace/displacement_file.h"
 #include "displace/rebuild.h"
-#include "measure/surface_distance.h"
+#include "sphparam/measure/surface_distance.h"
 #include "sphparam/io/mesh_reader.h"
 #include "io/polygons/welding.h"
 #include "remesh/sample_density.h"

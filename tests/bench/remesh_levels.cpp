@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "geodesic_sphere.h"
-#include "measure/surface_distance.h"
+#include "sphparam/measure/surface_distance.h"
 #include "panels.h"
 #include "remesh/remesh.h"
 #include "report/svg.h"

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "measure/surface_distance.h"
+#include "sphparam/measure/surface_distance.h"
 #include "sphparam/io/mesh_reader.h"
 #include "io/polygons/welding.h"
 #include "panels.h"

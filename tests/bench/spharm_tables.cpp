@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "geodesic_sphere.h"
-#include "measure/surface_distance.h"
+#include "sphparam/measure/surface_distance.h"
 #include "sphparam/io/mesh_reader.h"
 #include "io/polygons/welding.h"
 #include "sample_meshes.h"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "geodesic_sphere.h"
-#include "measure/surface_distance.h"
+#include "sphparam/measure/surface_distance.h"
 #include "sphparam/io/mesh_reader.h"
 #include "io/polygons/welding.h"
 #include "remesh/patch_net.h"

@@ -7,7 +7,7 @@
 #include "displace/displacement_file.h"
 #include "displace/interpolated_base.h"
 #include "displace/rebuild.h"
-#include "measure/surface_distance.h"
+#include "sphparam/measure/surface_distance.h"
 #include "sphparam/sphere/spherical_coordinates.h"
 #include "support/test_meshes.h"
 

@@ -74,7 +74,7 @@ const std::map<std::string, std::set<std::string>> below{
     {"baselines", {"sphere", "mesh"}},
     {"chart", {"sphere", "mesh"}},
     {"pipeline", {"curvilinear", "embedding", "sphere", "mesh"}},
-    {"io", {"chart", "sphere", "mesh"}},
+    {"io", {"chart", "embedding", "sphere", "mesh"}},
     {"image", {"io", "mesh"}},
     {"texture", {"image", "sphere", "mesh"}},
     {"rays", {"mesh"}},

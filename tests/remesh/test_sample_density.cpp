@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "measure/surface_distance.h"
+#include "sphparam/measure/surface_distance.h"
 #include "remesh/remesh.h"
 #include "remesh/sample_density.h"
 #include "sphparam/parameterize.h"

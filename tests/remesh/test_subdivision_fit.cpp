@@ -3,7 +3,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "measure/surface_distance.h"
+#include "sphparam/measure/surface_distance.h"
 #include "remesh/limit_stencils.h"
 #include "remesh/limit_subject.h"
 #include "remesh/patch_net.h"

@@ -1,11 +1,10 @@
 #include "arguments/common_options.h"
 
 #include <CLI/CLI.hpp>
-#include <set>
 
 #include "arguments/choice.h"
 #include "console/paths.h"
-#include "sphparam/io/paths.h"
+#include "sphparam/io/mesh_reader.h"
 
 namespace sphparam::cli {
 
@@ -29,9 +28,7 @@ void add_json(CLI::App& command, std::string& json, const std::string& what) {
 
 void require_report_place(const std::vector<std::string>& inputs, const std::string& json) {
   check_places(inputs, {{"--json", json}});
-  const std::set<std::string> of_meshes = {".obj",  ".ply", ".off", ".stl",
-                                           ".gltf", ".glb", ".gii", ".gz"};
-  if (of_meshes.contains(extension_of(json))) {
+  if (is_mesh_name(json)) {
     throw UsageMistake("--json: " + json +
                        " is the name of a mesh, not of a report; `--json -` is standard output");
   }

@@ -12,9 +12,9 @@
 #include "arguments/common_options.h"
 #include "console/paths.h"
 #include "reports/wording.h"
-#include "sphparam/io/paths.h"
-#include "io/formats/gifti/gifti_writer.h"
+#include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/mesh_writer.h"
+#include "sphparam/io/paths.h"
 
 namespace sphparam::cli {
 
@@ -122,7 +122,8 @@ void require_sensible(const MapArguments& arguments) {
     throw UsageMistake("-o: the map is a PLY, the name must end in .ply; for " + extension +
                        " see --write-sphere");
   }
-  if (!arguments.sphere.empty() && !serialiser(arguments.sphere)) {
+  const bool is_named = !extension_of(arguments.sphere).empty();
+  if (!arguments.sphere.empty() && !(is_named && is_written(arguments.sphere))) {
     throw UsageMistake("--write-sphere: the name must end in .ply, .obj, .off or .gii");
   }
   check_places(
@@ -163,9 +164,7 @@ std::vector<CLI::Option*> add_paper_options(CLI::App& command, MapArguments& arg
 }
 
 void add_files(CLI::App& command, MapArguments& arguments) {
-  command
-      .add_option("MESH", arguments.input,
-                  "OBJ, PLY, OFF, STL, glTF, GLB or GIFTI; - for standard input")
+  command.add_option("MESH", arguments.input, readable_formats("or") + "; - for standard input")
       ->type_name(" ")
       ->required();
   command.add_option("-o,--output", arguments.output, "The map, a .sph.ply; - for standard output")
@@ -197,7 +196,7 @@ void add_method(CLI::App& command, MapArguments& arguments) {
   command.add_flag("--repair-map", options.repair_paper,
                    "Untangle what --method paper or one of others folds");
   command.add_flag("--keep-folded", arguments.keep_folded,
-                   "Write a folded map too, marked in its header; still ends with 5");
+                   "Write a folded map too, marked in its header; the exit status stays 5");
   add_threads(command, options.threads);
 }
 
@@ -280,18 +279,6 @@ MapDeclaration declare_map_arguments(CLI::App& program, MapArguments& arguments)
             options.measure_stages =
                 arguments.method == AnyMethod(Method::Paper) || arguments.loudness.verbose;
           }};
-}
-
-Serialiser serialiser(const std::string& path) {
-  const std::string extension = extension_of(path);
-  if (extension == ".ply") return serialise_ply;
-  if (extension == ".obj") return serialise_obj;
-  if (extension == ".off") return serialise_off;
-  if (extension == ".gii") {
-    return
-        [](const MeshFile& file) { return serialise_gifti(file, {.geometric_type = "Spherical"}); };
-  }
-  return nullptr;
 }
 
 }  // namespace sphparam::cli

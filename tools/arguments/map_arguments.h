@@ -3,8 +3,8 @@
 #include <functional>
 #include <string>
 
-#include "commands/command.h"
 #include "arguments/repair_arguments.h"
+#include "commands/command.h"
 #include "compare/methods.h"
 #include "sphparam/io/mesh_file.h"
 #include "sphparam/parameterize.h"
@@ -37,9 +37,5 @@ struct MapDeclaration {
   std::function<void()> settle;
 };
 MapDeclaration declare_map_arguments(CLI::App& program, MapArguments& arguments);
-
-/// What writes a mesh in the format that the name's extension asks for; null for an unknown one.
-using Serialiser = std::string (*)(const MeshFile&);
-Serialiser serialiser(const std::string& path);
 
 }  // namespace sphparam::cli

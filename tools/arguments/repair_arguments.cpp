@@ -96,7 +96,7 @@ void add_repair_options(CLI::App& command, RepairArguments& arguments) {
             if (arguments.least_kept) return;
             throw CLI::ValidationError("--min-kept", "expected a share, as in 0.5 or 50%");
           },
-          "Keep the largest component if it has this share of the area; else end with 4 "
+          "Keep the largest component if it has this share of the area; else exit with status 4 "
           "(--repair: 98%)")
       ->type_name("SHARE")
       ->group(group);

@@ -17,7 +17,7 @@
 #include "console/console.h"
 #include "console/exit_codes.h"
 #include "console/interruption.h"
-#include "reports/json_report.h"
+#include "reports/compare_report.h"
 #include "console/paths.h"
 #include "commands/repairing.h"
 #include "commands/shown_textures.h"
@@ -50,8 +50,8 @@ constexpr char summary[] =
     "each other one, and compare.json. A sphere that is added must have the vertices and "
     "triangles\n"
     "of the mesh, in its order; it comes after the methods.\n"
-    "Methods of others run as their authors published them, and nothing is repaired. Ends with 0\n"
-    "also where they fold.\n";
+    "Methods of others run as their authors published them, and nothing is repaired. The exit\n"
+    "status is 0 also where they fold.\n";
 
 struct Added {
   std::string name;

@@ -8,22 +8,18 @@
 #include <string>
 #include <utility>
 
-#include "reports/chart_report.h"
-#include "console/exit_codes.h"
-#include "sphparam/io/file_numbers.h"
-#include "console/interruption.h"
-#include "reports/json_report.h"
-#include "console/paths.h"
 #include "commands/repairing.h"
+#include "console/exit_codes.h"
+#include "console/interruption.h"
+#include "console/paths.h"
+#include "report/plots.h"
+#include "reports/chart_report.h"
+#include "reports/map_report.h"
+#include "sphparam/io/file_numbers.h"
+#include "sphparam/io/map_files.h"
 #include "sphparam/io/paths.h"
-#include "sphparam/io/mesh_reader.h"
-#include "sphparam/io/mesh_writer.h"
-#include "io/files/read_back.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/io/sphere_file.h"
-#include "report/plots.h"
-#include "embedding/constructions/float32_safe.h"
-#include "sphparam/version.h"
 
 namespace sphparam::cli {
 
@@ -36,97 +32,32 @@ std::string options_line(const MapArguments& arguments) {
   return arguments.options.repair_paper ? "--repair-map" : "none";
 }
 
-std::string words(const std::optional<Poles>& poles, const FileNumbers& numbers) {
-  if (!poles) return "none";
-  return std::to_string(numbers.number(poles->north)) + " " +
-         std::to_string(numbers.number(poles->south));
-}
-
-Provenance provenance(const MapArguments& arguments, const MapOutcome& outcome,
-                      const std::string& verdict) {
-  const FileNumbers numbers(outcome.source.file);
-  Provenance lines = {{"version", version},
-                      {"method", info_of(arguments.method).name},
-                      {"stage", outcome.result.made_by},
-                      {"options", options_line(arguments)},
-                      {"poles", words(outcome.result.poles, numbers)}};
-  if (outcome.account) lines.emplace_back("after", outcome.account->citation);
-  if (outcome.result.meridian) {
-    lines.emplace_back("meridian", std::to_string(numbers.number(*outcome.result.meridian)));
-  }
-  if (!outcome.pins.empty()) lines.emplace_back("pins", std::to_string(outcome.pins.size()));
-  lines.emplace_back("verdict", verdict);
-  return lines;
-}
-
-/// Throws NotCertifiedError unless the bytes of a written map hold what was found in memory.
-void require_verdict(const std::string& expected, const std::string& path,
-                     const Certificate& on_disk) {
-  if (verdict(on_disk) != expected) {
-    throw NotCertifiedError(path + ": as written, the map is " + verdict(on_disk));
-  }
-}
-
-/// A map as a file can hold it, and what is to be said of it there.
-struct Sphere {
-  SphereMap map;
-  std::string verdict;
-  double least_area = 0;  // of triangles, of the mean: what they had to be taken for
-};
-
-/// The radius that FreeSurfer, HCP and MSM give their spheres; areas are compared at it.
-constexpr double gifti_radius = 100;
-
-/// GIFTI has coordinates of 32 bits. Rounding must not cost a certified map its certificate; one
-/// that is folded anyway may get other folds.
-Sphere sphere_for(const std::string& path, const MapOutcome& outcome,
-                  const ParameterizeOptions& options) {
-  if (extension_of(path) != ".gii") {
-    return {outcome.result.map, outcome.verdict()};
-  }
-  auto [rounding, least_area] =
-      round_with_room(outcome.source.file.mesh, outcome.topology(), outcome.result.map,
-                      {.energy = options.energy,
-                       .radius = gifti_radius,
-                       .threads = options.threads,
-                       .progress = options.progress});
-  const bool held = !outcome.pins.empty() || options.poles || options.meridian;
-  if (least_area > 0 && held) {
-    throw NotCertifiedError(path +
-                            ": numbers of 32 bits cannot hold this map with its pins, poles or "
-                            "meridian; .ply, .obj and .off can");
-  }
-  const bool certified = outcome.certificate.bijective();
-  if (certified && !rounding.certificate.bijective()) {
-    throw NotCertifiedError(path + ": numbers of 32 bits cannot hold this map (" +
-                            verdict(rounding.certificate) + "); .ply, .obj and .off can");
-  }
-  return {std::move(rounding.map), certified ? outcome.verdict() : verdict(rounding.certificate),
-          least_area};
+Provenance provenance(const MapArguments& arguments, const MapOutcome& outcome) {
+  return provenance_of(outcome.result,
+                       {.method = info_of(arguments.method).name,
+                        .options = options_line(arguments),
+                        .citation = outcome.account ? outcome.account->citation : "",
+                        .pins = outcome.pins.size(),
+                        .verdict = outcome.verdict()},
+                       FileNumbers(outcome.source.file));
 }
 
 void add_sphere(PendingFiles& files, const MapArguments& arguments, const MapOutcome& outcome,
                 Console& console) {
+  const ParameterizeOptions& options = arguments.options;
   const std::string& path = arguments.sphere;
-  ParameterizeOptions options = arguments.options;
-  options.progress = [&](std::string_view stage, double f) { return console.progress(stage, f); };
-  const Sphere sphere = sphere_for(path, outcome, options);
-  Provenance lines = provenance(arguments, outcome, sphere.verdict);
-  if (sphere.least_area > 0) {
-    std::erase_if(lines, [](const auto& line) {  // they are of the other map
-      return line.first == "poles" || line.first == "meridian";
-    });
-    console.say("  " + path + ": mapped anew for numbers of 32 bits: triangles under " +
-                short_number(sphere.least_area) + " of the mean area count as that large");
-  }
-  std::string bytes =
-      serialiser(path)(sphere_mesh(outcome.source.file, sphere.map, std::move(lines)));
-  files.add(path, std::move(bytes), [&](std::string_view written) {
-    const MeshFile file = read_mesh(written, path, own_map);
-    require_verdict(sphere.verdict, path,
-                    certify_read_back(file, {file.mesh.positions}, outcome.topology(),
-                                      arguments.options.threads));
-  });
+  const bool held = !outcome.pins.empty() || options.poles || options.meridian;
+  const double least_area = sphparam::add_sphere(
+      files, path,
+      {outcome.source.file, outcome.topology(), outcome.result.map, outcome.certificate,
+       provenance(arguments, outcome)},
+      {.energy = options.energy,
+       .may_remap = !held,
+       .threads = options.threads,
+       .progress = [&](std::string_view stage, double f) { return console.progress(stage, f); }});
+  if (least_area == 0) return;
+  console.say("  " + path + ": mapped anew for numbers of 32 bits: triangles under " +
+              short_number(least_area) + " of the mean area count as that large");
 }
 
 void add_charts(PendingFiles& files, const std::string& folder, const std::string& name,
@@ -199,16 +130,11 @@ void add_reports(PendingFiles& files, const MapArguments& arguments, MapOutcome&
 
 /// The mesh gets its map where it stands: a copy of all its attributes would be the peak of memory.
 void add_map(PendingFiles& files, const MapArguments& arguments, MapOutcome& outcome) {
-  const std::string& path = arguments.output;
-  const Provenance lines = provenance(arguments, outcome, outcome.verdict());
+  const Provenance lines = provenance(arguments, outcome);
   MeshFile& file = outcome.source.file;
   file = attach_map(std::move(file), outcome.result.map, lines);
-  files.add(path, serialise_ply(file), [&](std::string_view written) {
-    const MeshFile reread = read_mesh(written, path, own_map);
-    require_verdict(outcome.verdict(), path,
-                    certify_read_back(reread, read_sphere(reread).value(), outcome.topology(),
-                                      arguments.options.threads));
-  });
+  sphparam::add_map(files, arguments.output, file, outcome.topology(), outcome.verdict(),
+                    arguments.options.threads);
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "measure/surface_distance.h"
+#include "sphparam/measure/surface_distance.h"
 #include "sphparam/errors.h"
 #include "sphparam/mesh/triangle_mesh.h"
 

@@ -12,23 +12,23 @@
 #include <vector>
 
 #include "arguments/choice.h"
-#include "commands/command.h"
 #include "arguments/common_options.h"
+#include "arguments/input_limits.h"
+#include "commands/command.h"
+#include "commands/measurable.h"
 #include "console/console.h"
 #include "console/exit_codes.h"
-#include "arguments/input_limits.h"
 #include "console/interruption.h"
-#include "commands/measurable.h"
-#include "reports/measure_report.h"
 #include "console/paths.h"
+#include "reports/measure_report.h"
 #include "reports/wording.h"
-#include "sphparam/io/paths.h"
-#include "measure/surface_distance.h"
+#include "sphparam/errors.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/mesh_writer.h"
+#include "sphparam/io/paths.h"
 #include "sphparam/io/safe_file.h"
-#include "render/colour.h"
-#include "sphparam/errors.h"
+#include "sphparam/measure/surface_distance.h"
+#include "sphparam/render/coloured_values.h"
 #include "sphparam/stopwatch.h"
 
 namespace sphparam::cli {
@@ -47,7 +47,8 @@ constexpr char summary[] =
     "Both directions: samples spread evenly over each surface, and their nearest points on the\n"
     "other. Maxima (the larger is the Hausdorff distance) are over vertices too and then sought\n"
     "between the samples. Any meshes: they need not be closed. Lengths are in the unit of the\n"
-    "meshes, % are of the diagonal of A's bounding box. Ends with 6 where a limit is exceeded.\n";
+    "meshes, % are of the diagonal of A's bounding box. The exit status is 6 where a limit is\n"
+    "exceeded.\n";
 
 struct MeasureArguments {
   std::string first;
@@ -123,23 +124,12 @@ SurfaceDistance measure(const MeasureArguments& arguments, const MeshFile& first
 
 /// The first mesh with the distance of each vertex, as the property `error` and as colours from 0
 /// to the largest.
-MeshFile with_errors(MeshFile file, const OneSidedDistance& side, const std::string& other) {
+MeshFile with_errors(const MeshFile& file, const OneSidedDistance& side, const std::string& other) {
+  MeshFile coloured = with_coloured_values(file, "error", side.at_vertices);
   const double largest = side.at_vertices.size() > 0 ? side.at_vertices.maxCoeff() : 0;
-  const std::vector<Rgb> colours = value_colours(side.at_vertices, 0, largest > 0 ? largest : 1);
-  int channel = 0;
-  for (const char* name : {"red", "green", "blue"}) {
-    Property property = {name, ScalarType::Uint8, {}};
-    for (const Rgb& colour : colours) {
-      property.values.push_back(std::round(255 * static_cast<double>(colour[channel])));
-    }
-    file.set_vertex_property(std::move(property));
-    ++channel;
-  }
-  file.set_vertex_property({"error", ScalarType::Float64,
-                            std::vector<double>(side.at_vertices.begin(), side.at_vertices.end())});
-  file.comments.push_back("error: distance to " + one_line(other) + ", colours from 0 to " +
-                          short_number(largest, 6));
-  return file;
+  coloured.comments.push_back("error: distance to " + one_line(other) + ", colours from 0 to " +
+                              short_number(largest, 6));
+  return coloured;
 }
 
 std::vector<LimitReport> judge(const MeasureArguments& arguments, const SurfaceDistance& distance) {
@@ -177,7 +167,8 @@ int run_measure(MeasureArguments arguments) {
   PendingFiles files;
   if (!arguments.per_vertex.empty()) {
     files.add(arguments.per_vertex,
-              serialise_ply(with_errors(first, distance.forth, display_name(arguments.second))));
+              serialise_mesh(arguments.per_vertex,
+                             with_errors(first, distance.forth, display_name(arguments.second))));
     report.outputs.emplace_back("per_vertex", arguments.per_vertex);
   }
   report.seconds = stopwatch.seconds();
@@ -244,9 +235,9 @@ Command declare_measure(CLI::App& program) {
       ->type_name("FILE");
   add_json(*command, arguments->json);
   add_length(*command, "--max-rms", arguments->max_rms,
-             "End with 6 where the larger RMS is more; % of A's diagonal");
+             "Exit with status 6 if the larger RMS is more; % of A's diagonal");
   add_length(*command, "--max-distance", arguments->max_distance,
-             "End with 6 where the larger maximum is more");
+             "Exit with status 6 if the larger maximum is more; % likewise");
   add_threads(*command, arguments->options.threads);
   add_progress(*command, arguments->progress);
   add_loudness(*command, arguments->loudness);

@@ -19,7 +19,7 @@
 #include "displace/displacement_file.h"
 #include "displace/rebuild.h"
 #include "sphparam/io/paths.h"
-#include "measure/surface_distance.h"
+#include "sphparam/measure/surface_distance.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/sphere_file.h"
 #include "io/formats/polygon_ply.h"

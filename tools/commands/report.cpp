@@ -18,7 +18,6 @@
 #include "console/console.h"
 #include "console/exit_codes.h"
 #include "console/interruption.h"
-#include "reports/json_report.h"
 #include "console/paths.h"
 #include "commands/repairing.h"
 #include "commands/shown_textures.h"
@@ -53,7 +52,7 @@ constexpr char summary[] =
     "The mesh is that of the first file; a first file without a map is mapped now. The others are\n"
     "maps of the same mesh: sx sy sz, or a sphere with its triangles, in its order. They stand "
     "side\n"
-    "by side, charts on the same scale. Ends with 0 also where maps fold.\n";
+    "by side, charts on the same scale. The exit status is 0 also where maps fold.\n";
 
 /// What a page is not; any other ending, as that of page.v2, may be part of its name.
 constexpr std::array<std::string_view, 17> other_kinds = {

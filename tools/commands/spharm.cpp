@@ -7,25 +7,24 @@
 #include <utility>
 #include <vector>
 
-#include "sphparam/io/certified_files.h"
 #include "arguments/choice.h"
-#include "commands/command.h"
 #include "arguments/common_options.h"
-#include "console/console.h"
+#include "arguments/suggestion.h"
+#include "commands/command.h"
 #include "commands/diagonal.h"
-#include "console/exit_codes.h"
-#include "reports/harmonics_report.h"
-#include "console/interruption.h"
-#include "arguments/map_arguments.h"
 #include "commands/mapped_source.h"
 #include "commands/measurable.h"
+#include "console/console.h"
+#include "console/exit_codes.h"
+#include "console/interruption.h"
 #include "console/paths.h"
-#include "arguments/suggestion.h"
+#include "reports/harmonics_report.h"
 #include "reports/wording.h"
-#include "sphparam/io/paths.h"
-#include "sphparam/io/mesh_writer.h"
-#include "sphparam/io/safe_file.h"
 #include "sphparam/errors.h"
+#include "sphparam/io/certified_files.h"
+#include "sphparam/io/mesh_writer.h"
+#include "sphparam/io/paths.h"
+#include "sphparam/io/safe_file.h"
 #include "sphparam/mesh/topology.h"
 #include "sphparam/stopwatch.h"
 
@@ -65,91 +64,47 @@ std::vector<std::string> names_of(const std::vector<Property>& properties) {
   return names;
 }
 
-const Property& scalar_named(const MeshFile& file, const std::string& name) {
-  if (const Property* found = file.find_vertex_property(name)) return *found;
-  const std::string meant = nearest_word(name, names_of(file.vertex_properties));
-  throw UsageMistake("--scalar: the vertices have no property " + name +
-                     (meant.empty() ? "" : "; did you mean " + meant + "?"));
-}
-
-/// x, y, z and the scalars, one a column.
-Functions functions_of(const MeshFile& file, const std::vector<std::string>& scalars) {
-  Functions values(file.mesh.vertex_count(), 3 + static_cast<Eigen::Index>(scalars.size()));
-  values.leftCols(3) = file.mesh.positions;
-  for (size_t k = 0; k < scalars.size(); ++k) {
-    const Property& property = scalar_named(file, scalars[k]);
-    values.col(3 + static_cast<Eigen::Index>(k)) =
-        Eigen::Map<const VectorX>(property.values.data(), file.mesh.vertex_count());
+void require_scalars(const MeshFile& file, const std::vector<std::string>& scalars) {
+  for (const std::string& name : scalars) {
+    if (file.find_vertex_property(name)) continue;
+    const std::string meant = nearest_word(name, names_of(file.vertex_properties));
+    throw UsageMistake("--scalar: the vertices have no property " + name +
+                       (meant.empty() ? "" : "; did you mean " + meant + "?"));
   }
-  return values;
 }
 
-/// Coefficients, and what they have at the vertices.
-struct Expansion {
-  HarmonicsReport report;
-  Functions values;
-};
-
-Expansion expand(const SpharmArguments& arguments, const MappedMesh& mapped, Console& console) {
-  const MeshFile& file = mapped.file();
-  require_measurable(file.mesh);
-  Expansion result;
-  HarmonicsReport& report = result.report;
-  report.mesh = arguments.input;
-  report.map = mapped.provenance();
-  report.functions = {"x", "y", "z"};
-  report.least_squares = arguments.least_squares;
-  report.diagonal = diagonal_of(file.mesh.positions);
-  report.functions.insert(report.functions.end(), arguments.scalars.begin(),
-                          arguments.scalars.end());
-  const Functions values = functions_of(file, arguments.scalars);
-  report.fit = fit_harmonics(
-      mapped.topology(), mapped.map(), values,
+HarmonicExpansion expand(const SpharmArguments& arguments, const MappedMesh& mapped,
+                         Console& console) {
+  require_measurable(mapped.mesh());
+  require_scalars(mapped.file(), arguments.scalars);
+  HarmonicExpansion expansion = expand_in_harmonics(
+      mapped, arguments.scalars,
       {.degree = arguments.degree,
        .least_squares = arguments.least_squares,
        .threads = arguments.threads,
        .progress = [&](std::string_view stage, double f) { return console.progress(stage, f); }});
-  console.progress("residuals", 0);
-  result.values = synthesise(report.fit.coefficients, mapped.map().points, arguments.threads);
-  report.plain_rms = (values - result.values).cwiseAbs2().colwise().mean().cwiseSqrt();
   console.clear_progress();
-  return result;
+  return expansion;
 }
 
-/// The mesh with the positions and scalars that the harmonics have at its vertices.
-MeshFile reconstruct(const SpharmArguments& arguments, MappedMesh mapped,
-                     const Functions& values) {
-  MeshFile file = mapped.file();
-  file.mesh.positions = values.leftCols(3);
-  file.position_type = ScalarType::Float64;
-  file.corner_normals.reset();
-  remove_properties(file.vertex_properties, {"nx", "ny", "nz"});
-  for (size_t k = 0; k < arguments.scalars.size(); ++k) {
-    const VectorX column = values.col(3 + static_cast<Eigen::Index>(k));
-    file.set_vertex_property({arguments.scalars[k], ScalarType::Float64,
-                              std::vector<double>(column.begin(), column.end())});
-  }
-  Provenance lines = mapped.provenance();
-  lines.emplace_back("harmonics", std::to_string(arguments.degree));
-  return attach_map(std::move(file), mapped.map(), lines);
-}
-
-void add_reconstruction(PendingFiles& files, const SpharmArguments& arguments, MappedMesh mapped,
-                        const Functions& values) {
+void add_reconstruction(PendingFiles& files, const SpharmArguments& arguments,
+                        const MappedMesh& mapped, const HarmonicExpansion& expansion) {
   const std::string& path = arguments.reconstruction;
-  const Topology topology = mapped.topology();
-  MeshFile file = reconstruct(arguments, std::move(mapped), values);
+  const MeshFile file = reconstruction(mapped, expansion);
   require_numbers(file, path);
-  if (is_stream(path) || extension_of(path) == ".ply") {
-    add_certified(files, path, serialise_ply(file), topology, arguments.threads);
+  std::string bytes = serialise_mesh(path, file);
+  if (keeps_map(path)) {
+    add_certified(files, path, std::move(bytes), mapped.topology(), arguments.threads);
   } else {
-    files.add(path, serialiser(path)(without_map(std::move(file))));
+    files.add(path, std::move(bytes));
   }
 }
 
 void require_sensible(const SpharmArguments& arguments) {
   const std::string& mesh = arguments.reconstruction;
-  if (!mesh.empty() && !is_stream(mesh) && (!serialiser(mesh) || extension_of(mesh) == ".gii")) {
+  const std::string extension = extension_of(mesh);
+  const bool can_be = is_written(mesh) && !extension.empty() && extension != ".gii";
+  if (!mesh.empty() && !is_stream(mesh) && !can_be) {
     throw UsageMistake("--reconstruct: the name must end in .ply, .obj or .off");
   }
   check_places({arguments.input, arguments.sphere}, {{"--json", arguments.json},
@@ -167,8 +122,9 @@ void warn_of_few_vertices(const SpharmArguments& arguments, const MeshFile& file
                   " vertices: what these leave open is as in --fit quadrature");
 }
 
-void tell(const HarmonicsReport& report, const Stopwatch& stopwatch, Console& console) {
-  std::string line = display_name(report.mesh) + ": degree " + std::to_string(report.degree()) +
+void tell(const SpharmArguments& arguments, const HarmonicExpansion& report,
+          const Stopwatch& stopwatch, Console& console) {
+  std::string line = display_name(arguments.input) + ": degree " + std::to_string(report.degree()) +
                      ", RMS distance at the vertices, weighted by solid angle, " +
                      short_number(report.position_rms()) + " (" +
                      percent_of(report.diagonal, report.position_rms()) +
@@ -194,18 +150,18 @@ int run_spharm(const SpharmArguments& arguments) {
   const Stopwatch stopwatch;
   Console console(arguments.loudness.verbosity(), arguments.progress);
   const OrderlyInterruption orderly;
-  MappedMesh mapped =
+  const MappedMesh mapped =
       read_mapped_source(arguments.input, arguments.sphere, arguments.threads, console);
   warn_of_few_vertices(arguments, mapped.file(), console);
-  const auto [report, values] = expand(arguments, mapped, console);
+  const HarmonicExpansion expansion = expand(arguments, mapped, console);
   PendingFiles files;
-  if (!arguments.json.empty()) files.add(arguments.json, to_json(report));
-  if (!arguments.csv.empty()) files.add(arguments.csv, to_csv(report));
-  if (!arguments.reconstruction.empty())
-    add_reconstruction(files, arguments, std::move(mapped), values);
+  if (!arguments.json.empty())
+    files.add(arguments.json, to_json(expansion, arguments.input, mapped.provenance()));
+  if (!arguments.csv.empty()) files.add(arguments.csv, to_csv(expansion));
+  if (!arguments.reconstruction.empty()) add_reconstruction(files, arguments, mapped, expansion);
   if (interrupted()) throw Cancelled();
   files.publish();
-  tell(report, stopwatch, console);
+  tell(arguments, expansion, stopwatch, console);
   return Ok;
 }
 

@@ -44,6 +44,8 @@ constexpr char summary[] =
     "Examples:\n"
     "  sphparam info statue.obj                       what it is, what is wrong with it\n"
     "  sphparam map statue.obj -o statue.sph.ply      map it, prove it, write it\n"
+    "  sphparam bake statue.sph.ply --map normal-object,ao -o statue_{map}.png\n"
+    "  sphparam export statue.sph.ply --texture statue_ao.png -o statue.glb   for game engines\n"
     "  sphparam verify statue.sph.ply                 prove a written map again\n"
     "  sphparam render statue.sph.ply -o statue.png   look at it\n"
     "  sphparam compare statue.obj -o statue/         all methods, side by side\n"

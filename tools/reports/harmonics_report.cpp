@@ -1,7 +1,6 @@
 #include "reports/harmonics_report.h"
 
 #include <charconv>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "sphparam/version.h"
@@ -35,52 +34,49 @@ void append_number(std::string& text, double value) {
 
 }  // namespace
 
-int HarmonicsReport::degree() const {
-  return static_cast<int>(std::lround(std::sqrt(double(fit.coefficients.rows())))) - 1;
-}
-
-std::string to_json(const HarmonicsReport& report) {
-  const Functions power = power_per_degree(report.fit.coefficients);
+std::string to_json(const HarmonicExpansion& expansion, const std::string& mesh,
+                    const Provenance& map) {
+  const Functions power = power_per_degree(expansion.fit.coefficients);
   Json functions = Json::array();
-  for (size_t k = 0; k < report.functions.size(); ++k) {
+  for (size_t k = 0; k < expansion.functions.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
-    functions.push_back({{"name", report.functions[k]},
-                         {"rms_residual", report.fit.rms[i]},
-                         {"rms_residual_unweighted", report.plain_rms[i]},
+    functions.push_back({{"name", expansion.functions[k]},
+                         {"rms_residual", expansion.fit.rms[i]},
+                         {"rms_residual_unweighted", expansion.plain_rms[i]},
                          {"power_per_degree", column(power, i)},
-                         {"coefficients", column(report.fit.coefficients, i)}});
+                         {"coefficients", column(expansion.fit.coefficients, i)}});
   }
-  Json map = Json::object();
-  for (const auto& [key, value] : report.map) map[key] = value;
+  Json lines = Json::object();
+  for (const auto& [key, value] : map) lines[key] = value;
   Json json = {{"sphparam", version},
-               {"mesh", report.mesh},
-               {"map", map},
-               {"degree", report.degree()},
+               {"mesh", mesh},
+               {"map", lines},
+               {"degree", expansion.degree()},
                {"basis", basis},
-               {"fit", report.least_squares ? "least-squares" : "quadrature"},
-               {"iterations", report.fit.iterations},
-               {"position_rms", report.position_rms()},
-               {"position_rms_relative", report.position_rms() / report.diagonal},
-               {"position_rms_unweighted", report.plain_position_rms()},
+               {"fit", expansion.least_squares ? "least-squares" : "quadrature"},
+               {"iterations", expansion.fit.iterations},
+               {"position_rms", expansion.position_rms()},
+               {"position_rms_relative", expansion.position_rms() / expansion.diagonal},
+               {"position_rms_unweighted", expansion.plain_position_rms()},
                {"rms", rms_meaning}};
-  if (report.degree() >= 1) {
-    const Vector3 axes = first_order_ellipsoid(report.fit.coefficients.leftCols(3));
+  if (expansion.degree() >= 1) {
+    const Vector3 axes = first_order_ellipsoid(expansion.fit.coefficients.leftCols(3));
     json["first_order_ellipsoid"] = {axes[0], axes[1], axes[2]};
   }
   json["functions"] = functions;
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string to_csv(const HarmonicsReport& report) {
+std::string to_csv(const HarmonicExpansion& expansion) {
   std::string text = "l,m";
-  for (const std::string& name : report.functions) text += "," + name;
+  for (const std::string& name : expansion.functions) text += "," + name;
   text += "\n";
-  for (int l = 0; l <= report.degree(); ++l) {
+  for (int l = 0; l <= expansion.degree(); ++l) {
     for (int m = -l; m <= l; ++m) {
       text += std::to_string(l) + "," + std::to_string(m);
-      for (Eigen::Index k = 0; k < report.fit.coefficients.cols(); ++k) {
+      for (Eigen::Index k = 0; k < expansion.fit.coefficients.cols(); ++k) {
         text += ",";
-        append_number(text, report.fit.coefficients(harmonic_index(l, m), k));
+        append_number(text, expansion.fit.coefficients(harmonic_index(l, m), k));
       }
       text += "\n";
     }

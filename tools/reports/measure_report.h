@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "reports/json_report.h"
-#include "measure/surface_distance.h"
+#include "reports/json_parts.h"
+#include "sphparam/measure/surface_distance.h"
 #include "sphparam/io/mesh_file.h"
 
 namespace sphparam::cli {

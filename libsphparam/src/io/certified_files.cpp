@@ -3,13 +3,11 @@
 #include <cmath>
 #include <utility>
 
-#include "sphparam/io/paths.h"
+#include "io/files/read_back.h"
 #include "sphparam/errors.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/mesh_writer.h"
-#include "io/files/read_back.h"
 #include "sphparam/io/sphere_file.h"
-#include "io/formats/polygon_ply.h"
 
 namespace sphparam {
 
@@ -67,15 +65,12 @@ void add_certified(PendingFiles& files, const std::string& path, std::string byt
 void add_mapped(PendingFiles& files, const std::string& path, MeshFile file, const Polygons& faces,
                 const Topology& topology, int threads) {
   require_numbers(file, path);
-  if (extension_of(path) == ".obj") {
-    const SphereMap map = read_sphere(file).value();
-    add_certified(files, path, serialise_polygon_obj(without_map(std::move(file)), faces), topology,
-                  map, threads);
+  if (keeps_map(path)) {
+    add_certified(files, path, serialise_mesh(path, file, {.faces = &faces}), topology, threads);
   } else {
-    const bool triangles_only = std::ssize(faces.corners) == 3 * faces.count();
-    std::string bytes =
-        triangles_only ? serialise_ply(file) : serialise_polygon_ply(std::move(file), faces);
-    add_certified(files, path, std::move(bytes), topology, threads);
+    const SphereMap map = read_sphere(file).value();
+    add_certified(files, path, serialise_mesh(path, file, {.faces = &faces}), topology, map,
+                  threads);
   }
 }
 

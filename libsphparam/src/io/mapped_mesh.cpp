@@ -4,6 +4,7 @@
 #include "sphparam/io/mapped_mesh.h"
 
 #include <mutex>
+#include <stdexcept>
 #include <utility>
 
 #include "sphparam/errors.h"
@@ -75,11 +76,20 @@ WrittenMap made_map(const MeshSource& source, const ParameterizeOptions& options
            {"verdict", verdict(result.certificate)}}};
 }
 
+Topology topology_of(MappedMesh::Parts& parts, int threads) {
+  if (!parts.topology) return Topology(parts.file.mesh, threads);
+  const TriangleMesh& mesh = parts.file.mesh;
+  if (parts.topology->vertex_count() != mesh.vertex_count() ||
+      !parts.topology->is_of(mesh.triangles)) {
+    throw std::invalid_argument("MappedMesh: the topology is of another mesh");
+  }
+  return std::move(*parts.topology);
+}
+
 }  // namespace
 
 MappedMesh::MappedMesh(Parts parts, int threads) {
-  Topology topology =
-      parts.topology ? std::move(*parts.topology) : Topology(parts.file.mesh, threads);
+  Topology topology = topology_of(parts, threads);
   shape_.reset(new Shape{std::move(parts.file), std::move(topology), std::move(parts.polygons),
                          std::move(parts.notes), std::move(parts.name), threads});
   prove(std::move(parts.map), std::move(parts.provenance), parts.mapped_here);
@@ -89,6 +99,9 @@ MappedMesh::MappedMesh(std::shared_ptr<const Shape> shape) : shape_(std::move(sh
 
 void MappedMesh::prove(SphereMap map, Provenance provenance, bool mapped_here) {
   const Shape& shape = *shape_;
+  if (map.points.rows() != shape.file.mesh.vertex_count()) {
+    throw std::invalid_argument("MappedMesh: a map has one ray a vertex");
+  }
   Certificate certificate = certify(shape.topology, map, shape.threads);
   require_certified(certificate, shape.name);
   SphereMap units = unit_rays(map);
@@ -155,8 +168,9 @@ MappedMesh load_mapped(const std::string& path, const LoadOptions& options) {
 void save_mapped(const std::string& path, const MappedMesh& mapped, int threads) {
   PendingFiles files;
   MeshFile file = attach_map(mapped.file(), mapped.map(), mapped.provenance());
-  const Polygons triangles = mapped.polygons() ? *mapped.polygons() : triangles_as_polygons(mapped.mesh().triangles);
-  add_mapped(files, path, std::move(file), triangles, mapped.topology(), threads);
+  const Polygons faces =
+      mapped.polygons() ? *mapped.polygons() : triangles_as_polygons(mapped.mesh().triangles);
+  add_mapped(files, path, std::move(file), faces, mapped.topology(), threads);
   files.publish();
 }
 

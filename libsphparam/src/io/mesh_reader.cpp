@@ -7,13 +7,10 @@
 #include <optional>
 
 #include "io/files/file_bytes.h"
-#include "io/formats/gifti/gifti_reader.h"
-#include "io/formats/gltf/gltf_reader.h"
 #include "io/files/gzip.h"
+#include "io/formats/mesh_formats.h"
 #include "io/formats/obj_reader.h"
-#include "io/formats/off_reader.h"
-#include "io/formats/ply_reader.h"
-#include "io/formats/stl_reader.h"
+#include "sphparam/io/paths.h"
 
 namespace sphparam {
 namespace {
@@ -40,60 +37,58 @@ constexpr ForeignFormat kForeignMagic[] = {
 };
 
 constexpr ForeignFormat kForeignExtensions[] = {
-    {"mz3", "MZ3"}, {"fbx", "FBX"}, {"dae", "COLLADA"}, {"3ds", "3DS"},   {"vtk", "legacy VTK"},
-    {"vtp", "VTK"}, {"msh", "MSH"}, {"stp", "STEP"},    {"step", "STEP"},
+    {".mz3", "MZ3"}, {".fbx", "FBX"},        {".dae", "COLLADA"},
+    {".3ds", "3DS"}, {".vtk", "legacy VTK"}, {".vtp", "VTK"},
+    {".msh", "MSH"}, {".stp", "STEP"},       {".step", "STEP"},
 };
 
 /// In lower case; of "statue.obj.gz" the one of what is in it.
-std::string extension_of(const std::string& name) {
+std::string inner_extension(const std::string& name) {
   const std::size_t dot = name.rfind('.');
   if (dot == std::string::npos || name.find('/', dot) != std::string::npos) return {};
-  std::string extension = name.substr(dot + 1);
+  std::string extension = name.substr(dot);
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == "gz" ? extension_of(name.substr(0, dot)) : extension;
+  return extension == ".gz" ? inner_extension(name.substr(0, dot)) : extension;
 }
 
-bool looks_like_ply(std::string_view bytes) {
-  return bytes.starts_with("ply") &&
-         (bytes.size() == 3 || std::isspace(static_cast<unsigned char>(bytes[3])));
-}
-
-bool looks_like_gltf(std::string_view bytes) {
-  const std::size_t start = bytes.find_first_not_of(" \t\r\n");
-  return bytes.starts_with("glTF") || (start != std::string_view::npos && bytes[start] == '{');
-}
-
-// OBJ has no magic word: the first line that is no comment must start with a statement.
-bool looks_like_obj(std::string_view bytes) {
-  static constexpr std::string_view kStatements[] = {"v", "vn", "vt",     "f",     "g",
-                                                     "o", "s",  "mtllib", "usemtl"};
-  constexpr std::string_view kBlanks = " \t\r\n";
-  for (;;) {
-    const std::size_t start = bytes.find_first_not_of(kBlanks);
-    if (start == std::string_view::npos) return false;
-    bytes.remove_prefix(start);
-    if (bytes.front() != '#') break;
-    bytes.remove_prefix(std::min(bytes.find_first_of("\r\n"), bytes.size()));
-  }
-  const std::string_view word = bytes.substr(0, bytes.find_first_of(kBlanks));
-  return std::find(std::begin(kStatements), std::end(kStatements), word) != std::end(kStatements);
-}
-
-constexpr const char* kSupported = "OBJ, PLY, OFF, STL, glTF, GLB and GIFTI files are";
+std::string supported() { return readable_formats("and") + " files are"; }
 
 [[noreturn]] void refuse(const std::string& name, const char* format) {
   throw ReadError(name,
-                  std::string("this is ") + format + ", which is not supported; " + kSupported);
+                  std::string("this is ") + format + ", which is not supported; " + supported());
 }
 
 void refuse_foreign_content(std::string_view bytes, const std::string& name) {
-  if (extension_of(name) == "mz3") refuse(name, "MZ3");
+  if (inner_extension(name) == ".mz3") refuse(name, "MZ3");
   for (const auto& [magic, format] : kForeignMagic) {
     // An OBJ may open with any comment, also with "# vtk DataFile".
     if (bytes.starts_with(magic) && !(magic.front() == '#' && looks_like_obj(bytes)))
       refuse(name, format);
   }
+}
+
+/// What the bytes look like, by evidence of this kind.
+const MeshFormat* recognised(std::string_view bytes, Evidence evidence) {
+  for (const MeshFormat& format : mesh_formats())
+    if (format.evidence == evidence && format.looks_so(bytes)) return &format;
+  return nullptr;
+}
+
+/// The format that a file is to be read as. OBJ, which anything may look like, is believed last.
+/// Throws: ReadError, with the name of a format that is not read where it is known.
+const MeshFormat& format_of(std::string_view bytes, const std::string& name) {
+  for (const Evidence evidence : {Evidence::MagicWord, Evidence::Layout})
+    if (const MeshFormat* format = recognised(bytes, evidence)) return *format;
+  refuse_foreign_content(bytes, name);
+  const std::string extension = inner_extension(name);
+  const MeshFormat* const named = format_of_extension(extension);
+  if (named && named->evidence == Evidence::Text) return *named;
+  if (const MeshFormat* format = recognised(bytes, Evidence::Text)) return *format;
+  if (named) return *named;
+  for (const auto& [foreign, format] : kForeignExtensions)
+    if (extension == foreign) refuse(name, format);
+  throw ReadError(name, "the format is not recognised; " + supported());
 }
 
 /// `folder` is where the buffers of a glTF may be, if anywhere.
@@ -103,25 +98,7 @@ MeshFile read_unpacked(std::string_view bytes, const std::string& name,
   constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
   if (bytes.starts_with(kByteOrderMark)) bytes.remove_prefix(kByteOrderMark.size());
   if (bytes.empty()) throw ReadError(name, "the file is empty");
-
-  if (looks_like_ply(bytes)) return read_ply(bytes, name, options);
-  if (looks_like_off(bytes)) return read_off(bytes, name, options);
-  if (looks_like_gltf(bytes)) return read_gltf(bytes, name, folder, options);
-  if (looks_like_gifti(bytes)) return read_gifti(bytes, name, options);
-  if (looks_like_binary_stl(bytes) || looks_like_ascii_stl(bytes))
-    return read_stl(bytes, name, options);
-  refuse_foreign_content(bytes, name);
-
-  const std::string extension = extension_of(name);
-  if (extension == "obj" || looks_like_obj(bytes)) return read_obj(bytes, name, options);
-  if (extension == "ply") throw ReadError::at_line(name, 1, "expected the magic word 'ply'");
-  if (extension == "off") return read_off(bytes, name, options);
-  if (extension == "stl") return read_stl(bytes, name, options);
-  if (extension == "glb" || extension == "gltf") throw ReadError(name, "is no glTF");
-  if (extension == "gii") return read_gifti(bytes, name, options);
-  for (const auto& [foreign, format] : kForeignExtensions)
-    if (extension == foreign) refuse(name, format);
-  throw ReadError(name, std::string("the format is not recognised; ") + kSupported);
+  return format_of(bytes, name).read({bytes, name, folder}, options);
 }
 
 MeshFile read_gzip(std::string_view bytes, const std::string& name,
@@ -140,12 +117,24 @@ MeshFile read_bytes(std::string_view bytes, const std::string& name,
   if (bytes.size() > options.max_file_bytes)
     throw ReadError(
         name, "is larger than the limit of " + std::to_string(options.max_file_bytes) + " bytes");
-  const bool packed = looks_like_gzip(bytes) && extension_of(name) != "mz3";  // which is gzip too
+  const bool packed =
+      looks_like_gzip(bytes) && inner_extension(name) != ".mz3";  // which is gzip too
   return packed ? read_gzip(bytes, name, folder, options)
                 : read_unpacked(bytes, name, folder, options);
 }
 
 }  // namespace
+
+std::string readable_formats(const std::string& conjunction) {
+  std::string names;
+  for (const MeshFormat& format : mesh_formats())
+    names += (names.empty() ? "" : ", ") + std::string(format.names);
+  return names.replace(names.rfind(", "), 2, " " + conjunction + " ");
+}
+
+bool is_mesh_name(const std::string& path) {
+  return format_of_extension(inner_extension(path)) || extension_of(path) == ".gz";
+}
 
 MeshFile read_mesh(std::string_view bytes, const std::string& name, const ReadOptions& options) {
   return read_bytes(bytes, name, std::nullopt, options);

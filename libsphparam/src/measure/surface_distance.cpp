@@ -2,7 +2,7 @@
 // surface; last, what lies between them and could be farther. Samples ascend over the faces, so
 // that the face found last is a good guess for the next.
 
-#include "measure/surface_distance.h"
+#include "sphparam/measure/surface_distance.h"
 
 #include <algorithm>
 #include <cmath>

@@ -23,9 +23,10 @@ void add_certified(PendingFiles& files, const std::string& path, std::string byt
 void add_certified(PendingFiles& files, const std::string& path, std::string bytes,
                    const Topology& topology, const SphereMap& map, int threads);
 
-/// Adds a mesh that carries a map, proved like this: as .obj without the map, and without a
-/// verdict, else as PLY. `faces`: the polygons that its triangles are cut of, as
-/// `adopt_triangulation` does. Throws: UnmeasurableMesh as `require_numbers`.
+/// Adds a mesh that carries a map, proved like this, in the format that the name asks for (see
+/// `serialise_mesh`); where that has no place for a map, the mesh alone. `faces`: the polygons that
+/// its triangles are cut of, as `adopt_triangulation` does.
+/// Throws: UnmeasurableMesh as `require_numbers`; WriteError for a name of no format.
 void add_mapped(PendingFiles& files, const std::string& path, MeshFile file, const Polygons& faces,
                 const Topology& topology, int threads);
 

@@ -26,22 +26,24 @@ class MappedMesh {
  public:
   struct Parts {
     MeshFile file;
-    SphereMap map;                                  // one ray a vertex, of any length
-    Provenance provenance = {};                     // how the map came about
-    std::optional<Topology> topology = {};          // of the file's triangles, if it is there already
-    std::optional<Polygons> polygons = {};          // that the triangles are cut of: quads of a grid
-    std::vector<std::string> notes = {};            // of reader and repair
-    bool mapped_here = false;                       // no file had the map
-    std::string name = "mesh";                      // for messages
+    SphereMap map;                          // one ray a vertex, of any length
+    Provenance provenance = {};             // how the map came about
+    std::optional<Topology> topology = {};  // of the file's triangles, if it is there already
+    std::optional<Polygons> polygons = {};  // that the triangles are cut of: quads of a grid
+    std::vector<std::string> notes = {};    // of reader and repair
+    bool mapped_here = false;               // no file had the map
+    std::string name = "mesh";              // for messages
   };
 
-  /// Proves the map, with the rays made unit.
-  /// Throws: MeshError unless the mesh is a closed genus-0 manifold; NotCertifiedError unless the
-  /// map is one-to-one; std::invalid_argument unless there is a ray a vertex.
-  /// Cost: the certificate's, about 0.1 µs a triangle.
+  /// Proves the map, with the rays made unit where they are not: those of an earlier map keep their
+  /// bits. Ensures: the certificate is of the rays as they are here.
+  /// Throws: MeshError unless the mesh is a closed manifold; NotCertifiedError, with the name and
+  /// the faces at fault, unless the map is one-to-one, which it is on genus 0 only;
+  /// std::invalid_argument unless there is a ray a vertex and a given topology is of the triangles.
+  /// Cost: the certificate's, about 0.1 µs a triangle; without a topology, as much again.
   explicit MappedMesh(Parts parts, int threads = 0);
 
-  /// The same mesh, shared, with another map, proved as above.
+  /// The same mesh, shared, with another map, made here and proved as above.
   MappedMesh with_map(SphereMap map, Provenance provenance) const;
 
   const TriangleMesh& mesh() const;
@@ -55,7 +57,8 @@ class MappedMesh {
   bool mapped_here() const;
   const std::string& name() const;
 
-  /// Which triangle a direction lies in. Made at the first call: 0.3 µs and 100 bytes a triangle.
+  /// Which triangle a direction lies in. Made at the first call, from whatever thread, and shared
+  /// by the copies: 0.3 µs and 100 bytes a triangle.
   const SphereLocator& locator() const;
 
  private:
@@ -72,27 +75,32 @@ struct LoadOptions {
   std::string sphere = {};                   // the map in a file of its own; empty: the mesh's file
   std::optional<RepairOptions> repair = {};  // nothing: a mesh that needs it is refused
   ReadOptions read = {};
-  ParameterizeOptions map = {};  // of a mesh without one; its threads and progress serve all
+  /// Of a mesh without a map. Vertices in it are those of the mesh as it is mapped: welded and
+  /// mended; `FileNumbers` tells them by the numbers of the file. Its threads and progress serve
+  /// all.
+  ParameterizeOptions map = {};
 };
 
 /// Reads a mesh and its map: from the file `sphere`, of the same connectivity, where one is named
 /// (sx sy sz, or the vertices of a bare sphere about the origin); else sx sy sz of the mesh file
 /// itself; else a map is made now.
 /// Throws: ReadError, also where the two are not one connectivity; MeshRefusal for what is no
-/// closed genus-0 mesh; NotCertifiedError where the map is not one-to-one; std::invalid_argument
-/// for `map` as `parameterize`; Cancelled.
+/// closed genus-0 mesh; NoSuchComponent for a repair that names one; NotCertifiedError where the
+/// map is not one-to-one; std::invalid_argument for `map` as `parameterize`; Cancelled.
 MappedMesh load_mapped(const std::string& path, const LoadOptions& options = {});
 
 /// The same of a mesh that was read already.
 MappedMesh mapped_mesh(MeshSource source, const LoadOptions& options = {});
 
-/// Writes mesh and map: a .sph.ply, or an .obj, which has no room for the map. All of it or
-/// nothing; what is on the disk is read back and proved before it gets its name.
-/// Throws: WriteError; UnmeasurableMesh for positions that are no finite numbers; NotCertifiedError.
+/// Writes mesh and map as a .sph.ply; under a name of another format (`serialise_mesh`) the mesh
+/// alone, as these have no place for the map. All of it or nothing; what is on the disk is read
+/// back and the map proved on it before it gets its name. `threads`, 0: all cores.
+/// Throws: WriteError; UnmeasurableMesh for positions or values that are no finite numbers;
+/// NotCertifiedError.
 void save_mapped(const std::string& path, const MappedMesh& mapped, int threads = 0);
 
 /// Rays as they are where all have unit length up to rounding, so that a map stays itself; else
-/// each divided by its length.
+/// each divided by its length. Requires: no zero ray.
 SphereMap unit_rays(SphereMap map);
 
 }  // namespace sphparam

@@ -21,6 +21,12 @@ namespace sphparam {
 /// one vertex). Throws: ReadError. Cost: about 0.1 µs a triangle of text, 0.02 µs of binary data.
 MeshFile read_mesh(const std::string& path, const ReadOptions& options = {});
 
+/// The formats that are read: "OBJ, PLY, OFF, STL, glTF, GLB and GIFTI", or with another last word.
+std::string readable_formats(const std::string& conjunction = "and");
+
+/// Whether a file of this name would be a mesh, packed by gzip or not.
+bool is_mesh_name(const std::string& path);
+
 /// Reads a mesh from memory. `name` stands in messages; its extension decides where the content
 /// does not.
 MeshFile read_mesh(std::string_view bytes, const std::string& name, const ReadOptions& options);

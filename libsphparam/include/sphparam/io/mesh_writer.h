@@ -3,33 +3,47 @@
 #include <string>
 
 #include "sphparam/io/mesh_file.h"
+#include "sphparam/io/polygons.h"
 
 namespace sphparam {
 
-struct Polygons;
+// Meshes are written in the format that the name of the file asks for: .ply, .obj, .off or .gii. A
+// name without an extension, and "-", standard output, ask for PLY.
+//
+// All are lossless in what they carry, and reading gives it back. PLY: everything. OBJ: positions,
+// colours, texture coordinates, normals, materials, comments. OFF: what vertices have of these, and
+// colours of faces. GIFTI: positions, comments as metadata.
 
-/// A binary little-endian PLY with all that the mesh file carries: properties in their own types,
-/// corner texture coordinates as the face list `texcoord`, corner normals as the face list
-/// `normal`, comments, and materials as comments. Reading it gives the same mesh file.
-///
-/// No bit is lost: numbers that their type does not hold exactly are written as doubles.
-/// Requires: finite numbers; property names without blanks. Cost: near a copy of the bytes.
+struct WriteOptions {
+  /// The polygons that the triangles are cut of, in their order; the formats that have polygons,
+  /// PLY and OBJ, write these for faces. Null: triangles are.
+  const Polygons* faces = nullptr;
+  /// The positions are points of a sphere, in no space but its own. GIFTI says so.
+  bool is_sphere = false;
+};
+
+/// Whether there is a format that is written under this name.
+bool is_written(const std::string& path);
+
+/// Whether that format has a place for a map, the vertex properties sx sy sz.
+bool keeps_map(const std::string& path);
+
+/// The bytes of a mesh file. Where the format has no place for a map, what the comments say of it
+/// goes too, but on a sphere, which is the map. Requires: finite numbers; names of properties
+/// without blanks. Throws: WriteError for a name of no format that is written; for GIFTI, where
+/// libgiftiio fails. Cost: near a copy of the bytes for PLY, 0.2 µs a number of text.
+std::string serialise_mesh(const std::string& path, const MeshFile& file,
+                           const WriteOptions& options = {});
+
+/// Writes them, all or nothing. Throws: WriteError.
+void write_mesh(const std::string& path, const MeshFile& file, const WriteOptions& options = {});
+
+// By format:
+
+/// Reading it gives the same mesh file, with all properties in their own types.
 std::string serialise_ply(const MeshFile& file);
-
-/// A text OBJ in shortest round-trip doubles: positions, colours, texture coordinates and normals
-/// (of vertices or of corners), materials by name, comments. Other properties have no place in it.
 std::string serialise_obj(const MeshFile& file);
-
-/// The same with polygons for faces: reading it gives the mesh with these polygons cut. Requires:
-/// the triangles of `file` are the polygons cut, whichever diagonals; at a vertex of a polygon all
-/// its corners have the same attributes.
 std::string serialise_polygon_obj(const MeshFile& file, const Polygons& faces);
-
-/// A text OFF in shortest round-trip doubles: positions and, named by the keyword, normals, colours
-/// and texture coordinates of vertices; face colours; comments.
 std::string serialise_off(const MeshFile& file);
-
-/// `declared` where it holds every number exactly, else Float64.
-ScalarType lossless_type(ScalarType declared, const double* values, Eigen::Index count);
 
 }  // namespace sphparam

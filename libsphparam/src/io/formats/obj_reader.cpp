@@ -9,9 +9,9 @@
 #include <set>
 #include <utility>
 
+#include "io/files/text_scanner.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/polygons.h"
-#include "io/files/text_scanner.h"
 
 // One pass over the lines fills flat arrays; faces hold three indices a corner (v/vt/vn), vt and vn
 // only from the first corner that has one. An index may name a vertex of a later line, so indices
@@ -397,6 +397,21 @@ class ObjReader {
 };
 
 }  // namespace
+
+bool looks_like_obj(std::string_view bytes) {
+  static constexpr std::string_view kStatements[] = {"v", "vn", "vt",     "f",     "g",
+                                                     "o", "s",  "mtllib", "usemtl"};
+  constexpr std::string_view kBlanks = " \t\r\n";
+  for (;;) {
+    const std::size_t start = bytes.find_first_not_of(kBlanks);
+    if (start == std::string_view::npos) return false;
+    bytes.remove_prefix(start);
+    if (bytes.front() != '#') break;
+    bytes.remove_prefix(std::min(bytes.find_first_of("\r\n"), bytes.size()));
+  }
+  const std::string_view word = bytes.substr(0, bytes.find_first_of(kBlanks));
+  return std::find(std::begin(kStatements), std::end(kStatements), word) != std::end(kStatements);
+}
 
 MeshFile read_obj(std::string_view text, const std::string& name, const ReadOptions& options) {
   return ObjReader(text, name, options).read();

@@ -8,6 +8,9 @@
 
 namespace sphparam {
 
+/// OBJ has no magic word: true when the first line that is no comment starts with a statement.
+bool looks_like_obj(std::string_view bytes);
+
 /// Reads a Wavefront OBJ file.
 ///
 /// Kept: v with optional colours (x y z r g b [a]), vt per corner, vn per vertex where each vertex

@@ -1,12 +1,13 @@
+#include "io/formats/obj_writer.h"
+
 #include <array>
 #include <cstdint>
 #include <numeric>
 #include <optional>
 
-#include "io/polygons/distinct_rows.h"
-#include "sphparam/io/mesh_writer.h"
-#include "sphparam/io/polygons.h"
 #include "io/files/text_buffer.h"
+#include "io/polygons/distinct_rows.h"
+#include "sphparam/io/polygons.h"
 
 // OBJ: what it numbers (vt, vn) is numbered in the order of first use, so that reading and writing
 // again changes nothing. A face, of whatever degree, is a run of corners of the triangles.

@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <optional>
 
-#include "sphparam/io/losses.h"
-#include "io/formats/ply_header.h"
-#include "sphparam/io/polygons.h"
 #include "io/files/text_scanner.h"
+#include "io/formats/ply_header.h"
+#include "sphparam/io/losses.h"
+#include "sphparam/io/polygons.h"
 
 // A body gives numbers one by one: from a text, one record a line, or from bytes in either order.
 // The elements are read from it in the order of the header by one piece of code for all encodings.
@@ -515,7 +516,13 @@ MeshFile read_body(std::string_view bytes, const std::string& name, const ReadOp
 
 }  // namespace
 
+bool looks_like_ply(std::string_view bytes) {
+  return bytes.starts_with("ply") &&
+         (bytes.size() == 3 || std::isspace(static_cast<unsigned char>(bytes[3])));
+}
+
 MeshFile read_ply(std::string_view bytes, const std::string& name, const ReadOptions& options) {
+  if (!looks_like_ply(bytes)) throw ReadError::at_line(name, 1, "expected the magic word 'ply'");
   PlyHeader header = parse_ply_header(bytes, name, options);
   switch (header.encoding) {
     case PlyEncoding::Ascii:

@@ -8,6 +8,9 @@
 
 namespace sphparam {
 
+/// True when the bytes start with the magic word.
+bool looks_like_ply(std::string_view bytes);
+
 /// Reads a PLY file: ASCII, binary little-endian or binary big-endian.
 ///
 /// Kept: all scalar properties of vertices and faces in their own types, polygons, the face lists

@@ -1,5 +1,4 @@
-// The vertices and the header are those of `serialise_ply` without faces; faces of several degrees
-// have records of several lengths, which are appended one by one.
+// Faces of several degrees have records of several lengths, which are appended one by one.
 
 #include "io/formats/polygon_ply.h"
 
@@ -7,7 +6,8 @@
 #include <cstring>
 #include <vector>
 
-#include "sphparam/io/mesh_writer.h"
+#include "io/formats/lossless_type.h"
+#include "io/formats/ply_writer.h"
 
 namespace sphparam {
 
@@ -66,6 +66,15 @@ class FaceRecords {
     return text;
   }
 
+  std::size_t bytes() const {
+    const auto faces = static_cast<std::size_t>(faces_.count());
+    std::size_t of_corner = sizeof(std::int32_t), of_face = 1 + lists_.size();
+    for (const CornerList& list : lists_)
+      of_corner += static_cast<std::size_t>(list.width) * size_in_bytes(list.type);
+    for (const ScalarType type : types_) of_face += size_in_bytes(type);
+    return of_corner * corners_.size() + of_face * faces;
+  }
+
   void append_to(std::string& bytes) const {
     for (std::int64_t p = 0; p < faces_.count(); ++p) {
       const int degree = faces_.degree(p), first = faces_.starts[p];
@@ -94,20 +103,9 @@ class FaceRecords {
 
 }  // namespace
 
-std::string serialise_polygon_ply(MeshFile file, const Polygons& faces) {
-  MeshFile of_faces;
-  of_faces.mesh.triangles.swap(file.mesh.triangles);
-  of_faces.face_properties.swap(file.face_properties);
-  of_faces.corner_texcoords.swap(file.corner_texcoords);
-  of_faces.corner_normals.swap(file.corner_normals);
-  of_faces.corner_texcoord_type = file.corner_texcoord_type;
-  of_faces.corner_normal_type = file.corner_normal_type;
-  const FaceRecords records(of_faces, faces);
-
-  std::string bytes = serialise_ply(file);
-  const size_t declaration = bytes.find("element face 0\n");
-  const size_t end = bytes.find("end_header\n", declaration);
-  bytes.replace(declaration, end - declaration, records.declarations());
+std::string serialise_polygon_ply(const MeshFile& file, const Polygons& faces) {
+  const FaceRecords records(file, faces);
+  std::string bytes = ply_up_to_faces(file, records.declarations(), records.bytes());
   records.append_to(bytes);
   return bytes;
 }

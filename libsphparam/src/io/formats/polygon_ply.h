@@ -10,6 +10,6 @@ namespace sphparam {
 /// A binary PLY as `serialise_ply` makes it, with polygons for faces: reading it gives the mesh
 /// file back, whose triangles are those polygons cut. Requires: the triangles of `file` are what
 /// `adopt_triangulation` made of `faces`.
-std::string serialise_polygon_ply(MeshFile file, const Polygons& faces);
+std::string serialise_polygon_ply(const MeshFile& file, const Polygons& faces);
 
 }  // namespace sphparam

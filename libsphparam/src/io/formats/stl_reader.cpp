@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <limits>
 
-#include "io/polygons/distinct_rows.h"
 #include "io/files/text_scanner.h"
+#include "io/polygons/distinct_rows.h"
 
 // An STL file is a soup: every facet has three corners of its own. Corners are numbered by their
 // coordinates as they come, so the soup is never stored.
@@ -243,6 +243,10 @@ bool looks_like_ascii_stl(std::string_view bytes) {
   return word && std::equal(kSolid.begin(), kSolid.end(), bytes.begin(), [](char a, char b) {
            return a == std::tolower(static_cast<unsigned char>(b));
          });
+}
+
+bool looks_like_stl(std::string_view bytes) {
+  return looks_like_binary_stl(bytes) || looks_like_ascii_stl(bytes);
 }
 
 MeshFile read_stl(std::string_view bytes, const std::string& name, const ReadOptions& options) {

@@ -15,6 +15,9 @@ bool looks_like_binary_stl(std::string_view bytes);
 /// True when the text starts with the word `solid`.
 bool looks_like_ascii_stl(std::string_view bytes);
 
+/// One or the other.
+bool looks_like_stl(std::string_view bytes);
+
 /// Reads an STL file, ASCII or binary.
 ///
 /// Corners of the same coordinates (−0 = +0, never by a tolerance) are one vertex, in the order of

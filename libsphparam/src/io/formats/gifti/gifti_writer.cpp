@@ -18,7 +18,7 @@
 
 #include "io/files/file_bytes.h"
 #include "io/formats/gifti/gifti_labels.h"
-#include "sphparam/io/mesh_writer.h"
+#include "io/formats/lossless_type.h"
 #include "sphparam/io/safe_file.h"
 
 extern "C" {  // which the header forgets

@@ -342,8 +342,14 @@ class SceneReader {
 
 }  // namespace
 
+bool looks_like_gltf(std::string_view bytes) {
+  const std::size_t start = bytes.find_first_not_of(" \t\r\n");
+  return bytes.starts_with("glTF") || (start != std::string_view::npos && bytes[start] == '{');
+}
+
 MeshFile read_gltf(std::string_view bytes, const std::string& name,
                    const std::optional<std::filesystem::path>& folder, const ReadOptions& options) {
+  if (!looks_like_gltf(bytes)) throw ReadError(name, "is no glTF");
   const GltfDocument document = load_gltf(bytes, name, folder, options);
   MeshFile file = SceneReader(document, name, options).read();
   file.format = bytes.starts_with("glTF") ? "glTF binary" : "glTF";

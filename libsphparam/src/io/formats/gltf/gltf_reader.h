@@ -10,6 +10,9 @@
 
 namespace sphparam {
 
+/// True when the bytes start as a GLB or as a JSON object.
+bool looks_like_gltf(std::string_view bytes);
+
 /// Reads the default scene of a glTF 2.0 file, text or binary (GLB): all meshes of all nodes,
 /// transformed, as one mesh.
 ///

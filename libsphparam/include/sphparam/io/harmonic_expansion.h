@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sphparam/io/mapped_mesh.h"
+#include "sphparam/sphere/spherical_harmonics.h"
+
+namespace sphparam {
+
+/// A surface, and what it carries, as a sum of spherical harmonics: the shape description that a
+/// map to the sphere was first made for (Brechbühler, Gerig and Kübler 1995).
+struct HarmonicExpansion {
+  std::vector<std::string> functions;  // "x", "y", "z", then scalars by name: one a column
+  bool least_squares = true;           // else by quadrature
+  HarmonicFit fit;                     // its residuals are weighted by solid angle
+  Functions values;                    // #V: what the harmonics have at the vertices
+  VectorX plain_rms;                   // of what is left at the vertices, each counted once
+  double diagonal = 0;                 // of the bounding box: the scale of the residuals of x, y, z
+
+  int degree() const;
+  /// Of the distances, not of one coordinate: weighted by solid angle, and plain.
+  double position_rms() const { return fit.rms.head<3>().norm(); }
+  double plain_position_rms() const { return plain_rms.head<3>().norm(); }
+};
+
+/// Expands the positions of a mesh's vertices, and the vertex properties of these names.
+/// Requires: numbers whose squares doubles hold. Throws: std::invalid_argument for a name that no
+/// vertex property has, and as `fit_harmonics`; Cancelled. Cost: `fit_harmonics`'.
+HarmonicExpansion expand_in_harmonics(const MappedMesh& mapped,
+                                      const std::vector<std::string>& scalars = {},
+                                      const HarmonicFitOptions& options = {});
+
+/// The mesh with the positions and scalars that the harmonics have at its vertices, and its map,
+/// with one line of provenance more. Normals go: they were of the other surface.
+MeshFile reconstruction(const MappedMesh& mapped, const HarmonicExpansion& expansion);
+
+}  // namespace sphparam

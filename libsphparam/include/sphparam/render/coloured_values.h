@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "sphparam/io/mesh_file.h"
+
+namespace sphparam {
+
+/// A mesh file with a number for each vertex, as the property `name` and as colours (red green
+/// blue) from 0 to the largest. Properties of these names are replaced. Requires: a finite number,
+/// at least 0, a vertex. Cost: linear.
+MeshFile with_coloured_values(MeshFile file, const std::string& name, const VectorX& values);
+
+}  // namespace sphparam

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "sphparam/io/scalar_type.h"
+#include "sphparam/mesh/triangle_mesh.h"
+
+namespace sphparam {
+
+/// `declared` where it holds every number exactly, else Float64.
+ScalarType lossless_type(ScalarType declared, const double* values, Eigen::Index count);
+
+}  // namespace sphparam

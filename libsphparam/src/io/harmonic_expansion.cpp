@@ -1,0 +1,69 @@
+#include "sphparam/io/harmonic_expansion.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "sphparam/errors.h"
+
+namespace sphparam {
+
+namespace {
+
+constexpr Eigen::Index axes = 3;
+
+/// x, y, z and the scalars, one a column.
+Functions functions_of(const MeshFile& file, const std::vector<std::string>& scalars) {
+  Functions values(file.mesh.vertex_count(), axes + std::ssize(scalars));
+  values.leftCols(axes) = file.mesh.positions;
+  Eigen::Index column = axes;
+  for (const std::string& name : scalars) {
+    const Property* const property = file.find_vertex_property(name);
+    if (!property) throw std::invalid_argument("the vertices have no property " + name);
+    values.col(column++) =
+        Eigen::Map<const VectorX>(property->values.data(), file.mesh.vertex_count());
+  }
+  return values;
+}
+
+}  // namespace
+
+int HarmonicExpansion::degree() const {
+  return static_cast<int>(std::lround(std::sqrt(double(fit.coefficients.rows())))) - 1;
+}
+
+HarmonicExpansion expand_in_harmonics(const MappedMesh& mapped,
+                                      const std::vector<std::string>& scalars,
+                                      const HarmonicFitOptions& options) {
+  const MeshFile& file = mapped.file();
+  const Points& positions = file.mesh.positions;
+  HarmonicExpansion result;
+  result.functions = {"x", "y", "z"};
+  result.functions.insert(result.functions.end(), scalars.begin(), scalars.end());
+  result.least_squares = options.least_squares;
+  result.diagonal = (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
+  const Functions values = functions_of(file, scalars);
+  result.fit = fit_harmonics(mapped.topology(), mapped.map(), values, options);
+  if (options.progress && !options.progress("residuals", 0)) throw Cancelled();
+  result.values = synthesise(result.fit.coefficients, mapped.map().points, options.threads);
+  result.plain_rms = (values - result.values).cwiseAbs2().colwise().mean().cwiseSqrt();
+  return result;
+}
+
+MeshFile reconstruction(const MappedMesh& mapped, const HarmonicExpansion& expansion) {
+  MeshFile file = mapped.file();
+  file.mesh.positions = expansion.values.leftCols(axes);
+  file.position_type = ScalarType::Float64;
+  file.corner_normals.reset();
+  remove_properties(file.vertex_properties, {"nx", "ny", "nz"});
+  for (Eigen::Index k = axes; k < expansion.values.cols(); ++k) {
+    const VectorX column = expansion.values.col(k);
+    file.set_vertex_property({expansion.functions[static_cast<size_t>(k)], ScalarType::Float64,
+                              std::vector<double>(column.begin(), column.end())});
+  }
+  Provenance lines = mapped.provenance();
+  lines.emplace_back("harmonics", std::to_string(expansion.degree()));
+  return attach_map(std::move(file), mapped.map(), lines);
+}
+
+}  // namespace sphparam

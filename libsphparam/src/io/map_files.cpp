@@ -1,0 +1,129 @@
+#include "sphparam/io/map_files.h"
+
+#include <utility>
+
+#include "embedding/constructions/float32_safe.h"
+#include "io/files/read_back.h"
+#include "sphparam/errors.h"
+#include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/mesh_writer.h"
+#include "sphparam/io/paths.h"
+#include "sphparam/version.h"
+
+namespace sphparam {
+
+namespace {
+
+/// The radius that FreeSurfer, HCP and MSM give their spheres; areas are compared at it.
+constexpr double gifti_radius = 100;
+
+std::string words(const std::optional<Poles>& poles, const FileNumbers& numbers) {
+  if (!poles) return "none";
+  return std::to_string(numbers.number(poles->north)) + " " +
+         std::to_string(numbers.number(poles->south));
+}
+
+/// Throws NotCertifiedError unless the bytes of a written map hold what was found in memory.
+void require_verdict(const std::string& expected, const std::string& path,
+                     const Certificate& on_disk) {
+  if (verdict(on_disk) != expected) {
+    throw NotCertifiedError(path + ": as written, the map is " + verdict(on_disk));
+  }
+}
+
+/// A map as a file can hold it, and what is to be said of it there.
+struct HeldMap {
+  SphereMap map;
+  std::string verdict;
+  double least_area = 0;  // of triangles, of the mean: what they had to be taken for
+};
+
+/// GIFTI has coordinates of 32 bits. Rounding must not cost a certified map its certificate; one
+/// that is folded anyway may get other folds.
+HeldMap as_floats(const std::string& path, const FinishedMap& finished,
+                  const SphereOptions& options) {
+  auto [rounding, least_area] = round_with_room(finished.file.mesh, finished.topology, finished.map,
+                                                {.energy = options.energy,
+                                                 .radius = gifti_radius,
+                                                 .threads = options.threads,
+                                                 .progress = options.progress});
+  if (least_area > 0 && !options.may_remap) {
+    throw NotCertifiedError(path +
+                            ": numbers of 32 bits cannot hold this map with its pins, poles or "
+                            "meridian; .ply, .obj and .off can");
+  }
+  const bool certified = finished.certificate.bijective();
+  if (certified && !rounding.certificate.bijective()) {
+    throw NotCertifiedError(path + ": numbers of 32 bits cannot hold this map (" +
+                            verdict(rounding.certificate) + "); .ply, .obj and .off can");
+  }
+  const Certificate& held = certified ? finished.certificate : rounding.certificate;
+  return {std::move(rounding.map), verdict(held), least_area};
+}
+
+/// Of a map that was made anew, poles and meridian were those of the other one.
+Provenance provenance_of(const HeldMap& held, Provenance lines) {
+  for (auto& [key, value] : lines)
+    if (key == "verdict") value = held.verdict;
+  if (held.least_area > 0) {
+    std::erase_if(
+        lines, [](const auto& line) { return line.first == "poles" || line.first == "meridian"; });
+  }
+  return lines;
+}
+
+}  // namespace
+
+Provenance provenance_of(const Parameterization& result, const MapOrigin& origin,
+                         const FileNumbers& numbers) {
+  Provenance lines = {{"version", version},
+                      {"method", origin.method},
+                      {"stage", result.made_by},
+                      {"options", origin.options},
+                      {"poles", words(result.poles, numbers)}};
+  if (!origin.citation.empty()) lines.emplace_back("after", origin.citation);
+  if (result.meridian) {
+    lines.emplace_back("meridian", std::to_string(numbers.number(*result.meridian)));
+  }
+  if (origin.pins > 0) lines.emplace_back("pins", std::to_string(origin.pins));
+  lines.emplace_back("verdict", origin.verdict);
+  return lines;
+}
+
+void add_map(PendingFiles& files, const std::string& path, const MeshFile& with_map,
+             const Topology& topology, const std::string& verdict, int threads) {
+  files.add(path, serialise_mesh(path, with_map), [&](std::string_view written) {
+    const MeshFile read = read_mesh(written, path, own_map);
+    require_verdict(verdict, path,
+                    certify_read_back(read, read_sphere(read).value(), topology, threads));
+  });
+}
+
+double add_sphere(PendingFiles& files, const std::string& path, const FinishedMap& finished,
+                  const SphereOptions& options) {
+  const HeldMap held = extension_of(path) == ".gii"
+                           ? as_floats(path, finished, options)
+                           : HeldMap{finished.map, verdict(finished.certificate)};
+  const MeshFile sphere =
+      sphere_mesh(finished.file, held.map, provenance_of(held, finished.provenance));
+  files.add(path, serialise_mesh(path, sphere, {.is_sphere = true}), [&](std::string_view written) {
+    const MeshFile read = read_mesh(written, path, own_map);
+    require_verdict(
+        held.verdict, path,
+        certify_read_back(read, {read.mesh.positions}, finished.topology, options.threads));
+  });
+  return held.least_area;
+}
+
+double save_sphere(const std::string& path, const MappedMesh& mapped,
+                   const SphereOptions& options) {
+  PendingFiles files;
+  const double least_area = add_sphere(
+      files, path,
+      {mapped.file(), mapped.topology(), mapped.map(), mapped.certificate(), mapped.provenance()},
+      options);
+  files.publish();
+  return least_area;
+}
+
+}  // namespace sphparam

@@ -1,0 +1,26 @@
+#include "sphparam/render/coloured_values.h"
+
+#include <cmath>
+
+#include "render/colour.h"
+
+namespace sphparam {
+
+MeshFile with_coloured_values(MeshFile file, const std::string& name, const VectorX& values) {
+  const double largest = values.size() > 0 ? values.maxCoeff() : 0;
+  const std::vector<Rgb> colours = value_colours(values, 0, largest > 0 ? largest : 1);
+  int channel = 0;
+  for (const char* colour_name : {"red", "green", "blue"}) {
+    Property property = {colour_name, ScalarType::Uint8, {}};
+    for (const Rgb& colour : colours) {
+      property.values.push_back(std::round(255 * static_cast<double>(colour[channel])));
+    }
+    file.set_vertex_property(std::move(property));
+    ++channel;
+  }
+  file.set_vertex_property(
+      {name, ScalarType::Float64, std::vector<double>(values.begin(), values.end())});
+  return file;
+}
+
+}  // namespace sphparam

@@ -1,0 +1,111 @@
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+
+#include "reading.h"
+#include "sphparam/errors.h"
+#include "sphparam/io/harmonic_expansion.h"
+#include "sphparam/io/map_files.h"
+#include "sphparam/io/mesh_writer.h"
+#include "sphparam/io/verify_map.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A new folder that is gone at the end.
+struct Folder {
+  fs::path path;
+  Folder() {
+    std::string name = (fs::temp_directory_path() / "sphparam_maps_XXXXXX").string();
+    path = ::mkdtemp(name.data());
+  }
+  ~Folder() { fs::remove_all(path); }
+  std::string file(const std::string& name) const { return (path / name).string(); }
+};
+
+MappedMesh egg() {
+  MeshFile file;
+  file.mesh = icosphere(2);
+  file.mesh.positions.col(2) *= 1.5;
+  file.vertex_properties.push_back({"height", ScalarType::Float64, std::vector<double>(162)});
+  for (Vertex v = 0; v < 162; ++v)
+    file.vertex_properties[0].values[static_cast<size_t>(v)] = file.mesh.position(v).z();
+  return MappedMesh({.file = file,
+                     .map = {icosphere(2).positions},
+                     .provenance = {{"method", "given"}, {"verdict", "one-to-one"}}});
+}
+
+}  // namespace
+
+TEST_CASE("map_files: the sphere is written in every format, exactly but for GIFTI's floats") {
+  const Folder folder;
+  for (const char* name : {"s.ply", "s.obj", "s.off", "s.gii"}) {
+    CHECK(save_sphere(folder.file(name), egg()) == 0);
+    const VerifiedMap read = verify_map(folder.file(name));
+    CHECK(read.certificate.bijective());
+    const bool exact = std::string(name) != "s.gii";
+    CHECK(read.mean_length == Approx(exact ? 1 : 100));
+    if (exact) CHECK(read.map.points == egg().map().points);
+    CHECK(read_provenance(read_mesh(folder.file(name))) == egg().provenance());
+  }
+  CHECK_THROWS_AS(save_sphere(folder.file("s.stl"), egg()), WriteError);
+}
+
+TEST_CASE("map_files: what is written must have the verdict that was found") {
+  const Folder folder;
+  const MappedMesh mapped = egg();
+  PendingFiles files;
+  const MeshFile with_map = attach_map(mapped.file(), mapped.map(), {});
+  CHECK_THROWS_AS(
+      add_map(files, folder.file("egg.sph.ply"), with_map, mapped.topology(), "folded 3"),
+      NotCertifiedError);
+  add_map(files, folder.file("egg.sph.ply"), with_map, mapped.topology(), "one-to-one");
+  files.publish();
+  CHECK(fs::exists(folder.file("egg.sph.ply")));
+}
+
+TEST_CASE("map_files: provenance says how a map came about, by the numbers of the file") {
+  MeshFile file;
+  file.mesh = octahedron();
+  file.set_vertex_property({"source_vertex", ScalarType::Int32, {10, 11, 12, 13, 14, 15}});
+  Parameterization result;
+  result.made_by = "relaxation";
+  result.poles = Poles{4, 5};
+  result.meridian = 0;
+  const Provenance lines = provenance_of(
+      result,
+      {.method = "progressive", .options = "--lambda 1", .pins = 2, .verdict = "one-to-one"},
+      FileNumbers(file));
+  const Provenance expected = {{"version", lines.front().second},
+                               {"method", "progressive"},
+                               {"stage", "relaxation"},
+                               {"options", "--lambda 1"},
+                               {"poles", "14 15"},
+                               {"meridian", "10"},
+                               {"pins", "2"},
+                               {"verdict", "one-to-one"}};
+  CHECK(lines == expected);
+}
+
+TEST_CASE("harmonic_expansion: an ellipsoid is of degree 1, and comes back") {
+  const MappedMesh mapped = egg();
+  const HarmonicExpansion expansion = expand_in_harmonics(mapped, {"height"}, {.degree = 3});
+  CHECK(expansion.degree() == 3);
+  CHECK(expansion.functions == std::vector<std::string>{"x", "y", "z", "height"});
+  CHECK(expansion.plain_position_rms() < 1e-9);
+  const MeshFile back = reconstruction(mapped, expansion);
+  CHECK((back.mesh.positions - mapped.mesh().positions).cwiseAbs().maxCoeff() < 1e-9);
+  CHECK(read_sphere(back)->points == mapped.map().points);
+  CHECK(values_of(back.find_vertex_property("height"))[3] ==
+        Approx(mapped.mesh().position(3).z()).margin(1e-9));
+  CHECK(read_provenance(back).back() == std::pair<std::string, std::string>{"harmonics", "3"});
+}
+
+TEST_CASE("harmonic_expansion: a scalar that vertices lack is named") {
+  CHECK_THROWS_WITH(expand_in_harmonics(egg(), {"weight"}), Catch::Contains("weight"));
+}

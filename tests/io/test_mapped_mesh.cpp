@@ -1,0 +1,257 @@
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <thread>
+
+#include "reading.h"
+#include "sphparam/errors.h"
+#include "sphparam/io/mapped_mesh.h"
+#include "sphparam/io/mesh_writer.h"
+#include "sphparam/io/safe_file.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A new folder that is gone at the end.
+struct Folder {
+  fs::path path;
+  Folder() {
+    std::string name = (fs::temp_directory_path() / "sphparam_mapped_XXXXXX").string();
+    path = ::mkdtemp(name.data());
+  }
+  ~Folder() { fs::remove_all(path); }
+  std::string file(const std::string& name) const { return (path / name).string(); }
+};
+
+MeshFile egg_file() {
+  MeshFile file;
+  file.mesh = icosphere(2);
+  file.mesh.positions.col(2) *= 1.5;
+  return file;
+}
+
+SphereMap identity() { return {icosphere(2).positions}; }
+
+MappedMesh egg() {
+  return MappedMesh({.file = egg_file(), .map = identity(), .provenance = {{"method", "given"}}});
+}
+
+/// One vertex is thrown to the other side.
+SphereMap folded() {
+  SphereMap map = identity();
+  map.points.row(7) *= -1;
+  return map;
+}
+
+/// A closed box of six quads, as its polygons and their triangles.
+struct Box {
+  MeshFile file;
+  Polygons polygons;
+};
+
+Box box() {
+  Box result;
+  Points& corners = result.file.mesh.positions;
+  corners.resize(8, 3);
+  for (int i = 0; i < 8; ++i)
+    corners.row(i) << (i & 1 ? 1 : -1), (i & 2 ? 1 : -1), (i & 4 ? 1 : -1);
+  const int quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                           {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  for (const auto& quad : quads) {
+    for (const int v : quad) result.polygons.add_corner(v);
+    REQUIRE(result.polygons.close_polygon({}).empty());
+  }
+  adopt_triangulation(result.file, triangulate(corners, result.polygons));
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("mapped_mesh: what it holds is proved") {
+  const MappedMesh mapped = egg();
+  CHECK(mapped.certificate().bijective());
+  CHECK(mapped.map().points == identity().points);
+  CHECK(mapped.topology().is_of(mapped.mesh().triangles));
+  CHECK(mapped.provenance() == Provenance{{"method", "given"}});
+  CHECK_FALSE(mapped.mapped_here());
+  CHECK_FALSE(mapped.polygons());
+}
+
+TEST_CASE("mapped_mesh: a folded map is refused by the mesh's name and the faces at fault") {
+  CHECK_THROWS_AS(MappedMesh({.file = egg_file(), .map = folded()}), NotCertifiedError);
+  CHECK_THROWS_WITH(MappedMesh({.file = egg_file(), .map = folded(), .name = "egg.obj"}),
+                    Catch::StartsWith("egg.obj") && Catch::Contains("folded"));
+}
+
+TEST_CASE("mapped_mesh: a map is refused that is of another mesh, and so is a topology") {
+  CHECK_THROWS_AS(MappedMesh({.file = egg_file(), .map = {icosphere(1).positions}}),
+                  std::invalid_argument);
+  CHECK_THROWS_AS(egg().with_map({icosphere(3).positions}, {}), std::invalid_argument);
+  CHECK_THROWS_AS(
+      MappedMesh({.file = egg_file(), .map = identity(), .topology = Topology(icosphere(1))}),
+      std::invalid_argument);
+}
+
+TEST_CASE("mapped_mesh: a mesh with a hole is refused before its map is looked at") {
+  MeshFile file = egg_file();
+  file.mesh.triangles.conservativeResize(file.mesh.face_count() - 1, 3);
+  CHECK_THROWS_AS(MappedMesh({.file = file, .map = identity()}), MeshError);
+}
+
+TEST_CASE("mapped_mesh: two spheres are no sphere") {
+  const MeshFile one = egg_file();
+  const int v = static_cast<int>(one.mesh.vertex_count());
+  MeshFile two;
+  two.mesh.positions.resize(2 * v, 3);
+  two.mesh.positions << one.mesh.positions, one.mesh.positions;
+  two.mesh.triangles.resize(2 * one.mesh.face_count(), 3);
+  two.mesh.triangles << one.mesh.triangles, (one.mesh.triangles.array() + v).matrix();
+  CHECK_THROWS_AS(MappedMesh({.file = two, .map = {two.mesh.positions}}), NotCertifiedError);
+}
+
+TEST_CASE("mapped_mesh: rays become unit, those that are stay as they are") {
+  SphereMap stretched = identity();
+  for (Eigen::Index v = 0; v < stretched.points.rows(); ++v)
+    stretched.points.row(v) *= 1 + static_cast<double>(v);
+  const MappedMesh mapped({.file = egg_file(), .map = stretched});
+  CHECK((mapped.map().points.rowwise().norm().array() - 1).abs().maxCoeff() < 1e-15);
+  CHECK(mapped.certificate().max_length_error < 1e-15);
+  CHECK((mapped.map().points - identity().points).cwiseAbs().maxCoeff() < 1e-15);
+  CHECK(unit_rays(identity()).points == identity().points);
+}
+
+TEST_CASE("mapped_mesh: copies share everything") {
+  const MappedMesh mapped = egg();
+  const MappedMesh copy = mapped;
+  CHECK(&copy.mesh() == &mapped.mesh());
+  CHECK(&copy.map() == &mapped.map());
+  CHECK(&copy.locator() == &mapped.locator());
+}
+
+TEST_CASE("mapped_mesh: with another map the mesh is the same one") {
+  const MappedMesh mapped = egg();
+  SphereMap turned = identity();
+  turned.points.col(0).swap(turned.points.col(1));
+  turned.points.col(0) *= -1;
+  const MappedMesh other = mapped.with_map(turned, {{"method", "turned"}});
+  CHECK(&other.mesh() == &mapped.mesh());
+  CHECK(&other.topology() == &mapped.topology());
+  CHECK(other.map().points == turned.points);
+  CHECK(other.provenance() == Provenance{{"method", "turned"}});
+  CHECK(other.mapped_here());
+  CHECK(&other.locator() != &mapped.locator());
+  CHECK(mapped.map().points == identity().points);
+  CHECK_THROWS_AS(mapped.with_map(folded(), {}), NotCertifiedError);
+}
+
+TEST_CASE("mapped_mesh: it outlives what it was made of") {
+  const MappedMesh other = [] {
+    const MappedMesh mapped = egg();
+    return mapped.with_map(identity(), {});
+  }();
+  CHECK(other.mesh().vertex_count() == 162);
+  CHECK(other.locator().locate(Vector3::UnitZ()).face >= 0);
+}
+
+TEST_CASE("mapped_mesh: threads that ask at once get one locator") {
+  const MappedMesh mapped = egg();
+  std::array<const SphereLocator*, 8> seen{};
+  {
+    std::vector<std::jthread> threads;
+    for (auto& slot : seen) threads.emplace_back([&] { slot = &mapped.locator(); });
+  }
+  for (const SphereLocator* locator : seen) CHECK(locator == seen[0]);
+  CHECK(seen[0] == &mapped.locator());
+}
+
+TEST_CASE("mapped_mesh: saved and loaded it is the same, bit for bit") {
+  const Folder folder;
+  save_mapped(folder.file("egg.sph.ply"), egg());
+  const MappedMesh back = load_mapped(folder.file("egg.sph.ply"));
+  CHECK(back.map().points == egg().map().points);
+  CHECK(back.mesh().positions == egg().mesh().positions);
+  CHECK(back.provenance() == egg().provenance());
+  CHECK_FALSE(back.mapped_here());
+  CHECK(back.name() == "egg.sph.ply");
+}
+
+TEST_CASE("mapped_mesh: formats without a place for the map hold the mesh alone") {
+  const Folder folder;
+  for (const char* name : {"egg.obj", "egg.off", "egg.gii"}) {
+    save_mapped(folder.file(name), egg());
+    const MeshFile back = read_mesh(folder.file(name));
+    CHECK(back.mesh.positions == egg().mesh().positions);
+    CHECK_FALSE(read_sphere(back));
+  }
+  CHECK_THROWS_AS(save_mapped(folder.file("egg.stl"), egg()), WriteError);
+  CHECK_FALSE(fs::exists(folder.file("egg.stl")));
+}
+
+TEST_CASE("mapped_mesh: a mesh without a map is mapped, and says how") {
+  const Folder folder;
+  write_mesh(folder.file("egg.obj"), egg_file());
+  const MappedMesh mapped = load_mapped(folder.file("egg.obj"));
+  CHECK(mapped.certificate().bijective());
+  CHECK(mapped.mapped_here());
+  CHECK(mapped.provenance().back() == std::pair<std::string, std::string>{"verdict", "one-to-one"});
+}
+
+TEST_CASE("mapped_mesh: the sphere may be a file of its own, of any radius") {
+  const Folder folder;
+  write_mesh(folder.file("egg.obj"), egg_file());
+  SphereMap large = identity();
+  large.points *= 100;
+  write_mesh(folder.file("sphere.off"), sphere_mesh(egg_file(), large, {}), {.is_sphere = true});
+  const MappedMesh mapped =
+      load_mapped(folder.file("egg.obj"), {.sphere = folder.file("sphere.off")});
+  CHECK((mapped.map().points - identity().points).cwiseAbs().maxCoeff() < 1e-15);
+  CHECK_FALSE(mapped.mapped_here());
+
+  MeshFile other;
+  other.mesh = icosphere(1);
+  write_mesh(folder.file("other.off"), other);
+  CHECK_THROWS_AS(load_mapped(folder.file("egg.obj"), {.sphere = folder.file("other.off")}),
+                  ReadError);
+  write_mesh(folder.file("folded.off"), sphere_mesh(egg_file(), folded(), {}));
+  CHECK_THROWS_WITH(load_mapped(folder.file("egg.obj"), {.sphere = folder.file("folded.off")}),
+                    Catch::StartsWith("folded.off"));
+}
+
+TEST_CASE("mapped_mesh: a mesh that needs it is mended where that is asked for") {
+  const Folder folder;
+  MeshFile open = egg_file();
+  open.mesh.triangles.conservativeResize(open.mesh.face_count() - 1, 3);
+  write_mesh(folder.file("open.obj"), open);
+  CHECK_THROWS_AS(load_mapped(folder.file("open.obj")), MeshRefusal);
+  const MappedMesh mended = load_mapped(folder.file("open.obj"), {.repair = RepairOptions{}});
+  CHECK(mended.mesh().face_count() == egg_file().mesh.face_count());
+  CHECK(mended.certificate().bijective());
+}
+
+TEST_CASE("mapped_mesh: the polygons that the triangles are cut of are kept and written") {
+  const Folder folder;
+  const auto [file, polygons] = box();
+  const MappedMesh mapped(
+      {.file = file, .map = {file.mesh.positions}, .polygons = polygons, .name = "box"});
+  REQUIRE(mapped.polygons());
+  CHECK(mapped.polygons()->corners == polygons.corners);
+  for (const char* name : {"box.sph.ply", "box.obj"}) {
+    save_mapped(folder.file(name), mapped);
+    const MeshFile back = read_mesh(folder.file(name));
+    CHECK(back.polygons == 6);
+    CHECK(back.mesh.triangles == file.mesh.triangles);
+  }
+}
+
+TEST_CASE("mapped_mesh: progress may cancel the map that is made") {
+  const Folder folder;
+  write_mesh(folder.file("egg.obj"), egg_file());
+  LoadOptions options;
+  options.map.progress = [](std::string_view, double) { return false; };
+  CHECK_THROWS_AS(load_mapped(folder.file("egg.obj"), options), Cancelled);
+}
