@@ -18,6 +18,7 @@
 #include "console/console.h"
 #include "console/exit_codes.h"
 #include "console/interruption.h"
+#include "reports/compare_report.h"
 #include "console/paths.h"
 #include "commands/repairing.h"
 #include "commands/shown_textures.h"
