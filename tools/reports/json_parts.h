@@ -13,7 +13,8 @@
 namespace sphparam::cli {
 
 // What several reports tell alike. References in reports are to values that outlive them. The keys
-// are documented in docs/commands/index.md and never change their meaning. Numbers that are not finite become null.
+// are documented in docs/commands/index.md and never change their meaning. Numbers that are not
+// finite become null.
 
 using Json = nlohmann::ordered_json;
 using NamedTexts = std::vector<std::pair<std::string, std::string>>;
