@@ -1,6 +1,6 @@
 #pragma once
 
-#include "image/image.h"
+#include "sphparam/image/image.h"
 #include "sphparam/io/mesh_file.h"
 
 /// Meshes to try the toolkit on: closed, genus 0, z up, vertex colours red green blue (Uint8).

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "bake/bake.h"
+#include "bake/bake_rows.h"
 #include "bake/make_scene.h"
 #include "sphparam/parameterize.h"
 
@@ -13,12 +13,11 @@
 namespace sphparam::tests {
 
 inline std::unique_ptr<sphparam::BakeScene> scene_of(sphparam::MeshFile file, const SphereMap& map,
-                                                  sphparam::MapOptions options = {}) {
-  Topology topology(file.mesh);
-  sphparam::BakeTarget target = sphparam::make_target(file, topology, map, true, 1);
-  const Points normals = file.mesh.positions.rowwise().normalized();
-  return std::unique_ptr<sphparam::BakeScene>(new sphparam::BakeScene{
-      {std::move(file), map, std::move(topology), normals, {}}, std::move(target), options, 1});
+                                                     sphparam::FieldOptions options = {}) {
+  const MappedMesh mapped({.file = std::move(file), .map = map}, 1);
+  const Points normals = mapped.mesh().positions.rowwise().normalized();
+  return std::unique_ptr<sphparam::BakeScene>(
+      new sphparam::BakeScene{{mapped, normals, {}}, make_target(mapped, true, 1), options, 1});
 }
 
 /// A mesh on the sphere as its own map.
@@ -29,7 +28,8 @@ inline std::unique_ptr<sphparam::BakeScene> sphere_scene(const TriangleMesh& mes
 }
 
 /// All values of one field.
-inline std::vector<float> baked(const sphparam::BakeScene& scene, const sphparam::SurfaceField& field,
+inline std::vector<float> baked(const sphparam::BakeScene& scene,
+                                const sphparam::SurfaceField& field,
                                 const sphparam::BakeOptions& options) {
   std::vector<float> values;
   const std::vector<sphparam::SurfaceField> fields = {field};

@@ -8,9 +8,9 @@
 #include <set>
 #include <thread>
 
+#include "bake/field_registry.h"
 #include "bake/fields/attribute_fields.h"
 #include "bake/fields/normal_fields.h"
-#include "bake/map_kinds.h"
 #include "scenes.h"
 #include "sphparam/chart/tangent_frame.h"
 #include "sphparam/sphere/sphere_locator.h"
@@ -130,9 +130,9 @@ TEST_CASE("bake: what is linear on a triangle is exact at the centres of its tex
   const auto scene = sphere_scene(mesh);
   const int width = 512;
   const std::vector<float> image = baked(*scene, make_position(*scene, ""), size(width));
-  const UvRaster raster(scene->target.chart, width, width / 2);
-  for (int b = 0; b < raster.band_count(); ++b) {
-    const RasterBand band = raster.band(b);
+  const TexelOwners owners(scene->target.chart, width, width / 2);
+  for (int b = 0; b < owners.band_count(); ++b) {
+    const OwnerBand band = owners.band(b);
     for (size_t i = 0; i < band.faces.size(); ++i) {
       Vector3 point = Vector3::Zero();
       for (int k = 0; k < 3; ++k) {
@@ -149,7 +149,7 @@ TEST_CASE("bake: what is linear on a triangle is exact at the centres of its tex
 TEST_CASE("bake: with --interp sphere a texel shows what lies in its direction") {
   const TriangleMesh mesh = body();
   const auto scene = sphere_scene(mesh);
-  const SphereLocator locator(scene->source.topology, scene->source.map);
+  const SphereLocator locator(scene->source.topology(), scene->source.map());
   const int width = 128;
   BakeOptions options = size(width);
   options.interpolation = Interpolation::Sphere;
@@ -177,9 +177,9 @@ TEST_CASE("bake: for another mesh on the same sphere, detail comes from the sour
   scene->target = make_target(low, Topology(low.mesh), SphereMap{low.mesh.positions}, false, 1);
   const int width = 128;
   const std::vector<float> image = baked(*scene, make_position(*scene, ""), size(width));
-  const UvRaster raster(scene->target.chart, width, width / 2);
-  const SphereLocator locator(scene->source.topology, scene->source.map);
-  const RasterBand band = raster.band(1);
+  const TexelOwners owners(scene->target.chart, width, width / 2);
+  const SphereLocator locator(scene->source.topology(), scene->source.map());
+  const OwnerBand band = owners.band(1);
   for (size_t i = 0; i < band.faces.size(); ++i) {
     Vector3 direction = Vector3::Zero();
     for (int k = 0; k < 3; ++k) {
@@ -304,7 +304,8 @@ TEST_CASE("id: labels have colours of their own in 8 bits, and none has none's")
   for (Face f = 0; f < file.mesh.face_count(); ++f) polygons.values.push_back(819 * f);
   file.set_face_property(polygons);
   const SphereMap map = normalised(file.mesh.positions);
-  const auto scene = scene_of(file, map, {.ids_as_colours = true});
+  const auto scene = scene_of(file, map);
+  scene->ids_as_colours = true;
   const SurfaceField field = make_id(*scene, "face");
   std::set<std::array<int, 3>> colours = {{0, 0, 0}};
   for (Face f = 0; f < file.mesh.face_count(); ++f) {
@@ -353,8 +354,8 @@ TEST_CASE("normal-tangent: of the mesh itself it is (0, 0, 1), and a viewer gets
                            tangent = baked(*turned, make_tangent_normal(*turned, ""), size(width));
   const SphericalChart& chart = turned->target.chart;
   const ShadingFrame frame = tangent_frame(chart, turned->target.positions, turned->target.normals);
-  const UvRaster raster(chart, width, width / 2);
-  const RasterBand band = raster.band(0);
+  const TexelOwners owners(chart, width, width / 2);
+  const OwnerBand band = owners.band(0);
   for (size_t i = 0; i < band.faces.size(); ++i) {
     Vector3 t = Vector3::Zero(), n = Vector3::Zero();
     for (int k = 0; k < 3; ++k) {
@@ -377,7 +378,7 @@ TEST_CASE("normal-tangent: x turns round with u, y where it is asked to") {
     normal = (normal + Eigen::RowVector3d(0.2, 0.1, 0.3)).normalized();
   }
   const std::vector<float> plain = baked(*scene, make_tangent_normal(*scene, ""), size(32));
-  scene->options.mirrored = scene->options.normal_y_down = true;
+  scene->mirrored = scene->options.normal_y_down = true;
   const std::vector<float> turned = baked(*scene, make_tangent_normal(*scene, ""), size(32));
   for (size_t i = 0; i < plain.size(); i += 3) {
     CHECK(turned[i] == -plain[i]);
@@ -392,12 +393,12 @@ TEST_CASE("maps: what a mesh has not is said, with what it has") {
     try {
       make_field(map, *scene);
       return "";
-    } catch (const MapError& error) {
+    } catch (const FieldError& error) {
       return error.what();
     }
   };
   CHECK(complaint("position").empty());
-  CHECK(complaint("basecolor").find("--texture") != std::string::npos);
+  CHECK(complaint("basecolor").find("no texture and no colours") != std::string::npos);
   CHECK(complaint("vcolor").find("no colours") != std::string::npos);
   CHECK(complaint("uv").find("no texture coordinates") != std::string::npos);
   CHECK(complaint("scalar:heat").find("no such property") != std::string::npos);

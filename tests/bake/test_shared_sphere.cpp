@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <random>
+#include <utility>
 
 #include "../chart/maps.h"
 #include "bake/shared_sphere.h"
@@ -25,7 +26,11 @@ struct Egg {
     mesh.positions.col(0) *= 1.5;
     mesh.positions.col(2) *= 0.75;
   }
-  MeshOnSphere view() const { return {mesh, topology, map}; }
+  MappedMesh view() const {
+    MeshFile file;
+    file.mesh = mesh;
+    return MappedMesh({.file = std::move(file), .map = map}, 1);
+  }
   double diagonal() const {
     return (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).norm();
   }

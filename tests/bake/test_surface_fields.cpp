@@ -3,11 +3,11 @@
 #include <numbers>
 #include <vector>
 
+#include "bake/field_registry.h"
 #include "bake/fields/curvature_field.h"
 #include "bake/fields/distortion_fields.h"
 #include "bake/fields/heat_field.h"
 #include "bake/fields/height_field.h"
-#include "bake/map_kinds.h"
 #include "support/test_meshes.h"
 
 namespace sphparam {
@@ -35,9 +35,7 @@ BakeScene scene_of(const TriangleMesh& mesh, const TriangleMesh* target = nullpt
     positions.row(v) = at;
   }
   const Points normals = chart.points;
-  return {.source = {.file = file,
-                     .map = map,
-                     .topology = Topology(mesh),
+  return {.source = {.mapped = MappedMesh({.file = file, .map = map}),
                      .normals = map.points,
                      .textures = {}},
           .target = {.chart = std::move(chart),
@@ -50,7 +48,7 @@ BakeScene scene_of(const TriangleMesh& mesh, const TriangleMesh* target = nullpt
 
 /// Values at the middles of the source's faces.
 std::vector<float> at_middles(const SurfaceField& field, const BakeScene& scene) {
-  const Eigen::Index faces = scene.source.file.mesh.face_count();
+  const Eigen::Index faces = scene.source.mesh().face_count();
   std::vector<float> values(static_cast<size_t>(faces * field.channels));
   std::vector<SurfaceSample> samples;
   std::vector<SurfaceRun> runs;
@@ -80,7 +78,7 @@ TriangleMesh ellipsoid(int level, double x, double y, double z) {
 TEST_CASE("area field: areas times ratios add up to the sphere") {
   const BakeScene scene = scene_of(ellipsoid(3, 1, 2, 0.4));
   const std::vector<float> log2 = at_middles(area_field(scene, ""), scene);
-  const TriangleMesh& mesh = scene.source.file.mesh;
+  const TriangleMesh& mesh = scene.source.mesh();
   double total = 0, mapped = 0;
   for (Face f = 0; f < mesh.face_count(); ++f) {
     const Vector3 a = mesh.position(mesh.triangles(f, 0));
@@ -115,7 +113,7 @@ TEST_CASE("distortion fields: a sphere of any size has none, a squashed one has 
 
 TEST_CASE("stretch field: where the sphere is smaller than the mesh, the image is stretched") {
   const BakeScene scene = scene_of(ellipsoid(4, 1, 1, 4));
-  const TriangleMesh& mesh = scene.source.file.mesh;
+  const TriangleMesh& mesh = scene.source.mesh();
   const std::vector<float> stretch = at_middles(stretch_field(scene, ""), scene);
   const std::vector<float> area = at_middles(area_field(scene, ""), scene);
   for (Face f = 0; f < mesh.face_count(); ++f) {
@@ -156,7 +154,7 @@ TEST_CASE(
   CHECK(beyond > 0);
   CHECK(beyond < static_cast<long>(values.size()) / 20);
   CHECK_THAT(field.about, Catch::Contains("averaged over"));
-  CHECK_THROWS_AS(curvature_field(scene, "median"), MapError);
+  CHECK_THROWS_AS(curvature_field(scene, "median"), FieldError);
 }
 
 TEST_CASE("height field: distance from the origin; above another mesh, along its normals") {
@@ -189,7 +187,7 @@ TEST_CASE("height field: distance from the origin; above another mesh, along its
     CHECK(value == Approx(0.25).margin(1e-6));
   }
   for (const float value : at_middles(height_field(above, "radial"), above)) CHECK(value > 1.2F);
-  CHECK_THROWS_AS(height_field(scene, "upwards"), MapError);
+  CHECK_THROWS_AS(height_field(scene, "upwards"), FieldError);
 }
 
 TEST_CASE("as_heat: the colours of the scale, with the same range and a legend of it") {

@@ -15,15 +15,15 @@
 #include <numeric>
 #include <string>
 
-#include "bake/bake.h"
+#include "bake/bake_rows.h"
 #include "bake/fields/base_colour.h"
 #include "bake/make_scene.h"
-#include "io/attributes/source_attributes.h"
 #include "image/image_codec.h"
-#include "sphparam/io/mesh_reader.h"
-#include "io/polygons/welding.h"
 #include "io/attributes/shading_normals.h"
+#include "io/attributes/source_attributes.h"
+#include "io/polygons/welding.h"
 #include "sphparam/chart/carry_attributes.h"
+#include "sphparam/io/mesh_reader.h"
 #include "sphparam/parallel.h"
 #include "sphparam/parameterize.h"
 #include "texture/srgb.h"
@@ -188,24 +188,19 @@ void write_picture(const std::string& path, const std::vector<Seen>& seen, const
 std::unique_ptr<BakeScene> read_scene(const std::string& mesh, const std::string& texture) {
   MeshFile file = prepare_for_mapping(read_mesh(mesh));
   SphereMap map = parameterize(file.mesh).map;
-  Topology topology(file.mesh);
-  BakeTarget target = make_target(file, topology, map, true, 0);
+  const MappedMesh mapped({.file = std::move(file), .map = std::move(map)});
   std::vector<SourceTexture> textures;
   if (texture.empty()) {
-    textures = read_textures(file, 0);
+    textures = read_textures(mapped.file(), 0);
   } else {
     textures = {read_texture(texture, TextureWrap::Repeat, 0)};
   }
-  Points normals = shading_normals(file);
   return std::unique_ptr<BakeScene>(new BakeScene{
-      {std::move(file), std::move(map), std::move(topology), std::move(normals), textures},
-      std::move(target),
-      {},
-      0});
+      {mapped, shading_normals(mapped.file()), textures}, make_target(mapped, true, 0), {}, 0});
 }
 
 Skin own_skin(const BakeScene& scene) {
-  const MeshFile& file = scene.source.file;
+  const MeshFile& file = scene.source.file();
   const SphericalChart& chart = scene.target.chart;
   Skin skin{carry_corner_attribute(chart, file.mesh.triangles, texcoords_of(file).value()),
             scene.source.textures,

@@ -10,14 +10,14 @@
 #include <cstring>
 #include <numbers>
 
-#include "bake/bake.h"
+#include "bake/bake_rows.h"
 #include "bake/fields/base_colour.h"
 #include "bake/make_scene.h"
 #include "image/image_writer.h"
-#include "sphparam/io/mesh_reader.h"
+#include "io/attributes/shading_normals.h"
 #include "io/polygons/welding.h"
 #include "rays/ray_scene.h"
-#include "io/attributes/shading_normals.h"
+#include "sphparam/io/mesh_reader.h"
 #include "sphparam/parallel.h"
 #include "sphparam/parameterize.h"
 #include "sphparam/sphere/spherical_coordinates.h"
@@ -82,15 +82,12 @@ Subject read_subject(const char* mesh, const char* texture) {
 }
 
 std::unique_ptr<BakeScene> scene_of(const Subject& subject) {
-  Topology topology(subject.file.mesh);
-  BakeTarget target = make_target(subject.file, topology, subject.map, true, threads);
+  const MappedMesh mapped({.file = subject.file, .map = subject.map}, threads);
+  BakeTarget target = make_target(mapped, true, threads);
   const SourceTexture texture{
       .image = std::make_shared<const TexturePyramid>(subject.texture, false, threads)};
   return std::unique_ptr<BakeScene>(new BakeScene{
-      {subject.file, subject.map, std::move(topology), shading_normals(subject.file), {texture}},
-      std::move(target),
-      {},
-      threads});
+      {mapped, shading_normals(subject.file), {texture}}, std::move(target), {}, threads});
 }
 
 struct Timed {

@@ -10,15 +10,15 @@
 #include <iostream>
 #include <string>
 
-#include "bake/bake.h"
+#include "bake/bake_rows.h"
+#include "bake/field_registry.h"
 #include "bake/make_scene.h"
-#include "bake/map_kinds.h"
 #include "displace/displacement_file.h"
 #include "image/image_writer.h"
-#include "sphparam/io/mesh_reader.h"
+#include "io/attributes/shading_normals.h"
 #include "io/polygons/welding.h"
 #include "remesh/subdivision_fit.h"
-#include "io/attributes/shading_normals.h"
+#include "sphparam/io/mesh_reader.h"
 #include "sphparam/parameterize.h"
 #include "sphparam/stopwatch.h"
 #include "support/test_meshes.h"
@@ -47,10 +47,8 @@ struct Seconds {
 
 Seconds bake_positions(const MeshFile& file, const SphereMap& map, int width) {
   Stopwatch stopwatch;
-  Topology topology(file.mesh, threads);
-  BakeTarget target = make_target(file, topology, map, true, threads);
-  const BakeScene scene{
-      {file, map, std::move(topology), shading_normals(file), {}}, std::move(target), {}, threads};
+  const MappedMesh mapped({.file = file, .map = map}, threads);
+  const BakeScene scene{make_source(mapped), make_target(mapped, true, threads), {}, threads};
   std::vector<SurfaceField> fields;
   fields.push_back(make_field("position", scene));
   double encoding = 0;

@@ -3,7 +3,7 @@
 
 #include "../bake/scenes.h"
 #include "bake/baked_chart.h"
-#include "bake/map_kinds.h"
+#include "bake/field_registry.h"
 #include "charted.h"
 #include "sphparam/chart/carry_attributes.h"
 
@@ -17,12 +17,9 @@ constexpr int width = 1024, height = width / 2;
 
 /// The egg's positions, baked for its chart with triangles at the poles cut in so many.
 std::vector<float> baked_positions(const Charted& egg, int wedges) {
-  const Topology topology(egg.file.mesh);
+  const MappedMesh mapped({.file = egg.file, .map = egg.map}, 1);
   const Points normals = egg.file.mesh.positions.rowwise().normalized();
-  const BakeScene scene{{egg.file, egg.map, topology, normals, {}},
-                        make_target(egg.file, topology, egg.map, true, 1, wedges),
-                        {},
-                        1};
+  const BakeScene scene{{mapped, normals, {}}, make_target(mapped, true, 1, wedges), {}, 1};
   return baked(scene, make_field("position", scene), {.width = width, .height = height});
 }
 

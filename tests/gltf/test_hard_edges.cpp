@@ -3,16 +3,16 @@
 #include <numbers>
 
 #include "../bake/scenes.h"
-#include "bake/map_kinds.h"
+#include "bake/field_registry.h"
 #include "charted.h"
 #include "gltf/stored_chart.h"
 #include "gltf/textured_mesh.h"
-#include "sphparam/io/mesh_reader.h"
-#include "sphparam/io/mesh_writer.h"
-#include "io/files/read_back.h"
 #include "io/attributes/hard_edges.h"
 #include "io/attributes/shading_normals.h"
+#include "io/files/read_back.h"
 #include "sphparam/chart/tangent_frame.h"
+#include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/mesh_writer.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;

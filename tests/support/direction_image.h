@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "image/image.h"
+#include "sphparam/image/image.h"
 #include "sphparam/sphere/spherical_coordinates.h"
 
 namespace sphparam::tests {

@@ -7,13 +7,11 @@
 #include <filesystem>
 #include <set>
 
-#include "bake/map_kinds.h"
 #include "arguments/choice.h"
 #include "arguments/common_options.h"
 #include "console/paths.h"
+#include "sphparam/image/image_format.h"
 #include "sphparam/io/paths.h"
-#include "image/image_writer.h"
-#include "texture/test_images.h"
 
 namespace sphparam::cli {
 namespace {
@@ -35,37 +33,24 @@ std::string summary() {
       "of the one point of the surface that maps there. A mesh without a map is mapped first.\n"
       "\n"
       "Maps:\n";
-  for (const MapKind& kind : map_kinds()) {
-    const std::string name = kind.name;
-    text += "  " + name + std::string(16 - name.size(), ' ') + kind.about + "\n";
+  for (const FieldInfo& field : all_fields()) {
+    text += "  " + field.name + std::string(16 - field.name.size(), ' ') + field.about + "\n";
   }
   return text +
          "  axes, checker, graticule\n                  test images, to see how the sphere lies\n";
 }
 
-std::vector<std::string> map_names() {
-  std::vector<std::string> names = {"axes", "checker", "graticule"};
-  for (const MapKind& kind : map_kinds()) names.emplace_back(kind.name);
-  return names;
-}
-
 void require_known(const std::string& map) {
-  const std::string kind = map.substr(0, map.find(':'));
-  const std::vector<std::string> names = map_names();
-  if (test_image_named(kind) && kind != map) {
-    throw UsageMistake("--map: " + map + ": nothing can follow " + kind);
-  }
   try {
-    require_no_idle_argument(map);
-  } catch (const MapError& error) {
-    throw UsageMistake(std::string("--map: ") + error.what());
+    require_field_name(map);
+  } catch (const FieldError& error) {
+    if (error.unknown().empty()) throw UsageMistake(std::string("--map: ") + error.what());
+    const std::string meant = nearest_word(error.unknown(), error.known());
+    std::string all;
+    for (const std::string& name : error.known()) all += (all.empty() ? "" : ", ") + name;
+    throw UsageMistake("--map: there is no map " + error.unknown() +
+                       (meant.empty() ? "; there are " + all : "; did you mean " + meant + "?"));
   }
-  if (std::ranges::count(names, kind) > 0) return;
-  const std::string meant = nearest_word(kind, names);
-  std::string all;
-  for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
-  throw UsageMistake("--map: there is no map " + kind +
-                     (meant.empty() ? "; there are " + all : "; did you mean " + meant + "?"));
 }
 
 /// A name of a map as it stands in a name of a file.

@@ -4,11 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "bake/bake_scene.h"
-#include "bake/texel_points.h"
 #include "commands/command.h"
-#include "image/image_codec.h"
+#include "sphparam/bake/fields.h"
+#include "sphparam/bake/interpolation.h"
+#include "sphparam/image/image_format.h"
 #include "sphparam/texture/convention.h"
+#include "sphparam/texture/texture_options.h"
 
 namespace sphparam::cli {
 
@@ -27,7 +28,7 @@ struct BakeArguments {
   Convention convention = Convention::Sphparam;
   std::optional<SampleType> depth;
   bool mip = false;
-  MapOptions options;
+  FieldOptions options;
   std::string json;
   int threads = 0;
   ProgressStyle progress = ProgressStyle::Auto;

@@ -10,24 +10,23 @@
 #include <mutex>
 #include <stdexcept>
 
-#include "bake/bake.h"
+#include "arguments/bake_arguments.h"
+#include "arguments/suggestion.h"
+#include "bake/bake_rows.h"
 #include "bake/baked_chart.h"
 #include "bake/baked_file.h"
+#include "bake/field_registry.h"
 #include "bake/fields/heat_field.h"
 #include "bake/make_scene.h"
-#include "bake/map_kinds.h"
 #include "bake/shared_sphere.h"
-#include "arguments/bake_arguments.h"
-#include "reports/bake_report.h"
-#include "sphparam/chart/chart_failure.h"
+#include "commands/mapped_source.h"
 #include "console/exit_codes.h"
 #include "console/interruption.h"
-#include "commands/mapped_source.h"
 #include "console/paths.h"
-#include "arguments/suggestion.h"
+#include "reports/bake_report.h"
 #include "reports/wording.h"
+#include "sphparam/chart/chart_failure.h"
 #include "sphparam/io/safe_file.h"
-#include "io/attributes/shading_normals.h"
 #include "sphparam/stopwatch.h"
 #include "sphparam/version.h"
 #include "texture/srgb.h"
@@ -98,7 +97,7 @@ class Baker {
                       .target_distance = target_distance_,
                       .convention = info_of(arguments_.convention).name,
                       .refine_poles = arguments_.refine_poles,
-                      .triangles = scene_->source.file.mesh.face_count(),
+                      .triangles = scene_->source.mesh().face_count(),
                       .images = {},
                       .seconds = stopwatch_.seconds()};
     for (const Image& image : images_) {
@@ -116,27 +115,17 @@ class Baker {
   void read_scene() {
     const MappedMesh mapped =
         read_mapped_source(arguments_.input, arguments_.sphere, arguments_.threads, console_);
-    const Topology& topology = mapped.topology();
-    provenance_ = mapped.provenance();
-    BakeTarget target = target_of(mapped, topology);
-    Points normals = shading_normals(mapped.file());
-    scene_.reset(new BakeScene{{mapped.file(),
-                                mapped.map(),
-                                topology,
-                                std::move(normals),
-                                {}},
-                               std::move(target),
-                               arguments_.options,
+    scene_.reset(new BakeScene{make_source(mapped), target_of(mapped), arguments_.options,
                                arguments_.threads});
-    scene_->options.mirrored = info_of(arguments_.convention).turns < 0;
+    scene_->mirrored = info_of(arguments_.convention).turns < 0;
     read_source_textures();
   }
 
-  BakeTarget target_of(const MappedMesh& mapped, const Topology& topology) {
+  BakeTarget target_of(const MappedMesh& mapped) {
     const std::string& path = arguments_.target.empty() ? arguments_.input : arguments_.target;
     BakeTarget target;
     if (arguments_.target.empty()) {
-      target = target_on(mapped.file(), topology, mapped.map(), true);
+      target = target_on(mapped, true);
     } else {
       const MappedMesh low = read_mapped_source(path, "", arguments_.threads, console_);
       if (low.mapped_here()) {
@@ -144,8 +133,8 @@ class Baker {
                                 ": carries no map, so it is on no sphere that it could share; "
                                 "`sphparam remesh` makes meshes on the source's sphere");
       }
-      require_one_sphere(mapped, topology, low);
-      target = target_on(low.file(), low.topology(), low.map(), false);
+      require_one_sphere(mapped, low);
+      target = target_on(low, false);
     }
     if (!target.chart.certificate.one_to_one()) {
       throw NotCertifiedError(display_name(path) + ": " + chart_failure(target.chart));
@@ -154,11 +143,8 @@ class Baker {
   }
 
   /// A map of its own would give every texel of the low mesh another place of the high one.
-  void require_one_sphere(const MappedMesh& high, const Topology& topology,
-                          const MappedMesh& low) {
-    const double apart = disagreement({high.file().mesh, topology, high.map()},
-                                      {low.file().mesh, low.topology(), low.map()},
-                                      arguments_.threads);
+  void require_one_sphere(const MappedMesh& high, const MappedMesh& low) {
+    const double apart = disagreement(high, low, arguments_.threads);
     target_distance_ = apart;
     if (apart <= doubtful_disagreement) return;
     const std::string far = "in the same directions, half of its surface is more than " +
@@ -175,11 +161,10 @@ class Baker {
                        (high.mapped_here() ? ", of a map that is kept (`sphparam map`)" : ""));
   }
 
-  BakeTarget target_on(const MeshFile& file, const Topology& topology, const SphereMap& map,
-                       bool is_source) {
+  BakeTarget target_on(const MappedMesh& mapped, bool is_source) {
     try {
-      return make_target(file, topology, map, is_source, arguments_.threads,
-                         arguments_.refine_poles, [&](std::string_view stage, double fraction) {
+      return make_target(mapped, is_source, arguments_.threads, arguments_.refine_poles,
+                         [&](std::string_view stage, double fraction) {
                            return console_.progress(stage, fraction);
                          });
     } catch (const std::invalid_argument& error) {
@@ -194,7 +179,7 @@ class Baker {
     console_.progress("texture", 0);
     BakeSource& source = scene_->source;
     if (arguments_.texture.empty()) {
-      source.textures = read_textures(source.file, arguments_.threads);
+      source.textures = read_textures(source.file(), arguments_.threads);
     } else {
       source.textures = {read_texture(arguments_.texture, arguments_.wrap, arguments_.threads)};
       source.one_texture_for_all = true;
@@ -209,15 +194,17 @@ class Baker {
                 .file = nullptr};
     const ImageFormat format = format_of(output);
     const SampleType number = depth_of(arguments_, format, FieldKind::Label);
-    scene_->options.ids_as_colours = is_integer(number);
+    scene_->ids_as_colours = is_integer(number);
     if (image.test) {
       image.field = {.name = output.map, .channels = 3, .kind = FieldKind::Colour};
     } else {
       try {
         image.field = make_field(output.map, *scene_);
-      } catch (const MapError& error) {
+      } catch (const FieldError& error) {
         const std::string meant = nearest_word(error.unknown(), error.known());
+        const bool bare = dynamic_cast<const NoColoursError*>(&error) != nullptr;
         throw UsageMistake(display_name(arguments_.input) + ": " + error.what() +
+                           (bare ? "; --texture IMAGE names its texture" : "") +
                            (meant.empty() ? "" : "; did you mean " + meant + "?"));
       }
     }
@@ -356,7 +343,6 @@ class Baker {
   const Stopwatch stopwatch_;
   std::vector<BakeOutput> outputs_;
   std::unique_ptr<BakeScene> scene_;
-  Provenance provenance_;
   std::optional<double> target_distance_;  // of the diagonal
   PendingFiles files_;
   std::vector<Image> images_;  // write to files_, so they go first

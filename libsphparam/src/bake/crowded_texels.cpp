@@ -60,7 +60,7 @@ struct Clip {
 /// A point of a texel.
 struct Deposit {
   size_t texel;
-  RasterRun place;
+  TexelRun place;
   SurfaceRun run;
   double weight;
 };
@@ -81,16 +81,16 @@ class Collector {
   Collector(const BakeScene& scene, const TexelFinder& finder, int band)
       : target_(scene.target),
         finder_(finder),
-        raster_(finder.raster()),
+        owners_(finder.owners()),
         band_(band),
-        width_(finder.raster().width()),
-        marked_(static_cast<size_t>(finder.raster().rows(band)) * static_cast<size_t>(width_), 0),
-        row_marked_(static_cast<size_t>(finder.raster().rows(band)), 0) {}
+        width_(finder.owners().width()),
+        marked_(static_cast<size_t>(finder.owners().rows(band)) * static_cast<size_t>(width_), 0),
+        row_marked_(static_cast<size_t>(finder.owners().rows(band)), 0) {}
 
   std::vector<Deposit> collect() {
     bool any = false;
-    const double limit = small_area / (static_cast<double>(width_) * raster_.height());
-    for (const Face f : raster_.faces(band_)) {
+    const double limit = small_area / (static_cast<double>(width_) * owners_.height());
+    for (const Face f : owners_.faces(band_)) {
       const ChartPiece piece(target_.chart, f);
       if (piece.is_trapezoid() || piece.area() >= limit) continue;
       any = true;
@@ -100,7 +100,7 @@ class Collector {
       });
     }
     if (!any) return {};
-    for (const Face f : raster_.faces(band_)) add(ChartPiece(target_.chart, f));
+    for (const Face f : owners_.faces(band_)) add(ChartPiece(target_.chart, f));
     std::ranges::stable_sort(deposits_, {}, &Deposit::texel);
     return std::move(deposits_);
   }
@@ -113,11 +113,11 @@ class Collector {
   /// visit(row of the band, what lies in it, first and last column it may touch).
   template <class Visit>
   void for_each_strip(const ChartPiece& piece, Visit&& visit) {
-    const double height = raster_.height();
-    const int first_row = raster_.first_row(band_);
+    const double height = owners_.height();
+    const int first_row = owners_.first_row(band_);
     const int top = std::max(0, static_cast<int>(piece.low() * height) - first_row);
     const int bottom =
-        std::min(raster_.rows(band_) - 1, static_cast<int>(piece.high() * height) - first_row);
+        std::min(owners_.rows(band_) - 1, static_cast<int>(piece.high() * height) - first_row);
     for (int row = top; row <= bottom; ++row) {
       Clip strip(piece.outline());
       strip.cut(&UvPoint::v, (first_row + row) / height, 1);
@@ -153,17 +153,17 @@ class Collector {
   /// A point stands for as much of the texel as it has of its area, also for texture filters.
   void deposit(const ChartPiece& piece, int row, int column, double area, double density,
                const UvPoint& centre) {
-    const double share = std::sqrt(area * width_ * raster_.height());
-    RasterRun place{piece.face(),
-                    raster_.first_row(band_) + row,
-                    column,
-                    1,
-                    piece.weights(centre),
-                    piece.gradient(1),
-                    piece.gradient(0)};
+    const double share = std::sqrt(area * width_ * owners_.height());
+    TexelRun place{piece.face(),
+                   owners_.first_row(band_) + row,
+                   column,
+                   1,
+                   piece.weights(centre),
+                   piece.gradient(1),
+                   piece.gradient(0)};
     for (size_t k = 0; k < 2; ++k) {
       place.step[k] *= share / width_;
-      place.below[k] *= share / raster_.height();
+      place.below[k] *= share / owners_.height();
     }
     deposits_.push_back({.texel = static_cast<size_t>(mark(row, column) - marked_.begin()),
                          .place = place,
@@ -180,7 +180,7 @@ class Collector {
 
   const BakeTarget& target_;
   const TexelFinder& finder_;
-  const UvRaster& raster_;
+  const TexelOwners& owners_;
   int band_, width_;
   std::vector<char> marked_, row_marked_;
   std::vector<Deposit> deposits_;
@@ -193,7 +193,7 @@ double extent(const SurfaceRun& run) {
 
 /// Grids of points in texels that span more than a triangle, or have neighbours that do.
 std::vector<Deposit> grids(const BakeScene& scene, const TexelFinder& finder, int band) {
-  const int width = finder.raster().width(), rows = finder.raster().rows(band);
+  const int width = finder.owners().width(), rows = finder.owners().rows(band);
   const TexelPoints centres = finder.points(band, 0.5, 0.5);
   std::vector<char> fineness(centres.runs.size(), 1);  // points along a side of the texel's grid
   const auto texel = [&](int row, int column) {
@@ -214,17 +214,17 @@ std::vector<Deposit> grids(const BakeScene& scene, const TexelFinder& finder, in
   }
   std::vector<Deposit> deposits;
   size_t i = 0;
-  for (const RasterRun& run : centres.places) {
+  for (const TexelRun& run : centres.places) {
     for (int k = 0; k < run.count; ++k, ++i) {
       const int n = fineness[i];
       if (n == 1) continue;
-      RasterRun place = run;
+      TexelRun place = run;
       place.count = 1;
       for (size_t c = 0; c < 2; ++c) place.weights[c] += k * run.step[c];
       for (int s = 0; s < n * n; ++s) {
         const SurfaceRun point =
             finder.beside(place, (s % n + 0.5) / n - 0.5, (s / n + 0.5) / n - 0.5, n);
-        deposits.push_back({i, place, point, area_of_step(scene.source.file.mesh, point)});
+        deposits.push_back({i, place, point, area_of_step(scene.source.mesh(), point)});
       }
     }
   }

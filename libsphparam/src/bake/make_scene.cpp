@@ -4,14 +4,14 @@
 #include <map>
 #include <stdexcept>
 
-#include "sphparam/io/paths.h"
 #include "image/image_codec.h"
-#include "io/formats/gltf/gltf_files.h"
 #include "io/attributes/hard_edges.h"
 #include "io/attributes/shading_normals.h"
+#include "io/formats/gltf/gltf_files.h"
 #include "sphparam/chart/carry_attributes.h"
 #include "sphparam/chart/refine_poles.h"
 #include "sphparam/chart/tangent_frame.h"
+#include "sphparam/io/paths.h"
 #include "texture/texture_pyramid.h"
 
 namespace sphparam {
@@ -58,6 +58,16 @@ BakeTarget make_target(const MeshFile& file, const Topology& topology, const Sph
   target.positions = carry_vertex_attribute(target.chart, triangles, file.mesh.positions, threads);
   target.normals = carry_normals(target.chart, triangles, shading_normals(file), threads);
   return target;
+}
+
+BakeTarget make_target(const MappedMesh& mapped, bool is_source, int threads, int pole_wedges,
+                       const Progress& progress) {
+  return make_target(mapped.file(), mapped.topology(), mapped.map(), is_source, threads,
+                     pole_wedges, progress);
+}
+
+BakeSource make_source(const MappedMesh& mapped) {
+  return {.mapped = mapped, .normals = shading_normals(mapped.file()), .textures = {}};
 }
 
 SourceTexture read_texture(const std::string& path, TextureWrap wrap, int threads) {

@@ -16,6 +16,13 @@ BakeTarget make_target(const MeshFile& file, const Topology& topology, const Sph
                        bool is_source, int threads, int pole_wedges = 1,
                        const Progress& progress = {});
 
+/// The same of a mesh that knows its topology and its map.
+BakeTarget make_target(const MappedMesh& mapped, bool is_source, int threads, int pole_wedges = 1,
+                       const Progress& progress = {});
+
+/// The mesh with its own normals and no textures, to bake of.
+BakeSource make_source(const MappedMesh& mapped);
+
 /// A texture of the user's own for all of the mesh.
 /// Throws: ImageError.
 SourceTexture read_texture(const std::string& path, TextureWrap wrap, int threads);

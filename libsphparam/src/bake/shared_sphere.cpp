@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "elementary.h"
-#include "sphparam/sphere/sphere_locator.h"
 
 // Even directions: the spiral of the golden angle, one turn of it a step, equal steps in z.
 
@@ -26,14 +25,13 @@ Points spread_evenly() {
 }
 
 /// The points of a surface in these directions.
-Points points_at(const MeshOnSphere& on, const Points& directions, int threads) {
-  const std::vector<SurfacePoint> places =
-      SphereLocator(on.topology, on.map, threads).locate_all(directions, threads);
+Points points_at(const MappedMesh& on, const Points& directions, int threads) {
+  const std::vector<SurfacePoint> places = on.locator().locate_all(directions, threads);
   Points points = Points::Zero(directions.rows(), 3);
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     const auto& [face, weights] = places[static_cast<size_t>(i)];
     for (int k = 0; k < 3; ++k)
-      points.row(i) += weights[k] * on.mesh.positions.row(on.mesh.triangles(face, k));
+      points.row(i) += weights[k] * on.mesh().positions.row(on.mesh().triangles(face, k));
   }
   return points;
 }
@@ -51,8 +49,8 @@ double median_distance(const Points& a, const Points& b, double unit) {
 
 }  // namespace
 
-double disagreement(const MeshOnSphere& high, const MeshOnSphere& low, int threads) {
-  const Points& positions = high.mesh.positions;
+double disagreement(const MappedMesh& high, const MappedMesh& low, int threads) {
+  const Points& positions = high.mesh().positions;
   // Halved, that of the largest coordinates is a number too.
   const double diagonal =
       2 *
@@ -60,7 +58,7 @@ double disagreement(const MeshOnSphere& high, const MeshOnSphere& low, int threa
   if (!(diagonal > 0)) return 0;
   const Points even = spread_evenly();
   const double at_vertices =
-      median_distance(points_at(high, low.map.points, threads), low.mesh.positions, diagonal);
+      median_distance(points_at(high, low.map().points, threads), low.mesh().positions, diagonal);
   return std::min(at_vertices, median_distance(points_at(high, even, threads),
                                                points_at(low, even, threads), diagonal));
 }

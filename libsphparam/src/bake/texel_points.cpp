@@ -27,18 +27,18 @@ Eigen::Matrix3d rays(const Triangles& triangles, const Points& points, Face f) {
   return columns;
 }
 
-RasterRun single(const SurfacePoint& point, int row, int column) {
+TexelRun single(const SurfacePoint& point, int row, int column) {
   return {point.face, row, column, 1, {point.barycentric[0], point.barycentric[1]}, {0, 0}, {0, 0}};
 }
 
 }  // namespace
 
-TexelFinder::TexelFinder(const BakeScene& scene, const UvRaster& raster,
+TexelFinder::TexelFinder(const BakeScene& scene, const TexelOwners& owners,
                          Interpolation interpolation, int threads)
-    : scene_(&scene), raster_(&raster), interpolation_(interpolation) {
+    : scene_(&scene), owners_(&owners), interpolation_(interpolation) {
   const SphericalChart& chart = scene.target.chart;
   if (scene.target.is_source) {
-    const Triangles& source = scene.source.file.mesh.triangles;
+    const Triangles& source = scene.source.mesh().triangles;
     refined_.assign(static_cast<size_t>(chart.triangles.rows()), -1);
     for (Face f = 0; f < chart.triangles.rows(); ++f) {
       const Face parent = chart.source_faces[static_cast<size_t>(f)];
@@ -53,9 +53,7 @@ TexelFinder::TexelFinder(const BakeScene& scene, const UvRaster& raster,
     }
   }
   const bool sphere = interpolation == Interpolation::Sphere;
-  if (sphere || !scene.target.is_source) {
-    source_.emplace(scene.source.topology, scene.source.map, threads);
-  }
+  if (sphere || !scene.target.is_source) source_ = &scene.source.mapped.locator();
   if (sphere) {
     if (!chart.certificate.inverted.empty()) {
       throw std::invalid_argument("the chart's points are no sphere map");
@@ -66,7 +64,7 @@ TexelFinder::TexelFinder(const BakeScene& scene, const UvRaster& raster,
   }
 }
 
-SurfaceRun TexelFinder::run_in_source(const RasterRun& place) const {
+SurfaceRun TexelFinder::run_in_source(const TexelRun& place) const {
   SurfaceRun run{place.face, place.count, three(place.weights), change(place.step),
                  change(place.below)};
   const int refined = refined_[static_cast<size_t>(place.face)];
@@ -101,12 +99,12 @@ SurfaceRun TexelFinder::located(const Vector3& q, const Vector3& east, const Vec
   const SurfacePoint point = source_->locate(q);
   const BakeSource& source = scene_->source;
   const auto [step, below] = derivatives(
-      rays(source.file.mesh.triangles, source.map.points, point.face), point, q, east, south);
+      rays(source.mesh().triangles, source.map().points, point.face), point, q, east, south);
   return {point.face, 1, point.barycentric, step, below};
 }
 
 /// The points of the source below those of a run of the target.
-void TexelFinder::locate(const RasterRun& place, std::vector<SurfaceRun>& runs) const {
+void TexelFinder::locate(const TexelRun& place, std::vector<SurfaceRun>& runs) const {
   const SphericalChart& chart = scene_->target.chart;
   const Eigen::Matrix3d corners = rays(chart.triangles, chart.points, place.face);
   const Vector3 first = corners * three(place.weights), east = corners * change(place.step),
@@ -114,7 +112,7 @@ void TexelFinder::locate(const RasterRun& place, std::vector<SurfaceRun>& runs) 
   for (int i = 0; i < place.count; ++i) runs.push_back(located(first + i * east, east, south));
 }
 
-SurfaceRun TexelFinder::beside(const RasterRun& place, double x, double y, int n) const {
+SurfaceRun TexelFinder::beside(const TexelRun& place, double x, double y, int n) const {
   const SphericalChart& chart = scene_->target.chart;
   const Eigen::Matrix3d corners = rays(chart.triangles, chart.points, place.face);
   const Vector3 east = corners * change(place.step), south = corners * change(place.below);
@@ -124,12 +122,12 @@ SurfaceRun TexelFinder::beside(const RasterRun& place, double x, double y, int n
 TexelPoints TexelFinder::by_direction(int band, double x, double y) const {
   TexelPoints texels;
   const SphericalChart& chart = scene_->target.chart;
-  const int width = raster_->width(), first = raster_->first_row(band);
+  const int width = owners_->width(), first = owners_->first_row(band);
   const auto direction = [&](double row, double column) {
     constexpr double pi = std::numbers::pi;
-    return to_cartesian({2 * pi * (column + x) / width, pi * (row + y) / raster_->height()});
+    return to_cartesian({2 * pi * (column + x) / width, pi * (row + y) / owners_->height()});
   };
-  for (int row = first; row < first + raster_->rows(band); ++row) {
+  for (int row = first; row < first + owners_->rows(band); ++row) {
     Points directions(width, 3);
     for (int column = 0; column < width; ++column) directions.row(column) = direction(row, column);
     const std::vector<SurfacePoint> places = chart_->locate_all(directions, 1);
@@ -139,7 +137,7 @@ TexelPoints TexelFinder::by_direction(int band, double x, double y) const {
       const Vector3 east = direction(row, column + 1) - q, south = direction(row + 1, column) - q;
       const auto [step, below] =
           derivatives(rays(chart.triangles, chart.points, place.face), place, q, east, south);
-      RasterRun run = single(place, row, column);
+      TexelRun run = single(place, row, column);
       run.step = {step[0], step[1]};
       run.below = {below[0], below[1]};
       texels.places.push_back(run);
@@ -152,9 +150,9 @@ TexelPoints TexelFinder::by_direction(int band, double x, double y) const {
 TexelPoints TexelFinder::points(int band, double x, double y) const {
   if (interpolation_ == Interpolation::Sphere) return by_direction(band, x, y);
   TexelPoints texels;
-  texels.places = raster_->runs(band, x, y);
+  texels.places = owners_->runs(band, x, y);
   texels.runs.reserve(texels.places.size());
-  for (const RasterRun& place : texels.places) {
+  for (const TexelRun& place : texels.places) {
     if (scene_->target.is_source) {
       texels.runs.push_back(run_in_source(place));
     } else {

@@ -5,22 +5,17 @@
 
 #include "bake/bake_scene.h"
 #include "bake/surface_field.h"
-#include "bake/uv_raster.h"
+#include "bake/texel_owners.h"
+#include "sphparam/bake/interpolation.h"
 #include "sphparam/sphere/sphere_locator.h"
 
 namespace sphparam {
-
-/// How a texel finds its point of the surface.
-enum class Interpolation {
-  Uv,      // linear in (u, v) on the triangles of the chart, as a GPU does
-  Sphere,  // by the direction of the texel, on the geodesic map: for other spheres
-};
 
 /// The points of some texels, row by row from the west: runs[i] in the source mesh, and, for as
 /// many texels, places[i] in the target's chart.
 struct TexelPoints {
   std::vector<SurfaceRun> runs;
-  std::vector<RasterRun> places;
+  std::vector<TexelRun> places;
 };
 
 /// Finds the points of the source mesh that the texels of an image show.
@@ -33,7 +28,7 @@ class TexelFinder {
  public:
   /// Both outlive it. Requires for `Sphere`: no inverted faces in the chart (else throws
   /// std::invalid_argument).
-  TexelFinder(const BakeScene& scene, const UvRaster& raster, Interpolation interpolation,
+  TexelFinder(const BakeScene& scene, const TexelOwners& owners, Interpolation interpolation,
               int threads);
 
   /// The points of the texels of a band at (column + x, row + y), 0 < x, y < 1.
@@ -42,29 +37,29 @@ class TexelFinder {
   TexelPoints points(int band, double x, double y) const;
 
   /// The source run of a run of the chart. Requires: the source is the target.
-  SurfaceRun run_in_source(const RasterRun& place) const;
+  SurfaceRun run_in_source(const TexelRun& place) const;
 
   /// The point of the source that lies (x, y) texels east and south of one that has its own run of
   /// the chart, beyond its face too, and what an n-th of a texel covers there.
   /// Requires: the source is not the target, or `Sphere`.
-  SurfaceRun beside(const RasterRun& place, double x, double y, int n) const;
+  SurfaceRun beside(const TexelRun& place, double x, double y, int n) const;
 
   /// Whether texels find their points by direction; else the chart's triangles lead to them.
-  bool by_location() const { return source_.has_value(); }
-  const UvRaster& raster() const { return *raster_; }
+  bool by_location() const { return source_ != nullptr; }
+  const TexelOwners& owners() const { return *owners_; }
 
  private:
-  void locate(const RasterRun& place, std::vector<SurfaceRun>& runs) const;
+  void locate(const TexelRun& place, std::vector<SurfaceRun>& runs) const;
   SurfaceRun located(const Vector3& q, const Vector3& east, const Vector3& south) const;
   TexelPoints by_direction(int band, double x, double y) const;
 
   const BakeScene* scene_;
-  const UvRaster* raster_;
+  const TexelOwners* owners_;
   Interpolation interpolation_;
   // Of faces that are not the source's own: columns are the weights of the corners in the source.
   std::vector<int> refined_;  // per chart face, into corners_; −1: the source's own
   std::vector<Eigen::Matrix3d> corners_;
-  std::optional<SphereLocator> source_;  // of the source's map
+  const SphereLocator* source_ = nullptr;  // of the source's map, where points are located
   std::optional<Topology> chart_topology_;
   std::optional<SphereMap> chart_map_;
   std::optional<SphereLocator> chart_;  // of the chart's refined map

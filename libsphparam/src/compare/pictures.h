@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "image/image.h"
+#include "sphparam/image/image.h"
 #include "sphparam/io/mesh_file.h"
 #include "render/render.h"
 #include "sphparam/sphere/sphere_map.h"

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "displace/directed_base.h"
-#include "image/image.h"
+#include "sphparam/image/image.h"
 #include "sphparam/sphere/sphere_map.h"
 
 namespace sphparam {

@@ -6,7 +6,7 @@
 
 #include "bake/baked_chart.h"
 #include "bake/make_scene.h"
-#include "bake/map_kinds.h"
+#include "bake/field_registry.h"
 #include "gltf/export_names.h"
 #include "gltf/material_images.h"
 #include "gltf/painted_surfaces.h"
@@ -128,18 +128,15 @@ class LookMaker {
 
   void bake_surfaces() {
     report(options_.progress, "bake", 0);
-    const MeshFile& file = mapped_.file();
-    const Topology& topology = mapped_.topology();
     const BakeScene scene{
-        .source = {file, mapped_.map(), topology, shading_normals(file), textures_},
-        .target = make_target(file, topology, mapped_.map(), true, options_.threads,
-                              options_.refine_poles),
+        .source = {mapped_, shading_normals(mapped_.file()), textures_},
+        .target = make_target(mapped_, true, options_.threads, options_.refine_poles),
         .options = {.heat = true},
         .threads = options_.threads};
     require_one_to_one(scene.target.chart, source_name(mapped_, options_));
     try {
       surfaces_ = painted_surfaces(scene, wanted_.image_width, options_.progress);
-    } catch (const MapError& error) {
+    } catch (const FieldError& error) {
       throw LookError(source_name(mapped_, options_) + ": " + error.what());
     }
   }

@@ -2,8 +2,8 @@
 
 #include <cstring>
 
-#include "bake/bake.h"
-#include "bake/map_kinds.h"
+#include "bake/bake_rows.h"
+#include "bake/field_registry.h"
 #include "io/attributes/source_attributes.h"
 #include "texture/srgb.h"
 #include "texture/test_images.h"
@@ -22,7 +22,7 @@ constexpr Look directions{"baked", "Directions", "normal-object"};
 constexpr Look area{"area", "Area", "area"}, angle{"angle", "Angle", "angle"};
 
 bool has_colours(const BakeSource& source) {
-  return !source.textures.empty() || linear_colours(source.file).has_value();
+  return !source.textures.empty() || linear_colours(source.file()).has_value();
 }
 
 /// Directions are stored as colours are: ½ + ½·n.

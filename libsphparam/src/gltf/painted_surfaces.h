@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bake/bake_scene.h"
-#include "image/image.h"
+#include "sphparam/image/image.h"
 #include "sphparam/progress.h"
 
 namespace sphparam {
@@ -20,7 +20,7 @@ struct PaintedSurface {
 /// of the sphere; lettered axes; area and angle distortion on the scales of `heat_scale`; where it
 /// has no colours, those of the directions in which the surface faces.
 /// Requires: a certified chart. Ensures: the same names for every map of a mesh; same bytes for any
-/// number of threads. Throws: Cancelled; MapError for a texture without texture coordinates.
+/// number of threads. Throws: Cancelled; FieldError for a texture without texture coordinates.
 std::vector<PaintedSurface> painted_surfaces(const BakeScene& scene, int width,
                                              const Progress& progress = {});
 

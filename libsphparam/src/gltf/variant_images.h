@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "image/image.h"
+#include "sphparam/image/image.h"
 #include "sphparam/gltf/asset.h"
 #include "texture/test_images.h"
 

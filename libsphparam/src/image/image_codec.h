@@ -1,24 +1,15 @@
 #pragma once
 
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "image/image.h"
+#include "sphparam/image/image.h"
+#include "sphparam/image/image_format.h"
 
 namespace sphparam {
-
-/// An image that cannot be read or written, or the image module that cannot be found.
-class ImageError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-enum class SampleType { Uint8, Uint16, Half, Float };
-enum class ImageFormat { Png, Exr, Jpeg, Tiff };  // `encode_image` writes the first two
 
 /// What is refused before any pixel is allocated.
 struct ImageLimits {
@@ -52,7 +43,7 @@ Image decode_image(const std::vector<char>& bytes, std::string_view name,
 
 /// The bytes of an image file, read back as `ImageWriter` does; in integers clamped to [0, 1].
 /// Ensures: same bytes for the same input (EXR carries the time SOURCE_DATE_EPOCH, or 1970).
-/// Throws: ImageError; also for a sample type the format does not have.
+/// Requires: PNG or EXR. Throws: ImageError; also for a sample type the format does not have.
 std::vector<char> encode_image(const Image& image, ImageFormat format,
                                const ImageWriteOptions& options = {});
 

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -35,16 +34,6 @@ struct ImageFileOptions {
   bool tiles = false;  // EXR only: tiled, with all levels down to one texel
   std::vector<std::pair<std::string, std::string>> metadata = {};  // text, name and value
 };
-
-/// The format of a file name: .png .jpg .jpeg .tif .tiff .exr; nothing for others.
-std::optional<ImageFormat> image_format_of(const std::string& path);
-
-/// The sample types a format has, the usual one first.
-const std::vector<SampleType>& sample_types_of(ImageFormat format);
-int most_channels(ImageFormat format);
-const char* name_of(SampleType type);
-bool is_integer(SampleType type);
-const char* name_of(ImageFormat format);
 
 /// An image file that is written row by row from the top, so that no more than some rows are ever
 /// in memory, and read back so at the end. Same bytes for the same rows; dates are

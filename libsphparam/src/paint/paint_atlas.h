@@ -3,7 +3,7 @@
 #include <array>
 #include <stdexcept>
 
-#include "image/image.h"
+#include "sphparam/image/image.h"
 #include "sphparam/io/mesh_file.h"
 #include "sphparam/progress.h"
 #include "sphparam/sphere/sphere_map.h"

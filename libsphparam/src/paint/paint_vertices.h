@@ -1,6 +1,6 @@
 #pragma once
 
-#include "image/image.h"
+#include "sphparam/image/image.h"
 #include "sphparam/mesh/topology.h"
 #include "sphparam/progress.h"
 #include "sphparam/sphere/sphere_map.h"

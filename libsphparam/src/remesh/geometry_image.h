@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "image/image.h"
+#include "sphparam/image/image.h"
 #include "remesh/sphere_grid.h"
 
 namespace sphparam {

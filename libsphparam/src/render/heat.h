@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "image/image.h"
+#include "sphparam/image/image.h"
 #include "render/render.h"
 #include "sphparam/sphere/distortion.h"
 

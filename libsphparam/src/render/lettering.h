@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "image/image.h"
+#include "sphparam/image/image.h"
 #include "render/colour.h"
 
 namespace sphparam {

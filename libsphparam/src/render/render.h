@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "image/image.h"
+#include "sphparam/image/image.h"
 #include "sphparam/io/mesh_file.h"
 #include "render/colour.h"
 #include "sphparam/mesh/triangle_mesh.h"

@@ -101,8 +101,9 @@ class Reporter {
   }
 
   BakeScene scene_of(const PageEntry& page_entry) const {
-    return {.source = {file_, page_entry.entry.map, Topology(file_.mesh), shading_normals(file_),
-                       options_.textures.of_materials, options_.textures.one_for_all},
+    const MappedMesh mapped({.file = file_, .map = page_entry.entry.map}, options_.threads);
+    return {.source = {mapped, shading_normals(file_), options_.textures.of_materials,
+                       options_.textures.one_for_all},
             .target = *page_entry.target,
             .options = {.heat = true},
             .threads = options_.threads};

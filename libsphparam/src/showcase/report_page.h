@@ -30,7 +30,7 @@ struct ReportOptions {
 /// side by side, their charts on the same scale; those that fold are shown as pictures. Where there
 /// are no models, there is a picture of the mesh and one of each sphere, in the mesh's own colours.
 /// Ensures: loads nothing from anywhere; same bytes for the same input and any number of threads,
-/// but for times. Throws: ImageError; Cancelled; MapError.
+/// but for times. Throws: ImageError; Cancelled; FieldError.
 /// Requires: at least one page_entry, each with a map.
 std::string report_page(const std::string& name, const MeshFile& file,
                         const std::vector<PageEntry>& page_entries, const ReportOptions& options = {});

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "image/image.h"
+#include "sphparam/image/image.h"
 #include "sphparam/mesh/triangle_mesh.h"
 
 namespace sphparam {

@@ -4,14 +4,10 @@
 #include <memory>
 #include <vector>
 
-#include "image/image.h"
+#include "sphparam/image/image.h"
+#include "sphparam/texture/texture_options.h"
 
 namespace sphparam {
-
-/// What a texture says outside [0, 1].
-enum class TextureWrap { Repeat, Mirror, Clamp };
-
-enum class TextureFilter { Nearest, Bilinear, Bicubic };
 
 /// The levels of an image, each half as wide and high, in linear light; four channels a texel.
 class TexturePyramid;

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string_view>
 
-#include "image/image.h"
+#include "sphparam/image/image.h"
 #include "sphparam/texture/convention.h"
 
 namespace sphparam {

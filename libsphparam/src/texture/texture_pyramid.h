@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "image/image.h"
+#include "sphparam/image/image.h"
 #include "texture/source_texture.h"
 
 namespace sphparam {

@@ -37,7 +37,7 @@ std::uint32_t mixed(std::uint32_t x) {
 SurfaceField label_field(const BakeScene& scene, std::string name, std::vector<int> labels) {
   SurfaceField field{.name = std::move(name), .kind = FieldKind::Label};
   const int greatest = *std::ranges::max_element(labels);
-  if (!scene.options.ids_as_colours) {
+  if (!scene.ids_as_colours) {
     field.about = "numbers from 0, -1 for none";
     field.range = std::pair<double, double>(0, greatest);
     field.evaluate_runs = [labels = std::move(labels)](std::span<const SurfaceRun> runs,
@@ -70,7 +70,7 @@ SurfaceField label_field(const BakeScene& scene, std::string name, std::vector<i
 std::vector<int> materials_of(const MeshFile& file) {
   const Property* material = file.find_face_property("material");
   if (!material) {
-    throw MapError("id:material: the mesh has no materials; id:face gives every triangle one");
+    throw FieldError("id:material: the mesh has no materials; id:face gives every triangle one");
   }
   return {material->values.begin(), material->values.end()};
 }
@@ -78,7 +78,7 @@ std::vector<int> materials_of(const MeshFile& file) {
 }  // namespace
 
 SurfaceField make_position(const BakeScene& scene, const std::string&) {
-  const TriangleMesh& mesh = scene.source.file.mesh;
+  const TriangleMesh& mesh = scene.source.mesh();
   return linear_field<3>(
       {.name = "position",
        .about = "x y z of the mesh, its own unit and axes; one range for all three",
@@ -90,11 +90,11 @@ SurfaceField make_position(const BakeScene& scene, const std::string&) {
 }
 
 SurfaceField make_vertex_colour(const BakeScene& scene, const std::string&) {
-  const auto colours = linear_colours(scene.source.file);
+  const auto colours = linear_colours(scene.source.file());
   if (!colours) {
-    throw MapError("vcolor: the mesh has no colours at its vertices (red, green, blue)");
+    throw FieldError("vcolor: the mesh has no colours at its vertices (red, green, blue)");
   }
-  const Triangles& triangles = scene.source.file.mesh.triangles;
+  const Triangles& triangles = scene.source.mesh().triangles;
   return linear_field<3>(
       {.name = "vcolor", .kind = FieldKind::Colour, .about = "colours of the vertices"},
       [colours, &triangles](Face f, int k, std::array<double, 3>& value) {
@@ -103,8 +103,8 @@ SurfaceField make_vertex_colour(const BakeScene& scene, const std::string&) {
 }
 
 SurfaceField make_texcoords(const BakeScene& scene, const std::string&) {
-  const auto corners = texcoords_of(scene.source.file);
-  if (!corners) throw MapError("uv: the mesh has no texture coordinates");
+  const auto corners = texcoords_of(scene.source.file());
+  if (!corners) throw FieldError("uv: the mesh has no texture coordinates");
   return linear_field<3>(
       {.name = "uv",
        .about = "texture coordinates s t of the source, t upwards; the third channel is 0",
@@ -115,7 +115,7 @@ SurfaceField make_texcoords(const BakeScene& scene, const std::string&) {
 }
 
 SurfaceField make_scalar(const BakeScene& scene, const std::string& name) {
-  const MeshFile& file = scene.source.file;
+  const MeshFile& file = scene.source.file();
   const SurfaceField described{.name = "scalar:" + name, .about = "property " + name};
   if (const Property* property = file.find_vertex_property(name)) {
     SurfaceField field = described;
@@ -137,14 +137,14 @@ SurfaceField make_scalar(const BakeScene& scene, const std::string& name) {
   std::vector<std::string> known;
   for (const Property& property : file.vertex_properties) known.push_back(property.name);
   for (const Property& property : file.face_properties) known.push_back(property.name);
-  throw MapError("scalar:" + name + ": the mesh has no such property; its vertices have " +
-                     (vertices.empty() ? "none" : vertices) + ", its faces " +
-                     (faces.empty() ? "none" : faces),
-                 name, std::move(known));
+  throw FieldError("scalar:" + name + ": the mesh has no such property; its vertices have " +
+                       (vertices.empty() ? "none" : vertices) + ", its faces " +
+                       (faces.empty() ? "none" : faces),
+                   name, std::move(known));
 }
 
 SurfaceField make_id(const BakeScene& scene, const std::string& what) {
-  const MeshFile& file = scene.source.file;
+  const MeshFile& file = scene.source.file();
   const auto count = static_cast<size_t>(file.mesh.face_count());
   const std::string chosen = !what.empty()                         ? what
                              : file.find_face_property("material") ? "material"
@@ -158,7 +158,7 @@ SurfaceField make_id(const BakeScene& scene, const std::string& what) {
   } else if (chosen == "material") {
     labels = materials_of(file);
   } else if (chosen != "component") {
-    throw MapError("id:" + chosen + ": there are id:face, id:material and id:component");
+    throw FieldError("id:" + chosen + ": there are id:face, id:material and id:component");
   }
   return label_field(scene, "id:" + chosen, std::move(labels));
 }

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "bake/map_kinds.h"
+#include "bake/field_registry.h"
 
 namespace sphparam {
 
-/// What the mesh file says at its vertices, corners and faces. All throw MapError where it has not
-/// what they need.
+/// What the mesh file says at its vertices, corners and faces. All throw FieldError where it has
+/// not what they need.
 SurfaceField make_position(const BakeScene& scene, const std::string&);
 /// Colours of vertices, linear light between them.
 SurfaceField make_vertex_colour(const BakeScene& scene, const std::string&);

@@ -57,7 +57,7 @@ bool any_image(const std::vector<SourceTexture>& textures) {
 }  // namespace
 
 SurfaceField make_base_colour(const BakeScene& scene, const std::string& argument) {
-  const MeshFile& file = scene.source.file;
+  const MeshFile& file = scene.source.file();
   const std::vector<SourceTexture>& textures = scene.source.textures;
   if (!any_image(textures) && linear_colours(file)) {
     SurfaceField field = make_vertex_colour(scene, argument);
@@ -65,15 +65,13 @@ SurfaceField make_base_colour(const BakeScene& scene, const std::string& argumen
     return field;
   }
   if (textures.empty()) {
-    throw MapError(
-        "basecolor: the mesh has no texture and no colours at its vertices; --texture IMAGE names "
-        "its texture");
+    throw NoColoursError("basecolor: the mesh has no texture and no colours at its vertices");
   }
   auto painter = std::make_shared<Painter>();
   if (auto corners = texcoords_of(file)) {
     painter->corners = std::move(*corners);
   } else if (any_image(textures)) {
-    throw MapError("basecolor: the mesh has no texture coordinates, so its texture has no place");
+    throw FieldError("basecolor: the mesh has no texture coordinates, so its texture has no place");
   }
   painter->textures = textures;
   painter->filter = scene.options.filter;

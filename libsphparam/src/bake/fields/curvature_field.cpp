@@ -7,9 +7,9 @@
 #include <numeric>
 #include <vector>
 
+#include "bake/field_registry.h"
 #include "bake/fields/heat_field.h"
 #include "bake/fields/linear_field.h"
-#include "bake/map_kinds.h"
 #include "sphparam/mesh/curvature.h"
 
 namespace sphparam {
@@ -51,11 +51,12 @@ std::string about(bool gauss, double scale) {
 SurfaceField curvature_field(const BakeScene& scene, const std::string& argument) {
   const bool gauss = argument == "gauss";
   if (!gauss && argument != "mean" && !argument.empty()) {
-    throw MapError("curvature: there are curvature:mean and curvature:gauss, not " + argument);
+    throw FieldError("curvature: there are curvature:mean and curvature:gauss, not " + argument);
   }
-  const TriangleMesh& mesh = scene.source.file.mesh;
+  const TriangleMesh& mesh = scene.source.mesh();
   const double scale = kScale * equal_area_radius(mesh, scene.threads);
-  const Curvature curvature = measure_curvature(mesh, scene.source.topology, scale, scene.threads);
+  const Curvature curvature =
+      measure_curvature(mesh, scene.source.topology(), scale, scene.threads);
   const VectorX& values = gauss ? curvature.gauss : curvature.mean;
   const double reach = weighted_quantile(values, curvature.area, kWithin);
   const double high = reach > 0 ? reach : 1;

@@ -11,7 +11,7 @@ namespace sphparam {
 /// 1/length², positive where convex; averaged over 2 % of the radius of the sphere of the same
 /// area, so that it does not depend on how finely the surface is meshed. The range is ± what 98 %
 /// of the area stay within: grey is flat. Colours where the options ask for heat.
-/// Throws: MapError for other arguments.
+/// Throws: FieldError for other arguments.
 SurfaceField curvature_field(const BakeScene& scene, const std::string& argument);
 
 }  // namespace sphparam

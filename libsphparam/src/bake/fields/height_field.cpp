@@ -4,7 +4,7 @@
 
 #include "bake/fields/height_field.h"
 
-#include "bake/map_kinds.h"
+#include "bake/field_registry.h"
 #include "rays/interpolation.h"
 
 namespace sphparam {
@@ -42,11 +42,11 @@ SurfaceField height_above(const TriangleMesh& mesh, const BakeTarget& target) {
 
 SurfaceField height_field(const BakeScene& scene, const std::string& argument) {
   if (!argument.empty() && argument != "radial") {
-    throw MapError("height: there are height and height:radial, not " + argument);
+    throw FieldError("height: there are height and height:radial, not " + argument);
   }
   const bool radial = argument == "radial" || scene.options.height_radial || scene.target.is_source;
-  return radial ? radial_height(scene.source.file.mesh)
-                : height_above(scene.source.file.mesh, scene.target);
+  return radial ? radial_height(scene.source.mesh())
+                : height_above(scene.source.mesh(), scene.target);
 }
 
 }  // namespace sphparam

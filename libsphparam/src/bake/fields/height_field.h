@@ -11,7 +11,7 @@ namespace sphparam {
 /// length, interpolated), negative below it; or, where the options ask for it or the target is the
 /// source itself, its distance from the origin. In units of the mesh. `argument` may be "radial" to
 /// ask for distances.
-/// Throws: MapError for other arguments.
+/// Throws: FieldError for other arguments.
 SurfaceField height_field(const BakeScene& scene, const std::string& argument);
 
 }  // namespace sphparam

@@ -12,8 +12,8 @@ namespace sphparam {
 namespace {
 
 Vector3 corner_normal(const BakeSource& source, Face f, int k) {
-  if (source.file.corner_normals) return source.file.corner_normals->row(3 * f + k);
-  return source.normals.row(source.file.mesh.triangles(f, k));
+  if (source.file().corner_normals) return source.file().corner_normals->row(3 * f + k);
+  return source.normals.row(source.mesh().triangles(f, k));
 }
 
 /// Where opposite normals cancel, that of the face.
@@ -22,9 +22,7 @@ Vector3 normal_at(const BakeSource& source, Face f, const Vector3& weights) {
   for (int k = 0; k < 3; ++k) normal += weights[k] * corner_normal(source, f, k);
   const double length = normal.norm();
   if (length > 0) return normal / length;
-  const auto corner = [&](int k) {
-    return source.file.mesh.position(source.file.mesh.triangles(f, k));
-  };
+  const auto corner = [&](int k) { return source.mesh().position(source.mesh().triangles(f, k)); };
   const Vector3 flat = flat_normal(corner(0), corner(1), corner(2));
   return flat.isZero(0) ? Vector3::UnitZ() : flat;
 }
@@ -56,8 +54,7 @@ SurfaceField make_tangent_normal(const BakeScene& scene, const std::string&) {
   const auto frame = std::make_shared<const ShadingFrame>(
       tangent_frame(target.chart, target.positions,
                     target.wedge_normals ? *target.wedge_normals : target.normals, scene.threads));
-  const double x_sign = scene.options.mirrored ? -1 : 1,
-               y_sign = scene.options.normal_y_down ? -1 : 1;
+  const double x_sign = scene.mirrored ? -1 : 1, y_sign = scene.options.normal_y_down ? -1 : 1;
   SurfaceField field{.name = "normal-tangent",
                      .channels = 3,
                      .kind = FieldKind::Direction,

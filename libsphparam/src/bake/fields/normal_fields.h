@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bake/map_kinds.h"
+#include "bake/field_registry.h"
 
 namespace sphparam {
 

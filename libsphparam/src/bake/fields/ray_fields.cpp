@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bake/bake_scene.h"
-#include "bake/map_kinds.h"
+#include "bake/field_registry.h"
 #include "rays/cosine_rays.h"
 #include "rays/flat_normal.h"
 
@@ -172,8 +172,8 @@ using MakeRayField = SurfaceField(std::shared_ptr<const RayScene>, const Triangl
 
 SurfaceField make_of_scene(MakeRayField* make, const BakeScene& scene, const std::string& argument,
                            double reach) {
-  if (!argument.empty()) throw MapError("no argument is known here: " + argument);
-  const TriangleMesh& mesh = scene.source.file.mesh;
+  if (!argument.empty()) throw FieldError("no argument is known here: " + argument);
+  const TriangleMesh& mesh = scene.source.mesh();
   return make(std::make_shared<const RayScene>(mesh), mesh, scene.source.normals,
               {.rays = scene.options.rays, .reach = reach});
 }

@@ -36,8 +36,8 @@ SurfaceField bent_normal_field(std::shared_ptr<const RayScene> scene, const Tria
 SurfaceField thickness_field(std::shared_ptr<const RayScene> scene, const TriangleMesh& mesh,
                              const Points& normals, const RayFieldOptions& options);
 
-/// The same of a scene, as `map_kinds` wants them. Thickness reaches through the whole mesh, the
-/// other two as far as the scene's options say. Throws: MapError where there is an argument.
+/// The same of a scene, as `FieldMaker` wants them. Thickness reaches through the whole mesh, the
+/// other two as far as the scene's options say. Throws: FieldError where there is an argument.
 SurfaceField make_occlusion(const BakeScene& scene, const std::string& argument);
 SurfaceField make_bent_normal(const BakeScene& scene, const std::string& argument);
 SurfaceField make_thickness(const BakeScene& scene, const std::string& argument);

@@ -2,7 +2,7 @@
 // band: the points of all texels, then field by field the values of some thousand texels at once,
 // so that what a field costs is not lost in calls.
 
-#include "bake/bake.h"
+#include "bake/bake_rows.h"
 
 #include <algorithm>
 
@@ -31,7 +31,7 @@ struct Work {
 
 using BandValues = std::vector<std::vector<float>>;  // a field, a band
 
-SurfacePoint place_of(const RasterRun& run, int i) {
+SurfacePoint place_of(const TexelRun& run, int i) {
   const double a = run.weights[0] + i * run.step[0], b = run.weights[1] + i * run.step[1];
   return {run.face, {a, b, 1 - a - b}};
 }
@@ -39,7 +39,7 @@ SurfacePoint place_of(const RasterRun& run, int i) {
 /// Consecutive runs, and the samples they stand for where a field asks for those.
 class Batch {
  public:
-  Batch(std::span<const SurfaceRun> runs, std::span<const RasterRun> places, std::int64_t texel,
+  Batch(std::span<const SurfaceRun> runs, std::span<const TexelRun> places, std::int64_t texel,
         int sample, BakeProgress& progress)
       : runs_(runs), places_(places), texel_(texel), sample_(sample), progress_(progress) {}
 
@@ -73,13 +73,13 @@ class Batch {
       }
     }
     size_t next = 0;
-    for (const RasterRun& run : places_) {
+    for (const TexelRun& run : places_) {
       for (int i = 0; i < run.count; ++i) samples_[next++].place = place_of(run, i);
     }
   }
 
   std::span<const SurfaceRun> runs_;
-  std::span<const RasterRun> places_;
+  std::span<const TexelRun> places_;
   std::int64_t texel_;  // of the first
   int sample_;
   BakeProgress& progress_;
@@ -91,9 +91,9 @@ template <class Visit>
 void for_each_batch(const Work& work, int band, double x, double y, int sample, Visit&& visit) {
   const TexelPoints points = work.finder.points(band, x, y);
   const std::int64_t start =
-      static_cast<std::int64_t>(work.finder.raster().first_row(band)) * work.options.width;
+      static_cast<std::int64_t>(work.finder.owners().first_row(band)) * work.options.width;
   const std::span<const SurfaceRun> runs = points.runs;
-  const std::span<const RasterRun> places = points.places;
+  const std::span<const TexelRun> places = points.places;
   std::int64_t texel = 0;
   for (size_t run = 0, place = 0; run < runs.size();) {
     // A batch ends where both lists have come equally far.
@@ -138,7 +138,7 @@ void average_crowded(const Work& work, int band, BandValues& values) {
   const CrowdedTexels crowded(work.scene, work.finder, band);
   if (crowded.texels.empty()) return;
   const std::int64_t start =
-      static_cast<std::int64_t>(work.finder.raster().first_row(band)) * work.options.width;
+      static_cast<std::int64_t>(work.finder.owners().first_row(band)) * work.options.width;
   std::vector<float> buffer;
   for (size_t f = 0; f < work.fields.size(); ++f) {
     const SurfaceField& field = work.fields[f];
@@ -170,7 +170,7 @@ int passes(std::span<const SurfaceField> fields, const BakeOptions& options) {
 
 BandValues bake_band(const Work& work, int band) {
   work.progress.look();
-  const auto texels = static_cast<size_t>(work.finder.raster().rows(band)) *
+  const auto texels = static_cast<size_t>(work.finder.owners().rows(band)) *
                       static_cast<size_t>(work.options.width);
   BandValues values;
   for (const SurfaceField& field : work.fields) {
@@ -196,7 +196,7 @@ BandValues bake_band(const Work& work, int band) {
 int bands_at_once(std::span<const SurfaceField> fields, int width, int threads) {
   std::int64_t channels = 0;
   for (const SurfaceField& field : fields) channels += field.channels;
-  const std::int64_t band = channels * UvRaster::rows_a_band * width * 4;
+  const std::int64_t band = channels * TexelOwners::rows_a_band * width * 4;
   const auto fit = static_cast<int>(std::min<std::int64_t>(
       group_bytes / std::max<std::int64_t>(band, 1), bands_a_thread * threads));
   return std::max(threads, fit);
@@ -206,16 +206,16 @@ int bands_at_once(std::span<const SurfaceField> fields, int width, int threads) 
 
 void bake(const BakeScene& scene, std::span<const SurfaceField> fields, const BakeOptions& options,
           const RowSink& sink) {
-  const UvRaster raster(scene.target.chart, options.width, options.height);
+  const TexelOwners owners(scene.target.chart, options.width, options.height);
   report(options.progress, "bake", 0);
-  const TexelFinder finder(scene, raster, options.interpolation, options.threads);
+  const TexelFinder finder(scene, owners, options.interpolation, options.threads);
   BakeProgress progress(options.progress,
                         std::int64_t{options.width} * options.height * passes(fields, options));
   const Work work{scene, fields, options, finder, progress};
   const int threads = resolve_threads(options.threads);
   const int group = bands_at_once(fields, options.width, threads);
-  for (int first = 0; first < raster.band_count(); first += group) {
-    const int count = std::min(group, raster.band_count() - first);
+  for (int first = 0; first < owners.band_count(); first += group) {
+    const int count = std::min(group, owners.band_count() - first);
     std::vector<BandValues> done(static_cast<size_t>(count));
     parallel_for(count, 1, threads, [&](std::int64_t from, std::int64_t to) {
       for (std::int64_t b = from; b < to; ++b) {
@@ -225,7 +225,7 @@ void bake(const BakeScene& scene, std::span<const SurfaceField> fields, const Ba
     parallel_for(std::ssize(fields), 1, threads, [&](std::int64_t from, std::int64_t to) {
       for (auto f = static_cast<size_t>(from); f < static_cast<size_t>(to); ++f) {
         for (int b = 0; b < count; ++b) {
-          sink(f, raster.first_row(first + b), raster.rows(first + b),
+          sink(f, owners.first_row(first + b), owners.rows(first + b),
                done[static_cast<size_t>(b)][f].data());
         }
       }

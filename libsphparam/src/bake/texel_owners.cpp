@@ -1,4 +1,4 @@
-#include "bake/uv_raster.h"
+#include "bake/texel_owners.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@
 
 namespace sphparam {
 
-UvRaster::UvRaster(const SphericalChart& chart, int width, int height)
+TexelOwners::TexelOwners(const SphericalChart& chart, int width, int height)
     : chart_(&chart), width_(width), height_(height) {
   if (width < 1 || height < 1) {
     throw std::invalid_argument("an image of " + std::to_string(width) + " × " +
@@ -47,13 +47,13 @@ UvRaster::UvRaster(const SphericalChart& chart, int width, int height)
 
 /// The runs of one row: one, or, where the trapezoid of a pole goes beyond its triangle, a second
 /// and a third of constant weights.
-void UvRaster::add_runs(const ChartPiece& piece, int row, int first, int last, double x, double v,
-                        std::vector<RasterRun>& runs) const {
+void TexelOwners::add_runs(const ChartPiece& piece, int row, int first, int last, double x,
+                           double v, std::vector<TexelRun>& runs) const {
   const auto u = [&](int column) { return (column + x) / width_; };
   const auto add = [&](int from, int to, bool beside) {
     if (from > to) return;
     const std::array<double, 2> here = piece.weights({v, u(from)});
-    RasterRun run{piece.face(), row, from, to - from + 1, here, {0, 0}, piece.gradient(0)};
+    TexelRun run{piece.face(), row, from, to - from + 1, here, {0, 0}, piece.gradient(0)};
     for (size_t k = 0; k < 2; ++k) {
       run.below[k] /= height_;
       if (!beside) run.step[k] = piece.gradient(1)[k] / width_;
@@ -75,8 +75,8 @@ void UvRaster::add_runs(const ChartPiece& piece, int row, int first, int last, d
 }
 
 /// Draws the rows of the band that a piece reaches.
-void UvRaster::draw(const ChartPiece& piece, int band, double x, double y,
-                    std::vector<RasterRun>& runs) const {
+void TexelOwners::draw(const ChartPiece& piece, int band, double x, double y,
+                       std::vector<TexelRun>& runs) const {
   const int last_row = first_row(band) + rows(band) - 1;
   const int top = std::max(first_row(band), static_cast<int>(piece.low() * height_ - y) - 1);
   const int bottom = std::min(last_row, static_cast<int>(piece.high() * height_ - y) + 1);
@@ -93,17 +93,17 @@ void UvRaster::draw(const ChartPiece& piece, int band, double x, double y,
   }
 }
 
-std::span<const Face> UvRaster::faces(int band) const {
+std::span<const Face> TexelOwners::faces(int band) const {
   const auto first = static_cast<size_t>(offsets_[static_cast<size_t>(band)]);
   const auto last = static_cast<size_t>(offsets_[static_cast<size_t>(band) + 1]);
   return std::span(faces_).subspan(first, last - first);
 }
 
-std::vector<RasterRun> UvRaster::runs(int band, double x, double y) const {
-  std::vector<RasterRun> drawn;
+std::vector<TexelRun> TexelOwners::runs(int band, double x, double y) const {
+  std::vector<TexelRun> drawn;
   for (const Face f : faces(band)) draw(ChartPiece(*chart_, f), band, x, y, drawn);
   // Keys and indices in one number each, which is what sorts fastest.
-  const auto place = [&](const RasterRun& run) {
+  const auto place = [&](const TexelRun& run) {
     return static_cast<std::int64_t>(run.row) * width_ + run.first;
   };
   const std::int64_t start = static_cast<std::int64_t>(first_row(band)) * width_;
@@ -112,11 +112,11 @@ std::vector<RasterRun> UvRaster::runs(int band, double x, double y) const {
     order[i] = static_cast<std::uint64_t>(place(drawn[i]) - start) << 32 | i;
   }
   std::ranges::sort(order);
-  std::vector<RasterRun> runs;
+  std::vector<TexelRun> runs;
   runs.reserve(drawn.size());
   std::int64_t next = start;
   for (const std::uint64_t key : order) {
-    const RasterRun& run = drawn[key & 0xffffffff];
+    const TexelRun& run = drawn[key & 0xffffffff];
     const std::int64_t at = place(run);
     if (at != next)
       throw std::logic_error(at < next ? "a texel has two owners" : "a texel has no owner");
@@ -129,12 +129,12 @@ std::vector<RasterRun> UvRaster::runs(int band, double x, double y) const {
   return runs;
 }
 
-RasterBand UvRaster::band(int index, double x, double y) const {
-  RasterBand band{width_, first_row(index), rows(index), {}, {}};
+OwnerBand TexelOwners::band(int index, double x, double y) const {
+  OwnerBand band{width_, first_row(index), rows(index), {}, {}};
   const size_t texels = static_cast<size_t>(band.rows) * static_cast<size_t>(width_);
   band.faces.reserve(texels);
   band.weights.reserve(texels);
-  for (const RasterRun& run : runs(index, x, y)) {
+  for (const TexelRun& run : runs(index, x, y)) {
     for (int i = 0; i < run.count; ++i) {
       band.faces.push_back(run.face);
       band.weights.push_back({run.weights[0] + i * run.step[0], run.weights[1] + i * run.step[1]});

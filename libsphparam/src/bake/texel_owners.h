@@ -14,7 +14,7 @@ class ChartPiece;
 
 /// Neighbouring texels of a row that one face owns. Texel `first` + i has the weights
 /// `weights` + i·step of the face's corners 0 and 1 (corner 2 has the rest), within [0, 1].
-struct RasterRun {
+struct TexelRun {
   Face face;  // of the chart
   int row, first, count;
   std::array<double, 2> weights, step;
@@ -22,7 +22,7 @@ struct RasterRun {
 };
 
 /// Who owns which texel of some rows of an image.
-struct RasterBand {
+struct OwnerBand {
   int width = 0, first_row = 0, rows = 0;
   std::vector<Face> faces;  // rows·width, row by row: chart faces, never −1
   std::vector<std::array<double, 2>>
@@ -47,12 +47,12 @@ struct RasterBand {
 /// the weights are those of the nearest point of the triangle at the same v, so that neighbours
 /// agree where their trapezoids meet. Signs are exact: no gap, no double. Our own: the chart covers
 /// the rectangle once, and the rule picks one side of every edge.
-class UvRaster {
+class TexelOwners {
  public:
-  /// Requires: width, height ≥ 1; chart.certificate.one_to_one(); the chart outlives the raster.
+  /// Requires: width, height ≥ 1; chart.certificate.one_to_one(); the chart outlives the owners.
   /// Throws: std::invalid_argument if not. Cost: 4 bytes for each band that a face
   /// reaches.
-  UvRaster(const SphericalChart& chart, int width, int height);
+  TexelOwners(const SphericalChart& chart, int width, int height);
 
   /// Rows are handled in bands, to be worked on in parallel.
   static constexpr int rows_a_band = 32;
@@ -62,10 +62,10 @@ class UvRaster {
   /// Ensures: every texel is in one run. Throws: std::logic_error if one has no owner or two: the
   /// chart was none that its certificate calls one-to-one. Cost: some ten signs for each row a
   /// face reaches, and a sort of the runs.
-  std::vector<RasterRun> runs(int band, double x = 0.5, double y = 0.5) const;
+  std::vector<TexelRun> runs(int band, double x = 0.5, double y = 0.5) const;
 
   /// The same texel by texel. Cost: one visit a texel more.
-  RasterBand band(int band, double x = 0.5, double y = 0.5) const;
+  OwnerBand band(int band, double x = 0.5, double y = 0.5) const;
 
   int first_row(int band) const { return band * rows_a_band; }
   int rows(int band) const { return std::min(rows_a_band, height_ - first_row(band)); }
@@ -77,9 +77,9 @@ class UvRaster {
 
  private:
   void draw(const ChartPiece& piece, int band, double x, double y,
-            std::vector<RasterRun>& runs) const;
+            std::vector<TexelRun>& runs) const;
   void add_runs(const ChartPiece& piece, int row, int first, int last, double x, double v,
-                std::vector<RasterRun>& runs) const;
+                std::vector<TexelRun>& runs) const;
 
   const SphericalChart* chart_;
   int width_, height_;

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <random>
 
-#include "bake/uv_raster.h"
+#include "bake/texel_owners.h"
 #include "sphparam/parameterize.h"
 #include "support/test_meshes.h"
 
@@ -49,13 +49,13 @@ bool holds(const SphericalChart& chart, Face f, const Eigen::RowVector2d& p) {
 
 }  // namespace
 
-TEST_CASE("UvRaster: every texel's owner holds it, by rational arithmetic") {
+TEST_CASE("TexelOwners: every texel's owner holds it, by rational arithmetic") {
   for (const TriangleMesh& mesh :
        {tetrahedron(), icosphere(2), tube(30, 5), random_sphere_mesh(80, 3)}) {
     const SphericalChart chart = chart_of(mesh);
-    const UvRaster raster(chart, 64, 37);
-    for (int b = 0; b < raster.band_count(); ++b) {
-      const RasterBand band = raster.band(b);
+    const TexelOwners owners(chart, 64, 37);
+    for (int b = 0; b < owners.band_count(); ++b) {
+      const OwnerBand band = owners.band(b);
       for (int row = band.first_row; row < band.first_row + band.rows; ++row) {
         for (int column = 0; column < 64; ++column) {
           const Eigen::RowVector2d p((column + 0.5) / 64, (row + 0.5) / 37);
@@ -66,21 +66,21 @@ TEST_CASE("UvRaster: every texel's owner holds it, by rational arithmetic") {
   }
 }
 
-TEST_CASE("UvRaster: no gap and no double where texels lie exactly on edges and vertices") {
+TEST_CASE("TexelOwners: no gap and no double where texels lie exactly on edges and vertices") {
   // Vertices of the grid sphere sit at multiples of 1/16 and 1/8: centres of 8 × 4 texels.
   const TriangleMesh mesh = uv_sphere(16, 7);
   const Topology topology(mesh);
   const SphericalChart chart = spherical_chart(mesh, topology, SphereMap{mesh.positions});
   REQUIRE(chart.certificate.one_to_one());
-  const UvRaster raster(chart, 8, 4);
-  CHECK_NOTHROW(raster.band(0));  // throws at a gap or a double
+  const TexelOwners owners(chart, 8, 4);
+  CHECK_NOTHROW(owners.band(0));  // throws at a gap or a double
 }
 
-TEST_CASE("UvRaster: what is linear in (u, v) is reproduced within triangles") {
+TEST_CASE("TexelOwners: what is linear in (u, v) is reproduced within triangles") {
   const SphericalChart chart = chart_of(icosphere(3));
-  const UvRaster raster(chart, 256, 128);
-  for (int b = 0; b < raster.band_count(); ++b) {
-    const RasterBand band = raster.band(b, 0.25, 0.75);
+  const TexelOwners owners(chart, 256, 128);
+  for (int b = 0; b < owners.band_count(); ++b) {
+    const OwnerBand band = owners.band(b, 0.25, 0.75);
     for (size_t i = 0; i < band.faces.size(); ++i) {
       const Face f = band.faces[i];
       if (chart.pole_corner(f) >= 0) continue;
@@ -94,11 +94,11 @@ TEST_CASE("UvRaster: what is linear in (u, v) is reproduced within triangles") {
   }
 }
 
-TEST_CASE("UvRaster: weights run on across the sides of neighbouring pole trapezoids") {
+TEST_CASE("TexelOwners: weights run on across the sides of neighbouring pole trapezoids") {
   const SphericalChart chart = chart_of(icosphere(3));
   // Height of the carried point above the equator is 1 at the pole and falls away from it.
-  const UvRaster raster(chart, 4096, 512);
-  const RasterBand band = raster.band(0);
+  const TexelOwners owners(chart, 4096, 512);
+  const OwnerBand band = owners.band(0);
   for (int column = 1; column < 4096; ++column) {
     const auto z = [&](int c) {
       const size_t i = band.index(0, c);
@@ -112,9 +112,9 @@ TEST_CASE("UvRaster: weights run on across the sides of neighbouring pole trapez
   }
 }
 
-TEST_CASE("UvRaster: an image without texels and a chart that is not one-to-one are refused") {
+TEST_CASE("TexelOwners: an image without texels and a chart that is not one-to-one are refused") {
   SphericalChart chart = chart_of(icosphere(1));
-  CHECK_THROWS_AS(UvRaster(chart, 0, 4), std::invalid_argument);
+  CHECK_THROWS_AS(TexelOwners(chart, 0, 4), std::invalid_argument);
   chart.certificate.folded.push_back(0);
-  CHECK_THROWS_AS(UvRaster(chart, 8, 4), std::invalid_argument);
+  CHECK_THROWS_AS(TexelOwners(chart, 8, 4), std::invalid_argument);
 }
