@@ -2,43 +2,63 @@
 
 #include <dlfcn.h>
 
-#include <array>
+#include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <system_error>
 
-#include "image/image_codec.h"
 #include "image/program_path.h"
+#include "sphparam/image/image_format.h"
 
 // A program linked to OpenImageIO takes 0.19 s and 262 shared objects to start. So the codecs live
-// in a module that is opened when the first image is touched, and is found beside the program
+// in a module that is opened when the first image is touched. Our own program has it beside it
 // (build tree), in ../lib/sphparam (installed) or below ../lib by architecture (Debian packages):
-// it moves with the program.
+// it moves with the program. A user's program may be anywhere; there the library leads to it, a
+// shared one by its own place, a static one by that of its installation.
 
 namespace sphparam {
 namespace {
 
+using Path = std::filesystem::path;
+
 constexpr char kModuleName[] = "sphparam_image_oiio.so";
 
-std::filesystem::path find_module() {
-  const std::filesystem::path program = program_path();
-  if (program.empty()) throw ImageError("cannot tell where this program is: is /proc mounted?");
-  const std::filesystem::path folder = program.parent_path();
-  const std::filesystem::path prefix = folder.parent_path();
-  const std::array<std::filesystem::path, 3> candidates{
-      folder / kModuleName, prefix / "lib" / "sphparam" / kModuleName,
-      prefix / SPHPARAM_MODULE_OF_PACKAGES / kModuleName};
-  std::error_code error;
-  for (const auto& candidate : candidates) {
-    if (std::filesystem::exists(candidate, error)) return candidate;
+void add(std::vector<Path>& folders, const Path& folder) {
+  if (std::ranges::find(folders, folder) == folders.end()) folders.push_back(folder);
+}
+
+/// Of an installation that has this file in bin/ or lib/.
+void add_about(std::vector<Path>& folders, const Path& file) {
+  const Path folder = file.parent_path(), prefix = folder.parent_path();
+  add(folders, folder);
+  add(folders, prefix / "lib" / "sphparam");
+  add(folders, prefix / SPHPARAM_MODULE_OF_PACKAGES);
+}
+
+/// The file that this code was loaded from: the program, or a shared library. Empty: unknown.
+Path own_file() {
+  Dl_info info{};
+  if (dladdr(reinterpret_cast<const void*>(&module_folders), &info) == 0 || !info.dli_fname) {
+    return {};
   }
+  std::error_code error;
+  return std::filesystem::canonical(info.dli_fname, error);
+}
+
+Path find_module() {
+  std::error_code error;
   std::string folders;
-  for (const auto& candidate : candidates) folders += "\n  " + candidate.parent_path().string();
+  for (const Path& folder : module_folders()) {
+    const Path module = folder / kModuleName;
+    if (std::filesystem::exists(module, error)) return module;
+    folders += "\n  " + folder.string();
+  }
   throw ImageError(std::string("the image module ") + kModuleName + " is in none of" + folders);
 }
 
 const SphparamImageTable& open_module() {
-  const std::filesystem::path path = find_module();
+  const Path path = find_module();
   // Never closed: OpenImageIO's threads run in it.
   void* module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!module) throw ImageError(std::string("cannot open the image module: ") + dlerror());
@@ -51,6 +71,23 @@ const SphparamImageTable& open_module() {
 }
 
 }  // namespace
+
+std::vector<Path> module_folders() {
+  std::vector<Path> folders;
+  if (const char* const named = secure_getenv("SPHPARAM_MODULES"); named && *named) {
+    add(folders, named);
+  }
+  const Path program = program_path(), own = own_file();
+  if (!program.empty()) add_about(folders, program);
+  if (!own.empty() && own != program) {
+    add(folders, own.parent_path() / "sphparam");
+    add_about(folders, own);
+  }
+#ifdef SPHPARAM_INSTALLED_MODULES
+  add(folders, SPHPARAM_INSTALLED_MODULES);
+#endif
+  return folders;
+}
 
 const SphparamImageTable& image_codecs() {
   static const SphparamImageTable& table = open_module();
