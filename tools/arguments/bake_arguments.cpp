@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <set>
 
 #include "arguments/choice.h"
@@ -15,8 +16,6 @@
 
 namespace sphparam::cli {
 namespace {
-
-constexpr int most_texels_a_row = 65536;
 
 std::string summary() {
   std::string text =
@@ -40,9 +39,12 @@ std::string summary() {
          "  axes, checker, graticule\n                  test images, to see how the sphere lies\n";
 }
 
-void require_known(const std::string& map) {
+/// What can be told of an image before its mesh is read, in the words of the options.
+void require_possible(const BakeRequest& image, const BakeSettings& settings) {
   try {
-    require_field_name(map);
+    require_bakeable({image}, settings);
+  } catch (const BakeSettingError& error) {
+    throw as_mistake(error);
   } catch (const FieldError& error) {
     if (error.unknown().empty()) throw UsageMistake(std::string("--map: ") + error.what());
     const std::string meant = nearest_word(error.unknown(), error.known());
@@ -81,16 +83,17 @@ std::string path_of(const BakeArguments& arguments, const std::string& map) {
 
 /// With --heat every image counts as one with a scale: which ones have it is known only once they
 /// are made.
-void check_all_places(const BakeArguments& arguments, const std::vector<BakeOutput>& outputs) {
+void check_all_places(const BakeArguments& arguments, const std::vector<BakeRequest>& images) {
   Outputs written;
-  for (const BakeOutput& output : outputs) {
-    written.emplace_back("-o", output.path);
-    if (arguments.options.heat && !is_stream(output.path)) {
-      written.emplace_back("--heat", scale_path(output.path));
+  for (const BakeRequest& image : images) {
+    written.emplace_back("-o", image.path);
+    if (arguments.settings.fields.heat && !is_stream(image.path)) {
+      written.emplace_back("--heat", scale_path(image.path));
     }
   }
   written.emplace_back("--json", arguments.json);
-  check_places({arguments.input, arguments.sphere, arguments.target, arguments.texture}, written);
+  check_places({arguments.input, arguments.sphere, arguments.target, arguments.settings.texture},
+               written);
 }
 
 void add_inputs(CLI::App& command, BakeArguments& arguments) {
@@ -107,9 +110,10 @@ void add_inputs(CLI::App& command, BakeArguments& arguments) {
                   "What is baked, with commas between (default: basecolor)")
       ->type_name("MAPS")
       ->delimiter(',');
-  command.add_option("--texture", arguments.texture, "The texture of the mesh, for basecolor")
+  command
+      .add_option("--texture", arguments.settings.texture, "The texture of the mesh, for basecolor")
       ->type_name("IMAGE");
-  add_choice<TextureWrap>(command, "--wrap", arguments.wrap,
+  add_choice<TextureWrap>(command, "--wrap", arguments.settings.wrap,
                           {{"repeat", TextureWrap::Repeat},
                            {"mirror", TextureWrap::Mirror},
                            {"clamp", TextureWrap::Clamp}},
@@ -127,56 +131,59 @@ void add_inputs(CLI::App& command, BakeArguments& arguments) {
 }
 
 void add_image_options(CLI::App& command, BakeArguments& arguments) {
-  command.add_option("--size", arguments.width, "Texels a row; half as many rows")
-      ->check(between(2, most_texels_a_row, "2 to 65536"))
+  command.add_option("--size", arguments.settings.width, "Texels a row; half as many rows")
+      ->check(between(2, 65536, "2 to 65536"))
       ->type_name("N")
       ->capture_default_str();
-  command.add_option("--samples", arguments.samples, "N × N samples a texel")
+  command.add_option("--samples", arguments.settings.samples, "N × N samples a texel")
       ->check(between(1, 32, "1 to 32"))
       ->type_name("N")
       ->capture_default_str();
   add_choice<Interpolation>(
-      command, "--interp", arguments.interpolation,
+      command, "--interp", arguments.settings.interpolation,
       {{"uv", Interpolation::Uv}, {"sphere", Interpolation::Sphere}},
       "Between vertices: linear in (u, v), as GPUs draw; or on the sphere, for "
       "other meshes (default: uv)");
   command
-      .add_option("--refine-poles", arguments.refine_poles,
+      .add_option("--refine-poles", arguments.settings.refine_poles,
                   "For `export --refine-poles N`: the image belongs to that chart")
       ->check(between(1, 1024, "1 to 1024"))
       ->type_name("N")
       ->capture_default_str();
-  add_choice<TextureFilter>(command, "--filter", arguments.options.filter,
+  add_choice<TextureFilter>(command, "--filter", arguments.settings.fields.filter,
                             {{"nearest", TextureFilter::Nearest},
                              {"bilinear", TextureFilter::Bilinear},
                              {"bicubic", TextureFilter::Bicubic}},
                             "How the texture is magnified (default: bilinear)");
   add_choice<std::optional<SampleType>>(
-      command, "--depth", arguments.depth,
+      command, "--depth", arguments.settings.depth,
       {{"u8", SampleType::Uint8},
        {"u16", SampleType::Uint16},
        {"half", SampleType::Half},
        {"float", SampleType::Float}},
       "Of a channel (default: u8; data in .png, .tif: u16; .exr: half, "
       "data float)");
-  add_choice<bool>(command, "--normal-y", arguments.options.normal_y_down,
+  add_choice<bool>(command, "--normal-y", arguments.settings.fields.normal_y_down,
                    {{"gl", false}, {"dx", true}},
                    "Where green points in normal-tangent: up or down the image (default: gl)");
   std::vector<std::pair<std::string, Convention>> conventions;
   for (const ConventionInfo& info : all_conventions()) {
     conventions.emplace_back(info.name, info.convention);
   }
-  add_choice<Convention>(command, "--convention", arguments.convention, conventions,
+  add_choice<Convention>(command, "--convention", arguments.settings.convention, conventions,
                          "Where longitude goes in the image (default: sphparam)");
-  command.add_flag("--mip", arguments.mip, "Tiles, and all levels down to one texel (.exr only)");
-  command.add_flag("--heat", arguments.options.heat,
+  command.add_flag("--mip", arguments.settings.mip,
+                   "Tiles, and all levels down to one texel (.exr only)");
+  command.add_flag("--heat", arguments.settings.fields.heat,
                    "Colours for distortion and curvature, and their scale in a file beside");
-  command.add_option("--rays", arguments.options.rays, "Rays a sample, for ao, bent and thickness")
+  command
+      .add_option("--rays", arguments.settings.fields.rays,
+                  "Rays a sample, for ao, bent and thickness")
       ->check(between(1, 65536, "1 to 65536"))
       ->type_name("N")
       ->capture_default_str();
   command
-      .add_option("--max-dist", arguments.options.max_ray_distance,
+      .add_option("--max-dist", arguments.settings.fields.max_ray_distance,
                   "How far rays of ao and bent reach, of the bounding box's diagonal")
       ->check(between(1e-9, 1e9, "1e-9 to 1e9"))
       ->type_name("X")
@@ -190,52 +197,40 @@ CLI::App* declare_bake_arguments(CLI::App& program, BakeArguments& arguments) {
   add_inputs(*command, arguments);
   add_image_options(*command, arguments);
   add_json(*command, arguments.json);
-  add_threads(*command, arguments.threads);
+  add_threads(*command, arguments.settings.threads);
   add_progress(*command, arguments.progress);
   add_loudness(*command, arguments.loudness);
   return command;
 }
 
-std::string scale_path(const std::string& image) {
-  const std::filesystem::path path(image);
-  return (path.parent_path() / (path.stem().string() + "_scale.png")).string();
-}
-
-std::vector<BakeOutput> bake_outputs(const BakeArguments& arguments) {
-  if (arguments.width % 2 != 0) {
-    throw UsageMistake("--size: an image is half as high as wide, so its width must be even");
-  }
-  if (info_of(arguments.convention).offset == 0.25 && arguments.width % 4 != 0) {
-    throw UsageMistake("--size: --convention " + std::string(info_of(arguments.convention).name) +
-                       " is a quarter turn away, so the width must be a multiple of 4");
-  }
-  std::vector<BakeOutput> outputs;
+std::vector<BakeRequest> bake_requests(const BakeArguments& arguments) {
+  std::vector<BakeRequest> images;
   std::set<std::string> paths;
   for (const std::string& map :
        arguments.maps.empty() ? std::vector<std::string>{"basecolor"} : arguments.maps) {
-    require_known(map);
-    const std::string path = path_of(arguments, map);
-    if (!paths.insert(path).second) {
-      throw UsageMistake("-o: several maps would go to " + path +
-                         "; {map} in the name stands for each, as in statue_{map}.png");
-    }
-    const std::optional<ImageFormat> format =
-        is_stream(path) ? ImageFormat::Png : image_format_of(path);
-    if (!format) {
-      throw UsageMistake("-o: images are written as .png, .jpg, .tif or .exr, not " +
-                         (extension_of(path).empty() ? "without a name" : extension_of(path)));
-    }
-    if (arguments.mip && format != ImageFormat::Exr) {
-      throw UsageMistake("--mip: only .exr files have levels");
-    }
-    if (arguments.depth && std::ranges::count(sample_types_of(*format), *arguments.depth) == 0) {
-      throw UsageMistake("--depth: " + std::string(name_of(*format)) + " images have no " +
-                         name_of(*arguments.depth) + " samples");
-    }
-    outputs.push_back({map, path});
+    images.push_back({map, path_of(arguments, map)});
+    require_possible(images.back(), arguments.settings);
+    if (paths.insert(images.back().path).second) continue;
+    throw UsageMistake("-o: several maps would go to " + images.back().path +
+                       "; {map} in the name stands for each, as in statue_{map}.png");
   }
-  check_all_places(arguments, outputs);
-  return outputs;
+  check_all_places(arguments, images);
+  return images;
+}
+
+UsageMistake as_mistake(const BakeSettingError& error) {
+  static const std::map<std::string, std::string> options = {
+      {"path", "-o"},
+      {"width", "--size"},
+      {"samples", "--samples"},
+      {"convention", "--size: --convention "},  // the message goes on with its name
+      {"depth", "--depth"},
+      {"mip", "--mip"},
+      {"refine_poles", "--refine-poles"},
+      {"rays", "--rays"},
+      {"max_ray_distance", "--max-dist"}};
+  const std::string& option = options.at(error.setting());
+  return UsageMistake(option + (option.ends_with(' ') ? "" : ": ") + error.what());
 }
 
 }  // namespace sphparam::cli

@@ -1,29 +1,24 @@
 #pragma once
 
-#include <optional>
 #include <string>
-#include <utility>
-#include <vector>
+
+#include "sphparam/bake/bake.h"
 
 namespace sphparam::cli {
 
 /// What `sphparam bake --json` tells.
-struct BakeReport {
-  struct Image {
-    std::string map, about, path, sample_type;
-    int channels;
-    std::optional<std::pair<double, double>> range;  // what 0 and 1 of integers stand for
-  };
-  std::string input, target;
-  int width, height, samples;
-  std::optional<double> target_distance;  // see `disagreement`; with --for
-  std::string convention;
-  int refine_poles;
+struct BakeTold {
+  const std::string& input;
   long triangles;
-  std::vector<Image> images;
+  const std::string& target;  // empty: the source
+  const BakeSettings& settings;
+  const BakeReport& baked;
   double seconds;
 };
 
-std::string to_json(const BakeReport& report);
+std::string to_json(const BakeTold& told);
+
+/// "statue.obj: ao, 2048 × 1024 uint8 → ao.png"
+std::string line_of(const BakedImage& image, const BakeSettings& settings);
 
 }  // namespace sphparam::cli

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "bake/image_level.h"
+#include "sphparam/bake/bake_errors.h"
 #include "texture/srgb.h"
 
 namespace sphparam {
@@ -27,8 +28,7 @@ void require_halves(const float* values, size_t count) {
   const float* const large =
       std::find_if(values, end, [](float x) { return std::isfinite(x) && std::abs(x) > most; });
   if (large != end) {
-    throw ImageError("half precision has no number as large as " + shortest(*large) +
-                     ": --depth float has");
+    throw HalfRangeError("half precision has no number as large as " + shortest(*large));
   }
 }
 

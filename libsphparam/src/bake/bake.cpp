@@ -1,0 +1,108 @@
+// Everything that may fail for the user's reasons comes first; then all images are baked together,
+// row by row into files that get their names at the end.
+
+#include "sphparam/bake/bake.h"
+
+#include <algorithm>
+
+#include "bake/baked_chart.h"
+#include "bake/choose_target.h"
+#include "bake/field_registry.h"
+#include "bake/image_plan.h"
+#include "bake/make_scene.h"
+#include "bake/write_images.h"
+#include "sphparam/version.h"
+
+namespace sphparam {
+namespace {
+
+void read_source_textures(const BakeSettings& settings, BakeSource& source) {
+  report(settings.progress, "texture", 0);
+  if (settings.texture.empty()) {
+    source.textures = read_textures(source.file(), settings.threads);
+  } else {
+    source.textures = {read_texture(settings.texture, settings.wrap, settings.threads)};
+    source.one_texture_for_all = true;
+  }
+}
+
+BakeScene scene_for(const MappedMesh& source, BakeTarget target, bool with_textures,
+                    const BakeSettings& settings) {
+  BakeScene scene{make_source(source), std::move(target), settings.fields, settings.threads};
+  scene.mirrored = info_of(settings.convention).turns < 0;
+  if (with_textures) read_source_textures(settings, scene.source);
+  return scene;
+}
+
+bool needs_textures(const std::string& field) { return field == "basecolor"; }
+
+ImageTexts texts_of_all(const MappedMesh& source, const BakeSettings& settings) {
+  ImageTexts texts = {{"sphparam:version", version},
+                      {"sphparam:source", source_name(source, settings)}};
+  const bool linear = settings.interpolation == Interpolation::Uv;
+  for (auto& text : texts_of_chart(linear, settings.refine_poles)) {
+    texts.push_back(std::move(text));
+  }
+  if (settings.target) texts.emplace_back("sphparam:for", settings.target->name());
+  return texts;
+}
+
+BakedImage told(const PlannedImage& image) {
+  return {.field = image.field.name,
+          .about = image.field.about,
+          .path = image.request.path,
+          .sample_type = image.file.sample_type,
+          .channels = image.field.channels,
+          .range = image.field.range};
+}
+
+BakedField told(const SurfaceField& field) { return {field.name, field.about, field.channels}; }
+
+}  // namespace
+
+BakeReport bake(const MappedMesh& source, const std::vector<BakeRequest>& images,
+                const BakeSettings& settings, PendingFiles& files) {
+  require_bakeable(images, settings);
+  ChosenTarget chosen = choose_target(source, settings);
+  BakeReport report{
+      .images = {}, .target_distance = chosen.distance, .warnings = std::move(chosen.warnings)};
+  const bool with_textures =
+      std::ranges::any_of(images, [](const auto& image) { return needs_textures(image.field); });
+  BakeScene scene = scene_for(source, std::move(chosen.target), with_textures, settings);
+  std::vector<PlannedImage> plan;
+  for (const BakeRequest& request : images) plan.push_back(plan_image(request, scene, settings));
+  find_ranges(plan, scene, settings);
+  write_images(plan, scene, settings, texts_of_all(source, settings), files);
+  for (const PlannedImage& image : plan) report.images.push_back(told(image));
+  return report;
+}
+
+BakeReport bake(const MappedMesh& source, const std::vector<BakeRequest>& images,
+                const BakeSettings& settings) {
+  PendingFiles files;
+  BakeReport report = bake(source, images, settings, files);
+  files.publish();
+  return report;
+}
+
+std::vector<BakedField> bake_values(const MappedMesh& source, const std::vector<std::string>& names,
+                                    const BakeSettings& settings, const BakedRows& rows) {
+  std::vector<BakeRequest> none;
+  require_bakeable(none, settings);
+  const BakeScene scene = scene_for(source, choose_target(source, settings).target,
+                                    std::ranges::any_of(names, needs_textures), settings);
+  std::vector<SurfaceField> fields;
+  std::vector<BakedField> baked;
+  for (const std::string& name : names) {
+    fields.push_back(make_field(name, scene));
+    baked.push_back(told(fields.back()));
+  }
+  if (fields.empty()) return baked;
+  bake(scene, fields, engine_options(settings, "bake"),
+       [&](size_t field, int first_row, int count, const float* values) {
+         rows(field, baked[field], first_row, count, values);
+       });
+  return baked;
+}
+
+}  // namespace sphparam

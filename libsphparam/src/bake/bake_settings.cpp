@@ -1,0 +1,75 @@
+// What can be told of requests and settings alone, before any work.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "sphparam/bake/bake.h"
+#include "sphparam/io/paths.h"
+
+namespace sphparam {
+namespace {
+
+void require_between(const char* setting, double value, double least, double greatest) {
+  if (value >= least && value <= greatest) return;
+  throw BakeSettingError(setting, "is " + std::to_string(value) + ", not between " +
+                                      std::to_string(least) + " and " + std::to_string(greatest));
+}
+
+void require_domains(const BakeSettings& settings) {
+  constexpr double any = std::numeric_limits<double>::max();
+  require_between("width", settings.width, 2, 65536);
+  require_between("samples", settings.samples, 1, 32);
+  require_between("refine_poles", settings.refine_poles, 1, 1024);
+  require_between("rays", settings.fields.rays, 1, 65536);
+  require_between("max_ray_distance", settings.fields.max_ray_distance,
+                  std::numeric_limits<double>::min(), any);
+}
+
+/// Half the width is the height; a quarter turn moves whole texels.
+void require_whole_texels(const BakeSettings& settings) {
+  if (settings.width % 2 != 0) {
+    throw BakeSettingError("width", "an image is half as high as wide, so its width must be even");
+  }
+  const ConventionInfo& convention = info_of(settings.convention);
+  if (convention.offset == 0.25 && settings.width % 4 != 0) {
+    throw BakeSettingError("convention",
+                           std::string(convention.name) +
+                               " is a quarter turn away, so the width must be a multiple of 4");
+  }
+}
+
+void require_format(const std::string& path, const BakeSettings& settings) {
+  const std::optional<ImageFormat> format =
+      is_stream(path) ? ImageFormat::Png : image_format_of(path);
+  if (!format) {
+    const std::string ending = extension_of(path);
+    throw BakeSettingError("path", "images are written as .png, .jpg, .tif or .exr, not " +
+                                       (ending.empty() ? "without a name" : ending));
+  }
+  if (settings.mip && format != ImageFormat::Exr) {
+    throw BakeSettingError("mip", "only .exr files have levels");
+  }
+  if (settings.depth && std::ranges::count(sample_types_of(*format), *settings.depth) == 0) {
+    throw BakeSettingError("depth", std::string(name_of(*format)) + " images have no " +
+                                        name_of(*settings.depth) + " samples");
+  }
+}
+
+}  // namespace
+
+void require_bakeable(const std::vector<BakeRequest>& images, const BakeSettings& settings) {
+  require_whole_texels(settings);
+  require_domains(settings);
+  std::set<std::string> paths;
+  for (const BakeRequest& image : images) {
+    require_field_name(image.field);
+    require_format(image.path, settings);
+    if (!paths.insert(image.path).second) {
+      throw BakeSettingError("path", "several images would go to " + image.path);
+    }
+  }
+}
+
+}  // namespace sphparam

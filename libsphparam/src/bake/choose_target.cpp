@@ -1,0 +1,62 @@
+#include "bake/choose_target.h"
+
+#include <cstdio>
+#include <stdexcept>
+
+#include "bake/make_scene.h"
+#include "bake/shared_sphere.h"
+#include "sphparam/chart/chart_failure.h"
+
+namespace sphparam {
+namespace {
+
+/// "5.61 % of the diagonal"
+std::string in_diagonals(double distance) {
+  char text[48];
+  std::snprintf(text, sizeof text, "%.3g %% of the diagonal", 100 * distance);
+  return text;
+}
+
+/// A map of its own would give every texel of the low mesh another place of the high one.
+void require_one_sphere(const MappedMesh& source, const BakeSettings& settings,
+                        ChosenTarget& chosen) {
+  const MappedMesh& target = *settings.target;
+  const double apart = disagreement(source, target, settings.threads);
+  chosen.distance = apart;
+  if (apart <= doubtful_disagreement) return;
+  const std::string far = "in the same directions, half of its surface is more than " +
+                          in_diagonals(apart) + " away from that of " +
+                          source_name(source, settings);
+  if (apart > other_sphere_disagreement) {
+    throw OtherSphereError(target.name() + ": is not on the same sphere: " + far);
+  }
+  chosen.warnings.push_back(target.name() + ": " + far);
+}
+
+BakeTarget target_on(const MappedMesh& mapped, bool is_source, const BakeSettings& settings) {
+  try {
+    return make_target(mapped, is_source, settings.threads, settings.refine_poles,
+                       settings.progress);
+  } catch (const std::invalid_argument& error) {
+    if (settings.refine_poles <= 1) throw;
+    throw BakeSettingError("refine_poles", error.what());
+  }
+}
+
+}  // namespace
+
+const std::string& source_name(const MappedMesh& source, const BakeSettings& settings) {
+  return settings.source_name.empty() ? source.name() : settings.source_name;
+}
+
+ChosenTarget choose_target(const MappedMesh& source, const BakeSettings& settings) {
+  ChosenTarget chosen;
+  if (settings.target) require_one_sphere(source, settings, chosen);
+  const MappedMesh& mesh = settings.target ? *settings.target : source;
+  chosen.target = target_on(mesh, !settings.target, settings);
+  require_one_to_one(chosen.target.chart,
+                     settings.target ? mesh.name() : source_name(source, settings));
+  return chosen;
+}
+
+}  // namespace sphparam

@@ -1,0 +1,106 @@
+#include "bake/image_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bake/field_registry.h"
+#include "sphparam/io/paths.h"
+
+namespace sphparam {
+namespace {
+
+/// As asked for; else what the format has and the values need.
+SampleType depth_of(const BakeSettings& settings, ImageFormat format, FieldKind kind) {
+  if (settings.depth) return *settings.depth;
+  const bool data = kind == FieldKind::Data;
+  if (format == ImageFormat::Exr) {
+    return data || kind == FieldKind::Label ? SampleType::Float : SampleType::Half;
+  }
+  return data && format != ImageFormat::Jpeg ? SampleType::Uint16 : SampleType::Uint8;
+}
+
+/// Numbers that are rounded would name other faces.
+void require_exact_labels(const PlannedImage& image) {
+  if (image.field.kind != FieldKind::Label || !image.field.range) return;
+  const bool half = image.file.sample_type == SampleType::Half;
+  if (!half && image.file.sample_type != SampleType::Float) return;
+  const double most = half ? 1 << 11 : 1 << 24;
+  if (image.field.range->second <= most) return;
+  throw BakeSettingError(
+      "depth", std::string(name_of(image.file.sample_type)) + " holds whole numbers up to " +
+                   std::to_string(std::lround(most)) + " exactly; " + image.field.name +
+                   " goes up to " + std::to_string(std::lround(image.field.range->second)) +
+                   (half ? "; float holds more" : ""));
+}
+
+void require_channels(const PlannedImage& image) {
+  if (image.field.channels <= most_channels(image.file.format)) return;
+  throw BakeSettingError("path", std::string(name_of(image.file.format)) +
+                                     " images have no alpha, which " + image.field.name +
+                                     " has here; .png has");
+}
+
+/// Its range is known only once it is baked, and integers need to know it.
+bool lacks_range(const PlannedImage& image) {
+  return image.field.kind == FieldKind::Data && !image.field.range &&
+         is_integer(image.file.sample_type);
+}
+
+}  // namespace
+
+PlannedImage plan_image(const BakeRequest& request, BakeScene& scene,
+                        const BakeSettings& settings) {
+  PlannedImage image{.request = request,
+                     .field = {.name = request.field, .channels = 3, .kind = FieldKind::Colour},
+                     .drawn = test_image_named(request.field),
+                     .file = {.width = settings.width,
+                              .height = settings.width / 2,
+                              .convention = settings.convention,
+                              .tiles = settings.mip}};
+  image.file.format = is_stream(request.path) ? ImageFormat::Png : *image_format_of(request.path);
+  scene.ids_as_colours = is_integer(depth_of(settings, image.file.format, FieldKind::Label));
+  if (!image.drawn) image.field = make_field(request.field, scene);
+  image.file.sample_type = depth_of(settings, image.file.format, image.field.kind);
+  require_channels(image);
+  require_exact_labels(image);
+  return image;
+}
+
+BakeOptions engine_options(const BakeSettings& settings, const char* stage) {
+  BakeOptions options{.width = settings.width,
+                      .height = settings.width / 2,
+                      .samples = settings.samples,
+                      .interpolation = settings.interpolation,
+                      .threads = settings.threads};
+  if (settings.progress) {
+    options.progress = [&settings, stage](std::string_view, double done) {
+      return settings.progress(stage, done);
+    };
+  }
+  return options;
+}
+
+void find_ranges(std::vector<PlannedImage>& images, const BakeScene& scene,
+                 const BakeSettings& settings) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::vector<PlannedImage*> unknown;
+  std::vector<SurfaceField> fields;
+  for (PlannedImage& image : images) {
+    if (!lacks_range(image)) continue;
+    unknown.push_back(&image);
+    fields.push_back(image.field);
+  }
+  if (fields.empty()) return;
+  std::vector<std::pair<double, double>> ranges(fields.size(), {infinity, -infinity});
+  bake(scene, fields, engine_options(settings, "range"),
+       [&](size_t i, int, int rows, const float* values) {
+         const auto count = static_cast<std::ptrdiff_t>(rows) * settings.width * fields[i].channels;
+         const auto [least, greatest] = std::minmax_element(values, values + count);
+         ranges[i].first = std::min(ranges[i].first, static_cast<double>(*least));
+         ranges[i].second = std::max(ranges[i].second, static_cast<double>(*greatest));
+       });
+  for (size_t i = 0; i < unknown.size(); ++i) unknown[i]->field.range = ranges[i];
+}
+
+}  // namespace sphparam
