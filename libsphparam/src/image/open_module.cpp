@@ -15,7 +15,8 @@
 // in a module that is opened when the first image is touched. Our own program has it beside it
 // (build tree), in ../lib/sphparam (installed) or below ../lib by architecture (Debian packages):
 // it moves with the program. A user's program may be anywhere; there the library leads to it, a
-// shared one by its own place, a static one by that of its installation.
+// shared one by its own place, a static one by that of its installation, or by the rpath that its
+// CMake targets and pkg-config files add.
 
 namespace sphparam {
 namespace {
@@ -46,22 +47,33 @@ Path own_file() {
   return std::filesystem::canonical(info.dli_fname, error);
 }
 
+/// The bare name where no folder has it: what a program was linked with may lead the loader to it.
 Path find_module() {
   std::error_code error;
-  std::string folders;
   for (const Path& folder : module_folders()) {
-    const Path module = folder / kModuleName;
+    Path module = folder / kModuleName;
     if (std::filesystem::exists(module, error)) return module;
-    folders += "\n  " + folder.string();
   }
-  throw ImageError(std::string("the image module ") + kModuleName + " is in none of" + folders);
+  return kModuleName;
+}
+
+/// Every place that was looked at, the last with what the loader said.
+std::string all_places(const std::string& said) {
+  std::string places;
+  for (const Path& folder : module_folders()) places += "\n  " + folder.string();
+  return places + "\n  where the loader looks: " + said;
 }
 
 const SphparamImageTable& open_module() {
   const Path path = find_module();
   // Never closed: OpenImageIO's threads run in it.
   void* module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (!module) throw ImageError(std::string("cannot open the image module: ") + dlerror());
+  if (!module) {
+    const std::string said = dlerror();
+    if (path.has_parent_path()) throw ImageError("cannot open the image module: " + said);
+    throw ImageError(std::string("the image module ") + kModuleName + " is in none of" +
+                     all_places(said));
+  }
   const auto table =
       reinterpret_cast<SphparamImageTableFunction>(dlsym(module, kSphparamImageTableName));
   if (!table || table()->version != kSphparamImageTableVersion) {
