@@ -4,6 +4,7 @@
 #include "support/direction_image.h"
 #include "support/test_meshes.h"
 #include "texture/srgb.h"
+#include "texture/texture_pyramid.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;

@@ -3,8 +3,9 @@
 #include <numbers>
 #include <random>
 
+#include "sphparam/texture/equirectangular_image.h"
 #include "support/direction_image.h"
-#include "texture/equirectangular.h"
+#include "texture/texture_pyramid.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;

@@ -1,29 +1,27 @@
 // `sphparam paint`: an equirectangular image onto a mesh, the way back of `bake`: as colours of its
 // vertices, or as a texture for its own coordinates.
 
+#include "sphparam/paint/paint.h"
+
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "io/attributes/source_attributes.h"
 #include "arguments/choice.h"
-#include "commands/command.h"
 #include "arguments/common_options.h"
+#include "commands/command.h"
+#include "commands/mapped_source.h"
 #include "console/console.h"
 #include "console/exit_codes.h"
 #include "console/interruption.h"
-#include "commands/mapped_source.h"
 #include "console/paths.h"
-#include "sphparam/io/paths.h"
-#include "image/image_codec.h"
+#include "io/attributes/appearance.h"
 #include "sphparam/io/mesh_writer.h"
+#include "sphparam/io/paths.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/io/sphere_file.h"
-#include "paint/paint_atlas.h"
-#include "paint/paint_vertices.h"
-#include "texture/equirectangular.h"
 
 namespace sphparam::cli {
 
@@ -81,41 +79,21 @@ void require_sensible(const PaintArguments& arguments) {
   check_places({arguments.input, arguments.image, arguments.sphere}, {{"-o", arguments.output}});
 }
 
-/// EXR holds linear light, the others sRGB.
-TexturePyramid read_pyramid(const PaintArguments& arguments, Console& console) {
-  const Image image = read_image(arguments.image);
-  if (std::abs(image.width - 2 * image.height) > 1) {
-    console.warning(display_name(arguments.image) + ": " + std::to_string(image.width) + " × " +
-                    std::to_string(image.height) +
+EquirectangularImage read_picture(const PaintArguments& arguments, Console& console) {
+  EquirectangularImage image =
+      read_equirectangular(arguments.image, arguments.convention, arguments.threads);
+  if (std::abs(image.width() - 2 * image.height()) > 1) {
+    console.warning(display_name(arguments.image) + ": " + std::to_string(image.width()) + " × " +
+                    std::to_string(image.height()) +
                     ": an equirectangular image of the whole sphere is twice as wide as high");
   }
-  return TexturePyramid(image, extension_of(arguments.image) == ".exr", arguments.threads);
-}
-
-/// The mesh with its map and red, green, blue and, where the image has it, alpha.
-MeshFile with_colours(const MappedMesh& source, const Image& colours, bool with_alpha) {
-  MeshFile file = source.mapped_here() ? attach_map(source.file(), source.map(), source.provenance())
-                                     : source.file();
-  const std::vector<std::string> names = {"red", "green", "blue", "alpha"};
-  remove_properties(file.vertex_properties, names);
-  for (size_t channel = 0; channel < (with_alpha ? 4 : 3); ++channel) {
-    Property property = {names[channel], ScalarType::Uint8, {}};
-    for (int v = 0; v < colours.width; ++v) {
-      property.values.push_back(std::round(255.0 * colours.pixel(v, 0)[channel]));
-    }
-    file.set_vertex_property(std::move(property));
-  }
-  return file;
+  return image;
 }
 
 std::string vertex_colours(const PaintArguments& arguments, const MappedMesh& source,
-                           const TexturePyramid& pyramid, const Progress& progress) {
-  const Topology& topology = source.topology();
-  const Image colours =
-      paint_vertices(topology, source.map(), EquirectangularImage(pyramid, arguments.convention),
-                     progress, arguments.threads);
+                           const EquirectangularImage& image, const Progress& progress) {
+  MeshFile file = paint_vertices(source, image, {arguments.threads, progress});
   const Serialiser serialise = serialiser(arguments.output);
-  MeshFile file = with_colours(source, colours, pyramid.has_alpha());
   return serialise == serialise_ply ? serialise(file) : serialise(without_map(std::move(file)));
 }
 
@@ -126,38 +104,29 @@ std::string face_number(const MeshFile& file, Face face) {
                                : face);
 }
 
-Image without_alpha(const Image& image) {
-  Image opaque(image.width, image.height, 3);
-  for (size_t i = 0; i < opaque.pixels.size(); ++i) {
-    opaque.pixels[i] = image.pixels[i / 3 * 4 + i % 3];
-  }
-  return opaque;
+void tell_overlaps(const PaintArguments& arguments, const MeshFile& file,
+                   const PaintedAtlas& painted, Console& console) {
+  if (painted.overlapping == 0) return;
+  console.warning(display_name(arguments.input) + ": its texture coordinates overlap: " +
+                  std::to_string(painted.overlapping) + " of " + std::to_string(painted.painted) +
+                  " texels belong to two triangles or more (" +
+                  face_number(file, painted.rivals[0]) + " and " +
+                  face_number(file, painted.rivals[1]) + ", for one); the first has them");
 }
 
 std::string atlas(const PaintArguments& arguments, const MappedMesh& source,
-                  const TexturePyramid& pyramid, const Progress& progress, Console& console) {
-  PaintedAtlas painted;
+                  const EquirectangularImage& image, const Progress& progress, Console& console) {
   try {
-    painted = paint_atlas(source.file(), source.map(),
-                          EquirectangularImage(pyramid, arguments.convention),
-                          {.size = arguments.atlas,
-                           .padding = arguments.padding,
-                           .threads = arguments.threads,
-                           .progress = progress});
+    const PaintedAtlas painted = paint_atlas(source, image,
+                                             {.size = arguments.atlas,
+                                              .padding = arguments.padding,
+                                              .threads = arguments.threads,
+                                              .progress = progress});
+    tell_overlaps(arguments, source.file(), painted, console);
+    return png_of(painted, image.has_alpha());
   } catch (const AtlasError& error) {
     throw UsageMistake(std::string("--atlas: ") + error.what());
   }
-  if (painted.overlapping > 0) {
-    console.warning(
-        display_name(arguments.input) +
-        ": its texture coordinates overlap: " + std::to_string(painted.overlapping) + " of " +
-        std::to_string(painted.painted) + " texels belong to two triangles or more (" +
-        face_number(source.file(), painted.rivals[0]) + " and " +
-        face_number(source.file(), painted.rivals[1]) + ", for one); the first has them");
-  }
-  const std::vector<char> png = encode_image(
-      pyramid.has_alpha() ? painted.image : without_alpha(painted.image), ImageFormat::Png);
-  return {png.data(), png.size()};
 }
 
 int run_paint(const PaintArguments& arguments) {
@@ -166,15 +135,15 @@ int run_paint(const PaintArguments& arguments) {
   const OrderlyInterruption orderly;
   const MappedMesh source =
       read_mapped_source(arguments.input, arguments.sphere, arguments.threads, console);
-  if (arguments.atlas > 0 && !texcoords_of(source.file())) {
+  if (arguments.atlas > 0 && !has_texcoords(source.file())) {
     throw UsageMistake("--atlas: the mesh has no texture coordinates of its own");
   }
-  const TexturePyramid pyramid = read_pyramid(arguments, console);
+  const EquirectangularImage image = read_picture(arguments, console);
   const Progress progress = [&](std::string_view stage, double fraction) {
     return console.progress(stage, fraction);
   };
-  std::string bytes = arguments.atlas > 0 ? atlas(arguments, source, pyramid, progress, console)
-                                          : vertex_colours(arguments, source, pyramid, progress);
+  std::string bytes = arguments.atlas > 0 ? atlas(arguments, source, image, progress, console)
+                                          : vertex_colours(arguments, source, image, progress);
   console.clear_progress();
   if (interrupted()) throw Cancelled();
   write_file(arguments.output, std::move(bytes));

@@ -4,7 +4,7 @@
 #include "sphparam/mesh/topology.h"
 #include "sphparam/progress.h"
 #include "sphparam/sphere/sphere_map.h"
-#include "texture/equirectangular.h"
+#include "sphparam/texture/equirectangular_image.h"
 
 namespace sphparam {
 

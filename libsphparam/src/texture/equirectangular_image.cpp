@@ -1,11 +1,13 @@
-#include "texture/equirectangular.h"
+#include "sphparam/texture/equirectangular_image.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "elementary.h"
+#include "image/image_codec.h"
 #include "sphparam/sphere/spherical_coordinates.h"
+#include "texture/texture_pyramid.h"
 
 namespace sphparam {
 namespace {
@@ -74,6 +76,16 @@ std::array<float, 4> EquirectangularImage::look_up(const Vector3& direction, dou
   if (share > 0) colour += share * (mean_along(levels[fine + 1], u, v, turns) - colour);
   colour /= 65535;
   return {colour[0], colour[1], colour[2], colour[3]};
+}
+
+int EquirectangularImage::width() const { return pyramid_->levels().front().width; }
+int EquirectangularImage::height() const { return pyramid_->levels().front().height; }
+bool EquirectangularImage::has_alpha() const { return pyramid_->has_alpha(); }
+
+EquirectangularImage read_equirectangular(const std::string& path, Convention convention,
+                                          int threads) {
+  const bool linear = image_format_of(path) == ImageFormat::Exr;
+  return {std::make_shared<const TexturePyramid>(read_image(path), linear, threads), convention};
 }
 
 }  // namespace sphparam

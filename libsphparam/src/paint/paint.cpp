@@ -1,0 +1,65 @@
+// What users call: a mapped mesh in, a file or an image out.
+
+#include "sphparam/paint/paint.h"
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "image/image_codec.h"
+#include "option_domain.h"
+#include "paint/paint_atlas.h"
+#include "paint/paint_vertices.h"
+#include "sphparam/io/sphere_file.h"
+
+namespace sphparam {
+namespace {
+
+Image without_alpha(const Image& image) {
+  Image opaque(image.width, image.height, 3);
+  for (size_t i = 0; i < opaque.pixels.size(); ++i) {
+    opaque.pixels[i] = image.pixels[i / 3 * 4 + i % 3];
+  }
+  return opaque;
+}
+
+Property channel_of(const Image& colours, const std::string& name, size_t channel) {
+  Property property = {name, ScalarType::Uint8, {}};
+  for (int v = 0; v < colours.width; ++v) {
+    property.values.push_back(std::round(255.0 * colours.pixel(v, 0)[channel]));
+  }
+  return property;
+}
+
+}  // namespace
+
+MeshFile paint_vertices(const MappedMesh& mapped, const EquirectangularImage& image,
+                        const PaintOptions& options) {
+  const Image colours =
+      paint_vertices(mapped.topology(), mapped.map(), image, options.progress, options.threads);
+  MeshFile file = mapped.mapped_here()
+                      ? attach_map(mapped.file(), mapped.map(), mapped.provenance())
+                      : mapped.file();
+  const std::vector<std::string> names = {"red", "green", "blue", "alpha"};
+  remove_properties(file.vertex_properties, names);
+  const size_t channels = image.has_alpha() ? 4 : 3;
+  for (size_t c = 0; c < channels; ++c) {
+    file.set_vertex_property(channel_of(colours, names[c], c));
+  }
+  return file;
+}
+
+PaintedAtlas paint_atlas(const MappedMesh& mapped, const EquirectangularImage& image,
+                         const AtlasOptions& options) {
+  require_between("size", options.size, 1, 32768);
+  require_between("padding", options.padding, 0, 254);
+  return paint_atlas(mapped.file(), mapped.map(), image, options);
+}
+
+std::string png_of(const PaintedAtlas& atlas, bool with_alpha) {
+  const std::vector<char> png =
+      encode_image(with_alpha ? atlas.image : without_alpha(atlas.image), ImageFormat::Png);
+  return {png.data(), png.size()};
+}
+
+}  // namespace sphparam

@@ -1,0 +1,168 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "bake/field_registry.h"
+#include "scenes.h"
+#include "sphparam/bake/bake.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder that goes with its owner.
+struct Folder {
+  fs::path path;
+  Folder() {
+    std::string name = (fs::temp_directory_path() / "sphparam_bake_XXXXXX").string();
+    REQUIRE(mkdtemp(name.data()));
+    path = name;
+  }
+  ~Folder() { fs::remove_all(path); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  std::string operator/(const std::string& name) const { return (path / name).string(); }
+  long count() const { return std::distance(fs::directory_iterator(path), {}); }
+};
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// An egg on the sphere of its directions, moved aside.
+MappedMesh egg(int level, double aside = 0) {
+  MeshFile file;
+  file.mesh = icosphere(level);
+  SphereMap map{file.mesh.positions};
+  file.mesh.positions.col(0) *= 1.5;
+  file.mesh.positions.col(1).array() += aside;
+  return MappedMesh({.file = std::move(file), .map = std::move(map), .name = "egg"});
+}
+
+const BakeSettings small{.width = 32, .fields = {.rays = 4}, .threads = 1};
+
+/// The setting that is complained of.
+std::string refused(const BakeRequest& image, const BakeSettings& settings) {
+  try {
+    require_bakeable({image}, settings);
+    return "";
+  } catch (const BakeSettingError& error) {
+    return error.setting();
+  }
+}
+
+}  // namespace
+
+TEST_CASE("bake images: all that are asked for are there, with what was baked") {
+  const Folder folder;
+  const BakeReport report = bake(egg(3),
+                                 {{"normal-object", folder / "n.png"},
+                                  {"ao", folder / "ao.exr"},
+                                  {"axes", folder / "axes.png"},
+                                  {"curvature", folder / "c.tif"}},
+                                 small);
+  CHECK(folder.count() == 4);
+  REQUIRE(report.images.size() == 4);
+  CHECK(report.images[0].channels == 3);
+  CHECK(report.images[1].sample_type == SampleType::Float);
+  CHECK(report.images[3].field == "curvature:mean");
+  CHECK(report.images[3].sample_type == SampleType::Uint16);
+  CHECK(report.images[3].range);
+  CHECK_FALSE(report.target_distance);
+  CHECK(report.warnings.empty());
+}
+
+TEST_CASE("bake images: a heat map has its scale beside it") {
+  const Folder folder;
+  BakeSettings settings = small;
+  settings.fields.heat = true;
+  bake(egg(3), {{"area", folder / "area.png"}}, settings);
+  CHECK(fs::exists(scale_path(folder / "area.png")));
+  CHECK(folder.count() == 2);
+}
+
+TEST_CASE("bake images: where one cannot be baked none is written") {
+  const Folder folder;
+  CHECK_THROWS_AS(
+      bake(egg(2), {{"position", folder / "p.png"}, {"scalar:none", folder / "s.png"}}, small),
+      FieldError);
+  CHECK_THROWS_AS(bake(egg(2), {{"basecolor", folder / "b.png"}}, small), NoColoursError);
+  BakeSettings cancelled = small;
+  cancelled.progress = [](std::string_view stage, double) { return stage != "write"; };
+  CHECK_THROWS_AS(bake(egg(2), {{"position", folder / "p.png"}}, cancelled), Cancelled);
+  CHECK(folder.count() == 0);
+}
+
+TEST_CASE("bake images: files of the caller's get their names when he says so") {
+  const Folder folder;
+  bake(egg(2), {{"position", folder / "own.png"}}, small);
+  PendingFiles files;
+  bake(egg(2), {{"position", folder / "own.png"}}, small, files);
+  bake(egg(2), {{"position", folder / "later.png"}}, small, files);
+  CHECK(folder.count() == 3);  // one file, and two that have no names yet
+  CHECK_FALSE(fs::exists(folder / "later.png"));
+  files.publish();
+  CHECK(folder.count() == 2);
+  CHECK(bytes_of(folder / "later.png") == bytes_of(folder / "own.png"));
+}
+
+TEST_CASE("bake images: what is out of its domain is named, before any work") {
+  const BakeRequest png{"position", "x.png"};
+  CHECK(refused(png, {}).empty());
+  CHECK(refused(png, {.width = 33}) == "width");
+  CHECK(refused(png, {.width = 0}) == "width");
+  CHECK(refused(png, {.width = 34, .convention = Convention::Envmap}) == "convention");
+  CHECK(refused(png, {.samples = 33}) == "samples");
+  CHECK(refused(png, {.depth = SampleType::Half}) == "depth");
+  CHECK(refused(png, {.mip = true}) == "mip");
+  CHECK(refused(png, {.fields = {.rays = 0}}) == "rays");
+  CHECK(refused(png, {.fields = {.max_ray_distance = 0}}) == "max_ray_distance");
+  CHECK(refused(png, {.refine_poles = 0}) == "refine_poles");
+  CHECK(refused({"position", "x.gif"}, {}) == "path");
+  CHECK_THROWS_AS(require_bakeable({png, png}, {}), BakeSettingError);
+  CHECK_THROWS_AS(require_bakeable({{"postion", "x.png"}}, {}), FieldError);
+  CHECK_THROWS_AS(require_bakeable({{"axes:x", "x.png"}}, {}), FieldError);
+}
+
+TEST_CASE("bake images: a target is on the same sphere, or the user is told") {
+  const Folder folder;
+  const MappedMesh source = egg(3);
+  const std::vector<BakeRequest> images = {{"height", folder / "h.png"}};
+  BakeSettings settings = small;
+  settings.target = egg(2);
+  CHECK(bake(source, images, settings).target_distance < 1e-9);
+  // The diagonal of the egg's box is 4.12.
+  settings.target = egg(2, 0.02 * 4.12);
+  const BakeReport doubtful = bake(source, images, settings);
+  REQUIRE(doubtful.warnings.size() == 1);
+  CHECK(doubtful.warnings[0].find("% of the diagonal") != std::string::npos);
+  settings.target = egg(2, 0.05 * 4.12);
+  CHECK_THROWS_AS(bake(source, images, settings), OtherSphereError);
+}
+
+TEST_CASE("bake images: values are had without files, as the engine has them") {
+  const MappedMesh source = egg(3);
+  std::vector<float> values;
+  const std::vector<BakedField> fields =
+      bake_values(source, {"position"}, small,
+                  [&](size_t, const BakedField& field, int, int rows, const float* row) {
+                    values.insert(values.end(), row, row + field.channels * rows * small.width);
+                  });
+  REQUIRE(fields.size() == 1);
+  CHECK(fields[0].name == "position");
+  CHECK(fields[0].channels == 3);
+  const auto scene = scene_of(source.file(), source.map());
+  const std::vector<float> expected =
+      baked(*scene, make_field("position", *scene), {.width = 32, .height = 16, .threads = 1});
+  CHECK(values == expected);
+}

@@ -1,0 +1,50 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "paint/paint_vertices.h"
+#include "sphparam/paint/paint.h"
+#include "support/direction_image.h"
+#include "support/test_meshes.h"
+#include "texture/texture_pyramid.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+
+namespace {
+
+MappedMesh ball() {
+  MeshFile file;
+  file.mesh = icosphere(3);
+  SphereMap map = normalised(file.mesh.positions);
+  return MappedMesh({.file = std::move(file), .map = std::move(map), .mapped_here = true});
+}
+
+}  // namespace
+
+TEST_CASE("paint: vertices get whole numbers to 255, and the mesh keeps its map") {
+  const TexturePyramid pyramid(direction_image(64), true);
+  const EquirectangularImage image(pyramid, Convention::Sphparam);
+  CHECK(image.width() == 64);
+  CHECK(image.height() == 32);
+  const MappedMesh mapped = ball();
+  const MeshFile painted = paint_vertices(mapped, image);
+  const Image colours = paint_vertices(mapped.topology(), mapped.map(), image);
+  const Property* red = painted.find_vertex_property("red");
+  REQUIRE(red);
+  CHECK(painted.find_vertex_property("sx"));
+  CHECK_FALSE(painted.find_vertex_property("alpha"));
+  for (int v = 0; v < colours.width; ++v) {
+    REQUIRE(red->values[static_cast<size_t>(v)] == std::round(255.0 * colours.pixel(v, 0)[0]));
+  }
+}
+
+TEST_CASE("paint: what an atlas cannot be is refused") {
+  const TexturePyramid pyramid(uniform_image(8, 0.5F));
+  const EquirectangularImage image(pyramid, Convention::Sphparam);
+  CHECK_THROWS_AS(paint_atlas(ball(), image), AtlasError);  // no texture coordinates
+  CHECK_THROWS_AS(paint_atlas(ball(), image, {.size = 0}), std::invalid_argument);
+  CHECK_THROWS_AS(paint_atlas(ball(), image, {.padding = 255}), std::invalid_argument);
+  CHECK_THROWS_AS(read_equirectangular("no/such.png"), ImageError);
+}
