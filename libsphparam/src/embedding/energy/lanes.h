@@ -2,11 +2,11 @@
 
 #include <type_traits>
 
-#include "embedding/sweeps/image_point.h"
+#include "embedding/energy/image_point.h"
 
-// Vectors of W doubles, W chosen by the machine, for kernels that treat eight lanes a pack.
+// Vectors of W doubles, W chosen by the machine, for loops that treat eight lanes a pack.
 //
-// Kernels are templates over W, always inlined into one function for each instruction set. They
+// Such loops are templates over W, always inlined into one function for each instruction set. They
 // take a pack in 8/W parts; lanes do not know of each other, every operation is rounded once
 // (contraction is off) and their order is written down: all instruction sets give the same bits.
 
@@ -14,6 +14,10 @@
 #define SPHPARAM_INLINE inline SPHPARAM_INLINED
 
 namespace sphparam {
+
+/// Vertices or triangles that are treated together, whatever the machine: the result has the same
+/// bits everywhere.
+inline constexpr int pack_width = 8;
 
 /// The compiler's vectors; the attribute takes no template parameter.
 template <int W>
@@ -83,6 +87,10 @@ struct Lanes {
     return a;
   }
 };
+
+/// For templates that take single numbers too.
+SPHPARAM_INLINE double root(double a) { return __builtin_sqrt(a); }
+SPHPARAM_INLINE double select(bool m, double a, double b) { return m ? a : b; }
 
 template <int W>
 SPHPARAM_INLINE Lanes<W> load(const double* values) {

@@ -7,8 +7,7 @@
 
 namespace sphparam {
 
-RestTriangles with_density(const Topology& topology, RestTriangles source,
-                             const VectorX& density) {
+RestTriangles with_density(const Topology& topology, RestTriangles source, const VectorX& density) {
   if (density.size() != topology.vertex_count() || !density.allFinite() ||
       !(density.array() > 0).all()) {
     throw std::invalid_argument("with_density: not one positive finite density a vertex");

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "embedding/sweeps/image_point.h"
-#include "embedding/sweeps/ring_packs.h"
+#include "embedding/energy/image_point.h"
+#include "embedding/energy/ring_slot.h"
 #include "embedding/energy/triangle_packs.h"
 #include "sphparam/embedding/distortion_energy.h"
 #include "sphparam/mesh/topology.h"
@@ -49,7 +49,7 @@ class TriangleBlocks {
   double energy(const std::vector<ImagePoint>& image, const DistortionEnergy& energy,
                 int threads) const;
 
-  /// The source triangles of a row of entries first … last − 1, each seen from the row's vertex (as
+  /// The rest triangles of a row of entries first … last − 1, each seen from the row's vertex (as
   /// `rotated` turns them).
   void measure_ring(int row, int first, int last, int lane, RingSlot* slots) const;
 

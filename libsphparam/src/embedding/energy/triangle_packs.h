@@ -2,7 +2,8 @@
 
 #include <array>
 
-#include "embedding/sweeps/pack_kernel.h"
+#include "embedding/energy/image_point.h"
+#include "embedding/energy/lanes.h"
 #include "sphparam/embedding/distortion_energy.h"
 
 namespace sphparam {

@@ -8,6 +8,7 @@
 
 #include "embedding/frame/mobius_recentring.h"
 #include "embedding/newton/freed_memory.h"
+#include "embedding/sweeps/lane_sweep.h"
 #include "sphparam/parallel.h"
 
 // Assembly goes block by block of vertices: the terms of all triangles that touch the block are
@@ -120,7 +121,7 @@ void GlobalNewton::gather_row(int row, const TriangleTerms* terms,
   for (size_t i = 0; i < 2; ++i) store(-unit * g[i], downhill_[2 * at(row) + i]);
 }
 
-/// False: numbers of a limb are beyond floats.
+/// False: numbers of a protrusion are beyond floats.
 bool GlobalNewton::assemble(const DistortionEnergy& energy) {
   hessian_.off.resize(hessian_.column.size());
   hessian_.diagonal.resize(image_.size());

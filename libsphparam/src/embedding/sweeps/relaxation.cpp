@@ -4,30 +4,28 @@
 #include <atomic>
 #include <limits>
 
-#include "embedding/energy/energy_domain.h"
-#include "free_vertices.h"
 #include "elementary.h"
+#include "embedding/energy/energy_domain.h"
+#include "embedding/energy/orientation_guard.h"
+#include "free_vertices.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/orientation.h"
 
 // For the ring triangle (x, p, q) let a = p − x, b = q − x, u = b − t a (t, l, h: foot, base and
-// height of the source triangle seen from x) and S = det(x, a, b)/2. Then
+// height of the rest triangle seen from x) and S = det(x, a, b)/2. Then
 //   d = ½(|a|²/l² + |u|²/h²),  ∇d = −a/l² − (1 − t)u/h²,  ∇²d = 1/l² + (1 − t)²/h²  (times I),
 //   s = S/A,                   ∇s = (p × q)/2A,            ∇²s = 0,
 // and on the sphere ∇² loses the normal slope ∇f·x. Differences are rotated into the tangent frame
-// before they are multiplied: the small triangles of a long limb keep their relative precision.
+// before they are multiplied: the small triangles of a long protrusion keep their relative
+// precision.
 //
-// Guard. Let ε = 2⁻⁵³. Each difference carries one rounding, the products and sums of the
-// determinant five (orientation.cpp): the computed det(x, a, b) is off by at most 7ε + O(ε²) times
-// its permanent, and the permanent is at most √2 |x||a||b| ≤ (|a|² + |b|²)/√2 by Cauchy–Schwarz:
-// less than 6e-16 (|a|² + |b|²) altogether. `margin` is 16 times that; `tiny` keeps underflow
-// (at most a few 2⁻¹⁰⁷⁴) out of it. What the guard cannot decide the exact predicate does.
+// Where the guard (energy/orientation_guard.h; turned into the frame, a and b carry three roundings
+// more, which its margin covers) cannot tell whether a triangle is positive, the exact predicate
+// can.
 
 namespace sphparam {
 namespace {
 
-constexpr double margin = 1e-14;
-constexpr double tiny = 1e-280;
 constexpr double least_gain = 1e-12;      // of the ring's energy: above the rounding of the sum
 constexpr double least_curvature = 1e-3;  // smaller eigenvalue of a 2×2 Hessian, of the larger
 constexpr double longest_step = 0.5;      // radians
@@ -116,7 +114,7 @@ class Ring {
       const Vector3 b = difference(following, x);
       const double s2 = x.dot(a.cross(b));  // 2S
       const double aa = a.squaredNorm(), bb = b.squaredNorm();
-      if (!(s2 > 2 * margin * (aa + bb) + tiny) && !certain(*slot, *following, x, s2)) {
+      if (!certainly_positive(s2 / 2, aa + bb) && !certain(*slot, *following, x, s2)) {
         return std::numeric_limits<double>::infinity();
       }
       const double i2a = slot->inverse_base * slot->inverse_height;  // 1/2A
@@ -150,7 +148,7 @@ class Ring {
       const Vector3 b = in_frame(following);
       const double s2 = a.x() * b.y() - a.y() * b.x();  // 2S
       const double aa = a.squaredNorm(), bb = b.squaredNorm();
-      if (!(s2 > 2 * margin * (aa + bb) + tiny) && !certain(*slot, *following, x, s2)) {
+      if (!certainly_positive(s2 / 2, aa + bb) && !certain(*slot, *following, x, s2)) {
         model.energy = std::numeric_limits<double>::infinity();
         return model;
       }
@@ -188,7 +186,8 @@ class Ring {
   }
 
   bool certain(const Slot& p, const Slot& q, const Vector3& x, double s2) const {
-    return s2 > tiny && orientation(x, points_.row(p.neighbour), points_.row(q.neighbour)) > 0;
+    return s2 / 2 > guard_least &&
+           orientation(x, points_.row(p.neighbour), points_.row(q.neighbour)) > 0;
   }
 
   const Slot* first_;

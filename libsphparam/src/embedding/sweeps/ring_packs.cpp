@@ -11,13 +11,6 @@
 #include "embedding/energy/lanes.h"
 #include "sphparam/parallel.h"
 
-// The energy of one triangle, seen from its corner x. With source edges a, b from x (capital: the
-// image edges A = p − x, B = q − x), t = a·b/|a|², area ½|a × b| = F:
-//   the squared Frobenius norm of the linear map is |A|²/|a|² + |B − tA|² |a|²/4F²,
-//   so   F² d = α|A|² + β|B − tA|²   with α = F²/2|a|², β = |a|²/8,
-// a sum of squares that no rounding makes negative, and S = F s = ½ det(x, A, B). Four numbers a
-// corner, no division when it is evaluated.
-
 namespace sphparam {
 namespace {
 
@@ -124,7 +117,7 @@ void fill_neighbours(const Rings& rings, const RingPack& pack, RingSlot* slots) 
   }
 }
 
-/// Measures the source triangles of a pack's vertices, W lanes at a time.
+/// Measures the rest triangles of a pack's vertices, W lanes at a time.
 template <int W>
 SPHPARAM_INLINE void measure_part(const HierarchyLevel& level, double area_floor,
                                   const RingPack& pack, int first, RingSlot* slots) {

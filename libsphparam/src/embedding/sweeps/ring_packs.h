@@ -5,22 +5,10 @@
 #include <memory>
 #include <vector>
 
-#include "sphparam/embedding/distortion_energy.h"
+#include "embedding/energy/ring_slot.h"
 #include "mesh/mesh_hierarchy.h"
 
 namespace sphparam {
-
-/// Vertices that move together, whatever the machine: the result has the same bits everywhere.
-inline constexpr int pack_width = 8;
-
-/// One triangle of the ring of each of a pack's vertices: the neighbour that begins it and what
-/// the energy needs of the source triangle (v, neighbour, next neighbour). See ring_packs.cpp.
-struct alignas(32) RingSlot {
-  Vertex neighbour[pack_width];
-  float alpha[pack_width];  // A² / 2|a|²
-  float beta[pack_width];   // |a|² / 8; zero marks a slot beyond the vertex's valence
-  float shear[pack_width];  // a·b / |a|²
-};
 
 /// Up to eight vertices of one colour (no two share an edge) and of similar valence.
 struct RingPack {
@@ -51,7 +39,7 @@ RingPacks pack_rings(const HierarchyLevel& level, double area_floor, int threads
                      const std::vector<Vertex>& pinned = {}, RingPacks used = {});
 
 /// The same for any rings (as in HierarchyLevel). `measure(v, lane, slots)` fills in the numbers of
-/// v's source triangles, slot by slot, in that lane; called by several threads at once.
+/// v's rest triangles, slot by slot, in that lane; called by several threads at once.
 RingPacks pack_rings(const std::vector<int>& start, const std::vector<Vertex>& ring,
                      const std::function<void(Vertex v, int lane, RingSlot* slots)>& measure,
                      int threads, const std::vector<Vertex>& pinned);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "embedding/sweeps/image_point.h"
+#include "embedding/energy/image_point.h"
 #include "embedding/sweeps/ring_packs.h"
 #include "sphparam/embedding/distortion_energy.h"
 
