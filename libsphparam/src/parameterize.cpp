@@ -4,17 +4,17 @@
 #include <string>
 #include <utility>
 
+#include "curvilinear/curvilinear_map.h"
+#include "curvilinear/paper_map.h"
 #include "embedding/newton/freed_memory.h"
+#include "embedding/sweeps/relaxation.h"
+#include "mesh/rings.h"
 #include "pipeline/balanced_embedding.h"
 #include "pipeline/frame.h"
 #include "pipeline/map_in_progress.h"
 #include "pipeline/repair_ladder.h"
 #include "pipeline/required_options.h"
-#include "curvilinear/paper_map.h"
-#include "curvilinear/curvilinear_map.h"
-#include "embedding/sweeps/relaxation.h"
 #include "sphparam/mesh/mesh_defects.h"
-#include "mesh/rings.h"
 
 // The table of contents. Three methods, each a straight line of stages:
 //   paper        poles → date line, cut, harmonic, quasi-harmonic, lift, smoothing
@@ -77,20 +77,20 @@ void map_paper(MapInProgress& work) {
 void map_curvilinear(MapInProgress& work) {
   const std::optional<Poles> poles = find_poles(work);
   if (!poles) return work.warn("no usable pair of poles");
-  SoundMap sound;
+  CurvilinearMap found;
   try {
-    sound = map_curvilinear(work.mesh, work.topology, *poles, {.threads = work.options.threads},
-                         work.options.progress);
-  } catch (const SolveError& error) {  // no area anywhere, or limbs where doubles underflow
+    found = map_curvilinear(work.mesh, work.topology, *poles, {.threads = work.options.threads},
+                            work.options.progress);
+  } catch (const SolveError& error) {  // no area anywhere, or protrusions where doubles underflow
     return work.warn(error.what());
   }
   work.result.poles = poles;
-  work.result.date_line = std::move(sound.date_line);
-  if (sound.clamped_weights > 0) {
-    work.warn(std::to_string(sound.clamped_weights) +
+  work.result.date_line = std::move(found.date_line);
+  if (found.clamped_weights > 0) {
+    work.warn(std::to_string(found.clamped_weights) +
               " weights of degenerate triangles were clamped");
   }
-  work.record("curvilinear map", sound.map, sound.planar_folds);
+  work.record("curvilinear map", found.map, found.planar_folds);
   const RelaxationOptions relaxation{
       .energy = work.options.energy,
       .sweeps = date_line_sweeps,
@@ -98,7 +98,7 @@ void map_curvilinear(MapInProgress& work) {
       .pinned = {poles->north, poles->south},
       .threads = work.options.threads,
       .progress = work.options.progress};
-  SphereMap relaxed = relax(work.topology, work.source(), sound.map, relaxation).map;
+  SphereMap relaxed = relax(work.topology, work.source(), found.map, relaxation).map;
   work.record("relaxation", relaxed);
   work.accept("relaxation", std::move(relaxed));
 }

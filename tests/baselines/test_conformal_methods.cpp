@@ -37,13 +37,13 @@ double cross_ratio(const Points& x, Vertex a, Vertex b, Vertex c, Vertex d) {
 }
 
 using Method = BaselineResult (*)(const TriangleMesh&, const Topology&);
-const Method kStereographic = [](const TriangleMesh& mesh, const Topology& topology) {
+const Method by_stereographic = [](const TriangleMesh& mesh, const Topology& topology) {
   return map_stereographic(mesh, topology);
 };
-const Method kConformal = [](const TriangleMesh& mesh, const Topology& topology) {
+const Method by_conformal = [](const TriangleMesh& mesh, const Topology& topology) {
   return map_conformal(mesh, topology, {.least_gain = 1e-10});
 };
-const Method kFlow = [](const TriangleMesh& mesh, const Topology& topology) {
+const Method by_flow = [](const TriangleMesh& mesh, const Topology& topology) {
   return map_flow(mesh, topology, {.roundness = 1e-4});
 };
 
@@ -51,7 +51,7 @@ const Method kFlow = [](const TriangleMesh& mesh, const Topology& topology) {
 
 TEST_CASE(
     "conformal methods: of a smooth shape angles come nearer to the source's as it is refined") {
-  for (const Method method : {kStereographic, kConformal, kFlow}) {
+  for (const Method method : {by_stereographic, by_conformal, by_flow}) {
     double before = 1;
     for (const int level : {2, 3, 4}) {
       const TriangleMesh mesh = pear(level);
@@ -69,7 +69,7 @@ TEST_CASE(
 TEST_CASE("stereographic, flow and conformal: the map of a sphere is a Möbius transformation") {
   const TriangleMesh mesh = icosphere(4);
   const Topology topology(mesh);
-  for (const Method method : {kStereographic, kConformal, kFlow}) {
+  for (const Method method : {by_stereographic, by_conformal, by_flow}) {
     const BaselineResult result = method(mesh, topology);
     REQUIRE(result.map);
     for (Vertex v = 100; v + 900 < mesh.vertex_count(); v += 101) {
@@ -93,7 +93,7 @@ TEST_CASE("stereographic: half of the vertices lie on each hemisphere") {
 TEST_CASE("conformal and flow: the centre of mass is zero") {
   const TriangleMesh mesh = pear(3);
   const Eigen::VectorXd mass = vertex_masses(mesh);
-  for (const Method method : {kConformal, kFlow}) {
+  for (const Method method : {by_conformal, by_flow}) {
     const BaselineResult result = method(mesh, Topology(mesh));
     CHECK((result.map->points.transpose() * mass).norm() < 1e-9);
   }

@@ -21,12 +21,11 @@ static_assert(!solver_takes<Topology, CutMesh&>);
 static_assert(!solver_takes<Topology&, CutMesh>);
 static_assert(!solver_takes<Topology, CutMesh>);
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kEpsilon = 0.02;
+constexpr double pi = std::numbers::pi;
+constexpr double epsilon = 0.02;
 
 CurvilinearMap periodic_map(const CutSphere& s, int threads = 1) {
-  return harmonic_map(s.mesh, s.topology, s.cut,
-                      cylinder_boundary(s.mesh, s.cut, kEpsilon, kEpsilon),
+  return harmonic_map(s.mesh, s.topology, s.cut, cylinder_boundary(s.mesh, s.cut, epsilon, epsilon),
                       WeightKind::SymmetricMeanValue, threads);
 }
 
@@ -47,15 +46,14 @@ double theta_energy(const CutSphere& s, const std::vector<double>& weights,
 
 TEST_CASE("harmonic: the paper's rectangle is filled, its sides are where they belong") {
   const CutSphere s(icosphere(3));
-  const CurvilinearMap map =
-      harmonic_map(s.mesh, s.topology, s.cut, rectangle_boundary(s.mesh, s.cut, kEpsilon),
-                   WeightKind::MeanValue);
+  const CurvilinearMap map = harmonic_map(
+      s.mesh, s.topology, s.cut, rectangle_boundary(s.mesh, s.cut, epsilon), WeightKind::MeanValue);
   for (Vertex v = 0; v < s.topology.vertex_count(); ++v) {
     if (s.cut.is_pole(v)) continue;
     CHECK(map.theta[v] >= 0);
-    CHECK(map.theta[v] < 2 * kPi);
-    CHECK(map.phi[v] >= kEpsilon);
-    CHECK(map.phi[v] <= kPi - kEpsilon);
+    CHECK(map.theta[v] < 2 * pi);
+    CHECK(map.phi[v] >= epsilon);
+    CHECK(map.phi[v] <= pi - epsilon);
   }
   const std::vector<Vertex>& path = s.cut.date_line().path;
   double whole = 0, here = 0;
@@ -65,22 +63,22 @@ TEST_CASE("harmonic: the paper's rectangle is filled, its sides are where they b
   for (size_t i = 1; i + 1 < path.size(); ++i) {
     if (i > 1) here += (s.mesh.position(path[i]) - s.mesh.position(path[i - 1])).norm();
     CHECK(map.theta[path[i]] == 0);
-    CHECK(map.phi[path[i]] == Approx(kEpsilon + (kPi - 2 * kEpsilon) * here / whole));
+    CHECK(map.phi[path[i]] == Approx(epsilon + (pi - 2 * epsilon) * here / whole));
   }
   for (const auto* link : {&s.cut.north_link(), &s.cut.south_link()}) {
     for (size_t i = 1; i < link->size(); ++i) {
       CHECK(map.theta[(*link)[i]] > map.theta[(*link)[i - 1]]);
     }
   }
-  CHECK(map.phi[s.cut.north_link()[1]] == kEpsilon);
-  CHECK(map.phi[s.cut.south_link()[1]] == kPi - kEpsilon);
+  CHECK(map.phi[s.cut.north_link()[1]] == epsilon);
+  CHECK(map.phi[s.cut.south_link()[1]] == pi - epsilon);
 }
 
 TEST_CASE("harmonic: the rectangle is one-to-one for mean values on an induced date line") {
   for (const TriangleMesh& mesh : various_spheres()) {
     const CutSphere s(mesh);
     const CurvilinearMap map =
-        harmonic_map(s.mesh, s.topology, s.cut, rectangle_boundary(s.mesh, s.cut, kEpsilon),
+        harmonic_map(s.mesh, s.topology, s.cut, rectangle_boundary(s.mesh, s.cut, epsilon),
                      WeightKind::MeanValue);
     CHECK(planar_folds(s.topology, s.cut, map) == 0);
   }
@@ -93,8 +91,8 @@ TEST_CASE("harmonic: the periodic map is one-to-one and keeps between the rims")
     CHECK(planar_folds(s.topology, s.cut, map) == 0);
     for (Vertex v = 0; v < s.topology.vertex_count(); ++v) {
       if (s.cut.is_pole(v)) continue;
-      CHECK(map.phi[v] >= kEpsilon);
-      CHECK(map.phi[v] <= kPi - kEpsilon);
+      CHECK(map.phi[v] >= epsilon);
+      CHECK(map.phi[v] <= pi - epsilon);
     }
   }
 }
@@ -106,12 +104,12 @@ TEST_CASE("harmonic: on a globe theta grows by equal steps from meridian to meri
   const CutMesh cut(topology,
                     induced_date_line(topology, shortest_date_line(mesh, topology, poles)));
   const CurvilinearMap map =
-      harmonic_map(mesh, topology, cut, cylinder_boundary(mesh, cut, kEpsilon, kEpsilon),
+      harmonic_map(mesh, topology, cut, cylinder_boundary(mesh, cut, epsilon, epsilon),
                    WeightKind::SymmetricMeanValue);
   for (Halfedge h = 0; h < topology.halfedge_count(); ++h) {
     const Vertex i = topology.origin(h), j = topology.target(h);
     if (cut.is_pole(i) || cut.is_pole(j) || mesh.positions(i, 2) != mesh.positions(j, 2)) continue;
-    CHECK(std::abs(map.theta[j] - map.theta[i] + cut.jump(h)) == Approx(2 * kPi / 16));
+    CHECK(std::abs(map.theta[j] - map.theta[i] + cut.jump(h)) == Approx(2 * pi / 16));
     CHECK(map.phi[i] == Approx(map.phi[j]));
   }
 }
@@ -122,7 +120,7 @@ TEST_CASE("harmonic: the twist is the one of least energy") {
       EdgeWeights(s.mesh, s.topology, WeightKind::SymmetricMeanValue).with(s.topology);
   const CurvilinearMap map = periodic_map(s);
   const double least = theta_energy(s, weights, map.theta);
-  Eigen::VectorXd eta = (map.phi.array() - kEpsilon) / (kPi - 2 * kEpsilon);
+  Eigen::VectorXd eta = (map.phi.array() - epsilon) / (pi - 2 * epsilon);
   for (const double c : {-0.1, -1e-3, 1e-3, 0.1}) {
     CHECK(theta_energy(s, weights, map.theta + c * eta) > least);
   }
@@ -145,14 +143,14 @@ TEST_CASE("harmonic: rim gaps of the cylinder stay below half a turn and above z
   const CutMesh cut(
       topology, induced_date_line(topology, shortest_date_line(mesh, topology,
                                                                {0, topology.vertex_count() - 1})));
-  const ChartBoundary boundary = cylinder_boundary(mesh, cut, kEpsilon, kEpsilon);
+  const ChartBoundary boundary = cylinder_boundary(mesh, cut, epsilon, epsilon);
   for (const auto* link : {&cut.north_link(), &cut.south_link()}) {
     for (size_t i = 0; i < link->size(); ++i) {
       const bool last = i + 1 == link->size();
-      const double gap = boundary.values.theta[(*link)[last ? 0 : i + 1]] + (last ? 2 * kPi : 0) -
+      const double gap = boundary.values.theta[(*link)[last ? 0 : i + 1]] + (last ? 2 * pi : 0) -
                          boundary.values.theta[(*link)[i]];
       CHECK(gap > 0);
-      CHECK(gap < 0.9 * kPi + 1e-12);
+      CHECK(gap < 0.9 * pi + 1e-12);
     }
   }
 }
@@ -162,9 +160,9 @@ TEST_CASE("harmonic: a planted fold is counted, and only it") {
   CurvilinearMap map = periodic_map(s);
   // A vertex across the opposite edge of one of its faces turns that face, not its neighbours.
   const Vertex v = s.cut.date_line().path[s.cut.date_line().path.size() / 2];
-  map.theta[v] += 2 * kPi;
+  map.theta[v] += 2 * pi;
   CHECK(planar_folds(s.topology, s.cut, map) > 0);
-  map.theta[v] -= 2 * kPi;
+  map.theta[v] -= 2 * pi;
   CHECK(planar_folds(s.topology, s.cut, map) == 0);
   // Three corners on a line: one face, exactly flat.
   const Face f = Topology::face(s.topology.outgoing(v));

@@ -8,7 +8,8 @@
 using namespace sphparam;
 using namespace sphparam::tests;
 
-TEST_CASE("aggregate: every row but the pinned ones is in one aggregate, together with a neighbour") {
+TEST_CASE(
+    "aggregate: every row but the pinned ones is in one aggregate, together with a neighbour") {
   Network network(icosphere(4));
   BlockMatrix<2>& a = network.matrix;
   std::vector<char> pinned(network.points.size(), 0);

@@ -51,7 +51,7 @@ struct Sample {
   }
 };
 
-/// A random source triangle and a random, positive image of moderate shape.
+/// A random rest triangle and a random, positive image of moderate shape.
 Sample random_sample(std::mt19937& random) {
   for (;;) {
     Sample sample;
@@ -239,7 +239,7 @@ TEST_CASE(
   CHECK(distortion_energy(topology, measure_source(mesh), map, {}) == Approx(energy).epsilon(1e-9));
 }
 
-TEST_CASE("distortion_energy: degenerate source triangles have finite constants and a floor") {
+TEST_CASE("distortion_energy: degenerate rest triangles have finite constants and a floor") {
   const Vector3 o(0, 0, 0), x(1, 0, 0), y(0, 1, 0);
   const std::vector<std::array<Vector3, 3>> shapes{{o, o, o},
                                                    {o, o, x},

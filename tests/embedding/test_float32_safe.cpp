@@ -22,16 +22,16 @@ TEST_CASE("What rounding folds though nudged is mapped anew, certified in float3
   const SphereMap map = parameterize(mesh).map;
   REQUIRE(certify(topology, map).bijective());
   REQUIRE_FALSE(round_to_float(topology, map).certificate.bijective());
-  const RoomyRounding roomy = round_with_room(mesh, topology, map);
-  CHECK(certify(topology, roomy.rounding.map).bijective());
-  CHECK(is_float(roomy.rounding.map));
-  CHECK(roomy.least_area > 0);
+  const Float32SafeRounding safe = round_with_room(mesh, topology, map);
+  CHECK(certify(topology, safe.rounding.map).bijective());
+  CHECK(is_float(safe.rounding.map));
+  CHECK(safe.least_area > 0);
   // Turned as the map was.
-  const Eigen::Matrix3d rest = best_rotation(roomy.rounding.map.points, map.points);
+  const Eigen::Matrix3d rest = best_rotation(safe.rounding.map.points, map.points);
   CHECK((rest - Eigen::Matrix3d::Identity()).norm() < 1e-4);
 }
 
-TEST_CASE("Room is made the same for any number of threads") {
+TEST_CASE("float32_safe: the same bytes for any number of threads") {
   const TriangleMesh mesh = gathered_sphere();
   const Topology topology(mesh);
   const SphereMap map = parameterize(mesh).map;
@@ -42,16 +42,16 @@ TEST_CASE("Room is made the same for any number of threads") {
 TEST_CASE("A map that floats can hold is rounded and nothing more") {
   const TriangleMesh sphere = icosphere(3);
   const Topology topology(sphere);
-  const RoomyRounding roomy = round_with_room(sphere, topology, {sphere.positions});
-  CHECK(roomy.least_area == 0);
-  CHECK(roomy.rounding.map.points == round_to_float(topology, {sphere.positions}).map.points);
+  const Float32SafeRounding safe = round_with_room(sphere, topology, {sphere.positions});
+  CHECK(safe.least_area == 0);
+  CHECK(safe.rounding.map.points == round_to_float(topology, {sphere.positions}).map.points);
 }
 
 TEST_CASE("A folded map is rounded and stays folded") {
   const TriangleMesh sphere = icosphere(2);
   SphereMap folded{sphere.positions};
   folded.points.row(0) = -folded.points.row(0).eval();
-  const RoomyRounding roomy = round_with_room(sphere, Topology(sphere), folded);
-  CHECK(roomy.least_area == 0);
-  CHECK_FALSE(roomy.rounding.certificate.bijective());
+  const Float32SafeRounding safe = round_with_room(sphere, Topology(sphere), folded);
+  CHECK(safe.least_area == 0);
+  CHECK_FALSE(safe.rounding.certificate.bijective());
 }

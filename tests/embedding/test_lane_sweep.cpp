@@ -4,10 +4,10 @@
 #include <random>
 #include <vector>
 
-#include "embedding/energy/lanes.h"
-#include "embedding/sweeps/pack_kernel.h"
-#include "embedding/energy/triangle_packs.h"
 #include "embedding/constructions/progressive.h"
+#include "embedding/energy/lanes.h"
+#include "embedding/energy/triangle_packs.h"
+#include "embedding/sweeps/lane_sweep.h"
 #include "sphparam/sphere/orientation.h"
 #include "support/test_meshes.h"
 
@@ -181,7 +181,7 @@ TEST_CASE("lanes: the same bits from every instruction set, sweeps and Newton st
   }
 }
 
-TEST_CASE("packs: thin and missing source triangles count as equilateral ones of the least area") {
+TEST_CASE("packs: thin and missing rest triangles count as equilateral ones of the least area") {
   TriangleMesh mesh = icosphere(1);
   const Vertex neighbour = Topology(mesh).target(Topology(mesh).outgoing(0));
   mesh.positions.row(0) = mesh.positions.row(neighbour);  // two triangles without area

@@ -94,7 +94,8 @@ TEST_CASE("aggregate modes: a dilation draws every point towards its aggregate's
   }
 }
 
-TEST_CASE("aggregate modes: a parent's dilation draws its children's points towards its own centre") {
+TEST_CASE(
+    "aggregate modes: a parent's dilation draws its children's points towards its own centre") {
   const TwoLevels levels;
   const auto p = site_prolongation(levels.sites, levels.parents, levels.parent_sites);
   Unknowns dilation(near_nullspace * levels.parent_sites.size(), 0.0F);

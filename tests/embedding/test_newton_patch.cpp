@@ -1,9 +1,9 @@
 #include <catch2/catch.hpp>
 
-#include "folded_maps.h"
-#include "support/reference_newton.h"
 #include "embedding/sweeps/relaxation.h"
+#include "folded_maps.h"
 #include "sphparam/sphere/certificate.h"
+#include "support/reference_newton.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "embedding/newton/newton_refinement.h"
 #include "embedding/constructions/progressive.h"
+#include "embedding/newton/newton_refinement.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -38,27 +38,30 @@ struct Draft {
   }
 
   /// Returns how many steps were made.
-  int finish(Quality quality, int finest) {
+  int refine(Quality quality, int finest) {
     int steps = 0;
     double done = 0;  // grows with every step; it is asked more often
     const auto count = [&](std::string_view, double fraction) {
       if (fraction > std::exchange(done, fraction)) ++steps;
       return true;
     };
-    Finish(finest, {.quality = quality, .progress = count}).improve(mesh, topology, {}, image);
+    NewtonRefinement(finest, {.quality = quality, .progress = count})
+        .improve(mesh, topology, {}, image);
     return steps;
   }
 };
 
 }  // namespace
 
-TEST_CASE("finish: ends where what is left is worth nothing, and of small meshes leaves less") {
+TEST_CASE(
+    "Newton refinement: ends where what is left is worth nothing, and of small meshes leaves "
+    "less") {
   for (const auto& [rings, around] : {std::pair{40, 8}, {30, 16}, {60, 16}}) {
     const Draft draft{tube(rings, around)};
-    Draft finished = draft, converged = draft;
-    const int steps = finished.finish(Quality::Normal, draft.size());
-    const int steps_to_the_end = converged.finish(Quality::Best, draft.size());
-    const double least = converged.energy(), left = finished.energy() / least - 1;
+    Draft refined = draft, converged = draft;
+    const int steps = refined.refine(Quality::Normal, draft.size());
+    const int steps_to_the_end = converged.refine(Quality::Best, draft.size());
+    const double least = converged.energy(), left = refined.energy() / least - 1;
     REQUIRE(draft.energy() > 1.05 * least);
     CHECK(left < 3e-3 * draft.size() / 5000);
     CHECK(steps > 2);
@@ -66,58 +69,59 @@ TEST_CASE("finish: ends where what is left is worth nothing, and of small meshes
 
     // As a coarse level of a larger mesh, whose own steps come later, it gets fewer.
     Draft coarse = draft;
-    CHECK(coarse.finish(Quality::Normal, 100 * draft.size()) < steps);
+    CHECK(coarse.refine(Quality::Normal, 100 * draft.size()) < steps);
     CHECK(coarse.energy() < draft.energy());
   }
 }
 
-TEST_CASE("finish: one step finds out that a ball needs none") {
+TEST_CASE("Newton refinement: one step finds out that a ball needs none") {
   Draft ball{icosphere(3)};
-  CHECK(ball.finish(Quality::Normal, ball.size()) == 1);
+  CHECK(ball.refine(Quality::Normal, ball.size()) == 1);
 }
 
-TEST_CASE("finish: levels are due at every fourfold size, large ones only after gains") {
-  Draft ball{icosphere(3)}, limb{tube(75, 8)};  // 642 and 602 vertices
+TEST_CASE("Newton refinement: levels are due at every fourfold size, large ones only after gains") {
+  Draft ball{icosphere(3)}, protrusion{tube(75, 8)};  // 642 and 602 vertices
   const auto after = [](Draft& level, Quality quality, int finest) {
-    Finish finish(finest, {.quality = quality});
-    finish.improve(level.mesh, level.topology, {}, level.image);
-    return finish;
+    NewtonRefinement refinement(finest, {.quality = quality});
+    refinement.improve(level.mesh, level.topology, {}, level.image);
+    return refinement;
   };
-  const Finish before(40'960, {});
+  const NewtonRefinement before(40'960, {});
   CHECK_FALSE(before.due(99));
   CHECK_FALSE(before.due(159));  // 40,960 / 4⁴ = 160
   CHECK(before.due(160));
-  CHECK_FALSE(Finish(40'960, {.quality = Quality::Draft}).due(40'960));
+  CHECK_FALSE(NewtonRefinement(40'960, {.quality = Quality::Draft}).due(40'960));
 
-  const Finish after_ball = after(ball, Quality::Normal, 40'960);
+  const NewtonRefinement after_ball = after(ball, Quality::Normal, 40'960);
   CHECK_FALSE(after_ball.due(ball.size()));  // it has had its steps: 2560 is next
   CHECK(after_ball.due(2560));               // cheap
   CHECK_FALSE(after_ball.due(2561));
   CHECK_FALSE(after_ball.due(40'960));
-  const Finish best = after(ball, Quality::Best, 40'960);
+  const NewtonRefinement best = after(ball, Quality::Best, 40'960);
   CHECK_FALSE(best.due(2559));
   CHECK(best.due(40'960));
-  const Finish after_limb = after(limb, Quality::Normal, 40'960);
+  const NewtonRefinement after_protrusion = after(protrusion, Quality::Normal, 40'960);
   CHECK(after_ball.sweeps_suffice());
   CHECK_FALSE(before.sweeps_suffice());  // it does not know
-  CHECK_FALSE(after_limb.sweeps_suffice());
-  CHECK_FALSE(after_limb.due(639));  // 640 is next
-  CHECK(after_limb.due(40'960));
+  CHECK_FALSE(after_protrusion.sweeps_suffice());
+  CHECK_FALSE(after_protrusion.due(639));  // 640 is next
+  CHECK(after_protrusion.due(40'960));
 }
 
-TEST_CASE("finish: can be cancelled in every step") {
-  Draft limb{tube(60, 16)};
+TEST_CASE("Newton refinement: can be cancelled in every step") {
+  Draft protrusion{tube(60, 16)};
   int told = 0;
   const auto cancel = [&](std::string_view stage, double) {
     CHECK(stage == "embedding");
     return ++told < 3;
   };
-  Finish finish(limb.size(), {.progress = cancel});
-  CHECK_THROWS_AS(finish.improve(limb.mesh, limb.topology, {}, limb.image), Cancelled);
+  NewtonRefinement refinement(protrusion.size(), {.progress = cancel});
+  CHECK_THROWS_AS(refinement.improve(protrusion.mesh, protrusion.topology, {}, protrusion.image),
+                  Cancelled);
   CHECK(told == 3);
 }
 
-TEST_CASE("finish: the progress of an embedding rises to one, at every step") {
+TEST_CASE("Newton refinement: the progress of an embedding rises to one, at every step") {
   const TriangleMesh mesh = tube(60, 16);
   const Topology topology(mesh);
   const auto reports = [&](Quality quality) {

@@ -2,12 +2,12 @@
 #include <cmath>
 #include <limits>
 
-#include "embedding/newton/global_newton.h"
-#include "support/reference_newton.h"
-#include "embedding/newton/optimise.h"
 #include "embedding/constructions/progressive.h"
+#include "embedding/newton/global_newton.h"
+#include "embedding/newton/optimise.h"
 #include "sphparam/sphere/certificate.h"
 #include "sphparam/sphere/distortion.h"
+#include "support/reference_newton.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -140,7 +140,7 @@ TEST_CASE("recentring: lowers the energy of a conformal map that is off centre")
   const TriangleMesh mesh = icosphere(4);
   const Topology topology(mesh);
   std::vector<ImagePoint> image;
-  const Vector3 a(0.5, 0.2, 0);  // a Möbius boost: conformal, but crowded at a
+  const Vector3 a(0.5, 0.2, 0);  // a Möbius transformation: conformal, but crowded at a
   for (Vertex v = 0; v < topology.vertex_count(); ++v) {
     const Vector3 x = mesh.position(v).normalized();
     image.push_back(image_point(((1 - a.squaredNorm()) * x + 2 * (1 + a.dot(x)) * a).normalized()));
@@ -154,7 +154,7 @@ TEST_CASE("recentring: lowers the energy of a conformal map that is off centre")
   CHECK(after - best < 0.05 * (before - best));
 }
 
-TEST_CASE("quality: each is at least as good as the one before, on a shape with long limbs") {
+TEST_CASE("quality: each is at least as good as the one before, on a shape with long protrusions") {
   const TriangleMesh mesh = tube(40, 12);
   const double draft = energy_of(mesh, embedded(mesh, Quality::Draft));
   const double normal = energy_of(mesh, embedded(mesh, Quality::Normal));

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "embedding/sweeps/kernel_placement.h"
 #include "embedding/constructions/progressive.h"
+#include "embedding/sweeps/kernel_placement.h"
 #include "embedding/sweeps/relaxation.h"
 #include "sphparam/sphere/certificate.h"
 #include "sphparam/sphere/orientation.h"
@@ -14,7 +14,7 @@
 using namespace sphparam;
 using namespace sphparam::tests;
 
-TEST_CASE("progressive: limbs, hubs and random connectivity are embedded without a fold") {
+TEST_CASE("progressive: protrusions, hubs and random connectivity are embedded without a fold") {
   const int which = GENERATE(0, 1, 2, 3, 4);
   const TriangleMesh mesh = which == 0   ? tetrahedron()
                             : which == 1 ? icosphere(4)
@@ -27,7 +27,7 @@ TEST_CASE("progressive: limbs, hubs and random connectivity are embedded without
   CHECK(certify(topology, *embedding.map).bijective());
 }
 
-TEST_CASE("progressive: limbs thousands of times longer than wide find room in the end") {
+TEST_CASE("progressive: protrusions thousands of times longer than wide find room in the end") {
   // At λ = 1 some of these run out of doubles; more weight on areas keeps the tips apart.
   for (const auto& [rings, around] : {std::pair{1000, 6}, {5000, 7}}) {
     const TriangleMesh mesh = tube(rings, around);

@@ -6,29 +6,29 @@
 #include <stdexcept>
 #include <string>
 
-#include "curvilinear/paper_map.h"
 #include "curvilinear/curvilinear_map.h"
+#include "curvilinear/paper_map.h"
 #include "curvilinear/tangential_smoothing.h"
-#include "embedding/frame/axis_choice.h"
 #include "embedding/constructions/float32_safe.h"
 #include "embedding/constructions/gnomonic.h"
 #include "embedding/constructions/grid_lift.h"
-#include "support/reference_newton.h"
-#include "embedding/newton/optimise.h"
-#include "embedding/frame/pole_placement.h"
 #include "embedding/constructions/progressive.h"
 #include "embedding/constructions/untangle.h"
-#include "sphparam/mesh/curvature.h"
-#include "sphparam/mesh/mesh_repair.h"
+#include "embedding/frame/axis_choice.h"
+#include "embedding/frame/pole_placement.h"
+#include "embedding/newton/optimise.h"
 #include "mesh/rings.h"
-#include "sphparam/parameterize.h"
 #include "sphparam/baselines/brechbuehler.h"
 #include "sphparam/baselines/conformal.h"
 #include "sphparam/baselines/curvature_flow.h"
 #include "sphparam/baselines/hemispheres.h"
 #include "sphparam/baselines/stereographic.h"
 #include "sphparam/baselines/tangential.h"
+#include "sphparam/mesh/curvature.h"
+#include "sphparam/mesh/mesh_repair.h"
+#include "sphparam/parameterize.h"
 #include "sphparam/sphere/spherical_harmonics.h"
+#include "support/reference_newton.h"
 #include "support/test_meshes.h"
 
 // What an option may be is said in its header; anything else ends with its name before any work.
@@ -250,8 +250,10 @@ TEST_CASE("options: the embedding's functions refuse what is outside of a domain
   check_energy<GridLiftOptions>(on_grid);
   Counts<GridLiftOptions>(on_grid).of("sweeps", &GridLiftOptions::sweeps, {-1});
 
-  const auto rounded = [&](const FloatRoomOptions& o) { round_with_room(mesh, topology, map, o); };
-  check_energy<FloatRoomOptions>(rounded);
+  const auto rounded = [&](const Float32SafeOptions& o) {
+    round_with_room(mesh, topology, map, o);
+  };
+  check_energy<Float32SafeOptions>(rounded);
 
   const auto pinned = [&](const LandmarkOptions& o) {
     place_landmarks(topology, source, map, {{0, up}}, o);
@@ -308,11 +310,12 @@ TEST_CASE("options: the paper's methods refuse what is outside of a domain, by n
   check_refused("weights", [&] { printed({.weights = static_cast<WeightKind>(3)}); });
   check_refused("poles.south", [&] { map_as_paper(mesh, topology, {0, beyond}, {}, never()); });
 
-  const auto sound = [&](const SoundOptions& o) {
+  const auto sound = [&](const CurvilinearOptions& o) {
     map_curvilinear(mesh, topology, poles, o, never());
   };
-  Numbers<SoundOptions>(sound).of("epsilon", &SoundOptions::epsilon, {no_number, -1, 1.6});
-  Counts<SoundOptions>(sound).of("iterations", &SoundOptions::iterations, {-1});
+  Numbers<CurvilinearOptions>(sound).of("epsilon", &CurvilinearOptions::epsilon,
+                                        {no_number, -1, 1.6});
+  Counts<CurvilinearOptions>(sound).of("iterations", &CurvilinearOptions::iterations, {-1});
   check_refused("poles.north", [&] { map_curvilinear(mesh, topology, Poles{-1, 0}, {}, never()); });
 
   const DateLine line = shortest_date_line(mesh, topology, poles);

@@ -11,8 +11,8 @@ using Catch::Detail::Approx;
 
 namespace {
 
-constexpr WeightKind kKinds[] = {WeightKind::Cotangent, WeightKind::MeanValue,
-                                 WeightKind::SymmetricMeanValue};
+constexpr WeightKind all_kinds[] = {WeightKind::Cotangent, WeightKind::MeanValue,
+                                    WeightKind::SymmetricMeanValue};
 
 TriangleMesh lumpy_sphere() {
   TriangleMesh mesh = icosphere(3);
@@ -96,7 +96,7 @@ TEST_CASE(
   const TriangleMesh mesh = lumpy_sphere();
   const Topology topology(mesh);
   const std::vector<double> ones(static_cast<size_t>(topology.face_count()), 1);
-  for (const WeightKind kind : kKinds) {
+  for (const WeightKind kind : all_kinds) {
     const EdgeWeights weights(mesh, topology, kind);
     const std::vector<double> plain = weights.with(topology);
     CHECK(weights.with(topology, ones) == plain);
@@ -120,7 +120,7 @@ TEST_CASE("edge_weights: degenerate triangles leave mean values positive and all
   for (int k = 1; k < 3; ++k) {
     mesh.positions.row(topology.vertex(400, k)) = mesh.positions.row(topology.vertex(400, 0));
   }
-  for (const WeightKind kind : kKinds) {
+  for (const WeightKind kind : all_kinds) {
     const EdgeWeights weights(mesh, topology, kind);
     const std::vector<double> w = weights.with(topology);
     CHECK(all_finite(w));
@@ -134,7 +134,7 @@ TEST_CASE("edge_weights: degenerate triangles leave mean values positive and all
 TEST_CASE("edge_weights: the same bytes for 1, 2 and 4 threads") {
   const TriangleMesh mesh = icosphere(5);
   const Topology topology(mesh);
-  for (const WeightKind kind : kKinds) {
+  for (const WeightKind kind : all_kinds) {
     const auto one = EdgeWeights(mesh, topology, kind, 1).with(topology, {}, 1);
     CHECK(one == EdgeWeights(mesh, topology, kind, 2).with(topology, {}, 2));
     CHECK(one == EdgeWeights(mesh, topology, kind, 4).with(topology, {}, 4));

@@ -50,7 +50,8 @@ TEST_CASE("parameterize: every method that repairs ends certified, and says whic
   CHECK(certify(Topology(mesh), result.map).bijective());
 }
 
-TEST_CASE("parameterize: limbs that collapse every linear method are certified by the fallback") {
+TEST_CASE(
+    "parameterize: protrusions that collapse every linear method are certified by the fallback") {
   const TriangleMesh mesh = tube(400, 4);
   const Parameterization result = parameterize(mesh, {.method = Method::Curvilinear});
   CHECK(result.certificate.bijective());
@@ -133,22 +134,22 @@ TEST_CASE("parameterize: where three pins fold a triangle no other pin is tried,
 }
 
 TEST_CASE("parameterize: the balance that was found is told, and what falls short of its name") {
-  const TriangleMesh limb = tube(12, 8);
-  CHECK_FALSE(parameterize(limb).balance);
-  const Parameterization even = parameterize(limb, {.balance = Balance::EqualArea});
+  const TriangleMesh protrusion = tube(12, 8);
+  CHECK_FALSE(parameterize(protrusion).balance);
+  const Parameterization even = parameterize(protrusion, {.balance = Balance::EqualArea});
   REQUIRE(even.balance);
   CHECK(even.balance->moved);
   CHECK(even.balance->lambda > 1);
-  const double error = summarise(measure_distortion(limb, even.map)).weighted_abs_log2_area;
+  const double error = summarise(measure_distortion(protrusion, even.map)).weighted_abs_log2_area;
   CHECK(even.balance->area_error == error);
   CHECK(error <= 0.1);
   CHECK(even.warnings.empty());
-  const Parameterization conformal = parameterize(limb, {.balance = Balance::Conformal});
+  const Parameterization conformal = parameterize(protrusion, {.balance = Balance::Conformal});
   REQUIRE(conformal.balance);
   CHECK(conformal.balance->lambda < 1);
   CHECK(conformal.warnings.empty());
 
-  // Four triangles about a limb cannot be as large as the sphere wants them.
+  // Four triangles about a protrusion cannot be as large as the sphere wants them.
   const TriangleMesh thin = tube(400, 4);
   const Parameterization uneven =
       parameterize(thin, {.automatic_poles = false, .balance = Balance::EqualArea});
@@ -225,7 +226,7 @@ TEST_CASE("parameterize: a cancelled run throws") {
 }
 
 TEST_CASE("parameterize: the callback is asked in every stage, by one call at a time, and obeyed") {
-  const TriangleMesh mesh = tube(40, 10);  // with limbs: Newton steps too
+  const TriangleMesh mesh = tube(40, 10);  // with protrusions: Newton steps too
   std::atomic<int> inside{0};
   bool ended = false;
   std::vector<std::string> stages;

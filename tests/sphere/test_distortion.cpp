@@ -15,7 +15,7 @@ using Catch::Detail::Approx;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double pi = std::numbers::pi;
 
 /// A lumpy ellipsoid and a twisted, uneven one-to-one map of it.
 struct Case {
@@ -47,7 +47,7 @@ double girard(const Vector3& a, const Vector3& b, const Vector3& c) {
   const auto corner = [](const Vector3& p, const Vector3& q, const Vector3& r) {
     return angle_between(p.cross(q), p.cross(r));
   };
-  return corner(a, b, c) + corner(b, c, a) + corner(c, a, b) - kPi;
+  return corner(a, b, c) + corner(b, c, a) + corner(c, a, b) - pi;
 }
 
 /// The two singular values of the linear map between triangles, from a frame and an SVD.
@@ -93,7 +93,7 @@ TEST_CASE("distortion: every figure agrees with a naive computation that shares 
     const Eigen::Matrix3d s = corners(c.mesh.positions, c.mesh.triangles, f);
     const Eigen::Matrix3d q = corners(c.map.points, c.mesh.triangles, f);
     const double share = area[static_cast<size_t>(f)] / total;
-    const double ratio = girard(q.col(0), q.col(1), q.col(2)) / (4 * kPi * share);
+    const double ratio = girard(q.col(0), q.col(1), q.col(2)) / (4 * pi * share);
     CHECK(d.source_area[f] == Approx(share).epsilon(1e-12));
     CHECK(d.area_ratio[f] == Approx(ratio).epsilon(1e-6));
     for (int k = 0; k < 3; ++k) {
@@ -103,7 +103,7 @@ TEST_CASE("distortion: every figure agrees with a naive computation that shares 
       CHECK(d.angle_ratio(f, k) == Approx(angle).epsilon(1e-9));
       ln_angle += std::abs(std::log(angle));
     }
-    const Eigen::Vector2d sigma = singular_values(s, q, std::sqrt(4 * kPi / total));
+    const Eigen::Vector2d sigma = singular_values(s, q, std::sqrt(4 * pi / total));
     CHECK(d.sigma_max[f] == Approx(sigma[0]).epsilon(1e-9));
     CHECK(d.sigma_min[f] == Approx(sigma[1]).epsilon(1e-9));
     ln_area += std::abs(std::log(ratio));
@@ -140,7 +140,7 @@ TEST_CASE("distortion: platonic solids on their own sphere have ratios 1 and no 
     // The chord triangles are similar to the source: σ² = k, the chord area over 4π; so 2k + 2/k.
     const Eigen::Matrix3d q = corners(map.points, mesh.triangles, 0);
     const double k = 0.5 * (q.col(1) - q.col(0)).cross(q.col(2) - q.col(0)).norm() *
-                     static_cast<double>(mesh.face_count()) / (4 * kPi);
+                     static_cast<double>(mesh.face_count()) / (4 * pi);
     CHECK(summarise(d).symmetric_dirichlet == Approx(2 * k + 2 / k).epsilon(1e-12));
     CHECK(summarise(d).quasi_conformal_max == Approx(1).epsilon(1e-7));
   }

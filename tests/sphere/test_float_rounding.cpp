@@ -13,11 +13,11 @@ namespace {
 /// The sphere with one cap, about a direction that favours no axis, shrunk by a factor.
 SphereMap with_small_cap(const TriangleMesh& sphere, double factor) {
   const Vector3 centre = Vector3(0.37, -0.61, 0.70).normalized();
-  constexpr double kCosine = 0.95;
+  constexpr double cosine = 0.95;
   Points rays = sphere.positions;
   for (Eigen::Index v = 0; v < rays.rows(); ++v) {
     const Vector3 x = rays.row(v);
-    if (x.dot(centre) > kCosine) rays.row(v) = centre + factor * (x - centre);
+    if (x.dot(centre) > cosine) rays.row(v) = centre + factor * (x - centre);
   }
   return normalised(std::move(rays));
 }

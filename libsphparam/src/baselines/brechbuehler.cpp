@@ -4,10 +4,10 @@
 #include <cmath>
 #include <utility>
 
-#include "option_domain.h"
 #include "baselines/equal_areas.h"
 #include "baselines/number_text.h"
 #include "baselines/outcome.h"
+#include "option_domain.h"
 #include "sphparam/sphere/spherical_coordinates.h"
 
 // (ϕ, θ) by two solves → sphere → for ρ = 1, 4, 16, … : damped Gauss–Newton steps. A step is taken
@@ -18,10 +18,10 @@
 namespace sphparam {
 namespace {
 
-constexpr double kFirstDamping = 1, kLeastDamping = 1e-6, kGreatestDamping = 1e8;
-constexpr double kDampingUp = 4, kDampingDown = 0.3;
-constexpr double kPenaltyGrowth = 4;
-constexpr double kLeastShare = 1e-3;  // of the mean face: smaller faces count as this large
+constexpr double first_damping = 1, least_damping = 1e-6, greatest_damping = 1e8;
+constexpr double damping_up = 4, damping_down = 0.3;
+constexpr double penalty_growth = 4;
+constexpr double least_share = 1e-3;  // of the mean face: smaller faces count as this large
 
 std::pair<Vertex, Vertex> extremes_of_z(const TriangleMesh& mesh) {
   std::pair<Vertex, Vertex> poles;
@@ -50,7 +50,7 @@ std::vector<double> area_shares(const TriangleMesh& mesh) {
     shares.push_back((mesh.position(t[1]) - p).cross(mesh.position(t[2]) - p).norm());
     total += shares.back();
   }
-  const double least = total > 0 ? kLeastShare * total / double(shares.size()) : 1;
+  const double least = total > 0 ? least_share * total / double(shares.size()) : 1;
   total = 0;
   for (double& share : shares) total += share = std::max(share, least);
   for (double& share : shares) share /= total;
@@ -77,7 +77,7 @@ class Optimiser {
     while (result_.steps < options_.max_steps) {
       report(progress, "equal areas", double(result_.steps) / options_.max_steps);
       const double gain = try_step();
-      if (damping_ > kGreatestDamping) {
+      if (damping_ > greatest_damping) {
         result_.end = BaselineEnd::Stalled;
         break;
       }
@@ -86,7 +86,7 @@ class Optimiser {
         result_.end = BaselineEnd::Converged;
         break;
       }
-      penalty_ = std::min(options_.greatest_penalty, kPenaltyGrowth * penalty_);
+      penalty_ = std::min(options_.greatest_penalty, penalty_growth * penalty_);
       merit_ = problem_.merit(result_.map, penalty_);
       std::fill(active_.begin(), active_.end(), 0);
     }
@@ -109,14 +109,14 @@ class Optimiser {
       active_[f] = 1;
     }
     if (!(merit < merit_) || violated > 0) {
-      if (activated == 0) damping_ *= kDampingUp;
+      if (activated == 0) damping_ *= damping_up;
       return -1;
     }
     const double gain = (merit_ - merit) / merit_;
     result_.map = std::move(next);
     negative_ = std::move(negative);
     merit_ = merit;
-    damping_ = std::max(kLeastDamping, kDampingDown * damping_);
+    damping_ = std::max(least_damping, damping_down * damping_);
     return gain;
   }
 
@@ -125,7 +125,7 @@ class Optimiser {
   Optimum result_;
   std::vector<char> negative_;  // per face: negative at the start, and ever since
   std::vector<char> active_;    // per face: held, as a step would have turned it negative
-  double penalty_ = 1, damping_ = kFirstDamping, merit_;
+  double penalty_ = 1, damping_ = first_damping, merit_;
 };
 
 const char* ending(BaselineEnd end) {
@@ -136,7 +136,7 @@ const char* ending(BaselineEnd end) {
 }  // namespace
 
 BaselineResult map_brechbuehler(const TriangleMesh& mesh, const Topology& topology,
-                             const BrechbuehlerOptions& options, const Progress& progress) {
+                                const BrechbuehlerOptions& options, const Progress& progress) {
   if (options.poles) {
     require_vertex("poles: north", options.poles->first, mesh.vertex_count());
     require_vertex("poles: south", options.poles->second, mesh.vertex_count());

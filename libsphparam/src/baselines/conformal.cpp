@@ -4,10 +4,10 @@
 #include <utility>
 #include <vector>
 
-#include "option_domain.h"
 #include "baselines/mobius_centring.h"
 #include "baselines/outcome.h"
 #include "baselines/rings.h"
+#include "option_domain.h"
 #include "sphparam/mesh/edge_weights.h"
 #include "sphparam/parallel.h"
 
@@ -18,9 +18,9 @@
 namespace sphparam {
 namespace {
 
-constexpr std::int64_t kGrain = 4096;
-constexpr double kLongestStep = 1, kShortestStep = 1e-6;  // δ; 1 is the plain mean of neighbours
-constexpr double kGrowth = 1.1;                           // of δ after a step that was good
+constexpr std::int64_t grain = 4096;
+constexpr double longest_step = 1, shortest_step = 1e-6;  // δ; 1 is the plain mean of neighbours
+constexpr double growth = 1.1;                            // of δ after a step that was good
 
 /// The Gauss map: unit normals, weighted by area; where there is none, any other direction.
 SphereMap gauss_map(const TriangleMesh& mesh) {
@@ -72,7 +72,7 @@ struct Descent {
 
   State step(const State& state, const std::vector<double>& totals, double delta) const {
     SphereMap next{Points(rings.vertex_count(), 3)};
-    parallel_for(rings.vertex_count(), kGrain, options.threads,
+    parallel_for(rings.vertex_count(), grain, options.threads,
                  [&](std::int64_t first, std::int64_t last) {
                    for (Vertex i = static_cast<Vertex>(first); i < last; ++i) {
                      const Vector3 x = state.map.point(i), pull = state.pulls.row(i);
@@ -100,19 +100,19 @@ DescentEnd descend(const Descent& descent, SphereMap& map, const char* stage,
   const ConformalOptions& options = descent.options;
   DescentEnd end;
   State state = descent.measured(std::move(map));
-  double delta = kLongestStep / 2;
+  double delta = longest_step / 2;
   while (end.iterations < options.max_iterations && !end.converged) {
     report(progress, stage, double(end.iterations) / options.max_iterations);
     ++end.iterations;
     State next = descent.step(state, totals, delta);
     if (!(next.energy < state.energy)) {
       delta /= 2;
-      end.converged = delta < kShortestStep;
+      end.converged = delta < shortest_step;
       continue;
     }
     end.converged = state.energy - next.energy < options.least_gain * state.energy;
     state = std::move(next);
-    delta = std::min(kLongestStep, kGrowth * delta);
+    delta = std::min(longest_step, growth * delta);
   }
   map = std::move(state.map);
   end.energy = state.energy;
@@ -122,7 +122,7 @@ DescentEnd descend(const Descent& descent, SphereMap& map, const char* stage,
 }  // namespace
 
 BaselineResult map_conformal(const TriangleMesh& mesh, const Topology& topology,
-                          const ConformalOptions& options, const Progress& progress) {
+                             const ConformalOptions& options, const Progress& progress) {
   require_at_least("max_iterations", options.max_iterations, 0);
   require_between("least_gain", options.least_gain, 0, 1);
   Outcome outcome;
@@ -143,7 +143,8 @@ BaselineResult map_conformal(const TriangleMesh& mesh, const Topology& topology,
   const bool converged = first.converged && last.converged;
   const std::string energy =
       "; harmonic energy " + std::to_string(last.energy) + " (that of a conformal map: 12.566371)";
-  return outcome.take(std::move(map), converged ? BaselineEnd::Converged : BaselineEnd::IterationLimit,
+  return outcome.take(std::move(map),
+                      converged ? BaselineEnd::Converged : BaselineEnd::IterationLimit,
                       (converged ? "both descents ended by their rule"
                                  : "not converged after " + std::to_string(options.max_iterations) +
                                        " iterations of a descent") +

@@ -21,9 +21,9 @@
 namespace sphparam {
 namespace {
 
-constexpr std::int64_t kGrain = 4096;
-constexpr double kHeld = 1e4;         // weight of an active constraint, of that of its area
-constexpr double kLeastStar = 1e-12;  // of the sphere: stars are no smaller in D
+constexpr std::int64_t grain = 4096;
+constexpr double held_weight = 1e4;   // weight of an active constraint, of that of its area
+constexpr double least_star = 1e-12;  // of the sphere: stars are no smaller in D
 
 /// ∂Ω/∂a: tan(Ω/2) = N/D, N = det(a, b, c), D = 1 + a·b + b·c + c·a. (Ω: Van Oosterom, Strackee.)
 Vector3 area_gradient(const Vector3& a, const Vector3& b, const Vector3& c) {
@@ -81,7 +81,7 @@ std::vector<char> EqualAreas::negative_angles(const SphereMap& map) const {
       negative[static_cast<size_t>(f)] = sign <= 0;
     }
   };
-  parallel_for(topology_.face_count(), kGrain, threads_, of_chunk);
+  parallel_for(topology_.face_count(), grain, threads_, of_chunk);
   return negative;
 }
 
@@ -115,7 +115,7 @@ void EqualAreas::add_areas(const SphereMap& map, double penalty, double damping,
     const double area = solid_angle(x[0], x[1], x[2]);
     const double target = 4 * std::numbers::pi * shares_[static_cast<size_t>(f)];
     const bool held = active[static_cast<size_t>(f)] != 0;
-    const double weight = (held ? kHeld : 1) * penalty / target;
+    const double weight = (held ? held_weight : 1) * penalty / target;
     const double error = held ? 0 : area - target;
     std::array<Eigen::Vector2d, 3> row;  // of J
     for (size_t k = 0; k < 3; ++k) {
@@ -135,7 +135,7 @@ void EqualAreas::add_areas(const SphereMap& map, double penalty, double damping,
       add(off_diagonal_.data() + 4 * static_cast<size_t>(topology_.twin(h)), (k + 1) % 3, k);
     }
   }
-  const double least = kLeastStar * 4 * std::numbers::pi;
+  const double least = least_star * 4 * std::numbers::pi;
   for (size_t i = 0; i < star.size(); ++i) {
     const double damped = damping * penalty / std::max(star[i], least);
     diagonal_[4 * i] += damped;

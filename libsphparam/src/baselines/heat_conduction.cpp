@@ -33,7 +33,8 @@ VectorX conduct_latitude(const Topology& topology, Vertex north, Vertex south, i
   return system.solve(values, {}, threads);
 }
 
-/// Empty where rounding leaves no way up: latitude is flat on limbs that are too long for doubles.
+/// Empty where rounding leaves no way up: latitude is flat on protrusions that are too long for
+/// doubles.
 std::vector<Vertex> steepest_path(const Topology& topology, const VectorX& latitude, Vertex north,
                                   Vertex south) {
   std::vector<Vertex> path = {north};

@@ -5,14 +5,14 @@
 #include <numbers>
 #include <utility>
 
-#include "option_domain.h"
 #include "baselines/number_text.h"
 #include "baselines/outcome.h"
 #include "baselines/rings.h"
 #include "baselines/tutte_equations.h"
 #include "elementary.h"
-#include "sphparam/mesh/edge_weights.h"
 #include "mesh/laplace_system.h"
+#include "option_domain.h"
+#include "sphparam/mesh/edge_weights.h"
 
 // seam → unit circle by arc length; both halves by one system, as no edge joins their inner
 // vertices; (u, v) → (2u, 2v, ±(1 − r²)) / (1 + r²); then the equations on the sphere.
@@ -20,7 +20,7 @@
 namespace sphparam {
 namespace {
 
-constexpr double kSmallestArc = 1e-3;  // of the mean arc: seam edges of length zero get that
+constexpr double smallest_arc = 1e-3;  // of the mean arc: seam edges of length zero get that
 
 /// Longitudes of the seam's vertices, in proportion to arc length.
 std::vector<double> seam_longitudes(const TriangleMesh& mesh, const std::vector<Vertex>& seam) {
@@ -31,7 +31,7 @@ std::vector<double> seam_longitudes(const TriangleMesh& mesh, const std::vector<
     lengths.push_back((mesh.position(next) - mesh.position(seam[k])).norm());
     sum += lengths.back();
   }
-  const double least = sum > 0 ? kSmallestArc * sum / double(seam.size()) : 1;
+  const double least = sum > 0 ? smallest_arc * sum / double(seam.size()) : 1;
   sum = 0;
   for (double& length : lengths) sum += length = std::max(length, least);
   std::vector<double> longitudes = {0};
@@ -90,7 +90,7 @@ SphereMap place_hemispheres(const TriangleMesh& mesh, const Topology& topology,
 }
 
 BaselineResult map_hemispheres(const TriangleMesh& mesh, const Topology& topology,
-                            const HemispheresOptions& options, const Progress& progress) {
+                               const HemispheresOptions& options, const Progress& progress) {
   require_one_of("weights", options.weights, WeightKind::SymmetricMeanValue);
   if (options.weights == WeightKind::MeanValue) {
     refuse_option("weights", static_cast<int>(options.weights), "a symmetric kind");

@@ -13,9 +13,9 @@
 namespace sphparam {
 namespace {
 
-constexpr std::int64_t kGrain = 4096;
-constexpr double kCentred = 1e-10;  // |c| that is good enough
-constexpr double kLongest = 0.9;    // step in the ball
+constexpr std::int64_t grain = 4096;
+constexpr double centred = 1e-10;  // |c| that is good enough
+constexpr double longest = 0.9;    // step in the ball
 
 struct Moments {
   Vector3 centre = Vector3::Zero();
@@ -24,9 +24,9 @@ struct Moments {
 
 /// Of the points translated by a. Partial sums in fixed chunks.
 Moments moments(const Points& points, const VectorX& mass, const Vector3& a, int threads) {
-  std::vector<Moments> parts(static_cast<size_t>((points.rows() + kGrain - 1) / kGrain));
-  parallel_for(points.rows(), kGrain, threads, [&](std::int64_t first, std::int64_t last) {
-    Moments& part = parts[static_cast<size_t>(first / kGrain)];
+  std::vector<Moments> parts(static_cast<size_t>((points.rows() + grain - 1) / grain));
+  parallel_for(points.rows(), grain, threads, [&](std::int64_t first, std::int64_t last) {
+    Moments& part = parts[static_cast<size_t>(first / grain)];
     for (Eigen::Index v = first; v < last; ++v) {
       const Vector3 x = mobius_translated(points.row(v), a);
       part.centre += mass[v] * x;
@@ -54,19 +54,19 @@ SphereMap mobius_centred(SphereMap map, const VectorX& mass, int max_steps, int 
   const double total = mass.sum();
   if (!(total > 0)) return map;
   Moments now = moments(map.points, mass, Vector3::Zero(), threads);
-  for (int step = 0; step < max_steps && now.centre.norm() > kCentred * total; ++step) {
+  for (int step = 0; step < max_steps && now.centre.norm() > centred * total; ++step) {
     const Eigen::Matrix3d jacobian =
         2 * (now.second.trace() * Eigen::Matrix3d::Identity() - now.second);
     Vector3 a = jacobian.ldlt().solve(now.centre);
     if (!a.allFinite()) a = 0.5 * now.centre / total;
-    if (a.norm() > kLongest) a *= kLongest / a.norm();
+    if (a.norm() > longest) a *= longest / a.norm();
     Moments next = moments(map.points, mass, a, threads);
-    while (!(next.centre.norm() < now.centre.norm()) && a.norm() > kCentred) {
+    while (!(next.centre.norm() < now.centre.norm()) && a.norm() > centred) {
       a /= 2;
       next = moments(map.points, mass, a, threads);
     }
     if (!(next.centre.norm() < now.centre.norm())) break;  // rounding, or nothing to centre
-    parallel_for(map.points.rows(), kGrain, threads, [&](std::int64_t first, std::int64_t last) {
+    parallel_for(map.points.rows(), grain, threads, [&](std::int64_t first, std::int64_t last) {
       for (Eigen::Index v = first; v < last; ++v) {
         map.points.row(v) = mobius_translated(map.points.row(v), a);
       }

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "option_domain.h"
 #include "baselines/outcome.h"
 #include "baselines/rings.h"
 #include "elementary.h"
+#include "option_domain.h"
 #include "sphparam/mesh/edge_weights.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/orientation.h"
@@ -23,9 +23,9 @@
 namespace sphparam {
 namespace {
 
-constexpr int kCheckEvery = 20;  // sweeps between two looks at folds
-constexpr int kSets = 4;         // of anchors; a map that rests with all of them has ended
-constexpr std::int64_t kGrain = 4096;
+constexpr int check_every = 20;  // sweeps between two looks at folds
+constexpr int anchor_sets = 4;   // of anchors; a map that rests with all of them has ended
+constexpr std::int64_t grain = 4096;
 
 /// From the surface's centre of area to the sphere.
 SphereMap central_projection(const TriangleMesh& mesh) {
@@ -106,7 +106,7 @@ class Smoothing {
       const int sweeps = smooth_round(progress);
       sets_at_rest_ = sweeps <= 1 ? sets_at_rest_ + 1 : 0;
       check();
-    } while (!last_valid_ && sweeps_ < options_.max_sweeps && sets_at_rest_ < kSets);
+    } while (!last_valid_ && sweeps_ < options_.max_sweeps && sets_at_rest_ < anchor_sets);
   }
 
   int sweeps() const { return sweeps_; }
@@ -119,7 +119,7 @@ class Smoothing {
           std::move(*last_valid_), BaselineEnd::Converged,
           "no triangle is folded" + after + (folds_ > 0 ? "; more sweeps fold some" : ""));
     }
-    const bool rests = sets_at_rest_ == kSets;
+    const bool rests = sets_at_rest_ == anchor_sets;
     return outcome.take(std::move(map_), rests ? BaselineEnd::Stalled : BaselineEnd::IterationLimit,
                         (rests ? "the map rests; " : "") + std::to_string(folds_) +
                             " triangles are folded" + after);
@@ -139,7 +139,7 @@ class Smoothing {
     double move = 1;
     while (sweeps < options_.sweeps_per_anchors && sweeps_ < options_.max_sweeps &&
            move > options_.rest) {
-      if (sweeps % kCheckEvery == 0) {
+      if (sweeps % check_every == 0) {
         report(progress, "tangential smoothing", double(sweeps_) / options_.max_sweeps);
         if (sweeps > 0) check();
         if (last_valid_ && folds_ > 0) break;
@@ -184,7 +184,7 @@ class Smoothing {
 }  // namespace
 
 BaselineResult map_tangential(const TriangleMesh& mesh, const Topology& topology,
-                           const TangentialOptions& options, const Progress& progress) {
+                              const TangentialOptions& options, const Progress& progress) {
   require_one_of("laplacian", options.laplacian, TangentialOptions::Operator::Uniform);
   require_at_least("max_sweeps", options.max_sweeps, 0);
   require_at_least("sweeps_per_anchors", options.sweeps_per_anchors, 1);

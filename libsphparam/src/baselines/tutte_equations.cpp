@@ -13,17 +13,17 @@
 // Conformal fields N (three rotations ω × x, three Möbius fields a − (a·x)x) change the energy
 // hardly or not at all, and along them Newton steps run away. So steps d have Nᵀ M d = 0, M the
 // areas of the stars on the sphere, and the equations solved are F = M N c for some c. (With forces
-// like W instead of areas, limbs that are small on the sphere are pulled over themselves.) The
-// residual is the least norm of F − M N c, Σ |F_i|²/W_i: a vertex counts with the square of the
+// like W instead of areas, protrusions that are small on the sphere are pulled over themselves.)
+// The residual is the least norm of F − M N c, Σ |F_i|²/W_i: a vertex counts with the square of the
 // step it is asked for.
 
 namespace sphparam {
 namespace {
 
-constexpr double kShift = 1e-9;         // of W_i, added to the diagonal: no pivot is 0
-constexpr int kCheckEvery = 10;         // sweeps between two residuals
-constexpr double kShortestStep = 1e-3;  // of a Newton step
-constexpr double kLongestMove = 0.5;    // radians a vertex may move in a step
+constexpr double shift = 1e-9;          // of W_i, added to the diagonal: no pivot is 0
+constexpr int check_every = 10;         // sweeps between two residuals
+constexpr double shortest_step = 1e-3;  // of a Newton step
+constexpr double longest_move = 0.5;    // radians a vertex may move in a step
 
 using Fields = Eigen::Matrix<double, 3, 6>;  // conformal fields at a point
 
@@ -89,7 +89,7 @@ TutteSolution TutteEquations::sweep(SphereMap map, int max_sweeps, const Progres
   TutteSolution now = best;
   while (now.sweeps < max_sweeps && best.residual > 0) {
     report(progress, "Gauss–Seidel", double(now.sweeps) / max_sweeps);
-    const int count = std::min(kCheckEvery, max_sweeps - now.sweeps);
+    const int count = std::min(check_every, max_sweeps - now.sweeps);
     for (int k = 0; k < count; ++k) {
       for (Vertex i = 0; i < topology_.vertex_count(); ++i) {
         const Vector3 x = now.map.point(i);
@@ -127,7 +127,7 @@ VectorX TutteEquations::newton_step(VertexSystem& system, const SphereMap& map) 
       out[0] = block(0, 0), out[1] = block(0, 1), out[2] = block(1, 0), out[3] = block(1, 1);
     });
     diagonal[4 * static_cast<size_t>(i)] = diagonal[4 * static_cast<size_t>(i) + 3] =
-        alpha + kShift * total;
+        alpha + shift * total;
   }
   system.factorise(diagonal, off_diagonal);
   const Eigen::MatrixXd solved = system.solve(sides);
@@ -148,8 +148,8 @@ TutteSolution TutteEquations::newton(TutteSolution now, int max_steps, double to
     for (Eigen::Index i = 0; i < step.size(); i += 2) {
       longest = std::max(longest, step.segment<2>(i).norm());
     }
-    double share = longest > kLongestMove ? kLongestMove / longest : 1;
-    const double shortest = kShortestStep * share;
+    double share = longest > longest_move ? longest_move / longest : 1;
+    const double shortest = shortest_step * share;
     SphereMap next;
     double value = now.residual;
     for (; share >= shortest; share /= 2) {

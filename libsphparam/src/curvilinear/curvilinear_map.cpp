@@ -4,10 +4,10 @@
 #include <cmath>
 #include <utility>
 
-#include "option_domain.h"
 #include "curvilinear/lift.h"
 #include "curvilinear/quasi_harmonic.h"
 #include "elementary.h"
+#include "option_domain.h"
 
 // (M, date line) → cylinder → (θ, ϕ) → κ_acc ← κ → (θ, ϕ) → κ_acc ← κ_acc·√κ → (θ, ϕ) → … while it
 // gets better. The first step goes all the way, as the paper's does: far from the solution that is
@@ -16,7 +16,7 @@
 namespace sphparam {
 namespace {
 
-constexpr double kFirstPower = 1, kPower = 0.5;  // of κ in κ_acc
+constexpr double first_power = 1, power = 0.5;  // of κ in κ_acc
 
 /// ε of the cap whose share of the sphere, (1 − cos ε)/2, is the star's share of the surface.
 double cap_angle(const TriangleMesh& mesh, const Topology& topology, Vertex pole,
@@ -51,19 +51,20 @@ ChartBoundary boundary_for(const TriangleMesh& mesh, const Topology& topology,
                            cap_angle(mesh, topology, south, area));
 }
 
-void require_domain(const SoundOptions& options) {
+void require_domain(const CurvilinearOptions& options) {
   require_at_least("iterations", options.iterations, 0);
   require_between("epsilon", options.epsilon, 0, greatest_epsilon);
 }
 
 }  // namespace
 
-SoundMap map_curvilinear(const TriangleMesh& mesh, const Topology& topology, DateLine date_line,
-                      const SoundOptions& options, const Progress& progress) {
+CurvilinearMap map_curvilinear(const TriangleMesh& mesh, const Topology& topology,
+                               DateLine date_line, const CurvilinearOptions& options,
+                               const Progress& progress) {
   require_domain(options);
   const int threads = options.threads;
   report(progress, "harmonic map", 0);
-  SoundMap best;
+  CurvilinearMap best;
   best.date_line = std::move(date_line);
   const CutMesh cut_mesh(topology, best.date_line);
   const EdgeWeights weights(mesh, topology, WeightKind::SymmetricMeanValue, threads);
@@ -88,20 +89,20 @@ SoundMap map_curvilinear(const TriangleMesh& mesh, const Topology& topology, Dat
     best.iterations = iteration;
     best.area_distortion.push_back(distortion);
     if (iteration == options.iterations) break;
-    accumulate_kappa(accumulated, kappa, iteration == 0 ? kFirstPower : kPower, threads);
+    accumulate_kappa(accumulated, kappa, iteration == 0 ? first_power : power, threads);
   }
   return best;
 }
 
-SoundMap map_curvilinear(const TriangleMesh& mesh, const Topology& topology, Poles poles,
-                      const SoundOptions& options, const Progress& progress) {
+CurvilinearMap map_curvilinear(const TriangleMesh& mesh, const Topology& topology, Poles poles,
+                               const CurvilinearOptions& options, const Progress& progress) {
   require_domain(options);
   require_vertex("poles.north", poles.north, mesh.vertex_count());
   require_vertex("poles.south", poles.south, mesh.vertex_count());
   report(progress, "date line", 0);
   return map_curvilinear(mesh, topology,
-                      induced_date_line(topology, shortest_date_line(mesh, topology, poles)),
-                      options, progress);
+                         induced_date_line(topology, shortest_date_line(mesh, topology, poles)),
+                         options, progress);
 }
 
 }  // namespace sphparam

@@ -8,14 +8,14 @@
 
 namespace sphparam {
 
-struct SoundOptions {
+struct CurvilinearOptions {
   int iterations = 2;  // ≥ 0: quasi-harmonic iterations, at most; each costs a factorisation
   double epsilon = 0;  // 0 to 1.5 radians from poles to rims; 0: each cap gets its star's area
   int threads = 0;     // 0: all cores
 };
 
 /// A chart that is one-to-one, and its lift, which need not be.
-struct SoundMap {
+struct CurvilinearMap {
   SphereMap map;
   DateLine date_line;
   long planar_folds = 0;                // of the chart that was lifted; 0 but for rounding
@@ -35,11 +35,13 @@ struct SoundMap {
 /// Requires: usable poles; an induced date line from pole to pole; coordinates whose fourth powers
 /// neither overflow nor underflow.
 /// Throws: SolveError; Cancelled; std::invalid_argument naming an option outside of its domain.
-SoundMap map_curvilinear(const TriangleMesh& mesh, const Topology& topology, DateLine date_line,
-                      const SoundOptions& options = {}, const Progress& progress = {});
+CurvilinearMap map_curvilinear(const TriangleMesh& mesh, const Topology& topology,
+                               DateLine date_line, const CurvilinearOptions& options = {},
+                               const Progress& progress = {});
 
 /// With the shortest date line, made an induced path.
-SoundMap map_curvilinear(const TriangleMesh& mesh, const Topology& topology, Poles poles,
-                      const SoundOptions& options = {}, const Progress& progress = {});
+CurvilinearMap map_curvilinear(const TriangleMesh& mesh, const Topology& topology, Poles poles,
+                               const CurvilinearOptions& options = {},
+                               const Progress& progress = {});
 
 }  // namespace sphparam

@@ -4,8 +4,8 @@
 #include <numbers>
 #include <vector>
 
-#include "sphparam/curvilinear/date_line.h"
 #include "mesh/laplace_system.h"
+#include "sphparam/curvilinear/date_line.h"
 
 namespace sphparam {
 
@@ -27,7 +27,7 @@ class CutMesh {
   bool is_pole(Vertex v) const { return v == poles().north || v == poles().south; }
 
   /// Is f one of the triangles around a pole, which are not part of the disk?
-  bool removed(Face f) const { return (faces_[static_cast<size_t>(f)] & kRemoved) != 0; }
+  bool removed(Face f) const { return (faces_[static_cast<size_t>(f)] & removed_bit) != 0; }
   /// The turn of the corner at h's origin in h's face.
   int turn(Halfedge h) const {
     return faces_[static_cast<size_t>(Topology::face(h))] >> Topology::corner(h) & 1;
@@ -52,13 +52,13 @@ class CutMesh {
   const std::vector<Vertex>& south_link() const { return south_link_; }
 
  private:
-  static constexpr std::uint8_t kRemoved = 8;
+  static constexpr std::uint8_t removed_bit = 8;
   int vertex_count() const { return vertex_count_; }
   void open_banks(const Topology& topology);
 
   DateLine date_line_;
   int vertex_count_;
-  std::vector<std::uint8_t> faces_;  // bit c: turn of corner c; kRemoved
+  std::vector<std::uint8_t> faces_;  // bit c: turn of corner c; removed_bit
   std::vector<Jump> jumps_;
   std::vector<Vertex> north_link_, south_link_;
 };

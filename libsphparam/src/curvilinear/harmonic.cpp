@@ -5,8 +5,8 @@
 #include <limits>
 #include <numbers>
 
-#include "option_domain.h"
 #include "elementary.h"
+#include "option_domain.h"
 #include "sphparam/errors.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/orientation.h"
@@ -20,9 +20,9 @@
 namespace sphparam {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kWidestGap = 0.9 * kPi;
-constexpr double kNarrowestGap = 1e-3;  // of the mean gap
+constexpr double pi = std::numbers::pi;
+constexpr double widest_gap = 0.9 * pi;
+constexpr double narrowest_gap = 1e-3;  // of the mean gap
 
 /// 0 and the partial sums of `steps`, scaled so that the whole is `total`; even if all are zero.
 std::vector<double> cumulated(std::vector<double> steps, double total) {
@@ -58,14 +58,14 @@ std::vector<double> link_gaps(const TriangleMesh& mesh, Vertex pole,
     gaps.push_back(elementary::atan2(a.cross(b).norm(), a.dot(b)));
     sum += gaps.back();
   }
-  const double mean = 2 * kPi / static_cast<double>(link.size());
-  for (double& gap : gaps) gap = sum > 0 ? gap * (2 * kPi / sum) : mean;
+  const double mean = 2 * pi / static_cast<double>(link.size());
+  for (double& gap : gaps) gap = sum > 0 ? gap * (2 * pi / sum) : mean;
   const auto [least, widest] = std::minmax_element(gaps.begin(), gaps.end());
   // gap ← (1−t)·gap + t·mean with the least t that keeps both bounds.
   double t = 0;
-  if (*widest > kWidestGap) t = (*widest - kWidestGap) / (*widest - mean);
-  if (*least < kNarrowestGap * mean) {
-    t = std::max(t, (kNarrowestGap * mean - *least) / (mean - *least));
+  if (*widest > widest_gap) t = (*widest - widest_gap) / (*widest - mean);
+  if (*least < narrowest_gap * mean) {
+    t = std::max(t, (narrowest_gap * mean - *least) / (mean - *least));
   }
   for (double& gap : gaps) gap = (1 - t) * gap + t * mean;
   return gaps;
@@ -82,7 +82,7 @@ ChartBoundary empty_boundary(const TriangleMesh& mesh, const CutMesh& cut_mesh,
   const auto [north, south] = cut_mesh.poles();
   boundary.roles[static_cast<size_t>(north)] = VertexRole::Removed;
   boundary.roles[static_cast<size_t>(south)] = VertexRole::Removed;
-  boundary.values.phi[south] = kPi;
+  boundary.values.phi[south] = pi;
   return boundary;
 }
 
@@ -94,7 +94,7 @@ void fix(ChartBoundary& boundary, Vertex v, double theta, double phi) {
 
 void fix_link(ChartBoundary& boundary, const std::vector<Vertex>& link, double phi,
               std::vector<double> gaps) {
-  const std::vector<double> theta = cumulated(std::move(gaps), 2 * kPi);
+  const std::vector<double> theta = cumulated(std::move(gaps), 2 * pi);
   for (size_t i = 0; i < link.size(); ++i) fix(boundary, link[i], theta[i], phi);
 }
 
@@ -126,11 +126,11 @@ ChartBoundary rectangle_boundary(const TriangleMesh& mesh, const CutMesh& cut_me
   boundary.free_twist = false;
   fix_link(boundary, cut_mesh.north_link(), epsilon,
            edge_lengths(mesh, cut_mesh.north_link(), true));
-  fix_link(boundary, cut_mesh.south_link(), kPi - epsilon,
+  fix_link(boundary, cut_mesh.south_link(), pi - epsilon,
            edge_lengths(mesh, cut_mesh.south_link(), true));
   const std::vector<Vertex>& path = cut_mesh.date_line().path;
   const std::vector<Vertex> inner(path.begin() + 1, path.end() - 1);
-  const std::vector<double> phi = cumulated(edge_lengths(mesh, inner, false), kPi - 2 * epsilon);
+  const std::vector<double> phi = cumulated(edge_lengths(mesh, inner, false), pi - 2 * epsilon);
   for (size_t i = 1; i + 1 < inner.size(); ++i) fix(boundary, inner[i], 0, epsilon + phi[i]);
   return boundary;
 }
@@ -142,7 +142,7 @@ ChartBoundary cylinder_boundary(const TriangleMesh& mesh, const CutMesh& cut_mes
   const auto [north, south] = cut_mesh.poles();
   fix_link(boundary, cut_mesh.north_link(), epsilon_north,
            link_gaps(mesh, north, cut_mesh.north_link()));
-  fix_link(boundary, cut_mesh.south_link(), kPi - epsilon_south,
+  fix_link(boundary, cut_mesh.south_link(), pi - epsilon_south,
            link_gaps(mesh, south, cut_mesh.south_link()));
   return boundary;
 }
@@ -167,7 +167,7 @@ CurvilinearMap HarmonicSolver::solve_factorised(int threads) const {
   values = system_.solve(values, {cut_mesh_.jumps(), {}}, threads);
   CurvilinearMap map{values.col(0), values.col(1)};
   if (!boundary_.free_twist) return map;
-  const double north = boundary_.epsilon_north, south = kPi - boundary_.epsilon_south;
+  const double north = boundary_.epsilon_north, south = pi - boundary_.epsilon_south;
   VectorX eta = (map.phi.array() - north) / (south - north);
   const auto poles = cut_mesh_.poles();
   eta[poles.north] = eta[poles.south] = 0;
@@ -203,7 +203,7 @@ long planar_folds(const Topology& topology, const CutMesh& cut_mesh, const Curvi
                   int threads) {
   const auto point = [&](Halfedge h) {
     const Vertex v = topology.origin(h);
-    return ChartPoint{map.phi[v], map.theta[v] + 2 * kPi * cut_mesh.turn(h)};
+    return ChartPoint{map.phi[v], map.theta[v] + 2 * pi * cut_mesh.turn(h)};
   };
   return static_cast<long>(
       parallel_sum(topology.face_count(), threads, [&](std::int64_t first, std::int64_t last) {

@@ -15,8 +15,8 @@ namespace sphparam {
 namespace {
 
 // Bounds of the search for each pole, so that it stays linear.
-constexpr size_t kCandidates = 64;  // chord-free vertices
-constexpr size_t kVisited = 1024;   // vertices tested
+constexpr size_t candidates = 64;  // chord-free vertices
+constexpr size_t visited = 1024;   // vertices tested
 
 std::vector<Vertex> sorted_link(const Topology& topology, Vertex v) {
   std::vector<Vertex> link;
@@ -49,7 +49,7 @@ class ChordFreeVertices {
 
   /// The i-th, or -1.
   Vertex at(size_t i) {
-    while (found_.size() <= i && next_ < std::min(queue_.size(), kVisited)) {
+    while (found_.size() <= i && next_ < std::min(queue_.size(), visited)) {
       const Vertex v = queue_[next_++];
       topology_.for_each_outgoing(v, [&](Halfedge h) { visit(topology_.target(h)); });
       if (link_is_chord_free(topology_, v)) found_.push_back(v);
@@ -104,9 +104,9 @@ std::optional<Poles> nearest_usable_poles(const Topology& topology, Poles wanted
   require_vertex("poles.south", wanted.south, topology.vertex_count());
   ChordFreeVertices north(topology, wanted.north), south(topology, wanted.south);
   // Pairs in the order of how far both poles have moved together.
-  for (size_t moves = 0; moves < 2 * kCandidates - 1; ++moves) {
-    const size_t first = moves < kCandidates ? 0 : moves - kCandidates + 1;
-    for (size_t i = first; i <= moves && i < kCandidates; ++i) {
+  for (size_t moves = 0; moves < 2 * candidates - 1; ++moves) {
+    const size_t first = moves < candidates ? 0 : moves - candidates + 1;
+    for (size_t i = first; i <= moves && i < candidates; ++i) {
       const Vertex n = north.at(i), s = south.at(moves - i);
       if (n >= 0 && s >= 0 && apart(topology, n, s)) return Poles{n, s};
     }

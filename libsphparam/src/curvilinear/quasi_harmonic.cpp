@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sphere/solid_angle.h"
 #include "elementary.h"
+#include "sphere/solid_angle.h"
 #include "sphparam/parallel.h"
 
 // The spherical area Ω of (a, b, c) is the solid angle of the three rays,
@@ -14,9 +14,9 @@
 namespace sphparam {
 namespace {
 
-constexpr std::int64_t kGrain = 4096;
-constexpr double kSourceFloor = 1e-9;   // of the mean source area
-constexpr double kSphereFloor = 1e-18;  // of the mean area on the sphere
+constexpr std::int64_t grain = 4096;
+constexpr double least_source = 1e-9;  // of the mean source area
+constexpr double least_image = 1e-18;  // of the mean area on the sphere
 
 double triangle_area(const Vector3& a, const Vector3& b, const Vector3& c) {
   return 0.5 * (b - a).cross(c - a).norm();
@@ -49,8 +49,8 @@ std::vector<double> area_distortion(const TriangleMesh& mesh, const SphereMap& m
     return std::abs(solid_angle(map.point(t[0]), map.point(t[1]), map.point(t[2])));
   });
   // κ_T = (Σ A / Σ A') A'_T / A_T
-  const double source_floor = kSourceFloor * source_sum / faces;
-  const double sphere_floor = kSphereFloor * sphere_sum / faces;
+  const double source_floor = least_source * source_sum / faces;
+  const double sphere_floor = least_image * sphere_sum / faces;
   const double scale = source_sum / sphere_sum;
   fill_and_sum(kappa, threads, [&](Face f) {
     const size_t i = static_cast<size_t>(f);
@@ -63,7 +63,7 @@ void accumulate_kappa(std::vector<double>& accumulated, const std::vector<double
                       double power, int threads) {
   if (accumulated.empty()) accumulated.assign(kappa.size(), 1);
   const std::int64_t faces = static_cast<std::int64_t>(kappa.size());
-  parallel_for(faces, kGrain, threads, [&](std::int64_t first, std::int64_t last) {
+  parallel_for(faces, grain, threads, [&](std::int64_t first, std::int64_t last) {
     for (size_t f = static_cast<size_t>(first); f < static_cast<size_t>(last); ++f) {
       accumulated[f] *= elementary::pow(kappa[f], power);
     }

@@ -7,7 +7,7 @@
 namespace sphparam {
 
 /// κ_T = (Σ A / Σ A') · A'_T / A_T, the spherical distortion of area, for every triangle T of the
-/// mesh: A' is the area of the spherical triangle, A that of the source triangle.
+/// mesh: A' is the area of the spherical triangle, A that of the rest triangle.
 /// Paper: Section 4. Both areas are floored, at 1e-9 and 1e-18 of their means, so that κ is
 /// positive and finite; a folded triangle counts with the size of its area.
 /// The next map of the paper solves div(κ grad U) = 0: the weights are multiplied by κ.

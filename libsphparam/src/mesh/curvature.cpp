@@ -9,9 +9,9 @@
 #include <numbers>
 #include <vector>
 
+#include "elementary.h"
 #include "mesh/unit_size.h"
 #include "option_domain.h"
-#include "elementary.h"
 #include "sphparam/errors.h"
 #include "sphparam/parallel.h"
 
@@ -26,13 +26,13 @@
 namespace sphparam {
 namespace {
 
-constexpr std::int64_t kGrain = 4096;
-constexpr double kAreaFloor = 1e-9;  // of the mean area of a vertex
-constexpr double kLeastArea = std::numeric_limits<double>::min();
-constexpr int kLeastExponent = -1000;
-constexpr double kGlue = 1e6;         // ½s²·weight of an edge without length, in mean areas
-constexpr double kTolerance = 1e-10;  // of the residual of the average
-constexpr int kMaxIterations = 20'000;
+constexpr std::int64_t grain = 4096;
+constexpr double area_floor = 1e-9;  // of the mean area of a vertex
+constexpr double least_area = std::numeric_limits<double>::min();
+constexpr int least_exponent = -1000;
+constexpr double glue_share = 1e6;   // ½s²·weight of an edge without length, in mean areas
+constexpr double tolerance = 1e-10;  // of the residual of the average
+constexpr int max_iterations = 20'000;
 
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
@@ -43,7 +43,7 @@ struct Faces {
 
 Faces measure_faces(const TriangleMesh& mesh, int threads) {
   Faces faces{Points(mesh.face_count(), 3), VectorX(mesh.face_count())};
-  parallel_for(mesh.face_count(), kGrain, threads, [&](std::int64_t first, std::int64_t last) {
+  parallel_for(mesh.face_count(), grain, threads, [&](std::int64_t first, std::int64_t last) {
     for (Eigen::Index f = first; f < last; ++f) {
       const Vector3 a = mesh.position(mesh.triangles(f, 0));
       const Vector3 b = mesh.position(mesh.triangles(f, 1)) - a;
@@ -85,7 +85,7 @@ Measures measure_vertices(const TriangleMesh& mesh, const Topology& topology, co
                           int threads) {
   const Eigen::Index count = mesh.vertex_count();
   Measures measures{VectorX(count), VectorX(count), VectorX(count)};
-  parallel_for(count, kGrain, threads, [&](std::int64_t first, std::int64_t last) {
+  parallel_for(count, grain, threads, [&](std::int64_t first, std::int64_t last) {
     for (Vertex v = static_cast<Vertex>(first); v < last; ++v) {
       double bends = 0, angles = 0, area = 0;
       topology.for_each_outgoing(v, [&](Halfedge h) {
@@ -119,7 +119,7 @@ double total_area(const TriangleMesh& mesh, int threads) {
 SparseMatrix averaging_matrix(const TriangleMesh& mesh, const Topology& topology,
                               const Faces& faces, const VectorX& area, double scale) {
   const Eigen::Index count = area.size();
-  const double time = scale * scale / 2, glue = kGlue * area.mean();
+  const double time = scale * scale / 2, glue = glue_share * area.mean();
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(static_cast<size_t>(count + topology.halfedge_count()));
   for (Vertex v = 0; v < count; ++v) {
@@ -170,17 +170,17 @@ Curvature measure_harmless(const TriangleMesh& mesh, const Topology& topology, d
   Measures measures = measure_vertices(mesh, topology, faces, threads);
   const double mean_area = measures.area.mean();
   VectorX& area = measures.area;
-  area = area.cwiseMax(mean_area > 0 ? std::max(kAreaFloor * mean_area, kLeastArea) : 1);
+  area = area.cwiseMax(mean_area > 0 ? std::max(area_floor * mean_area, least_area) : 1);
   Curvature curvature{measures.mean.cwiseQuotient(area), measures.gauss.cwiseQuotient(area), area,
                       scale};
   if (!(scale > 0) || !(mean_area > 0)) return curvature;
 
   // By a power of two: the areas at about 1.
-  const double unit = std::ldexp(1.0, -std::max(std::ilogb(mean_area), kLeastExponent));
+  const double unit = std::ldexp(1.0, -std::max(std::ilogb(mean_area), least_exponent));
   const SparseMatrix matrix = unit * averaging_matrix(mesh, topology, faces, area, scale);
   Eigen::ConjugateGradient<SparseMatrix, Eigen::Lower | Eigen::Upper> solver;
-  solver.setTolerance(kTolerance);
-  solver.setMaxIterations(kMaxIterations);
+  solver.setTolerance(tolerance);
+  solver.setMaxIterations(max_iterations);
   solver.compute(matrix);
   const auto average = [&](const VectorX& measure) -> VectorX {
     const VectorX raw = measure.cwiseQuotient(area) / unit;

@@ -17,10 +17,10 @@
 namespace sphparam {
 namespace {
 
-constexpr std::int64_t kGrain = 4096;             // faces a chunk
-constexpr double kAreaFloor = 1e-12;              // of the longest edge squared
-constexpr double kLowest = 1e-6, kHighest = 1e6;  // of the median mean value term
-constexpr std::int64_t kMedianSamples = 1 << 15;  // the median only sets a scale
+constexpr std::int64_t grain = 4096;                      // faces a chunk
+constexpr double area_floor = 1e-12;                      // of the longest edge squared
+constexpr double lowest_term = 1e-6, highest_term = 1e6;  // of the median mean value term
+constexpr std::int64_t median_samples = 1 << 15;          // the median only sets a scale
 
 struct Corners {
   std::array<Vector3, 3> edge;   // corner k → corner k+1
@@ -50,7 +50,7 @@ double tan_half_angle(const Corners& c, size_t k) {
 }
 
 double median_of_sample(const std::vector<double>& terms) {
-  const size_t step = 1 + terms.size() / static_cast<size_t>(kMedianSamples);
+  const size_t step = 1 + terms.size() / static_cast<size_t>(median_samples);
   std::vector<double> sample;
   sample.reserve(terms.size() / step + 1);
   for (size_t i = 0; i < terms.size(); i += step) sample.push_back(terms[i]);
@@ -74,7 +74,7 @@ EdgeWeights::EdgeWeights(const TriangleMesh& mesh, const Topology& topology, Wei
       const size_t h = 3 * static_cast<size_t>(f);
       if (kind == WeightKind::Cotangent) {
         const double longest = std::max({c.length[0], c.length[1], c.length[2]});
-        const double twice_area = std::max(c.twice_area, 2 * kAreaFloor * longest * longest);
+        const double twice_area = std::max(c.twice_area, 2 * area_floor * longest * longest);
         for (size_t k = 0; k < 3; ++k) {
           // ½ cot α = ½ (r_1·r_2) / 2A
           forward_[h + k] = twice_area > 0 ? 0.5 * c.dot[(k + 2) % 3] / twice_area : 0;
@@ -95,7 +95,7 @@ EdgeWeights::EdgeWeights(const TriangleMesh& mesh, const Topology& topology, Wei
       }
     }
   };
-  parallel_for(topology.face_count(), kGrain, threads, measure_faces);
+  parallel_for(topology.face_count(), grain, threads, measure_faces);
   if (kind == WeightKind::Cotangent) return;
   const double median = median_of_sample(forward_);
   clamp_terms(forward_, median);
@@ -103,7 +103,7 @@ EdgeWeights::EdgeWeights(const TriangleMesh& mesh, const Topology& topology, Wei
 }
 
 void EdgeWeights::clamp_terms(std::vector<double>& terms, double median) {
-  const double lowest = kLowest * median, highest = kHighest * median;
+  const double lowest = lowest_term * median, highest = highest_term * median;
   for (double& term : terms) {
     if (term >= lowest && term <= highest) continue;
     // 0/0 is the edge of zero length in a face of zero area: its ends belong together.
@@ -116,7 +116,7 @@ std::vector<double> EdgeWeights::with(const Topology& topology, const std::vecto
                                       int threads) const {
   const std::vector<double>& backward = backward_.empty() ? forward_ : backward_;
   std::vector<double> weights(forward_.size());
-  parallel_for(topology.halfedge_count(), 3 * kGrain, threads,
+  parallel_for(topology.halfedge_count(), 3 * grain, threads,
                [&](std::int64_t first, std::int64_t last) {
                  for (Halfedge h = static_cast<Halfedge>(first); h < last; ++h) {
                    const Halfedge g = topology.twin(h);

@@ -21,7 +21,7 @@ using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 using Cholesky = Eigen::SimplicialLDLT<Matrix, Eigen::Upper, Eigen::NaturalOrdering<int>>;
 using LU = Eigen::SparseLU<Matrix, Eigen::NaturalOrdering<int>>;
 
-constexpr std::int64_t kGrain = 2048;  // columns a chunk
+constexpr std::int64_t grain = 2048;  // columns a chunk
 
 /// Does the matrix keep the entry of this row (-1: not an unknown) off the diagonal?
 bool is_kept(int row, int column, bool upper_half) {
@@ -95,7 +95,7 @@ void LaplaceSystem::build_pattern(bool upper_half, int threads) {
   };
   int* start = matrix.outerIndexPtr();
   start[0] = 0;
-  parallel_for(n, kGrain, threads, [&](std::int64_t first, std::int64_t last) {
+  parallel_for(n, grain, threads, [&](std::int64_t first, std::int64_t last) {
     for (int column = static_cast<int>(first); column < last; ++column) {
       start[column + 1] = 0;
       for_each_row(column, [&](int) { ++start[column + 1]; });
@@ -103,7 +103,7 @@ void LaplaceSystem::build_pattern(bool upper_half, int threads) {
   });
   for (int column = 0; column < n; ++column) start[column + 1] += start[column];
   matrix.resizeNonZeros(start[n]);
-  parallel_for(n, kGrain, threads, [&](std::int64_t first, std::int64_t last) {
+  parallel_for(n, grain, threads, [&](std::int64_t first, std::int64_t last) {
     for (int column = static_cast<int>(first); column < last; ++column) {
       int* row_of_entry = matrix.innerIndexPtr() + start[column];
       for_each_row(column, [&](int row) { *row_of_entry++ = row; });
@@ -115,7 +115,7 @@ void LaplaceSystem::factorise(std::vector<double> weights, int threads) {
   weights_ = std::move(weights);
   if (unknown_count() == 0) return;
   Matrix& matrix = factor_->matrix;
-  parallel_for(unknown_count(), kGrain, threads, [&](std::int64_t first, std::int64_t last) {
+  parallel_for(unknown_count(), grain, threads, [&](std::int64_t first, std::int64_t last) {
     for (int column = static_cast<int>(first); column < last; ++column) {
       double* entry = matrix.valuePtr() + matrix.outerIndexPtr()[column];
       double diagonal = 0;

@@ -2,10 +2,10 @@
 
 #include <utility>
 
-#include "pipeline/balanced_embedding.h"
 #include "embedding/constructions/gnomonic.h"
 #include "embedding/constructions/grid_lift.h"
 #include "embedding/constructions/untangle.h"
+#include "pipeline/balanced_embedding.h"
 #include "sphparam/errors.h"
 
 // The rungs, from the one that keeps most of the map to the one that always has room: untangling
@@ -42,7 +42,7 @@ void lift_one_vertex(MapInProgress& work) {
                                    {.lambda = work.options.energy.lambda,
                                     .threads = work.options.threads,
                                     .progress = work.options.progress});
-  } catch (const SolveError& error) {  // limbs where doubles underflow
+  } catch (const SolveError& error) {  // protrusions where doubles underflow
     return work.warn(error.what());
   }
   work.forget_poles();

@@ -8,8 +8,8 @@
 #include <numbers>
 #include <vector>
 
-#include "sphere/solid_angle.h"
 #include "elementary.h"
+#include "sphere/solid_angle.h"
 #include "sphparam/parallel.h"
 
 // One pass a triangle: source edges s0 s1 s2 (s_i faces corner i) and image chords e0 e1 e2. With
@@ -22,10 +22,10 @@
 namespace sphparam {
 namespace {
 
-constexpr double kSphereArea = 4 * std::numbers::pi;
-constexpr double kAreaFloor = 1e-9;  // of the mean source area
-constexpr std::int64_t kGrain = 4096;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double sphere_area = 4 * std::numbers::pi;
+constexpr double area_floor = 1e-9;  // of the mean source area
+constexpr std::int64_t grain = 4096;
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// What the formulas need of a plane triangle.
 struct PlaneTriangle {
@@ -89,7 +89,7 @@ void measure_triangle(const PlaneTriangle& source, const Vector3& a, const Vecto
   for (int k = 0; k < 3; ++k) result.angle_ratio(f, k) = after[k] / before[k];
 
   const double area = source.doubled_area * to_sphere / 2;
-  result.source_area[f] = area / kSphereArea;
+  result.source_area[f] = area / sphere_area;
   result.area_ratio[f] = std::abs(solid_angle(a, b, c)) / area;
 
   // σ1 σ2 = A_chord / A
@@ -108,8 +108,7 @@ void measure_triangle(const PlaneTriangle& source, const Vector3& a, const Vecto
 struct Tally {
   double ln_area = 0, ln_angle = 0, within_two = 0;
   double log2_area = 0, dirichlet = 0, conformal = 0, stretch = 0, area = 0;
-  double area_min = kInfinity, area_max = 0, angle_max = 1, conformal_max = 1,
-         sigma_min = kInfinity;
+  double area_min = infinity, area_max = 0, angle_max = 1, conformal_max = 1, sigma_min = infinity;
 
   void add(const Distortion& d, Eigen::Index f) {
     const double ratio = d.area_ratio[f], share = d.source_area[f];
@@ -125,7 +124,7 @@ struct Tally {
     }
     const double s1 = d.sigma_max[f], s2 = d.sigma_min[f];
     const double squeeze = 1 / (s1 * s1) + 1 / (s2 * s2);  // σ1⁻² + σ2⁻²
-    const double quasi_conformal = s2 > 0 ? s1 / s2 : kInfinity;
+    const double quasi_conformal = s2 > 0 ? s1 / s2 : infinity;
     area += share;
     log2_area += share * ln_ratio / std::numbers::ln2;
     dirichlet += share * (s1 * s1 + s2 * s2 + squeeze);
@@ -148,11 +147,11 @@ struct Tally {
 
 Tally tally(const Distortion& distortion, int threads) {
   const std::int64_t faces = distortion.area_ratio.size();
-  std::vector<Tally> partial(static_cast<size_t>((faces + kGrain - 1) / kGrain));
-  parallel_for(faces, kGrain, threads, [&](std::int64_t first, std::int64_t last) {
+  std::vector<Tally> partial(static_cast<size_t>((faces + grain - 1) / grain));
+  parallel_for(faces, grain, threads, [&](std::int64_t first, std::int64_t last) {
     Tally local;
     for (Eigen::Index f = first; f < last; ++f) local.add(distortion, f);
-    partial[static_cast<size_t>(first / kGrain)] = local;
+    partial[static_cast<size_t>(first / grain)] = local;
   });
   Tally total;
   for (const Tally& part : partial) total.merge(part);
@@ -186,9 +185,9 @@ Distortion measure_distortion(const TriangleMesh& mesh, const SphereMap& map, in
   const Source source{mesh};
   // A mesh of no area at all still gets finite figures: every triangle the same.
   const double mean = source.total_doubled_area(0, threads) / static_cast<double>(faces);
-  const double floor = std::max(kAreaFloor * mean, std::numeric_limits<double>::min());
-  const double to_sphere = kSphereArea / (source.total_doubled_area(floor, threads) / 2);
-  parallel_for(faces, kGrain, threads, [&](std::int64_t first, std::int64_t last) {
+  const double floor = std::max(area_floor * mean, std::numeric_limits<double>::min());
+  const double to_sphere = sphere_area / (source.total_doubled_area(floor, threads) / 2);
+  parallel_for(faces, grain, threads, [&](std::int64_t first, std::int64_t last) {
     for (Eigen::Index f = first; f < last; ++f) {
       PlaneTriangle triangle = source.triangle(f);
       triangle.doubled_area = std::max(triangle.doubled_area, floor);

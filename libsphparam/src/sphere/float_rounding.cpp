@@ -6,8 +6,8 @@
 #include <limits>
 #include <utility>
 
-#include "option_domain.h"
 #include "mesh/rings.h"
+#include "option_domain.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/orientation.h"
 
@@ -22,13 +22,13 @@
 namespace sphparam {
 namespace {
 
-constexpr double kLeastRadius = 1e-6, kMostRadius = 1e6;
-constexpr int kMostUlps = 8;
-constexpr int kFirstRings = 4;
-constexpr int kRounds = 6;   // so at most 128 rings around a fold
-constexpr int kSweeps = 16;  // a round, forth and back
-constexpr int kHalvings = 4;
-constexpr std::int64_t kGrain = 8192;
+constexpr double least_radius = 1e-6, most_radius = 1e6;
+constexpr int most_ulps = 8;
+constexpr int first_rings = 4;
+constexpr int most_rounds = 6;  // so at most 128 rings around a fold
+constexpr int sweeps = 16;      // a round, forth and back
+constexpr int halvings = 4;
+constexpr std::int64_t grain = 8192;
 
 // Volatile, as GCC 12 drops double → float → double when it vectorises neighbouring coordinates.
 double to_float(double x) {
@@ -56,12 +56,12 @@ double stepped(double x, int ulps) {
 
 std::vector<Face> bad_faces(const Topology& topology, const SphereMap& map, int threads) {
   const Face faces = topology.face_count();
-  std::vector<std::vector<Face>> chunks(static_cast<std::size_t>((faces + kGrain - 1) / kGrain));
-  parallel_for(faces, kGrain, threads, [&](std::int64_t first, std::int64_t last) {
+  std::vector<std::vector<Face>> chunks(static_cast<std::size_t>((faces + grain - 1) / grain));
+  parallel_for(faces, grain, threads, [&](std::int64_t first, std::int64_t last) {
     for (auto f = static_cast<Face>(first); f < static_cast<Face>(last); ++f) {
       if (orientation(map.point(topology.vertex(f, 0)), map.point(topology.vertex(f, 1)),
                       map.point(topology.vertex(f, 2))) <= 0)
-        chunks[static_cast<std::size_t>(first / kGrain)].push_back(f);
+        chunks[static_cast<std::size_t>(first / grain)].push_back(f);
     }
   });
   std::vector<Face> bad;
@@ -105,7 +105,7 @@ StarSize star_size(const Topology& topology, const SphereMap& map, Vertex v, con
 /// Looks on the grid of floats around v for a place where its star is positive, nearest first.
 bool nudge(const Topology& topology, SphereMap& rounded, Vertex v) {
   const Vector3 start = rounded.point(v);
-  for (int ulps = 1; ulps <= kMostUlps; ++ulps) {
+  for (int ulps = 1; ulps <= most_ulps; ++ulps) {
     std::array<std::array<double, 3>, 3> choices;
     for (int axis = 0; axis < 3; ++axis)
       choices[axis] = {start[axis], stepped(start[axis], -ulps), stepped(start[axis], ulps)};
@@ -133,7 +133,7 @@ void make_room(const Topology& topology, SphereMap& map, Vertex v, double safe) 
   topology.for_each_outgoing(v, [&](Halfedge h) { sum += map.point(topology.target(h)); });
   const Vector3 mean = sum.stableNormalized();
   double step = 1;
-  for (int halving = 0; halving < kHalvings; ++halving, step /= 2) {
+  for (int halving = 0; halving < halvings; ++halving, step /= 2) {
     const Vector3 x = (start + step * (mean - start)).stableNormalized();
     const StarSize after = star_size(topology, map, v, x);
     if (after.least_area < before.least_area && after.least_altitude < safe) continue;
@@ -145,7 +145,7 @@ void make_room(const Topology& topology, SphereMap& map, Vertex v, double safe) 
 
 void make_room(const Topology& topology, SphereMap& map, const std::vector<Vertex>& vertices,
                double safe) {
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
     if (sweep % 2 == 0) {
       for (const Vertex v : vertices) make_room(topology, map, v, safe);
     } else {
@@ -160,8 +160,8 @@ SphereMap mended(const Topology& topology, SphereMap exact, SphereMap rounded,
                  std::vector<Face> bad, int threads, double radius) {
   nudge_all(topology, rounded, bad);
   bad = bad_faces(topology, rounded, threads);
-  int rings = kFirstRings;
-  for (int round = 0; round < kRounds && !bad.empty(); ++round, rings *= 2) {
+  int rings = first_rings;
+  for (int round = 0; round < most_rounds && !bad.empty(); ++round, rings *= 2) {
     const std::vector<Vertex> vertices = rings_around(topology, vertices_of(topology, bad), rings);
     make_room(topology, exact, vertices, safe_altitude(radius));
     for (const Vertex v : vertices) rounded.points.row(v) = to_float(radius * exact.point(v));
@@ -175,7 +175,7 @@ SphereMap mended(const Topology& topology, SphereMap exact, SphereMap rounded,
 
 FloatRounding round_to_float(const Topology& topology, const SphereMap& map, int threads,
                              double radius) {
-  require_between("radius", radius, kLeastRadius, kMostRadius);
+  require_between("radius", radius, least_radius, most_radius);
   SphereMap nearest = map;
   for (double& x : nearest.points.reshaped()) x = to_float(radius * x);
   FloatRounding result{nearest, certify(topology, nearest, threads)};

@@ -2,9 +2,9 @@
 
 #include <utility>
 
+#include "embedding/constructions/progressive.h"
 #include "embedding/energy/energy_domain.h"
 #include "embedding/frame/landmarks.h"
-#include "embedding/constructions/progressive.h"
 
 namespace sphparam {
 namespace {
@@ -19,14 +19,14 @@ SphereMap turned_like(const SphereMap& from, const SphereMap& to) {
 
 }  // namespace
 
-RoomyRounding round_with_room(const TriangleMesh& mesh, const Topology& topology,
-                              const SphereMap& map, const FloatRoomOptions& options) {
+Float32SafeRounding round_with_room(const TriangleMesh& mesh, const Topology& topology,
+                                    const SphereMap& map, const Float32SafeOptions& options) {
   require_domain(options.energy);
-  RoomyRounding result{round_to_float(topology, map, options.threads, options.radius)};
+  Float32SafeRounding result{round_to_float(topology, map, options.threads, options.radius)};
   if (result.rounding.certificate.bijective()) return result;
   if (!certify(topology, map, options.threads).bijective()) return result;
   for (const double share : shares) {
-    // The finish of better qualities would take small triangles for what they are.
+    // The Newton steps of better qualities would take small triangles for what they are.
     const ProgressiveEmbedding embedding = embed_progressively(mesh, topology,
                                                                {.energy = options.energy,
                                                                 .quality = Quality::Draft,

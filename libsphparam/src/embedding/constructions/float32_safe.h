@@ -6,14 +6,14 @@
 
 namespace sphparam {
 
-struct FloatRoomOptions {
+struct Float32SafeOptions {
   DistortionEnergy energy = {};
   double radius = 1;  // of the sphere whose coordinates are to be floats
   int threads = 0;
   Progress progress = {};
 };
 
-struct RoomyRounding {
+struct Float32SafeRounding {
   FloatRounding rounding;
   /// 0: the given map was rounded. Else it was embedded anew, and triangles with less than this
   /// share of the mean area counted as equilateral ones of that size.
@@ -31,7 +31,7 @@ struct RoomyRounding {
 /// `round_to_float` can hold is left to it, and so is a map that is folded. Cost: as
 /// `round_to_float`; an embedding more for each share that is tried. Our own: distortion where
 /// there was little to see is the price of a certificate in float32.
-RoomyRounding round_with_room(const TriangleMesh& mesh, const Topology& topology,
-                              const SphereMap& map, const FloatRoomOptions& options = {});
+Float32SafeRounding round_with_room(const TriangleMesh& mesh, const Topology& topology,
+                                    const SphereMap& map, const Float32SafeOptions& options = {});
 
 }  // namespace sphparam

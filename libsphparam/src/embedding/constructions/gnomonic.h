@@ -2,30 +2,30 @@
 
 #include <optional>
 
-#include "sphparam/embedding/distortion_energy.h"
-#include "embedding/sweeps/relaxation.h"
 #include "embedding/constructions/untangle.h"
+#include "embedding/sweeps/relaxation.h"
+#include "sphparam/embedding/distortion_energy.h"
 #include "sphparam/progress.h"
 
 namespace sphparam {
 
 /// A mesh without one vertex, embedded in a disk around 0 of the plane.
 struct OneVertexDisk {
-  Vertex south;            // the vertex left out; its row is 0
+  Vertex south;                // the vertex left out; its row is 0
   RowTable<double, 2> points;  // #V×2
 };
 
 /// The vertex in the middle of the mesh: the one whose greater distance to the two ends of a
-/// longest path is least, counted in edges. Left out of the disk, it leaves every limb as short as
-/// can be: a planar image shrinks by e^(−π·length/width) along a limb.
-/// Our own. Cost: four breadth-first searches.
+/// longest path is least, counted in edges. Left out of the disk, it leaves every protrusion as
+/// short as can be: a planar image shrinks by e^(−π·length/width) along a protrusion. Our own.
+/// Cost: four breadth-first searches.
 Vertex middle_vertex(const Topology& topology);
 
 /// Tutte's embedding of the mesh without `south`: the link of `south` on the unit circle, gaps half
 /// even and half by edge length (so below 5π/6), the rest by symmetrised mean value weights.
 ///
 /// Ensures: in exact arithmetic the disk is one-to-one, counter-clockwise seen from +z, 0 strictly
-///          inside the link's polygon. In doubles, limbs longer than some 5 circumferences
+///          inside the link's polygon. In doubles, protrusions longer than some 5 circumferences
 ///          collapse.
 /// Paper: Tutte 1963; Floater, "One-to-one piecewise linear mappings over triangulations" (2003).
 /// Requires: closed genus-0 mesh. Throws: SolveError. Cost: one sparse Cholesky factorisation.
@@ -40,8 +40,8 @@ OneVertexDisk tutte_disk(const TriangleMesh& mesh, const Topology& topology, Ver
 SphereMap gnomonic_lift(const OneVertexDisk& disk, const VectorX& areas);
 
 /// The inverse of the stereographic projection, the disk first moved and scaled so that the
-/// weighted mean of the points lies near the centre. Conformal where the disk is, so its limbs are
-/// far less crowded than a gnomonic lift's; but a wide triangle may fold.
+/// weighted mean of the points lies near the centre. Conformal where the disk is, so its
+/// protrusions are far less crowded than a gnomonic lift's; but a wide triangle may fold.
 SphereMap stereographic_lift(const OneVertexDisk& disk, const VectorX& areas);
 
 /// A third of the source area of the triangles at each vertex. Shapes: #V.

@@ -9,15 +9,15 @@
 #include <utility>
 #include <vector>
 
-#include "embedding/energy/energy_domain.h"
-#include "embedding/newton/newton_refinement.h"
-#include "embedding/newton/freed_memory.h"
-#include "embedding/sweeps/kernel_placement.h"
-#include "embedding/sweeps/pack_kernel.h"
-#include "embedding/frame/pin_domain.h"
-#include "embedding/sweeps/ring_packs.h"
 #include "elementary.h"
+#include "embedding/energy/energy_domain.h"
+#include "embedding/frame/pin_domain.h"
+#include "embedding/newton/freed_memory.h"
+#include "embedding/newton/newton_refinement.h"
+#include "embedding/sweeps/kernel_placement.h"
+#include "embedding/sweeps/lane_sweep.h"
 #include "embedding/sweeps/relaxation.h"
+#include "embedding/sweeps/ring_packs.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/orientation.h"
 
@@ -27,8 +27,8 @@
 //      deepest point of the ring's kernel; then it makes one Newton step;
 //   3. sweeps of guarded Newton steps over all vertices, colour by colour. Coarse levels are cheap
 //      and get more of them.
-// A vertex without room (rounding on very long limbs) sends the level back: the coarser one is
-// relaxed again, which opens the rings, and the level is tried once more. Then areas weigh more;
+// A vertex without room (rounding on very long protrusions) sends the level back: the coarser one
+// is relaxed again, which opens the rings, and the level is tried once more. Then areas weigh more;
 // last, the shape is forgotten and everything equilateral.
 // Pins are placed on the coarsest level that has them all, and held from there on. Pins that block
 // each other there (edges between them, too few vertices) travel on as levels get finer.
@@ -41,8 +41,8 @@ constexpr int pin_work = 200'000;           // rounds × vertices on a level tha
 constexpr int fewest_pin_rounds = 40;       // on fine levels
 constexpr double least_pin_progress = 0.9;  // of the distances left: more than that is idle
 constexpr int most_idle_levels = 6;
-// Exponents: how many more sweeps coarser levels get. On limbs the coarse levels carry more.
-constexpr double sweep_growth = 0.5, sweep_growth_without_limbs = 0.3;
+// Exponents: how many more sweeps coarser levels get. On protrusions the coarse levels carry more.
+constexpr double sweep_growth = 0.5, sweep_growth_without_protrusions = 0.3;
 constexpr int shape_sweeps = 30;    // of relaxation, where the embedding knew nothing of the shape
 constexpr size_t large_levels = 3;  // on which memory is at its peak
 // Tried in turn when vertices found no room at the λ asked for.
@@ -86,7 +86,7 @@ class Embedder {
         hierarchy_(build_hierarchy(mesh, topology, options.threads, keep, options.progress)),
         options_(options),
         area_floor_(options.least_area * 4 * std::numbers::pi / topology.face_count()),
-        finish_(topology.vertex_count(), refinement_options(options)) {
+        refinement_(topology.vertex_count(), refinement_options(options)) {
     std::vector<Vertex> names;
     for (const Pin& pin : options.pins) names.push_back(pin.vertex);
     while (!names.empty() && std::count(names.begin(), names.end(), -1) == 0) {
@@ -112,7 +112,7 @@ class Embedder {
       const double before = done / all;
       const int vertices = hierarchy_[l].vertex_count();
       done += vertices;
-      if (finish_.due(vertices)) finish(l, {before, done / all});
+      if (refinement_.due(vertices)) refine_by_newton(l, {before, done / all});
       ask_();
     }
     packs_ = {};
@@ -166,15 +166,15 @@ class Embedder {
                       hold_pins ? pinned_[l] : std::vector<Vertex>{}, std::move(used));
   }
 
-  void finish(size_t l, ProgressShare share) {
+  void refine_by_newton(size_t l, ProgressShare share) {
     const std::vector<Vertex> pinned = pins_placed_ ? pinned_[l] : std::vector<Vertex>{};
     if (l == 0) {
       packs_ = {};  // there is no room to spare in a Newton step
       hierarchy_.clear();
-      return finish_.improve(mesh_, topology_, pinned, image_, share);
+      return refinement_.improve(mesh_, topology_, pinned, image_, share);
     }
     const TriangleMesh mesh = triangle_mesh(hierarchy_[l]);
-    finish_.improve(mesh, Topology(mesh, options_.threads), pinned, image_, share);
+    refinement_.improve(mesh, Topology(mesh, options_.threads), pinned, image_, share);
     image_.reserve(at(topology_.vertex_count()));
   }
 
@@ -209,7 +209,8 @@ class Embedder {
 
   int sweeps_on(int vertices) const {
     const double finest = topology_.vertex_count();
-    const double growth = finish_.sweeps_suffice() ? sweep_growth_without_limbs : sweep_growth;
+    const double growth =
+        refinement_.sweeps_suffice() ? sweep_growth_without_protrusions : sweep_growth;
     const double wanted = options_.sweeps * elementary::pow(finest / vertices, growth);
     return static_cast<int>(std::lround(std::min<double>(options_.most_sweeps, wanted)));
   }
@@ -281,22 +282,22 @@ class Embedder {
   int idle_levels_ = 0;  // that brought the pins no nearer
   RingPacks packs_;      // of the level at hand; its memory serves all levels
   Image image_;
-  Finish finish_;
+  NewtonRefinement refinement_;
 };
 
 /// Towards the energy asked for, where the map was found by another one.
-void finish_map(const TriangleMesh& mesh, const Topology& topology,
+void refine_map(const TriangleMesh& mesh, const Topology& topology,
                 const ProgressiveOptions& options, const KeptVertices& keep, SphereMap& map) {
   if (options.quality == Quality::Draft) return;
   Image image = image_of(map);
-  Finish(topology.vertex_count(), refinement_options(options))
+  NewtonRefinement(topology.vertex_count(), refinement_options(options))
       .improve(mesh, topology, keep.vertices, image);
   map = map_of(image);
 }
 
-/// With the λ asked for, or else with greater ones: weighing areas more keeps limbs from shrinking
-/// to where doubles have no room left. From such a map the finish goes back towards the λ asked
-/// for.
+/// With the λ asked for, or else with greater ones: weighing areas more keeps protrusions from
+/// shrinking to where doubles have no room left. From such a map Newton steps go back towards the λ
+/// asked for.
 ProgressiveEmbedding embed_with_room(const TriangleMesh& mesh, const Topology& topology,
                                      const ProgressiveOptions& options, const KeptVertices& keep) {
   const auto embed = [&](const ProgressiveOptions& how) {
@@ -311,12 +312,12 @@ ProgressiveEmbedding embed_with_room(const TriangleMesh& mesh, const Topology& t
     const int retries = embedding.report.retries;
     embedding = embed(roomier);
     embedding.report.retries += retries;
-    if (embedding.map) finish_map(mesh, topology, options, keep, *embedding.map);
+    if (embedding.map) refine_map(mesh, topology, options, keep, *embedding.map);
   }
   return embedding;
 }
 
-/// As if all triangles were equilateral, then relaxed and finished for the shape they have. No
+/// As if all triangles were equilateral, then relaxed and refined for the shape they have. No
 /// shape is too hard for that, but what neither reaches stays distorted.
 ProgressiveEmbedding embed_by_valences(const TriangleMesh& mesh, const Topology& topology,
                                        const ProgressiveOptions& options,
@@ -336,7 +337,7 @@ ProgressiveEmbedding embed_by_valences(const TriangleMesh& mesh, const Topology&
                          .progress = options.progress,
                          .measure_energy = false})
                       .map;
-  finish_map(mesh, topology, options, keep, *embedding.map);
+  refine_map(mesh, topology, options, keep, *embedding.map);
   return embedding;
 }
 

@@ -2,11 +2,11 @@
 
 #include <optional>
 
-#include "sphparam/embedding/distortion_energy.h"
 #include "embedding/frame/landmarks.h"
-#include "sphparam/embedding/quality.h"
 #include "embedding/sweeps/relaxation.h"
 #include "mesh/mesh_hierarchy.h"
+#include "sphparam/embedding/distortion_energy.h"
+#include "sphparam/embedding/quality.h"
 #include "sphparam/progress.h"
 
 namespace sphparam {
@@ -15,7 +15,7 @@ struct ProgressiveOptions {
   DistortionEnergy energy = {};  // ε is not used: the map is valid at every moment
   Quality quality = Quality::Normal;
   double sweeps = 1.4;   // on the finest level; a level of n vertices gets √(N/n) times that,
-                         // without limbs (N/n)^0.3; ≥ 0
+                         // without protrusions (N/n)^0.3; ≥ 0
   int most_sweeps = 60;  // on any level; ≥ 0
   double over_relaxation = 1.7;  // first step tried, in Newton steps; 0 to `most_over_relaxation`
   int retries = 5;               // of a level whose vertices found no room; 0 to `most_retries`
@@ -45,15 +45,15 @@ struct ProgressiveEmbedding {
 /// Embeds a mesh on the sphere from coarse to fine: a tetrahedron first, then level by level the
 /// removed vertices inside the kernels of their rings, then guarded relaxation of the level.
 ///
-/// In exact arithmetic a kernel is never empty, so the method cannot fail; in doubles limbs of
-/// extreme length can run out of room, hence the retries and the optional result. Every triangle's
-/// orientation is certain at every moment, none is ever folded.
-/// Pinned vertices stay in the hierarchy down to a few hundred vertices; `place_landmarks` puts
-/// them there, and from there on up nothing moves them, so that the rest is optimal around them.
-/// Requires: genus 0, finite positions. Ensures: unit points; same bits for any number of threads
+/// In exact arithmetic a kernel is never empty, so the method cannot fail; in doubles protrusions
+/// of extreme length can run out of room, hence the retries and the optional result. Every
+/// triangle's orientation is certain at every moment, none is ever folded. Pinned vertices stay in
+/// the hierarchy down to a few hundred vertices; `place_landmarks` puts them there, and from there
+/// on up nothing moves them, so that the rest is optimal around them. Requires: genus 0, finite
+/// positions. Ensures: unit points; same bits for any number of threads
 ///           and any vector width of the machine. Throws: Cancelled; std::invalid_argument naming
 ///           an option outside of its domain.
-/// Cost: O(#F). Sweeps solve no linear system; where they stall, on long limbs and with
+/// Cost: O(#F). Sweeps solve no linear system; where they stall, on long protrusions and with
 /// Quality::Best, a bounded number of Newton steps does, each O(#F) by multigrid.
 /// Paper: Praun and Hoppe, "Spherical parametrization and remeshing" (2003); whole levels instead
 /// of single vertices, the energy, the guard and the over-relaxed sweeps are our own.

@@ -23,7 +23,7 @@ struct AxisChoice {
 /// deviations among the candidates; the least sum wins.
 ///
 /// The chart has 1/sin ϕ times as many texels per solid angle as at the equator. Poles where the
-/// map shows the source small (the tips of limbs) even that out; poles beside long stretched
+/// map shows the source small (the tips of protrusions) even that out; poles beside long stretched
 /// triangles make them fold. The paper leaves the choice to the user.
 /// Evidence (17 real meshes, 622 to 199,034 triangles; chosen against the mean of 384 axes, all
 /// triangles counted): see tests/embedding/test_axis_choice.cpp for the law.
@@ -31,8 +31,8 @@ struct AxisChoice {
 /// a pole touches them; densities on 216 cells of the sphere.
 /// Requires: a bijective map. Ensures: same bits for any number of threads. Our own.
 /// Cost: one pass, about 0.03 µs a triangle.
-AxisChoice choose_axis(const Topology& topology, const RestTriangles& source,
-                       const SphereMap& map, const AxisOptions& options = {});
+AxisChoice choose_axis(const Topology& topology, const RestTriangles& source, const SphereMap& map,
+                       const AxisOptions& options = {});
 
 /// The longitude, of 256, whose half-circle fewest triangles cross: what it crosses has to be split
 /// for the chart. In radians, [0, 2π). Our own. Cost: one pass.

@@ -9,10 +9,10 @@
 #include <numeric>
 #include <unordered_map>
 
-#include "embedding/energy/energy_domain.h"
-#include "embedding/constructions/orientations.h"
-#include "embedding/frame/pin_domain.h"
 #include "elementary.h"
+#include "embedding/constructions/orientations.h"
+#include "embedding/energy/energy_domain.h"
+#include "embedding/frame/pin_domain.h"
 #include "embedding/sweeps/relaxation.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/orientation.h"
@@ -25,7 +25,7 @@
 namespace sphparam {
 namespace {
 
-constexpr double kernel_width = 0.5;     // radians: what a pin takes along with it
+constexpr double influence_width = 0.5;  // radians: what a pin takes along with it
 constexpr double longest_move = 0.3;     // radians in a round
 constexpr double least_part = 1e-3;      // of a move: a shorter one is none
 constexpr int patience = 15;             // rounds
@@ -46,8 +46,8 @@ Vector3 way(const Vector3& from, const Vector3& to) {
 }
 
 /// Once continuously differentiable (Matérn 3/2): pins that lie close keep the system regular.
-double kernel(double distance) {
-  const double r = distance / kernel_width;
+double influence(double distance) {
+  const double r = distance / influence_width;
   return (1 + r) * elementary::exp(-r);
 }
 
@@ -159,18 +159,18 @@ class Traveller {
     for (Eigen::Index j = 0; j < count; ++j) {
       at_pins.row(j) = x.row(pins_[static_cast<size_t>(j)].vertex);
     }
-    const auto kernel_of = [&](const Points& points, Eigen::Index i, Eigen::Index j) {
-      return kernel((points.row(i) - at_pins.row(j)).norm());
+    const auto influence_of = [&](const Points& points, Eigen::Index i, Eigen::Index j) {
+      return influence((points.row(i) - at_pins.row(j)).norm());
     };
-    const Eigen::MatrixXd kernels = Eigen::MatrixXd::NullaryExpr(
-        count, count, [&](Eigen::Index i, Eigen::Index j) { return kernel_of(at_pins, i, j); });
-    const Eigen::MatrixXd weights = kernels.ldlt().solve(ways);
+    const Eigen::MatrixXd influences = Eigen::MatrixXd::NullaryExpr(
+        count, count, [&](Eigen::Index i, Eigen::Index j) { return influence_of(at_pins, i, j); });
+    const Eigen::MatrixXd weights = influences.ldlt().solve(ways);
     tell();  // with a thousand pins all of this takes long
     Points field(x.rows(), 3);
     parallel_for(x.rows(), grain, options_.threads, [&](std::int64_t first, std::int64_t last) {
       for (Eigen::Index v = first; v < last; ++v) {
         Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-        for (Eigen::Index j = 0; j < count; ++j) sum += kernel_of(x, v, j) * weights.row(j);
+        for (Eigen::Index j = 0; j < count; ++j) sum += influence_of(x, v, j) * weights.row(j);
         field.row(v) = sum - sum.dot(x.row(v)) * x.row(v);
       }
     });

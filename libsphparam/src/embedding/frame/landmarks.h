@@ -47,7 +47,7 @@ struct LandmarkPlacement {
 ///         are not of unit length to 1e-6, and for options outside of their domain; Cancelled.
 /// Cost: a round takes `sweeps` of relaxation and O(#V·#pins + #pins³): meant for coarse meshes,
 ///       see ProgressiveOptions::pins.
-/// Our own; the field is the kernel interpolation of Joshi and Miller, "Landmark matching via large
+/// Our own; the field is the radial interpolation of Joshi and Miller, "Landmark matching via large
 /// deformation diffeomorphisms" (2000).
 LandmarkPlacement place_landmarks(const Topology& topology, const RestTriangles& source,
                                   const SphereMap& map, const std::vector<Pin>& pins,

@@ -6,20 +6,24 @@
 
 #include "sphparam/parallel.h"
 
-// The Möbius transformations of the sphere are turns, which change no energy, after mobius_recentring: along a
-// by |a| < 1. Three numbers: the energy's derivatives in them are taken by differences, curvatures
-// below zero are turned round, and the step is halved until it lowers the energy.
+// The Möbius transformations of the sphere are turns, which change no energy, after
+// translations of the ball that take its centre to a, |a| < 1. Three numbers: the energy's
+// derivatives in them are taken by differences, curvatures below zero are turned round, and the
+// step is halved until it lowers the energy.
 
 namespace sphparam {
 namespace {
 
-constexpr double recentring_difference = 0.01, longest_recentring = 0.3, least_recentring_curvature = 1e-3;
-constexpr int recentring_halvings = 6;
+constexpr double difference = 0.01;       // of a, for derivatives
+constexpr double longest_step = 0.3;      // |a|
+constexpr double least_curvature = 1e-3;  // of the greatest
+constexpr int halvings = 6;
 constexpr std::int64_t vertex_grain = 512;
 
-/// x ↦ ((1 − |a|²) x + 2 (1 + a·x) a) / |x + a|², |a| < 1
-void boost(const std::vector<ImagePoint>& from, const Vector3& a, std::vector<ImagePoint>& to,
-           int threads) {
+/// The Möbius transformation that takes the centre of the ball to a: x ↦ ((1 − |a|²) x + 2 (1 +
+/// a·x) a) / |x + a|², |a| < 1
+void move_centre(const std::vector<ImagePoint>& from, const Vector3& a, std::vector<ImagePoint>& to,
+                 int threads) {
   to.resize(from.size());
   parallel_for(static_cast<std::int64_t>(from.size()), vertex_grain, threads,
                [&](std::int64_t first, std::int64_t last) {
@@ -39,7 +43,7 @@ struct Derivatives {
 /// Differences of E along the axes and their sums.
 template <class EnergyAt>
 Derivatives differentiate(double before, const EnergyAt& energy_at) {
-  const double h = recentring_difference;
+  const double h = difference;
   Vector3 gradient, ahead;
   Eigen::Matrix3d hessian;
   for (int i = 0; i < 3; ++i) {
@@ -64,20 +68,20 @@ double recentre(std::vector<ImagePoint>& image, double before,
                 int threads) {
   std::vector<ImagePoint> candidate;
   const auto energy_at = [&](const Vector3& a) {
-    boost(image, a, candidate, threads);
+    move_centre(image, a, candidate, threads);
     return energy_of(candidate);
   };
   const auto [gradient, hessian] = differentiate(before, energy_at);
   if (!hessian.allFinite() || !gradient.allFinite()) return before;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(hessian);
   const Vector3 curvature = eigen.eigenvalues().cwiseAbs();
-  const double floor = least_recentring_curvature * curvature.maxCoeff();
+  const double floor = least_curvature * curvature.maxCoeff();
   if (!(floor > 0)) return before;
   Vector3 a =
       -(eigen.eigenvectors() *
         (eigen.eigenvectors().transpose() * gradient).cwiseQuotient(curvature.cwiseMax(floor)));
-  a *= std::min(1.0, longest_recentring / a.norm());
-  for (int i = 0; i < recentring_halvings; ++i, a /= 2) {
+  a *= std::min(1.0, longest_step / a.norm());
+  for (int i = 0; i < halvings; ++i, a /= 2) {
     const double after = energy_at(a);
     if (!(after < before)) continue;
     image.swap(candidate);

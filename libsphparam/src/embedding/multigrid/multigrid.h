@@ -3,21 +3,21 @@
 #include <Eigen/SparseCholesky>
 #include <vector>
 
-#include "embedding/multigrid/block_matrix.h"
-#include "embedding/multigrid/block_gauss_seidel.h"
-#include "embedding/multigrid/near_nullspace.h"
 #include "embedding/multigrid/aggregates.h"
+#include "embedding/multigrid/block_gauss_seidel.h"
+#include "embedding/multigrid/block_matrix.h"
+#include "embedding/multigrid/near_nullspace.h"
 
 namespace sphparam {
 
 /// Approximate inverse of the Hessian of an energy of maps to the sphere that does not change when
 /// the sphere turns: one symmetric V-cycle of algebraic multigrid.
 ///
-/// Unknowns are aggregated by strong connections; a aggregate moves like a small rigid plate: by the
-/// three infinitesimal rotations of the sphere and, as limbs of conformal maps want it, by a
-/// dilation about its own centre. Symmetric block Gauss–Seidel smooths on every level.
-/// Our own application of smoothed-free aggregation: Vaněk, Mandel and Brezina, "Algebraic
-/// multigrid by smoothed aggregation" (1996), the candidates without their smoothing.
+/// Unknowns are aggregated by strong connections; a aggregate moves like a small rigid plate: by
+/// the three infinitesimal rotations of the sphere and, as protrusions of conformal maps want it,
+/// by a dilation about its own centre. Symmetric block Gauss–Seidel smooths on every level. Our own
+/// application of smoothed-free aggregation: Vaněk, Mandel and Brezina, "Algebraic multigrid by
+/// smoothed aggregation" (1996), the candidates without their smoothing.
 class Multigrid {
  public:
   /// The matrix, the points and the units must stay where they are. The unknowns of a row are its
@@ -42,13 +42,14 @@ class Multigrid {
     std::vector<Block<modes>> inverse;  // of the diagonal
     SweepOrder order;
     std::vector<AggregateSite> sites;
-    Aggregates aggregates;                       // to the next level; empty on the last
+    Aggregates aggregates;                   // to the next level; empty on the last
     std::vector<Block<modes>> prolongation;  // from the next level
     Unknowns b, x, r, first_x;
   };
 
   template <int N>
-  bool coarsen(const BlockMatrix<N>& matrix, const std::vector<char>& pinned, Aggregates& aggregates);
+  bool coarsen(const BlockMatrix<N>& matrix, const std::vector<char>& pinned,
+               Aggregates& aggregates);
   void fill_first();
   void fill(size_t level);
   void cycle(size_t level);

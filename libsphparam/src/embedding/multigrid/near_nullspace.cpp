@@ -9,8 +9,8 @@
 // Aggregate C with centre c, frame (u, v, c), radius r moves its points x by four fields:
 //   r u × x,  r v × x,  c × x,  c − x,
 // two turns that carry it along, a turn in its plane, a dilation: P maps their amounts to tangent
-// coordinates. Everything is relative to c and r, so that aggregates of radius 1e-9 on a limb's tip
-// are as well scaled as any, and entries are near 1.
+// coordinates. Everything is relative to c and r, so that aggregates of radius 1e-9 on a
+// protrusion's tip are as well scaled as any, and entries are near 1.
 //
 // With τ = a u + b v the tangent vector of coordinates (a, b) at x and ω = x × τ = a v − b u, the
 // four fields have the products  r U·ω,  r V·ω,  (c − x)·ω,  (c − x)·τ  with τ.
@@ -20,8 +20,8 @@ namespace {
 
 /// Centre and radius of a aggregate of points with radii of their own.
 template <class Centre, class Radius>
-AggregateSite gather_site(const std::vector<int>& members, int first, int last, const Centre& centre,
-                        const Radius& radius) {
+AggregateSite gather_site(const std::vector<int>& members, int first, int last,
+                          const Centre& centre, const Radius& radius) {
   AggregateSite site;
   Vector3 sum = Vector3::Zero();
   for (int m = first; m < last; ++m) sum += centre(members[at(m)]);
@@ -38,7 +38,7 @@ AggregateSite gather_site(const std::vector<int>& members, int first, int last, 
 }  // namespace
 
 std::vector<AggregateSite> gather_sites(const PointRows& rows, const Aggregates& aggregates,
-                                      int threads) {
+                                        int threads) {
   std::vector<AggregateSite> sites(at(aggregates.count()));
   parallel_for(std::ssize(sites), row_grain, threads, [&](std::int64_t begin, std::int64_t end) {
     for (int c = static_cast<int>(begin); c < static_cast<int>(end); ++c) {
@@ -52,7 +52,7 @@ std::vector<AggregateSite> gather_sites(const PointRows& rows, const Aggregates&
 }
 
 std::vector<AggregateSite> gather_sites(const std::vector<AggregateSite>& children,
-                                      const Aggregates& aggregates) {
+                                        const Aggregates& aggregates) {
   std::vector<AggregateSite> sites(at(aggregates.count()));
   for (int c = 0; c < aggregates.count(); ++c) {
     sites[at(c)] = gather_site(
@@ -64,9 +64,9 @@ std::vector<AggregateSite> gather_sites(const std::vector<AggregateSite>& childr
 }
 
 std::vector<Block<2, near_nullspace>> point_prolongation(const PointRows& rows,
-                                                        const Aggregates& aggregates,
-                                                        const std::vector<AggregateSite>& sites,
-                                                        int threads) {
+                                                         const Aggregates& aggregates,
+                                                         const std::vector<AggregateSite>& sites,
+                                                         int threads) {
   std::vector<Block<2, near_nullspace>> p(aggregates.of_row.size());
   parallel_for(std::ssize(p), row_grain, threads, [&](std::int64_t begin, std::int64_t end) {
     for (int row = static_cast<int>(begin); row < static_cast<int>(end); ++row) {
@@ -76,7 +76,7 @@ std::vector<Block<2, near_nullspace>> point_prolongation(const PointRows& rows,
       const TangentFrame own = tangent_frame(x), frame = tangent_frame(site.centre);
       const double radius = site.radius;
       const double at_u[near_nullspace] = {radius * frame.u.dot(own.v), radius * frame.v.dot(own.v),
-                                          d.dot(own.v), d.dot(own.u)};
+                                           d.dot(own.v), d.dot(own.u)};
       const double at_v[near_nullspace] = {
           -radius * frame.u.dot(own.u), -radius * frame.v.dot(own.u), -d.dot(own.u), d.dot(own.v)};
       for (int k = 0; k < near_nullspace; ++k) {
@@ -139,8 +139,8 @@ void prolong_to_points(const PointRows& rows, const Aggregates& aggregates,
 }
 
 std::vector<Block<near_nullspace>> site_prolongation(const std::vector<AggregateSite>& children,
-                                                    const Aggregates& aggregates,
-                                                    const std::vector<AggregateSite>& parents) {
+                                                     const Aggregates& aggregates,
+                                                     const std::vector<AggregateSite>& parents) {
   std::vector<Block<near_nullspace>> p(children.size());
   for (int c = 0; c < aggregates.count(); ++c) {
     const AggregateSite& site = parents[at(c)];

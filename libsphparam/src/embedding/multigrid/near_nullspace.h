@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "embedding/multigrid/block_matrix.h"
+#include "embedding/energy/image_point.h"
 #include "embedding/multigrid/aggregates.h"
-#include "embedding/sweeps/image_point.h"
+#include "embedding/multigrid/block_matrix.h"
 #include "sphparam/mesh/triangle_mesh.h"
 
 namespace sphparam {
@@ -27,15 +27,16 @@ struct PointRows {
 };
 
 /// The sites of aggregates of points, or of aggregates.
-std::vector<AggregateSite> gather_sites(const PointRows& rows, const Aggregates& aggregates, int threads);
+std::vector<AggregateSite> gather_sites(const PointRows& rows, const Aggregates& aggregates,
+                                        int threads);
 std::vector<AggregateSite> gather_sites(const std::vector<AggregateSite>& children,
-                                      const Aggregates& aggregates);
+                                        const Aggregates& aggregates);
 
 /// P from the modes of aggregates to the unknowns of points; zero in rows without a aggregate.
 std::vector<Block<2, near_nullspace>> point_prolongation(const PointRows& rows,
-                                                        const Aggregates& aggregates,
-                                                        const std::vector<AggregateSite>& sites,
-                                                        int threads);
+                                                         const Aggregates& aggregates,
+                                                         const std::vector<AggregateSite>& sites,
+                                                         int threads);
 /// The same P, too large to be kept: b = Pᵀ r …
 void restrict_from_points(const PointRows& rows, const Aggregates& aggregates,
                           const std::vector<AggregateSite>& sites, const float* r, float* b,
@@ -47,7 +48,7 @@ void prolong_to_points(const PointRows& rows, const Aggregates& aggregates,
 
 /// P from the modes of aggregates (`parents`) to those of their members.
 std::vector<Block<near_nullspace>> site_prolongation(const std::vector<AggregateSite>& children,
-                                                    const Aggregates& aggregates,
-                                                    const std::vector<AggregateSite>& parents);
+                                                     const Aggregates& aggregates,
+                                                     const std::vector<AggregateSite>& parents);
 
 }  // namespace sphparam

@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "embedding/newton/conjugate_gradients.h"
-#include "embedding/multigrid/multigrid.h"
-#include "embedding/sweeps/ring_packs.h"
 #include "embedding/energy/triangle_blocks.h"
+#include "embedding/multigrid/multigrid.h"
+#include "embedding/newton/conjugate_gradients.h"
+#include "embedding/sweeps/ring_packs.h"
 #include "sphparam/mesh/topology.h"
 
 namespace sphparam {
@@ -17,7 +17,7 @@ namespace sphparam {
 /// A whole mesh laid out for Newton steps on its energy: vertices renamed so that neighbours are
 /// near in memory, cut into blocks; each block with the triangles that touch it.
 ///
-/// Memory, bytes a triangle: 80 always, of which 40 for the source triangles and 16 for the image;
+/// Memory, bytes a triangle: 80 always, of which 40 for the rest triangles and 16 for the image;
 /// in a step 60 for the Hessian, 60 for the multigrid, 20 for the solver's vectors; in sweeps 55
 /// for the rings instead of the Hessian and the vectors.
 class GlobalNewton {
@@ -49,9 +49,9 @@ class GlobalNewton {
   /// Guarded relaxation of every vertex, so many times: smooths what a step has creased.
   void sweep(const DistortionEnergy& energy, int sweeps);
 
-  /// Carries the whole map by a Möbius transformation that lowers the energy (see mobius_recentring.h), unless
-  /// a vertex is pinned. Towards λ = 0 the energy hardly feels them, and projected Hessians are far
-  /// too stiff for them. Returns the energy.
+  /// Carries the whole map by a Möbius transformation that lowers the energy (see
+  /// mobius_recentring.h), unless a vertex is pinned. Towards λ = 0 the energy hardly feels them,
+  /// and projected Hessians are far too stiff for them. Returns the energy.
   double recentre(const DistortionEnergy& energy);
 
   /// +∞ unless every orientation is certain to be positive.

@@ -10,7 +10,7 @@
 // Levels are due at every fourfold vertex count, counted down from the finest. The smallest get a
 // step in any case: all of them together cost less than a tenth of a step on the finest. Finer ones
 // get steps only if the first step on the level before gained enough, relative to its energy.
-// Shapes with long limbs gain 0.3 to 4 % there, others below 0.2 %.
+// Shapes with long protrusions gain 0.3 to 4 % there, others below 0.2 %.
 // Between steps a few guarded sweeps smooth what the step has creased; half of the gain is theirs.
 // Gains shrink from step to step by a ratio that hardly changes: what is left is the rest of a
 // geometric series.
@@ -40,7 +40,7 @@ double expected(double gain, double before) {
 
 }  // namespace
 
-Finish::Finish(int finest_vertices, RefinementOptions options)
+NewtonRefinement::NewtonRefinement(int finest_vertices, RefinementOptions options)
     : options_(std::move(options)),
       finest_(finest_vertices),
       next_(finest_vertices),
@@ -48,17 +48,17 @@ Finish::Finish(int finest_vertices, RefinementOptions options)
   while (next_ >= growth * least_vertices) next_ /= growth;
 }
 
-bool Finish::due(int vertices) const {
+bool NewtonRefinement::due(int vertices) const {
   const Quality quality = options_.quality;
   if (quality == Quality::Draft || vertices < next_ || vertices < least_vertices) return false;
   return quality == Quality::Best || vertices <= cheap(finest_) || !sweeps_suffice();
 }
 
-bool Finish::sweeps_suffice() const { return last_gain_ <= worthwhile; }
+bool NewtonRefinement::sweeps_suffice() const { return last_gain_ <= worthwhile; }
 
-void Finish::improve(const TriangleMesh& mesh, const Topology& topology,
-                     const std::vector<Vertex>& pinned, std::vector<ImagePoint>& image,
-                     ProgressShare share) {
+void NewtonRefinement::improve(const TriangleMesh& mesh, const Topology& topology,
+                               const std::vector<Vertex>& pinned, std::vector<ImagePoint>& image,
+                               ProgressShare share) {
   const int n = topology.vertex_count();
   const bool finest = n == finest_;
   while (next_ <= n && next_ < finest_) next_ = std::min(finest_, growth * next_);

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "embedding/sweeps/pack_kernel.h"
+#include "embedding/energy/image_point.h"
 #include "sphparam/embedding/distortion_energy.h"
 #include "sphparam/embedding/quality.h"
 #include "sphparam/mesh/topology.h"
@@ -22,13 +22,13 @@ struct ProgressShare {
   double begin = 0, end = 1;
 };
 
-/// Newton steps on some levels of a progressive embedding, for shapes with long limbs: sweeps creep
-/// along the curved valley of their energy, Newton steps do not. On other shapes one cheap step on
-/// the coarse levels finds that out, and nothing else is done.
-/// Our own. Cost: see finish.cpp.
-class Finish {
+/// Newton steps on some levels of a progressive embedding, for shapes with long protrusions: sweeps
+/// creep along the curved valley of their energy, Newton steps do not. On other shapes one cheap
+/// step on the coarse levels finds that out, and nothing else is done. Our own. Cost: see
+/// newton_refinement.cpp.
+class NewtonRefinement {
  public:
-  Finish(int finest_vertices, RefinementOptions options);
+  NewtonRefinement(int finest_vertices, RefinementOptions options);
 
   /// Is a level with so many vertices to be improved?
   bool due(int vertices) const;

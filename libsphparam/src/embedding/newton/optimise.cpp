@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elementary.h"
 #include "embedding/energy/energy_domain.h"
 #include "embedding/newton/global_newton.h"
-#include "elementary.h"
 #include "sphparam/parallel.h"
 
 // A step: projected Newton (global_newton.cpp), then sweeps of guarded relaxation, which smooth
@@ -168,14 +168,14 @@ class Continuation {
     switch (options_.balance) {
       case Balance::Lambda:
         while (lambda_ != options_.optimise.energy.lambda) go(options_.optimise.energy.lambda);
-        finish();
+        settle(options_.optimise);
         break;
       case Balance::EqualArea:
         do {
           while (error_of_areas() > options_.area_error && lambda_ < greatest_lambda) {
             go(greatest_lambda);
           }
-          finish();  // which may raise the error a little
+          settle(options_.optimise);  // which may raise the error a little
         } while (error_of_areas() > options_.area_error && lambda_ < greatest_lambda);
         break;
       case Balance::Conformal:
@@ -195,8 +195,6 @@ class Continuation {
     rough.max_steps = std::min(rough.max_steps, on_the_way_steps);
     settle(rough);
   }
-
-  void finish() { settle(options_.optimise); }
 
   void settle(OptimiseOptions how) {
     how.energy.lambda = lambda_;
