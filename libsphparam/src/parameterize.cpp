@@ -77,7 +77,7 @@ void map_paper(MapInProgress& work) {
 void map_curvilinear(MapInProgress& work) {
   const std::optional<Poles> poles = find_poles(work);
   if (!poles) return work.warn("no usable pair of poles");
-  CurvilinearMap found;
+  CurvilinearResult found;
   try {
     found = map_curvilinear(work.mesh, work.topology, *poles, {.threads = work.options.threads},
                             work.options.progress);

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "sphparam/sphere/sphere_map.h"
+#include "support/rotation.h"
 
 /// Maps to make charts of.
 namespace sphparam::tests {
@@ -22,8 +23,7 @@ inline Eigen::Matrix3d random_rotation(std::mt19937& random) {
 
 /// The map turned so that a direction comes to lie at +z, but for rounding.
 inline SphereMap aimed(const SphereMap& map, const Vector3& direction) {
-  const auto turn = Eigen::Quaterniond::FromTwoVectors(direction, Vector3::UnitZ());
-  return rotated(map, turn.toRotationMatrix());
+  return rotated(map, rotation_between(direction, Vector3::UnitZ()));
 }
 
 /// Everything within 0.7 radians of +z contracted about it.

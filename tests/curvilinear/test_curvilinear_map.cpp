@@ -13,7 +13,7 @@ using Catch::Detail::Approx;
 TEST_CASE("curvilinear_map: the chart has no folds, whatever the mesh") {
   for (const TriangleMesh& mesh : various_spheres()) {
     const CutSphere s(mesh);
-    const CurvilinearMap result = map_curvilinear(s.mesh, s.topology, s.poles);
+    const CurvilinearResult result = map_curvilinear(s.mesh, s.topology, s.poles);
     CHECK(result.planar_folds == 0);
     CHECK(is_induced(s.topology, result.date_line));
     CHECK((result.map.points.rowwise().norm().array() - 1).abs().maxCoeff() < 1e-15);
@@ -29,7 +29,8 @@ TEST_CASE(
 TEST_CASE("curvilinear_map: every iteration that is kept lowers the area distortion") {
   for (const TriangleMesh& mesh : various_spheres()) {
     const CutSphere s(mesh);
-    const CurvilinearMap result = map_curvilinear(s.mesh, s.topology, s.poles, {.iterations = 12});
+    const CurvilinearResult result =
+        map_curvilinear(s.mesh, s.topology, s.poles, {.iterations = 12});
     REQUIRE(result.area_distortion.size() == static_cast<size_t>(result.iterations) + 1);
     for (size_t i = 1; i < result.area_distortion.size(); ++i) {
       CHECK(result.area_distortion[i] < result.area_distortion[i - 1]);
@@ -40,8 +41,8 @@ TEST_CASE("curvilinear_map: every iteration that is kept lowers the area distort
 
 TEST_CASE("curvilinear_map: fewer iterations are a prefix of more") {
   const CutSphere s(tube(15, 9));
-  const CurvilinearMap two = map_curvilinear(s.mesh, s.topology, s.poles, {.iterations = 2});
-  const CurvilinearMap four = map_curvilinear(s.mesh, s.topology, s.poles, {.iterations = 4});
+  const CurvilinearResult two = map_curvilinear(s.mesh, s.topology, s.poles, {.iterations = 2});
+  const CurvilinearResult four = map_curvilinear(s.mesh, s.topology, s.poles, {.iterations = 4});
   REQUIRE(two.iterations == 2);
   REQUIRE(four.area_distortion.size() > 2);
   CHECK(two.area_distortion[2] == four.area_distortion[2]);
@@ -49,7 +50,7 @@ TEST_CASE("curvilinear_map: fewer iterations are a prefix of more") {
 
 TEST_CASE("curvilinear_map: the caps get the share of area that their stars have") {
   const CutSphere s(icosphere(3));
-  const CurvilinearMap result = map_curvilinear(s.mesh, s.topology, s.poles, {.iterations = 0});
+  const CurvilinearResult result = map_curvilinear(s.mesh, s.topology, s.poles, {.iterations = 0});
   double star = 0, whole = 0;
   for (Face f = 0; f < s.topology.face_count(); ++f) {
     const auto t = s.mesh.triangles.row(f);
@@ -72,9 +73,10 @@ TEST_CASE("curvilinear_map: it can be cancelled") {
 
 TEST_CASE("curvilinear_map: the same bytes for 1, 2 and 4 threads") {
   const CutSphere s(icosphere(5));
-  const CurvilinearMap one = map_curvilinear(s.mesh, s.topology, s.poles, {.threads = 1});
+  const CurvilinearResult one = map_curvilinear(s.mesh, s.topology, s.poles, {.threads = 1});
   for (const int threads : {2, 4}) {
-    const CurvilinearMap more = map_curvilinear(s.mesh, s.topology, s.poles, {.threads = threads});
+    const CurvilinearResult more =
+        map_curvilinear(s.mesh, s.topology, s.poles, {.threads = threads});
     CHECK(std::memcmp(more.map.points.data(), one.map.points.data(),
                       sizeof(double) * static_cast<size_t>(one.map.points.size())) == 0);
   }

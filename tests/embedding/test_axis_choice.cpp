@@ -2,10 +2,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "folded_maps.h"
-#include "embedding/frame/axis_choice.h"
 #include "embedding/constructions/progressive.h"
+#include "embedding/frame/axis_choice.h"
+#include "folded_maps.h"
 #include "sphparam/sphere/spherical_coordinates.h"
+#include "support/rotation.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -16,9 +17,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 SphereMap turned_to(const SphereMap& map, const Vector3& axis) {
-  const Eigen::Matrix3d rotation =
-      Eigen::Quaterniond::FromTwoVectors(axis, Vector3::UnitZ()).toRotationMatrix();
-  return {map.points * rotation.transpose()};
+  return {map.points * rotation_between(axis, Vector3::UnitZ()).transpose()};
 }
 
 long chart_folds(const Topology& topology, const SphereMap& map) {

@@ -2,12 +2,13 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "folded_maps.h"
-#include "embedding/frame/pole_placement.h"
 #include "embedding/constructions/progressive.h"
+#include "embedding/frame/pole_placement.h"
+#include "folded_maps.h"
 #include "sphparam/parameterize.h"
 #include "sphparam/sphere/certificate.h"
 #include "sphparam/sphere/spherical_coordinates.h"
+#include "support/rotation.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -116,8 +117,7 @@ TEST_CASE("place_poles_on_axis: all but the surroundings of the south pole is on
   const Embedded e(icosphere(4));
   const auto placed = place_poles_on_axis(e.topology, e.source, e.map, Vector3(1, 2, 3));
   REQUIRE(placed);
-  const Eigen::Matrix3d rotation =
-      Eigen::Quaterniond::FromTwoVectors(e.map.point(placed->north), up).toRotationMatrix();
+  const Eigen::Matrix3d rotation = rotation_between(e.map.point(placed->north), up);
   long moved = 0;
   for (Vertex v = 0; v < e.topology.vertex_count(); ++v) {
     moved += (placed->map.point(v) - rotation * e.map.point(v)).norm() > 1e-12;

@@ -6,7 +6,7 @@
 
 #include "baselines/mobius_centring.h"
 #include "baselines/outcome.h"
-#include "baselines/rings.h"
+#include "baselines/weighted_rings.h"
 #include "option_domain.h"
 #include "sphparam/mesh/edge_weights.h"
 #include "sphparam/parallel.h"
@@ -51,7 +51,7 @@ struct State {
 };
 
 struct Descent {
-  const Rings& rings;
+  const WeightedRings& rings;
   const VectorX& mass;
   const ConformalOptions& options;
 
@@ -130,12 +130,12 @@ BaselineResult map_conformal(const TriangleMesh& mesh, const Topology& topology,
   SphereMap map = mobius_centred(gauss_map(mesh), mass, 60, options.threads);
   outcome.finish_stage("Gauss map");
 
-  const Rings tutte(topology, {});
+  const WeightedRings tutte(topology, {});
   const DescentEnd first = descend({tutte, mass, options}, map, "Tutte energy", progress);
   outcome.finish_stage("Tutte energy", first.iterations);
 
   const EdgeWeights cotangent(mesh, topology, WeightKind::Cotangent, options.threads);
-  const Rings harmonic(topology, cotangent.with(topology, {}, options.threads));
+  const WeightedRings harmonic(topology, cotangent.with(topology, {}, options.threads));
   const DescentEnd last = descend({harmonic, mass, options}, map, "harmonic energy", progress);
   map = mobius_centred(std::move(map), mass, 60, options.threads);
   outcome.finish_stage("harmonic energy", last.iterations);

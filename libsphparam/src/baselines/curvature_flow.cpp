@@ -6,11 +6,12 @@
 #include <utility>
 #include <vector>
 
-#include "option_domain.h"
 #include "baselines/mobius_centring.h"
 #include "baselines/number_text.h"
 #include "baselines/outcome.h"
 #include "baselines/vertex_system.h"
+#include "mesh/triangle_geometry.h"
+#include "option_domain.h"
 #include "sphparam/mesh/edge_weights.h"
 
 // (M_t + δ L₀) x_{t+1} = M_t x_t. Linear elements: a triangle of area A adds A/6 to M_ii, A/12 to
@@ -33,7 +34,7 @@ Mass measure_mass(const Topology& topology, const Points& x) {
     const std::array<Vertex, 3> t = {topology.vertex(f, 0), topology.vertex(f, 1),
                                      topology.vertex(f, 2)};
     const Vector3 a = x.row(t[0]), b = x.row(t[1]), c = x.row(t[2]);
-    const double area = 0.5 * (b - a).cross(c - a).norm();
+    const double area = triangle_area(a, b, c);
     for (int k = 0; k < 3; ++k) {
       const Halfedge h = 3 * f + k;
       mass.diagonal[static_cast<size_t>(t[static_cast<size_t>(k)])] += area / 6;
@@ -119,8 +120,8 @@ SphereMap projected(const Points& x) {
 
 }  // namespace
 
-BaselineResult map_flow(const TriangleMesh& mesh, const Topology& topology, const FlowOptions& options,
-                     const Progress& progress) {
+BaselineResult map_flow(const TriangleMesh& mesh, const Topology& topology,
+                        const FlowOptions& options, const Progress& progress) {
   require_at_least("max_steps", options.max_steps, 0);
   require_more_than("time_step", options.time_step, 0);
   require_at_least("roundness", options.roundness, 0);
@@ -142,7 +143,8 @@ BaselineResult map_flow(const TriangleMesh& mesh, const Topology& topology, cons
     SphereMap map = mobius_centred(projected(x), vertex_masses(mesh), 60, options.threads);
     outcome.finish_stage("Möbius centring");
     const bool round = deviation <= options.roundness;
-    return outcome.take(std::move(map), round ? BaselineEnd::Converged : BaselineEnd::IterationLimit,
+    return outcome.take(std::move(map),
+                        round ? BaselineEnd::Converged : BaselineEnd::IterationLimit,
                         (round ? "round after " : "not round after ") + std::to_string(steps) +
                             " steps: radii deviate by " + number_text(deviation));
   });

@@ -6,10 +6,11 @@
 #include <numbers>
 #include <vector>
 
-#include "option_domain.h"
 #include "baselines/outcome.h"
 #include "baselines/vertex_system.h"
 #include "elementary.h"
+#include "mesh/triangle_geometry.h"
+#include "option_domain.h"
 #include "sphparam/mesh/edge_weights.h"
 
 // D (u + iv) = a + ib with D_PQ = −½(cot R + cot S) and, for the cut triangle ABC with E = A + θ(B
@@ -35,7 +36,7 @@ Face triangle_to_cut(const TriangleMesh& mesh) {
   bool best_is_round = false;
   for (Face f = 0; f < mesh.face_count(); ++f) {
     const auto p = corners(mesh, f);
-    const double twice_area = (p[1] - p[0]).cross(p[2] - p[0]).norm();
+    const double twice_area = doubled_area(p[0], p[1], p[2]);
     bool is_round = twice_area > 0;
     for (size_t k = 0; k < 3; ++k) {
       const Vector3 a = p[(k + 1) % 3] - p[k], b = p[(k + 2) % 3] - p[k];
@@ -104,7 +105,7 @@ SphereMap to_sphere(Plane plane) {
 }  // namespace
 
 BaselineResult map_stereographic(const TriangleMesh& mesh, const Topology& topology,
-                              const StereographicOptions& options, const Progress& progress) {
+                                 const StereographicOptions& options, const Progress& progress) {
   if (options.cut) {
     require_between("cut", *options.cut, 0, static_cast<double>(mesh.face_count() - 1));
   }

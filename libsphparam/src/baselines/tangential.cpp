@@ -10,8 +10,9 @@
 #include <vector>
 
 #include "baselines/outcome.h"
-#include "baselines/rings.h"
+#include "baselines/weighted_rings.h"
 #include "elementary.h"
+#include "mesh/triangle_geometry.h"
 #include "option_domain.h"
 #include "sphparam/mesh/edge_weights.h"
 #include "sphparam/parallel.h"
@@ -34,7 +35,7 @@ SphereMap central_projection(const TriangleMesh& mesh) {
   for (Face f = 0; f < mesh.face_count(); ++f) {
     const auto t = mesh.triangles.row(f);
     const Vector3 a = mesh.position(t[0]), b = mesh.position(t[1]), c = mesh.position(t[2]);
-    const double area = (b - a).cross(c - a).norm();
+    const double area = doubled_area(a, b, c);
     centre += area * (a + b + c) / 3;
     total += area;
   }
@@ -172,7 +173,7 @@ class Smoothing {
 
   const Topology& topology_;
   const TangentialOptions& options_;
-  const Rings rings_;
+  const WeightedRings rings_;
   std::vector<double> totals_;  // Σ_j w_ij
   SphereMap map_;
   std::optional<SphereMap> last_valid_;

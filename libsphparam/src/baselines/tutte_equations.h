@@ -1,7 +1,7 @@
 #pragma once
 
-#include "baselines/rings.h"
 #include "baselines/vertex_system.h"
+#include "baselines/weighted_rings.h"
 #include "sphparam/progress.h"
 
 namespace sphparam {
@@ -35,7 +35,7 @@ class TutteEquations {
 
   const Topology& topology_;
   std::vector<double> weights_;
-  Rings rings_;
+  WeightedRings rings_;
   std::vector<double> totals_;  // Σ_j |w_ij|
 };
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "chart/longitude.h"
-#include "chart/planar_orientation.h"
+#include "sphere/planar_orientation.h"
 #include "sphparam/chart/spherical_chart.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/orientation.h"

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "chart/longitude.h"
-#include "chart/planar_orientation.h"
 #include "chart/refined_mesh.h"
+#include "sphere/planar_orientation.h"
 
 namespace sphparam {
 

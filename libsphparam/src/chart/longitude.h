@@ -1,6 +1,6 @@
 #pragma once
 
-#include "chart/planar_orientation.h"
+#include "sphere/planar_orientation.h"
 #include "sphparam/mesh/triangle_mesh.h"
 
 /// On which side of the meridian θ = 0 a ray lies: signs of its doubles, exact.

@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "mesh/triangle_geometry.h"
 #include "sphparam/chart/carry_attributes.h"
-#include "elementary.h"
 #include "sphparam/parallel.h"
 
 // On a triangle with edges e₁, e₂ and their (u₁, v₁), (u₂, v₂) the surface grows with u along
@@ -33,10 +33,6 @@ struct CornerDirections {
 Vector3 direction_of(const Vector3& v) {
   const double largest = v.cwiseAbs().maxCoeff();
   return largest > 0 ? Vector3((v / largest).normalized()) : Vector3(Vector3::Zero());
-}
-
-double angle_between(const Vector3& a, const Vector3& b) {
-  return elementary::atan2(a.cross(b).norm(), a.dot(b));
 }
 
 CornerDirections corner_directions(const SphericalChart& chart, const Points& positions, Face f) {

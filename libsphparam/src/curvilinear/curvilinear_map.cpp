@@ -7,6 +7,7 @@
 #include "curvilinear/lift.h"
 #include "curvilinear/quasi_harmonic.h"
 #include "elementary.h"
+#include "mesh/triangle_geometry.h"
 #include "option_domain.h"
 
 // (M, date line) → cylinder → (θ, ϕ) → κ_acc ← κ → (θ, ϕ) → κ_acc ← κ_acc·√κ → (θ, ϕ) → … while it
@@ -26,7 +27,7 @@ double cap_angle(const TriangleMesh& mesh, const Topology& topology, Vertex pole
   topology.for_each_outgoing(pole, [&](Halfedge h) {
     const Vector3 p = mesh.position(pole);
     const Vector3 a = mesh.position(topology.target(h)), b = mesh.position(topology.apex(h));
-    star_area += 0.5 * (a - p).cross(b - p).norm();
+    star_area += triangle_area(p, a, b);
   });
   const double share = total_area > 0 ? std::min(star_area / total_area, 0.5) : 0;
   return std::clamp(elementary::acos(1 - 2 * share), least, greatest);
@@ -58,13 +59,13 @@ void require_domain(const CurvilinearOptions& options) {
 
 }  // namespace
 
-CurvilinearMap map_curvilinear(const TriangleMesh& mesh, const Topology& topology,
-                               DateLine date_line, const CurvilinearOptions& options,
-                               const Progress& progress) {
+CurvilinearResult map_curvilinear(const TriangleMesh& mesh, const Topology& topology,
+                                  DateLine date_line, const CurvilinearOptions& options,
+                                  const Progress& progress) {
   require_domain(options);
   const int threads = options.threads;
   report(progress, "harmonic map", 0);
-  CurvilinearMap best;
+  CurvilinearResult best;
   best.date_line = std::move(date_line);
   const CutMesh cut_mesh(topology, best.date_line);
   const EdgeWeights weights(mesh, topology, WeightKind::SymmetricMeanValue, threads);
@@ -94,8 +95,8 @@ CurvilinearMap map_curvilinear(const TriangleMesh& mesh, const Topology& topolog
   return best;
 }
 
-CurvilinearMap map_curvilinear(const TriangleMesh& mesh, const Topology& topology, Poles poles,
-                               const CurvilinearOptions& options, const Progress& progress) {
+CurvilinearResult map_curvilinear(const TriangleMesh& mesh, const Topology& topology, Poles poles,
+                                  const CurvilinearOptions& options, const Progress& progress) {
   require_domain(options);
   require_vertex("poles.north", poles.north, mesh.vertex_count());
   require_vertex("poles.south", poles.south, mesh.vertex_count());

@@ -15,7 +15,7 @@ struct CurvilinearOptions {
 };
 
 /// A chart that is one-to-one, and its lift, which need not be.
-struct CurvilinearMap {
+struct CurvilinearResult {
   SphereMap map;
   DateLine date_line;
   long planar_folds = 0;                // of the chart that was lifted; 0 but for rounding
@@ -35,13 +35,13 @@ struct CurvilinearMap {
 /// Requires: usable poles; an induced date line from pole to pole; coordinates whose fourth powers
 /// neither overflow nor underflow.
 /// Throws: SolveError; Cancelled; std::invalid_argument naming an option outside of its domain.
-CurvilinearMap map_curvilinear(const TriangleMesh& mesh, const Topology& topology,
-                               DateLine date_line, const CurvilinearOptions& options = {},
-                               const Progress& progress = {});
+CurvilinearResult map_curvilinear(const TriangleMesh& mesh, const Topology& topology,
+                                  DateLine date_line, const CurvilinearOptions& options = {},
+                                  const Progress& progress = {});
 
 /// With the shortest date line, made an induced path.
-CurvilinearMap map_curvilinear(const TriangleMesh& mesh, const Topology& topology, Poles poles,
-                               const CurvilinearOptions& options = {},
-                               const Progress& progress = {});
+CurvilinearResult map_curvilinear(const TriangleMesh& mesh, const Topology& topology, Poles poles,
+                                  const CurvilinearOptions& options = {},
+                                  const Progress& progress = {});
 
 }  // namespace sphparam

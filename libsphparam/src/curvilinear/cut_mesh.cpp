@@ -30,7 +30,7 @@ CutMesh::CutMesh(const Topology& topology, DateLine date_line)
   const std::vector<Vertex>& path = date_line_.path;
   for (const Vertex pole : {path.front(), path.back()}) {
     topology.for_each_outgoing(
-        pole, [&](Halfedge h) { faces_[static_cast<size_t>(Topology::face(h))] |= removed; });
+        pole, [&](Halfedge h) { faces_[static_cast<size_t>(Topology::face(h))] |= removed_bit; });
   }
   // Seen from outside, east of north lies counter-clockwise, east of south clockwise.
   north_link_ = link_from(topology, path.front(), path[1], true);

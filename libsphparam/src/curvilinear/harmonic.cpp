@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
-#include "elementary.h"
+#include "mesh/triangle_geometry.h"
 #include "option_domain.h"
+#include "sphere/planar_orientation.h"
 #include "sphparam/errors.h"
 #include "sphparam/parallel.h"
-#include "sphparam/sphere/orientation.h"
 
 // θ and ϕ have the same fixed vertices (the links; in the rectangle the date line too), so one
 // matrix serves both. Twist: E(c) = ½ Σ w (Δθ₀ + cΔη)² is least at c = −Σ w Δθ₀Δη / Σ w (Δη)², and
@@ -55,7 +54,7 @@ std::vector<double> link_gaps(const TriangleMesh& mesh, Vertex pole,
   for (size_t i = 0; i < link.size(); ++i) {
     const Vector3 a = mesh.position(link[i]) - mesh.position(pole);
     const Vector3 b = mesh.position(link[(i + 1) % link.size()]) - mesh.position(pole);
-    gaps.push_back(elementary::atan2(a.cross(b).norm(), a.dot(b)));
+    gaps.push_back(angle_between(a, b));
     sum += gaps.back();
   }
   const double mean = 2 * pi / static_cast<double>(link.size());
@@ -96,24 +95,6 @@ void fix_link(ChartBoundary& boundary, const std::vector<Vertex>& link, double p
               std::vector<double> gaps) {
   const std::vector<double> theta = cumulated(std::move(gaps), 2 * pi);
   for (size_t i = 0; i < link.size(); ++i) fix(boundary, link[i], theta[i], phi);
-}
-
-struct ChartPoint {
-  double phi, theta;
-};
-
-/// Exact sign of the area of abc in the plane (ϕ, θ): ϕ points south and θ east, so that a triangle
-/// counter-clockwise on the sphere is counter-clockwise in (ϕ, θ), not in (θ, ϕ).
-int chart_orientation(ChartPoint a, ChartPoint b, ChartPoint c) {
-  // Shewchuk's first filter for orient2d: (3 + 16u)u times the sum of the two products' sizes.
-  constexpr double bound = 3.3306690738754716e-16;
-  const double left = (a.phi - c.phi) * (b.theta - c.theta);
-  const double right = (a.theta - c.theta) * (b.phi - c.phi);
-  const double det = left - right;
-  const double limit = bound * (std::abs(left) + std::abs(right));
-  if (det > limit && limit > std::numeric_limits<double>::min()) return 1;
-  if (-det > limit && limit > std::numeric_limits<double>::min()) return -1;
-  return orientation({a.phi, a.theta, 1}, {b.phi, b.theta, 1}, {c.phi, c.theta, 1});
 }
 
 }  // namespace
@@ -203,14 +184,14 @@ long planar_folds(const Topology& topology, const CutMesh& cut_mesh, const Curvi
                   int threads) {
   const auto point = [&](Halfedge h) {
     const Vertex v = topology.origin(h);
-    return ChartPoint{map.phi[v], map.theta[v] + 2 * pi * cut_mesh.turn(h)};
+    return ChartPoint{.u = map.theta[v] + 2 * pi * cut_mesh.turn(h), .v = map.phi[v]};
   };
   return static_cast<long>(
       parallel_sum(topology.face_count(), threads, [&](std::int64_t first, std::int64_t last) {
         long folds = 0;
         for (Face f = static_cast<Face>(first); f < last; ++f) {
           if (cut_mesh.removed(f)) continue;
-          if (chart_orientation(point(3 * f), point(3 * f + 1), point(3 * f + 2)) <= 0) ++folds;
+          if (planar_orientation(point(3 * f), point(3 * f + 1), point(3 * f + 2)) <= 0) ++folds;
         }
         return static_cast<double>(folds);
       }));

@@ -4,12 +4,9 @@
 #include <cmath>
 
 #include "elementary.h"
+#include "mesh/triangle_geometry.h"
 #include "sphere/solid_angle.h"
 #include "sphparam/parallel.h"
-
-// The spherical area Ω of (a, b, c) is the solid angle of the three rays,
-//   tan(Ω/2) = det(a, b, c) / (1 + a·b + b·c + c·a),
-// with the determinant taken of a, b − a, c − a: that keeps its digits in small triangles.
 
 namespace sphparam {
 namespace {
@@ -17,10 +14,6 @@ namespace {
 constexpr std::int64_t grain = 4096;
 constexpr double least_source = 1e-9;  // of the mean source area
 constexpr double least_image = 1e-18;  // of the mean area on the sphere
-
-double triangle_area(const Vector3& a, const Vector3& b, const Vector3& c) {
-  return 0.5 * (b - a).cross(c - a).norm();
-}
 
 /// Fills values[f] = of_face(f) and returns their sum.
 template <class OfFace>

@@ -1,5 +1,6 @@
 #include "curvilinear/tangential_smoothing.h"
 
+#include "mesh/rings.h"
 #include "option_domain.h"
 #include "sphparam/mesh/edge_weights.h"
 
@@ -26,21 +27,7 @@ Vector3 laplacian(const Topology& topology, const std::vector<double>& weights,
 
 std::vector<Vertex> date_line_patch(const Topology& topology, const DateLine& date_line,
                                     int rings) {
-  std::vector<Vertex> patch = date_line.path;
-  std::vector<bool> seen(static_cast<size_t>(topology.vertex_count()), false);
-  for (const Vertex v : patch) seen[static_cast<size_t>(v)] = true;
-  size_t ring_begin = 0;
-  for (int ring = 0; ring < rings; ++ring) {
-    const size_t ring_end = patch.size();
-    for (; ring_begin < ring_end; ++ring_begin) {
-      topology.for_each_outgoing(patch[ring_begin], [&](Halfedge h) {
-        const Vertex v = topology.target(h);
-        if (!seen[static_cast<size_t>(v)]) patch.push_back(v);
-        seen[static_cast<size_t>(v)] = true;
-      });
-    }
-  }
-  return patch;
+  return rings_in_order(topology, date_line.path, rings);
 }
 
 SphereMap smooth_date_line(const TriangleMesh& mesh, const Topology& topology,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesh/repair_state.h"
+#include "mesh/triangle_geometry.h"
 #include "mesh/union_find.h"
 
 // Parts are ranked by area: faces are many where somebody modelled finely, a mug's handle more than
@@ -23,8 +24,7 @@ struct Part {
 };
 
 double area_of(const RepairState& state, const std::array<Vertex, 3>& face) {
-  const Vector3& a = state.shape[face[0]];
-  return (state.shape[face[1]] - a).cross(state.shape[face[2]] - a).norm() / 2;
+  return triangle_area(state.shape[face[0]], state.shape[face[1]], state.shape[face[2]]);
 }
 
 std::vector<Part> ranked_parts(const RepairState& state, UnionFind& classes) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "elementary.h"
+#include "mesh/triangle_geometry.h"
 #include "mesh/unit_size.h"
 #include "option_domain.h"
 #include "sphparam/errors.h"
@@ -74,7 +75,7 @@ double bend(const TriangleMesh& mesh, const Topology& topology, const Faces& fac
 double angle_at_origin(const TriangleMesh& mesh, const Topology& topology, Halfedge h) {
   const Vector3 a = edge_vector(mesh, topology, h).stableNormalized();
   const Vector3 b = -edge_vector(mesh, topology, Topology::previous(h)).stableNormalized();
-  return elementary::atan2(a.cross(b).norm(), a.dot(b));
+  return angle_between(a, b);
 }
 
 struct Measures {
@@ -166,6 +167,7 @@ void enlarge(Curvature& curvature, int exponent) {
 /// Requires: squares of the positions neither overflow nor vanish.
 Curvature measure_harmless(const TriangleMesh& mesh, const Topology& topology, double scale,
                            int threads) {
+  // 1. The measures at the vertices, and their densities as they are.
   const Faces faces = measure_faces(mesh, threads);
   Measures measures = measure_vertices(mesh, topology, faces, threads);
   const double mean_area = measures.area.mean();
@@ -175,13 +177,14 @@ Curvature measure_harmless(const TriangleMesh& mesh, const Topology& topology, d
                       scale};
   if (!(scale > 0) || !(mean_area > 0)) return curvature;
 
-  // By a power of two: the areas at about 1.
+  // 2. The system that averages them over the scale; by a power of two: the areas at about 1.
   const double unit = std::ldexp(1.0, -std::max(std::ilogb(mean_area), least_exponent));
   const SparseMatrix matrix = unit * averaging_matrix(mesh, topology, faces, area, scale);
   Eigen::ConjugateGradient<SparseMatrix, Eigen::Lower | Eigen::Upper> solver;
   solver.setTolerance(tolerance);
   solver.setMaxIterations(max_iterations);
   solver.compute(matrix);
+  // 3. Its solutions, from the densities as they are.
   const auto average = [&](const VectorX& measure) -> VectorX {
     const VectorX raw = measure.cwiseQuotient(area) / unit;
     const VectorX density = solver.solveWithGuess(measure, raw);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sphparam/mesh/triangle_mesh.h"
+#include "mesh/triangle_geometry.h"
 
 namespace sphparam {
 
@@ -14,7 +14,7 @@ constexpr double flat_area = 1e-14;
 inline bool is_flat(const Vector3& a, const Vector3& b, const Vector3& c) {
   const double longest =
       std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-  return (b - a).cross(c - a).norm() / 2 <= flat_area * longest;
+  return triangle_area(a, b, c) <= flat_area * longest;
 }
 
 }  // namespace sphparam

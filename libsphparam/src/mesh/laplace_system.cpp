@@ -93,6 +93,7 @@ void LaplaceSystem::build_pattern(bool upper_half, int threads) {
     });
     visit(column);
   };
+  // 1. How many entries a column has, summed to where it starts.
   int* start = matrix.outerIndexPtr();
   start[0] = 0;
   parallel_for(n, grain, threads, [&](std::int64_t first, std::int64_t last) {
@@ -102,6 +103,7 @@ void LaplaceSystem::build_pattern(bool upper_half, int threads) {
     }
   });
   for (int column = 0; column < n; ++column) start[column + 1] += start[column];
+  // 2. The rows of its entries.
   matrix.resizeNonZeros(start[n]);
   parallel_for(n, grain, threads, [&](std::int64_t first, std::int64_t last) {
     for (int column = static_cast<int>(first); column < last; ++column) {
@@ -114,6 +116,7 @@ void LaplaceSystem::build_pattern(bool upper_half, int threads) {
 void LaplaceSystem::factorise(std::vector<double> weights, int threads) {
   weights_ = std::move(weights);
   if (unknown_count() == 0) return;
+  // 1. The entries, in the order of the pattern.
   Matrix& matrix = factor_->matrix;
   parallel_for(unknown_count(), grain, threads, [&](std::int64_t first, std::int64_t last) {
     for (int column = static_cast<int>(first); column < last; ++column) {
@@ -131,6 +134,7 @@ void LaplaceSystem::factorise(std::vector<double> weights, int threads) {
       *entry = diagonal;
     }
   });
+  // 2. The factors.
   const auto factorise_by = [&](auto& solver) {
     solver.factorize(matrix);
     if (solver.info() != Eigen::Success) {

@@ -11,6 +11,7 @@
 
 #include "mesh/face_sides.h"
 #include "mesh/flat_face.h"
+#include "mesh/triangle_geometry.h"
 #include "mesh/union_find.h"
 
 // A mesh that Topology accepts has no defect of connectivity: counting is all that is left, and the
@@ -158,10 +159,11 @@ class Inspector {
 
   double scaled_area(Face f) const {
     const Vector3 a = scaled_corner(f, 0);
-    return (scaled_corner(f, 1) - a).cross(scaled_corner(f, 2) - a).norm() / 2;
+    return triangle_area(a, scaled_corner(f, 1), scaled_corner(f, 2));
   }
 
   void check_edges() {
+    // 1. Edges by how many faces they have, and which way those run through them.
     Places boundary, crowded, misoriented;
     UnionFind loops(static_cast<size_t>(vertices_));
     std::vector<Vertex> on_boundary;
@@ -177,10 +179,12 @@ class Inspector {
       if (j - i == 2 && side.forward == sides_[i + 1].forward)
         misoriented.add({side.low, side.high});
     });
+    // 2. Boundary edges that meet belong to one loop.
     std::vector<int> roots;
     for (const Vertex v : on_boundary) roots.push_back(loops.find(v));
     std::sort(roots.begin(), roots.end());
     result_.boundary_loops = std::unique(roots.begin(), roots.end()) - roots.begin();
+    // 3. What was found, said.
     if (boundary.count > 0) {
       add_fatal(DefectKind::BoundaryEdge, boundary.count, boundary.elements,
                 "not closed: " + plural(boundary.count, "boundary edge", "boundary edges") +

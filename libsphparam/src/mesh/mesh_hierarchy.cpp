@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "mesh/triangle_geometry.h"
 #include "sphparam/parallel.h"
 
 // One batch: (1) every vertex v prices its cheapest half-edge collapse v → u: squared edge length
@@ -307,9 +308,8 @@ Points scaled_positions(const TriangleMesh& mesh, int threads) {
       parallel_sum(mesh.face_count(), threads, [&](std::int64_t f0, std::int64_t f1) {
         double sum = 0;
         for (std::int64_t f = f0; f < f1; ++f) {
-          const Vector3 a = place(mesh.triangles(f, 0));
-          sum +=
-              (place(mesh.triangles(f, 1)) - a).cross(place(mesh.triangles(f, 2)) - a).norm() / 2;
+          sum += triangle_area(place(mesh.triangles(f, 0)), place(mesh.triangles(f, 1)),
+                               place(mesh.triangles(f, 2)));
         }
         return sum;
       });

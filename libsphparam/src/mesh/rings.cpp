@@ -9,8 +9,8 @@
 
 namespace sphparam {
 
-std::vector<Vertex> rings_around(const Topology& topology, const std::vector<Vertex>& vertices,
-                                 int rings) {
+std::vector<Vertex> rings_in_order(const Topology& topology, const std::vector<Vertex>& vertices,
+                                   int rings) {
   require_vertices("vertices", vertices, topology.vertex_count());
   require_at_least("rings", rings, 0);
   std::vector<char> seen(static_cast<size_t>(topology.vertex_count()), 0);
@@ -26,6 +26,12 @@ std::vector<Vertex> rings_around(const Topology& topology, const std::vector<Ver
       topology.for_each_outgoing(found[begin], [&](Halfedge h) { add(topology.target(h)); });
     }
   }
+  return found;
+}
+
+std::vector<Vertex> rings_around(const Topology& topology, const std::vector<Vertex>& vertices,
+                                 int rings) {
+  std::vector<Vertex> found = rings_in_order(topology, vertices, rings);
   std::ranges::sort(found);
   return found;
 }

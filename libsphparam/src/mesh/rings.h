@@ -6,9 +6,13 @@
 
 namespace sphparam {
 
-/// These vertices and all that are at most `rings` edges away from one, in ascending order.
+/// These vertices, then all that are at most `rings` edges away from one, ring by ring, each once.
 /// Throws: std::invalid_argument for what is no vertex, or rings < 0.
 /// Cost: O(#V) to mark them, and their stars.
+std::vector<Vertex> rings_in_order(const Topology& topology, const std::vector<Vertex>& vertices,
+                                   int rings);
+
+/// The same in ascending order.
 std::vector<Vertex> rings_around(const Topology& topology, const std::vector<Vertex>& vertices,
                                  int rings);
 

@@ -106,6 +106,7 @@ bool Topology::is_of(const Triangles& triangles) const {
 }
 
 bool Topology::build(const Triangles& triangles, int vertex_count, int threads) {
+  // 1. How many corners every vertex has, and where the list of them starts.
   const size_t halfedges = at(triangles.size());
   origin_.assign(triangles.data(), triangles.data() + halfedges);
   std::vector<int> start(at(vertex_count) + 1, 0);
@@ -115,6 +116,7 @@ bool Topology::build(const Triangles& triangles, int vertex_count, int threads) 
   }
   for (size_t v = 0; v < at(vertex_count); ++v) start[v + 1] += start[v];
 
+  // 2. The corners, vertex by vertex.
   const auto corners = std::make_unique_for_overwrite<Corner[]>(halfedges);
   {
     std::vector<int> place(start.begin(), start.end() - 1);
@@ -127,6 +129,7 @@ bool Topology::build(const Triangles& triangles, int vertex_count, int threads) 
     }
   }
 
+  // 3. At every vertex each corner's next one about it: together they must be one closed fan.
   twin_.resize(halfedges);
   outgoing_.resize(at(vertex_count));
   std::atomic<bool> sound{true};

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "sphere/solid_angle.h"
 #include "elementary.h"
+#include "sphere/solid_angle.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/orientation.h"
 
@@ -198,6 +198,7 @@ std::vector<Vertex> branch_vertices(const Topology& topology, const SphereMap& m
 }  // namespace
 
 Certificate certify(const Topology& topology, const SphereMap& map, int threads) {
+  // 1. Points: finite, and how far from the sphere.
   Certificate certificate;
   const Vertex vertices = topology.vertex_count();
   std::vector<PointFindings> point_chunks(
@@ -213,6 +214,7 @@ Certificate certify(const Topology& topology, const SphereMap& map, int threads)
   }
   if (!certificate.unusable_points.empty()) return certificate;
 
+  // 2. Faces: exact orientations, solid angles, and which of them a ray meets.
   const bool unit = certificate.max_length_error < nearly_unit;
   const Vector3 probe = generic_rays().front();
   const Face faces = topology.face_count();
@@ -237,6 +239,7 @@ Certificate certify(const Topology& topology, const SphereMap& map, int threads)
   certificate.reversed = static_cast<Face>(certificate.folded.size()) == faces;
   if (certificate.fold_count() > 0) return certificate;
 
+  // 3. All are positive: the map covers the sphere degree times; once, and it is one-to-one.
   certificate.degree = degree_by_ray(topology, map, probed);
   if (certificate.degree != 1) certificate.branch_vertices = branch_vertices(topology, map);
   return certificate;

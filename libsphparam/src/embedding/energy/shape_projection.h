@@ -34,6 +34,7 @@ struct ShapeProjection {
     Six shape[3], turn;
   };
 
+  /// a less its part along v, twice: scale is 2/|v|².
   static SPHPARAM_INLINE void reflect(const Six& v, Lanes scale, Six& a) {
     const Lanes f = scale * Derivatives::product(v, a);
     for (int i = 0; i < 6; ++i) a.c[i] -= f * v.c[i];
@@ -41,7 +42,9 @@ struct ShapeProjection {
 
   static SPHPARAM_INLINE ShapeBasis shape_basis(const Image& m, const LaneVectors* u,
                                                 const LaneVectors* v) {
-    // Rotations about two axes in the plane and, from differences, about the centre.
+    // 1. Axes: two in the triangle's plane, and its centre. About that one velocities are taken
+    // from
+    //    differences: all three points move alike otherwise, up to rounding.
     LaneVectors centre = ((m.x[0] + m.x[1]) + m.x[2]), axis[3];
     centre = unit(centre);
     Derivatives::frame(centre, axis[0], axis[1]);
@@ -50,6 +53,7 @@ struct ShapeProjection {
     const LaneVectors mean = (third * (m.a + m.b));
     const Lanes size = 1.0 / root(dot(m.a, m.a) + dot(m.b, m.b));
     const LaneVectors from_mean[3] = {(-size * mean), (size * (m.a - mean)), (size * (m.b - mean))};
+    // 2. QR of the three velocity fields in tangent coordinates, a Householder reflection a column.
     Six reflector[3];
     Lanes scale[3];
     for (int r = 0; r < 3; ++r) {
@@ -69,6 +73,7 @@ struct ShapeProjection {
       scale[r] = select(norm2 > 0.0, 1.0 / norm2, Lanes(0.0));
       reflector[r] = column;
     }
+    // 3. Columns 2 to 5 of Q: the turn in the plane, then what no rotation does.
     ShapeBasis basis;
     for (int j = 0; j < 4; ++j) {
       Six e{};
@@ -90,7 +95,7 @@ struct ShapeProjection {
     for (const Lanes& e : {given.d[0], given.d[1], given.d[2], given.o01, given.o02, given.o12}) {
       scale = larger(scale, magnitude(e));
     }
-    // Cholesky pivots
+    // 1. Which lanes are definite already: by their Cholesky pivots.
     const Lanes floor = definite * scale;
     const Lanes l1 = given.o01 / given.d[0], l2 = given.o02 / given.d[0];
     const Lanes p1 = given.d[1] - l1 * given.o01, q = given.o12 - l1 * given.o02;
@@ -98,6 +103,7 @@ struct ShapeProjection {
     const Mask fine = (given.d[0] > floor) & (p1 > floor) & (p2 > floor);
     if (!(~fine).any()) return given;
 
+    // 2. Eigenvalues, onto a's diagonal, and eigenvectors, the columns of e, by cyclic sweeps.
     Lanes a[3][3] = {{given.d[0], given.o01, given.o02},
                      {given.o01, given.d[1], given.o12},
                      {given.o02, given.o12, given.d[2]}};
@@ -105,6 +111,7 @@ struct ShapeProjection {
     for (int sweep = 0; sweep < jacobi_sweeps; ++sweep) {
       for (int pair = 0; pair < 3; ++pair) {
         const int i = pair == 2 ? 1 : 0, j = pair == 0 ? 1 : 2, k = 3 - i - j;
+        // The rotation that makes a_ij zero; k is the third index.
         const Lanes theta = (a[j][j] - a[i][i]) / (2.0 * a[i][j]);
         const Lanes size = 1.0 / (magnitude(theta) + root(theta * theta + 1.0));
         Lanes t = select(theta < 0.0, -size, size);
@@ -123,6 +130,7 @@ struct ShapeProjection {
         }
       }
     }
+    // 3. Put together again, eigenvalues raised where they are too small.
     const Lanes least = least_curvature * scale;
     const auto entry = [&](int r, int c, Lanes before) SPHPARAM_INLINED {
       Lanes sum{};

@@ -14,6 +14,7 @@
 #include "embedding/energy/energy_domain.h"
 #include "embedding/frame/pin_domain.h"
 #include "embedding/sweeps/relaxation.h"
+#include "mesh/triangle_geometry.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/orientation.h"
 
@@ -39,7 +40,7 @@ constexpr std::int64_t grain = 256;
 /// The tangent vector at `from` whose great circle reaches `to` after its length.
 Vector3 way(const Vector3& from, const Vector3& to) {
   const Vector3 side = to - from.dot(to) * from;
-  const double sine = side.norm(), angle = elementary::atan2(from.cross(to).norm(), from.dot(to));
+  const double sine = side.norm(), angle = angle_between(from, to);
   if (angle == 0) return Vector3::Zero();
   if (sine < opposite && angle > 1) return angle * from.unitOrthogonal();  // any will do
   return angle / sine * side;
@@ -272,7 +273,7 @@ std::vector<double> pin_residuals(const SphereMap& map, const std::vector<Pin>& 
   std::vector<double> residuals;
   for (const Pin& pin : pins) {
     const Vector3 x = map.point(pin.vertex);
-    const double angle = elementary::atan2(x.cross(pin.point).norm(), x.dot(pin.point));
+    const double angle = angle_between(x, pin.point);
     residuals.push_back(x == pin.point ? 0 : std::max(angle, std::numeric_limits<double>::min()));
   }
   return residuals;

@@ -39,15 +39,18 @@ LinearSolution solve_by_conjugate_gradients(const BlockMatrix<2>& matrix, Multig
   double rz = 0;
   while (solution.iterations < most_iterations) {
     if (ask) ask();
+    // 1. The next direction: the preconditioned residual, made conjugate to the one before.
     multigrid.apply(r, z, image);
     const double next = dot(r, z, threads);
     const float share = rz > 0 ? static_cast<float>(next / rz) : 0.0F;
     for (size_t i = 0; i < n; ++i) direction[i] = z[i] + share * direction[i];
     rz = next;
+    // 2. The step along it that minimises the quadratic form.
     multiply(matrix, direction.data(), image.data(), threads);
     const double curvature = dot(direction, image, threads);
     if (!(curvature > 0)) break;
     add(solution.x, rz / curvature, direction);
+    // 3. What it has gained, and whether another is worth it.
     const double gain = rz * rz / curvature;  // b·d = r·z: directions are conjugate
     solution.gain += gain;
     ++solution.iterations;

@@ -4,6 +4,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 
+#include "mesh/triangle_geometry.h"
 #include "sphparam/sphere/orientation.h"
 
 // E does not change when its triangle turns about the centre: three of the six tangent directions
@@ -169,7 +170,7 @@ void NewtonPatch::fit_source_area() {
   for (size_t f = 0; f < triangles_.size(); ++f) {
     const ImageTriangle x = image(triangles_[f], points_);
     area += source_[f].area;
-    image_area += (x[1] - x[0]).cross(x[2] - x[0]).norm() / 2;
+    image_area += triangle_area(x[0], x[1], x[2]);
   }
   if (!(image_area > 0)) return;
   for (RestTriangle& triangle : source_) triangle = scaled(triangle, image_area / area);

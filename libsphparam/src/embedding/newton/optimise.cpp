@@ -6,6 +6,7 @@
 #include "elementary.h"
 #include "embedding/energy/energy_domain.h"
 #include "embedding/newton/global_newton.h"
+#include "mesh/triangle_geometry.h"
 #include "sphparam/parallel.h"
 
 // A step: projected Newton (global_newton.cpp), then sweeps of guarded relaxation, which smooth
@@ -59,7 +60,7 @@ double area_error(const Topology& topology, const RestTriangles& source,
 /// The angle at `corner` of a triangle.
 double angle_at(const ImageTriangle& x, size_t corner) {
   const Vector3 a = x[(corner + 1) % 3] - x[corner], b = x[(corner + 2) % 3] - x[corner];
-  return elementary::atan2(a.cross(b).norm(), a.dot(b));
+  return angle_between(a, b);
 }
 
 /// Mean |ln (angle of the chord triangle / angle of the source)| over all corners.

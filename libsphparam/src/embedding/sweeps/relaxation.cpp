@@ -7,6 +7,7 @@
 #include "elementary.h"
 #include "embedding/energy/energy_domain.h"
 #include "embedding/energy/orientation_guard.h"
+#include "embedding/sweeps/least_colour.h"
 #include "free_vertices.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/orientation.h"
@@ -53,16 +54,11 @@ struct Rings {
 /// Greedy: each vertex in turn takes the least colour that none of its neighbours has.
 std::vector<int> colour(const Topology& topology, const std::vector<Vertex>& vertices) {
   std::vector<int> colours(static_cast<size_t>(topology.vertex_count()), -1);
-  std::vector<Vertex> taken_by;  // per colour: the last vertex that found it taken
   for (const Vertex v : vertices) {
-    topology.for_each_outgoing(v, [&](Halfedge h) {
-      const int c = colours[static_cast<size_t>(topology.target(h))];
-      if (c >= 0) taken_by[static_cast<size_t>(c)] = v;
+    colours[static_cast<size_t>(v)] = least_free_colour(0, [&](const auto& take) {
+      topology.for_each_outgoing(
+          v, [&](Halfedge h) { take(colours[static_cast<size_t>(topology.target(h))]); });
     });
-    const auto free =
-        std::find_if(taken_by.begin(), taken_by.end(), [v](Vertex t) { return t != v; });
-    colours[static_cast<size_t>(v)] = static_cast<int>(free - taken_by.begin());
-    if (free == taken_by.end()) taken_by.push_back(-1);
   }
   return colours;
 }
@@ -146,12 +142,14 @@ class Ring {
     for (const Slot* slot = first_; slot != last_; ++slot) {
       const Slot* following = slot + 1 == last_ ? first_ : slot + 1;
       const Vector3 b = in_frame(following);
+      // 1. The triangle is positive.
       const double s2 = a.x() * b.y() - a.y() * b.x();  // 2S
       const double aa = a.squaredNorm(), bb = b.squaredNorm();
       if (!certainly_positive(s2 / 2, aa + bb) && !certain(*slot, *following, x, s2)) {
         model.energy = std::numeric_limits<double>::infinity();
         return model;
       }
+      // 2. d, s and f's derivatives by them.
       const double il2 = slot->inverse_base * slot->inverse_base;
       const double ih2 = slot->inverse_height * slot->inverse_height;
       const double i2a = slot->inverse_base * slot->inverse_height, area = 1 / (2 * i2a);
@@ -160,11 +158,13 @@ class Ring {
       const double d = (aa * il2 + u.squaredNorm() * ih2) / 2, s = s2 * i2a;
       const EnergyDerivatives f = differentiate(energy_, d, s);
 
+      // 3. ∇d and ∇s; dn is ∇d·x.
       const double d0 = -il2 * a.x() - k * u.x(), d1 = -il2 * a.y() - k * u.y();
       const double dn = -il2 * a.z() - k * u.z();
       // p × q with p = x + a, q = x + b, in the frame
       const double s0 = (a.y() - b.y() + a.y() * b.z() - a.z() * b.y()) * i2a;
       const double s1 = (b.x() - a.x() + a.z() * b.x() - a.x() * b.z()) * i2a;
+      // 4. Their share of value, gradient and Hessian.
       const double isotropic = f.f_d * (il2 + r * k - dn) - f.f_s * s;
       energy += area * f.f;
       g0 += area * (f.f_d * d0 + f.f_s * s0);

@@ -1,7 +1,6 @@
 #include "embedding/sweeps/ring_packs.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -9,6 +8,7 @@
 #include <utility>
 
 #include "embedding/energy/lanes.h"
+#include "embedding/sweeps/least_colour.h"
 #include "sphparam/parallel.h"
 
 namespace sphparam {
@@ -31,18 +31,13 @@ struct Rings {
   const Vertex* ring_begin(Vertex v) const { return &ring[at(start[at(v)])]; }
 };
 
-/// The smallest colour that no neighbour has; neighbours are looked at in blocks of 64 colours.
+/// The least colour that no neighbour has; colour 0 is for the removed vertices.
 int free_colour(const Rings& rings, Vertex v, const std::vector<int>& colour) {
   const Vertex* ring = rings.ring_begin(v);
   const int k = rings.valence(v);
-  for (int base = 0;; base += 64) {
-    std::uint64_t taken = base == 0 ? 1 : 0;  // colour 0 is for the removed vertices
-    for (int i = 0; i < k; ++i) {
-      const int c = colour[at(ring[i])] - base;
-      if (c >= 0 && c < 64) taken |= std::uint64_t{1} << c;
-    }
-    if (taken != ~std::uint64_t{0}) return base + std::countr_one(taken);
-  }
+  return least_free_colour(1, [&](const auto& take) {
+    for (int i = 0; i < k; ++i) take(colour[at(ring[i])]);
+  });
 }
 
 constexpr int no_colour = std::numeric_limits<int>::min() / 2;  // of pinned vertices

@@ -8,10 +8,10 @@
 namespace sphparam {
 
 /// Neighbours and weights of every vertex in one array, for thousands of sweeps.
-class Rings {
+class WeightedRings {
  public:
   /// weights: w[h] per half-edge, or empty for ones.
-  Rings(const Topology& topology, const std::vector<double>& weights) {
+  WeightedRings(const Topology& topology, const std::vector<double>& weights) {
     start_.reserve(static_cast<size_t>(topology.vertex_count()) + 1);
     neighbours_.reserve(static_cast<size_t>(topology.halfedge_count()));
     start_.push_back(0);

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "chart/planar_orientation.h"
+#include "sphere/planar_orientation.h"
 
 using namespace sphparam;
 

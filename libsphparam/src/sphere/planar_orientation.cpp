@@ -1,4 +1,4 @@
-#include "chart/planar_orientation.h"
+#include "sphere/planar_orientation.h"
 
 #include <cmath>
 
