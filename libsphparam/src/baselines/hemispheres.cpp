@@ -7,7 +7,7 @@
 
 #include "baselines/number_text.h"
 #include "baselines/outcome.h"
-#include "baselines/rings.h"
+#include "baselines/weighted_rings.h"
 #include "baselines/tutte_equations.h"
 #include "elementary.h"
 #include "mesh/laplace_system.h"
