@@ -1,9 +1,8 @@
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <thread>
 
+#include "folder.h"
 #include "reading.h"
 #include "sphparam/errors.h"
 #include "sphparam/io/mapped_mesh.h"
@@ -16,17 +15,6 @@ using namespace sphparam::tests;
 namespace fs = std::filesystem;
 
 namespace {
-
-/// A new folder that is gone at the end.
-struct Folder {
-  fs::path path;
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "sphparam_mapped_XXXXXX").string();
-    path = ::mkdtemp(name.data());
-  }
-  ~Folder() { fs::remove_all(path); }
-  std::string file(const std::string& name) const { return (path / name).string(); }
-};
 
 MeshFile egg_file() {
   MeshFile file;

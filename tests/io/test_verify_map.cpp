@@ -1,8 +1,6 @@
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
-#include <filesystem>
 
+#include "folder.h"
 #include "reading.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/sphere_file.h"
@@ -12,23 +10,13 @@
 
 using namespace sphparam;
 using namespace sphparam::tests;
-namespace fs = std::filesystem;
 
 namespace {
 
-/// A new folder that is gone at the end.
-struct Folder {
-  fs::path path;
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "sphparam_verify_XXXXXX").string();
-    path = ::mkdtemp(name.data());
-  }
-  ~Folder() { fs::remove_all(path); }
-  std::string write(const std::string& name, const MeshFile& file) const {
-    write_mesh((path / name).string(), file);
-    return (path / name).string();
-  }
-};
+std::string write(const Folder& folder, const std::string& name, const MeshFile& file) {
+  write_mesh(folder.file(name), file);
+  return folder.file(name);
+}
 
 MeshFile file_of(TriangleMesh mesh) {
   MeshFile file;
@@ -53,7 +41,7 @@ MeshFile sphere(double radius) {
 TEST_CASE("verify_map: rays of a mesh are found and proved, with what they distort") {
   const Folder folder;
   const SphereMap map{icosphere(2).positions};
-  const VerifiedMap verified = verify_map(folder.write("egg.ply", attach_map(egg(), map, {})));
+  const VerifiedMap verified = verify_map(write(folder, "egg.ply", attach_map(egg(), map, {})));
   CHECK(verified.certificate.bijective());
   CHECK(verified.place == RayPlace::Rays);
   CHECK(verified.is_round());
@@ -63,7 +51,7 @@ TEST_CASE("verify_map: rays of a mesh are found and proved, with what they disto
 
 TEST_CASE("verify_map: a bare sphere of any radius is its own map") {
   const Folder folder;
-  const VerifiedMap verified = verify_map(folder.write("sphere.obj", sphere(100)));
+  const VerifiedMap verified = verify_map(write(folder, "sphere.obj", sphere(100)));
   CHECK(verified.certificate.bijective());
   CHECK(verified.place == RayPlace::Positions);
   CHECK(verified.mean_length == Approx(100));
@@ -72,12 +60,12 @@ TEST_CASE("verify_map: a bare sphere of any radius is its own map") {
 
 TEST_CASE("verify_map: a mesh and its sphere are two files of one connectivity") {
   const Folder folder;
-  const std::string shape = folder.write("egg.obj", egg());
-  const VerifiedMap verified = verify_map(shape, {.sphere = folder.write("s.off", sphere(1))});
+  const std::string shape = write(folder, "egg.obj", egg());
+  const VerifiedMap verified = verify_map(shape, {.sphere = write(folder, "s.off", sphere(1))});
   CHECK(verified.of_two_files);
   CHECK(verified.certificate.bijective());
   CHECK(verified.distortion);
-  const std::string other = folder.write("other.off", file_of(icosphere(1)));
+  const std::string other = write(folder, "other.off", file_of(icosphere(1)));
   CHECK_THROWS_AS(verify_map(shape, {.sphere = other}), ReadError);
 }
 
@@ -85,7 +73,7 @@ TEST_CASE("verify_map: a sphere seen from inside is one-to-one, its faces turned
   const Folder folder;
   MeshFile inside = sphere(1);
   inside.mesh.triangles.col(1).swap(inside.mesh.triangles.col(2));
-  const VerifiedMap verified = verify_map(folder.write("inside.off", inside));
+  const VerifiedMap verified = verify_map(write(folder, "inside.off", inside));
   CHECK(verified.certificate.bijective());
   CHECK(verified.certificate.reversed);
   CHECK(verified.mesh.triangles == icosphere(2).triangles);
@@ -95,11 +83,11 @@ TEST_CASE("verify_map: a fold is a value, and what is no sphere is said to be no
   const Folder folder;
   MeshFile folded = sphere(1);
   folded.mesh.positions.row(5) *= -1;
-  CHECK_FALSE(verify_map(folder.write("folded.off", folded)).certificate.bijective());
-  CHECK_FALSE(verify_map(folder.write("egg.off", egg())).is_round());
+  CHECK_FALSE(verify_map(write(folder, "folded.off", folded)).certificate.bijective());
+  CHECK_FALSE(verify_map(write(folder, "egg.off", egg())).is_round());
 }
 
 TEST_CASE("verify_map: where there are no faces nothing is mapped") {
   const Folder folder;
-  CHECK_THROWS_AS(verify_map(folder.write("nothing.ply", {})), MeshError);
+  CHECK_THROWS_AS(verify_map(write(folder, "nothing.ply", {})), MeshError);
 }

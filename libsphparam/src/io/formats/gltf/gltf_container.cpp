@@ -1,0 +1,74 @@
+#include "io/formats/gltf/gltf_container.h"
+
+#include <limits>
+#include <utility>
+
+#include "sphparam/io/read_options.h"
+
+namespace sphparam {
+namespace {
+
+constexpr std::size_t kHeaderBytes = 12, kChunkHeaderBytes = 8;
+constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
+
+std::uint32_t word_at(std::string_view bytes, std::size_t at) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 4; i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
+  return value;
+}
+
+/// The chunk at `at`: its kind, its bytes.
+std::pair<std::uint32_t, std::string_view> chunk_at(std::string_view whole, std::size_t at,
+                                                    const std::string& name) {
+  const auto fail = [&](const std::string& what) { throw ReadError::at_byte(name, at, what); };
+  if (whole.size() - at < kChunkHeaderBytes) fail("the file ends within the header of a chunk");
+  const std::uint32_t length = word_at(whole, at), kind = word_at(whole, at + 4);
+  if (length > whole.size() - at - kChunkHeaderBytes)
+    fail("chunk of " + std::to_string(length) + " bytes runs past the end of the file");
+  if (length % 4 != 0) fail("the length of a chunk is no multiple of 4");
+  return {kind, whole.substr(at + kChunkHeaderBytes, length)};
+}
+
+/// Checks the twelve bytes of the header and the headers of all chunks.
+GltfContainer open_binary(std::string_view bytes, const std::string& name,
+                          std::vector<std::string>& notes) {
+  if (bytes.size() < kHeaderBytes) throw ReadError(name, "is too short for a binary glTF");
+  if (bytes.size() > std::numeric_limits<std::uint32_t>::max())
+    throw ReadError(name, "is larger than a binary glTF can be (4 GiB)");
+  const std::uint32_t version = word_at(bytes, 4), length = word_at(bytes, 8);
+  if (version != 2)
+    throw ReadError::at_byte(
+        name, 4,
+        "is binary glTF " + std::to_string(version) + ", which is not supported; version 2 is");
+  if (length > bytes.size())
+    throw ReadError::at_byte(name, 8,
+                             "the header says " + std::to_string(length) + " bytes, the file has " +
+                                 std::to_string(bytes.size()));
+  if (length < bytes.size()) notes.push_back("data after the end of the GLB ignored");
+  if (length < kHeaderBytes) throw ReadError::at_byte(name, 8, "the length of the file is wrong");
+
+  GltfContainer container{.is_binary = true, .whole = bytes.substr(0, length)};
+  const auto [kind, json] = chunk_at(container.whole, kHeaderBytes, name);
+  if (kind != kJsonChunk)
+    throw ReadError::at_byte(name, kHeaderBytes, "the first chunk is no JSON");
+  container.json = json;
+  container.json_offset = kHeaderBytes + kChunkHeaderBytes;
+  for (std::size_t at = container.json_offset + json.size(); at < length;) {
+    const auto [next_kind, chunk] = chunk_at(container.whole, at, name);
+    container.has_binary_chunk |= next_kind == kBinaryChunk;
+    at += kChunkHeaderBytes + chunk.size();
+  }
+  return container;
+}
+
+}  // namespace
+
+GltfContainer open_gltf(std::string_view bytes, const std::string& name,
+                        std::vector<std::string>& notes) {
+  if (bytes.starts_with("glTF")) return open_binary(bytes, name, notes);
+  if (bytes.size() > std::numeric_limits<std::int32_t>::max())
+    throw ReadError(name, "is too large for a glTF");
+  return {.json = bytes, .whole = bytes};
+}
+
+}  // namespace sphparam

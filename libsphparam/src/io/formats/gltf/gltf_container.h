@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sphparam {
+
+/// Where in a glTF file, text or binary, its JSON is.
+struct GltfContainer {
+  std::string_view json = {};
+  std::uint64_t json_offset = 0;
+  bool is_binary = false;
+  bool has_binary_chunk = false;
+  std::string_view whole = {};  // without what follows its end
+};
+
+/// Checks the header of a GLB and those of all its chunks; what follows its end is noted.
+/// Throws: ReadError.
+GltfContainer open_gltf(std::string_view bytes, const std::string& name,
+                        std::vector<std::string>& notes);
+
+}  // namespace sphparam

@@ -1,0 +1,82 @@
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "io/formats/mesh_formats.h"
+#include "reading.h"
+#include "sphparam/io/mesh_writer.h"
+#include "sphparam/io/safe_file.h"
+#include "sphparam/io/sphere_file.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+
+namespace {
+
+MeshFile mapped_icosphere() {
+  MeshFile file;
+  file.mesh = icosphere(1);
+  file.mesh.positions *= 2;
+  return attach_map(file, {icosphere(1).positions}, {{"verdict", "one-to-one"}});
+}
+
+std::string name_for(const MeshFormat& format) {
+  return "mesh" + std::string(format.extensions.front());
+}
+
+}  // namespace
+
+TEST_CASE("mesh_formats: no two formats have one extension, and all are found by theirs") {
+  std::set<std::string_view> seen;
+  for (const MeshFormat& format : mesh_formats()) {
+    for (const std::string_view extension : format.extensions) {
+      if (extension.empty()) continue;
+      CHECK(seen.insert(extension).second);
+      CHECK(format_of_extension(extension) == &format);
+      CHECK(is_mesh_name("a" + std::string(extension)));
+      CHECK(is_mesh_name("a" + std::string(extension) + ".gz"));
+    }
+  }
+  CHECK_FALSE(format_of_extension(""));
+  CHECK_FALSE(is_mesh_name("report.json"));
+}
+
+TEST_CASE(
+    "mesh_formats: what is written looks like its format, also under no name, and reads back") {
+  for (const MeshFormat& format : mesh_formats()) {
+    INFO(format.names);
+    CHECK(is_written(name_for(format)) == (format.write != nullptr));
+    if (!format.write) {
+      CHECK_THROWS_AS(serialise_mesh(name_for(format), mapped_icosphere()), WriteError);
+      continue;
+    }
+    const std::string bytes = serialise_mesh(name_for(format), mapped_icosphere());
+    CHECK(format.looks_so(bytes));
+    const MeshFile back = read(bytes, "nameless");
+    CHECK(back.mesh.positions == mapped_icosphere().mesh.positions);
+    CHECK(back.mesh.triangles == mapped_icosphere().mesh.triangles);
+    CHECK(read_sphere(back).has_value() == format.keeps_map);
+    CHECK(read_provenance(back).empty() != format.keeps_map);  // no verdict on a map that is gone
+    CHECK(keeps_map(name_for(format)) == format.keeps_map);
+  }
+}
+
+TEST_CASE("mesh_formats: on a sphere the verdict stays, for the positions are the map") {
+  MeshFile sphere = sphere_mesh(mapped_icosphere(), {icosphere(1).positions}, {{"verdict", "x"}});
+  for (const char* name : {"s.ply", "s.obj", "s.off", "s.gii"}) {
+    const MeshFile back = read(serialise_mesh(name, sphere, {.is_sphere = true}), name);
+    CHECK(read_provenance(back) == Provenance{{"verdict", "x"}});
+  }
+}
+
+TEST_CASE("mesh_formats: without an extension, and on standard output, a mesh is a PLY") {
+  const std::string ply = serialise_mesh("a.ply", mapped_icosphere());
+  CHECK(serialise_mesh("-", mapped_icosphere()) == ply);
+  CHECK(serialise_mesh("a", mapped_icosphere()) == ply);
+  CHECK_FALSE(is_written("a.xyz"));
+}
+
+TEST_CASE("mesh_formats: people are told all that are read") {
+  CHECK(readable_formats() == "OBJ, PLY, OFF, STL, glTF, GLB and GIFTI");
+  CHECK(readable_formats("or") == "OBJ, PLY, OFF, STL, glTF, GLB or GIFTI");
+}
