@@ -1,6 +1,6 @@
 #include "io/attributes/source_attributes.h"
 
-#include "texture/srgb.h"
+#include "srgb.h"
 
 namespace sphparam {
 

@@ -1,4 +1,4 @@
-#include "texture/srgb.h"
+#include "srgb.h"
 
 #include <cmath>
 
