@@ -1,3 +1,0 @@
-#pragma once
-
-#include "sphparam/measure/surface_distance.h"
