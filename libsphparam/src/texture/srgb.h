@@ -1,3 +1,3 @@
 #pragma once
 
-#include "srgb.h"
+#include "srgb_curves.h"

@@ -1,6 +1,6 @@
 #include "io/attributes/source_attributes.h"
 
-#include "srgb.h"
+#include "srgb_curves.h"
 
 namespace sphparam {
 

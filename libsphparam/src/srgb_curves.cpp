@@ -1,4 +1,4 @@
-#include "srgb.h"
+#include "srgb_curves.h"
 
 #include <cmath>
 
