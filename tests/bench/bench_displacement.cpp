@@ -17,9 +17,9 @@
 #include "image/image_writer.h"
 #include "io/attributes/shading_normals.h"
 #include "io/polygons/welding.h"
-#include "remesh/subdivision_fit.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/parameterize.h"
+#include "sphparam/remesh/subdivision.h"
 #include "sphparam/stopwatch.h"
 #include "support/test_meshes.h"
 
@@ -70,12 +70,12 @@ Seconds bake_positions(const MeshFile& file, const SphereMap& map, int width) {
   return {computing, encoding + stopwatch.lap()};
 }
 
-Seconds displace(const MeshFile& file, const SphereMap& map, const SphereGrid& grid,
-                 const SubdivisionFit& fit, int width) {
+Seconds displace(const MappedMesh& mapped, const SphereGrid& grid, const SubdivisionFit& fit,
+                 int width) {
   Stopwatch stopwatch;
   const DirectedBase base(grid, fit.control, fit.topology->scheme(), threads);
   const Displacement made =
-      make_displacement(base, file.mesh, Topology(file.mesh, threads), map,
+      make_displacement(base, mapped.mesh(), mapped.topology(), mapped.locator(),
                         {.width = width, .height = width / 2, .threads = threads});
   const double computing = stopwatch.lap();
   encode_displacement(made, ImageDepth::Float, "", "");
@@ -95,12 +95,12 @@ int main(int argc, char** argv) try {
   const MeshFile file = mesh.empty() ? rough_ball() : prepare_for_mapping(read_mesh(mesh));
   const SphereGrid grid = make_grid(parse_grid(grid_name));
   const SphereMap map = parameterize(file.mesh).map;
+  const MappedMesh mapped({.file = file, .map = map}, threads);
   const Scheme scheme = grid.faces.degree(0) == 3 ? Scheme::Loop : Scheme::CatmullClark;
-  const SubdivisionFit fit =
-      fit_subdivision(file.mesh, map, grid, {.scheme = scheme, .threads = threads});
+  const SubdivisionFit fit = fit_subdivision(mapped, grid, {.scheme = scheme, .threads = threads});
   bake_positions(file, map, width / 4);  // warms what is warmed once
   const Seconds baked = bake_positions(file, map, width);
-  const Seconds displaced = displace(file, map, grid, fit, width);
+  const Seconds displaced = displace(mapped, grid, fit, width);
   const double texels = 0.5 * width * width;
   std::printf("%ld triangles, %ld control points, %d × %d\n",
               static_cast<long>(file.mesh.face_count()), static_cast<long>(fit.control.rows()),

@@ -20,13 +20,13 @@
 #include <memory>
 #include <random>
 
+#include "io/polygons/welding.h"
+#include "remesh/grids/polyhedron.h"
+#include "sample_meshes.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/sphere_file.h"
-#include "io/polygons/welding.h"
-#include "remesh/remesh.h"
-#include "remesh/subdivided_grid.h"
-#include "sample_meshes.h"
 #include "sphparam/parameterize.h"
+#include "sphparam/remesh/remesh.h"
 #include "sphparam/sphere/certificate.h"
 #include "sphparam/sphere/sphere_locator.h"
 #include "yardstick.h"
@@ -191,11 +191,12 @@ void compare_stages(const MeshFile& file, const SphereMap& map, int level, int t
   const double lean = refine_seconds(level, false, repeat);
   double locating = 1e9, moving = 1e9, all = 1e9;
   for (int i = 0; i < repeat; ++i) {
+    const MappedMesh source({.file = file, .map = map}, threads);  // without its locator yet
     const double start = now();
-    const Remeshed result = remesh(file, map, grid, {.transfer = {"none"}, .threads = threads});
+    const Remeshed result = remesh(source, grid, {.transfer = {"none"}, .threads = threads});
     all = std::min(all, now() - start);
-    locating = std::min(locating, result.locate_seconds);
-    moving = std::min(moving, result.transfer_seconds);
+    locating = std::min(locating, result.figures().locate_seconds);
+    moving = std::min(moving, result.figures().transfer_seconds);
   }
   std::printf(
       "%s, %ld vertices, %d threads: OpenSubdiv refines in %.3f s (%.3f s without the last "

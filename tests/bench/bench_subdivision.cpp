@@ -11,12 +11,12 @@
 #include <iostream>
 #include <limits>
 
-#include "sphparam/io/mesh_reader.h"
 #include "io/polygons/welding.h"
-#include "remesh/limit_stencils.h"
-#include "remesh/subdivision_fit.h"
+#include "remesh/subdivision/limit_stencils.h"
 #include "sample_meshes.h"
+#include "sphparam/io/mesh_reader.h"
 #include "sphparam/parameterize.h"
+#include "sphparam/remesh/subdivision.h"
 #include "yardstick.h"
 
 using namespace sphparam;
@@ -60,7 +60,7 @@ void compare(const MeshFile& source, const SphereMap& map, const char* name, Sch
     factorisation = std::min(factorisation, now() - start);
     start = now();
     SubdivisionFit fit = fit_subdivision(
-        source.mesh, map, grid,
+        MappedMesh({.file = source, .map = map}, threads), grid,
         {.scheme = scheme, .samples_along_edge = samples_along, .threads = threads});
     const double seconds = now() - start;
     if (seconds < whole) {

@@ -13,12 +13,12 @@
 
 #include "displace/displacement_file.h"
 #include "displace/rebuild.h"
+#include "io/polygons/welding.h"
 #include "sphparam/measure/surface_distance.h"
 #include "sphparam/io/mesh_reader.h"
-#include "io/polygons/welding.h"
-#include "remesh/sample_density.h"
-#include "remesh/subdivision_fit.h"
 #include "sphparam/parameterize.h"
+#include "sphparam/remesh/adaptation.h"
+#include "sphparam/remesh/subdivision.h"
 #include "sphparam/stopwatch.h"
 
 using namespace sphparam;
@@ -41,14 +41,15 @@ double try_on(const std::string& path, const Settings& settings) {
   const TriangleMesh& mesh = file.mesh;
   ParameterizeOptions mapping;
   mapping.energy.lambda = remeshing_lambda;
-  const SphereMap map = parameterize(mesh, mapping).map;
+  const MappedMesh mapped({.file = file, .map = parameterize(mesh, mapping).map});
   const SphereGrid grid = make_grid(parse_grid(settings.grid));
   const Scheme scheme = grid.faces.degree(0) == 3 ? Scheme::Loop : Scheme::CatmullClark;
-  const SubdivisionFit fit = fit_subdivision(mesh, map, grid, {.scheme = scheme});
+  const SubdivisionFit fit = fit_subdivision(mapped, grid, {.scheme = scheme});
   const DirectedBase base(grid, fit.control, scheme);
   const Stopwatch stopwatch;
-  const Displacement made = make_displacement(
-      base, mesh, Topology(mesh), map, {.width = settings.width, .height = settings.width / 2});
+  const Displacement made =
+      make_displacement(base, mesh, mapped.topology(), mapped.locator(),
+                        {.width = settings.width, .height = settings.width / 2});
   const double seconds = stopwatch.seconds();
   const std::vector<char> bytes =
       encode_displacement(made, depth_named(settings.depth), settings.grid, "");
@@ -59,12 +60,12 @@ double try_on(const std::string& path, const Settings& settings) {
   const SurfaceDistance alone = measure_distance(mesh, rebuilt.base, {.samples = settings.samples}),
                         with = measure_distance(mesh, rebuilt.mesh, {.samples = settings.samples});
   const double percent = 100 / alone.diagonal_first, gain = alone.rms() / with.rms();
-  std::printf("| %s | %ld | %ld | %.4f | %.3f | %.5f | %.3f | %.1f | %.4f | %.1f |\n",
-              std::filesystem::path(path).stem().string().c_str(),
-              static_cast<long>(mesh.face_count()), static_cast<long>(fit.control.rows()),
-              percent * alone.rms(), percent * alone.max(), percent * with.rms(),
-              percent * with.max(), gain,
-              100.0 * static_cast<double>(made.missed) / static_cast<double>(texels), seconds);
+  std::printf(
+      "| %s | %ld | %ld | %.4f | %.3f | %.5f | %.3f | %.1f | %.4f | %.1f |\n",
+      std::filesystem::path(path).stem().string().c_str(), static_cast<long>(mesh.face_count()),
+      static_cast<long>(fit.control.rows()), percent * alone.rms(), percent * alone.max(),
+      percent * with.rms(), percent * with.max(), gain,
+      100.0 * static_cast<double>(made.figures.missed) / static_cast<double>(texels), seconds);
   std::fflush(stdout);
   return gain;
 }

@@ -17,10 +17,10 @@
 #include "geodesic_sphere.h"
 #include "sphparam/measure/surface_distance.h"
 #include "panels.h"
-#include "remesh/remesh.h"
 #include "report/svg.h"
 #include "sample_meshes.h"
 #include "sphparam/parameterize.h"
+#include "sphparam/remesh/remesh.h"
 
 using namespace sphparam;
 
@@ -37,19 +37,19 @@ struct Curve {
 
 /// A formula's surface over a fine sphere. Its map is that sphere, turned so that the vertices of
 /// grids do not fall on its own.
-struct Formula {
-  MeshFile file;
-  SphereMap map;
-};
-Formula surface(Vector3 (*formula)(const Vector3&)) {
-  Formula made{.file = {}, .map = {}};
+MappedMesh surface(Vector3 (*formula)(const Vector3&)) {
+  MappedMesh::Parts made{.file = {}, .map = {}};
   made.file.mesh = samples::geodesic_sphere(frequency, 0.1).mesh;
   Points& points = made.file.mesh.positions;
   const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(1, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   made.map.points = (points * turn.transpose()).rowwise().normalized();
   for (Eigen::Index v = 0; v < points.rows(); ++v) points.row(v) = formula(points.row(v));
-  return made;
+  return MappedMesh(std::move(made));
+}
+
+MappedMesh mapped(const MeshFile& file) {
+  return MappedMesh({.file = file, .map = parameterize(file.mesh).map});
 }
 
 Vector3 ellipsoid(const Vector3& q) { return {2 * q.x(), q.y(), 0.6 * q.z()}; }
@@ -58,19 +58,18 @@ Vector3 bumpy(const Vector3& q) {
   return q * (1 + 0.2 * std::sin(3 * q.x()) * std::cos(2 * q.y() + q.z()));
 }
 
-Curve measure(const std::string& shape, const MeshFile& source, const SphereMap& map,
-              std::int64_t samples) {
+Curve measure(const std::string& shape, const MappedMesh& source, std::int64_t samples) {
   Curve curve{.shape = shape,
-              .source_level = std::log(static_cast<double>(source.mesh.face_count()) / 20) /
+              .source_level = std::log(static_cast<double>(source.mesh().face_count()) / 20) /
                               std::numbers::ln2 / 2,
               .rms = {}};
   std::printf("\n| %s: grid | RMS, %% of the diagonal | falls by |\n|---|---|---|\n",
               shape.c_str());
   for (int level = coarsest; level <= finest; ++level) {
     const Remeshed result =
-        remesh(source, map, make_grid({GridKind::Icosahedron, level}), {.transfer = {"none"}});
+        remesh(source, GridSpec{GridKind::Icosahedron, level}, {.transfer = {"none"}});
     const SurfaceDistance distance =
-        measure_distance(source.mesh, result.file.mesh, {.samples = samples});
+        measure_distance(source.mesh(), result.mesh(), {.samples = samples});
     const double rms = 100 * distance.rms() / distance.diagonal_first;
     std::printf("| ico:%d | %.3g | ", level, rms);
     curve.rms.empty() ? std::printf("|\n") : std::printf("%.2f |\n", curve.rms.back() / rms);
@@ -134,13 +133,11 @@ int main(int argc, char** argv) try {
   app.add_option("--samples", samples, "of each surface")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   std::vector<Curve> curves;
-  const Formula known = surface(ellipsoid), mapped = surface(bumpy);
+  const MappedMesh known = surface(ellipsoid), bumps = surface(bumpy);
   const MeshFile body = samples::make_body(frequency);
-  curves.push_back(measure("ellipsoid", known.file, known.map, samples));
-  curves.push_back(
-      measure("bumpy sphere, mapped", mapped.file, parameterize(mapped.file.mesh).map, samples));
-  curves.push_back(
-      measure("body with craters, mapped", body, parameterize(body.mesh).map, samples));
+  curves.push_back(measure("ellipsoid", known, samples));
+  curves.push_back(measure("bumpy sphere, mapped", mapped(bumps.file()), samples));
+  curves.push_back(measure("body with craters, mapped", mapped(body), samples));
   std::ofstream(out) << plot(curves);
 } catch (const std::exception& error) {
   std::cerr << "remesh_levels: " << error.what() << "\n";

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "io/polygons/welding.h"
 #include "sphparam/measure/surface_distance.h"
 #include "sphparam/io/mesh_reader.h"
-#include "io/polygons/welding.h"
-#include "remesh/remesh.h"
 #include "sphparam/parameterize.h"
+#include "sphparam/remesh/remesh.h"
 #include "yardstick.h"
 
 using namespace sphparam;
@@ -25,7 +25,7 @@ const std::vector<std::string> grids = {"ico:6", "octa:129", "cube:64", "uv:512x
 /// What is wrong with a mesh on a grid; empty: nothing.
 std::string fault_of(const Remeshed& result) {
   try {
-    return certify(require_sphere(result.file.mesh), result.map).bijective() ? "" : "folds";
+    return certify(require_sphere(result.mesh()), result.map()).bijective() ? "" : "folds";
   } catch (const MeshError& error) {
     return error.what();
   }
@@ -39,13 +39,13 @@ struct Row {
 /// Locating a direction that no triangle holds throws: none is ever guessed.
 Row remesh_on_all(const MeshFile& source, const SphereMap& map, std::int64_t samples) {
   Row row;
+  const MappedMesh mapped({.file = source, .map = map});
   for (const std::string& name : grids) {
-    const Remeshed result =
-        remesh(source, map, make_grid(parse_grid(name)), {.transfer = {"none"}});
+    const Remeshed result = remesh(mapped, parse_grid(name), {.transfer = {"none"}});
     const std::string fault = fault_of(result);
     if (!fault.empty()) row.faults.push_back(name + ": " + fault);
     const SurfaceDistance distance =
-        measure_distance(source.mesh, result.file.mesh, {.samples = samples});
+        measure_distance(source.mesh, result.mesh(), {.samples = samples});
     char cell[64];
     std::snprintf(cell, sizeof cell, " %.3f / %.2f |",
                   100 * distance.rms() / distance.diagonal_first,

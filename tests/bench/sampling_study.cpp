@@ -15,15 +15,15 @@
 #include <string>
 #include <vector>
 
-#include "sphparam/measure/surface_distance.h"
-#include "sphparam/io/mesh_reader.h"
 #include "io/polygons/welding.h"
+#include "sphparam/measure/surface_distance.h"
 #include "panels.h"
-#include "remesh/remesh.h"
-#include "remesh/sample_density.h"
 #include "report/svg.h"
 #include "sample_meshes.h"
+#include "sphparam/io/mesh_reader.h"
 #include "sphparam/parameterize.h"
+#include "sphparam/remesh/adaptation.h"
+#include "sphparam/remesh/remesh.h"
 #include "yardstick.h"
 
 using namespace sphparam;
@@ -49,8 +49,9 @@ struct Distance {
 
 Distance distance_on(const std::string& grid, const MeshFile& source, const SphereMap& map,
                      std::int64_t samples) {
-  const Remeshed result = remesh(source, map, make_grid(parse_grid(grid)), {.transfer = {"none"}});
-  const SurfaceDistance d = measure_distance(source.mesh, result.file.mesh, {.samples = samples});
+  const MappedMesh mapped({.file = source, .map = map});
+  const Remeshed result = remesh(mapped, parse_grid(grid), {.transfer = {"none"}});
+  const SurfaceDistance d = measure_distance(source.mesh, result.mesh(), {.samples = samples});
   return {100 * d.rms() / d.diagonal_first, 100 * d.max() / d.diagonal_first};
 }
 
@@ -76,9 +77,9 @@ Study study(const std::string& name, const std::string& grid, const MeshFile& so
     result.rms.by_lambda.push_back(d.rms);
     result.max.by_lambda.push_back(d.max);
   }
-  const SphereMap adapted =
-      adapt_map(source.mesh, Topology(source.mesh), maps.best, vertex_count(parse_grid(grid))).map;
-  const Distance d = distance_on(grid, source, adapted, samples);
+  const MappedMesh best({.file = source, .map = maps.best});
+  const Adaptation adapted = adapt_map(best, vertex_count(parse_grid(grid)));
+  const Distance d = distance_on(grid, source, adapted.mapped.map(), samples);
   result.rms.adaptive = d.rms;
   result.max.adaptive = d.max;
   return result;

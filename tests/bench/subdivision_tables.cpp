@@ -12,14 +12,14 @@
 #include <vector>
 
 #include "geodesic_sphere.h"
-#include "sphparam/measure/surface_distance.h"
-#include "sphparam/io/mesh_reader.h"
 #include "io/polygons/welding.h"
-#include "remesh/patch_net.h"
-#include "remesh/remesh.h"
-#include "remesh/subdivision_fit.h"
+#include "sphparam/measure/surface_distance.h"
+#include "remesh/subdivision/patch_net.h"
 #include "sample_meshes.h"
+#include "sphparam/io/mesh_reader.h"
 #include "sphparam/parameterize.h"
+#include "sphparam/remesh/remesh.h"
+#include "sphparam/remesh/subdivision.h"
 #include "yardstick.h"
 
 using namespace sphparam;
@@ -73,10 +73,10 @@ TriangleMesh fine_mesh(const SubdivisionFit& fit, const Polygons& faces) {
 double try_on(const MeshFile& source, const SphereMap& map, const Trial& trial,
               std::int64_t samples) {
   const SphereGrid grid = make_grid(parse_grid(trial.grid));
-  const Remeshed plain = remesh(source, map, grid, {.transfer = {"none"}});
-  const SubdivisionFit fit = fit_subdivision(source.mesh, map, grid, {.scheme = trial.scheme});
-  const SurfaceDistance before =
-      measure_distance(source.mesh, plain.file.mesh, {.samples = samples});
+  const MappedMesh mapped({.file = source, .map = map});
+  const Remeshed plain = remesh(mapped, grid, {.transfer = {"none"}});
+  const SubdivisionFit fit = fit_subdivision(mapped, grid, {.scheme = trial.scheme});
+  const SurfaceDistance before = measure_distance(source.mesh, plain.mesh(), {.samples = samples});
   const SurfaceDistance after =
       measure_distance(source.mesh, fine_mesh(fit, grid.faces), {.samples = samples});
   const double percent = 100 / before.diagonal_first, ratio = before.rms() / after.rms();

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "remesh/limit_surface.h"
-#include "remesh/sphere_grid.h"
+#include "sphparam/remesh/limit_surface.h"
+#include "sphparam/remesh/sphere_grid.h"
 
 namespace sphparam::tests {
 

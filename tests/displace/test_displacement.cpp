@@ -29,7 +29,7 @@ struct Landscape {
       : Landscape(make_grid(parse_grid(name)), scheme, cuts, height) {}
 
   Displacement displacement(int width, int threads = 0) const {
-    return make_displacement(base, mesh, topology, map,
+    return make_displacement(base, mesh, topology, SphereLocator(topology, map),
                              {.width = width, .height = width / 2, .threads = threads});
   }
 
@@ -73,17 +73,17 @@ TEST_CASE("displacement: what stands over a base by a function of direction is t
     INFO(name);
     const Landscape land(name, scheme, 24, bumps);
     const Displacement made = land.displacement(128);
-    CHECK(made.missed == 0);
-    CHECK(made.inexact == 0);
-    CHECK(made.walked + made.cast == 128 * 64);
+    CHECK(made.figures.missed == 0);
+    CHECK(made.figures.inexact == 0);
+    CHECK(made.figures.walked + made.figures.cast == 128 * 64);
     double worst = 0;
     for (int row = 0; row < 64; ++row) {
       for (int column = 0; column < 128; ++column) {
         const double expected = bumps(centre(made.image, column, row)),
                      is = static_cast<double>(*made.image.pixel(column, row));
         worst = std::max(worst, std::abs(is - expected));
-        CHECK(is >= made.least - 1e-7);
-        CHECK(is <= made.greatest + 1e-7);
+        CHECK(is >= made.figures.least - 1e-7);
+        CHECK(is <= made.figures.greatest + 1e-7);
       }
     }
     CHECK(worst < 1e-3);
@@ -94,8 +94,8 @@ TEST_CASE("displacement: of the base itself it is zero, of a parallel surface it
   for (const double height : {0.0, 0.1, -0.1}) {
     const Landscape land("ico:2", Scheme::Loop, 24, [&](const Vector3&) { return height; });
     const Displacement made = land.displacement(64);
-    CHECK(made.least == Approx(height).margin(1e-3));
-    CHECK(made.greatest == Approx(height).margin(1e-3));
+    CHECK(made.figures.least == Approx(height).margin(1e-3));
+    CHECK(made.figures.greatest == Approx(height).margin(1e-3));
   }
 }
 
@@ -107,9 +107,10 @@ TEST_CASE("displacement: the same bytes for any number of threads") {
 TEST_CASE("displacement: cancelling ends it") {
   const Landscape land("ico:1", Scheme::Loop, 4, bumps);
   const auto cancel = [](std::string_view, double) { return false; };
-  CHECK_THROWS_AS(make_displacement(land.base, land.mesh, land.topology, land.map,
-                                    {.width = 16, .height = 8, .progress = cancel}),
-                  Cancelled);
+  CHECK_THROWS_AS(
+      make_displacement(land.base, land.mesh, land.topology, SphereLocator(land.topology, land.map),
+                        {.width = 16, .height = 8, .progress = cancel}),
+      Cancelled);
 }
 
 TEST_CASE("rebuild: base and displacement give the source, however rough") {
@@ -125,8 +126,9 @@ TEST_CASE("rebuild: base and displacement give the source, however rough") {
     targets.row(v) *= radius(targets.row(v).transpose());
   const DirectedBase base(grid, tests::interpolating_control(grid, targets, Scheme::Loop),
                           Scheme::Loop);
-  const Displacement made =
-      make_displacement(base, source, Topology(source), map, {.width = 1024, .height = 512});
+  const Topology topology(source);
+  const Displacement made = make_displacement(base, source, topology, SphereLocator(topology, map),
+                                              {.width = 1024, .height = 512});
   const Rebuilt rebuilt = rebuild(base, made.image, 12);
   const double alone = measure_distance(source, rebuilt.base, {.samples = 20000}).rms(),
                with = measure_distance(source, rebuilt.mesh, {.samples = 20000}).rms();
@@ -176,7 +178,7 @@ TEST_CASE("rebuild: an image is read between the middles of texels, around and o
 TEST_CASE("displacement file: what is read back is what was written, as near as the depth can") {
   const Landscape land("ico:1", Scheme::Loop, 8, bumps);
   const Displacement made = land.displacement(32);
-  const double range = made.greatest - made.least;
+  const double range = made.figures.greatest - made.figures.least;
   for (const auto& [depth, error] : {std::pair(ImageDepth::Float, 0.0),
                                      {ImageDepth::Half, range / 2048},
                                      {ImageDepth::Uint16, range / 65535 * 0.51}}) {
@@ -203,14 +205,14 @@ TEST_CASE("displacement file: no displacement is told from one, and too large on
   const std::vector<char> plain =
       encode_image(Image(2, 1, 1), ImageFormat::Exr, {.sample_type = SampleType::Float});
   CHECK_THROWS_AS(decode_displacement({plain.data(), plain.size()}, "d"), ImageError);
-  Displacement huge{.image = Image(2, 1, 1), .least = 0, .greatest = 1e6};
+  Displacement huge{.image = Image(2, 1, 1), .figures = {.least = 0, .greatest = 1e6}};
   CHECK_THROWS_AS(encode_displacement(huge, ImageDepth::Half, "ico:1", "loop"), std::range_error);
   for (const double size : {1e40, 1e-40}) {  // beyond the floats that the image holds
-    const Displacement odd{.image = Image(2, 1, 1), .least = 0, .greatest = size};
+    const Displacement odd{.image = Image(2, 1, 1), .figures = {.least = 0, .greatest = size}};
     for (const ImageDepth depth : {ImageDepth::Uint16, ImageDepth::Half, ImageDepth::Float})
       CHECK_THROWS_AS(encode_displacement(odd, depth, "ico:1", "loop"), std::range_error);
   }
-  Displacement level{.image = Image(2, 1, 1), .least = 2, .greatest = 2};
+  Displacement level{.image = Image(2, 1, 1), .figures = {.least = 2, .greatest = 2}};
   level.image.pixels = {2, 2};
   const std::vector<char> bytes = encode_displacement(level, ImageDepth::Uint16, "ico:1", "loop");
   CHECK(decode_displacement({bytes.data(), bytes.size()}, "d").pixels == level.image.pixels);

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "image/image_codec.h"
-#include "remesh/geometry_image.h"
+#include "remesh/image_values.h"
 
 using namespace sphparam;
 

@@ -6,9 +6,9 @@
 #include <stdexcept>
 
 #include "remesh/limit_subject.h"
-#include "remesh/limit_surface.h"
-#include "remesh/patch_net.h"
-#include "remesh/sphere_grid.h"
+#include "remesh/subdivision/patch_net.h"
+#include "sphparam/remesh/limit_surface.h"
+#include "sphparam/remesh/sphere_grid.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "remesh/levels_of_detail.h"
+#include "sphparam/remesh/levels_of_detail.h"
 
 using namespace sphparam;
 

@@ -3,11 +3,12 @@
 #include <set>
 #include <stdexcept>
 
-#include "remesh/fine_limit_mesh.h"
-#include "remesh/patch_net.h"
-#include "remesh/sphere_grid.h"
+#include "remesh/subdivision/limit_vertices.h"
+#include "remesh/subdivision/patch_net.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/mesh/topology.h"
+#include "sphparam/remesh/sphere_grid.h"
+#include "sphparam/remesh/subdivision.h"
 
 using namespace sphparam;
 

@@ -3,13 +3,14 @@
 #include <random>
 #include <stdexcept>
 
+#include "io/formats/polygon_ply.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/sphere_file.h"
-#include "io/formats/polygon_ply.h"
-#include "remesh/remesh.h"
 #include "sphparam/mesh/topology.h"
 #include "sphparam/parameterize.h"
+#include "sphparam/remesh/remesh.h"
 #include "sphparam/sphere/certificate.h"
+#include "support/mapped.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -85,6 +86,7 @@ struct Mapped {
   SphereMap map;
   explicit Mapped(const TriangleMesh& mesh)
       : file(everything(mesh)), map(parameterize(mesh, {.threads = 1}).map) {}
+  MappedMesh mapped() const { return tests::mapped(file, map); }
 };
 
 TriangleMesh stretched_sphere(int level) {
@@ -122,20 +124,20 @@ const Property& vertex_property(const MeshFile& file, const std::string& name) {
 TEST_CASE("remesh: a mesh on its own sphere is itself, bit for bit, with all it carries") {
   for (const TriangleMesh& mesh : {stretched_sphere(2), random_sphere_mesh(300, 4)}) {
     const Mapped source(mesh);
-    const Remeshed result = remesh(source.file, source.map, like(mesh, source.map));
-    CHECK(result.file.mesh.positions == mesh.positions);
-    CHECK(result.file.mesh.triangles == mesh.triangles);
-    REQUIRE(result.file.vertex_properties.size() == source.file.vertex_properties.size());
-    for (size_t i = 0; i < result.file.vertex_properties.size(); ++i) {
+    const Remeshed result = remesh(source.mapped(), like(mesh, source.map));
+    CHECK(result.file().mesh.positions == mesh.positions);
+    CHECK(result.file().mesh.triangles == mesh.triangles);
+    REQUIRE(result.file().vertex_properties.size() == source.file.vertex_properties.size());
+    for (size_t i = 0; i < result.file().vertex_properties.size(); ++i) {
       INFO(source.file.vertex_properties[i].name);
-      CHECK(result.file.vertex_properties[i].values == source.file.vertex_properties[i].values);
-      CHECK(result.file.vertex_properties[i].type == source.file.vertex_properties[i].type);
+      CHECK(result.file().vertex_properties[i].values == source.file.vertex_properties[i].values);
+      CHECK(result.file().vertex_properties[i].type == source.file.vertex_properties[i].type);
     }
-    CHECK(result.file.find_face_property("material")->values ==
+    CHECK(result.file().find_face_property("material")->values ==
           source.file.find_face_property("material")->values);
-    CHECK(result.file.materials == source.file.materials);
-    CHECK(*result.file.corner_texcoords == *source.file.corner_texcoords);
-    CHECK(*result.file.corner_normals == *source.file.corner_normals);
+    CHECK(result.file().materials == source.file.materials);
+    CHECK(*result.file().corner_texcoords == *source.file.corner_texcoords);
+    CHECK(*result.file().corner_normals == *source.file.corner_normals);
   }
 }
 
@@ -147,32 +149,32 @@ TEST_CASE("remesh: what is constant stays so, at points and over cells") {
   }
   source.file.mesh.positions.col(1).setConstant(0.1);
   for (const SampleMode mode : {SampleMode::Point, SampleMode::Cell}) {
-    const Remeshed result = remesh(source.file, source.map, grid_named("ico:2"), {.sample = mode});
+    const Remeshed result = remesh(source.mapped(), grid_named("ico:2"), {.sample = mode});
     for (const char* name : {"red", "thickness", "parcel"}) {
-      const Property& property = vertex_property(result.file, name);
+      const Property& property = vertex_property(result.file(), name);
       for (const double value : property.values) {
         CHECK(value == source.file.find_vertex_property(name)->values[0]);
       }
     }
-    CHECK((result.file.mesh.positions.col(1).array() == 0.1).all());
+    CHECK((result.file().mesh.positions.col(1).array() == 0.1).all());
   }
 }
 
 TEST_CASE("remesh: values lie between those around, labels are labels of the source") {
   const Mapped source(random_sphere_mesh(500, 2));
-  const Remeshed result = remesh(source.file, source.map, grid_named("octa:33"));
-  for (const double label : vertex_property(result.file, "parcel").values) {
+  const Remeshed result = remesh(source.mapped(), grid_named("octa:33"));
+  for (const double label : vertex_property(result.file(), "parcel").values) {
     CHECK(label == std::floor(label));
     CHECK((label >= 1 && label < 30));
   }
-  for (const double value : vertex_property(result.file, "thickness").values) {
+  for (const double value : vertex_property(result.file(), "thickness").values) {
     CHECK((value >= 1 && value <= 4));
     CHECK(value == static_cast<double>(static_cast<float>(value)));
   }
   for (size_t v = 0; v < 1000; ++v) {
-    const Vector3 normal(vertex_property(result.file, "nx").values[v],
-                         vertex_property(result.file, "ny").values[v],
-                         vertex_property(result.file, "nz").values[v]);
+    const Vector3 normal(vertex_property(result.file(), "nx").values[v],
+                         vertex_property(result.file(), "ny").values[v],
+                         vertex_property(result.file(), "nz").values[v]);
     CHECK(normal.norm() == Approx(1));
   }
 }
@@ -190,9 +192,9 @@ TEST_CASE("remesh: finer grids come nearer to the surface, four times a level") 
   }
   double before = 0;
   for (const char* name : {"ico:2", "ico:3", "ico:4"}) {
-    const Remeshed result = remesh(source, SphereMap{fine.positions}, grid_named(name));
+    const Remeshed result = remesh(mapped(source, {fine.positions}), grid_named(name));
     double square = 0;  // from the middles of faces to the surface in their directions
-    const TriangleMesh& mesh = result.file.mesh;
+    const TriangleMesh& mesh = result.file().mesh;
     for (Eigen::Index f = 0; f < mesh.face_count(); ++f) {
       const Vector3 middle =
           (mesh.position(mesh.triangles(f, 0)) + mesh.position(mesh.triangles(f, 1)) +
@@ -216,9 +218,9 @@ TEST_CASE("remesh: over cells nothing is left out, at points most is") {
   source.vertex_properties.push_back(spike);
   const auto spread = [&](SampleMode mode) {
     const Remeshed result =
-        remesh(source, SphereMap{fine.positions}, grid_named("ico:2"), {.sample = mode});
+        remesh(mapped(source, {fine.positions}), grid_named("ico:2"), {.sample = mode});
     double square = 0;
-    const auto& values = vertex_property(result.file, "spike").values;
+    const auto& values = vertex_property(result.file(), "spike").values;
     for (const double value : values) square += (value - 1) * (value - 1);
     return std::sqrt(square / static_cast<double>(values.size()));
   };
@@ -231,13 +233,13 @@ TEST_CASE("remesh: texture coordinates never run across a seam") {
   const MeshFile source = two_charts(mesh);
   for (const char* name : {"ico:2", "ico:5", "cube:9"}) {
     INFO(name);
-    const Remeshed result = remesh(source, SphereMap{mesh.positions}, grid_named(name));
-    const auto& uv = *result.file.corner_texcoords;
-    for (Eigen::Index f = 0; f < result.file.mesh.face_count(); ++f) {
+    const Remeshed result = remesh(mapped(source, {mesh.positions}), grid_named(name));
+    const auto& uv = *result.file().corner_texcoords;
+    for (Eigen::Index f = 0; f < result.file().mesh.face_count(); ++f) {
       const auto u = uv.block(3 * f, 0, 3, 1);
       CHECK(u.maxCoeff() - u.minCoeff() < 1.5);
       for (int k = 0; k < 3; ++k) {  // the place itself, where the chart reaches it
-        const Vector3 q = result.map.point(result.file.mesh.triangles(f, k));
+        const Vector3 q = result.map().point(result.file().mesh.triangles(f, k));
         const double v = uv(3 * f + k, 1);
         if (std::abs(q.x()) > 0.3) CHECK(v == Approx(q.z()).margin(0.02));
       }
@@ -249,9 +251,9 @@ TEST_CASE("remesh: quads are written as quads, and what is read back is the same
   const Mapped source(stretched_sphere(3));
   for (const char* name : {"cube:6", "uv:9x5", "healpix:3"}) {
     INFO(name);
-    Remeshed result = remesh(source.file, source.map, grid_named(name));
-    const MeshFile file = attach_map(result.file, result.map, {{"verdict", "one-to-one"}});
-    const MeshFile read = read_mesh(serialise_polygon_ply(file, result.faces), "x.ply", {});
+    const Remeshed result = remesh(source.mapped(), grid_named(name));
+    const MeshFile file = attach_map(result.file(), result.map(), {{"verdict", "one-to-one"}});
+    const MeshFile read = read_mesh(serialise_polygon_ply(file, result.faces()), "x.ply", {});
     CHECK(read.mesh.positions == file.mesh.positions);
     CHECK(read.mesh.triangles == file.mesh.triangles);
     CHECK(read.polygons == file.polygons);
@@ -267,14 +269,13 @@ TEST_CASE("remesh: the same bytes for any number of threads, at points and over 
   const Mapped source(random_sphere_mesh(3000, 11));
   for (const SampleMode mode : {SampleMode::Point, SampleMode::Cell}) {
     const auto run = [&](int threads) {
-      return remesh(source.file, source.map, grid_named("ico:5"),
-                    {.sample = mode, .threads = threads});
+      return remesh(source.mapped(), grid_named("ico:5"), {.sample = mode, .threads = threads});
     };
     const Remeshed one = run(1), three = run(3);
-    CHECK(one.file.mesh.positions == three.file.mesh.positions);
-    CHECK(*one.file.corner_texcoords == *three.file.corner_texcoords);
-    for (size_t i = 0; i < one.file.vertex_properties.size(); ++i) {
-      CHECK(one.file.vertex_properties[i].values == three.file.vertex_properties[i].values);
+    CHECK(one.file().mesh.positions == three.file().mesh.positions);
+    CHECK(*one.file().corner_texcoords == *three.file().corner_texcoords);
+    for (size_t i = 0; i < one.file().vertex_properties.size(); ++i) {
+      CHECK(one.file().vertex_properties[i].values == three.file().vertex_properties[i].values);
     }
   }
 }
@@ -282,8 +283,7 @@ TEST_CASE("remesh: the same bytes for any number of threads, at points and over 
 TEST_CASE("remesh: only what is wanted is carried, and unknown names are refused") {
   const Mapped source(icosphere(1));
   const auto run = [&](std::vector<std::string> names) {
-    return remesh(source.file, source.map, grid_named("ico:2"), {.transfer = std::move(names)})
-        .file;
+    return remesh(source.mapped(), grid_named("ico:2"), {.transfer = std::move(names)}).file();
   };
   CHECK(run({"none"}).vertex_properties.empty());
   CHECK(run({"color"}).vertex_properties.size() == 3);
@@ -298,5 +298,5 @@ TEST_CASE("remesh: a callback that says no ends it") {
   const Mapped source(icosphere(1));
   RemeshOptions options;
   options.progress = [](std::string_view, double) { return false; };
-  CHECK_THROWS_AS(remesh(source.file, source.map, grid_named("ico:2"), options), Cancelled);
+  CHECK_THROWS_AS(remesh(source.mapped(), grid_named("ico:2"), options), Cancelled);
 }

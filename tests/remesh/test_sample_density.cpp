@@ -2,9 +2,11 @@
 #include <cmath>
 
 #include "sphparam/measure/surface_distance.h"
-#include "remesh/remesh.h"
 #include "remesh/sample_density.h"
 #include "sphparam/parameterize.h"
+#include "sphparam/remesh/adaptation.h"
+#include "sphparam/remesh/remesh.h"
+#include "support/mapped.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -23,10 +25,8 @@ TriangleMesh egg() {
 }
 
 double remeshed_rms(const TriangleMesh& mesh, const SphereMap& map, const SphereGrid& grid) {
-  MeshFile file;
-  file.mesh = mesh;
-  const Remeshed result = remesh(file, map, grid, {.transfer = {"none"}});
-  return measure_distance(mesh, result.file.mesh, {.samples = 20'000}).rms();
+  const Remeshed result = remesh(mapped(mesh, map), grid, {.transfer = {"none"}});
+  return measure_distance(mesh, result.mesh(), {.samples = 20'000}).rms();
 }
 
 }  // namespace
@@ -74,18 +74,17 @@ TEST_CASE("An adapted map is one-to-one, and a grid on it is nearer to its sourc
   const Topology topology(mesh);
   const SphereMap map = parameterize(mesh, {.energy = {.lambda = remeshing_lambda}}).map;
   const SphereGrid grid = make_grid(parse_grid("ico:3"));
-  const Adaptation adapted = adapt_map(mesh, topology, map, grid.directions.rows());
-  CHECK(certify(topology, adapted.map).bijective());
+  const Adaptation adapted = adapt_map(mapped(mesh, map), grid.directions.rows());
+  CHECK(certify(topology, adapted.mapped.map()).bijective());
   CHECK(adapted.steps > 0);
   CHECK(adapted.least_density < 1);
   CHECK(adapted.greatest_density > 1);
-  CHECK(remeshed_rms(mesh, adapted.map, grid) < 0.9 * remeshed_rms(mesh, map, grid));
+  CHECK(remeshed_rms(mesh, adapted.mapped.map(), grid) < 0.9 * remeshed_rms(mesh, map, grid));
 }
 
 TEST_CASE("The adapted map has the same bytes for any number of threads") {
   const TriangleMesh mesh = egg();
-  const Topology topology(mesh);
-  const SphereMap map = parameterize(mesh).map;
-  const SphereMap one = adapt_map(mesh, topology, map, 642, {.threads = 1}).map;
-  CHECK(adapt_map(mesh, topology, map, 642, {.threads = 3}).map.points == one.points);
+  const MappedMesh source = mapped(mesh, parameterize(mesh).map);
+  const SphereMap one = adapt_map(source, 642, {.threads = 1}).mapped.map();
+  CHECK(adapt_map(source, 642, {.threads = 3}).mapped.map().points == one.points);
 }

@@ -4,9 +4,9 @@
 #include <set>
 #include <stdexcept>
 
-#include "remesh/sphere_grid.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/mesh/topology.h"
+#include "sphparam/remesh/sphere_grid.h"
 #include "sphparam/sphere/certificate.h"
 
 using namespace sphparam;

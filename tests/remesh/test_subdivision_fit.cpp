@@ -4,13 +4,15 @@
 #include <stdexcept>
 
 #include "sphparam/measure/surface_distance.h"
-#include "remesh/limit_stencils.h"
 #include "remesh/limit_subject.h"
-#include "remesh/patch_net.h"
-#include "remesh/remesh.h"
-#include "remesh/stencil_least_squares.h"
-#include "remesh/subdivision_fit.h"
+#include "remesh/subdivision/limit_stencils.h"
+#include "remesh/subdivision/limit_vertices.h"
+#include "remesh/subdivision/patch_net.h"
+#include "remesh/subdivision/stencil_least_squares.h"
 #include "sphparam/parameterize.h"
+#include "sphparam/remesh/remesh.h"
+#include "sphparam/remesh/subdivision.h"
+#include "support/mapped.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -74,12 +76,6 @@ TriangleMesh bumpy_sphere(int level) {
   return mesh;
 }
 
-MeshFile as_file(const TriangleMesh& mesh) {
-  MeshFile file;
-  file.mesh = mesh;
-  return file;
-}
-
 /// RMS distances from a mesh, of the plain resampled mesh and of the fitted surface.
 struct Distances {
   double plain, fitted;
@@ -87,7 +83,7 @@ struct Distances {
 Distances distances(const TriangleMesh& mesh, const SphereMap& map, const LimitSubject& subject) {
   const SphereGrid grid = subject.grid();
   const SubdivisionFit fit =
-      fit_subdivision(mesh, map, grid, {.scheme = subject.scheme, .threads = 2});
+      fit_subdivision(mapped(mesh, map), grid, {.scheme = subject.scheme, .threads = 2});
   const Tessellation pieces = tessellate(grid.faces, static_cast<int>(fit.control.rows()), 6);
   TriangleMesh fine;
   const auto points = LimitSurface(fit.topology, fit.control).evaluate_all(pieces.vertices);
@@ -96,7 +92,7 @@ Distances distances(const TriangleMesh& mesh, const SphereMap& map, const LimitS
     fine.positions.row(static_cast<Eigen::Index>(v)) = points[v].position;
   }
   fine.triangles = triangulate(fine.positions, pieces.faces).triangles;
-  const TriangleMesh plain = remesh(as_file(mesh), map, grid).file.mesh;
+  const TriangleMesh plain = remesh(mapped(mesh, map), grid).mesh();
   const DistanceOptions options{.samples = 20'000};
   return {measure_distance(mesh, plain, options).rms(),
           measure_distance(mesh, fine, options).rms()};
@@ -247,7 +243,8 @@ TEST_CASE("subdivision fit: a sphere has a sphere's normals and curvatures") {
   for (const LimitSubject& subject : subjects) {
     INFO(subject.name);
     const SphereGrid grid = subject.grid();
-    const SubdivisionFit fit = fit_subdivision(large, map, grid, {.scheme = subject.scheme});
+    const SubdivisionFit fit =
+        fit_subdivision(mapped(large, map), grid, {.scheme = subject.scheme});
     const LimitVertices limit =
         limit_at_vertices(LimitSurface(fit.topology, fit.control), grid.faces);
     CHECK(fit.max < 0.06);
@@ -267,8 +264,8 @@ TEST_CASE("subdivision fit: a mesh elsewhere and larger has the same fit there")
   moved.positions = (8 * mesh.positions).rowwise() + Eigen::RowVector3d(64, -32, 16);
   const SphereMap map{icosphere(3).positions};
   const SphereGrid grid = make_grid(parse_grid("ico:2"));
-  const Points here = fit_subdivision(mesh, map, grid).control,
-               there = fit_subdivision(moved, map, grid).control;
+  const Points here = fit_subdivision(mapped(mesh, map), grid).control,
+               there = fit_subdivision(mapped(moved, map), grid).control;
   const Points back = (there.rowwise() - Eigen::RowVector3d(64, -32, 16)) / 8;
   CHECK((here - back).cwiseAbs().maxCoeff() < 1e-9);
 }
@@ -279,9 +276,9 @@ TEST_CASE("subdivision fit: the same bytes for any number of threads") {
   for (const LimitSubject& subject : subjects) {
     INFO(subject.name);
     const SphereGrid grid = subject.grid();
-    const SubdivisionFit one = fit_subdivision(mesh, map, grid,
+    const SubdivisionFit one = fit_subdivision(mapped(mesh, map), grid,
                                                {.scheme = subject.scheme, .threads = 1}),
-                         three = fit_subdivision(mesh, map, grid,
+                         three = fit_subdivision(mapped(mesh, map), grid,
                                                  {.scheme = subject.scheme, .threads = 3});
     CHECK(one.control == three.control);
     CHECK(one.rms == three.rms);
@@ -292,9 +289,9 @@ TEST_CASE("subdivision fit: the same bytes for any number of threads") {
 TEST_CASE("subdivision fit: it stops when asked, and refuses faces that a scheme does not take") {
   const TriangleMesh mesh = icosphere(2);
   const SphereMap map{mesh.positions};
-  CHECK_THROWS_AS(fit_subdivision(mesh, map, make_grid(parse_grid("ico:2")),
+  CHECK_THROWS_AS(fit_subdivision(mapped(mesh, map), make_grid(parse_grid("ico:2")),
                                   {.progress = [](std::string_view, double) { return false; }}),
                   Cancelled);
-  CHECK_THROWS_AS(fit_subdivision(mesh, map, make_grid(parse_grid("cube:2"))),
+  CHECK_THROWS_AS(fit_subdivision(mapped(mesh, map), make_grid(parse_grid("cube:2"))),
                   std::invalid_argument);
 }

@@ -3,16 +3,16 @@
 #include "arguments/remesh_arguments.h"
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 
 #include "arguments/choice.h"
 #include "arguments/common_options.h"
-#include "commands/remesh_displacement.h"
-#include "commands/remesh_lods.h"
-#include "commands/remesh_subdivision.h"
 
 namespace sphparam::cli {
 
 namespace {
+
+constexpr int most_levels = 12;
 
 constexpr char summary[] =
     "Resample a mesh on a grid of the sphere.\n"
@@ -66,7 +66,69 @@ void add_outputs(CLI::App& command, RemeshArguments& arguments) {
   add_json(command, arguments.json);
 }
 
+void declare_subdivision_options(CLI::App& command, RemeshArguments& arguments) {
+  add_choice<std::optional<Scheme>>(
+      command, "--subdiv-fit", arguments.subdivision,
+      {{"loop", Scheme::Loop}, {"catmark", Scheme::CatmullClark}},
+      "The new mesh is the control mesh of a subdivision surface that is fitted to the mesh: loop "
+      "on grids of triangles, catmark on grids of quads");
+  command
+      .add_option("--limit-mesh", arguments.limit_output,
+                  "With --subdiv-fit, also the mesh whose vertices lie on that surface: .ply, .obj")
+      ->type_name("FILE");
+}
+
+void declare_displacement_options(CLI::App& command, RemeshArguments& arguments) {
+  command
+      .add_option("--displace", arguments.displacement,
+                  "With --subdiv-fit: an equirectangular image of how far the mesh is from the "
+                  "fitted surface along its normal: .exr, or .png in 16 bits")
+      ->type_name("FILE");
+  command
+      .add_option("--displace-size", arguments.displacement_size, "Columns and rows of that image")
+      ->check(CLI::Validator(
+          [](const std::string& text) {
+            return image_size_named(text)
+                       ? std::string()
+                       : "expected columns and rows, as in 4096x2048, columns even, "
+                         "at most " +
+                             std::to_string(most_texels) + " texels, not " + text;
+          },
+          ""))
+      ->type_name("WxH")
+      ->capture_default_str();
+  command
+      .add_option("--rebuild", arguments.rebuilt,
+                  "With --displace: the mesh that surface and image give, as fine as the image, "
+                  "and how far it is from the mesh: .ply, .obj")
+      ->type_name("FILE");
+}
+
+void declare_lod_options(CLI::App& command, RemeshArguments& arguments) {
+  command
+      .add_option(
+          "--lods", arguments.lods,
+          "So many coarser meshes, each on the coarser half of its grid (ico:L; octa:N with N - 1 "
+          "and cube:N with N a power of two), with the error of each: files of their own, "
+          "NAME_lod1 …, or levels (MSFT_lod) of one .glb")
+      ->check(between(0, most_levels, "0 to 12"))
+      ->type_name("N")
+      ->capture_default_str();
+}
+
 }  // namespace
+
+std::optional<DisplacementSize> image_size_named(const std::string& text) {
+  DisplacementSize size{};
+  const char* const end = text.data() + text.size();
+  const auto width = std::from_chars(text.data(), end, size.width);
+  if (width.ec != std::errc{} || width.ptr == end || *width.ptr != 'x') return std::nullopt;
+  const auto height = std::from_chars(width.ptr + 1, end, size.height);
+  const bool good = height.ec == std::errc{} && height.ptr == end && size.width >= 2 &&
+                    size.width % 2 == 0 && size.height >= 1 &&
+                    std::int64_t{size.width} * size.height <= most_texels;
+  return good ? std::optional(size) : std::nullopt;
+}
 
 CLI::App* declare_remesh_arguments(CLI::App& program, RemeshArguments& arguments) {
   CLI::App* command = program.add_subcommand("remesh", summary);

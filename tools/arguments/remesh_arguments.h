@@ -6,9 +6,7 @@
 
 #include "commands/command.h"
 #include "console/console.h"
-#include "remesh/geometry_image.h"
-#include "remesh/limit_surface.h"
-#include "remesh/remesh.h"
+#include "sphparam/remesh/displacement.h"
 
 namespace CLI {
 class App;
@@ -41,6 +39,12 @@ struct RemeshArguments {
   ProgressStyle progress = ProgressStyle::Auto;
   Loudness loudness;
 };
+
+/// Columns and rows of --displace-size; nothing where the text names none.
+struct DisplacementSize {
+  int width, height;
+};
+std::optional<DisplacementSize> image_size_named(const std::string& text);
 
 CLI::App* declare_remesh_arguments(CLI::App& program, RemeshArguments& arguments);
 

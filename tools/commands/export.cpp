@@ -13,18 +13,18 @@
 
 #include "arguments/export_arguments.h"
 #include "arguments/suggestion.h"
-#include "commands/level_path.h"
 #include "commands/mapped_source.h"
 #include "console/exit_codes.h"
 #include "console/interruption.h"
+#include "console/level_path.h"
 #include "console/paths.h"
 #include "io/attributes/appearance.h"
-#include "remesh/remesh.h"
 #include "reports/export_report.h"
 #include "reports/wording.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/read_options.h"
 #include "sphparam/io/safe_file.h"
+#include "sphparam/remesh/levels_of_detail.h"
 #include "sphparam/stopwatch.h"
 
 namespace sphparam::cli {
@@ -122,23 +122,26 @@ class Exporter {
   /// Meshes on icosahedra's grids, each edge cut in N: 10·N² + 2 vertices, a quarter from level to
   /// level.
   std::vector<MappedMesh> coarser(const MappedMesh& mapped, const Look& look) const {
-    std::vector<MappedMesh> levels;
     const auto finest = static_cast<double>(mapped.mesh().vertex_count());
+    std::vector<GridSpec> grids;
     for (int level = 1; level <= arguments_.lods; ++level) {
-      console_.progress("level " + std::to_string(level), 0);
       const double vertices = std::ldexp(finest, -2 * level);
       const int size = std::max(1, static_cast<int>(std::lround(std::sqrt(vertices / 10))));
-      using Names = std::vector<std::string>;
-      Remeshed coarse =
-          remesh(mapped.file(), mapped.map(),
-                 make_grid({GridKind::IcosahedronCut, size}, {.threads = options_.threads}),
-                 {.sample = SampleMode::Cell,
-                  .transfer = look.vertex_colours ? Names{"color"} : Names{},
-                  .threads = options_.threads,
-                  .progress = options_.progress});
-      levels.emplace_back(MappedMesh::Parts{.file = std::move(coarse.file),
-                                            .map = std::move(coarse.map),
+      grids.push_back({GridKind::IcosahedronCut, size, 0});
+    }
+    using Names = std::vector<std::string>;
+    std::vector<MappedMesh> levels;
+    for (const LevelOfDetail& level :
+         levels_of_detail(mapped, grids,
+                          {.sample = SampleMode::Cell,
+                           .transfer = look.vertex_colours ? Names{"color"} : Names{},
+                           .measure = false,
+                           .threads = options_.threads,
+                           .progress = options_.progress})) {
+      levels.emplace_back(MappedMesh::Parts{.file = level.mesh.file(),
+                                            .map = level.mesh.map(),
                                             .provenance = mapped.provenance(),
+                                            .topology = level.mesh.topology(),
                                             .name = options_.source},
                           options_.threads);
     }

@@ -15,7 +15,6 @@
 #include "arguments/common_options.h"
 #include "arguments/input_limits.h"
 #include "commands/command.h"
-#include "commands/measurable.h"
 #include "console/console.h"
 #include "console/exit_codes.h"
 #include "console/interruption.h"

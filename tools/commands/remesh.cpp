@@ -2,266 +2,158 @@
 // grid's directions are. What was written is read back and certified before it gets its name.
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
-#include "sphparam/io/certified_files.h"
-#include "console/exit_codes.h"
-#include "commands/flat_comparison.h"
-#include "console/interruption.h"
-#include "commands/like_grid.h"
-#include "commands/mapped_source.h"
-#include "commands/measurable.h"
-#include "console/paths.h"
-#include "commands/remesh_adaptive.h"
+#include "arguments/input_limits.h"
 #include "arguments/remesh_arguments.h"
-#include "commands/remesh_displacement.h"
+#include "arguments/remesh_checks.h"
+#include "commands/mapped_source.h"
 #include "commands/remesh_glb.h"
-#include "commands/remesh_images.h"
-#include "commands/remesh_lods.h"
+#include "console/exit_codes.h"
+#include "console/interruption.h"
 #include "reports/remesh_report.h"
-#include "commands/remesh_subdivision.h"
-#include "reports/wording.h"
+#include "sphparam/io/certified_files.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/safe_file.h"
-#include "sphparam/io/sphere_file.h"
-#include "remesh/sample_table.h"
-#include "sphparam/mesh/topology.h"
-#include "sphparam/sphere/certificate.h"
+#include "sphparam/measure/measurable.h"
+#include "sphparam/remesh/adaptation.h"
+#include "sphparam/remesh/displacement.h"
+#include "sphparam/remesh/geometry_image.h"
+#include "sphparam/remesh/levels_of_detail.h"
 #include "sphparam/stopwatch.h"
-#include "sphparam/version.h"
 
 namespace sphparam::cli {
 
 namespace {
 
-constexpr std::string_view like_prefix = "like:";
-
-std::string kind_of(const std::string& path) {
-  return is_stream(path) ? ".ply" : extension_of(path);
+Progress progress_on(Console& console) {
+  return [&console](std::string_view stage, double f) { return console.progress(stage, f); };
 }
 
-std::optional<GridSpec> grid_asked_for(const RemeshArguments& arguments) {
-  if (arguments.grid == like_prefix)
-    throw UsageMistake("--grid like: names no mesh, as in like:MESH");
-  if (arguments.grid.starts_with(like_prefix)) return std::nullopt;
-  try {
-    return parse_grid(arguments.grid);
-  } catch (const std::invalid_argument& error) {
-    throw UsageMistake("--grid " + arguments.grid + ": " + error.what());
+SphereGrid grid_for(const RemeshArguments& arguments, const RemeshRequests& requests) {
+  SphereGrid grid = requests.grid ? make_grid(*requests.grid, {.threads = arguments.threads})
+                                  : load_grid(requests.like, input_limits(), arguments.threads);
+  grid.name = arguments.grid;
+  return grid;
+}
+
+Adaptation adapt(const MappedMesh& mapped, std::int64_t samples, const RemeshArguments& arguments,
+                 Console& console) {
+  Adaptation adapted =
+      adapt_map(mapped, samples, {.threads = arguments.threads, .progress = progress_on(console)});
+  if (adapted.steps == 0) {
+    console.warning(display_name(arguments.input) +
+                    ": triangles of the map are too thin to be moved: --adaptive does nothing");
   }
+  return adapted;
 }
 
-void check_outputs(const RemeshArguments& arguments) {
-  const std::string kind = kind_of(arguments.output);
-  if (!arguments.output.empty() && kind != ".ply" && kind != ".obj" && kind != ".glb") {
-    throw UsageMistake("-o: the new mesh is written as .ply, .obj or .glb, not as " +
-                       output_name(arguments.output));
+std::vector<LevelOfDetail> make_levels(const MappedMesh& mapped, SphereGrid grid,
+                                       const RemeshArguments& arguments,
+                                       const RemeshRequests& requests, Console& console) try {
+  std::vector<LevelOfDetail> levels =
+      levels_of_detail(mapped, std::move(grid), requests.coarser,
+                       {.sample = arguments.sample,
+                        .transfer = CLI::detail::split(arguments.transfer, ','),
+                        .subdivision = arguments.subdivision,
+                        .measure = !requests.coarser.empty(),
+                        .threads = arguments.threads,
+                        .progress = progress_on(console)});
+  for (const LevelOfDetail& level : levels) {
+    if (!level.fit || !level.fit->flat_is_nearer()) continue;
+    console.warning(level.mesh.name() +
+                    " is too coarse for a smooth surface: flat faces on it are nearer to the mesh "
+                    "than what was fitted");
   }
-  if (arguments.output.empty() && arguments.limit_output.empty() && arguments.csv.empty() &&
-      arguments.displacement.empty() && images_asked_for(arguments).empty()) {
-    throw UsageMistake("nothing to write: give -o, --geometry-image or --csv");
-  }
-}
-
-void check_all_places(const RemeshArguments& arguments,
-                      const std::vector<RemeshArguments>& levels) {
-  Outputs outputs = {{"-o", levels.front().output},
-                     {"--limit-mesh", arguments.limit_output},
-                     {"--displace", arguments.displacement},
-                     {"--rebuild", arguments.rebuilt},
-                     {"--csv", arguments.csv},
-                     {"--json", arguments.json}};
-  for (const ImageRequest& request : images_asked_for(arguments)) {
-    outputs.emplace_back("the image of " + request.what, request.path);
-  }
-  const bool one_file = kind_of(arguments.output) == ".glb";
-  for (size_t level = 1; level < levels.size() && !one_file; ++level) {
-    outputs.emplace_back("--lods", levels[level].output);
-  }
-  std::vector<std::string> inputs = {arguments.input, arguments.sphere};
-  if (arguments.grid.starts_with(like_prefix))
-    inputs.push_back(arguments.grid.substr(like_prefix.size()));
-  check_places(inputs, outputs);
-}
-
-/// What makes no sense is refused before work. The grid asked for, where it is none of a file.
-std::optional<GridSpec> check_arguments(const RemeshArguments& arguments) {
-  check_outputs(arguments);
-  std::optional<GridSpec> spec = grid_asked_for(arguments);
-  check_images(arguments, spec);
-  check_subdivision(arguments, spec);
-  check_displacement(arguments);
-  return spec;
-}
-
-SphereGrid grid_for(const RemeshArguments& arguments, const std::optional<GridSpec>& spec) {
-  if (spec) return make_grid(*spec, {.threads = arguments.threads});
-  return read_like_grid(arguments.grid.substr(like_prefix.size()), arguments.threads);
-}
-
-std::vector<std::string> words_of(const std::string& list) { return CLI::detail::split(list, ','); }
-
-Remeshed remesh_source(const MappedMesh& mapped, SphereGrid grid,
-                       const RemeshArguments& arguments, Console& console) {
-  try {
-    return remesh(
-        mapped.file(), mapped.map(), std::move(grid),
-        {.sample = arguments.sample,
-         .transfer = words_of(arguments.transfer),
-         .threads = arguments.threads,
-         .progress = [&](std::string_view stage, double f) { return console.progress(stage, f); }});
-  } catch (const std::invalid_argument& error) {
-    throw UsageMistake("--transfer: " + std::string(error.what()));
-  }
-}
-
-Provenance provenance(const RemeshArguments& arguments, const MappedMesh& mapped) {
-  Provenance lines = {{"version", version},
-                      {"method", "remesh"},
-                      {"grid", std::filesystem::path(arguments.grid).filename().string()},
-                      {"sample", arguments.sample == SampleMode::Cell ? "cell" : "point"}};
-  for (const auto& [key, value] : mapped.provenance()) {
-    if (key == "method") lines.emplace_back("source", value);
-  }
-  if (arguments.adaptive) lines.emplace_back("options", "--adaptive");
-  if (arguments.subdivision) lines.emplace_back("subdivision", name_of(*arguments.subdivision));
-  lines.emplace_back("verdict", "one-to-one");
-  return lines;
-}
-
-void add_mesh(PendingFiles& files, const std::string& path, const RemeshArguments& arguments,
-              const MappedMesh& mapped, const Remeshed& result) {
-  MeshFile file = attach_map(result.file, result.map, provenance(arguments, mapped));
-  const Topology topology(result.file.mesh, arguments.threads);
-  add_mapped(files, path, std::move(file), result.faces, topology, arguments.threads);
-}
-
-void add_meshes(PendingFiles& files, const std::vector<RemeshLevel>& levels,
-                const MappedMesh& mapped, Console& console) {
-  const RemeshArguments& arguments = levels.front().arguments;
-  if (arguments.output.empty()) return;
-  if (kind_of(arguments.output) == ".glb") {
-    add_glb(files, arguments, mapped, levels, provenance(arguments, mapped), console);
-    return;
-  }
-  for (const RemeshLevel& level : levels)
-    add_mesh(files, level.arguments.output, level.arguments, mapped, level.mesh);
-}
-
-RemeshLevel make_level(const MappedMesh& mapped, SphereGrid grid,
-                       const RemeshArguments& arguments, Console& console) {
-  RemeshLevel level{arguments, remesh_source(mapped, std::move(grid), arguments, console)};
-  if (arguments.subdivision) {
-    const TriangleMesh flat = level.mesh.file.mesh;
-    level.fit = fit_subdivision(mapped, level.mesh, arguments, console);
-    compare_with_flat(level, flat, mapped, console);
-  }
-  console.progress("certify", 0);
-  const Remeshed& mesh = level.mesh;
-  require_certified(
-      certify(Topology(mesh.file.mesh, arguments.threads), mesh.map, arguments.threads),
-      arguments.grid);
-  if (interrupted()) throw Cancelled();
-  return level;
-}
-
-/// The meshes asked for, finest first, the first one on the grid given.
-std::vector<RemeshLevel> make_levels(const MappedMesh& mapped, SphereGrid grid,
-                                     const std::vector<RemeshArguments>& asked, Console& console) {
-  std::vector<RemeshLevel> levels = {make_level(mapped, std::move(grid), asked.front(), console)};
-  for (size_t level = 1; level < asked.size(); ++level) {
-    SphereGrid coarse = make_grid(parse_grid(asked[level].grid), {.threads = asked[level].threads});
-    levels.push_back(make_level(mapped, std::move(coarse), asked[level], console));
-  }
-  if (levels.size() > 1) measure_levels(levels, mapped, console);
   return levels;
+} catch (const NoSuchProperty& error) {
+  throw UsageMistake("--transfer: " + std::string(error.what()));
+} catch (const UnfittableGrid& error) {
+  throw UsageMistake("--subdiv-fit: " + std::string(error.what()));
 }
 
-std::optional<DisplacementReport> add_outputs(PendingFiles& files, const RemeshArguments& arguments,
-                                              const std::optional<GridSpec>& spec,
-                                              const MappedMesh& mapped,
-                                              const std::vector<RemeshLevel>& levels,
-                                              Console& console) {
-  const Remeshed& result = levels.front().mesh;
-  const std::optional<SubdivisionFit>& fit = levels.front().fit;
-  console.progress("write", 0);
-  add_meshes(files, levels, mapped, console);
-  if (!arguments.limit_output.empty()) {
-    add_mesh(files, arguments.limit_output, arguments, mapped,
-             limit_mesh(result, *fit, arguments.threads));
+void add_meshes(PendingFiles& files, const RemeshArguments& arguments,
+                const RemeshRequests& requests, const MappedMesh& mapped,
+                const std::vector<LevelOfDetail>& levels, Console& console) {
+  if (requests.one_file) {
+    add_glb(files, arguments, mapped, levels, console);
+  } else if (!arguments.output.empty()) {
+    for (size_t level = 0; level < levels.size(); ++level)
+      add_mapped(files, requests.outputs[level], levels[level].mesh, arguments.threads);
   }
-  std::optional<DisplacementReport> displacement;
-  if (!arguments.displacement.empty())
-    displacement = add_displacement(files, arguments, mapped, result, *fit, console);
-  if (spec) add_images(files, arguments, *spec, result);
-  if (!arguments.csv.empty()) files.add(arguments.csv, sample_table(result.file, result.map));
-  return displacement;
+  if (arguments.limit_output.empty()) return;
+  const LevelOfDetail& finest = levels.front();
+  add_mapped(files, arguments.limit_output,
+             limit_mesh(finest.mesh, finest.fit.value(), arguments.threads), arguments.threads);
 }
 
-void tell(const RemeshReport& report, Console& console) {
-  const RemeshArguments& arguments = report.arguments;
-  const Remeshed& result = report.result;
-  const TriangleMesh& source = report.source.file().mesh;
-  console.detail("  grid: " + short_number(report.grid_seconds) +
-                 " s, location: " + short_number(result.locate_seconds) +
-                 " s, positions: " + short_number(result.transfer_seconds) + " s");
-  if (arguments.sample == SampleMode::Cell) {
-    console.detail("  means over cells at " + std::to_string(result.averaged) + " of " +
-                   std::to_string(result.map.points.rows()) + " vertices");
+std::optional<WrittenDisplacement> displace(PendingFiles& files, const RemeshArguments& arguments,
+                                            const MappedMesh& mapped, const LevelOfDetail& level,
+                                            Console& console) try {
+  if (arguments.displacement.empty()) return std::nullopt;
+  const DisplacementSize size = image_size_named(arguments.displacement_size).value();
+  WrittenDisplacement written =
+      add_displacement(files, {arguments.displacement, arguments.depth, arguments.rebuilt}, mapped,
+                       level.mesh, level.fit.value(),
+                       {.width = size.width,
+                        .height = size.height,
+                        .threads = arguments.threads,
+                        .progress = progress_on(console)});
+  if (written.proof && written.proof->farther_than_base()) console.warning(farther_warning);
+  return written;
+} catch (const std::range_error& error) {
+  throw UsageMistake("--depth: displacement: " + std::string(error.what()));
+}
+
+void add_images(PendingFiles& files, const RemeshArguments& arguments,
+                const RemeshRequests& requests, const Remeshed& mesh) {
+  for (const auto& [what, path] : requests.images) {
+    try {
+      add_geometry_image(files, path, mesh, what, arguments.depth);
+    } catch (const NoSuchProperty& error) {
+      throw UsageMistake("--attribute-image: " + std::string(error.what()));
+    } catch (const std::range_error& error) {
+      throw UsageMistake("--depth: " + what + ": " + error.what());
+    }
   }
-  if (report.fit) console.say(fit_line(*report.fit, source));
-  if (report.displacement) console.say(displacement_lines(*report.displacement, source));
-  if (report.levels.size() > 1) console.say(level_lines(report.levels, source));
-  std::string line = display_name(arguments.input) + ": " + arguments.grid + ", " +
-                     std::to_string(result.map.points.rows()) +
-                     " vertices, certified one-to-one, " + short_number(report.seconds) + " s";
-  if (!arguments.output.empty())
-    line += " → " + output_name(report.levels.front().arguments.output);
-  console.say(line);
 }
 
 int run_remesh(const RemeshArguments& arguments) {
   const Stopwatch stopwatch;
-  const std::optional<GridSpec> spec = check_arguments(arguments);
-  const std::vector<RemeshArguments> asked = levels_asked_for(arguments, spec);
-  check_all_places(arguments, asked);
+  const RemeshRequests requests = check_remesh_arguments(arguments);
   Console console(arguments.loudness.verbosity(), arguments.progress);
   const OrderlyInterruption orderly;
   MappedMesh mapped = read_mapped_source(arguments.input, arguments.sphere, arguments.threads,
-                                           console, remeshing_lambda);
-  if (arguments.subdivision || arguments.lods > 0) require_measurable(mapped.file().mesh);
+                                         console, remeshing_lambda);
+  if (arguments.subdivision || arguments.lods > 0) require_measurable(mapped.mesh());
   console.progress("grid", 0);
   const Stopwatch grid_stopwatch;
-  SphereGrid grid = grid_for(arguments, spec);
-  const double grid_seconds = grid_stopwatch.seconds();
-  std::optional<Adaptation> adaptation;
-  if (arguments.adaptive)
-    adaptation = adapt_source(mapped, grid.directions.rows(), arguments, console);
-  const std::vector<RemeshLevel> levels = make_levels(mapped, std::move(grid), asked, console);
+  SphereGrid grid = grid_for(arguments, requests);
+  RemeshReport report{.arguments = arguments, .requests = requests};
+  report.grid_seconds = grid_stopwatch.seconds();
+  if (arguments.adaptive) {
+    report.adaptation = adapt(mapped, grid.directions.rows(), arguments, console);
+    mapped = report.adaptation->mapped;
+  }
+  report.levels = make_levels(mapped, std::move(grid), arguments, requests, console);
+  console.progress("write", 0);
   PendingFiles files;
-  const std::optional<DisplacementReport> displacement =
-      add_outputs(files, arguments, spec, mapped, levels, console);
-  RemeshReport report{.arguments = arguments,
-                      .source = mapped,
-                      .result = levels.front().mesh,
-                      .adaptation = std::move(adaptation),
-                      .fit = levels.front().fit,
-                      .displacement = displacement,
-                      .levels = levels,
-                      .grid_seconds = grid_seconds,
-                      .seconds = stopwatch.seconds()};
-  if (!arguments.json.empty()) files.add(arguments.json, to_json(report));
+  const LevelOfDetail& finest = report.levels.front();
+  add_meshes(files, arguments, requests, mapped, report.levels, console);
+  report.displacement = displace(files, arguments, mapped, finest, console);
+  add_images(files, arguments, requests, finest.mesh);
+  if (!arguments.csv.empty()) files.add(arguments.csv, sample_table(finest.mesh));
+  report.seconds = stopwatch.seconds();
+  if (!arguments.json.empty()) files.add(arguments.json, to_json(report, mapped));
   if (interrupted()) throw Cancelled();
   files.publish();
   report.seconds = stopwatch.seconds();
   console.clear_progress();
-  tell(report, console);
+  tell(report, mapped.mesh(), console);
   return Ok;
 }
 

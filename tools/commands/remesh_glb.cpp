@@ -17,28 +17,18 @@ namespace sphparam::cli {
 
 namespace {
 
-MappedMesh as_source(const RemeshLevel& level, const Provenance& provenance) {
-  return MappedMesh({.file = level.mesh.file,
-                     .map = level.mesh.map,
-                     .provenance = provenance,
-                     .polygons = level.mesh.faces,
-                     .name = level.arguments.grid},
-                    level.arguments.threads);
-}
-
-void add_errors(Asset& asset, std::span<const RemeshLevel> levels) {
+void add_errors(Asset& asset, std::span<const LevelOfDetail> levels) {
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const std::string name = "level_" + std::to_string(i);
-    asset.extras.emplace_back(name + "_grid", levels[i].arguments.grid);
-    asset.extras.emplace_back(name + "_rms", short_number(levels[i].rms, 6));
-    asset.extras.emplace_back(name + "_max", short_number(levels[i].max, 6));
+    asset.extras.emplace_back(name + "_grid", levels[i].mesh.name());
+    asset.extras.emplace_back(name + "_rms", short_number(levels[i].distance.value().rms, 6));
+    asset.extras.emplace_back(name + "_max", short_number(levels[i].distance.value().max, 6));
   }
 }
 
 Asset asset_of(const RemeshArguments& arguments, const MappedMesh& mapped,
-               std::span<const RemeshLevel> levels, const Provenance& provenance,
-               Console& console) {
-  const MappedMesh made = as_source(levels.front(), provenance);
+               std::span<const LevelOfDetail> levels, Console& console) {
+  const MappedMesh& made = levels.front().mesh;
   const bool textured = has_texcoords(made.file()) && !mapped.file().base_colours.empty();
   ExportOptions options{
       .name = is_stream(arguments.input)
@@ -48,8 +38,7 @@ Asset asset_of(const RemeshArguments& arguments, const MappedMesh& mapped,
       .threads = arguments.threads,
       .progress = [&](std::string_view stage, double f) { return console.progress(stage, f); }};
   const Look look = make_look(textured ? mapped : made, options);
-  for (const RemeshLevel& level : levels.subspan(1))
-    options.coarser.push_back(as_source(level, provenance));
+  for (const LevelOfDetail& level : levels.subspan(1)) options.coarser.push_back(level.mesh);
   Asset asset = make_asset(made, look, options);
   if (levels.size() > 1) add_errors(asset, levels);
   return asset;
@@ -58,9 +47,8 @@ Asset asset_of(const RemeshArguments& arguments, const MappedMesh& mapped,
 }  // namespace
 
 void add_glb(PendingFiles& files, const RemeshArguments& arguments, const MappedMesh& mapped,
-             std::span<const RemeshLevel> levels, const Provenance& provenance,
-             Console& console) try {
-  add_asset(files, arguments.output, asset_of(arguments, mapped, levels, provenance, console));
+             std::span<const LevelOfDetail> levels, Console& console) try {
+  add_asset(files, arguments.output, asset_of(arguments, mapped, levels, console));
 } catch (const LookError& error) {
   throw UsageMistake(error.what());
 } catch (const std::range_error& error) {

@@ -2,10 +2,10 @@
 
 #include <span>
 
-#include "sphparam/io/mapped_mesh.h"
 #include "arguments/remesh_arguments.h"
-#include "commands/remesh_lods.h"
+#include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/safe_file.h"
+#include "sphparam/remesh/levels_of_detail.h"
 
 namespace sphparam::cli {
 
@@ -18,6 +18,6 @@ namespace sphparam::cli {
 /// ReadError for positions beyond float32; WriteError for more than a .glb holds, and as
 /// PendingFiles does; Cancelled.
 void add_glb(PendingFiles& files, const RemeshArguments& arguments, const MappedMesh& mapped,
-             std::span<const RemeshLevel> levels, const Provenance& provenance, Console& console);
+             std::span<const LevelOfDetail> levels, Console& console);
 
 }  // namespace sphparam::cli

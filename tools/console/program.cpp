@@ -21,7 +21,6 @@
 #include "arguments/input_limits.h"
 #include "console/interruption.h"
 #include "arguments/leading_options.h"
-#include "commands/measurable.h"
 #include "console/memory_limit.h"
 #include "commands/repairing.h"
 #include "arguments/suggestion.h"

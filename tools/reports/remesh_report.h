@@ -4,27 +4,34 @@
 #include <string>
 #include <vector>
 
-#include "sphparam/io/mapped_mesh.h"
 #include "arguments/remesh_arguments.h"
-#include "commands/remesh_displacement.h"
-#include "commands/remesh_lods.h"
-#include "remesh/remesh.h"
-#include "remesh/sample_density.h"
-#include "remesh/subdivision_fit.h"
+#include "arguments/remesh_checks.h"
+#include "console/console.h"
+#include "sphparam/io/mapped_mesh.h"
+#include "sphparam/remesh/adaptation.h"
+#include "sphparam/remesh/displacement.h"
+#include "sphparam/remesh/levels_of_detail.h"
 
 namespace sphparam::cli {
 
-/// What `remesh --json` tells. The keys never change their meaning.
+/// What a run of `remesh` has to tell.
 struct RemeshReport {
   const RemeshArguments& arguments;
-  const MappedMesh& source;
-  const Remeshed& result;
-  std::optional<Adaptation> adaptation;  // with --adaptive
-  const std::optional<SubdivisionFit>& fit;
-  const std::optional<DisplacementReport>& displacement;
-  const std::vector<RemeshLevel>& levels;  // told where there are several
+  const RemeshRequests& requests;
+  std::optional<Adaptation> adaptation = {};  // with --adaptive
+  std::vector<LevelOfDetail> levels = {};     // the finest first; told where there are several
+  std::optional<WrittenDisplacement> displacement = {};
   double grid_seconds = 0, seconds = 0;
 };
-std::string to_json(const RemeshReport& report);
+
+inline constexpr char farther_warning[] =
+    "--displace makes it worse: surface and image together are farther from the mesh than the "
+    "surface alone";
+
+/// For --json. The keys never change their meaning.
+std::string to_json(const RemeshReport& report, const MappedMesh& source);
+
+/// Lines for people.
+void tell(const RemeshReport& report, const TriangleMesh& source, Console& console);
 
 }  // namespace sphparam::cli

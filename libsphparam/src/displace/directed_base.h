@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "remesh/limit_surface.h"
-#include "remesh/patch_net.h"
-#include "remesh/sphere_grid.h"
+#include "remesh/subdivision/patch_net.h"
 #include "sphparam/mesh/topology.h"
+#include "sphparam/remesh/limit_surface.h"
+#include "sphparam/remesh/sphere_grid.h"
 #include "sphparam/sphere/sphere_locator.h"
 
 namespace sphparam {

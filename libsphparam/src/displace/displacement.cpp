@@ -41,11 +41,8 @@ struct Tally {
 class Rows {
  public:
   Rows(const DirectedBase& base, const TriangleMesh& mesh, const Topology& topology,
-       const SphereMap& map, const DisplacementOptions& options)
-      : base_(base),
-        options_(options),
-        locator_(topology, map, options.threads),
-        lines_(mesh, topology) {
+       const SphereLocator& locator, const DisplacementOptions& options)
+      : base_(base), options_(options), locator_(locator), lines_(mesh, topology) {
     around_.resize(options.width, 2);
     for (int c = 0; c < options.width; ++c) {
       const double theta = 2 * std::numbers::pi * (c + 0.5) / options.width;
@@ -87,7 +84,7 @@ class Rows {
 
   const DirectedBase& base_;
   const DisplacementOptions& options_;
-  SphereLocator locator_;
+  const SphereLocator& locator_;
   NormalLines lines_;
   Eigen::Matrix<double, Eigen::Dynamic, 2> around_;
 };
@@ -95,11 +92,11 @@ class Rows {
 }  // namespace
 
 Displacement make_displacement(const DirectedBase& base, const TriangleMesh& mesh,
-                               const Topology& topology, const SphereMap& map,
+                               const Topology& topology, const SphereLocator& locator,
                                const DisplacementOptions& options) {
   Displacement result;
   result.image = Image(options.width, options.height, 1);
-  const Rows rows(base, mesh, topology, map, options);
+  const Rows rows(base, mesh, topology, locator, options);
   Tally all;
   for (std::int64_t first = 0; first < options.height; first += rows_between) {
     report(options.progress, "displacement", static_cast<double>(first) / options.height);
@@ -111,12 +108,12 @@ Displacement make_displacement(const DirectedBase& base, const TriangleMesh& mes
     });
     for (const Tally& tally : tallies) all.add(tally);
   }
-  result.least = all.least;
-  result.greatest = all.greatest;
-  result.walked = all.hits[static_cast<int>(LineHit::Walk)];
-  result.cast = all.hits[static_cast<int>(LineHit::Ray)];
-  result.missed = all.hits[static_cast<int>(LineHit::Near)];
-  result.inexact = all.inexact;
+  result.figures.least = all.least;
+  result.figures.greatest = all.greatest;
+  result.figures.walked = all.hits[static_cast<int>(LineHit::Walk)];
+  result.figures.cast = all.hits[static_cast<int>(LineHit::Ray)];
+  result.figures.missed = all.hits[static_cast<int>(LineHit::Near)];
+  result.figures.inexact = all.inexact;
   return result;
 }
 

@@ -30,10 +30,10 @@ struct Coding {
 };
 
 Coding coding_of(const Displacement& displacement, ImageDepth depth) {
-  const double width = displacement.greatest - displacement.least;
+  const double width = displacement.figures.greatest - displacement.figures.least;
   if (depth != ImageDepth::Uint16 || !(width > 0))
-    return {1, depth == ImageDepth::Uint16 ? -displacement.least : 0};
-  return {width, -displacement.least / width};
+    return {1, depth == ImageDepth::Uint16 ? -displacement.figures.least : 0};
+  return {width, -displacement.figures.least / width};
 }
 
 const char* name_of(ImageDepth depth) {
@@ -71,7 +71,7 @@ void require_representable(double largest, ImageDepth depth) {
 
 std::vector<char> encode_displacement(const Displacement& displacement, ImageDepth depth,
                                       const std::string& grid, const std::string& scheme) {
-  const double largest = std::max(-displacement.least, displacement.greatest);
+  const double largest = std::max(-displacement.figures.least, displacement.figures.greatest);
   require_representable(largest, depth);
   const Coding coding = coding_of(displacement, depth);
   Image coded = displacement.image;
@@ -80,23 +80,24 @@ std::vector<char> encode_displacement(const Displacement& displacement, ImageDep
       value = static_cast<float>(static_cast<double>(value) / coding.scale + coding.midlevel);
     }
   }
-  const ImageWriteOptions options{.sample_type = depth == ImageDepth::Uint16 ? SampleType::Uint16
-                                                 : depth == ImageDepth::Half ? SampleType::Half
-                                                                             : SampleType::Float,
-                                  .metadata = {{"sphparam:map", "displacement"},
-                                               {"sphparam:about", about},
-                                               {"sphparam:units", "of the mesh"},
-                                               {"sphparam:direction", "outwards"},
-                                               {"sphparam:scale", shortest(coding.scale)},
-                                               {"sphparam:midlevel", shortest(coding.midlevel)},
-                                               {"sphparam:convention", "sphparam"},
-                                               {"sphparam:u0", "0"},
-                                               {"sphparam:turns", "1"},
-                                               {"sphparam:grid", grid},
-                                               {"sphparam:scheme", scheme},
-                                               {"sphparam:depth", name_of(depth)},
-                                               {"sphparam:min", shortest(displacement.least)},
-                                               {"sphparam:max", shortest(displacement.greatest)}}};
+  const ImageWriteOptions options{
+      .sample_type = depth == ImageDepth::Uint16 ? SampleType::Uint16
+                     : depth == ImageDepth::Half ? SampleType::Half
+                                                 : SampleType::Float,
+      .metadata = {{"sphparam:map", "displacement"},
+                   {"sphparam:about", about},
+                   {"sphparam:units", "of the mesh"},
+                   {"sphparam:direction", "outwards"},
+                   {"sphparam:scale", shortest(coding.scale)},
+                   {"sphparam:midlevel", shortest(coding.midlevel)},
+                   {"sphparam:convention", "sphparam"},
+                   {"sphparam:u0", "0"},
+                   {"sphparam:turns", "1"},
+                   {"sphparam:grid", grid},
+                   {"sphparam:scheme", scheme},
+                   {"sphparam:depth", name_of(depth)},
+                   {"sphparam:min", shortest(displacement.figures.least)},
+                   {"sphparam:max", shortest(displacement.figures.greatest)}}};
   return encode_image(coded, depth == ImageDepth::Uint16 ? ImageFormat::Png : ImageFormat::Exr,
                       options);
 }

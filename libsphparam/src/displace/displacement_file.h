@@ -5,7 +5,7 @@
 
 #include "displace/displacement.h"
 #include "image/image_codec.h"
-#include "remesh/geometry_image.h"
+#include "sphparam/remesh/image_depth.h"
 
 namespace sphparam {
 

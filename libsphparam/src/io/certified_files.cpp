@@ -5,6 +5,7 @@
 
 #include "io/files/read_back.h"
 #include "sphparam/errors.h"
+#include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/sphere_file.h"
@@ -72,6 +73,14 @@ void add_mapped(PendingFiles& files, const std::string& path, MeshFile file, con
     add_certified(files, path, serialise_mesh(path, file, {.faces = &faces}), topology, map,
                   threads);
   }
+}
+
+void add_mapped(PendingFiles& files, const std::string& path, const MappedMesh& mapped,
+                int threads) {
+  const Polygons faces =
+      mapped.polygons() ? *mapped.polygons() : triangles_as_polygons(mapped.mesh().triangles);
+  add_mapped(files, path, attach_map(mapped.file(), mapped.map(), mapped.provenance()), faces,
+             mapped.topology(), threads);
 }
 
 }  // namespace sphparam

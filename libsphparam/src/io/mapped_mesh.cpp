@@ -167,10 +167,7 @@ MappedMesh load_mapped(const std::string& path, const LoadOptions& options) {
 
 void save_mapped(const std::string& path, const MappedMesh& mapped, int threads) {
   PendingFiles files;
-  MeshFile file = attach_map(mapped.file(), mapped.map(), mapped.provenance());
-  const Polygons faces =
-      mapped.polygons() ? *mapped.polygons() : triangles_as_polygons(mapped.mesh().triangles);
-  add_mapped(files, path, std::move(file), faces, mapped.topology(), threads);
+  add_mapped(files, path, mapped, threads);
   files.publish();
 }
 

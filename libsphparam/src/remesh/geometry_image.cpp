@@ -1,265 +1,148 @@
-// The layout follows from the directions alone: those of octa:N and cube:N are lattice points of a
-// flat octahedron or cube, to which they are scaled back and rounded.
+// What vertices have as images, and images back as what vertices have.
 
-#include "remesh/geometry_image.h"
+#include "sphparam/remesh/geometry_image.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <optional>
 #include <stdexcept>
+#include <utility>
 
-#include "elementary.h"
+#include "image/image_codec.h"
+#include "mesh/vertex_normals.h"
+#include "remesh/image_file.h"
+#include "remesh/image_values.h"
+#include "sphparam/io/paths.h"
+#include "sphparam/version.h"
 
 namespace sphparam {
 
 namespace {
 
-constexpr double most_half = 65504;
-constexpr double steps_of_16_bits = 65535;
+using Names = std::vector<std::string>;
 
-using Texts = std::vector<std::pair<std::string, std::string>>;
+/// More than 10 million vertices in float take.
+constexpr ImageLimits large_image = {.decoded_megabytes = 4096};
 
-class Filling {
- public:
-  Filling(int width, int height) {
-    layout_.width = width;
-    layout_.height = height;
-    layout_.vertex.assign(static_cast<size_t>(width) * static_cast<size_t>(height), -1);
-  }
-  void put(long column, long row, int vertex) {
-    layout_.vertex[static_cast<size_t>(row * layout_.width + column)] = vertex;
-  }
-  ImageLayout take() { return std::move(layout_); }
+bool is_colour(const std::string& what) { return what == "color" || what == "colour"; }
 
- private:
-  ImageLayout layout_;
+Names properties_of(const std::string& what) {
+  return is_colour(what) ? Names{"red", "green", "blue"} : Names{what};
+}
+
+struct Channels {
+  std::vector<double> values;
+  int count;
 };
 
-/// Signs to unfold a coordinate with: both where it is zero.
-std::vector<long> signs_of(long x) {
-  if (x == 0) return {-1, 1};
-  return {x < 0 ? -1L : 1L};
-}
-
-ImageLayout octahedral_layout(int size, const Points& directions) {
-  const long m = (size - 1) / 2;
-  Filling filling(size, size);
-  for (Eigen::Index v = 0; v < directions.rows(); ++v) {
-    const Vector3 flat = directions.row(v) / directions.row(v).lpNorm<1>() * static_cast<double>(m);
-    const long x = std::lround(flat.x()), y = std::lround(flat.y());
-    const bool south = std::abs(x) + std::abs(y) < m && flat.z() < 0;
-    if (!south) {
-      filling.put(m + x, m - y, static_cast<int>(v));
-      continue;
-    }
-    for (const long right : signs_of(x)) {
-      for (const long up : signs_of(y)) {
-        filling.put(m + right * (m - std::abs(y)), m - up * (m - std::abs(x)), static_cast<int>(v));
-      }
-    }
+Channels properties(const MeshFile& file, const std::string& what) {
+  std::vector<const Property*> channels;
+  for (const std::string& name : properties_of(what)) {
+    const Property* property = file.find_vertex_property(name);
+    if (!property) throw NoSuchProperty("the new mesh has no " + what);
+    channels.push_back(property);
   }
-  return filling.take();
-}
-
-/// Right and up of a side of the cube, seen from outside.
-struct Side {
-  Vector3 normal, right, up;
-};
-std::array<Side, 6> sides() {
-  const Vector3 x = Vector3::UnitX(), y = Vector3::UnitY(), z = Vector3::UnitZ();
-  return {{{x, y, z}, {-x, -y, z}, {y, -x, z}, {-y, x, z}, {z, y, -x}, {-z, y, x}}};
-}
-
-ImageLayout cube_layout(int n, const Points& directions) {
-  const auto place = [&](double tangent) {
-    return std::lround((elementary::atan(tangent) / (std::numbers::pi / 4) + 1) / 2 * n);
-  };
-  const std::array<Side, 6> all = sides();
-  Filling filling(n + 1, 6 * (n + 1));
-  for (Eigen::Index v = 0; v < directions.rows(); ++v) {
-    const Vector3 q = directions.row(v);
-    const double within_rounding = q.cwiseAbs().maxCoeff() * (1 - 1e-12);
-    for (size_t s = 0; s < all.size(); ++s) {
-      const double depth = q.dot(all[s].normal);
-      if (depth < within_rounding) continue;
-      const long column = place(q.dot(all[s].right) / depth), up = place(q.dot(all[s].up) / depth);
-      filling.put(column, static_cast<long>(s) * (n + 1) + n - up, static_cast<int>(v));
-    }
-  }
-  return filling.take();
-}
-
-/// The nearest number of 11 bits, as half precision has them; of fewer below 2⁻¹⁴.
-double to_half(double value) {
-  if (std::abs(value) > most_half) {
-    throw std::range_error("half precision has no number as large as " + std::to_string(value));
-  }
-  const int exponent = value == 0 ? 0 : std::max(std::ilogb(value), -14);
-  return std::ldexp(std::nearbyint(std::ldexp(value, 10 - exponent)), exponent - 10);
-}
-
-double to_float(double value) {
-  if (std::abs(value) > static_cast<double>(std::numeric_limits<float>::max())) {
-    throw std::range_error("float has no number as large as " + std::to_string(value));
-  }
-  return static_cast<double>(static_cast<float>(value));
-}
-
-std::string shortest(double value) {
-  char digits[32];
-  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
-}
-
-const char* name_of(ImageDepth depth) {
-  return depth == ImageDepth::Half ? "half" : depth == ImageDepth::Float ? "float" : "u16";
-}
-
-struct Range {
-  std::vector<double> least, greatest;
-
-  double width(size_t channel) const { return greatest[channel] - least[channel]; }
-};
-
-Range range_of(const std::vector<double>& values, size_t channels) {
-  Range range{{values.begin(), values.begin() + static_cast<std::ptrdiff_t>(channels)}, {}};
-  range.greatest = range.least;
-  for (size_t i = 0; i < values.size(); ++i) {
-    range.least[i % channels] = std::min(range.least[i % channels], values[i]);
-    range.greatest[i % channels] = std::max(range.greatest[i % channels], values[i]);
-  }
-  return range;
-}
-
-double quantised(double value, ImageDepth depth, const Range& range, size_t channel) {
-  if (depth == ImageDepth::Half) return to_half(value);
-  if (depth == ImageDepth::Float) return to_float(value);
-  const double width = range.width(channel);
-  return width > 0 ? std::nearbyint((value - range.least[channel]) / width * steps_of_16_bits) /
-                         steps_of_16_bits
-                   : 0;
-}
-
-std::string joined(const std::vector<double>& numbers) {
-  std::string text;
-  for (const double number : numbers) text.append(text.empty() ? "" : " ").append(shortest(number));
-  return text;
-}
-
-std::optional<std::string> text_named(const Texts& texts, const std::string& name) {
-  for (const auto& [key, value] : texts) {
-    if (key == name) return value;
-  }
-  return std::nullopt;
-}
-
-std::vector<double> numbers_of(const Texts& texts, const std::string& name, size_t count) {
-  const std::string text = text_named(texts, name).value_or("");
-  std::vector<double> numbers;
-  const char *at = text.data(), *const end = at + text.size();
-  while (at != end) {
-    double number = 0;
-    const auto [stop, error] = std::from_chars(at, end, number);
-    if (error != std::errc{} || !std::isfinite(number)) break;
-    numbers.push_back(number);
-    at = stop != end && *stop == ' ' ? stop + 1 : stop;
-  }
-  if (numbers.size() != count) {
-    throw std::invalid_argument("its metadata " + name + " is not " + std::to_string(count) +
-                                " numbers");
-  }
-  return numbers;
-}
-
-/// One value a vertex and channel, the same wherever the vertex occurs.
-std::vector<double> gather(const Image& image, const ImageLayout& layout, std::int64_t vertices) {
-  const auto channels = static_cast<size_t>(image.channels);
-  std::vector<double> values(static_cast<size_t>(vertices) * channels,
-                             std::numeric_limits<double>::quiet_NaN());
-  for (size_t i = 0; i < layout.vertex.size(); ++i) {
-    for (size_t k = 0; k < channels; ++k) {
-      const auto sample = static_cast<double>(image.pixels[i * channels + k]);
-      const auto where = [&] {
-        const auto width = static_cast<size_t>(layout.width);
-        return " at column " + std::to_string(i % width) + ", row " + std::to_string(i / width);
-      };
-      if (!std::isfinite(sample)) throw std::invalid_argument("a sample is not finite" + where());
-      double& value = values[static_cast<size_t>(layout.vertex[i]) * channels + k];
-      if (!std::isnan(value) && value != sample) {
-        throw std::invalid_argument("samples of one vertex differ" + where());
-      }
-      value = sample;
-    }
-  }
-  return values;
-}
-
-}  // namespace
-
-bool has_image_layout(const GridSpec& spec) {
-  return spec.kind == GridKind::Octahedron || spec.kind == GridKind::Cube;
-}
-
-ImageLayout image_layout(const GridSpec& spec, const Points& directions) {
-  return spec.kind == GridKind::Octahedron ? octahedral_layout(spec.size, directions)
-                                           : cube_layout(spec.size, directions);
-}
-
-GeometryImage make_geometry_image(const GridSpec& spec, const Points& directions,
-                                  const std::vector<double>& values, int channels,
-                                  ImageDepth depth) {
-  const ImageLayout layout = image_layout(spec, directions);
-  const auto width = static_cast<size_t>(channels);
-  const Range range = range_of(values, width);
-  GeometryImage result{
-      Image(layout.width, layout.height, channels),
-      {{"sphparam:grid", sphparam::name_of(spec)}, {"sphparam:depth", name_of(depth)}}};
-  for (size_t i = 0; i < layout.vertex.size(); ++i) {
-    for (size_t k = 0; k < width; ++k) {
-      const double value = values[static_cast<size_t>(layout.vertex[i]) * width + k];
-      result.image.pixels[i * width + k] = static_cast<float>(quantised(value, depth, range, k));
-    }
-  }
-  if (depth == ImageDepth::Uint16) {
-    result.texts.emplace_back("sphparam:min", joined(range.least));
-    result.texts.emplace_back("sphparam:max", joined(range.greatest));
+  Channels result{{}, static_cast<int>(channels.size())};
+  for (size_t v = 0; v < channels.front()->values.size(); ++v) {
+    for (const Property* channel : channels) result.values.push_back(channel->values[v]);
   }
   return result;
 }
 
-ImageContents read_geometry_image(const Image& image, const Texts& texts, int threads) {
-  ImageContents contents;
-  const std::optional<std::string> name = text_named(texts, "sphparam:grid");
-  if (!name) throw std::invalid_argument("its metadata names no grid (sphparam:grid)");
-  contents.spec = parse_grid(*name);
-  const std::int64_t side = contents.spec.size + (contents.spec.kind == GridKind::Cube);
-  const std::int64_t rows = contents.spec.kind == GridKind::Cube ? 6 * side : side;
-  if (!has_image_layout(contents.spec) || image.width != side || image.height != rows) {
-    throw std::invalid_argument("it has " + std::to_string(image.width) + " x " +
-                                std::to_string(image.height) + " samples, which is not " + *name);
+Channels channels_of(const MeshFile& file, const std::string& what) {
+  if (what != "position" && what != "normal") return properties(file, what);
+  const Points rows = what == "normal" ? vertex_normals(file.mesh) : file.mesh.positions;
+  return {{rows.data(), rows.data() + rows.size()}, 3};
+}
+
+SampleType sample_type(ImageDepth depth) {
+  return depth == ImageDepth::Uint16 ? SampleType::Uint16
+         : depth == ImageDepth::Half ? SampleType::Half
+                                     : SampleType::Float;
+}
+
+ImageContents read_contents(const std::string& path, int threads) {
+  ImageTexts texts;
+  const Image image = read_image(path, large_image, &texts);
+  try {
+    return read_geometry_image(image, texts, threads);
+  } catch (const std::invalid_argument& error) {
+    throw ImageError(path + ": no geometry image: " + error.what());
   }
-  contents.channels = image.channels;
-  contents.grid = make_grid(contents.spec, {.threads = threads});
-  const ImageLayout layout = image_layout(contents.spec, contents.grid.directions);
-  contents.values = gather(image, layout, contents.grid.directions.rows());
-  if (text_named(texts, "sphparam:depth") == "u16") {
-    const auto channels = static_cast<size_t>(image.channels);
-    const auto least = numbers_of(texts, "sphparam:min", channels),
-               greatest = numbers_of(texts, "sphparam:max", channels);
-    for (size_t i = 0; i < contents.values.size(); ++i) {
-      const size_t k = i % channels;
-      const double step = std::nearbyint(contents.values[i] * steps_of_16_bits);
-      contents.values[i] = least[k] + (greatest[k] - least[k]) * (step / steps_of_16_bits);
-    }
+}
+
+/// Properties of these names from an image of the same grid. Whole numbers from 0 to 255 of colours
+/// are bytes again.
+void add_properties(MeshFile& file, const GridSpec& spec, const std::string& path,
+                    const Names& names, bool colour, int threads) {
+  const ImageContents contents = read_contents(path, threads);
+  if (contents.spec != spec || contents.channels != static_cast<int>(names.size())) {
+    throw ImageError(path + ": not " + std::to_string(names.size()) + " channels of " +
+                     name_of(spec));
   }
-  const auto is_finite = [](double value) { return std::isfinite(value); };
-  if (!std::all_of(contents.values.begin(), contents.values.end(), is_finite)) {
-    throw std::invalid_argument("it holds numbers that are not finite, or a range that is none");
+  const bool bytes =
+      colour && std::all_of(contents.values.begin(), contents.values.end(),
+                            [](double x) { return holds_exactly(ScalarType::Uint8, x); });
+  const auto count = static_cast<size_t>(file.mesh.vertex_count());
+  for (size_t k = 0; k < names.size(); ++k) {
+    Property property{names[k], bytes ? ScalarType::Uint8 : ScalarType::Float32,
+                      std::vector<double>(count)};
+    for (size_t v = 0; v < count; ++v) property.values[v] = contents.values[v * names.size() + k];
+    file.set_vertex_property(std::move(property));
   }
-  return contents;
+}
+
+MeshFile mesh_of(const ImageContents& contents, const GeometryImageFiles& files, int threads) {
+  if (contents.channels != 3) {
+    throw ImageError(files.positions + ": positions have 3 channels, this has " +
+                     std::to_string(contents.channels));
+  }
+  MeshFile file;
+  file.position_type = ScalarType::Float32;
+  file.mesh.positions =
+      Eigen::Map<const Points>(contents.values.data(), contents.grid.directions.rows(), 3);
+  adopt_triangulation(file, triangulate(file.mesh.positions, contents.grid.faces));
+  if (!files.normals.empty())
+    add_properties(file, contents.spec, files.normals, {"nx", "ny", "nz"}, false, threads);
+  for (const auto& [name, path] : files.attributes)
+    add_properties(file, contents.spec, path, properties_of(name), is_colour(name), threads);
+  return file;
+}
+
+}  // namespace
+
+ImageDepth usual_depth(const std::string& path) {
+  return extension_of(path) == ".png" ? ImageDepth::Uint16 : ImageDepth::Float;
+}
+
+void add_geometry_image(PendingFiles& files, const std::string& path, const Remeshed& mesh,
+                        const std::string& what, std::optional<ImageDepth> depth) {
+  const ImageDepth stored = depth.value_or(usual_depth(path));
+  const Channels channels = channels_of(mesh.file(), what);
+  GeometryImage made = make_geometry_image(mesh.spec().value(), mesh.map().points, channels.values,
+                                           channels.count, stored);
+  made.texts.emplace_back("sphparam:map", what);
+  const std::vector<char> bytes =
+      encode_image(made.image, stored == ImageDepth::Uint16 ? ImageFormat::Png : ImageFormat::Exr,
+                   {.sample_type = sample_type(stored), .metadata = made.texts});
+  files.add(path, {bytes.begin(), bytes.end()});
+}
+
+Remeshed load_geometry_image(const GeometryImageFiles& files, int threads,
+                             const Progress& progress) {
+  report(progress, "read", 0);
+  ImageContents contents = read_contents(files.positions, threads);
+  MeshFile file = mesh_of(contents, files, threads);
+  report(progress, "certify", 0);
+  return {MappedMesh({.file = std::move(file),
+                      .map = {std::move(contents.grid.directions)},
+                      .provenance = {{"version", version},
+                                     {"method", "unimage"},
+                                     {"grid", name_of(contents.spec)},
+                                     {"verdict", "one-to-one"}},
+                      .polygons = std::move(contents.grid.faces),
+                      .name = name_of(contents.spec)},
+                     threads),
+          contents.spec,
+          {}};
 }
 
 }  // namespace sphparam

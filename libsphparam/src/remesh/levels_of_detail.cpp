@@ -1,32 +1,90 @@
-// Grids that were made by halving edges are halved back.
+// Levels are sampled from the source one by one, and measured by what they show.
 
-#include "remesh/levels_of_detail.h"
+#include "sphparam/remesh/levels_of_detail.h"
+
+#include <utility>
+
+#include "remesh/distance_on_grid.h"
+#include "remesh/shown_limit.h"
+#include "sphparam/measure/measurable.h"
 
 namespace sphparam {
 
 namespace {
 
-/// n halved so often, where it is a power of two and large enough.
-std::optional<int> halved(int n, int halvings) {
-  const bool power_of_two = n > 0 && (n & (n - 1)) == 0;
-  if (!power_of_two || halvings > 30 || n >> halvings == 0) return std::nullopt;
-  return n >> halvings;
+constexpr std::int64_t distance_samples = 250'000;  // on each side
+
+void fit_level(LevelOfDetail& level, const MappedMesh& source, const LevelOptions& options) {
+  const SubdivisionFitOptions fitting{.scheme = options.subdivision.value(),
+                                      .threads = options.threads,
+                                      .progress = options.progress};
+  SubdivisionFit fit = fit_subdivision(source, level.mesh.grid(), fitting);
+  compare_with_flat(fit, source, level.mesh, fitting);
+  level.mesh = control_mesh(level.mesh, fit, options.threads);
+  level.fit = std::move(fit);
+}
+
+LevelOfDetail make_level(const MappedMesh& source, SphereGrid grid, const LevelOptions& options) {
+  LevelOfDetail level{remesh(source, std::move(grid),
+                             {.sample = options.sample,
+                              .transfer = options.transfer,
+                              .threads = options.threads,
+                              .progress = options.progress})};
+  if (options.subdivision) fit_level(level, source, options);
+  return level;
+}
+
+void measure(LevelOfDetail& level, const MappedMesh& source, const LevelOptions& options) {
+  const SurfaceDistance distance = distance_on_grid(
+      source.mesh(), shown_mesh(level, options.threads), level.mesh.name(),
+      {.samples = distance_samples, .threads = options.threads, .progress = options.progress});
+  level.distance = {distance.rms(), distance.max()};
+}
+
+void add_levels(std::vector<LevelOfDetail>& levels, const MappedMesh& source,
+                std::span<const GridSpec> grids, const LevelOptions& options) {
+  for (const GridSpec& grid : grids) {
+    report(options.progress, "level " + std::to_string(levels.size()), 0);
+    levels.push_back(make_level(source, make_grid(grid, {.threads = options.threads}), options));
+  }
+  if (!options.measure) return;
+  for (LevelOfDetail& level : levels) measure(level, source, options);
 }
 
 }  // namespace
 
-std::optional<GridSpec> coarser_grid(const GridSpec& spec, int halvings) {
-  GridSpec coarse = spec;
-  if (spec.kind == GridKind::Icosahedron) {
-    coarse.size = spec.size - halvings;
-    return coarse.size >= 0 ? std::optional(coarse) : std::nullopt;
+std::vector<LevelOfDetail> levels_of_detail(const MappedMesh& source,
+                                            std::span<const GridSpec> grids,
+                                            const LevelOptions& options) {
+  if (options.measure) require_measurable(source.mesh());
+  std::vector<LevelOfDetail> levels;
+  add_levels(levels, source, grids, options);
+  return levels;
+}
+
+std::vector<LevelOfDetail> levels_of_detail(const MappedMesh& source, SphereGrid finest,
+                                            std::span<const GridSpec> coarser,
+                                            const LevelOptions& options) {
+  if (options.measure) require_measurable(source.mesh());
+  std::vector<LevelOfDetail> levels;
+  levels.push_back(make_level(source, std::move(finest), options));
+  add_levels(levels, source, coarser, options);
+  return levels;
+}
+
+std::vector<GridSpec> coarser_grids(const GridSpec& finest, int count) {
+  std::vector<GridSpec> grids;
+  for (int halvings = 1; halvings <= count; ++halvings) {
+    const std::optional<GridSpec> grid = coarser_grid(finest, halvings);
+    if (!grid) break;
+    grids.push_back(*grid);
   }
-  const bool octahedron = spec.kind == GridKind::Octahedron;
-  if (!octahedron && spec.kind != GridKind::Cube) return std::nullopt;
-  const std::optional<int> edges = halved(octahedron ? (spec.size - 1) / 2 : spec.size, halvings);
-  if (!edges) return std::nullopt;
-  coarse.size = octahedron ? 2 * *edges + 1 : *edges;
-  return coarse;
+  return grids;
+}
+
+TriangleMesh shown_mesh(const LevelOfDetail& level, int threads) {
+  if (!level.fit) return level.mesh.mesh();
+  return fine_limit_mesh(*level.fit, level.mesh.faces(), shown_pieces, threads);
 }
 
 }  // namespace sphparam

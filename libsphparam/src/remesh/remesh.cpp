@@ -1,21 +1,24 @@
 // Directions → places on the source → values there. The place of a face's middle decides on which
 // side of a seam its corners are.
 
-#include "remesh/remesh.h"
+#include "sphparam/remesh/remesh.h"
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <optional>
 #include <span>
-#include <stdexcept>
 #include <utility>
 
 #include "remesh/cell_means.h"
 #include "remesh/resampling.h"
 #include "remesh/seams.h"
+#include "remesh/wanted_values.h"
 #include "sphparam/parallel.h"
+#include "sphparam/remesh/adaptation.h"
 #include "sphparam/sphere/sphere_locator.h"
 #include "sphparam/stopwatch.h"
+#include "sphparam/version.h"
 
 namespace sphparam {
 
@@ -24,59 +27,12 @@ namespace {
 constexpr std::int64_t grain = 4096;
 constexpr std::int64_t located_at_once = 1 << 20;  // between two looks whether to go on
 
-using Names = std::vector<std::string>;
-
-bool contains(const Names& names, const std::string& name) {
+bool is_one_of(std::span<const char* const> names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-const Names colours = {"red", "green", "blue", "alpha"};
-const Names normals = {"nx", "ny", "nz"};
-const Names texcoords = {"s", "t"};
-/// What belongs to the source's own numbering and map.
-const Names not_carried = {"theta", "phi", "sx", "sy", "sz", "source_vertex", "source_face"};
-
-/// Which of the source's values are wanted.
-class Wanted {
- public:
-  Wanted(const Names& words, const MeshFile& source) : words_(words) {
-    const Names known = {"all", "none", "position", "color", "colour", "normal", "uv", "material"};
-    for (const std::string& word : words) {
-      if (contains(known, word) || source.find_vertex_property(word) ||
-          source.find_face_property(word)) {
-        continue;
-      }
-      throw std::invalid_argument("no property " + word + " to transfer; there are " +
-                                  list_of(source));
-    }
-  }
-
-  bool property(const std::string& name) const {
-    if (contains(not_carried, name)) return false;
-    const auto group = [&](const Names& names, const char* word) {
-      return contains(names, name) && contains(words_, word);
-    };
-    return contains(words_, "all") || contains(words_, name) || group(colours, "color") ||
-           group(colours, "colour") || group(normals, "normal") || group(texcoords, "uv");
-  }
-  bool corner_texcoords() const { return contains(words_, "all") || contains(words_, "uv"); }
-  bool corner_normals() const { return contains(words_, "all") || contains(words_, "normal"); }
-
- private:
-  static std::string list_of(const MeshFile& source) {
-    std::string names = "position";
-    for (const auto* properties : {&source.vertex_properties, &source.face_properties}) {
-      for (const Property& property : *properties) {
-        if (!contains(not_carried, property.name)) names += ", " + property.name;
-      }
-    }
-    if (source.corner_texcoords) names += ", uv";
-    if (source.corner_normals) names += ", normal";
-    return names;
-  }
-
-  const Names& words_;
-};
+constexpr const char* colours[] = {"red", "green", "blue", "alpha"};
+constexpr const char* normals[] = {"nx", "ny", "nz"};
 
 std::vector<SurfacePoint> locate(const SphereLocator& locator, const Points& directions,
                                  const char* stage, const RemeshOptions& options) {
@@ -131,14 +87,13 @@ void make_unit(double* rows, std::int64_t count, const std::vector<SurfacePoint>
 
 class Transfer {
  public:
-  Transfer(const MeshFile& source, const SphereMap& map, const SphereGrid& grid,
-           const RemeshOptions& options)
-      : source_(source),
-        wanted_(options.transfer, source),
+  Transfer(const MappedMesh& source, const SphereGrid& grid, const RemeshOptions& options)
+      : source_(source.file()),
+        wanted_(options.transfer, source_),
         grid_(grid),
         options_(options),
-        topology_(source.mesh, options.threads),
-        locator_(topology_, map, options.threads) {
+        topology_(source.topology()),
+        locator_(source.locator()) {
     const Stopwatch stopwatch;
     points_ = locate(locator_, grid.directions, "locate", options);
     locate_seconds = stopwatch.seconds();
@@ -146,7 +101,8 @@ class Transfer {
       report(options.progress, "gather", 0);
       const Topology of_grid(as_triangles(grid.faces), static_cast<int>(grid.directions.rows()),
                              options.threads);
-      cells_ = gather_cells(source.mesh, map, of_grid, SphereMap{grid.directions}, options.threads);
+      cells_ = gather_cells(source.mesh(), source.map(), of_grid, SphereMap{grid.directions},
+                            options.threads);
     }
   }
 
@@ -159,7 +115,7 @@ class Transfer {
     for (const Property& property : source_.vertex_properties) {
       if (!wanted_.property(property.name)) continue;
       report(options_.progress, "transfer", 0);
-      const bool is_colour = contains(colours, property.name);
+      const bool is_colour = is_one_of(colours, property.name);
       file.vertex_properties.push_back({property.name, property.type,
                                         is_colour ? resample_colour(resampling(), property)
                                         : is_floating(property.type)
@@ -212,8 +168,8 @@ class Transfer {
   void renormalise(MeshFile& file) const {
     std::array<Property*, 3> of_file{};
     for (Property& property : file.vertex_properties) {
-      const auto at = std::find(normals.begin(), normals.end(), property.name);
-      if (at != normals.end()) of_file[static_cast<size_t>(at - normals.begin())] = &property;
+      const auto* const at = std::find(std::begin(normals), std::end(normals), property.name);
+      if (at != std::end(normals)) of_file[static_cast<size_t>(at - normals)] = &property;
     }
     if (std::count(of_file.begin(), of_file.end(), nullptr) > 0) return;
     std::vector<double> rows(3 * points_.size());
@@ -274,35 +230,69 @@ class Transfer {
   }
 
   const MeshFile& source_;
-  Wanted wanted_;
+  WantedValues wanted_;
   const SphereGrid& grid_;
   const RemeshOptions& options_;
-  Topology topology_;
-  SphereLocator locator_;
+  const Topology& topology_;
+  const SphereLocator& locator_;
   std::vector<SurfacePoint> points_;
   Gather cells_;
 };
 
+Provenance provenance_of(const MappedMesh& source, const std::string& grid, SampleMode sample) {
+  Provenance lines = {{"version", version},
+                      {"method", "remesh"},
+                      {"grid", std::filesystem::path(grid).filename().string()},
+                      {"sample", sample == SampleMode::Cell ? "cell" : "point"}};
+  for (const auto& [key, value] : source.provenance()) {
+    if (key == "method") lines.emplace_back("source", value);
+  }
+  if (is_adapted(source)) lines.emplace_back("options", "--adaptive");
+  lines.emplace_back("verdict", "one-to-one");
+  return lines;
+}
+
 }  // namespace
 
-Remeshed remesh(const MeshFile& source, const SphereMap& map, SphereGrid grid,
-                const RemeshOptions& options) {
-  Remeshed result;
-  Transfer transfer(source, map, grid, options);
-  result.locate_seconds = transfer.locate_seconds;
-  result.averaged = transfer.averaged();
+Remeshed::Remeshed(MappedMesh mesh, std::optional<GridSpec> spec, const Figures& figures)
+    : MappedMesh(std::move(mesh)), spec_(spec), figures_(figures) {}
+
+SphereGrid Remeshed::grid() const {
+  return {.directions = map().points,
+          .faces = faces(),
+          .level_vertices = {},
+          .parents = {},
+          .name = name(),
+          .spec = spec_};
+}
+
+Remeshed remesh(const MappedMesh& source, SphereGrid grid, const RemeshOptions& options) {
+  MeshFile file;
+  Remeshed::Figures figures;
+  const Transfer transfer(source, grid, options);
+  figures.locate_seconds = transfer.locate_seconds;
+  figures.averaged = transfer.averaged();
   const Stopwatch stopwatch;
-  result.file.position_type = source.position_type;
-  result.file.comments = source.comments;
-  result.file.mesh.positions = transfer.positions();
-  result.transfer_seconds = stopwatch.seconds();
-  const Triangulation cut = triangulate(result.file.mesh.positions, grid.faces);
-  transfer.vertex_properties(result.file);
-  adopt_triangulation(result.file, cut);
-  transfer.of_faces(result.file, cut);
-  result.faces = std::move(grid.faces);
-  result.map.points = std::move(grid.directions);
-  return result;
+  file.position_type = source.file().position_type;
+  file.comments = source.file().comments;
+  file.mesh.positions = transfer.positions();
+  figures.transfer_seconds = stopwatch.seconds();
+  const Triangulation cut = triangulate(file.mesh.positions, grid.faces);
+  transfer.vertex_properties(file);
+  adopt_triangulation(file, cut);
+  transfer.of_faces(file, cut);
+  report(options.progress, "certify", 0);
+  return {MappedMesh({.file = std::move(file),
+                      .map = {std::move(grid.directions)},
+                      .provenance = provenance_of(source, grid.name, options.sample),
+                      .polygons = std::move(grid.faces),
+                      .name = grid.name},
+                     options.threads),
+          grid.spec, figures};
+}
+
+Remeshed remesh(const MappedMesh& source, const GridSpec& grid, const RemeshOptions& options) {
+  return remesh(source, make_grid(grid, {.threads = options.threads}), options);
 }
 
 }  // namespace sphparam

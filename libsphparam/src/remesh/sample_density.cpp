@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <utility>
 
 #include "elementary.h"
-#include "embedding/newton/optimise.h"
 #include "embedding/energy/rest_areas.h"
+#include "embedding/newton/optimise.h"
+#include "sphparam/embedding/distortion_energy.h"
 #include "sphparam/mesh/curvature.h"
+#include "sphparam/remesh/adaptation.h"
 
 // h = √(area / samples) is the grid's spacing where it is spread evenly. With κ averaged over h/2
 // and at most 2/h,
@@ -25,7 +29,8 @@ constexpr double most_bent = 2;  // times 1/spacing: a limb as thick as the spac
 constexpr double spread_evenly = 0.1;  // e: no place has less than that of the mean
 constexpr double exponent = 0.8;       // p: see the header
 constexpr double least_gain = 1e-3;    // of a step: more does not lower the distance any more
-constexpr int most_steps = 50;         // bad meshes creep; a map on its way is as good as any
+constexpr char adapted_key[] = "adapted_for";  // in the provenance: so many vertices
+constexpr int most_steps = 50;  // bad meshes creep; a map on its way is as good as any
 
 /// The mesh at unit size: squares of what is finite neither overflow nor vanish.
 TriangleMesh at_unit_size(const TriangleMesh& mesh) {
@@ -55,18 +60,29 @@ VectorX sample_density(const TriangleMesh& mesh, const Topology& topology, std::
   return spread_evenly + (1 - spread_evenly) / mean * bent.array();
 }
 
-Adaptation adapt_map(const TriangleMesh& mesh, const Topology& topology, const SphereMap& map,
-                     std::int64_t samples, const AdaptationOptions& options) {
+Adaptation adapt_map(const MappedMesh& source, std::int64_t samples,
+                     const AdaptationOptions& options) {
   report(options.progress, "sample density", 0);
-  const VectorX density = sample_density(mesh, topology, samples, options.threads);
+  const Topology& topology = source.topology();
+  const VectorX density = sample_density(source.mesh(), topology, samples, options.threads);
   Optimisation relaxed = optimise(
-      topology, with_density(topology, measure_source(mesh, options.threads), density), map,
+      topology, with_density(topology, measure_source(source.mesh(), options.threads), density),
+      source.map(),
       {.energy = {.lambda = options.lambda},
        .least_gain = least_gain,
        .max_steps = most_steps,
        .threads = options.threads,
        .progress = options.progress});
-  return {std::move(relaxed.map), relaxed.report.steps, density.minCoeff(), density.maxCoeff()};
+  Provenance lines = source.provenance();
+  lines.emplace_back(adapted_key, std::to_string(samples));
+  return {source.with_map(std::move(relaxed.map), std::move(lines)), relaxed.report.steps,
+          density.minCoeff(), density.maxCoeff()};
+}
+
+bool is_adapted(const MappedMesh& mapped) {
+  const Provenance& lines = mapped.provenance();
+  return std::any_of(lines.begin(), lines.end(),
+                     [](const auto& line) { return line.first == adapted_key; });
 }
 
 }  // namespace sphparam

@@ -1,7 +1,6 @@
-#include "remesh/sample_table.h"
-
 #include <charconv>
 
+#include "sphparam/remesh/remesh.h"
 #include "sphparam/sphere/spherical_coordinates.h"
 
 namespace sphparam {
@@ -25,7 +24,8 @@ std::string quoted_name(const std::string& name) {
 
 }  // namespace
 
-std::string sample_table(const MeshFile& file, const SphereMap& map) {
+std::string sample_table(const MappedMesh& mesh) {
+  const MeshFile& file = mesh.file();
   constexpr size_t expected_bytes = 100;  // of a row
   std::string text = "vertex,theta,phi,x,y,z";
   for (const Property& property : file.vertex_properties)
@@ -35,7 +35,7 @@ std::string sample_table(const MeshFile& file, const SphereMap& map) {
   text.reserve(text.size() + expected_bytes * count);
   for (size_t v = 0; v < count; ++v) {
     const auto row = static_cast<Vertex>(v);
-    const SphericalCoordinates place = to_spherical(map.point(row));
+    const SphericalCoordinates place = to_spherical(mesh.map().point(row));
     put(text, row);
     for (const double x : {place.theta, place.phi, file.mesh.positions(row, 0),
                            file.mesh.positions(row, 1), file.mesh.positions(row, 2)}) {

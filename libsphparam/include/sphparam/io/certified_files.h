@@ -10,6 +10,8 @@
 
 namespace sphparam {
 
+class MappedMesh;
+
 /// Throws UnmeasurableMesh where a mesh that was made here, to be written as `path`, has positions
 /// or values that are no finite numbers.
 void require_numbers(const MeshFile& file, const std::string& path);
@@ -29,5 +31,9 @@ void add_certified(PendingFiles& files, const std::string& path, std::string byt
 /// Throws: UnmeasurableMesh as `require_numbers`; WriteError for a name of no format.
 void add_mapped(PendingFiles& files, const std::string& path, MeshFile file, const Polygons& faces,
                 const Topology& topology, int threads);
+
+/// Adds a mapped mesh like this, its provenance with it: what `save_mapped` writes.
+void add_mapped(PendingFiles& files, const std::string& path, const MappedMesh& mapped,
+                int threads = 0);
 
 }  // namespace sphparam

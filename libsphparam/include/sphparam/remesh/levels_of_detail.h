@@ -1,0 +1,59 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "sphparam/io/mapped_mesh.h"
+#include "sphparam/progress.h"
+#include "sphparam/remesh/remesh.h"
+#include "sphparam/remesh/sphere_grid.h"
+#include "sphparam/remesh/subdivision.h"
+
+namespace sphparam {
+
+struct LevelOptions {
+  SampleMode sample = SampleMode::Point;
+  std::vector<std::string> transfer = {"all"};  // as in RemeshOptions
+  /// A subdivision surface is fitted to each level: nested in vertices and directions, as near to
+  /// the mesh as each can be. Loop for triangles, Catmull-Clark for quads.
+  std::optional<Scheme> subdivision = {};
+  bool measure = true;  // `distance` of each level
+  int threads = 0;      // 0: all cores
+  Progress progress = {};
+};
+
+/// A mesh on one of several grids.
+struct LevelOfDetail {
+  Remeshed mesh;                           // the control mesh, where a surface is fitted
+  std::optional<SubdivisionFit> fit = {};  // with the flat faces compared
+  struct Distance {
+    double rms = 0, max = 0;
+  };
+  /// From the source, both ways, of what is seen: of the limit surface, where one is fitted.
+  std::optional<Distance> distance = {};
+};
+
+/// The same mesh on one grid after another, each sampled from the source itself.
+/// Requires: grids as they should come out, finest first by custom; a scheme for the faces of all.
+/// Throws: as `remesh` and `fit_subdivision`; UnmeasurableMesh where distances to the source mean
+/// nothing, or nothing of its area is left on a grid; Cancelled.
+/// Cost: that of `remesh`, and some 0.5 s a level to measure.
+std::vector<LevelOfDetail> levels_of_detail(const MappedMesh& source,
+                                            std::span<const GridSpec> grids,
+                                            const LevelOptions& options = {});
+
+/// The same with a first grid that was made before, or is another sphere's.
+std::vector<LevelOfDetail> levels_of_detail(const MappedMesh& source, SphereGrid finest,
+                                            std::span<const GridSpec> coarser,
+                                            const LevelOptions& options = {});
+
+/// The next `count` coarser grids, each with a quarter of the faces: see `coarser_grid`; fewer
+/// where there are no more.
+std::vector<GridSpec> coarser_grids(const GridSpec& finest, int count);
+
+/// What a level shows and is measured by: of its limit surface, where one is fitted, a fine mesh;
+/// else its triangles.
+TriangleMesh shown_mesh(const LevelOfDetail& level, int threads = 0);
+
+}  // namespace sphparam

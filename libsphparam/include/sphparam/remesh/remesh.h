@@ -1,0 +1,79 @@
+#pragma once
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "sphparam/io/mapped_mesh.h"
+#include "sphparam/io/polygons.h"
+#include "sphparam/progress.h"
+#include "sphparam/remesh/sphere_grid.h"
+
+namespace sphparam {
+
+enum class SampleMode {
+  Point,  // the surface at the direction
+  Cell,   // its mean over the cell, where the grid is coarser than the source
+};
+
+/// A name that is none of what a mesh has, and what it has.
+class NoSuchProperty : public std::invalid_argument {
+ public:
+  using std::invalid_argument::invalid_argument;
+};
+
+struct RemeshOptions {
+  SampleMode sample = SampleMode::Point;
+  /// What to carry besides positions: "all", "color", "normal", "uv", "material", or names of
+  /// properties; none: nothing.
+  std::vector<std::string> transfer = {"all"};
+  int threads = 0;  // 0: all cores
+  Progress progress = {};
+};
+
+/// A mesh on a grid: a mapped mesh whose map are the directions of the grid.
+///
+/// `polygons()` are the grid's faces, of which quads are cut in two for `mesh()`, as a reader of
+/// the file would; `name()` is the grid's.
+class Remeshed : public MappedMesh {
+ public:
+  struct Figures {
+    long averaged = 0;                                // vertices that are means over cells
+    double locate_seconds = 0, transfer_seconds = 0;  // of positions
+  };
+
+  /// Requires: polygons, those of the grid.
+  Remeshed(MappedMesh mesh, std::optional<GridSpec> spec, const Figures& figures);
+
+  const Polygons& faces() const { return *polygons(); }
+  const std::optional<GridSpec>& spec() const { return spec_; }  // nothing for another sphere's
+  const Figures& figures() const { return figures_; }
+  SphereGrid grid() const;
+
+ private:
+  std::optional<GridSpec> spec_;
+  Figures figures_;
+};
+
+/// Resamples a mapped mesh: each vertex of the grid gets the point of the surface that the map
+/// takes to its direction, and what the surface has there.
+///
+/// Floating numbers and colours are interpolated, normals made unit again, whole numbers are labels
+/// and never mixed. Texture coordinates and normals of corners come from the side of a seam that
+/// the face's middle lies on. Faces have the material and the properties of the source at their
+/// middle. With `Cell`, texture coordinates and properties of faces are point samples all the same.
+/// The result's provenance says which grid and how, and how the source was mapped.
+/// Ensures: the same bytes for any number of threads; a grid vertex in the direction of a source
+/// vertex gets that vertex's values, bit for bit.
+/// Throws: NoSuchProperty for a name in `transfer` that the source has not; MeshError and
+/// NotCertifiedError for a grid of one's own that is no sphere; Cancelled.
+/// Cost: about 1 µs a vertex of the grid, one thread, and the source's locator, once.
+Remeshed remesh(const MappedMesh& source, SphereGrid grid, const RemeshOptions& options = {});
+Remeshed remesh(const MappedMesh& source, const GridSpec& grid, const RemeshOptions& options = {});
+
+/// Comma-separated values, a row a vertex: its number, theta and phi (radians), x y z, and every
+/// property of vertices; shortest text that reads back the same.
+std::string sample_table(const MappedMesh& mesh);
+
+}  // namespace sphparam

@@ -1,0 +1,144 @@
+// Names of grids, and what holds of all families.
+
+#include "sphparam/remesh/sphere_grid.h"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include "remesh/grids/grid_family.h"
+#include "sphparam/errors.h"
+#include "sphparam/io/mapped_mesh.h"
+#include "sphparam/io/mesh_source.h"
+#include "sphparam/io/paths.h"
+#include "sphparam/sphere/certificate.h"
+
+namespace sphparam {
+
+namespace {
+
+/// The whole of a text as a number that is not negative.
+std::optional<int> whole_number(std::string_view text) {
+  int value = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool all = error == std::errc{} && stop == text.data() + text.size() && value >= 0;
+  return all ? std::optional(value) : std::nullopt;
+}
+
+/// "N", or "WxH".
+std::optional<GridSpec> read_size(const GridFamily& family, std::string_view text) {
+  GridSpec spec{family.kind, 0, 0};
+  if (family.has_height) {
+    const size_t cross = text.find('x');
+    if (cross == std::string_view::npos) return std::nullopt;
+    const auto height = whole_number(text.substr(cross + 1));
+    if (!height) return std::nullopt;
+    spec.height = *height;
+    text = text.substr(0, cross);
+  }
+  const auto size = whole_number(text);
+  if (!size) return std::nullopt;
+  spec.size = *size;
+  return family.is_size(spec) ? std::optional(spec) : std::nullopt;
+}
+
+/// The family with the longest prefix that a text has; null where there is none.
+const GridFamily* family_named(std::string_view text) {
+  const GridFamily* best = nullptr;
+  for (const GridFamily* family : grid_families()) {
+    const std::string_view prefix = family->prefix;
+    if (text.starts_with(prefix) &&
+        (!best || prefix.size() > std::string_view(best->prefix).size())) {
+      best = family;
+    }
+  }
+  return best;
+}
+
+std::string all_patterns() {
+  std::string patterns;
+  for (const GridFamily* family : grid_families()) patterns.append(family->pattern).append(", ");
+  patterns.erase(patterns.size() - 2);
+  return patterns;
+}
+
+}  // namespace
+
+GridSpec parse_grid(const std::string& text) {
+  const GridFamily* const family = family_named(text);
+  if (!family) throw std::invalid_argument("expected " + all_patterns() + " or like:MESH");
+  const auto spec =
+      read_size(*family, std::string_view(text).substr(std::string_view(family->prefix).size()));
+  if (!spec)
+    throw std::invalid_argument(std::string("expected ") + family->pattern + ", " + family->sizes);
+  if (vertex_count(*spec) > most_grid_vertices) {
+    throw std::invalid_argument("more than the " + std::to_string(most_grid_vertices) +
+                                " vertices that are allowed");
+  }
+  return *spec;
+}
+
+std::string name_of(const GridSpec& spec) {
+  const GridFamily& family = family_of(spec.kind);
+  std::string name = family.prefix;
+  name.append(std::to_string(spec.size));
+  if (family.has_height) name.append("x").append(std::to_string(spec.height));
+  return name;
+}
+
+std::int64_t vertex_count(const GridSpec& spec) {
+  constexpr int beyond = 1 << 24;  // squares of more do not fit
+  const GridFamily& family = family_of(spec.kind);
+  GridSpec bounded = spec;
+  if (!family.has_height) bounded.size = std::min(spec.size, beyond);
+  return family.vertex_count(bounded);
+}
+
+bool has_quads(const GridSpec& spec) { return family_of(spec.kind).has_quads; }
+
+std::optional<GridSpec> coarser_grid(const GridSpec& spec, int halvings) {
+  const GridFamily& family = family_of(spec.kind);
+  return family.coarser ? family.coarser(spec, halvings) : std::nullopt;
+}
+
+SphereGrid make_grid(const GridSpec& spec, const GridOptions& options) {
+  SphereGrid grid = family_of(spec.kind).make(spec, options);
+  grid.name = name_of(spec);
+  grid.spec = spec;
+  return grid;
+}
+
+SphereGrid grid_of(const MappedMesh& mapped) {
+  return {.directions = mapped.map().points,
+          .faces = triangles_as_polygons(mapped.mesh().triangles),
+          .level_vertices = {},
+          .parents = {},
+          .name = mapped.name()};
+}
+
+SphereGrid load_grid(const std::string& path, const ReadOptions& read, int threads) {
+  const MeshSource source = read_source(path, read);
+  require_mappable(source);
+  const TriangleMesh& mesh = source.file.mesh;
+  SphereMap map = read_sphere(source.file).value_or(SphereMap{mesh.positions});
+  const Topology& topology = source.topology.value();
+  Certificate certificate = certify(topology, map, threads);
+  if (certificate.bijective()) {
+    map = unit_rays(std::move(map));
+    certificate = certify(topology, map, threads);
+  }
+  if (!certificate.bijective()) {
+    throw NotCertifiedError(display_name(path) + ": no sphere about the origin: " +
+                            verdict(certificate) + "\n" + complaint(certificate));
+  }
+  return {.directions = std::move(map.points),
+          .faces = triangles_as_polygons(mesh.triangles),
+          .level_vertices = {},
+          .parents = {},
+          .name = display_name(path)};
+}
+
+}  // namespace sphparam

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sphparam/io/mesh_file.h"
+
+namespace sphparam {
+
+/// Which of a source's values are to be carried, by the words of `RemeshOptions::transfer`.
+class WantedValues {
+ public:
+  /// Throws: NoSuchProperty for a word that names nothing the source has.
+  WantedValues(const std::vector<std::string>& words, const MeshFile& source);
+
+  bool property(const std::string& name) const;  // of vertices or faces
+  bool corner_texcoords() const;
+  bool corner_normals() const;
+
+ private:
+  std::vector<std::string> words_;
+};
+
+}  // namespace sphparam

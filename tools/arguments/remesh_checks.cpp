@@ -1,0 +1,193 @@
+// What makes no sense is refused before work.
+
+#include "arguments/remesh_checks.h"
+
+#include <stdexcept>
+
+#include "console/level_path.h"
+#include "console/paths.h"
+#include "sphparam/io/paths.h"
+#include "sphparam/remesh/geometry_image.h"
+#include "sphparam/remesh/levels_of_detail.h"
+
+namespace sphparam::cli {
+
+namespace {
+
+constexpr std::string_view like_prefix = "like:";
+
+std::string kind_of(const std::string& path) {
+  return is_stream(path) ? ".ply" : extension_of(path);
+}
+
+std::optional<GridSpec> grid_asked_for(const RemeshArguments& arguments) {
+  if (arguments.grid == like_prefix)
+    throw UsageMistake("--grid like: names no mesh, as in like:MESH");
+  if (arguments.grid.starts_with(like_prefix)) return std::nullopt;
+  try {
+    return parse_grid(arguments.grid);
+  } catch (const std::invalid_argument& error) {
+    throw UsageMistake("--grid " + arguments.grid + ": " + error.what());
+  }
+}
+
+std::vector<ImageRequest> images_asked_for(const RemeshArguments& arguments) {
+  std::vector<ImageRequest> requests;
+  if (!arguments.geometry_image.empty()) requests.push_back({"position", arguments.geometry_image});
+  if (!arguments.normal_image.empty()) requests.push_back({"normal", arguments.normal_image});
+  for (const std::string& text : arguments.attribute_images) {
+    const size_t equals = text.find('=');
+    if (equals == 0 || equals == std::string::npos || equals + 1 == text.size()) {
+      throw UsageMistake("--attribute-image: expected NAME=FILE, not " + text);
+    }
+    requests.push_back({text.substr(0, equals), text.substr(equals + 1)});
+  }
+  return requests;
+}
+
+void check_outputs(const RemeshArguments& arguments) {
+  const std::string kind = kind_of(arguments.output);
+  if (!arguments.output.empty() && kind != ".ply" && kind != ".obj" && kind != ".glb") {
+    throw UsageMistake("-o: the new mesh is written as .ply, .obj or .glb, not as " +
+                       output_name(arguments.output));
+  }
+  if (arguments.output.empty() && arguments.limit_output.empty() && arguments.csv.empty() &&
+      arguments.displacement.empty() && images_asked_for(arguments).empty()) {
+    throw UsageMistake("nothing to write: give -o, --geometry-image or --csv");
+  }
+}
+
+ImageDepth depth_for(const RemeshArguments& arguments, const std::string& path) {
+  return arguments.depth.value_or(extension_of(path) == ".png" ? ImageDepth::Uint16
+                                                               : ImageDepth::Float);
+}
+
+void check_images(const RemeshArguments& arguments, const std::optional<GridSpec>& spec) {
+  for (const ImageRequest& request : images_asked_for(arguments)) {
+    if (!spec || !has_image_layout(*spec)) {
+      throw UsageMistake("images are of octa and cube grids, not of " + arguments.grid);
+    }
+    const std::string extension = extension_of(request.path);
+    if (extension != ".png" && extension != ".exr") {
+      throw UsageMistake(request.path + ": images are written as .png or .exr");
+    }
+    const bool integers = depth_for(arguments, request.path) == ImageDepth::Uint16;
+    if (integers != (extension == ".png")) {
+      throw UsageMistake(request.path + ": half and float go into .exr, u16 into .png");
+    }
+  }
+}
+
+void check_subdivision(const RemeshArguments& arguments, const std::optional<GridSpec>& grid) {
+  const std::string& limit = arguments.limit_output;
+  if (!arguments.subdivision) {
+    if (!limit.empty()) throw UsageMistake("--limit-mesh is of --subdiv-fit, which is missing");
+    return;
+  }
+  const bool triangles = !grid || !has_quads(*grid);
+  if (*arguments.subdivision == Scheme::Loop && !triangles) {
+    throw UsageMistake("--subdiv-fit loop is for grids of triangles, and " + arguments.grid +
+                       " has quads: use catmark");
+  }
+  if (*arguments.subdivision == Scheme::CatmullClark && triangles) {
+    throw UsageMistake("--subdiv-fit catmark is for grids of quads, and " + arguments.grid +
+                       " has triangles only: use loop");
+  }
+  if (grid && grid->kind == GridKind::Geographic &&
+      grid->size > LimitTopology::most_faces_about_a_vertex) {
+    throw UsageMistake("--subdiv-fit: at the poles of " + arguments.grid + " " +
+                       std::to_string(grid->size) + " faces meet, and at most " +
+                       std::to_string(LimitTopology::most_faces_about_a_vertex) +
+                       " can about a vertex of a limit surface");
+  }
+  const std::string kind = kind_of(limit);
+  if (!limit.empty() && kind != ".ply" && kind != ".obj") {
+    throw UsageMistake("--limit-mesh: the mesh is written as .ply or .obj, not as " +
+                       output_name(limit));
+  }
+}
+
+void check_displacement(const RemeshArguments& arguments) {
+  const std::string &image = arguments.displacement, &mesh = arguments.rebuilt;
+  if (!mesh.empty() && image.empty()) {
+    throw UsageMistake("--rebuild is made of the image of --displace, which is missing");
+  }
+  if (image.empty()) return;
+  if (!arguments.subdivision) {
+    throw UsageMistake(
+        "--displace is along the normals of a limit surface: give --subdiv-fit; heights over a "
+        "mesh of flat faces are `bake --for MESH --map height`");
+  }
+  const std::string kind = extension_of(image);
+  if (kind != ".exr" && kind != ".png") {
+    throw UsageMistake("--displace: the image is written as .exr or .png, not as " +
+                       output_name(image));
+  }
+  if ((depth_for(arguments, image) == ImageDepth::Uint16) != (kind == ".png")) {
+    throw UsageMistake("--displace: half and float go into .exr, u16 into .png");
+  }
+  const std::string of_mesh = kind_of(mesh);
+  if (!mesh.empty() && of_mesh != ".ply" && of_mesh != ".obj") {
+    throw UsageMistake("--rebuild: the mesh is written as .ply or .obj, not as " +
+                       output_name(mesh));
+  }
+}
+
+std::vector<GridSpec> check_levels(const RemeshArguments& arguments,
+                                   const std::optional<GridSpec>& grid) {
+  if (arguments.lods == 0) return {};
+  if (arguments.output.empty()) throw UsageMistake("--lods are meshes: give -o");
+  if (is_stream(arguments.output)) throw UsageMistake("--lods are files: give -o a name");
+  std::vector<GridSpec> coarser =
+      grid ? coarser_grids(*grid, arguments.lods) : std::vector<GridSpec>{};
+  if (std::ssize(coarser) < arguments.lods) {
+    throw UsageMistake("--lods: " + arguments.grid +
+                       (coarser.empty()
+                            ? " has no coarser grids: ico:L has, and octa:N with N - 1 and cube:N "
+                              "with N a power of two"
+                            : " has only " + std::to_string(coarser.size()) + " coarser"));
+  }
+  return coarser;
+}
+
+std::vector<std::string> outputs_of(const RemeshArguments& arguments, bool one_file) {
+  if (arguments.lods == 0 || one_file) return {arguments.output};
+  std::vector<std::string> paths;
+  for (int level = 0; level <= arguments.lods; ++level)
+    paths.push_back(level_path(arguments.output, level));
+  return paths;
+}
+
+void check_all_places(const RemeshArguments& arguments, const RemeshRequests& requests) {
+  Outputs outputs = {{"-o", requests.outputs.front()},
+                     {"--limit-mesh", arguments.limit_output},
+                     {"--displace", arguments.displacement},
+                     {"--rebuild", arguments.rebuilt},
+                     {"--csv", arguments.csv},
+                     {"--json", arguments.json}};
+  for (const ImageRequest& request : requests.images)
+    outputs.emplace_back("the image of " + request.what, request.path);
+  for (size_t level = 1; level < requests.outputs.size(); ++level)
+    outputs.emplace_back("--lods", requests.outputs[level]);
+  check_places({arguments.input, arguments.sphere, requests.like}, outputs);
+}
+
+}  // namespace
+
+RemeshRequests check_remesh_arguments(const RemeshArguments& arguments) {
+  check_outputs(arguments);
+  RemeshRequests requests;
+  requests.grid = grid_asked_for(arguments);
+  if (!requests.grid) requests.like = arguments.grid.substr(like_prefix.size());
+  requests.images = images_asked_for(arguments);
+  check_images(arguments, requests.grid);
+  check_subdivision(arguments, requests.grid);
+  check_displacement(arguments);
+  requests.coarser = check_levels(arguments, requests.grid);
+  requests.one_file = extension_of(arguments.output) == ".glb";
+  requests.outputs = outputs_of(arguments, requests.one_file);
+  check_all_places(arguments, requests);
+  return requests;
+}
+
+}  // namespace sphparam::cli
