@@ -123,6 +123,12 @@ TEST_CASE("documents: the proofs and formulas that the mathematics names are the
   check_names("docs/mathematics.md", 20);
 }
 
+TEST_CASE("documents: the headers that the pages of components name are there") {
+  for (const auto& entry : fs::directory_iterator(root / "docs/components")) {
+    check_names(fs::relative(entry.path(), root), 0);
+  }
+}
+
 TEST_CASE("documents: every room has its line in ARCHITECTURE.md") {
   const std::string text = text_of("ARCHITECTURE.md");
   for (const char* floor : {"libsphparam/include/sphparam", "libsphparam/src", "tools"}) {
