@@ -66,6 +66,12 @@ function(add_component component)
   set_property(GLOBAL PROPERTY sphparam_linked_by_${component} "${linked}")
   # They read files from strangers.
   target_compile_options(${target} PRIVATE ${SPHPARAM_HARDENING})
+  list(GET SPHPARAM_BUILT 0 first)
+  if(component STREQUAL first OR BUILD_SHARED_LIBS)
+    target_precompile_headers(${target} PRIVATE ${often_read})
+  else()
+    target_precompile_headers(${target} REUSE_FROM sphparam_${first})
+  endif()
 endfunction()
 
 set(CMAKE_FIND_PACKAGE_TARGETS_GLOBAL ON)  # tests and benchmarks use them too
