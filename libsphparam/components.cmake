@@ -116,5 +116,8 @@ if(gltf IN_LIST SPHPARAM_BUILT)
 endif()
 if(report IN_LIST SPHPARAM_BUILT)
   add_component(report ROOMS report compare showcase)
+  include(cmake/embed_texts.cmake)
+  embed_texts(sphparam_report src/report/page.css src/report/plot.css src/report/viewer.css
+    src/report/viewer.js src/showcase/report_page.css)
   include(src/report/viewer.cmake)
 endif()

@@ -143,7 +143,7 @@ void add_rivalry(Album album, const std::vector<Trial>& trials, const Baselinery
   album.page.heading("Figures " + std::string(rivalry.spheres) + " and " + rivalry.charts +
                      ": against " + rivalry.rival);
   album.page.paragraph(of_model(trial, rivalry.model) + ". " + rivalry.claim);
-  PageTable table = contender_table({rival, trial.by("paper"), trial.by("progressive")});
+  PageTable table = comparison_table({rival, trial.by("paper"), trial.by("progressive")});
   table.caption.clear();
   album.page.table(table);
   album.page.paragraph(rival.name + " (" + rival.source + "): " + rival.statement + ".");
@@ -158,7 +158,7 @@ void add_rivalry(Album album, const std::vector<Trial>& trials, const Baselinery
   for (const char* ours : {"paper", "progressive"}) {
     if (!rival.distortion || !trial.by(ours).distortion) continue;
     album.page.subheading(std::string("Blue: ") + ours + "; red: " + rivalry.rival);
-    add_polar_charts(album.page, album.files, "figure" + std::string(rivalry.charts) + "-" + ours,
+    add_polar_plots(album.page, album.files, "figure" + std::string(rivalry.charts) + "-" + ours,
                      trial.by(ours), rival);
   }
 }

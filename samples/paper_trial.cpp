@@ -97,7 +97,7 @@ Trial try_mesh(std::string name, MeshFile file, bool keep_maps) {
   Trial trial = {std::move(name), std::move(file), {}, std::nullopt};
   const Topology topology = require_sphere(trial.file.mesh);
   for (const MethodInfo& info : all_methods()) {
-    Entry entry = run_entry(info.method, trial.file.mesh, {});
+    Entry entry = entry_of_method(info.method, trial.file.mesh, {});
     if (!keep_maps) {
       entry.map.points.resize(entry.has_map() ? 1 : 0, 3);
       entry.distortion.reset();

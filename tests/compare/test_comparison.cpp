@@ -3,6 +3,7 @@
 #include <string>
 
 #include "compare/comparison.h"
+#include "sphparam/report/compare.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -29,17 +30,17 @@ SphereMap folded(const TriangleMesh& mesh) {
 
 TEST_CASE("entry: a sphere made elsewhere is certified as it is, whatever its radius") {
   const TriangleMesh mesh = icosphere(2);
-  const Entry good = given_entry("peer", "peer.obj", mesh, {7 * mesh.positions}, 0);
+  const Entry good = entry_of_map("peer", "peer.obj", mesh, {7 * mesh.positions}, 0);
   CHECK(good.certificate.bijective());
   CHECK(good.figures->mean_abs_ln_angle < 0.1);
   CHECK_FALSE(good.seconds);
   CHECK(short_verdict(good) == "one-to-one");
-  const Entry bad = given_entry("peer", "peer.obj", mesh, folded(mesh), 0);
+  const Entry bad = entry_of_map("peer", "peer.obj", mesh, folded(mesh), 0);
   CHECK_FALSE(bad.certificate.bijective());
   CHECK(short_verdict(bad) == std::to_string(bad.certificate.fold_count()) + " folds");
   SphereMap unusable = folded(mesh);
   unusable.points.row(3).setZero();
-  const Entry none = given_entry("peer", "peer.obj", mesh, unusable, 0);
+  const Entry none = entry_of_map("peer", "peer.obj", mesh, unusable, 0);
   CHECK_FALSE(none.distortion);
   CHECK(short_verdict(none) == "1 unusable point");
 }
@@ -49,9 +50,9 @@ TEST_CASE("entry: the table has a row each, with as many cells as its header") {
   SphereMap unusable = folded(mesh);
   unusable.points.row(3).setZero();
   const PageTable table =
-      contender_table({run_entry(Method::Progressive, mesh, {}),
-                       given_entry("folded", "", mesh, folded(mesh), 0),
-                       given_entry("unusable", "", mesh, unusable, 0), Entry{"none", ""}});
+      comparison_table({entry_of_method(Method::Progressive, mesh, {}),
+                        entry_of_map("folded", "", mesh, folded(mesh), 0),
+                        entry_of_map("unusable", "", mesh, unusable, 0), Entry{"none", ""}});
   REQUIRE(table.rows.size() == 4);
   for (const auto& row : table.rows) CHECK(row.size() == table.header.size());
   CHECK(table.rows[0][4] == "yes");
@@ -62,8 +63,8 @@ TEST_CASE("entry: the table has a row each, with as many cells as its header") {
 TEST_CASE("comparison: the page names every file beside it, and nothing else") {
   const MeshFile file = ball(2);
   const std::vector<Entry> entries = {
-      run_entry(Method::Progressive, file.mesh, {}),
-      given_entry("peer", "peer.obj", file.mesh, folded(file.mesh), 0)};
+      entry_of_method(Method::Progressive, file.mesh, {}),
+      entry_of_map("peer", "peer.obj", file.mesh, folded(file.mesh), 0)};
   FolderFiles files = comparison_files("ball", file, entries, {.look = {.size = 32}});
   const auto page = std::find_if(files.begin(), files.end(),
                                  [](const auto& f) { return f.first == "index.html"; });
@@ -90,4 +91,18 @@ TEST_CASE("pictures: folds are red, all else has the mesh's colours") {
   REQUIRE(paint.colours.size() == static_cast<size_t>(file.mesh.face_count()));
   CHECK(paint.colours[5].x() > 3 * paint.colours[5].y());
   CHECK_FALSE(paint.colours[4] == paint.colours[5]);
+}
+
+TEST_CASE("compare_maps: a program names methods and adds maps of its own") {
+  const MeshFile file = ball(2);
+  const CompareOptions options{.pictures = false};
+  const auto files = compare_maps("ball", file, {"progressive"},
+                                  {{.name = "peer", .map = {file.mesh.positions}}}, options);
+  const auto page =
+      std::ranges::find(files, "index.html", &std::pair<std::string, std::string>::first);
+  REQUIRE(page != files.end());
+  CHECK_THAT(page->second, Contains("progressive") && Contains("peer"));
+  CHECK(method_names().front() == "progressive");
+  CHECK_THROWS_AS(compare_maps("ball", file, {"none"}, {}, options), std::invalid_argument);
+  CHECK_THROWS_AS(compare_maps("ball", file, {}, {}, options), std::invalid_argument);
 }

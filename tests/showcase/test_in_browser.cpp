@@ -147,7 +147,8 @@ TEST_CASE("page in Chromium: slider, variants and play change what is seen, offl
     return;
   }
   const MeshFile file = stretched();
-  const PageEntry page_entry = make_page_entry(run_entry(Method::Progressive, file.mesh, {}), {}, file);
+  const PageEntry page_entry =
+      make_page_entry(entry_of_method(Method::Progressive, file.mesh, {}), {}, file);
   ReportOptions options;
   options.viewer = viewer;
   options.image_width = 512;

@@ -6,6 +6,7 @@
 #include "showcase/report_page.h"
 #include "showcase/tables.h"
 #include "sphparam/errors.h"
+#include "sphparam/report/report_page.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -21,19 +22,19 @@ MeshFile ball(int level = 2) {
   return file;
 }
 
-PageEntry exhibit_of(const std::string& name, const MeshFile& file, const SphereMap& map) {
-  return make_page_entry(given_entry(name, name + ".sph.ply", file.mesh, map, 0),
-                      {{"method", "by hand"}}, file);
+PageEntry page_entry_of(const std::string& name, const MeshFile& file, const SphereMap& map) {
+  return make_page_entry(entry_of_map(name, name + ".sph.ply", file.mesh, map, 0),
+                         {{"method", "by hand"}}, file);
 }
 
 PageEntry good(const std::string& name, const MeshFile& file) {
-  return exhibit_of(name, file, normalised(file.mesh.positions));
+  return page_entry_of(name, file, normalised(file.mesh.positions));
 }
 
 PageEntry folded(const std::string& name, const MeshFile& file) {
   SphereMap map = normalised(file.mesh.positions);
   map.points.row(0) = -map.points.row(0);
-  return exhibit_of(name, file, map);
+  return page_entry_of(name, file, map);
 }
 
 /// Small pictures, and something in the viewer's place.
@@ -107,12 +108,12 @@ TEST_CASE("report page: names with markup stay text, and a script cannot be ende
 
 TEST_CASE("report page: the same bytes for the same maps, on any number of threads") {
   const MeshFile file = ball();
-  const std::vector<PageEntry> page_entries = {good("one", file), folded("two", file)};
+  const std::vector<PageEntry> entries = {good("one", file), folded("two", file)};
   ReportOptions options = quick();
   options.threads = 1;
-  const std::string page = report_page("ball", file, page_entries, options);
+  const std::string page = report_page("ball", file, entries, options);
   options.threads = 3;
-  CHECK(report_page("ball", file, page_entries, options) == page);
+  CHECK(report_page("ball", file, entries, options) == page);
 }
 
 TEST_CASE("report page: maps that fold are shown as pictures, beside models of those that do not") {
@@ -217,16 +218,16 @@ TEST_CASE("page_entry: only one-to-one maps get a chart") {
 
 TEST_CASE("page_entry: tables have a column a map, and a dash where a map has no such figure") {
   const MeshFile file = ball();
-  const std::vector<PageEntry> page_entries = {good("a", file), folded("b", file)};
-  for (const PageTable& table : {distortion_table(page_entries), certificate_table(page_entries),
-                                 chart_table(page_entries), provenance_table(page_entries)}) {
+  const std::vector<PageEntry> entries = {good("a", file), folded("b", file)};
+  for (const PageTable& table : {distortion_table(entries), certificate_table(entries),
+                                 chart_table(entries), provenance_table(entries)}) {
     REQUIRE_FALSE(table.rows.empty());
     CHECK(table.header[1] == "a");
     CHECK(table.header[2] == "b");
     for (const auto& row : table.rows) CHECK(row.size() == table.header.size());
   }
-  CHECK(chart_table(page_entries).rows[0][2] == "–");
-  CHECK(certificate_table(page_entries).rows[0][1] == "one-to-one");
+  CHECK(chart_table(entries).rows[0][2] == "–");
+  CHECK(certificate_table(entries).rows[0][1] == "one-to-one");
 }
 
 TEST_CASE("report page: red alone is no colour") {
@@ -241,4 +242,17 @@ TEST_CASE("painted surfaces: can be cancelled while they are baked") {
   options.progress = [](std::string_view stage, double) { return stage != "bake"; };
   const MeshFile file = ball();
   CHECK_THROWS_AS(report_page("ball", file, {good("ball", file)}, options), Cancelled);
+}
+
+TEST_CASE("make_report: a program gets the page of a mapped mesh, or of several maps") {
+  const MeshFile file = ball();
+  const PageOptions options{.viewer = false, .size = 64};
+  const SphereMap map = normalised(file.mesh.positions);
+  const std::string one =
+      make_report(MappedMesh({.file = file, .map = map, .name = "ball.obj"}), options);
+  CHECK_THAT(one, Contains("Spherical map of ball") && Contains("Certified one-to-one"));
+  const std::string two = make_report(
+      "ball", file, {{.name = "good", .map = map}, {.name = "bad", .map = {-map.points}}}, options);
+  CHECK_THAT(two, Contains("2 maps of one mesh"));
+  CHECK_THROWS_AS(make_report("ball", file, {}, options), std::invalid_argument);
 }

@@ -12,25 +12,25 @@
 #include <vector>
 
 #include "arguments/choice.h"
-#include "commands/command.h"
 #include "arguments/common_options.h"
-#include "console/console.h"
-#include "console/exit_codes.h"
-#include "console/interruption.h"
-#include "reports/compare_report.h"
-#include "console/paths.h"
+#include "arguments/suggestion.h"
+#include "arguments/up_option.h"
+#include "commands/command.h"
 #include "commands/repairing.h"
 #include "commands/shown_textures.h"
 #include "commands/source.h"
-#include "arguments/suggestion.h"
-#include "arguments/up_option.h"
-#include "reports/wording.h"
 #include "compare/comparison.h"
+#include "console/console.h"
+#include "console/exit_codes.h"
+#include "console/interruption.h"
+#include "console/paths.h"
+#include "reports/compare_report.h"
+#include "reports/wording.h"
+#include "sphparam/errors.h"
 #include "sphparam/io/connectivity.h"
 #include "sphparam/io/read_options.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/io/sphere_file.h"
-#include "sphparam/errors.h"
 #include "sphparam/stopwatch.h"
 
 namespace sphparam::cli {
@@ -129,14 +129,14 @@ std::vector<Added> parse_added(const CompareArguments& arguments) {
 
 /// Throws: ReadError when its connectivity is another.
 Entry read_entry(const Added& added, const MeshSource& source, const std::string& mesh_name,
-                         int threads) {
+                 int threads) {
   const MeshSource sphere = read_source(added.path);
   const std::string where = connectivity_difference(source.file, sphere.file);
   if (!where.empty()) {
     throw ReadError(display_name(added.path), "not a sphere of " + mesh_name + ": " + where);
   }
   const SphereMap map = read_sphere(sphere.file).value_or(SphereMap{sphere.file.mesh.positions});
-  return given_entry(added.name, display_name(added.path), source.file.mesh, map, threads);
+  return entry_of_map(added.name, display_name(added.path), source.file.mesh, map, threads);
 }
 
 void tell(const Entry& entry, Console& console) {
@@ -148,8 +148,8 @@ void tell(const Entry& entry, Console& console) {
 }
 
 std::vector<Entry> all_entries(const CompareArguments& arguments, const MeshSource& source,
-                                      const std::vector<AnyMethod>& methods,
-                                      const std::vector<Added>& added, Console& console) {
+                               const std::vector<AnyMethod>& methods,
+                               const std::vector<Added>& added, Console& console) {
   std::vector<Entry> entries;
   // What is given is read first: a wrong file should not cost minutes.
   std::vector<Entry> given;
@@ -159,7 +159,7 @@ std::vector<Entry> all_entries(const CompareArguments& arguments, const MeshSour
   ParameterizeOptions options{.threads = arguments.threads};
   options.progress = [&](std::string_view stage, double f) { return console.progress(stage, f); };
   for (const AnyMethod method : methods) {
-    entries.push_back(run_entry(method, source.file.mesh, options));
+    entries.push_back(entry_of_method(method, source.file.mesh, options));
     tell(entries.back(), console);
   }
   for (Entry& one : given) {
@@ -189,8 +189,7 @@ int run_compare(const CompareArguments& arguments) {
   const MeshSource source = read_source(arguments.input);
   require_mappable(source);
   const OrderlyInterruption orderly;
-  const std::vector<Entry> entries =
-      all_entries(arguments, source, methods, added, console);
+  const std::vector<Entry> entries = all_entries(arguments, source, methods, added, console);
   const std::string name = is_stream(arguments.input)
                                ? "standard input"
                                : std::filesystem::path(arguments.input).stem().string();

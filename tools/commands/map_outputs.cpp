@@ -65,7 +65,7 @@ void add_charts(PendingFiles& files, const std::string& folder, const std::strin
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw WriteError(folder, error.message());
-  for (const ChartFile& chart : write_charts(folder, name, distortion)) {
+  for (const PlotFile& chart : write_plots(folder, name, distortion)) {
     files.add(chart.path, chart.svg);
   }
 }

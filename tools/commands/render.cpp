@@ -5,36 +5,30 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "arguments/choice.h"
-#include "commands/command.h"
 #include "arguments/common_options.h"
-#include "console/console.h"
-#include "console/exit_codes.h"
-#include "sphparam/io/file_numbers.h"
 #include "arguments/input_limits.h"
-#include "sphparam/io/mapped_mesh.h"
-#include "console/paths.h"
+#include "arguments/up_option.h"
+#include "commands/command.h"
 #include "commands/shown_textures.h"
 #include "commands/source.h"
-#include "arguments/up_option.h"
-#include "sphparam/io/paths.h"
-#include "image/image_codec.h"
+#include "console/console.h"
+#include "console/exit_codes.h"
+#include "console/paths.h"
+#include "render/drawing_size.h"
 #include "sphparam/io/connectivity.h"
+#include "sphparam/io/file_numbers.h"
+#include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/paths.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/io/sphere_file.h"
-#include "render/drawing_size.h"
-#include "render/figure.h"
-#include "render/geodesic.h"
-#include "render/heat.h"
-#include "render/own_paint.h"
-#include "render/render.h"
-#include "io/attributes/shading_normals.h"
-#include "sphparam/sphere/distortion.h"
+#include "sphparam/render/picture.h"
 
 namespace sphparam::cli {
 
@@ -57,26 +51,13 @@ constexpr char summary[] =
     "which\n"
     "a triangle's angles are off in the mean, dark 1 to yellow 8).\n";
 
-constexpr double margin = 1.06;  // of the picture around what is drawn
-
-enum class View { Mesh, Sphere, Both };
-enum class Colouring { Own, Plain, Normals, Checker, Area, Angle };
-
 struct RenderArguments {
   std::string input;
   std::string sphere;  // a map of the mesh in a file of its own; empty: none
   std::string output;
   std::string texture;  // empty: none
-  std::optional<View> view;
-  Colouring colouring = Colouring::Own;
-  std::string from = "";  // empty: in front, to the right, above
-  std::optional<Up> up;
-  bool wire = false;
-  bool graticule = false;
-  bool occlusion = false;
-  bool no_legend = false;
-  int size = 800;
-  int threads = 0;
+  std::string from;     // empty: in front, to the right, above
+  DrawingOptions drawing = {};
   ProgressStyle progress = ProgressStyle::Auto;
   Loudness loudness;
 };
@@ -96,102 +77,17 @@ Vector3 parse_direction(const std::string& text) {
 struct Subject {
   MeshFile file;
   std::optional<SphereMap> map;
-  MeshTextures textures;
-
-  const SphereMap& required_map(const char* why) const {
-    if (!map) throw UsageMistake(std::string(why) + " needs a map: run `sphparam map` first");
-    return *map;
-  }
 };
 
-/// What a colouring measures, where it measures something.
-std::optional<Heat> heat_of(Colouring colouring) {
-  if (colouring == Colouring::Area) return Heat::Area;
-  if (colouring == Colouring::Angle) return Heat::Angle;
-  return std::nullopt;
-}
-
-Paint make_paint(const Subject& subject, const RenderArguments& arguments) {
-  switch (arguments.colouring) {
-    case Colouring::Own:
-      return own_paint(subject.file, subject.textures);
-    case Colouring::Plain:
-      return UniformPaint{};
-    case Colouring::Normals:
-      return direction_paint(subject.file.mesh);
-    case Colouring::Checker:
-      return CheckerPaint{.rays = subject.required_map("--colour checker").points};
-    case Colouring::Area:
-    case Colouring::Angle:
-      return heat_paint(
-          *heat_of(arguments.colouring),
-          measure_distortion(subject.file.mesh, subject.required_map("this colouring"),
-                             arguments.threads));
-  }
-  return UniformPaint{};
-}
-
-/// Where the eye is: as asked for, or in front, to the right and above, whatever axis is up.
-Vector3 eye(const RenderArguments& arguments, Up up) {
-  if (!arguments.from.empty()) return parse_direction(arguments.from);
-  return up == Up::Y ? Vector3(1, 0.45, 0.6) : Vector3(1, -0.6, 0.45);
-}
-
-enum class Shape { Mesh, Sphere };
-
-/// Looks at the middle of what is seen from there, all of it in the picture. North is up on the
-/// sphere: it is seen from where the mesh is once its axis has been turned to z.
-Camera framing(Shape shape, const Points& points, Up up, const RenderArguments& arguments) {
-  Camera camera;
-  camera.direction = eye(arguments, up).normalized();
-  camera.up = direction_of(up);
-  if (shape == Shape::Sphere && up == Up::Y) {
-    camera.direction = Vector3(camera.direction.x(), -camera.direction.z(), camera.direction.y());
-    camera.up = direction_of(Up::Z);
-  }
-  if (camera.up.cross(camera.direction).isZero()) {
-    throw UsageMistake("--from: this is the direction that is up; choose another --up");
-  }
-  const Vector3 right = camera.up.cross(camera.direction).normalized();
-  const Vector3 above = camera.direction.cross(right);
-  Eigen::Matrix3d axes;  // columns
-  axes << right, above, camera.direction;
-  const Points seen = points * axes;
-  const Vector3 lower = seen.colwise().minCoeff(), upper = seen.colwise().maxCoeff();
-  camera.target = axes * (lower + upper) / 2;
-  camera.height = margin * (upper - lower).head<2>().maxCoeff();
-  return camera;
-}
-
-Image draw(Shape shape, const Paint& paint, const Subject& subject,
-           const RenderArguments& arguments) {
-  RenderObject object = {
-      .mesh = subject.file.mesh, .normals = shading_normals(subject.file), .paint = paint};
-  object.occlusion = arguments.occlusion;
-  if (arguments.wire) object.wireframe = Wireframe{};
-  if (arguments.graticule) {
-    object.graticule = Graticule{.rays = subject.required_map("--graticule").points};
-  }
-  if (shape == Shape::Sphere) {
-    object = on_sphere(object, normalised(subject.required_map("--view sphere").points).points);
-  }
-  return render({.objects = {object},
-                 .camera = framing(shape, object.mesh.positions, arguments.up.value_or(up_axis(subject.file)),
-                                   arguments),
-                 .width = arguments.size,
-                 .height = arguments.size},
-                arguments.threads);
-}
-
-Image picture(const Subject& subject, const RenderArguments& arguments) {
-  const View view = arguments.view.value_or(subject.map ? View::Both : View::Mesh);
-  const Paint paint = make_paint(subject, arguments);
-  const auto drawn = [&](Shape shape) { return draw(shape, paint, subject, arguments); };
-  const Image image = view == View::Mesh     ? drawn(Shape::Mesh)
-                      : view == View::Sphere ? drawn(Shape::Sphere)
-                                             : in_a_row({drawn(Shape::Mesh), drawn(Shape::Sphere)});
-  const std::optional<Heat> heat = heat_of(arguments.colouring);
-  return heat && !arguments.no_legend ? with_legend(image, *heat) : image;
+/// Throws UsageMistake where something is wanted that only a map has.
+void require_map(const DrawingOptions& drawing) {
+  if (draws_without_map(drawing)) return;
+  const char* why = drawing.colouring == Colouring::Checker ? "--colour checker"
+                    : drawing.colouring == Colouring::Area || drawing.colouring == Colouring::Angle
+                        ? "this colouring"
+                    : drawing.graticule ? "--graticule"
+                                        : "--view sphere";
+  throw UsageMistake(std::string(why) + " needs a map: run `sphparam map` first");
 }
 
 /// Before any work is done: a PNG under another name would deceive whoever opens it.
@@ -237,7 +133,21 @@ Subject read_subject(const RenderArguments& arguments) {
   return subject;
 }
 
-int run_render(const RenderArguments& arguments) {
+std::string drawn(const Subject& subject, const RenderArguments& arguments, Console& console) {
+  MeshTextures textures;
+  if (arguments.drawing.colouring == Colouring::Own) {
+    textures = shown_textures(subject.file, arguments.input, arguments.texture,
+                              arguments.drawing.threads, console);
+  }
+  if (!subject.map) require_map(arguments.drawing);
+  try {
+    return draw_png(subject.file, subject.map, textures, arguments.drawing);
+  } catch (const std::invalid_argument& error) {
+    throw UsageMistake("--from: " + std::string(error.what()) + "; choose another --up");
+  }
+}
+
+int run_render(RenderArguments arguments) {
   require_png(arguments.output);
   if (is_stream(arguments.input) && is_stream(arguments.sphere)) {
     throw UsageMistake("the mesh and --sphere cannot both come from standard input");
@@ -245,23 +155,19 @@ int run_render(const RenderArguments& arguments) {
   check_places({arguments.input, arguments.sphere, arguments.texture}, {{"-o", arguments.output}});
   Console console(arguments.loudness.verbosity(), arguments.progress);
   console.progress("picture", 0);
-  Subject subject = read_subject(arguments);
-  if (arguments.colouring == Colouring::Own) {
-    subject.textures = shown_textures(subject.file, arguments.input, arguments.texture,
-                                      arguments.threads, console);
-  }
-  const std::vector<char> png = encode_image(picture(subject, arguments), ImageFormat::Png);
-  write_file(arguments.output, {png.data(), png.size()});
+  const Subject subject = read_subject(arguments);
+  if (!arguments.from.empty()) arguments.drawing.from = parse_direction(arguments.from);
+  write_file(arguments.output, drawn(subject, arguments, console));
   console.say(display_name(arguments.input) + " → " + output_name(arguments.output));
   return Ok;
 }
 
 void add_look(CLI::App& command, RenderArguments& arguments) {
   add_choice<std::optional<View>>(
-      command, "--view", arguments.view,
+      command, "--view", arguments.drawing.view,
       {{"mesh", View::Mesh}, {"sphere", View::Sphere}, {"both", View::Both}},
       "What is drawn (default: both where there is a map)");
-  add_choice<Colouring>(command, "--colour,--color", arguments.colouring,
+  add_choice<Colouring>(command, "--colour,--color", arguments.drawing.colouring,
                         {{"own", Colouring::Own},
                          {"plain", Colouring::Plain},
                          {"normals", Colouring::Normals},
@@ -273,10 +179,12 @@ void add_look(CLI::App& command, RenderArguments& arguments) {
       .add_option("--texture", arguments.texture,
                   "Image for the mesh's texture coordinates, instead of its own")
       ->type_name("IMAGE");
-  command.add_flag("--wire", arguments.wire, "The edges of the triangles");
-  command.add_flag("--graticule", arguments.graticule, "Lines of longitude and latitude");
-  command.add_flag("--occlusion", arguments.occlusion, "Darken what little light reaches");
-  command.add_flag("--no-legend", arguments.no_legend, "Without the scale of area or angle");
+  command.add_flag("--wire", arguments.drawing.wireframe, "The edges of the triangles");
+  command.add_flag("--graticule", arguments.drawing.graticule, "Lines of longitude and latitude");
+  command.add_flag("--occlusion", arguments.drawing.occlusion, "Darken what little light reaches");
+  command.add_flag_callback(
+      "--no-legend", [&arguments] { arguments.drawing.legend = false; },
+      "Without the scale of area or angle");
 }
 
 }  // namespace
@@ -296,12 +204,12 @@ Command declare_render(CLI::App& program) {
   command
       ->add_option("--from", arguments->from, "Where the eye is (default: 1,-0.6,0.45 with z up)")
       ->type_name("X,Y,Z");
-  add_up(*command, arguments->up);
-  command->add_option("--size", arguments->size, "Pixels, of each side of a picture")
+  add_up(*command, arguments->drawing.up);
+  command->add_option("--size", arguments->drawing.size, "Pixels, of each side of a picture")
       ->check(between(16, 16384, "16 to 16384"))
       ->type_name("N")
       ->capture_default_str();
-  add_threads(*command, arguments->threads);
+  add_threads(*command, arguments->drawing.threads);
   add_progress(*command, arguments->progress);
   add_loudness(*command, arguments->loudness);
   return {command, [arguments] { return run_render(*arguments); }};

@@ -13,27 +13,27 @@
 #include <vector>
 
 #include "arguments/choice.h"
-#include "commands/command.h"
 #include "arguments/common_options.h"
-#include "console/console.h"
-#include "console/exit_codes.h"
-#include "console/interruption.h"
-#include "reports/compare_report.h"
-#include "console/paths.h"
+#include "arguments/up_option.h"
+#include "commands/command.h"
 #include "commands/repairing.h"
 #include "commands/shown_textures.h"
 #include "commands/source.h"
-#include "reports/told_losses.h"
-#include "arguments/up_option.h"
-#include "reports/wording.h"
-#include "sphparam/io/paths.h"
+#include "console/console.h"
+#include "console/exit_codes.h"
+#include "console/interruption.h"
+#include "console/paths.h"
 #include "image/image_codec.h"
+#include "reports/compare_report.h"
+#include "reports/told_losses.h"
+#include "reports/wording.h"
+#include "showcase/report_page.h"
+#include "sphparam/errors.h"
 #include "sphparam/io/connectivity.h"
+#include "sphparam/io/paths.h"
 #include "sphparam/io/read_options.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/io/sphere_file.h"
-#include "showcase/report_page.h"
-#include "sphparam/errors.h"
 #include "sphparam/stopwatch.h"
 #include "sphparam/version.h"
 
@@ -77,11 +77,11 @@ std::string name_of_map(const std::string& path) {
 }
 
 /// Names of maps, told apart where files have the same.
-std::string new_name(const std::string& path, const std::vector<PageEntry>& page_entries) {
+std::string new_name(const std::string& path, const std::vector<PageEntry>& entries) {
   const std::string stem = name_of_map(path);
   std::string name = stem;
   const auto taken = [&] {
-    return std::any_of(page_entries.begin(), page_entries.end(),
+    return std::any_of(entries.begin(), entries.end(),
                        [&](const PageEntry& other) { return other.entry.name == name; });
   };
   for (int i = 2; taken(); ++i) name = stem + " (" + std::to_string(i) + ")";
@@ -105,15 +105,15 @@ void require_sense(const ReportArguments& arguments) {
 
 /// A map that a file holds for the mesh: sx sy sz, or else the file is a sphere of it.
 PageEntry read_page_entry(const std::string& path, const std::string& name, const MeshFile& mesh,
-                     const MeshFile& file, int threads) {
+                          const MeshFile& file, int threads) {
   const SphereMap map = read_sphere(file).value_or(SphereMap{file.mesh.positions});
-  return make_page_entry(given_entry(name, display_name(path), mesh.mesh, map, threads),
-                      read_provenance(file), mesh, threads);
+  return make_page_entry(entry_of_map(name, display_name(path), mesh.mesh, map, threads),
+                         read_provenance(file), mesh, threads);
 }
 
 /// Throws: ReadError when its connectivity is another.
 PageEntry other_page_entry(const std::string& path, const std::string& name, const MeshFile& mesh,
-                      const std::string& mesh_path, int threads) {
+                           const std::string& mesh_path, int threads) {
   const MeshSource source = read_source(path);
   const std::string difference = connectivity_difference(mesh, source.file);
   if (!difference.empty()) {
@@ -123,10 +123,11 @@ PageEntry other_page_entry(const std::string& path, const std::string& name, con
   return read_page_entry(path, name, mesh, source.file, threads);
 }
 
-PageEntry new_page_entry(const std::string& name, const MeshFile& file, int threads, Console& console) {
+PageEntry new_page_entry(const std::string& name, const MeshFile& file, int threads,
+                         Console& console) {
   ParameterizeOptions options{.threads = threads};
   options.progress = [&](std::string_view stage, double f) { return console.progress(stage, f); };
-  Entry entry = run_entry(options.method, file.mesh, options);
+  Entry entry = entry_of_method(options.method, file.mesh, options);
   console.clear_progress();
   console.say(name + ": carries no map; mapped now (" + entry.name + ")");
   Provenance lines = {{"version", version},
@@ -137,7 +138,8 @@ PageEntry new_page_entry(const std::string& name, const MeshFile& file, int thre
   return make_page_entry(std::move(entry), std::move(lines), file, threads);
 }
 
-PageEntry first_page_entry(const ReportArguments& arguments, const MeshFile& file, Console& console) {
+PageEntry first_page_entry(const ReportArguments& arguments, const MeshFile& file,
+                           Console& console) {
   const std::string& path = arguments.inputs.front();
   const std::string name = new_name(path, {});
   if (!arguments.sphere.empty()) {
@@ -148,15 +150,15 @@ PageEntry first_page_entry(const ReportArguments& arguments, const MeshFile& fil
 }
 
 std::vector<PageEntry> all_page_entries(const ReportArguments& arguments, const MeshFile& file,
-                                  Console& console) {
-  std::vector<PageEntry> page_entries;
-  page_entries.push_back(first_page_entry(arguments, file, console));
+                                        Console& console) {
+  std::vector<PageEntry> entries;
+  entries.push_back(first_page_entry(arguments, file, console));
   for (size_t i = 1; i < arguments.inputs.size(); ++i) {
     const std::string& path = arguments.inputs[i];
-    page_entries.push_back(other_page_entry(path, new_name(path, page_entries), file, arguments.inputs.front(),
-                                     arguments.threads));
+    entries.push_back(other_page_entry(path, new_name(path, entries), file,
+                                       arguments.inputs.front(), arguments.threads));
   }
-  return page_entries;
+  return entries;
 }
 
 /// The command as it may be shown to others: files without their folders.
@@ -213,8 +215,8 @@ ReportOptions page_options(const ReportArguments& arguments, const MeshSource& s
 }
 
 std::string page_of(const ReportArguments& arguments, const MeshSource& source,
-                    const std::vector<PageEntry>& page_entries, Console& console) {
-  return report_page(name_of_map(arguments.inputs.front()), source.file, page_entries,
+                    const std::vector<PageEntry>& entries, Console& console) {
+  return report_page(name_of_map(arguments.inputs.front()), source.file, entries,
                      page_options(arguments, source, console));
 }
 
@@ -233,17 +235,17 @@ int run_report(const ReportArguments& arguments) {
   tell_losses(source, arguments.inputs.front(), console);
   require_mappable(source);
   const OrderlyInterruption orderly;
-  const std::vector<PageEntry> page_entries = all_page_entries(arguments, source.file, console);
-  for (const PageEntry& page_entry : page_entries) tell(page_entry, console);
-  std::string html = page_of(arguments, source, page_entries, console);
+  const std::vector<PageEntry> entries = all_page_entries(arguments, source.file, console);
+  for (const PageEntry& page_entry : entries) tell(page_entry, console);
+  std::string html = page_of(arguments, source, entries, console);
   console.clear_progress();
   PendingFiles files;
   files.add(arguments.output, std::move(html));
   if (!arguments.json.empty()) {
-    std::vector<Entry> entries;
-    for (const PageEntry& page_entry : page_entries) entries.push_back(page_entry.entry);
+    std::vector<Entry> compared;
+    for (const PageEntry& shown : entries) compared.push_back(shown.entry);
     files.add(arguments.json, to_json(CompareReport{.input = {arguments.inputs.front(), source},
-                                                    .entries = entries,
+                                                    .entries = compared,
                                                     .seconds = stopwatch.seconds()}));
   }
   if (interrupted()) throw Cancelled();

@@ -71,24 +71,24 @@ void add_charts(Page& page, FolderFiles& files, const std::vector<Entry>& entrie
   for (size_t i = 1; i < entries.size(); ++i) {
     if (!entries[i].distortion) continue;
     page.subheading(ours.name + " against " + entries[i].name);
-    add_polar_charts(page, files, "chart-" + entries[i].name, ours, entries[i]);
+    add_polar_plots(page, files, "chart-" + entries[i].name, ours, entries[i]);
   }
 }
 
 }  // namespace
 
-void add_polar_charts(Page& page, FolderFiles& files, const std::string& name,
-                      const Entry& ours, const Entry& other) {
-  const std::vector<ChartSeries> series = {{ours.name, &*ours.distortion},
-                                           {other.name, &*other.distortion}};
+void add_polar_plots(Page& page, FolderFiles& files, const std::string& name, const Entry& ours,
+                     const Entry& other) {
+  const std::vector<PlotSeries> series = {{ours.name, &*ours.distortion},
+                                          {other.name, &*other.distortion}};
   std::vector<PageFigure> figures;
-  for (const ChartMeasure measure : {ChartMeasure::Area, ChartMeasure::Angle}) {
-    const bool area = measure == ChartMeasure::Area;
+  for (const PlotMeasure measure : {PlotMeasure::Area, PlotMeasure::Angle}) {
+    const bool area = measure == PlotMeasure::Area;
     const std::string noun = area ? "area" : "angle";
     const auto mean = [&](const Entry& c) {
       return significant(area ? c.figures->mean_abs_ln_area : c.figures->mean_abs_ln_angle);
     };
-    files.emplace_back(name + "-" + noun + ".svg", polar_chart(measure, series));
+    files.emplace_back(name + "-" + noun + ".svg", polar_plot(measure, series));
     figures.push_back({files.back().first,
                        "Polar chart of " + noun + " distortion: mean |ln ratio| of " + ours.name +
                            " is " + mean(ours) + ", of " + other.name + " " + mean(other),
@@ -108,13 +108,12 @@ PageFigure sphere_figure(FolderFiles& files, const std::string& name, const Mesh
 }
 
 FolderFiles comparison_files(const std::string& name, const MeshFile& file,
-                             const std::vector<Entry>& entries,
-                             const ComparisonOptions& options) {
+                             const std::vector<Entry>& entries, const ComparisonOptions& options) {
   FolderFiles files;
   Page page("Spherical maps of " + name);
   page.paragraph(grouped(file.mesh.face_count()) + " triangles, " +
                  grouped(file.mesh.vertex_count()) + " vertices.");
-  page.table(contender_table(entries));
+  page.table(comparison_table(entries));
   page.list(statements(entries));
   if (options.pictures) add_pictures(page, files, file, entries, options);
   add_charts(page, files, entries);

@@ -29,8 +29,8 @@ FolderFiles comparison_files(const std::string& name, const MeshFile& file,
 
 /// A heading of one pair of charts, area and angle, on the page; the SVGs are added to `files` as
 /// NAME-area.svg and NAME-angle.svg. Requires: both have a distortion.
-void add_polar_charts(Page& page, FolderFiles& files, const std::string& name,
-                      const Entry& ours, const Entry& other);
+void add_polar_plots(Page& page, FolderFiles& files, const std::string& name, const Entry& ours,
+                     const Entry& other);
 
 /// The sphere of a entry as NAME.png in `files`, and the figure that shows it.
 PageFigure sphere_figure(FolderFiles& files, const std::string& name, const MeshFile& file,

@@ -48,8 +48,8 @@ std::vector<std::string> table_row(const Entry& c) {
 
 }  // namespace
 
-Entry run_entry(AnyMethod method, const TriangleMesh& mesh,
-                        const ParameterizeOptions& options) {
+Entry entry_of_method(AnyMethod method, const TriangleMesh& mesh,
+                      const ParameterizeOptions& options) {
   const MethodInfo& info = info_of(method);
   const Stopwatch stopwatch;
   MethodRun run = run_method(method, mesh, require_sphere(mesh), options);
@@ -64,8 +64,8 @@ Entry run_entry(AnyMethod method, const TriangleMesh& mesh,
   return entry;
 }
 
-Entry given_entry(std::string name, std::string source, const TriangleMesh& mesh,
-                          const SphereMap& map, int threads) {
+Entry entry_of_map(std::string name, std::string source, const TriangleMesh& mesh,
+                   const SphereMap& map, int threads) {
   Entry entry = {.name = std::move(name), .source = std::move(source)};
   entry.certificate = certify(Topology(mesh), map, threads);
   const bool usable = entry.certificate.unusable_points.empty();
@@ -83,7 +83,7 @@ std::string short_verdict(const Entry& entry) {
   return "degree " + std::to_string(c.degree);
 }
 
-PageTable contender_table(const std::vector<Entry>& entries) {
+PageTable comparison_table(const std::vector<Entry>& entries) {
   PageTable table = {
       .caption =
           "Time is wall time. Folds are triangles whose exact determinant is not positive; "

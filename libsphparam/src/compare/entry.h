@@ -28,18 +28,18 @@ struct Entry {
 };
 
 /// Maps the mesh; of `options`, see `run_method`. Throws: as there.
-Entry run_entry(AnyMethod method, const TriangleMesh& mesh,
-                        const ParameterizeOptions& options);
+Entry entry_of_method(AnyMethod method, const TriangleMesh& mesh,
+                      const ParameterizeOptions& options);
 
 /// A map made elsewhere: certified as it is, measured on rays of unit length.
 /// Requires: one ray a vertex.
-Entry given_entry(std::string name, std::string source, const TriangleMesh& mesh,
-                          const SphereMap& map, int threads);
+Entry entry_of_map(std::string name, std::string source, const TriangleMesh& mesh,
+                   const SphereMap& map, int threads);
 
 /// "one-to-one", "12 folds", "degree 2", "no map".
 std::string short_verdict(const Entry& entry);
 
 /// All entries of a mesh, a row each: time, folds, degree, verdict, distortion.
-PageTable contender_table(const std::vector<Entry>& entries);
+PageTable comparison_table(const std::vector<Entry>& entries);
 
 }  // namespace sphparam

@@ -4,9 +4,9 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "elementary.h"
 #include "report/plots.h"
 #include "report/svg.h"
-#include "elementary.h"
 
 // Fixed bins, so that charts of different maps compare at a glance.
 
@@ -91,9 +91,9 @@ std::string draw_panel(const Panel& panel, const std::vector<Shares>& all, doubl
   return svg + svg_line(optimum, kTop, optimum, kTop + kHeight, "optimum");
 }
 
-Shares shares(ChartMeasure measure, const ChartSeries& series, const Panel& panel) {
+Shares shares(PlotMeasure measure, const PlotSeries& series, const Panel& panel) {
   const Distortion& d = *series.distortion;
-  return measure == ChartMeasure::Area
+  return measure == PlotMeasure::Area
              ? shares(d.area_ratio.data(), d.area_ratio.size(), panel.reach)
              : shares(d.angle_ratio.data(), d.angle_ratio.size(), panel.reach);
 }
@@ -102,14 +102,14 @@ constexpr Panel area{64, 4, 1, "Area"}, angle{544, 3, 1, "Angle"};
 
 }  // namespace
 
-std::string histogram_chart(const std::vector<ChartSeries>& series) {
+std::string histogram_plot(const std::vector<PlotSeries>& series) {
   if (series.empty() || series.size() > 2) {
-    throw std::invalid_argument("histogram_chart: one or two series");
+    throw std::invalid_argument("histogram_plot: one or two series");
   }
   std::vector<Shares> areas, angles;
-  for (const ChartSeries& one : series) {
-    areas.push_back(shares(ChartMeasure::Area, one, area));
-    angles.push_back(shares(ChartMeasure::Angle, one, angle));
+  for (const PlotSeries& one : series) {
+    areas.push_back(shares(PlotMeasure::Area, one, area));
+    angles.push_back(shares(PlotMeasure::Angle, one, angle));
   }
   const bool legend = series.size() > 1 || !series[0].label.empty();
   const int below = static_cast<int>(kTop + kHeight) + 52;
@@ -124,15 +124,15 @@ std::string histogram_chart(const std::vector<ChartSeries>& series) {
   return svg + svg_end();
 }
 
-ChartPanel histogram_panel(ChartMeasure measure, const ChartSeries& series,
-                           const std::vector<ChartSeries>& same_scale) {
-  Panel panel = measure == ChartMeasure::Area ? area : angle;
+PlotPanel histogram_panel(PlotMeasure measure, const PlotSeries& series,
+                          const std::vector<PlotSeries>& same_scale) {
+  Panel panel = measure == PlotMeasure::Area ? area : angle;
   panel.left = 56;
   const Shares own = shares(measure, series, panel);
   std::vector<Shares> all = {own};
-  for (const ChartSeries& other : same_scale) all.push_back(shares(measure, other, panel));
+  for (const PlotSeries& other : same_scale) all.push_back(shares(measure, other, panel));
   const std::string title =
-      std::string("Histogram of ") + (measure == ChartMeasure::Area ? "areas" : "angles");
+      std::string("Histogram of ") + (measure == PlotMeasure::Area ? "areas" : "angles");
   panel.title = title.c_str();
   const int width = static_cast<int>(panel.left + kPanelWidth) + 24;
   return {title,

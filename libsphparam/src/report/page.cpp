@@ -2,56 +2,11 @@
 
 #include <algorithm>
 
+#include "embedded/page.css.h"
 #include "report/svg.h"
 
 namespace sphparam {
 namespace {
-
-constexpr std::string_view style = R"(<style>
-:root{color-scheme:light dark}
-body{font:16px/1.5 system-ui,"DejaVu Sans",Helvetica,Arial,sans-serif;margin:0 auto;padding:1rem;
-max-width:75rem;color:#1f2328;background:#fff}
-h1{font-size:1.6rem;line-height:1.2}
-h2{font-size:1.3rem;margin-top:2.5rem;border-bottom:1px solid #d1d9e0}
-h3{font-size:1.05rem;margin-top:1.5rem}
-p,li{max-width:45rem}
-.row{display:grid;gap:1rem;align-items:start}
-figure{margin:0}
-img{display:block;width:100%;height:auto;background:#fff;border-radius:4px}
-figcaption,.note{font-size:.85rem;color:#59636e}
-.note{margin:1.5rem 0 0}
-.wide{overflow-x:auto;margin:.5rem 0 1rem}
-table{border-collapse:collapse;font-size:.85rem;font-variant-numeric:tabular-nums}
-th,td{padding:.25rem .6rem;border-bottom:1px solid #d1d9e0;text-align:right;white-space:nowrap}
-thead th{vertical-align:bottom;white-space:normal;min-width:3.5rem}
-tr>:first-child{text-align:left;position:sticky;left:0;background:#fff}
-.verdict{display:inline-block;max-width:none;padding:.3rem .8rem;border-radius:1rem;
-font-weight:600;color:#0b6b2b;background:#dafbe1}
-.verdict.bad{color:#a40e26;background:#ffebe9}
-dl{margin:.5rem 0}
-.key{display:grid;gap:.75rem;grid-template-columns:repeat(auto-fill,minmax(9rem,1fr));margin:1rem 0}
-.key div{padding:.6rem .8rem;border:1px solid #d1d9e0;border-radius:8px}
-.key dt{font-size:.8rem;color:#59636e}
-.key dd{margin:0;font-size:1.25rem;font-weight:600;font-variant-numeric:tabular-nums}
-.facts{display:grid;grid-template-columns:minmax(5rem,max-content) 1fr;gap:.2rem 1rem;
-font-size:.9rem}
-.facts dt{color:#59636e}
-.facts dd{margin:0;overflow-wrap:anywhere}
-details{margin:.5rem 0;font-size:.85rem}
-pre{white-space:pre-wrap;font-size:.8rem}
-summary{cursor:pointer}
-:focus-visible{outline:3px solid #1f5fd0;outline-offset:2px}
-@media(prefers-color-scheme:dark){
-body,tr>:first-child{color:#e6edf3;background:#0d1117}
-h2,th,td,.key div{border-color:#3d444d}
-figcaption,.note,.key dt,.facts dt{color:#9198a1}
-.verdict{color:#7ee787;background:#12361f}
-.verdict.bad{color:#ffb3ad;background:#4a1517}
-:focus-visible{outline-color:#6cb0ff}
-img{background:#0d1117}
-}
-</style>
-)";
 
 std::string element(std::string_view name, std::string_view text) {
   const std::string tag(name);
@@ -171,9 +126,9 @@ std::string Page::html() const {
          "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n"
          "<meta http-equiv=\"Content-Security-Policy\" content=\"" +
          std::string(policy) + std::string(scripts_.empty() ? "" : policy_of_scripts) + "\">\n" +
-         element("title", title_) + "\n" + std::string(style) +
-         (styles_.empty() ? "" : "<style>\n" + styles_ + "</style>\n") + "</head>\n<body>\n" +
-         body_ + scripts_ + "</body>\n</html>\n";
+         element("title", title_) + "\n" + "<style>\n" + std::string(embedded::page_css) +
+         "</style>\n" + (styles_.empty() ? "" : "<style>\n" + styles_ + "</style>\n") +
+         "</head>\n<body>\n" + body_ + scripts_ + "</body>\n</html>\n";
 }
 
 }  // namespace sphparam

@@ -2,19 +2,18 @@
 
 namespace sphparam {
 
-std::vector<ChartFile> write_comparison_charts(const std::string& directory,
-                                               const std::string& name,
-                                               const std::vector<ChartSeries>& series) {
+std::vector<PlotFile> write_comparison_plots(const std::string& directory, const std::string& name,
+                                             const std::vector<PlotSeries>& series) {
   const std::string base =
       directory.empty() || directory.back() == '/' ? directory + name : directory + "/" + name;
-  return {{base + "-area.svg", polar_chart(ChartMeasure::Area, series)},
-          {base + "-angle.svg", polar_chart(ChartMeasure::Angle, series)},
-          {base + "-histogram.svg", histogram_chart(series)}};
+  return {{base + "-area.svg", polar_plot(PlotMeasure::Area, series)},
+          {base + "-angle.svg", polar_plot(PlotMeasure::Angle, series)},
+          {base + "-histogram.svg", histogram_plot(series)}};
 }
 
-std::vector<ChartFile> write_charts(const std::string& directory, const std::string& name,
-                                    const Distortion& distortion) {
-  return write_comparison_charts(directory, name, {{name, &distortion}});
+std::vector<PlotFile> write_plots(const std::string& directory, const std::string& name,
+                                  const Distortion& distortion) {
+  return write_comparison_plots(directory, name, {{name, &distortion}});
 }
 
 }  // namespace sphparam

@@ -4,9 +4,9 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "elementary.h"
 #include "report/plots.h"
 #include "report/svg.h"
-#include "elementary.h"
 
 // Paper, Section 6: "the values are placed using the distortion value as the radius and the
 // triangle or angle index as the polar angle". A large mesh has more values than the picture has
@@ -34,10 +34,9 @@ struct Values {
   double operator[](long i) const { return data[i]; }
 };
 
-Values values_of(ChartMeasure measure, const ChartSeries& series) {
+Values values_of(PlotMeasure measure, const PlotSeries& series) {
   const Distortion& d = *series.distortion;
-  if (measure == ChartMeasure::Area)
-    return {series.label, d.area_ratio.data(), d.area_ratio.size()};
+  if (measure == PlotMeasure::Area) return {series.label, d.area_ratio.data(), d.area_ratio.size()};
   return {series.label, d.angle_ratio.data(), d.angle_ratio.size()};
 }
 
@@ -218,12 +217,12 @@ std::string key(size_t index, double y) {
          std::to_string(index) + "\"/>\n";
 }
 
-const char* noun_of(ChartMeasure measure) {
-  return measure == ChartMeasure::Area ? "triangles" : "angles";
+const char* noun_of(PlotMeasure measure) {
+  return measure == PlotMeasure::Area ? "triangles" : "angles";
 }
 
-const char* title_of(ChartMeasure measure) {
-  return measure == ChartMeasure::Area ? "Area distortion" : "Angle distortion";
+const char* title_of(PlotMeasure measure) {
+  return measure == PlotMeasure::Area ? "Area distortion" : "Angle distortion";
 }
 
 /// What a reader must know to trust the picture: what is not to be seen.
@@ -262,13 +261,13 @@ std::string caption(const char* noun, const Values& values, size_t index, double
 
 }  // namespace
 
-std::string polar_chart(ChartMeasure measure, const std::vector<ChartSeries>& series) {
+std::string polar_plot(PlotMeasure measure, const std::vector<PlotSeries>& series) {
   if (series.empty() || series.size() > 2) {
-    throw std::invalid_argument("polar_chart: one or two series");
+    throw std::invalid_argument("polar_plot: one or two series");
   }
   std::vector<Values> all;
-  for (const ChartSeries& one : series) all.push_back(values_of(measure, one));
-  const bool area = measure == ChartMeasure::Area;
+  for (const PlotSeries& one : series) all.push_back(values_of(measure, one));
+  const bool area = measure == PlotMeasure::Area;
   const std::string title = title_of(measure);
   const double rim = rim_radius(all), first_line = kCentreY + kRadius + 62;
   const std::array<Disk, 2> disks{Disk{245, rim}, Disk{715, 2}};
@@ -298,11 +297,11 @@ std::string polar_chart(ChartMeasure measure, const std::vector<ChartSeries>& se
   return svg + svg_end();
 }
 
-std::vector<ChartPanel> polar_panels(ChartMeasure measure, const ChartSeries& series,
-                                     const std::vector<ChartSeries>& same_scale) {
+std::vector<PlotPanel> polar_panels(PlotMeasure measure, const PlotSeries& series,
+                                    const std::vector<PlotSeries>& same_scale) {
   const Values values = values_of(measure, series);
   std::vector<Values> all = {values};
-  for (const ChartSeries& other : same_scale) all.push_back(values_of(measure, other));
+  for (const PlotSeries& other : same_scale) all.push_back(values_of(measure, other));
   const double centre = kPanelWidth / 2.0, rim = rim_radius(all);
   const auto panel = [&](const std::string& title, const Disk& disk) {
     Shown shown;
@@ -310,7 +309,7 @@ std::vector<ChartPanel> polar_panels(ChartMeasure measure, const ChartSeries& se
         svg_begin(kPanelWidth, static_cast<int>(kCentreY + kRadius + kRimBand) + 26, title);
     svg += svg_text(centre, 30, "title", "middle", title);
     svg += frame(disk) + draw_series(disk, values, 0, shown) + scale(disk) + svg_end();
-    return ChartPanel{title, std::move(svg), account(noun_of(measure), values, shown, disk.rim)};
+    return PlotPanel{title, std::move(svg), account(noun_of(measure), values, shown, disk.rim)};
   };
   return {panel(title_of(measure), {centre, rim}),
           panel("Zoom on the optimal region", {centre, 2})};

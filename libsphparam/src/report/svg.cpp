@@ -4,39 +4,9 @@
 #include <charconv>
 #include <cmath>
 
+#include "embedded/plot.css.h"
+
 namespace sphparam {
-namespace {
-
-// Blue and red are the paper's; the dark page's are their lighter sisters.
-constexpr std::string_view kStyle = R"(<style>
-text{font-family:system-ui,"DejaVu Sans",Helvetica,Arial,sans-serif;fill:#1f2328}
-.title{font-size:17px;font-weight:600}
-.label{font-size:11px;fill:#59636e}
-.caption{font-size:12.5px}
-.page{fill:#ffffff}
-.grid{fill:none;stroke:#d1d9e0;stroke-width:1}
-.axis{fill:none;stroke:#818b98;stroke-width:1}
-.optimum{fill:none;stroke:#12963f;stroke-width:2}
-.optimal{fill:#12963f}
-.halo{stroke:#ffffff;stroke-width:3px;stroke-linejoin:round;paint-order:stroke}
-.series0{fill:#1f5fd0;stroke:#1f5fd0}
-.series1{fill:#d1242f;stroke:#d1242f}
-@media (prefers-color-scheme:dark){
-text{fill:#e6edf3}
-.label{fill:#9198a1}
-.page{fill:#0d1117}
-.grid{stroke:#3d444d}
-.axis{stroke:#656c76}
-.optimum{stroke:#3fb950}
-.optimal{fill:#3fb950}
-.halo{stroke:#0d1117}
-.series0{fill:#6cb0ff;stroke:#6cb0ff}
-.series1{fill:#ff7b72;stroke:#ff7b72}
-}
-</style>
-)";
-
-}  // namespace
 
 std::string escaped(std::string_view text) {
   std::string out;
@@ -66,8 +36,8 @@ std::string svg_begin(int width, int height, std::string_view title) {
   const std::string w = std::to_string(width), h = std::to_string(height);
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + w + "\" height=\"" + h +
          "\" viewBox=\"0 0 " + w + " " + h + "\" role=\"img\">\n<title>" + escaped(title) +
-         "</title>\n" + std::string(kStyle) + "<rect class=\"page\" width=\"" + w + "\" height=\"" +
-         h + "\"/>\n";
+         "</title>\n" + "<style>\n" + std::string(embedded::plot_css) + "</style>\n" +
+         "<rect class=\"page\" width=\"" + w + "\" height=\"" + h + "\"/>\n";
 }
 
 std::string svg_end() { return "</svg>\n"; }

@@ -4,10 +4,11 @@
 #include <fstream>
 #include <iterator>
 
+#include "embedded/viewer.css.h"
+#include "embedded/viewer.js.h"
 #include "image/program_path.h"
 #include "io/uri.h"
 #include "report/svg.h"
-#include "report/viewer_controls.h"
 #include "sphparam/gltf/gltf_writer.h"
 
 namespace sphparam {
@@ -99,7 +100,7 @@ void add_viewer(Page& page, const std::vector<ViewedModel>& models,
                 const std::vector<ViewedSurface>& surfaces,
                 const std::optional<ViewerScript>& script) {
   const bool many = models.size() > 1;
-  page.add_style(viewer_style());
+  page.add_style(embedded::viewer_css);
   std::string html = "<div class=\"views" + std::string(many ? " many" : "") +
                      "\" style=\"grid-template-columns:repeat(auto-fit,minmax(min(100%,20rem),1fr))"
                      "\">\n";
@@ -116,7 +117,7 @@ void add_viewer(Page& page, const std::vector<ViewedModel>& models,
       "<noscript><p class=\"hint\">The 3D view needs scripts: this is a picture of it.</p>"
       "</noscript>\n");
   page.add_script(without_source_map(script->code));
-  page.add_script(viewer_controls());
+  page.add_script(embedded::viewer_js);
 }
 
 }  // namespace sphparam

@@ -6,8 +6,7 @@
 
 namespace sphparam {
 
-PageEntry make_page_entry(Entry entry, Provenance provenance, const MeshFile& file,
-                     int threads) {
+PageEntry make_page_entry(Entry entry, Provenance provenance, const MeshFile& file, int threads) {
   PageEntry page_entry{std::move(entry), std::move(provenance), std::nullopt};
   if (!page_entry.entry.certificate.bijective()) return page_entry;
   // What comes from elsewhere may have rays of other lengths; made unit they are other rays.

@@ -22,6 +22,6 @@ struct PageEntry {
 
 /// Makes the chart, where there can be one.
 PageEntry make_page_entry(Entry entry, Provenance provenance, const MeshFile& file,
-                     int threads = 0);
+                          int threads = 0);
 
 }  // namespace sphparam

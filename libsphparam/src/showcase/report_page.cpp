@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bake/bake_scene.h"
+#include "embedded/report_page.css.h"
 #include "gltf/painted_surfaces.h"
 #include "io/attributes/shading_normals.h"
 #include "io/uri.h"
@@ -20,16 +21,6 @@
 namespace sphparam {
 namespace {
 
-constexpr std::string_view style = R"css(.tables{display:grid;gap:0 2.5rem}
-.tables>div{min-width:0}
-.tables>div:first-child{grid-row:span 3}
-.heat-keys{display:flex;flex-wrap:wrap;gap:.5rem 2.5rem;margin:.5rem 0 1rem}
-.heat-key{flex:1 1 16rem;max-width:26rem;font-size:.85rem}
-.heat-key .name{font-weight:600}
-.heat-key .bar{display:block;height:.9rem;margin:.2rem 0;border-radius:3px}
-.heat-key .ticks{display:flex;justify-content:space-between}
-)css";
-
 constexpr int panel_width = 300, heat_width = 420;  // least, on the page, in pixels
 
 /// What is made of one map.
@@ -41,13 +32,13 @@ struct Shown {
 
 class Reporter {
  public:
-  Reporter(const std::string& name, const MeshFile& file,
-           const std::vector<PageEntry>& page_entries, const ReportOptions& options)
-      : name_(name), file_(file), exhibits_(page_entries), options_(options) {}
+  Reporter(const std::string& name, const MeshFile& file, const std::vector<PageEntry>& entries,
+           const ReportOptions& options)
+      : name_(name), file_(file), entries_(entries), options_(options) {}
 
   std::string html() {
     Page page("Spherical map" + std::string(many() ? "s" : "") + " of " + name_);
-    page.add_style(style);
+    page.add_style(embedded::report_page_css);
     lead(page);
     views(page);
     charts(page);
@@ -57,16 +48,16 @@ class Reporter {
   }
 
  private:
-  bool many() const { return exhibits_.size() > 1; }
+  bool many() const { return entries_.size() > 1; }
 
   // --- the top of the page ---
 
   void lead(Page& page) {
-    const Entry& first = exhibits_.front().entry;
+    const Entry& first = entries_.front().entry;
     const std::string size = grouped(file_.mesh.face_count()) + " triangles, " +
                              grouped(file_.mesh.vertex_count()) + " vertices";
     if (many()) {
-      page.paragraph(std::to_string(exhibits_.size()) + " maps of one mesh of " + size +
+      page.paragraph(std::to_string(entries_.size()) + " maps of one mesh of " + size +
                      ", side by side. All charts have the same scale.");
       return;
     }
@@ -171,9 +162,9 @@ class Reporter {
     std::vector<ViewedSurface> surfaces;
     std::vector<PageFigure> heat_maps;
     double done = 0;
-    for (const PageEntry& page_entry : exhibits_) {
+    for (const PageEntry& page_entry : entries_) {
       if (options_.progress &&
-          !options_.progress("page", done++ / static_cast<double>(exhibits_.size()))) {
+          !options_.progress("page", done++ / static_cast<double>(entries_.size()))) {
         throw Cancelled();
       }
       Shown shown = show(page_entry);
@@ -210,8 +201,8 @@ class Reporter {
   // --- charts ---
 
   void charts(Page& page) {
-    std::vector<ChartSeries> all;
-    for (const PageEntry& page_entry : exhibits_) {
+    std::vector<PlotSeries> all;
+    for (const PageEntry& page_entry : entries_) {
       const Entry& c = page_entry.entry;
       if (c.distortion) all.push_back({many() ? c.name : "", &*c.distortion});
     }
@@ -221,13 +212,13 @@ class Reporter {
         "As the paper's figures 10 and 11: the radius is the ratio of a triangle or an angle, the "
         "polar angle its index, and the green circle is the optimum. Beside each a zoom on the "
         "optimal region, and how the ratios are spread.");
-    for (const ChartSeries& series : all) {
+    for (const PlotSeries& series : all) {
       if (many()) page.subheading(series.label);
-      for (const ChartMeasure measure : {ChartMeasure::Area, ChartMeasure::Angle}) {
-        std::vector<ChartPanel> panels = polar_panels(measure, series, all);
+      for (const PlotMeasure measure : {PlotMeasure::Area, PlotMeasure::Angle}) {
+        std::vector<PlotPanel> panels = polar_panels(measure, series, all);
         panels.push_back(histogram_panel(measure, series, all));
         std::vector<PageFigure> figures;
-        for (const ChartPanel& panel : panels) {
+        for (const PlotPanel& panel : panels) {
           figures.push_back({data_uri("image/svg+xml", panel.svg),
                              (many() ? series.label + ": " : "") + panel.title, panel.note});
         }
@@ -240,9 +231,9 @@ class Reporter {
 
   void tables(Page& page) {
     page.heading("Figures");
-    const std::vector<PageTable> tables = {distortion_table(exhibits_),
-                                           certificate_table(exhibits_), chart_table(exhibits_)};
-    const std::string least = std::to_string(15 + 6 * exhibits_.size()) + "rem";
+    const std::vector<PageTable> tables = {distortion_table(entries_), certificate_table(entries_),
+                                           chart_table(entries_)};
+    const std::string least = std::to_string(15 + 6 * entries_.size()) + "rem";
     page.insert(
         "<div class=\"tables\" style=\"grid-template-columns:repeat(auto-fit,minmax(min(100%," +
         least + "),1fr))\">\n");
@@ -258,7 +249,7 @@ class Reporter {
   void provenance(Page& page) {
     page.heading("Provenance");
     page.facts(options_.facts);
-    const PageTable table = provenance_table(exhibits_);
+    const PageTable table = provenance_table(entries_);
     if (!table.rows.empty()) page.table(table);
     if (!options_.viewer) return;
     page.folded_text("Licence of the 3D viewer, <model-viewer>", options_.viewer->licence);
@@ -266,15 +257,15 @@ class Reporter {
 
   const std::string& name_;
   const MeshFile& file_;
-  const std::vector<PageEntry>& exhibits_;
+  const std::vector<PageEntry>& entries_;
   const ReportOptions& options_;
 };
 
 }  // namespace
 
 std::string report_page(const std::string& name, const MeshFile& file,
-                        const std::vector<PageEntry>& page_entries, const ReportOptions& options) {
-  return Reporter(name, file, page_entries, options).html();
+                        const std::vector<PageEntry>& entries, const ReportOptions& options) {
+  return Reporter(name, file, entries, options).html();
 }
 
 }  // namespace sphparam

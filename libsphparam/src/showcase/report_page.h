@@ -33,6 +33,6 @@ struct ReportOptions {
 /// but for times. Throws: ImageError; Cancelled; FieldError.
 /// Requires: at least one page_entry, each with a map.
 std::string report_page(const std::string& name, const MeshFile& file,
-                        const std::vector<PageEntry>& page_entries, const ReportOptions& options = {});
+                        const std::vector<PageEntry>& entries, const ReportOptions& options = {});
 
 }  // namespace sphparam

@@ -13,13 +13,13 @@ constexpr const char* nothing = "–";
 
 using Cell = std::function<std::string(const PageEntry&)>;
 
-PageTable table_of(std::string caption, const std::vector<PageEntry>& page_entries,
+PageTable table_of(std::string caption, const std::vector<PageEntry>& entries,
                    const std::vector<std::pair<std::string, Cell>>& rows) {
   PageTable table{std::move(caption), {""}, {}};
-  for (const PageEntry& page_entry : page_entries) table.header.push_back(page_entry.entry.name);
+  for (const PageEntry& page_entry : entries) table.header.push_back(page_entry.entry.name);
   for (const auto& [name, cell] : rows) {
     std::vector<std::string> row{name};
-    for (const PageEntry& page_entry : page_entries) row.push_back(cell(page_entry));
+    for (const PageEntry& page_entry : entries) row.push_back(cell(page_entry));
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -51,13 +51,13 @@ std::string degree(const PageEntry& page_entry) {
 
 }  // namespace
 
-PageTable distortion_table(const std::vector<PageEntry>& page_entries) {
+PageTable distortion_table(const std::vector<PageEntry>& entries) {
   using D = DistortionSummary;
   PageTable table = table_of(
       "Ratios are result / input after both total areas were made equal; the last column is what a "
       "map without distortion would have. Means over all triangles and angles are the paper's; "
       "weighted ones count every triangle by its area.",
-      page_entries,
+      entries,
       {{"mean |ln area|", figure(&D::mean_abs_ln_area)},
        {"mean |ln angle|", figure(&D::mean_abs_ln_angle)},
        {"areas within [½, 2]", percent_within_two},
@@ -80,25 +80,26 @@ PageTable distortion_table(const std::vector<PageEntry>& page_entries) {
   return table;
 }
 
-PageTable certificate_table(const std::vector<PageEntry>& page_entries) {
+PageTable certificate_table(const std::vector<PageEntry>& entries) {
   return table_of(
       "A map is one-to-one when the determinant of every triangle is positive, decided exactly, "
       "and the sphere is covered once.",
-      page_entries,
+      entries,
       {{"verdict", [](const PageEntry& e) { return short_verdict(e.entry); }},
        {"folded triangles",
         [](const PageEntry& e) { return grouped(e.entry.certificate.fold_count()); }},
        {"degree", degree}});
 }
 
-PageTable chart_table(const std::vector<PageEntry>& page_entries) {
-  const bool any = std::any_of(page_entries.begin(), page_entries.end(),
-                               [](const PageEntry& page_entry) { return page_entry.chart() != nullptr; });
+PageTable chart_table(const std::vector<PageEntry>& entries) {
+  const bool any = std::any_of(entries.begin(), entries.end(), [](const PageEntry& page_entry) {
+    return page_entry.chart() != nullptr;
+  });
   if (!any) return {};
   return table_of(
       "The (u, v) chart that textures need: the mesh is split at the poles, along the meridian "
       "θ = 0 and where it would fold in (u, v); no split moves the surface.",
-      page_entries,
+      entries,
       {{"certified",
         [](const PageEntry& e) {
           return !e.chart() ? nothing : e.chart()->certificate.one_to_one() ? "yes" : "no";
@@ -114,7 +115,7 @@ PageTable chart_table(const std::vector<PageEntry>& page_entries) {
         count_of_chart([](const SphericalChart& c) { return c.counts.fold_splits; })}});
 }
 
-PageTable provenance_table(const std::vector<PageEntry>& page_entries) {
+PageTable provenance_table(const std::vector<PageEntry>& entries) {
   std::vector<std::pair<std::string, Cell>> rows;
   const auto value = [](const PageEntry& page_entry, const std::string& key) -> std::string {
     for (const auto& [known, text] : page_entry.provenance) {
@@ -122,7 +123,7 @@ PageTable provenance_table(const std::vector<PageEntry>& page_entries) {
     }
     return nothing;
   };
-  for (const PageEntry& page_entry : page_entries) {
+  for (const PageEntry& page_entry : entries) {
     for (const auto& [key, text] : page_entry.provenance) {
       const auto same = [&key = key](const auto& row) { return row.first == key; };
       if (std::any_of(rows.begin(), rows.end(), same)) continue;
@@ -130,7 +131,7 @@ PageTable provenance_table(const std::vector<PageEntry>& page_entries) {
     }
   }
   if (rows.empty()) return {};
-  return table_of("What the files say of how their maps came about.", page_entries, rows);
+  return table_of("What the files say of how their maps came about.", entries, rows);
 }
 
 }  // namespace sphparam

@@ -64,87 +64,87 @@ bool balanced(const std::string& svg) {
 
 }  // namespace
 
-TEST_CASE("polar_chart: few values are all drawn, once in the chart and once in the zoom") {
+TEST_CASE("polar_plot: few values are all drawn, once in the chart and once in the zoom") {
   Distortion d = constant_distortion(100);  // 100 directions of a circle: no two dots meet
-  const std::string svg = polar_chart(ChartMeasure::Area, {{"m", &d}});
+  const std::string svg = polar_plot(PlotMeasure::Area, {{"m", &d}});
   CHECK(dots(svg) == 200);
   CHECK(balanced(svg));
   CHECK_THAT(svg, Contains("mean |ln ratio| 0") && Contains("class=\"optimum\""));
 }
 
-TEST_CASE("polar_chart: an outlier is never lost, it is marked on the rim and counted") {
+TEST_CASE("polar_plot: an outlier is never lost, it is marked on the rim and counted") {
   Distortion d = constant_distortion(5000);
-  CHECK_THAT(polar_chart(ChartMeasure::Area, {{"m", &d}}), Contains("; 0 beyond"));
+  CHECK_THAT(polar_plot(PlotMeasure::Area, {{"m", &d}}), Contains("; 0 beyond"));
   d.area_ratio[1234] = 1e6;
-  CHECK_THAT(polar_chart(ChartMeasure::Area, {{"m", &d}}),
+  CHECK_THAT(polar_plot(PlotMeasure::Area, {{"m", &d}}),
              Contains("; 1 beyond") && Contains("to 1e+06"));
   d.area_ratio[1234] = std::numeric_limits<double>::infinity();
-  CHECK_THAT(polar_chart(ChartMeasure::Area, {{"m", &d}}), Contains("; 1 beyond") && Contains("∞"));
+  CHECK_THAT(polar_plot(PlotMeasure::Area, {{"m", &d}}), Contains("; 1 beyond") && Contains("∞"));
   d.area_ratio[1234] = 0.001;  // alone at the centre: a dot in each disk
-  const long before = dots(polar_chart(ChartMeasure::Area, {{"m", &d}}));
+  const long before = dots(polar_plot(PlotMeasure::Area, {{"m", &d}}));
   d.area_ratio[1234] = 1;
-  CHECK(dots(polar_chart(ChartMeasure::Area, {{"m", &d}})) <= before - 2);
+  CHECK(dots(polar_plot(PlotMeasure::Area, {{"m", &d}})) <= before - 2);
 }
 
 TEST_CASE(
-    "polar_chart: any number of triangles gives a file of at most 1 MB that says what it shows") {
+    "polar_plot: any number of triangles gives a file of at most 1 MB that says what it shows") {
   const Distortion a = scattered_distortion(300000), b = scattered_distortion(200000);
-  for (const ChartMeasure measure : {ChartMeasure::Area, ChartMeasure::Angle}) {
-    const std::string svg = polar_chart(measure, {{"a", &a}, {"b", &b}});
+  for (const PlotMeasure measure : {PlotMeasure::Area, PlotMeasure::Angle}) {
+    const std::string svg = polar_plot(measure, {{"a", &a}, {"b", &b}});
     CHECK(svg.size() < 1'050'000);
     CHECK(dots(svg) > 20000);
     CHECK(balanced(svg));
   }
-  CHECK_THAT(polar_chart(ChartMeasure::Angle, {{"a", &a}}), Contains("900\u202f000 angles"));
+  CHECK_THAT(polar_plot(PlotMeasure::Angle, {{"a", &a}}), Contains("900\u202f000 angles"));
 }
 
-TEST_CASE("polar_chart: the radius is the ratio, the polar angle the index") {
+TEST_CASE("polar_plot: the radius is the ratio, the polar angle the index") {
   Distortion d = constant_distortion(4);
   d.area_ratio << 1, 0.5, 1, 1;
-  const std::string svg = polar_chart(ChartMeasure::Area, {{"m", &d}});
+  const std::string svg = polar_plot(PlotMeasure::Area, {{"m", &d}});
   // The zoom is centred at (715, 262), radius 190 for ratio 2, in tenths of pixels; the second of
   // four values points up at half the optimum.
   CHECK_THAT(svg, Contains("M8100 2620h0") && Contains("M7150 2145h0") &&
                       Contains("M6200 2620h0") && Contains("M7150 3570h0"));
 }
 
-TEST_CASE("charts: two series have two colours, one or two are asked for") {
+TEST_CASE("plots: two series have two colours, one or two are asked for") {
   const Distortion d = constant_distortion(10);
-  const std::string one = polar_chart(ChartMeasure::Area, {{"m", &d}});
-  const std::string two = polar_chart(ChartMeasure::Area, {{"m", &d}, {"n", &d}});
+  const std::string one = polar_plot(PlotMeasure::Area, {{"m", &d}});
+  const std::string two = polar_plot(PlotMeasure::Area, {{"m", &d}, {"n", &d}});
   CHECK(count(one, "class=\"series1\"") == 0);
   CHECK(count(two, "class=\"series1\"") > 0);
-  CHECK_THROWS_AS(polar_chart(ChartMeasure::Area, {}), std::invalid_argument);
-  CHECK_THROWS_AS(histogram_chart({{"", &d}, {"", &d}, {"", &d}}), std::invalid_argument);
+  CHECK_THROWS_AS(polar_plot(PlotMeasure::Area, {}), std::invalid_argument);
+  CHECK_THROWS_AS(histogram_plot({{"", &d}, {"", &d}, {"", &d}}), std::invalid_argument);
 }
 
-TEST_CASE("charts: names are escaped, and control characters left out") {
+TEST_CASE("plots: names are escaped, and control characters left out") {
   const Distortion d = constant_distortion(10);
-  for (const ChartFile& file : write_charts("dir", "a<b>&\"c\"\x01", d)) {
+  for (const PlotFile& file : write_plots("dir", "a<b>&\"c\"\x01", d)) {
     CHECK(balanced(file.svg));
     CHECK_THAT(file.svg, !Contains("a<b>") && !Contains("\x01"));
   }
 }
 
-TEST_CASE("histogram_chart: shares sum to one, infinities in the outer bars") {
+TEST_CASE("histogram_plot: shares sum to one, infinities in the outer bars") {
   Distortion d = constant_distortion(8);
   d.area_ratio << 0, 1e-9, 1, 1, 1, 1, 1e9, std::numeric_limits<double>::infinity();
-  const std::string svg = histogram_chart({{"m", &d}});
+  const std::string svg = histogram_plot({{"m", &d}});
   CHECK(balanced(svg));
   // 25 % low end, 50 % in the middle, 25 % high end: with the angle panel's one bar, four bars.
   CHECK(count(svg, "<rect x=") == 4);
   CHECK_THAT(svg, Contains("50 %") && Contains(">1/16<") && Contains(">16<") && Contains(">1/8<"));
 }
 
-TEST_CASE("write_charts: paths are made of directory and name, the same bytes each time") {
+TEST_CASE("write_plots: paths are made of directory and name, the same bytes each time") {
   const Distortion d = scattered_distortion(1000);
-  const auto files = write_charts("out", "bunny", d);
+  const auto files = write_plots("out", "bunny", d);
   REQUIRE(files.size() == 3);
   CHECK(files[0].path == "out/bunny-area.svg");
   CHECK(files[1].path == "out/bunny-angle.svg");
   CHECK(files[2].path == "out/bunny-histogram.svg");
-  CHECK(write_charts("out/", "bunny", d)[0].path == "out/bunny-area.svg");
-  for (size_t i = 0; i < 3; ++i) CHECK((files[i].svg == write_charts("out", "bunny", d)[i].svg));
+  CHECK(write_plots("out/", "bunny", d)[0].path == "out/bunny-area.svg");
+  for (size_t i = 0; i < 3; ++i) CHECK((files[i].svg == write_plots("out", "bunny", d)[i].svg));
 }
 
 TEST_CASE("svg: numbers are short and independent of the locale") {
@@ -159,9 +159,9 @@ TEST_CASE("svg: numbers are short and independent of the locale") {
 TEST_CASE("polar_panels: the dots of the chart, in pieces, with what is not to be seen") {
   Distortion d = constant_distortion(100);
   d.area_ratio[7] = 1e6;
-  const std::vector<ChartPanel> panels = polar_panels(ChartMeasure::Area, {"m", &d});
+  const std::vector<PlotPanel> panels = polar_panels(PlotMeasure::Area, {"m", &d});
   REQUIRE(panels.size() == 2);
-  for (const ChartPanel& panel : panels) {
+  for (const PlotPanel& panel : panels) {
     CHECK(balanced(panel.svg));
     CHECK(dots(panel.svg) == 99);
     CHECK_THAT(panel.note, Contains("99 dots for the 99 of 100 triangles") && Contains("1 beyond"));
@@ -172,19 +172,19 @@ TEST_CASE("polar_panels: with the maps they are compared with they have one rim"
   const Distortion flat = constant_distortion(100);
   Distortion wild = constant_distortion(100);
   wild.area_ratio *= 70;
-  const auto rim = [](const ChartPanel& panel) { return panel.note.substr(panel.note.find("up")); };
-  const ChartSeries one{"one", &flat}, two{"two", &wild};
-  const auto alone = polar_panels(ChartMeasure::Area, one);
-  const auto first = polar_panels(ChartMeasure::Area, one, {one, two});
-  const auto second = polar_panels(ChartMeasure::Area, two, {one, two});
+  const auto rim = [](const PlotPanel& panel) { return panel.note.substr(panel.note.find("up")); };
+  const PlotSeries one{"one", &flat}, two{"two", &wild};
+  const auto alone = polar_panels(PlotMeasure::Area, one);
+  const auto first = polar_panels(PlotMeasure::Area, one, {one, two});
+  const auto second = polar_panels(PlotMeasure::Area, two, {one, two});
   CHECK(rim(first[0]) == rim(second[0]));
   CHECK(rim(first[0]) != rim(alone[0]));
 }
 
 TEST_CASE("histogram_panel: bars have the scale of the highest of all maps") {
   const Distortion flat = constant_distortion(100), scattered = scattered_distortion(100);
-  const ChartSeries one{"one", &flat}, two{"two", &scattered};
-  CHECK_THAT(histogram_panel(ChartMeasure::Area, two, {one}).svg, Contains(">100 %<"));
-  CHECK_THAT(histogram_panel(ChartMeasure::Area, two).svg, !Contains(">100 %<"));
-  CHECK(balanced(histogram_panel(ChartMeasure::Angle, two).svg));
+  const PlotSeries one{"one", &flat}, two{"two", &scattered};
+  CHECK_THAT(histogram_panel(PlotMeasure::Area, two, {one}).svg, Contains(">100 %<"));
+  CHECK_THAT(histogram_panel(PlotMeasure::Area, two).svg, !Contains(">100 %<"));
+  CHECK(balanced(histogram_panel(PlotMeasure::Angle, two).svg));
 }

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "sphparam/io/mesh_file.h"
+#include "sphparam/io/up_axis.h"
+#include "sphparam/sphere/sphere_map.h"
+
+namespace sphparam {
+
+struct MeshTextures;
+
+/// What a picture shows: the mesh, its sphere, or both in a row.
+enum class View { Mesh, Sphere, Both };
+
+/// The colours of both, so that one sees where each part of the shape went.
+enum class Colouring {
+  Own,      // textures; else the colours of vertices; else of materials; else directions
+  Plain,    // one colour
+  Normals,  // each direction of the surface in a pastel colour of its own
+  Checker,  // fields of longitude and latitude
+  Area,     // red grows on the sphere, blue shrinks, full at a factor of 8
+  Angle,    // the factor by which angles are off in the mean, dark 1 to yellow 8
+};
+
+struct DrawingOptions {
+  std::optional<View> view = std::nullopt;  // nothing: both where there is a map
+  Colouring colouring = Colouring::Own;
+  std::optional<Vector3> from = std::nullopt;  // where the eye is; nothing: a little to the right,
+                                               // and above
+  std::optional<Up> up = std::nullopt;         // of the mesh; nothing: as its file says
+  bool wireframe = false;                      // the edges of the triangles
+  bool graticule = false;                      // lines of longitude and latitude
+  bool occlusion = false;                      // darken what little light reaches
+  bool legend = true;                          // below area and angle
+  int size = 800;                              // pixels, of each side of a picture; 16 to 16384
+  int threads = 0;                             // 0: all cores
+};
+
+/// Does nothing of it need a map? Views of the sphere, some colourings and the graticule do.
+bool draws_without_map(const DrawingOptions& options);
+
+/// A mesh and its map as the bytes of a PNG. The map may have folds, and rays of any length.
+/// Requires: triangles; positions within doubles' powers (`at_drawing_size`); a ray a vertex.
+/// Ensures: the same bytes for any number of threads.
+/// Throws: std::invalid_argument where a map is needed and missing, and for `from` along the axis
+/// that is up; ImageError. Cost: some seconds at 800 pixels.
+std::string draw_png(const MeshFile& file, const std::optional<SphereMap>& map,
+                     const DrawingOptions& options = {});
+
+/// The same with the textures of the file's materials, or one for all.
+std::string draw_png(const MeshFile& file, const std::optional<SphereMap>& map,
+                     const MeshTextures& textures, const DrawingOptions& options);
+
+}  // namespace sphparam

@@ -1,0 +1,44 @@
+#include <stdexcept>
+
+#include "compare/comparison.h"
+#include "sphparam/report/compare.h"
+
+namespace sphparam {
+
+namespace {
+
+AnyMethod require_method(const std::string& name) {
+  if (const std::optional<AnyMethod> method = method_named(name)) return *method;
+  throw std::invalid_argument("no method " + name);
+}
+
+}  // namespace
+
+std::vector<std::string> method_names() {
+  std::vector<std::string> names;
+  for (const MethodInfo& info : all_methods()) names.emplace_back(info.name);
+  return names;
+}
+
+std::vector<std::pair<std::string, std::string>> compare_maps(
+    const std::string& name, const MeshFile& file, const std::vector<std::string>& methods,
+    const std::vector<NamedMap>& others, const CompareOptions& options) {
+  if (methods.empty() && others.empty()) throw std::invalid_argument("there is nothing to compare");
+  std::vector<AnyMethod> wanted;
+  for (const std::string& method : methods) wanted.push_back(require_method(method));
+  std::vector<Entry> entries;
+  for (const AnyMethod method : wanted) {
+    entries.push_back(entry_of_method(method, file.mesh,
+                                      {.threads = options.threads, .progress = options.progress}));
+  }
+  for (const NamedMap& other : others) {
+    entries.push_back(
+        entry_of_map(other.name, other.source, file.mesh, other.map, options.threads));
+  }
+  PictureOptions look = seen_with_up(direction_of(options.up.value_or(up_axis(file))));
+  look.size = options.size;
+  look.threads = options.threads;
+  return comparison_files(name, file, entries, {.pictures = options.pictures, .look = look});
+}
+
+}  // namespace sphparam

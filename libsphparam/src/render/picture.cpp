@@ -1,0 +1,141 @@
+// A mesh and its sphere in the same colours and from the same side.
+
+#include "sphparam/render/picture.h"
+
+#include <stdexcept>
+
+#include "image/image_codec.h"
+#include "io/attributes/shading_normals.h"
+#include "render/figure.h"
+#include "render/geodesic.h"
+#include "render/heat.h"
+#include "render/own_paint.h"
+#include "render/render.h"
+#include "sphparam/sphere/distortion.h"
+
+namespace sphparam {
+
+namespace {
+
+constexpr double margin = 1.06;  // of the picture around what is drawn
+
+/// What a colouring measures, where it measures something.
+std::optional<Heat> heat_of(Colouring colouring) {
+  if (colouring == Colouring::Area) return Heat::Area;
+  if (colouring == Colouring::Angle) return Heat::Angle;
+  return std::nullopt;
+}
+
+/// Where the eye is: as asked for, or in front, to the right and above, whatever axis is up.
+Vector3 eye(const DrawingOptions& options, Up up) {
+  if (options.from) return *options.from;
+  return up == Up::Y ? Vector3(1, 0.45, 0.6) : Vector3(1, -0.6, 0.45);
+}
+
+enum class Shape { Mesh, Sphere };
+
+class Drawing {
+ public:
+  Drawing(const MeshFile& file, const std::optional<SphereMap>& map, const MeshTextures& textures,
+          const DrawingOptions& options)
+      : file_(file),
+        map_(map),
+        textures_(textures),
+        options_(options),
+        up_(options.up.value_or(up_axis(file))) {}
+
+  Image image() const {
+    const Paint paint = make_paint();
+    const auto drawn = [&](Shape shape) { return draw(shape, paint); };
+    const View view = options_.view.value_or(map_ ? View::Both : View::Mesh);
+    const Image image = view == View::Mesh ? drawn(Shape::Mesh)
+                        : view == View::Sphere
+                            ? drawn(Shape::Sphere)
+                            : in_a_row({drawn(Shape::Mesh), drawn(Shape::Sphere)});
+    const std::optional<Heat> heat = heat_of(options_.colouring);
+    return heat && options_.legend ? with_legend(image, *heat) : image;
+  }
+
+ private:
+  Paint make_paint() const {
+    switch (options_.colouring) {
+      case Colouring::Own:
+        return own_paint(file_, textures_);
+      case Colouring::Plain:
+        return UniformPaint{};
+      case Colouring::Normals:
+        return direction_paint(file_.mesh);
+      case Colouring::Checker:
+        return CheckerPaint{.rays = map_.value().points};
+      case Colouring::Area:
+      case Colouring::Angle:
+        return heat_paint(*heat_of(options_.colouring),
+                          measure_distortion(file_.mesh, map_.value(), options_.threads));
+    }
+    return UniformPaint{};
+  }
+
+  Image draw(Shape shape, const Paint& paint) const {
+    RenderObject object = {.mesh = file_.mesh, .normals = shading_normals(file_), .paint = paint};
+    object.occlusion = options_.occlusion;
+    if (options_.wireframe) object.wireframe = Wireframe{};
+    if (options_.graticule) object.graticule = Graticule{.rays = map_.value().points};
+    if (shape == Shape::Sphere) object = on_sphere(object, normalised(map_.value().points).points);
+    return render({.objects = {object},
+                   .camera = framing(shape, object.mesh.positions),
+                   .width = options_.size,
+                   .height = options_.size},
+                  options_.threads);
+  }
+
+  /// Looks at the middle of what is seen from there, all of it in the picture. North is up on the
+  /// sphere: it is seen from where the mesh is once its axis has been turned to z.
+  Camera framing(Shape shape, const Points& points) const {
+    Camera camera;
+    camera.direction = eye(options_, up_).normalized();
+    camera.up = direction_of(up_);
+    if (shape == Shape::Sphere && up_ == Up::Y) {
+      camera.direction = Vector3(camera.direction.x(), -camera.direction.z(), camera.direction.y());
+      camera.up = direction_of(Up::Z);
+    }
+    if (camera.up.cross(camera.direction).isZero())
+      throw std::invalid_argument("this is the direction that is up");
+    const Vector3 right = camera.up.cross(camera.direction).normalized();
+    const Vector3 above = camera.direction.cross(right);
+    Eigen::Matrix3d axes;  // columns
+    axes << right, above, camera.direction;
+    const Points seen = points * axes;
+    const Vector3 lower = seen.colwise().minCoeff(), upper = seen.colwise().maxCoeff();
+    camera.target = axes * (lower + upper) / 2;
+    camera.height = margin * (upper - lower).head<2>().maxCoeff();
+    return camera;
+  }
+
+  const MeshFile& file_;
+  const std::optional<SphereMap>& map_;
+  const MeshTextures& textures_;
+  const DrawingOptions& options_;
+  const Up up_;
+};
+
+}  // namespace
+
+bool draws_without_map(const DrawingOptions& options) {
+  return options.view.value_or(View::Mesh) == View::Mesh && !options.graticule &&
+         options.colouring != Colouring::Checker && !heat_of(options.colouring);
+}
+
+std::string draw_png(const MeshFile& file, const std::optional<SphereMap>& map,
+                     const MeshTextures& textures, const DrawingOptions& options) {
+  if (!map && !draws_without_map(options)) throw std::invalid_argument("this needs a map");
+  const Image image = Drawing(file, map, textures, options).image();
+  const std::vector<char> png = encode_image(image, ImageFormat::Png);
+  return {png.begin(), png.end()};
+}
+
+std::string draw_png(const MeshFile& file, const std::optional<SphereMap>& map,
+                     const DrawingOptions& options) {
+  return draw_png(file, map, MeshTextures{}, options);
+}
+
+}  // namespace sphparam

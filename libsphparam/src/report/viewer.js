@@ -1,0 +1,66 @@
+(() => {
+'use strict';
+const views = [...document.querySelectorAll('model-viewer')];
+const controls = document.querySelector('.controls');
+const morph = document.getElementById('morph');
+const play = document.getElementById('play');
+const message = document.getElementById('viewer-message');
+const rest = Number(morph.dataset.rest), change = Number(morph.dataset.change);  // seconds
+let playing = false;
+
+function show() {
+  for (const view of views) {
+    if (view.loaded) view.currentTime = rest + change * morph.value / 100;
+  }
+  const percent = Math.round(morph.value);
+  morph.setAttribute('aria-valuetext',
+      percent === 0 ? 'mesh' : percent === 100 ? 'sphere' : percent + ' % of the way');
+}
+
+function paint() {
+  const chosen = controls.querySelector('input[name=surface]:checked');
+  for (const view of views) {
+    if (chosen && view.loaded) view.variantName = chosen.value;
+  }
+}
+
+function setPlaying(on) {
+  playing = on;
+  play.textContent = on ? 'Pause' : 'Play';
+  if (!on) return;
+  const from = Math.acos(1 - 2 * morph.value / 100), begun = performance.now();
+  const step = now => {
+    if (!playing) return;
+    morph.value = 50 * (1 - Math.cos(from + Math.PI * (now - begun) / 1000 / change));
+    show();
+    requestAnimationFrame(step);
+  };
+  requestAnimationFrame(step);
+}
+
+for (const view of views) {
+  view.addEventListener('load', () => {
+    view.animationName = view.availableAnimations[0];
+    view.updateComplete.then(() => { show(); paint(); });
+    controls.hidden = false;
+  });
+  view.addEventListener('error', event => {
+    message.textContent = 'The 3D view cannot be shown here (' + event.detail.type +
+        '): this is a picture of it.';
+  });
+  view.addEventListener('camera-change', event => {
+    if (event.detail.source !== 'user-interaction') return;
+    for (const other of views) {
+      if (other === view) continue;
+      const orbit = view.getCameraOrbit();
+      other.cameraOrbit = orbit.theta + 'rad ' + orbit.phi + 'rad ' + orbit.radius + 'm';
+      other.jumpCameraToGoal();
+    }
+  });
+  view.src = document.getElementById(view.dataset.model).textContent;
+}
+morph.addEventListener('input', () => { setPlaying(false); show(); });
+play.addEventListener('click', () => setPlaying(!playing));
+controls.addEventListener('change', paint);
+controls.addEventListener('submit', event => event.preventDefault());
+})();

@@ -1,0 +1,58 @@
+#include <algorithm>
+#include <stdexcept>
+
+#include "bake/make_scene.h"
+#include "io/attributes/appearance.h"
+#include "showcase/report_page.h"
+#include "sphparam/io/paths.h"
+#include "sphparam/io/safe_file.h"
+#include "sphparam/report/report_page.h"
+
+namespace sphparam {
+
+namespace {
+
+ReportOptions report_options(const MeshFile& file, const PageOptions& options) {
+  ReportOptions report;
+  if (options.viewer) report.viewer = installed_viewer();
+  report.viewer_is_missing = options.viewer && !report.viewer;
+  const int size = report.look.size;
+  report.look = seen_with_up(direction_of(options.up.value_or(up_axis(file))));
+  report.look.size = std::min(size, options.size);
+  report.image_width = options.size;
+  if (has_texcoords(file)) report.textures.of_materials = read_textures(file, options.threads);
+  report.facts = options.facts;
+  report.threads = options.threads;
+  report.progress = options.progress;
+  return report;
+}
+
+}  // namespace
+
+std::string make_report(const std::string& name, const MeshFile& file,
+                        const std::vector<NamedMap>& maps, const PageOptions& options) {
+  if (maps.empty()) throw std::invalid_argument("a report needs a map");
+  std::vector<PageEntry> entries;
+  for (const NamedMap& map : maps) {
+    entries.push_back(
+        make_page_entry(entry_of_map(map.name, map.source, file.mesh, map.map, options.threads),
+                        map.provenance, file, options.threads));
+  }
+  return report_page(name, file, entries, report_options(file, options));
+}
+
+std::string make_report(const MappedMesh& mapped, const PageOptions& options) {
+  const std::string name = stem_of(mapped.name());
+  return make_report(name, mapped.file(),
+                     {{.name = name,
+                       .map = mapped.map(),
+                       .source = mapped.name(),
+                       .provenance = mapped.provenance()}},
+                     options);
+}
+
+void write_report(const std::string& path, const MappedMesh& mapped, const PageOptions& options) {
+  write_file(path, make_report(mapped, options));
+}
+
+}  // namespace sphparam
