@@ -7,7 +7,6 @@
 
 namespace sphparam::samples {
 
-
 namespace {
 
 constexpr int least_width = 240;  // of a picture on the page
@@ -159,7 +158,7 @@ void add_rivalry(Album album, const std::vector<Trial>& trials, const Baselinery
     if (!rival.distortion || !trial.by(ours).distortion) continue;
     album.page.subheading(std::string("Blue: ") + ours + "; red: " + rivalry.rival);
     add_polar_plots(album.page, album.files, "figure" + std::string(rivalry.charts) + "-" + ours,
-                     trial.by(ours), rival);
+                    trial.by(ours), rival);
   }
 }
 
@@ -197,8 +196,8 @@ void add_gallery(Album album, const std::vector<Trial>& trials) {
     for (const char* name : {"paper", "progressive"}) {
       const Entry& entry = trial.by(name);
       if (!entry.distortion) continue;
-      figures.push_back(sphere_figure(album.files, "model-" + trial.name + "-" + name, trial.file,
-                                      entry, look));
+      figures.push_back(
+          sphere_figure(album.files, "model-" + trial.name + "-" + name, trial.file, entry, look));
     }
   }
   album.page.figures(figures, least_width);

@@ -12,6 +12,7 @@ namespace sphparam::samples {
 /// Figures 2, 5, 6 with 10, 7 with 11, 8, and 1, 3, 9, each of the model that the paper shows where
 /// it is among the trials, else of another one. Pictures and charts are added to `files`.
 /// Requires: trials that kept their maps; at least one. Throws: ImageError.
-void add_figures(sphparam::Page& page, sphparam::FolderFiles& files, const std::vector<Trial>& trials);
+void add_figures(sphparam::Page& page, sphparam::FolderFiles& files,
+                 const std::vector<Trial>& trials);
 
 }  // namespace sphparam::samples

@@ -11,13 +11,13 @@
 #include <string>
 #include <thread>
 
-#include "sphparam/io/mesh_reader.h"
-#include "sphparam/io/safe_file.h"
 #include "io/polygons/welding.h"
 #include "paper_figures.h"
 #include "paper_tables.h"
 #include "paper_trial.h"
 #include "sample_meshes.h"
+#include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/safe_file.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/version.h"
 

@@ -9,7 +9,6 @@
 
 namespace sphparam::samples {
 
-
 namespace {
 
 using Row = std::vector<std::string>;
@@ -176,9 +175,8 @@ void add_matrices(Page& page, const std::vector<Trial>& trials) {
       return number(c.figures ? (*c.figures).*value : 0, c.figures.has_value());
     };
   };
-  add_matrix(
-      page, trials, "Folds; “yes” where the map is certified one-to-one.",
-      [](const Entry& c) { return c.certificate.bijective() ? "yes" : short_verdict(c); });
+  add_matrix(page, trials, "Folds; “yes” where the map is certified one-to-one.",
+             [](const Entry& c) { return c.certificate.bijective() ? "yes" : short_verdict(c); });
   add_matrix(page, trials, "Mean |ln area ratio|.", figure(&DistortionSummary::mean_abs_ln_area));
   add_matrix(page, trials, "Mean |ln angle ratio|.", figure(&DistortionSummary::mean_abs_ln_angle));
   add_matrix(page, trials, "Weighted |log2 area ratio|.",

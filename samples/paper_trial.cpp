@@ -10,7 +10,6 @@
 
 namespace sphparam::samples {
 
-
 namespace {
 
 constexpr int further_iterations = 10;

@@ -43,7 +43,7 @@ struct Trial {
   std::string name;
   sphparam::MeshFile file;
   std::vector<sphparam::Entry> entries;  // all methods
-  std::optional<PaperSteps> steps;           // nothing where the paper's method does not apply
+  std::optional<PaperSteps> steps;       // nothing where the paper's method does not apply
 
   const sphparam::Entry& by(const std::string& method) const;
 };

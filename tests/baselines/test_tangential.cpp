@@ -27,7 +27,8 @@ TEST_CASE("tangential: folds of the central projection are smoothed away") {
   }
   const Topology topology(mesh);
   const auto uniform = TangentialOptions::Operator::Uniform;
-  const BaselineResult start = map_tangential(mesh, topology, {.laplacian = uniform, .max_sweeps = 0});
+  const BaselineResult start =
+      map_tangential(mesh, topology, {.laplacian = uniform, .max_sweeps = 0});
   const BaselineResult result = map_tangential(mesh, topology, {.laplacian = uniform});
   CHECK(start.end == BaselineEnd::IterationLimit);
   CHECK(certify(topology, *start.map).fold_count() > 0);

@@ -14,14 +14,14 @@
 #include <vector>
 
 #include "gltf/export_asset.h"
-#include "sphparam/gltf/gltf_writer.h"
 #include "gltf/variant_images.h"
 #include "gltf/written_check.h"
+#include "io/attributes/shading_normals.h"
+#include "io/polygons/welding.h"
+#include "sphparam/gltf/gltf_writer.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/sphere_file.h"
-#include "io/polygons/welding.h"
-#include "io/attributes/shading_normals.h"
 #include "sphparam/parameterize.h"
 #include "sphparam/stopwatch.h"
 #include "support/test_meshes.h"

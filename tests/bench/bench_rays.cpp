@@ -15,8 +15,8 @@
 
 #include "bake/fields/ray_fields.h"
 #include "measure/surface_samples.h"
-#include "rays/cosine_rays.h"
 #include "mesh/vertex_normals.h"
+#include "rays/cosine_rays.h"
 #include "yardstick.h"
 
 using namespace sphparam;

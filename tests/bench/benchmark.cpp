@@ -24,15 +24,15 @@
 #include <string>
 #include <vector>
 
+#include "embedding/constructions/progressive.h"
 #include "embedding/energy/lanes.h"
+#include "io/files/read_back.h"
+#include "io/polygons/welding.h"
 #include "loop_subdivision.h"
+#include "sample_meshes.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/mesh_writer.h"
-#include "io/files/read_back.h"
 #include "sphparam/io/sphere_file.h"
-#include "io/polygons/welding.h"
-#include "sample_meshes.h"
-#include "embedding/constructions/progressive.h"
 #include "sphparam/parameterize.h"
 #include "yardstick.h"
 

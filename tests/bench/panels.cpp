@@ -7,7 +7,6 @@
 
 namespace sphparam::bench {
 
-
 std::string PanelRow::title(double origin, const std::string& text) const {
   return svg_text(origin + width / 2, 30, "title", "middle", text);
 }

@@ -15,10 +15,10 @@
 #include <vector>
 
 #include "geodesic_sphere.h"
-#include "sphparam/measure/surface_distance.h"
 #include "panels.h"
 #include "report/svg.h"
 #include "sample_meshes.h"
+#include "sphparam/measure/surface_distance.h"
 #include "sphparam/parameterize.h"
 #include "sphparam/remesh/remesh.h"
 

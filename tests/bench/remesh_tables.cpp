@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "io/polygons/welding.h"
-#include "sphparam/measure/surface_distance.h"
 #include "sphparam/io/mesh_reader.h"
+#include "sphparam/measure/surface_distance.h"
 #include "sphparam/parameterize.h"
 #include "sphparam/remesh/remesh.h"
 #include "yardstick.h"

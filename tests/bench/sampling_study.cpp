@@ -16,11 +16,11 @@
 #include <vector>
 
 #include "io/polygons/welding.h"
-#include "sphparam/measure/surface_distance.h"
 #include "panels.h"
 #include "report/svg.h"
 #include "sample_meshes.h"
 #include "sphparam/io/mesh_reader.h"
+#include "sphparam/measure/surface_distance.h"
 #include "sphparam/parameterize.h"
 #include "sphparam/remesh/adaptation.h"
 #include "sphparam/remesh/remesh.h"

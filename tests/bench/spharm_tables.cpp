@@ -18,10 +18,10 @@
 #include <vector>
 
 #include "geodesic_sphere.h"
-#include "sphparam/measure/surface_distance.h"
-#include "sphparam/io/mesh_reader.h"
 #include "io/polygons/welding.h"
 #include "sample_meshes.h"
+#include "sphparam/io/mesh_reader.h"
+#include "sphparam/measure/surface_distance.h"
 #include "sphparam/parameterize.h"
 #include "sphparam/sphere/spherical_harmonics.h"
 #include "yardstick.h"

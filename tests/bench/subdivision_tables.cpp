@@ -13,10 +13,10 @@
 
 #include "geodesic_sphere.h"
 #include "io/polygons/welding.h"
-#include "sphparam/measure/surface_distance.h"
 #include "remesh/subdivision/patch_net.h"
 #include "sample_meshes.h"
 #include "sphparam/io/mesh_reader.h"
+#include "sphparam/measure/surface_distance.h"
 #include "sphparam/parameterize.h"
 #include "sphparam/remesh/remesh.h"
 #include "sphparam/remesh/subdivision.h"

@@ -14,10 +14,10 @@
 #include <string>
 #include <vector>
 
-#include "sphparam/io/mesh_reader.h"
 #include "io/polygons/welding.h"
 #include "panels.h"
 #include "report/svg.h"
+#include "sphparam/io/mesh_reader.h"
 #include "sphparam/parameterize.h"
 
 using namespace sphparam;

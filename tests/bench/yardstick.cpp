@@ -8,8 +8,8 @@
 #include <set>
 #include <vector>
 
-#include "sphparam/io/mesh_reader.h"
 #include "sample_meshes.h"
+#include "sphparam/io/mesh_reader.h"
 #include "sphparam/mesh/edge_weights.h"
 #include "sphparam/mesh/topology.h"
 #include "support/places.h"
@@ -69,9 +69,7 @@ TriangleMesh yardstick_mesh(const std::string& folder) {
   return samples::make_body(body_parallels).mesh;
 }
 
-std::string meshes_folder() {
-  return (tests::meshes_folder() / "genus0" / "").string();
-}
+std::string meshes_folder() { return (tests::meshes_folder() / "genus0" / "").string(); }
 
 std::vector<std::filesystem::path> mesh_files(const std::string& folder) {
   const std::set<std::string> known{".obj", ".ply", ".off", ".stl", ".glb", ".gii"};

@@ -15,8 +15,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "random.h"
 #include "embedding/constructions/progressive.h"
+#include "random.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/certificate.h"
 #include "sphparam/sphere/orientation.h"

@@ -43,7 +43,8 @@ void limit(decltype(RLIMIT_AS) resource, rlim_t value) {
   arguments.push_back(name.data());
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
-  const int code = sphparam::cli::run_sphparam(static_cast<int>(words.size()) + 1, arguments.data());
+  const int code =
+      sphparam::cli::run_sphparam(static_cast<int>(words.size()) + 1, arguments.data());
   std::fflush(nullptr);
   _exit(code);  // destructors of the image module would wait for threads that the parent has
 }

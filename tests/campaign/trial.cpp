@@ -38,7 +38,7 @@ Outcome try_specimen(const Specimen& specimen, bool compare_threads) {
     outcome.hash = hash_of(result.map.points);
     if (outcome.certified) {
       outcome.float32_folds =
-          round_with_room(specimen.mesh, topology, result.map, {.threads = 1}).rounding.bad_after;
+          round_float32_safe(specimen.mesh, topology, result.map, {.threads = 1}).rounding.bad_after;
     }
     if (!compare_threads) return outcome;
     for (const int threads : {2, 4}) {

@@ -16,7 +16,7 @@ struct Outcome {
   bool certified = false;
   bool thread_dependent = false;  // other bytes with 2 or 4 threads than with one
   long faces = 0;
-  long float32_folds = 0;  // of the map as `round_with_room` leaves it
+  long float32_folds = 0;  // of the map as `round_float32_safe` leaves it
   double seconds = 0;      // of the map, of processor time
   std::uint64_t hash = 0;  // of the map's bytes
 };

@@ -3,9 +3,9 @@
 #include <filesystem>
 
 #include "exact_area.h"
-#include "sphparam/io/mesh_reader.h"
 #include "io/polygons/welding.h"
 #include "sphparam/chart/spherical_chart.h"
+#include "sphparam/io/mesh_reader.h"
 #include "sphparam/parameterize.h"
 #include "support/real_meshes.h"
 
@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 TEST_CASE("real meshes: every map has a certified chart, by an independent count too") {
   for (const fs::path& path : real_meshes()) {
     INFO(path.filename().string());
-    const TriangleMesh mesh = sphparam::prepare_for_mapping(sphparam::read_mesh(path.string())).mesh;
+    const TriangleMesh mesh =
+        sphparam::prepare_for_mapping(sphparam::read_mesh(path.string())).mesh;
     const Topology topology(mesh);
     const SphereMap map = parameterize(mesh, {.quality = Quality::Draft}).map;
     const SphericalChart chart = spherical_chart(mesh, topology, map);

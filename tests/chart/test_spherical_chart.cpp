@@ -2,10 +2,10 @@
 #include <numbers>
 #include <set>
 
+#include "embedding/constructions/gnomonic.h"
 #include "exact_area.h"
 #include "maps.h"
 #include "sphparam/chart/spherical_chart.h"
-#include "embedding/constructions/gnomonic.h"
 #include "sphparam/parameterize.h"
 #include "sphparam/sphere/spherical_coordinates.h"
 #include "support/all_triangulations.h"

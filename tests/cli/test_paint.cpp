@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "image/image_codec.h"
+#include "program.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/sphere_file.h"
-#include "program.h"
 #include "support/direction_image.h"
 #include "support/test_meshes.h"
 

@@ -2,8 +2,8 @@
 #include <nlohmann/json.hpp>
 
 #include "mapped.h"
-#include "sphparam/io/mesh_reader.h"
 #include "program.h"
+#include "sphparam/io/mesh_reader.h"
 #include "support/glb_json.h"
 #include "support/test_meshes.h"
 

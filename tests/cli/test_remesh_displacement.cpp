@@ -4,9 +4,9 @@
 #include <csignal>
 #include <nlohmann/json.hpp>
 
+#include "program.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/sphere_file.h"
-#include "program.h"
 #include "support/glb_json.h"
 #include "support/test_meshes.h"
 
@@ -193,7 +193,8 @@ TEST_CASE("remesh --lods: nested meshes, each certified, with errors that grow")
     const Eigen::Index count = coarse.mesh.vertex_count();
     CHECK(coarse.mesh.face_count() * 4 == finer.mesh.face_count());
     CHECK(coarse.mesh.positions == finer.mesh.positions.topRows(count));
-    CHECK(sphparam::read_sphere(coarse)->points == sphparam::read_sphere(finer)->points.topRows(count));
+    CHECK(sphparam::read_sphere(coarse)->points ==
+          sphparam::read_sphere(finer)->points.topRows(count));
     finer = coarse;
   }
 }

@@ -2,8 +2,8 @@
 #include <nlohmann/json.hpp>
 
 #include "mapped.h"
-#include "sphparam/io/mesh_reader.h"
 #include "program.h"
+#include "sphparam/io/mesh_reader.h"
 #include "support/test_meshes.h"
 
 /// `sphparam remesh --subdiv-fit`.

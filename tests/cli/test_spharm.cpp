@@ -2,8 +2,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "sphparam/io/mesh_reader.h"
 #include "program.h"
+#include "sphparam/io/mesh_reader.h"
 #include "sphparam/mesh/triangle_mesh.h"
 #include "support/test_meshes.h"
 

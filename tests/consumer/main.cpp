@@ -7,8 +7,8 @@
 #include <fstream>
 #include <iostream>
 
-/// Eigen's products of large matrices use the widest vectors that this program is compiled for; what
-/// the library asks of its users must not break them.
+/// Eigen's products of large matrices use the widest vectors that this program is compiled for;
+/// what the library asks of its users must not break them.
 bool multiplies() {
   const Eigen::MatrixXd ones = Eigen::MatrixXd::Ones(600, 600);
   return ((ones * ones).array() == 600).all();

@@ -22,7 +22,7 @@ TEST_CASE("What rounding folds though nudged is mapped anew, certified in float3
   const SphereMap map = parameterize(mesh).map;
   REQUIRE(certify(topology, map).bijective());
   REQUIRE_FALSE(round_to_float(topology, map).certificate.bijective());
-  const Float32SafeRounding safe = round_with_room(mesh, topology, map);
+  const Float32SafeRounding safe = round_float32_safe(mesh, topology, map);
   CHECK(certify(topology, safe.rounding.map).bijective());
   CHECK(is_float(safe.rounding.map));
   CHECK(safe.least_area > 0);
@@ -35,14 +35,14 @@ TEST_CASE("float32_safe: the same bytes for any number of threads") {
   const TriangleMesh mesh = gathered_sphere();
   const Topology topology(mesh);
   const SphereMap map = parameterize(mesh).map;
-  CHECK(round_with_room(mesh, topology, map, {.threads = 1}).rounding.map.points ==
-        round_with_room(mesh, topology, map, {.threads = 4}).rounding.map.points);
+  CHECK(round_float32_safe(mesh, topology, map, {.threads = 1}).rounding.map.points ==
+        round_float32_safe(mesh, topology, map, {.threads = 4}).rounding.map.points);
 }
 
 TEST_CASE("A map that floats can hold is rounded and nothing more") {
   const TriangleMesh sphere = icosphere(3);
   const Topology topology(sphere);
-  const Float32SafeRounding safe = round_with_room(sphere, topology, {sphere.positions});
+  const Float32SafeRounding safe = round_float32_safe(sphere, topology, {sphere.positions});
   CHECK(safe.least_area == 0);
   CHECK(safe.rounding.map.points == round_to_float(topology, {sphere.positions}).map.points);
 }
@@ -51,7 +51,7 @@ TEST_CASE("A folded map is rounded and stays folded") {
   const TriangleMesh sphere = icosphere(2);
   SphereMap folded{sphere.positions};
   folded.points.row(0) = -folded.points.row(0).eval();
-  const Float32SafeRounding safe = round_with_room(sphere, Topology(sphere), folded);
+  const Float32SafeRounding safe = round_float32_safe(sphere, Topology(sphere), folded);
   CHECK(safe.least_area == 0);
   CHECK_FALSE(safe.rounding.certificate.bijective());
 }

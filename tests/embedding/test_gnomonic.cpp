@@ -2,10 +2,10 @@
 #include <map>
 #include <numbers>
 
-#include "support/all_triangulations.h"
-#include "folded_maps.h"
 #include "embedding/constructions/gnomonic.h"
+#include "folded_maps.h"
 #include "sphparam/sphere/certificate.h"
+#include "support/all_triangulations.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <random>
 
-#include "folded_maps.h"
-#include "embedding/frame/landmarks.h"
 #include "embedding/constructions/progressive.h"
+#include "embedding/frame/landmarks.h"
+#include "folded_maps.h"
 #include "sphparam/parameterize.h"
 #include "sphparam/sphere/certificate.h"
 #include "sphparam/sphere/spherical_coordinates.h"

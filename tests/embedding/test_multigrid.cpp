@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 
 #include "elastic_network.h"
-#include "embedding/newton/conjugate_gradients.h"
 #include "embedding/multigrid/multigrid.h"
+#include "embedding/newton/conjugate_gradients.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;

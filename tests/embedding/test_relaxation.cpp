@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "folded_maps.h"
 #include "embedding/sweeps/relaxation.h"
+#include "folded_maps.h"
 #include "sphparam/sphere/certificate.h"
 #include "support/test_meshes.h"
 

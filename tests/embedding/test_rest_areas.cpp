@@ -3,8 +3,8 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "embedding/newton/optimise.h"
 #include "embedding/energy/rest_areas.h"
+#include "embedding/newton/optimise.h"
 #include "sphparam/sphere/certificate.h"
 #include "support/test_meshes.h"
 

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
-#include "folded_maps.h"
 #include "embedding/constructions/untangle.h"
+#include "folded_maps.h"
 #include "sphparam/sphere/certificate.h"
 #include "support/test_meshes.h"
 

@@ -10,10 +10,10 @@
 #include <string>
 
 #include "expect.h"
+#include "recipe.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/sphere_file.h"
-#include "recipe.h"
 #include "sphparam/parameterize.h"
 #include "sphparam/sphere/certificate.h"
 

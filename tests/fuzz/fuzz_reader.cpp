@@ -6,9 +6,9 @@
 #include <string_view>
 
 #include "expect.h"
+#include "io/polygons/welding.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/mesh_writer.h"
-#include "io/polygons/welding.h"
 #include "sphparam/mesh/mesh_defects.h"
 
 namespace {

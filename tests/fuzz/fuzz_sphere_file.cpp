@@ -6,10 +6,10 @@
 #include <string_view>
 
 #include "expect.h"
+#include "io/polygons/welding.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/sphere_file.h"
-#include "io/polygons/welding.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/sphere/certificate.h"
 #include "sphparam/sphere/distortion.h"

@@ -9,7 +9,7 @@
 namespace sphparam::tests {
 
 inline sphparam::MeshFile read(const std::string& bytes, const std::string& name = "mesh",
-                            const sphparam::ReadOptions& options = {}) {
+                               const sphparam::ReadOptions& options = {}) {
   return sphparam::read_mesh(bytes, name, options);
 }
 

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
-#include "sphparam/io/connectivity.h"
 #include "reading.h"
+#include "sphparam/io/connectivity.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;

@@ -6,9 +6,9 @@
 #include <random>
 
 #include "io/formats/gifti/gifti_writer.h"
+#include "reading.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/mesh_writer.h"
-#include "reading.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;

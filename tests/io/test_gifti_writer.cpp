@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 
 #include "io/formats/gifti/gifti_writer.h"
-#include "sphparam/io/sphere_file.h"
 #include "reading.h"
+#include "sphparam/io/sphere_file.h"
 #include "sphparam/sphere/certificate.h"
 #include "sphparam/sphere/float_rounding.h"
 #include "support/test_meshes.h"

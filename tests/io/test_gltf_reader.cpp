@@ -9,11 +9,11 @@
 #include <random>
 
 #include "io/formats/gltf/gltf_files.h"
-#include "sphparam/io/losses.h"
-#include "io/sphere_angles.h"
-#include "sphparam/io/sphere_file.h"
 #include "io/polygons/welding.h"
+#include "io/sphere_angles.h"
 #include "reading.h"
+#include "sphparam/io/losses.h"
+#include "sphparam/io/sphere_file.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/sphere/spherical_coordinates.h"
 #include "support/test_meshes.h"

@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include "io/files/gzip.h"
-#include "sphparam/io/mesh_writer.h"
 #include "reading.h"
+#include "sphparam/io/mesh_writer.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;

@@ -4,8 +4,8 @@
 #include <fstream>
 #include <random>
 
-#include "sphparam/io/mesh_writer.h"
 #include "reading.h"
+#include "sphparam/io/mesh_writer.h"
 #include "sphparam/mesh/mesh_repair.h"
 
 using namespace sphparam;

@@ -2,9 +2,9 @@
 #include <random>
 #include <stdexcept>
 
+#include "reading.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/polygons.h"
-#include "reading.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;

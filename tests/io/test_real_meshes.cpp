@@ -5,9 +5,9 @@
 #include <map>
 #include <sstream>
 
-#include "sphparam/io/mesh_writer.h"
 #include "io/polygons/welding.h"
 #include "reading.h"
+#include "sphparam/io/mesh_writer.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "support/real_meshes.h"
 

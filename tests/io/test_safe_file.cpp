@@ -11,10 +11,10 @@
 #include <fstream>
 #include <sstream>
 
-#include "sphparam/io/read_options.h"
-#include "sphparam/io/safe_file.h"
 #include "io/files/temporary_file.h"
 #include "reading.h"
+#include "sphparam/io/read_options.h"
+#include "sphparam/io/safe_file.h"
 
 using namespace sphparam::tests;
 using namespace sphparam;

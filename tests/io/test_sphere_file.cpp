@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 
+#include "reading.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/sphere_file.h"
-#include "reading.h"
 #include "sphparam/sphere/spherical_coordinates.h"
 #include "support/test_meshes.h"
 

@@ -251,7 +251,7 @@ TEST_CASE("options: the embedding's functions refuse what is outside of a domain
   Counts<GridLiftOptions>(on_grid).of("sweeps", &GridLiftOptions::sweeps, {-1});
 
   const auto rounded = [&](const Float32SafeOptions& o) {
-    round_with_room(mesh, topology, map, o);
+    round_float32_safe(mesh, topology, map, o);
   };
   check_energy<Float32SafeOptions>(rounded);
 

@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "sphparam/measure/surface_distance.h"
 #include "sphparam/errors.h"
+#include "sphparam/measure/surface_distance.h"
 #include "support/test_meshes.h"
 
 namespace sphparam {

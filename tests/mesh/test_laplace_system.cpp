@@ -2,8 +2,8 @@
 #include <random>
 #include <type_traits>
 
-#include "sphparam/errors.h"
 #include "mesh/laplace_system.h"
+#include "sphparam/errors.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;

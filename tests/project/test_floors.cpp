@@ -62,7 +62,8 @@ std::string included_room(const std::string& target) {
   const std::string inside = starts_with(target, "sphparam/") ? target.substr(9) : target;
   const size_t slash = inside.find('/');
   if (slash == std::string::npos) return "";
-  return fs::exists(root / private_headers / inside.substr(0, slash)) ? inside.substr(0, slash) : "";
+  return fs::exists(root / private_headers / inside.substr(0, slash)) ? inside.substr(0, slash)
+                                                                      : "";
 }
 
 /// What each room may know, besides itself.
@@ -87,8 +88,9 @@ const std::map<std::string, std::set<std::string>> below{
     {"gltf", {"bake", "texture", "image", "io", "chart", "sphere", "mesh"}},
     {"report", {"gltf", "image", "io", "sphere"}},
     {"compare", {"baselines", "report", "render", "image", "io", "sphere", "mesh"}},
-    {"showcase", {"compare", "gltf", "report", "bake", "render", "texture", "image", "io", "embedding",
-                  "sphere", "mesh"}}};
+    {"showcase",
+     {"compare", "gltf", "report", "bake", "render", "texture", "image", "io", "embedding",
+      "sphere", "mesh"}}};
 
 }  // namespace
 
@@ -112,8 +114,8 @@ TEST_CASE("floors: every room of the library has its floor") {
 }
 
 TEST_CASE("floors: rooms below the pipeline do not know it, nor it the methods of others") {
-  const std::set<std::string> lower = {"mesh", "sphere", "curvilinear", "embedding", "chart",
-                                       "baselines"};
+  const std::set<std::string> lower = {"mesh",      "sphere", "curvilinear",
+                                       "embedding", "chart",  "baselines"};
   for (const auto& [file, target] : includes_below("libsphparam/src")) {
     INFO(file.string() << " includes " << target);
     if (lower.contains(library_room(file))) {
@@ -136,9 +138,8 @@ TEST_CASE("floors: the library knows nothing of the command line") {
 
 TEST_CASE("floors: folders stay small enough to be read") {
   const auto files_in = [](const fs::path& folder) {
-    return std::count_if(fs::directory_iterator(folder), {}, [](const fs::directory_entry& entry) {
-      return entry.is_regular_file();
-    });
+    return std::count_if(fs::directory_iterator(folder), {},
+                         [](const fs::directory_entry& entry) { return entry.is_regular_file(); });
   };
   for (const auto& [top, most] : {std::pair("libsphparam", 45), std::pair("tools", 45),
                                   std::pair("samples", 45), std::pair("tests", 45)}) {

@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "sphparam/measure/surface_distance.h"
 #include "remesh/sample_density.h"
+#include "sphparam/measure/surface_distance.h"
 #include "sphparam/parameterize.h"
 #include "sphparam/remesh/adaptation.h"
 #include "sphparam/remesh/remesh.h"

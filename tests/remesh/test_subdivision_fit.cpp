@@ -3,12 +3,12 @@
 #include <random>
 #include <stdexcept>
 
-#include "sphparam/measure/surface_distance.h"
 #include "remesh/limit_subject.h"
 #include "remesh/subdivision/limit_stencils.h"
 #include "remesh/subdivision/limit_vertices.h"
 #include "remesh/subdivision/patch_net.h"
 #include "remesh/subdivision/stencil_least_squares.h"
+#include "sphparam/measure/surface_distance.h"
 #include "sphparam/parameterize.h"
 #include "sphparam/remesh/remesh.h"
 #include "sphparam/remesh/subdivision.h"

@@ -3,10 +3,10 @@
 #include <limits>
 #include <numbers>
 
+#include "mesh/vertex_normals.h"
 #include "render/drawing_size.h"
 #include "render/figure.h"
 #include "render/render.h"
-#include "mesh/vertex_normals.h"
 #include "render/sky_visibility.h"
 #include "sphparam/sphere/sphere_map.h"
 #include "support/test_meshes.h"

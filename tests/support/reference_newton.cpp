@@ -3,8 +3,8 @@
 #include <numeric>
 
 #include "embedding/energy/energy_domain.h"
-#include "embedding/sweeps/free_vertices.h"
 #include "embedding/newton/newton_patch.h"
+#include "embedding/sweeps/free_vertices.h"
 
 namespace sphparam {
 namespace {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "console/memory_limit.h"
 #include "arguments/suggestion.h"
+#include "console/memory_limit.h"
 
 namespace sphparam::cli {
 

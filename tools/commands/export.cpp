@@ -134,10 +134,10 @@ class Exporter {
     for (const LevelOfDetail& level :
          levels_of_detail(mapped, grids,
                           {.sample = SampleMode::Cell,
-                           .transfer = look.vertex_colours ? Names{"color"} : Names{},
-                           .measure = false,
-                           .threads = options_.threads,
-                           .progress = options_.progress})) {
+                          .transfer = look.vertex_colours ? Names{"color"} : Names{},
+                          .measure = false,
+                          .threads = options_.threads,
+                          .progress = options_.progress})) {
       levels.emplace_back(MappedMesh::Parts{.file = level.mesh.file(),
                                             .map = level.mesh.map(),
                                             .provenance = mapped.provenance(),

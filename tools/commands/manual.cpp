@@ -1,5 +1,7 @@
 // `sphparam manual` and `sphparam completion`: the program explains itself to `man` and to shells.
 
+#include "console/manual.h"
+
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -7,7 +9,6 @@
 #include "commands/command.h"
 #include "console/completion.h"
 #include "console/exit_codes.h"
-#include "console/manual.h"
 #include "sphparam/io/safe_file.h"
 
 namespace sphparam::cli {

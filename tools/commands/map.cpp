@@ -6,18 +6,18 @@
 #include <string>
 #include <utility>
 
-#include "commands/command.h"
-#include "console/console.h"
-#include "console/exit_codes.h"
-#include "sphparam/io/file_numbers.h"
-#include "console/interruption.h"
 #include "arguments/map_arguments.h"
+#include "commands/command.h"
 #include "commands/map_outcome.h"
 #include "commands/map_outputs.h"
-#include "reports/map_wording.h"
-#include "sphparam/io/pin_file.h"
 #include "commands/repairing.h"
 #include "commands/source.h"
+#include "console/console.h"
+#include "console/exit_codes.h"
+#include "console/interruption.h"
+#include "reports/map_wording.h"
+#include "sphparam/io/file_numbers.h"
+#include "sphparam/io/pin_file.h"
 #include "sphparam/stopwatch.h"
 
 namespace sphparam::cli {

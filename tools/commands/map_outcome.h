@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "commands/source.h"
-#include "reports/wording.h"
 #include "compare/methods.h"
 #include "embedding/frame/landmarks.h"
+#include "reports/wording.h"
 #include "sphparam/parameterize.h"
 
 namespace sphparam::cli {

@@ -75,9 +75,8 @@ std::string words_of(const RepairTrial& trial, const std::string& path) {
     return choice + "  --repair" + further + " cannot mend it. This would remain:\n" +
            message_lines(trial.remaining);
   }
-  return choice + "  --repair" + further + " would mend it, as in `sphparam map " +
-         quoted(path) + " --repair" + further + " -o mended.sph.ply`:\n" +
-         message_lines(trial.actions) +
+  return choice + "  --repair" + further + " would mend it, as in `sphparam map " + quoted(path) +
+         " --repair" + further + " -o mended.sph.ply`:\n" + message_lines(trial.actions) +
          (trial.parts.refused || trial.parts.count == 0 ? ""
                                                         : "    " + line_of(trial.parts) + "\n");
 }

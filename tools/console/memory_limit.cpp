@@ -50,8 +50,9 @@ std::optional<std::uint64_t> parse_size(const std::string& text) {
 
 void add_memory_limit(CLI::App& command) {
   command
-      .add_option_function<std::string>("--max-memory", limit_memory,
-                                        "Exit with status 1 rather than take more memory, as in 512M or 2G")
+      .add_option_function<std::string>(
+          "--max-memory", limit_memory,
+          "Exit with status 1 rather than take more memory, as in 512M or 2G")
       ->check(CLI::Validator(check_size, ""))
       ->type_name("SIZE");
 }

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "sphparam/io/file_numbers.h"
-#include "console/paths.h"
 #include "commands/repairing.h"
+#include "console/paths.h"
 #include "reports/told_losses.h"
 #include "reports/wording.h"
+#include "sphparam/io/file_numbers.h"
 #include "sphparam/io/losses.h"
 
 namespace sphparam::cli {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "console/console.h"
 #include "arguments/map_arguments.h"
 #include "commands/map_outcome.h"
+#include "console/console.h"
 #include "sphparam/stopwatch.h"
 
 namespace sphparam::cli {

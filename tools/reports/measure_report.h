@@ -4,8 +4,8 @@
 #include <string>
 
 #include "reports/json_parts.h"
-#include "sphparam/measure/surface_distance.h"
 #include "sphparam/io/mesh_file.h"
+#include "sphparam/measure/surface_distance.h"
 
 namespace sphparam::cli {
 

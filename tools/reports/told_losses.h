@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "console/console.h"
 #include "commands/source.h"
+#include "console/console.h"
 
 namespace sphparam::cli {
 

@@ -110,7 +110,7 @@ struct Parameterization {
 ///         vertex that is pinned twice, two that are pinned at one point; MeshError before any
 ///         arithmetic if the mesh is not a closed genus-0 manifold; SolveError naming the system;
 ///         Cancelled.
-/// Cost: Method::Progressive: linear, some 2 µs and 200 bytes a triangle, with limbs or
+/// Cost: Method::Progressive: linear, some 2 µs and 200 bytes a triangle, with long protrusions or
 ///       Quality::Best some times that. The other methods and the last rungs of the repair: a
 ///       handful of sparse factorisations of #V unknowns.
 Parameterization parameterize(const TriangleMesh& mesh, const ParameterizeOptions& options = {});

@@ -13,7 +13,7 @@ inline constexpr std::int64_t crowded_seeds = 1 << 10;
 /// The texels of a band that hold triangles smaller than themselves, and what lies in them: points,
 /// weighted by the area on the surface that each stands for. The mean of a field is then that over
 /// the part of the surface which the texel shows, the best constant for it in the sense of least
-/// squares; a limb that has shrunk to a fraction of a texel is as visible as it is large.
+/// squares; a protrusion that has shrunk to a fraction of a texel is as visible as it is large.
 ///
 /// Where the chart is the source's own, a point is a triangle's, the centre of what the texel cuts
 /// out of it in (u, v): no triangle is missed. Where points are found by direction, texels that

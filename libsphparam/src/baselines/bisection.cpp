@@ -4,9 +4,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "sphparam/mesh/edge_weights.h"
 #include "mesh/laplace_system.h"
 #include "sphparam/baselines/hemispheres.h"
+#include "sphparam/mesh/edge_weights.h"
 
 // u is harmonic but for u = 0 and u = 1 at two vertices far from each other; its level sets are
 // short where the mesh is thin. One half grows from the face with the least u, face by face in the

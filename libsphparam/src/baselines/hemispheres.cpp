@@ -7,8 +7,8 @@
 
 #include "baselines/number_text.h"
 #include "baselines/outcome.h"
-#include "baselines/weighted_rings.h"
 #include "baselines/tutte_equations.h"
+#include "baselines/weighted_rings.h"
 #include "elementary.h"
 #include "mesh/laplace_system.h"
 #include "option_domain.h"

@@ -3,8 +3,8 @@
 #include <string>
 #include <utility>
 
-#include "sphparam/errors.h"
 #include "sphparam/baselines/baseline_result.h"
+#include "sphparam/errors.h"
 #include "sphparam/stopwatch.h"
 
 namespace sphparam {

@@ -5,20 +5,20 @@
 #include <algorithm>
 #include <utility>
 
-#include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/baselines/brechbuehler.h"
 #include "sphparam/baselines/conformal.h"
 #include "sphparam/baselines/curvature_flow.h"
 #include "sphparam/baselines/hemispheres.h"
 #include "sphparam/baselines/stereographic.h"
 #include "sphparam/baselines/tangential.h"
+#include "sphparam/mesh/mesh_defects.h"
 
 namespace sphparam {
 
 namespace {
 
 BaselineResult run_as_published(Baseline rival, const TriangleMesh& mesh, const Topology& topology,
-                             const ParameterizeOptions& options) {
+                                const ParameterizeOptions& options) {
   const int threads = options.threads;
   const Progress& progress = options.progress;
   switch (rival) {

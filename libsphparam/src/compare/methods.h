@@ -6,8 +6,8 @@
 #include <variant>
 #include <vector>
 
-#include "sphparam/parameterize.h"
 #include "sphparam/baselines/baseline_result.h"
+#include "sphparam/parameterize.h"
 
 namespace sphparam {
 

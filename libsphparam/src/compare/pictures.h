@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "render/render.h"
 #include "sphparam/image/image.h"
 #include "sphparam/io/mesh_file.h"
-#include "render/render.h"
 #include "sphparam/sphere/sphere_map.h"
 
 namespace sphparam {

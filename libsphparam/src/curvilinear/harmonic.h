@@ -1,8 +1,8 @@
 #pragma once
 
 #include "curvilinear/cut_mesh.h"
-#include "sphparam/mesh/edge_weights.h"
 #include "mesh/laplace_system.h"
+#include "sphparam/mesh/edge_weights.h"
 
 namespace sphparam {
 

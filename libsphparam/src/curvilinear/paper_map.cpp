@@ -1,9 +1,9 @@
 #include "curvilinear/paper_map.h"
 
-#include "option_domain.h"
 #include "curvilinear/harmonic.h"
 #include "curvilinear/lift.h"
 #include "curvilinear/quasi_harmonic.h"
+#include "option_domain.h"
 #include "sphparam/stopwatch.h"
 
 // (M, poles) → date line → disk → (θ, ϕ) → κ → (θ, ϕ) → … → sphere → smoothing, as in Figure 1.

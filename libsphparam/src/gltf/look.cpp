@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "bake/baked_chart.h"
-#include "bake/make_scene.h"
 #include "bake/field_registry.h"
+#include "bake/make_scene.h"
 #include "gltf/export_names.h"
 #include "gltf/material_images.h"
 #include "gltf/painted_surfaces.h"

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "gltf/image_kind.h"
-#include "sphparam/io/paths.h"
 #include "image/image_codec.h"
 #include "io/files/file_bytes.h"
+#include "sphparam/io/paths.h"
 #include "sphparam/io/read_options.h"
 
 namespace sphparam {

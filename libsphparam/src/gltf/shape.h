@@ -1,8 +1,8 @@
 #pragma once
 
+#include "sphparam/chart/tangent_frame.h"
 #include "sphparam/io/mesh_file.h"
 #include "sphparam/io/up_axis.h"
-#include "sphparam/chart/tangent_frame.h"
 
 namespace sphparam {
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sphparam/io/mesh_writer.h"
-#include "sphparam/io/up_axis.h"
 #include "io/attributes/shading_normals.h"
 #include "sphparam/chart/carry_attributes.h"
 #include "sphparam/chart/tangent_frame.h"
+#include "sphparam/io/mesh_writer.h"
+#include "sphparam/io/up_axis.h"
 
 // Attributes are carried one by one. What belongs to the map or is given by it (rays, angles,
 // normals, texture coordinates of the source) is left out or made anew.

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "sphparam/image/image.h"
 #include "sphparam/gltf/asset.h"
+#include "sphparam/image/image.h"
 #include "texture/test_images.h"
 
 namespace sphparam {

@@ -5,9 +5,9 @@
 #include <stdexcept>
 
 #include "gltf/packing.h"
+#include "io/files/read_back.h"
 #include "io/formats/gltf/gltf_reader.h"
 #include "sphparam/io/mesh_reader.h"
-#include "io/files/read_back.h"
 
 namespace sphparam {
 namespace {

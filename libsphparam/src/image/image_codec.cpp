@@ -6,9 +6,9 @@
 #include <limits>
 #include <system_error>
 
-#include "sphparam/io/paths.h"
 #include "image/image_writer.h"
 #include "image/open_module.h"
+#include "sphparam/io/paths.h"
 
 // Whole images in memory, decoded and encoded by the module.
 

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <exception>
 
-#include "sphparam/io/paths.h"
 #include "image/meant_rows.h"
 #include "image/open_module.h"
+#include "sphparam/io/paths.h"
 
 namespace sphparam {
 namespace {

@@ -42,7 +42,7 @@ struct HeldMap {
 /// that is folded anyway may get other folds.
 HeldMap as_floats(const std::string& path, const FinishedMap& finished,
                   const SphereOptions& options) {
-  auto [rounding, least_area] = round_with_room(finished.file.mesh, finished.topology, finished.map,
+  auto [rounding, least_area] = round_float32_safe(finished.file.mesh, finished.topology, finished.map,
                                                 {.energy = options.energy,
                                                  .radius = gifti_radius,
                                                  .threads = options.threads,

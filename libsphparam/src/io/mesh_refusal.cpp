@@ -1,5 +1,5 @@
-// The library's repair names elements of the mesh it was given; people know the numbers of the file,
-// which welding and dropping vertices have changed.
+// The library's repair names elements of the mesh it was given; people know the numbers of the
+// file, which welding and dropping vertices have changed.
 
 #include <new>
 #include <utility>

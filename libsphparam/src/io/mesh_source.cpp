@@ -2,9 +2,9 @@
 
 #include <filesystem>
 
+#include "io/polygons/welding.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/safe_file.h"
-#include "io/polygons/welding.h"
 
 namespace sphparam {
 

@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
+#include "image/raster.h"
 #include "io/attributes/source_attributes.h"
 #include "paint/padding.h"
-#include "image/raster.h"
 #include "sphparam/parallel.h"
 #include "texture/srgb.h"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "embedding/newton/optimise.h"
 #include "embedding/constructions/progressive.h"
+#include "embedding/newton/optimise.h"
 #include "sphparam/sphere/distortion.h"
 
 // The embedding's own sweeps and steps serve λ near 1; from there on λ goes step by step.

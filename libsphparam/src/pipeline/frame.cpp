@@ -2,10 +2,10 @@
 
 #include <vector>
 
+#include "embedding/frame/landmarks.h"
 #include "pipeline/held_pins.h"
 #include "pipeline/meridian.h"
 #include "pipeline/poles_on_map.h"
-#include "embedding/frame/landmarks.h"
 
 // Given poles and pins are held while the mesh is embedded anew; automatic poles are chosen on the
 // finished map, and its meridian.

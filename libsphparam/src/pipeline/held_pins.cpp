@@ -5,11 +5,11 @@
 #include <string>
 #include <utility>
 
+#include "embedding/frame/landmarks.h"
 #include "pipeline/balanced_embedding.h"
 #include "pipeline/mirrored_pins.h"
 #include "pipeline/poles_on_map.h"
 #include "sphparam/embedding/distortion_energy.h"
-#include "embedding/frame/landmarks.h"
 #include "sphparam/sphere/spherical_coordinates.h"
 
 // Pins bind every level of the progressive embedding. Poles that it does not reach may still be

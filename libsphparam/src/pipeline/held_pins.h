@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "pipeline/map_in_progress.h"
 #include "embedding/frame/landmarks.h"
+#include "pipeline/map_in_progress.h"
 
 namespace sphparam {
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <utility>
 
-#include "pipeline/meridian.h"
 #include "embedding/frame/axis_choice.h"
 #include "embedding/frame/pole_placement.h"
+#include "pipeline/meridian.h"
 
 // The axis crosses the map where poles disturb least; the vertices nearest to it are moved there,
 // and pinned sweeps make good what that cost.

@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "curvilinear/harmonic.h"
 #include "embedding/energy/energy_domain.h"
 #include "option_domain.h"
-#include "curvilinear/harmonic.h"
 
 namespace sphparam {
 namespace {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "rays/random_numbers.h"
 #include "elementary.h"
+#include "rays/random_numbers.h"
 
 namespace sphparam {
 

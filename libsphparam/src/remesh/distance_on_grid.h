@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "sphparam/measure/surface_distance.h"
 #include "sphparam/errors.h"
+#include "sphparam/measure/surface_distance.h"
 #include "sphparam/mesh/triangle_mesh.h"
 
 namespace sphparam {

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "sphparam/image/image.h"
 #include "remesh/grids/grid_family.h"
+#include "sphparam/image/image.h"
 #include "sphparam/remesh/geometry_image.h"
 #include "sphparam/remesh/image_depth.h"
 #include "sphparam/remesh/sphere_grid.h"

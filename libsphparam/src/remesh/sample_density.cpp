@@ -25,7 +25,7 @@ namespace sphparam {
 namespace {
 
 constexpr double scale = 0.5;    // of the curvature, in spacings: a disk of them has about a cell
-constexpr double most_bent = 2;  // times 1/spacing: a limb as thick as the spacing
+constexpr double most_bent = 2;  // times 1/spacing: a protrusion as thick as the spacing
 constexpr double spread_evenly = 0.1;  // e: no place has less than that of the mean
 constexpr double exponent = 0.8;       // p: see the header
 constexpr double least_gain = 1e-3;    // of a step: more does not lower the distance any more

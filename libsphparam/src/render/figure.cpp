@@ -5,11 +5,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "elementary.h"
+#include "io/attributes/shading_normals.h"
 #include "render/drawing_size.h"
 #include "render/geodesic.h"
 #include "render/own_paint.h"
-#include "io/attributes/shading_normals.h"
-#include "elementary.h"
 
 // The sphere is turned so that the pictures correspond: its side towards the eye is the mean ray of
 // the triangles that face the eye on the mesh, and its up the way that this mean moves with height.

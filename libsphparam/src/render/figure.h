@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "sphparam/io/mesh_file.h"
 #include "render/render.h"
+#include "sphparam/io/mesh_file.h"
 #include "sphparam/sphere/sphere_map.h"
 
 namespace sphparam {

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
-#include "render/lettering.h"
 #include "elementary.h"
+#include "render/lettering.h"
 
 namespace sphparam {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "sphparam/image/image.h"
 #include "render/render.h"
+#include "sphparam/image/image.h"
 #include "sphparam/sphere/distortion.h"
 
 namespace sphparam {

@@ -2,8 +2,8 @@
 
 #include <string_view>
 
-#include "sphparam/image/image.h"
 #include "render/colour.h"
+#include "sphparam/image/image.h"
 
 namespace sphparam {
 

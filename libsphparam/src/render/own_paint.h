@@ -1,7 +1,7 @@
 #pragma once
 
-#include "sphparam/io/mesh_file.h"
 #include "render/render.h"
+#include "sphparam/io/mesh_file.h"
 
 namespace sphparam {
 

@@ -6,10 +6,10 @@
 #include <limits>
 #include <numbers>
 
-#include "image/raster.h"
-#include "render/surface_colour.h"
-#include "mesh/vertex_normals.h"
 #include "elementary.h"
+#include "image/raster.h"
+#include "mesh/vertex_normals.h"
+#include "render/surface_colour.h"
 #include "sphparam/parallel.h"
 
 // Corners are projected once; triangles are sorted into tiles of the picture; each tile finds the

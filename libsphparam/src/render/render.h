@@ -5,9 +5,9 @@
 #include <variant>
 #include <vector>
 
+#include "render/colour.h"
 #include "sphparam/image/image.h"
 #include "sphparam/io/mesh_file.h"
-#include "render/colour.h"
 #include "sphparam/mesh/triangle_mesh.h"
 #include "texture/source_texture.h"
 

@@ -6,9 +6,9 @@
 #include <limits>
 #include <numbers>
 
+#include "elementary.h"
 #include "mesh/vertex_normals.h"
 #include "render/sky_visibility.h"
-#include "elementary.h"
 #include "sphparam/sphere/spherical_coordinates.h"
 #include "texture/texture_pyramid.h"
 

@@ -2,9 +2,9 @@
 #include <stdexcept>
 #include <vector>
 
+#include "elementary.h"
 #include "option_domain.h"
 #include "sphere/harmonic_degree.h"
-#include "elementary.h"
 #include "sphparam/sphere/sphere_locator.h"
 #include "sphparam/sphere/spherical_harmonics.h"
 

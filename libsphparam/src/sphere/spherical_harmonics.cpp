@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "sphere/harmonic_degree.h"
 #include "elementary.h"
+#include "sphere/harmonic_degree.h"
 #include "sphparam/parallel.h"
 
 // Points are taken in blocks that stay in the nearest cache. For every order m the Legendre

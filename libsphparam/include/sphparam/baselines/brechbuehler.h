@@ -3,9 +3,9 @@
 #include <optional>
 #include <utility>
 
+#include "sphparam/baselines/baseline_result.h"
 #include "sphparam/mesh/topology.h"
 #include "sphparam/progress.h"
-#include "sphparam/baselines/baseline_result.h"
 
 namespace sphparam {
 
@@ -37,8 +37,8 @@ struct BrechbuehlerOptions {
 /// threads. Requires: closed genus-0 mesh. Throws: Cancelled.
 /// Cost: two factorisations of #V unknowns, and one of 2·#V a step.
 BaselineResult map_brechbuehler(const TriangleMesh& mesh, const Topology& topology,
-                             const BrechbuehlerOptions& options = {},
-                             const Progress& progress = {});
+                                const BrechbuehlerOptions& options = {},
+                                const Progress& progress = {});
 
 /// The initial map in the authors' coordinates.
 struct LatitudeLongitude {

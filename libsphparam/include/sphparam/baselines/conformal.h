@@ -1,8 +1,8 @@
 #pragma once
 
+#include "sphparam/baselines/baseline_result.h"
 #include "sphparam/mesh/topology.h"
 #include "sphparam/progress.h"
-#include "sphparam/baselines/baseline_result.h"
 
 namespace sphparam {
 
@@ -24,8 +24,8 @@ struct ConformalOptions {
 /// Ensures: centre of mass within 1e-9 of zero, but for maps that cannot be centred (half of the
 /// mass in one point); same bits for any number of threads. Requires: closed genus-0 mesh.
 /// Throws: Cancelled. Cost: about 0.02 µs a triangle and iteration; the number of iterations grows
-/// with that of the vertices, on long limbs much faster.
+/// with that of the vertices, on long protrusions much faster.
 BaselineResult map_conformal(const TriangleMesh& mesh, const Topology& topology,
-                          const ConformalOptions& options = {}, const Progress& progress = {});
+                             const ConformalOptions& options = {}, const Progress& progress = {});
 
 }  // namespace sphparam

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "sphparam/baselines/baseline_result.h"
 #include "sphparam/mesh/topology.h"
 #include "sphparam/progress.h"
-#include "sphparam/baselines/baseline_result.h"
 
 namespace sphparam {
 
@@ -25,6 +25,6 @@ struct FlowOptions {
 /// Ensures: as `map_conformal`. Requires: closed genus-0 mesh. Throws: Cancelled.
 /// Cost: a factorisation of #V unknowns a step.
 BaselineResult map_flow(const TriangleMesh& mesh, const Topology& topology,
-                     const FlowOptions& options = {}, const Progress& progress = {});
+                        const FlowOptions& options = {}, const Progress& progress = {});
 
 }  // namespace sphparam

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "sphparam/baselines/baseline_result.h"
 #include "sphparam/mesh/edge_weights.h"
 #include "sphparam/mesh/topology.h"
 #include "sphparam/progress.h"
-#include "sphparam/baselines/baseline_result.h"
 
 namespace sphparam {
 
@@ -31,7 +31,8 @@ struct HemispheresOptions {
 /// Ensures: same bits for any number of threads. Requires: closed genus-0 mesh.
 /// Throws: Cancelled. Cost: a factorisation of #V unknowns, and one of 2·#V a Newton step.
 BaselineResult map_hemispheres(const TriangleMesh& mesh, const Topology& topology,
-                            const HemispheresOptions& options = {}, const Progress& progress = {});
+                               const HemispheresOptions& options = {},
+                               const Progress& progress = {});
 
 /// The two faces' sets of a bisection. Side per face: 0 or 1; both are disks, and their numbers of
 /// faces differ by at most one. The seam is their common boundary, side 0 on its left.

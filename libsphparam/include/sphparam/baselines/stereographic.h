@@ -2,9 +2,9 @@
 
 #include <optional>
 
+#include "sphparam/baselines/baseline_result.h"
 #include "sphparam/mesh/topology.h"
 #include "sphparam/progress.h"
-#include "sphparam/baselines/baseline_result.h"
 
 namespace sphparam {
 
@@ -27,7 +27,7 @@ struct StereographicOptions {
 /// Ensures: same bits for any number of threads. Requires: closed genus-0 mesh.
 /// Throws: Cancelled. Cost: one factorisation of #V unknowns.
 BaselineResult map_stereographic(const TriangleMesh& mesh, const Topology& topology,
-                              const StereographicOptions& options = {},
-                              const Progress& progress = {});
+                                 const StereographicOptions& options = {},
+                                 const Progress& progress = {});
 
 }  // namespace sphparam

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "sphparam/baselines/baseline_result.h"
 #include "sphparam/mesh/topology.h"
 #include "sphparam/progress.h"
-#include "sphparam/baselines/baseline_result.h"
 
 namespace sphparam {
 
@@ -30,6 +30,6 @@ struct TangentialOptions {
 /// Ensures: same bits for any number of threads. Requires: closed genus-0 mesh.
 /// Throws: Cancelled. Cost: about 0.02 µs a triangle and sweep, on one thread.
 BaselineResult map_tangential(const TriangleMesh& mesh, const Topology& topology,
-                           const TangentialOptions& options = {}, const Progress& progress = {});
+                              const TangentialOptions& options = {}, const Progress& progress = {});
 
 }  // namespace sphparam

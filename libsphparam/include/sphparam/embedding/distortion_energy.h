@@ -11,8 +11,8 @@
 
 namespace sphparam {
 
-/// One source triangle, laid into the plane with corner 0 at the origin and corner 1 on the x axis.
-/// Scaled so that the whole source has area 4π, as the sphere has.
+/// One rest (reference) triangle, laid into the plane with corner 0 at the origin and corner 1 on
+/// the x axis. Scaled so that the whole source has area 4π, as the sphere has.
 ///
 /// Our own: inverse edge lengths instead of cotangents. The squared norm of the Jacobian becomes a
 /// sum of squares that no rounding makes negative, however bad the triangle.
@@ -23,7 +23,7 @@ struct RestTriangle {
   double foot;            // the foot of that height is v0 + foot·(v1 − v0)
 };
 
-/// All source triangles. 32 bytes a triangle.
+/// All rest triangles. 32 bytes a triangle.
 using RestTriangles = std::vector<RestTriangle>;
 
 /// Measures the source. Triangles with less than 1e-9 of the mean area (coincident corners,
@@ -98,7 +98,7 @@ inline double energy_density(const DistortionEnergy& energy, double d, double s)
   return differentiate(energy, d, s).f;
 }
 
-/// Corner points of an image triangle, in the order of the source triangle's corners.
+/// Corner points of an image triangle, in the order of the rest triangle's corners.
 using ImageTriangle = std::array<Vector3, 3>;
 
 TriangleDistortion distortion(const RestTriangle& source, const ImageTriangle& image);

@@ -4,7 +4,8 @@ namespace sphparam {
 
 /// Time against distortion, for methods that minimise it. No map has folds, whatever the quality.
 enum class Quality {
-  Draft,   // relaxed sweeps only: within 1 % of the least energy on ordinary shapes, 20 % on limbs
+  Draft,   // relaxed sweeps only: within 1 % of the least energy on ordinary shapes, 20 % on long
+           // protrusions
   Normal,  // within 1 %, on tubes of 100:1 within 11 %: Newton steps where their gain pays
   Best,    // converged
 };

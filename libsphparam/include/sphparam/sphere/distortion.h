@@ -11,11 +11,11 @@ namespace sphparam {
 /// singular values are of the linear map from the source triangle (total source area 4π) to the
 /// chord triangle. Source areas are floored at 1e-9 of their mean.
 struct Distortion {
-  VectorX area_ratio;           // #F: |Ω| / A
+  VectorX area_ratio;               // #F: |Ω| / A
   RowTable<double, 3> angle_ratio;  // #F×3, corner by corner
-  VectorX sigma_max;            // #F: larger singular value
-  VectorX sigma_min;            // #F: smaller singular value
-  VectorX source_area;          // #F: share of the total source area
+  VectorX sigma_max;                // #F: larger singular value
+  VectorX sigma_min;                // #F: smaller singular value
+  VectorX source_area;              // #F: share of the total source area
 };
 
 /// Figures of a distortion. Each measure has one name; those that differ differ in name.

@@ -18,16 +18,15 @@ struct FloatRounding {
 /// Rounds a map, on a sphere of the given radius, to float32 and mends what rounding breaks.
 ///
 /// Triangles lower than the spacing of floats may fold. Their vertices are nudged by up to 8 ulp
-/// where that makes all their triangles positive; where whole aggregates fell together, the vertices
-/// of triangles too low for float32 are first moved apart in double, never folding a triangle, and
-/// rounded again. Everything else keeps its nearest floats. A map that is folded already is rounded
-/// and nothing more.
-/// Requires: one unit ray a vertex, up to rounding; a radius from 1e-6 to 1e6, so that no
-/// coordinate that matters is near the ends of float32. Ensures: `map` has rays of that length, up
-/// to rounding, and equals its own float32 image; same bytes for any number of threads. Throws:
-/// std::invalid_argument for another radius. Cost: two passes; where something breaks, a few
-/// hundred visits of the vertices around it. Our own: what is certified in double is not in float32
-/// (a cap shrunk by 1e-6 loses hundreds of triangles).
+/// where that makes all their triangles positive; where whole aggregates fell together, the
+/// vertices of triangles too low for float32 are first moved apart in double, never folding a
+/// triangle, and rounded again. Everything else keeps its nearest floats. A map that is folded
+/// already is rounded and nothing more. Requires: one unit ray a vertex, up to rounding; a radius
+/// from 1e-6 to 1e6, so that no coordinate that matters is near the ends of float32. Ensures: `map`
+/// has rays of that length, up to rounding, and equals its own float32 image; same bytes for any
+/// number of threads. Throws: std::invalid_argument for another radius. Cost: two passes; where
+/// something breaks, a few hundred visits of the vertices around it. Our own: what is certified in
+/// double is not in float32 (a cap shrunk by 1e-6 loses hundreds of triangles).
 FloatRounding round_to_float(const Topology& topology, const SphereMap& map, int threads = 0,
                              double radius = 1);
 

@@ -19,7 +19,7 @@ SphereMap turned_like(const SphereMap& from, const SphereMap& to) {
 
 }  // namespace
 
-Float32SafeRounding round_with_room(const TriangleMesh& mesh, const Topology& topology,
+Float32SafeRounding round_float32_safe(const TriangleMesh& mesh, const Topology& topology,
                                     const SphereMap& map, const Float32SafeOptions& options) {
   require_domain(options.energy);
   Float32SafeRounding result{round_to_float(topology, map, options.threads, options.radius)};

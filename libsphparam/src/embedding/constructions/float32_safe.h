@@ -31,7 +31,7 @@ struct Float32SafeRounding {
 /// `round_to_float` can hold is left to it, and so is a map that is folded. Cost: as
 /// `round_to_float`; an embedding more for each share that is tried. Our own: distortion where
 /// there was little to see is the price of a certificate in float32.
-Float32SafeRounding round_with_room(const TriangleMesh& mesh, const Topology& topology,
+Float32SafeRounding round_float32_safe(const TriangleMesh& mesh, const Topology& topology,
                                     const SphereMap& map, const Float32SafeOptions& options = {});
 
 }  // namespace sphparam

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "option_domain.h"
 #include "elementary.h"
-#include "sphparam/mesh/edge_weights.h"
 #include "mesh/laplace_system.h"
+#include "option_domain.h"
+#include "sphparam/mesh/edge_weights.h"
 #include "sphparam/sphere/certificate.h"
 
 // The link of S, run through clockwise about S, is the counter-clockwise boundary of everything

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "embedding/constructions/planar_drawing.h"
 #include "embedding/energy/energy_domain.h"
 #include "embedding/sweeps/kernel_placement.h"
-#include "embedding/constructions/planar_drawing.h"
 #include "sphparam/sphere/certificate.h"
 #include "sphparam/sphere/orientation.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "sphparam/embedding/distortion_energy.h"
 #include "embedding/sweeps/relaxation.h"
+#include "sphparam/embedding/distortion_energy.h"
 #include "sphparam/progress.h"
 
 namespace sphparam {

@@ -5,9 +5,9 @@
 #include <chrono>
 #include <cmath>
 
+#include "elementary.h"
 #include "embedding/newton/newton_patch.h"
 #include "option_domain.h"
-#include "elementary.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/orientation.h"
 

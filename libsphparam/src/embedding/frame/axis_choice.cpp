@@ -6,8 +6,8 @@
 #include <numbers>
 #include <vector>
 
-#include "option_domain.h"
 #include "elementary.h"
+#include "option_domain.h"
 #include "sphparam/parallel.h"
 
 // Density. A triangle of source area A, magnified s = Ω/A, at polar angle ϕ from an axis has
@@ -173,8 +173,8 @@ struct Survey {
   std::vector<double> folds;  // per axis
 };
 
-Survey survey_triangles(const Topology& topology, const RestTriangles& source,
-                        const SphereMap& map, const Axes& axes, int threads) {
+Survey survey_triangles(const Topology& topology, const RestTriangles& source, const SphereMap& map,
+                        const Axes& axes, int threads) {
   const std::int64_t faces = topology.face_count();
   struct Part {
     Cells cells{};
@@ -312,8 +312,8 @@ bool folds_in_chart(const Vector3& a, const Vector3& b, const Vector3& c) {
   return ab * (phi[2] - phi[0]) + ca * (phi[1] - phi[0]) >= 0;
 }
 
-AxisChoice choose_axis(const Topology& topology, const RestTriangles& source,
-                       const SphereMap& map, const AxisOptions& options) {
+AxisChoice choose_axis(const Topology& topology, const RestTriangles& source, const SphereMap& map,
+                       const AxisOptions& options) {
   require_at_least("candidates", options.candidates, 1);
   const Points axes = spread_directions(options.candidates);
   const Survey survey = survey_triangles(topology, source, map, Axes(axes), options.threads);

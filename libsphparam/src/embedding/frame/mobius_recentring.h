@@ -8,7 +8,7 @@
 namespace sphparam {
 
 /// Carries a whole map by a Möbius transformation that lowers its energy: one Newton step in the
-/// three mobius_recentring, halved until it does. Where it does not the map stays. Returns the
+/// three recentrings, halved until it does. Where it does not the map stays. Returns the
 /// energy; `before` is that of the image. Cost: up to 15 energies. Our own. The mobius_recentring
 /// are those of Baden, Crane and Kazhdan, "Möbius Registration" (2018).
 double recentre(std::vector<ImagePoint>& image, double before,

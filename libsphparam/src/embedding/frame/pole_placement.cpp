@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "embedding/energy/energy_domain.h"
-#include "embedding/constructions/orientations.h"
 #include "elementary.h"
+#include "embedding/constructions/orientations.h"
+#include "embedding/energy/energy_domain.h"
 #include "embedding/sweeps/relaxation.h"
 #include "mesh/rings.h"
 #include "sphparam/parallel.h"
@@ -202,8 +202,8 @@ std::vector<Vertex> nearest_vertices(const SphereMap& map, const Vector3& direct
 }
 
 std::optional<PolePlacement> place_poles_on_axis(const Topology& topology,
-                                                 const RestTriangles& source,
-                                                 const SphereMap& map, const Vector3& axis,
+                                                 const RestTriangles& source, const SphereMap& map,
+                                                 const Vector3& axis,
                                                  const PolePlacementOptions& options) {
   require_domain(options);
   require_more_than("axis: squared length", axis.squaredNorm(), 0);

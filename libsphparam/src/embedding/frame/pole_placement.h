@@ -38,8 +38,8 @@ struct PolePlacement {
 /// outside of its domain; Cancelled. Cost: two passes over the vertices, one over the triangles.
 /// Our own; the energy around the south pole is what it costs: far below 1 % on real meshes.
 std::optional<PolePlacement> place_poles_on_axis(const Topology& topology,
-                                                 const RestTriangles& source,
-                                                 const SphereMap& map, const Vector3& axis,
+                                                 const RestTriangles& source, const SphereMap& map,
+                                                 const Vector3& axis,
                                                  const PolePlacementOptions& options = {});
 
 /// Moves two given vertices of a bijective map to ±z and keeps it bijective.

@@ -70,8 +70,8 @@ int gather_neighbours(const BlockMatrix<N>& a, const Connections<N>& connections
   return aggregates;
 }
 
-/// Rows left over join the aggregate of their strongest neighbour, if one has a aggregate by now, or
-/// are one of their own. Returns the number of aggregates.
+/// Rows left over join the aggregate of their strongest neighbour, if one has an aggregate by now,
+/// or are one of their own. Returns the number of aggregates.
 template <int N>
 int join_strongest(const BlockMatrix<N>& a, const Connections<N>& connections,
                    const std::vector<char>& pinned, int aggregates, std::vector<int>& of_row) {

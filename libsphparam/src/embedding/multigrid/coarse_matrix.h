@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "embedding/multigrid/block_matrix.h"
 #include "embedding/multigrid/aggregates.h"
+#include "embedding/multigrid/block_matrix.h"
 #include "sphparam/parallel.h"
 
 // What P carries between a matrix and that of its aggregates: block `row` of P maps the unknowns of
@@ -19,7 +19,8 @@ namespace sphparam {
 
 /// The coarse matrix's pattern, columns in order; entries zero.
 template <int N, int M>
-void make_pattern(const BlockMatrix<N>& fine, const Aggregates& aggregates, BlockMatrix<M>& coarse) {
+void make_pattern(const BlockMatrix<N>& fine, const Aggregates& aggregates,
+                  BlockMatrix<M>& coarse) {
   coarse.start.assign(1, 0);
   coarse.start.reserve(aggregates.start.size());
   std::vector<int> seen(at(aggregates.count()), -1);  // the last row that had it

@@ -5,11 +5,11 @@
 
 #include "embedding/multigrid/coarse_matrix.h"
 
-// Levels: rows by strong connections (aggregates.h), which move by a few modes (near_nullspace.cpp),
-// and coarse matrices PᵀAP (coarse_matrix.h), until the matrix is small enough for a factorisation.
-// The V-cycle: forward sweep (block_gauss_seidel.h), coarse correction of the residual, backward sweep.
-// Unsmoothed aggregates correct too little, hence a second visit of the coarser levels (they are
-// tiny).
+// Levels: rows by strong connections (aggregates.h), which move by a few modes
+// (near_nullspace.cpp), and coarse matrices PᵀAP (coarse_matrix.h), until the matrix is small
+// enough for a factorisation. The V-cycle: forward sweep (block_gauss_seidel.h), coarse correction
+// of the residual, backward sweep. Unsmoothed aggregates correct too little, hence a second visit
+// of the coarser levels (they are tiny).
 
 namespace sphparam {
 namespace {
@@ -98,8 +98,8 @@ void Multigrid::update(const ImagePoint* points) {
 void Multigrid::fill_first() {
   Level& coarse = levels_.front();
   coarse.sites = gather_sites(rows_, aggregates_, threads_);
-  restrict_matrix(matrix_, point_prolongation(rows_, aggregates_, coarse.sites, threads_), aggregates_,
-                  coarse.matrix, threads_);
+  restrict_matrix(matrix_, point_prolongation(rows_, aggregates_, coarse.sites, threads_),
+                  aggregates_, coarse.matrix, threads_);
   invert(coarse.matrix.diagonal, coarse.inverse, threads_);
 }
 

@@ -13,7 +13,7 @@ namespace sphparam {
 /// Approximate inverse of the Hessian of an energy of maps to the sphere that does not change when
 /// the sphere turns: one symmetric V-cycle of algebraic multigrid.
 ///
-/// Unknowns are aggregated by strong connections; a aggregate moves like a small rigid plate: by
+/// Unknowns are aggregated by strong connections; an aggregate moves like a small rigid plate: by
 /// the three infinitesimal rotations of the sphere and, as protrusions of conformal maps want it,
 /// by a dilation about its own centre. Symmetric block Gauss–Seidel smooths on every level. Our own
 /// application of smoothed-free aggregation: Vaněk, Mandel and Brezina, "Algebraic multigrid by

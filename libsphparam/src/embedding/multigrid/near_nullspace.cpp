@@ -18,7 +18,7 @@
 namespace sphparam {
 namespace {
 
-/// Centre and radius of a aggregate of points with radii of their own.
+/// Centre and radius of an aggregate of points with radii of their own.
 template <class Centre, class Radius>
 AggregateSite gather_site(const std::vector<int>& members, int first, int last,
                           const Centre& centre, const Radius& radius) {

@@ -9,11 +9,11 @@
 
 namespace sphparam {
 
-/// A aggregate moves by so many fields, see near_nullspace.cpp: the unknowns of a row of a coarse
+/// An aggregate moves by so many fields, see near_nullspace.cpp: the unknowns of a row of a coarse
 /// matrix.
 inline constexpr int near_nullspace = 4;
 
-/// Where a aggregate's modes are measured, and its radius.
+/// Where an aggregate's modes are measured, and its radius.
 struct AggregateSite {
   Vector3 centre;
   double radius;
@@ -32,7 +32,7 @@ std::vector<AggregateSite> gather_sites(const PointRows& rows, const Aggregates&
 std::vector<AggregateSite> gather_sites(const std::vector<AggregateSite>& children,
                                         const Aggregates& aggregates);
 
-/// P from the modes of aggregates to the unknowns of points; zero in rows without a aggregate.
+/// P from the modes of aggregates to the unknowns of points; zero in rows without an aggregate.
 std::vector<Block<2, near_nullspace>> point_prolongation(const PointRows& rows,
                                                          const Aggregates& aggregates,
                                                          const std::vector<AggregateSite>& sites,

@@ -60,7 +60,7 @@ class NewtonPatch {
   std::vector<Vertex> free_;             // in the mesh; local vertices 0 … free_count()−1
   Points points_;                        // of the local vertices, free ones first
   std::vector<Corners> triangles_;       // local vertices
-  RestTriangles source_;               // of the local triangles
+  RestTriangles source_;                 // of the local triangles
   Eigen::SparseMatrix<double> hessian_;  // lower triangle
   std::vector<Corners> blocks_;  // per edge k → k+1 of a triangle: its block's first entry
   VectorX gradient_;

@@ -3,8 +3,8 @@
 #include <bit>
 #include <cmath>
 
-#include "io/polygons/distinct_rows.h"
 #include "io/attributes/shading_normals.h"
+#include "io/polygons/distinct_rows.h"
 #include "sphparam/chart/carry_attributes.h"
 #include "sphparam/chart/tangent_frame.h"
 

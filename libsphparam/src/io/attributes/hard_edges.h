@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "sphparam/io/mesh_file.h"
 #include "sphparam/chart/spherical_chart.h"
+#include "sphparam/io/mesh_file.h"
 
 namespace sphparam {
 

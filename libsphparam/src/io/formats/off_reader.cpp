@@ -6,9 +6,9 @@
 #include <limits>
 #include <optional>
 
+#include "io/files/text_scanner.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/polygons.h"
-#include "io/files/text_scanner.h"
 
 // Keyword, counts, then one line a vertex (x y z, normal, colour, texture coordinates, as far as
 // the keyword names them) and one line a face (degree, indices, colour). The first vertex line

@@ -9,12 +9,12 @@
 #include <string_view>
 #include <utility>
 
+#include "elementary.h"
 #include "io/formats/gltf/gltf_accessors.h"
 #include "io/formats/gltf/gltf_document.h"
 #include "io/formats/gltf/gltf_nodes.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/up_axis.h"
-#include "elementary.h"
 
 // Every placed mesh in turn: positions go through x ↦ Ax + b, normals through A⁻ᵀ; where det A < 0
 // the triangles are turned over, as the specification says. Primitives of one placed mesh that
