@@ -15,6 +15,10 @@ endif()
 set_target_properties(sphparam_image_oiio PROPERTIES PREFIX "" CXX_VISIBILITY_PRESET hidden
   LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib/sphparam)  # as seen from bin/ and tests/
 add_dependencies(sphparam_image sphparam_image_oiio)
+if(NOT PROJECT_IS_TOP_LEVEL)  # programs of another project lie elsewhere: the loader finds it
+  target_link_options(sphparam_image INTERFACE
+    $<BUILD_INTERFACE:LINKER:-rpath,$<TARGET_FILE_DIR:sphparam_image_oiio>>)
+endif()
 
 install(TARGETS sphparam_image_oiio LIBRARY DESTINATION lib/sphparam COMPONENT image)
 # Debian's packages keep what is compiled by architecture.
