@@ -26,7 +26,7 @@
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/parallel.h"
 #include "sphparam/parameterize.h"
-#include "texture/srgb.h"
+#include "srgb_curves.h"
 #include "texture/texture_pyramid.h"
 
 using namespace sphparam;

@@ -22,8 +22,8 @@
 #include "sphparam/parameterize.h"
 #include "sphparam/sphere/spherical_coordinates.h"
 #include "sphparam/stopwatch.h"
+#include "srgb_curves.h"
 #include "support/test_meshes.h"
-#include "texture/srgb.h"
 #include "texture/texture_pyramid.h"
 
 using namespace sphparam;

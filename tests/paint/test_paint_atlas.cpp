@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "paint/paint_atlas.h"
+#include "srgb_curves.h"
 #include "support/direction_image.h"
 #include "support/test_meshes.h"
-#include "texture/srgb.h"
 #include "texture/texture_pyramid.h"
 
 using namespace sphparam;

@@ -1,9 +1,9 @@
 #include <catch2/catch.hpp>
 
 #include "paint/paint_vertices.h"
+#include "srgb_curves.h"
 #include "support/direction_image.h"
 #include "support/test_meshes.h"
-#include "texture/srgb.h"
 #include "texture/texture_pyramid.h"
 
 using namespace sphparam;

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "sphparam/sphere/spherical_coordinates.h"
-#include "texture/srgb.h"
+#include "srgb_curves.h"
 #include "texture/test_images.h"
 
 using namespace sphparam;

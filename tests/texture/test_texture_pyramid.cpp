@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "texture/srgb.h"
+#include "srgb_curves.h"
 #include "texture/texture_pyramid.h"
 
 using namespace sphparam;

@@ -11,7 +11,7 @@
 #include "bake/image_level.h"
 #include "bake/sample_seed.h"
 #include "sphparam/parallel.h"
-#include "texture/srgb.h"
+#include "srgb_curves.h"
 
 namespace sphparam {
 namespace {

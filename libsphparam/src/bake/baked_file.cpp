@@ -10,7 +10,7 @@
 
 #include "bake/image_level.h"
 #include "sphparam/bake/bake_errors.h"
-#include "texture/srgb.h"
+#include "srgb_curves.h"
 
 namespace sphparam {
 namespace {

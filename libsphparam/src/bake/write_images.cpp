@@ -6,7 +6,7 @@
 
 #include "bake/fields/heat_field.h"
 #include "sphparam/io/paths.h"
-#include "texture/srgb.h"
+#include "srgb_curves.h"
 
 namespace sphparam {
 namespace {

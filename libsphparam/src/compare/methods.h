@@ -11,7 +11,7 @@
 
 namespace sphparam {
 
-/// Methods of others, as `sphparam/rivals` has them: those the paper measures itself against.
+/// Methods of others, as `sphparam/baselines` has them: those the paper measures itself against.
 enum class Baseline { Tangential, Hemispheres, Brechbuehler, Stereographic, Conformal, Flow };
 
 /// Every way this program can map a mesh: ours, and those of others.

@@ -5,7 +5,7 @@
 #include "bake/bake_rows.h"
 #include "bake/field_registry.h"
 #include "io/attributes/source_attributes.h"
-#include "texture/srgb.h"
+#include "srgb_curves.h"
 #include "texture/test_images.h"
 
 namespace sphparam {

@@ -15,8 +15,8 @@
 // in a module that is opened when the first image is touched. Our own program has it beside it
 // (build tree), in ../lib/sphparam (installed) or below ../lib by architecture (Debian packages):
 // it moves with the program. A user's program may be anywhere; there the library leads to it, a
-// shared one by its own place, a static one by that of its installation, or by the rpath that its
-// CMake targets and pkg-config files add.
+// shared one by its own place, a static one by the rpath that its CMake targets and pkg-config
+// files add.
 
 namespace sphparam {
 namespace {
@@ -95,9 +95,6 @@ std::vector<Path> module_folders() {
     add(folders, own.parent_path() / "sphparam");
     add_about(folders, own);
   }
-#ifdef SPHPARAM_INSTALLED_MODULES
-  add(folders, SPHPARAM_INSTALLED_MODULES);
-#endif
   return folders;
 }
 

@@ -16,7 +16,7 @@
 #include "io/attributes/source_attributes.h"
 #include "paint/padding.h"
 #include "sphparam/parallel.h"
-#include "texture/srgb.h"
+#include "srgb_curves.h"
 
 namespace sphparam {
 namespace {

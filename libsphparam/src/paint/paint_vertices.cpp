@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "sphparam/parallel.h"
-#include "texture/srgb.h"
+#include "srgb_curves.h"
 
 namespace sphparam {
 namespace {

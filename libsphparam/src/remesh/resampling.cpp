@@ -8,7 +8,7 @@
 #include <span>
 
 #include "sphparam/parallel.h"
-#include "texture/srgb.h"
+#include "srgb_curves.h"
 
 namespace sphparam {
 

@@ -11,8 +11,8 @@
 
 #include "elementary.h"
 #include "sphparam/parallel.h"
+#include "srgb_curves.h"
 #include "texture/axis_letters.h"
-#include "texture/srgb.h"
 
 namespace sphparam {
 namespace {

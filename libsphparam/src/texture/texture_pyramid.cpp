@@ -7,8 +7,8 @@
 
 #include "elementary.h"
 #include "sphparam/parallel.h"
+#include "srgb_curves.h"
 #include "texture/box_shares.h"
-#include "texture/srgb.h"
 
 // Texels are four lanes, so that a bilinear sample is four loads and a handful of vector
 // operations. The singular values of the footprint's Jacobian are the sides of what a sample

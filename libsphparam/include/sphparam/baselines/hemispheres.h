@@ -27,7 +27,7 @@ struct HemispheresOptions {
 /// two far vertices, where they cut a graph; Newton's systems are solved directly, where they use
 /// multigrid, its steps are damped by line search on the residual, and the Möbius freedom is taken
 /// out: the equations are solved up to a force of a Möbius field times area (see
-/// src/rivals/tutte_equations.cpp), without which Newton's method runs away along it.
+/// src/baselines/tutte_equations.cpp), without which Newton's method runs away along it.
 /// Ensures: same bits for any number of threads. Requires: closed genus-0 mesh.
 /// Throws: Cancelled. Cost: a factorisation of #V unknowns, and one of 2·#V a Newton step.
 BaselineResult map_hemispheres(const TriangleMesh& mesh, const Topology& topology,

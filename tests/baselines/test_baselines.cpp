@@ -24,7 +24,7 @@ struct Baseline {
       map;
 };
 
-std::vector<Baseline> rivals() {
+std::vector<Baseline> all_baselines() {
   return {
       {"tangential",
        [](auto& mesh, auto& topology, int threads, auto& progress) {
@@ -68,16 +68,16 @@ TriangleMesh collapsed(TriangleMesh mesh) {
 
 }  // namespace
 
-TEST_CASE("rivals: every method ends in a finite map of unit rays or says why there is none") {
+TEST_CASE("baselines: every method ends in a finite map of unit rays or says why there is none") {
   TriangleMesh flat = icosphere(2);
   flat.positions.col(2).setZero();
   for (const TriangleMesh& mesh :
        {tetrahedron(), octahedron(), icosphere(2), uv_sphere(12, 1), tube(60, 5),
         random_sphere_mesh(300, 7), flat, collapsed(icosphere(1))}) {
     const Topology topology(mesh);
-    for (const Baseline& rival : rivals()) {
-      INFO(rival.name << " of " << mesh.vertex_count() << " vertices");
-      const BaselineResult result = rival.map(mesh, topology, 1, {});
+    for (const Baseline& baseline : all_baselines()) {
+      INFO(baseline.name << " of " << mesh.vertex_count() << " vertices");
+      const BaselineResult result = baseline.map(mesh, topology, 1, {});
       CHECK_FALSE(result.statement.empty());
       REQUIRE(result.map.has_value() == (result.end != BaselineEnd::NoResult));
       if (!result.map) continue;
@@ -93,24 +93,24 @@ TEST_CASE("rivals: every method ends in a finite map of unit rays or says why th
   }
 }
 
-TEST_CASE("rivals: every method maps a sphere one-to-one") {
+TEST_CASE("baselines: every method maps a sphere one-to-one") {
   const TriangleMesh mesh = icosphere(3);
   const Topology topology(mesh);
-  for (const Baseline& rival : rivals()) {
-    INFO(rival.name);
-    const BaselineResult result = rival.map(mesh, topology, 1, {});
+  for (const Baseline& baseline : all_baselines()) {
+    INFO(baseline.name);
+    const BaselineResult result = baseline.map(mesh, topology, 1, {});
     REQUIRE(result.map);
     CHECK(certify(topology, *result.map).bijective());
   }
 }
 
-TEST_CASE("rivals: the number of threads changes no bit") {
+TEST_CASE("baselines: the number of threads changes no bit") {
   const TriangleMesh mesh = tube(60, 100);  // more vertices than a chunk
   const Topology topology(mesh);
-  for (const Baseline& rival : rivals()) {
-    INFO(rival.name);
-    const BaselineResult one = rival.map(mesh, topology, 1, {});
-    const BaselineResult three = rival.map(mesh, topology, 3, {});
+  for (const Baseline& baseline : all_baselines()) {
+    INFO(baseline.name);
+    const BaselineResult one = baseline.map(mesh, topology, 1, {});
+    const BaselineResult three = baseline.map(mesh, topology, 3, {});
     REQUIRE(one.map);
     REQUIRE(three.map);
     CHECK(one.map->points == three.map->points);
@@ -118,12 +118,12 @@ TEST_CASE("rivals: the number of threads changes no bit") {
   }
 }
 
-TEST_CASE("rivals: every method can be cancelled") {
+TEST_CASE("baselines: every method can be cancelled") {
   const TriangleMesh mesh = icosphere(2);
   const Topology topology(mesh);
   const Progress never = [](std::string_view, double) { return false; };
-  for (const Baseline& rival : rivals()) {
-    INFO(rival.name);
-    CHECK_THROWS_AS(rival.map(mesh, topology, 1, never), Cancelled);
+  for (const Baseline& baseline : all_baselines()) {
+    INFO(baseline.name);
+    CHECK_THROWS_AS(baseline.map(mesh, topology, 1, never), Cancelled);
   }
 }

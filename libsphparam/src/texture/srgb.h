@@ -1,3 +1,0 @@
-#pragma once
-
-#include "srgb_curves.h"
