@@ -18,7 +18,7 @@ set(needs_render io image)
 set(needs_bake io image measure render)
 set(needs_remesh io image measure)
 set(needs_gltf io image measure render bake)
-set(needs_report io image measure render bake gltf)
+set(needs_report io image measure render bake remesh gltf)
 set(SPHPARAM_BUILT)
 foreach(component IN LISTS all_components)  # in the order of building
   set(wanted FALSE)
@@ -115,7 +115,8 @@ if(gltf IN_LIST SPHPARAM_BUILT)
     LIBRARIES meshoptimizer::meshoptimizer=meshoptimizer nlohmann_json::nlohmann_json)
 endif()
 if(report IN_LIST SPHPARAM_BUILT)
-  add_component(report ROOMS report compare showcase)
+  add_component(report ROOMS report compare showcase records
+    LIBRARIES nlohmann_json::nlohmann_json)
   include(cmake/embed_texts.cmake)
   embed_texts(sphparam_report src/report/page.css src/report/plot.css src/report/viewer.css
     src/report/viewer.js src/showcase/report_page.css)

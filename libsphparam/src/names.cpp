@@ -1,18 +1,8 @@
 #include "sphparam/names.h"
 
-#include <charconv>
+#include "number_text.h"
 
 namespace sphparam {
-
-namespace {
-
-/// All digits that matter, no more.
-std::string shortest(double value) {
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
-
-}  // namespace
 
 std::string name_of(Method method) {
   switch (method) {
@@ -155,6 +145,34 @@ std::string options_line(const ParameterizeOptions& options) {
          " --iterations " + std::to_string(paper.iterations) + " --rings " +
          std::to_string(paper.rings) + " --sweeps " + std::to_string(paper.sweeps) +
          (options.repair_paper ? " --repair-map" : "");
+}
+
+const std::vector<RepairSwitch>& repair_switches() {
+  static const std::vector<RepairSwitch> all = {{"duplicates", &RepairOptions::duplicates},
+                                                {"orientation", &RepairOptions::orientation},
+                                                {"non-manifold", &RepairOptions::non_manifold},
+                                                {"components", &RepairOptions::components},
+                                                {"holes", &RepairOptions::holes},
+                                                {"flat-faces", &RepairOptions::flat_faces},
+                                                {"unused", &RepairOptions::unused}};
+  return all;
+}
+
+std::vector<std::string> names_of(const RepairOptions& options) {
+  std::vector<std::string> names;
+  for (const RepairSwitch& repair : repair_switches()) {
+    if (options.*repair.wanted) names.emplace_back(repair.name);
+  }
+  return names;
+}
+
+std::string options_line(const RepairOptions& options) {
+  std::string line = "--repair";
+  if (options.component > 0) line += " --component " + std::to_string(options.component);
+  if (options.largest_hole != RepairOptions{}.largest_hole) {
+    line += " --max-hole " + std::to_string(options.largest_hole);
+  }
+  return line;
 }
 
 }  // namespace sphparam

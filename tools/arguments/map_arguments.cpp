@@ -11,10 +11,10 @@
 #include "arguments/choice.h"
 #include "arguments/common_options.h"
 #include "console/paths.h"
-#include "reports/wording.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/paths.h"
+#include "sphparam/names.h"
 
 namespace sphparam::cli {
 

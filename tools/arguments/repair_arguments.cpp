@@ -3,11 +3,12 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include "arguments/choice.h"
 #include "commands/command.h"
+#include "sphparam/names.h"
+#include "number_text.h"
 
 // --repair is a flag that may carry words after an equals sign, so that it never takes the name of
 // the mesh for one of them.
@@ -18,35 +19,20 @@ namespace {
 
 constexpr char without_words[] = "true";  // what CLI11 makes of a bare flag
 
-const std::vector<std::pair<std::string, bool RepairOptions::*>>& switches() {
-  static const std::vector<std::pair<std::string, bool RepairOptions::*>> known = {
-      {"duplicates", &RepairOptions::duplicates},
-      {"orientation", &RepairOptions::orientation},
-      {"non-manifold", &RepairOptions::non_manifold},
-      {"components", &RepairOptions::components},
-      {"holes", &RepairOptions::holes},
-      {"flat-faces", &RepairOptions::flat_faces},
-      {"unused", &RepairOptions::unused}};
-  return known;
-}
-
-std::string all_words() {
-  std::string all;
-  for (const auto& [word, member] : switches()) all += (all.empty() ? "" : ", ") + word;
-  return all;
+std::vector<std::string> all_words() {
+  std::vector<std::string> words;
+  for (const RepairSwitch& repair : repair_switches()) words.emplace_back(repair.name);
+  return words;
 }
 
 void switch_on(RepairOptions& options, const std::string& word) {
-  std::vector<std::string> words;
-  for (const auto& [known, member] : switches()) {
-    if (word == known) {
-      options.*member = true;
-      return;
-    }
-    words.push_back(known);
+  for (const RepairSwitch& repair : repair_switches()) {
+    if (word != repair.name) continue;
+    options.*repair.wanted = true;
+    return;
   }
-  const std::string meant = nearest_word(word, words);
-  throw UsageMistake("--repair: no " + word + " among " + all_words() +
+  const std::string meant = nearest_word(word, all_words());
+  throw UsageMistake("--repair: no " + word + " among " + joined(all_words()) +
                      (meant.empty() ? "" : "; did you mean " + meant + "?"));
 }
 
@@ -78,9 +64,9 @@ void add_repair_options(CLI::App& command, RepairArguments& arguments) {
   const std::string group = "Repairs";
   constexpr int most = std::numeric_limits<int>::max();
   command
-      .add_flag(
-          "--repair", arguments.words,
-          "Mend the mesh first: everything, or as in --repair=holes,unused some of " + all_words())
+      .add_flag("--repair", arguments.words,
+                "Mend the mesh first: everything, or as in --repair=holes,unused some of " +
+                    joined(all_words()))
       ->group(group);
   command
       .add_option("--component", arguments.component,
@@ -130,14 +116,6 @@ std::optional<RepairOptions> wanted_repairs(const RepairArguments& arguments) {
   // What other repairs leave without faces must not stand in the way of the map.
   options.unused = true;
   return options;
-}
-
-std::vector<std::string> words_of(const RepairOptions& options) {
-  std::vector<std::string> words;
-  for (const auto& [word, member] : switches()) {
-    if (options.*member) words.push_back(word);
-  }
-  return words;
 }
 
 }  // namespace sphparam::cli

@@ -2,7 +2,6 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "sphparam/mesh/mesh_repair.h"
 
@@ -28,8 +27,5 @@ void add_repair_options(CLI::App& command, RepairArguments& arguments);
 /// --max-hole want their own repair also without it.
 /// Throws: UsageMistake for a word that is none, or for --component with --min-kept.
 std::optional<RepairOptions> wanted_repairs(const RepairArguments& arguments);
-
-/// The names of what is switched on, as --repair takes them.
-std::vector<std::string> words_of(const RepairOptions& options);
 
 }  // namespace sphparam::cli

@@ -11,10 +11,10 @@
 #include "commands/mapped_source.h"
 #include "console/exit_codes.h"
 #include "console/interruption.h"
-#include "reports/bake_report.h"
-#include "reports/wording.h"
 #include "sphparam/io/paths.h"
+#include "sphparam/records/bake_record.h"
 #include "sphparam/stopwatch.h"
+#include "number_text.h"
 
 namespace sphparam::cli {
 namespace {
@@ -111,10 +111,9 @@ int run_bake(const BakeArguments& arguments) {
   PendingFiles files;
   const BakeReport baked = bake_for_user(source, images, settings, files);
   for (const std::string& warning : baked.warnings) console.warning(warning);
-  const auto triangles = static_cast<long>(source.mesh().face_count());
   if (!arguments.json.empty()) {
-    files.add(arguments.json, to_json({arguments.input, triangles, arguments.target, settings,
-                                       baked, stopwatch.seconds()}));
+    files.add(arguments.json, to_json(BakeRecord{arguments.input, source, arguments.target,
+                                                 settings, baked, stopwatch.seconds()}));
   }
   if (interrupted()) throw Cancelled();
   files.publish();

@@ -16,7 +16,6 @@
 #include "arguments/suggestion.h"
 #include "arguments/up_option.h"
 #include "commands/command.h"
-#include "commands/repairing.h"
 #include "commands/shown_textures.h"
 #include "commands/source.h"
 #include "compare/comparison.h"
@@ -24,14 +23,15 @@
 #include "console/exit_codes.h"
 #include "console/interruption.h"
 #include "console/paths.h"
-#include "reports/compare_report.h"
-#include "reports/wording.h"
+#include "records/comparison_record.h"
 #include "sphparam/errors.h"
 #include "sphparam/io/connectivity.h"
 #include "sphparam/io/read_options.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/io/sphere_file.h"
 #include "sphparam/stopwatch.h"
+#include "sphparam/words.h"
+#include "number_text.h"
 
 namespace sphparam::cli {
 
@@ -201,9 +201,8 @@ int run_compare(const CompareArguments& arguments) {
     options.textures = shown_textures(source.file, arguments.input, "", arguments.threads, console);
   }
   FolderFiles files = comparison_files(name, source.file, entries, options);
-  files.emplace_back("compare.json", to_json(CompareReport{.input = {arguments.input, source},
-                                                           .entries = entries,
-                                                           .seconds = stopwatch.seconds()}));
+  files.emplace_back("compare.json",
+                     to_json(ComparisonRecord{source, entries, stopwatch.seconds()}));
   write_folder(arguments.folder, std::move(files));
   console.say("→ " + (std::filesystem::path(arguments.folder) / "index.html").string());
   return Ok;

@@ -19,13 +19,13 @@
 #include "console/level_path.h"
 #include "console/paths.h"
 #include "io/attributes/appearance.h"
-#include "reports/export_report.h"
-#include "reports/wording.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/read_options.h"
 #include "sphparam/io/safe_file.h"
+#include "sphparam/records/export_record.h"
 #include "sphparam/remesh/levels_of_detail.h"
 #include "sphparam/stopwatch.h"
+#include "number_text.h"
 
 namespace sphparam::cli {
 
@@ -225,7 +225,7 @@ class Exporter {
   const ExportOptions options_;
   const Stopwatch stopwatch_;
   Outputs places_ = {{"--json", arguments_.json}};
-  ExportReport report_;
+  ExportRecord report_;
   PendingFiles files_;
 };
 

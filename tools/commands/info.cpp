@@ -11,10 +11,9 @@
 #include "console/console.h"
 #include "console/exit_codes.h"
 #include "console/paths.h"
-#include "reports/info_report.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/safe_file.h"
-#include "sphparam/io/sphere_file.h"
+#include "sphparam/records/inspection_record.h"
 #include "sphparam/stopwatch.h"
 
 namespace sphparam::cli {
@@ -44,16 +43,12 @@ int run_info(const InfoArguments& arguments) {
   Console console(arguments.loudness.verbosity(), arguments.progress);
   console.progress("inspection", 0);
   const MeshSource source = read_source(arguments.input);
-  std::optional<RepairTrial> trial;
-  if (!source.inspection.is_sphere()) trial = try_repair(source);
-  const InfoReport report = {
-      .input = {arguments.input, source},
-      .provenance = has_map(source.file) ? read_provenance(source.file) : Provenance{},
-      .repair = trial,
-      .seconds = stopwatch.seconds()};
+  InspectionRecord record = {.source = source};
+  if (!source.inspection.is_sphere()) record.repair = try_repair(source);
+  record.seconds = stopwatch.seconds();
   console.clear_progress();
-  if (!arguments.json.empty()) write_file(arguments.json, to_json(report));
-  if (!is_stream(arguments.json) && !arguments.loudness.quiet) write_file("-", to_text(report));
+  if (!arguments.json.empty()) write_file(arguments.json, to_json(record));
+  if (!is_stream(arguments.json) && !arguments.loudness.quiet) write_file("-", to_text(record));
   if (source.inspection.is_sphere()) return Ok;
   if (arguments.loudness.quiet) {
     print_error(display_name(arguments.input) + ": this is not a closed genus-0 mesh");

@@ -10,7 +10,6 @@
 #include "commands/command.h"
 #include "commands/map_outcome.h"
 #include "commands/map_outputs.h"
-#include "commands/repairing.h"
 #include "commands/source.h"
 #include "console/console.h"
 #include "console/exit_codes.h"

@@ -7,7 +7,6 @@
 #include "commands/source.h"
 #include "compare/methods.h"
 #include "embedding/frame/landmarks.h"
-#include "reports/wording.h"
 #include "sphparam/parameterize.h"
 
 namespace sphparam::cli {

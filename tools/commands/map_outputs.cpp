@@ -8,18 +8,19 @@
 #include <string>
 #include <utility>
 
-#include "commands/repairing.h"
 #include "console/exit_codes.h"
 #include "console/interruption.h"
 #include "console/paths.h"
+#include "number_text.h"
 #include "report/plots.h"
-#include "reports/chart_report.h"
-#include "reports/map_report.h"
+#include "sphparam/chart/chart_report.h"
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/io/map_files.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/io/sphere_file.h"
+#include "sphparam/names.h"
+#include "sphparam/records/map_record.h"
 
 namespace sphparam::cli {
 
@@ -110,22 +111,19 @@ void add_reports(PendingFiles& files, const MapArguments& arguments, MapOutcome&
     outputs.emplace_back("charts", arguments.charts);
   }
   if (arguments.json.empty()) return;
-  const std::optional<ChartReport> chart = figures_of_chart(arguments, outcome, console);
-  const MapReport report = {
-      .input = {arguments.input, outcome.source},
-      .method = info_of(arguments.method).name,
-      .options = arguments.options,
-      .repairs_wanted = words_of(wanted_repairs(arguments.repair).value_or(RepairOptions::none())),
-      .result = outcome.result,
-      .account = outcome.account,
-      .pins = outcome.pins,
-      .pole_residuals = outcome.pole_residuals(),
-      .certificate = outcome.certificate,
-      .distortion = outcome.figures,
-      .chart = chart,
-      .outputs = outputs,
-      .seconds = stopwatch.seconds()};
-  files.add(arguments.json, to_json(report));
+  MapRecord record = {.source = outcome.source,
+                      .options = arguments.options,
+                      .result = outcome.result,
+                      .method = info_of(arguments.method).name,
+                      .repairs = wanted_repairs(arguments.repair).value_or(RepairOptions::none()),
+                      .account = outcome.account,
+                      .pins = outcome.pins,
+                      .pole_residuals = outcome.pole_residuals(),
+                      .distortion = outcome.figures,
+                      .chart = figures_of_chart(arguments, outcome, console),
+                      .outputs = outputs};
+  record.seconds = stopwatch.seconds();
+  files.add(arguments.json, to_json(record));
 }
 
 /// The mesh gets its map where it stands: a copy of all its attributes would be the peak of memory.

@@ -19,16 +19,16 @@
 #include "console/exit_codes.h"
 #include "console/interruption.h"
 #include "console/paths.h"
-#include "reports/measure_report.h"
-#include "reports/wording.h"
 #include "sphparam/errors.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/measure/surface_distance.h"
+#include "sphparam/records/distance_record.h"
 #include "sphparam/render/coloured_values.h"
 #include "sphparam/stopwatch.h"
+#include "number_text.h"
 
 namespace sphparam::cli {
 
@@ -48,6 +48,15 @@ constexpr char summary[] =
     "between the samples. Any meshes: they need not be closed. Lengths are in the unit of the\n"
     "meshes, % are of the diagonal of A's bounding box. The exit status is 6 where a limit is\n"
     "exceeded.\n";
+
+/// A length as the user gives it: in the unit of the mesh, or in % of the diagonal of the first
+/// mesh's bounding box.
+struct LengthLimit {
+  double value = 0;
+  bool of_diagonal = false;  // in %
+
+  double length(double diagonal) const { return of_diagonal ? value / 100 * diagonal : value; }
+};
 
 struct MeasureArguments {
   std::string first;
@@ -131,8 +140,9 @@ MeshFile with_errors(const MeshFile& file, const OneSidedDistance& side, const s
   return coloured;
 }
 
-std::vector<LimitReport> judge(const MeasureArguments& arguments, const SurfaceDistance& distance) {
-  std::vector<LimitReport> limits;
+std::vector<DistanceLimit> judge(const MeasureArguments& arguments,
+                                 const SurfaceDistance& distance) {
+  std::vector<DistanceLimit> limits;
   const auto judge_one = [&](const char* option, const std::optional<LengthLimit>& limit,
                              double measured) {
     if (limit) limits.push_back({option, limit->length(distance.diagonal_first), measured});
@@ -154,34 +164,32 @@ int run_measure(MeasureArguments arguments) {
   }
   const OrderlyInterruption orderly;
   const SurfaceDistance distance = measure(arguments, first, second, console);
-  const std::vector<LimitReport> limits = judge(arguments, distance);
-  MeasureReport report = {.first = arguments.first,
-                          .second = arguments.second,
-                          .first_file = first,
-                          .second_file = second,
-                          .options = arguments.options,
-                          .distance = distance,
-                          .limits = limits,
-                          .outputs = {}};
+  DistanceRecord record = {.first = arguments.first,
+                           .second = arguments.second,
+                           .first_file = first,
+                           .second_file = second,
+                           .options = arguments.options,
+                           .distance = distance,
+                           .limits = judge(arguments, distance)};
   PendingFiles files;
   if (!arguments.per_vertex.empty()) {
     files.add(arguments.per_vertex,
               serialise_mesh(arguments.per_vertex,
                              with_errors(first, distance.forth, display_name(arguments.second))));
-    report.outputs.emplace_back("per_vertex", arguments.per_vertex);
+    record.outputs.emplace_back("per_vertex", arguments.per_vertex);
   }
-  report.seconds = stopwatch.seconds();
-  if (!arguments.json.empty()) files.add(arguments.json, to_json(report));
+  record.seconds = stopwatch.seconds();
+  if (!arguments.json.empty()) files.add(arguments.json, to_json(record));
   const bool data_goes_out = is_stream(arguments.json) || is_stream(arguments.per_vertex);
-  if (!arguments.loudness.quiet && !data_goes_out) files.add("-", to_text(report));
+  if (!arguments.loudness.quiet && !data_goes_out) files.add("-", to_text(record));
   if (interrupted()) throw Cancelled();
   files.publish();
   bool exceeded = false;
-  for (const LimitReport& limit : limits) {
+  for (const DistanceLimit& limit : record.limits) {
     if (!limit.exceeded()) continue;
     exceeded = true;
-    print_error("measured " + short_number(limit.measured, 6) + ", more than " + limit.option +
-                " " + short_number(limit.limit, 6));
+    print_error("measured " + short_number(limit.measured, 6) + ", more than " + limit.name + " " +
+                short_number(limit.limit, 6));
   }
   return exceeded ? LimitExceeded : Ok;
 }

@@ -15,7 +15,7 @@
 #include "commands/remesh_glb.h"
 #include "console/exit_codes.h"
 #include "console/interruption.h"
-#include "reports/remesh_report.h"
+#include "reports/remesh_wording.h"
 #include "sphparam/io/certified_files.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/safe_file.h"
@@ -122,6 +122,18 @@ void add_images(PendingFiles& files, const RemeshArguments& arguments,
   }
 }
 
+RemeshOutputs outputs_of(const RemeshArguments& arguments, const RemeshRequests& requests) {
+  return {.mesh = arguments.output,
+          .limit_mesh = arguments.limit_output,
+          .displacement = arguments.displacement,
+          .rebuilt = arguments.rebuilt,
+          .geometry_image = arguments.geometry_image,
+          .normals = arguments.normal_image,
+          .csv = arguments.csv,
+          .attribute_images = arguments.attribute_images,
+          .levels = requests.outputs};
+}
+
 int run_remesh(const RemeshArguments& arguments) {
   const Stopwatch stopwatch;
   const RemeshRequests requests = check_remesh_arguments(arguments);
@@ -133,27 +145,36 @@ int run_remesh(const RemeshArguments& arguments) {
   console.progress("grid", 0);
   const Stopwatch grid_stopwatch;
   SphereGrid grid = grid_for(arguments, requests);
-  RemeshReport report{.arguments = arguments, .requests = requests};
-  report.grid_seconds = grid_stopwatch.seconds();
+  const double grid_seconds = grid_stopwatch.seconds();
+  std::optional<Adaptation> adaptation;
   if (arguments.adaptive) {
-    report.adaptation = adapt(mapped, grid.directions.rows(), arguments, console);
-    mapped = report.adaptation->mapped;
+    adaptation = adapt(mapped, grid.directions.rows(), arguments, console);
+    mapped = adaptation->mapped;
   }
-  report.levels = make_levels(mapped, std::move(grid), arguments, requests, console);
+  const std::vector<LevelOfDetail> levels =
+      make_levels(mapped, std::move(grid), arguments, requests, console);
+  RemeshRecord record{.input = arguments.input,
+                      .grid = arguments.grid,
+                      .source = mapped,
+                      .levels = levels,
+                      .sample = arguments.sample,
+                      .adaptation = adaptation,
+                      .outputs = outputs_of(arguments, requests),
+                      .grid_seconds = grid_seconds};
   console.progress("write", 0);
   PendingFiles files;
-  const LevelOfDetail& finest = report.levels.front();
-  add_meshes(files, arguments, requests, mapped, report.levels, console);
-  report.displacement = displace(files, arguments, mapped, finest, console);
+  const LevelOfDetail& finest = levels.front();
+  add_meshes(files, arguments, requests, mapped, levels, console);
+  record.displacement = displace(files, arguments, mapped, finest, console);
   add_images(files, arguments, requests, finest.mesh);
   if (!arguments.csv.empty()) files.add(arguments.csv, sample_table(finest.mesh));
-  report.seconds = stopwatch.seconds();
-  if (!arguments.json.empty()) files.add(arguments.json, to_json(report, mapped));
+  record.seconds = stopwatch.seconds();
+  if (!arguments.json.empty()) files.add(arguments.json, to_json(record));
   if (interrupted()) throw Cancelled();
   files.publish();
-  report.seconds = stopwatch.seconds();
+  record.seconds = stopwatch.seconds();
   console.clear_progress();
-  tell(report, mapped.mesh(), console);
+  tell(record, console);
   return Ok;
 }
 

@@ -8,10 +8,10 @@
 
 #include "console/exit_codes.h"
 #include "io/attributes/appearance.h"
-#include "reports/wording.h"
 #include "sphparam/gltf/export.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/read_options.h"
+#include "number_text.h"
 
 namespace sphparam::cli {
 

@@ -16,7 +16,6 @@
 #include "arguments/common_options.h"
 #include "arguments/up_option.h"
 #include "commands/command.h"
-#include "commands/repairing.h"
 #include "commands/shown_textures.h"
 #include "commands/source.h"
 #include "console/console.h"
@@ -24,9 +23,8 @@
 #include "console/interruption.h"
 #include "console/paths.h"
 #include "image/image_codec.h"
-#include "reports/compare_report.h"
+#include "records/comparison_record.h"
 #include "reports/told_losses.h"
-#include "reports/wording.h"
 #include "showcase/report_page.h"
 #include "sphparam/errors.h"
 #include "sphparam/io/connectivity.h"
@@ -34,8 +32,10 @@
 #include "sphparam/io/read_options.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/io/sphere_file.h"
+#include "sphparam/names.h"
 #include "sphparam/stopwatch.h"
 #include "sphparam/version.h"
+#include "sphparam/words.h"
 
 namespace sphparam::cli {
 
@@ -244,9 +244,7 @@ int run_report(const ReportArguments& arguments) {
   if (!arguments.json.empty()) {
     std::vector<Entry> compared;
     for (const PageEntry& shown : entries) compared.push_back(shown.entry);
-    files.add(arguments.json, to_json(CompareReport{.input = {arguments.inputs.front(), source},
-                                                    .entries = compared,
-                                                    .seconds = stopwatch.seconds()}));
+    files.add(arguments.json, to_json(ComparisonRecord{source, compared, stopwatch.seconds()}));
   }
   if (interrupted()) throw Cancelled();
   files.publish();

@@ -16,9 +16,6 @@
 #include "console/exit_codes.h"
 #include "console/interruption.h"
 #include "console/paths.h"
-#include "reports/harmonics_report.h"
-#include "reports/percent.h"
-#include "reports/wording.h"
 #include "sphparam/errors.h"
 #include "sphparam/io/certified_files.h"
 #include "sphparam/io/mesh_writer.h"
@@ -26,7 +23,9 @@
 #include "sphparam/io/safe_file.h"
 #include "sphparam/measure/measurable.h"
 #include "sphparam/mesh/topology.h"
+#include "sphparam/records/harmonics_record.h"
 #include "sphparam/stopwatch.h"
+#include "number_text.h"
 
 namespace sphparam::cli {
 
@@ -127,7 +126,7 @@ void tell(const SpharmArguments& arguments, const HarmonicExpansion& report,
   std::string line = display_name(arguments.input) + ": degree " + std::to_string(report.degree()) +
                      ", RMS distance at the vertices, weighted by solid angle, " +
                      short_number(report.position_rms()) + " (" +
-                     percent_of(report.diagonal, report.position_rms()) +
+                     percent(report.position_rms() / report.diagonal) +
                      " of the diagonal), unweighted " + short_number(report.plain_position_rms()) +
                      ", " + short_number(stopwatch.seconds()) + " s";
   console.say(line);

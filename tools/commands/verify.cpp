@@ -11,10 +11,9 @@
 #include "console/console.h"
 #include "console/exit_codes.h"
 #include "console/paths.h"
-#include "reports/chart_report.h"
-#include "reports/verify_report.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/io/verify_map.h"
+#include "sphparam/records/verification_record.h"
 #include "sphparam/stopwatch.h"
 
 namespace sphparam::cli {
@@ -60,7 +59,7 @@ int run_verify(const VerifyArguments& arguments) {
       arguments.file,
       {.sphere = arguments.sphere, .read = input_limits(), .threads = arguments.threads});
   if (!map.is_round()) console.warning(roundness_warning(map));
-  VerifyReport report = {.file = arguments.file, .map = map, .chart_wanted = arguments.chart};
+  VerificationRecord report = {.file = arguments.file, .map = map, .chart_wanted = arguments.chart};
   if (arguments.chart) report.chart = chart_of(map, arguments.threads);
   report.seconds = stopwatch.seconds();
   console.clear_progress();

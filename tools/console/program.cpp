@@ -18,7 +18,6 @@
 #include "arguments/leading_options.h"
 #include "arguments/suggestion.h"
 #include "commands/command.h"
-#include "commands/repairing.h"
 #include "console/console.h"
 #include "console/exit_codes.h"
 #include "console/files_read.h"
@@ -26,12 +25,13 @@
 #include "console/memory_limit.h"
 #include "image/image_codec.h"
 #include "io/files/temporary_file.h"
-#include "reports/wording.h"
 #include "sphparam/errors.h"
 #include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/repair_advice.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/version.h"
+#include "sphparam/words.h"
 
 namespace sphparam::cli {
 
@@ -222,7 +222,7 @@ int guarded_main(int argc, char** argv) {
     return run_program(argc, argv);
   } catch (const MeshRefusal& error) {
     print_error("this is not a closed genus-0 mesh:");
-    std::fputs((defect_list(error.defects()) + advice_of(error)).c_str(), stderr);
+    std::fputs((defect_list(error.defects()) + repair_advice(error)).c_str(), stderr);
     return MeshUnusable;
   } catch (const MeshError& error) {
     print_error("this is not a closed genus-0 mesh:");

@@ -5,25 +5,16 @@
 #include <string>
 #include <vector>
 
-#include "commands/repairing.h"
 #include "console/paths.h"
 #include "reports/told_losses.h"
-#include "reports/wording.h"
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/io/losses.h"
+#include "sphparam/words.h"
+#include "number_text.h"
 
 namespace sphparam::cli {
 
 namespace {
-
-/// "harmonic: 0.12 s, 3 folds, angle 0.55 area 0.59"
-std::string stage_line(const StageRecord& stage) {
-  std::string line = "  " + stage.name + ": " + short_number(stage.seconds) + " s";
-  if (stage.planar_folds >= 0) line += ", " + std::to_string(stage.planar_folds) + " planar folds";
-  if (stage.folds >= 0) line += ", " + std::to_string(stage.folds) + " folds";
-  if (stage.distortion) line += ", " + distortion_line(*stage.distortion);
-  return line;
-}
 
 std::string residual_line(const std::string& what, long number, double residual,
                           const std::string& place) {
@@ -82,7 +73,7 @@ void tell_stages(const MapArguments& arguments, const MapOutcome& outcome, Conso
   for (const std::string& note : outcome.source.notes)
     if (std::find(told.begin(), told.end(), note) == told.end()) console.detail("  note: " + note);
   for (const RepairAction& repair : outcome.source.repairs) console.say("  " + repair.message);
-  const std::string kept = line_of(outcome.source.parts);
+  const std::string kept = kept_line(outcome.source.parts);
   if (!kept.empty()) console.say("  " + kept);
   for (const MeshDefect& defect : outcome.source.inspection.defects) {
     // What looks wrong on the map is told unasked.
@@ -95,7 +86,7 @@ void tell_stages(const MapArguments& arguments, const MapOutcome& outcome, Conso
   }
   for (const StageRecord& stage : outcome.result.stages) {
     const bool asked = arguments.method == AnyMethod(Method::Paper);
-    asked ? console.say(stage_line(stage)) : console.detail(stage_line(stage));
+    asked ? console.say("  " + stage_line(stage)) : console.detail("  " + stage_line(stage));
   }
   if (const std::optional<BalanceRecord>& balance = outcome.result.balance) {
     console.detail("  balanced at lambda " + short_number(balance->lambda, 6) +

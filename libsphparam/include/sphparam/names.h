@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/mesh/mesh_repair.h"
@@ -19,5 +20,19 @@ std::string name_of(RepairKind kind);
 
 /// The options that shaped a map, as on the command line: "--lambda 1".
 std::string options_line(const ParameterizeOptions& options);
+
+/// A kind of repair that is wanted or not, and its word: "holes".
+struct RepairSwitch {
+  const char* name;
+  bool RepairOptions::*wanted;
+};
+/// All of them, in the order in which they are done.
+const std::vector<RepairSwitch>& repair_switches();
+
+/// The names of what is switched on.
+std::vector<std::string> names_of(const RepairOptions& options);
+
+/// What asks for these repairs where everything is wanted: "--repair --component 1 --max-hole 900".
+std::string options_line(const RepairOptions& options);
 
 }  // namespace sphparam

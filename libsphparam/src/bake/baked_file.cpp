@@ -4,22 +4,16 @@
 #include "bake/baked_file.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
 #include "bake/image_level.h"
 #include "sphparam/bake/bake_errors.h"
 #include "srgb_curves.h"
+#include "number_text.h"
 
 namespace sphparam {
 namespace {
-
-std::string shortest(double x) {
-  char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, x).ptr;
-  return {text, end};
-}
 
 /// Beyond these halves are infinite: positions of bodies in metres, say.
 void require_halves(const float* values, size_t count) {

@@ -1,21 +1,14 @@
 #include "bake/choose_target.h"
 
-#include <cstdio>
 #include <stdexcept>
 
 #include "bake/make_scene.h"
 #include "bake/shared_sphere.h"
 #include "sphparam/chart/chart_failure.h"
+#include "number_text.h"
 
 namespace sphparam {
 namespace {
-
-/// "5.61 % of the diagonal"
-std::string in_diagonals(double distance) {
-  char text[48];
-  std::snprintf(text, sizeof text, "%.3g %% of the diagonal", 100 * distance);
-  return text;
-}
 
 /// A map of its own would give every texel of the low mesh another place of the high one.
 void require_one_sphere(const MappedMesh& source, const BakeSettings& settings,
@@ -25,7 +18,7 @@ void require_one_sphere(const MappedMesh& source, const BakeSettings& settings,
   chosen.distance = apart;
   if (apart <= doubtful_disagreement) return;
   const std::string far = "in the same directions, half of its surface is more than " +
-                          in_diagonals(apart) + " away from that of " +
+                          percent(apart) + " of the diagonal away from that of " +
                           source_name(source, settings);
   if (apart > other_sphere_disagreement) {
     throw OtherSphereError(target.name() + ": is not on the same sphere: " + far);

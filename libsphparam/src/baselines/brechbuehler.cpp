@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "baselines/equal_areas.h"
-#include "baselines/number_text.h"
 #include "baselines/outcome.h"
 #include "option_domain.h"
 #include "sphparam/sphere/spherical_coordinates.h"
@@ -14,6 +13,7 @@
 // if it lowers the merit and turns no angle negative; then damping falls. Faces that it would turn
 // are held (active) as long as ρ stays; where that does not help, or the merit would rise, damping
 // rises.
+#include "number_text.h"
 
 namespace sphparam {
 namespace {
@@ -162,8 +162,8 @@ BaselineResult map_brechbuehler(const TriangleMesh& mesh, const Topology& topolo
     const double after = problem.area_error(optimum.map);
     return outcome.take(std::move(optimum.map), optimum.end,
                         ending(optimum.end) + std::to_string(optimum.steps) +
-                            " steps; area error " + number_text(before) + " before, " +
-                            number_text(after) + " after");
+                            " steps; area error " + short_number(before) + " before, " +
+                            short_number(after) + " after");
   });
 }
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "baselines/mobius_centring.h"
-#include "baselines/number_text.h"
 #include "baselines/outcome.h"
 #include "baselines/vertex_system.h"
 #include "mesh/triangle_geometry.h"
@@ -16,6 +15,7 @@
 
 // (M_t + δ L₀) x_{t+1} = M_t x_t. Linear elements: a triangle of area A adds A/6 to M_ii, A/12 to
 // M_ij. The mean curvature flow would take L_t; with L₀, the cotangents of the source, angles stay.
+#include "number_text.h"
 
 namespace sphparam {
 namespace {
@@ -146,7 +146,7 @@ BaselineResult map_flow(const TriangleMesh& mesh, const Topology& topology,
     return outcome.take(std::move(map),
                         round ? BaselineEnd::Converged : BaselineEnd::IterationLimit,
                         (round ? "round after " : "not round after ") + std::to_string(steps) +
-                            " steps: radii deviate by " + number_text(deviation));
+                            " steps: radii deviate by " + short_number(deviation));
   });
 }
 

@@ -5,7 +5,6 @@
 #include <numbers>
 #include <utility>
 
-#include "baselines/number_text.h"
 #include "baselines/outcome.h"
 #include "baselines/tutte_equations.h"
 #include "baselines/weighted_rings.h"
@@ -16,6 +15,7 @@
 
 // seam → unit circle by arc length; both halves by one system, as no edge joins their inner
 // vertices; (u, v) → (2u, 2v, ±(1 − r²)) / (1 + r²); then the equations on the sphere.
+#include "number_text.h"
 
 namespace sphparam {
 namespace {
@@ -58,7 +58,7 @@ std::string describe(const TutteSolution& solution, double tolerance) {
   const bool solved = solution.residual <= tolerance;
   return std::to_string(solution.sweeps) + " sweeps and " + std::to_string(solution.steps) +
          " Newton steps; the residual is " + (solved ? "at most " : "") +
-         number_text(solved ? tolerance : solution.residual) + " of the hemispheres'";
+         short_number(solved ? tolerance : solution.residual) + " of the hemispheres'";
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "report/svg.h"
 #include "sphparam/stopwatch.h"
+#include "number_text.h"
 
 namespace sphparam {
 
@@ -15,13 +16,7 @@ void measure(Entry& entry, const TriangleMesh& mesh, int threads) {
   entry.figures = summarise(*entry.distortion, threads);
 }
 
-std::string joined(const std::vector<std::string>& sentences) {
-  std::string text;
-  for (const std::string& sentence : sentences) text += (text.empty() ? "" : "; ") + sentence;
-  return text;
-}
-
-std::string counted(long count, const std::string& noun) {
+std::string grouped_count(long count, const std::string& noun) {
   return grouped(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
@@ -56,7 +51,7 @@ Entry entry_of_method(AnyMethod method, const TriangleMesh& mesh,
   Entry entry = {.name = info.name, .source = info.citation};
   entry.seconds = stopwatch.seconds();
   entry.iterations = run.account ? run.account->iterations : 0;
-  entry.statement = run.account ? run.account->statement : joined(run.result.warnings);
+  entry.statement = run.account ? run.account->statement : joined(run.result.warnings, "; ");
   entry.map = std::move(run.result.map);
   entry.certificate = std::move(run.result.certificate);
   entry.stages = std::move(run.result.stages);
@@ -78,8 +73,9 @@ std::string short_verdict(const Entry& entry) {
   const Certificate& c = entry.certificate;
   if (!entry.has_map()) return "no map";
   if (c.bijective()) return "one-to-one";
-  if (!c.unusable_points.empty()) return counted(std::ssize(c.unusable_points), "unusable point");
-  if (c.fold_count() > 0) return counted(c.fold_count(), "fold");
+  if (!c.unusable_points.empty())
+    return grouped_count(std::ssize(c.unusable_points), "unusable point");
+  if (c.fold_count() > 0) return grouped_count(c.fold_count(), "fold");
   return "degree " + std::to_string(c.degree);
 }
 

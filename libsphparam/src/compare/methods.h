@@ -28,14 +28,6 @@ const std::vector<MethodInfo>& all_methods();
 const MethodInfo& info_of(AnyMethod method);
 std::optional<AnyMethod> method_named(std::string_view name);
 
-/// What a method of others says of itself.
-struct BaselineAccount {
-  BaselineEnd end = BaselineEnd::NoResult;
-  int iterations = 0;     // of all stages
-  std::string statement;  // why it ended
-  std::string citation;
-};
-
 struct MethodRun {
   Parameterization result;  // no rows in its map: none was made
   std::optional<BaselineAccount> account = std::nullopt;

@@ -10,6 +10,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "number_text.h"
+
 namespace sphparam {
 
 namespace {
@@ -18,11 +20,6 @@ constexpr double most_half = 65504, least_half = 0x1p-17;  // 128 steps are left
 constexpr char about[] =
     "signed distance from the limit surface's point with the direction to the mesh, along the "
     "limit surface's unit normal";
-
-std::string shortest(double value) {
-  char digits[32];
-  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
-}
 
 /// Height = (value − midlevel)·scale.
 struct Coding {

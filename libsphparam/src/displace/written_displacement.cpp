@@ -95,7 +95,10 @@ WrittenDisplacement add_displacement(PendingFiles& files, const DisplacementFile
   Image read;
   files.add(paths.image, {bytes.begin(), bytes.end()},
             [&](std::string_view written) { read = decode_displacement(written, paths.image); });
-  WrittenDisplacement result{.figures = made.figures, .seconds = stopwatch.seconds()};
+  WrittenDisplacement result{.width = options.width,
+                             .height = options.height,
+                             .figures = made.figures,
+                             .seconds = stopwatch.seconds()};
   if (!paths.rebuilt.empty())
     result.proof = prove(files, paths.rebuilt, source, control, base, read, options);
   return result;

@@ -33,8 +33,4 @@ std::string enumerated(const std::vector<std::string>& words) {
   return text;
 }
 
-std::string counted(long count, std::string_view thing) {
-  return std::to_string(count) + " " + std::string(thing) + (count == 1 ? "" : "s");
-}
-
 }  // namespace sphparam

@@ -13,6 +13,7 @@
 #include "mesh/flat_face.h"
 #include "mesh/triangle_geometry.h"
 #include "mesh/union_find.h"
+#include "number_text.h"
 
 // A mesh that Topology accepts has no defect of connectivity: counting is all that is left, and the
 // cost is that of the map's own first step. Otherwise everything is found by sorting: edges by
@@ -37,10 +38,6 @@ struct Places {
     }
   }
 };
-
-std::string plural(long count, const char* one, const char* many) {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
-}
 
 /// "first at vertices 4–17, 17–23" for edges, "first: 4, 17" otherwise.
 std::string place_list(const Places& places, const char* noun, size_t ids_per_place) {
@@ -112,13 +109,13 @@ class Inspector {
     }
     if (out_of_range.count > 0) {
       add_fatal(DefectKind::IndexOutOfRange, out_of_range.count, out_of_range.elements,
-                plural(out_of_range.count, "face names a vertex", "faces name vertices") +
+                counted(out_of_range.count, "face names a vertex", "faces name vertices") +
                     " that do not exist" + place_list(out_of_range, "faces", 1),
                 "");
     }
     if (repeated.count > 0) {
       add_fatal(DefectKind::RepeatedVertex, repeated.count, repeated.elements,
-                plural(repeated.count, "face names", "faces name") + " one vertex twice" +
+                counted(repeated.count, "face names", "faces name") + " one vertex twice" +
                     place_list(repeated, "faces", 1),
                 "remove degenerate faces");
     }
@@ -139,7 +136,7 @@ class Inspector {
     if (finite_ && faces_ > 0) measure_box();
     if (finite_) return;
     add_fatal(DefectKind::NonFinitePosition, places.count, places.elements,
-              plural(places.count, "vertex has", "vertices have") +
+              counted(places.count, "vertex has", "vertices have") +
                   " a coordinate that is not a finite number" + place_list(places, "vertices", 1),
               "");
   }
@@ -187,21 +184,21 @@ class Inspector {
     // 3. What was found, said.
     if (boundary.count > 0) {
       add_fatal(DefectKind::BoundaryEdge, boundary.count, boundary.elements,
-                "not closed: " + plural(boundary.count, "boundary edge", "boundary edges") +
-                    " in " + plural(result_.boundary_loops, "loop", "loops") +
+                "not closed: " + counted(boundary.count, "boundary edge", "boundary edges") +
+                    " in " + counted(result_.boundary_loops, "loop", "loops") +
                     place_list(boundary, "between vertices", 2),
                 "fill the holes, or weld vertices that lie at the same place");
     }
     if (crowded.count > 0) {
       add_fatal(DefectKind::NonManifoldEdge, crowded.count, crowded.elements,
-                plural(crowded.count, "edge has", "edges have") + " three or more faces" +
+                counted(crowded.count, "edge has", "edges have") + " three or more faces" +
                     place_list(crowded, "between vertices", 2),
                 "remove inner or duplicate faces");
     }
     if (misoriented.count > 0) {
       const bool one_sided = is_one_sided();
       add_fatal(DefectKind::InconsistentOrientation, misoriented.count, misoriented.elements,
-                plural(misoriented.count, "edge is", "edges are") +
+                counted(misoriented.count, "edge is", "edges are") +
                     " run through the same way by both faces" +
                     (one_sided ? " of a one-sided (non-orientable) surface" : "") +
                     place_list(misoriented, "between vertices", 2),
@@ -245,7 +242,7 @@ class Inspector {
     }
     if (places.count == 0) return;
     add_fatal(DefectKind::DuplicateFace, places.count, places.elements,
-              plural(places.count, "face has", "faces have") +
+              counted(places.count, "face has", "faces have") +
                   " the same three vertices as another" + place_list(places, "faces", 1),
               "remove duplicate faces");
   }
@@ -277,7 +274,7 @@ class Inspector {
     }
     if (places.count == 0) return;
     add_fatal(DefectKind::NonManifoldVertex, places.count, places.elements,
-              plural(places.count, "vertex joins", "vertices join") +
+              counted(places.count, "vertex joins", "vertices join") +
                   " separate fans of faces (non-manifold)" + place_list(places, "vertices", 1),
               "split the vertex, one copy for each fan");
   }
@@ -335,7 +332,7 @@ class Inspector {
     }
     const Size largest = *std::max_element(sizes.begin(), sizes.end());
     std::ostringstream text;
-    text << plural(largest.faces, "face", "faces");
+    text << counted(largest.faces, "face", "faces");
     if (all > 0)
       text << " and " << std::setprecision(3) << 100 * largest.area / all << " % of the area";
     return text.str();
@@ -348,7 +345,7 @@ class Inspector {
     }
     if (places.count == 0) return;
     add_remark(DefectKind::UnusedVertex, places,
-               plural(places.count, "vertex is", "vertices are") + " used by no face" +
+               counted(places.count, "vertex is", "vertices are") + " used by no face" +
                    place_list(places, "vertices", 1),
                "");
   }
@@ -368,7 +365,7 @@ class Inspector {
     if (flat.count > 0) {
       add_remark(
           DefectKind::ZeroAreaFace, flat,
-          plural(flat.count, "face has", "faces have") + " no area" + place_list(flat, "faces", 1),
+          counted(flat.count, "face has", "faces have") + " no area" + place_list(flat, "faces", 1),
           "");
     }
     if (result_.volume < 0 && result_.boundary_loops == 0) {
@@ -397,7 +394,7 @@ class Inspector {
     }
     if (places.count == 0) return;
     add_remark(DefectKind::CoincidentVertices, places,
-               plural(places.count, "vertex lies", "vertices lie") + " exactly on another" +
+               counted(places.count, "vertex lies", "vertices lie") + " exactly on another" +
                    place_list(places, "vertices", 1),
                "");
   }

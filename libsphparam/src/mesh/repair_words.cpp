@@ -1,13 +1,10 @@
 #include "sphparam/mesh/mesh_repair.h"
+#include "number_text.h"
 
 // What was done, in words. A switch over all kinds, so that the compiler names a forgotten one.
 
 namespace sphparam {
 namespace {
-
-std::string counted(long count, const char* one, const char* many) {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
-}
 
 /// What was done, and the noun of the places that follow.
 std::pair<std::string, const char*> words(RepairKind kind, long n) {

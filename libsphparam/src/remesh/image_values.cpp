@@ -10,6 +10,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "number_text.h"
+
 namespace sphparam {
 
 namespace {
@@ -33,11 +35,6 @@ double to_float(double value) {
     throw std::range_error("float has no number as large as " + std::to_string(value));
   }
   return static_cast<double>(static_cast<float>(value));
-}
-
-std::string shortest(double value) {
-  char digits[32];
-  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
 }
 
 const char* name_of(ImageDepth depth) {
@@ -69,7 +66,7 @@ double quantised(double value, ImageDepth depth, const Range& range, size_t chan
                    : 0;
 }
 
-std::string joined(const std::vector<double>& numbers) {
+std::string text_of(const std::vector<double>& numbers) {
   std::string text;
   for (const double number : numbers) text.append(text.empty() ? "" : " ").append(shortest(number));
   return text;
@@ -147,8 +144,8 @@ GeometryImage make_geometry_image(const GridSpec& spec, const Points& directions
     }
   }
   if (depth == ImageDepth::Uint16) {
-    result.texts.emplace_back("sphparam:min", joined(range.least));
-    result.texts.emplace_back("sphparam:max", joined(range.greatest));
+    result.texts.emplace_back("sphparam:min", text_of(range.least));
+    result.texts.emplace_back("sphparam:max", text_of(range.greatest));
   }
   return result;
 }

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <vector>
 
 #include "elementary.h"
 #include "render/lettering.h"
+#include "number_text.h"
 
 namespace sphparam {
 namespace {
@@ -21,12 +21,6 @@ struct Tick {
 std::string ratio_label(int log2) {
   const std::string power = std::to_string(1 << std::abs(log2));
   return log2 < 0 ? "1/" + power : power;
-}
-
-std::string number_label(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
 }
 
 // Halves below: the ends of a scale may be farther apart than the largest double.
@@ -51,7 +45,7 @@ std::vector<Tick> ticks(const HeatScale& scale) {
     return all;
   }
   for (const double value : {scale.low, value_at(scale, 0.5), scale.high}) {
-    all.push_back({value, number_label(value)});
+    all.push_back({value, short_number(value)});
   }
   return all;
 }

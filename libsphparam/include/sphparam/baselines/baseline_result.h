@@ -36,4 +36,12 @@ struct BaselineResult {
   std::vector<BaselineStage> stages;
 };
 
+/// What a method of others says of itself, without its map.
+struct BaselineAccount {
+  BaselineEnd end = BaselineEnd::NoResult;
+  int iterations = 0;     // of all stages
+  std::string statement;  // why it ended
+  std::string citation;
+};
+
 }  // namespace sphparam

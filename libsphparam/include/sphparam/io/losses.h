@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "sphparam/io/mesh_file.h"
@@ -19,8 +18,5 @@ std::vector<std::string> losses_among(const std::vector<std::string>& notes);
 
 /// "a, b and c"; of more than eight words the first ones, and how many others.
 std::string enumerated(const std::vector<std::string>& words);
-
-/// "1 skin", "3 skins".
-std::string counted(long count, std::string_view thing);
 
 }  // namespace sphparam

@@ -46,12 +46,18 @@ struct RebuildProof {
   bool certified = false;  // the directions of its vertices are a map of it
   Error base, rebuilt;
   double seconds = 0;
-  /// The image does harm, by RMS.
+  /// The image does harm, by RMS: see `farther_warning`.
   bool farther_than_base() const { return rebuilt.rms > base.rms; }
 };
 
+/// What is told then.
+inline constexpr char farther_warning[] =
+    "--displace makes it worse: surface and image together are farther from the mesh than the "
+    "surface alone";
+
 struct WrittenDisplacement {
-  DisplacementFigures figures;
+  int width = 0, height = 0;  // of the image
+  DisplacementFigures figures = {};
   double seconds = 0;  // of the image
   std::optional<RebuildProof> proof = {};
 };

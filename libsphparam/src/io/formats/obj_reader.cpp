@@ -12,6 +12,7 @@
 #include "io/files/text_scanner.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/polygons.h"
+#include "number_text.h"
 
 // One pass over the lines fills flat arrays; faces hold three indices a corner (v/vt/vn), vt and vn
 // only from the first corner that has one. An index may name a vertex of a later line, so indices

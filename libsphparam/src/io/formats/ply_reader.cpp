@@ -13,6 +13,7 @@
 #include "io/formats/ply_header.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/polygons.h"
+#include "number_text.h"
 
 // A body gives numbers one by one: from a text, one record a line, or from bytes in either order.
 // The elements are read from it in the order of the header by one piece of code for all encodings.

@@ -10,6 +10,7 @@
 #include "io/formats/gltf/gltf_json.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/mesh_file.h"
+#include "number_text.h"
 
 // What starts like this file's name knows tinygltf, and that as a stranger: the container and the
 // JSON are checked first, it gets files through callbacks that ignore the paths it makes, images

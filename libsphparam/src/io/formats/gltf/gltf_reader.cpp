@@ -15,6 +15,7 @@
 #include "io/formats/gltf/gltf_nodes.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/up_axis.h"
+#include "number_text.h"
 
 // Every placed mesh in turn: positions go through x ↦ Ax + b, normals through A⁻ᵀ; where det A < 0
 // the triangles are turned over, as the specification says. Primitives of one placed mesh that

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sphparam/io/mesh_file.h"
+#include "sphparam/measure/surface_distance.h"
+
+namespace sphparam {
+
+/// A limit that was set, and what was measured.
+struct DistanceLimit {
+  std::string name;
+  double limit = 0, measured = 0;
+
+  bool exceeded() const { return !(measured <= limit); }
+};
+
+/// How far two surfaces are apart. References are to values that outlive the record.
+struct DistanceRecord {
+  std::string first, second;  // files
+  const MeshFile& first_file;
+  const MeshFile& second_file;
+  const DistanceOptions& options;
+  const SurfaceDistance& distance;
+  std::vector<DistanceLimit> limits = {};
+  std::vector<std::pair<std::string, std::string>> outputs = {};  // what it is, where it is
+  double seconds = 0;
+};
+
+/// As `sphparam measure --json` tells it. Keys of each direction as MeshLab has them: RMS, max,
+/// mean, min, n_samples, diag_mesh_0 (of the mesh sampled) and diag_mesh_1.
+std::string to_json(const DistanceRecord& record);
+
+/// A table for people.
+std::string to_text(const DistanceRecord& record);
+
+}  // namespace sphparam

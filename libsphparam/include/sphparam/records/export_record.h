@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sphparam/gltf/export.h"
+
+namespace sphparam {
+
+/// What was exported.
+struct ExportRecord {
+  std::string input = {};                 // the file of the mesh
+  std::vector<ChartFigures> charts = {};  // of the levels, finest first
+  WrittenFiles outputs = {};
+  double seconds = 0;
+};
+
+/// As `sphparam export --json` tells it.
+std::string to_json(const ExportRecord& record);
+
+}  // namespace sphparam

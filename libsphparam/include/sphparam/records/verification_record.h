@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "sphparam/chart/chart_report.h"
+#include "sphparam/io/verify_map.h"
+
+namespace sphparam {
+
+/// A map as somebody wrote it, proved again. The reference is to a value that outlives the record.
+struct VerificationRecord {
+  std::string file;
+  const VerifiedMap& map;
+  bool chart_wanted = false;  // it is told then that there is none
+  std::optional<ChartReport> chart = {};
+  double seconds = 0;
+};
+
+/// As `sphparam verify --json` tells it.
+std::string to_json(const VerificationRecord& record);
+
+/// Several lines for people.
+std::string to_text(const VerificationRecord& record);
+
+/// Where the rays are no points of a sphere: what was judged instead, and the way out. Else empty.
+std::string roundness_warning(const VerifiedMap& map);
+
+}  // namespace sphparam

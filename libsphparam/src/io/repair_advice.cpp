@@ -1,0 +1,80 @@
+#include "sphparam/io/repair_advice.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <string_view>
+
+#include "sphparam/names.h"
+#include "sphparam/words.h"
+#include "number_text.h"
+
+namespace sphparam {
+
+namespace {
+
+template <class Items>
+std::string message_lines(const Items& items) {
+  std::string lines;
+  for (const auto& item : items) lines += "    " + item.message + "\n";
+  return lines;
+}
+
+/// "    2: 6.1 % of the area, 7 % of the faces (1203), with vertex 410"
+std::string part_lines(const KeptParts& parts) {
+  std::string lines;
+  for (size_t i = 0; i < parts.largest.size(); ++i) {
+    const SurfacePart& part = parts.largest[i];
+    lines += "    " + std::to_string(i + 1) + ": " + percent(part.area_share) + " of the area, " +
+             percent(part.face_share) + " of the faces (" + std::to_string(part.faces) +
+             "), with vertex " + std::to_string(part.vertex) + "\n";
+  }
+  return lines + (parts.count > std::ssize(parts.largest) ? "    …\n" : "");
+}
+
+/// A share that the largest part reaches, with two decimals.
+std::string reached_share(const KeptParts& parts) {
+  return short_number(std::floor(100 * parts.largest.front().area_share) / 100);
+}
+
+/// Why --repair alone leaves all components, and how to choose.
+std::string choice_lines(const KeptParts& parts) {
+  if (!parts.refused) return "";
+  return "  --repair keeps one of " + std::to_string(parts.count) +
+         " components, and drops no more than specks unasked. By area:\n" + part_lines(parts) +
+         "  --component N keeps the N-th, --min-kept " + reached_share(parts) + " the largest.\n";
+}
+
+/// A name as a shell takes it.
+std::string for_shell(const std::string& path) {
+  constexpr std::string_view harmless = "._-/+:@%,=";
+  const auto plain = [&](unsigned char c) {
+    return std::isalnum(c) || c >= 0x80 || harmless.find(static_cast<char>(c)) < harmless.size();
+  };
+  if (std::all_of(path.begin(), path.end(), plain)) return path;
+  std::string result = "'";
+  for (const char c : path) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return result + "'";
+}
+
+}  // namespace
+
+std::string repair_advice(const RepairTrial& trial, const std::string& path) {
+  const std::string choice = choice_lines(trial.parts), options = options_line(trial.options);
+  if (!trial.can_mend()) {
+    return choice + "  " + options + " cannot mend it. This would remain:\n" +
+           message_lines(trial.remaining);
+  }
+  const std::string kept = kept_line(trial.parts);
+  return choice + "  " + options + " would mend it, as in `sphparam map " + for_shell(path) + " " +
+         options + " -o mended.sph.ply`:\n" + message_lines(trial.actions) +
+         (kept.empty() ? "" : "    " + kept + "\n");
+}
+
+std::string repair_advice(const MeshRefusal& refusal) {
+  std::string advice = refusal.trial() ? repair_advice(*refusal.trial(), refusal.path()) : "";
+  if (!refusal.done().empty()) advice += "  Done already:\n" + message_lines(refusal.done());
+  return advice;
+}
+
+}  // namespace sphparam

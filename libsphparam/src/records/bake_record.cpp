@@ -1,0 +1,52 @@
+#include "sphparam/records/bake_record.h"
+
+#include <nlohmann/json.hpp>
+
+#include "records/json_parts.h"
+#include "sphparam/io/paths.h"
+#include "sphparam/version.h"
+
+namespace sphparam {
+
+namespace {
+
+Json images_json(const std::vector<BakedImage>& images) {
+  Json result = Json::array();
+  for (const BakedImage& image : images) {
+    Json one = {{"map", image.field},
+                {"about", image.about},
+                {"file", image.path},
+                {"sample_type", name_of(image.sample_type)},
+                {"channels", image.channels}};
+    if (image.range) one["range"] = {image.range->first, image.range->second};
+    result.push_back(std::move(one));
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string to_json(const BakeRecord& record) {
+  const BakeSettings& settings = record.settings;
+  const std::optional<double>& distance = record.baked.target_distance;
+  return text_of(
+      {{"version", version},
+       {"source", {{"file", record.input}, {"triangles", record.source.mesh().face_count()}}},
+       {"for", record.target.empty() ? Json() : Json(record.target)},
+       {"for_distance", distance ? Json(*distance) : Json()},
+       {"width", settings.width},
+       {"height", settings.width / 2},
+       {"samples", settings.samples},
+       {"convention", info_of(settings.convention).name},
+       {"refine_poles", settings.refine_poles},
+       {"images", images_json(record.baked.images)},
+       {"seconds", record.seconds}});
+}
+
+std::string line_of(const BakedImage& image, const BakeSettings& settings) {
+  return settings.source_name + ": " + image.field + ", " + std::to_string(settings.width) + " × " +
+         std::to_string(settings.width / 2) + " " + name_of(image.sample_type) + " → " +
+         output_name(image.path);
+}
+
+}  // namespace sphparam

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "compare/entry.h"
+#include "sphparam/io/mesh_source.h"
+
+namespace sphparam {
+
+/// Maps of one mesh side by side. References are to values that outlive the record.
+struct ComparisonRecord {
+  const MeshSource& source;
+  const std::vector<Entry>& entries;
+  double seconds = 0;
+};
+
+/// As `compare.json` has it.
+std::string to_json(const ComparisonRecord& record);
+
+}  // namespace sphparam

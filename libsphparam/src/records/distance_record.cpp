@@ -1,0 +1,133 @@
+// Distances as JSON and as a table: absolute, and relative to the diagonal of the first mesh.
+
+#include "sphparam/records/distance_record.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "records/json_parts.h"
+#include "sphparam/io/paths.h"
+#include "sphparam/version.h"
+#include "number_text.h"
+
+namespace sphparam {
+
+namespace {
+
+Json mesh_json(const std::string& path, const MeshFile& file, double diagonal) {
+  return {{"file", path},
+          {"format", file.format},
+          {"vertices", file.mesh.vertex_count()},
+          {"triangles", file.mesh.face_count()},
+          {"diagonal", diagonal},
+          {"notes", file.notes}};
+}
+
+Json side_json(const OneSidedDistance& side, double own_diagonal, double other_diagonal,
+               double reference) {
+  return {{"RMS", side.rms},
+          {"max", side.max},
+          {"mean", side.mean},
+          {"min", side.min},
+          {"n_samples", side.samples},
+          {"diag_mesh_0", own_diagonal},
+          {"diag_mesh_1", other_diagonal},
+          {"max_bound", side.max_bound},
+          {"farthest", vector_json(side.farthest)},
+          {"relative",
+           {{"RMS", side.rms / reference},
+            {"max", side.max / reference},
+            {"mean", side.mean / reference},
+            {"min", side.min / reference}}}};
+}
+
+Json sampled_json(const DistanceOptions& options) {
+  Json on = Json::array();
+  if (options.faces) on.push_back("faces");
+  if (options.edges) on.push_back("edges");
+  if (options.vertices) on.push_back("vertices");
+  return {{"on", on}, {"samples", options.samples}, {"seed", options.seed}};
+}
+
+Json limits_json(const std::vector<DistanceLimit>& limits) {
+  Json all = Json::array();
+  for (const DistanceLimit& limit : limits) {
+    all.push_back({{"option", limit.name},
+                   {"limit", limit.limit},
+                   {"measured", limit.measured},
+                   {"exceeded", limit.exceeded()}});
+  }
+  return all;
+}
+
+/// One line of the table: four lengths, each with its share of the diagonal.
+std::string row(const std::string& name, double max, double mean, double rms, double min,
+                double diagonal) {
+  char text[32];
+  std::string line = name;
+  for (const double length : {max, mean, rms, min}) {
+    std::snprintf(text, sizeof text, "%13.6g", length);
+    line += text;
+    std::snprintf(text, sizeof text, " %8.3g%%", 100 * length / diagonal);
+    line += text;
+  }
+  return line + "\n";
+}
+
+std::string row(const std::string& name, const OneSidedDistance& side, double diagonal) {
+  return row(name, side.max, side.mean, side.rms, side.min, diagonal);
+}
+
+std::string place(const Vector3& point) {
+  return short_number(point.x(), 6) + " " + short_number(point.y(), 6) + " " +
+         short_number(point.z(), 6);
+}
+
+}  // namespace
+
+std::string to_json(const DistanceRecord& record) {
+  const SurfaceDistance& distance = record.distance;
+  const double first = distance.diagonal_first, second = distance.diagonal_second;
+  return text_of({{"sphparam", version},
+                  {"command", "measure"},
+                  {"first", mesh_json(record.first, record.first_file, first)},
+                  {"second", mesh_json(record.second, record.second_file, second)},
+                  {"sampled", sampled_json(record.options)},
+                  {"first_to_second", side_json(distance.forth, first, second, first)},
+                  {"second_to_first", side_json(distance.back, second, first, first)},
+                  {"two_sided",
+                   {{"RMS", distance.rms()},
+                    {"max", distance.max()},
+                    {"max_bound", distance.max_bound()},
+                    {"mean", distance.mean()},
+                    {"relative",
+                     {{"RMS", distance.rms() / first},
+                      {"max", distance.max() / first},
+                      {"mean", distance.mean() / first}}}}},
+                  {"limits", limits_json(record.limits)},
+                  {"outputs", pairs_json(record.outputs)},
+                  {"seconds", record.seconds}});
+}
+
+std::string to_text(const DistanceRecord& record) {
+  const SurfaceDistance& distance = record.distance;
+  const std::string first = display_name(record.first), second = display_name(record.second);
+  std::string text = "1: " + first + "\n2: " + second + "\n%: of the diagonal of 1, " +
+                     short_number(distance.diagonal_first, 6) + "; " +
+                     std::to_string(distance.forth.samples) + " and " +
+                     std::to_string(distance.back.samples) + " samples\n\n";
+  text +=
+      "                       max                   mean                    RMS"
+      "                    min\n";
+  text += row("1 to 2", distance.forth, distance.diagonal_first);
+  text += row("2 to 1", distance.back, distance.diagonal_first);
+  text += row("larger", distance.max(), distance.mean(), distance.rms(),
+              std::max(distance.forth.min, distance.back.min), distance.diagonal_first);
+  text += "\nfarthest: " + place(distance.forth.farthest) + " of 1, " +
+          place(distance.back.farthest) + " of 2; no point is farther than " +
+          short_number(distance.max_bound(), 6) + "\n";
+  return text;
+}
+
+}  // namespace sphparam

@@ -1,0 +1,32 @@
+#include "sphparam/records/export_record.h"
+
+#include <nlohmann/json.hpp>
+
+#include "records/json_parts.h"
+#include "sphparam/version.h"
+
+namespace sphparam {
+
+std::string to_json(const ExportRecord& record) {
+  Json levels = Json::array(), outputs = Json::array();
+  for (const ChartFigures& chart : record.charts) {
+    levels.push_back({{"triangles", chart.triangles},
+                      {"vertices", chart.vertices},
+                      {"splits", chart.splits},
+                      {"chart_certified", chart.chart.one_to_one()},
+                      {"certified_as_stored", chart.stored.one_to_one()},
+                      {"folded_as_stored", chart.stored.folded},
+                      {"around_pole", chart.chart.around_pole}});
+    if (chart.sphere_folds >= 0) levels.back()["sphere_folds_as_stored"] = chart.sphere_folds;
+  }
+  for (const auto& [path, bytes] : record.outputs)
+    outputs.push_back({{"file", path}, {"bytes", bytes}});
+  return text_of({{"sphparam", version},
+                  {"command", "export"},
+                  {"input", record.input},
+                  {"levels", levels},
+                  {"outputs", outputs},
+                  {"seconds", record.seconds}});
+}
+
+}  // namespace sphparam

@@ -1,0 +1,114 @@
+#include "sphparam/records/inspection_record.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "records/json_parts.h"
+#include "sphparam/io/paths.h"
+#include "sphparam/io/repair_advice.h"
+#include "sphparam/io/sphere_file.h"
+#include "sphparam/names.h"
+#include "sphparam/version.h"
+#include "sphparam/words.h"
+#include "number_text.h"
+
+namespace sphparam {
+
+namespace {
+
+constexpr int figure_digits = 6;
+
+/// "nx, ny, nz, texture coordinates per corner, 2 materials"
+std::string attributes(const MeshFile& file) {
+  std::vector<std::string> words;
+  for (const Property& property : file.vertex_properties) words.push_back(property.name);
+  for (const Property& property : file.face_properties)
+    words.push_back(property.name + " per face");
+  if (file.corner_texcoords) words.push_back("texture coordinates per corner");
+  if (file.corner_normals) words.push_back("normals per corner");
+  if (!file.materials.empty()) {
+    words.push_back(std::to_string(file.materials.size()) + " materials");
+  }
+  return words.empty() ? "none" : joined(words);
+}
+
+std::string point(const Vector3& p) {
+  return "(" + short_number(p.x(), figure_digits) + ", " + short_number(p.y(), figure_digits) +
+         ", " + short_number(p.z(), figure_digits) + ")";
+}
+
+/// "  label         value"
+std::string line(const std::string& label, const std::string& value) {
+  constexpr size_t column = 14;
+  return "  " + label + std::string(column - std::min(label.size(), column - 1), ' ') + value +
+         "\n";
+}
+
+std::string topology(const MeshInspection& mesh) {
+  std::string text = "Euler characteristic " + std::to_string(mesh.euler_characteristic);
+  if (mesh.genus >= 0) text += ", genus " + std::to_string(mesh.genus);
+  if (mesh.boundary_loops) text += ", " + std::to_string(mesh.boundary_loops) + " boundary loops";
+  return text;
+}
+
+std::string figures(const MeshSource& source) {
+  const MeshInspection& mesh = source.inspection;
+  const MeshFile& file = source.file;
+  const std::string triangulated =
+      file.polygons ? ", " + std::to_string(file.polygons) + " polygons were triangulated" : "";
+  return line("format", file.format) + line("vertices", std::to_string(mesh.vertices)) +
+         line("triangles", std::to_string(mesh.faces) + triangulated) +
+         line("edges", std::to_string(mesh.edges)) +
+         line("components", std::to_string(mesh.components)) + line("topology", topology(mesh)) +
+         line("bounding box", point(mesh.lower) + " to " + point(mesh.upper)) +
+         line("area", short_number(mesh.area, figure_digits)) +
+         line("volume", short_number(mesh.volume, figure_digits)) +
+         line("attributes", attributes(file)) +
+         line("welding", source.welded ? "used: the faces as indexed are not closed" : "not used");
+}
+
+/// How the map that a file has came about; nothing where it has none.
+Provenance provenance_in(const MeshFile& file) {
+  return has_map(file) ? read_provenance(file) : Provenance{};
+}
+
+/// What --repair would do; null for a mesh that needs none.
+Json trial_json(const std::optional<RepairTrial>& trial) {
+  if (!trial) return nullptr;
+  Json remaining = Json::array();
+  for (const MeshDefect& defect : trial->remaining) remaining.push_back(defect_json(defect));
+  return {{"mends", trial->mends_unasked()},
+          {"mends_with", trial->can_mend() ? Json(options_line(trial->options)) : Json()},
+          {"actions", repairs_json(trial->actions)},
+          {"components", parts_json(trial->parts)},
+          {"remaining", remaining}};
+}
+
+}  // namespace
+
+std::string to_json(const InspectionRecord& record) {
+  return text_of({{"sphparam", version},
+                  {"command", "info"},
+                  {"input", input_json(record.source)},
+                  {"inspection", inspection_json(record.source.inspection)},
+                  {"repair", trial_json(record.repair)},
+                  {"welded", record.source.welded},
+                  {"provenance", pairs_json(provenance_in(record.source.file))},
+                  {"notes", record.source.notes},
+                  {"seconds", record.seconds}});
+}
+
+std::string to_text(const InspectionRecord& record) {
+  const MeshSource& source = record.source;
+  std::string text = display_name(source.path) + "\n" + figures(source);
+  for (const auto& [key, value] : provenance_in(source.file)) text += line("map " + key, value);
+  for (const std::string& note : source.notes) text += line("note", note);
+  if (!source.inspection.defects.empty()) {
+    text += "What is odd or wrong:\n" + defect_list(source.inspection.defects);
+  }
+  if (source.inspection.is_sphere()) return text + "A closed genus-0 mesh: it can be mapped.\n";
+  text += "This mesh cannot be mapped to a sphere as it is.\n";
+  return record.repair ? text + repair_advice(*record.repair, source.path) : text;
+}
+
+}  // namespace sphparam

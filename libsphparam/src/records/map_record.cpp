@@ -1,0 +1,148 @@
+#include "sphparam/records/map_record.h"
+
+#include <nlohmann/json.hpp>
+
+#include "records/json_parts.h"
+#include "sphparam/io/file_numbers.h"
+#include "sphparam/names.h"
+#include "sphparam/version.h"
+
+namespace sphparam {
+
+namespace {
+
+/// Vertices go by their numbers in the file.
+Json vertex_json(const std::optional<Vertex>& vertex, const FileNumbers& numbers) {
+  return vertex ? Json(numbers.number(*vertex)) : Json();
+}
+
+Json poles_json(const std::optional<Poles>& poles, const FileNumbers& numbers) {
+  if (!poles) return nullptr;
+  return {{"north", numbers.number(poles->north)}, {"south", numbers.number(poles->south)}};
+}
+
+/// The options as given: numbers of the file already.
+Json wanted_poles(const ParameterizeOptions& options) {
+  if (!options.poles) return options.automatic_poles ? "auto" : "none";
+  return {{"north", options.poles->north}, {"south", options.poles->south}};
+}
+
+Json pins_json(const MapRecord& record) {
+  const FileNumbers numbers(record.source.file);
+  const std::vector<double>& residuals = record.result.pin_residuals;
+  Json result = Json::array();
+  for (size_t i = 0; i < record.pins.size(); ++i) {
+    const Landmark& pin = record.pins[i];
+    result.push_back({{"vertex", numbers.number(pin.vertex)},
+                      {"theta", pin.coordinates.theta},
+                      {"phi", pin.coordinates.phi},
+                      {"residual", i < residuals.size() ? Json(residuals[i]) : Json()}});
+  }
+  return result;
+}
+
+Json pole_residuals_json(const std::vector<double>& residuals) {
+  if (residuals.empty()) return nullptr;
+  return {{"north", residuals[0]}, {"south", residuals[1]}};
+}
+
+/// The λ that the map is minimised for, where one is.
+Json lambda_json(const MapRecord& record) {
+  const ParameterizeOptions& options = record.options;
+  const bool minimises = !record.account && options.method != Method::Paper &&
+                         options.energy.kind == EnergyKind::AngleAndArea;
+  if (!minimises) return nullptr;
+  return record.result.balance ? record.result.balance->lambda : options.energy.lambda;
+}
+
+Json balance_json(const std::optional<BalanceRecord>& balance) {
+  if (!balance) return nullptr;
+  return {{"lambda", balance->lambda},
+          {"mean_abs_log2_area", balance->area_error},
+          {"moved", balance->moved}};
+}
+
+Json options_json(const MapRecord& record) {
+  const ParameterizeOptions& options = record.options;
+  const std::string method = record.method.empty() ? name_of(options.method) : record.method;
+  if (record.account) {
+    return {{"method", method},
+            {"repair", names_of(record.repairs)},
+            {"repair_map", options.repair_paper}};
+  }
+  Json result = {{"method", method},
+                 {"poles", wanted_poles(options)},
+                 {"meridian", options.meridian ? Json(*options.meridian) : Json()},
+                 {"lambda", options.energy.lambda},
+                 {"repair", names_of(record.repairs)},
+                 {"repair_map", options.repair_paper}};
+  if (options.method == Method::Progressive) {
+    result["balance"] = name_of(options.balance);
+    result["quality"] = name_of(options.quality);
+    result["energy"] = name_of(options.energy.kind);
+  }
+  if (options.method == Method::Paper) {
+    const PaperSettings& paper = options.paper;
+    result["weights"] = name_of(paper.weights);
+    result["epsilon"] = paper.epsilon;
+    result["iterations"] = paper.iterations;
+    result["rings"] = paper.rings;
+    result["sweeps"] = paper.sweeps;
+  }
+  return result;
+}
+
+const char* name_of(BaselineEnd end) {
+  switch (end) {
+    case BaselineEnd::Converged:
+      return "converged";
+    case BaselineEnd::IterationLimit:
+      return "iteration-limit";
+    case BaselineEnd::Stalled:
+      return "stalled";
+    case BaselineEnd::NoResult:
+      return "no-result";
+  }
+  return "";
+}
+
+/// Of a method of others; null for ours.
+Json account_json(const std::optional<BaselineAccount>& account) {
+  if (!account) return nullptr;
+  return {{"source", account->citation},
+          {"end", name_of(account->end)},
+          {"iterations", account->iterations},
+          {"statement", account->statement}};
+}
+
+}  // namespace
+
+std::string to_json(const MapRecord& record) {
+  const FileNumbers numbers(record.source.file);
+  return text_of({{"sphparam", version},
+                  {"command", "map"},
+                  {"input", input_json(record.source)},
+                  {"inspection", inspection_json(record.source.inspection)},
+                  {"repairs", repairs_json(record.source.repairs)},
+                  {"components", parts_json(record.source.parts)},
+                  {"options", options_json(record)},
+                  {"account", account_json(record.account)},
+                  {"stages", stages_json(record.result.stages)},
+                  {"made_by", record.result.made_by},
+                  {"poles", poles_json(record.result.poles, numbers)},
+                  {"meridian", vertex_json(record.result.meridian, numbers)},
+                  {"pole_residuals", pole_residuals_json(record.pole_residuals)},
+                  {"pins", pins_json(record)},
+                  {"lambda", lambda_json(record)},
+                  {"balance", balance_json(record.result.balance)},
+                  {"energy_cost", record.result.pole_cost},
+                  {"certificate", certificate_json(record.result.certificate)},
+                  {"distortion", distortion_json(record.distortion)},
+                  {"chart", chart_json(record.chart)},
+                  {"outputs", pairs_json(record.outputs)},
+                  {"warnings", record.result.warnings},
+                  {"notes", record.source.notes},
+                  {"seconds", record.seconds}});
+}
+
+}  // namespace sphparam

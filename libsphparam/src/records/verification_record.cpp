@@ -1,0 +1,82 @@
+#include "sphparam/records/verification_record.h"
+
+#include <nlohmann/json.hpp>
+
+#include "records/json_parts.h"
+#include "sphparam/io/paths.h"
+#include "sphparam/version.h"
+#include "sphparam/words.h"
+#include "number_text.h"
+
+namespace sphparam {
+
+namespace {
+
+std::string words_of(RayPlace place) {
+  switch (place) {
+    case RayPlace::Rays:
+      return "properties sx sy sz";
+    case RayPlace::Angles:
+      return "properties theta phi";
+    case RayPlace::AnglesAttribute:
+      return "attribute _THETA_PHI";
+    case RayPlace::Positions:
+      return "vertex positions";
+  }
+  return "";
+}
+
+/// Where the rays were found.
+std::string rays_of(const VerifiedMap& map) {
+  std::string words = words_of(map.place);
+  if (map.of_two_files) words += " of the sphere";
+  if (map.cut_otherwise > 0) {
+    words += ", " + std::to_string(map.cut_otherwise) + " of its polygons cut as in the mesh";
+  }
+  return words;
+}
+
+}  // namespace
+
+std::string roundness_warning(const VerifiedMap& map) {
+  if (map.is_round()) return "";
+  const bool is_gltf = !map.of_two_files && map.format.starts_with("glTF");
+  return "these points are not on a sphere about the origin: their radius is " +
+         short_number(map.mean_length) + " up to a factor of " +
+         short_number(1 + map.length_deviation) + "; their directions are judged" +
+         (is_gltf ? "; `sphparam export --theta-phi` writes the map into glTF, as the attribute "
+                    "_THETA_PHI"
+                  : "");
+}
+
+std::string to_json(const VerificationRecord& record) {
+  const VerifiedMap& map = record.map;
+  std::vector<std::string> notes = map.notes;
+  if (!map.is_round()) notes.push_back(roundness_warning(map));
+  return text_of({{"sphparam", version},
+                  {"command", "verify"},
+                  {"file", record.file},
+                  {"rays", rays_of(map)},
+                  {"mean_length", map.mean_length},
+                  {"length_deviation", map.length_deviation},
+                  {"certificate", certificate_json(map.certificate)},
+                  {"distortion", distortion_json(map.distortion)},
+                  {"chart", chart_json(record.chart)},
+                  {"notes", notes},
+                  {"seconds", record.seconds}});
+}
+
+std::string to_text(const VerificationRecord& record) {
+  const VerifiedMap& map = record.map;
+  std::string text = display_name(record.file) + ": " + verdict(map.certificate) + ", " +
+                     std::to_string(map.mesh.face_count()) + " triangles" +
+                     (map.certificate.reversed ? ", seen from inside\n" : "\n");
+  text += complaint(map.certificate);
+  text += "  rays: " + rays_of(map) + ", mean length " + short_number(map.mean_length) +
+          ", largest relative deviation " + short_number(map.length_deviation) + "\n";
+  if (map.distortion) text += "  " + distortion_line(*map.distortion) + "\n";
+  if (record.chart_wanted) text += "  " + chart_line(record.chart) + "\n";
+  return text;
+}
+
+}  // namespace sphparam

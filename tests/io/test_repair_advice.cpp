@@ -1,0 +1,63 @@
+#include <catch2/catch.hpp>
+
+#include "sphparam/io/repair_advice.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+
+namespace {
+
+MeshSource source_of(const TriangleMesh& mesh, const std::string& path) {
+  MeshSource source;
+  source.path = path;
+  source.file.mesh = mesh;
+  source.inspection = inspect_mesh(mesh);
+  return source;
+}
+
+TriangleMesh open_ball() {
+  TriangleMesh mesh = icosphere(1);
+  mesh.triangles.conservativeResize(mesh.face_count() - 1, 3);
+  return mesh;
+}
+
+/// Two balls, the second one smaller and beside the first.
+TriangleMesh two_balls() {
+  const TriangleMesh ball = icosphere(1);
+  TriangleMesh mesh;
+  mesh.positions.resize(2 * ball.vertex_count(), 3);
+  mesh.positions << ball.positions, (0.9 * ball.positions).rowwise() + Vector3(3, 0, 0).transpose();
+  mesh.triangles.resize(2 * ball.face_count(), 3);
+  mesh.triangles << ball.triangles, (ball.triangles.array() + ball.vertex_count()).matrix();
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("repair_advice: what would mend a mesh is told as it is typed") {
+  const MeshSource source = source_of(open_ball(), "it's a.ply");
+  CHECK_THAT(repair_advice(try_repair(source), source.path),
+             StartsWith("  --repair would mend it, as in "
+                        "`sphparam map 'it'\\''s a.ply' --repair -o mended.sph.ply`:\n    1 hole"));
+}
+
+TEST_CASE("repair_advice: components are listed where one must be chosen") {
+  const MeshSource source = source_of(two_balls(), "two.ply");
+  const std::string advice = repair_advice(try_repair(source), source.path);
+  CHECK_THAT(advice, StartsWith("  --repair keeps one of 2 components") && Contains("\n    2: ") &&
+                         Contains("with vertex 42\n") && Contains("--min-kept 0.55 the largest") &&
+                         Contains("  --repair --component 1 would mend it, as in `sphparam map "
+                                  "two.ply --repair --component 1 -o"));
+}
+
+TEST_CASE("repair_advice: a refusal says what was done before") {
+  MeshSource source = source_of(open_ball(), "a.ply");
+  source.repairs = {{RepairKind::FaceTurned, 1, {4}, "1 face turned over"}};
+  CHECK(repair_advice(MeshRefusal(source, std::nullopt)) ==
+        "  Done already:\n    1 face turned over\n");
+  const std::string advice = repair_advice(MeshRefusal(source, try_repair(source)));
+  CHECK_THAT(advice, StartsWith("  --repair would mend it") && Contains("  Done already:\n"));
+}

@@ -1,0 +1,69 @@
+#include <catch2/catch.hpp>
+#include <limits>
+#include <string>
+
+#include "number_text.h"
+#include "sphparam/names.h"
+#include "sphparam/words.h"
+
+using namespace sphparam;
+
+TEST_CASE("number_text: as many digits as people read, or all that matter") {
+  CHECK(short_number(12.345) == "12.3");
+  CHECK(short_number(0.001234) == "0.00123");
+  CHECK(short_number(1234567, 6) == "1.23457e+06");
+  CHECK(percent(0.12345) == "12.3 %");
+  CHECK(percent(0.12345, 2) == "12 %");
+  CHECK(shortest(0.1) == "0.1");
+  for (const double value : {1 / 3., std::numeric_limits<double>::min(), 1e300})
+    CHECK(std::stod(shortest(value)) == value);
+}
+
+TEST_CASE("number_text: one is one, and lists have commas") {
+  CHECK(counted(1, "skin") == "1 skin");
+  CHECK(counted(0, "skin") == "0 skins");
+  CHECK(counted(1, "face has", "faces have") == "1 face has");
+  CHECK(counted(3, "face has", "faces have") == "3 faces have");
+  CHECK(joined({}).empty());
+  CHECK(joined({"a"}) == "a");
+  CHECK(joined({"a", "", "b"}) == "a, , b");
+  CHECK(joined({"a", "b"}, "; ") == "a; b");
+}
+
+TEST_CASE("words: every defect with its hint") {
+  const MeshDefect open{DefectKind::BoundaryEdge, true, 1, {}, "1 boundary edge", "fill it"};
+  const MeshDefect odd{DefectKind::ZeroAreaFace, false, 1, {}, "1 flat face", ""};
+  CHECK(defect_list({}).empty());
+  CHECK(defect_list({open, odd}) == "  1 boundary edge\n    hint: fill it\n  1 flat face\n");
+}
+
+TEST_CASE("words: what choosing a component kept, where one was dropped") {
+  CHECK(kept_line({}).empty());
+  KeptParts parts;
+  parts.count = 2;
+  parts.area_share = 0.997;
+  parts.face_share = 0.98;
+  CHECK(kept_line(parts) == "kept 99.7 % of the area and 98 % of the faces, lost 0.3 % and 2 %");
+  parts.refused = true;
+  CHECK(kept_line(parts).empty());
+}
+
+TEST_CASE("words: a stage tells what was measured, and nothing else") {
+  StageRecord stage{.name = "harmonic", .seconds = 0.125};
+  CHECK(stage_line(stage) == "harmonic: 0.125 s");
+  stage.folds = 3;
+  stage.distortion = DistortionSummary{.mean_abs_ln_area = 0.591, .mean_abs_ln_angle = 0.55};
+  CHECK(stage_line(stage) == "harmonic: 0.125 s, 3 folds, " + distortion_line(*stage.distortion));
+  CHECK(distortion_line(*stage.distortion) == "angle 0.55 area 0.591");
+}
+
+TEST_CASE("names: repairs by their words, and what asks for more than the usual ones") {
+  CHECK(names_of(RepairOptions::none()).empty());
+  CHECK(names_of({}).size() == repair_switches().size());
+  RepairOptions options = RepairOptions::none();
+  options.holes = options.non_manifold = true;
+  CHECK(names_of(options) == std::vector<std::string>{"non-manifold", "holes"});
+  CHECK(options_line(RepairOptions{}) == "--repair");
+  CHECK(options_line(RepairOptions{.component = 2, .largest_hole = 900}) ==
+        "--repair --component 2 --max-hole 900");
+}

@@ -1,0 +1,334 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "records/comparison_record.h"
+#include "sphparam/records/bake_record.h"
+#include "sphparam/records/distance_record.h"
+#include "sphparam/records/export_record.h"
+#include "sphparam/records/harmonics_record.h"
+#include "sphparam/records/inspection_record.h"
+#include "sphparam/records/map_record.h"
+#include "sphparam/records/remesh_record.h"
+#include "sphparam/records/verification_record.h"
+#include "support/mapped.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+MeshSource source_of(const TriangleMesh& mesh, const std::string& path = "folder/ball.ply") {
+  MeshSource source;
+  source.path = path;
+  source.file.mesh = mesh;
+  source.file.format = "PLY";
+  source.inspection = inspect_mesh(mesh);
+  return source;
+}
+
+MappedMesh ball(int level = 2) {
+  const TriangleMesh mesh = icosphere(level);
+  return mapped(mesh, {mesh.positions});
+}
+
+/// Keys in their order, with commas between.
+std::string keys_of(const Json& json) {
+  std::string keys;
+  for (const auto& [key, value] : json.items()) keys += (keys.empty() ? "" : ",") + key;
+  return keys;
+}
+
+/// How many lines there are; every one has its end.
+long line_count(const std::string& text) {
+  REQUIRE(text.ends_with("\n"));
+  return std::count(text.begin(), text.end(), '\n');
+}
+
+}  // namespace
+
+TEST_CASE("map_record: what was asked for, what came out, by the numbers of the file") {
+  MeshSource source = source_of(icosphere(2));
+  std::vector<double> numbers;
+  for (Vertex v = 0; v < source.file.mesh.vertex_count(); ++v) numbers.push_back(v + 1000.0);
+  source.file.set_vertex_property({"source_vertex", ScalarType::Int32, numbers});
+  ParameterizeOptions options;
+  const Parameterization result = parameterize(source.file.mesh, options);
+  options.poles = Poles{1003, 1005};
+  const Json json = Json::parse(
+      to_json(MapRecord{.source = source,
+                        .options = options,
+                        .result = result,
+                        .repairs = {.holes = false},
+                        .pins = {{7, {.theta = 0.5, .phi = 1.5}}},
+                        .distortion = summarise(measure_distortion(source.file.mesh, result.map)),
+                        .chart = report_chart(source.file.mesh, result.map, 0),
+                        .outputs = {{"map", "ball.sph.ply"}},
+                        .seconds = 1.5}));
+  CHECK(keys_of(json) ==
+        "sphparam,command,input,inspection,repairs,components,options,account,stages,made_by,poles,"
+        "meridian,pole_residuals,pins,lambda,balance,energy_cost,certificate,distortion,chart,"
+        "outputs,warnings,notes,seconds");
+  CHECK(json["input"]["file"] == "folder/ball.ply");
+  CHECK(json["inspection"]["mappable"] == true);
+  CHECK(json["options"]["method"] == "progressive");
+  CHECK(json["options"]["poles"]["north"] == 1003);
+  CHECK(json["options"]["repair"] ==
+        Json({"duplicates", "orientation", "non-manifold", "components", "flat-faces", "unused"}));
+  CHECK(json["account"].is_null());
+  CHECK(json["stages"].size() == result.stages.size());
+  REQUIRE(result.poles);
+  CHECK(json["poles"]["north"] == result.poles->north + 1000);
+  CHECK(json["pins"][0] ==
+        Json({{"vertex", 1007}, {"theta", 0.5}, {"phi", 1.5}, {"residual", nullptr}}));
+  CHECK(json["certificate"]["one_to_one"] == true);
+  CHECK(json["certificate"]["covering"] == result.certificate.covering);
+  CHECK(json["chart"]["certified"] == true);
+  CHECK(json["outputs"]["map"] == "ball.sph.ply");
+  CHECK(json["seconds"] == 1.5);
+}
+
+TEST_CASE("map_record: a method of others has its account, and no weight of ours") {
+  const MeshSource source = source_of(octahedron());
+  const ParameterizeOptions options;
+  const Parameterization result;
+  const Json json = Json::parse(
+      to_json(MapRecord{.source = source,
+                        .options = options,
+                        .result = result,
+                        .method = "tangential",
+                        .account = BaselineAccount{BaselineEnd::Stalled, 7, "no step", "A 1999"}}));
+  CHECK(
+      json["account"] ==
+      Json(
+          {{"source", "A 1999"}, {"end", "stalled"}, {"iterations", 7}, {"statement", "no step"}}));
+  CHECK(keys_of(json["options"]) == "method,repair,repair_map");
+  CHECK(json["options"]["method"] == "tangential");
+  CHECK(json["lambda"].is_null());
+  CHECK(json["certificate"]["one_to_one"] == false);
+  CHECK(json["chart"].is_null());
+}
+
+TEST_CASE("records: numbers that are not finite are null, names that are no UTF-8 are written") {
+  const MeshSource source = source_of(octahedron(), "\xff.ply");
+  const ParameterizeOptions options;
+  Parameterization result;
+  result.pole_cost = std::numeric_limits<double>::infinity();
+  const Json json =
+      Json::parse(to_json(MapRecord{.source = source, .options = options, .result = result}));
+  CHECK(json["energy_cost"].is_null());
+  CHECK(json["input"]["file"] == "\xef\xbf\xbd.ply");
+}
+
+TEST_CASE("inspection_record: a mesh that cannot be mapped, and what would mend it") {
+  TriangleMesh mesh = icosphere(1);
+  mesh.triangles.conservativeResize(mesh.face_count() - 1, 3);
+  const MeshSource source = source_of(mesh);
+  const InspectionRecord record{.source = source, .repair = try_repair(source), .seconds = 2};
+  const Json json = Json::parse(to_json(record));
+  CHECK(keys_of(json) ==
+        "sphparam,command,input,inspection,repair,welded,provenance,notes,seconds");
+  CHECK(json["inspection"]["mappable"] == false);
+  CHECK(json["inspection"]["boundary_loops"] == 1);
+  CHECK(json["inspection"]["defects"][0]["kind"] == "boundary-edge");
+  CHECK(json["inspection"]["defects"][0]["count"] == 3);
+  CHECK(json["repair"]["mends"] == true);
+  CHECK(json["repair"]["mends_with"] == "--repair");
+  CHECK(json["repair"]["actions"][0]["kind"] == "hole-filled");
+  const std::string text = to_text(record);
+  CHECK_THAT(text, StartsWith("ball.ply\n") && Contains("\n  vertices      42\n") &&
+                       Contains("What is odd or wrong:\n") &&
+                       Contains("as in `sphparam map folder/ball.ply --repair -o"));
+  CHECK_THAT(to_text({.source = source}), !Contains("--repair would"));
+}
+
+TEST_CASE("inspection_record: a mesh that can be mapped needs nothing") {
+  const MeshSource source = source_of(icosphere(1));
+  CHECK(Json::parse(to_json(InspectionRecord{.source = source}))["repair"].is_null());
+  CHECK_THAT(to_text({.source = source}),
+             Catch::EndsWith("A closed genus-0 mesh: it can be mapped.\n"));
+}
+
+TEST_CASE("verification_record: where the rays are, what was proved, what is odd") {
+  const TriangleMesh mesh = icosphere(2);
+  VerifiedMap map;
+  map.mesh = mesh;
+  map.map = {mesh.positions};
+  map.certificate = certify(Topology(mesh), map.map);
+  const auto json_of = [&] {
+    return Json::parse(to_json(VerificationRecord{.file = "a/ball.obj", .map = map}));
+  };
+  CHECK(keys_of(json_of()) ==
+        "sphparam,command,file,rays,mean_length,length_deviation,certificate,distortion,chart,"
+        "notes,seconds");
+  CHECK(json_of()["rays"] == "vertex positions");
+  CHECK(json_of()["certificate"]["verdict"] == "one-to-one");
+  CHECK(json_of()["notes"].empty());
+  CHECK(roundness_warning(map).empty());
+  map.length_deviation = 0.5;
+  map.cut_otherwise = 3;
+  CHECK_THAT(roundness_warning(map), StartsWith("these points are not on a sphere"));
+  CHECK(json_of()["notes"][0] == roundness_warning(map));
+  CHECK(json_of()["rays"] == "vertex positions, 3 of its polygons cut as in the mesh");
+  const std::string text = to_text({.file = "a/ball.obj", .map = map, .chart_wanted = true});
+  CHECK_THAT(text,
+             StartsWith("ball.obj: one-to-one, 320 triangles\n") && Contains("\n  chart: none, "));
+  CHECK_THAT(to_text({.file = "a/ball.obj", .map = map}), !Contains("chart"));
+}
+
+TEST_CASE("distance_record: both ways, and what is more than a limit") {
+  MeshFile first, second;
+  first.mesh = icosphere(2);
+  second.mesh = {1.5 * first.mesh.positions, first.mesh.triangles};
+  const DistanceOptions options{.samples = 1000, .vertices = true};
+  const SurfaceDistance distance = measure_distance(first.mesh, second.mesh, options);
+  const DistanceRecord record{.first = "a.ply",
+                              .second = "b.ply",
+                              .first_file = first,
+                              .second_file = second,
+                              .options = options,
+                              .distance = distance,
+                              .limits = {{"rms", 1, 0.5}, {"max", 0.1, 0.5}, {"nan", 1, NAN}}};
+  const Json json = Json::parse(to_json(record));
+  CHECK(keys_of(json) ==
+        "sphparam,command,first,second,sampled,first_to_second,second_to_first,two_sided,limits,"
+        "outputs,seconds");
+  CHECK(json["sampled"]["on"] == Json({"faces", "vertices"}));
+  CHECK(json["first_to_second"]["RMS"] == distance.forth.rms);
+  CHECK(json["second_to_first"]["diag_mesh_0"] == distance.diagonal_second);
+  CHECK(json["two_sided"]["max"] == distance.max());
+  std::vector<bool> exceeded;
+  for (const Json& limit : json["limits"]) exceeded.push_back(limit["exceeded"]);
+  CHECK(exceeded == std::vector<bool>{false, true, true});
+  CHECK_THAT(to_text(record), StartsWith("1: a.ply\n2: b.ply\n") && Contains("\nlarger"));
+}
+
+TEST_CASE("harmonics_record: coefficients come back exactly, as JSON and as a table") {
+  const MappedMesh mapped = ball();
+  const HarmonicExpansion expansion = expand_in_harmonics(mapped, {}, {.degree = 2});
+  const Json json = Json::parse(to_json(expansion, "ball.ply", {{"method", "none"}}));
+  CHECK(keys_of(json) ==
+        "sphparam,mesh,map,degree,basis,fit,iterations,position_rms,position_rms_relative,"
+        "position_rms_unweighted,rms,first_order_ellipsoid,functions");
+  CHECK(json["map"]["method"] == "none");
+  const Functions& coefficients = expansion.fit.coefficients;
+  REQUIRE(json["functions"].size() == 3);
+  CHECK(json["functions"][2]["name"] == "z");
+  for (Eigen::Index i = 0; i < coefficients.rows(); ++i)
+    CHECK(json["functions"][2]["coefficients"][i] == coefficients(i, 2));
+  const std::string table = to_csv(expansion);
+  CHECK_THAT(table, StartsWith("l,m,x,y,z\n0,0,"));
+  CHECK(line_count(table) == 1 + 9);
+  const std::size_t row = table.find("\n1,0,");
+  REQUIRE(row != std::string::npos);
+  const std::string line = table.substr(row + 1, table.find('\n', row + 1) - row - 1);
+  CHECK(std::stod(line.substr(line.rfind(',') + 1)) == coefficients(harmonic_index(1, 0), 2));
+}
+
+TEST_CASE("bake_record: images, and what they are for") {
+  const MappedMesh source = ball();
+  BakeSettings settings{.width = 64, .samples = 2};
+  settings.source_name = "ball.ply";
+  BakeReport baked;
+  baked.images = {{.field = "ao", .about = "share", .path = "out/ao.png", .range = {{0, 1}}}};
+  const BakeRecord record{"in/ball.ply", source, "", settings, baked, 3};
+  const Json json = Json::parse(to_json(record));
+  CHECK(keys_of(json) ==
+        "version,source,for,for_distance,width,height,samples,convention,refine_poles,images,"
+        "seconds");
+  CHECK(json["source"] == Json({{"file", "in/ball.ply"}, {"triangles", 320}}));
+  CHECK(json["for"].is_null());
+  CHECK(json["height"] == 32);
+  CHECK(json["images"][0]["file"] == "out/ao.png");
+  CHECK(json["images"][0]["range"] == Json({0.0, 1.0}));
+  CHECK(line_of(baked.images[0], settings) == "ball.ply: ao, 64 × 32 uint8 → ao.png");
+}
+
+TEST_CASE("export_record: what is proved of each level, and the files") {
+  ChartFigures chart;
+  chart.splits = 3;
+  ExportRecord record{.input = "ball.ply", .charts = {chart}, .outputs = {{"ball.glb", 1234}}};
+  Json json = Json::parse(to_json(record));
+  CHECK(keys_of(json) == "sphparam,command,input,levels,outputs,seconds");
+  CHECK(json["levels"][0]["splits"] == 3);
+  CHECK(json["levels"][0]["chart_certified"] == false);
+  CHECK_FALSE(json["levels"][0].contains("sphere_folds_as_stored"));
+  CHECK(json["outputs"] == Json::array({{{"file", "ball.glb"}, {"bytes", 1234}}}));
+  record.charts[0].sphere_folds = 0;
+  json = Json::parse(to_json(record));
+  CHECK(json["levels"][0]["sphere_folds_as_stored"] == 0);
+}
+
+TEST_CASE("remesh_record: the finest level, and the others where there are several") {
+  const MappedMesh source = ball();
+  const std::vector<GridSpec> grids = {parse_grid("ico:2"), parse_grid("ico:1")};
+  std::vector<LevelOfDetail> levels = levels_of_detail(source, grids);
+  const auto record_of = [&] {
+    return RemeshRecord{.input = "in/ball.ply",
+                        .grid = "ico:2",
+                        .source = source,
+                        .levels = levels,
+                        .outputs = {.mesh = "low.ply", .levels = {"low_0.ply", "low_1.ply"}}};
+  };
+  Json json = Json::parse(to_json(record_of()));
+  CHECK(keys_of(json) ==
+        "sphparam,command,input,grid,sample,averaged_vertices,carried,certified,lods,outputs,"
+        "seconds");
+  CHECK(json["grid"]["vertices"] == 162);
+  CHECK(json["lods"][1]["file"] == "low_1.ply");
+  CHECK(json["lods"][1]["rms"] == levels[1].distance->rms);
+  CHECK(keys_of(json["outputs"]) ==
+        "mesh,limit_mesh,displacement,rebuilt,geometry_image,normals,attribute_images,csv");
+  CHECK(keys_of(json["seconds"]) == "grid,location,positions,total");
+  CHECK(line_count(to_text(record_of())) == 3);
+  levels.pop_back();
+  json = Json::parse(to_json(record_of()));
+  CHECK_FALSE(json.contains("lods"));
+  CHECK(to_text(record_of()) ==
+        "ball.ply: ico:2, 162 vertices, certified one-to-one, 0 s → low_0.ply\n");
+}
+
+TEST_CASE("remesh_record: a displacement that does harm says so") {
+  const MappedMesh source = ball();
+  const std::vector<GridSpec> grids = {parse_grid("ico:1")};
+  const std::vector<LevelOfDetail> levels = levels_of_detail(source, grids, {.measure = false});
+  WrittenDisplacement written{.width = 64, .height = 32};
+  written.figures.missed = 1;
+  written.proof = RebuildProof{.base = {0.1, 0.2}, .rebuilt = {0.3, 0.4}};
+  const RemeshRecord record{.input = "ball.ply",
+                            .grid = "ico:1",
+                            .source = source,
+                            .levels = levels,
+                            .displacement = written,
+                            .outputs = {.displacement = "d.exr", .rebuilt = "r.ply"}};
+  const Json json = Json::parse(to_json(record))["displacement"];
+  CHECK(keys_of(json) == "file,width,height,min,max,texels,seconds,rebuilt");
+  CHECK(json["width"] == 64);
+  CHECK(json["texels"]["missed"] == 1);
+  CHECK(json["rebuilt"]["error"] == Json({{"rms", 0.3}, {"max", 0.4}}));
+  CHECK(json["rebuilt"]["warnings"] == Json::array({farther_warning}));
+  CHECK_THAT(to_text(record), Contains(", 1 texel whose normal misses the mesh\n") &&
+                                  Contains("\n  rebuilt: RMS ") && !Contains("→"));
+}
+
+TEST_CASE("comparison_record: maps side by side, also where there is none") {
+  const MeshSource source = source_of(icosphere(1));
+  const std::vector<Entry> entries = {
+      entry_of_map("peer", "peer.obj", source.file.mesh, {source.file.mesh.positions}, 0),
+      Entry{.name = "none", .source = "A 1999", .seconds = 2, .iterations = 5}};
+  const Json json = Json::parse(to_json(ComparisonRecord{source, entries, 4}));
+  CHECK(keys_of(json) == "sphparam,command,input,maps,notes,seconds");
+  CHECK(json["maps"][0]["certificate"]["one_to_one"] == true);
+  CHECK(json["maps"][0]["seconds"].is_null());
+  CHECK(json["maps"][1]["has_map"] == false);
+  CHECK(json["maps"][1]["certificate"].is_null());
+  CHECK(json["maps"][1]["iterations"] == 5);
+}
