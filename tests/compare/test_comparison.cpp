@@ -106,3 +106,18 @@ TEST_CASE("compare_maps: a program names methods and adds maps of its own") {
   CHECK_THROWS_AS(compare_maps("ball", file, {"none"}, {}, options), std::invalid_argument);
   CHECK_THROWS_AS(compare_maps("ball", file, {}, {}, options), std::invalid_argument);
 }
+
+TEST_CASE("entries: each is told as it is there, the methods' first") {
+  const MeshFile file = ball(1);
+  std::vector<std::string> told;
+  const auto tell = [&](const Entry& entry) { told.push_back(entry.name); };
+  const std::vector<NamedMap> others = {{.name = "peer", .map = {file.mesh.positions}}};
+  const std::vector<Entry> entries = make_entries(file, {"progressive"}, others, {}, tell);
+  CHECK(told == std::vector<std::string>{"progressive", "peer"});
+  REQUIRE(entries.size() == 2);
+  CHECK(entries[0].seconds);
+  CHECK_FALSE(entries[1].seconds);
+  told.clear();
+  CHECK_THROWS_AS(make_entries(file, {"progressive", "none"}, {}, {}, tell), std::invalid_argument);
+  CHECK(told.empty());
+}

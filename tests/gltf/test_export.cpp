@@ -52,6 +52,14 @@ const ExportOptions small{.look = {.image_width = 64}};
 
 }  // namespace
 
+TEST_CASE("export: a mesh made of another shows that one's colours where it carries its place") {
+  const MappedMesh source = mapped_egg(3), made = mapped_egg(2);
+  const Look own = make_look(made, small), look = make_look(made, source, small);
+  REQUIRE(look.images.size() == own.images.size());
+  CHECK(look.images[0].bytes == own.images[0].bytes);
+  CHECK(look.materials[0].name == "checker");
+}
+
 TEST_CASE("export: an asset has a look, a proof of its coordinates and the mesh's name") {
   const Asset asset = make_asset(mapped_egg(2), small);
   CHECK(asset.name == "egg");

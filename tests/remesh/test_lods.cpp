@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "sphparam/remesh/levels_of_detail.h"
+#include "support/test_meshes.h"
 
 using namespace sphparam;
 
@@ -27,4 +28,25 @@ TEST_CASE("levels of detail: what was not made by halving has none") {
   CHECK(name_of(*coarser_grid(parse_grid("ico:7"), 2)) == "ico:5");
   CHECK(name_of(*coarser_grid(parse_grid("octa:129"), 3)) == "octa:17");
   CHECK(name_of(*coarser_grid(parse_grid("cube:64"), 1)) == "cube:32");
+}
+
+TEST_CASE("levels of detail: of any mesh, each with a quarter of the vertices, on its sphere") {
+  MeshFile file;
+  file.mesh = tests::icosphere(4);
+  const SphereMap map{file.mesh.positions};
+  file.mesh.positions.col(2) *= 1.3;
+  const MappedMesh mapped(
+      {.file = file, .map = map, .provenance = {{"method", "given"}}, .name = "egg.obj"});
+  const std::vector<MappedMesh> coarser = quartered_meshes(mapped, 3);
+  REQUIRE(coarser.size() == 3);
+  auto finer = static_cast<double>(mapped.mesh().vertex_count());
+  for (const MappedMesh& mesh : coarser) {
+    const auto vertices = static_cast<double>(mesh.mesh().vertex_count());
+    CHECK(vertices == Approx(finer / 4).epsilon(0.1));
+    CHECK(mesh.certificate().bijective());
+    CHECK(mesh.name() == "egg.obj");
+    CHECK(mesh.provenance() == mapped.provenance());
+    finer = vertices;
+  }
+  CHECK(quartered_meshes(mapped, 0).empty());
 }

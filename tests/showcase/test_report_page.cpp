@@ -1,11 +1,15 @@
+#include <unistd.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <filesystem>
 #include <string>
 
 #include "showcase/page_entry.h"
 #include "showcase/report_page.h"
 #include "showcase/tables.h"
 #include "sphparam/errors.h"
+#include "sphparam/io/mesh_writer.h"
 #include "sphparam/report/report_page.h"
 #include "support/test_meshes.h"
 
@@ -255,4 +259,41 @@ TEST_CASE("make_report: a program gets the page of a mapped mesh, or of several 
       "ball", file, {{.name = "good", .map = map}, {.name = "bad", .map = {-map.points}}}, options);
   CHECK_THAT(two, Contains("2 maps of one mesh"));
   CHECK_THROWS_AS(make_report("ball", file, {}, options), std::invalid_argument);
+}
+
+TEST_CASE("page entries: maps of files are told apart; a mesh without a map is mapped now") {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::temp_directory_path() / ("sphparam_maps_" + std::to_string(getpid()));
+  fs::create_directories(folder / "other");
+  const MeshFile file = ball(1);
+  const SphereMap map = normalised(file.mesh.positions);
+  const std::string mesh = folder / "ball.obj", mapped = folder / "ball.sph.ply",
+                    other = folder / "other" / "ball.obj";
+  write_mesh(mesh, file);
+  write_mesh(other, file);
+  write_mesh(mapped, attach_map(file, map, {{"method", "by hand"}}));
+  const auto names = [](const std::vector<PageEntry>& entries) {
+    std::vector<std::string> all;
+    for (const PageEntry& entry : entries) all.push_back(entry.entry.name);
+    return all;
+  };
+  std::vector<std::string> made;
+  const auto tell = [&](const PageEntry& entry) { made.push_back(entry.entry.name); };
+  const std::vector<PageEntry> of_map =
+      load_page_entries(read_source(mapped), {.others = {other, mapped}}, {}, tell);
+  CHECK(names(of_map) == std::vector<std::string>{"ball", "ball (2)", "ball (3)"});
+  CHECK(of_map[0].provenance == Provenance{{"method", "by hand"}});
+  CHECK(of_map[1].entry.source == "ball.obj");
+  CHECK(made.empty());
+
+  const std::vector<PageEntry> of_mesh = load_page_entries(read_source(mesh), {}, {}, tell);
+  CHECK(made == std::vector<std::string>{"ball"});
+  CHECK(of_mesh[0].entry.seconds);
+  CHECK(of_mesh[0].provenance[1].second == "progressive");
+  const std::vector<PageEntry> beside =
+      load_page_entries(read_source(mesh), {.sphere = mapped}, {}, tell);
+  CHECK(beside[0].entry.name == "ball");
+  CHECK(beside[0].entry.source == "ball.sph.ply");
+  CHECK(made.size() == 1);
+  fs::remove_all(folder);
 }

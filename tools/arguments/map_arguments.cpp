@@ -2,65 +2,33 @@
 
 #include "arguments/map_arguments.h"
 
-#include <CLI/CLI.hpp>
-#include <charconv>
-#include <limits>
-#include <optional>
-#include <vector>
-
-#include "arguments/choice.h"
-#include "arguments/common_options.h"
-#include "console/paths.h"
+#include "console/exit_codes.h"
+#include "console/places.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/mesh_writer.h"
-#include "sphparam/io/paths.h"
 #include "sphparam/names.h"
 
 namespace sphparam::cli {
 
 namespace {
 
-constexpr double least_lambda = 1e-8, greatest_lambda = 1e3;
-const std::string lambda_range = "1e-8 to 1000";
-
-constexpr char summary[] =
-    "Map a closed genus-0 mesh one-to-one onto the unit sphere, prove it, write it.\n"
-    "\n"
-    "Examples:\n"
-    "  sphparam map statue.obj -o statue.sph.ply\n"
-    "  sphparam map statue.ply -o statue.sph.ply --json map.json --charts charts/\n"
-    "  sphparam map statue.off -o statue.sph.ply --write-sphere sphere.obj --poles 17,4203\n"
-    "  sphparam map statue.obj -o placed.sph.ply --pin eyes.txt\n"
-    "  sphparam map statue.obj -o even.sph.ply --balance equal-area --quality best\n"
-    "  cat statue.obj | sphparam map - -o - > statue.sph.ply\n"
-    "  sphparam map scan.ply -o scan.sph.ply --repair\n"
-    "  sphparam map statue.obj -o folded.sph.ply --method paper --keep-folded\n"
-    "  sphparam map statue.obj -o mended.sph.ply --method tangential --repair-map\n";
-
-/// "17,23" → vertices 17 and 23; nothing if that is not what the text is.
-std::optional<Poles> two_vertices(const std::string& text) {
-  Poles poles{};
-  const char* const end = text.data() + text.size();
-  const auto first = std::from_chars(text.data(), end, poles.north);
-  if (first.ec != std::errc{} || first.ptr == end || *first.ptr != ',') return std::nullopt;
-  const auto second = std::from_chars(first.ptr + 1, end, poles.south);
-  if (second.ec != std::errc{} || second.ptr != end) return std::nullopt;
-  const bool make_sense = poles.north >= 0 && poles.south >= 0 && poles.north != poles.south;
-  return make_sense ? std::optional(poles) : std::nullopt;
-}
+const Range<double> lambdas = {1e-8, 1e3, "1e-8 to 1000"};
 
 void settle_poles(const std::string& text, ParameterizeOptions& options) {
   options.automatic_poles = text != "none";
   if (text == "auto" || text == "none") return;
-  options.poles = two_vertices(text);
-  if (options.poles) return;
-  throw UsageMistake("--poles: expected auto, none or two different vertices, as in 17,23");
+  const auto poles = two_numbers(text, ',');
+  const bool make_sense =
+      poles && poles->first >= 0 && poles->second >= 0 && poles->first != poles->second;
+  if (!make_sense)
+    throw UsageMistake("--poles: expected auto, none or two different vertices, as in 17,23");
+  options.poles = Poles{poles->first, poles->second};
 }
 
 /// `--balance` is a word or a number; a number is the λ of `--lambda`.
 void settle_balance(const std::string& text, bool lambda_given, ParameterizeOptions& options) {
-  const std::vector<std::string> words = {name_of(Balance::Conformal), name_of(Balance::Lambda),
-                                          name_of(Balance::EqualArea)};
+  const Words words = {name_of(Balance::Conformal), name_of(Balance::Lambda),
+                       name_of(Balance::EqualArea)};
   if (text == words[1]) return;
   if (lambda_given) throw UsageMistake("--balance " + text + " and --lambda contradict each other");
   if (text == words[0] || text == words[2]) {
@@ -68,25 +36,32 @@ void settle_balance(const std::string& text, bool lambda_given, ParameterizeOpti
     return;
   }
   double& lambda = options.energy.lambda;
-  const bool is_number = CLI::detail::lexical_cast(text, lambda);
-  if (is_number && lambda >= least_lambda && lambda <= greatest_lambda) return;
-  const std::string meant = is_number ? "" : nearest_word(text, words);
+  const bool is_number = read_number(text, lambda);
+  if (is_number && lambdas.holds(lambda)) return;
   throw UsageMistake("--balance: expected conformal, balanced, equal-area or a number from " +
-                     lambda_range + (meant.empty() ? "" : "; did you mean " + meant + "?"));
+                     lambdas.text() + (is_number ? "" : did_you_mean(text, words)));
+}
+
+/// Options that only one of our methods reads.
+void require_method(const MapArguments& arguments, Method needed, const Words& names) {
+  if (arguments.method == AnyMethod(needed)) return;
+  for (const std::string& name : names) {
+    if (arguments.given(name))
+      throw UsageMistake(name + " is for --method " + name_of(needed) + " only");
+  }
 }
 
 /// Methods of others have no options: they run as published.
-void require_no_settings(const CLI::App& command, AnyMethod method) {
-  if (!std::holds_alternative<Baseline>(method)) return;
-  for (const char* name : {"--poles", "--meridian", "--pin"}) {
-    if (command.count(name) == 0) continue;
-    throw UsageMistake(std::string(name) + " is not for --method " + info_of(method).name +
+void require_no_settings(const MapArguments& arguments) {
+  if (!std::holds_alternative<Baseline>(arguments.method)) return;
+  const std::string method = info_of(arguments.method).name;
+  for (const std::string name : {"--poles", "--meridian", "--pin"}) {
+    if (!arguments.given(name)) continue;
+    throw UsageMistake(name + " is not for --method " + method +
                        ", which lays out the sphere in its own way");
   }
-  if (command.count("--lambda") > 0 && command.count("--repair-map") == 0) {
-    throw UsageMistake(std::string("--lambda is for --method ") + info_of(method).name +
-                       " only with --repair-map");
-  }
+  if (arguments.given("--lambda") && !arguments.given("--repair-map"))
+    throw UsageMistake("--lambda is for --method " + method + " only with --repair-map");
 }
 
 /// What poles, meridian and pins may not say together, and not with every method.
@@ -114,9 +89,7 @@ void require_sensible_frame(const MapArguments& arguments) {
 }
 
 void require_sensible(const MapArguments& arguments) {
-  if (is_stream(arguments.input) && is_stream(arguments.pins)) {
-    throw UsageMistake("the mesh and --pin cannot both come from standard input");
-  }
+  require_one_stream({arguments.input, arguments.pins}, "the mesh and --pin");
   const std::string extension = extension_of(arguments.output);
   if (!extension.empty() && extension != ".ply") {
     throw UsageMistake("-o: the map is a PLY, the name must end in .ply; for " + extension +
@@ -127,158 +100,111 @@ void require_sensible(const MapArguments& arguments) {
     throw UsageMistake("--write-sphere: the name must end in .ply, .obj, .off or .gii");
   }
   check_places(
-      {arguments.input, arguments.pins},
       {{"-o", arguments.output}, {"--write-sphere", arguments.sphere}, {"--json", arguments.json}},
       arguments.charts);
 }
 
-/// Options that only the paper's method reads.
-std::vector<CLI::Option*> add_paper_options(CLI::App& command, MapArguments& arguments) {
-  PaperSettings& paper = arguments.options.paper;
-  const std::string group = "With --method paper";
-  return {add_choice<WeightKind>(command, "--weights", paper.weights,
-                                 {{name_of(WeightKind::MeanValue), WeightKind::MeanValue},
-                                  {name_of(WeightKind::Cotangent), WeightKind::Cotangent}},
-                                 "Of the edges (default: mean-value)")
-              ->group(group),
-          command.add_option("--epsilon", paper.epsilon, "phi of the ring about a pole")
-              ->check(between(1e-9, 1.5, "1e-9 to 1.5"))
-              ->type_name("RADIANS")
-              ->capture_default_str()
-              ->group(group),
-          command.add_option("--iterations", paper.iterations, "Quasi-harmonic iterations")
-              ->check(between(0, 1000, "0 to 1000"))
-              ->type_name("N")
-              ->capture_default_str()
-              ->group(group),
-          command.add_option("--rings", paper.rings, "Rings about the date line that are smoothed")
-              ->check(between(0, 1000, "0 to 1000"))
-              ->type_name("N")
-              ->capture_default_str()
-              ->group(group),
-          command.add_option("--sweeps", paper.sweeps, "Sweeps of tangential smoothing")
-              ->check(between(0, 1000, "0 to 1000"))
-              ->type_name("N")
-              ->capture_default_str()
-              ->group(group)};
+void declare_files(Declaration& command, MapArguments& arguments) {
+  command.input("MESH", arguments.input, readable_formats("or") + "; - for standard input")
+      .output(arguments.output, "FILE", "The map, a .sph.ply; - for standard output")
+      .text("--write-sphere", arguments.sphere, "FILE",
+            "The bare sphere too: .ply, .obj or .off in doubles, .gii in floats of radius 100")
+      .written()
+      .json(arguments)
+      .text("--charts", arguments.charts, "FOLDER", "The distortion as SVG charts")
+      .written();
 }
 
-void add_files(CLI::App& command, MapArguments& arguments) {
-  command.add_option("MESH", arguments.input, readable_formats("or") + "; - for standard input")
-      ->type_name(" ")
-      ->required();
-  command.add_option("-o,--output", arguments.output, "The map, a .sph.ply; - for standard output")
-      ->type_name("FILE")
-      ->required();
-  command
-      .add_option(
-          "--write-sphere", arguments.sphere,
-          "The bare sphere too: .ply, .obj or .off in doubles, .gii in floats of radius 100")
-      ->type_name("FILE");
-  add_json(command, arguments.json);
-  command.add_option("--charts", arguments.charts, "The distortion as SVG charts")
-      ->type_name("FOLDER");
-}
-
-void add_method(CLI::App& command, MapArguments& arguments) {
+void declare_method(Declaration& command, MapArguments& arguments) {
   ParameterizeOptions& options = arguments.options;
   std::vector<std::pair<std::string, AnyMethod>> methods;
   for (const MethodInfo& info : all_methods()) methods.emplace_back(info.name, info.method);
-  add_choice<AnyMethod>(command, "--method", arguments.method, methods,
-                        "How; paper and all after it: as printed, folds and all; after paper, as "
-                        "others published them (default: progressive)");
   command
-      .add_option("--lambda", options.energy.lambda,
-                  "Weight of area against angle, " + lambda_range)
-      ->check(between(least_lambda, greatest_lambda, lambda_range))
-      ->type_name("NUMBER")
-      ->capture_default_str();
-  command.add_flag("--repair-map", options.repair_paper,
-                   "Untangle what --method paper or one of others folds");
-  command.add_flag("--keep-folded", arguments.keep_folded,
-                   "Write a folded map too, marked in its header; the exit status stays 5");
-  add_threads(command, options.threads);
+      .choice("--method", arguments.method, methods,
+              "How; paper and all after it: as printed, folds and all; after paper, as others "
+              "published them (default: progressive)")
+      .number("--lambda", options.energy.lambda, "NUMBER", lambdas,
+              "Weight of area against angle, " + lambdas.text())
+      .flag("--repair-map", options.repair_paper,
+            "Untangle what --method paper or one of others folds")
+      .flag("--keep-folded", arguments.keep_folded,
+            "Write a folded map too, marked in its header; the exit status stays 5")
+      .threads(arguments);
 }
 
-void add_frame(CLI::App& command, MapArguments& arguments) {
-  const std::string group = "Vertices, by their numbers in the file, from 0";
-  command.add_option("--poles", arguments.poles, "The vertices that go to +z and -z, or none")
-      ->type_name("auto|none|V1,V2")
-      ->capture_default_str()
-      ->group(group);
-  command.add_option("--meridian", arguments.options.meridian, "The vertex that gets theta = 0")
-      ->check(between(0, std::numeric_limits<Vertex>::max(), "0 on"))
-      ->type_name("V")
-      ->group(group);
-  command
-      .add_option("--pin", arguments.pins,
-                  "Vertices to be exactly at given points; a line is: vertex theta phi (radians)")
-      ->type_name("FILE")
-      ->group(group);
+void declare_frame(Declaration& command, MapArguments& arguments) {
+  command.group("Vertices, by their numbers in the file, from 0")
+      .text("--poles", arguments.poles, "auto|none|V1,V2",
+            "The vertices that go to +z and -z, or none")
+      .number("--meridian", arguments.options.meridian, "V", {0}, "The vertex that gets theta = 0")
+      .text("--pin", arguments.pins, "FILE",
+            "Vertices to be exactly at given points; a line is: vertex theta phi (radians)");
 }
 
-/// Options that only the progressive method reads.
-std::vector<CLI::Option*> add_progressive_options(CLI::App& command, MapArguments& arguments) {
+const Words progressive_only = {"--balance", "--quality", "--energy"};
+
+void declare_progressive(Declaration& command, MapArguments& arguments) {
   ParameterizeOptions& options = arguments.options;
-  const std::string group = "With --method progressive";
-  return {
-      command
-          .add_option("--balance", arguments.balance, "Angle against area; a number is a --lambda")
-          ->type_name("conformal|balanced|equal-area|NUMBER")
-          ->capture_default_str()
-          ->group(group),
-      add_choice<Quality>(command, "--quality", options.quality,
-                          {{name_of(Quality::Draft), Quality::Draft},
-                           {name_of(Quality::Normal), Quality::Normal},
-                           {name_of(Quality::Best), Quality::Best}},
-                          "Time against distortion (default: normal)")
-          ->group(group),
-      add_choice<EnergyKind>(
-          command, "--energy", options.energy.kind,
-          {{name_of(EnergyKind::AngleAndArea), EnergyKind::AngleAndArea},
-           {name_of(EnergyKind::SymmetricDirichlet), EnergyKind::SymmetricDirichlet}},
-          "What is minimised (default: angle-and-area)")
-          ->group(group)};
+  command.group("With --method progressive")
+      .text("--balance", arguments.balance, "conformal|balanced|equal-area|NUMBER",
+            "Angle against area; a number is a --lambda")
+      .choice("--quality", options.quality,
+              {{name_of(Quality::Draft), Quality::Draft},
+               {name_of(Quality::Normal), Quality::Normal},
+               {name_of(Quality::Best), Quality::Best}},
+              "Time against distortion (default: normal)")
+      .choice("--energy", options.energy.kind,
+              {{name_of(EnergyKind::AngleAndArea), EnergyKind::AngleAndArea},
+               {name_of(EnergyKind::SymmetricDirichlet), EnergyKind::SymmetricDirichlet}},
+              "What is minimised (default: angle-and-area)");
 }
 
-void require_method(const std::vector<CLI::Option*>& given, Method needed, AnyMethod method) {
-  for (const CLI::Option* option : given) {
-    if (option->count() == 0 || method == AnyMethod(needed)) continue;
-    throw UsageMistake(option->get_name() + " is for --method " + name_of(needed) + " only");
-  }
+const Words paper_only = {"--weights", "--epsilon", "--iterations", "--rings", "--sweeps"};
+
+void declare_paper(Declaration& command, PaperSettings& paper) {
+  command.group("With --method paper")
+      .choice("--weights", paper.weights,
+              {{name_of(WeightKind::MeanValue), WeightKind::MeanValue},
+               {name_of(WeightKind::Cotangent), WeightKind::Cotangent}},
+              "Of the edges (default: mean-value)")
+      .number("--epsilon", paper.epsilon, "RADIANS", {1e-9, 1.5, "1e-9 to 1.5"},
+              "phi of the ring about a pole")
+      .number("--iterations", paper.iterations, "N", {0, 1000}, "Quasi-harmonic iterations")
+      .number("--rings", paper.rings, "N", {0, 1000}, "Rings about the date line that are smoothed")
+      .number("--sweeps", paper.sweeps, "N", {0, 1000}, "Sweeps of tangential smoothing");
 }
 
 }  // namespace
 
-MapDeclaration declare_map_arguments(CLI::App& program, MapArguments& arguments) {
-  CLI::App* command = program.add_subcommand("map", summary);
-  add_files(*command, arguments);
-  add_method(*command, arguments);
-  add_frame(*command, arguments);
-  const std::vector<CLI::Option*> progressive_only = add_progressive_options(*command, arguments);
-  const std::vector<CLI::Option*> paper_only = add_paper_options(*command, arguments);
-  add_repair_options(*command, arguments.repair);
-  add_progress(*command, arguments.progress);
-  add_loudness(*command, arguments.loudness);
-  return {command, [&arguments, command, progressive_only, paper_only] {
-            ParameterizeOptions& options = arguments.options;
-            require_method(progressive_only, Method::Progressive, arguments.method);
-            require_method(paper_only, Method::Paper, arguments.method);
-            require_no_settings(*command, arguments.method);
-            if (const auto* own = std::get_if<Method>(&arguments.method)) options.method = *own;
-            settle_poles(arguments.poles, options);
-            settle_balance(arguments.balance, command->count("--lambda") > 0, options);
-            const bool weighted = command->count("--lambda") + command->count("--balance") > 0;
-            if (weighted && options.energy.kind == EnergyKind::SymmetricDirichlet) {
-              throw UsageMistake(
-                  "--lambda and --balance weigh the energy angle-and-area; "
-                  "symmetric-dirichlet has no weight");
-            }
-            require_sensible_frame(arguments);
-            require_sensible(arguments);
-            options.measure_stages =
-                arguments.method == AnyMethod(Method::Paper) || arguments.loudness.verbose;
-          }};
+void declare_map_options(Declaration& command, MapArguments& arguments) {
+  arguments.given = command.given();
+  declare_files(command, arguments);
+  declare_method(command, arguments);
+  declare_frame(command, arguments);
+  declare_progressive(command, arguments);
+  declare_paper(command, arguments.options.paper);
+  declare_repair_options(command, arguments.repair);
+  command.console(arguments);
+}
+
+void settle(MapArguments& arguments) {
+  ParameterizeOptions& options = arguments.options;
+  require_method(arguments, Method::Progressive, progressive_only);
+  require_method(arguments, Method::Paper, paper_only);
+  require_no_settings(arguments);
+  if (const auto* own = std::get_if<Method>(&arguments.method)) options.method = *own;
+  settle_poles(arguments.poles, options);
+  settle_balance(arguments.balance, arguments.given("--lambda"), options);
+  const bool weighted = arguments.given("--lambda") || arguments.given("--balance");
+  if (weighted && options.energy.kind == EnergyKind::SymmetricDirichlet) {
+    throw UsageMistake(
+        "--lambda and --balance weigh the energy angle-and-area; symmetric-dirichlet has no "
+        "weight");
+  }
+  require_sensible_frame(arguments);
+  require_sensible(arguments);
+  options.threads = arguments.threads;
+  options.measure_stages = arguments.method == AnyMethod(Method::Paper) || arguments.verbose;
 }
 
 }  // namespace sphparam::cli

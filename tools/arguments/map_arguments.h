@@ -3,39 +3,33 @@
 #include <functional>
 #include <string>
 
+#include "arguments/declaration.h"
 #include "arguments/repair_arguments.h"
-#include "commands/command.h"
 #include "compare/methods.h"
-#include "sphparam/io/mesh_file.h"
 #include "sphparam/parameterize.h"
 
 namespace sphparam::cli {
 
 /// What the command line of `sphparam map` says.
-struct MapArguments {
+struct MapArguments : CommonArguments {
   std::string input;
   std::string output;
   std::string sphere;  // empty: not wanted; so are:
-  std::string json;
   std::string charts;
   std::string pins;
   std::string poles = "auto";
   std::string balance = "balanced";  // a word, or the λ it stands for
   RepairArguments repair;
   bool keep_folded = false;
-  ProgressStyle progress = ProgressStyle::Auto;
-  Loudness loudness;
   AnyMethod method = Method::Progressive;
-  // Complete but for `progress` and `pins`. Vertices have their numbers in the file.
+  // Complete but for `progress` and `pins`, once settled. Vertices have their numbers in the file.
   ParameterizeOptions options;
+  std::function<bool(const std::string&)> given;  // was this option on the command line?
 };
 
-/// The subcommand as declared; `settle` is to be called after parsing. It completes the arguments
-/// and throws UsageMistake when they make no sense together.
-struct MapDeclaration {
-  CLI::App* options;
-  std::function<void()> settle;
-};
-MapDeclaration declare_map_arguments(CLI::App& program, MapArguments& arguments);
+void declare_map_options(Declaration& command, MapArguments& arguments);
+
+/// Completes the arguments. Throws: UsageMistake when they make no sense together.
+void settle(MapArguments& arguments);
 
 }  // namespace sphparam::cli

@@ -2,10 +2,11 @@
 
 #include "arguments/remesh_checks.h"
 
+#include <algorithm>
 #include <stdexcept>
 
-#include "console/level_path.h"
-#include "console/paths.h"
+#include "console/exit_codes.h"
+#include "console/places.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/remesh/geometry_image.h"
 #include "sphparam/remesh/levels_of_detail.h"
@@ -15,10 +16,6 @@ namespace sphparam::cli {
 namespace {
 
 constexpr std::string_view like_prefix = "like:";
-
-std::string kind_of(const std::string& path) {
-  return is_stream(path) ? ".ply" : extension_of(path);
-}
 
 std::optional<GridSpec> grid_asked_for(const RemeshArguments& arguments) {
   if (arguments.grid == like_prefix)
@@ -36,30 +33,37 @@ std::vector<ImageRequest> images_asked_for(const RemeshArguments& arguments) {
   if (!arguments.geometry_image.empty()) requests.push_back({"position", arguments.geometry_image});
   if (!arguments.normal_image.empty()) requests.push_back({"normal", arguments.normal_image});
   for (const std::string& text : arguments.attribute_images) {
-    const size_t equals = text.find('=');
-    if (equals == 0 || equals == std::string::npos || equals + 1 == text.size()) {
-      throw UsageMistake("--attribute-image: expected NAME=FILE, not " + text);
-    }
-    requests.push_back({text.substr(0, equals), text.substr(equals + 1)});
+    const auto image = name_and_file(text);
+    if (!image) throw UsageMistake("--attribute-image: expected NAME=FILE, not " + text);
+    requests.push_back({image->first, image->second});
   }
   return requests;
 }
 
+/// Refuses a name with another ending; standard output takes a PLY. `listed`: for people.
+void require_kind(const std::string& option, const std::string& path, const std::string& what,
+                  const Words& kinds, const std::string& listed) {
+  const std::string kind = is_stream(path) ? ".ply" : extension_of(path);
+  if (path.empty() || std::ranges::find(kinds, kind) != kinds.end()) return;
+  throw UsageMistake(option + ": " + what + " is written as " + listed + ", not as " +
+                     output_name(path));
+}
+
 void check_outputs(const RemeshArguments& arguments) {
-  const std::string kind = kind_of(arguments.output);
-  if (!arguments.output.empty() && kind != ".ply" && kind != ".obj" && kind != ".glb") {
-    throw UsageMistake("-o: the new mesh is written as .ply, .obj or .glb, not as " +
-                       output_name(arguments.output));
-  }
+  require_kind("-o", arguments.output, "the new mesh", {".ply", ".obj", ".glb"},
+               ".ply, .obj or .glb");
   if (arguments.output.empty() && arguments.limit_output.empty() && arguments.csv.empty() &&
       arguments.displacement.empty() && images_asked_for(arguments).empty()) {
     throw UsageMistake("nothing to write: give -o, --geometry-image or --csv");
   }
 }
 
-ImageDepth depth_for(const RemeshArguments& arguments, const std::string& path) {
-  return arguments.depth.value_or(extension_of(path) == ".png" ? ImageDepth::Uint16
-                                                               : ImageDepth::Float);
+/// Whatever depth is asked for, the format must hold it.
+void require_depth(const RemeshArguments& arguments, const std::string& what,
+                   const std::string& path) {
+  const bool png = extension_of(path) == ".png";
+  if (!arguments.depth || (*arguments.depth == ImageDepth::Uint16) == png) return;
+  throw UsageMistake(what + ": half and float go into .exr, u16 into .png");
 }
 
 void check_images(const RemeshArguments& arguments, const std::optional<GridSpec>& spec) {
@@ -68,13 +72,9 @@ void check_images(const RemeshArguments& arguments, const std::optional<GridSpec
       throw UsageMistake("images are of octa and cube grids, not of " + arguments.grid);
     }
     const std::string extension = extension_of(request.path);
-    if (extension != ".png" && extension != ".exr") {
+    if (extension != ".png" && extension != ".exr")
       throw UsageMistake(request.path + ": images are written as .png or .exr");
-    }
-    const bool integers = depth_for(arguments, request.path) == ImageDepth::Uint16;
-    if (integers != (extension == ".png")) {
-      throw UsageMistake(request.path + ": half and float go into .exr, u16 into .png");
-    }
+    require_depth(arguments, request.path, request.path);
   }
 }
 
@@ -100,11 +100,7 @@ void check_subdivision(const RemeshArguments& arguments, const std::optional<Gri
                        std::to_string(LimitTopology::most_faces_about_a_vertex) +
                        " can about a vertex of a limit surface");
   }
-  const std::string kind = kind_of(limit);
-  if (!limit.empty() && kind != ".ply" && kind != ".obj") {
-    throw UsageMistake("--limit-mesh: the mesh is written as .ply or .obj, not as " +
-                       output_name(limit));
-  }
+  require_kind("--limit-mesh", limit, "the mesh", {".ply", ".obj"}, ".ply or .obj");
 }
 
 void check_displacement(const RemeshArguments& arguments) {
@@ -118,19 +114,9 @@ void check_displacement(const RemeshArguments& arguments) {
         "--displace is along the normals of a limit surface: give --subdiv-fit; heights over a "
         "mesh of flat faces are `bake --for MESH --map height`");
   }
-  const std::string kind = extension_of(image);
-  if (kind != ".exr" && kind != ".png") {
-    throw UsageMistake("--displace: the image is written as .exr or .png, not as " +
-                       output_name(image));
-  }
-  if ((depth_for(arguments, image) == ImageDepth::Uint16) != (kind == ".png")) {
-    throw UsageMistake("--displace: half and float go into .exr, u16 into .png");
-  }
-  const std::string of_mesh = kind_of(mesh);
-  if (!mesh.empty() && of_mesh != ".ply" && of_mesh != ".obj") {
-    throw UsageMistake("--rebuild: the mesh is written as .ply or .obj, not as " +
-                       output_name(mesh));
-  }
+  require_kind("--displace", image, "the image", {".exr", ".png"}, ".exr or .png");
+  require_depth(arguments, "--displace", image);
+  require_kind("--rebuild", mesh, "the mesh", {".ply", ".obj"}, ".ply or .obj");
 }
 
 std::vector<GridSpec> check_levels(const RemeshArguments& arguments,
@@ -169,7 +155,7 @@ void check_all_places(const RemeshArguments& arguments, const RemeshRequests& re
     outputs.emplace_back("the image of " + request.what, request.path);
   for (size_t level = 1; level < requests.outputs.size(); ++level)
     outputs.emplace_back("--lods", requests.outputs[level]);
-  check_places({arguments.input, arguments.sphere, requests.like}, outputs);
+  check_places(outputs);
 }
 
 }  // namespace

@@ -3,12 +3,8 @@
 #include <optional>
 #include <string>
 
+#include "arguments/declaration.h"
 #include "sphparam/mesh/mesh_repair.h"
-
-namespace CLI {
-class App;
-class Option;
-}  // namespace CLI
 
 namespace sphparam::cli {
 
@@ -21,7 +17,7 @@ struct RepairArguments {
 };
 
 /// --repair[=WORD,…], --component N, --min-kept SHARE and --max-hole N.
-void add_repair_options(CLI::App& command, RepairArguments& arguments);
+void declare_repair_options(Declaration& command, RepairArguments& arguments);
 
 /// What is wanted, or nothing. --repair alone wants everything; --component, --min-kept and
 /// --max-hole want their own repair also without it.

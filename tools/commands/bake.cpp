@@ -2,19 +2,15 @@
 
 #include "sphparam/bake/bake.h"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
-#include <memory>
 
 #include "arguments/bake_arguments.h"
-#include "arguments/suggestion.h"
-#include "commands/mapped_source.h"
-#include "console/exit_codes.h"
-#include "console/interruption.h"
+#include "arguments/bake_mistakes.h"
+#include "commands/command.h"
+#include "commands/sources.h"
+#include "number_text.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/records/bake_record.h"
-#include "sphparam/stopwatch.h"
-#include "number_text.h"
 
 namespace sphparam::cli {
 namespace {
@@ -52,36 +48,21 @@ class PacedProgress {
   Stopwatch stopwatch_;
 };
 
-MappedMesh read_target(const BakeArguments& arguments, Console& console) {
-  MappedMesh target = read_mapped_source(arguments.target, "", arguments.settings.threads, console);
+MappedMesh read_target(const std::string& path, Session& session) {
+  MappedMesh target = read_mapped(path, "", session);
   if (!target.mapped_here()) return target;
-  throw NotCertifiedError(display_name(arguments.target) +
+  throw NotCertifiedError(display_name(path) +
                           ": carries no map, so it is on no sphere that it could share; "
                           "`sphparam remesh` makes meshes on the source's sphere");
 }
 
-BakeSettings settings_of(const BakeArguments& arguments, Console& console) {
+BakeSettings settings_of(const BakeArguments& arguments, Session& session) {
   BakeSettings settings = arguments.settings;
   settings.source_name = display_name(arguments.input);
-  if (!arguments.target.empty()) settings.target = read_target(arguments, console);
-  settings.progress = PacedProgress(console, settings.width);
+  if (!arguments.target.empty()) settings.target = read_target(arguments.target, session);
+  settings.threads = session.threads();
+  settings.progress = PacedProgress(session.console, settings.width);
   return settings;
-}
-
-UsageMistake other_sphere(const OtherSphereError& error, const MappedMesh& source,
-                          const BakeSettings& settings) {
-  return UsageMistake(std::string("--for: ") + error.what() + "; `sphparam remesh " +
-                      settings.source_name +
-                      " --grid ico:6 -o LOW.sph.ply` makes a mesh on its sphere" +
-                      (source.mapped_here() ? ", of a map that is kept (`sphparam map`)" : ""));
-}
-
-UsageMistake impossible_field(const FieldError& error, const BakeSettings& settings) {
-  const bool bare = dynamic_cast<const NoColoursError*>(&error) != nullptr;
-  const std::string meant = nearest_word(error.unknown(), error.known());
-  return UsageMistake(settings.source_name + ": " + error.what() +
-                      (bare ? "; --texture IMAGE names its texture" : "") +
-                      (meant.empty() ? "" : "; did you mean " + meant + "?"));
 }
 
 /// Errors in the words of the command line.
@@ -92,43 +73,35 @@ BakeReport bake_for_user(const MappedMesh& source, const std::vector<BakeRequest
   } catch (const BakeSettingError& error) {
     throw as_mistake(error);
   } catch (const FieldError& error) {
-    throw impossible_field(error, settings);
+    throw as_mistake(error, settings);
   } catch (const OtherSphereError& error) {
-    throw other_sphere(error, source, settings);
+    throw as_mistake(error, source, settings);
   } catch (const HalfRangeError& error) {
     throw ImageError(std::string(error.what()) + ": --depth float has");
   }
 }
 
-int run_bake(const BakeArguments& arguments) {
-  Console console(arguments.loudness.verbosity(), arguments.progress);
-  const OrderlyInterruption orderly;
-  const Stopwatch stopwatch;
+int run_bake(BakeArguments& arguments) {
+  Session session(arguments);
   const std::vector<BakeRequest> images = bake_requests(arguments);
-  const MappedMesh source =
-      read_mapped_source(arguments.input, arguments.sphere, arguments.settings.threads, console);
-  const BakeSettings settings = settings_of(arguments, console);
-  PendingFiles files;
-  const BakeReport baked = bake_for_user(source, images, settings, files);
-  for (const std::string& warning : baked.warnings) console.warning(warning);
-  if (!arguments.json.empty()) {
-    files.add(arguments.json, to_json(BakeRecord{arguments.input, source, arguments.target,
-                                                 settings, baked, stopwatch.seconds()}));
-  }
-  if (interrupted()) throw Cancelled();
-  files.publish();
-  console.clear_progress();
-  for (const BakedImage& image : baked.images) console.say(line_of(image, settings));
-  console.detail("  " + short_number(stopwatch.seconds()) + " s");
+  const MappedMesh source = read_mapped(arguments.input, arguments.sphere, session);
+  const BakeSettings settings = settings_of(arguments, session);
+  const BakeReport baked = bake_for_user(source, images, settings, session.files);
+  session.warn(baked.warnings);
+  session.add_report([&] {
+    return to_json(BakeRecord{arguments.input, source, arguments.target, settings, baked,
+                              session.stopwatch.seconds()});
+  });
+  session.publish();
+  for (const BakedImage& image : baked.images) session.console.say(line_of(image, settings));
+  session.console.detail("  " + short_number(session.stopwatch.seconds()) + " s");
   return Ok;
 }
 
 }  // namespace
 
 Command declare_bake(CLI::App& program) {
-  const auto arguments = std::make_shared<BakeArguments>();
-  return {declare_bake_arguments(program, *arguments),
-          [arguments] { return run_bake(*arguments); }};
+  return make_command(program, "bake", bake_summary(), declare_bake_options, run_bake);
 }
 
 }  // namespace sphparam::cli

@@ -1,13 +1,11 @@
 #pragma once
 
 #include <functional>
-#include <stdexcept>
+#include <memory>
+#include <string>
 
-#include "console/console.h"
-
-namespace CLI {
-class App;
-}
+#include "arguments/declaration.h"
+#include "console/exit_codes.h"
 
 namespace sphparam::cli {
 
@@ -17,6 +15,16 @@ struct Command {
   CLI::App* options;
   std::function<int()> run;
 };
+
+/// The one that these functions declare and run; the arguments live as long as it does.
+template <class Arguments>
+Command make_command(CLI::App& program, const std::string& name, const std::string& summary,
+                     void (*declare)(Declaration&, Arguments&), int (*run)(Arguments&)) {
+  const auto arguments = std::make_shared<Arguments>();
+  Declaration declaration(program, name, summary);
+  declare(declaration, *arguments);
+  return {&declaration.app(), [arguments, run] { return run(*arguments); }};
+}
 
 Command declare_info(CLI::App& program);
 Command declare_map(CLI::App& program);
@@ -33,21 +41,5 @@ Command declare_export(CLI::App& program);
 Command declare_bake(CLI::App& program);
 Command declare_manual(CLI::App& program);
 Command declare_completion(CLI::App& program);
-
-/// A command line that CLI11 accepts and that makes no sense all the same.
-class UsageMistake : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-/// -q and -v, which every subcommand has.
-struct Loudness {
-  bool quiet = false;
-  bool verbose = false;
-
-  Verbosity verbosity() const {
-    return quiet ? Verbosity::Quiet : verbose ? Verbosity::Verbose : Verbosity::Normal;
-  }
-};
 
 }  // namespace sphparam::cli

@@ -1,20 +1,10 @@
 // `sphparam info`: what a file holds, and everything that is wrong with it.
 
-#include <CLI/CLI.hpp>
-#include <memory>
-#include <optional>
-#include <string>
-
-#include "arguments/common_options.h"
 #include "commands/command.h"
-#include "commands/source.h"
-#include "console/console.h"
-#include "console/exit_codes.h"
-#include "console/paths.h"
+#include "commands/sources.h"
+#include "console/places.h"
 #include "sphparam/io/mesh_reader.h"
-#include "sphparam/io/safe_file.h"
 #include "sphparam/records/inspection_record.h"
-#include "sphparam/stopwatch.h"
 
 namespace sphparam::cli {
 
@@ -30,44 +20,38 @@ constexpr char summary[] =
     "\n"
     "The exit status is 0 when the mesh can be mapped to a sphere, 4 when it cannot.\n";
 
-struct InfoArguments {
+struct InfoArguments : CommonArguments {
   std::string input;
-  std::string json;
-  ProgressStyle progress = ProgressStyle::Auto;
-  Loudness loudness;
 };
 
-int run_info(const InfoArguments& arguments) {
-  const Stopwatch stopwatch;
-  require_report_place({arguments.input}, arguments.json);
-  Console console(arguments.loudness.verbosity(), arguments.progress);
-  console.progress("inspection", 0);
+int run_info(InfoArguments& arguments) {
+  Session session(arguments);
+  require_report_place(arguments.json);
+  session.console.progress("inspection", 0);
   const MeshSource source = read_source(arguments.input);
   InspectionRecord record = {.source = source};
   if (!source.inspection.is_sphere()) record.repair = try_repair(source);
-  record.seconds = stopwatch.seconds();
-  console.clear_progress();
-  if (!arguments.json.empty()) write_file(arguments.json, to_json(record));
-  if (!is_stream(arguments.json) && !arguments.loudness.quiet) write_file("-", to_text(record));
+  record.seconds = session.stopwatch.seconds();
+  session.console.clear_progress();
+  session.add_report([&] { return to_json(record); });
+  if (!is_stream(arguments.json) && !arguments.quiet) session.files.add("-", to_text(record));
+  session.publish();
   if (source.inspection.is_sphere()) return Ok;
-  if (arguments.loudness.quiet) {
+  if (arguments.quiet)
     print_error(display_name(arguments.input) + ": this is not a closed genus-0 mesh");
-  }
   return MeshUnusable;
+}
+
+void declare_options(Declaration& command, InfoArguments& arguments) {
+  command.input("MESH", arguments.input, readable_formats("or") + "; - for standard input")
+      .json(arguments)
+      .console(arguments);
 }
 
 }  // namespace
 
 Command declare_info(CLI::App& program) {
-  const auto arguments = std::make_shared<InfoArguments>();
-  CLI::App* command = program.add_subcommand("info", summary);
-  command->add_option("MESH", arguments->input, readable_formats("or") + "; - for standard input")
-      ->type_name(" ")
-      ->required();
-  add_json(*command, arguments->json);
-  add_progress(*command, arguments->progress);
-  add_loudness(*command, arguments->loudness);
-  return {command, [arguments] { return run_info(*arguments); }};
+  return make_command(program, "info", summary, declare_options, run_info);
 }
 
 }  // namespace sphparam::cli

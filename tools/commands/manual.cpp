@@ -2,13 +2,8 @@
 
 #include "console/manual.h"
 
-#include <CLI/CLI.hpp>
-#include <memory>
-
-#include "arguments/choice.h"
 #include "commands/command.h"
 #include "console/completion.h"
-#include "console/exit_codes.h"
 #include "sphparam/io/safe_file.h"
 
 namespace sphparam::cli {
@@ -31,21 +26,20 @@ constexpr char completion_summary[] =
 }  // namespace
 
 Command declare_manual(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("manual", manual_summary);
-  return {command, [&program] {
+  return {&Declaration(program, "manual", manual_summary).app(), [&program] {
             write_file("-", manual_page(option_table(program)));
             return Ok;
           }};
 }
 
 Command declare_completion(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("completion", completion_summary);
   const auto shell = std::make_shared<Shell>(Shell::Bash);
-  add_choice<Shell>(*command, "SHELL", *shell,
-                    {{"bash", Shell::Bash}, {"zsh", Shell::Zsh}, {"fish", Shell::Fish}},
-                    "The shell that is to learn it")
-      ->required();
-  return {command, [&program, shell] {
+  Declaration command(program, "completion", completion_summary);
+  command
+      .choice("SHELL", *shell, {{"bash", Shell::Bash}, {"zsh", Shell::Zsh}, {"fish", Shell::Fish}},
+              "The shell that is to learn it")
+      .required();
+  return {&command.app(), [&program, shell] {
             write_file("-", completion_script(*shell, option_table(program)));
             return Ok;
           }};

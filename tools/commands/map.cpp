@@ -1,71 +1,71 @@
 // `sphparam map`: file → mesh → map → proof → file.
 
-#include <memory>
 #include <new>
-#include <optional>
-#include <string>
 #include <utility>
 
+#include "arguments/input_limits.h"
 #include "arguments/map_arguments.h"
 #include "commands/command.h"
-#include "commands/map_outcome.h"
 #include "commands/map_outputs.h"
-#include "commands/source.h"
-#include "console/console.h"
-#include "console/exit_codes.h"
-#include "console/interruption.h"
 #include "reports/map_wording.h"
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/io/pin_file.h"
-#include "sphparam/stopwatch.h"
 
 namespace sphparam::cli {
 
 namespace {
 
+constexpr char summary[] =
+    "Map a closed genus-0 mesh one-to-one onto the unit sphere, prove it, write it.\n"
+    "\n"
+    "Examples:\n"
+    "  sphparam map statue.obj -o statue.sph.ply\n"
+    "  sphparam map statue.ply -o statue.sph.ply --json map.json --charts charts/\n"
+    "  sphparam map statue.off -o statue.sph.ply --write-sphere sphere.obj --poles 17,4203\n"
+    "  sphparam map statue.obj -o placed.sph.ply --pin eyes.txt\n"
+    "  sphparam map statue.obj -o even.sph.ply --balance equal-area --quality best\n"
+    "  cat statue.obj | sphparam map - -o - > statue.sph.ply\n"
+    "  sphparam map scan.ply -o scan.sph.ply --repair\n"
+    "  sphparam map statue.obj -o folded.sph.ply --method paper --keep-folded\n"
+    "  sphparam map statue.obj -o mended.sph.ply --method tangential --repair-map\n";
+
 /// Poles, meridian and pins as vertices of the mesh.
-void settle_vertices(const MapArguments& arguments, const MeshFile& file,
-                     ParameterizeOptions& options) {
-  if (!options.poles && !options.meridian && arguments.pins.empty()) return;
+void settle_vertices(const std::string& pins, const MeshFile& file, ParameterizeOptions& options) {
+  if (!options.poles && !options.meridian && pins.empty()) return;
   const FileNumbers numbers(file);
-  const auto vertex = [&](const char* option, Vertex number) {
-    const Vertex found = numbers.vertex(number);
-    if (found < 0) throw UsageMistake(std::string(option) + ": " + numbers.absence(number));
-    return found;
+  const auto settle_one = [&](const char* option, Vertex& vertex) {
+    const Vertex found = numbers.vertex(vertex);
+    if (found < 0) throw UsageMistake(std::string(option) + ": " + numbers.absence(vertex));
+    vertex = found;
   };
   if (options.poles) {
-    options.poles =
-        Poles{vertex("--poles", options.poles->north), vertex("--poles", options.poles->south)};
-    if (options.poles->north == options.poles->south) {
+    settle_one("--poles", options.poles->north);
+    settle_one("--poles", options.poles->south);
+    if (options.poles->north == options.poles->south)
       throw UsageMistake("--poles: the two are one vertex, welded where positions agree");
-    }
   }
-  if (options.meridian) options.meridian = vertex("--meridian", *options.meridian);
-  if (arguments.pins.empty()) return;
-  options.pins = read_pins(arguments.pins, numbers);
+  if (options.meridian) settle_one("--meridian", *options.meridian);
+  if (!pins.empty()) options.pins = read_pins(pins, numbers);
   for (const Landmark& pin : options.pins) {
-    if (options.poles &&
-        (pin.vertex == options.poles->north || pin.vertex == options.poles->south)) {
-      throw UsageMistake("--pin: vertex " + std::to_string(numbers.number(pin.vertex)) +
-                         " is one of the --poles");
-    }
+    if (!options.poles) break;
+    if (pin.vertex != options.poles->north && pin.vertex != options.poles->south) continue;
+    throw UsageMistake("--pin: vertex " + std::to_string(numbers.number(pin.vertex)) +
+                       " is one of the --poles");
   }
 }
 
-MapOutcome compute(MeshSource source, const MapArguments& arguments, Console& console) {
-  MapOutcome outcome = {.source = std::move(source)};
-  require_mappable(outcome.source);
+MapOutcome compute(MeshSource source, const MapArguments& arguments, Session& session) {
+  require_mappable(source);
+  MapOutcome outcome = {
+      .source = std::move(source), .method = arguments.method, .options = arguments.options};
   const TriangleMesh& mesh = outcome.source.file.mesh;
-  ParameterizeOptions options = arguments.options;
-  options.progress = [&](std::string_view stage, double f) { return console.progress(stage, f); };
-  settle_vertices(arguments, outcome.source.file, options);
-  outcome.pins = options.pins;
-  outcome.poles = options.poles;
-  outcome.meridian = options.meridian;
+  ParameterizeOptions& options = outcome.options;
+  options.progress = session.progress();
+  settle_vertices(arguments.pins, outcome.source.file, options);
   MethodRun run = run_method(arguments.method, mesh, outcome.topology(), options);
   outcome.result = std::move(run.result);
   outcome.account = std::move(run.account);
-  outcome.certificate = outcome.result.certificate;
+  outcome.frame = check_frame(outcome.result, options);
   if (outcome.has_map()) {
     outcome.distortion = measure_distortion(mesh, outcome.result.map, options.threads);
     outcome.figures = summarise(*outcome.distortion, options.threads);
@@ -87,19 +87,20 @@ MeshSource read_mended(const MapArguments& arguments) {
   }
 }
 
-int run_map(const MapArguments& arguments) {
-  const Stopwatch stopwatch;
-  Console console(arguments.loudness.verbosity(), arguments.progress);
+int run_map(MapArguments& arguments) {
+  settle(arguments);
+  Session session(arguments);
   MeshSource source = read_mended(arguments);
-  const OrderlyInterruption orderly;  // from here on there may be files to clean up
-  MapOutcome outcome = compute(std::move(source), arguments, console);
-  tell_stages(arguments, outcome, console);
-  tell_frame(arguments, outcome, console);
-  const bool writes = outcome.has_map() && outcome.frame_holds() &&
-                      (outcome.certificate.bijective() || arguments.keep_folded);
-  write_outputs(arguments, outcome, writes, stopwatch, console);
+  session.hold_signals();
+  MapOutcome outcome = compute(std::move(source), arguments, session);
+  tell_stages(outcome, session.console);
+  tell_frame(outcome, session.console);
+  const bool writes =
+      outcome.has_map() && outcome.frame.holds() && (outcome.bijective() || arguments.keep_folded);
+  write_outputs(arguments, outcome, writes, session);
   try {
-    tell_result(arguments, outcome, writes, stopwatch, console);
+    const std::string written = writes ? arguments.output : "";
+    tell_result(outcome, written, session.stopwatch.seconds(), session.console);
   } catch (const std::bad_alloc&) {  // what is on disk is there all the same
   }
   return outcome.succeeded() ? Ok : NotCertified;
@@ -108,12 +109,7 @@ int run_map(const MapArguments& arguments) {
 }  // namespace
 
 Command declare_map(CLI::App& program) {
-  const auto arguments = std::make_shared<MapArguments>();
-  const MapDeclaration declared = declare_map_arguments(program, *arguments);
-  return {declared.options, [arguments, settle = declared.settle] {
-            settle();
-            return run_map(*arguments);
-          }};
+  return make_command(program, "map", summary, declare_map_options, run_map);
 }
 
 }  // namespace sphparam::cli

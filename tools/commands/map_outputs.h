@@ -1,9 +1,8 @@
 #pragma once
 
 #include "arguments/map_arguments.h"
-#include "commands/map_outcome.h"
-#include "console/console.h"
-#include "sphparam/stopwatch.h"
+#include "console/session.h"
+#include "reports/map_outcome.h"
 
 namespace sphparam::cli {
 
@@ -11,6 +10,6 @@ namespace sphparam::cli {
 /// or, where one fails, none. The map and the sphere are read back and must have the verdict of the
 /// map in memory. Throws: NotCertifiedError if not; WriteError; Cancelled.
 void write_outputs(const MapArguments& arguments, MapOutcome& outcome, bool with_map,
-                   const Stopwatch& stopwatch, Console& console);
+                   Session& session);
 
 }  // namespace sphparam::cli

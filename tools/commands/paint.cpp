@@ -3,25 +3,13 @@
 
 #include "sphparam/paint/paint.h"
 
-#include <CLI/CLI.hpp>
 #include <cmath>
-#include <memory>
-#include <string>
-#include <vector>
 
-#include "arguments/choice.h"
-#include "arguments/common_options.h"
 #include "commands/command.h"
-#include "commands/mapped_source.h"
-#include "console/console.h"
-#include "console/exit_codes.h"
-#include "console/interruption.h"
-#include "console/paths.h"
+#include "commands/sources.h"
+#include "console/places.h"
 #include "io/attributes/appearance.h"
 #include "sphparam/io/mesh_writer.h"
-#include "sphparam/io/paths.h"
-#include "sphparam/io/safe_file.h"
-#include "sphparam/io/sphere_file.h"
 
 namespace sphparam::cli {
 
@@ -41,7 +29,7 @@ constexpr char summary[] =
     "with --atlas each texel of a square image does, as the mesh's texture coordinates place it,\n"
     "and colours run on over the borders of its charts. A mesh without a map is mapped first.\n";
 
-struct PaintArguments {
+struct PaintArguments : CommonArguments {
   std::string input;
   std::string output;
   std::string image;
@@ -49,18 +37,12 @@ struct PaintArguments {
   Convention convention = Convention::Sphparam;
   int atlas = 0;  // texels; 0: vertex colours
   int padding = AtlasOptions{}.padding;
-  int threads = 0;
-  ProgressStyle progress = ProgressStyle::Auto;
-  Loudness loudness;
 };
 
-using Serialiser = std::string (*)(const MeshFile&);
-
-Serialiser serialiser(const std::string& path) {
+void require_coloured_format(const std::string& path) {
   const std::string extension = extension_of(path);
-  if (extension == ".ply" || is_stream(path)) return serialise_ply;
-  if (extension == ".obj") return serialise_obj;
-  if (extension == ".off") return serialise_off;
+  const bool has_colours = extension == ".ply" || extension == ".obj" || extension == ".off";
+  if (has_colours || is_stream(path)) return;
   throw UsageMistake("-o: colours of vertices go into a .ply, .obj or .off file, not " +
                      (extension.empty() ? "one without a name" : extension) +
                      "; an image is written with --atlas SIZE");
@@ -69,14 +51,12 @@ Serialiser serialiser(const std::string& path) {
 /// Before any work is done: a name that promises another format, an input that would be lost.
 void require_sensible(const PaintArguments& arguments) {
   if (arguments.atlas == 0) {
-    serialiser(arguments.output);
+    require_coloured_format(arguments.output);
   } else if (!is_stream(arguments.output) && extension_of(arguments.output) != ".png") {
     throw UsageMistake("-o: with --atlas the picture is a PNG, the name must end in .png");
   }
-  if (is_stream(arguments.input) && is_stream(arguments.image)) {
-    throw UsageMistake("the mesh and --image cannot both come from standard input");
-  }
-  check_places({arguments.input, arguments.image, arguments.sphere}, {{"-o", arguments.output}});
+  require_one_stream({arguments.input, arguments.image}, "the mesh and --image");
+  check_places({{"-o", arguments.output}});
 }
 
 EquirectangularImage read_picture(const PaintArguments& arguments, Console& console) {
@@ -90,13 +70,6 @@ EquirectangularImage read_picture(const PaintArguments& arguments, Console& cons
   return image;
 }
 
-std::string vertex_colours(const PaintArguments& arguments, const MappedMesh& source,
-                           const EquirectangularImage& image, const Progress& progress) {
-  MeshFile file = paint_vertices(source, image, {arguments.threads, progress});
-  const Serialiser serialise = serialiser(arguments.output);
-  return serialise == serialise_ply ? serialise(file) : serialise(without_map(std::move(file)));
-}
-
 /// As the file counts its faces.
 std::string face_number(const MeshFile& file, Face face) {
   const Property* source = file.find_face_property("source_face");
@@ -104,10 +77,10 @@ std::string face_number(const MeshFile& file, Face face) {
                                : face);
 }
 
-void tell_overlaps(const PaintArguments& arguments, const MeshFile& file,
-                   const PaintedAtlas& painted, Console& console) {
+void tell_overlaps(const std::string& input, const MeshFile& file, const PaintedAtlas& painted,
+                   Console& console) {
   if (painted.overlapping == 0) return;
-  console.warning(display_name(arguments.input) + ": its texture coordinates overlap: " +
+  console.warning(display_name(input) + ": its texture coordinates overlap: " +
                   std::to_string(painted.overlapping) + " of " + std::to_string(painted.painted) +
                   " texels belong to two triangles or more (" +
                   face_number(file, painted.rivals[0]) + " and " +
@@ -115,91 +88,61 @@ void tell_overlaps(const PaintArguments& arguments, const MeshFile& file,
 }
 
 std::string atlas(const PaintArguments& arguments, const MappedMesh& source,
-                  const EquirectangularImage& image, const Progress& progress, Console& console) {
-  try {
-    const PaintedAtlas painted = paint_atlas(source, image,
-                                             {.size = arguments.atlas,
-                                              .padding = arguments.padding,
-                                              .threads = arguments.threads,
-                                              .progress = progress});
-    tell_overlaps(arguments, source.file(), painted, console);
-    return png_of(painted, image.has_alpha());
-  } catch (const AtlasError& error) {
-    throw UsageMistake(std::string("--atlas: ") + error.what());
-  }
+                  const EquirectangularImage& image, Session& session) try {
+  const PaintedAtlas painted = paint_atlas(source, image,
+                                           {.size = arguments.atlas,
+                                            .padding = arguments.padding,
+                                            .threads = session.threads(),
+                                            .progress = session.progress()});
+  tell_overlaps(arguments.input, source.file(), painted, session.console);
+  return png_of(painted, image.has_alpha());
+} catch (const AtlasError& error) {
+  throw UsageMistake(std::string("--atlas: ") + error.what());
 }
 
-int run_paint(const PaintArguments& arguments) {
+std::string coloured_mesh(const std::string& path, const MappedMesh& source,
+                          const EquirectangularImage& image, Session& session) {
+  return serialise_mesh(path,
+                        paint_vertices(source, image, {session.threads(), session.progress()}));
+}
+
+int run_paint(PaintArguments& arguments) {
   require_sensible(arguments);
-  Console console(arguments.loudness.verbosity(), arguments.progress);
-  const OrderlyInterruption orderly;
-  const MappedMesh source =
-      read_mapped_source(arguments.input, arguments.sphere, arguments.threads, console);
-  if (arguments.atlas > 0 && !has_texcoords(source.file())) {
+  Session session(arguments);
+  const MappedMesh source = read_mapped(arguments.input, arguments.sphere, session);
+  if (arguments.atlas > 0 && !has_texcoords(source.file()))
     throw UsageMistake("--atlas: the mesh has no texture coordinates of its own");
-  }
-  const EquirectangularImage image = read_picture(arguments, console);
-  const Progress progress = [&](std::string_view stage, double fraction) {
-    return console.progress(stage, fraction);
-  };
-  std::string bytes = arguments.atlas > 0 ? atlas(arguments, source, image, progress, console)
-                                          : vertex_colours(arguments, source, image, progress);
-  console.clear_progress();
-  if (interrupted()) throw Cancelled();
-  write_file(arguments.output, std::move(bytes));
-  console.say(display_name(arguments.input) + ", " + display_name(arguments.image) + " → " +
-              output_name(arguments.output));
+  const EquirectangularImage image = read_picture(arguments, session.console);
+  session.files.add(arguments.output,
+                    arguments.atlas > 0 ? atlas(arguments, source, image, session)
+                                        : coloured_mesh(arguments.output, source, image, session));
+  session.publish();
+  session.console.say(display_name(arguments.input) + ", " + display_name(arguments.image) + " → " +
+                      output_name(arguments.output));
   return Ok;
 }
 
-void add_inputs(CLI::App& command, PaintArguments& arguments) {
-  command.add_option("MESH", arguments.input, "A map or a mesh; - for standard input")
-      ->type_name(" ")
-      ->required();
-  command
-      .add_option("--image", arguments.image,
-                  "The equirectangular image: PNG, JPEG, TIFF (sRGB) or EXR (linear)")
-      ->type_name("IMAGE")
-      ->required();
-  std::vector<std::pair<std::string, Convention>> conventions;
-  for (const ConventionInfo& info : all_conventions()) {
-    conventions.emplace_back(info.name, info.convention);
-  }
-  add_choice<Convention>(command, "--convention", arguments.convention, conventions,
-                         "Where longitude goes in the image (default: sphparam)");
-  command
-      .add_option("--sphere", arguments.sphere,
-                  "The map in a file of its own: the same mesh on the sphere")
-      ->type_name("FILE");
+void declare_options(Declaration& command, PaintArguments& arguments) {
+  command.input("MESH", arguments.input, "A map or a mesh; - for standard input")
+      .text("--image", arguments.image, "IMAGE",
+            "The equirectangular image: PNG, JPEG, TIFF (sRGB) or EXR (linear)")
+      .required()
+      .convention(arguments.convention)
+      .sphere(arguments.sphere)
+      .output(arguments.output, "FILE",
+              "The coloured mesh (.ply, .obj, .off), or the image (.png); - for standard output")
+      .number("--atlas", arguments.atlas, "SIZE", {1, 32768},
+              "Paint an image of SIZE × SIZE texels for the mesh's texture coordinates")
+      .number("--padding", arguments.padding, "N", {0, 254},
+              "How many texels colours run on over the borders of charts")
+      .threads(arguments)
+      .console(arguments);
 }
 
 }  // namespace
 
 Command declare_paint(CLI::App& program) {
-  const auto arguments = std::make_shared<PaintArguments>();
-  CLI::App* command = program.add_subcommand("paint", summary);
-  add_inputs(*command, *arguments);
-  command
-      ->add_option("-o,--output", arguments->output,
-                   "The coloured mesh (.ply, .obj, .off), or the image (.png); - for standard "
-                   "output")
-      ->type_name("FILE")
-      ->required();
-  command
-      ->add_option("--atlas", arguments->atlas,
-                   "Paint an image of SIZE × SIZE texels for the mesh's texture coordinates")
-      ->check(between(1, 32768, "1 to 32768"))
-      ->type_name("SIZE");
-  command
-      ->add_option("--padding", arguments->padding,
-                   "How many texels colours run on over the borders of charts")
-      ->check(between(0, 254, "0 to 254"))
-      ->type_name("N")
-      ->capture_default_str();
-  add_threads(*command, arguments->threads);
-  add_progress(*command, arguments->progress);
-  add_loudness(*command, arguments->loudness);
-  return {command, [arguments] { return run_paint(*arguments); }};
+  return make_command(program, "paint", summary, declare_options, run_paint);
 }
 
 }  // namespace sphparam::cli

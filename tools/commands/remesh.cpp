@@ -1,38 +1,44 @@
 // `sphparam remesh`: a mapped mesh → a grid of the sphere → the mesh on that grid, whose map the
 // grid's directions are. What was written is read back and certified before it gets its name.
 
-#include <CLI/CLI.hpp>
-#include <memory>
-#include <optional>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
 #include "arguments/input_limits.h"
-#include "arguments/remesh_arguments.h"
 #include "arguments/remesh_checks.h"
-#include "commands/mapped_source.h"
+#include "commands/command.h"
 #include "commands/remesh_glb.h"
-#include "console/exit_codes.h"
-#include "console/interruption.h"
+#include "commands/sources.h"
 #include "reports/remesh_wording.h"
 #include "sphparam/io/certified_files.h"
 #include "sphparam/io/paths.h"
-#include "sphparam/io/safe_file.h"
 #include "sphparam/measure/measurable.h"
-#include "sphparam/remesh/adaptation.h"
-#include "sphparam/remesh/displacement.h"
 #include "sphparam/remesh/geometry_image.h"
-#include "sphparam/remesh/levels_of_detail.h"
-#include "sphparam/stopwatch.h"
 
 namespace sphparam::cli {
 
 namespace {
 
-Progress progress_on(Console& console) {
-  return [&console](std::string_view stage, double f) { return console.progress(stage, f); };
-}
+constexpr char summary[] =
+    "Resample a mesh on a grid of the sphere.\n"
+    "\n"
+    "Examples:\n"
+    "  sphparam remesh statue.sph.ply --grid ico:7 -o statue_ico7.sph.ply\n"
+    "  sphparam remesh statue.sph.ply --grid ico:5 --sample cell --transfer color,uv -o low.obj\n"
+    "  sphparam remesh lh.white.gii --sphere lh.sphere.gii --grid like:ref.sphere.gii -o lh.ply\n"
+    "  sphparam remesh bennu.sph.ply --grid healpix:128 --csv bennu.csv\n"
+    "  sphparam remesh statue.sph.ply --grid cube:32 --subdiv-fit catmark -o base.obj\n"
+    "  sphparam remesh statue.sph.ply --grid ico:5 --subdiv-fit loop --displace disp.exr -o "
+    "base.glb\n"
+    "  sphparam remesh statue.sph.ply --grid ico:7 --lods 4 -o statue.glb\n"
+    "  sphparam remesh statue.sph.ply --grid octa:257 --geometry-image gi.exr\n"
+    "\n"
+    "Grids: ico:L (icosahedron, L times halved), ico:f=N (its edges cut into N), octa:N (flat\n"
+    "octahedron, N×N samples), cube:N (quads, N an edge), uv:WxH (meridians and rows),\n"
+    "healpix:NSIDE (pixel centres in RING order), like:MESH (another sphere's vertices).\n"
+    "The directions of the grid are the map of the result: a .ply is certified as `map` writes\n"
+    "it. Each vertex is located exactly; a mesh that carries no map is mapped first\n"
+    "(as `map --lambda 5` does, which spreads a grid's vertices better than the default).\n";
 
 SphereGrid grid_for(const RemeshArguments& arguments, const RemeshRequests& requests) {
   SphereGrid grid = requests.grid ? make_grid(*requests.grid, {.threads = arguments.threads})
@@ -41,33 +47,34 @@ SphereGrid grid_for(const RemeshArguments& arguments, const RemeshRequests& requ
   return grid;
 }
 
-Adaptation adapt(const MappedMesh& mapped, std::int64_t samples, const RemeshArguments& arguments,
-                 Console& console) {
+Adaptation adapt(const MappedMesh& mapped, std::int64_t samples, const std::string& input,
+                 Session& session) {
   Adaptation adapted =
-      adapt_map(mapped, samples, {.threads = arguments.threads, .progress = progress_on(console)});
+      adapt_map(mapped, samples, {.threads = session.threads(), .progress = session.progress()});
   if (adapted.steps == 0) {
-    console.warning(display_name(arguments.input) +
-                    ": triangles of the map are too thin to be moved: --adaptive does nothing");
+    session.console.warning(
+        display_name(input) +
+        ": triangles of the map are too thin to be moved: --adaptive does nothing");
   }
   return adapted;
 }
 
 std::vector<LevelOfDetail> make_levels(const MappedMesh& mapped, SphereGrid grid,
                                        const RemeshArguments& arguments,
-                                       const RemeshRequests& requests, Console& console) try {
-  std::vector<LevelOfDetail> levels =
-      levels_of_detail(mapped, std::move(grid), requests.coarser,
-                       {.sample = arguments.sample,
-                        .transfer = CLI::detail::split(arguments.transfer, ','),
-                        .subdivision = arguments.subdivision,
-                        .measure = !requests.coarser.empty(),
-                        .threads = arguments.threads,
-                        .progress = progress_on(console)});
+                                       const RemeshRequests& requests, Session& session) try {
+  std::vector<LevelOfDetail> levels = levels_of_detail(mapped, std::move(grid), requests.coarser,
+                                                       {.sample = arguments.sample,
+                                                        .transfer = split(arguments.transfer),
+                                                        .subdivision = arguments.subdivision,
+                                                        .measure = !requests.coarser.empty(),
+                                                        .threads = session.threads(),
+                                                        .progress = session.progress()});
   for (const LevelOfDetail& level : levels) {
     if (!level.fit || !level.fit->flat_is_nearer()) continue;
-    console.warning(level.mesh.name() +
-                    " is too coarse for a smooth surface: flat faces on it are nearer to the mesh "
-                    "than what was fitted");
+    session.console.warning(
+        level.mesh.name() +
+        " is too coarse for a smooth surface: flat faces on it are nearer to the mesh than what "
+        "was fitted");
   }
   return levels;
 } catch (const NoSuchProperty& error) {
@@ -76,34 +83,33 @@ std::vector<LevelOfDetail> make_levels(const MappedMesh& mapped, SphereGrid grid
   throw UsageMistake("--subdiv-fit: " + std::string(error.what()));
 }
 
-void add_meshes(PendingFiles& files, const RemeshArguments& arguments,
-                const RemeshRequests& requests, const MappedMesh& mapped,
-                const std::vector<LevelOfDetail>& levels, Console& console) {
+void add_meshes(const RemeshArguments& arguments, const RemeshRequests& requests,
+                const MappedMesh& mapped, const std::vector<LevelOfDetail>& levels,
+                Session& session) {
   if (requests.one_file) {
-    add_glb(files, arguments, mapped, levels, console);
+    add_glb(arguments, mapped, levels, session);
   } else if (!arguments.output.empty()) {
     for (size_t level = 0; level < levels.size(); ++level)
-      add_mapped(files, requests.outputs[level], levels[level].mesh, arguments.threads);
+      add_mapped(session.files, requests.outputs[level], levels[level].mesh, session.threads());
   }
   if (arguments.limit_output.empty()) return;
   const LevelOfDetail& finest = levels.front();
-  add_mapped(files, arguments.limit_output,
-             limit_mesh(finest.mesh, finest.fit.value(), arguments.threads), arguments.threads);
+  add_mapped(session.files, arguments.limit_output,
+             limit_mesh(finest.mesh, finest.fit.value(), session.threads()), session.threads());
 }
 
-std::optional<WrittenDisplacement> displace(PendingFiles& files, const RemeshArguments& arguments,
+std::optional<WrittenDisplacement> displace(const RemeshArguments& arguments,
                                             const MappedMesh& mapped, const LevelOfDetail& level,
-                                            Console& console) try {
+                                            Session& session) try {
   if (arguments.displacement.empty()) return std::nullopt;
-  const DisplacementSize size = image_size_named(arguments.displacement_size).value();
   WrittenDisplacement written =
-      add_displacement(files, {arguments.displacement, arguments.depth, arguments.rebuilt}, mapped,
-                       level.mesh, level.fit.value(),
-                       {.width = size.width,
-                        .height = size.height,
-                        .threads = arguments.threads,
-                        .progress = progress_on(console)});
-  if (written.proof && written.proof->farther_than_base()) console.warning(farther_warning);
+      add_displacement(session.files, {arguments.displacement, arguments.depth, arguments.rebuilt},
+                       mapped, level.mesh, level.fit.value(),
+                       {.width = arguments.displacement_size.width,
+                        .height = arguments.displacement_size.height,
+                        .threads = session.threads(),
+                        .progress = session.progress()});
+  if (written.proof && written.proof->farther_than_base()) session.console.warning(farther_warning);
   return written;
 } catch (const std::range_error& error) {
   throw UsageMistake("--depth: displacement: " + std::string(error.what()));
@@ -134,25 +140,22 @@ RemeshOutputs outputs_of(const RemeshArguments& arguments, const RemeshRequests&
           .levels = requests.outputs};
 }
 
-int run_remesh(const RemeshArguments& arguments) {
-  const Stopwatch stopwatch;
+int run_remesh(RemeshArguments& arguments) {
+  Session session(arguments);
   const RemeshRequests requests = check_remesh_arguments(arguments);
-  Console console(arguments.loudness.verbosity(), arguments.progress);
-  const OrderlyInterruption orderly;
-  MappedMesh mapped = read_mapped_source(arguments.input, arguments.sphere, arguments.threads,
-                                         console, remeshing_lambda);
+  MappedMesh mapped = read_mapped(arguments.input, arguments.sphere, session, remeshing_lambda);
   if (arguments.subdivision || arguments.lods > 0) require_measurable(mapped.mesh());
-  console.progress("grid", 0);
+  session.console.progress("grid", 0);
   const Stopwatch grid_stopwatch;
   SphereGrid grid = grid_for(arguments, requests);
   const double grid_seconds = grid_stopwatch.seconds();
   std::optional<Adaptation> adaptation;
   if (arguments.adaptive) {
-    adaptation = adapt(mapped, grid.directions.rows(), arguments, console);
+    adaptation = adapt(mapped, grid.directions.rows(), arguments.input, session);
     mapped = adaptation->mapped;
   }
   const std::vector<LevelOfDetail> levels =
-      make_levels(mapped, std::move(grid), arguments, requests, console);
+      make_levels(mapped, std::move(grid), arguments, requests, session);
   RemeshRecord record{.input = arguments.input,
                       .grid = arguments.grid,
                       .source = mapped,
@@ -161,29 +164,24 @@ int run_remesh(const RemeshArguments& arguments) {
                       .adaptation = adaptation,
                       .outputs = outputs_of(arguments, requests),
                       .grid_seconds = grid_seconds};
-  console.progress("write", 0);
-  PendingFiles files;
+  session.console.progress("write", 0);
   const LevelOfDetail& finest = levels.front();
-  add_meshes(files, arguments, requests, mapped, levels, console);
-  record.displacement = displace(files, arguments, mapped, finest, console);
-  add_images(files, arguments, requests, finest.mesh);
-  if (!arguments.csv.empty()) files.add(arguments.csv, sample_table(finest.mesh));
-  record.seconds = stopwatch.seconds();
-  if (!arguments.json.empty()) files.add(arguments.json, to_json(record));
-  if (interrupted()) throw Cancelled();
-  files.publish();
-  record.seconds = stopwatch.seconds();
-  console.clear_progress();
-  tell(record, console);
+  add_meshes(arguments, requests, mapped, levels, session);
+  record.displacement = displace(arguments, mapped, finest, session);
+  add_images(session.files, arguments, requests, finest.mesh);
+  if (!arguments.csv.empty()) session.files.add(arguments.csv, sample_table(finest.mesh));
+  record.seconds = session.stopwatch.seconds();
+  session.add_report([&] { return to_json(record); });
+  session.publish();
+  record.seconds = session.stopwatch.seconds();
+  tell(record, session.console);
   return Ok;
 }
 
 }  // namespace
 
 Command declare_remesh(CLI::App& program) {
-  const auto arguments = std::make_shared<RemeshArguments>();
-  CLI::App* command = declare_remesh_arguments(program, *arguments);
-  return {command, [arguments] { return run_remesh(*arguments); }};
+  return make_command(program, "remesh", summary, declare_remesh_options, run_remesh);
 }
 
 }  // namespace sphparam::cli

@@ -1,17 +1,10 @@
-// The mesh just made as `export` writes it. A texture is baked from the source, whose directions
-// are the same: the coordinates carried are only as fine as the grid.
-
 #include "commands/remesh_glb.h"
 
-#include <filesystem>
-#include <stdexcept>
-
+#include "commands/file_errors.h"
 #include "console/exit_codes.h"
-#include "io/attributes/appearance.h"
-#include "sphparam/gltf/export.h"
-#include "sphparam/io/paths.h"
-#include "sphparam/io/read_options.h"
+#include "console/places.h"
 #include "number_text.h"
+#include "sphparam/gltf/export.h"
 
 namespace sphparam::cli {
 
@@ -27,34 +20,28 @@ void add_errors(Asset& asset, std::span<const LevelOfDetail> levels) {
 }
 
 Asset asset_of(const RemeshArguments& arguments, const MappedMesh& mapped,
-               std::span<const LevelOfDetail> levels, Console& console) {
+               std::span<const LevelOfDetail> levels, Session& session) try {
   const MappedMesh& made = levels.front().mesh;
-  const bool textured = has_texcoords(made.file()) && !mapped.file().base_colours.empty();
-  ExportOptions options{
-      .name = is_stream(arguments.input)
-                  ? "mesh"
-                  : std::filesystem::path(arguments.input).filename().stem().string(),
-      .source = display_name(arguments.input),
-      .threads = arguments.threads,
-      .progress = [&](std::string_view stage, double f) { return console.progress(stage, f); }};
-  const Look look = make_look(textured ? mapped : made, options);
+  ExportOptions options{.name = stem_or(arguments.input, "mesh"),
+                        .source = display_name(arguments.input),
+                        .threads = session.threads(),
+                        .progress = session.progress()};
+  const Look look = make_look(made, mapped, options);
   for (const LevelOfDetail& level : levels.subspan(1)) options.coarser.push_back(level.mesh);
   Asset asset = make_asset(made, look, options);
   if (levels.size() > 1) add_errors(asset, levels);
   return asset;
+} catch (const LookError& error) {
+  throw UsageMistake(error.what());
 }
 
 }  // namespace
 
-void add_glb(PendingFiles& files, const RemeshArguments& arguments, const MappedMesh& mapped,
-             std::span<const LevelOfDetail> levels, Console& console) try {
-  add_asset(files, arguments.output, asset_of(arguments, mapped, levels, console));
-} catch (const LookError& error) {
-  throw UsageMistake(error.what());
-} catch (const std::range_error& error) {
-  throw ReadError(display_name(arguments.input), error.what());
-} catch (const std::length_error& error) {
-  throw WriteError(output_name(arguments.output), error.what());
+void add_glb(const RemeshArguments& arguments, const MappedMesh& mapped,
+             std::span<const LevelOfDetail> levels, Session& session) {
+  with_file_errors(arguments.input, arguments.output, [&] {
+    add_asset(session.files, arguments.output, asset_of(arguments, mapped, levels, session));
+  });
 }
 
 }  // namespace sphparam::cli

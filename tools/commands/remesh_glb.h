@@ -3,8 +3,7 @@
 #include <span>
 
 #include "arguments/remesh_arguments.h"
-#include "sphparam/io/mapped_mesh.h"
-#include "sphparam/io/safe_file.h"
+#include "console/session.h"
 #include "sphparam/remesh/levels_of_detail.h"
 
 namespace sphparam::cli {
@@ -17,7 +16,7 @@ namespace sphparam::cli {
 /// Requires: a level, the finest first. Throws: NotCertifiedError where (u, v) is not one-to-one;
 /// ReadError for positions beyond float32; WriteError for more than a .glb holds, and as
 /// PendingFiles does; Cancelled.
-void add_glb(PendingFiles& files, const RemeshArguments& arguments, const MappedMesh& mapped,
-             std::span<const LevelOfDetail> levels, Console& console);
+void add_glb(const RemeshArguments& arguments, const MappedMesh& mapped,
+             std::span<const LevelOfDetail> levels, Session& session);
 
 }  // namespace sphparam::cli

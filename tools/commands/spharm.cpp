@@ -1,31 +1,14 @@
 // `sphparam spharm`: the surface, and what it carries, as a sum of spherical harmonics: the shape
 // description that a map to the sphere was first made for (Brechbühler, Gerig, Kübler 1995).
 
-#include <CLI/CLI.hpp>
-#include <memory>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include "arguments/choice.h"
-#include "arguments/common_options.h"
-#include "arguments/suggestion.h"
 #include "commands/command.h"
-#include "commands/mapped_source.h"
-#include "console/console.h"
-#include "console/exit_codes.h"
-#include "console/interruption.h"
-#include "console/paths.h"
-#include "sphparam/errors.h"
+#include "commands/sources.h"
+#include "console/places.h"
+#include "number_text.h"
 #include "sphparam/io/certified_files.h"
 #include "sphparam/io/mesh_writer.h"
-#include "sphparam/io/paths.h"
-#include "sphparam/io/safe_file.h"
 #include "sphparam/measure/measurable.h"
-#include "sphparam/mesh/topology.h"
 #include "sphparam/records/harmonics_record.h"
-#include "sphparam/stopwatch.h"
-#include "number_text.h"
 
 namespace sphparam::cli {
 
@@ -43,47 +26,33 @@ constexpr char summary[] =
     "Least squares weigh each vertex by its solid angle on the sphere, that is, the part of the\n"
     "sphere that it stands for; residuals are told so weighted, and plain.\n";
 
-struct SpharmArguments {
+struct SpharmArguments : CommonArguments {
   std::string input;
   std::string sphere;  // empty: the mesh's own map; so are, not wanted:
-  std::string json;
   std::string csv;
   std::string reconstruction;
-  std::vector<std::string> scalars;
+  Words scalars;
   int degree = 20;
   bool least_squares = true;
-  int threads = 0;
-  ProgressStyle progress = ProgressStyle::Auto;
-  Loudness loudness;
 };
 
-std::vector<std::string> names_of(const std::vector<Property>& properties) {
-  std::vector<std::string> names;
-  for (const Property& property : properties) names.push_back(property.name);
-  return names;
-}
-
-void require_scalars(const MeshFile& file, const std::vector<std::string>& scalars) {
+void require_scalars(const MeshFile& file, const Words& scalars) {
   for (const std::string& name : scalars) {
     if (file.find_vertex_property(name)) continue;
-    const std::string meant = nearest_word(name, names_of(file.vertex_properties));
     throw UsageMistake("--scalar: the vertices have no property " + name +
-                       (meant.empty() ? "" : "; did you mean " + meant + "?"));
+                       did_you_mean(name, names_of(file.vertex_properties, &Property::name)));
   }
 }
 
 HarmonicExpansion expand(const SpharmArguments& arguments, const MappedMesh& mapped,
-                         Console& console) {
+                         Session& session) {
   require_measurable(mapped.mesh());
   require_scalars(mapped.file(), arguments.scalars);
-  HarmonicExpansion expansion = expand_in_harmonics(
-      mapped, arguments.scalars,
-      {.degree = arguments.degree,
-       .least_squares = arguments.least_squares,
-       .threads = arguments.threads,
-       .progress = [&](std::string_view stage, double f) { return console.progress(stage, f); }});
-  console.clear_progress();
-  return expansion;
+  return expand_in_harmonics(mapped, arguments.scalars,
+                             {.degree = arguments.degree,
+                              .least_squares = arguments.least_squares,
+                              .threads = session.threads(),
+                              .progress = session.progress()});
 }
 
 void add_reconstruction(PendingFiles& files, const SpharmArguments& arguments,
@@ -106,9 +75,9 @@ void require_sensible(const SpharmArguments& arguments) {
   if (!mesh.empty() && !is_stream(mesh) && !can_be) {
     throw UsageMistake("--reconstruct: the name must end in .ply, .obj or .off");
   }
-  check_places({arguments.input, arguments.sphere}, {{"--json", arguments.json},
-                                                     {"--csv", arguments.csv},
-                                                     {"--reconstruct", arguments.reconstruction}});
+  check_places({{"--json", arguments.json},
+                {"--csv", arguments.csv},
+                {"--reconstruct", arguments.reconstruction}});
 }
 
 /// More coefficients than vertices: the residual at the vertices says nothing then.
@@ -121,14 +90,15 @@ void warn_of_few_vertices(const SpharmArguments& arguments, const MeshFile& file
                   " vertices: what these leave open is as in --fit quadrature");
 }
 
-void tell(const SpharmArguments& arguments, const HarmonicExpansion& report,
-          const Stopwatch& stopwatch, Console& console) {
-  std::string line = display_name(arguments.input) + ": degree " + std::to_string(report.degree()) +
-                     ", RMS distance at the vertices, weighted by solid angle, " +
-                     short_number(report.position_rms()) + " (" +
-                     percent(report.position_rms() / report.diagonal) +
-                     " of the diagonal), unweighted " + short_number(report.plain_position_rms()) +
-                     ", " + short_number(stopwatch.seconds()) + " s";
+void tell(const std::string& input, const HarmonicExpansion& report, Session& session) {
+  Console& console = session.console;
+  const std::string line = display_name(input) + ": degree " + std::to_string(report.degree()) +
+                           ", RMS distance at the vertices, weighted by solid angle, " +
+                           short_number(report.position_rms()) + " (" +
+                           percent(report.position_rms() / report.diagonal) +
+                           " of the diagonal), unweighted " +
+                           short_number(report.plain_position_rms()) + ", " +
+                           short_number(session.stopwatch.seconds()) + " s";
   console.say(line);
   if (report.degree() >= 1) {
     const Vector3 axes = first_order_ellipsoid(report.fit.coefficients.leftCols(3));
@@ -144,65 +114,46 @@ void tell(const SpharmArguments& arguments, const HarmonicExpansion& report,
   console.detail("  " + std::to_string(report.fit.iterations) + " iterations");
 }
 
-int run_spharm(const SpharmArguments& arguments) {
+int run_spharm(SpharmArguments& arguments) {
   require_sensible(arguments);
-  const Stopwatch stopwatch;
-  Console console(arguments.loudness.verbosity(), arguments.progress);
-  const OrderlyInterruption orderly;
-  const MappedMesh mapped =
-      read_mapped_source(arguments.input, arguments.sphere, arguments.threads, console);
-  warn_of_few_vertices(arguments, mapped.file(), console);
-  const HarmonicExpansion expansion = expand(arguments, mapped, console);
-  PendingFiles files;
-  if (!arguments.json.empty())
-    files.add(arguments.json, to_json(expansion, arguments.input, mapped.provenance()));
-  if (!arguments.csv.empty()) files.add(arguments.csv, to_csv(expansion));
-  if (!arguments.reconstruction.empty()) add_reconstruction(files, arguments, mapped, expansion);
-  if (interrupted()) throw Cancelled();
-  files.publish();
-  tell(arguments, expansion, stopwatch, console);
+  Session session(arguments);
+  const MappedMesh mapped = read_mapped(arguments.input, arguments.sphere, session);
+  warn_of_few_vertices(arguments, mapped.file(), session.console);
+  const HarmonicExpansion expansion = expand(arguments, mapped, session);
+  session.add_report([&] { return to_json(expansion, arguments.input, mapped.provenance()); });
+  if (!arguments.csv.empty()) session.files.add(arguments.csv, to_csv(expansion));
+  if (!arguments.reconstruction.empty())
+    add_reconstruction(session.files, arguments, mapped, expansion);
+  session.publish();
+  tell(arguments.input, expansion, session);
   return Ok;
 }
 
-void add_options(CLI::App& command, SpharmArguments& arguments) {
+void declare_options(Declaration& command, SpharmArguments& arguments) {
   command
-      .add_option("MESH", arguments.input,
-                  "A .sph.ply, or any mesh: it is mapped first; - for standard input")
-      ->type_name(" ")
-      ->required();
-  command.add_option("--sphere", arguments.sphere, "Another map of the mesh: a sphere mesh")
-      ->type_name("FILE");
-  command.add_option("--degree", arguments.degree, "Greatest degree, 0 to 1000")
-      ->check(between(0, greatest_harmonic_degree, "0 to 1000"))
-      ->type_name("L")
-      ->capture_default_str();
-  command.add_option("--scalar", arguments.scalars, "A property of the vertices; may be repeated")
-      ->type_name("NAME")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  add_choice<bool>(command, "--fit", arguments.least_squares,
-                   {{"least-squares", true}, {"quadrature", false}},
-                   "At the vertices, weighted by their solid angles, or the integral over the "
-                   "sphere (default: least-squares)");
-  add_json(command, arguments.json, "Coefficients and figures");
-  command.add_option("--csv", arguments.csv, "Coefficients, a line each; - for standard output")
-      ->type_name("FILE");
-  command
-      .add_option("--reconstruct", arguments.reconstruction,
-                  "The mesh as the harmonics have it: .ply, .obj or .off")
-      ->type_name("FILE");
-  add_threads(command, arguments.threads);
-  add_progress(command, arguments.progress);
-  add_loudness(command, arguments.loudness);
+      .input("MESH", arguments.input,
+             "A .sph.ply, or any mesh: it is mapped first; - for standard input")
+      .sphere(arguments.sphere)
+      .number("--degree", arguments.degree, "L", {0, greatest_harmonic_degree},
+              "Greatest degree, 0 to 1000")
+      .texts("--scalar", arguments.scalars, "NAME", "A property of the vertices; may be repeated")
+      .choice("--fit", arguments.least_squares, {{"least-squares", true}, {"quadrature", false}},
+              "At the vertices, weighted by their solid angles, or the integral over the "
+              "sphere (default: least-squares)")
+      .json(arguments, "Coefficients and figures")
+      .text("--csv", arguments.csv, "FILE", "Coefficients, a line each; - for standard output")
+      .written()
+      .text("--reconstruct", arguments.reconstruction, "FILE",
+            "The mesh as the harmonics have it: .ply, .obj or .off")
+      .written()
+      .threads(arguments)
+      .console(arguments);
 }
 
 }  // namespace
 
 Command declare_spharm(CLI::App& program) {
-  const auto arguments = std::make_shared<SpharmArguments>();
-  CLI::App* command = program.add_subcommand("spharm", summary);
-  add_options(*command, *arguments);
-  return {command, [arguments] { return run_spharm(*arguments); }};
+  return make_command(program, "spharm", summary, declare_options, run_spharm);
 }
 
 }  // namespace sphparam::cli

@@ -3,15 +3,11 @@
 
 #include "console/completion.h"
 
+#include "number_text.h"
+
 namespace sphparam::cli {
 
 namespace {
-
-std::string joined(const std::vector<std::string>& words, const std::string& between) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
-  return text;
-}
 
 /// Backslashes before these letters.
 std::string escaped(const std::string& text, const std::string& letters) {

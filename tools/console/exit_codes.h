@@ -1,5 +1,7 @@
 #pragma once
 
+#include <stdexcept>
+
 #include "sphparam/errors.h"
 
 namespace sphparam::cli {
@@ -14,6 +16,12 @@ enum ExitCode : int {
   NotCertified = 5,   // the map is not one-to-one
   LimitExceeded = 6,  // a measured limit was exceeded
   Interrupted = 130,  // SIGINT or SIGTERM
+};
+
+/// A command line that CLI11 accepts and that makes no sense all the same.
+class UsageMistake : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
 };
 
 /// What people read about them, in --help and in the manual.

@@ -16,13 +16,13 @@
 
 #include "arguments/input_limits.h"
 #include "arguments/leading_options.h"
-#include "arguments/suggestion.h"
+#include "arguments/words.h"
 #include "commands/command.h"
 #include "console/console.h"
 #include "console/exit_codes.h"
-#include "console/files_read.h"
 #include "console/interruption.h"
 #include "console/memory_limit.h"
+#include "console/places.h"
 #include "image/image_codec.h"
 #include "io/files/temporary_file.h"
 #include "sphparam/errors.h"
@@ -83,22 +83,16 @@ class Help : public CLI::Formatter {
   }
 };
 
-std::vector<std::string> option_names(const CLI::App& app) {
-  std::vector<std::string> names;
+Words option_names(const CLI::App& app) {
+  Words names;
   for (const CLI::Option* option : app.get_options()) {
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   }
   return names;
 }
 
-std::vector<std::string> command_names(const CLI::App& program) {
-  std::vector<std::string> names;
-  for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
-  return names;
-}
-
-std::string with_suggestion(const std::string& complaint, const std::string& meant) {
-  return meant.empty() ? complaint : complaint + "; did you mean " + meant + "?";
+Words command_names(const CLI::App& program) {
+  return names_of(program.get_subcommands({}), &CLI::App::get_name);
 }
 
 /// What to type now, for options that have changed their name.
@@ -128,12 +122,10 @@ std::string explain(const CLI::App& program, const CLI::ParseError& error) {
       const std::string name = word.substr(0, word.find('='));
       const std::string now = present_spelling(app.get_name(), name);
       if (!now.empty()) return now;
-      return with_suggestion("unknown option " + name, nearest_word(name, option_names(app)));
+      return "unknown option " + name + did_you_mean(name, option_names(app));
     }
-    if (chosen.empty()) {
-      return with_suggestion("unknown subcommand " + word,
-                             nearest_word(word, command_names(program)));
-    }
+    if (chosen.empty())
+      return "unknown subcommand " + word + did_you_mean(word, command_names(program));
   }
   return error.what() + hint_of_json(app, error);
 }
@@ -217,32 +209,34 @@ void forbid_core_dumps() {
   _exit(InternalError);
 }
 
+int told(const std::exception& error, ExitCode code) {
+  print_error(error.what());
+  return code;
+}
+
+int mesh_error(const MeshError& error, const std::string& advice) {
+  print_error("this is not a closed genus-0 mesh:");
+  std::fputs((defect_list(error.defects()) + advice).c_str(), stderr);
+  return MeshUnusable;
+}
+
 int guarded_main(int argc, char** argv) {
   try {
     return run_program(argc, argv);
   } catch (const MeshRefusal& error) {
-    print_error("this is not a closed genus-0 mesh:");
-    std::fputs((defect_list(error.defects()) + repair_advice(error)).c_str(), stderr);
-    return MeshUnusable;
+    return mesh_error(error, repair_advice(error));
   } catch (const MeshError& error) {
-    print_error("this is not a closed genus-0 mesh:");
-    std::fputs(defect_list(error.defects()).c_str(), stderr);
-    return MeshUnusable;
+    return mesh_error(error, "");
   } catch (const UnmeasurableMesh& error) {
-    print_error(error.what());
-    return MeshUnusable;
+    return told(error, MeshUnusable);
   } catch (const NotCertifiedError& error) {
-    print_error(error.what());
-    return NotCertified;
+    return told(error, NotCertified);
   } catch (const ReadError& error) {
-    print_error(error.what());
-    return FileError;
+    return told(error, FileError);
   } catch (const ImageError& error) {
-    print_error(error.what());
-    return FileError;
+    return told(error, FileError);
   } catch (const WriteError& error) {
-    print_error(error.what());
-    return FileError;
+    return told(error, FileError);
   } catch (const Cancelled&) {
     print_error("interrupted");
     return Interrupted;

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "console/paths.h"
+#include "console/places.h"
+#include "number_text.h"
 #include "reports/told_losses.h"
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/words.h"
-#include "number_text.h"
 
 namespace sphparam::cli {
 
@@ -27,48 +27,50 @@ std::string residual_line(const std::string& what, long number, double residual,
 std::string complaint_of_frame(const MapOutcome& outcome) {
   const FileNumbers numbers(outcome.source.file);
   std::string lines;
-  for (size_t i = 0; i < std::min(outcome.pins.size(), outcome.result.pin_residuals.size()); ++i) {
-    lines += residual_line("pin", numbers.number(outcome.pins[i].vertex),
+  for (size_t i = 0; i < std::min(outcome.options.pins.size(), outcome.result.pin_residuals.size());
+       ++i) {
+    lines += residual_line("pin", numbers.number(outcome.options.pins[i].vertex),
                            outcome.result.pin_residuals[i], "its point");
   }
-  const std::vector<double> of_poles = outcome.pole_residuals();
-  if (!outcome.poles_hold() && !of_poles.empty()) {
-    lines += residual_line("pole", numbers.number(outcome.poles->north), of_poles[0], "+z") +
-             residual_line("pole", numbers.number(outcome.poles->south), of_poles[1], "-z");
+  const ParameterizeOptions& wanted = outcome.options;
+  const std::vector<double>& of_poles = outcome.frame.pole_residuals;
+  if (!outcome.frame.poles && !of_poles.empty()) {
+    lines += residual_line("pole", numbers.number(wanted.poles->north), of_poles[0], "+z") +
+             residual_line("pole", numbers.number(wanted.poles->south), of_poles[1], "-z");
   }
-  if (!outcome.meridian_holds()) {
+  if (!outcome.frame.meridian) {
     lines +=
-        "  vertex " + std::to_string(numbers.number(*outcome.meridian)) + " is not at theta = 0\n";
+        "  vertex " + std::to_string(numbers.number(*wanted.meridian)) + " is not at theta = 0\n";
   }
   return lines;
 }
 
 /// "certified one-to-one", or what the map lacks.
 std::string verdict_words(const MapOutcome& outcome) {
-  if (!outcome.certificate.bijective()) return "not one-to-one: " + outcome.verdict();
+  if (!outcome.bijective()) return "not one-to-one: " + outcome.verdict();
   std::string missing;
   const auto add = [&](bool holds, const char* what) {
     if (!holds) missing += (missing.empty() ? "" : ", ") + std::string(what);
   };
-  add(outcome.pins_hold(), "pins are not at their points");
-  add(outcome.poles_hold(), "the poles are not at ±z");
-  add(outcome.meridian_holds(), "the meridian is not at theta = 0");
+  add(outcome.frame.pins, "pins are not at their points");
+  add(outcome.frame.poles, "the poles are not at ±z");
+  add(outcome.frame.meridian, "the meridian is not at theta = 0");
   return missing.empty() ? "certified one-to-one" : "one-to-one, but " + missing;
 }
 
-std::string advice(const MapArguments& arguments, bool written) {
+std::string advice(const MapOutcome& outcome, bool written) {
   if (written) return "  written all the same and marked in its header (--keep-folded)";
-  const bool ours = arguments.method == AnyMethod(Method::Progressive) ||
-                    arguments.method == AnyMethod(Method::Curvilinear);
-  const bool as_printed = !ours && !arguments.options.repair_paper;
+  const bool ours = outcome.method == AnyMethod(Method::Progressive) ||
+                    outcome.method == AnyMethod(Method::Curvilinear);
+  const bool as_printed = !ours && !outcome.options.repair_paper;
   return as_printed ? "  --repair-map mends it, --keep-folded writes it as it is"
                     : "  --keep-folded writes it as it is";
 }
 
 }  // namespace
 
-void tell_stages(const MapArguments& arguments, const MapOutcome& outcome, Console& console) {
-  tell_losses(outcome.source, arguments.input, console);
+void tell_stages(const MapOutcome& outcome, Console& console) {
+  tell_losses(outcome.source, console);
   const std::vector<std::string> told = losses_among(outcome.source.notes);
   for (const std::string& note : outcome.source.notes)
     if (std::find(told.begin(), told.end(), note) == told.end()) console.detail("  note: " + note);
@@ -85,7 +87,7 @@ void tell_stages(const MapArguments& arguments, const MapOutcome& outcome, Conso
     console.say("  " + outcome.account->citation + ": " + outcome.account->statement);
   }
   for (const StageRecord& stage : outcome.result.stages) {
-    const bool asked = arguments.method == AnyMethod(Method::Paper);
+    const bool asked = outcome.method == AnyMethod(Method::Paper);
     asked ? console.say("  " + stage_line(stage)) : console.detail("  " + stage_line(stage));
   }
   if (const std::optional<BalanceRecord>& balance = outcome.result.balance) {
@@ -95,18 +97,18 @@ void tell_stages(const MapArguments& arguments, const MapOutcome& outcome, Conso
   for (const std::string& warning : outcome.result.warnings) console.warning(warning);
 }
 
-void tell_frame(const MapArguments& arguments, const MapOutcome& outcome, Console& console) {
+void tell_frame(const MapOutcome& outcome, Console& console) {
   const Parameterization& result = outcome.result;
-  const bool given = arguments.options.poles || !arguments.pins.empty();
-  if (!outcome.succeeded() || (!result.poles && outcome.pins.empty())) return;
+  const bool given = outcome.options.poles || !outcome.options.pins.empty();
+  if (!outcome.succeeded() || (!result.poles && outcome.options.pins.empty())) return;
   const FileNumbers numbers(outcome.source.file);
   std::string line = "  ";
   if (result.poles) {
     line += "vertices " + std::to_string(numbers.number(result.poles->north)) + " and " +
             std::to_string(numbers.number(result.poles->south)) + " at ±z";
   }
-  if (!outcome.pins.empty()) {
-    line += (result.poles ? ", " : "") + std::to_string(outcome.pins.size()) + " pinned";
+  if (!outcome.options.pins.empty()) {
+    line += (result.poles ? ", " : "") + std::to_string(outcome.options.pins.size()) + " pinned";
   }
   const double percent = 100 * result.pole_cost;
   line += ": " + short_number(std::abs(percent)) + " % " + (percent < 0 ? "less" : "more") +
@@ -114,20 +116,20 @@ void tell_frame(const MapArguments& arguments, const MapOutcome& outcome, Consol
   given ? console.say(line) : console.detail(line);
 }
 
-void tell_result(const MapArguments& arguments, const MapOutcome& outcome, bool written,
-                 const Stopwatch& stopwatch, Console& console) {
-  std::string line = display_name(arguments.input) + ": " +
+void tell_result(const MapOutcome& outcome, const std::string& written, double seconds,
+                 Console& console) {
+  std::string line = display_name(outcome.source.path) + ": " +
                      std::to_string(outcome.source.file.mesh.face_count()) + " triangles, " +
                      verdict_words(outcome);
   if (outcome.has_map()) line += " (" + outcome.result.made_by + ")";
   if (outcome.figures) line += ", " + distortion_line(*outcome.figures);
-  line += ", " + short_number(stopwatch.seconds()) + " s";
-  line += written ? " → " + output_name(arguments.output) : ", no map written";
+  line += ", " + short_number(seconds) + " s";
+  line += written.empty() ? ", no map written" : " → " + output_name(written);
   if (outcome.succeeded()) return console.say(line);
-  if (!outcome.certificate.bijective()) {
-    line += "\n" + complaint(outcome.certificate) + advice(arguments, written);
+  if (!outcome.bijective()) {
+    line += "\n" + complaint(outcome.result.certificate) + advice(outcome, !written.empty());
   }
-  if (!outcome.frame_holds()) {
+  if (!outcome.frame.holds()) {
     line += "\n" + complaint_of_frame(outcome) + "  no map is written without them";
   }
   console.error(line);

@@ -1,21 +1,21 @@
 #pragma once
 
-#include "arguments/map_arguments.h"
-#include "commands/map_outcome.h"
+#include <string>
+
 #include "console/console.h"
-#include "sphparam/stopwatch.h"
+#include "reports/map_outcome.h"
 
 namespace sphparam::cli {
 
 /// What is odd but harmless, and what the stages did; the paper's method is for those who want to
 /// see what each stage does, so it tells without being asked.
-void tell_stages(const MapArguments& arguments, const MapOutcome& outcome, Console& console);
+void tell_stages(const MapOutcome& outcome, Console& console);
 
 /// What holding the given vertices cost; with -v also what automatic poles cost.
-void tell_frame(const MapArguments& arguments, const MapOutcome& outcome, Console& console);
+void tell_frame(const MapOutcome& outcome, Console& console);
 
-/// The verdict in a line, what is wrong with it, and where it was written.
-void tell_result(const MapArguments& arguments, const MapOutcome& outcome, bool written,
-                 const Stopwatch& stopwatch, Console& console);
+/// The verdict in a line, what is wrong with it, and where it was written; empty: nowhere.
+void tell_result(const MapOutcome& outcome, const std::string& written, double seconds,
+                 Console& console);
 
 }  // namespace sphparam::cli

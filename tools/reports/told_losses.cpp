@@ -1,13 +1,13 @@
 #include "reports/told_losses.h"
 
-#include "console/paths.h"
 #include "sphparam/io/losses.h"
+#include "sphparam/io/paths.h"
 
 namespace sphparam::cli {
 
-void tell_losses(const MeshSource& source, const std::string& path, Console& console) {
+void tell_losses(const MeshSource& source, Console& console) {
   for (const std::string& loss : losses_among(source.notes))
-    console.say("  " + display_name(path) + ": " + loss);
+    console.say("  " + display_name(source.path) + ": " + loss);
 }
 
 }  // namespace sphparam::cli

@@ -1,14 +1,12 @@
 #pragma once
 
-#include <string>
-
-#include "commands/source.h"
 #include "console/console.h"
+#include "sphparam/io/mesh_source.h"
 
 namespace sphparam::cli {
 
 /// Says what the file carries and the mesh file does not, a line each. Every command whose outputs
 /// carry what a mesh carries calls it.
-void tell_losses(const MeshSource& source, const std::string& path, Console& console);
+void tell_losses(const MeshSource& source, Console& console);
 
 }  // namespace sphparam::cli

@@ -4,6 +4,7 @@
 
 #include "bake/bake_scene.h"
 #include "sphparam/progress.h"
+#include "texture/read_textures.h"
 
 namespace sphparam {
 
@@ -22,14 +23,5 @@ BakeTarget make_target(const MappedMesh& mapped, bool is_source, int threads, in
 
 /// The mesh with its own normals and no textures, to bake of.
 BakeSource make_source(const MappedMesh& mapped);
-
-/// A texture of the user's own for all of the mesh.
-/// Throws: ImageError.
-SourceTexture read_texture(const std::string& path, TextureWrap wrap, int threads);
-
-/// The textures of a file's materials, decoded; empty where it has none. An image that several
-/// materials use is decoded once.
-/// Throws: ImageError that names material and image, for one that is missing, broken or unusable.
-std::vector<SourceTexture> read_textures(const MeshFile& file, int threads);
 
 }  // namespace sphparam

@@ -1,4 +1,5 @@
 #include <stdexcept>
+#include <utility>
 
 #include "compare/comparison.h"
 #include "sphparam/report/compare.h"
@@ -20,25 +21,40 @@ std::vector<std::string> method_names() {
   return names;
 }
 
-std::vector<std::pair<std::string, std::string>> compare_maps(
-    const std::string& name, const MeshFile& file, const std::vector<std::string>& methods,
-    const std::vector<NamedMap>& others, const CompareOptions& options) {
-  if (methods.empty() && others.empty()) throw std::invalid_argument("there is nothing to compare");
+std::vector<Entry> make_entries(const MeshFile& file, const std::vector<std::string>& methods,
+                                const std::vector<NamedMap>& others, const CompareOptions& options,
+                                const std::function<void(const Entry&)>& tell) {
   std::vector<AnyMethod> wanted;
   for (const std::string& method : methods) wanted.push_back(require_method(method));
   std::vector<Entry> entries;
+  const auto add = [&](Entry entry) {
+    if (tell) tell(entry);
+    entries.push_back(std::move(entry));
+  };
   for (const AnyMethod method : wanted) {
-    entries.push_back(entry_of_method(method, file.mesh,
-                                      {.threads = options.threads, .progress = options.progress}));
+    add(entry_of_method(method, file.mesh,
+                        {.threads = options.threads, .progress = options.progress}));
   }
-  for (const NamedMap& other : others) {
-    entries.push_back(
-        entry_of_map(other.name, other.source, file.mesh, other.map, options.threads));
-  }
+  for (const NamedMap& other : others)
+    add(entry_of_map(other.name, other.source, file.mesh, other.map, options.threads));
+  return entries;
+}
+
+ComparisonOptions comparison_options(const MeshFile& file, const CompareOptions& options) {
   PictureOptions look = seen_with_up(direction_of(options.up.value_or(up_axis(file))));
   look.size = options.size;
   look.threads = options.threads;
-  return comparison_files(name, file, entries, {.pictures = options.pictures, .look = look});
+  return {.pictures = options.pictures,
+          .look = look,
+          .textures = options.textures ? *options.textures : MeshTextures{}};
+}
+
+FolderFiles compare_maps(const std::string& name, const MeshFile& file,
+                         const std::vector<std::string>& methods,
+                         const std::vector<NamedMap>& others, const CompareOptions& options) {
+  if (methods.empty() && others.empty()) throw std::invalid_argument("there is nothing to compare");
+  return comparison_files(name, file, make_entries(file, methods, others, options),
+                          comparison_options(file, options));
 }
 
 }  // namespace sphparam

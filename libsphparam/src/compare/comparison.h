@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "compare/entry.h"
 #include "compare/pictures.h"
 #include "sphparam/io/mesh_file.h"
+#include "sphparam/report/compare.h"
 
 namespace sphparam {
 
@@ -26,6 +28,16 @@ struct ComparisonOptions {
 FolderFiles comparison_files(const std::string& name, const MeshFile& file,
                              const std::vector<Entry>& entries,
                              const ComparisonOptions& options = {});
+
+/// The entries of methods, by name, and then of other maps: each is told as it is there.
+/// Throws: std::invalid_argument for a name that is not among `method_names`, before any work;
+/// MeshError unless the mesh is a closed genus-0 manifold; Cancelled.
+std::vector<Entry> make_entries(const MeshFile& file, const std::vector<std::string>& methods,
+                                const std::vector<NamedMap>& others, const CompareOptions& options,
+                                const std::function<void(const Entry&)>& tell = {});
+
+/// What a user says, of this mesh.
+ComparisonOptions comparison_options(const MeshFile& file, const CompareOptions& options);
 
 /// A heading of one pair of charts, area and angle, on the page; the SVGs are added to `files` as
 /// NAME-area.svg and NAME-angle.svg. Requires: both have a distortion.

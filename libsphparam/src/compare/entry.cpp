@@ -2,9 +2,9 @@
 
 #include <utility>
 
+#include "number_text.h"
 #include "report/svg.h"
 #include "sphparam/stopwatch.h"
-#include "number_text.h"
 
 namespace sphparam {
 

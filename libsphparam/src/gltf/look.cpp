@@ -11,6 +11,7 @@
 #include "gltf/material_images.h"
 #include "gltf/painted_surfaces.h"
 #include "gltf/variant_images.h"
+#include "io/attributes/appearance.h"
 #include "io/attributes/shading_normals.h"
 #include "io/attributes/source_attributes.h"
 #include "sphparam/chart/chart_failure.h"
@@ -162,6 +163,11 @@ ImageOfOtherChart::ImageOfOtherChart(const std::string& path, int refine_poles)
 const std::vector<std::string>& variant_names() {
   static const std::vector<std::string> words = {"axes", "checker", "graticule", "area", "angle"};
   return words;
+}
+
+Look make_look(const MappedMesh& made, const MappedMesh& source, const ExportOptions& options) {
+  const bool textured = has_texcoords(made.file()) && !source.file().base_colours.empty();
+  return make_look(textured ? source : made, options);
 }
 
 Look without_given_normals(Look look) {

@@ -9,9 +9,9 @@
 
 #include "sphparam/errors.h"
 #include "sphparam/io/certified_files.h"
-#include "sphparam/io/connectivity.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/safe_file.h"
+#include "sphparam/io/written_map.h"
 #include "sphparam/names.h"
 #include "sphparam/version.h"
 
@@ -39,27 +39,15 @@ struct MappedMesh::State {
 
 namespace {
 
-struct WrittenMap {
-  SphereMap map;
-  Provenance provenance;
-};
-
-WrittenMap map_of_sphere(const MeshSource& shape, const LoadOptions& options) {
-  const MeshFile sphere = read_source(options.sphere, options.read).file;
-  const std::string difference = connectivity_difference(shape.file, sphere);
-  if (!difference.empty()) {
-    throw ReadError(display_name(options.sphere),
-                    "not a sphere of " + display_name(shape.path) + ": " + difference);
-  }
-  std::optional<SphereMap> map = read_sphere(sphere);
-  return {map ? std::move(*map) : SphereMap{sphere.mesh.positions}, read_provenance(sphere)};
-}
-
 std::optional<WrittenMap> written_map(const MeshSource& source, const LoadOptions& options) {
-  if (!options.sphere.empty()) return map_of_sphere(source, options);
+  if (!options.sphere.empty()) {
+    WrittenMap written = read_map_of(source, options.sphere, options.read);
+    written.file = {};  // its memory is wanted
+    return written;
+  }
   std::optional<SphereMap> map = read_sphere(source.file);
   if (!map) return std::nullopt;
-  return WrittenMap{std::move(*map), read_provenance(source.file)};
+  return WrittenMap{{}, std::move(*map), read_provenance(source.file)};
 }
 
 WrittenMap made_map(const MeshSource& source, const ParameterizeOptions& options) {
@@ -68,7 +56,8 @@ WrittenMap made_map(const MeshSource& source, const ParameterizeOptions& options
     throw NotCertifiedError(display_name(source.path) +
                             ": no one-to-one map was found: " + verdict(result.certificate));
   }
-  return {std::move(result.map),
+  return {{},
+          std::move(result.map),
           {{"version", version},
            {"method", name_of(options.method)},
            {"stage", result.made_by},

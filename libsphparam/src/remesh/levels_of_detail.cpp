@@ -2,6 +2,8 @@
 
 #include "sphparam/remesh/levels_of_detail.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "remesh/distance_on_grid.h"
@@ -11,6 +13,8 @@
 namespace sphparam {
 
 namespace {
+
+constexpr std::int64_t distance_samples = 250'000;  // on each side
 
 void fit_level(LevelOfDetail& level, const MappedMesh& source, const LevelOptions& options) {
   const SubdivisionFitOptions fitting{.scheme = options.subdivision.value(),
@@ -33,11 +37,9 @@ LevelOfDetail make_level(const MappedMesh& source, SphereGrid grid, const LevelO
 }
 
 void measure(LevelOfDetail& level, const MappedMesh& source, const LevelOptions& options) {
-  const SurfaceDistance distance =
-      distance_on_grid(source.mesh(), shown_mesh(level, options.threads), level.mesh.name(),
-                       {.samples = distance_samples(level.mesh.faces()),
-                        .threads = options.threads,
-                        .progress = options.progress});
+  const SurfaceDistance distance = distance_on_grid(
+      source.mesh(), shown_mesh(level, options.threads), level.mesh.name(),
+      {.samples = distance_samples, .threads = options.threads, .progress = options.progress});
   level.distance = {distance.rms(), distance.max()};
 }
 
@@ -82,9 +84,33 @@ std::vector<GridSpec> coarser_grids(const GridSpec& finest, int count) {
   return grids;
 }
 
+std::vector<MappedMesh> quartered_meshes(const MappedMesh& source, int count,
+                                         const LevelOptions& options) {
+  const auto finest = static_cast<double>(source.mesh().vertex_count());
+  LevelOptions unfitted = options;
+  unfitted.subdivision = {};
+  std::vector<MappedMesh> meshes;
+  for (int level = 1; level <= count; ++level) {
+    // An icosahedron whose edges are cut into N has 10·N² + 2 vertices.
+    const double vertices = std::ldexp(finest, -2 * level);
+    const int size = std::max(1, static_cast<int>(std::lround(std::sqrt(vertices / 10))));
+    report(options.progress, "level " + std::to_string(level - 1), 0);
+    const SphereGrid grid =
+        make_grid({GridKind::IcosahedronCut, size, 0}, {.threads = options.threads});
+    const MappedMesh mesh = make_level(source, grid, unfitted).mesh;
+    meshes.emplace_back(MappedMesh::Parts{.file = mesh.file(),
+                                          .map = mesh.map(),
+                                          .provenance = source.provenance(),
+                                          .topology = mesh.topology(),
+                                          .name = source.name()},
+                        options.threads);
+  }
+  return meshes;
+}
+
 TriangleMesh shown_mesh(const LevelOfDetail& level, int threads) {
   if (!level.fit) return level.mesh.mesh();
-  return fine_limit_mesh(*level.fit, level.mesh.faces(), shown_pieces(level.mesh.faces()), threads);
+  return fine_limit_mesh(*level.fit, level.mesh.faces(), shown_pieces, threads);
 }
 
 }  // namespace sphparam

@@ -6,12 +6,19 @@
 
 #include "image/image_codec.h"
 #include "io/attributes/shading_normals.h"
+#include "render/drawing_size.h"
 #include "render/figure.h"
 #include "render/geodesic.h"
 #include "render/heat.h"
 #include "render/own_paint.h"
 #include "render/render.h"
+#include "sphparam/io/file_numbers.h"
+#include "sphparam/io/mapped_mesh.h"
+#include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/paths.h"
+#include "sphparam/io/written_map.h"
 #include "sphparam/sphere/distortion.h"
+#include "texture/source_texture.h"
 
 namespace sphparam {
 
@@ -32,17 +39,25 @@ Vector3 eye(const DrawingOptions& options, Up up) {
   return up == Up::Y ? Vector3(1, 0.45, 0.6) : Vector3(1, -0.6, 0.45);
 }
 
+/// Of a sphere with any radius.
+SphereMap directions_of(const MeshSource& source, const std::string& sphere,
+                        const ReadOptions& options) {
+  WrittenMap written = read_map_of(source, sphere, options);
+  for (Eigen::Index v = 0; v < written.map.points.rows(); ++v) {
+    if (!written.map.points.row(v).isZero(0)) continue;
+    const long number = FileNumbers(written.file).number(static_cast<Vertex>(v));
+    throw ReadError(display_name(sphere),
+                    "vertex " + std::to_string(number) + " is at the centre, in no direction");
+  }
+  return unit_rays(std::move(written.map));
+}
+
 enum class Shape { Mesh, Sphere };
 
 class Drawing {
  public:
-  Drawing(const MeshFile& file, const std::optional<SphereMap>& map, const MeshTextures& textures,
-          const DrawingOptions& options)
-      : file_(file),
-        map_(map),
-        textures_(textures),
-        options_(options),
-        up_(options.up.value_or(up_axis(file))) {}
+  Drawing(const MeshFile& file, const std::optional<SphereMap>& map, const DrawingOptions& options)
+      : file_(file), map_(map), options_(options), up_(options.up.value_or(up_axis(file))) {}
 
   Image image() const {
     const Paint paint = make_paint();
@@ -60,7 +75,7 @@ class Drawing {
   Paint make_paint() const {
     switch (options_.colouring) {
       case Colouring::Own:
-        return own_paint(file_, textures_);
+        return own_paint(file_, options_.textures ? *options_.textures : MeshTextures{});
       case Colouring::Plain:
         return UniformPaint{};
       case Colouring::Normals:
@@ -113,12 +128,29 @@ class Drawing {
 
   const MeshFile& file_;
   const std::optional<SphereMap>& map_;
-  const MeshTextures& textures_;
   const DrawingOptions& options_;
   const Up up_;
 };
 
 }  // namespace
+
+DrawnMesh load_drawn(const std::string& path, const std::string& sphere,
+                     const ReadOptions& options) {
+  DrawnMesh drawn;
+  MeshSource source{.path = path};
+  if (sphere.empty()) {
+    source.file = read_mesh(path, options);
+    keep_textures(source.file);
+  } else {
+    source = read_source(path, options);
+  }
+  if (source.file.mesh.face_count() == 0)
+    throw ReadError(display_name(path), "there are no triangles to draw");
+  drawn.map = sphere.empty() ? read_sphere(source.file) : directions_of(source, sphere, options);
+  drawn.file = std::move(source.file);
+  drawn.file.mesh = at_drawing_size(std::move(drawn.file.mesh));
+  return drawn;
+}
 
 bool draws_without_map(const DrawingOptions& options) {
   return options.view.value_or(View::Mesh) == View::Mesh && !options.graticule &&
@@ -126,16 +158,11 @@ bool draws_without_map(const DrawingOptions& options) {
 }
 
 std::string draw_png(const MeshFile& file, const std::optional<SphereMap>& map,
-                     const MeshTextures& textures, const DrawingOptions& options) {
+                     const DrawingOptions& options) {
   if (!map && !draws_without_map(options)) throw std::invalid_argument("this needs a map");
-  const Image image = Drawing(file, map, textures, options).image();
+  const Image image = Drawing(file, map, options).image();
   const std::vector<char> png = encode_image(image, ImageFormat::Png);
   return {png.begin(), png.end()};
-}
-
-std::string draw_png(const MeshFile& file, const std::optional<SphereMap>& map,
-                     const DrawingOptions& options) {
-  return draw_png(file, map, MeshTextures{}, options);
 }
 
 }  // namespace sphparam

@@ -10,8 +10,6 @@
 
 namespace sphparam {
 
-namespace {
-
 ReportOptions report_options(const MeshFile& file, const PageOptions& options) {
   ReportOptions report;
   if (options.viewer) report.viewer = installed_viewer();
@@ -20,24 +18,21 @@ ReportOptions report_options(const MeshFile& file, const PageOptions& options) {
   report.look = seen_with_up(direction_of(options.up.value_or(up_axis(file))));
   report.look.size = std::min(size, options.size);
   report.image_width = options.size;
-  if (has_texcoords(file)) report.textures.of_materials = read_textures(file, options.threads);
+  if (options.textures)
+    report.textures = *options.textures;
+  else if (has_texcoords(file))
+    report.textures.of_materials = read_textures(file, options.threads);
   report.facts = options.facts;
   report.threads = options.threads;
   report.progress = options.progress;
   return report;
 }
 
-}  // namespace
-
 std::string make_report(const std::string& name, const MeshFile& file,
                         const std::vector<NamedMap>& maps, const PageOptions& options) {
   if (maps.empty()) throw std::invalid_argument("a report needs a map");
   std::vector<PageEntry> entries;
-  for (const NamedMap& map : maps) {
-    entries.push_back(
-        make_page_entry(entry_of_map(map.name, map.source, file.mesh, map.map, options.threads),
-                        map.provenance, file, options.threads));
-  }
+  for (const NamedMap& map : maps) entries.push_back(make_page_entry(map, file, options.threads));
   return report_page(name, file, entries, report_options(file, options));
 }
 

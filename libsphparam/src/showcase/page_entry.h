@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -7,7 +8,9 @@
 #include "bake/bake_scene.h"
 #include "compare/entry.h"
 #include "sphparam/io/mesh_file.h"
+#include "sphparam/io/mesh_source.h"
 #include "sphparam/io/sphere_file.h"
+#include "sphparam/report/named_map.h"
 
 namespace sphparam {
 
@@ -23,5 +26,20 @@ struct PageEntry {
 /// Makes the chart, where there can be one.
 PageEntry make_page_entry(Entry entry, Provenance provenance, const MeshFile& file,
                           int threads = 0);
+PageEntry make_page_entry(const NamedMap& map, const MeshFile& file, int threads = 0);
+
+/// Files with maps of a mesh.
+struct EntryFiles {
+  std::vector<std::string> others = {};  // beside the mesh's own map
+  std::string sphere = {};               // that one in a file of its own; empty: the mesh has it
+  ReadOptions read = {};
+};
+
+/// The mesh's map first: where its file has none, it is mapped now, by our default, which `mapped`
+/// is told; then the others. They are named by their files and told apart: "ball", "ball (2)".
+/// Throws: ReadError, also where the connectivity of a file is another; Cancelled.
+std::vector<PageEntry> load_page_entries(const MeshSource& mesh, const EntryFiles& files,
+                                         const ParameterizeOptions& options,
+                                         const std::function<void(const PageEntry&)>& mapped = {});
 
 }  // namespace sphparam

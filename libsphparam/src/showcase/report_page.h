@@ -10,6 +10,7 @@
 #include "report/viewer.h"
 #include "showcase/page_entry.h"
 #include "sphparam/progress.h"
+#include "sphparam/report/report_page.h"
 #include "texture/source_texture.h"
 
 namespace sphparam {
@@ -24,6 +25,9 @@ struct ReportOptions {
   int threads = 0;
   Progress progress = {};
 };
+
+/// The same from what a user says. Throws: ImageError for a texture of the file.
+ReportOptions report_options(const MeshFile& file, const PageOptions& options);
 
 /// One page that shows maps of a mesh and needs nothing else: models that change into their
 /// spheres, heat maps, the paper's polar charts, histograms, tables, provenance. Several maps stand

@@ -98,6 +98,11 @@ struct Look {
 /// std::invalid_argument for more `refine_poles` than a chart can hold; Cancelled.
 Look make_look(const MappedMesh& mapped, const ExportOptions& options = {});
 
+/// The look of a mesh that was made of `source`, on the same sphere: where it carries texture
+/// coordinates, which are only as fine as its vertices, the source's own textures, baked; else as
+/// above.
+Look make_look(const MappedMesh& made, const MappedMesh& source, const ExportOptions& options = {});
+
 /// The same for another mesh on the same sphere, whose tangent frame is another: no normal map that
 /// was given.
 Look without_given_normals(Look look);

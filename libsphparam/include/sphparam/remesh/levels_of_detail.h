@@ -52,6 +52,13 @@ std::vector<LevelOfDetail> levels_of_detail(const MappedMesh& source, SphereGrid
 /// where there are no more.
 std::vector<GridSpec> coarser_grids(const GridSpec& finest, int count);
 
+/// `count` meshes on icosahedra's grids, each with a quarter of the vertices of the one before, the
+/// first with a quarter of the mesh's: levels of detail of any mesh, on its sphere, which keep its
+/// name and provenance. Of `options`: sample, transfer, threads, progress.
+/// Throws: as `remesh`; Cancelled. Cost: that of `remesh`.
+std::vector<MappedMesh> quartered_meshes(const MappedMesh& source, int count,
+                                         const LevelOptions& options = {});
+
 /// What a level shows and is measured by: of its limit surface, where one is fitted, a fine mesh;
 /// else its triangles.
 TriangleMesh shown_mesh(const LevelOfDetail& level, int threads = 0);

@@ -1,15 +1,30 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "sphparam/io/mesh_file.h"
+#include "sphparam/io/read_options.h"
 #include "sphparam/io/up_axis.h"
 #include "sphparam/sphere/sphere_map.h"
+#include "sphparam/texture/mesh_textures.h"
 
 namespace sphparam {
 
-struct MeshTextures;
+/// What is drawn: a mesh and, where it is known, its map.
+struct DrawnMesh {
+  MeshFile file;
+  std::optional<SphereMap> map;
+};
+
+/// Reads a mesh as its file has its vertices, with the map that it carries; where a sphere is
+/// named, welded as maps need it, with that sphere's map, which may have any radius and is made of
+/// unit rays here. Ensures: it can be drawn, see `draw_png`.
+/// Throws: ReadError, also for a mesh without triangles, and for a sphere of other connectivity or
+/// with a vertex at its centre.
+DrawnMesh load_drawn(const std::string& path, const std::string& sphere = "",
+                     const ReadOptions& options = {});
 
 /// What a picture shows: the mesh, its sphere, or both in a row.
 enum class View { Mesh, Sphere, Both };
@@ -30,12 +45,13 @@ struct DrawingOptions {
   std::optional<Vector3> from = std::nullopt;  // where the eye is; nothing: a little to the right,
                                                // and above
   std::optional<Up> up = std::nullopt;         // of the mesh; nothing: as its file says
-  bool wireframe = false;                      // the edges of the triangles
-  bool graticule = false;                      // lines of longitude and latitude
-  bool occlusion = false;                      // darken what little light reaches
-  bool legend = true;                          // below area and angle
-  int size = 800;                              // pixels, of each side of a picture; 16 to 16384
-  int threads = 0;                             // 0: all cores
+  std::shared_ptr<const MeshTextures> textures = nullptr;  // see `shown_textures`; null: none
+  bool wireframe = false;                                  // the edges of the triangles
+  bool graticule = false;                                  // lines of longitude and latitude
+  bool occlusion = false;                                  // darken what little light reaches
+  bool legend = true;                                      // below area and angle
+  int size = 800;   // pixels, of each side of a picture; 16 to 16384
+  int threads = 0;  // 0: all cores
 };
 
 /// Does nothing of it need a map? Views of the sphere, some colourings and the graticule do.
@@ -48,9 +64,5 @@ bool draws_without_map(const DrawingOptions& options);
 /// that is up; ImageError. Cost: some seconds at 800 pixels.
 std::string draw_png(const MeshFile& file, const std::optional<SphereMap>& map,
                      const DrawingOptions& options = {});
-
-/// The same with the textures of the file's materials, or one for all.
-std::string draw_png(const MeshFile& file, const std::optional<SphereMap>& map,
-                     const MeshTextures& textures, const DrawingOptions& options);
 
 }  // namespace sphparam

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "sphparam/io/up_axis.h"
 #include "sphparam/progress.h"
 #include "sphparam/report/named_map.h"
+#include "sphparam/texture/mesh_textures.h"
 
 namespace sphparam {
 
@@ -16,7 +18,8 @@ struct CompareOptions {
   bool pictures = true;                 // of the spheres
   std::optional<Up> up = std::nullopt;  // of the mesh; nothing: as its file says
   int size = 360;                       // pixels, of each side of a picture; 16 to 4096
-  int threads = 0;                      // 0: all cores
+  std::shared_ptr<const MeshTextures> textures = nullptr;  // see `shown_textures`; null: none
+  int threads = 0;                                         // 0: all cores
   Progress progress = {};
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "sphparam/io/up_axis.h"
 #include "sphparam/progress.h"
 #include "sphparam/report/named_map.h"
+#include "sphparam/texture/mesh_textures.h"
 
 namespace sphparam {
 
@@ -19,6 +21,8 @@ struct PageOptions {
   std::optional<Up> up = std::nullopt;  // of the mesh; nothing: as its file says
   int size = 1024;  // pixels, the width of textures and heat maps, and the most of pictures; 64 to
                     // 8192
+  /// Of the mesh, see `shown_textures`; null: those of its file.
+  std::shared_ptr<const MeshTextures> textures = nullptr;
   std::vector<std::pair<std::string, std::string>> facts = {};  // for the foot of the page
   int threads = 0;                                              // 0: all cores
   Progress progress = {};

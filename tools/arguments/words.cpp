@@ -2,9 +2,12 @@
 // deletions, replacements and swaps cost one each. A word is "meant" when at most a third of it
 // must be changed.
 
-#include "arguments/suggestion.h"
+#include "arguments/words.h"
 
 #include <algorithm>
+#include <sstream>
+
+#include "console/exit_codes.h"
 
 namespace sphparam::cli {
 
@@ -29,7 +32,20 @@ size_t edit_distance(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-std::string nearest_word(const std::string& typed, const std::vector<std::string>& known) {
+Words split(const std::string& text) {
+  Words parts;
+  std::stringstream rest(text);
+  for (std::string part; std::getline(rest, part, ',');) parts.push_back(part);
+  return text.empty() ? Words{""} : parts;
+}
+
+std::optional<std::pair<std::string, std::string>> name_and_file(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == 0 || equals == std::string::npos || equals + 1 == text.size()) return std::nullopt;
+  return std::pair(text.substr(0, equals), text.substr(equals + 1));
+}
+
+std::string nearest_word(const std::string& typed, const Words& known) {
   // The table is quadratic; nobody means a known word by a very long one.
   constexpr size_t longest = 64;
   std::string nearest;
@@ -43,6 +59,21 @@ std::string nearest_word(const std::string& typed, const std::vector<std::string
     }
   }
   return nearest;
+}
+
+std::string did_you_mean(const std::string& typed, const Words& known) {
+  const std::string meant = nearest_word(typed, known);
+  return meant.empty() ? "" : "; did you mean " + meant + "?";
+}
+
+std::string no_such_word(const std::string& typed, const Words& known) {
+  return "no " + typed + " among " + joined(known) + did_you_mean(typed, known);
+}
+
+std::size_t place_among(const Words& known, const std::string& word, const std::string& option) {
+  const auto found = std::ranges::find(known, word);
+  if (found == known.end()) throw UsageMistake(option + ": " + no_such_word(word, known));
+  return static_cast<std::size_t>(found - known.begin());
 }
 
 }  // namespace sphparam::cli

@@ -1,0 +1,54 @@
+#include "sphparam/texture/mesh_textures.h"
+
+#include <algorithm>
+
+#include "image/image_codec.h"
+#include "io/attributes/appearance.h"
+#include "texture/read_textures.h"
+
+namespace sphparam {
+
+namespace {
+
+ShownTextures shown(MeshTextures textures) {
+  return {.textures = std::make_shared<const MeshTextures>(std::move(textures))};
+}
+
+ShownTextures shown_without(const std::string& why, bool left_behind = false) {
+  return {std::make_shared<const MeshTextures>(), why, left_behind};
+}
+
+bool has_image(const BaseColour& colour) { return !colour.image.empty(); }
+
+/// What the glTF file said of its textures; empty where they are here, or never were.
+std::string left_behind(const MeshFile& file) {
+  if (!file.base_colours.empty() || !has_texcoords(file)) return "";
+  const auto found = std::ranges::find_if(file.comments, [](std::string_view comment) {
+    return comment.starts_with("base colour of ");
+  });
+  return found == file.comments.end() ? "" : *found;
+}
+
+}  // namespace
+
+ShownTextures shown_textures(const MeshFile& file, const std::string& name,
+                             const std::string& image, int threads) {
+  if (!image.empty()) {
+    const SourceTexture texture = read_texture(image, TextureWrap::Repeat, threads);
+    if (has_texcoords(file)) return shown({.of_materials = {texture}, .one_for_all = true});
+    throw NoTexcoords(name + " has no texture coordinates, so its texture has no place");
+  }
+  if (const std::string words = left_behind(file); !words.empty()) {
+    return shown_without(
+        name + ": shown without its texture, which is not in this file (" + words + ")", true);
+  }
+  if (std::ranges::any_of(file.base_colours, has_image) && !has_texcoords(file))
+    return shown_without(name + ": shown without its texture: there are no texture coordinates");
+  try {
+    return shown({.of_materials = read_textures(file, threads)});
+  } catch (const ImageError& error) {
+    return shown_without(std::string(error.what()) + ": shown without");
+  }
+}
+
+}  // namespace sphparam

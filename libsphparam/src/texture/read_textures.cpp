@@ -1,0 +1,70 @@
+#include "texture/read_textures.h"
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+
+#include "image/image_codec.h"
+#include "io/formats/gltf/gltf_files.h"
+#include "sphparam/io/paths.h"
+#include "texture/texture_pyramid.h"
+
+namespace sphparam {
+namespace {
+
+constexpr std::uint64_t most_image_bytes = std::uint64_t{2} << 30;
+
+TextureWrap wrap_of(Wrapping wrapping) {
+  if (wrapping == Wrapping::Clamp) return TextureWrap::Clamp;
+  return wrapping == Wrapping::Mirror ? TextureWrap::Mirror : TextureWrap::Repeat;
+}
+
+std::vector<char> bytes_of(const BaseColour& colour) {
+  if (colour.bytes) return *colour.bytes;
+  const std::vector<unsigned char> read = read_below(colour.folder, colour.path, most_image_bytes);
+  return {read.begin(), read.end()};
+}
+
+/// Throws ImageError.
+std::shared_ptr<const TexturePyramid> decode(const BaseColour& colour, const std::string& what,
+                                             int threads) {
+  if (!colour.problem.empty()) throw ImageError(what + ": " + colour.problem);
+  std::vector<char> bytes;
+  try {
+    bytes = bytes_of(colour);
+  } catch (const std::runtime_error& error) {
+    throw ImageError(what + " cannot be read: " + error.what());
+  }
+  return std::make_shared<const TexturePyramid>(decode_image(bytes, what), false, threads);
+}
+
+}  // namespace
+
+SourceTexture read_texture(const std::string& path, TextureWrap wrap, int threads) {
+  const bool linear = extension_of(path) == ".exr";
+  return {.image = std::make_shared<const TexturePyramid>(read_image(path), linear, threads),
+          .wrap_s = wrap,
+          .wrap_t = wrap};
+}
+
+std::vector<SourceTexture> read_textures(const MeshFile& file, int threads) {
+  std::vector<SourceTexture> textures;
+  std::map<std::string, std::shared_ptr<const TexturePyramid>> decoded;
+  for (size_t i = 0; i < file.base_colours.size(); ++i) {
+    const BaseColour& colour = file.base_colours[i];
+    SourceTexture texture{
+        .image = nullptr, .wrap_s = wrap_of(colour.wrap_s), .wrap_t = wrap_of(colour.wrap_t)};
+    std::ranges::transform(colour.factor, texture.factor.begin(),
+                           [](double x) { return static_cast<float>(x); });
+    if (!colour.image.empty()) {
+      auto& image = decoded[colour.image];
+      const std::string what = "material " + file.materials[i] + ", " + colour.image;
+      if (!image) image = decode(colour, what, threads);
+      texture.image = image;
+    }
+    textures.push_back(std::move(texture));
+  }
+  return textures;
+}
+
+}  // namespace sphparam

@@ -1,0 +1,50 @@
+#include <catch2/catch.hpp>
+
+#include "folder.h"
+#include "sphparam/io/mesh_writer.h"
+#include "sphparam/io/written_map.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+using Catch::Contains;
+
+namespace {
+
+MeshFile file_of(const TriangleMesh& mesh) {
+  MeshFile file;
+  file.mesh = mesh;
+  return file;
+}
+
+}  // namespace
+
+TEST_CASE("written map: sx sy sz of a file, else its vertices, as they are") {
+  const Folder folder;
+  TriangleMesh egg = icosphere(1);
+  const Points rays = egg.positions;
+  egg.positions.col(2) *= 2;
+  write_mesh(folder.file("egg.ply"), file_of(egg));
+  const MeshSource mesh = read_source(folder.file("egg.ply"));
+
+  write_mesh(folder.file("ball.obj"), file_of({7 * rays, egg.triangles}));
+  const WrittenMap ball = read_map_of(mesh, folder.file("ball.obj"));
+  CHECK(ball.map.points == 7 * rays);
+  CHECK(ball.provenance.empty());
+
+  write_mesh(folder.file("egg.sph.ply"), attach_map(file_of(egg), {rays}, {{"method", "by hand"}}));
+  const WrittenMap mapped = read_map_of(mesh, folder.file("egg.sph.ply"));
+  CHECK(mapped.map.points == rays);
+  CHECK(mapped.provenance == Provenance{{"method", "by hand"}});
+  CHECK(mapped.file.mesh.positions == egg.positions);
+}
+
+TEST_CASE("written map: a file of another connectivity is refused, by the name of what it is not") {
+  const Folder folder;
+  write_mesh(folder.file("a.ply"), file_of(icosphere(1)));
+  write_mesh(folder.file("b.ply"), file_of(icosphere(2)));
+  const MeshSource mesh = read_source(folder.file("a.ply"));
+  CHECK_THROWS_WITH(read_map_of(mesh, folder.file("b.ply")), Contains("not a sphere of a.ply"));
+  CHECK_THROWS_WITH(read_map_of(mesh, folder.file("b.ply"), {}, "map"),
+                    Contains("not a map of a.ply"));
+}

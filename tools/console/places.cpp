@@ -1,0 +1,142 @@
+#include "console/places.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "console/exit_codes.h"
+#include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/safe_file.h"
+
+namespace sphparam::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+using Names = std::vector<std::string>;
+
+std::set<const CLI::Option*>& options_that_write() {
+  static std::set<const CLI::Option*> options;
+  return options;
+}
+
+Names& files_read() {
+  static Names files;
+  return files;
+}
+
+/// The words that may name a file: all of it, and what follows a sign that joins it to a name.
+Names file_words(const std::string& text) {
+  Names words = {text};
+  for (size_t at = text.find_first_of("=:"); at != std::string::npos;
+       at = text.find_first_of("=:", at + 1))
+    words.push_back(text.substr(at + 1));
+  return words;
+}
+
+bool is_file(const std::string& path) {
+  std::error_code hidden;
+  return !path.empty() && !is_stream(path) && fs::is_regular_file(path, hidden);
+}
+
+Names files_named(const CLI::Option& option) {
+  Names files;
+  for (const std::string& text : option.results()) {
+    for (const std::string& word : file_words(text))
+      if (is_file(word)) files.push_back(word);
+  }
+  return files;
+}
+
+/// `output` may be a device, or not there.
+void require_not_read(const std::string& option, const std::string& output) {
+  if (!is_file(output)) return;
+  for (const std::string& input : files_read()) {
+    std::error_code missing;  // a file that is not there is no other file
+    if (fs::equivalent(input, output, missing))
+      throw UsageMistake(option + ": " + output + " is the input; it would be replaced");
+  }
+}
+
+std::string file_name(const std::string& path) { return fs::path(path).filename().string(); }
+
+/// Devices and pipes take what two outputs have to say.
+bool holds_one_output(const std::string& path) {
+  std::error_code hidden;
+  const fs::file_status status = fs::status(path, hidden);
+  return is_stream(path) || !fs::exists(status) || fs::is_regular_file(status) ||
+         fs::is_directory(status);
+}
+
+void require_distinct(const Outputs& outputs) {
+  for (size_t i = 0; i < outputs.size(); ++i) {
+    for (size_t j = 0; j < i; ++j) {
+      const auto& [option, path] = outputs[i];
+      const auto& [other, place] = outputs[j];
+      if (!is_same_place(path, place) || !holds_one_output(path)) continue;
+      throw UsageMistake((other == option ? option + " twice: " : other + " and " + option + ": ") +
+                         "the same file, " + output_name(path));
+    }
+  }
+}
+
+}  // namespace
+
+void mark_written(const CLI::Option& option) { options_that_write().insert(&option); }
+
+void note_files_read(const CLI::App& command) {
+  const auto writes = [](const CLI::Option* option) {
+    return options_that_write().contains(option);
+  };
+  for (const CLI::Option* option : command.get_options()) {
+    if (writes(option)) continue;
+    for (std::string& file : files_named(*option)) files_read().push_back(std::move(file));
+  }
+  keep_from_outputs(files_read());
+  for (const CLI::Option* option : command.get_options()) {
+    if (!writes(option)) continue;
+    for (const std::string& file : files_named(*option)) require_not_read(option->get_name(), file);
+  }
+}
+
+bool is_same_place(const std::string& one, const std::string& other) {
+  if (one.empty() || other.empty()) return false;
+  if (is_stream(one) || is_stream(other)) return one == other;
+  const auto one_spelling = [](const std::string& path) {
+    std::error_code hidden;
+    const fs::path absolute = fs::absolute(path, hidden);
+    return fs::weakly_canonical(absolute, hidden);
+  };
+  return one_spelling(one) == one_spelling(other);
+}
+
+void check_places(const Outputs& outputs, const std::string& new_folder) {
+  for (const auto& [option, path] : outputs) require_not_read(option, path);
+  require_distinct(outputs);
+  for (const auto& [option, path] : outputs) {
+    const fs::path in_new = fs::path(new_folder) / file_name(path);
+    const bool is_there = new_folder.empty() || !is_same_place(path, in_new.string());
+    if (!path.empty() && is_there) require_writable(path);
+  }
+}
+
+void require_report_place(const std::string& json) {
+  check_places({{"--json", json}});
+  if (is_mesh_name(json)) {
+    throw UsageMistake("--json: " + json +
+                       " is the name of a mesh, not of a report; `--json -` is standard output");
+  }
+}
+
+void require_one_stream(const std::vector<std::string>& inputs, const std::string& names) {
+  if (std::ranges::count_if(inputs, is_stream) > 1)
+    throw UsageMistake(names + " cannot both come from standard input");
+}
+
+std::string stem_or(const std::string& path, const std::string& if_stream) {
+  return is_stream(path) ? if_stream : fs::path(path).stem().string();
+}
+
+}  // namespace sphparam::cli

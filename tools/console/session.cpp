@@ -1,0 +1,36 @@
+#include "console/session.h"
+
+namespace sphparam::cli {
+
+namespace {
+
+Verbosity verbosity(const CommonArguments& arguments) {
+  return arguments.quiet     ? Verbosity::Quiet
+         : arguments.verbose ? Verbosity::Verbose
+                             : Verbosity::Normal;
+}
+
+}  // namespace
+
+Session::Session(const CommonArguments& arguments)
+    : console(verbosity(arguments), arguments.progress), arguments_(arguments) {}
+
+Progress Session::progress() {
+  return [this](std::string_view stage, double done) { return console.progress(stage, done); };
+}
+
+void Session::warn(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) console.warning(warning);
+}
+
+void Session::add_report(const std::function<std::string()>& report) {
+  if (!arguments_.json.empty()) files.add(arguments_.json, report());
+}
+
+void Session::publish() {
+  if (interrupted()) throw Cancelled();
+  files.publish();
+  console.clear_progress();
+}
+
+}  // namespace sphparam::cli

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "console/console.h"
+#include "console/interruption.h"
+#include "sphparam/io/safe_file.h"
+#include "sphparam/progress.h"
+#include "sphparam/stopwatch.h"
+
+namespace sphparam::cli {
+
+/// What (nearly) every subcommand is told.
+struct CommonArguments {
+  std::string json;  // where the report goes; empty: nowhere
+  int threads = 0;   // 0: all cores
+  ProgressStyle progress = ProgressStyle::Auto;
+  bool quiet = false, verbose = false;
+};
+
+/// One run of a subcommand: what it tells, how far it is, and its outputs, which appear all or
+/// none.
+class Session {
+ public:
+  explicit Session(const CommonArguments& arguments);
+
+  Console console;
+  const Stopwatch stopwatch;
+
+  int threads() const { return arguments_.threads; }
+  /// From here on a signal only asks the work to stop, as there may be files to clean up.
+  void hold_signals() {
+    if (!orderly_) orderly_.emplace();
+  }
+  /// For the library: shown, and false once a signal arrived.
+  Progress progress();
+  void warn(const std::vector<std::string>& warnings);
+  /// Adds what --json asks for, if it does.
+  void add_report(const std::function<std::string()>& report);
+  /// Throws: Cancelled where a signal arrived; as `PendingFiles::publish`.
+  void publish();
+
+ private:
+  const CommonArguments& arguments_;
+  std::optional<OrderlyInterruption> orderly_;
+
+ public:
+  PendingFiles files;  // they are cleaned up before signals are let go
+};
+
+}  // namespace sphparam::cli

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "compare/methods.h"
+#include "sphparam/frame_check.h"
+#include "sphparam/io/mesh_source.h"
+#include "sphparam/names.h"
+#include "sphparam/sphere/distortion.h"
+
+namespace sphparam::cli {
+
+/// What one run found. The certificate is of the map in memory; what is written must have the same
+/// verdict when it is read back.
+struct MapOutcome {
+  MeshSource source;
+  AnyMethod method = Method::Progressive;
+  ParameterizeOptions options = {};  // with vertices of the mesh
+  Parameterization result = {};
+  std::optional<BaselineAccount> account = std::nullopt;  // of a method of others
+  FrameCheck frame = {};
+  std::optional<Distortion> distortion = std::nullopt;
+  std::optional<DistortionSummary> figures = std::nullopt;
+
+  /// The paper's method makes none where no pair of poles is usable.
+  bool has_map() const { return result.map.points.rows() > 0; }
+  bool bijective() const { return result.certificate.bijective(); }
+  /// What the program is for: exit code 0.
+  bool succeeded() const { return bijective() && frame.holds(); }
+  const Topology& topology() const { return source.topology.value(); }
+  std::string verdict() const {
+    return has_map() ? sphparam::verdict(result.certificate) : "no map";
+  }
+};
+
+}  // namespace sphparam::cli
