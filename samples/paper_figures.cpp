@@ -16,6 +16,7 @@ const Rgb patch_colour(0.95F, 0.62F, 0.15F), plain_colour(0.80F, 0.80F, 0.82F),
 struct Album {
   Page& page;
   FolderFiles& files;
+  int size;  // pixels, of each side of a picture
 
   PageFigure add(const std::string& name, const Image& image, const std::string& alt,
                  const std::string& caption) {
@@ -25,10 +26,12 @@ struct Album {
 };
 
 /// The models come from files with y up, the sample meshes have z up.
-PictureOptions look_at(const Trial& trial) {
+PictureOptions look_at(const Trial& trial, const Album& album) {
   const bool model = std::any_of(paper_models().begin(), paper_models().end(),
                                  [&](const PaperModel& m) { return m.name == trial.name; });
-  return seen_with_up(model ? Vector3(Vector3::UnitY()) : Vector3(Vector3::UnitZ()));
+  PictureOptions look = seen_with_up(model ? Vector3::UnitY() : Vector3::UnitZ());
+  look.size = album.size;
+  return look;
 }
 
 const Trial& model_or_other(const std::vector<Trial>& trials, const std::string& name) {
@@ -71,7 +74,7 @@ void add_figure_2(Album album, const std::vector<Trial>& trials) {
   const Trial& trial = model_or_other(trials, "homer");
   if (!trial.steps) return;
   const std::vector<PaperStep>& steps = trial.steps->printed;
-  const PictureOptions look = look_at(trial);
+  const PictureOptions look = look_at(trial, album);
   album.page.heading("Figure 2: the initial map and the secondary one");
   album.page.paragraph(
       of_model(trial, "homer") +
@@ -98,9 +101,9 @@ void add_figure_5(Album album, const std::vector<Trial>& trials) {
   const Trial& trial = model_or_other(trials, "mannequin");
   if (!trial.steps) return;
   const std::vector<PaperStep>& steps = trial.steps->printed;
-  PictureOptions look = look_at(trial);
+  PictureOptions look = look_at(trial, album);
   look.wireframe = true;
-  look.size = 480;
+  look.size = std::min(album.size, 480);
   const Vector3 centre = trial.file.mesh.positions.colwise().mean();
   const Vector3 view = trial.steps->date_line_middle - centre;
   if (view.cross(look.up).norm() > 0) look.view = view;
@@ -127,38 +130,38 @@ void add_figure_5(Album album, const std::vector<Trial>& trials) {
 
 // --- against others -----------------------------------------------------------------------------
 
-struct Baselinery {
+struct Opponent {
   const char* spheres;  // the number of the paper's figure
   const char* charts;
   const char* model;
-  const char* rival;
+  const char* method;
   const char* claim;
 };
 
-void add_rivalry(Album album, const std::vector<Trial>& trials, const Baselinery& rivalry) {
-  const Trial& trial = model_or_other(trials, rivalry.model);
-  const std::string tag = "figure" + std::string(rivalry.spheres);
-  const Entry& rival = trial.by(rivalry.rival);
-  album.page.heading("Figures " + std::string(rivalry.spheres) + " and " + rivalry.charts +
-                     ": against " + rivalry.rival);
-  album.page.paragraph(of_model(trial, rivalry.model) + ". " + rivalry.claim);
-  PageTable table = comparison_table({rival, trial.by("paper"), trial.by("progressive")});
+void add_opponent(Album album, const std::vector<Trial>& trials, const Opponent& opponent) {
+  const Trial& trial = model_or_other(trials, opponent.model);
+  const std::string tag = "figure" + std::string(opponent.spheres);
+  const Entry& theirs = trial.by(opponent.method);
+  album.page.heading("Figures " + std::string(opponent.spheres) + " and " + opponent.charts +
+                     ": against " + opponent.method);
+  album.page.paragraph(of_model(trial, opponent.model) + ". " + opponent.claim);
+  PageTable table = comparison_table({theirs, trial.by("paper"), trial.by("progressive")});
   table.caption.clear();
   album.page.table(table);
-  album.page.paragraph(rival.name + " (" + rival.source + "): " + rival.statement + ".");
-  const PictureOptions look = look_at(trial);
+  album.page.paragraph(theirs.name + " (" + theirs.source + "): " + theirs.statement + ".");
+  const PictureOptions look = look_at(trial, album);
   std::vector<PageFigure> figures = {mesh_figure(album, tag + "-mesh", trial, look)};
-  for (const char* name : {rivalry.rival, "paper", "progressive"}) {
+  for (const char* name : {opponent.method, "paper", "progressive"}) {
     const Entry& entry = trial.by(name);
     if (!entry.distortion) continue;
     figures.push_back(sphere_figure(album.files, tag + "-" + name, trial.file, entry, look));
   }
   album.page.figures(figures, least_width);
   for (const char* ours : {"paper", "progressive"}) {
-    if (!rival.distortion || !trial.by(ours).distortion) continue;
-    album.page.subheading(std::string("Blue: ") + ours + "; red: " + rivalry.rival);
-    add_polar_plots(album.page, album.files, "figure" + std::string(rivalry.charts) + "-" + ours,
-                    trial.by(ours), rival);
+    if (!theirs.distortion || !trial.by(ours).distortion) continue;
+    album.page.subheading(std::string("Blue: ") + ours + "; red: " + opponent.method);
+    add_polar_plots(album.page, album.files, "figure" + std::string(opponent.charts) + "-" + ours,
+                    trial.by(ours), theirs);
   }
 }
 
@@ -168,7 +171,7 @@ void add_three_sides(Album album, const std::vector<Trial>& trials) {
   const Trial& trial = model_or_other(trials, "turtle");
   album.page.heading("Figure 8: from the front, the side and the back");
   album.page.paragraph(of_model(trial, "turtle") + ", mapped by the default method.");
-  PictureOptions look = look_at(trial);
+  PictureOptions look = look_at(trial, album);
   const Vector3 front = Vector3(look.view - look.view.dot(look.up) * look.up).normalized();
   const std::pair<const char*, Vector3> sides[] = {
       {"front", front}, {"side", look.up.cross(front)}, {"back", -front}};
@@ -191,7 +194,7 @@ void add_gallery(Album album, const std::vector<Trial>& trials) {
   album.page.paragraph("By the paper's method as printed (folds in red), and by the default one.");
   std::vector<PageFigure> figures;
   for (const Trial& trial : trials) {
-    const PictureOptions look = look_at(trial);
+    const PictureOptions look = look_at(trial, album);
     figures.push_back(mesh_figure(album, "model-" + trial.name, trial, look));
     for (const char* name : {"paper", "progressive"}) {
       const Entry& entry = trial.by(name);
@@ -205,18 +208,19 @@ void add_gallery(Album album, const std::vector<Trial>& trials) {
 
 }  // namespace
 
-void add_figures(Page& page, FolderFiles& files, const std::vector<Trial>& trials) {
-  const Album album = {page, files};
+void add_figures(Page& page, FolderFiles& files, const std::vector<Trial>& trials,
+                 int picture_size) {
+  const Album album = {page, files, picture_size};
   add_figure_2(album, trials);
   add_figure_5(album, trials);
-  add_rivalry(album, trials,
-              {"6", "10", "skull", "hemispheres",
-               "The paper finds its own distortion closer to the optimum, and its map made in 5 "
-               "seconds instead of 132."});
-  add_rivalry(album, trials,
-              {"7", "11", "gargoyle", "tangential",
-               "The paper finds its own distortion closer to the optimum than that of tangential "
-               "smoothing with mean value weights."});
+  add_opponent(album, trials,
+               {"6", "10", "skull", "hemispheres",
+                "The paper finds its own distortion closer to the optimum, and its map made in 5 "
+                "seconds instead of 132."});
+  add_opponent(album, trials,
+               {"7", "11", "gargoyle", "tangential",
+                "The paper finds its own distortion closer to the optimum than that of tangential "
+                "smoothing with mean value weights."});
   add_three_sides(album, trials);
   add_gallery(album, trials);
 }

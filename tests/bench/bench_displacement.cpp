@@ -78,7 +78,7 @@ Seconds displace(const MappedMesh& mapped, const SphereGrid& grid, const Subdivi
       make_displacement(base, mapped.mesh(), mapped.topology(), mapped.locator(),
                         {.width = width, .height = width / 2, .threads = threads});
   const double computing = stopwatch.lap();
-  encode_displacement(made, ImageDepth::Float, "", "");
+  encode_displacement(made, ImageDepth::Float, "grid", name_of(fit.topology->scheme()));
   return {computing, stopwatch.lap()};
 }
 

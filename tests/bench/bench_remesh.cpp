@@ -204,7 +204,7 @@ void compare_stages(const MeshFile& file, const SphereMap& map, int level, int t
       name_of(spec).c_str(), static_cast<long>(grid.directions.rows()), threads, refining, lean);
   std::printf(
       "  location %.3f s + positions %.3f s = %.2f of that; grid %.3f s; all of it with "
-      "topology, locator, faces: %.3f s; peak %.0f MB\n",
+      "locator, faces, topology and its proof: %.3f s; peak %.0f MB\n",
       locating, moving, (locating + moving) / refining, making, all, peak_megabytes());
 }
 

@@ -66,7 +66,7 @@ class Maker {
   std::string number(int least, int most) { return std::to_string(random_.between(least, most)); }
 
   std::string grid_of_triangles() {
-    return one_of({"ico:" + number(0, 3), "ico:f=" + number(1, 9),
+    return one_of({"ico:" + number(0, 2), "ico:f=" + number(1, 9),
                    "octa:" + std::to_string(2 * random_.between(1, 12) + 1)});
   }
 
@@ -202,7 +202,7 @@ void remesh(Maker& make) {
       make.maybe(words, 0.5, {"--rebuild", "again.obj"});
     }
   } else if (make.chance(0.3)) {
-    add({"--grid", make.one_of({"ico:3", "octa:17", "cube:8"}), "--lods", make.number(1, 2)});
+    add({"--grid", make.one_of({"ico:2", "octa:9", "cube:4"}), "--lods", make.number(1, 2)});
   } else {
     add({"--grid", make.any_grid()});
   }

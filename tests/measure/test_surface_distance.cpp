@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 
 #include "sphparam/errors.h"
 #include "sphparam/measure/surface_distance.h"
@@ -117,6 +118,20 @@ TEST_CASE("distance: the maximum sees a spike that samples miss, and says where 
   CHECK(distance.forth.farthest == spiky.position(100));
   CHECK(distance.forth.at_vertices[100] == distance.forth.max);
   CHECK(distance.forth.at_vertices.size() == spiky.vertex_count());
+}
+
+TEST_CASE(
+    "distance: without extremes mean and RMS are the same bits, and nothing else is claimed") {
+  const TriangleMesh a = icosphere(2), b = scaled(icosphere(3), 1.1);
+  const SurfaceDistance full = measure_distance(a, b, {.samples = 500});
+  const SurfaceDistance quick = measure_distance(a, b, {.samples = 500, .extremes = false});
+  CHECK(quick.forth.rms == full.forth.rms);
+  CHECK(quick.back.mean == full.back.mean);
+  CHECK(quick.forth.at_vertices.size() == 0);
+  CHECK(quick.forth.max <= full.forth.max);
+  CHECK(quick.max_bound() == std::numeric_limits<double>::infinity());
+  const DistanceOptions of_vertices{.faces = false, .vertices = true, .extremes = false};
+  CHECK(measure_distance(a, b, of_vertices).forth.samples == a.vertex_count());
 }
 
 TEST_CASE("distance: vertices that no triangle uses do not count") {

@@ -42,7 +42,7 @@ TEST_CASE("paper: the page has the figures of what is there and says what is not
   FolderFiles files;
   add_timings(page, trials);
   add_findings(page, trials);
-  add_figures(page, files, trials);
+  add_figures(page, files, trials, 48);
   add_all_methods(page, trials);
   const std::string html = page.html();
   for (const auto& [name, bytes] : files) CHECK_THAT(html, Contains("src=\"" + name + "\""));

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "chart/flat_mesh.h"
-#include "chart/pole_and_meridian.h"
+#include "chart/split_at_poles_and_meridian.h"
 #include "chart/unfold.h"
 #include "option_domain.h"
 #include "sphparam/parallel.h"

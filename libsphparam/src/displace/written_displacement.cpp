@@ -24,8 +24,6 @@ namespace sphparam {
 
 namespace {
 
-constexpr std::int64_t distance_samples = 250'000;  // on each side
-
 Provenance provenance_of(const Remeshed& control, Scheme scheme) {
   return {{"version", version},
           {"method", "rebuild"},
@@ -61,9 +59,10 @@ RebuildProof prove(PendingFiles& files, const std::string& path, const MappedMes
   const int cuts = cuts_for(base, vertices_to_rebuild(displacement, source.mesh().vertex_count()));
   const Rebuilt rebuilt = rebuild(base, displacement, cuts, options.threads);
   const auto error_of = [&](const TriangleMesh& mesh) {
-    const SurfaceDistance distance = distance_on_grid(
-        source.mesh(), mesh, control.name(),
-        {.samples = distance_samples, .threads = options.threads, .progress = options.progress});
+    const SurfaceDistance distance = distance_on_grid(source.mesh(), mesh, control.name(),
+                                                      {.samples = distance_samples(control.faces()),
+                                                       .threads = options.threads,
+                                                       .progress = options.progress});
     return RebuildProof::Error{distance.rms(), distance.max()};
   };
   RebuildProof proof;

@@ -80,9 +80,9 @@ struct Direction {
   Meter meter;
 
   /// measure(i, distance, face, point, tally) is told how far point_at(i) is from the other
-  /// surface, and from which of its faces.
+  /// surface, and from which of its faces; where that is no more than `noise`, from any so near.
   template <class PointAt, class Measure>
-  Tally measure(std::int64_t count, const PointAt& point_at, const Measure& measure) {
+  Tally measure(std::int64_t count, const PointAt& point_at, double noise, const Measure& measure) {
     Tally all;
     for (std::int64_t start = 0; start < count; start += block) {
       const std::int64_t points = std::min(block, count - start);
@@ -92,7 +92,7 @@ struct Direction {
         Face guess = -1;
         for (std::int64_t i = start + first; i < start + last; ++i) {
           const Vector3 point = point_at(i);
-          const NearestPoint found = to.nearest(point, guess);
+          const NearestPoint found = to.nearest(point, guess, noise * noise);
           guess = found.on.face;
           measure(i, std::sqrt(found.squared_distance), found.on.face, point, part);
         }
@@ -128,7 +128,7 @@ Tally measure_vertices(Direction& direction, VertexDistances& result) {
   result.nearest.resize(used.size());
   return direction.measure(
       direction.from.vertex_count(),
-      [&](std::int64_t v) { return direction.from.position(static_cast<Vertex>(v)); },
+      [&](std::int64_t v) { return direction.from.position(static_cast<Vertex>(v)); }, 0,
       [&](std::int64_t v, double distance, Face face, const Vector3& point, Tally& tally) {
         result.distances[v] = distance;
         result.nearest[static_cast<size_t>(v)] = face;
@@ -140,9 +140,9 @@ template <class Samples>
 Tally measure_samples(Direction& direction, const Samples& samples) {
   const double noise = sample_rounding * largest_coordinate(direction.from);
   return direction.measure(
-      samples.count(), samples,
+      samples.count(), samples, noise,
       [noise](std::int64_t, double distance, Face, const Vector3& point, Tally& tally) {
-        tally.add(distance < noise ? 0 : distance, point);
+        tally.add(distance <= noise ? 0 : distance, point);
       });
 }
 
@@ -160,14 +160,15 @@ Samples samples_of(const TriangleMesh& mesh, Side side, const char* size,
 OneSidedDistance measure_one_side(Side side, const TriangleMesh& from, const TriangleMesh& other,
                                   const RayScene& to, const DistanceOptions& options) {
   const std::string_view stage = side == Side::First ? "first to second" : "second to first";
-  const std::int64_t points =
-      from.vertex_count() + options.samples * (int{options.faces} + int{options.edges});
+  const bool asks_vertices = options.extremes || options.vertices;
+  const std::int64_t points = asks_vertices * from.vertex_count() +
+                              options.samples * (int{options.faces} + int{options.edges});
   Direction direction = {
       from, to, options.threads, {options.progress, stage, static_cast<double>(points)}};
   OneSidedDistance result;
   VertexDistances at_vertices;
-  const Tally vertices = measure_vertices(direction, at_vertices);
-  Tally samples;
+  Tally vertices, samples;
+  if (asks_vertices) vertices = measure_vertices(direction, at_vertices);
   if (options.vertices) samples.add(vertices);
   if (options.edges) {
     const auto on_edges = samples_of<EdgeSamples>(from, side, "length of edges", options);
@@ -184,8 +185,11 @@ OneSidedDistance measure_one_side(Side side, const TriangleMesh& from, const Tri
   Tally all = vertices;
   all.add(samples);
   result.min = all.min;
-  const FarthestPoint farthest = find_farthest(
-      from, at_vertices, other, to, {.point = all.farthest, .distance = all.max}, options.threads);
+  FarthestPoint farthest{.point = all.farthest,
+                         .distance = all.max,
+                         .at_most = std::numeric_limits<double>::infinity()};
+  if (options.extremes)
+    farthest = find_farthest(from, at_vertices, other, to, farthest, options.threads);
   const bool noise = farthest.distance < sample_rounding * largest_coordinate(from);
   result.max = noise ? all.max : farthest.distance;
   result.max_bound = farthest.at_most;

@@ -301,8 +301,13 @@ namespace {
 class Search {
  public:
   Search(const TriangleMesh& mesh, const std::vector<Face>& faces, const Frame& frame,
-         const Vector3& point)
-      : mesh_(mesh), faces_(faces), frame_(frame), point_(point), centre_(frame.local(point)) {
+         const Vector3& point, double near_enough)
+      : mesh_(mesh),
+        faces_(faces),
+        frame_(frame),
+        point_(point),
+        near_enough_(near_enough),
+        centre_(frame.local(point)) {
     if (centre_.squaredNorm() <= far_away * far_away) return;
     const Vector3 away = (point - frame.centre).stableNormalized();
     centre_ = far_away * (frame.turn ? Vector3(*frame.turn * away) : away);
@@ -312,8 +317,10 @@ class Search {
   const Vector3& centre() const { return centre_; }
   const NearestPoint& best() const { return best_; }
 
+  bool ends() const { return best_.squared_distance <= near_enough_; }
+
   /// By Embree's number.
-  bool come_to(unsigned number) { return consider(faces_[number]); }
+  bool come_to(unsigned number) { return !ends() && consider(faces_[number]); }
 
   /// Is this face nearer than the best so far?
   bool consider(Face face) {
@@ -346,8 +353,9 @@ class Search {
   const std::vector<Face>& faces_;
   const Frame& frame_;
   const Vector3& point_;
-  Vector3 centre_;       // p, or p' where p is far away; local
-  double widening_ = 0;  // of the squared radius
+  const double near_enough_;  // squared; where triangles are piled up, all of them are near
+  Vector3 centre_;            // p, or p' where p is far away; local
+  double widening_ = 0;       // of the squared radius
   NearestPoint best_ = {{-1, Vector3::Zero()}, std::numeric_limits<double>::infinity()};
   Vector3 foot_ = Vector3::Zero();  // of the best; local
 };
@@ -365,9 +373,10 @@ bool come_to_triangle(RTCPointQueryFunctionArguments* arguments) {
 
 }  // namespace
 
-NearestPoint RayScene::nearest(const Vector3& point, Face guess) const {
-  Search search(tree_->mesh, tree_->faces, tree_->frame, point);
+NearestPoint RayScene::nearest(const Vector3& point, Face guess, double near_enough) const {
+  Search search(tree_->mesh, tree_->faces, tree_->frame, point, near_enough);
   if (guess >= 0) search.consider(guess);
+  if (search.ends()) return search.best();
   RTCPointQuery query;
   query.x = static_cast<float>(search.centre().x());
   query.y = static_cast<float>(search.centre().y());

@@ -55,10 +55,11 @@ class RayScene {
 
   /// The nearest point, by `nearest_on_triangle`; of triangles equally near, the first. Farther
   /// away than 10⁹ times the mesh's size, any of those that no double can tell apart. `guess`: a
-  /// face that may be near, which saves time and changes nothing. Requires: no coordinate of the
-  /// mesh or the point beyond 1e150. Cost: O(log #F) where the surface is not equally far
-  /// everywhere.
-  NearestPoint nearest(const Vector3& point, Face guess = -1) const;
+  /// face that may be near, which saves time and changes nothing. `near_enough`: the search ends
+  /// with the first point found whose squared distance is no larger, which need not be the nearest.
+  /// Requires: no coordinate of the mesh or the point beyond 1e150. Cost: O(log #F) where the
+  /// surface is not equally far everywhere.
+  NearestPoint nearest(const Vector3& point, Face guess = -1, double near_enough = -1) const;
 
  private:
   struct Tree;

@@ -14,8 +14,6 @@ namespace sphparam {
 
 namespace {
 
-constexpr std::int64_t distance_samples = 250'000;  // on each side
-
 void fit_level(LevelOfDetail& level, const MappedMesh& source, const LevelOptions& options) {
   const SubdivisionFitOptions fitting{.scheme = options.subdivision.value(),
                                       .threads = options.threads,
@@ -37,9 +35,11 @@ LevelOfDetail make_level(const MappedMesh& source, SphereGrid grid, const LevelO
 }
 
 void measure(LevelOfDetail& level, const MappedMesh& source, const LevelOptions& options) {
-  const SurfaceDistance distance = distance_on_grid(
-      source.mesh(), shown_mesh(level, options.threads), level.mesh.name(),
-      {.samples = distance_samples, .threads = options.threads, .progress = options.progress});
+  const SurfaceDistance distance =
+      distance_on_grid(source.mesh(), shown_mesh(level, options.threads), level.mesh.name(),
+                       {.samples = distance_samples(level.mesh.faces()),
+                        .threads = options.threads,
+                        .progress = options.progress});
   level.distance = {distance.rms(), distance.max()};
 }
 
@@ -110,7 +110,7 @@ std::vector<MappedMesh> quartered_meshes(const MappedMesh& source, int count,
 
 TriangleMesh shown_mesh(const LevelOfDetail& level, int threads) {
   if (!level.fit) return level.mesh.mesh();
-  return fine_limit_mesh(*level.fit, level.mesh.faces(), shown_pieces, threads);
+  return fine_limit_mesh(*level.fit, level.mesh.faces(), shown_pieces(level.mesh.faces()), threads);
 }
 
 }  // namespace sphparam

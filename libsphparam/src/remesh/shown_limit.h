@@ -1,10 +1,18 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+
+#include "sphparam/io/polygons.h"
 
 namespace sphparam {
 
-/// A limit surface is shown and measured cut so fine that its flatness is not what is seen.
-constexpr std::int64_t shown_pieces = 250'000;
+/// How many pieces a limit surface is cut into to be shown and measured: so many that its flatness
+/// is not what is seen, and no more than 16 along a side of a patch, where it is a two-thousandth
+/// of how far the patch bends.
+inline std::int64_t shown_pieces(const Polygons& patches) {
+  constexpr std::int64_t enough = 250'000, of_a_patch = 16 * 16;
+  return std::min<std::int64_t>(enough, of_a_patch * patches.count());
+}
 
 }  // namespace sphparam

@@ -68,10 +68,11 @@ struct Drawable {
   Vector3 corner(Face f, int k) const { return screen.row(object->mesh.triangles(f, k)); }
 };
 
-Drawable prepare(const RenderObject& object, const Projection& projection, int threads) {
+Drawable prepare(const RenderObject& object, const Projection& projection, int pixels,
+                 int threads) {
   const Eigen::Index vertices = object.mesh.vertex_count();
   Drawable d{&object, Points(vertices, 3), VectorX(vertices),
-             SurfaceColour(object, projection.axes(), threads)};
+             SurfaceColour(object, projection.axes(), pixels, threads)};
   for (Eigen::Index v = 0; v < vertices; ++v) {
     const auto [point, inverse_w] = projection(object.mesh.positions.row(v));
     d.screen.row(v) = point;
@@ -228,7 +229,7 @@ Image render(const RenderScene& scene, int threads) {
   const Projection projection(scene.camera, scene.width, scene.height, scene.samples);
   std::vector<Drawable> drawables;
   for (const RenderObject& object : scene.objects) {
-    drawables.push_back(prepare(object, projection, threads));
+    drawables.push_back(prepare(object, projection, std::max(scene.width, scene.height), threads));
   }
   const int columns = (scene.width + kTile - 1) / kTile, rows = (scene.height + kTile - 1) / kTile;
   const TileLists lists(drawables, columns, rows, kTile * scene.samples);

@@ -112,10 +112,12 @@ float line_cover(const GridCoordinate& coordinate, double step, double width) {
 
 }  // namespace
 
-SurfaceColour::SurfaceColour(const RenderObject& object, const Eigen::Matrix3d& view, int threads)
+SurfaceColour::SurfaceColour(const RenderObject& object, const Eigen::Matrix3d& view, int pixels,
+                             int threads)
     : object_(&object), view_(view) {
   normals_ = object.normals ? *object.normals : vertex_normals(object.mesh);
-  if (object.occlusion) light_ = sky_visibility(object.mesh, normals_, 128, threads);
+  if (object.occlusion)
+    light_ = sky_visibility(object.mesh, normals_, 128, sky_cells_for(pixels), threads);
   normals_ = (normals_ * view.transpose()).eval();
 }
 

@@ -18,8 +18,9 @@ struct ShadedSample {
 /// Colours the points of one object: paint, overlays, light.
 class SurfaceColour {
  public:
-  /// view: rows are the camera's right, up and towards-the-eye directions.
-  SurfaceColour(const RenderObject& object, const Eigen::Matrix3d& view, int threads);
+  /// view: rows are the camera's right, up and towards-the-eye directions. pixels: the longer side
+  /// of the picture.
+  SurfaceColour(const RenderObject& object, const Eigen::Matrix3d& view, int pixels, int threads);
 
   /// Linear RGB.
   Rgb operator()(const ShadedSample& sample) const;

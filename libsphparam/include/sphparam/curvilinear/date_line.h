@@ -6,7 +6,7 @@
 
 namespace sphparam {
 
-/// The path from pole to pole where θ begins and ends.
+/// The path where θ begins and ends. (Triangles across θ = 0 are split in chart/, for textures.)
 struct DateLine {
   std::vector<Vertex> path;  // north … south, poles included, along edges
 };

@@ -16,6 +16,7 @@ struct DistanceOptions {
   bool faces = true;      // what mean and RMS are taken over: uniform over the area …
   bool edges = false;     // … uniform over the edges, each once …
   bool vertices = false;  // … and the vertices that triangles use
+  bool extremes = true;   // false: mean and RMS alone, in half the time
   int threads = 0;        // 0: all cores
   Progress progress = {};
 };
@@ -23,12 +24,12 @@ struct DistanceOptions {
 /// How far the points of one surface are from another surface.
 struct OneSidedDistance {
   double max = 0;                      // of any point that was looked at: see `max_bound`
-  double max_bound = 0;                // no point is farther
-  double min = 0;                      // of the samples and of all used vertices
+  double max_bound = 0;                // no point is farther; infinite without `extremes`
+  double min = 0;                      // of all points that were looked at
   double mean = 0, rms = 0;            // of the samples
   std::int64_t samples = 0;            // those of mean and rms
   Vector3 farthest = Vector3::Zero();  // the point at `max`
-  VectorX at_vertices;                 // of every vertex
+  VectorX at_vertices;                 // of every vertex; empty where they were not looked at
 };
 
 struct SurfaceDistance {
@@ -56,8 +57,8 @@ class UnmeasurableSurface : public std::invalid_argument {
 };
 
 /// Measures how far two surfaces are apart, by samples of each and their exact nearest points on
-/// the other; the maximum is then sought between the samples, by `find_farthest`. Neither needs to
-/// be closed. What is nearer than the rounding of a sample's own coordinates counts as 0: a surface
+/// the other; then, with `extremes`, of each vertex, and the maximum is sought between the samples,
+/// by `find_farthest`. Neither needs to be closed. What is nearer than the rounding of a sample's own coordinates counts as 0: a surface
 /// is no distance from itself. Source: the measures of Metro (Cignoni, Rocchini and Scopigno 1998),
 /// as MeshLab has them; the samples are stratified by area. Requires: some sample wanted, samples
 /// ≥ 1. Throws: std::invalid_argument if not; UnmeasurableSurface where there is no triangle, a

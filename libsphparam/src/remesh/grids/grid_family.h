@@ -26,7 +26,7 @@ struct ImageLayout {
 };
 
 /// All there is to know of a family of grids. A new one: its file, with such a table in it; its
-/// name in `GridKind`; its line in grid_families.cpp.
+/// name in `GridKind`; its name below; its line in grid_families.cpp.
 struct GridFamily {
   GridKind kind;
   const char* prefix;       // of its names: "octa:"

@@ -72,11 +72,13 @@ void compare_with_flat(SubdivisionFit& fit, const MappedMesh& source, const Reme
   const auto rms = [&](const TriangleMesh& mesh) {
     return distance_on_grid(source.mesh(), mesh, flat.name(),
                             {.samples = comparing_samples,
+                             .extremes = false,
                              .threads = options.threads,
                              .progress = options.progress})
         .rms();
   };
-  fit.two_sided_rms = rms(fine_limit_mesh(fit, flat.faces(), shown_pieces, options.threads));
+  fit.two_sided_rms =
+      rms(fine_limit_mesh(fit, flat.faces(), shown_pieces(flat.faces()), options.threads));
   fit.flat_rms = rms(flat.mesh());
 }
 

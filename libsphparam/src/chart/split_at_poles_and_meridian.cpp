@@ -1,4 +1,4 @@
-#include "chart/pole_and_meridian.h"
+#include "chart/split_at_poles_and_meridian.h"
 
 #include <algorithm>
 #include <cmath>
