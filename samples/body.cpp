@@ -16,8 +16,8 @@
 namespace sphparam::samples {
 namespace {
 
-constexpr double kMargin = 0.03;  // of an atlas square, against bleeding
-constexpr std::uint64_t kSeed = 2006;
+constexpr double margin = 0.03;  // of an atlas square, against bleeding
+constexpr std::uint64_t seed = 2006;
 
 struct Crater {
   Vector3 centre;
@@ -32,8 +32,8 @@ std::vector<Crater> make_craters() {
   for (int i = 0; i < count; ++i) {
     const auto id = static_cast<std::uint64_t>(i);
     const double radius = 0.5 * std::pow(1 + 0.35 * i, -0.62);
-    const double fresh = i > 12 && random_unit(kSeed + 7, id) < 0.09 ? 1 : 0;
-    craters.push_back({random_direction(kSeed, id), radius, fresh});
+    const double fresh = i > 12 && random_unit(seed + 7, id) < 0.09 ? 1 : 0;
+    craters.push_back({random_direction(seed, id), radius, fresh});
   }
   return craters;
 }
@@ -63,9 +63,9 @@ double radius_at(const Vector3& d) {
   const double ellipsoid =
       1 / std::sqrt(d.x() * d.x() / 1.96 + d.y() * d.y() / 1.0 + d.z() * d.z() / 0.72);
   const double waist = 0.10 * std::exp(-std::pow((d.x() - 0.12) / 0.22, 2));
-  double r = ellipsoid * (1 - waist) + 0.16 * noise(1.3 * d, kSeed + 1) * (1 + 0.3 * d.x()) +
-             0.045 * fractal_noise(3.1 * d, 4, kSeed + 2);
-  const double ragged = noise(6 * d, kSeed + 3);
+  double r = ellipsoid * (1 - waist) + 0.16 * noise(1.3 * d, seed + 1) * (1 + 0.3 * d.x()) +
+             0.045 * fractal_noise(3.1 * d, 4, seed + 2);
+  const double ragged = noise(6 * d, seed + 3);
   for (const Crater& crater : craters()) {
     const double t = distance_in_radii(crater, d, ragged);
     if (t < 2) r += r * crater.radius * crater_profile(t);
@@ -75,12 +75,12 @@ double radius_at(const Vector3& d) {
 
 /// Rust-brown dust on grey rock; floors of craters darker, fresh ones bright with rays.
 Colour colour_at(const Vector3& d) {
-  const double broad = fractal_noise(1.7 * d, 3, kSeed + 4);
-  const double fine = fractal_noise(14 * d, 3, kSeed + 5);
+  const double broad = fractal_noise(1.7 * d, 3, seed + 4);
+  const double fine = fractal_noise(14 * d, 3, seed + 5);
   Colour colour = mix({0.66, 0.58, 0.50}, {0.50, 0.51, 0.54}, smooth_step(-0.25, 0.3, broad));
   colour = mix(colour, {0.72, 0.53, 0.38}, 0.7 * smooth_step(0.15, 0.6, -broad));
   double light = 1 + 0.16 * fine, bright = 0;
-  const double ragged = noise(6 * d, kSeed + 3);
+  const double ragged = noise(6 * d, seed + 3);
   for (const Crater& crater : craters()) {
     const double t = distance_in_radii(crater, d, ragged);
     if (t > 5) continue;
@@ -88,7 +88,7 @@ Colour colour_at(const Vector3& d) {
     light *= 1 + 0.14 * std::exp(-std::pow((t - 1) / 0.13, 2));
     if (crater.fresh == 0) continue;
     const Vector3 outward = (d - crater.centre).normalized();
-    const double streak = smooth_step(-0.1, 0.45, noise(5.5 * outward, kSeed + 6));
+    const double streak = smooth_step(-0.1, 0.45, noise(5.5 * outward, seed + 6));
     const double apron = 1 - smooth_step(0.9, 1.6, t), rays = 1 - smooth_step(1.0, 5.0, t);
     bright = std::max(bright, std::max(0.9 * apron, 0.75 * streak * rays));
   }
@@ -98,7 +98,7 @@ Colour colour_at(const Vector3& d) {
 }  // namespace
 
 sphparam::MeshFile make_body(int frequency) {
-  GeodesicSphere sphere = geodesic_sphere(frequency, kMargin);
+  GeodesicSphere sphere = geodesic_sphere(frequency, margin);
   sphparam::MeshFile file;
   file.mesh = std::move(sphere.mesh);
   file.corner_texcoords = std::move(sphere.texcoords);
@@ -121,7 +121,7 @@ sphparam::Image make_body_texture(int square) {
     for (int y = static_cast<int>(first); y < last; ++y) {
       for (int x = 0; x < image.width; ++x) {
         const double u = (x + 0.5) / image.width, v = 1 - (y + 0.5) / image.height;
-        const Colour colour = colour_at(atlas_direction(u, v, kMargin));
+        const Colour colour = colour_at(atlas_direction(u, v, margin));
         for (int c = 0; c < 3; ++c) {
           image.pixel(x, y)[c] = static_cast<float>(std::clamp(colour[c], 0.0, 1.0));
         }

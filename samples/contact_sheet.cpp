@@ -16,12 +16,12 @@ namespace {
 using sphparam::Image;
 using sphparam::Rgb;
 
-constexpr char kUsage[] =
+constexpr char usage[] =
     "Put images on one sheet, to be looked at together.\n"
     "\n"
     "  contact_sheet sheet.png baked/*.png\n";
 
-constexpr int kColumns = 4, kWidth = 480, kHeight = 240, kGap = 16, kDot = 2;
+constexpr int column_count = 4, full_width = 480, full_height = 240, gap = 16, dot = 2;
 
 /// The mean of the pixels that a smaller one covers; images of one or two channels become grey.
 Rgb mean_colour(const Image& image, double x0, double y0, double x1, double y1) {
@@ -42,8 +42,8 @@ Rgb mean_colour(const Image& image, double x0, double y0, double x1, double y1) 
 
 /// Fits the image into its place, as large as it goes.
 void paste(Image& sheet, const Image& image, int left, int top) {
-  const double scale = std::min(static_cast<double>(kWidth) / image.width,
-                                static_cast<double>(kHeight) / image.height);
+  const double scale = std::min(static_cast<double>(full_width) / image.width,
+                                static_cast<double>(full_height) / image.height);
   const int width = std::max(1, static_cast<int>(scale * image.width)),
             height = std::max(1, static_cast<int>(scale * image.height));
   for (int y = 0; y < height; ++y) {
@@ -64,15 +64,15 @@ std::string label_of(const std::string& path) {
 
 Image sheet_of(const std::vector<std::string>& paths) {
   const int count = static_cast<int>(paths.size());
-  const int columns = std::min(kColumns, count), rows = (count + columns - 1) / columns;
-  const int line = sphparam::text_height(kDot) + kGap / 2;
-  Image sheet(kGap + columns * (kWidth + kGap), kGap + rows * (kHeight + line + kGap), 3);
+  const int columns = std::min(column_count, count), rows = (count + columns - 1) / columns;
+  const int line = sphparam::text_height(dot) + gap / 2;
+  Image sheet(gap + columns * (full_width + gap), gap + rows * (full_height + line + gap), 3);
   std::ranges::fill(sheet.pixels, 1.0F);
   for (int i = 0; i < count; ++i) {
-    const int left = kGap + i % columns * (kWidth + kGap);
-    const int top = kGap + i / columns * (kHeight + line + kGap);
+    const int left = gap + i % columns * (full_width + gap);
+    const int top = gap + i / columns * (full_height + line + gap);
     const std::string& path = paths[static_cast<size_t>(i)];
-    draw_text(sheet, label_of(path), left, top, kDot, Rgb::Constant(0.15F));
+    draw_text(sheet, label_of(path), left, top, dot, Rgb::Constant(0.15F));
     paste(sheet, sphparam::read_image(path), left, top + line);
   }
   return sheet;
@@ -82,7 +82,7 @@ Image sheet_of(const std::vector<std::string>& paths) {
 
 int main(int argc, char** argv) {
   if (argc < 3) {
-    std::fputs(kUsage, stderr);
+    std::fputs(usage, stderr);
     return 2;
   }
   try {

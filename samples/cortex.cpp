@@ -22,11 +22,11 @@
 namespace sphparam::samples {
 namespace {
 
-constexpr std::uint64_t kSeed = 1909;
-constexpr int kFrequency = 45;
-constexpr double kDepth = 0.19;     // of the sulci, the radius being 1
-constexpr double kWaveNumber = 27;  // radians a unit length
-constexpr int kWaves = 28;
+constexpr std::uint64_t seed = 1909;
+constexpr int frequency = 45;
+constexpr double depth = 0.19;      // of the sulci, the radius being 1
+constexpr double wave_number = 27;  // radians a unit length
+constexpr int wave_count = 28;
 
 struct Wave {
   Vector3 direction;
@@ -35,9 +35,9 @@ struct Wave {
 
 std::vector<Wave> make_waves() {
   std::vector<Wave> waves;
-  for (std::uint64_t i = 0; i < kWaves; ++i) {
-    waves.push_back({kWaveNumber * random_direction(kSeed, i),
-                     2 * std::numbers::pi * random_unit(kSeed + 1, i)});
+  for (std::uint64_t i = 0; i < wave_count; ++i) {
+    waves.push_back(
+        {wave_number * random_direction(seed, i), 2 * std::numbers::pi * random_unit(seed + 1, i)});
   }
   return waves;
 }
@@ -47,7 +47,7 @@ double wave_sum(const Vector3& d) {
   static const std::vector<Wave> waves = make_waves();
   double sum = 0;
   for (const Wave& wave : waves) sum += std::cos(wave.direction.dot(d) + wave.phase);
-  return sum / std::sqrt(0.5 * kWaves);
+  return sum / std::sqrt(0.5 * wave_count);
 }
 
 /// 0 in the depth of a sulcus or of the fissure between the halves, 1 on a gyrus: steep walls,
@@ -62,7 +62,7 @@ double ridge(const Vector3& d) {
 }
 
 double radius_at(const Vector3& d) {
-  return 1 - kDepth * (1 - ridge(d)) + 0.035 * noise(1.6 * d, kSeed + 2);
+  return 1 - depth * (1 - ridge(d)) + 0.035 * noise(1.6 * d, seed + 2);
 }
 
 /// Turns every shell about two axes, each by an angle that grows with the radius.
@@ -74,14 +74,14 @@ Vector3 leaned(const Vector3& p, double sign) {
   return sign > 0 ? Vector3(second * (first * p)) : Vector3(first * (second * p));
 }
 
-const Vector3 kStretch(1.25, 0.98, 0.92);
+const Vector3 stretch(1.25, 0.98, 0.92);
 
-Vector3 bent(const Vector3& p) { return kStretch.cwiseProduct(leaned(p, 1)); }
-Vector3 unbent(const Vector3& p) { return leaned(p.cwiseQuotient(kStretch), -1); }
+Vector3 bent(const Vector3& p) { return stretch.cwiseProduct(leaned(p, 1)); }
+Vector3 unbent(const Vector3& p) { return leaned(p.cwiseQuotient(stretch), -1); }
 
 /// Grey-pink gyri, dark red sulci.
 Colour colour_at(const Vector3& d) {
-  const double height = ridge(d), fine = fractal_noise(7 * d, 3, kSeed + 3);
+  const double height = ridge(d), fine = fractal_noise(7 * d, 3, seed + 3);
   const Colour colour = mix({0.45, 0.16, 0.16}, {0.90, 0.72, 0.67}, smooth_step(0.0, 0.9, height));
   return colour * (1 + 0.07 * fine);
 }
@@ -92,10 +92,10 @@ struct Lobe {
 };
 
 // Left and right halves of four lobes, numbered from 1: the left ones are odd.
-const std::array<Lobe, 4> kLobes{{{"frontal", {0.86, 0.37, 0.30}},
-                                  {"parietal", {0.95, 0.77, 0.30}},
-                                  {"temporal", {0.33, 0.62, 0.42}},
-                                  {"occipital", {0.30, 0.45, 0.76}}}};
+const std::array<Lobe, 4> lobes{{{"frontal", {0.86, 0.37, 0.30}},
+                                 {"parietal", {0.95, 0.77, 0.30}},
+                                 {"temporal", {0.33, 0.62, 0.42}},
+                                 {"occipital", {0.30, 0.45, 0.76}}}};
 
 /// The lobe of a direction from the centre; the face looks along +x.
 int lobe_at(const Vector3& d) {
@@ -121,8 +121,8 @@ void add_lobes(sphparam::MeshFile& cortex) {
     property.values.push_back(2 * lobe_at(d) + (d.y() < 0 ? 2 : 1));
   }
   cortex.set_vertex_property(std::move(property));
-  for (int i = 0; i < static_cast<int>(kLobes.size()); ++i) {
-    const Lobe& lobe = kLobes[static_cast<size_t>(i)];
+  for (int i = 0; i < static_cast<int>(lobes.size()); ++i) {
+    const Lobe& lobe = lobes[static_cast<size_t>(i)];
     cortex.comments.push_back(label_comment(2 * i + 1, "left", lobe));
     cortex.comments.push_back(label_comment(2 * i + 2, "right", lobe));
   }
@@ -134,7 +134,7 @@ sphparam::MeshFile make_cortex() {
     const double r = q.norm();
     return r - radius_at(q / r);
   };
-  TriangleMesh start = geodesic_sphere(kFrequency, 0).mesh;
+  TriangleMesh start = geodesic_sphere(frequency, 0).mesh;
   for (Eigen::Index v = 0; v < start.vertex_count(); ++v) {
     const Vector3 d = start.positions.row(v);
     start.positions.row(v) = bent(radius_at(d) * d);

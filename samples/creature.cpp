@@ -16,9 +16,9 @@
 namespace sphparam::samples {
 namespace {
 
-constexpr std::uint64_t kSeed = 1974;
-constexpr double kFlesh = 0.16;  // width of the smooth joints
-constexpr double kCube = 0.085;  // of the lattice
+constexpr std::uint64_t seed = 1974;
+constexpr double flesh = 0.16;  // width of the smooth joints
+constexpr double cube = 0.085;  // of the lattice
 
 struct Bone {
   Vector3 from, to;
@@ -121,17 +121,17 @@ double distance(const std::vector<Limb>& limbs, const Vector3& p) {
   double result = 1e9;
   for (const Limb& limb : limbs) {
     // What is farther than the flesh is thick changes nothing.
-    if ((p - limb.centre).norm() - limb.radius > result + kFlesh) continue;
+    if ((p - limb.centre).norm() - limb.radius > result + flesh) continue;
     double nearest = 1e9;
     for (const Bone& bone : limb.bones) nearest = std::min(nearest, distance(bone, p));
-    result = smooth_minimum(result, nearest, kFlesh);
+    result = smooth_minimum(result, nearest, flesh);
   }
   return result;
 }
 
 /// Sandy back with dark stripes, pale belly, dark feet, tail tip and horns.
 Colour colour_at(const Vector3& p, const Vector3& normal) {
-  const double wobble = noise(2.2 * p, kSeed), fine = fractal_noise(9 * p, 3, kSeed + 1);
+  const double wobble = noise(2.2 * p, seed), fine = fractal_noise(9 * p, 3, seed + 1);
   Colour colour = mix({0.80, 0.52, 0.24}, {0.70, 0.38, 0.18}, smooth_step(-0.4, 0.5, wobble));
   const double along = p.x() + 0.55 * p.z() + 0.10 * wobble;
   const double stripe = smooth_step(0.25, 0.6, std::sin(13 * along + 2 * wobble));
@@ -153,13 +153,13 @@ Colour colour_at(const Vector3& p, const Vector3& normal) {
 sphparam::MeshFile make_creature() {
   const std::vector<Limb> limbs = make_limbs();
   const Field skin = [&](const Vector3& p) { return distance(limbs, p); };
-  const TriangleMesh rough = level_set(skin, {-2.5, -0.8, -0.2}, {2.0, 0.8, 3.2}, kCube);
+  const TriangleMesh rough = level_set(skin, {-2.5, -0.8, -0.2}, {2.0, 0.8, 3.2}, cube);
   sphparam::MeshFile file;
   file.mesh = relaxed_on_surface(rough, skin, {.rounds = 40});
   std::vector<Colour> colours;
   for (Eigen::Index v = 0; v < file.mesh.vertex_count(); ++v) {
     const Vector3 p = file.mesh.positions.row(v);
-    colours.push_back(colour_at(p, gradient(skin, p, kFlesh / 2).normalized()));
+    colours.push_back(colour_at(p, gradient(skin, p, flesh / 2).normalized()));
   }
   add_vertex_colours(colours, file);
   file.format = "sample";

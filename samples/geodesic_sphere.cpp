@@ -13,7 +13,7 @@
 namespace sphparam::samples {
 namespace {
 
-constexpr int kColumns = 5, kRows = 2;
+constexpr int column_count = 5, row_count = 2;
 
 Icosahedron make_icosahedron() {
   Icosahedron result;
@@ -79,8 +79,8 @@ class Builder {
       const double a = static_cast<double>(i) / f_, b = static_cast<double>(j) / f_;
       const double x = upper ? 1 - a : a, y = upper ? 1 - b : b;
       result_.texcoords.row(3 * face_ + k)
-          << (pair % 5 + margin_ + x * (1 - 2 * margin_)) / kColumns,
-          (pair / 5 + margin_ + y * (1 - 2 * margin_)) / kRows;
+          << (pair % 5 + margin_ + x * (1 - 2 * margin_)) / column_count,
+          (pair / 5 + margin_ + y * (1 - 2 * margin_)) / row_count;
     }
     ++face_;
   }
@@ -119,11 +119,11 @@ GeodesicSphere geodesic_sphere(int frequency, double margin) {
 }
 
 Vector3 atlas_direction(double u, double v, double margin) {
-  const int column = std::clamp(static_cast<int>(u * kColumns), 0, kColumns - 1);
-  const int row = std::clamp(static_cast<int>(v * kRows), 0, kRows - 1);
-  const double a = (u * kColumns - column - margin) / (1 - 2 * margin);
-  const double b = (v * kRows - row - margin) / (1 - 2 * margin);
-  const auto& pair = icosahedron().pairs[static_cast<size_t>(kColumns * row + column)];
+  const int column = std::clamp(static_cast<int>(u * column_count), 0, column_count - 1);
+  const int row = std::clamp(static_cast<int>(v * row_count), 0, row_count - 1);
+  const double a = (u * column_count - column - margin) / (1 - 2 * margin);
+  const double b = (v * row_count - row - margin) / (1 - 2 * margin);
+  const auto& pair = icosahedron().pairs[static_cast<size_t>(column_count * row + column)];
   const auto corner = [&](size_t k) {
     return icosahedron().vertices[static_cast<size_t>(pair[k])];
   };

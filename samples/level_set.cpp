@@ -15,17 +15,16 @@
 namespace sphparam::samples {
 namespace {
 
-constexpr int kMargin = 2;  // cubes around the box, so that the tetrahedra fill it
+constexpr int margin = 2;  // cubes around the box, so that the tetrahedra fill it
 
 using Tetrahedron = std::array<long, 4>;  // lattice points, positively oriented
 
 class Lattice {
  public:
   Lattice(const Field& field, const Vector3& low, const Vector3& high, double cube)
-      : low_(low.array() - kMargin * cube), cube_(cube) {
+      : low_(low.array() - margin * cube), cube_(cube) {
     for (int k = 0; k < 3; ++k) {
-      size_[static_cast<size_t>(k)] =
-          static_cast<long>((high[k] - low[k]) / cube) + 2 * kMargin + 1;
+      size_[static_cast<size_t>(k)] = static_cast<long>((high[k] - low[k]) / cube) + 2 * margin + 1;
     }
     values_.resize(static_cast<size_t>(2 * size_[0] * size_[1] * size_[2]));
     parallel_for(static_cast<std::int64_t>(values_.size()), 4096, 0,

@@ -19,7 +19,7 @@ namespace {
 
 using sphparam::MeshFile;
 
-constexpr char kUsage[] =
+constexpr char usage[] =
     "Make the sample meshes: closed genus-0 triangle meshes with vertex colours, as PLY.\n"
     "\n"
     "  make_samples samples-out                       body, creature and cortex\n"
@@ -98,13 +98,13 @@ void make(const Arguments& arguments) {
 
 int main(int count, char** values) try {
   if (count == 2 && std::string(values[1]) == "--help") {
-    std::cout << kUsage;
+    std::cout << usage;
     return 0;
   }
   make(parse(count, values));
   return 0;
 } catch (const std::invalid_argument& e) {
-  std::cerr << "make_samples: " << e.what() << "\n\n" << kUsage;
+  std::cerr << "make_samples: " << e.what() << "\n\n" << usage;
   return 2;
 } catch (const std::exception& e) {
   std::cerr << "make_samples: " << e.what() << '\n';

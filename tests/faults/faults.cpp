@@ -31,8 +31,8 @@ namespace {
 using namespace sphparam::tests;
 namespace fs = std::filesystem;
 
-constexpr double kSeconds = 60;  // then a run counts as hanging
-constexpr int kKilled = 128 + SIGKILL, kInterrupted = 130;
+constexpr double most_seconds = 60;  // then a run counts as hanging
+constexpr int killed = 128 + SIGKILL, interrupted = 130;
 
 std::string bytes_of(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -49,7 +49,7 @@ void write_off(const fs::path& path, const sphparam::TriangleMesh& mesh) {
 struct Fault {
   std::string kind = {};  // for the table
   std::string shim = {};  // SPHPARAM_FAULT
-  ProcessLimits limits{.seconds = kSeconds};
+  ProcessLimits limits{.seconds = most_seconds};
   ProcessSignal signal = {};
   std::set<int> codes = {};  // how the run may end
   bool kills = false;        // then outputs are judged one by one, and temporaries may be left
@@ -71,7 +71,7 @@ class Scene {
     seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     std::ifstream counts(folder_ / "counts");
     for (std::string call; counts >> call;) counts >> calls[call];
-    for (const char* output : kOutputs) new_[output] = bytes_of(folder_ / output);
+    for (const char* output : outputs) new_[output] = bytes_of(folder_ / output);
     const ProcessEnd proof = run_process({program_, "verify", (folder_ / "map.sph.ply").string()});
     if (proof.code != 0) throw std::runtime_error("not certified: " + proof.messages);
   }
@@ -103,7 +103,7 @@ class Scene {
   std::map<std::string, long> happened;  // by kind
 
  private:
-  static constexpr const char* kOutputs[] = {"map.sph.ply", "sphere.obj", "report.json"};
+  static constexpr const char* outputs[] = {"map.sph.ply", "sphere.obj", "report.json"};
 
   ProcessEnd run(const Fault& fault, std::vector<std::string> environment) {
     if (!environment.empty()) environment.push_back("LD_PRELOAD=" + shim_);
@@ -115,7 +115,7 @@ class Scene {
   }
 
   void reset(bool fresh) {
-    for (const char* output : kOutputs) {
+    for (const char* output : outputs) {
       fs::remove(folder_ / output);
       if (!fresh) std::ofstream(folder_ / output) << "old " << output;
     }
@@ -144,7 +144,7 @@ class Scene {
   std::string judge(const Fault& fault, const ProcessEnd& end, bool fresh) const {
     if (end.timed_out) return "it hangs";
     if (!fault.codes.contains(end.code)) return "that is no documented exit code";
-    for (const char* output : kOutputs) {
+    for (const char* output : outputs) {
       const bool complete = is_new(output), untouched = is_old(output, fresh);
       if (!complete && !untouched) return std::string(output) + " is half written";
       if (end.code == 0 && !complete) return std::string(output) + " is missing";
@@ -152,13 +152,13 @@ class Scene {
         return std::string(output) + " was changed";
     }
     if (!fault.kills && !temporaries().empty()) return "left " + temporaries().front();
-    const bool silent = end.code != 0 && end.code != kInterrupted && end.messages.empty();
+    const bool silent = end.code != 0 && end.code != interrupted && end.messages.empty();
     if (silent && !fault.kills) return "not a word was said";
     return {};
   }
 
   std::string judge_next_run() {
-    const ProcessEnd end = run({.limits = {.seconds = kSeconds}}, {});
+    const ProcessEnd end = run({.limits = {.seconds = most_seconds}}, {});
     if (end.code != 0) return "the next run ends with " + std::to_string(end.code);
     if (!temporaries().empty()) return "the next run leaves " + temporaries().front();
     return {};
@@ -197,11 +197,11 @@ std::vector<Fault> call_faults(const Scene& scene) {
       for (const char when : {'S', 'T'}) {
         const std::string at = std::string(when == 'S' ? " before " : " after ") + call;
         faults.push_back(
-            {.kind = "SIGKILL" + at, .shim = turn + when + "9", .codes = {kKilled}, .kills = true});
+            {.kind = "SIGKILL" + at, .shim = turn + when + "9", .codes = {killed}, .kills = true});
         faults.push_back(
-            {.kind = "SIGINT" + at, .shim = turn + when + "2", .codes = {0, kInterrupted}});
+            {.kind = "SIGINT" + at, .shim = turn + when + "2", .codes = {0, interrupted}});
         faults.push_back(
-            {.kind = "SIGTERM" + at, .shim = turn + when + "15", .codes = {0, kInterrupted}});
+            {.kind = "SIGTERM" + at, .shim = turn + when + "15", .codes = {0, interrupted}});
       }
     }
   }
@@ -229,16 +229,16 @@ std::vector<Fault> choose_faults(const Scene& scene, long count, std::mt19937& r
   for (long i = 0; i < left / 6; ++i)
     faults.push_back({.kind = "SIGKILL at a random moment",
                       .signal = {SIGKILL, moment(random)},
-                      .codes = {0, kKilled},
+                      .codes = {0, killed},
                       .kills = true});
   for (long i = 0; i < left / 6; ++i)
     faults.push_back({.kind = "SIGINT at a random moment",
                       .signal = {SIGINT, moment(random)},
-                      .codes = {0, kInterrupted}});
+                      .codes = {0, interrupted}});
   while (static_cast<long>(faults.size()) < count) {
     const std::uint64_t bytes = 1 + random() % scene.largest_output();
     faults.push_back({.kind = "limit on file sizes (disk full)",
-                      .limits = {.seconds = kSeconds, .file_bytes = bytes},
+                      .limits = {.seconds = most_seconds, .file_bytes = bytes},
                       .codes = {0, 3}});
   }
   return faults;

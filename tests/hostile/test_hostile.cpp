@@ -20,13 +20,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kSeconds = 10;
+constexpr double most_seconds = 10;
 #ifdef __SANITIZE_ADDRESS__
-constexpr std::uint64_t kMemory = 0;  // the sanitizer reserves terabytes
+constexpr std::uint64_t most_memory = 0;  // the sanitizer reserves terabytes
 #else
-constexpr std::uint64_t kMemory = 512u << 20;
+constexpr std::uint64_t most_memory = 512u << 20;
 #endif
-constexpr int kOk = 0;
+constexpr int ok = 0;
 
 const fs::path folder = source_folder() / "tests/hostile";
 
@@ -76,7 +76,7 @@ std::string complaint_about(const ProcessEnd& end, const HostileFile& file) {
 std::string try_file(const HostileFile& file, const fs::path& scratch) {
   const std::string path = (folder / "files" / file.name).string();
   const fs::path output = scratch / (file.name + ".sph.ply");
-  const ProcessLimits limits{.seconds = kSeconds, .memory = kMemory};
+  const ProcessLimits limits{.seconds = most_seconds, .memory = most_memory};
   const ProcessEnd map = run_process(
       {SPHPARAM_PROGRAM, "map", path, "-o", output.string(), "--threads", "1"}, {}, limits);
   const ProcessEnd info = run_process({SPHPARAM_PROGRAM, "info", path}, {}, limits);
@@ -85,7 +85,7 @@ std::string try_file(const HostileFile& file, const fs::path& scratch) {
     complaint += "map " + file.name + " " + text + ": " + map.messages;
   if (const std::string text = complaint_about(info, file); !text.empty())
     complaint += "info " + file.name + " " + text + ": " + info.messages;
-  if (fs::exists(output) != (file.code == kOk)) complaint += file.name + ": output is there or not";
+  if (fs::exists(output) != (file.code == ok)) complaint += file.name + ": output is there or not";
   return complaint;
 }
 
@@ -118,7 +118,7 @@ TEST_CASE("hostile: every file of the corpus ends as its line of the table says"
   INFO(complaints);
   CHECK(complaints.empty());
   long accepted = 0, found = 0;
-  for (const HostileFile& file : files) accepted += file.code == kOk;
+  for (const HostileFile& file : files) accepted += file.code == ok;
   for ([[maybe_unused]] const auto& entry : fs::directory_iterator(scratch.path)) ++found;
   CHECK(found == accepted);  // no temporary either
 }

@@ -35,16 +35,16 @@ inline std::string replaced(std::string text, const std::string& from, const std
 }
 
 inline const std::vector<double>& values_of(const sphparam::Property* property) {
-  static const std::vector<double> kNone;
-  return property ? property->values : kNone;
+  static const std::vector<double> no_values;
+  return property ? property->values : no_values;
 }
 
 /// One tetrahedron in each format.
-inline const std::string kTetrahedronObj =
+inline const std::string tetrahedron_obj =
     "v 1 1 1\nv -1 -1 1\nv -1 1 -1\nv 1 -1 -1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
-inline const std::string kTetrahedronOff =
+inline const std::string tetrahedron_off =
     "OFF\n4 4 6\n1 1 1\n-1 -1 1\n-1 1 -1\n1 -1 -1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
-inline const std::string kTetrahedronPly =
+inline const std::string tetrahedron_ply =
     "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float "
     "z\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n"
     "1 1 1\n-1 -1 1\n-1 1 -1\n1 -1 -1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";

@@ -72,15 +72,15 @@ std::string gifti(const std::vector<Array>& arrays, const std::string& prologue 
   return text + "</GIFTI>\n";
 }
 
-constexpr const char* kFourByThree = R"(Dimensionality="2" Dim0="4" Dim1="3")";
+constexpr const char* four_by_three = R"(Dimensionality="2" Dim0="4" Dim1="3")";
 
 Array points(const std::string& data = "1 1 1 -1 -1 1\n-1 1 -1 1 -1 -1") {
-  return {"POINTSET", "FLOAT32", data, kFourByThree};
+  return {"POINTSET", "FLOAT32", data, four_by_three};
 }
 Array triangles(const std::string& data = "0 2 1 0 1 3 0 3 2 1 2 3") {
-  return {"TRIANGLE", "INT32", data, kFourByThree};
+  return {"TRIANGLE", "INT32", data, four_by_three};
 }
-const std::vector<std::uint32_t> kCorners = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+const std::vector<std::uint32_t> corner_indices = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
 
 std::string tetrahedron_gifti() { return gifti({points(), triangles()}); }
 
@@ -90,15 +90,15 @@ TEST_CASE("gifti_reader: a surface has its coordinates and triangles") {
   const MeshFile file = read(tetrahedron_gifti());
   CHECK(file.format == "GIFTI");
   CHECK(file.mesh.positions == tetrahedron().positions);
-  CHECK(file.mesh.triangles == read(kTetrahedronObj).mesh.triangles);
+  CHECK(file.mesh.triangles == read(tetrahedron_obj).mesh.triangles);
   CHECK(file.position_type == ScalarType::Float32);
   CHECK(file.notes.empty());
 }
 
 TEST_CASE("gifti_reader: every encoding, byte order and index order means the same") {
-  const Triangles expected = read(kTetrahedronObj).mesh.triangles;
+  const Triangles expected = read(tetrahedron_obj).mesh.triangles;
   for (const bool big : {false, true}) {
-    const std::string bytes = words(kCorners, big);
+    const std::string bytes = words(corner_indices, big);
     for (const bool compressed : {false, true}) {
       Array array = triangles(base64(compressed ? packed(bytes) : bytes));
       array.encoding = compressed ? "GZipBase64Binary" : "Base64Binary";
@@ -159,7 +159,7 @@ TEST_CASE("gifti_reader: blanks do not count as data that could unpack to someth
   const std::string blanks(1 << 20, '\n');
   for (const char* encoding : {"ASCII", "Base64Binary", "GZipBase64Binary"})
     CHECK(contains(said(blanks, encoding, 1000), "cannot hold"));
-  const std::string corners = base64(packed(words(kCorners)));
+  const std::string corners = base64(packed(words(corner_indices)));
   CHECK(said(blanks + corners + blanks, "GZipBase64Binary", 4).empty());
   CHECK(contains(said(blanks + corners, "GZipBase64Binary", 1 << 19), "cannot hold"));
 }
@@ -248,9 +248,9 @@ TEST_CASE("gifti_reader: entities are refused, the document type that libgiftiio
 }
 
 TEST_CASE("gifti_reader: binary data is neither cut, guessed nor padded") {
-  const std::string bytes = words(kCorners);
+  const std::string bytes = words(corner_indices);
   const auto said = [](const std::string& data, const std::string& encoding,
-                       const std::string& dimensions = kFourByThree) {
+                       const std::string& dimensions = four_by_three) {
     Array array = triangles(data);
     array.encoding = encoding;
     array.dimensions = dimensions;

@@ -14,9 +14,9 @@ using sphparam::ReadOptions;
 namespace {
 
 std::string gzipped(const std::string& bytes) {
-  constexpr int kGzip = 15 + 16;
+  constexpr int gzip = 15 + 16;
   z_stream stream{};
-  REQUIRE(deflateInit2(&stream, 9, Z_DEFLATED, kGzip, 9, Z_DEFAULT_STRATEGY) == Z_OK);
+  REQUIRE(deflateInit2(&stream, 9, Z_DEFLATED, gzip, 9, Z_DEFAULT_STRATEGY) == Z_OK);
   std::string packed(deflateBound(&stream, bytes.size()), '\0');
   stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
   stream.avail_in = static_cast<uInt>(bytes.size());
@@ -31,9 +31,9 @@ std::string gzipped(const std::string& bytes) {
 }  // namespace
 
 TEST_CASE("gzip: a mesh of any format is read through it, whatever its name") {
-  const MeshFile plain = read(kTetrahedronObj, "a.obj");
+  const MeshFile plain = read(tetrahedron_obj, "a.obj");
   for (const std::string& bytes :
-       {kTetrahedronObj, kTetrahedronOff, kTetrahedronPly, sphparam::serialise_ply(plain)}) {
+       {tetrahedron_obj, tetrahedron_off, tetrahedron_ply, sphparam::serialise_ply(plain)}) {
     for (const char* name : {"a.gz", "a.obj.gz", "a.ply", "standard input"}) {
       const MeshFile file = read(gzipped(bytes), name);
       CHECK(file.mesh.triangles == plain.mesh.triangles);
@@ -49,16 +49,16 @@ TEST_CASE("gzip: a mesh of any format is read through it, whatever its name") {
 }
 
 TEST_CASE("gzip: members follow one another, zeros may end it, what else follows is noted") {
-  const std::string first = kTetrahedronObj.substr(0, 20), second = kTetrahedronObj.substr(20);
+  const std::string first = tetrahedron_obj.substr(0, 20), second = tetrahedron_obj.substr(20);
   const MeshFile file = read(gzipped(first) + gzipped(second), "a.obj.gz");
-  CHECK(file.mesh.triangles == read(kTetrahedronObj).mesh.triangles);
-  CHECK(read(gzipped(kTetrahedronObj) + std::string(100, '\0')).notes.empty());
-  CHECK(read(gzipped(kTetrahedronObj) + "more").notes ==
+  CHECK(file.mesh.triangles == read(tetrahedron_obj).mesh.triangles);
+  CHECK(read(gzipped(tetrahedron_obj) + std::string(100, '\0')).notes.empty());
+  CHECK(read(gzipped(tetrahedron_obj) + "more").notes ==
         std::vector<std::string>{"data after the end of the gzip data ignored"});
 }
 
 TEST_CASE("gzip: what is cut short or changed is refused, wherever") {
-  const std::string packed = gzipped(kTetrahedronPly);
+  const std::string packed = gzipped(tetrahedron_ply);
   for (std::size_t size = 2; size < packed.size(); ++size)
     CHECK(contains(complaint(packed.substr(0, size), "a.ply.gz"), "gzip data is cut short"));
   for (std::size_t at = 10; at < packed.size(); ++at) {
@@ -74,11 +74,11 @@ TEST_CASE("gzip: what is cut short or changed is refused, wherever") {
 }
 
 TEST_CASE("gzip: the limit on bytes holds for what comes out") {
-  const std::string packed = gzipped(kTetrahedronPly);
+  const std::string packed = gzipped(tetrahedron_ply);
   const std::string bomb = gzipped(std::string(10 << 20, ' '));
   REQUIRE(bomb.size() < 20000);
   ReadOptions options;
-  options.max_file_bytes = kTetrahedronPly.size();
+  options.max_file_bytes = tetrahedron_ply.size();
   CHECK(complaint(packed, "a.ply.gz", options).empty());
   options.max_file_bytes -= 1;
   CHECK(contains(complaint(packed, "a.ply.gz", options), "unpacks to more than the limit of"));

@@ -14,10 +14,10 @@ using sphparam::MeshFile;
 using sphparam::ReadOptions;
 
 TEST_CASE("mesh_reader: content decides the format before the name does") {
-  CHECK(read(kTetrahedronPly, "a.obj").format == "PLY ASCII");
-  CHECK(read(kTetrahedronOff, "a.ply").format == "OFF");
-  CHECK(read(kTetrahedronObj, "standard input").format == "OBJ");
-  CHECK(read("# a comment first\n" + kTetrahedronObj, "mesh").format == "OBJ");
+  CHECK(read(tetrahedron_ply, "a.obj").format == "PLY ASCII");
+  CHECK(read(tetrahedron_off, "a.ply").format == "OFF");
+  CHECK(read(tetrahedron_obj, "standard input").format == "OBJ");
+  CHECK(read("# a comment first\n" + tetrahedron_obj, "mesh").format == "OBJ");
 }
 
 TEST_CASE("mesh_reader: other formats are refused by name") {
@@ -44,10 +44,10 @@ TEST_CASE("mesh_reader: files that cannot be opened say so") {
 
 TEST_CASE("mesh_reader: a file on disk reads like its bytes") {
   const auto path = std::filesystem::temp_directory_path() / "sphparam_test_reader.off";
-  std::ofstream(path) << kTetrahedronOff;
-  CHECK(sphparam::read_mesh(path.string()).mesh.triangles == read(kTetrahedronOff).mesh.triangles);
+  std::ofstream(path) << tetrahedron_off;
+  CHECK(sphparam::read_mesh(path.string()).mesh.triangles == read(tetrahedron_off).mesh.triangles);
   ReadOptions options;
-  options.max_file_bytes = kTetrahedronOff.size();
+  options.max_file_bytes = tetrahedron_off.size();
   CHECK_NOTHROW(sphparam::read_mesh(path.string(), options));
   options.max_file_bytes -= 1;
   CHECK_THROWS_AS(sphparam::read_mesh(path.string(), options), sphparam::ReadError);
@@ -56,12 +56,12 @@ TEST_CASE("mesh_reader: a file on disk reads like its bytes") {
 
 TEST_CASE(
     "mesh_reader: faces that name a vertex twice come through for a repair, and it removes them") {
-  const std::string faulty[] = {kTetrahedronObj + "f 1 2 1\nf 4 3 2 1 4 2\n",
-                                replaced(replaced(kTetrahedronOff, "4 4 6", "4 6 6"), "3 0 1 3\n",
+  const std::string faulty[] = {tetrahedron_obj + "f 1 2 1\nf 4 3 2 1 4 2\n",
+                                replaced(replaced(tetrahedron_off, "4 4 6", "4 6 6"), "3 0 1 3\n",
                                          "3 0 1 3\n4 0 1 2 1\n3 3 3 3\n"),
-                                replaced(replaced(kTetrahedronPly, "face 4", "face 6"), "3 0 1 3\n",
+                                replaced(replaced(tetrahedron_ply, "face 4", "face 6"), "3 0 1 3\n",
                                          "3 0 1 3\n3 2 1 2\n5 0 1 2 0 3\n")};
-  const sphparam::MeshFile sound = read(kTetrahedronObj);
+  const sphparam::MeshFile sound = read(tetrahedron_obj);
   for (const std::string& bytes : faulty) {
     CHECK(contains(complaint(bytes), "face names a vertex twice"));
     const MeshFile file = read(bytes, "mesh", {.repeated_corners = true});
@@ -115,9 +115,9 @@ TEST_CASE("mesh_reader: damaged files give a mesh or a ReadError, nothing else")
       "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 0 0 1\nv 0 1 0.5 1 1 1\nvt 0 0\nvt 1 1\nvn 0 0 1\n"
       "vn 1 0 0\nusemtl a\nf 1/1/1 2/2/1 3/1/1\nusemtl b\nf 1/2/2 3/2/2 4/1/1\nf -1 -2 -3 -4\n",
       "a.obj");
-  const std::string seeds[] = {kTetrahedronObj,
-                               kTetrahedronOff,
-                               kTetrahedronPly,
+  const std::string seeds[] = {tetrahedron_obj,
+                               tetrahedron_off,
+                               tetrahedron_ply,
                                serialise_ply(rich),
                                serialise_obj(rich),
                                serialise_off(rich),

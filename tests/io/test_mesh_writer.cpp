@@ -14,7 +14,7 @@ namespace {
 
 /// A tetrahedron with attributes of every kind.
 MeshFile everything() {
-  MeshFile file = read(kTetrahedronObj);
+  MeshFile file = read(tetrahedron_obj);
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform(-1, 1);
   for (double& x : file.mesh.positions.reshaped()) x = uniform(random);
@@ -71,7 +71,7 @@ TEST_CASE("mesh_writer: a PLY gives back all that a mesh file carries") {
 }
 
 TEST_CASE("mesh_writer: float32 stays float32 while it is exact, and no longer") {
-  MeshFile file = read(kTetrahedronPly);
+  MeshFile file = read(tetrahedron_ply);
   CHECK(contains(serialise_ply(file), "property float x"));
   file.mesh.positions(2, 1) = 0.1;
   CHECK(contains(serialise_ply(file), "property double x"));
@@ -92,12 +92,12 @@ TEST_CASE("mesh_writer: write, read, write gives the same bytes") {
   per_vertex.corner_texcoords.reset();
   per_vertex.vertex_properties.push_back({"s", ScalarType::Float64, {0.1, 0.2, 0.3, 0.3}});
   per_vertex.vertex_properties.push_back({"t", ScalarType::Float64, {0, 0, 1, 1}});
-  MeshFile coloured_faces = read(kTetrahedronOff);
+  MeshFile coloured_faces = read(tetrahedron_off);
   for (const char* name : {"red", "green", "blue"}) {
     coloured_faces.face_properties.push_back({name, ScalarType::Float32, {0, 0.5, 1, 0.25}});
     coloured_faces.vertex_properties.push_back({name, ScalarType::Float32, {0, 0.5, 1, 0.25}});
   }
-  for (const MeshFile& file : {everything(), per_vertex, coloured_faces, read(kTetrahedronPly)})
+  for (const MeshFile& file : {everything(), per_vertex, coloured_faces, read(tetrahedron_ply)})
     for (const auto serialise : {serialise_ply, serialise_obj, serialise_off}) {
       const std::string once = serialise(file);
       CHECK(serialise(read(once, "a.obj")) == once);
@@ -107,7 +107,7 @@ TEST_CASE("mesh_writer: write, read, write gives the same bytes") {
 }
 
 TEST_CASE("mesh_writer: text keeps every bit of a double") {
-  MeshFile file = read(kTetrahedronObj);
+  MeshFile file = read(tetrahedron_obj);
   std::mt19937_64 random(3);
   for (int round = 0; round < 200; ++round) {
     for (double& x : file.mesh.positions.reshaped()) {
@@ -171,7 +171,7 @@ TEST_CASE("mesh_writer: OFF carries normals, colours and texture coordinates of 
 }
 
 TEST_CASE("mesh_writer: line ends in comments and names cannot break a header") {
-  MeshFile file = read(kTetrahedronPly);
+  MeshFile file = read(tetrahedron_ply);
   file.comments = {"a\nelement vertex 7", "b\rc"};
   file.materials = {"m\nf 9 9 9"};
   for (const auto serialise : {serialise_ply, serialise_obj, serialise_off})
@@ -184,7 +184,7 @@ TEST_CASE("mesh_writer: an empty mesh is written and read") {
 }
 
 TEST_CASE("mesh_writer: a comment that looks like a material stays a comment") {
-  const MeshFile file = read("# sphparam material gold\n" + kTetrahedronObj, "a.obj");
+  const MeshFile file = read("# sphparam material gold\n" + tetrahedron_obj, "a.obj");
   const MeshFile again = read(serialise_ply(file));
   CHECK(again.materials.empty());
   CHECK(again.comments.size() == 1);

@@ -8,8 +8,8 @@ using sphparam::MeshFile;
 
 namespace {
 
-const std::string kThree = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-const std::string kFour = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+const std::string three_vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+const std::string four = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 Eigen::RowVector3i first_triangle(const std::string& text) {
   return read(text, "a.obj").mesh.triangles.row(0);
@@ -18,7 +18,7 @@ Eigen::RowVector3i first_triangle(const std::string& text) {
 }  // namespace
 
 TEST_CASE("obj_reader: a tetrahedron has its vertices and triangles") {
-  const MeshFile file = read(kTetrahedronObj, "a.obj");
+  const MeshFile file = read(tetrahedron_obj, "a.obj");
   CHECK(file.format == "OBJ");
   CHECK(file.mesh.vertex_count() == 4);
   CHECK(file.mesh.face_count() == 4);
@@ -29,13 +29,13 @@ TEST_CASE("obj_reader: a tetrahedron has its vertices and triangles") {
 }
 
 TEST_CASE("obj_reader: line ends, byte order mark and a missing final newline change nothing") {
-  const Triangles expected = read(kTetrahedronObj).mesh.triangles;
-  const std::string unended = kTetrahedronObj.substr(0, kTetrahedronObj.size() - 1);
+  const Triangles expected = read(tetrahedron_obj).mesh.triangles;
+  const std::string unended = tetrahedron_obj.substr(0, tetrahedron_obj.size() - 1);
   for (const std::string& text :
-       {replaced(kTetrahedronObj, "\n", "\r\n"), replaced(kTetrahedronObj, "\n", "\r"), unended,
-        "\xef\xbb\xbf" + kTetrahedronObj, replaced(kTetrahedronObj, " ", " \t "),
-        replaced(kTetrahedronObj, "\n", " # comment\n\n"),
-        replaced(kTetrahedronObj, " ", " \\\n ")}) {
+       {replaced(tetrahedron_obj, "\n", "\r\n"), replaced(tetrahedron_obj, "\n", "\r"), unended,
+        "\xef\xbb\xbf" + tetrahedron_obj, replaced(tetrahedron_obj, " ", " \t "),
+        replaced(tetrahedron_obj, "\n", " # comment\n\n"),
+        replaced(tetrahedron_obj, " ", " \\\n ")}) {
     const MeshFile file = read(text, "a.obj");
     CHECK(file.mesh.triangles == expected);
     CHECK(file.mesh.position(3) == Vector3(1, -1, -1));
@@ -50,20 +50,20 @@ TEST_CASE("obj_reader: numbers of all spellings") {
 }
 
 TEST_CASE("obj_reader: relative indices count from the vertices read so far") {
-  CHECK(first_triangle(kThree + "f -3 -2 -1\nv 9 9 9\n") == Eigen::RowVector3i(0, 1, 2));
-  CHECK(first_triangle(kThree + "vt 0 0\nvn 0 0 1\nf -3/-1/-1 -2/-1/-1 -1/-1/-1\n") ==
+  CHECK(first_triangle(three_vertices + "f -3 -2 -1\nv 9 9 9\n") == Eigen::RowVector3i(0, 1, 2));
+  CHECK(first_triangle(three_vertices + "vt 0 0\nvn 0 0 1\nf -3/-1/-1 -2/-1/-1 -1/-1/-1\n") ==
         Eigen::RowVector3i(0, 1, 2));
 }
 
 TEST_CASE("obj_reader: a face may name vertices of later lines") {
-  CHECK(first_triangle("f 1 2 3\n" + kThree) == Eigen::RowVector3i(0, 1, 2));
+  CHECK(first_triangle("f 1 2 3\n" + three_vertices) == Eigen::RowVector3i(0, 1, 2));
   // The first index that stays out of range is reported, not the largest.
-  CHECK(complaint("f 1 2 3\nf 1 2 4\nf 1 2 9\n" + kThree, "a.obj") ==
+  CHECK(complaint("f 1 2 3\nf 1 2 4\nf 1 2 9\n" + three_vertices, "a.obj") ==
         "a.obj:2: face names vertex 4 of 3");
 }
 
 TEST_CASE("obj_reader: every form of a corner") {
-  const std::string attributes = kThree + "vt 0.25 0.5\nvt 1 0\nvn 0 0 1\n";
+  const std::string attributes = three_vertices + "vt 0.25 0.5\nvt 1 0\nvn 0 0 1\n";
   for (const char* face : {"f 1 2 3", "f 1/ 2/ 3/", "f 1// 2// 3//"}) {
     const MeshFile file = read(attributes + face, "a.obj");
     CHECK_FALSE(file.corner_texcoords);
@@ -81,7 +81,7 @@ TEST_CASE("obj_reader: every form of a corner") {
 }
 
 TEST_CASE("obj_reader: normals go to the vertices when each has one, else to the corners") {
-  const std::string vertices = kFour + "vn 0 0 1\nvn 0 0 1\nvn 1 0 0\n";
+  const std::string vertices = four + "vn 0 0 1\nvn 0 0 1\nvn 1 0 0\n";
   // Different indices, same value: one normal.
   const MeshFile smooth = read(vertices + "f 1//1 2//1 3//2\nf 1//2 3//1 4//1\n", "a.obj");
   CHECK_FALSE(smooth.corner_normals);
@@ -94,8 +94,7 @@ TEST_CASE("obj_reader: normals go to the vertices when each has one, else to the
 }
 
 TEST_CASE("obj_reader: corners of a split polygon keep their texture coordinates") {
-  const MeshFile file =
-      read(kFour + "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 4/4 1/1 2/2 3/3\n", "a.obj");
+  const MeshFile file = read(four + "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 4/4 1/1 2/2 3/3\n", "a.obj");
   REQUIRE(file.mesh.face_count() == 2);
   CHECK(file.polygons == 1);
   CHECK(values_of(file.find_face_property("source_face")) == std::vector<double>{0, 0});
@@ -106,7 +105,7 @@ TEST_CASE("obj_reader: corners of a split polygon keep their texture coordinates
 }
 
 TEST_CASE("obj_reader: missing corner attributes are zero and noted") {
-  const MeshFile file = read(kFour + "vt 1 1\nf 1 2 3\nf 1/1 3/1 4/1\n", "a.obj");
+  const MeshFile file = read(four + "vt 1 1\nf 1 2 3\nf 1/1 3/1 4/1\n", "a.obj");
   REQUIRE(file.corner_texcoords);
   CHECK(file.corner_texcoords->row(0) == Eigen::RowVector2d(0, 0));
   CHECK(file.corner_texcoords->row(3) == Eigen::RowVector2d(1, 1));
@@ -130,7 +129,7 @@ TEST_CASE("obj_reader: colours after the coordinates") {
 }
 
 TEST_CASE("obj_reader: materials are numbered in order of first use") {
-  const MeshFile file = read(kThree +
+  const MeshFile file = read(three_vertices +
                                  "mtllib no such file.mtl\nf 1 2 3\nusemtl red paint\n"
                                  "f 1 2 3\nusemtl b\nf 1 2 3\nusemtl red paint\nf 1 2 3\n",
                              "a.obj");
@@ -141,23 +140,25 @@ TEST_CASE("obj_reader: materials are numbered in order of first use") {
 TEST_CASE(
     "obj_reader: what the material library holds is told, and what several groups are called") {
   const std::string text = "mtllib a.mtl\nmtllib a.mtl\no x\no y\ng p\ns off\ns 1\nusemtl red\n" +
-                           kThree + "f 1 2 3\nusemtl blue\nf 3 2 1\n";
+                           three_vertices + "f 1 2 3\nusemtl blue\nf 3 2 1\n";
   CHECK(read(text, "a.obj").notes ==
         std::vector<std::string>{
             "not carried: colours and textures of 2 materials in 'a.mtl', which is not read; their "
             "names are",
             "not carried: the names of 2 objects"});
-  CHECK(read("mtllib a.mtl\no x\ng x\ns 1\n" + kThree + "f 1 2 3\n", "a.obj").notes.empty());
+  CHECK(
+      read("mtllib a.mtl\no x\ng x\ns 1\n" + three_vertices + "f 1 2 3\n", "a.obj").notes.empty());
 }
 
 TEST_CASE(
     "obj_reader: statements that OBJ does not have are left out and told, with the first's line") {
-  const MeshFile file = read(kThree + "f 1 2 3\nquux 1 2\nv 9 9 9\nquux\n@ 1\nf 1 3 4\n", "a.obj");
+  const MeshFile file =
+      read(three_vertices + "f 1 2 3\nquux 1 2\nv 9 9 9\nquux\n@ 1\nf 1 3 4\n", "a.obj");
   CHECK(file.mesh.face_count() == 2);
   CHECK(file.notes ==
         std::vector<std::string>{"not carried: 3 unknown statements, the first 'quux' in line 5"});
   // Without a face, or without a vertex for the faces, the text is no OBJ.
-  CHECK(contains(complaint(kThree + "quux\nf3 1 2 3\n", "a.obj"),
+  CHECK(contains(complaint(three_vertices + "quux\nf3 1 2 3\n", "a.obj"),
                  "a.obj:4: unknown statement 'quux'"));
   CHECK(contains(complaint("V 1 2 3\nf 1 1 1\n", "a.obj", {.repeated_corners = true}),
                  "a.obj:1: unknown statement 'V'"));
@@ -165,7 +166,8 @@ TEST_CASE(
 
 TEST_CASE("obj_reader: other statements are ignored, lines and points told") {
   const MeshFile file =
-      read("# made by\n#\n" + kThree + "o a\ng b c\ns off\nf 1 2 3\nl 1 2\nl 2 3\np 1\n", "a.obj");
+      read("# made by\n#\n" + three_vertices + "o a\ng b c\ns off\nf 1 2 3\nl 1 2\nl 2 3\np 1\n",
+           "a.obj");
   CHECK(file.comments == std::vector<std::string>{"made by", ""});
   CHECK(file.notes ==
         std::vector<std::string>{"not carried: 2 'l' statements", "not carried: 1 'p' statement"});
@@ -173,7 +175,7 @@ TEST_CASE("obj_reader: other statements are ignored, lines and points told") {
 
 TEST_CASE("obj_reader: what breaks the rules is refused at its line") {
   const auto refused = [](const std::string& line, const std::string& expected) {
-    const std::string message = complaint(kThree + line + "\n" + kThree, "a.obj");
+    const std::string message = complaint(three_vertices + line + "\n" + three_vertices, "a.obj");
     INFO(line << " -> " << message);
     CHECK(contains(message, "a.obj:4: "));
     CHECK(contains(message, expected));
@@ -212,7 +214,7 @@ TEST_CASE("obj_reader: what breaks the rules is refused at its line") {
 }
 
 TEST_CASE("obj_reader: errors after continued lines name the right line") {
-  CHECK(contains(complaint(kThree + "f 1 \\\n2 \\\n3\nf 1 2 x\n", "a.obj"), "a.obj:7: "));
-  CHECK(contains(complaint(kThree + "f 1 \\\n2 \\\nx\n", "a.obj"), "a.obj:4: "));
-  CHECK(contains(complaint(kThree + "f 1 2 \\", "a.obj"), "a.obj:4: face has fewer"));
+  CHECK(contains(complaint(three_vertices + "f 1 \\\n2 \\\n3\nf 1 2 x\n", "a.obj"), "a.obj:7: "));
+  CHECK(contains(complaint(three_vertices + "f 1 \\\n2 \\\nx\n", "a.obj"), "a.obj:4: "));
+  CHECK(contains(complaint(three_vertices + "f 1 2 \\", "a.obj"), "a.obj:4: face has fewer"));
 }

@@ -19,7 +19,7 @@ std::string triangle(const std::string& keyword, const std::string& vertex_end,
 }  // namespace
 
 TEST_CASE("off_reader: a tetrahedron has its vertices and triangles") {
-  const MeshFile file = read(kTetrahedronOff);
+  const MeshFile file = read(tetrahedron_off);
   CHECK(file.format == "OFF");
   CHECK(file.mesh.vertex_count() == 4);
   CHECK(file.mesh.triangles.row(3) == Eigen::RowVector3i(1, 2, 3));
@@ -28,13 +28,13 @@ TEST_CASE("off_reader: a tetrahedron has its vertices and triangles") {
 
 TEST_CASE("off_reader: counts may stand on the first line, edges may be missing") {
   for (const std::string& text :
-       {replaced(kTetrahedronOff, "OFF\n4 4 6", "OFF 4 4 6"),
-        replaced(kTetrahedronOff, "4 4 6", "4 4"),
-        replaced(kTetrahedronOff, "OFF\n", "# a\n\nOFF # b\n# c\n\n"),
-        replaced(kTetrahedronOff, "\n", "\r\n"), replaced(kTetrahedronOff, "\n", "\r"),
-        "\xef\xbb\xbf" + kTetrahedronOff, replaced(kTetrahedronOff, "\n", " # x\n\n"),
-        kTetrahedronOff.substr(0, kTetrahedronOff.size() - 1)})
-    CHECK(read(text).mesh.triangles == read(kTetrahedronOff).mesh.triangles);
+       {replaced(tetrahedron_off, "OFF\n4 4 6", "OFF 4 4 6"),
+        replaced(tetrahedron_off, "4 4 6", "4 4"),
+        replaced(tetrahedron_off, "OFF\n", "# a\n\nOFF # b\n# c\n\n"),
+        replaced(tetrahedron_off, "\n", "\r\n"), replaced(tetrahedron_off, "\n", "\r"),
+        "\xef\xbb\xbf" + tetrahedron_off, replaced(tetrahedron_off, "\n", " # x\n\n"),
+        tetrahedron_off.substr(0, tetrahedron_off.size() - 1)})
+    CHECK(read(text).mesh.triangles == read(tetrahedron_off).mesh.triangles);
 }
 
 TEST_CASE("off_reader: the keyword tells what follows the coordinates") {
@@ -89,7 +89,7 @@ TEST_CASE("off_reader: other kinds are refused by name") {
 TEST_CASE("off_reader: what breaks the rules is refused at its line") {
   const auto refused = [](const std::string& from, const std::string& to, int line,
                           const std::string& expected) {
-    const std::string message = complaint(replaced(kTetrahedronOff, from, to), "a.off");
+    const std::string message = complaint(replaced(tetrahedron_off, from, to), "a.off");
     INFO(to << " -> " << message);
     CHECK(contains(message, "a.off:" + std::to_string(line) + ": "));
     CHECK(contains(message, expected));
@@ -115,6 +115,6 @@ TEST_CASE("off_reader: what breaks the rules is refused at its line") {
 }
 
 TEST_CASE("off_reader: data after the last face is noted") {
-  CHECK(read(kTetrahedronOff + "3 0 1 2\n").notes.size() == 1);
-  CHECK(read(kTetrahedronOff + "# the end\n\n").notes.empty());
+  CHECK(read(tetrahedron_off + "3 0 1 2\n").notes.size() == 1);
+  CHECK(read(tetrahedron_off + "# the end\n\n").notes.empty());
 }

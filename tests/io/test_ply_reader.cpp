@@ -30,7 +30,7 @@ class Bytes {
   std::string bytes_;
 };
 
-const std::string kBinaryProperties =
+const std::string binary_properties =
     "element vertex 4\nproperty double x\nproperty float y\nproperty float z\nproperty short "
     "flag\nelement face 2\nproperty uchar patch\nproperty list uint8 uint32 "
     "vertex_index\nproperty list uchar float texcoord\n";
@@ -51,7 +51,7 @@ std::string binary_quads(bool big_endian) {
       for (int axis = 0; axis < 2; ++axis) body.put(corners[mirrored ? 3 - k : k][axis]);
   }
   return std::string("ply\nformat binary_") + (big_endian ? "big" : "little") +
-         "_endian 1.0\ncomment made by hand\nobj_info two quads\n" + kBinaryProperties +
+         "_endian 1.0\ncomment made by hand\nobj_info two quads\n" + binary_properties +
          "end_header\n" + body.get();
 }
 
@@ -72,7 +72,7 @@ void check_quads(const MeshFile& file) {
 }
 
 std::string message_of(const std::string& from, const std::string& to) {
-  return complaint(replaced(kTetrahedronPly, from, to), "a.ply");
+  return complaint(replaced(tetrahedron_ply, from, to), "a.ply");
 }
 
 /// With `from` turned into `to`, the file is refused at a line for the reason expected.
@@ -87,11 +87,11 @@ void refused(const std::string& from, const std::string& to, int line,
 }  // namespace
 
 TEST_CASE("ply_reader: an ASCII tetrahedron has its vertices and triangles") {
-  const MeshFile file = read(kTetrahedronPly);
+  const MeshFile file = read(tetrahedron_ply);
   CHECK(file.format == "PLY ASCII");
   CHECK(file.position_type == ScalarType::Float32);
   CHECK(file.mesh.position(1) == Vector3(-1, -1, 1));
-  CHECK(file.mesh.triangles == read(kTetrahedronObj).mesh.triangles);
+  CHECK(file.mesh.triangles == read(tetrahedron_obj).mesh.triangles);
   CHECK(file.notes.empty());
 }
 
@@ -114,19 +114,19 @@ TEST_CASE("ply_reader: CR alone before a binary body is refused, as the body may
       "vertex_index\rend_header\r";
   for (const char* body : {"\n\r\n", "\n\n\r\n", "abc"})
     CHECK(contains(complaint(header + body, "a.ply"), "a.ply:9: the header of a binary file"));
-  CHECK(read(replaced(kTetrahedronPly, "\n", "\r")).mesh.face_count() == 4);
+  CHECK(read(replaced(tetrahedron_ply, "\n", "\r")).mesh.face_count() == 4);
 }
 
 TEST_CASE("ply_reader: line ends and blank lines of text change nothing") {
   for (const std::string& text :
-       {replaced(kTetrahedronPly, "\n", "\r\n"), replaced(kTetrahedronPly, "\n", "\r"),
-        "\xef\xbb\xbf" + kTetrahedronPly, replaced(kTetrahedronPly, "1 -1 -1\n", "1 -1 -1\n\n"),
-        kTetrahedronPly.substr(0, kTetrahedronPly.size() - 1)})
-    CHECK(read(text).mesh.triangles == read(kTetrahedronPly).mesh.triangles);
+       {replaced(tetrahedron_ply, "\n", "\r\n"), replaced(tetrahedron_ply, "\n", "\r"),
+        "\xef\xbb\xbf" + tetrahedron_ply, replaced(tetrahedron_ply, "1 -1 -1\n", "1 -1 -1\n\n"),
+        tetrahedron_ply.substr(0, tetrahedron_ply.size() - 1)})
+    CHECK(read(text).mesh.triangles == read(tetrahedron_ply).mesh.triangles);
 }
 
 TEST_CASE("ply_reader: a text number has the precision of its declared type") {
-  const std::string tenth = replaced(kTetrahedronPly, "1 -1 -1\n", "0.1 -1 -1\n");
+  const std::string tenth = replaced(tetrahedron_ply, "1 -1 -1\n", "0.1 -1 -1\n");
   CHECK(read(tenth).mesh.position(3).x() == static_cast<double>(0.1f));
   CHECK(read(replaced(tenth, "float", "double")).mesh.position(3).x() == 0.1);
 }
@@ -272,9 +272,9 @@ TEST_CASE("ply_reader: a header that breaks the rules is refused at its line") {
   refused("property float x\nproperty float y\nproperty float z\n", "", 3, "no properties");
   const std::string two_lists = "vertex_indices\nproperty list uchar int vertex_index";
   CHECK(contains(
-      complaint(replaced(kTetrahedronPly, "vertex_indices", two_lists) + std::string(50, ' ')),
+      complaint(replaced(tetrahedron_ply, "vertex_indices", two_lists) + std::string(50, ' ')),
       "7: faces have two lists"));
-  CHECK(contains(complaint(kTetrahedronPly.substr(0, 60), "a.ply"), "ends within the header"));
+  CHECK(contains(complaint(tetrahedron_ply.substr(0, 60), "a.ply"), "ends within the header"));
   CHECK(contains(complaint(std::string("ply\nformat\0", 11), "a.ply"), "a.ply:2: "));
 }
 
@@ -293,11 +293,11 @@ TEST_CASE("ply_reader: a text body that breaks the rules is refused at its line"
   refused("3 0 1 3", "3.0 0 1 3", 15, "whole number");
   refused("3 1 2 3\n", "# 1 2 3\n", 17, "ends before face 3 of 4");
   refused("3 1 2 3\n", "", 7, "4 records of element 'face' do not fit");
-  CHECK(contains(complaint(replaced(replaced(kTetrahedronPly, "list uchar", "list char"), "3 0 1 3",
+  CHECK(contains(complaint(replaced(replaced(tetrahedron_ply, "list uchar", "list char"), "3 0 1 3",
                                     "-3 0 1 3"),
                            "a.ply"),
                  "negative length"));
-  CHECK(read(kTetrahedronPly + "3 0 1 2\n").notes.size() == 1);
+  CHECK(read(tetrahedron_ply + "3 0 1 2\n").notes.size() == 1);
 }
 
 TEST_CASE("ply_reader: a binary body cut anywhere is refused with the byte") {

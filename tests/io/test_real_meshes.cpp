@@ -51,7 +51,7 @@ std::vector<Entry> read_table(const fs::path& path, char separator, std::size_t 
 }
 
 /// Files that must be refused, and where.
-const std::map<std::string, std::string> kRefused = {
+const std::map<std::string, std::string> refusals = {
     {"assimp__box_longline.obj", "names a vertex twice"},
     {"draco__Box.ply", ".ply:35: the header of a binary file ends its lines in CR alone"},
     {"geogram.data__corrupted_invalid_face_count.ply",
@@ -90,8 +90,8 @@ TEST_CASE("real meshes: bad files are refused with a place, bad surfaces are rea
   CHECK(entries.size() == 34);
   for (const auto& [name, vertices, faces] : entries) {
     INFO(name);
-    const auto refused = kRefused.find(name);
-    if (refused != kRefused.end()) {
+    const auto refused = refusals.find(name);
+    if (refused != refusals.end()) {
       CHECK_THROWS_WITH(read_mesh((folder / name).string()),
                         Catch::Matchers::Contains(refused->second));
       continue;

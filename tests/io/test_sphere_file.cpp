@@ -19,17 +19,17 @@ MeshFile icosphere_file() {
   return file;
 }
 
-const Provenance kProvenance = {
+const Provenance provenance = {
     {"version", "0.1.0"}, {"options", "--method paper --kappa 1"}, {"verdict", "certified"}};
 
 }  // namespace
 
 TEST_CASE("sphere_file: a written map is read back bit for bit") {
   const SphereMap map{icosphere(2).positions};
-  const MeshFile back = read(serialise_ply(attach_map(icosphere_file(), map, kProvenance)));
+  const MeshFile back = read(serialise_ply(attach_map(icosphere_file(), map, provenance)));
   REQUIRE(read_sphere(back));
   CHECK(read_sphere(back)->points == map.points);
-  CHECK(read_provenance(back) == kProvenance);
+  CHECK(read_provenance(back) == provenance);
   for (const char* name : {"theta", "phi", "sx", "sy", "sz"})
     CHECK(back.find_vertex_property(name)->type == ScalarType::Float64);
 }
@@ -49,7 +49,7 @@ TEST_CASE("sphere_file: an earlier map is replaced, other comments stay") {
   file.comments = {"scanned by hand"};
   const SphereMap first{icosphere(2).positions}, second{Points(-first.points)};
   const MeshFile twice =
-      attach_map(attach_map(file, first, kProvenance), second, {{"stage", "x y"}});
+      attach_map(attach_map(file, first, provenance), second, {{"stage", "x y"}});
   CHECK(twice.vertex_properties.size() == 5);
   CHECK(read_sphere(twice)->points == second.points);
   CHECK(twice.comments == std::vector<std::string>{"scanned by hand", "sphparam stage x y"});
@@ -57,7 +57,7 @@ TEST_CASE("sphere_file: an earlier map is replaced, other comments stay") {
 
 TEST_CASE("sphere_file: without its map a mesh has no verdict on one") {
   const SphereMap map{icosphere(2).positions};
-  MeshFile file = attach_map(icosphere_file(), map, kProvenance);
+  MeshFile file = attach_map(icosphere_file(), map, provenance);
   file.comments.push_back("scanned by hand");
   CHECK(has_map(file));
   const MeshFile bare = without_map(file);
@@ -66,8 +66,8 @@ TEST_CASE("sphere_file: without its map a mesh has no verdict on one") {
   CHECK(bare.comments == std::vector<std::string>{"sphparam version 0.1.0",
                                                   "sphparam options --method paper --kappa 1",
                                                   "scanned by hand"});
-  CHECK(has_map(sphere_mesh(file, map, kProvenance)));
-  CHECK(has_map(sphere_mesh(file, {100 * map.points}, kProvenance)));
+  CHECK(has_map(sphere_mesh(file, map, provenance)));
+  CHECK(has_map(sphere_mesh(file, {100 * map.points}, provenance)));
 }
 
 TEST_CASE("sphere_file: of what surface a sphere is, it keeps which structure, not which layer") {
@@ -93,11 +93,11 @@ TEST_CASE("sphere_file: provenance is read from any comment of its form") {
 
 TEST_CASE("sphere_file: the bare sphere is the mesh of the rays in every format") {
   const SphereMap map{icosphere(2).positions};
-  const MeshFile sphere = sphere_mesh(icosphere_file(), map, kProvenance);
+  const MeshFile sphere = sphere_mesh(icosphere_file(), map, provenance);
   for (const auto serialise : {serialise_ply, serialise_obj, serialise_off}) {
     const MeshFile back = read(serialise(sphere));
     CHECK(back.mesh.positions == map.points);
     CHECK(back.mesh.triangles == icosphere(2).triangles);
-    CHECK(read_provenance(back) == kProvenance);
+    CHECK(read_provenance(back) == provenance);
   }
 }

@@ -84,7 +84,7 @@ TEST_CASE("welding: unused vertices are dropped and ids of the file kept") {
   CHECK(file.mesh.triangles.row(0) == Eigen::RowVector3i(0, 1, 2));
   CHECK(values_of(file.find_vertex_property("source_vertex")) == std::vector<double>{1, 2, 4});
   CHECK(file.mesh.position(2) == Vector3(0, 1, 0));
-  CHECK_FALSE(drop_unused_vertices(read(kTetrahedronObj)).find_vertex_property("source_vertex"));
+  CHECK_FALSE(drop_unused_vertices(read(tetrahedron_obj)).find_vertex_property("source_vertex"));
 }
 
 TEST_CASE("welding: a closed mesh is never welded, an open one is, both are noted") {

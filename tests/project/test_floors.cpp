@@ -95,6 +95,21 @@ const std::map<std::string, std::set<std::string>> below{
      {"compare", "gltf", "bake", "remesh", "measure", "io", "chart", "baselines", "sphere",
       "mesh"}}};
 
+void require_in_no_line(const std::vector<std::string>& folders, const std::regex& pattern) {
+  for (const std::string& folder : folders) {
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+      const std::string extension = entry.path().extension();
+      if (extension != ".h" && extension != ".cpp") continue;
+      std::ifstream in(entry.path());
+      for (std::string line; std::getline(in, line);) {
+        if (!std::regex_search(line, pattern)) continue;
+        INFO(entry.path().string() << ": " << line);
+        CHECK_FALSE(std::regex_search(line, pattern));
+      }
+    }
+  }
+}
+
 }  // namespace
 
 TEST_CASE("floors: no include of the library runs back up, and siblings do not know each other") {
@@ -202,15 +217,12 @@ TEST_CASE("floors: sines and logarithms are our own, for the C library's depend 
   CHECK(std::regex_search("values.array().log()", foreign));
   CHECK(std::regex_search("Eigen::AngleAxisd(angle, axis)", foreign));
   CHECK_FALSE(std::regex_search("elementary::sin(y) + std::sqrt(z) + std::ilogb(x)", foreign));
-  for (const char* folder : {"libsphparam", "tools"}) {
-    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
-      const std::string extension = entry.path().extension();
-      if (extension != ".h" && extension != ".cpp") continue;
-      std::ifstream in(entry.path());
-      for (std::string line; std::getline(in, line);) {
-        INFO(entry.path().string() << ": " << line);
-        CHECK_FALSE(std::regex_search(line, foreign));
-      }
-    }
-  }
+  require_in_no_line({"libsphparam", "tools"}, foreign);
+}
+
+TEST_CASE("floors: constants are written as other variables are") {
+  const std::regex prefixed("\\bk[A-Z][a-z][A-Za-z0-9]*\\b");
+  CHECK(std::regex_search("constexpr int " + std::string("k") + "Longest = 64;", prefixed));
+  CHECK_FALSE(std::regex_search("constexpr int longest = 64;", prefixed));
+  require_in_no_line({"libsphparam", "tools", "samples", "tests"}, prefixed);
 }

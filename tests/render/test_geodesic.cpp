@@ -11,7 +11,7 @@ using Catch::Detail::Approx;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 double arc(const Vector3& a, const Vector3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
@@ -33,7 +33,7 @@ TEST_CASE("on_sphere: large triangles become a closed mesh of small ones that co
   const RenderObject coarse = octahedron();
   const RenderObject sphere = on_sphere(coarse, coarse.mesh.positions);
   CHECK(area(coarse.mesh) < 7);
-  CHECK(area(sphere.mesh) == Approx(4 * kPi).epsilon(0.001));
+  CHECK(area(sphere.mesh) == Approx(4 * pi).epsilon(0.001));
   CHECK(inspect_mesh(sphere.mesh).is_sphere());
   CHECK((sphere.mesh.positions.rowwise().norm().array() - 1).abs().maxCoeff() < 1e-15);
   CHECK(*sphere.normals == sphere.mesh.positions);
@@ -60,7 +60,7 @@ TEST_CASE("on_sphere: the wireframe is that of the whole triangles") {
                    sphere.mesh.position(sphere.mesh.triangles(f, (k + 2) % 3)));
     }
   }
-  CHECK(shown == Approx(2 * 12 * kPi / 2));  // twelve quarter circles, from both sides
+  CHECK(shown == Approx(2 * 12 * pi / 2));  // twelve quarter circles, from both sides
 }
 
 TEST_CASE("on_sphere: colours and texture coordinates are linear on the chords") {

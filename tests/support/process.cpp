@@ -73,14 +73,14 @@ ProcessEnd run_process(const std::vector<std::string>& argv,
   ProcessEnd end;
   bool signalled = signal.number == 0;
   for (;;) {
-    constexpr std::size_t kKept = 1 << 16;
+    constexpr std::size_t kept = 1 << 16;
     char block[4096];
     pollfd readable = {ends[0], POLLIN, 0};
     const auto next = signalled ? after(limits.seconds) : after(signal.after);
     if (poll(&readable, 1, milliseconds_until(next)) > 0) {
       const ssize_t count = read(ends[0], block, sizeof block);
       if (count <= 0) break;
-      if (end.messages.size() < kKept) end.messages.append(block, static_cast<std::size_t>(count));
+      if (end.messages.size() < kept) end.messages.append(block, static_cast<std::size_t>(count));
     } else if (Clock::now() >= next) {
       end.timed_out = signalled;
       kill(child, signalled ? SIGKILL : signal.number);

@@ -12,7 +12,7 @@ using namespace sphparam;
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr TestImage kAll[] = {TestImage::Axes, TestImage::Checker, TestImage::Graticule};
+constexpr TestImage all[] = {TestImage::Axes, TestImage::Checker, TestImage::Graticule};
 
 /// The texel in a direction, of an image in our convention.
 Eigen::Vector3f colour_at(const Image& image, const Vector3& direction) {
@@ -64,7 +64,7 @@ TEST_CASE("axes: the Z of both poles is no mirrored Z") {
 
 TEST_CASE("test images: a coarse texel is the mean of the fine ones in linear light") {
   constexpr int ratio = 16;
-  for (const TestImage kind : kAll) {
+  for (const TestImage kind : all) {
     const Image fine = make_test_image(kind, 1024), coarse = make_test_image(kind, 64);
     // Lines are as thick as in the middle of a texel; letters are sampled.
     const double tolerance = kind == TestImage::Checker ? 1e-3 : 0.06;
@@ -113,7 +113,7 @@ TEST_CASE("graticule: a red date line, a blue equator, lines as thick at every l
 
 TEST_CASE("test images: conventions turn and mirror the same picture") {
   constexpr int width = 96, half = width / 2;
-  for (const TestImage kind : kAll) {
+  for (const TestImage kind : all) {
     const Image ours = make_test_image(kind, width);
     const Image gis = make_test_image(kind, width, Convention::Gis);
     const Image blender = make_test_image(kind, width, Convention::Blender);  // u = ½ − u₀
@@ -131,7 +131,7 @@ TEST_CASE("test images: conventions turn and mirror the same picture") {
 }
 
 TEST_CASE("test images: rows drawn apart are those of the whole, for any number of threads") {
-  for (const TestImage kind : kAll) {
+  for (const TestImage kind : all) {
     const Image whole = make_test_image(kind, 80, Convention::Sphparam, 3);
     Image rows(80, 40, 3);
     draw_test_rows(kind, 80, 40, Convention::Sphparam, 0, 13, rows.pixel(0, 0), 1);

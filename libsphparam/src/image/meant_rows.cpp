@@ -13,8 +13,8 @@
 namespace sphparam {
 namespace {
 
-constexpr int kRowsOfMeans = 16;  // a JPEG block of colours covers as many
-constexpr double kCloseMeans = 255.0 / 4;
+constexpr int rows_of_means = 16;  // a JPEG block of colours covers as many
+constexpr double close_means = 255.0 / 4;
 
 std::uint64_t digest_of(const void* bytes, std::size_t size) {
   constexpr std::uint64_t odd = 0x9e3779b97f4a7c15;
@@ -95,7 +95,7 @@ bool MeantRows::are_close(Marks::const_iterator found, Marks::const_iterator mea
     double off = 0;
     for (std::ptrdiff_t at = c; at < rows * channels; at += channels)
       off += static_cast<double>(found[at]) - static_cast<double>(meant[at]);
-    if (std::abs(off) > kCloseMeans * texels) return false;
+    if (std::abs(off) > close_means * texels) return false;
   }
   return true;
 }
@@ -104,7 +104,7 @@ std::string MeantRows::difference(const void* samples, int first_row, int rows) 
   Marks found;
   add_marks(samples, rows, found);
   const auto per_row = static_cast<std::ptrdiff_t>(marks_per_row_);
-  const int step = keeps_samples_ ? 1 : kRowsOfMeans;
+  const int step = keeps_samples_ ? 1 : rows_of_means;
   for (int row = 0; row < rows; row += step) {
     const auto here = found.cbegin() + row * per_row;
     const auto meant = marks_.cbegin() + (first_row + row) * per_row;

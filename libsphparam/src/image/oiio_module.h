@@ -82,5 +82,5 @@ struct SphparamImageTable {
 typedef const SphparamImageTable* (*SphparamImageTableFunction)();
 }
 
-constexpr int kSphparamImageTableVersion = 4;
-constexpr char kSphparamImageTableName[] = "sphparam_image_table";
+constexpr int sphparam_image_table_version = 4;
+constexpr char sphparam_image_table_name[] = "sphparam_image_table";

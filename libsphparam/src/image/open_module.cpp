@@ -23,7 +23,7 @@ namespace {
 
 using Path = std::filesystem::path;
 
-constexpr char kModuleName[] = "sphparam_image_oiio.so";
+constexpr char module_name[] = "sphparam_image_oiio.so";
 
 void add(std::vector<Path>& folders, const Path& folder) {
   if (std::ranges::find(folders, folder) == folders.end()) folders.push_back(folder);
@@ -51,10 +51,10 @@ Path own_file() {
 Path find_module() {
   std::error_code error;
   for (const Path& folder : module_folders()) {
-    Path module = folder / kModuleName;
+    Path module = folder / module_name;
     if (std::filesystem::exists(module, error)) return module;
   }
-  return kModuleName;
+  return module_name;
 }
 
 /// Every place that was looked at, the last with what the loader said.
@@ -71,12 +71,12 @@ const SphparamImageTable& open_module() {
   if (!module) {
     const std::string said = dlerror();
     if (path.has_parent_path()) throw ImageError("cannot open the image module: " + said);
-    throw ImageError(std::string("the image module ") + kModuleName + " is in none of" +
+    throw ImageError(std::string("the image module ") + module_name + " is in none of" +
                      all_places(said));
   }
   const auto table =
-      reinterpret_cast<SphparamImageTableFunction>(dlsym(module, kSphparamImageTableName));
-  if (!table || table()->version != kSphparamImageTableVersion) {
+      reinterpret_cast<SphparamImageTableFunction>(dlsym(module, sphparam_image_table_name));
+  if (!table || table()->version != sphparam_image_table_version) {
     throw ImageError(path.string() + " belongs to another version of this program");
   }
   return *table();

@@ -9,7 +9,7 @@
 namespace sphparam {
 namespace {
 
-constexpr const char* kAcl = "system.posix_acl_access";
+constexpr const char* acl = "system.posix_acl_access";
 
 /// Names, each ended by zero; empty where there are none.
 std::string names_of_attributes(const std::string& path) {
@@ -49,11 +49,11 @@ void hand_on(const std::string& old_file, const struct stat& old_status, int new
                           ::fchown(new_file, old_status.st_uid, static_cast<gid_t>(-1)) == 0;
   static_cast<void>(
       ::fchmod(new_file, mode_for(old_status.st_mode & 07777, owner_kept, group_kept)));
-  static_cast<void>(::fremovexattr(new_file, kAcl));  // of the folder
+  static_cast<void>(::fremovexattr(new_file, acl));  // of the folder
   const std::string names = names_of_attributes(old_file);
   for (std::size_t at = 0; at < names.size();) {
     const std::string_view name(names.data() + at);
-    if (name.starts_with("user.") || (name == kAcl && group_kept))
+    if (name.starts_with("user.") || (name == acl && group_kept))
       copy_attribute(old_file, name.data(), new_file);
     at += name.size() + 1;
   }

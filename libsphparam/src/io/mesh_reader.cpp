@@ -21,7 +21,7 @@ struct ForeignFormat {
 };
 
 // Formats that are recognised to be refused by name.
-constexpr ForeignFormat kForeignMagic[] = {
+constexpr ForeignFormat foreign_magic[] = {
     {"PK\x03\x04", "a ZIP archive (unpack it first)"},
     {"\xfd"
      "7zXZ",
@@ -36,7 +36,7 @@ constexpr ForeignFormat kForeignMagic[] = {
     {"\xff\xd8\xff", "a JPEG image"},
 };
 
-constexpr ForeignFormat kForeignExtensions[] = {
+constexpr ForeignFormat foreign_extensions[] = {
     {".mz3", "MZ3"}, {".fbx", "FBX"},        {".dae", "COLLADA"},
     {".3ds", "3DS"}, {".vtk", "legacy VTK"}, {".vtp", "VTK"},
     {".msh", "MSH"}, {".stp", "STEP"},       {".step", "STEP"},
@@ -61,7 +61,7 @@ std::string supported() { return readable_formats("and") + " files are"; }
 
 void refuse_foreign_content(std::string_view bytes, const std::string& name) {
   if (inner_extension(name) == ".mz3") refuse(name, "MZ3");
-  for (const auto& [magic, format] : kForeignMagic) {
+  for (const auto& [magic, format] : foreign_magic) {
     // An OBJ may open with any comment, also with "# vtk DataFile".
     if (bytes.starts_with(magic) && !(magic.front() == '#' && looks_like_obj(bytes)))
       refuse(name, format);
@@ -86,7 +86,7 @@ const MeshFormat& format_of(std::string_view bytes, const std::string& name) {
   if (named && named->evidence == Evidence::Text) return *named;
   if (const MeshFormat* format = recognised(bytes, Evidence::Text)) return *format;
   if (named) return *named;
-  for (const auto& [foreign, format] : kForeignExtensions)
+  for (const auto& [foreign, format] : foreign_extensions)
     if (extension == foreign) refuse(name, format);
   throw ReadError(name, "the format is not recognised; " + supported());
 }
@@ -95,8 +95,8 @@ const MeshFormat& format_of(std::string_view bytes, const std::string& name) {
 MeshFile read_unpacked(std::string_view bytes, const std::string& name,
                        const std::optional<std::filesystem::path>& folder,
                        const ReadOptions& options) {
-  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-  if (bytes.starts_with(kByteOrderMark)) bytes.remove_prefix(kByteOrderMark.size());
+  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+  if (bytes.starts_with(byte_order_mark)) bytes.remove_prefix(byte_order_mark.size());
   if (bytes.empty()) throw ReadError(name, "the file is empty");
   return format_of(bytes, name).read({bytes, name, folder}, options);
 }

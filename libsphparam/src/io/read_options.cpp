@@ -23,10 +23,10 @@ std::string repeated_corners_advice() {
 }
 
 std::string quoted(std::string_view text) {
-  constexpr std::size_t kShown = 40;
+  constexpr std::size_t most_shown = 40;
   std::string shown = "'";
-  for (const char c : text.substr(0, kShown)) shown += c >= ' ' && c <= '~' ? c : '?';
-  return shown + (text.size() > kShown ? "…'" : "'");
+  for (const char c : text.substr(0, most_shown)) shown += c >= ' ' && c <= '~' ? c : '?';
+  return shown + (text.size() > most_shown ? "…'" : "'");
 }
 
 }  // namespace sphparam

@@ -9,8 +9,8 @@
 namespace sphparam {
 namespace {
 
-constexpr const char* kSourceVertex = "source_vertex";
-constexpr const char* kSourceFace = "source_face";
+constexpr const char* source_vertex = "source_vertex";
+constexpr const char* source_face = "source_face";
 
 Property ids(const std::string& name, Eigen::Index count) {
   Property property{name, ScalarType::Int32, std::vector<double>(static_cast<std::size_t>(count))};
@@ -30,7 +30,7 @@ void gather_vertices(Property& property, const RepairedMesh& repaired) {
   values.reserve(repaired.vertex_origin.size());
   for (const Vertex v : repaired.vertex_origin) values.push_back(v < 0 ? -1 : property.values[v]);
   for (const CreatedVertex& created : repaired.created) {
-    if (property.name != kSourceVertex) {
+    if (property.name != source_vertex) {
       values[created.vertex] = mean_value(property, created.mean_of);
     }
   }
@@ -42,7 +42,7 @@ void gather_faces(Property& property, const RepairedMesh& repaired) {
   values.reserve(repaired.face_origin.size());
   for (std::size_t f = 0; f < repaired.face_origin.size(); ++f) {
     const Face neighbour = repaired.corner_origin[3 * f] / 3;
-    const bool has_no_id = repaired.face_origin[f] < 0 && property.name == kSourceFace;
+    const bool has_no_id = repaired.face_origin[f] < 0 && property.name == source_face;
     values.push_back(has_no_id ? -1 : property.values[neighbour]);
   }
   property.values = std::move(values);
@@ -63,16 +63,16 @@ void gather_corners(std::optional<Table>& table, const std::vector<int>& corner_
 MeshFile repaired_file(const MeshFile& file, const RepairedMesh& repaired) {
   if (repaired.actions.empty()) return file;
   MeshFile result = file;
-  if (!file.find_vertex_property(kSourceVertex)) {
-    result.set_vertex_property(ids(kSourceVertex, file.mesh.vertex_count()));
+  if (!file.find_vertex_property(source_vertex)) {
+    result.set_vertex_property(ids(source_vertex, file.mesh.vertex_count()));
   }
-  if (!file.find_face_property(kSourceFace)) {
-    result.set_face_property(ids(kSourceFace, file.mesh.face_count()));
+  if (!file.find_face_property(source_face)) {
+    result.set_face_property(ids(source_face, file.mesh.face_count()));
   }
   // Whatever type the file gave them: it must hold −1.
   for (auto* properties : {&result.vertex_properties, &result.face_properties}) {
     for (Property& property : *properties) {
-      if (property.name == kSourceVertex || property.name == kSourceFace) {
+      if (property.name == source_vertex || property.name == source_face) {
         property.type = ScalarType::Int32;
       }
     }

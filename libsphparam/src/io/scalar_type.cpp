@@ -14,7 +14,7 @@ struct TypeNames {
   std::string_view sized;    // of later ones
 };
 
-constexpr std::array<TypeNames, 8> kTypeNames = {{
+constexpr std::array<TypeNames, 8> type_names = {{
     {ScalarType::Int8, "char", "int8"},
     {ScalarType::Uint8, "uchar", "uint8"},
     {ScalarType::Int16, "short", "int16"},
@@ -48,11 +48,11 @@ bool holds_exactly(ScalarType type, double value) {
 }
 
 std::string_view ply_name(ScalarType type) {
-  return kTypeNames[static_cast<std::size_t>(type)].classic;
+  return type_names[static_cast<std::size_t>(type)].classic;
 }
 
 bool parse_ply_name(std::string_view name, ScalarType& type) {
-  for (const TypeNames& names : kTypeNames) {
+  for (const TypeNames& names : type_names) {
     if (name != names.classic && name != names.sized) continue;
     type = names.type;
     return true;

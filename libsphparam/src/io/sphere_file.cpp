@@ -12,17 +12,17 @@
 namespace sphparam {
 namespace {
 
-constexpr std::string_view kPrefix = "sphparam ";
-constexpr std::string_view kVerdict = "sphparam verdict ";
-constexpr double kRoundingOfFloats = 1e-6;   // relative, of a ray's length in numbers of 32 bits
-constexpr std::array kRadii = {1.0, 100.0};  // of bare spheres; GIFTI's are the larger ones
-constexpr std::array kRayNames = {"sx", "sy", "sz"};
+constexpr std::string_view prefix = "sphparam ";
+constexpr std::string_view verdict = "sphparam verdict ";
+constexpr double rounding_of_floats = 1e-6;  // relative, of a ray's length in numbers of 32 bits
+constexpr std::array radii = {1.0, 100.0};   // of bare spheres; GIFTI's are the larger ones
+constexpr std::array ray_names = {"sx", "sy", "sz"};
 
 void replace_provenance(MeshFile& file, const Provenance& provenance) {
   std::erase_if(file.comments,
-                [](const std::string& comment) { return comment.starts_with(kPrefix); });
+                [](const std::string& comment) { return comment.starts_with(prefix); });
   for (const auto& [key, value] : provenance)
-    file.comments.push_back(std::string(kPrefix) + key + " " + value);
+    file.comments.push_back(std::string(prefix) + key + " " + value);
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ MeshFile attach_map(MeshFile file, const SphereMap& map, const Provenance& prove
   for (int axis = 0; axis < 3; ++axis) {
     const auto column = map.points.col(axis);
     file.set_vertex_property(
-        {kRayNames[axis], ScalarType::Float64, {column.begin(), column.end()}});
+        {ray_names[axis], ScalarType::Float64, {column.begin(), column.end()}});
   }
   replace_provenance(file, provenance);
   return file;
@@ -50,25 +50,25 @@ MeshFile attach_map(MeshFile file, const SphereMap& map, const Provenance& prove
 MeshFile without_map(MeshFile file) {
   remove_properties(file.vertex_properties, {"theta", "phi", "sx", "sy", "sz"});
   std::erase_if(file.comments,
-                [](const std::string& comment) { return comment.starts_with(kVerdict); });
+                [](const std::string& comment) { return comment.starts_with(verdict); });
   return file;
 }
 
 bool has_map(const MeshFile& file) {
-  if (std::all_of(kRayNames.begin(), kRayNames.end(),
+  if (std::all_of(ray_names.begin(), ray_names.end(),
                   [&](const char* name) { return file.find_vertex_property(name); }))
     return true;
   const Points& positions = file.mesh.positions;
   const Eigen::ArrayXd lengths = positions.rowwise().norm();
-  return positions.rows() > 0 && std::any_of(kRadii.begin(), kRadii.end(), [&](double radius) {
-           return ((lengths - radius).abs() <= kRoundingOfFloats * radius).all();
+  return positions.rows() > 0 && std::any_of(radii.begin(), radii.end(), [&](double radius) {
+           return ((lengths - radius).abs() <= rounding_of_floats * radius).all();
          });
 }
 
 std::optional<SphereMap> read_sphere(const MeshFile& file) {
   SphereMap map{Points(file.mesh.vertex_count(), 3)};
   for (int axis = 0; axis < 3; ++axis) {
-    const Property* const ray = file.find_vertex_property(kRayNames[axis]);
+    const Property* const ray = file.find_vertex_property(ray_names[axis]);
     if (!ray) return std::nullopt;
     map.points.col(axis) = Eigen::Map<const VectorX>(ray->values.data(), file.mesh.vertex_count());
   }
@@ -78,8 +78,8 @@ std::optional<SphereMap> read_sphere(const MeshFile& file) {
 Provenance read_provenance(const MeshFile& file) {
   Provenance provenance;
   for (std::string_view comment : file.comments) {
-    if (!comment.starts_with(kPrefix)) continue;
-    comment.remove_prefix(kPrefix.size());
+    if (!comment.starts_with(prefix)) continue;
+    comment.remove_prefix(prefix.size());
     const std::size_t blank = std::min(comment.find(' '), comment.size());
     provenance.emplace_back(comment.substr(0, blank),
                             comment.substr(std::min(blank + 1, comment.size())));

@@ -21,10 +21,10 @@
 namespace sphparam {
 namespace {
 
-constexpr double kInside = 1e-9;        // least weight of a centre inside: others are on an edge
-constexpr double kMostRepetitions = 8;  // across one triangle
-constexpr std::int64_t kGrain = 8;      // rows
-constexpr std::int64_t kSlice = 64;     // rows between two reports
+constexpr double least_inside = 1e-9;    // least weight of a centre inside: others are on an edge
+constexpr double most_repetitions = 8;   // across one triangle
+constexpr std::int64_t grain = 8;        // rows
+constexpr std::int64_t slice_size = 64;  // rows between two reports
 
 /// A triangle's corners in texels, x to the right, y downwards, moved by whole images so that it
 /// begins in the first one.
@@ -65,10 +65,10 @@ class AtlasPainter {
       throw AtlasError("the texture coordinates hold no texel's centre: they have no area, or " +
                        std::to_string(options_.size) + " texels are too few");
     }
-    for (std::int64_t row = 0; row < options_.size; row += kSlice) {
+    for (std::int64_t row = 0; row < options_.size; row += slice_size) {
       report(options_.progress, "painting the atlas", static_cast<double>(row) / options_.size);
-      const std::int64_t rows = std::min<std::int64_t>(kSlice, options_.size - row);
-      parallel_for(rows, kGrain, options_.threads, [&](std::int64_t first, std::int64_t last) {
+      const std::int64_t rows = std::min<std::int64_t>(slice_size, options_.size - row);
+      parallel_for(rows, grain, options_.threads, [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t y = row + first; y < row + last; ++y) paint_row(static_cast<int>(y));
       });
     }
@@ -89,7 +89,7 @@ class AtlasPainter {
   /// Texels that nobody has; those in a triangle already are overlaps, if inside both.
   void claim(Face f) {
     const AtlasTriangle t = triangle(f);
-    if (t.far.maxCoeff() > kMostRepetitions) {
+    if (t.far.maxCoeff() > most_repetitions) {
       throw AtlasError("triangle " + std::to_string(f) +
                        ": its texture coordinates run over more than 8 repetitions of the image");
     }
@@ -97,7 +97,7 @@ class AtlasPainter {
     for_each_sample(t.corners[0], t.corners[1], t.corners[2], 0, 0, reach(t.far.x()),
                     reach(t.far.y()), [&](int x, int y, const Eigen::Vector3d& weights) {
                       claim_texel(f, index(x % options_.size, y % options_.size),
-                                  weights.minCoeff() > kInside);
+                                  weights.minCoeff() > least_inside);
                     });
   }
 

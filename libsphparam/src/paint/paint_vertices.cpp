@@ -12,10 +12,10 @@
 namespace sphparam {
 namespace {
 
-constexpr std::int64_t kGrain = 512;      // vertices
-constexpr std::int64_t kSlice = 1 << 16;  // vertices between two reports
-constexpr double kOwn = 7.0 / 12;         // the corner's weight in the middle of its kite …
-constexpr double kOther = 5.0 / 24;       // … and that of the two others
+constexpr std::int64_t grain = 512;           // vertices
+constexpr std::int64_t slice_size = 1 << 16;  // vertices between two reports
+constexpr double own_weight = 7.0 / 12;       // the corner's weight in the middle of its kite …
+constexpr double other = 5.0 / 24;            // … and that of the two others
 
 using Colour = Eigen::Array4d;
 
@@ -32,7 +32,7 @@ Colour cell_colour(const Topology& topology, const SphereMap& map,
   topology.for_each_outgoing(v, [&](Halfedge h) {
     const Vector3 b = map.point(topology.target(h)), c = map.point(topology.apex(h));
     const double kite = (b - own).cross(c - own).norm() / 6;  // a third of the triangle
-    sum += kite * look_up(image, kOwn * own + kOther * (b + c), std::sqrt(kite));
+    sum += kite * look_up(image, own_weight * own + other * (b + c), std::sqrt(kite));
     total += kite;
   });
   if (!(total > 0)) return look_up(image, own, 0);
@@ -46,10 +46,10 @@ Image paint_vertices(const Topology& topology, const SphereMap& map,
   const int count = topology.vertex_count();
   Image colours(count, 1, 4);
   const SrgbCurves& curves = SrgbCurves::get();
-  for (std::int64_t slice = 0; slice < count; slice += kSlice) {
+  for (std::int64_t slice = 0; slice < count; slice += slice_size) {
     report(progress, "painting vertices", static_cast<double>(slice) / count);
-    const std::int64_t size = std::min<std::int64_t>(kSlice, count - slice);
-    parallel_for(size, kGrain, threads, [&](std::int64_t first, std::int64_t last) {
+    const std::int64_t size = std::min<std::int64_t>(slice_size, count - slice);
+    parallel_for(size, grain, threads, [&](std::int64_t first, std::int64_t last) {
       for (auto v = static_cast<Vertex>(slice + first); v < slice + last; ++v) {
         const Eigen::Array4f colour = cell_colour(topology, map, image, v).cast<float>();
         float* out = colours.pixel(v, 0);

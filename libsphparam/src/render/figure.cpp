@@ -17,8 +17,8 @@
 namespace sphparam {
 namespace {
 
-constexpr double kFieldOfView = 18;  // degrees: a long lens
-constexpr double margin = 1.08;      // of the picture around what is drawn
+constexpr double long_lens = 18;  // degrees: a long lens
+constexpr double margin = 1.08;   // of the picture around what is drawn
 
 struct SphereView {
   Vector3 direction;
@@ -52,7 +52,7 @@ RenderScene scene_of(RenderObject object, const Vector3& direction, const Vector
   const Vector3 low = object.mesh.positions.colwise().minCoeff();
   const Vector3 high = object.mesh.positions.colwise().maxCoeff();
   RenderScene scene;
-  scene.camera = {(low + high) / 2, direction, up, 2, kFieldOfView};
+  scene.camera = {(low + high) / 2, direction, up, 2, long_lens};
   scene.width = scene.height = options.size;
   scene.samples = options.samples;
   scene.background = options.background;

@@ -15,8 +15,9 @@
 namespace sphparam {
 namespace {
 
-constexpr double kLongest = 0.05;  // radians: an arc rises 0.0003 over its chord, 0.1 of 400 pixels
-constexpr int kDeepest = 48;       // halvings of one triangle; six halve any side often enough
+constexpr double longest_arc =
+    0.05;                    // radians: an arc rises 0.0003 over its chord, 0.1 of 400 pixels
+constexpr int deepest = 48;  // halvings of one triangle; six halve any side often enough
 
 using Barycentric = Eigen::Matrix<float, 3, 3, Eigen::RowMajor>;  // a row a corner
 
@@ -84,7 +85,7 @@ class Refinement {
         length[k] = angle(piece.corners[(k + 1) % 3], piece.corners[(k + 2) % 3]);
         if (length[k] > length[longest]) longest = k;
       }
-      if (length[longest] <= kLongest || piece.depth == kDeepest) {
+      if (length[longest] <= longest_arc || piece.depth == deepest) {
         pieces_.push_back(piece);
       } else {
         halve(piece, longest, waiting);

@@ -9,14 +9,14 @@
 namespace sphparam {
 namespace {
 
-constexpr int kColumns = 5, kRows = 9, kAdvance = 6;
+constexpr int column_count = 5, row_count = 9, advance = 6;
 
 struct Glyph {
   char letter;
-  std::array<unsigned char, kRows> rows;
+  std::array<unsigned char, row_count> rows;
 };
 
-constexpr std::array<Glyph, 41> kGlyphs{{
+constexpr std::array<Glyph, 41> glyphs{{
     {'0', {14, 17, 19, 21, 25, 17, 14, 0, 0}}, {'1', {4, 12, 4, 4, 4, 4, 14, 0, 0}},
     {'2', {14, 17, 1, 2, 4, 8, 31, 0, 0}},     {'3', {14, 17, 1, 6, 1, 17, 14, 0, 0}},
     {'4', {2, 6, 10, 18, 31, 2, 2, 0, 0}},     {'5', {31, 16, 30, 1, 1, 17, 14, 0, 0}},
@@ -51,22 +51,22 @@ void fill(Image& image, int x0, int y0, int size, const Rgb& colour) {
 }  // namespace
 
 int text_width(std::string_view text, int scale) {
-  return static_cast<int>(text.size()) * kAdvance * scale - (kAdvance - kColumns) * scale;
+  return static_cast<int>(text.size()) * advance * scale - (advance - column_count) * scale;
 }
 
-int text_height(int scale) { return kRows * scale; }
+int text_height(int scale) { return row_count * scale; }
 
 void draw_text(Image& image, std::string_view text, int x, int y, int scale, const Rgb& colour) {
   for (const char letter : text) {
-    const auto glyph = std::find_if(kGlyphs.begin(), kGlyphs.end(),
+    const auto glyph = std::find_if(glyphs.begin(), glyphs.end(),
                                     [&](const Glyph& g) { return g.letter == letter; });
-    for (int dot = 0; glyph != kGlyphs.end() && dot < kRows * kColumns; ++dot) {
-      const int row = dot / kColumns, column = dot % kColumns;
-      if (glyph->rows[static_cast<size_t>(row)] >> (kColumns - 1 - column) & 1) {
+    for (int dot = 0; glyph != glyphs.end() && dot < row_count * column_count; ++dot) {
+      const int row = dot / column_count, column = dot % column_count;
+      if (glyph->rows[static_cast<size_t>(row)] >> (column_count - 1 - column) & 1) {
         fill(image, x + column * scale, y + row * scale, scale, colour);
       }
     }
-    x += kAdvance * scale;
+    x += advance * scale;
   }
 }
 

@@ -19,7 +19,7 @@
 namespace sphparam {
 namespace {
 
-constexpr int kTile = 32;  // pixels
+constexpr int tile_size = 32;  // pixels
 
 /// World to samples: x, y from the upper left, z grows towards the eye and is linear on the screen.
 class Projection {
@@ -184,11 +184,11 @@ struct Picture {
   }
 
   void draw_tile(const std::vector<TriangleRef>& list, int column, int row) const {
-    const int samples = scene.samples, size = kTile * samples;
+    const int samples = scene.samples, size = tile_size * samples;
     const int x0 = column * size, y0 = row * size;
     const std::vector<TriangleRef> nearest = visible(list, x0, y0, size);
-    for (int y = row * kTile; y < std::min((row + 1) * kTile, image.height); ++y) {
-      for (int x = column * kTile; x < std::min((column + 1) * kTile, image.width); ++x) {
+    for (int y = row * tile_size; y < std::min((row + 1) * tile_size, image.height); ++y) {
+      for (int x = column * tile_size; x < std::min((column + 1) * tile_size, image.width); ++x) {
         Rgb sum = Rgb::Zero();
         int covered = 0;
         for (int k = 0; k < samples * samples; ++k) {
@@ -231,8 +231,9 @@ Image render(const RenderScene& scene, int threads) {
   for (const RenderObject& object : scene.objects) {
     drawables.push_back(prepare(object, projection, std::max(scene.width, scene.height), threads));
   }
-  const int columns = (scene.width + kTile - 1) / kTile, rows = (scene.height + kTile - 1) / kTile;
-  const TileLists lists(drawables, columns, rows, kTile * scene.samples);
+  const int columns = (scene.width + tile_size - 1) / tile_size,
+            rows = (scene.height + tile_size - 1) / tile_size;
+  const TileLists lists(drawables, columns, rows, tile_size * scene.samples);
   Image image(scene.width, scene.height, scene.background ? 3 : 4);
   const Picture picture{scene, drawables, image};
   parallel_for(static_cast<std::int64_t>(columns) * rows, 1, threads,

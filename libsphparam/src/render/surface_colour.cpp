@@ -20,7 +20,7 @@
 namespace sphparam {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 template <class... Cases>
 struct Overloaded : Cases... {
@@ -53,8 +53,8 @@ GridPoint grid_point(const Points& rays, const Triangles& triangles, const Shade
   };
   const SphericalCoordinates here = at(sample.weights), right = at(sample.weights_right),
                              below = at(sample.weights_below);
-  const auto turn = [](double d) { return std::remainder(d, 2 * kPi); };
-  constexpr double degrees = 180 / kPi, least = 1e-12;
+  const auto turn = [](double d) { return std::remainder(d, 2 * pi); };
+  constexpr double degrees = 180 / pi, least = 1e-12;
   return {{here.theta * degrees, degrees * elementary::hypot(turn(right.theta - here.theta),
                                                              turn(below.theta - here.theta)) +
                                      least},

@@ -13,11 +13,11 @@
 namespace sphparam {
 namespace {
 
-constexpr int kWidth = 960;
-constexpr double kTop = 48, kHeight = 220, kPanelWidth = 400;
-constexpr int kBins = 34;  // 32 of equal width and one at each end for everything beyond
+constexpr int full_width = 960;
+constexpr double top = 48, full_height = 220, panel_width = 400;
+constexpr int bins = 34;  // 32 of equal width and one at each end for everything beyond
 
-using Shares = std::array<double, kBins>;
+using Shares = std::array<double, bins>;
 
 struct Panel {
   double left;
@@ -28,51 +28,52 @@ struct Panel {
 
 /// Shares of the ratios by bin; the ends hold what is beyond, infinities included.
 Shares shares(const double* ratios, long count, int reach) {
-  std::array<long, kBins> counts{};
+  std::array<long, bins> counts{};
   for (long i = 0; i < count; ++i) {
-    const double place = (elementary::log2(ratios[i]) + reach) / (2 * reach) * (kBins - 2) + 1;
-    const auto bin = static_cast<size_t>(std::clamp(place, 0.0, kBins - 1.0));
+    const double place = (elementary::log2(ratios[i]) + reach) / (2 * reach) * (bins - 2) + 1;
+    const auto bin = static_cast<size_t>(std::clamp(place, 0.0, bins - 1.0));
     ++counts[bin];
   }
   Shares result{};
-  for (size_t b = 0; b < kBins; ++b) {
+  for (size_t b = 0; b < bins; ++b) {
     result[b] = static_cast<double>(counts[b]) / static_cast<double>(std::max(count, 1L));
   }
   return result;
 }
 
-double bin_x(const Panel& panel, double bin) { return panel.left + bin * kPanelWidth / kBins; }
+double bin_x(const Panel& panel, double bin) { return panel.left + bin * panel_width / bins; }
 
 std::string bars(const Panel& panel, const Shares& values, double highest, size_t series) {
   std::string svg = "<g class=\"series" + std::to_string(series) +
                     "\" fill-opacity=\"0.4\" stroke-width=\"1\">\n";
-  for (size_t b = 0; b < kBins; ++b) {
+  for (size_t b = 0; b < bins; ++b) {
     if (values[b] == 0) continue;
-    const double height = values[b] / highest * kHeight;
+    const double height = values[b] / highest * full_height;
     const double x = bin_x(panel, static_cast<double>(b));
-    svg += "<rect x=\"" + decimal(x + 0.5, 1) + "\" y=\"" + decimal(kTop + kHeight - height, 1) +
-           "\" width=\"" + decimal(kPanelWidth / kBins - 1, 1) + "\" height=\"" +
+    svg += "<rect x=\"" + decimal(x + 0.5, 1) + "\" y=\"" + decimal(top + full_height - height, 1) +
+           "\" width=\"" + decimal(panel_width / bins - 1, 1) + "\" height=\"" +
            decimal(height, 1) + "\"/>\n";
   }
   return svg + "</g>\n";
 }
 
 std::string axes(const Panel& panel, double highest) {
-  const double right = panel.left + kPanelWidth, bottom = kTop + kHeight;
-  std::string svg = svg_text(panel.left + kPanelWidth / 2, 30, "title", "middle", panel.title);
+  const double right = panel.left + panel_width, bottom = top + full_height;
+  std::string svg = svg_text(panel.left + panel_width / 2, 30, "title", "middle", panel.title);
   for (const double part : {0.5, 1.0}) {
-    svg += svg_line(panel.left, bottom - part * kHeight, right, bottom - part * kHeight, "grid");
-    svg += svg_text(panel.left - 6, bottom - part * kHeight + 4, "label", "end",
+    svg += svg_line(panel.left, bottom - part * full_height, right, bottom - part * full_height,
+                    "grid");
+    svg += svg_text(panel.left - 6, bottom - part * full_height + 4, "label", "end",
                     decimal(100 * part * highest, 1) + " %");
   }
   svg += svg_line(panel.left, bottom, right, bottom, "axis");
   for (int power = -panel.reach; power <= panel.reach; power += panel.step) {
-    const double x = bin_x(panel, 1 + (kBins - 2) * (power + panel.reach) / (2.0 * panel.reach));
+    const double x = bin_x(panel, 1 + (bins - 2) * (power + panel.reach) / (2.0 * panel.reach));
     const std::string ratio = std::to_string(1 << std::abs(power));
     svg += svg_line(x, bottom, x, bottom + 4, "axis");
     svg += svg_text(x, bottom + 17, "label", "middle", power < 0 ? "1/" + ratio : ratio);
   }
-  return svg + svg_text(panel.left + kPanelWidth / 2, bottom + 34, "label", "middle",
+  return svg + svg_text(panel.left + panel_width / 2, bottom + 34, "label", "middle",
                         "ratio, logarithmic; the outer bars hold everything beyond");
 }
 
@@ -87,8 +88,8 @@ double highest_of(const std::vector<Shares>& all) {
 std::string draw_panel(const Panel& panel, const std::vector<Shares>& all, double highest) {
   std::string svg = axes(panel, highest);
   for (size_t s = all.size(); s-- > 0;) svg += bars(panel, all[s], highest, s);
-  const double optimum = panel.left + kPanelWidth / 2;
-  return svg + svg_line(optimum, kTop, optimum, kTop + kHeight, "optimum");
+  const double optimum = panel.left + panel_width / 2;
+  return svg + svg_line(optimum, top, optimum, top + full_height, "optimum");
 }
 
 Shares shares(PlotMeasure measure, const PlotSeries& series, const Panel& panel) {
@@ -112,8 +113,8 @@ std::string histogram_plot(const std::vector<PlotSeries>& series) {
     angles.push_back(shares(PlotMeasure::Angle, one, angle));
   }
   const bool legend = series.size() > 1 || !series[0].label.empty();
-  const int below = static_cast<int>(kTop + kHeight) + 52;
-  std::string svg = svg_begin(kWidth, below + (legend ? 16 : 0), "Distortion histograms");
+  const int below = static_cast<int>(top + full_height) + 52;
+  std::string svg = svg_begin(full_width, below + (legend ? 16 : 0), "Distortion histograms");
   svg += draw_panel(area, areas, highest_of(areas)) + draw_panel(angle, angles, highest_of(angles));
   for (size_t s = 0; legend && s < series.size(); ++s) {
     const double x = 64 + 480 * static_cast<double>(s);
@@ -134,9 +135,9 @@ PlotPanel histogram_panel(PlotMeasure measure, const PlotSeries& series,
   const std::string title =
       std::string("Histogram of ") + (measure == PlotMeasure::Area ? "areas" : "angles");
   panel.title = title.c_str();
-  const int width = static_cast<int>(panel.left + kPanelWidth) + 24;
+  const int width = static_cast<int>(panel.left + panel_width) + 24;
   return {title,
-          svg_begin(width, static_cast<int>(kTop + kHeight) + 44, title) +
+          svg_begin(width, static_cast<int>(top + full_height) + 44, title) +
               draw_panel(panel, {own}, highest_of(all)) + svg_end(),
           ""};
 }

@@ -16,15 +16,15 @@
 namespace sphparam {
 namespace {
 
-constexpr int kWidth = 960, kPanelWidth = 440;
-constexpr double kRadius = 190, kCentreY = 262;
-constexpr double kCell = 2.5;     // pixels, a little more than a dot
-constexpr double kRimGap = 3;     // between the rim, the marks of the first series, of the second
-constexpr double kRimMark = 5;    // how long such marks are
-constexpr double kRimStep = 0.5;  // degrees between them
-constexpr double kRimBand = 2 * (kRimGap + kRimMark);
-constexpr double kLineHeight = 17;
-constexpr double kCaptionHeight = 3 * kLineHeight + 9;  // of one series
+constexpr int full_width = 960, panel_width = 440;
+constexpr double radius = 190, centre_y = 262;
+constexpr double cell_size = 2.5;  // pixels, a little more than a dot
+constexpr double rim_gap = 3;      // between the rim, the marks of the first series, of the second
+constexpr double rim_mark = 5;     // how long such marks are
+constexpr double rim_step = 0.5;   // degrees between them
+constexpr double rim_band = 2 * (rim_gap + rim_mark);
+constexpr double line_height = 17;
+constexpr double caption_height = 3 * line_height + 9;  // of one series
 
 struct Values {
   std::string label;
@@ -72,7 +72,7 @@ struct Disk {
   double centre_x;
   double rim;
 
-  double pixels(double ratio) const { return ratio / rim * kRadius; }
+  double pixels(double ratio) const { return ratio / rim * radius; }
 };
 
 /// What was drawn of a series.
@@ -83,7 +83,7 @@ struct Shown {
 };
 
 std::string circle(const Disk& disk, double ratio, const char* css_class) {
-  return "<circle cx=\"" + decimal(disk.centre_x, 1) + "\" cy=\"" + decimal(kCentreY, 1) +
+  return "<circle cx=\"" + decimal(disk.centre_x, 1) + "\" cy=\"" + decimal(centre_y, 1) +
          "\" r=\"" + decimal(disk.pixels(ratio), 2) + "\" class=\"" + css_class + "\"/>\n";
 }
 
@@ -91,15 +91,15 @@ std::string circle(const Disk& disk, double ratio, const char* css_class) {
 std::string frame(const Disk& disk) {
   std::string svg;
   const double x = disk.centre_x, step = ring_step(disk.rim);
-  svg += svg_line(x - kRadius, kCentreY, x + kRadius, kCentreY, "grid");
-  svg += svg_line(x, kCentreY - kRadius, x, kCentreY + kRadius, "grid");
+  svg += svg_line(x - radius, centre_y, x + radius, centre_y, "grid");
+  svg += svg_line(x, centre_y - radius, x, centre_y + radius, "grid");
   for (int i = 1; i * step < disk.rim * (1 - 1e-9); ++i) svg += circle(disk, i * step, "grid");
   svg += circle(disk, disk.rim, "axis");
-  const double out = kRadius + kRimBand + 5;
-  svg += svg_text(x + out, kCentreY + 4, "label", "start", "0");
-  svg += svg_text(x, kCentreY - out, "label", "middle", "¼");
-  svg += svg_text(x - out, kCentreY + 4, "label", "end", "½");
-  svg += svg_text(x, kCentreY + out + 8, "label", "middle", "¾");
+  const double out = radius + rim_band + 5;
+  svg += svg_text(x + out, centre_y + 4, "label", "start", "0");
+  svg += svg_text(x, centre_y - out, "label", "middle", "¼");
+  svg += svg_text(x - out, centre_y + 4, "label", "end", "½");
+  svg += svg_text(x, centre_y + out + 8, "label", "middle", "¾");
   return svg;
 }
 
@@ -109,12 +109,12 @@ std::string scale(const Disk& disk) {
   const double diagonal = std::numbers::sqrt2 / 2;
   const auto label = [&](double ratio, double pixels) {
     const bool optimum = std::abs(ratio - 1) < 1e-9;
-    svg += svg_text(disk.centre_x + pixels * diagonal + 2, kCentreY - pixels * diagonal - 2,
+    svg += svg_text(disk.centre_x + pixels * diagonal + 2, centre_y - pixels * diagonal - 2,
                     optimum ? "label halo optimal" : "label halo", "start", decimal(ratio, 1));
   };
   const double step = ring_step(disk.rim);
   for (int i = 1; i * step < disk.rim * (1 - 1e-9); ++i) label(i * step, disk.pixels(i * step));
-  label(disk.rim, kRadius + kRimBand);
+  label(disk.rim, radius + rim_band);
   return svg;
 }
 
@@ -135,8 +135,8 @@ class DotGrid {
 
   void add(const Values& values, long i) {
     const auto [x, y] = place(values, i);
-    const auto column = static_cast<long>((x - disk_.centre_x + kRadius) / kCell);
-    const auto row = static_cast<long>((y - kCentreY + kRadius) / kCell);
+    const auto column = static_cast<long>((x - disk_.centre_x + radius) / cell_size);
+    const auto row = static_cast<long>((y - centre_y + radius) / cell_size);
     Cell& cell = cells_[static_cast<size_t>(row * side_ + column)];
     if (cell.count++ == 0) cell.first = i;
   }
@@ -165,32 +165,32 @@ class DotGrid {
     const double angle =
         2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(values.count);
     const double r = disk_.pixels(values[i]);
-    return {disk_.centre_x + r * elementary::cos(angle), kCentreY - r * elementary::sin(angle)};
+    return {disk_.centre_x + r * elementary::cos(angle), centre_y - r * elementary::sin(angle)};
   }
 
-  static constexpr long side_ = static_cast<long>(2 * kRadius / kCell) + 2;
+  static constexpr long side_ = static_cast<long>(2 * radius / cell_size) + 2;
   Disk disk_;
   std::vector<Cell> cells_;
 };
 
 /// Short strokes outside the rim, one a half degree at most; each series has its own band.
 std::string rim_marks(const Disk& disk, const Values& values, size_t series) {
-  const double inner = kRadius + kRimGap + static_cast<double>(series) * (kRimGap + kRimMark);
-  std::vector<char> marked(static_cast<size_t>(360 / kRimStep) + 1, 0);
+  const double inner = radius + rim_gap + static_cast<double>(series) * (rim_gap + rim_mark);
+  std::vector<char> marked(static_cast<size_t>(360 / rim_step) + 1, 0);
   for (long i = 0; i < values.count; ++i) {
     if (values[i] <= disk.rim) continue;
     const double turn = static_cast<double>(i) / static_cast<double>(values.count);
-    marked[static_cast<size_t>(turn * 360 / kRimStep)] = 1;
+    marked[static_cast<size_t>(turn * 360 / rim_step)] = 1;
   }
   std::string path;
   for (size_t k = 0; k < marked.size(); ++k) {
     if (!marked[k]) continue;
-    const double angle = (static_cast<double>(k) + 0.5) * kRimStep * std::numbers::pi / 180;
+    const double angle = (static_cast<double>(k) + 0.5) * rim_step * std::numbers::pi / 180;
     const auto point = [&](double r) {
       return std::to_string(std::lround(10 * (disk.centre_x + r * elementary::cos(angle)))) + ' ' +
-             std::to_string(std::lround(10 * (kCentreY - r * elementary::sin(angle))));
+             std::to_string(std::lround(10 * (centre_y - r * elementary::sin(angle))));
     };
-    path += 'M' + point(inner) + 'L' + point(inner + kRimMark);
+    path += 'M' + point(inner) + 'L' + point(inner + rim_mark);
   }
   return path.empty() ? "" : "<path d=\"" + path + "\"/>\n";
 }
@@ -251,7 +251,7 @@ std::string caption(const char* noun, const Values& values, size_t index, double
                       " % within [½, 2], from " + significant(smallest) + " to " +
                       significant(largest));
   const auto note = [&](int line, const char* side, const Shown& shown, double reach) {
-    svg += svg_text(58, y + line * kLineHeight, "label", "start",
+    svg += svg_text(58, y + line * line_height, "label", "start",
                     side + account(noun, values, shown, reach));
   };
   note(1, "Left: ", full, rim);
@@ -269,12 +269,12 @@ std::string polar_plot(PlotMeasure measure, const std::vector<PlotSeries>& serie
   for (const PlotSeries& one : series) all.push_back(values_of(measure, one));
   const bool area = measure == PlotMeasure::Area;
   const std::string title = title_of(measure);
-  const double rim = rim_radius(all), first_line = kCentreY + kRadius + 62;
+  const double rim = rim_radius(all), first_line = centre_y + radius + 62;
   const std::array<Disk, 2> disks{Disk{245, rim}, Disk{715, 2}};
 
   const int height =
-      static_cast<int>(first_line + kCaptionHeight * static_cast<double>(all.size())) + 14;
-  std::string svg = svg_begin(kWidth, height, title);
+      static_cast<int>(first_line + caption_height * static_cast<double>(all.size())) + 14;
+  std::string svg = svg_begin(full_width, height, title);
   svg += svg_text(disks[0].centre_x, 30, "title", "middle", title);
   svg += svg_text(disks[1].centre_x, 30, "title", "middle", "Zoom on the optimal region");
   std::array<std::vector<Shown>, 2> shown;
@@ -287,7 +287,7 @@ std::string polar_plot(PlotMeasure measure, const std::vector<PlotSeries>& serie
   }
   for (size_t s = 0; s < all.size(); ++s) {
     svg += caption(noun_of(measure), all[s], s, rim, shown[0][s], shown[1][s],
-                   first_line + kCaptionHeight * static_cast<double>(s));
+                   first_line + caption_height * static_cast<double>(s));
   }
   svg +=
       svg_text(58, height - 14, "label", "start",
@@ -302,11 +302,11 @@ std::vector<PlotPanel> polar_panels(PlotMeasure measure, const PlotSeries& serie
   const Values values = values_of(measure, series);
   std::vector<Values> all = {values};
   for (const PlotSeries& other : same_scale) all.push_back(values_of(measure, other));
-  const double centre = kPanelWidth / 2.0, rim = rim_radius(all);
+  const double centre = panel_width / 2.0, rim = rim_radius(all);
   const auto panel = [&](const std::string& title, const Disk& disk) {
     Shown shown;
     std::string svg =
-        svg_begin(kPanelWidth, static_cast<int>(kCentreY + kRadius + kRimBand) + 26, title);
+        svg_begin(panel_width, static_cast<int>(centre_y + radius + rim_band) + 26, title);
     svg += svg_text(centre, 30, "title", "middle", title);
     svg += frame(disk) + draw_series(disk, values, 0, shown) + scale(disk) + svg_end();
     return PlotPanel{title, std::move(svg), account(noun_of(measure), values, shown, disk.rim)};

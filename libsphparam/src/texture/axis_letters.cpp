@@ -23,15 +23,16 @@ struct Stroke {
 };
 
 // On the side of the cube, which is [−1, 1]²: the sign to the left, the letter to the right.
-constexpr double kThickness = 0.062;  // half of a stroke's
-constexpr double kRim = 0.035;        // of the light frame
-constexpr std::array<Stroke, 2> kPlus = {
+constexpr double thickness = 0.062;  // half of a stroke's
+constexpr double rim_width = 0.035;  // of the light frame
+constexpr std::array<Stroke, 2> plus = {
     {{{-0.52, 0}, {-0.16, 0}}, {{-0.34, -0.18}, {-0.34, 0.18}}}};
-constexpr std::array<Stroke, 1> kMinus = {{{{-0.52, 0}, {-0.16, 0}}}};
-constexpr std::array<Stroke, 2> kX = {{{{0.08, -0.32}, {0.5, 0.32}}, {{0.08, 0.32}, {0.5, -0.32}}}};
-constexpr std::array<Stroke, 3> kY = {
+constexpr std::array<Stroke, 1> minus = {{{{-0.52, 0}, {-0.16, 0}}}};
+constexpr std::array<Stroke, 2> letter_x = {
+    {{{0.08, -0.32}, {0.5, 0.32}}, {{0.08, 0.32}, {0.5, -0.32}}}};
+constexpr std::array<Stroke, 3> letter_y = {
     {{{0.08, 0.32}, {0.29, 0.02}}, {{0.5, 0.32}, {0.29, 0.02}}, {{0.29, 0.02}, {0.29, -0.32}}}};
-constexpr std::array<Stroke, 3> kZ = {
+constexpr std::array<Stroke, 3> letter_z = {
     {{{0.08, 0.32}, {0.5, 0.32}}, {{0.5, 0.32}, {0.08, -0.32}}, {{0.08, -0.32}, {0.5, -0.32}}}};
 
 double distance(const Point2& p, const Stroke& stroke) {
@@ -48,9 +49,9 @@ double distance(const Point2& p, std::span<const Stroke> strokes) {
 }
 
 std::span<const Stroke> letter(int axis) {
-  if (axis == 0) return kX;
-  if (axis == 1) return kY;
-  return kZ;
+  if (axis == 0) return letter_x;
+  if (axis == 1) return letter_y;
+  return letter_z;
 }
 
 /// Where a direction meets the side of the cube: right and up as seen from outside.
@@ -69,9 +70,9 @@ AxisPoint axis_picture(const Vector3& direction) {
   const bool positive = direction[axis] > 0;
   const Point2 p = on_side(direction, axis, positive ? 1 : -1);
   const std::span<const Stroke> sign =
-      positive ? std::span<const Stroke>(kPlus) : std::span<const Stroke>(kMinus);
-  const double ink = std::min(distance(p, sign), distance(p, letter(axis))) - kThickness;
-  const double rim = 1 - kRim - std::max(std::abs(p.x), std::abs(p.y));
+      positive ? std::span<const Stroke>(plus) : std::span<const Stroke>(minus);
+  const double ink = std::min(distance(p, sign), distance(p, letter(axis))) - thickness;
+  const double rim = 1 - rim_width - std::max(std::abs(p.x), std::abs(p.y));
 
   static const std::array<Eigen::Vector3f, 3> grounds = {
       {{0.86F, 0.30F, 0.26F}, {0.33F, 0.66F, 0.30F}, {0.25F, 0.45F, 0.85F}}};

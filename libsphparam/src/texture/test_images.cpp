@@ -19,12 +19,12 @@ namespace {
 
 using Rgb = Eigen::Vector3f;
 constexpr double pi = std::numbers::pi;
-constexpr int kColumns = 24, kRows = 12;   // fields of 15°
-constexpr int kPolarColumns = 4;           // meridians that run on to the poles
-constexpr double kLine = 0.006;            // radians: half the thickness of a line …
-constexpr double kStrongLine = 2 * kLine;  // … of equator and date line
-constexpr int kSamples = 8;                // a side, of a texel on a border
-constexpr std::int64_t kGrain = 8;         // rows
+constexpr int column_count = 24, row_count = 12;  // fields of 15°
+constexpr int polar_columns = 4;                  // meridians that run on to the poles
+constexpr double half_line = 0.006;               // radians: half the thickness of a line …
+constexpr double strong_line = 2 * half_line;     // … of equator and date line
+constexpr int samples = 8;                        // a side, of a texel on a border
+constexpr std::int64_t grain = 8;                 // rows
 
 struct Interval {
   double low, high;
@@ -66,8 +66,8 @@ double share_of_lines(double low, double high, double half) {
 
 Rgb checker(const Interval& u, const Interval& v) {
   static const Rgb light = linear({0.93F, 0.92F, 0.88F}), dark = linear({0.22F, 0.42F, 0.55F});
-  const double waves = mean_square_wave(u.low * kColumns, u.high * kColumns) *
-                       mean_square_wave(v.low * kRows, v.high * kRows);
+  const double waves = mean_square_wave(u.low * column_count, u.high * column_count) *
+                       mean_square_wave(v.low * row_count, v.high * row_count);
   const auto share = static_cast<float>((1 + waves) / 2);
   return dark + share * (light - dark);
 }
@@ -82,7 +82,7 @@ Rgb graticule(const Interval& u, const Interval& v) {
                    equator = linear({0.10F, 0.33F, 0.75F}), date = linear({0.84F, 0.05F, 0.08F});
   // Lines keep their thickness on the sphere: towards the poles they take more of u.
   const double radius = elementary::sin(pi * v.middle());
-  const bool at_pole = std::min(v.middle(), 1 - v.middle()) * kRows < 1;
+  const bool at_pole = std::min(v.middle(), 1 - v.middle()) * row_count < 1;
   const auto along = [&](double half, int lines) {
     return share_of_lines(u.low * lines, u.high * lines,
                           half / (2 * pi * std::max(radius, half)) * lines);
@@ -90,9 +90,10 @@ Rgb graticule(const Interval& u, const Interval& v) {
   const auto across = [&](double half, double from, int lines) {
     return share_of_lines((v.low - from) * lines, (v.high - from) * lines, half / pi * lines);
   };
-  const double date_share = along(kStrongLine, 1), equator_share = across(kStrongLine, 0.5, 1);
-  const double meridians = along(kLine, at_pole ? kPolarColumns : kColumns) - along(kLine, 1);
-  const double parallels = across(kLine, 0, kRows) - across(kLine, 0.5, 1);
+  const double date_share = along(strong_line, 1), equator_share = across(strong_line, 0.5, 1);
+  const double meridians =
+      along(half_line, at_pole ? polar_columns : column_count) - along(half_line, 1);
+  const double parallels = across(half_line, 0, row_count) - across(half_line, 0.5, 1);
   Rgb colour = ground;
   colour += share_of_rest(meridians, date_share) * (line - colour);
   colour += share_of_rest(parallels, equator_share) * (line - colour);
@@ -117,14 +118,14 @@ Rgb axes(const Interval& u, const Interval& v, const Turn& middle) {
   const AxisPoint centre = axis_picture(direction(middle, v.middle()));
   if (centre.margin > reach) return linear(centre.colour);
   Rgb sum = Rgb::Zero();
-  for (int i = 0; i < kSamples; ++i) {
-    const Turn turn = turn_of(u.low + (u.high - u.low) * (i + 0.5) / kSamples);
-    for (int j = 0; j < kSamples; ++j) {
-      const double at = v.low + (v.high - v.low) * (j + 0.5) / kSamples;
+  for (int i = 0; i < samples; ++i) {
+    const Turn turn = turn_of(u.low + (u.high - u.low) * (i + 0.5) / samples);
+    for (int j = 0; j < samples; ++j) {
+      const double at = v.low + (v.high - v.low) * (j + 0.5) / samples;
       sum += linear(axis_picture(direction(turn, at)).colour);
     }
   }
-  return sum / (kSamples * kSamples);
+  return sum / (samples * samples);
 }
 
 }  // namespace
@@ -149,7 +150,7 @@ void draw_test_rows(TestImage image, int width, int height, Convention conventio
     columns.push_back(longitudes(x, width, info_of(convention)));
     middles.push_back(turn_of(columns.back().middle()));
   }
-  parallel_for(rows, kGrain, threads, [&](std::int64_t first, std::int64_t last) {
+  parallel_for(rows, grain, threads, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t row = first; row < last; ++row) {
       const double y = static_cast<double>(first_row + row);
       const Interval v = {y / height, (y + 1) / height};

@@ -15,8 +15,8 @@
 namespace sphparam {
 namespace {
 
-constexpr double kScale = 0.02;   // of the radius of the sphere of the same area
-constexpr double kWithin = 0.98;  // share of the area that the range holds
+constexpr double relative_scale = 0.02;  // of the radius of the sphere of the same area
+constexpr double within = 0.98;          // share of the area that the range holds
 
 /// The |value| that all but the rest of the area stay within.
 double weighted_quantile(const VectorX& values, const VectorX& weights, double share) {
@@ -54,11 +54,11 @@ SurfaceField curvature_field(const BakeScene& scene, const std::string& argument
     throw FieldError("curvature: there are curvature:mean and curvature:gauss, not " + argument);
   }
   const TriangleMesh& mesh = scene.source.mesh();
-  const double scale = kScale * equal_area_radius(mesh, scene.threads);
+  const double scale = relative_scale * equal_area_radius(mesh, scene.threads);
   const Curvature curvature =
       measure_curvature(mesh, scene.source.topology(), scale, scene.threads);
   const VectorX& values = gauss ? curvature.gauss : curvature.mean;
-  const double reach = weighted_quantile(values, curvature.area, kWithin);
+  const double reach = weighted_quantile(values, curvature.area, within);
   const double high = reach > 0 ? reach : 1;
   SurfaceField field = linear_field<1>(
       {.name = gauss ? "curvature:gauss" : "curvature:mean",

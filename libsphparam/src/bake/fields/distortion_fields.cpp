@@ -9,13 +9,13 @@
 namespace sphparam {
 namespace {
 
-constexpr double kExtreme = 32;  // log₂ of what stands for 0 and ∞
+constexpr double extreme = 32;  // log₂ of what stands for 0 and ∞
 
 SurfaceField distortion_field(Heat heat, const char* name, const char* about,
                               const BakeScene& scene) {
   const Distortion distortion =
       measure_distortion(scene.source.mesh(), scene.source.map(), scene.threads);
-  const VectorX values = heat_values(heat, distortion).cwiseMax(-kExtreme).cwiseMin(kExtreme);
+  const VectorX values = heat_values(heat, distortion).cwiseMax(-extreme).cwiseMin(extreme);
   const HeatScale& scale = heat_scale(heat);
   SurfaceField field = linear_field<1>(
       {.name = name, .about = about, .range = {{scale.low, scale.high}}},

@@ -314,19 +314,19 @@ void close_written(void* handle) {
   const std::unique_ptr<WrittenImage> image(static_cast<WrittenImage*>(handle));
 }
 
-constexpr SphparamImageTable kTable{kSphparamImageTableVersion,
-                                    decode,
-                                    open,
-                                    write_rows,
-                                    next_level,
-                                    close,
-                                    open_written,
-                                    level_written,
-                                    read_rows,
-                                    close_written};
+constexpr SphparamImageTable table{sphparam_image_table_version,
+                                   decode,
+                                   open,
+                                   write_rows,
+                                   next_level,
+                                   close,
+                                   open_written,
+                                   level_written,
+                                   read_rows,
+                                   close_written};
 
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const SphparamImageTable* sphparam_image_table() {
-  return &kTable;
+  return &table;
 }

@@ -70,13 +70,13 @@ void FileBytes::map_or_read(int descriptor, std::uint64_t max_bytes) {
 }
 
 void FileBytes::read_all(int descriptor, std::uint64_t max_bytes) {
-  constexpr std::size_t kFirstBlock = 1 << 16;
+  constexpr std::size_t first_block = 1 << 16;
   std::size_t filled = 0;
   const std::uint64_t one_too_many = std::min<std::uint64_t>(max_bytes, copy_.max_size() - 1) + 1;
   for (;;) {
     if (filled > max_bytes) throw over_limit(name_, max_bytes);
     if (filled == copy_.size())
-      copy_.resize(std::min<std::uint64_t>(one_too_many, std::max(kFirstBlock, 2 * filled)));
+      copy_.resize(std::min<std::uint64_t>(one_too_many, std::max(first_block, 2 * filled)));
     const ssize_t count = ::read(descriptor, copy_.data() + filled, copy_.size() - filled);
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) throw ReadError(name_, std::strerror(errno));

@@ -17,8 +17,8 @@ class Inflater {
  public:
   Inflater(std::string_view bytes, const std::string& name, std::uint64_t max_bytes)
       : packed_(bytes), name_(name), max_bytes_(max_bytes) {
-    constexpr int kGzip = 15 + 16;
-    if (inflateInit2(&stream_, kGzip) != Z_OK) throw std::bad_alloc();
+    constexpr int gzip = 15 + 16;
+    if (inflateInit2(&stream_, gzip) != Z_OK) throw std::bad_alloc();
   }
   ~Inflater() { inflateEnd(&stream_); }
   Inflater(const Inflater&) = delete;
@@ -55,16 +55,16 @@ class Inflater {
 
   // One byte more than allowed shows that there is more.
   void make_room() {
-    constexpr std::uint64_t kFirstRoom = 1 << 16;
+    constexpr std::uint64_t first_room = 1 << 16;
     if (filled_ < bytes_.size()) return;
     const std::uint64_t most = std::min<std::uint64_t>(max_bytes_, bytes_.max_size() - 1) + 1;
-    bytes_.resize(std::min(most, std::max<std::uint64_t>(kFirstRoom, 2 * filled_)));
+    bytes_.resize(std::min(most, std::max<std::uint64_t>(first_room, 2 * filled_)));
   }
 
   int unpack_piece() {
-    constexpr std::size_t kMost = 1u << 30;  // zlib counts in 32 bits
-    const auto given = static_cast<uInt>(std::min(kMost, packed_.size()));
-    const auto room = static_cast<uInt>(std::min(kMost, bytes_.size() - filled_));
+    constexpr std::size_t most_at_once = 1u << 30;  // zlib counts in 32 bits
+    const auto given = static_cast<uInt>(std::min(most_at_once, packed_.size()));
+    const auto room = static_cast<uInt>(std::min(most_at_once, bytes_.size() - filled_));
     // zlib does not write here, but its interface does not say so.
     stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed_.data()));
     stream_.avail_in = given;

@@ -22,14 +22,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostLinks = 40;  // as many as Linux follows
+constexpr int most_links = 40;  // as many as Linux follows
 
 /// The file that a path names, through links; the last one may name nothing yet.
 fs::path followed(fs::path path) {
   std::error_code error;
   for (int links = 0; fs::is_symlink(fs::symlink_status(path, error)); ++links) {
     const fs::path next = fs::read_symlink(path, error);
-    if (links == kMostLinks) error = std::make_error_code(std::errc::too_many_symbolic_link_levels);
+    if (links == most_links) error = std::make_error_code(std::errc::too_many_symbolic_link_levels);
     if (error) throw WriteError(path.string(), error.message());
     path = folder_of(path) / next;
   }

@@ -31,8 +31,8 @@ namespace fs = std::filesystem;
 
 /// The names of temporaries, where a signal handler can read them. What finds no place is left for
 /// the next run to clean up.
-constexpr std::size_t kMostWatched = 64;
-std::array<std::atomic<const char*>, kMostWatched> watched{};
+constexpr std::size_t most_watched = 64;
+std::array<std::atomic<const char*>, most_watched> watched{};
 
 void watch(const char* path) {
   for (std::atomic<const char*>& place : watched) {
@@ -80,8 +80,8 @@ class OutputDescriptor {
   int number_;
 };
 
-constexpr std::string_view kPrefix = ".sphparam-", kSuffix = ".tmp";
-constexpr std::size_t kRandomDigits = 16, kCheckDigits = 8;
+constexpr std::string_view prefix = ".sphparam-", suffix = ".tmp";
+constexpr std::size_t random_digit_count = 16, check_digit_count = 8;
 
 std::string hex_digits(std::uint64_t number, std::size_t count) {
   constexpr std::string_view digits = "0123456789abcdef";
@@ -93,9 +93,9 @@ std::string hex_digits(std::uint64_t number, std::size_t count) {
 /// What must follow the random digits (FNV-1a, begun with the prefix).
 std::string check_digits(std::string_view digits) {
   std::uint32_t hash = 2166136261U;
-  for (const std::string_view part : {kPrefix, digits})
+  for (const std::string_view part : {prefix, digits})
     for (const char c : part) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619U;
-  return hex_digits(hash, kCheckDigits);
+  return hex_digits(hash, check_digit_count);
 }
 
 std::string new_name() {
@@ -104,15 +104,16 @@ std::string new_name() {
     std::random_device device;
     number = (std::uint64_t{device()} << 32) ^ device();
   }
-  const std::string digits = hex_digits(number, kRandomDigits);
-  return std::string(kPrefix) + digits + check_digits(digits) + std::string(kSuffix);
+  const std::string digits = hex_digits(number, random_digit_count);
+  return std::string(prefix) + digits + check_digits(digits) + std::string(suffix);
 }
 
 bool is_our_name(std::string_view name) {
-  if (name.size() != kPrefix.size() + kRandomDigits + kCheckDigits + kSuffix.size()) return false;
-  if (!name.starts_with(kPrefix) || !name.ends_with(kSuffix)) return false;
-  const std::string_view digits = name.substr(kPrefix.size(), kRandomDigits);
-  return name.substr(kPrefix.size() + kRandomDigits, kCheckDigits) == check_digits(digits);
+  if (name.size() != prefix.size() + random_digit_count + check_digit_count + suffix.size())
+    return false;
+  if (!name.starts_with(prefix) || !name.ends_with(suffix)) return false;
+  const std::string_view digits = name.substr(prefix.size(), random_digit_count);
+  return name.substr(prefix.size() + random_digit_count, check_digit_count) == check_digits(digits);
 }
 
 /// Locks an open file, shared (F_RDLCK) or exclusively (F_WRLCK), until its descriptor is closed.
@@ -131,9 +132,9 @@ void remove_left(const fs::path& folder) {
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
     if (!is_our_name(entry->path().filename().string())) continue;
-    constexpr int kAsItIs = O_WRONLY | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC;
+    constexpr int as_it_is = O_WRONLY | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC;
     const OutputDescriptor file(
-        uninterrupted([&] { return ::open(entry->path().c_str(), kAsItIs); }));
+        uninterrupted([&] { return ::open(entry->path().c_str(), as_it_is); }));
     if (file.number() >= 0 && lock(file.number(), F_WRLCK, false)) ::unlink(entry->path().c_str());
   }
 }
@@ -149,9 +150,9 @@ TemporaryFile::TemporaryFile(fs::path target, const struct stat* replaced)
     : target_(std::move(target)) {
   require_folder(target_);
   remove_left(folder_of(target_));
-  constexpr mode_t kUsual = 0666, kOurs = 0600;
+  constexpr mode_t usual = 0666, ours = 0600;
   try {
-    open(replaced ? kOurs : kUsual);
+    open(replaced ? ours : usual);
     if (replaced) hand_on(target_.string(), *replaced, held_);
   } catch (...) {
     if (descriptor_ >= 0) ::unlink(path_.c_str());
@@ -178,13 +179,13 @@ void TemporaryFile::close() noexcept {
 }
 
 void TemporaryFile::open(mode_t permissions) {
-  constexpr int kNew = O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC;
+  constexpr int new_file_flags = O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC;
   do {
     forget(path_.c_str());
     if (descriptor_ >= 0) ::close(descriptor_);
     path_ = (folder_of(target_) / new_name()).string();
     watch(path_.c_str());
-    descriptor_ = uninterrupted([&] { return ::open(path_.c_str(), kNew, permissions); });
+    descriptor_ = uninterrupted([&] { return ::open(path_.c_str(), new_file_flags, permissions); });
     if (descriptor_ < 0) fail(target_.string(), "cannot make a file in its folder");
     lock(descriptor_, F_RDLCK, true);
   } while (!has_a_name(descriptor_));
@@ -226,8 +227,8 @@ void TemporaryFile::sync() {
 }
 
 void TemporaryFile::publish() {
-  constexpr int kAsItIs = O_RDONLY | O_NONBLOCK | O_CLOEXEC;
-  old_ = uninterrupted([&] { return ::open(target_.c_str(), kAsItIs); });
+  constexpr int as_it_is = O_RDONLY | O_NONBLOCK | O_CLOEXEC;
+  old_ = uninterrupted([&] { return ::open(target_.c_str(), as_it_is); });
   if (old_ >= 0) lock(old_, F_RDLCK, false);
   if (::renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) == 0) {
     place_ = Place::Exchanged;

@@ -5,9 +5,9 @@
 namespace sphparam {
 
 std::size_t expected_text_bytes(const MeshFile& file) {
-  constexpr Eigen::Index kVertexBytes = 64, kFaceBytes = 32;
-  return static_cast<std::size_t>(kVertexBytes * file.mesh.vertex_count() +
-                                  kFaceBytes * file.mesh.face_count());
+  constexpr Eigen::Index vertex_bytes = 64, face_bytes = 32;
+  return static_cast<std::size_t>(vertex_bytes * file.mesh.vertex_count() +
+                                  face_bytes * file.mesh.face_count());
 }
 
 void put_comments(TextBuffer& text, const MeshFile& file) {

@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "io/files/text_scanner.h"
+#include "number_text.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/polygons.h"
-#include "number_text.h"
 
 // One pass over the lines fills flat arrays; faces hold three indices a corner (v/vt/vn), vt and vn
 // only from the first corner that has one. An index may name a vertex of a later line, so indices
@@ -22,7 +22,7 @@
 namespace sphparam {
 namespace {
 
-constexpr int kNone = -1;
+constexpr int no_index = -1;
 
 /// Indices that name something not read yet, in order of appearance. Only new maxima are kept: the
 /// first index out of range at the end is one of them.
@@ -66,8 +66,8 @@ struct CornerIndices {
   std::vector<int> values;
 
   void set(std::size_t corner, int index) {
-    if (index == kNone) return;
-    values.resize(corner, kNone);
+    if (index == no_index) return;
+    values.resize(corner, no_index);
     values.push_back(index);
   }
   bool used() const { return !values.empty(); }
@@ -79,8 +79,8 @@ class ObjReader {
       : scanner_(text, name, options), options_(options) {
     scanner_.require_text();
     // A line of a vertex or a face has about 25 bytes.
-    constexpr std::size_t kUsualLineBytes = 25;
-    const std::size_t lines = text.size() / kUsualLineBytes;
+    constexpr std::size_t usual_line_bytes = 25;
+    const std::size_t lines = text.size() / usual_line_bytes;
     positions_.reserve(lines);
     polygons_.corners.reserve(2 * lines);
     polygons_.starts.reserve(lines);
@@ -114,7 +114,7 @@ class ObjReader {
 
   void read_vertex() {
     for (int i = 0; i < 3; ++i) positions_.push_back(scanner_.real());
-    if (++vertices_.count > std::min(options_.max_vertices, kMostVertices))
+    if (++vertices_.count > std::min(options_.max_vertices, most_vertices))
       scanner_.fail("more vertices than the limit of " + std::to_string(options_.max_vertices));
     if (!scanner_.at_line_end()) read_vertex_extras();
     expect_line_end();
@@ -157,8 +157,8 @@ class ObjReader {
     for (std::size_t corner = first; !scanner_.at_line_end(); ++corner) read_corner(corner);
     const std::string problem = polygons_.close_polygon(options_);
     if (!problem.empty()) scanner_.fail(problem);
-    if (material_ != kNone || !material_of_.empty()) {
-      material_of_.resize(static_cast<std::size_t>(polygons_.count() - 1), kNone);
+    if (material_ != no_index || !material_of_.empty()) {
+      material_of_.resize(static_cast<std::size_t>(polygons_.count() - 1), no_index);
       material_of_.push_back(material_);
     }
   }
@@ -199,19 +199,19 @@ class ObjReader {
   }
 
   void read_ignored(const std::string& keyword) {
-    static constexpr std::string_view kNamed[] = {"g", "o", "s", "mtllib"};
-    static constexpr std::string_view kSilent[] = {"mg",        "lod",    "shadow_obj",
-                                                   "trace_obj", "bevel",  "c_interp",
-                                                   "d_interp",  "maplib", "usemap"};
-    static constexpr std::string_view kNoted[] = {
+    static constexpr std::string_view named[] = {"g", "o", "s", "mtllib"};
+    static constexpr std::string_view silent[] = {"mg",        "lod",    "shadow_obj",
+                                                  "trace_obj", "bevel",  "c_interp",
+                                                  "d_interp",  "maplib", "usemap"};
+    static constexpr std::string_view noted[] = {
         "l",    "p",    "vp",   "cstype", "deg", "bmat", "step", "curv",  "curv2", "surf",
         "parm", "trim", "hole", "scrv",   "sp",  "end",  "con",  "ctech", "stech"};
     const auto is_in = [&](const auto& list) {
       return std::find(std::begin(list), std::end(list), keyword) != std::end(list);
     };
-    if (is_in(kNamed)) return note_name(names_[keyword]);
-    if (is_in(kSilent)) return;
-    if (is_in(kNoted)) {
+    if (is_in(named)) return note_name(names_[keyword]);
+    if (is_in(silent)) return;
+    if (is_in(noted)) {
       ++ignored_[keyword];
     } else if (unknown_++ == 0) {
       first_unknown_ = quoted(keyword);
@@ -253,7 +253,7 @@ class ObjReader {
 
   void add_materials() {
     if (file_.materials.empty()) return;
-    material_of_.resize(static_cast<std::size_t>(polygons_.count()), kNone);
+    material_of_.resize(static_cast<std::size_t>(polygons_.count()), no_index);
     file_.set_face_property(
         {"material", ScalarType::Int32, {material_of_.begin(), material_of_.end()}});
   }
@@ -279,15 +279,15 @@ class ObjReader {
   auto gather(const Triangulation& triangulation, CornerIndices& indices,
               const std::vector<double>& values, const char* what) {
     using Table = RowTable<double, Width>;
-    indices.values.resize(polygons_.corners.size(), kNone);
-    const long missing = std::count(indices.values.begin(), indices.values.end(), kNone);
+    indices.values.resize(polygons_.corners.size(), no_index);
+    const long missing = std::count(indices.values.begin(), indices.values.end(), no_index);
     if (missing > 0)
       file_.notes.push_back(std::to_string(missing) + " corners have no " + what + ": set to zero");
     Table table(3 * triangulation.triangles.rows(), Width);
     for (Eigen::Index i = 0; i < table.rows(); ++i) {
       const int index = indices.values[triangulation.corner_of(i)];
       for (int k = 0; k < Width; ++k)
-        table(i, k) = index == kNone ? 0 : values[static_cast<std::size_t>(Width) * index + k];
+        table(i, k) = index == no_index ? 0 : values[static_cast<std::size_t>(Width) * index + k];
     }
     return table;
   }
@@ -307,7 +307,7 @@ class ObjReader {
 
   /// For each vertex the normal that all its corners name, by value; nothing if two differ.
   std::optional<std::vector<int>> one_normal_a_vertex() const {
-    std::vector<int> normal_of(static_cast<std::size_t>(vertices_.count), kNone);
+    std::vector<int> normal_of(static_cast<std::size_t>(vertices_.count), no_index);
     const auto same = [this](int a, int b) {
       const double* const values = normal_values_.data();
       return a == b || std::equal(values + 3L * a, values + 3L * a + 3, values + 3L * b);
@@ -315,8 +315,8 @@ class ObjReader {
     for (std::size_t i = 0; i < corner_normals_.values.size(); ++i) {
       const int normal = corner_normals_.values[i];
       int& known = normal_of[polygons_.corners[i]];
-      if (normal == kNone) continue;
-      if (known == kNone) known = normal;
+      if (normal == no_index) continue;
+      if (known == no_index) known = normal;
       if (!same(known, normal)) return std::nullopt;
     }
     return normal_of;
@@ -328,7 +328,7 @@ class ObjReader {
       Property property{names[axis], ScalarType::Float64, {}};
       property.values.reserve(normal_of.size());
       for (const int normal : normal_of)
-        property.values.push_back(normal == kNone ? 0 : normal_values_[3L * normal + axis]);
+        property.values.push_back(normal == no_index ? 0 : normal_values_[3L * normal + axis]);
       file_.vertex_properties.push_back(std::move(property));
     }
   }
@@ -357,10 +357,10 @@ class ObjReader {
 
   /// One group that holds everything says nothing.
   void note_groups() {
-    static constexpr std::pair<const char*, const char*> kKinds[] = {
+    static constexpr std::pair<const char*, const char*> kinds[] = {
         {"o", "object"}, {"g", "group"}, {"s", "smoothing group"}};
     std::vector<std::string> words;
-    for (const auto& [keyword, what] : kKinds) {
+    for (const auto& [keyword, what] : kinds) {
       std::set<std::string>& names = names_[keyword].distinct;
       if (*keyword == 's')
         std::erase_if(names, [](auto& name) { return name == "off" || name == "0"; });
@@ -369,7 +369,7 @@ class ObjReader {
     if (!words.empty()) add_loss(file_.notes, "the names of " + enumerated(words));
   }
 
-  static constexpr std::int64_t kMostVertices = std::numeric_limits<int>::max();
+  static constexpr std::int64_t most_vertices = std::numeric_limits<int>::max();
 
   TextScanner scanner_;
   const ReadOptions& options_;
@@ -385,7 +385,7 @@ class ObjReader {
 
   Polygons polygons_;
   CornerIndices corner_texcoords_, corner_normals_;
-  int material_ = kNone;
+  int material_ = no_index;
   std::vector<int> material_of_;  // per polygon, from the first one with a material
   std::map<std::string, int> material_ids_;
   std::map<std::string, Names> names_;   // by keyword
@@ -400,18 +400,18 @@ class ObjReader {
 }  // namespace
 
 bool looks_like_obj(std::string_view bytes) {
-  static constexpr std::string_view kStatements[] = {"v", "vn", "vt",     "f",     "g",
-                                                     "o", "s",  "mtllib", "usemtl"};
-  constexpr std::string_view kBlanks = " \t\r\n";
+  static constexpr std::string_view statements[] = {"v", "vn", "vt",     "f",     "g",
+                                                    "o", "s",  "mtllib", "usemtl"};
+  constexpr std::string_view blanks = " \t\r\n";
   for (;;) {
-    const std::size_t start = bytes.find_first_not_of(kBlanks);
+    const std::size_t start = bytes.find_first_not_of(blanks);
     if (start == std::string_view::npos) return false;
     bytes.remove_prefix(start);
     if (bytes.front() != '#') break;
     bytes.remove_prefix(std::min(bytes.find_first_of("\r\n"), bytes.size()));
   }
-  const std::string_view word = bytes.substr(0, bytes.find_first_of(kBlanks));
-  return std::find(std::begin(kStatements), std::end(kStatements), word) != std::end(kStatements);
+  const std::string_view word = bytes.substr(0, bytes.find_first_of(blanks));
+  return std::find(std::begin(statements), std::end(statements), word) != std::end(statements);
 }
 
 MeshFile read_obj(std::string_view text, const std::string& name, const ReadOptions& options) {

@@ -15,7 +15,7 @@
 namespace sphparam {
 namespace {
 
-constexpr int kCorners = 3;
+constexpr int corner_count = 3;
 
 /// The faces as they are written: face f has corners[starts[f]] … corners[starts[f + 1] − 1], each
 /// one of the triangles (3·triangle + corner).
@@ -30,7 +30,7 @@ WrittenFaces triangles_of(const MeshFile& file) {
   faces.corners.resize(static_cast<std::size_t>(file.mesh.triangles.size()));
   std::iota(faces.corners.begin(), faces.corners.end(), 0);
   faces.starts.reserve(static_cast<std::size_t>(file.mesh.face_count()) + 1);
-  for (int f = 0; f <= file.mesh.face_count(); ++f) faces.starts.push_back(kCorners * f);
+  for (int f = 0; f <= file.mesh.face_count(); ++f) faces.starts.push_back(corner_count * f);
   return faces;
 }
 
@@ -90,7 +90,7 @@ void put_faces(TextBuffer& text, const MeshFile& file, const WrittenFaces& faces
   const Property* const materials = file.find_face_property("material");
   int current = -1;
   for (std::size_t f = 0; f < faces.count(); ++f) {
-    const int triangle = faces.corners[faces.starts[f]] / kCorners;
+    const int triangle = faces.corners[faces.starts[f]] / corner_count;
     const int material = materials ? static_cast<int>(materials->values[triangle]) : -1;
     if (material != current && material >= 0 &&
         material < static_cast<int>(file.materials.size())) {

@@ -104,21 +104,21 @@ class OffReader {
   }
 
   std::int64_t read_count(const char* what, std::int64_t limit) {
-    constexpr std::int64_t kHardLimit = std::numeric_limits<int>::max() / 3;  // ids are ints
+    constexpr std::int64_t hard_limit = std::numeric_limits<int>::max() / 3;  // ids are ints
     const long count = scanner_.integer();
     if (count < 0) scanner_.fail(std::string("negative number of ") + what);
-    if (count > std::min(limit, kHardLimit))
+    if (count > std::min(limit, hard_limit))
       scanner_.fail(std::to_string(count) + " " + what + " are over the limit of " +
-                    std::to_string(std::min(limit, kHardLimit)));
+                    std::to_string(std::min(limit, hard_limit)));
     return count;
   }
 
   // A number in text takes two bytes with its separator, which the last one may lack. Before any
   // memory is set aside, the counts must fit the bytes there are.
   void check_proportions() {
-    constexpr std::uint64_t kVertexBytes = 3 * 2, kFaceBytes = 4 * 2;
-    const std::uint64_t least = kVertexBytes * static_cast<std::uint64_t>(vertex_count_) +
-                                kFaceBytes * static_cast<std::uint64_t>(face_count_);
+    constexpr std::uint64_t vertex_bytes = 3 * 2, face_bytes = 4 * 2;
+    const std::uint64_t least = vertex_bytes * static_cast<std::uint64_t>(vertex_count_) +
+                                face_bytes * static_cast<std::uint64_t>(face_count_);
     if (least > scanner_.remaining_bytes() + 1)
       scanner_.fail(std::to_string(vertex_count_) + " vertices and " + std::to_string(face_count_) +
                     " faces do not fit the " + std::to_string(scanner_.remaining_bytes()) +
@@ -288,9 +288,9 @@ class OffReader {
 }  // namespace
 
 bool looks_like_off(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r\n";
+  constexpr std::string_view blanks = " \t\r\n";
   for (;;) {
-    const std::size_t start = text.find_first_not_of(kBlanks);
+    const std::size_t start = text.find_first_not_of(blanks);
     if (start == std::string_view::npos) return false;
     text.remove_prefix(start);
     if (text.front() != '#') break;

@@ -11,7 +11,7 @@
 namespace sphparam {
 namespace {
 
-constexpr int kCorners = 3;
+constexpr int corner_count = 3;
 
 std::vector<const Property*> find_colours(const std::vector<Property>& properties) {
   std::vector<const Property*> colours =
@@ -56,7 +56,7 @@ std::string serialise_off(const MeshFile& file) {
   }
   for (Eigen::Index f = 0; f < file.mesh.face_count(); ++f) {
     text << '3';
-    for (int k = 0; k < kCorners; ++k) text << ' ' << file.mesh.triangles(f, k);
+    for (int k = 0; k < corner_count; ++k) text << ' ' << file.mesh.triangles(f, k);
     for (const Property* colour : face_colours) put_off_colour(text, *colour, f);
     text << '\n';
   }

@@ -6,7 +6,7 @@
 namespace sphparam {
 namespace {
 
-constexpr std::uint64_t kLeastAsciiBytes = 2;  // a digit and a separator
+constexpr std::uint64_t least_ascii_bytes = 2;  // a digit and a separator
 
 /// Words of one line, read from the left.
 class Words {
@@ -15,7 +15,7 @@ class Words {
 
   std::string_view next() {
     trim();
-    const std::string_view word = rest_.substr(0, rest_.find_first_of(kBlanks));
+    const std::string_view word = rest_.substr(0, rest_.find_first_of(blanks));
     rest_.remove_prefix(word.size());
     return word;
   }
@@ -29,8 +29,8 @@ class Words {
   std::string_view rest() const { return rest_.empty() ? rest_ : rest_.substr(1); }
 
  private:
-  static constexpr std::string_view kBlanks = " \t\r\v\f";
-  void trim() { rest_.remove_prefix(std::min(rest_.find_first_not_of(kBlanks), rest_.size())); }
+  static constexpr std::string_view blanks = " \t\r\v\f";
+  void trim() { rest_.remove_prefix(std::min(rest_.find_first_not_of(blanks), rest_.size())); }
   std::string_view rest_;
 };
 
@@ -207,15 +207,15 @@ const PlyProperty* PlyElement::find(std::string_view property_name) const {
 }
 
 std::uint64_t PlyElement::least_bytes(PlyEncoding encoding) const {
-  constexpr std::uint64_t kLeastCorners = 3;
+  constexpr std::uint64_t least_corners = 3;
   const bool ascii = encoding == PlyEncoding::Ascii;
   bool has_corners = name != "face";
   std::uint64_t bytes = 0;
   for (const PlyProperty& property : properties) {
     const ScalarType first = property.is_list ? property.count_type : property.type;
-    bytes += ascii ? kLeastAsciiBytes : size_in_bytes(first);
+    bytes += ascii ? least_ascii_bytes : size_in_bytes(first);
     if (has_corners || !property.is_list || !is_corner_list_name(property.name)) continue;
-    bytes += kLeastCorners * (ascii ? kLeastAsciiBytes : size_in_bytes(property.type));
+    bytes += least_corners * (ascii ? least_ascii_bytes : size_in_bytes(property.type));
     has_corners = true;
   }
   return bytes;

@@ -11,9 +11,9 @@
 
 #include "io/files/text_scanner.h"
 #include "io/formats/ply_header.h"
+#include "number_text.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/polygons.h"
-#include "number_text.h"
 
 // A body gives numbers one by one: from a text, one record a line, or from bytes in either order.
 // The elements are read from it in the order of the header by one piece of code for all encodings.
@@ -216,11 +216,11 @@ class PlyReader {
   }
 
   void check_count(const PlyElement& element, std::int64_t limit) const {
-    constexpr std::int64_t kHardLimit = std::numeric_limits<int>::max() / 3;  // ids are ints
-    if (element.count > std::min(limit, kHardLimit))
+    constexpr std::int64_t hard_limit = std::numeric_limits<int>::max() / 3;  // ids are ints
+    if (element.count > std::min(limit, hard_limit))
       fail_at(element.line, std::to_string(element.count) + " records of element " +
                                 quoted(element.name) + " are over the limit of " +
-                                std::to_string(std::min(limit, kHardLimit)));
+                                std::to_string(std::min(limit, hard_limit)));
   }
 
   // --- Vertices ---
@@ -259,10 +259,10 @@ class PlyReader {
 
   /// With `only_map` no face property is kept, and of a vertex the ray and the position.
   bool is_wanted(const PlyElement& element, const PlyProperty& property) const {
-    static constexpr std::array<std::string_view, 6> kOfMap = {"x", "y", "z", "sx", "sy", "sz"};
+    static constexpr std::array<std::string_view, 6> of_map = {"x", "y", "z", "sx", "sy", "sz"};
     if (!options_.only_map) return true;
     return &element == vertex_element_ &&
-           std::find(kOfMap.begin(), kOfMap.end(), property.name) != kOfMap.end();
+           std::find(of_map.begin(), of_map.end(), property.name) != of_map.end();
   }
 
   void skip(const PlyProperty& property) {
@@ -413,14 +413,14 @@ class PlyReader {
   // Each index makes a triangle with the two before it, every other one turned over; −1 starts
   // anew. A list may hold the whole mesh: no limit on corners counts here, that on faces does.
   void read_strip(const PlyProperty& property) {
-    constexpr std::int64_t kRestart = -1;
+    constexpr std::int64_t restart = -1;
     const std::int64_t unsigned_restart = std::numeric_limits<std::uint32_t>::max();
     std::array<int, 2> before{};
     std::int64_t in_strip = 0;
     const std::int64_t length = list_length(property);
     for (std::int64_t i = 0; i < length; ++i) {
       const std::int64_t index = body_.integer(property.type);
-      if (index == kRestart || index == unsigned_restart) {
+      if (index == restart || index == unsigned_restart) {
         in_strip = 0;
         continue;
       }
@@ -478,8 +478,8 @@ class PlyReader {
   void add_comments() {
     for (const std::string& written : header_.comments) {
       std::string comment = one_line(written);
-      if (comment.starts_with(kMaterialComment))
-        file_.materials.push_back(comment.substr(kMaterialComment.size()));
+      if (comment.starts_with(material_comment))
+        file_.materials.push_back(comment.substr(material_comment.size()));
       else
         file_.comments.push_back(std::move(comment));
     }

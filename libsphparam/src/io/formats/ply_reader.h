@@ -22,6 +22,6 @@ bool looks_like_ply(std::string_view bytes);
 MeshFile read_ply(std::string_view bytes, const std::string& name, const ReadOptions& options = {});
 
 /// Comments of this form carry the names of MeshFile::materials, in order.
-inline constexpr std::string_view kMaterialComment = "sphparam material ";
+inline constexpr std::string_view material_comment = "sphparam material ";
 
 }  // namespace sphparam

@@ -13,7 +13,7 @@
 namespace sphparam {
 namespace {
 
-constexpr int kCorners = 3;
+constexpr int corner_count = 3;
 
 /// Numbers of one record that stand in a row, in their type on disk; lists have a count in front.
 struct PlyColumn {
@@ -71,7 +71,7 @@ std::vector<PlyColumn> vertex_columns(const MeshFile& file) {
 template <class Table>
 PlyColumn corner_column(const char* name, ScalarType declared, const Table& table) {
   const ScalarType type = lossless_type(declared, table.data(), table.size());
-  const Eigen::Index width = kCorners * table.cols();
+  const Eigen::Index width = corner_count * table.cols();
   return {"property list uchar " + std::string(ply_name(type)) + " " + name,
           type,
           table.data(),
@@ -83,7 +83,7 @@ PlyColumn corner_column(const char* name, ScalarType declared, const Table& tabl
 /// The columns of a face; the first one, of indices, has its values in the triangles.
 std::vector<PlyColumn> face_columns(const MeshFile& file) {
   std::vector<PlyColumn> columns = {{"property list uchar int vertex_indices", ScalarType::Int32,
-                                     nullptr, kCorners, kCorners, true}};
+                                     nullptr, corner_count, corner_count, true}};
   if (file.corner_texcoords)
     columns.push_back(corner_column("texcoord", file.corner_texcoord_type, *file.corner_texcoords));
   if (file.corner_normals)
@@ -109,11 +109,11 @@ std::string comment_lines(const MeshFile& file) {
   std::string lines;
   for (const std::string& comment : file.comments) {
     // A comment of another format that looks like the name of a material must not become one.
-    lines += comment.starts_with(kMaterialComment) ? "comment  " : "comment ";
+    lines += comment.starts_with(material_comment) ? "comment  " : "comment ";
     lines += one_line(comment) + "\n";
   }
   for (const std::string& material : file.materials)
-    lines += "comment " + std::string(kMaterialComment) + one_line(material) + "\n";
+    lines += "comment " + std::string(material_comment) + one_line(material) + "\n";
   return lines;
 }
 

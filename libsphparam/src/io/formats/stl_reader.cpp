@@ -18,7 +18,7 @@
 namespace sphparam {
 namespace {
 
-constexpr std::size_t kTextHeaderBytes = 80, kHeaderBytes = 84, kFacetBytes = 50;
+constexpr std::size_t text_header_bytes = 80, header_bytes = 84, facet_bytes = 50;
 
 std::uint32_t little_endian(std::string_view bytes, std::size_t at, int width) {
   std::uint32_t value = 0;
@@ -28,7 +28,7 @@ std::uint32_t little_endian(std::string_view bytes, std::size_t at, int width) {
 }
 
 std::uint64_t binary_size(std::uint32_t facets) {
-  return kHeaderBytes + kFacetBytes * std::uint64_t{facets};
+  return header_bytes + facet_bytes * std::uint64_t{facets};
 }
 
 /// Corners become vertices, three corners a triangle.
@@ -50,8 +50,8 @@ class Welder {
     const auto message = [](const char* what, std::int64_t limit) {
       return std::string("more ") + what + " than the limit of " + std::to_string(limit);
     };
-    if (facets() > std::min(options.max_faces, kMostFacets))
-      return message("triangles", std::min(options.max_faces, kMostFacets));
+    if (facets() > std::min(options.max_faces, most_facets))
+      return message("triangles", std::min(options.max_faces, most_facets));
     if (static_cast<std::int64_t>(vertices_.rows().size()) > options.max_vertices)
       return message("vertices", options.max_vertices);
     return {};
@@ -68,7 +68,7 @@ class Welder {
   }
 
  private:
-  static constexpr std::int64_t kMostFacets = std::numeric_limits<int>::max() / 3;
+  static constexpr std::int64_t most_facets = std::numeric_limits<int>::max() / 3;
   DistinctRows<double, 3> vertices_;
   std::vector<int> corners_;
 };
@@ -76,7 +76,7 @@ class Welder {
 class AsciiReader {
  public:
   AsciiReader(std::string_view text, const std::string& name, const ReadOptions& options)
-      : scanner_(text, name, options), options_(options), welder_(text.size() / kUsualFacetBytes) {
+      : scanner_(text, name, options), options_(options), welder_(text.size() / usual_facet_bytes) {
     scanner_.require_text();
   }
 
@@ -94,7 +94,7 @@ class AsciiReader {
   }
 
  private:
-  static constexpr std::size_t kUsualFacetBytes = 250;
+  static constexpr std::size_t usual_facet_bytes = 250;
 
   /// The next word in lower case, from a following line if need be; empty at the end of the text.
   std::string next_word() {
@@ -171,7 +171,7 @@ class BinaryReader {
     Welder welder(facets);
     Property attribute{"attribute", ScalarType::Uint16, std::vector<double>(facets)};
     for (std::uint32_t f = 0; f < facets; ++f) {
-      const std::size_t at = kHeaderBytes + kFacetBytes * std::size_t{f};
+      const std::size_t at = header_bytes + facet_bytes * std::size_t{f};
       for (std::size_t corner = 0; corner < 3; ++corner) add_corner(welder, at + 12 * (corner + 1));
       attribute.values[f] = little_endian(bytes_, at + 48, 2);
       const std::string problem = welder.over_limit(options_);
@@ -190,11 +190,11 @@ class BinaryReader {
 
  private:
   std::uint32_t count() const {
-    if (bytes_.size() < kHeaderBytes)
+    if (bytes_.size() < header_bytes)
       throw ReadError(name_, "is neither ASCII STL ('solid …') nor long enough to be a binary one");
-    const std::uint32_t facets = little_endian(bytes_, kTextHeaderBytes, 4);
+    const std::uint32_t facets = little_endian(bytes_, text_header_bytes, 4);
     if (bytes_.size() != binary_size(facets))
-      throw ReadError::at_byte(name_, kTextHeaderBytes,
+      throw ReadError::at_byte(name_, text_header_bytes,
                                "binary STL of " + std::to_string(facets) + " triangles has " +
                                    std::to_string(binary_size(facets)) + " bytes, this file has " +
                                    std::to_string(bytes_.size()));
@@ -213,7 +213,7 @@ class BinaryReader {
 
   // Whatever of the header can be shown.
   void add_header(MeshFile& file) const {
-    std::string header(bytes_.substr(0, kTextHeaderBytes));
+    std::string header(bytes_.substr(0, text_header_bytes));
     header.resize(std::min(header.find('\0'), header.size()));
     while (header.ends_with(' ')) header.pop_back();
     const bool printable =
@@ -229,18 +229,18 @@ class BinaryReader {
 }  // namespace
 
 bool looks_like_binary_stl(std::string_view bytes) {
-  return bytes.size() >= kHeaderBytes &&
-         bytes.size() == binary_size(little_endian(bytes, kTextHeaderBytes, 4));
+  return bytes.size() >= header_bytes &&
+         bytes.size() == binary_size(little_endian(bytes, text_header_bytes, 4));
 }
 
 bool looks_like_ascii_stl(std::string_view bytes) {
-  constexpr std::string_view kSolid = "solid";
+  constexpr std::string_view solid = "solid";
   const std::size_t start = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
   bytes.remove_prefix(start);
-  if (bytes.size() < kSolid.size()) return false;
-  const bool word = bytes.size() == kSolid.size() ||
-                    std::isspace(static_cast<unsigned char>(bytes[kSolid.size()]));
-  return word && std::equal(kSolid.begin(), kSolid.end(), bytes.begin(), [](char a, char b) {
+  if (bytes.size() < solid.size()) return false;
+  const bool word =
+      bytes.size() == solid.size() || std::isspace(static_cast<unsigned char>(bytes[solid.size()]));
+  return word && std::equal(solid.begin(), solid.end(), bytes.begin(), [](char a, char b) {
            return a == std::tolower(static_cast<unsigned char>(b));
          });
 }

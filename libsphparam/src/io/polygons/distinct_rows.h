@@ -16,7 +16,7 @@ class DistinctRows {
   using Row = std::array<Scalar, Width>;
 
   explicit DistinctRows(std::size_t expected_rows = 0) {
-    slots_.assign(std::bit_ceil(2 * expected_rows + 16), kEmpty);
+    slots_.assign(std::bit_ceil(2 * expected_rows + 16), empty);
     rows_.reserve(expected_rows);
   }
 
@@ -24,19 +24,19 @@ class DistinctRows {
   int insert(const Row& row) {
     if (2 * rows_.size() >= slots_.size()) grow();
     int& slot = slots_[find_slot(row)];
-    if (slot == kEmpty) {
+    if (slot == empty) {
       slot = static_cast<int>(rows_.size());
       rows_.push_back(row);
     }
     return slot;
   }
 
-  bool contains(const Row& row) const { return slots_[find_slot(row)] != kEmpty; }
+  bool contains(const Row& row) const { return slots_[find_slot(row)] != empty; }
 
   const std::vector<Row>& rows() const { return rows_; }
 
  private:
-  static constexpr int kEmpty = -1;
+  static constexpr int empty = -1;
   using Bits = std::conditional_t<sizeof(Scalar) == 8, std::uint64_t, std::uint32_t>;
 
   static bool same_bits(const Row& a, const Row& b) {
@@ -60,13 +60,13 @@ class DistinctRows {
   std::size_t find_slot(const Row& row) const {
     const std::size_t mask = slots_.size() - 1;
     std::size_t at = hash(row) & mask;
-    while (slots_[at] != kEmpty && !same_bits(rows_[static_cast<std::size_t>(slots_[at])], row))
+    while (slots_[at] != empty && !same_bits(rows_[static_cast<std::size_t>(slots_[at])], row))
       at = (at + 1) & mask;
     return at;
   }
 
   void grow() {
-    slots_.assign(2 * slots_.size(), kEmpty);
+    slots_.assign(2 * slots_.size(), empty);
     for (std::size_t i = 0; i < rows_.size(); ++i)
       slots_[find_slot(rows_[i])] = static_cast<int>(i);
   }

@@ -34,11 +34,11 @@ std::vector<int> find_doublets(const Polygons& polygons, std::int64_t vertex_cou
 }
 
 std::string doublet_note(const std::vector<int>& doublets) {
-  constexpr std::size_t kListed = 10;
+  constexpr std::size_t most_listed = 10;
   std::string text = "two polygons share two edges in a row about vertices ";
-  for (std::size_t i = 0; i < std::min(doublets.size(), kListed); ++i)
+  for (std::size_t i = 0; i < std::min(doublets.size(), most_listed); ++i)
     text += (i ? ", " : "") + std::to_string(doublets[i]);
-  return text + (doublets.size() > kListed ? ", …" : "") +
+  return text + (doublets.size() > most_listed ? ", …" : "") +
          ": the triangles between these edges are there twice";
 }
 

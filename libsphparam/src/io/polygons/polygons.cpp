@@ -20,10 +20,10 @@
 namespace sphparam {
 namespace {
 
-constexpr int kMaxClippedDegree = 512;
+constexpr int max_clipped_degree = 512;
 
 // Half-edges are numbered by int, three to a triangle.
-constexpr std::int64_t kMostTriangles = std::numeric_limits<int>::max() / 3;
+constexpr std::int64_t most_triangles = std::numeric_limits<int>::max() / 3;
 
 /// The corners relative to the first one, scaled by a power of two to at most 1.
 void local_corners(const Points& positions, std::span<const int> polygon,
@@ -152,7 +152,7 @@ class Triangulator {
     const Vector3 normal = newell_normal(local_);
     const int degree = static_cast<int>(polygon.size());
     const bool has_plane = normal.squaredNorm() > 0;
-    if (degree > kMaxClippedDegree || !has_plane || fan_is_good(polygon, normal)) {
+    if (degree > max_clipped_degree || !has_plane || fan_is_good(polygon, normal)) {
       cut_fan(polygon, 0);
     } else {
       clip_ears(polygon, project(local_, normal), edges_, triples_);
@@ -182,8 +182,8 @@ class Triangulator {
 };
 
 bool has_repeated_corner(std::span<const int> polygon) {
-  constexpr std::size_t kFewCorners = 8;
-  if (polygon.size() <= kFewCorners) {
+  constexpr std::size_t few_corners = 8;
+  if (polygon.size() <= few_corners) {
     for (std::size_t i = 1; i < polygon.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
         if (polygon[i] == polygon[j]) return true;
@@ -258,7 +258,7 @@ std::string shortened_note(long count) {
 
 std::string Polygons::close_polygon(const ReadOptions& options) {
   const std::int64_t corner_count = open_degree();
-  const std::int64_t triangle_limit = std::min(options.max_faces, kMostTriangles);
+  const std::int64_t triangle_limit = std::min(options.max_faces, most_triangles);
   if (corner_count < 3) return "face has fewer than 3 corners";
   if (corner_count > options.max_polygon_degree)
     return "face has more corners than the limit of " + std::to_string(options.max_polygon_degree);

@@ -12,7 +12,7 @@
 namespace sphparam {
 namespace {
 
-constexpr const char* kSourceVertex = "source_vertex";
+constexpr const char* source_vertex = "source_vertex";
 
 struct Renumbering {
   std::vector<int> new_vertex;  // of each old vertex
@@ -27,8 +27,8 @@ MeshFile renumbered(MeshFile file, const Renumbering& renumbering) {
   file.mesh.positions = std::move(positions);
 
   // Ids of the file are remembered, not ids of an intermediate step.
-  if (!file.find_vertex_property(kSourceVertex)) {
-    Property source{kSourceVertex, ScalarType::Int32, {}};
+  if (!file.find_vertex_property(source_vertex)) {
+    Property source{source_vertex, ScalarType::Int32, {}};
     source.values.resize(renumbering.new_vertex.size());
     std::iota(source.values.begin(), source.values.end(), 0.0);
     file.vertex_properties.push_back(std::move(source));

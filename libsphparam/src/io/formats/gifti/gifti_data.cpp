@@ -16,10 +16,10 @@
 namespace sphparam {
 namespace {
 
-constexpr const char* kAscii = "ASCII";
-constexpr const char* kBase64 = "Base64Binary";
-constexpr const char* kCompressed = "GZipBase64Binary";
-constexpr std::int64_t kMostNumbers = std::numeric_limits<int>::max();
+constexpr const char* ascii = "ASCII";
+constexpr const char* base64 = "Base64Binary";
+constexpr const char* compressed = "GZipBase64Binary";
+constexpr std::int64_t most_numbers = std::numeric_limits<int>::max();
 
 bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
@@ -31,7 +31,7 @@ std::size_t filled_characters(const GiftiArray& array) {
 
 /// The bytes behind base64 text, blanks between.
 std::vector<unsigned char> from_base64(const GiftiArray& array, const std::string& name) {
-  static const std::array<int, 256> kDigits = [] {
+  static const std::array<int, 256> digit_table = [] {
     std::array<int, 256> digits;
     digits.fill(-1);
     const std::string_view alphabet =
@@ -46,7 +46,7 @@ std::vector<unsigned char> from_base64(const GiftiArray& array, const std::strin
   int digits = 0, padding = 0;
   for (const char c : array.data) {
     if (is_blank(c)) continue;
-    const int digit = kDigits[static_cast<unsigned char>(c)];
+    const int digit = digit_table[static_cast<unsigned char>(c)];
     padding += c == '=';
     if ((digit < 0 && c != '=') || (padding > 0 && c != '='))
       fail_in_array(name, array, "has data that is no base64");
@@ -70,9 +70,9 @@ struct Inflation {
 
 std::vector<unsigned char> inflated(std::vector<unsigned char> packed, std::size_t size,
                                     const GiftiArray& array, const std::string& name) {
-  constexpr int kZlibOrGzip = 15 + 32;
+  constexpr int zlib_or_gzip = 15 + 32;
   Inflation inflation;
-  if (inflateInit2(&inflation.stream, kZlibOrGzip) != Z_OK) throw std::bad_alloc();
+  if (inflateInit2(&inflation.stream, zlib_or_gzip) != Z_OK) throw std::bad_alloc();
   // One byte more than wanted shows that there is more. Room comes as bytes do: what a file says of
   // its size is not believed.
   const std::size_t most = size + 1;
@@ -81,12 +81,12 @@ std::vector<unsigned char> inflated(std::vector<unsigned char> packed, std::size
   std::size_t filled = 0, used = 0;
   int status = Z_OK;
   while (status == Z_OK && filled < most) {
-    constexpr std::size_t kMost = 1u << 30, kFirstRoom = 1u << 16;
-    if (filled == bytes.size()) bytes.resize(std::min(most, std::max(kFirstRoom, 2 * filled)));
+    constexpr std::size_t most_at_once = 1u << 30, first_room = 1u << 16;
+    if (filled == bytes.size()) bytes.resize(std::min(most, std::max(first_room, 2 * filled)));
     stream.next_in = packed.data() + used;
-    stream.avail_in = static_cast<uInt>(std::min(kMost, packed.size() - used));
+    stream.avail_in = static_cast<uInt>(std::min(most_at_once, packed.size() - used));
     stream.next_out = bytes.data() + filled;
-    stream.avail_out = static_cast<uInt>(std::min(kMost, bytes.size() - filled));
+    stream.avail_out = static_cast<uInt>(std::min(most_at_once, bytes.size() - filled));
     const uInt room = stream.avail_out, given = stream.avail_in;
     status = inflate(&stream, Z_NO_FLUSH);
     filled += room - stream.avail_out;
@@ -170,12 +170,12 @@ std::vector<double> transposed(const std::vector<double>& numbers, std::size_t r
 }  // namespace
 
 ScalarType gifti_type(const GiftiArray& array, const std::string& name) {
-  static constexpr std::pair<std::string_view, ScalarType> kTypes[] = {
+  static constexpr std::pair<std::string_view, ScalarType> types[] = {
       {"NIFTI_TYPE_UINT8", ScalarType::Uint8},     {"NIFTI_TYPE_INT32", ScalarType::Int32},
       {"NIFTI_TYPE_FLOAT32", ScalarType::Float32}, {"NIFTI_TYPE_FLOAT64", ScalarType::Float64},
       {"NIFTI_TYPE_INT8", ScalarType::Int8},       {"NIFTI_TYPE_INT16", ScalarType::Int16},
       {"NIFTI_TYPE_UINT16", ScalarType::Uint16},   {"NIFTI_TYPE_UINT32", ScalarType::Uint32}};
-  for (const auto& [written, type] : kTypes)
+  for (const auto& [written, type] : types)
     if (array.data_type == written) return type;
   fail_in_array(name, array, "has the unsupported type " + quoted(array.data_type));
 }
@@ -187,11 +187,11 @@ std::int64_t gifti_count(const GiftiArray& array, std::int64_t most_inflation,
   const auto size = static_cast<std::int64_t>(size_in_bytes(gifti_type(array, name)));
   const auto text = static_cast<std::int64_t>(filled_characters(array));
   std::int64_t most = 0;
-  if (array.encoding == kAscii)
+  if (array.encoding == ascii)
     most = std::min(text, static_cast<std::int64_t>(array.data.size() + 1) / 2);
-  else if (array.encoding == kBase64)
+  else if (array.encoding == base64)
     most = text / 4 * 3 / size;
-  else if (array.encoding == kCompressed)
+  else if (array.encoding == compressed)
     most = text / 4 * 3 * most_inflation / size;
   else
     fail_in_array(name, array, "has the unknown encoding " + quoted(array.encoding));
@@ -199,9 +199,9 @@ std::int64_t gifti_count(const GiftiArray& array, std::int64_t most_inflation,
   std::int64_t count = 1;
   for (const std::int64_t dimension : array.dimensions) {
     count *= dimension;
-    if (count > kMostNumbers) break;
+    if (count > most_numbers) break;
   }
-  if (count > std::min(most, kMostNumbers))
+  if (count > std::min(most, most_numbers))
     fail_in_array(name, array, "has dimensions that its data cannot hold");
   return count;
 }
@@ -215,11 +215,11 @@ std::vector<double> decode_gifti(const GiftiArray& array, const std::string& nam
   if (count == 0 && array.data.empty()) return {};  // not even an empty stream
 
   std::vector<double> numbers;
-  if (array.encoding == kAscii) {
+  if (array.encoding == ascii) {
     numbers = from_text(count, array, type, name);
   } else {
     std::vector<unsigned char> bytes = from_base64(array, name);
-    if (array.encoding == kCompressed) bytes = inflated(std::move(bytes), size, array, name);
+    if (array.encoding == compressed) bytes = inflated(std::move(bytes), size, array, name);
     if (bytes.size() != size)
       fail_in_array(name, array, "has another number of bytes than its dimensions say");
     numbers = from_bytes(bytes, array, type, name);

@@ -9,7 +9,7 @@
 namespace sphparam {
 namespace {
 
-constexpr std::string_view kPrefix = "gifti label ";
+constexpr std::string_view prefix = "gifti label ";
 
 /// The text up to the next blank, which is taken off the front with it.
 std::string_view take_word(std::string_view& text) {
@@ -34,7 +34,7 @@ std::string shortest(float number) {
 }  // namespace
 
 std::string comment_of(const GiftiLabel& label) {
-  std::string text = std::string(kPrefix) + std::to_string(label.key);
+  std::string text = std::string(prefix) + std::to_string(label.key);
   if (label.colour) {
     for (const float channel : *label.colour) text += " " + shortest(channel);
   } else {
@@ -44,8 +44,8 @@ std::string comment_of(const GiftiLabel& label) {
 }
 
 std::optional<GiftiLabel> label_in(std::string_view comment) {
-  if (!comment.starts_with(kPrefix)) return std::nullopt;
-  comment.remove_prefix(kPrefix.size());
+  if (!comment.starts_with(prefix)) return std::nullopt;
+  comment.remove_prefix(prefix.size());
   GiftiLabel label;
   if (!parse(take_word(comment), label.key)) return std::nullopt;
   if (comment == "-" || comment.starts_with("- ")) {

@@ -20,13 +20,13 @@ namespace sphparam {
 namespace {
 
 // Coordinates and triangles hardly pack; labels and masks may pack as well as anything.
-constexpr std::int64_t kMostSurfaceInflation = 100, kMostInflation = 1000;
-constexpr std::size_t kMostProperties = 64;
-constexpr std::array<std::string_view, 4> kKept = {"AnatomicalStructurePrimary",
-                                                   "AnatomicalStructureSecondary", "GeometricType",
-                                                   "TopologicalType"};
-constexpr std::string_view kPointset = "NIFTI_INTENT_POINTSET";
-constexpr std::string_view kTriangle = "NIFTI_INTENT_TRIANGLE";
+constexpr std::int64_t most_surface_inflation = 100, most_inflation = 1000;
+constexpr std::size_t most_properties = 64;
+constexpr std::array<std::string_view, 4> kept = {"AnatomicalStructurePrimary",
+                                                  "AnatomicalStructureSecondary", "GeometricType",
+                                                  "TopologicalType"};
+constexpr std::string_view pointset = "NIFTI_INTENT_POINTSET";
+constexpr std::string_view triangle = "NIFTI_INTENT_TRIANGLE";
 
 class GiftiReader {
  public:
@@ -35,11 +35,11 @@ class GiftiReader {
 
   MeshFile read() {
     file_.format = "GIFTI";
-    const GiftiArray& points = the_only(kPointset);
+    const GiftiArray& points = the_only(pointset);
     read_points(points);
-    read_triangles(the_only(kTriangle));
+    read_triangles(the_only(triangle));
     for (const GiftiArray& array : document_.arrays)
-      if (array.intent != kPointset && array.intent != kTriangle) read_property(array);
+      if (array.intent != pointset && array.intent != triangle) read_property(array);
     add_comments(points);
     return std::move(file_);
   }
@@ -58,7 +58,7 @@ class GiftiReader {
 
   /// Decodes an array of rows of three.
   std::vector<double> triples(const GiftiArray& array, std::int64_t limit, const char* what) const {
-    const std::int64_t count = gifti_count(array, kMostSurfaceInflation, name_);
+    const std::int64_t count = gifti_count(array, most_surface_inflation, name_);
     if (array.dimensions.size() != 2 || array.dimensions[1] != 3)
       fail_in_array(name_, array, "does not have rows of three");
     if (array.dimensions[0] > limit || count > std::numeric_limits<int>::max())
@@ -116,9 +116,9 @@ class GiftiReader {
     };
     if (array.dimensions[0] != vertices || others != 1)
       return leave("it does not have one number a vertex");
-    if (file_.vertex_properties.size() == kMostProperties)
-      return leave("only " + std::to_string(kMostProperties) + " are kept");
-    gifti_count(array, kMostInflation, name_);
+    if (file_.vertex_properties.size() == most_properties)
+      return leave("only " + std::to_string(most_properties) + " are kept");
+    gifti_count(array, most_inflation, name_);
     std::vector<double> values = decode_gifti(array, name_);
     const bool finite = std::all_of(values.begin(), values.end(),
                                     [](double value) { return std::isfinite(value); });
@@ -128,12 +128,11 @@ class GiftiReader {
 
   /// From the metadata, else from the intent; unlike those that are there already.
   std::string property_name(const GiftiArray& array) const {
-    constexpr std::string_view kPrefix = "NIFTI_INTENT_";
-    constexpr std::size_t kLongest = 64;
+    constexpr std::string_view prefix = "NIFTI_INTENT_";
+    constexpr std::size_t longest_allowed = 64;
     std::string name = value_of(array.metadata, "Name");
-    if (name.empty())
-      name = array.intent.substr(array.intent.starts_with(kPrefix) * kPrefix.size());
-    name = one_line(name.substr(0, kLongest));
+    if (name.empty()) name = array.intent.substr(array.intent.starts_with(prefix) * prefix.size());
+    name = one_line(name.substr(0, longest_allowed));
     for (char& c : name)
       if (!std::isgraph(static_cast<unsigned char>(c))) c = '_';
     const auto taken = [this](const std::string& candidate) {
@@ -153,14 +152,14 @@ class GiftiReader {
   }
 
   void add_comments(const GiftiArray& points) {
-    constexpr std::string_view kOurs = "sphparam ";
-    constexpr std::size_t kLongest = 1000;
+    constexpr std::string_view ours = "sphparam ";
+    constexpr std::size_t longest_allowed = 1000;
     for (const auto& [key, value] : document_.metadata)
-      if (key.starts_with(kOurs) && value.size() <= kLongest)
+      if (key.starts_with(ours) && value.size() <= longest_allowed)
         file_.comments.push_back(one_line(key + " " + value));
-    for (const std::string_view key : kKept) {
+    for (const std::string_view key : kept) {
       const std::string value = value_of(points.metadata, key);
-      if (!value.empty() && value.size() <= kLongest)
+      if (!value.empty() && value.size() <= longest_allowed)
         file_.comments.push_back(one_line("gifti " + std::string(key) + " " + value));
     }
     note_metadata();
@@ -176,9 +175,9 @@ class GiftiReader {
     const auto add = [&](const GiftiMetadata& metadata) {
       for (const auto& [key, value] : metadata) {
         const bool known = key.empty() || key == "Name" || key.starts_with("sphparam ") ||
-                           std::find(kKept.begin(), kKept.end(), key) != kKept.end();
+                           std::find(kept.begin(), kept.end(), key) != kept.end();
         if (!known && std::find(keys.begin(), keys.end(), quoted(key)) == keys.end() &&
-            keys.size() < kMostProperties)
+            keys.size() < most_properties)
           keys.push_back(quoted(key));
       }
     };
@@ -207,11 +206,11 @@ class GiftiReader {
 }  // namespace
 
 bool looks_like_gifti(std::string_view bytes) {
-  constexpr std::size_t kPrologue = 4096;
+  constexpr std::size_t prologue_size = 4096;
   const std::size_t start = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
   bytes.remove_prefix(start);
   if (!bytes.starts_with("<")) return false;
-  const std::string_view prologue = bytes.substr(0, kPrologue);
+  const std::string_view prologue = bytes.substr(0, prologue_size);
   return prologue.find("<GIFTI") != std::string_view::npos ||
          prologue.find("<!DOCTYPE GIFTI") != std::string_view::npos;
 }

@@ -16,7 +16,7 @@
 namespace sphparam {
 namespace {
 
-constexpr std::size_t kDeepest = 8;  // GIFTI has five levels
+constexpr std::size_t deepest = 8;  // GIFTI has five levels
 
 class Parser {
  public:
@@ -30,9 +30,9 @@ class Parser {
   }
 
   GiftiDocument parse() {
-    constexpr std::size_t kPiece = 1 << 20;
-    for (std::size_t at = 0; at < bytes_.size(); at += kPiece) {
-      const std::string_view piece = bytes_.substr(at, kPiece);
+    constexpr std::size_t piece_size = 1 << 20;
+    for (std::size_t at = 0; at < bytes_.size(); at += piece_size) {
+      const std::string_view piece = bytes_.substr(at, piece_size);
       const bool last = at + piece.size() == bytes_.size();
       const XML_Status status =
           XML_Parse(expat_.get(), piece.data(), static_cast<int>(piece.size()), last);
@@ -93,7 +93,7 @@ class Parser {
   GiftiMetadata& metadata() { return in_array() ? array().metadata : document_.metadata; }
 
   void start(const std::string& element, const XML_Char** attributes) {
-    if (path_.size() >= kDeepest) fail("elements are nested deeper than GIFTI has them");
+    if (path_.size() >= deepest) fail("elements are nested deeper than GIFTI has them");
     if (path_.empty() && element != "GIFTI") fail("expected <GIFTI>, found " + quoted(element));
     if (element == "GIFTI") start_gifti(attributes);
     if (element == "DataArray") start_array(attributes);
@@ -102,9 +102,9 @@ class Parser {
     if (element == "MD" && inside("MetaData")) metadata().emplace_back();
     if (element == "CoordinateSystemTransformMatrix" && inside("DataArray"))
       array().coordinate_systems.emplace_back();
-    static constexpr std::string_view kTexts[] = {
+    static constexpr std::string_view texts[] = {
         "Data", "Name", "Value", "Label", "DataSpace", "MatrixData", "TransformedSpace"};
-    collecting_ = std::find(std::begin(kTexts), std::end(kTexts), element) != std::end(kTexts);
+    collecting_ = std::find(std::begin(texts), std::end(texts), element) != std::end(texts);
     text_.clear();
     path_.push_back(element);
   }
@@ -155,7 +155,7 @@ class Parser {
   }
 
   void start_label(const XML_Char** attributes) {
-    static constexpr std::string_view kChannels[] = {"Red", "Green", "Blue", "Alpha"};
+    static constexpr std::string_view channels[] = {"Red", "Green", "Blue", "Alpha"};
     GiftiLabel label;
     std::array<float, 4> colour = {0, 0, 0, 1};
     bool has_key = false;
@@ -165,9 +165,9 @@ class Parser {
         label.key = number<int>(value, "a whole number");
         has_key = true;
       }
-      const auto channel = std::find(std::begin(kChannels), std::end(kChannels), name);
-      if (channel == std::end(kChannels)) continue;
-      colour[static_cast<std::size_t>(channel - std::begin(kChannels))] =
+      const auto channel = std::find(std::begin(channels), std::end(channels), name);
+      if (channel == std::end(channels)) continue;
+      colour[static_cast<std::size_t>(channel - std::begin(channels))] =
           number<float>(value, "a number");
       label.colour = colour;
     }

@@ -12,7 +12,7 @@
 namespace sphparam {
 namespace {
 
-constexpr std::uint64_t kMostNumbersPerByte = 4;
+constexpr std::uint64_t most_numbers_per_byte = 4;
 
 /// A little-endian number at any address.
 double number_at(const unsigned char* at, ScalarType type) {
@@ -101,7 +101,7 @@ GltfAccessors::Range GltfAccessors::range(int accessor, int view_id, std::uint64
 }
 
 void GltfAccessors::spend(int accessor, std::uint64_t numbers) {
-  const std::uint64_t most = kMostNumbersPerByte * buffer_bytes_;
+  const std::uint64_t most = most_numbers_per_byte * buffer_bytes_;
   if (numbers > most || numbers_read_ > most - numbers)
     fail(accessor, "the accessors ask for more numbers than the buffers can hold");
   numbers_read_ += numbers;

@@ -8,8 +8,8 @@
 namespace sphparam {
 namespace {
 
-constexpr std::size_t kHeaderBytes = 12, kChunkHeaderBytes = 8;
-constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
+constexpr std::size_t header_bytes = 12, chunk_header_bytes = 8;
+constexpr std::uint32_t json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;
 
 std::uint32_t word_at(std::string_view bytes, std::size_t at) {
   std::uint32_t value = 0;
@@ -21,18 +21,18 @@ std::uint32_t word_at(std::string_view bytes, std::size_t at) {
 std::pair<std::uint32_t, std::string_view> chunk_at(std::string_view whole, std::size_t at,
                                                     const std::string& name) {
   const auto fail = [&](const std::string& what) { throw ReadError::at_byte(name, at, what); };
-  if (whole.size() - at < kChunkHeaderBytes) fail("the file ends within the header of a chunk");
+  if (whole.size() - at < chunk_header_bytes) fail("the file ends within the header of a chunk");
   const std::uint32_t length = word_at(whole, at), kind = word_at(whole, at + 4);
-  if (length > whole.size() - at - kChunkHeaderBytes)
+  if (length > whole.size() - at - chunk_header_bytes)
     fail("chunk of " + std::to_string(length) + " bytes runs past the end of the file");
   if (length % 4 != 0) fail("the length of a chunk is no multiple of 4");
-  return {kind, whole.substr(at + kChunkHeaderBytes, length)};
+  return {kind, whole.substr(at + chunk_header_bytes, length)};
 }
 
 /// Checks the twelve bytes of the header and the headers of all chunks.
 GltfContainer open_binary(std::string_view bytes, const std::string& name,
                           std::vector<std::string>& notes) {
-  if (bytes.size() < kHeaderBytes) throw ReadError(name, "is too short for a binary glTF");
+  if (bytes.size() < header_bytes) throw ReadError(name, "is too short for a binary glTF");
   if (bytes.size() > std::numeric_limits<std::uint32_t>::max())
     throw ReadError(name, "is larger than a binary glTF can be (4 GiB)");
   const std::uint32_t version = word_at(bytes, 4), length = word_at(bytes, 8);
@@ -45,18 +45,18 @@ GltfContainer open_binary(std::string_view bytes, const std::string& name,
                              "the header says " + std::to_string(length) + " bytes, the file has " +
                                  std::to_string(bytes.size()));
   if (length < bytes.size()) notes.push_back("data after the end of the GLB ignored");
-  if (length < kHeaderBytes) throw ReadError::at_byte(name, 8, "the length of the file is wrong");
+  if (length < header_bytes) throw ReadError::at_byte(name, 8, "the length of the file is wrong");
 
   GltfContainer container{.is_binary = true, .whole = bytes.substr(0, length)};
-  const auto [kind, json] = chunk_at(container.whole, kHeaderBytes, name);
-  if (kind != kJsonChunk)
-    throw ReadError::at_byte(name, kHeaderBytes, "the first chunk is no JSON");
+  const auto [kind, json] = chunk_at(container.whole, header_bytes, name);
+  if (kind != json_chunk)
+    throw ReadError::at_byte(name, header_bytes, "the first chunk is no JSON");
   container.json = json;
-  container.json_offset = kHeaderBytes + kChunkHeaderBytes;
+  container.json_offset = header_bytes + chunk_header_bytes;
   for (std::size_t at = container.json_offset + json.size(); at < length;) {
     const auto [next_kind, chunk] = chunk_at(container.whole, at, name);
-    container.has_binary_chunk |= next_kind == kBinaryChunk;
-    at += kChunkHeaderBytes + chunk.size();
+    container.has_binary_chunk |= next_kind == binary_chunk;
+    at += chunk_header_bytes + chunk.size();
   }
   return container;
 }

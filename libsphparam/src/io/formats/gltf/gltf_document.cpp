@@ -8,9 +8,9 @@
 #include "io/formats/gltf/gltf_document_model.h"
 #include "io/formats/gltf/gltf_files.h"
 #include "io/formats/gltf/gltf_json.h"
+#include "number_text.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/mesh_file.h"
-#include "number_text.h"
 
 // What starts like this file's name knows tinygltf, and that as a stranger: the container and the
 // JSON are checked first, it gets files through callbacks that ignore the paths it makes, images
@@ -86,9 +86,9 @@ tinygltf::Model parse(const GltfContainer& container, BufferFiles& files, const 
     error = unexpected.what();
   }
   if (!files.failure.empty()) throw ReadError(name, files.failure);
-  constexpr std::size_t kShown = 200;
+  constexpr std::size_t most_shown = 200;
   if (!loaded)
-    throw ReadError(name, "cannot be read as glTF: " + one_line(error.substr(0, kShown)));
+    throw ReadError(name, "cannot be read as glTF: " + one_line(error.substr(0, most_shown)));
   return model;
 }
 

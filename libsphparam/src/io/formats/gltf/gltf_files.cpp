@@ -54,7 +54,7 @@ struct Descriptor {
   }
 };
 
-constexpr int kOpenFlags = O_RDONLY | O_CLOEXEC | O_NONBLOCK;  // never waits for a pipe's writer
+constexpr int open_flags = O_RDONLY | O_CLOEXEC | O_NONBLOCK;  // never waits for a pipe's writer
 
 int open_by_resolved_path(const fs::path& folder, const fs::path& path) {
   std::error_code missing;
@@ -68,14 +68,14 @@ int open_by_resolved_path(const fs::path& folder, const fs::path& path) {
     errno = EXDEV;
     return -1;
   }
-  return ::open(target.c_str(), kOpenFlags | O_NOFOLLOW);
+  return ::open(target.c_str(), open_flags | O_NOFOLLOW);
 }
 
 int open_below(const fs::path& folder, const fs::path& path) {
   const Descriptor directory{::open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC)};
   if (directory.number < 0) return -1;
   open_how how{};
-  how.flags = kOpenFlags;
+  how.flags = open_flags;
   how.resolve = RESOLVE_BENEATH | RESOLVE_NO_MAGICLINKS;
   const long opened = ::syscall(SYS_openat2, directory.number, path.c_str(), &how, sizeof how);
   if (opened >= 0 || (errno != ENOSYS && errno != EPERM)) return static_cast<int>(opened);

@@ -57,8 +57,8 @@ class Checker : public nlohmann::json_sax<Json> {
   bool number_unsigned(number_unsigned_t value) override {
     const bool wide = starts_with_any(path(), {"buffers/#/byteLength", "bufferViews/#/byte",
                                                "accessors/#/byteOffset", "accessors/#/count"});
-    constexpr std::uint64_t kWide = std::uint64_t{1} << 53;
-    if (is_index() && value > (wide ? kWide : std::numeric_limits<std::int32_t>::max()))
+    constexpr std::uint64_t widest = std::uint64_t{1} << 53;
+    if (is_index() && value > (wide ? widest : std::numeric_limits<std::int32_t>::max()))
       fail(path() + " is out of range");
     return whole_number();
   }
@@ -140,11 +140,11 @@ class Checker : public nlohmann::json_sax<Json> {
 
   /// Where we are. Names of members are cut: no path that matters is longer.
   std::string path() const {
-    constexpr std::size_t kDeepest = 6, kLongest = 24;
+    constexpr std::size_t deepest = 6, longest_allowed = 24;
     std::string text;
-    for (std::size_t i = 0; i < std::min(steps_.size(), kDeepest); ++i) {
+    for (std::size_t i = 0; i < std::min(steps_.size(), deepest); ++i) {
       if (i > 0) text.push_back('/');
-      text.append(steps_[i], 0, kLongest);
+      text.append(steps_[i], 0, longest_allowed);
     }
     return text;
   }
@@ -152,19 +152,18 @@ class Checker : public nlohmann::json_sax<Json> {
   /// True where tinygltf reads an integer that says what is read.
   bool is_index() const {
     if (steps_.empty()) return false;
-    static constexpr std::string_view kRooms[] = {"buffers", "bufferViews", "accessors",
-                                                  "meshes",  "nodes",       "scenes"};
-    static constexpr std::string_view kKeys[] = {
+    static constexpr std::string_view rooms[] = {"buffers", "bufferViews", "accessors",
+                                                 "meshes",  "nodes",       "scenes"};
+    static constexpr std::string_view keys[] = {
         "buffer",        "bufferView", "byteOffset", "byteLength", "byteStride",
         "componentType", "count",      "indices",    "mesh",       "mode"};
     const std::string& last = steps_.back();
     if (steps_.size() == 1) return last == "scene";
-    if (std::find(std::begin(kRooms), std::end(kRooms), steps_[0]) == std::end(kRooms))
-      return false;
+    if (std::find(std::begin(rooms), std::end(rooms), steps_[0]) == std::end(rooms)) return false;
     for (const std::string& step : steps_)
       if (step == "extras" || step == "extensions") return false;
     const std::string& parent = steps_[steps_.size() - 2];
-    return std::find(std::begin(kKeys), std::end(kKeys), last) != std::end(kKeys) ||
+    return std::find(std::begin(keys), std::end(keys), last) != std::end(keys) ||
            parent == "attributes" ||
            (last == "#" && (parent == "children" || parent == "nodes") && steps_.size() > 2);
   }

@@ -13,9 +13,9 @@
 #include "io/formats/gltf/gltf_accessors.h"
 #include "io/formats/gltf/gltf_document.h"
 #include "io/formats/gltf/gltf_nodes.h"
+#include "number_text.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/up_axis.h"
-#include "number_text.h"
 
 // Every placed mesh in turn: positions go through x ↦ Ax + b, normals through A⁻ᵀ; where det A < 0
 // the triangles are turned over, as the specification says. Primitives of one placed mesh that
@@ -25,12 +25,12 @@ namespace sphparam {
 namespace {
 
 /// What `export --theta-phi` writes: two angles a vertex.
-constexpr std::string_view kThetaPhi = "_THETA_PHI";
+constexpr std::string_view theta_phi = "_THETA_PHI";
 
-enum Mode { kPoints = 0, kTriangles = 4, kStrip = 5, kFan = 6 };
+enum Mode { ModePoints = 0, ModeTriangles = 4, ModeStrip = 5, ModeFan = 6 };
 
 /// One file may name the same bytes over and over: what is made of them is bounded by their number.
-constexpr std::uint64_t kMostTrianglesPerByte = 2;
+constexpr std::uint64_t most_triangles_per_byte = 2;
 
 /// A vertex property under construction: primitives without it leave gaps.
 struct Column {
@@ -89,10 +89,10 @@ class SceneReader {
 
   /// The accessor of the positions.
   int check_primitive(const GltfDocument::Primitive& primitive) const {
-    if (primitive.mode < kPoints || primitive.mode > kFan)
+    if (primitive.mode < ModePoints || primitive.mode > ModeFan)
       fail(where_ + " has the unknown mode " + std::to_string(primitive.mode));
-    if (primitive.mode < kTriangles)
-      fail(where_ + " holds " + (primitive.mode == kPoints ? "points" : "lines") +
+    if (primitive.mode < ModeTriangles)
+      fail(where_ + " holds " + (primitive.mode == ModePoints ? "points" : "lines") +
            ", which are not supported; triangles are");
     const auto position = primitive.attributes.find("POSITION");
     if (position == primitive.attributes.end()) fail(where_ + " has no positions");
@@ -115,7 +115,7 @@ class SceneReader {
     const std::int64_t limit =
         std::min<std::int64_t>(options_.max_vertices, std::numeric_limits<int>::max());
     const std::int64_t in_bytes =
-        static_cast<std::int64_t>(3 * kMostTrianglesPerByte * accessors_.buffer_bytes());
+        static_cast<std::int64_t>(3 * most_triangles_per_byte * accessors_.buffer_bytes());
     if (count > std::min(limit, in_bytes) - vertex_count())
       fail(where_ + ": more vertices than the limit of " +
            std::to_string(std::min(limit, in_bytes)));
@@ -150,7 +150,7 @@ class SceneReader {
       add_column("t", ScalarType::Float32, accessor, 1, before, [](double v) { return 1 - v; });
     } else if (attribute == "COLOR_0") {
       add_colours(accessor, before);
-    } else if (attribute == kThetaPhi) {
+    } else if (attribute == theta_phi) {
       add_column("theta", accessors_.type(accessor), accessor, 0, before);
       add_column("phi", accessors_.type(accessor), accessor, 1, before);
     } else {
@@ -163,7 +163,7 @@ class SceneReader {
   bool has_place(const std::string& attribute, int accessor) const {
     if (attribute == "NORMAL" || attribute == "TEXCOORD_0" || attribute == "COLOR_0") return true;
     const int components = accessors_.accessor(accessor).components;
-    return attribute.starts_with("_") && components == (attribute == kThetaPhi ? 2 : 1);
+    return attribute.starts_with("_") && components == (attribute == theta_phi ? 2 : 1);
   }
 
   template <class Change = std::identity>
@@ -226,7 +226,7 @@ class SceneReader {
     const auto corner = [&](std::uint64_t i) {
       return first + static_cast<int>(primitive.indices >= 0 ? indices[i] : i);
     };
-    const bool list = primitive.mode == kTriangles;
+    const bool list = primitive.mode == ModeTriangles;
     if (corners < 3 || (list && corners % 3 != 0))
       fail(where_ + ": " + std::to_string(corners) + " corners make no whole triangles");
     const std::uint64_t count = list ? corners / 3 : corners - 2;
@@ -234,8 +234,8 @@ class SceneReader {
     for (std::uint64_t t = 0; t < count; ++t) {
       // A strip turns every other triangle over; a fan has its first corner in each.
       const std::uint64_t start = list ? 3 * t : t;
-      const std::uint64_t odd = primitive.mode == kStrip ? t % 2 : 0;
-      const bool fan = primitive.mode == kFan;
+      const std::uint64_t odd = primitive.mode == ModeStrip ? t % 2 : 0;
+      const bool fan = primitive.mode == ModeFan;
       const int a = fan ? corner(t + 1) : corner(start);
       const int b = fan ? corner(t + 2) : corner(start + 1 + odd);
       const int c = fan ? corner(0) : corner(start + 2 - odd);
@@ -246,7 +246,7 @@ class SceneReader {
   void require_room_for(std::uint64_t count) const {
     const auto limit = static_cast<std::uint64_t>(
         std::min<std::int64_t>(options_.max_faces, std::numeric_limits<int>::max() / 3));
-    const std::uint64_t most = std::min(limit, kMostTrianglesPerByte * accessors_.buffer_bytes());
+    const std::uint64_t most = std::min(limit, most_triangles_per_byte * accessors_.buffer_bytes());
     if (count + static_cast<std::uint64_t>(triangle_count()) > most)
       fail(where_ + ": more triangles than the limit of " + std::to_string(most));
   }
