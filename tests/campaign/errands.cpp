@@ -101,7 +101,7 @@ void map(Maker& make) {
   make.add_map_options(words);
   make.maybe(words, 0.1, {"--method", make.one_of({"curvilinear", "paper", "tangential"})});
   make.maybe(words, 0.3, {"--json", "map.json"});
-  make.maybe(words, 0.2, {"--charts", "charts"});
+  make.maybe(words, 0.2, {"--plots", "plots"});
   make.errand.commands.push_back(words);
   make.errand.commands.push_back({"verify", "map.sph.ply", "--chart"});
 }
@@ -225,7 +225,7 @@ void unimage(Maker& make) {
   if (extension == ".exr") make.maybe(words, 0.3, {"--depth", "half"});
   Words back = {"unimage", "points" + extension, "-o", make.one_of({"again.ply", "again.obj"})};
   if (make.chance(0.5)) {
-    words.insert(words.end(), {"--normals", "normals" + extension});
+    words.insert(words.end(), {"--normal-image", "normals" + extension});
     back.insert(back.end(), {"--normals", "normals" + extension});
   }
   make.errand.commands.push_back(words);
@@ -276,7 +276,7 @@ void export_mesh(Maker& make) {
   const std::string extension = make.one_of({".glb", ".glb", ".gltf", ".obj", ".ply"});
   Words words = {"export", make.mesh("mesh"), "-o", "out" + extension};
   const auto add = [&](const Words& more) { words.insert(words.end(), more.begin(), more.end()); };
-  make.maybe(words, 0.3, {"--texture", make.picture()});
+  make.maybe(words, 0.3, {"--image", make.picture()});
   make.maybe(words, 0.3, {"--convention", make.one_of({"three", "gis", "blender"})});
   if (make.chance(0.3)) {
     add({"--refine-poles", make.number(2, 9)});

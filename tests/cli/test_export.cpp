@@ -159,14 +159,14 @@ TEST_CASE("export: no output replaces an input or another output") {
       {"ball.obj", {"--sphere", ball}},
       {"x.glb", {"--json", egg.mesh}},
       {"x.glb", {"--sphere", ball, "--json", ball}},
-      {"x.glb", {"--texture", image, "--json", image}},
-      {"x.glb", {"--normal", image, "--json", image}},
+      {"x.glb", {"--image", image, "--json", image}},
+      {"x.glb", {"--normal-map", image, "--json", image}},
       {"x.glb", {"--json", egg.folder / "x.glb"}},
       {"x.gltf", {"--json", egg.folder / "x.bin"}},
       {"x.gltf", {"--json", egg.folder / "x_checker.png"}},
       {"x.glb", {"--lods", "1", "--json", egg.folder / "x_lod1.glb"}},
       {"a.gltf",
-       {"--texture", egg.folder / "a_basecolor.png", "--occlusion", egg.folder / "a.bin"}}};
+       {"--image", egg.folder / "a_basecolor.png", "--occlusion-map", egg.folder / "a.bin"}}};
   for (const auto& [output, more] : mistakes) {
     const Ended ended = egg.run(output, more);
     INFO(output << " " << more[0] << ": " << ended.err);
@@ -179,7 +179,7 @@ TEST_CASE("export: no output replaces an input or another output") {
 TEST_CASE("export: a normal map is of the finest mesh alone") {
   const Egg egg;
   REQUIRE(egg.run("a.gltf").code == 0);
-  const Names normal = {"--normal", egg.folder / "a_checker.png", "--variants", "axes"};
+  const Names normal = {"--normal-map", egg.folder / "a_checker.png", "--variants", "axes"};
   Names files = normal, one = normal;
   files.insert(files.end(), {"--lods", "1"});
   one.insert(one.end(), {"--lods", "1", "--lod", "msft"});
@@ -209,7 +209,7 @@ TEST_CASE(
     "export: under a normal or occlusion map a mesh without colours is white, not a checker") {
   const Egg egg;
   REQUIRE(egg.run("a.gltf").code == 0);
-  for (const char* map : {"--normal", "--occlusion"}) {
+  for (const char* map : {"--normal-map", "--occlusion-map"}) {
     REQUIRE(egg.run("x.glb", {map, egg.folder / "a_checker.png"}).code == 0);
     const Json gltf = json_of(bytes_of(egg.folder / "x.glb"));
     CHECK(gltf["materials"][0]["name"] == "plain");
@@ -226,7 +226,7 @@ TEST_CASE("export: names in Latin-1, and images in capitals") {
   const std::string latin = egg.folder / "caf\xE9.obj";
   write_bytes(latin, bytes_of(egg.mesh));
   egg.mesh = latin;
-  const Ended ended = egg.run("x.glb", {"--textures", egg.folder / "bake"});
+  const Ended ended = egg.run("x.glb", {"--images", egg.folder / "bake"});
   INFO(ended.err);
   CHECK(ended.code == 0);
 }
@@ -267,7 +267,7 @@ TEST_CASE("export: baked images go with the chart they were baked for, others wi
         Case{egg.folder / "foreign_checker.png", 0}}) {
     for (const int wanted : {1, 5}) {
       const Ended ended = egg.run(
-          "x.glb", {"--texture", image, "--refine-poles", std::to_string(wanted), "--lods", "1"});
+          "x.glb", {"--image", image, "--refine-poles", std::to_string(wanted), "--lods", "1"});
       INFO(image << " for " << wanted << ": " << ended.err);
       const bool fits = wedges == 0 || wedges == wanted;
       CHECK(ended.code == (fits ? 0 : 2));
@@ -324,9 +324,9 @@ TEST_CASE("export: what makes no sense is refused with a reason, and nothing is 
       {"x.glb", {"--image-size", "30"}, 2, "multiple of 4"},
       {"x.glb", {"--unlit", "--tangents"}, 2, "--unlit"},
       {"x.glb", {"--source-uv"}, 2, "texture coordinates"},
-      {"x.glb", {"--texture", egg.mesh}, 3, "egg.obj"},
-      {"x.glb", {"--texture", egg.folder / "none.png"}, 3, "none.png"},
-      {"x.glb", {"--textures", egg.folder / "."}, 3, "basecolor"},
+      {"x.glb", {"--image", egg.mesh}, 3, "egg.obj"},
+      {"x.glb", {"--image", egg.folder / "none.png"}, 3, "none.png"},
+      {"x.glb", {"--images", egg.folder / "."}, 3, "basecolor"},
       {"egg.obj", {}, 2, "-o"}};
   for (const auto& [output, more, code, reason] : mistakes) {
     const Ended ended = egg.run(output, more);

@@ -73,7 +73,7 @@ TEST_CASE(
   CHECK_THAT(lost.err, Contains("does not exist") && !Contains("certified"));
   CHECK(folder.names() == std::vector<std::string>{"mesh.obj"});
   const Ended made =
-      sphparam_program({"map", folder / "mesh.obj", "-o", folder / "out.ply", "--charts",
+      sphparam_program({"map", folder / "mesh.obj", "-o", folder / "out.ply", "--plots",
                         folder / "charts/", "--json", folder / "charts/map.json"});
   CHECK(made.code == 0);
   CHECK(fs::exists(folder / "charts/map.json"));

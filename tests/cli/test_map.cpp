@@ -154,17 +154,17 @@ TEST_CASE("map: --write-sphere writes the bare sphere, which verify certifies on
   }
 }
 
-TEST_CASE("map: --charts writes SVG files into the folder") {
+TEST_CASE("map: --plots writes SVG files into the folder") {
   const Folder folder;
   const Ended ended =
-      sphparam_program({"map", "-", "-o", folder / "ball.sph.ply", "--charts", folder / "charts"},
+      sphparam_program({"map", "-", "-o", folder / "ball.sph.ply", "--plots", folder / "plots"},
                        obj_text(icosphere(2)));
   REQUIRE(ended.code == 0);
-  long charts = 0;
-  for (const auto& entry : fs::directory_iterator(folder / "charts")) {
-    charts += entry.path().extension() == ".svg";
+  long plots = 0;
+  for (const auto& entry : fs::directory_iterator(folder / "plots")) {
+    plots += entry.path().extension() == ".svg";
   }
-  CHECK(charts >= 2);
+  CHECK(plots >= 2);
 }
 
 TEST_CASE("map: a folded map ends with 5, is not written, and its report is") {

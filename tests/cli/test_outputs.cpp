@@ -30,16 +30,16 @@ const std::vector<Subcommand> subcommands = {
     {"bake", {"", "--texture", "--sphere", "--for"}, {"-o", "--json"}},
     {"compare", {"", "--add x="}, {"-o"}},
     {"export",
-     {"", "--sphere", "--texture", "--normal", "--occlusion", "--textures"},
+     {"", "--sphere", "--image", "--normal-map", "--occlusion-map", "--images"},
      {"-o", "--json"}},
     {"info", {""}, {"--json"}},
-    {"map", {"", "--pin"}, {"-o", "--write-sphere", "--json", "--charts"}},
+    {"map", {"", "--pin"}, {"-o", "--write-sphere", "--json", "--plots"}},
     {"measure", {"", ""}, {"--per-vertex", "--json"}, {}, 2},
     {"paint", {"", "--image", "--sphere"}, {"-o"}, {"--image"}},
     {"remesh",
      {"", "--sphere", "--grid like:"},
-     {"-o", "--geometry-image", "--normals", "--attribute-image q=", "--limit-mesh", "--displace",
-      "--rebuild", "--csv", "--json"},
+     {"-o", "--geometry-image", "--normal-image", "--attribute-image q=", "--limit-mesh",
+      "--displace", "--rebuild", "--csv", "--json"},
      {"--grid"}},
     {"render", {"", "--texture", "--sphere"}, {"-o"}},
     {"report", {"", "--sphere", "--texture"}, {"-o", "--json"}},
@@ -153,7 +153,7 @@ TEST_CASE("outputs: the texture that a glTF file names is read too, and not repl
   const Mapped mapped(100);
   sphparam::write_image(mapped.folder / "skin.png", sphparam::Image(8, 4, 3));
   const Ended exported =
-      sphparam_program({"export", mapped.path, "--texture", mapped.folder / "skin.png", "-o",
+      sphparam_program({"export", mapped.path, "--image", mapped.folder / "skin.png", "-o",
                         mapped.folder / "a.gltf"});
   INFO(exported.err);
   REQUIRE(exported.code == 0);

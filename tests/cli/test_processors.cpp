@@ -37,7 +37,7 @@ std::map<std::string, std::string> made_files() {
   const Folder folder;
   const std::string shape = folder / "shape.obj", map = folder / "shape.sph.ply";
   write_bytes(shape, obj_text(random_sphere_mesh(300, 8)));
-  run({"map", shape, "-o", map, "--charts", folder / "charts"});
+  run({"map", shape, "-o", map, "--plots", folder / "charts"});
   for (const char* method : {"curvilinear", "paper", "tangential", "hemispheres", "brechbuehler",
                              "stereographic", "conformal", "flow"}) {
     run({"map", shape, "--method", method, "--keep-folded", "-o",

@@ -148,7 +148,7 @@ TEST_CASE(
   const std::string image = folder / "skin_flat_normals.png";
   run({"export", folder / "egg.obj", "-o", folder / "skin.gltf", "--tangents"});
   for (const char* name : {"egg.glb", "egg.gltf"}) {
-    run({"export", folder / "egg.obj", "-o", folder / name, "--texture", image});
+    run({"export", folder / "egg.obj", "-o", folder / name, "--image", image});
   }
   const std::string glb = folder / "egg.glb", map = folder / "map.sph.ply";
   const std::string page = folder / "page.html";

@@ -175,6 +175,22 @@ TEST_CASE("program: map --sphere, which once wrote, ends with 2 and names what w
   CHECK(bytes_of(folder / "sphere.obj") == "mine");
 }
 
+TEST_CASE("program: an option that had two meanings ends with 2 and names what it is now") {
+  const std::vector<std::vector<std::string>> former = {
+      {"map", "--charts", "--plots FOLDER"},
+      {"remesh", "--normals", "--normal-image FILE"},
+      {"export", "--texture", "--image IMAGE"},
+      {"export", "--textures", "--images FOLDER"},
+      {"export", "--normal", "--normal-map IMAGE"},
+      {"export", "--occlusion", "--occlusion-map IMAGE"}};
+  for (const std::vector<std::string>& option : former) {
+    const Ended ended = sphparam_program({option[0], "mesh.obj", "-o", "x.glb", option[1], "y"});
+    INFO(ended.err);
+    CHECK(ended.code == 2);
+    CHECK_THAT(ended.err, Contains(option[0] + ": ") && Contains(option[2]));
+  }
+}
+
 TEST_CASE("program: -q leaves errors, also where a mesh or a map is refused") {
   TriangleMesh open = icosphere(1), folded = icosphere(1);
   open.triangles.conservativeResize(open.face_count() - 1, 3);

@@ -94,6 +94,18 @@ TEST_CASE("harmonic_expansion: an ellipsoid is of degree 1, and comes back") {
   CHECK(read_provenance(back).back() == std::pair<std::string, std::string>{"harmonics", "3"});
 }
 
+TEST_CASE("harmonic_expansion: what it makes is written with its map, or as the mesh alone") {
+  const Folder folder;
+  const MappedMesh mapped = egg();
+  const HarmonicExpansion expansion = expand_in_harmonics(mapped, {}, {.degree = 3});
+  PendingFiles files;
+  add_reconstruction(files, folder.file("a.sph.ply"), mapped, expansion);
+  add_reconstruction(files, folder.file("a.off"), mapped, expansion);
+  files.publish();
+  CHECK(load_mapped(folder.file("a.sph.ply")).map().points == mapped.map().points);
+  CHECK_FALSE(has_map(read_mesh(folder.file("a.off"))));
+}
+
 TEST_CASE("harmonic_expansion: a scalar that vertices lack is named") {
   CHECK_THROWS_WITH(expand_in_harmonics(egg(), {"weight"}), Catch::Contains("weight"));
 }

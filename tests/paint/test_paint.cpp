@@ -40,6 +40,22 @@ TEST_CASE("paint: vertices get whole numbers to 255, and the mesh keeps its map"
   }
 }
 
+TEST_CASE("paint: triangles that overlap are told by their numbers in the file") {
+  PaintedAtlas atlas;
+  CHECK(overlap_warning(atlas, ball().file()).empty());
+  atlas.painted = 90;
+  atlas.overlapping = 7;
+  atlas.rivals = {3, 5};
+  CHECK(overlap_warning(atlas, ball().file()) ==
+        "its texture coordinates overlap: 7 of 90 texels belong to two triangles or more (3 and 5, "
+        "for one); the first has them");
+  MeshFile quads = ball().file();
+  Property source{"source_face", ScalarType::Int32, {}};
+  for (Face face = 0; face < quads.mesh.face_count(); ++face) source.values.push_back(face / 2);
+  quads.set_face_property(source);
+  CHECK(overlap_warning(atlas, quads).find("(1 and 2, for one)") != std::string::npos);
+}
+
 TEST_CASE("paint: what an atlas cannot be is refused") {
   const TexturePyramid pyramid(uniform_image(8, 0.5F));
   const EquirectangularImage image(pyramid, Convention::Sphparam);

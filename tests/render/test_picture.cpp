@@ -5,6 +5,7 @@
 
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/sphere_file.h"
+#include "sphparam/render/coloured_values.h"
 #include "sphparam/render/picture.h"
 #include "support/test_meshes.h"
 
@@ -55,4 +56,15 @@ TEST_CASE("picture: nothing to draw, and a vertex in no direction, are refused w
   write_mesh(place / "flat.ply", file_of(ball));
   CHECK_THROWS_WITH(load_drawn(place / "ball.ply", place / "flat.ply"),
                     "flat.ply: vertex 4 is at the centre, in no direction");
+}
+
+TEST_CASE("coloured values: a property, colours, and a comment where one says what they are") {
+  const MeshFile ball = file_of(icosphere(0));
+  const VectorX values = VectorX::LinSpaced(ball.mesh.vertex_count(), 0, 2.5);
+  CHECK(with_coloured_values(ball, "error", values).comments.empty());
+  const MeshFile told = with_coloured_values(ball, "error", values, "distance to\nb.ply");
+  REQUIRE(told.comments.size() == 1);
+  CHECK(told.comments[0] == "error: distance to b.ply, colours from 0 to 2.5");
+  CHECK(told.find_vertex_property("error")->values[11] == 2.5);
+  CHECK(told.find_vertex_property("red"));
 }

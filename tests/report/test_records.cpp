@@ -233,6 +233,18 @@ TEST_CASE("harmonics_record: coefficients come back exactly, as JSON and as a ta
   CHECK(std::stod(line.substr(line.rfind(',') + 1)) == coefficients(harmonic_index(1, 0), 2));
 }
 
+TEST_CASE("harmonics_record: for people, what is left in a line, and the ellipsoid") {
+  const MappedMesh mapped = ball();
+  const HarmonicExpansion expansion = expand_in_harmonics(mapped, {}, {.degree = 2});
+  CHECK_THAT(residual_line(expansion),
+             StartsWith("degree 2, RMS distance at the vertices, weighted by solid angle, ") &&
+                 Contains(" % of the diagonal), unweighted "));
+  const std::vector<std::string> lines = further_lines(expansion);
+  REQUIRE(lines.size() == 1);
+  CHECK_THAT(lines[0], StartsWith("first-order ellipsoid: semi-axes 1"));
+  CHECK(further_lines(expand_in_harmonics(mapped, {}, {.degree = 0})).empty());
+}
+
 TEST_CASE("bake_record: images, and what they are for") {
   const MappedMesh source = ball();
   BakeSettings settings{.width = 64, .samples = 2};

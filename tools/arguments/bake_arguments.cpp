@@ -3,40 +3,14 @@
 #include "arguments/bake_arguments.h"
 
 #include <filesystem>
+#include <map>
 #include <set>
 
-#include "arguments/bake_mistakes.h"
 #include "console/places.h"
 #include "sphparam/image/image_format.h"
 
 namespace sphparam::cli {
 namespace {
-
-/// A name of a map as it stands in a name of a file.
-std::string in_file_name(std::string map) {
-  for (char& c : map) {
-    if (c == ':' || c == '/' || c == '\\') c = '-';
-  }
-  return map;
-}
-
-std::string path_of(const BakeArguments& arguments, const std::string& map) {
-  const std::filesystem::path output(arguments.output);
-  std::error_code error;
-  std::string path = arguments.output;
-  if (path.ends_with('/') || std::filesystem::is_directory(output, error)) {
-    const std::string stem = is_stream(arguments.input)
-                                 ? "mesh"
-                                 : std::filesystem::path(arguments.input).stem().stem().string();
-    path = (output / (stem + "_{map}.png")).string();
-  }
-  const std::string pattern = "{map}";
-  for (size_t at = path.find(pattern); at != std::string::npos; at = path.find(pattern, at)) {
-    path.replace(at, pattern.size(), in_file_name(map));
-    at += in_file_name(map).size();
-  }
-  return path;
-}
 
 /// With --heat every image counts as one with a scale: which ones have it is known only once they
 /// are made.
@@ -50,6 +24,20 @@ void check_all_places(const BakeArguments& arguments, const std::vector<BakeRequ
   }
   written.emplace_back("--json", arguments.json);
   check_places(written);
+}
+
+/// What can be told of an image before its mesh is read.
+void require_possible(const BakeRequest& image, const BakeSettings& settings) {
+  try {
+    require_bakeable({image}, settings);
+  } catch (const BakeSettingError& error) {
+    throw as_mistake(error);
+  } catch (const FieldError& error) {
+    if (error.unknown().empty()) throw UsageMistake(std::string("--map: ") + error.what());
+    const std::string meant = did_you_mean(error.unknown(), error.known());
+    throw UsageMistake("--map: there is no map " + error.unknown() +
+                       (meant.empty() ? "; there are " + joined(error.known()) : meant));
+  }
 }
 
 void declare_inputs(Declaration& command, BakeArguments& arguments) {
@@ -134,15 +122,46 @@ void declare_bake_options(Declaration& command, BakeArguments& arguments) {
   command.json(arguments).threads(arguments).console(arguments);
 }
 
+UsageMistake as_mistake(const BakeSettingError& error) {
+  static const std::map<std::string, std::string> options = {
+      {"path", "-o"},
+      {"width", "--size"},
+      {"samples", "--samples"},
+      {"convention", "--size: --convention "},  // the message goes on with its name
+      {"depth", "--depth"},
+      {"mip", "--mip"},
+      {"refine_poles", "--refine-poles"},
+      {"rays", "--rays"},
+      {"max_ray_distance", "--max-dist"}};
+  const std::string& option = options.at(error.setting());
+  return UsageMistake(option + (option.ends_with(' ') ? "" : ": ") + error.what());
+}
+
+UsageMistake as_mistake(const FieldError& error, const BakeSettings& settings) {
+  const bool bare = dynamic_cast<const NoColoursError*>(&error) != nullptr;
+  return UsageMistake(settings.source_name + ": " + error.what() +
+                      (bare ? "; --texture IMAGE names its texture" : "") +
+                      did_you_mean(error.unknown(), error.known()));
+}
+
+UsageMistake as_mistake(const OtherSphereError& error, const MappedMesh& source,
+                        const BakeSettings& settings) {
+  return UsageMistake(std::string("--for: ") + error.what() + "; `sphparam remesh " +
+                      settings.source_name +
+                      " --grid ico:6 -o LOW.sph.ply` makes a mesh on its sphere" +
+                      (source.mapped_here() ? ", of a map that is kept (`sphparam map`)" : ""));
+}
+
 std::vector<BakeRequest> bake_requests(const BakeArguments& arguments) {
-  std::vector<BakeRequest> images;
+  const std::filesystem::path input(arguments.input);
+  std::vector<BakeRequest> images =
+      requests_for(arguments.maps.empty() ? Words{"basecolor"} : arguments.maps, arguments.output,
+                   is_stream(arguments.input) ? "mesh" : input.stem().stem().string());
   std::set<std::string> paths;
-  for (const std::string& map :
-       arguments.maps.empty() ? std::vector<std::string>{"basecolor"} : arguments.maps) {
-    images.push_back({map, path_of(arguments, map)});
-    require_possible(images.back(), arguments.settings);
-    if (paths.insert(images.back().path).second) continue;
-    throw UsageMistake("-o: several maps would go to " + images.back().path +
+  for (const BakeRequest& image : images) {
+    require_possible(image, arguments.settings);
+    if (paths.insert(image.path).second) continue;
+    throw UsageMistake("-o: several maps would go to " + image.path +
                        "; {map} in the name stands for each, as in statue_{map}.png");
   }
   check_all_places(arguments, images);

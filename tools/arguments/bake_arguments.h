@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "arguments/declaration.h"
+#include "console/exit_codes.h"
 #include "sphparam/bake/bake.h"
 
 namespace sphparam::cli {
@@ -26,5 +27,12 @@ void declare_bake_options(Declaration& command, BakeArguments& arguments);
 /// Throws: UsageMistake, for maps that do not exist (with the nearest), files that would be
 /// written twice or are read, formats that are not written, options that do not go together.
 std::vector<BakeRequest> bake_requests(const BakeArguments& arguments);
+
+// The library's complaints about a bake, in the words of the command line: with the option that
+// sets it; of the mesh that was read; of the one that images are for.
+UsageMistake as_mistake(const BakeSettingError& error);
+UsageMistake as_mistake(const FieldError& error, const BakeSettings& settings);
+UsageMistake as_mistake(const OtherSphereError& error, const MappedMesh& source,
+                        const BakeSettings& settings);
 
 }  // namespace sphparam::cli

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 
+#include "arguments/limits.h"
 #include "console/places.h"
 
 namespace sphparam::cli {
@@ -53,8 +54,8 @@ Declaration& Declaration::flag_off(const std::string& name, bool& value, const s
               "");
 }
 
-Declaration& Declaration::flag_with_words(const std::string& name, std::string& words,
-                                          const std::string& about) {
+Declaration& Declaration::flag(const std::string& name, std::string& words,
+                               const std::string& about) {
   return keep(app_->add_flag(name, words, about), "");
 }
 
@@ -139,7 +140,9 @@ Declaration& Declaration::console(CommonArguments& arguments) {
       {{"auto", ProgressStyle::Auto}, {"none", ProgressStyle::None}, {"json", ProgressStyle::Json}},
       "How far it is; auto: on a terminal (default: auto)");
   flag("-q,--quiet", arguments.quiet, "Errors only");
-  return flag("-v,--verbose", arguments.verbose, "Every stage");
+  flag("-v,--verbose", arguments.verbose, "Every stage");
+  declare_limits(*this);
+  return *this;
 }
 
 Declaration& Declaration::written() {

@@ -44,9 +44,8 @@ class Declaration {
                     const std::string& about);
   Declaration& flag(const std::string& name, bool& value, const std::string& about);
   Declaration& flag_off(const std::string& name, bool& value, const std::string& about);
-  /// A flag that may carry words after an equals sign; "true" without.
-  Declaration& flag_with_words(const std::string& name, std::string& words,
-                               const std::string& about);
+  /// One that may carry words after an equals sign; "true" without.
+  Declaration& flag(const std::string& name, std::string& words, const std::string& about);
 
   /// For int, std::int64_t, std::uint64_t and double.
   template <class Number>
@@ -81,7 +80,7 @@ class Declaration {
   /// --json: what is in it.
   Declaration& json(CommonArguments& arguments, const std::string& what = "A report");
   Declaration& threads(CommonArguments& arguments);
-  /// How much is told while it works.
+  /// How much is told while it works, and how much memory and input it may take.
   Declaration& console(CommonArguments& arguments);
 
   /// The files that the one before names are written; all others are read.

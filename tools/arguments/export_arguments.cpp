@@ -10,10 +10,10 @@ namespace sphparam::cli {
 namespace {
 
 void declare_look(Declaration& command, LookOptions& look) {
-  command.text("--texture", look.texture, "IMAGE", "The equirectangular image, row 0 north")
-      .text("--normal", look.normal, "IMAGE", "A tangent-space normal map as `bake` makes it")
-      .text("--occlusion", look.occlusion, "IMAGE", "Ambient occlusion")
-      .text("--textures", look.folder, "FOLDER",
+  command.text("--image", look.texture, "IMAGE", "The equirectangular image, row 0 north")
+      .text("--normal-map", look.normal, "IMAGE", "A tangent-space normal map as `bake` makes it")
+      .text("--occlusion-map", look.occlusion, "IMAGE", "Ambient occlusion")
+      .text("--images", look.folder, "FOLDER",
             "A folder of `bake`: its basecolor, normal-tangent and ao")
       .list("--variants", look.variants, "NAMES",
             "More materials to switch to, with commas between: " + joined(variant_names()))
@@ -96,14 +96,14 @@ void check_export_arguments(const ExportArguments& a) {
   refuse(a.lods > 0 && is_stream(a.output) && a.lod_style == LodStyle::Files,
          "--lods are files: give -o a name");
   refuse(look.unlit && (look.tangents || !look.normal.empty() || !look.occlusion.empty()),
-         "--unlit shows no light: leave out --normal, --occlusion and --tangents");
+         "--unlit shows no light: leave out --normal-map, --occlusion-map and --tangents");
   if (is_gltf) return;
   const std::string only = " is for .glb and .gltf, not for " + extension;
   for (const auto& [given, option] : {std::pair{e.morph != Morph::None, "--morph"},
                                       {e.shape == ShapeKind::Flat, "--shape flat"},
                                       {!look.variants.empty(), "--variants"},
-                                      {!look.normal.empty(), "--normal"},
-                                      {!look.occlusion.empty(), "--occlusion"},
+                                      {!look.normal.empty(), "--normal-map"},
+                                      {!look.occlusion.empty(), "--occlusion-map"},
                                       {look.unlit, "--unlit"},
                                       {look.tangents, "--tangents"},
                                       {e.theta_phi, "--theta-phi"},

@@ -101,7 +101,7 @@ void require_sensible(const MapArguments& arguments) {
   }
   check_places(
       {{"-o", arguments.output}, {"--write-sphere", arguments.sphere}, {"--json", arguments.json}},
-      arguments.charts);
+      arguments.plots);
 }
 
 void declare_files(Declaration& command, MapArguments& arguments) {
@@ -111,7 +111,7 @@ void declare_files(Declaration& command, MapArguments& arguments) {
             "The bare sphere too: .ply, .obj or .off in doubles, .gii in floats of radius 100")
       .written()
       .json(arguments)
-      .text("--charts", arguments.charts, "FOLDER", "The distortion as SVG charts")
+      .text("--plots", arguments.plots, "FOLDER", "The distortion as SVG plots")
       .written();
 }
 

@@ -15,7 +15,7 @@ struct MapArguments : CommonArguments {
   std::string input;
   std::string output;
   std::string sphere;  // empty: not wanted; so are:
-  std::string charts;
+  std::string plots;
   std::string pins;
   std::string poles = "auto";
   std::string balance = "balanced";  // a word, or the λ it stands for

@@ -49,7 +49,7 @@ void declare_outputs(Declaration& command, RemeshArguments& arguments) {
       .text("--geometry-image", arguments.geometry_image, "FILE",
             "Positions as an image, of octa and cube grids: .exr in float, .png in 16 bits")
       .written()
-      .text("--normals", arguments.normal_image, "FILE", "The image of the new mesh's normals")
+      .text("--normal-image", arguments.normal_image, "FILE", "The image of the new mesh's normals")
       .written()
       .texts("--attribute-image", arguments.attribute_images, "NAME=FILE",
              "The image of what is carried, as in color=FILE or thickness=FILE; may be given again")

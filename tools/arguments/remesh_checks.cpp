@@ -1,10 +1,9 @@
 // What makes no sense is refused before work.
 
-#include "arguments/remesh_checks.h"
-
 #include <algorithm>
 #include <stdexcept>
 
+#include "arguments/remesh_arguments.h"
 #include "console/exit_codes.h"
 #include "console/places.h"
 #include "sphparam/io/paths.h"

@@ -33,9 +33,9 @@ bool read_share(const std::string& text, std::optional<double>& share) {
 void declare_repair_options(Declaration& command, RepairArguments& arguments) {
   const auto read = [&](const std::string& text) { return read_share(text, arguments.least_kept); };
   command.group("Repairs")
-      .flag_with_words("--repair", arguments.words,
-                       "Mend the mesh first: everything, or as in --repair=holes,unused some of " +
-                           joined(all_words()))
+      .flag("--repair", arguments.words,
+            "Mend the mesh first: everything, or as in --repair=holes,unused some of " +
+                joined(all_words()))
       .number("--component", arguments.component, "N", {1},
               "Keep the N-th largest component by area, whatever its share")
       .parsed("--min-kept", "SHARE", read, "expected a share, as in 0.5 or 50%",

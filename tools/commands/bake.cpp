@@ -5,7 +5,6 @@
 #include <cstdio>
 
 #include "arguments/bake_arguments.h"
-#include "arguments/bake_mistakes.h"
 #include "commands/command.h"
 #include "commands/sources.h"
 #include "number_text.h"

@@ -5,10 +5,9 @@
 #include <filesystem>
 #include <set>
 
-#include "arguments/input_limits.h"
+#include "arguments/limits.h"
 #include "commands/command.h"
 #include "commands/sources.h"
-#include "commands/textures.h"
 #include "compare/comparison.h"
 #include "console/places.h"
 #include "number_text.h"
@@ -68,25 +67,21 @@ bool is_plain(const std::string& name) {
              "0123456789._-") == std::string::npos;
 }
 
-struct Added {
-  std::string name;
-  std::string path;
-};
-
-std::vector<Added> parse_added(const CompareArguments& arguments) {
+/// Names and files of --add.
+std::vector<std::pair<std::string, std::string>> parse_added(const CompareArguments& arguments) {
   const Words methods = method_names();
   std::set<std::string> names(methods.begin(), methods.end());
-  std::vector<Added> added;
+  std::vector<std::pair<std::string, std::string>> added;
   for (const std::string& text : arguments.added) {
-    const size_t equals = text.find('=');
-    if (equals == std::string::npos || !is_plain(text.substr(0, equals))) {
+    const auto one = name_and_file(text);
+    if (!one || !is_plain(one->first)) {
       throw UsageMistake(
           "--add: expected NAME=FILE, the name of letters, digits, dots, - and _, not " + text);
     }
-    added.push_back({text.substr(0, equals), text.substr(equals + 1)});
-    if (!names.insert(added.back().name).second)
-      throw UsageMistake("--add: the name " + added.back().name + " is taken");
-    require_one_stream({arguments.input, added.back().path}, "the mesh and --add");
+    if (!names.insert(one->first).second)
+      throw UsageMistake("--add: the name " + one->first + " is taken");
+    require_one_stream({arguments.input, one->second}, "the mesh and --add");
+    added.push_back(*one);
   }
   return added;
 }
@@ -111,7 +106,7 @@ void write_folder(const std::string& folder, FolderFiles files, Session& session
 int run_compare(CompareArguments& arguments) {
   Session session(arguments);
   const Words methods = parse_methods(arguments.methods);
-  const std::vector<Added> added = parse_added(arguments);
+  const auto added = parse_added(arguments);
   const MeshSource source = read_source(arguments.input);
   require_mappable(source);
   session.hold_signals();

@@ -3,7 +3,7 @@
 #include <new>
 #include <utility>
 
-#include "arguments/input_limits.h"
+#include "arguments/limits.h"
 #include "arguments/map_arguments.h"
 #include "commands/command.h"
 #include "commands/map_outputs.h"
@@ -20,7 +20,7 @@ constexpr char summary[] =
     "\n"
     "Examples:\n"
     "  sphparam map statue.obj -o statue.sph.ply\n"
-    "  sphparam map statue.ply -o statue.sph.ply --json map.json --charts charts/\n"
+    "  sphparam map statue.ply -o statue.sph.ply --json map.json --plots plots/\n"
     "  sphparam map statue.off -o statue.sph.ply --write-sphere sphere.obj --poles 17,4203\n"
     "  sphparam map statue.obj -o placed.sph.ply --pin eyes.txt\n"
     "  sphparam map statue.obj -o even.sph.ply --balance equal-area --quality best\n"
@@ -30,21 +30,11 @@ constexpr char summary[] =
     "  sphparam map statue.obj -o mended.sph.ply --method tangential --repair-map\n";
 
 /// Poles, meridian and pins as vertices of the mesh.
-void settle_vertices(const std::string& pins, const MeshFile& file, ParameterizeOptions& options) {
+void settle_vertices(const std::string& pins, const MeshFile& file,
+                     ParameterizeOptions& options) try {
   if (!options.poles && !options.meridian && pins.empty()) return;
   const FileNumbers numbers(file);
-  const auto settle_one = [&](const char* option, Vertex& vertex) {
-    const Vertex found = numbers.vertex(vertex);
-    if (found < 0) throw UsageMistake(std::string(option) + ": " + numbers.absence(vertex));
-    vertex = found;
-  };
-  if (options.poles) {
-    settle_one("--poles", options.poles->north);
-    settle_one("--poles", options.poles->south);
-    if (options.poles->north == options.poles->south)
-      throw UsageMistake("--poles: the two are one vertex, welded where positions agree");
-  }
-  if (options.meridian) settle_one("--meridian", *options.meridian);
+  options = with_vertices_of_mesh(std::move(options), numbers);
   if (!pins.empty()) options.pins = read_pins(pins, numbers);
   for (const Landmark& pin : options.pins) {
     if (!options.poles) break;
@@ -52,6 +42,8 @@ void settle_vertices(const std::string& pins, const MeshFile& file, Parameterize
     throw UsageMistake("--pin: vertex " + std::to_string(numbers.number(pin.vertex)) +
                        " is one of the --poles");
   }
+} catch (const NoSuchVertex& error) {
+  throw UsageMistake("--" + error.whose() + ": " + error.what());
 }
 
 MapOutcome compute(MeshSource source, const MapArguments& arguments, Session& session) {

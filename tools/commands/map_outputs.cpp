@@ -58,13 +58,12 @@ void add_sphere(const std::string& path, const MapOutcome& outcome, Session& ses
                       short_number(least_area) + " of the mean area count as that large");
 }
 
-void add_charts(const std::string& folder, const std::string& name, const Distortion& distortion,
-                PendingFiles& files) {
+void add_plots(const std::string& folder, const std::string& name, const Distortion& distortion,
+               PendingFiles& files) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw WriteError(folder, error.message());
-  for (const PlotFile& chart : write_plots(folder, name, distortion))
-    files.add(chart.path, chart.svg);
+  for (const PlotFile& plot : write_plots(folder, name, distortion)) files.add(plot.path, plot.svg);
 }
 
 /// Figures alone are not worth the memory of a chart that somebody bakes for or exports; where
@@ -123,11 +122,10 @@ void write_outputs(const MapArguments& arguments, MapOutcome& outcome, bool with
     add_sphere(arguments.sphere, outcome, session);
     outputs.emplace_back("sphere", arguments.sphere);
   }
-  // Charts and report are written for folded maps too.
-  if (!arguments.charts.empty() && outcome.distortion) {
-    add_charts(arguments.charts, stem_or(arguments.input, "map"), *outcome.distortion,
-               session.files);
-    outputs.emplace_back("charts", arguments.charts);
+  // Plots and report are written for folded maps too.
+  if (!arguments.plots.empty() && outcome.distortion) {
+    add_plots(arguments.plots, stem_or(arguments.input, "map"), *outcome.distortion, session.files);
+    outputs.emplace_back("charts", arguments.plots);
   }
   session.add_report([&] { return report_on(arguments, outcome, outputs, session); });
   session.publish();

@@ -6,7 +6,7 @@
 
 namespace sphparam::cli {
 
-/// Writes the map (if `with_map`), the sphere, charts and report that are asked for, all of them
+/// Writes the map (if `with_map`), the sphere, plots and report that are asked for, all of them
 /// or, where one fails, none. The map and the sphere are read back and must have the verdict of the
 /// map in memory. Throws: NotCertifiedError if not; WriteError; Cancelled.
 void write_outputs(const MapArguments& arguments, MapOutcome& outcome, bool with_map,

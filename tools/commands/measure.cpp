@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "arguments/input_limits.h"
+#include "arguments/limits.h"
 #include "commands/command.h"
 #include "console/places.h"
 #include "number_text.h"
@@ -72,16 +72,6 @@ SurfaceDistance measure(const MeasureArguments& arguments, const MeshFile& first
   throw UnmeasurableMesh(name + ": " + error.what());
 }
 
-/// The first mesh with the distance of each vertex, as the property `error` and as colours from 0
-/// to the largest.
-MeshFile with_errors(const MeshFile& file, const OneSidedDistance& side, const std::string& other) {
-  MeshFile coloured = with_coloured_values(file, "error", side.at_vertices);
-  const double largest = side.at_vertices.size() > 0 ? side.at_vertices.maxCoeff() : 0;
-  coloured.comments.push_back("error: distance to " + one_line(other) + ", colours from 0 to " +
-                              short_number(largest, 6));
-  return coloured;
-}
-
 std::vector<DistanceLimit> judge(const MeasureArguments& arguments,
                                  const SurfaceDistance& distance) {
   std::vector<DistanceLimit> limits;
@@ -125,7 +115,8 @@ int run_measure(MeasureArguments& arguments) {
                            .distance = distance,
                            .limits = judge(arguments, distance)};
   if (!arguments.per_vertex.empty()) {
-    const MeshFile coloured = with_errors(first, distance.forth, display_name(arguments.second));
+    const MeshFile coloured = with_coloured_values(first, "error", distance.forth.at_vertices,
+                                                   "distance to " + display_name(arguments.second));
     session.files.add(arguments.per_vertex, serialise_mesh(arguments.per_vertex, coloured));
     record.outputs.emplace_back("per_vertex", arguments.per_vertex);
   }

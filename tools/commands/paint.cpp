@@ -70,23 +70,6 @@ EquirectangularImage read_picture(const PaintArguments& arguments, Console& cons
   return image;
 }
 
-/// As the file counts its faces.
-std::string face_number(const MeshFile& file, Face face) {
-  const Property* source = file.find_face_property("source_face");
-  return std::to_string(source ? static_cast<long>(source->values[static_cast<size_t>(face)])
-                               : face);
-}
-
-void tell_overlaps(const std::string& input, const MeshFile& file, const PaintedAtlas& painted,
-                   Console& console) {
-  if (painted.overlapping == 0) return;
-  console.warning(display_name(input) + ": its texture coordinates overlap: " +
-                  std::to_string(painted.overlapping) + " of " + std::to_string(painted.painted) +
-                  " texels belong to two triangles or more (" +
-                  face_number(file, painted.rivals[0]) + " and " +
-                  face_number(file, painted.rivals[1]) + ", for one); the first has them");
-}
-
 std::string atlas(const PaintArguments& arguments, const MappedMesh& source,
                   const EquirectangularImage& image, Session& session) try {
   const PaintedAtlas painted = paint_atlas(source, image,
@@ -94,7 +77,8 @@ std::string atlas(const PaintArguments& arguments, const MappedMesh& source,
                                             .padding = arguments.padding,
                                             .threads = session.threads(),
                                             .progress = session.progress()});
-  tell_overlaps(arguments.input, source.file(), painted, session.console);
+  const std::string warning = overlap_warning(painted, source.file());
+  if (!warning.empty()) session.console.warning(display_name(arguments.input) + ": " + warning);
   return png_of(painted, image.has_alpha());
 } catch (const AtlasError& error) {
   throw UsageMistake(std::string("--atlas: ") + error.what());

@@ -1,17 +1,19 @@
 // `sphparam remesh`: a mapped mesh → a grid of the sphere → the mesh on that grid, whose map the
 // grid's directions are. What was written is read back and certified before it gets its name.
 
+#include <span>
 #include <stdexcept>
 #include <utility>
 
-#include "arguments/input_limits.h"
-#include "arguments/remesh_checks.h"
+#include "arguments/limits.h"
+#include "arguments/remesh_arguments.h"
 #include "commands/command.h"
-#include "commands/remesh_glb.h"
 #include "commands/sources.h"
+#include "console/places.h"
+#include "number_text.h"
 #include "reports/remesh_wording.h"
+#include "sphparam/gltf/export.h"
 #include "sphparam/io/certified_files.h"
-#include "sphparam/io/paths.h"
 #include "sphparam/measure/measurable.h"
 #include "sphparam/remesh/geometry_image.h"
 
@@ -81,6 +83,46 @@ std::vector<LevelOfDetail> make_levels(const MappedMesh& mapped, SphereGrid grid
   throw UsageMistake("--transfer: " + std::string(error.what()));
 } catch (const UnfittableGrid& error) {
   throw UsageMistake("--subdiv-fit: " + std::string(error.what()));
+}
+
+void add_errors(Asset& asset, std::span<const LevelOfDetail> levels) {
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const std::string name = "level_" + std::to_string(i);
+    asset.extras.emplace_back(name + "_grid", levels[i].mesh.name());
+    asset.extras.emplace_back(name + "_rms", short_number(levels[i].distance.value().rms, 6));
+    asset.extras.emplace_back(name + "_max", short_number(levels[i].distance.value().max, 6));
+  }
+}
+
+Asset asset_of(const RemeshArguments& arguments, const MappedMesh& mapped,
+               std::span<const LevelOfDetail> levels, Session& session) try {
+  const MappedMesh& made = levels.front().mesh;
+  ExportOptions options{.name = stem_or(arguments.input, "mesh"),
+                        .source = display_name(arguments.input),
+                        .threads = session.threads(),
+                        .progress = session.progress()};
+  const Look look = make_look(made, mapped, options);
+  for (const LevelOfDetail& level : levels.subspan(1)) options.coarser.push_back(level.mesh);
+  Asset asset = make_asset(made, look, options);
+  if (levels.size() > 1) add_errors(asset, levels);
+  return asset;
+} catch (const LookError& error) {
+  throw UsageMistake(error.what());
+}
+
+/// The new mesh as a .glb with the chart of its directions, as `export` writes it: with the
+/// texture of the source where its coordinates are carried, else with the colours carried, else
+/// with a checker. Quads are cut in two. Coarser levels hang on the finest by MSFT_lod, which is
+/// what viewers without it show; the extras tell the error of each.
+///
+/// Requires: a level, the finest first. Throws: NotCertifiedError where (u, v) is not one-to-one;
+/// ReadError for positions beyond float32; WriteError for more than a .glb holds, and as
+/// PendingFiles does; Cancelled.
+void add_glb(const RemeshArguments& arguments, const MappedMesh& mapped,
+             std::span<const LevelOfDetail> levels, Session& session) {
+  with_file_errors(arguments.input, arguments.output, [&] {
+    add_asset(session.files, arguments.output, asset_of(arguments, mapped, levels, session));
+  });
 }
 
 void add_meshes(const RemeshArguments& arguments, const RemeshRequests& requests,

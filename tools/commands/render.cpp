@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "arguments/input_limits.h"
+#include "arguments/limits.h"
 #include "commands/command.h"
-#include "commands/textures.h"
+#include "commands/sources.h"
 #include "console/places.h"
 #include "sphparam/render/picture.h"
 

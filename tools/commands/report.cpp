@@ -5,10 +5,9 @@
 #include <array>
 #include <filesystem>
 
-#include "arguments/input_limits.h"
+#include "arguments/limits.h"
 #include "commands/command.h"
 #include "commands/sources.h"
-#include "commands/textures.h"
 #include "console/places.h"
 #include "records/comparison_record.h"
 #include "reports/told_losses.h"

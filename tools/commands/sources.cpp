@@ -2,8 +2,10 @@
 
 #include <utility>
 
-#include "arguments/input_limits.h"
+#include "arguments/limits.h"
+#include "console/exit_codes.h"
 #include "reports/told_losses.h"
+#include "sphparam/io/paths.h"
 
 namespace sphparam::cli {
 
@@ -24,6 +26,21 @@ MappedMesh read_mapped(const std::string& path, const std::string& sphere, Sessi
   if (mapped.mapped_here())
     session.console.say(mapped.name() + ": carries no map; mapped now (progressive)");
   return mapped;
+}
+
+std::shared_ptr<const MeshTextures> read_shown_textures(const MeshFile& file,
+                                                        const std::string& path,
+                                                        const std::string& image,
+                                                        Session& session) try {
+  const std::string name = display_name(path);
+  const ShownTextures shown = shown_textures(file, name, image, session.threads());
+  const std::string advice =
+      ": --texture IMAGE names it, or the glTF file with --sphere " + name + " has it";
+  if (!shown.warning.empty())
+    session.console.warning(shown.warning + (shown.left_behind ? advice : ""));
+  return shown.textures;
+} catch (const NoTexcoords& error) {
+  throw UsageMistake(std::string("--texture: ") + error.what());
 }
 
 }  // namespace sphparam::cli

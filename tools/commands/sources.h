@@ -1,10 +1,12 @@
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "console/session.h"
 #include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/mesh_source.h"
+#include "sphparam/texture/mesh_textures.h"
 
 namespace sphparam::cli {
 
@@ -15,5 +17,11 @@ MeshSource read_source(const std::string& path);
 /// file loses is told, and so is a map that had to be made, with the λ given.
 MappedMesh read_mapped(const std::string& path, const std::string& sphere, Session& session,
                        double lambda = 1);
+
+/// `shown_textures` with --texture IMAGE, if it is not empty; what stands against those of the file
+/// is told. `path`: of the mesh. Throws: UsageMistake where there is no place for the image.
+std::shared_ptr<const MeshTextures> read_shown_textures(const MeshFile& file,
+                                                        const std::string& path,
+                                                        const std::string& image, Session& session);
 
 }  // namespace sphparam::cli

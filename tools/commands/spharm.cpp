@@ -5,7 +5,6 @@
 #include "commands/sources.h"
 #include "console/places.h"
 #include "number_text.h"
-#include "sphparam/io/certified_files.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/measure/measurable.h"
 #include "sphparam/records/harmonics_record.h"
@@ -55,19 +54,6 @@ HarmonicExpansion expand(const SpharmArguments& arguments, const MappedMesh& map
                               .progress = session.progress()});
 }
 
-void add_reconstruction(PendingFiles& files, const SpharmArguments& arguments,
-                        const MappedMesh& mapped, const HarmonicExpansion& expansion) {
-  const std::string& path = arguments.reconstruction;
-  const MeshFile file = reconstruction(mapped, expansion);
-  require_numbers(file, path);
-  std::string bytes = serialise_mesh(path, file);
-  if (keeps_map(path)) {
-    add_certified(files, path, std::move(bytes), mapped.topology(), arguments.threads);
-  } else {
-    files.add(path, std::move(bytes));
-  }
-}
-
 void require_sensible(const SpharmArguments& arguments) {
   const std::string& mesh = arguments.reconstruction;
   const std::string extension = extension_of(mesh);
@@ -90,30 +76,6 @@ void warn_of_few_vertices(const SpharmArguments& arguments, const MeshFile& file
                   " vertices: what these leave open is as in --fit quadrature");
 }
 
-void tell(const std::string& input, const HarmonicExpansion& report, Session& session) {
-  Console& console = session.console;
-  const std::string line = display_name(input) + ": degree " + std::to_string(report.degree()) +
-                           ", RMS distance at the vertices, weighted by solid angle, " +
-                           short_number(report.position_rms()) + " (" +
-                           percent(report.position_rms() / report.diagonal) +
-                           " of the diagonal), unweighted " +
-                           short_number(report.plain_position_rms()) + ", " +
-                           short_number(session.stopwatch.seconds()) + " s";
-  console.say(line);
-  if (report.degree() >= 1) {
-    const Vector3 axes = first_order_ellipsoid(report.fit.coefficients.leftCols(3));
-    console.say("  first-order ellipsoid: semi-axes " + short_number(axes[0], 6) + ", " +
-                short_number(axes[1], 6) + ", " + short_number(axes[2], 6));
-  }
-  for (size_t k = 3; k < report.functions.size(); ++k) {
-    const auto i = static_cast<Eigen::Index>(k);
-    console.say("  " + report.functions[k] + ": RMS residual, weighted, " +
-                short_number(report.fit.rms[i]) + ", unweighted " +
-                short_number(report.plain_rms[i]));
-  }
-  console.detail("  " + std::to_string(report.fit.iterations) + " iterations");
-}
-
 int run_spharm(SpharmArguments& arguments) {
   require_sensible(arguments);
   Session session(arguments);
@@ -123,9 +85,13 @@ int run_spharm(SpharmArguments& arguments) {
   session.add_report([&] { return to_json(expansion, arguments.input, mapped.provenance()); });
   if (!arguments.csv.empty()) session.files.add(arguments.csv, to_csv(expansion));
   if (!arguments.reconstruction.empty())
-    add_reconstruction(session.files, arguments, mapped, expansion);
+    add_reconstruction(session.files, arguments.reconstruction, mapped, expansion,
+                       session.threads());
   session.publish();
-  tell(arguments.input, expansion, session);
+  session.console.say(display_name(arguments.input) + ": " + residual_line(expansion) + ", " +
+                      short_number(session.stopwatch.seconds()) + " s");
+  for (const std::string& line : further_lines(expansion)) session.console.say("  " + line);
+  session.console.detail("  " + std::to_string(expansion.fit.iterations) + " iterations");
   return Ok;
 }
 

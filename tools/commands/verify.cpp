@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "arguments/input_limits.h"
+#include "arguments/limits.h"
 #include "commands/command.h"
 #include "console/places.h"
 #include "sphparam/records/verification_record.h"

@@ -9,19 +9,20 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <map>
 #include <new>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "arguments/input_limits.h"
 #include "arguments/leading_options.h"
+#include "arguments/limits.h"
 #include "arguments/words.h"
 #include "commands/command.h"
 #include "console/console.h"
 #include "console/exit_codes.h"
 #include "console/interruption.h"
-#include "console/memory_limit.h"
 #include "console/places.h"
 #include "image/image_codec.h"
 #include "io/files/temporary_file.h"
@@ -44,7 +45,7 @@ constexpr char summary[] =
     "  sphparam info statue.obj                       what it is, what is wrong with it\n"
     "  sphparam map statue.obj -o statue.sph.ply      map it, prove it, write it\n"
     "  sphparam bake statue.sph.ply --map normal-object,ao -o statue_{map}.png\n"
-    "  sphparam export statue.sph.ply --texture statue_ao.png -o statue.glb   for game engines\n"
+    "  sphparam export statue.sph.ply --image statue_ao.png -o statue.glb   for game engines\n"
     "  sphparam verify statue.sph.ply                 prove a written map again\n"
     "  sphparam render statue.sph.ply -o statue.png   look at it\n"
     "  sphparam compare statue.obj -o statue/         all methods, side by side\n"
@@ -97,9 +98,23 @@ Words command_names(const CLI::App& program) {
 
 /// What to type now, for options that have changed their name.
 std::string present_spelling(const std::string& command, const std::string& option) {
-  if (command != "map" || option != "--sphere") return "";
-  return "map: --sphere names a sphere that is read, in other subcommands; --write-sphere FILE "
-         "writes it";
+  static const std::map<std::pair<std::string, std::string>, std::string> renamed = {
+      {{"map", "--sphere"},
+       "--sphere names a sphere that is read, in other subcommands; --write-sphere FILE writes it"},
+      {{"map", "--charts"},
+       "a chart is what textures lie on, as in verify --chart; --plots FOLDER writes the "
+       "distortion"},
+      {{"remesh", "--normals"},
+       "--normals names an image that is read, in unimage; --normal-image FILE writes it"},
+      {{"export", "--texture"},
+       "--texture is for the mesh's own coordinates, in other subcommands; --image IMAGE is an "
+       "equirectangular image, as in paint"},
+      {{"export", "--textures"}, "--images FOLDER is a folder of `bake`"},
+      {{"export", "--normal"}, "--normal-map IMAGE is a normal map"},
+      {{"export", "--occlusion"},
+       "--occlusion darkens a picture, in render; --occlusion-map IMAGE is ambient occlusion"}};
+  const auto now = renamed.find({command, option});
+  return now == renamed.end() ? "" : command + ": " + now->second;
 }
 
 /// Once a flag in `info` and `verify`: where its file is missing, or it took the place of another.
@@ -145,29 +160,11 @@ int run_program(int argc, char** argv) {
   program.set_version_flag("--version", std::string("sphparam ") + version);
   program.require_subcommand(0, 1);
   std::vector<Command> commands;
-  for (const auto declare : {
-           declare_info,
-           declare_map,
-           declare_verify,
-           declare_render,
-           declare_compare,
-           declare_spharm,
-           declare_remesh,
-           declare_unimage,
-           declare_measure,
-           declare_paint,
-           declare_report,
-           declare_export,
-           declare_bake,
-           declare_manual,
-           declare_completion,
-       }) {
+  for (const auto declare :
+       {declare_info, declare_map, declare_verify, declare_render, declare_compare, declare_spharm,
+        declare_remesh, declare_unimage, declare_measure, declare_paint, declare_report,
+        declare_export, declare_bake, declare_manual, declare_completion}) {
     commands.push_back(declare(program));
-  }
-  for (const Command& command : commands) {
-    if (!command.options->get_option_no_throw("--quiet")) continue;  // reads no mesh
-    add_memory_limit(*command.options);
-    add_input_limits(*command.options);
   }
   try {
     put_subcommand_first(argc, argv);

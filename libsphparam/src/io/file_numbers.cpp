@@ -41,4 +41,21 @@ std::string FileNumbers::absence(long number) const {
                            : " (it was merged with another, or no face used it)");
 }
 
+ParameterizeOptions with_vertices_of_mesh(ParameterizeOptions options, const FileNumbers& numbers) {
+  const auto settle = [&](const char* whose, Vertex& vertex) {
+    const Vertex found = numbers.vertex(vertex);
+    if (found < 0) throw NoSuchVertex(whose, numbers.absence(vertex));
+    vertex = found;
+  };
+  if (options.poles) {
+    auto& [north, south] = *options.poles;
+    settle("poles", north);
+    settle("poles", south);
+    if (north == south)
+      throw NoSuchVertex("poles", "the two are one vertex, welded where positions agree");
+  }
+  if (options.meridian) settle("meridian", *options.meridian);
+  return options;
+}
+
 }  // namespace sphparam

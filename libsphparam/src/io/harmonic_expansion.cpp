@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "sphparam/errors.h"
+#include "sphparam/io/certified_files.h"
+#include "sphparam/io/mesh_writer.h"
 
 namespace sphparam {
 
@@ -64,6 +66,18 @@ MeshFile reconstruction(const MappedMesh& mapped, const HarmonicExpansion& expan
   Provenance lines = mapped.provenance();
   lines.emplace_back("harmonics", std::to_string(expansion.degree()));
   return attach_map(std::move(file), mapped.map(), lines);
+}
+
+void add_reconstruction(PendingFiles& files, const std::string& path, const MappedMesh& mapped,
+                        const HarmonicExpansion& expansion, int threads) {
+  const MeshFile file = reconstruction(mapped, expansion);
+  require_numbers(file, path);
+  std::string bytes = serialise_mesh(path, file);
+  if (keeps_map(path)) {
+    add_certified(files, path, std::move(bytes), mapped.topology(), threads);
+  } else {
+    files.add(path, std::move(bytes));
+  }
 }
 
 }  // namespace sphparam

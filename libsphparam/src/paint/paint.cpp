@@ -56,6 +56,18 @@ PaintedAtlas paint_atlas(const MappedMesh& mapped, const EquirectangularImage& i
   return paint_atlas(mapped.file(), mapped.map(), image, options);
 }
 
+std::string overlap_warning(const PaintedAtlas& atlas, const MeshFile& file) {
+  if (atlas.overlapping == 0) return "";
+  const Property* source = file.find_face_property("source_face");
+  const auto number = [&](Face face) {
+    return source ? static_cast<long>(source->values[static_cast<size_t>(face)]) : long{face};
+  };
+  return "its texture coordinates overlap: " + std::to_string(atlas.overlapping) + " of " +
+         std::to_string(atlas.painted) + " texels belong to two triangles or more (" +
+         std::to_string(number(atlas.rivals[0])) + " and " +
+         std::to_string(number(atlas.rivals[1])) + ", for one); the first has them";
+}
+
 std::string png_of(const PaintedAtlas& atlas, bool with_alpha) {
   const std::vector<char> png =
       encode_image(with_alpha ? atlas.image : without_alpha(atlas.image), ImageFormat::Png);

@@ -74,4 +74,28 @@ std::string to_csv(const HarmonicExpansion& expansion) {
   return text;
 }
 
+std::string residual_line(const HarmonicExpansion& expansion) {
+  return "degree " + std::to_string(expansion.degree()) +
+         ", RMS distance at the vertices, weighted by solid angle, " +
+         short_number(expansion.position_rms()) + " (" +
+         percent(expansion.position_rms() / expansion.diagonal) + " of the diagonal), unweighted " +
+         short_number(expansion.plain_position_rms());
+}
+
+std::vector<std::string> further_lines(const HarmonicExpansion& expansion) {
+  std::vector<std::string> lines;
+  if (expansion.degree() >= 1) {
+    const Vector3 axes = first_order_ellipsoid(expansion.fit.coefficients.leftCols(3));
+    lines.push_back("first-order ellipsoid: semi-axes " + short_number(axes[0], 6) + ", " +
+                    short_number(axes[1], 6) + ", " + short_number(axes[2], 6));
+  }
+  for (size_t k = 3; k < expansion.functions.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    lines.push_back(expansion.functions[k] + ": RMS residual, weighted, " +
+                    short_number(expansion.fit.rms[i]) + ", unweighted " +
+                    short_number(expansion.plain_rms[i]));
+  }
+  return lines;
+}
+
 }  // namespace sphparam

@@ -2,11 +2,13 @@
 
 #include <cmath>
 
+#include "number_text.h"
 #include "render/colour.h"
 
 namespace sphparam {
 
-MeshFile with_coloured_values(MeshFile file, const std::string& name, const VectorX& values) {
+MeshFile with_coloured_values(MeshFile file, const std::string& name, const VectorX& values,
+                              const std::string& about) {
   const double largest = values.size() > 0 ? values.maxCoeff() : 0;
   const std::vector<Rgb> colours = value_colours(values, 0, largest > 0 ? largest : 1);
   int channel = 0;
@@ -20,6 +22,10 @@ MeshFile with_coloured_values(MeshFile file, const std::string& name, const Vect
   }
   file.set_vertex_property(
       {name, ScalarType::Float64, std::vector<double>(values.begin(), values.end())});
+  if (!about.empty()) {
+    file.comments.push_back(name + ": " + one_line(about) + ", colours from 0 to " +
+                            short_number(largest, 6));
+  }
   return file;
 }
 

@@ -24,6 +24,12 @@ struct BakeRequest {
   std::string path;   // .png, .jpg, .tif or .exr; "-": standard output, as PNG
 };
 
+/// A request a field, named by a pattern: {map} in a file's name stands for the field, without what
+/// no name can hold ("curvature:mean" is curvature-mean); a folder, which is there or ends with
+/// "/", gets STEM_{map}.png.
+std::vector<BakeRequest> requests_for(const std::vector<std::string>& fields,
+                                      const std::string& pattern, const std::string& stem);
+
 struct BakeSettings {
   int width = 2048;  // texels a row, even, 2 to 65536; half as many rows. A multiple of 4 for
                      // conventions that are a quarter turn away

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "sphparam/io/mesh_file.h"
+#include "sphparam/parameterize.h"
 
 namespace sphparam {
 
@@ -29,5 +31,21 @@ class FileNumbers {
   std::vector<double> numbers_;  // by vertex; empty: vertices have their numbers
   std::vector<std::pair<double, Vertex>> by_number_;  // sorted; the first of equal ones counts
 };
+
+/// A number that stands for no vertex of the mesh. Says whose, as `parameterize` calls it: "poles",
+/// "meridian".
+class NoSuchVertex : public std::runtime_error {
+ public:
+  NoSuchVertex(const std::string& whose, const std::string& message)
+      : std::runtime_error(message), whose_(whose) {}
+  const std::string& whose() const { return whose_; }
+
+ private:
+  std::string whose_;
+};
+
+/// Poles and meridian that are given by their numbers in the file, as vertices of the mesh.
+/// Throws: NoSuchVertex, also where two poles are one vertex, welded.
+ParameterizeOptions with_vertices_of_mesh(ParameterizeOptions options, const FileNumbers& numbers);
 
 }  // namespace sphparam

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "sphparam/io/mapped_mesh.h"
+#include "sphparam/io/safe_file.h"
 #include "sphparam/sphere/spherical_harmonics.h"
 
 namespace sphparam {
@@ -34,5 +35,10 @@ HarmonicExpansion expand_in_harmonics(const MappedMesh& mapped,
 /// The mesh with the positions and scalars that the harmonics have at its vertices, and its map,
 /// with one line of provenance more. Normals go: they were of the other surface.
 MeshFile reconstruction(const MappedMesh& mapped, const HarmonicExpansion& expansion);
+
+/// Adds it, in the format that the name asks for; where that keeps the map, what was written is
+/// read back and proved. Throws: WriteError; UnmeasurableMesh; NotCertifiedError.
+void add_reconstruction(PendingFiles& files, const std::string& path, const MappedMesh& mapped,
+                        const HarmonicExpansion& expansion, int threads = 0);
 
 }  // namespace sphparam

@@ -47,6 +47,10 @@ struct PaintedAtlas {
   std::array<Face, 2> rivals = {-1, -1};  // two triangles that overlap
 };
 
+/// Where triangles overlap, a warning for people, with two of them by their numbers in the file;
+/// else empty.
+std::string overlap_warning(const PaintedAtlas& atlas, const MeshFile& file);
+
 /// An equirectangular image as a texture for the mesh's own coordinates: a texel whose centre lies
 /// in a triangle, t upwards, gets the image where the geodesic map takes that point, the mean over
 /// what the texel covers there. Coordinates outside [0, 1] repeat; colours run on over the borders

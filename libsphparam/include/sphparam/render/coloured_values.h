@@ -7,8 +7,10 @@
 namespace sphparam {
 
 /// A mesh file with a number for each vertex, as the property `name` and as colours (red green
-/// blue) from 0 to the largest. Properties of these names are replaced. Requires: a finite number,
-/// at least 0, a vertex. Cost: linear.
-MeshFile with_coloured_values(MeshFile file, const std::string& name, const VectorX& values);
+/// blue) from 0 to the largest. Properties of these names are replaced. `about`: what the numbers
+/// are; where it is given, a comment says so, and what the colours mean.
+/// Requires: a finite number, at least 0, a vertex. Cost: linear.
+MeshFile with_coloured_values(MeshFile file, const std::string& name, const VectorX& values,
+                              const std::string& about = "");
 
 }  // namespace sphparam

@@ -1,18 +1,36 @@
-// One option for all limits: there are many, and hardly anybody needs one.
+// RLIMIT_DATA counts private writable memory: heap and stacks of threads. RLIMIT_AS would count
+// what malloc only reserves, 64 MiB a thread, and refuse work that fits.
 
-#include "arguments/input_limits.h"
+#include "arguments/limits.h"
+
+#include <sys/resource.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
+#include <cstdio>
 #include <limits>
-#include <string>
 
-#include "arguments/words.h"
-#include "console/memory_limit.h"
+#include "arguments/declaration.h"
 
 namespace sphparam::cli {
 
 namespace {
+
+char message[128] = "sphparam: error: out of memory\n";
+
+bool limit_memory(const std::string& text) {
+  const std::optional<std::uint64_t> bytes = parse_size(text);
+  if (!bytes) return false;
+  const rlimit limit = {*bytes, *bytes};
+  if (setrlimit(RLIMIT_DATA, &limit) != 0) {
+    throw CLI::ValidationError("--max-memory", "the system does not allow " + text);
+  }
+  std::snprintf(message, sizeof message,
+                "sphparam: error: out of memory: this takes more than --max-memory %.40s\n",
+                text.c_str());
+  return true;
+}
 
 ReadOptions limits;
 
@@ -54,8 +72,26 @@ void set_limit(const std::string& text) {
 
 }  // namespace
 
-void add_input_limits(CLI::App& command) {
-  command
+std::optional<std::uint64_t> parse_size(const std::string& text) {
+  std::uint64_t number = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc{} || number == 0) return std::nullopt;
+  int shift = 0;
+  if (stop != end) {
+    constexpr std::string_view units = "KMGT";
+    const std::size_t unit = units.find(*stop);
+    if (unit == std::string_view::npos || stop + 1 != end) return std::nullopt;
+    shift = 10 * (static_cast<int>(unit) + 1);
+  }
+  const std::uint64_t bytes = number << shift;
+  return bytes >> shift == number ? std::optional(bytes) : std::nullopt;
+}
+
+void declare_limits(Declaration& command) {
+  command.parsed("--max-memory", "SIZE", limit_memory, "expected a size, as in 512M or 2G",
+                 "Exit with status 1 rather than take more memory, as in 512M or 2G");
+  command.app()
       .add_option_function<Words>(
           "--limit", [](const Words& texts) { std::ranges::for_each(texts, set_limit); },
           "Of input files: " + joined(limit_names()))
@@ -66,5 +102,7 @@ void add_input_limits(CLI::App& command) {
 }
 
 const ReadOptions& input_limits() { return limits; }
+
+const char* out_of_memory_message() noexcept { return message; }
 
 }  // namespace sphparam::cli
