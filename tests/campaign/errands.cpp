@@ -191,7 +191,7 @@ void bake(Maker& make) {
 void remesh(Maker& make) {
   Words words = {"remesh", make.mesh("mesh")};
   const auto add = [&](const Words& more) { words.insert(words.end(), more.begin(), more.end()); };
-  if (make.chance(0.4)) {
+  if (make.chance(0.15)) {  // fits take ten times as long as the rest
     const bool quads = make.chance(0.5);
     add({"--grid", quads ? make.grid_of_quads() : make.grid_of_triangles()});
     add({"--subdiv-fit", quads ? "catmark" : "loop"});
