@@ -2,6 +2,7 @@
 
 #include "arguments/bake_arguments.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -110,7 +111,8 @@ std::string bake_summary() {
       "\n"
       "Maps:\n";
   for (const FieldInfo& field : all_fields()) {
-    text += "  " + field.name + std::string(16 - field.name.size(), ' ') + field.about + "\n";
+    text += "  " + field.name + std::string(16 - std::min<size_t>(15, field.name.size()), ' ') +
+            field.about + "\n";
   }
   return text +
          "  axes, checker, graticule\n                  test images, to see how the sphere lies\n";
@@ -133,7 +135,8 @@ UsageMistake as_mistake(const BakeSettingError& error) {
       {"refine_poles", "--refine-poles"},
       {"rays", "--rays"},
       {"max_ray_distance", "--max-dist"}};
-  const std::string& option = options.at(error.setting());
+  const auto known = options.find(error.setting());
+  const std::string option = known == options.end() ? error.setting() : known->second;
   return UsageMistake(option + (option.ends_with(' ') ? "" : ": ") + error.what());
 }
 

@@ -68,8 +68,7 @@ void declare_outputs(Declaration& command, RemeshArguments& arguments) {
 
 void declare_remesh_options(Declaration& command, RemeshArguments& arguments) {
   command.input("MESH", arguments.input, "A mesh, with its map or without; - for standard input")
-      .text("--grid", arguments.grid, "GRID",
-            "ico:L, ico:f=N, octa:N, cube:N, uv:WxH, healpix:NSIDE or like:MESH")
+      .text("--grid", arguments.grid, "GRID", grid_patterns() + " or like:MESH")
       .required()
       .sphere(arguments.sphere)
       .text("--transfer", arguments.transfer, "NAMES",

@@ -12,6 +12,8 @@
 #include "records/comparison_record.h"
 #include "reports/told_losses.h"
 #include "showcase/report_page.h"
+#include "sphparam/image/image_format.h"
+#include "sphparam/io/mesh_reader.h"
 #include "sphparam/names.h"
 #include "sphparam/version.h"
 #include "sphparam/words.h"
@@ -35,9 +37,11 @@ constexpr char summary[] =
     "by side, charts on the same scale. The exit status is 0 also where maps fold.\n";
 
 /// What a page is not; any other ending, as that of page.v2, may be part of its name.
-constexpr std::array<std::string_view, 17> other_kinds = {
-    ".ply", ".obj",  ".off", ".stl",  ".gii", ".glb", ".gltf", ".png", ".exr",
-    ".jpg", ".jpeg", ".tif", ".tiff", ".svg", ".csv", ".json", ".pdf"};
+bool is_of_other_kind(const std::string& path) {
+  constexpr std::array<std::string_view, 4> documents = {".svg", ".csv", ".json", ".pdf"};
+  return is_mesh_name(path) || image_format_of(path) ||
+         std::ranges::find(documents, extension_of(path)) != documents.end();
+}
 
 struct ReportArguments : CommonArguments {
   Words inputs;
@@ -50,9 +54,9 @@ void require_sense(const ReportArguments& arguments) {
   inputs.insert(inputs.end(), {arguments.sphere, arguments.texture});
   if (std::ranges::count_if(inputs, is_stream) > 1)
     throw UsageMistake("only one file can come from standard input");
-  const std::string kind = extension_of(arguments.output);
-  if (std::ranges::find(other_kinds, kind) != other_kinds.end())
-    throw UsageMistake("-o: the page is written as .html, not as " + kind);
+  if (is_of_other_kind(arguments.output))
+    throw UsageMistake("-o: the page is written as .html, not as " +
+                       extension_of(arguments.output));
   check_places({{"--output", arguments.output}, {"--json", arguments.json}});
 }
 

@@ -33,6 +33,9 @@ struct GridSpec {
   bool operator==(const GridSpec&) const = default;
 };
 
+/// How grids are named, with commas between: "ico:L, ico:f=N, octa:N, …".
+std::string grid_patterns();
+
 /// The grid that "ico:7", "uv:512x256" … names.
 /// Throws: std::invalid_argument, saying what was expected, also for more than
 /// `most_grid_vertices`.

@@ -58,18 +58,18 @@ const GridFamily* family_named(std::string_view text) {
   return best;
 }
 
-std::string all_patterns() {
+}  // namespace
+
+std::string grid_patterns() {
   std::string patterns;
   for (const GridFamily* family : grid_families()) patterns.append(family->pattern).append(", ");
   patterns.erase(patterns.size() - 2);
   return patterns;
 }
 
-}  // namespace
-
 GridSpec parse_grid(const std::string& text) {
   const GridFamily* const family = family_named(text);
-  if (!family) throw std::invalid_argument("expected " + all_patterns() + " or like:MESH");
+  if (!family) throw std::invalid_argument("expected " + grid_patterns() + " or like:MESH");
   const auto spec =
       read_size(*family, std::string_view(text).substr(std::string_view(family->prefix).size()));
   if (!spec)
