@@ -137,7 +137,8 @@ class Drawing {
 DrawnMesh load_drawn(const std::string& path, const std::string& sphere,
                      const ReadOptions& options) {
   DrawnMesh drawn;
-  MeshSource source{.path = path};
+  MeshSource source;
+  source.path = path;
   if (sphere.empty()) {
     source.file = read_mesh(path, options);
     keep_textures(source.file);
