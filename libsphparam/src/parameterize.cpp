@@ -125,6 +125,7 @@ Parameterization run(const TriangleMesh& mesh, const Topology& topology,
   if (options.repair && (options.method != Method::Paper || options.repair_paper)) repair(work);
   if (work.certified()) place_frame(work);
   if (work.certified()) warn_of_balance(work);
+  if (work.certified()) warn_of_gap(work);
   return std::move(work.result);
 }
 
@@ -134,6 +135,7 @@ Parameterization run_from(const SphereMap& map, const TriangleMesh& mesh, const 
   work.accept("given map", map);
   repair(work);
   if (work.certified()) place_frame(work);
+  if (work.certified()) warn_of_gap(work);
   return std::move(work.result);
 }
 

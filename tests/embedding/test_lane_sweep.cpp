@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <optional>
@@ -9,6 +10,7 @@
 #include "embedding/energy/triangle_packs.h"
 #include "embedding/sweeps/lane_sweep.h"
 #include "sphparam/sphere/orientation.h"
+#include "support/hard_shapes.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -203,4 +205,59 @@ TEST_CASE("packs: thin and missing rest triangles count as equilateral ones of t
     }
   }
   CHECK(replaced == 6);  // three corners each
+}
+
+TEST_CASE("placement: vertices lie in their rings on the sphere as they do on the source") {
+  const TriangleMesh mesh = with_slivers(icosphere(5), 0.2, 0.01, 3);
+  const HierarchyLevel level = finest_level(mesh);
+  const RingPacks packs = pack_rings(level, 1e-14, 1);
+  std::vector<ImagePoint> points;
+  for (Vertex v = 0; v < mesh.vertex_count(); ++v) {
+    points.push_back(image_point(Vector3(mesh.positions.row(v)).normalized()));
+  }
+  const std::vector<ImagePoint> own = points;
+  const int removed = packs.colour_start[1];
+  std::vector<unsigned char> refused(static_cast<size_t>(removed));
+  place_in_rings(packs, 0, removed, points.data(), refused.data());
+  int slivers = 0, left_alone = 0;
+  for (const Vertex v : level.removed) {
+    double near = 1;  // length of the shortest edge
+    for (int i = 0; i < level.valence(v); ++i) {
+      const auto w = static_cast<size_t>(level.ring_begin(v)[i]);
+      near = std::min(near, (own[w].vector() - own[static_cast<size_t>(v)].vector()).norm());
+    }
+    const double off =
+        (points[static_cast<size_t>(v)].vector() - own[static_cast<size_t>(v)].vector()).norm();
+    left_alone += off == 0;
+    slivers += near < 1e-3;
+    CHECK(off < 0.15 * near);
+  }
+  CHECK(slivers > 100);
+  CHECK(left_alone < slivers / 10);
+}
+
+TEST_CASE("sweeps: energies of rings are told as they are before the step") {
+  Random random(5);
+  const TriangleMesh mesh = uv_sphere(24, 11);  // valences from 4 to 24: packs have empty slots
+  const HierarchyLevel level = finest_level(mesh);
+  const RingPacks packs = pack_rings(level, 1e-14, 1);
+  std::vector<ImagePoint> points;
+  for (Vertex v = 0; v < mesh.vertex_count(); ++v) {
+    points.push_back(image_point(Vector3(mesh.positions.row(v))));
+  }
+  for (const EnergyKind kind : {EnergyKind::AngleAndArea, EnergyKind::SymmetricDirichlet}) {
+    std::vector<float> energy(points.size());
+    std::vector<ImagePoint> moved = points;
+    for (int c = 0; c < packs.colours(); ++c) {  // each colour from the same points
+      moved = points;
+      step_packs(packs, packs.colour_start[static_cast<size_t>(c)],
+                 packs.colour_start[static_cast<size_t>(c) + 1], moved.data(), {.kind = kind}, 1,
+                 energy.data());
+    }
+    double sum = 0;
+    for (const float e : energy) sum += static_cast<double>(e) / 3;
+    const double whole =
+        distortion_energy(Topology(mesh), measure_source(mesh), {mesh.positions}, {.kind = kind});
+    CHECK(sum == Approx(whole).epsilon(1e-4));
+  }
 }

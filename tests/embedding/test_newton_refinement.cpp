@@ -91,6 +91,8 @@ TEST_CASE("Newton refinement: levels are due at every fourfold size, large ones 
   CHECK_FALSE(before.due(159));  // 40,960 / 4⁴ = 160
   CHECK(before.due(160));
   CHECK_FALSE(NewtonRefinement(40'960, {.quality = Quality::Draft}).due(40'960));
+  CHECK_FALSE(NewtonRefinement(40'960, {.quality = Quality::Draft}).due(10'240));
+  CHECK(NewtonRefinement(40'960, {.quality = Quality::Draft}).due(160));  // cheap
 
   const NewtonRefinement after_ball = after(ball, Quality::Normal, 40'960);
   CHECK_FALSE(after_ball.due(ball.size()));  // it has had its steps: 2560 is next

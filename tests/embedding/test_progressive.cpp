@@ -9,6 +9,7 @@
 #include "embedding/sweeps/relaxation.h"
 #include "sphparam/sphere/certificate.h"
 #include "sphparam/sphere/orientation.h"
+#include "support/hard_shapes.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -74,6 +75,70 @@ TEST_CASE("progressive: vector steps and scalar relaxation lower the same energy
     const Relaxation relaxed = relax(topology, source, map, {.energy = energy, .sweeps = 20});
     CHECK(relaxed.report.energy_after <= relaxed.report.energy_before);
     CHECK(relaxed.report.energy_after > 0.999 * relaxed.report.energy_before);
+  }
+}
+
+namespace {
+
+double energy_at(const TriangleMesh& mesh, Quality quality, EnergyKind kind = {}) {
+  const Topology topology(mesh);
+  const ProgressiveEmbedding embedding =
+      embed_progressively(mesh, topology, {.energy = {.kind = kind}, .quality = quality});
+  REQUIRE(embedding.map);
+  CHECK(certify(topology, *embedding.map).bijective());
+  return distortion_energy(topology, measure_source(mesh), *embedding.map, {.kind = kind});
+}
+
+}  // namespace
+
+TEST_CASE("progressive: slivers cost nothing: a sphere with them comes out nearly isometric too") {
+  for (const double at : {0.01, 0.001}) {
+    const TriangleMesh mesh = with_slivers(icosphere(4), 0.2, at, 7);
+    Points rays = mesh.positions;
+    rays.rowwise().normalize();
+    const double ideal = distortion_energy(Topology(mesh), measure_source(mesh), {rays}, {});
+    CHECK(energy_at(mesh, Quality::Draft) < 1.01 * ideal);
+    CHECK(energy_at(mesh, Quality::Normal) < 1.01 * ideal);
+  }
+}
+
+TEST_CASE(
+    "progressive: bristles and rods end within 2 % of their least energy in any order of "
+    "vertices") {
+  const std::vector<TriangleMesh> shapes{brush(1, 3, 10, 30), dumbbell(30, 0.02, 12)};
+  for (const TriangleMesh& shape : shapes) {
+    const double best = energy_at(shape, Quality::Best);
+    for (unsigned order = 1; order <= 10; ++order) {
+      const double normal = energy_at(relabelled(shape, order), Quality::Normal);
+      CHECK(normal < 1.02 * best);
+      CHECK(normal > 0.995 * best);
+    }
+  }
+}
+
+TEST_CASE("progressive: no quality is better than the next one") {
+  const std::vector<TriangleMesh> shapes{icosphere(4), uv_sphere(40, 20), tube(60, 16),
+                                         random_sphere_mesh(2000, 4),
+                                         with_slivers(tube(30, 12), 0.2, 0.01, 2)};
+  for (const TriangleMesh& shape : shapes) {
+    const double normal = energy_at(shape, Quality::Normal);
+    CHECK(normal <= (1 + 1e-4) * energy_at(shape, Quality::Draft));
+    CHECK(energy_at(shape, Quality::Best) <= normal);
+  }
+}
+
+TEST_CASE("progressive: says how much of the energy is left") {
+  for (const TriangleMesh& mesh : {icosphere(4), tube(60, 16), tube(400, 8)}) {
+    const Topology topology(mesh);
+    const auto left = [&](Quality quality) {
+      return embed_progressively(mesh, topology, {.quality = quality}).report.energy_left;
+    };
+    CHECK_FALSE(left(Quality::Draft));
+    REQUIRE(left(Quality::Normal));
+    const double gap = 1 - energy_at(mesh, Quality::Best) / energy_at(mesh, Quality::Normal);
+    CHECK(*left(Quality::Normal) > gap / 5);
+    CHECK(*left(Quality::Normal) < 5 * gap + 0.01);
+    CHECK(*left(Quality::Best) < 0.01);
   }
 }
 

@@ -287,3 +287,21 @@ TEST_CASE("repair_map: a folded map ends certified, a certified one stays as it 
   CHECK(repair_map(mesh, collapsed, options).made_by == "progressive embedding");
   CHECK_THROWS_AS(repair_map(mesh, {good.points.topRows(5)}, options), std::invalid_argument);
 }
+
+TEST_CASE("parameterize: a map that stayed above its least energy says so, others do not") {
+  const auto gap_warnings = [](const Parameterization& result) {
+    return std::ranges::count_if(result.warnings, [](const std::string& warning) {
+      return warning.find("least energy") != std::string::npos;
+    });
+  };
+  const Parameterization ball = parameterize(icosphere(4));
+  REQUIRE(ball.energy_gap);
+  CHECK(*ball.energy_gap < greatest_energy_gap);
+  CHECK(gap_warnings(ball) == 0);
+  const Parameterization long_tube = parameterize(tube(400, 8));
+  REQUIRE(long_tube.energy_gap);
+  CHECK(*long_tube.energy_gap > greatest_energy_gap);
+  CHECK(gap_warnings(long_tube) == 1);
+  CHECK_FALSE(parameterize(icosphere(3), {.quality = Quality::Draft}).energy_gap);
+  CHECK_FALSE(parameterize(icosphere(3), {.balance = Balance::EqualArea}).energy_gap);
+}

@@ -79,6 +79,8 @@ struct BalanceRecord {
   bool moved;         // false: no step was possible, the map is that of λ = 1
 };
 
+constexpr double greatest_energy_gap = 0.01;  // that nobody is told of
+
 struct Parameterization {
   SphereMap map;
   Certificate certificate;     // of `map`
@@ -87,6 +89,10 @@ struct Parameterization {
   /// Share by which the poles (and pins) of a finished map raised its energy; 0 where none were
   /// tried.
   double pole_cost = 0;
+  /// Of a map that the progressive embedding made for a λ near 1, but with Quality::Draft: an
+  /// estimate of the share of its energy that more steps would take, made on the mesh itself; 0 is
+  /// converged. A warning tells of more than `greatest_energy_gap`. It knows of no other minimum.
+  std::optional<double> energy_gap;
   /// Of Method::Progressive with a `balance` to find, or a λ far from 1; empty where none was made.
   std::optional<BalanceRecord> balance;
   std::optional<Vertex> meridian;  // a vertex with θ = 0 that was asked for or chosen

@@ -86,6 +86,16 @@ void warn_of_balance(MapInProgress& work) {
                             : ", as in the map of lambda 1: nothing could be gained"));
 }
 
+void warn_of_gap(MapInProgress& work) {
+  const std::optional<double>& gap = work.result.energy_gap;
+  if (!gap || *gap <= greatest_energy_gap) return;
+  const std::string share = figure(100 * *gap) + " %";
+  work.warn(*gap < 0.5 ? "the map is not at its least energy: about " + share + " of it is left" +
+                             (work.options.quality == Quality::Best ? "" : "; quality best goes on")
+                       : "the map is far from its least energy: distortions are much greater than "
+                         "they need be");
+}
+
 bool embed(MapInProgress& work, const std::vector<Pin>& pins) {
   work.tried_to_embed = true;
   DistortionEnergy energy = work.options.energy;
@@ -103,6 +113,7 @@ bool embed(MapInProgress& work, const std::vector<Pin>& pins) {
   work.record(pins.empty() ? "progressive embedding" : "pinned embedding", *embedding.map);
   if (balanced) *embedding.map = balance(work, *embedding.map, energy.lambda, pins);
   work.accept(balanced ? balanced_map : "progressive embedding", std::move(*embedding.map));
+  if (!balanced) work.result.energy_gap = embedding.report.energy_left;
   return true;
 }
 

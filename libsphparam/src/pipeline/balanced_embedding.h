@@ -17,4 +17,7 @@ bool embed(MapInProgress& work, const std::vector<Pin>& pins);
 /// `work.result.balance` gets that of the finished map.
 void warn_of_balance(MapInProgress& work);
 
+/// Warns where steps have left more of the energy than `greatest_energy_gap`.
+void warn_of_gap(MapInProgress& work);
+
 }  // namespace sphparam

@@ -29,6 +29,7 @@ void MapInProgress::accept(std::string made_by, SphereMap map) {
   result.certificate = certify(topology, map, options.threads);
   result.map = std::move(map);
   if (made_by != balanced_map) result.balance.reset();  // it was that of the map before
+  result.energy_gap.reset();
   result.made_by = std::move(made_by);
   result.stages.push_back({"certificate", stopwatch_.lap(), -1, result.certificate.fold_count()});
 }

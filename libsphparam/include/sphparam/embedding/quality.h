@@ -4,10 +4,10 @@ namespace sphparam {
 
 /// Time against distortion, for methods that minimise it. No map has folds, whatever the quality.
 enum class Quality {
-  Draft,   // relaxed sweeps only: within 1 % of the least energy on ordinary shapes, 20 % on long
-           // protrusions
-  Normal,  // within 1 %, on tubes of 100:1 within 11 %: Newton steps where their gain pays
-  Best,    // converged
+  Draft,   // relaxed sweeps, Newton steps on coarse levels only: within 1 % of the least energy on
+           // ordinary shapes, 20 % on long protrusions
+  Normal,  // within 1 %, on tubes of 100:1 within 15 %: Newton steps where their gain pays
+  Best,    // converged, from two starts on shapes with protrusions
 };
 
 /// What a map gives up for what.

@@ -4,17 +4,19 @@
 #include <atomic>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <utility>
 #include <vector>
 
 #include "elementary.h"
+#include "embedding/constructions/narrow_rings.h"
 #include "embedding/energy/energy_domain.h"
 #include "embedding/frame/pin_domain.h"
 #include "embedding/newton/freed_memory.h"
 #include "embedding/newton/newton_refinement.h"
-#include "embedding/sweeps/kernel_placement.h"
+#include "embedding/newton/sampled_decrement.h"
 #include "embedding/sweeps/lane_sweep.h"
 #include "embedding/sweeps/relaxation.h"
 #include "embedding/sweeps/ring_packs.h"
@@ -23,13 +25,15 @@
 
 // From the tetrahedron up, level by level:
 //   1. vertices that are already there keep their points;
-//   2. each removed vertex goes to the mean of its ring, or, where that is not well inside, to the
-//      deepest point of the ring's kernel; then it makes one Newton step;
+//   2. each removed vertex goes where it lies in its ring on the source (mean value coordinates),
+//      or, where that is not well inside, on the way there from the kernel of the ring; then it
+//      makes one Newton step. Rings that are too narrow for it are opened (narrow_rings.cpp);
 //   3. sweeps of guarded Newton steps over all vertices, colour by colour. Coarse levels are cheap
 //      and get more of them.
 // A vertex without room (rounding on very long protrusions) sends the level back: the coarser one
 // is relaxed again, which opens the rings, and the level is tried once more. Then areas weigh more;
 // last, the shape is forgotten and everything equilateral.
+// A map that ends far from its energy is made once more, from maps in which areas weigh more.
 // Pins are placed on the coarsest level that has them all, and held from there on. Pins that block
 // each other there (edges between them, too few vertices) travel on as levels get finer.
 
@@ -43,10 +47,13 @@ constexpr double least_pin_progress = 0.9;  // of the distances left: more than 
 constexpr int most_idle_levels = 6;
 // Exponents: how many more sweeps coarser levels get. On protrusions the coarse levels carry more.
 constexpr double sweep_growth = 0.5, sweep_growth_without_protrusions = 0.3;
+constexpr int protruding_level = 100;  // vertices: on smaller levels every shape is cramped
 constexpr int shape_sweeps = 30;    // of relaxation, where the embedding knew nothing of the shape
 constexpr size_t large_levels = 3;  // on which memory is at its peak
 // Tried in turn when vertices found no room at the λ asked for.
 constexpr double roomier_lambdas[] = {10, 100, 1000};
+// A second start, where the first ended so far from its energy: how much more areas weigh.
+constexpr double far_from_energy = 0.1, down = 0.3;
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
@@ -112,9 +119,12 @@ class Embedder {
       const double before = done / all;
       const int vertices = hierarchy_[l].vertex_count();
       done += vertices;
+      if (!ring_energy_.empty()) refinement_.note_sampled_decrement(sampled());
       if (refinement_.due(vertices)) refine_by_newton(l, {before, done / all});
       ask_();
     }
+    result.report.energy_left = refinement_.energy_left();
+    result.report.sweeps_sufficed = refinement_.sweeps_suffice();
     packs_ = {};
     hierarchy_.clear();
     result.map = map_of(image_);
@@ -138,6 +148,7 @@ class Embedder {
     if (l < large_levels) give_back_freed_memory();
     complete_positions(hierarchy_[l], hierarchy_[l + 1], options_.threads);
     const HierarchyLevel &level = hierarchy_[l], &coarser = hierarchy_[l + 1];
+    level_ = l;
     packs_ = pack(l, pins_placed_, std::move(packs_));
     ask_();
     for (int attempt = 0;; ++attempt) {
@@ -156,9 +167,20 @@ class Embedder {
     // The first sweep need not move the removed vertices: they have just made their step.
     for (int sweep = 0; sweep < sweeps; ++sweep) {
       ask_();
-      sweep_colours(packs_, sweep == 0 ? 1 : 0, options_.over_relaxation);
+      // Their rings are left out of the energies too: those of their neighbours cover them.
+      const bool told = l == 0 && sweep + 1 == sweeps && refinement_.finest_is_open();
+      if (told) ring_energy_.assign(image_.size(), 0.0F);
+      sweep_colours(packs_, sweep == 0 ? 1 : 0, options_.over_relaxation,
+                    told ? ring_energy_.data() : nullptr);
     }
     return true;
+  }
+
+  /// Of the finest level.
+  double sampled() {
+    const std::vector<float> ring_energy = std::exchange(ring_energy_, {});
+    return sampled_decrement(hierarchy_[0], area_floor_, image_, ring_energy, options_.energy,
+                             options_.threads);
   }
 
   RingPacks pack(size_t l, bool hold_pins, RingPacks used = {}) const {
@@ -228,19 +250,24 @@ class Embedder {
     image_.resize(at(coarser.vertex_count()));
   }
 
-  /// Places the removed vertices (colour 0), moves no other. False: some found no room.
+  /// Places the removed vertices (colour 0), and moves others where those are squeezed in. False:
+  /// some found no room.
   bool insert(const HierarchyLevel& level, ProgressiveReport& report) {
     std::atomic<long> refused{0}, failed{0};
     const int count = packs_.colour_start[1];
-    std::vector<unsigned char> bits(at(count), 0);
+    std::vector<unsigned char> bits(at(count), 0);  // refused, and then: squeezed in
+    const NarrowRings::Options options = narrow_options();
+    NarrowRings narrow(level, image_, options);
     parallel_for(count, pack_grain, options_.threads, [&](std::int64_t first, std::int64_t last) {
       const int begin = static_cast<int>(first), end = static_cast<int>(last);
-      place_at_means(packs_, begin, end, image_.data(), bits.data());
+      place_in_rings(packs_, begin, end, image_.data(), bits.data());
       for (int p = begin; p < end; ++p) {
         for (int lane = 0; lane < pack_width; ++lane) {
           if (!(bits[at(p)] >> lane & 1)) continue;
           ++refused;
-          if (!insert_in_kernel(level, packs_.packs[at(p)].vertex[lane])) ++failed;
+          const Room room = narrow.place(packs_.packs[at(p)].vertex[lane]);
+          if (room == Room::None) ++failed;
+          if (room != Room::Narrow) bits[at(p)] ^= static_cast<unsigned char>(1U << lane);
         }
       }
       if (failed == 0) {
@@ -248,27 +275,31 @@ class Embedder {
       }
     });
     report.kernel_placements += refused;
-    return failed == 0;
+    if (failed > 0) return false;
+    open_rings(narrow, bits);
+    return true;
   }
 
-  bool insert_in_kernel(const HierarchyLevel& level, Vertex v) {
-    std::vector<Vector3> ring;
-    const Vertex* begin = level.ring_begin(v);
-    for (int i = 0; i < level.valence(v); ++i) ring.push_back(image_[at(begin[i])].vector());
-    const auto point = place_in_kernel(ring);
-    if (point) image_[at(v)] = image_point(*point);
-    return point.has_value();
-  }
-
-  void sweep_colours(const RingPacks& packs, int first_colour, double over_relaxation) {
-    for (int c = first_colour; c < packs.colours(); ++c) {
-      const int begin = packs.colour_start[at(c)], end = packs.colour_start[at(c) + 1];
-      parallel_for(
-          end - begin, pack_grain, options_.threads, [&](std::int64_t first, std::int64_t last) {
-            step_packs(packs, begin + static_cast<int>(first), begin + static_cast<int>(last),
-                       image_.data(), options_.energy, over_relaxation);
-          });
+  void open_rings(NarrowRings& rings, const std::vector<unsigned char>& bits) {
+    std::vector<Vertex> narrow;
+    for (size_t p = 0; p < bits.size(); ++p) {
+      for (int lane = 0; lane < pack_width; ++lane) {
+        if (bits[p] >> lane & 1) narrow.push_back(packs_.packs[p].vertex[lane]);
+      }
     }
+    if (narrow.empty()) return;
+    if (std::ssize(image_) >= protruding_level) refinement_.note_protrusions();
+    rings.open(std::move(narrow), pins_placed_ ? pinned_[level_] : std::vector<Vertex>{});
+  }
+
+  NarrowRings::Options narrow_options() const {
+    return {options_.energy, area_floor_, options_.over_relaxation, options_.threads, ask_};
+  }
+
+  void sweep_colours(const RingPacks& packs, int first_colour, double over_relaxation,
+                     float* ring_energy = nullptr) {
+    sweep_packs(packs, first_colour, image_.data(), options_.energy, over_relaxation,
+                options_.threads, ring_energy);
   }
 
   const TriangleMesh& mesh_;
@@ -279,20 +310,25 @@ class Embedder {
   const double area_floor_;
   std::vector<std::vector<Vertex>> pinned_;  // per level that has all pins: their names there
   bool pins_placed_ = false;
+  size_t level_ = 0;     // at hand
   int idle_levels_ = 0;  // that brought the pins no nearer
   RingPacks packs_;      // of the level at hand; its memory serves all levels
   Image image_;
+  std::vector<float> ring_energy_;  // of the finest level, if `refinement_` asks for a sample
   NewtonRefinement refinement_;
 };
 
-/// Towards the energy asked for, where the map was found by another one.
-void refine_map(const TriangleMesh& mesh, const Topology& topology,
-                const ProgressiveOptions& options, const KeptVertices& keep, SphereMap& map) {
-  if (options.quality == Quality::Draft) return;
+/// Towards the energy asked for, where the map was found by another one. Returns the share of it
+/// that is left.
+std::optional<double> refine_map(const TriangleMesh& mesh, const Topology& topology,
+                                 const ProgressiveOptions& options, const KeptVertices& keep,
+                                 SphereMap& map) {
+  if (options.quality == Quality::Draft) return std::nullopt;
   Image image = image_of(map);
-  NewtonRefinement(topology.vertex_count(), refinement_options(options))
-      .improve(mesh, topology, keep.vertices, image);
+  NewtonRefinement refinement(topology.vertex_count(), refinement_options(options));
+  refinement.improve(mesh, topology, keep.vertices, image);
   map = map_of(image);
+  return refinement.energy_left();
 }
 
 /// With the λ asked for, or else with greater ones: weighing areas more keeps protrusions from
@@ -312,9 +348,58 @@ ProgressiveEmbedding embed_with_room(const TriangleMesh& mesh, const Topology& t
     const int retries = embedding.report.retries;
     embedding = embed(roomier);
     embedding.report.retries += retries;
-    if (embedding.map) refine_map(mesh, topology, options, keep, *embedding.map);
+    if (!embedding.map) continue;
+    embedding.report.energy_left = refine_map(mesh, topology, options, keep, *embedding.map);
   }
   return embedding;
+}
+
+double energy_of(const TriangleMesh& mesh, const Topology& topology, const SphereMap& map,
+                 const ProgressiveOptions& options) {
+  return distortion_energy(topology, measure_source(mesh, options.threads), map, options.energy,
+                           options.threads);
+}
+
+/// From a map in which areas weigh more, down to the λ asked for. Where the embedding ended far
+/// from its energy, triangles have too little area for any step to give it back; areas that shrink
+/// are in nobody's way.
+ProgressiveEmbedding embed_from_above(const TriangleMesh& mesh, const Topology& topology,
+                                      const ProgressiveOptions& options, const KeptVertices& keep,
+                                      double lambda) {
+  ProgressiveOptions above = options;
+  above.quality = Quality::Normal;
+  above.energy = {.lambda = lambda * std::max(1.0, options.energy.lambda)};
+  ProgressiveEmbedding embedding = embed_with_room(mesh, topology, above, keep);
+  if (!embedding.map) return embedding;
+  while ((above.energy.lambda *= down) > options.energy.lambda / down) {
+    refine_map(mesh, topology, above, keep, *embedding.map);
+  }
+  embedding.report.energy_left = refine_map(mesh, topology, options, keep, *embedding.map);
+  return embedding;
+}
+
+/// The better of two embeddings where the first is far from its energy, or the best is wanted of a
+/// shape that is not plain.
+ProgressiveEmbedding embed_better(const TriangleMesh& mesh, const Topology& topology,
+                                  const ProgressiveOptions& options, const KeptVertices& keep) {
+  ProgressiveEmbedding first = embed_with_room(mesh, topology, options, keep);
+  if (!first.map || options.quality == Quality::Draft || !options.pins.empty()) return first;
+  const bool far = !(first.report.energy_left.value_or(0) < far_from_energy);
+  const bool wanted = options.quality == Quality::Best && !first.report.sweeps_sufficed;
+  if (!far && !wanted) return first;
+  double least = energy_of(mesh, topology, *first.map, options);
+  for (const double lambda : roomier_lambdas) {
+    ProgressiveEmbedding second = embed_from_above(mesh, topology, options, keep, lambda);
+    if (!second.map) continue;
+    const double energy = energy_of(mesh, topology, *second.map, options);
+    if (energy < least) {
+      least = energy;
+      second.report.retries += first.report.retries;
+      first = std::move(second);
+    }
+    if (first.report.energy_left.value_or(0) < far_from_energy) break;
+  }
+  return first;
 }
 
 /// As if all triangles were equilateral, then relaxed and refined for the shape they have. No
@@ -337,7 +422,7 @@ ProgressiveEmbedding embed_by_valences(const TriangleMesh& mesh, const Topology&
                          .progress = options.progress,
                          .measure_energy = false})
                       .map;
-  refine_map(mesh, topology, options, keep, *embedding.map);
+  embedding.report.energy_left = refine_map(mesh, topology, options, keep, *embedding.map);
   return embedding;
 }
 
@@ -361,7 +446,7 @@ ProgressiveEmbedding embed_progressively(const TriangleMesh& mesh, const Topolog
   report(options.progress, "hierarchy", 0);
   KeptVertices keep{{}, std::max(options.pin_level, 20 * static_cast<int>(options.pins.size()))};
   for (const Pin& pin : options.pins) keep.vertices.push_back(pin.vertex);
-  ProgressiveEmbedding embedding = embed_with_room(mesh, topology, options, keep);
+  ProgressiveEmbedding embedding = embed_better(mesh, topology, options, keep);
   give_back_freed_memory();  // before the caller measures and turns the map
   if (embedding.map) return embedding;
   const int retries = embedding.report.retries;

@@ -33,8 +33,12 @@ constexpr int most_retries = 20;  // each sweeps twice as often as the one befor
 struct ProgressiveReport {
   int levels = 0;
   int retries = 0;             // levels that had to be relaxed again before vertices found room
-  long kernel_placements = 0;  // vertices for which the mean of their ring was not good enough
+  long kernel_placements = 0;  // vertices that had no room in their ring where they belong
   std::vector<double> pin_residuals = {};  // radians from the point asked for; 0 is exact
+  /// Estimated on the finest level: share of the energy that steps to come would take. Nothing
+  /// where the quality is Draft.
+  std::optional<double> energy_left = std::nullopt;
+  bool sweeps_sufficed = false;  // no protrusions that sweeps creep along
 };
 
 struct ProgressiveEmbedding {
@@ -53,10 +57,12 @@ struct ProgressiveEmbedding {
 /// positions. Ensures: unit points; same bits for any number of threads
 ///           and any vector width of the machine. Throws: Cancelled; std::invalid_argument naming
 ///           an option outside of its domain.
-/// Cost: O(#F). Sweeps solve no linear system; where they stall, on long protrusions and with
-/// Quality::Best, a bounded number of Newton steps does, each O(#F) by multigrid.
-/// Paper: Praun and Hoppe, "Spherical parametrization and remeshing" (2003); whole levels instead
-/// of single vertices, the energy, the guard and the over-relaxed sweeps are our own.
+/// Cost: O(#F). Sweeps solve no linear system; where they stall, on long protrusions, around
+/// slivers and with Quality::Best, a bounded number of Newton steps does, each O(#F) by multigrid.
+/// A map that ends far from its energy, and with Quality::Best one of a shape with protrusions, is
+/// made again up to three times; the one of least energy is returned. Paper: Praun and Hoppe,
+/// "Spherical parametrization and remeshing" (2003); whole levels instead of single vertices, the
+/// energy, the guard and the over-relaxed sweeps are our own.
 ProgressiveEmbedding embed_progressively(const TriangleMesh& mesh, const Topology& topology,
                                          const ProgressiveOptions& options = {});
 

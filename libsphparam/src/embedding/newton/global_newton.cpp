@@ -257,8 +257,8 @@ LinearSolution GlobalNewton::solve(const DistortionEnergy& energy, double least_
 GlobalNewton::Step GlobalNewton::step(const DistortionEnergy& energy, double least_share) {
   const double before = this->energy(energy);
   const LinearSolution solution = solve(energy, least_share);
-  const double slope = -solution.gain;
-  if (!(slope < 0) || !std::isfinite(slope)) return {before, solution.iterations, 0};
+  const double slope = -solution.gain, promised = solution.gain / 2;
+  if (!(slope < 0) || !std::isfinite(slope)) return {before, solution.iterations, 0, promised};
   const double cap = longest_step / longest(solution.x);
 
   Image candidate;
@@ -280,9 +280,9 @@ GlobalNewton::Step GlobalNewton::step(const DistortionEnergy& energy, double lea
       length *= 2;
     }
     image_.swap(candidate);
-    return {after, solution.iterations, length};
+    return {after, solution.iterations, length, promised};
   }
-  return {before, solution.iterations, 0};
+  return {before, solution.iterations, 0, promised};
 }
 
 void GlobalNewton::write_to(std::vector<ImagePoint>& image) const {

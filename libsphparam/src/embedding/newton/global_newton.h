@@ -36,6 +36,8 @@ class GlobalNewton {
     double energy;   // after the step; before it, if nothing moved
     int iterations;  // of the linear solver
     double length;   // of the step, in Newton steps; 0: nothing moved
+    double
+        decrement;  // ½ gᵀH⁻¹g as far as the system was solved: what the quadratic model promised
   };
 
   /// Is there a vertex that is not pinned?

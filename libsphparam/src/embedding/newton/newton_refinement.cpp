@@ -9,11 +9,12 @@
 
 // Levels are due at every fourfold vertex count, counted down from the finest. The smallest get a
 // step in any case: all of them together cost less than a tenth of a step on the finest. Finer ones
-// get steps only if the first step on the level before gained enough, relative to its energy.
-// Shapes with long protrusions gain 0.3 to 4 % there, others below 0.2 %.
+// get steps only if the first step on the level before gained enough, relative to its energy, or
+// promised to (a few triangles can block a step), or if something else has shown that sweeps do not
+// suffice: rings without room, or, for the finest alone, a sample of it. Shapes with long
+// protrusions gain 0.3 to 4 % there, others below 0.2 %.
 // Between steps a few guarded sweeps smooth what the step has creased; half of the gain is theirs.
-// Gains shrink from step to step by a ratio that hardly changes: what is left is the rest of a
-// geometric series.
+// What is left is estimated from the gains and from what a step promised and could not keep.
 
 namespace sphparam {
 namespace {
@@ -21,21 +22,34 @@ namespace {
 constexpr int least_vertices = 100;
 constexpr int growth = 4;  // from one level that is due to the next
 constexpr double worthwhile = 2e-3;
-constexpr int coarse_steps = 20, finest_steps = 30, best_steps = 100;
+constexpr int coarse_steps = 20, finest_steps = 60, best_steps = 300;
 // What may be left, relative to the energy. Small meshes cost little: less is left of theirs.
-constexpr double coarse_rest = 4e-3, finest_rest = 3e-3, best_rest = 1e-6;
+constexpr double coarse_rest = 6e-3, finest_rest = 5e-3, best_rest = 1e-5;
 constexpr double small_mesh = 5000;                        // vertices
 constexpr double least_ratio = 0.5, greatest_ratio = 0.9;  // of a gain to the one before
 constexpr int sweeps_between = 5;
+constexpr double worthwhile_sampled = 4e-3;  // of the energy
+constexpr double unseen = 2;                 // times as much as a sample says is left
+constexpr double idle_share = 0.1;           // of what may be left: a step that gains less is idle
+constexpr int most_idle_steps = 3;           // in a row
 constexpr double least_share = 0.5;  // of a system's iterations: twice as many gain next to nothing
 
 /// Levels up to this size cost hardly anything.
 int cheap(int finest) { return std::max(1000, finest / 16); }
 
-/// What steps to come will gain, from the last two.
-double expected(double gain, double before) {
-  const double ratio = std::clamp(gain / before, least_ratio, greatest_ratio);
-  return gain * ratio / (1 - ratio);
+/// What steps to come will gain, from the gains so far. In long valleys good steps and poor ones
+/// take turns: pairs are compared, where there are two.
+double expected(const std::vector<double>& gains) {
+  const size_t n = gains.size();
+  const auto pair = [&](size_t last) { return (gains[last] + gains[last - 1]) / 2; };
+  double gain = gains.back(), ratio = n > 1 ? gain / gains[n - 2] : 0;
+  if (n > 3) {
+    gain = pair(n - 1);
+    ratio = std::sqrt(gain / pair(n - 3));
+  }
+  if (!(ratio <= greatest_ratio)) ratio = greatest_ratio;
+  ratio = std::max(ratio, least_ratio);
+  return gain * std::max(ratio / (1 - ratio), n > 1 ? static_cast<double>(n) : 0.0);
 }
 
 }  // namespace
@@ -48,13 +62,23 @@ NewtonRefinement::NewtonRefinement(int finest_vertices, RefinementOptions option
   while (next_ >= growth * least_vertices) next_ /= growth;
 }
 
-bool NewtonRefinement::due(int vertices) const {
-  const Quality quality = options_.quality;
-  if (quality == Quality::Draft || vertices < next_ || vertices < least_vertices) return false;
-  return quality == Quality::Best || vertices <= cheap(finest_) || !sweeps_suffice();
+bool NewtonRefinement::finest_is_open() const {
+  return options_.quality != Quality::Draft && !due(finest_);
 }
 
-bool NewtonRefinement::sweeps_suffice() const { return last_gain_ <= worthwhile; }
+void NewtonRefinement::note_sampled_decrement(double share) {
+  slivers_ = share > worthwhile_sampled;
+  energy_left_ = last_gain_ + unseen * share;
+}
+
+bool NewtonRefinement::due(int vertices) const {
+  if (vertices < next_ || vertices < std::min(least_vertices, finest_)) return false;
+  if (options_.quality == Quality::Draft) return vertices < finest_ && vertices <= cheap(finest_);
+  if (vertices == finest_ && (slivers_ || options_.quality == Quality::Best)) return true;
+  return vertices <= cheap(finest_) || !sweeps_suffice();
+}
+
+bool NewtonRefinement::sweeps_suffice() const { return last_gain_ <= worthwhile && !protrusions_; }
 
 void NewtonRefinement::improve(const TriangleMesh& mesh, const Topology& topology,
                                const std::vector<Vertex>& pinned, std::vector<ImagePoint>& image,
@@ -72,19 +96,28 @@ void NewtonRefinement::improve(const TriangleMesh& mesh, const Topology& topolog
   double done = share.begin;
   newton.ask_with([&] { report(options_.progress, "embedding", done); });
   double energy = newton.energy(options_.energy);
-  last_gain_ = std::numeric_limits<double>::infinity();      // not known, should it end here
+  last_gain_ = std::numeric_limits<double>::infinity();  // not known, should it end here
+  if (finest) energy_left_ = 1;
   if (!newton.can_move() || !std::isfinite(energy)) return;  // not finite: positive, not certain
   image = std::vector<ImagePoint>();  // there is no room to spare in a step; = {} would keep it
-  double gain_before = std::numeric_limits<double>::infinity();
+  std::vector<double> gains;
+  int idle = 0;
   for (int step = 0; step < most_steps; ++step) {
-    newton.step(options_.energy, least_share);
+    const GlobalNewton::Step made = newton.step(options_.energy, least_share);
     newton.sweep(options_.energy, sweeps_between);
     done = std::lerp(share.begin, share.end, (step + 1.0) / most_steps);
     report(options_.progress, "embedding", done);
     const double before = std::exchange(energy, newton.energy(options_.energy));
-    const double gain = 1 - energy / before;
-    if (step == 0) last_gain_ = gain;
-    if (!(expected(gain, std::exchange(gain_before, gain)) >= rest)) break;
+    const double gain = 1 - energy / before, promised = std::min(1.0, made.decrement / before);
+    if (step == 0) last_gain_ = std::max(gain, promised);
+    gains.push_back(gain);
+    const double to_come = expected(gains);
+    // A step cut short has left most of what it promised.
+    const double left =
+        std::min(1.0, std::max(to_come, (1 - std::min(1.0, made.length)) * promised));
+    if (finest) energy_left_ = left;
+    idle = gain < rest * idle_share ? idle + 1 : 0;
+    if (!(left >= rest) || idle == most_idle_steps) break;
   }
   newton.write_to(image);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "embedding/energy/image_point.h"
@@ -22,14 +23,20 @@ struct ProgressShare {
   double begin = 0, end = 1;
 };
 
-/// Newton steps on some levels of a progressive embedding, for shapes with long protrusions: sweeps
-/// creep along the curved valley of their energy, Newton steps do not. On other shapes one cheap
-/// step on the coarse levels finds that out, and nothing else is done. Our own. Cost: see
-/// newton_refinement.cpp.
+/// Newton steps on some levels of a progressive embedding, for shapes with long protrusions or
+/// slivers: sweeps creep along the curved valley of their energy, Newton steps do not. On other
+/// shapes one cheap step on the coarse levels and a sample of the finest find that out, and nothing
+/// else is done. Our own. Cost: see newton_refinement.cpp.
 class NewtonRefinement {
  public:
   NewtonRefinement(int finest_vertices, RefinementOptions options);
 
+  /// Is it left to `note_sampled_decrement` whether the finest level is due?
+  bool finest_is_open() const;
+  /// Something else has shown that sweeps do not suffice.
+  void note_protrusions() { protrusions_ = true; }
+  /// What `sampled_decrement` says of the finest level: more than a little makes it due.
+  void note_sampled_decrement(double share);
   /// Is a level with so many vertices to be improved?
   bool due(int vertices) const;
   /// Has it found that sweeps do all there is to do? False as long as it does not know.
@@ -39,12 +46,18 @@ class NewtonRefinement {
   void improve(const TriangleMesh& mesh, const Topology& topology,
                const std::vector<Vertex>& pinned, std::vector<ImagePoint>& image,
                ProgressShare share = {});
+  /// Estimate of the share of the finest level's energy that more steps would take; nothing as long
+  /// as nobody has looked.
+  std::optional<double> energy_left() const { return energy_left_; }
 
  private:
   RefinementOptions options_;
   int finest_;
   int next_;          // vertices of the next level to be improved, at least
-  double last_gain_;  // on the level improved last, by the first step
+  double last_gain_;  // on the level improved last: of the first step, or what it promised
+  std::optional<double> energy_left_;
+  bool protrusions_ = false;
+  bool slivers_ = false;  // a sample of the finest level says that sweeps did not suffice
 };
 
 }  // namespace sphparam

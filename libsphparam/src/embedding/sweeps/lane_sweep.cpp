@@ -6,6 +6,7 @@
 #include "embedding/energy/lanes.h"
 #include "embedding/energy/ring_derivatives.h"
 #include "sphere/ieee_arithmetic.h"
+#include "sphparam/parallel.h"
 
 // The inner loop of the progressive embedding: the vertices of a pack move at once, one a lane,
 // each by a Newton step of its ring's energy (energy/ring_derivatives.h). A step is taken only
@@ -14,7 +15,10 @@
 namespace sphparam {
 namespace {
 
-constexpr double placement_margin = 0.02;  // a mean is accepted this far inside its ring
+constexpr std::int64_t sweep_grain = 16;   // packs
+constexpr double placement_margin = 0.02;  // a mean is accepted this far inside its ring,
+constexpr double sliver_margin = 0.1;      // or this share of how far a rest triangle is
+constexpr double plain_share = 1e-3;       // of the plain mean: keeps room however thin the slivers
 constexpr double first_step_cap = 0.5;     // radians
 constexpr double step_shrink = 0.35;
 constexpr int step_trials = 5;
@@ -79,12 +83,25 @@ SPHPARAM_INLINE Step<W> newton_step(const RingModel<W>& m) {
   return step;
 }
 
+/// Writes down the energies of rings, less the constant that slots beyond a lane's valence add.
+template <class Terms, int W>
+SPHPARAM_INLINE void note_energy(const Terms& energy, const Part<W>& part, Lanes<W> value,
+                                 float* ring_energy) {
+  const Lanes<W> zero = 0.0, empty = energy.corner_value(zero, Lanes<W>(1.0), zero, zero);
+  for (int i = 0; i < part.valence(); ++i) value -= select(part.beta(i) > 0.0, zero, empty);
+  for (int i = 0; i < W; ++i) {
+    const Vertex v = part.pack.vertex[part.first + i];
+    if (v >= 0) ring_energy[v] = static_cast<float>(value[i]);
+  }
+}
+
 template <class Terms, int W>
 SPHPARAM_INLINE void step_part(const Terms& energy, const Part<W>& part, ImagePoint* points,
-                               double over_relaxation, LaneVectors<W>* ring) {
+                               double over_relaxation, LaneVectors<W>* ring, float* ring_energy) {
   for (int i = 0; i < part.valence(); ++i) ring[i] = gather<W>(points, part.neighbours(i));
   const LaneVectors<W> x = part.own(points);
   const RingModel<W> model = second_order_model(energy, part, ring, x);
+  if (ring_energy) note_energy(energy, part, model.value, ring_energy);
   const Step<W> step = newton_step(model);
   LaneMask<W> todo = step.worthwhile & part.filled();
   if (!todo.any()) return;
@@ -107,23 +124,70 @@ SPHPARAM_INLINE void step_part(const Terms& energy, const Part<W>& part, ImagePo
   part.scatter(moved, done, points);
 }
 
-/// The lanes whose ring means are not well inside.
+/// The rest triangle of a slot, seen from its corner x. Lengths are over √8.
+template <int W>
+struct RestCorner {
+  Lanes<W> base, side;  // |a|, |b|
+  Lanes<W> half_angle;  // tan(θ/2), θ the angle between them: |b| ∓ |a|t over the height
+  Lanes<W> height, shear;
+
+  SPHPARAM_INLINE RestCorner(Lanes<W> alpha, Lanes<W> beta, Lanes<W> t)
+      : base(root(beta)), side(root(beta * (t * t) + alpha)), height(root(alpha)), shear(t) {
+    const Lanes<W> along = side + magnitude(t) * base;
+    half_angle = select(t > 0.0, height / along, along / height);
+  }
+
+  /// 2F / (|a|² + |b − a|²)
+  SPHPARAM_INLINE Lanes<W> quality() const {
+    const Lanes<W> rest = base * (1.0 - shear);
+    return base * height / (base * base + rest * rest + height * height);
+  }
+};
+
+/// Puts the vertices where they lie in their rings as the rest triangles have them: at mean value
+/// coordinates, the mean of their neighbours with weights (tan(θ/2) + tan(θ'/2)) / |a|. Next to a
+/// near neighbour, then, where the plain mean would make room for it in the middle of the ring,
+/// which no sweep takes back where triangles are slivers. Returns the lanes that are not well
+/// inside.
+/// Paper: Floater, "Mean value coordinates" (2003).
 template <int W>
 SPHPARAM_INLINE unsigned place_part(const Part<W>& part, ImagePoint* points, LaneVectors<W>* ring) {
-  LaneVectors<W> sum{0.0, 0.0, 0.0};
-  for (int i = 0; i < part.valence(); ++i) {
-    ring[i] = gather<W>(points, part.neighbours(i));
-    sum = select(part.beta(i) > 0.0, sum + ring[i], sum);
+  const int valence = part.valence();
+  LaneVectors<W> weighted{0.0, 0.0, 0.0}, plain{0.0, 0.0, 0.0};
+  Lanes<W> weight = 0.0, count = 0.0;
+  const Lanes<W> zero = 0.0;
+  for (int i = 0; i < valence; ++i) ring[i] = gather<W>(points, part.neighbours(i));
+  for (int i = 0; i < valence; ++i) {
+    const LaneMask<W> live = part.beta(i) > 0.0;
+    const RestCorner<W> corner(part.alpha(i), part.beta(i), part.shear(i));
+    const Lanes<W> to_p = select(live, corner.half_angle / corner.base, zero);
+    const Lanes<W> to_q = select(live, corner.half_angle / corner.side, zero);
+    weighted = weighted + to_p * ring[i] + to_q * ring[i + 1 == valence ? 0 : i + 1];
+    weight += to_p + to_q;
+    plain = select(live, plain + ring[i], plain);
+    count += select(live, Lanes<W>(1.0), zero);
   }
-  const LaneVectors<W> x = unit(sum);
+  const LaneVectors<W> x =
+      unit(((1.0 - plain_share) / weight) * weighted + (plain_share / count) * plain);
+  // Few are not inside by the plain margin: only those are asked how thin their triangles may be.
   LaneMask<W> inside = ~LaneMask<W>{};
-  LaneVectors<W> a = ring[0] - x;
-  const LaneVectors<W> first = a;
-  for (int i = 0; i < part.valence(); ++i) {
-    const LaneVectors<W> b = i + 1 == part.valence() ? first : ring[i + 1] - x, edge = b - a;
-    const Lanes<W> size = dot(a, a) + dot(edge, edge);
-    inside = inside & ((dot(x, cross(a, b)) > placement_margin * size) | ~(part.beta(i) > 0.0));
-    a = b;
+  const auto look = [&](const auto& margin) SPHPARAM_INLINED {
+    inside = ~LaneMask<W>{};
+    LaneVectors<W> a = ring[0] - x;
+    const LaneVectors<W> first = a;
+    for (int i = 0; i < valence; ++i) {
+      const LaneVectors<W> b = i + 1 == valence ? first : ring[i + 1] - x, edge = b - a;
+      const Lanes<W> size = dot(a, a) + dot(edge, edge);
+      inside = inside & ((dot(x, cross(a, b)) > margin(i) * size) | ~(part.beta(i) > 0.0));
+      a = b;
+    }
+  };
+  look([](int) SPHPARAM_INLINED { return Lanes<W>(placement_margin); });
+  if ((~inside).any()) {
+    look([&](int i) SPHPARAM_INLINED {
+      const RestCorner<W> corner(part.alpha(i), part.beta(i), part.shear(i));
+      return smaller(Lanes<W>(placement_margin), sliver_margin * corner.quality());
+    });
   }
   const LaneMask<W> filled = part.filled();
   part.scatter(x, inside & filled, points);
@@ -168,12 +232,12 @@ class RingBuffer {
 
 template <class Terms>
 void step_range(const Terms& energy, const RingPacks& packs, int first, int last,
-                ImagePoint* points, double over_relaxation) {
+                ImagePoint* points, double over_relaxation, float* ring_energy) {
   RingBuffer buffer(packs.largest_valence);
   run_on_lanes([&]<int W>(Width<W>) SPHPARAM_INLINED {
     LaneVectors<W>* ring = buffer.ring<W>();
     for_each_part<W>(packs, first, last, [&](int, const Part<W>& part) SPHPARAM_INLINED {
-      step_part(energy, part, points, over_relaxation, ring);
+      step_part(energy, part, points, over_relaxation, ring, ring_energy);
     });
   });
 }
@@ -181,13 +245,26 @@ void step_range(const Terms& energy, const RingPacks& packs, int first, int last
 }  // namespace
 
 void step_packs(const RingPacks& packs, int first_pack, int last_pack, ImagePoint* points,
-                const DistortionEnergy& energy, double over_relaxation) {
+                const DistortionEnergy& energy, double over_relaxation, float* ring_energy) {
   with_terms_of(energy, [&](const auto& terms) {
-    step_range(terms, packs, first_pack, last_pack, points, over_relaxation);
+    step_range(terms, packs, first_pack, last_pack, points, over_relaxation, ring_energy);
   });
 }
 
-void place_at_means(const RingPacks& packs, int first_pack, int last_pack, ImagePoint* points,
+void sweep_packs(const RingPacks& packs, int first_colour, ImagePoint* points,
+                 const DistortionEnergy& energy, double over_relaxation, int threads,
+                 float* ring_energy) {
+  for (int c = first_colour; c < packs.colours(); ++c) {
+    const int begin = packs.colour_start[static_cast<size_t>(c)];
+    const int end = packs.colour_start[static_cast<size_t>(c) + 1];
+    parallel_for(end - begin, sweep_grain, threads, [&](std::int64_t first, std::int64_t last) {
+      step_packs(packs, begin + static_cast<int>(first), begin + static_cast<int>(last), points,
+                 energy, over_relaxation, ring_energy);
+    });
+  }
+}
+
+void place_in_rings(const RingPacks& packs, int first_pack, int last_pack, ImagePoint* points,
                     unsigned char* refused) {
   RingBuffer buffer(packs.largest_valence);
   for (int p = first_pack; p < last_pack; ++p) refused[p] = 0;
