@@ -75,8 +75,10 @@ TEST_CASE("map_record: what was asked for, what came out, by the numbers of the 
                         .seconds = 1.5}));
   CHECK(keys_of(json) ==
         "sphparam,command,input,inspection,repairs,components,options,account,stages,made_by,poles,"
-        "meridian,pole_residuals,pins,lambda,balance,energy_cost,certificate,distortion,chart,"
-        "outputs,warnings,notes,seconds");
+        "meridian,pole_residuals,pins,lambda,balance,energy_gap,energy_cost,certificate,distortion,"
+        "chart,outputs,warnings,notes,seconds");
+  REQUIRE(result.energy_gap);
+  CHECK(json["energy_gap"] == *result.energy_gap);
   CHECK(json["input"]["file"] == "folder/ball.ply");
   CHECK(json["inspection"]["mappable"] == true);
   CHECK(json["options"]["method"] == "progressive");
@@ -113,6 +115,7 @@ TEST_CASE("map_record: a method of others has its account, and no weight of ours
   CHECK(keys_of(json["options"]) == "method,repair,repair_map");
   CHECK(json["options"]["method"] == "tangential");
   CHECK(json["lambda"].is_null());
+  CHECK(json["energy_gap"].is_null());
   CHECK(json["certificate"]["one_to_one"] == false);
   CHECK(json["chart"].is_null());
 }

@@ -55,6 +55,8 @@ Json lambda_json(const MapRecord& record) {
   return record.result.balance ? record.result.balance->lambda : options.energy.lambda;
 }
 
+Json energy_gap_json(const std::optional<double>& gap) { return gap ? Json(*gap) : Json(); }
+
 Json balance_json(const std::optional<BalanceRecord>& balance) {
   if (!balance) return nullptr;
   return {{"lambda", balance->lambda},
@@ -135,6 +137,7 @@ std::string to_json(const MapRecord& record) {
                   {"pins", pins_json(record)},
                   {"lambda", lambda_json(record)},
                   {"balance", balance_json(record.result.balance)},
+                  {"energy_gap", energy_gap_json(record.result.energy_gap)},
                   {"energy_cost", record.result.pole_cost},
                   {"certificate", certificate_json(record.result.certificate)},
                   {"distortion", distortion_json(record.distortion)},
