@@ -118,6 +118,10 @@ std::string name_of(RepairKind kind) {
       return "component-dropped";
     case RepairKind::HoleFilled:
       return "hole-filled";
+    case RepairKind::HandleCut:
+      return "handle-cut";
+    case RepairKind::HandleFilled:
+      return "handle-filled";
     case RepairKind::TurnedOutward:
       return "turned-outward";
     case RepairKind::FlatFaceTurned:
@@ -126,6 +130,18 @@ std::string name_of(RepairKind kind) {
       return "flat-face-collapsed";
     case RepairKind::UnusedVertexDropped:
       return "unused-vertex-dropped";
+  }
+  return "";
+}
+
+std::string name_of(HandleChoice choice) {
+  switch (choice) {
+    case HandleChoice::Shortest:
+      return "shortest";
+    case HandleChoice::Cut:
+      return "cut";
+    case HandleChoice::Fill:
+      return "fill";
   }
   return "";
 }
@@ -153,6 +169,7 @@ const std::vector<RepairSwitch>& repair_switches() {
                                                 {"non-manifold", &RepairOptions::non_manifold},
                                                 {"components", &RepairOptions::components},
                                                 {"holes", &RepairOptions::holes},
+                                                {"handles", &RepairOptions::handles},
                                                 {"flat-faces", &RepairOptions::flat_faces},
                                                 {"unused", &RepairOptions::unused}};
   return all;
@@ -171,6 +188,14 @@ std::string options_line(const RepairOptions& options) {
   if (options.component > 0) line += " --component " + std::to_string(options.component);
   if (options.largest_hole != RepairOptions{}.largest_hole) {
     line += " --max-hole " + std::to_string(options.largest_hole);
+  }
+  if (options.handle_choice != HandleChoice::Shortest) {
+    line += " --handles " + name_of(options.handle_choice);
+  }
+  if (options.longest_handle_length > 0) {
+    line += " --max-handle " + shortest(options.longest_handle_length);
+  } else if (options.longest_handle != RepairOptions{}.longest_handle) {
+    line += " --max-handle " + short_number(100 * options.longest_handle, 6) + "%";
   }
   return line;
 }

@@ -1,5 +1,7 @@
 #include "sphparam/words.h"
 
+#include <algorithm>
+
 #include "number_text.h"
 
 namespace sphparam {
@@ -18,6 +20,28 @@ std::string kept_line(const KeptParts& parts) {
   return "kept " + percent(parts.area_share, 5) + " of the area and " +
          percent(parts.face_share, 5) + " of the faces, lost " + percent(1 - parts.area_share, 2) +
          " and " + percent(1 - parts.face_share, 2);
+}
+
+std::string handle_line(const HandleLoop& loop) {
+  const Vector3& c = loop.centre;
+  return std::string(loop.filled ? "closed" : "cut") + " along " +
+         counted(std::ssize(loop.vertices), "edge", "edges") + ", " + short_number(loop.length) +
+         " long (" + percent(loop.share) + " of the diagonal), about (" + short_number(c.x(), 6) +
+         ", " + short_number(c.y(), 6) + ", " + short_number(c.z(), 6) + "): area " +
+         short_number(loop.area_added) + " added";
+}
+
+std::string handle_lines(const std::vector<HandleLoop>& loops, const std::string& indent) {
+  constexpr size_t told = 10;
+  std::string lines;
+  for (size_t i = 0; i < std::min(loops.size(), told); ++i) {
+    lines += indent + handle_line(loops[i]) + "\n";
+  }
+  if (loops.size() <= told) return lines;
+  double longest = 0;
+  for (const HandleLoop& loop : loops) longest = std::max(longest, loop.share);
+  return lines + indent + "and " + std::to_string(loops.size() - told) +
+         " more; the longest of all has " + percent(longest) + " of the diagonal\n";
 }
 
 std::string distortion_line(const DistortionSummary& distortion) {

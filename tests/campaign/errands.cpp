@@ -102,6 +102,9 @@ void map(Maker& make) {
   make.maybe(words, 0.1, {"--method", make.one_of({"curvilinear", "paper", "tangential"})});
   make.maybe(words, 0.3, {"--json", "map.json"});
   make.maybe(words, 0.2, {"--plots", "plots"});
+  make.maybe(words, 0.3,
+             {"--repair", "--handles", make.one_of({"shortest", "cut", "fill"}), "--max-handle",
+              make.one_of({"1e-9", "5%", "1e300%"}), "--loops", "loops.obj"});
   make.errand.commands.push_back(words);
   make.errand.commands.push_back({"verify", "map.sph.ply", "--chart"});
 }

@@ -1,8 +1,11 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
 #include "program.h"
+#include "sphparam/mesh/mesh_defects.h"
 #include "support/test_meshes.h"
+#include "support/volume_surface.h"
 
 namespace sphparam::tests {
 
@@ -263,7 +266,7 @@ TEST_CASE("repair: faces that name a vertex twice go with duplicates, and are re
     CHECK(report["repairs"][0]["kind"] == "invalid-face-removed");
     CHECK(report["repairs"][0]["count"] == 2);
     CHECK(report["options"]["repair"][0] == "duplicates");
-    CHECK(report["options"]["repair"].size() == (std::string(repair) == "--repair" ? 7 : 2));
+    CHECK(report["options"]["repair"].size() == (std::string(repair) == "--repair" ? 8 : 2));
     CHECK(sphparam_program({"verify", map}).code == 0);
   }
   const Ended unasked =
@@ -309,6 +312,73 @@ TEST_CASE("repair: info says what --repair would do") {
             .is_null());
 }
 
+TEST_CASE(
+    "repair: handles of a surface out of a volume go, all is told, and the map is certified") {
+  const TriangleMesh mesh = noisy_ball(16, 0.2, 3);
+  const long genus = inspect_mesh(mesh).genus;
+  REQUIRE(genus > 1);
+  const Folder folder;
+  const std::string map = folder / "map.sph.ply", json = folder / "map.json";
+  for (const char* name : {"loops.obj", "loops.ply"}) {
+    const std::string loops = folder / name;
+    const Ended mapped = sphparam_program({"map", "-", "-o", map, "--json", json, "--repair",
+                                           "--max-handle", "90%", "--loops", loops},
+                                          obj_text(mesh));
+    INFO(mapped.err);
+    REQUIRE(mapped.code == 0);
+    CHECK_THAT(mapped.err, Contains(" long (") && Contains("% of the diagonal), about ("));
+    CHECK(sphparam_program({"verify", map, "-q"}).code == 0);
+    const Json report = Json::parse(bytes_of(json));
+    REQUIRE(report["handles"].size() == static_cast<size_t>(genus));
+    CHECK(report["outputs"]["loops"] == loops);
+    size_t edges = 0;
+    long told = 0;
+    for (const Json& loop : report["handles"]) {
+      CHECK((loop["kind"] == "cut" || loop["kind"] == "fill"));
+      CHECK(loop["length"].get<double>() > 0);
+      CHECK(loop["area_added"].get<double>() > 0);
+      edges += loop["vertices"].size();
+    }
+    for (const Json& repair : report["repairs"]) told += repair["count"].get<long>();
+    CHECK(told == genus);
+    const std::string text = bytes_of(loops);
+    if (std::string(name) == "loops.ply") {
+      CHECK_THAT(text, Contains("element edge " + std::to_string(edges) + "\n"));
+    } else {
+      CHECK(std::count(text.begin(), text.end(), 'l') > genus);
+      CHECK_THAT(text, Contains("\nv ") && Contains("\nl 1 2 3"));
+    }
+  }
+}
+
+TEST_CASE("repair: a torus stays refused, with what would open it; cut or closed as one likes") {
+  const std::string torus = obj_text(bumped_torus(16, 40, 0.3, 0.02, 1));
+  const Folder folder;
+  const std::string map = folder / "map.sph.ply";
+  const Ended refused = sphparam_program({"map", "-", "-o", map, "--repair"}, torus);
+  INFO(refused.err);
+  CHECK(refused.code == 4);
+  CHECK(folder.names().empty());
+  const std::string option = "--repair --max-handle ";
+  const size_t at = refused.err.find(option);
+  REQUIRE(at != std::string::npos);
+  CHECK_THAT(refused.err, Contains("% would mend it") && Contains("1 handle cut through") &&
+                              Contains("cut along 16 edges"));
+  const size_t from = at + option.size();
+  const std::string limit = refused.err.substr(from, refused.err.find('%', from) + 1 - from);
+  CHECK(sphparam_program({"map", "-", "-o", map, "--repair", "--max-handle", limit}, torus).code ==
+        0);
+  const Json info =
+      Json::parse(sphparam_program({"info", "-", "--json", "-"}, torus).out)["repair"];
+  CHECK(info["mends"] == false);
+  CHECK(info["mends_with"] == "--repair --max-handle " + limit);
+  CHECK(info["handles"].size() == 1);
+  const Ended closed =
+      sphparam_program({"map", "-", "-o", map, "--handles", "fill", "--max-handle", "6"}, torus);
+  CHECK(closed.code == 0);
+  CHECK_THAT(closed.err, Contains("1 tunnel closed") && Contains("closed along 40 edges"));
+}
+
 TEST_CASE("repair: what makes no sense is a usage error with a suggestion") {
   const std::string ball = obj_text(icosphere(1));
   const Ended misspelt = sphparam_program({"map", "-", "-o", "-", "--repair=hole"}, ball);
@@ -317,6 +387,18 @@ TEST_CASE("repair: what makes no sense is a usage error with a suggestion") {
   CHECK(sphparam_program({"map", "-", "-o", "-", "--repair="}, ball).code != 1);
   CHECK(sphparam_program({"map", "-", "-o", "-", "--component", "0"}, ball).code == 2);
   CHECK(sphparam_program({"map", "-", "-o", "-", "--max-hole", "2"}, ball).code == 2);
+  for (const char* length : {"0", "-1", "x", "nan", "inf", "-5%"}) {
+    CHECK(sphparam_program({"map", "-", "-o", "-", "--max-handle", length}, ball).code == 2);
+  }
+  CHECK(sphparam_program({"map", "-", "-o", "-", "--handles", "both"}, ball).code == 2);
+  const Folder folder;
+  const std::string loops = folder / "loops.obj";
+  CHECK(sphparam_program({"map", "-", "-o", "-", "--loops", loops}, ball).code == 2);
+  CHECK(sphparam_program({"map", "-", "-o", "-", "--repair=holes", "--loops", loops}, ball).code ==
+        2);
+  CHECK(sphparam_program({"map", "-", "-o", "-", "--repair", "--loops", folder / "l.txt"}, ball)
+            .code == 2);
+  CHECK(folder.names().empty());
 }
 
 }  // namespace sphparam::tests

@@ -401,6 +401,10 @@ def make_no_spheres():
             ("moebius_band", moebius, "boundary edge"),
             ("projective_plane", projective, "run through the same way"),
             ("torus", torus(), "genus"),
+            ("torus_of_seven_vertices", ([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0), (0, 1, 1), (1, 0, 1)],
+                                         [f for i in range(7) for f in ((i, (i + 1) % 7, (i + 3) % 7),
+                                                                        (i, (i + 3) % 7, (i + 2) % 7))]), "genus"),
+            ("torus_in_one_point", ([(0, 0, 0)] * len(torus()[0]), torus()[1]), "genus"),
             ("duplicate_face", (P4, F4 + F4[:1]), "same three vertices"),
             ("duplicate_sphere", (P4, F4 + F4), "4 faces have the same three"),
             ("edge_of_four_faces", (P4 + [(3, 3, 3), (4, 3, 3)], F4 + [(0, 5, 1), (0, 1, 4), (0, 4, 5), (1, 5, 4)]), "three or more faces")):

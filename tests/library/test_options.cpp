@@ -382,6 +382,10 @@ TEST_CASE("options: meshes and harmonics refuse what is outside of a domain, by 
   Counts<RepairOptions>(repair)
       .of("component", &RepairOptions::component, {-1})
       .of("largest_hole", &RepairOptions::largest_hole, {2, -1});
+  Numbers<RepairOptions>(repair)
+      .of("longest_handle", &RepairOptions::longest_handle, {no_number, -1, infinity})
+      .of("longest_handle_length", &RepairOptions::longest_handle_length,
+          {no_number, -1, infinity});
   for (const double scale : {no_number, -1.0, infinity}) {
     check_refused("scale", [&] { measure_curvature(mesh, topology, scale); });
   }

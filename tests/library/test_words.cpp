@@ -66,4 +66,7 @@ TEST_CASE("names: repairs by their words, and what asks for more than the usual 
   CHECK(options_line(RepairOptions{}) == "--repair");
   CHECK(options_line(RepairOptions{.component = 2, .largest_hole = 900}) ==
         "--repair --component 2 --max-hole 900");
+  CHECK(options_line(RepairOptions{.handle_choice = HandleChoice::Cut, .longest_handle = 0.514}) ==
+        "--repair --handles cut --max-handle 51.4%");
+  CHECK(options_line(RepairOptions{.longest_handle_length = 12.5}) == "--repair --max-handle 12.5");
 }

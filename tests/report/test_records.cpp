@@ -73,10 +73,12 @@ TEST_CASE("map_record: what was asked for, what came out, by the numbers of the 
                         .chart = report_chart(source.file.mesh, result.map, 0),
                         .outputs = {{"map", "ball.sph.ply"}},
                         .seconds = 1.5}));
-  CHECK(keys_of(json) ==
-        "sphparam,command,input,inspection,repairs,components,options,account,stages,made_by,poles,"
-        "meridian,pole_residuals,pins,lambda,balance,energy_gap,energy_cost,certificate,distortion,"
-        "chart,outputs,warnings,notes,seconds");
+  CHECK(
+      keys_of(json) ==
+      "sphparam,command,input,inspection,repairs,handles,components,options,account,stages,made_by,"
+      "poles,meridian,pole_residuals,pins,lambda,balance,energy_gap,energy_cost,certificate,"
+      "distortion,"
+      "chart,outputs,warnings,notes,seconds");
   REQUIRE(result.energy_gap);
   CHECK(json["energy_gap"] == *result.energy_gap);
   CHECK(json["input"]["file"] == "folder/ball.ply");

@@ -99,9 +99,11 @@ void require_sensible(const MapArguments& arguments) {
   if (!arguments.sphere.empty() && !(is_named && is_written(arguments.sphere))) {
     throw UsageMistake("--write-sphere: the name must end in .ply, .obj, .off or .gii");
   }
-  check_places(
-      {{"-o", arguments.output}, {"--write-sphere", arguments.sphere}, {"--json", arguments.json}},
-      arguments.plots);
+  check_places({{"-o", arguments.output},
+                {"--write-sphere", arguments.sphere},
+                {"--loops", arguments.repair.loops},
+                {"--json", arguments.json}},
+               arguments.plots);
 }
 
 void declare_files(Declaration& command, MapArguments& arguments) {

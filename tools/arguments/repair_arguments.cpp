@@ -1,6 +1,10 @@
 #include "arguments/repair_arguments.h"
 
+#include <cmath>
+
 #include "console/exit_codes.h"
+#include "number_text.h"
+#include "sphparam/io/loop_file.h"
 #include "sphparam/names.h"
 
 // --repair is a flag that may carry words after an equals sign, so that it never takes the name of
@@ -28,9 +32,37 @@ bool read_share(const std::string& text, std::optional<double>& share) {
   return amount && *share >= 0 && *share <= 1;
 }
 
+/// "12.5", a length, or "40%" of the diagonal.
+bool read_longest(const std::string& text, std::optional<Amount>& longest) {
+  longest = amount_of(text);
+  return longest && std::isfinite(longest->value) && longest->value > 0;
+}
+
+void settle_handles(const RepairArguments& arguments, RepairOptions& options) {
+  if (arguments.given("--handles") || arguments.longest_handle) options.handles = true;
+  options.handle_choice = arguments.handle_choice;
+  if (arguments.longest_handle && arguments.longest_handle->percent) {
+    options.longest_handle = arguments.longest_handle->of(1);
+  } else if (arguments.longest_handle) {
+    options.longest_handle_length = arguments.longest_handle->value;
+  }
+}
+
+void require_sensible_loops(const RepairArguments& arguments, bool wanted) {
+  if (arguments.loops.empty()) return;
+  if (!wanted) throw UsageMistake("--loops is for --repair, or --repair=handles");
+  if (!is_loop_file(arguments.loops)) {
+    throw UsageMistake("--loops: the name must end in .obj or .ply");
+  }
+}
+
 }  // namespace
 
 void declare_repair_options(Declaration& command, RepairArguments& arguments) {
+  arguments.given = command.given();
+  const auto longest = [&](const std::string& text) {
+    return read_longest(text, arguments.longest_handle);
+  };
   const auto read = [&](const std::string& text) { return read_share(text, arguments.least_kept); };
   command.group("Repairs")
       .flag("--repair", arguments.words,
@@ -44,12 +76,28 @@ void declare_repair_options(Declaration& command, RepairArguments& arguments) {
       .number("--max-hole", arguments.largest_hole, "EDGES", {3},
               "Fill holes of at most so many edges (--repair: " +
                   std::to_string(RepairOptions{}.largest_hole) + ")")
+      .choice("--handles", arguments.handle_choice,
+              {{name_of(HandleChoice::Shortest), HandleChoice::Shortest},
+               {name_of(HandleChoice::Cut), HandleChoice::Cut},
+               {name_of(HandleChoice::Fill), HandleChoice::Fill}},
+              "Cut handles through, fill what goes through them, or whichever is shorter "
+              "(default: shortest)")
+      .parsed("--max-handle", "LENGTH", longest, "expected a length, as in 12.5 or 40%",
+              "Remove handles along loops of at most this length; % is of the bounding box's "
+              "diagonal (--repair: " +
+                  short_number(100 * RepairOptions{}.longest_handle) + "%)")
+      .text("--loops", arguments.loops, "FILE", "These loops as polylines, an .obj or .ply")
+      .written()
       .group("Options");
 }
 
 std::optional<RepairOptions> wanted_repairs(const RepairArguments& arguments) {
   const bool chosen = arguments.component > 0 || arguments.least_kept;
-  if (arguments.words.empty() && !chosen && !arguments.largest_hole) return std::nullopt;
+  if (arguments.words.empty() && !chosen && !arguments.largest_hole && !arguments.longest_handle &&
+      !arguments.given("--handles")) {
+    require_sensible_loops(arguments, false);
+    return std::nullopt;
+  }
   if (arguments.component && arguments.least_kept) {
     throw UsageMistake(
         "--component and --min-kept contradict each other: a component that is named is kept "
@@ -65,6 +113,8 @@ std::optional<RepairOptions> wanted_repairs(const RepairArguments& arguments) {
     options.holes = true;
     options.largest_hole = arguments.largest_hole;
   }
+  settle_handles(arguments, options);
+  require_sensible_loops(arguments, options.handles);
   // What other repairs leave without faces must not stand in the way of the map.
   options.unused = true;
   return options;

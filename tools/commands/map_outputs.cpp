@@ -10,6 +10,7 @@
 #include "number_text.h"
 #include "report/plots.h"
 #include "sphparam/io/file_numbers.h"
+#include "sphparam/io/loop_file.h"
 #include "sphparam/io/map_files.h"
 #include "sphparam/records/map_record.h"
 
@@ -121,6 +122,11 @@ void write_outputs(const MapArguments& arguments, MapOutcome& outcome, bool with
   if (with_map && !arguments.sphere.empty()) {
     add_sphere(arguments.sphere, outcome, session);
     outputs.emplace_back("sphere", arguments.sphere);
+  }
+  if (!arguments.repair.loops.empty()) {
+    session.files.add(arguments.repair.loops,
+                      serialise_loops(arguments.repair.loops, outcome.source.handles));
+    outputs.emplace_back("loops", arguments.repair.loops);
   }
   // Plots and report are written for folded maps too.
   if (!arguments.plots.empty() && outcome.distortion) {

@@ -75,6 +75,9 @@ void tell_stages(const MapOutcome& outcome, Console& console) {
   for (const std::string& note : outcome.source.notes)
     if (std::find(told.begin(), told.end(), note) == told.end()) console.detail("  note: " + note);
   for (const RepairAction& repair : outcome.source.repairs) console.say("  " + repair.message);
+  if (const std::string lines = handle_lines(outcome.source.handles, "    "); !lines.empty()) {
+    console.say(lines.substr(0, lines.size() - 1));
+  }
   const std::string kept = kept_line(outcome.source.parts);
   if (!kept.empty()) console.say("  " + kept);
   for (const MeshDefect& defect : outcome.source.inspection.defects) {

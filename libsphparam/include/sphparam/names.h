@@ -17,6 +17,7 @@ std::string name_of(EnergyKind energy);
 std::string name_of(WeightKind weights);
 std::string name_of(DefectKind kind);
 std::string name_of(RepairKind kind);
+std::string name_of(HandleChoice choice);
 
 /// The options that shaped a map, as on the command line: "--lambda 1".
 std::string options_line(const ParameterizeOptions& options);

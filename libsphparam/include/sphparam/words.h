@@ -19,6 +19,13 @@ std::string defect_list(const std::vector<MeshDefect>& defects);
 /// was dropped.
 std::string kept_line(const KeptParts& parts);
 
+/// "cut along 5 edges, 2.13 long (1.2 % of the diagonal), about (1, 2, 3): area 0.31 added"; also
+/// "closed along …".
+std::string handle_line(const HandleLoop& loop);
+
+/// Such lines for the first of them, then how many more there are; each ends with a line break.
+std::string handle_lines(const std::vector<HandleLoop>& loops, const std::string& indent);
+
 /// "angle 0.55 area 0.59": the paper's means of |ln ratio|.
 std::string distortion_line(const DistortionSummary& distortion);
 

@@ -1,6 +1,8 @@
 // The library's repair names elements of the mesh it was given; people know the numbers of the
 // file, which welding and dropping vertices have changed.
 
+#include <cmath>
+#include <limits>
 #include <new>
 #include <utility>
 
@@ -37,6 +39,25 @@ KeptParts by_file_numbers(KeptParts parts, const MeshSource& source) {
   return parts;
 }
 
+std::vector<HandleLoop> by_file_numbers(std::vector<HandleLoop> loops, const MeshSource& source) {
+  const FileNumbers numbers(source.file);
+  for (HandleLoop& loop : loops) {
+    for (Vertex& vertex : loop.vertices) {
+      if (vertex >= 0) vertex = static_cast<Vertex>(numbers.number(vertex));
+    }
+  }
+  return loops;
+}
+
+/// The limit that lets all of these go, in whole permille.
+double limit_for(const std::vector<HandleLoop>& loops) {
+  double longest = RepairOptions{}.longest_handle;
+  for (const HandleLoop& loop : loops) {
+    if (loop.share > longest) longest = std::ceil(loop.share * 1000 + 1e-6) / 1000;
+  }
+  return longest;
+}
+
 std::vector<MeshDefect> fatal_ones(const MeshInspection& inspection) {
   std::vector<MeshDefect> fatal;
   for (const MeshDefect& defect : inspection.defects) {
@@ -48,6 +69,7 @@ std::vector<MeshDefect> fatal_ones(const MeshInspection& inspection) {
 MeshSource with_repairs(MeshSource source, RepairedMesh mended) {
   source.repairs = by_file_numbers(mended.actions, source);
   source.parts = by_file_numbers(mended.parts, source);
+  source.handles = by_file_numbers(std::move(mended.handles), source);
   source.file = repaired_file(source.file, mended);
   source.inspection = std::move(mended.inspection);
   source.topology = Topology::try_build(source.file.mesh.triangles,
@@ -68,7 +90,8 @@ std::optional<RepairTrial> affordable_trial(const MeshSource& source) {
 
 bool RepairTrial::mends_unasked() const {
   return can_mend() && options.component == 0 &&
-         options.largest_hole == RepairOptions{}.largest_hole;
+         options.largest_hole == RepairOptions{}.largest_hole &&
+         options.longest_handle == RepairOptions{}.longest_handle;
 }
 
 MeshRefusal::MeshRefusal(const MeshSource& source, std::optional<RepairTrial> trial)
@@ -87,22 +110,30 @@ MeshSource repaired(MeshSource source, const RepairOptions& options) {
 }
 
 RepairTrial try_repair(const MeshSource& source) {
+  constexpr double any_length = std::numeric_limits<double>::max();  // in diagonals
   RepairOptions options;
   KeptParts parts;
   for (;;) {
-    const RepairedMesh mended = repair_mesh(source.file.mesh, options);
-    const bool choose = mended.parts.refused;
+    RepairedMesh mended = repair_mesh(source.file.mesh, options);
     if (options.component == 0) parts = mended.parts;
-    if (!mended.inspection.is_sphere() && (choose || mended.largest_hole_left > 0)) {
-      if (choose) {
+    if (!mended.inspection.is_sphere()) {
+      if (mended.parts.refused) {
         options.component = 1;
-      } else {
-        options.largest_hole = static_cast<int>(mended.largest_hole_left);
+        continue;
       }
-      continue;
+      if (mended.largest_hole_left > 0) {
+        options.largest_hole = static_cast<int>(mended.largest_hole_left);
+        continue;
+      }
+      if (mended.shortest_handle_left > 0) {
+        options.longest_handle = any_length;
+        continue;
+      }
     }
+    options.longest_handle = limit_for(mended.handles);
     return {options, by_file_numbers(mended.actions, source), fatal_ones(mended.inspection),
-            by_file_numbers(std::move(parts), source)};
+            by_file_numbers(std::move(parts), source),
+            by_file_numbers(std::move(mended.handles), source)};
   }
 }
 

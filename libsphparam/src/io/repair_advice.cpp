@@ -5,9 +5,9 @@
 #include <cmath>
 #include <string_view>
 
+#include "number_text.h"
 #include "sphparam/names.h"
 #include "sphparam/words.h"
-#include "number_text.h"
 
 namespace sphparam {
 
@@ -68,7 +68,7 @@ std::string repair_advice(const RepairTrial& trial, const std::string& path) {
   const std::string kept = kept_line(trial.parts);
   return choice + "  " + options + " would mend it, as in `sphparam map " + for_shell(path) + " " +
          options + " -o mended.sph.ply`:\n" + message_lines(trial.actions) +
-         (kept.empty() ? "" : "    " + kept + "\n");
+         handle_lines(trial.handles, "      ") + (kept.empty() ? "" : "    " + kept + "\n");
 }
 
 std::string repair_advice(const MeshRefusal& refusal) {

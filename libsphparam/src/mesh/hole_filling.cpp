@@ -1,11 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <queue>
-#include <unordered_set>
 
 #include "mesh/face_sides.h"
-#include "mesh/repair_state.h"
+#include "mesh/rim_filling.h"
 
 // A hole is the cycle of boundary sides, run through backwards. Its ears are cut off, cheapest
 // first: an ear that does not turn against the hole's mean normal (Newell's) before one that does,
@@ -16,27 +14,6 @@
 namespace sphparam {
 namespace {
 
-/// A vertex of the hole, and the corner beside it whose attributes new corners take.
-struct RimVertex {
-  Vertex vertex;
-  int corner_like;
-};
-using Rim = std::vector<RimVertex>;
-
-class EdgeKeys {
- public:
-  void insert(Vertex a, Vertex b) { keys_.insert(key(a, b)); }
-  bool contains(Vertex a, Vertex b) const { return keys_.contains(key(a, b)); }
-  void reserve(size_t count) { keys_.reserve(count); }
-
- private:
-  static std::uint64_t key(Vertex a, Vertex b) {
-    return static_cast<std::uint64_t>(std::min(a, b)) << 32 |
-           static_cast<std::uint64_t>(std::max(a, b));
-  }
-  std::unordered_set<std::uint64_t> keys_;
-};
-
 class HoleFiller {
  public:
   HoleFiller(RepairState& state, EdgeKeys& edges, const Rim& rim)
@@ -46,7 +23,6 @@ class HoleFiller {
     for (size_t i = 0; i < n; ++i) normal_ += point(i).cross(point((i + 1) % n));
   }
 
-  /// apart: the rim does not bound a single face, whose copy back to back would be no surface.
   void fill(bool apart) {
     for (size_t i = 0; i < ring_.size(); ++i) enqueue(i);
     while (left_ > 3 && cut_cheapest_ear()) continue;
@@ -176,6 +152,10 @@ Rim walk(const RepairState& state, const std::vector<Halfedge>& into, Vertex fir
 
 }  // namespace
 
+void fill_rim(RepairState& state, EdgeKeys& edges, const Rim& rim, bool apart) {
+  HoleFiller(state, edges, rim).fill(apart);
+}
+
 void fill_holes(RepairState& state, int largest_hole) {
   const std::vector<FaceSide> sides = sorted_sides(state.triangles(), [](Face) { return true; });
   const std::vector<Halfedge> into = boundary_into(state, sides);
@@ -195,7 +175,7 @@ void fill_holes(RepairState& state, int largest_hole) {
     if (rim.size() < 3) continue;
     const bool one_face = rim.size() == 3 && into[rim[0].vertex] / 3 == into[rim[1].vertex] / 3 &&
                           into[rim[0].vertex] / 3 == into[rim[2].vertex] / 3;
-    HoleFiller(state, edges, rim).fill(!one_face);
+    fill_rim(state, edges, rim, !one_face);
     state.log(RepairKind::HoleFilled, {state.vertex_origin[v]});
   }
 }

@@ -4,6 +4,7 @@
 
 #include "mesh/repair_state.h"
 #include "option_domain.h"
+#include "sphparam/mesh/topology.h"
 
 // The steps are the table below, each blind to the others: one can be left out, and what one leaves
 // the next finds. Splitting an edge may touch a third sheet, dropping a face may open a hole: the
@@ -44,15 +45,22 @@ void choose_component(RepairState& state, const RepairOptions& options, bool fir
                  named ? 0 : options.least_kept);
 }
 
+bool is_closed_manifold(const RepairState& state) {
+  return Topology::try_build(state.triangles(), state.vertex_count()).has_value();
+}
+
 void run_round(RepairState& state, const RepairOptions& options, bool first) {
   if (options.duplicates) {
     remove_invalid_faces(state);
     remove_duplicate_faces(state);
   }
-  if (options.orientation) orient_alike(state);
-  if (options.non_manifold) split_non_manifold(state);
+  const bool closed = is_closed_manifold(state);  // which these three would find out one by one
+  if (options.orientation && !closed) orient_alike(state);
+  if (options.non_manifold && !closed) split_non_manifold(state);
   if (options.components) choose_component(state, options, first);
-  if (options.holes) fill_holes(state, options.largest_hole);
+  if (closed) state.largest_hole_left = 0;
+  if (options.holes && !closed) fill_holes(state, options.largest_hole);
+  if (options.handles) remove_handles(state, options);
   if (options.flat_faces) mend_flat_faces(state);
   if (options.unused) drop_unused(state);
 }
@@ -71,6 +79,8 @@ RepairedMesh as_result(RepairState&& state, MeshInspection inspection) {
   result.face_origin = std::move(state.face_origin);
   result.actions = std::move(state.actions);
   result.parts = std::move(state.parts);
+  result.handles = std::move(state.handles);
+  result.shortest_handle_left = state.shortest_handle_left;
   result.largest_hole_left = state.largest_hole_left;
   result.inspection = std::move(inspection);
   for (const auto& corners : state.corner_origin) {
@@ -91,6 +101,9 @@ RepairedMesh repair_mesh(const TriangleMesh& mesh, const RepairOptions& options)
   require_at_least("component", options.component, 0);
   require_between("least_kept", options.least_kept, 0, 1);
   require_at_least("largest_hole", options.largest_hole, 3);
+  require_one_of("handle_choice", options.handle_choice, HandleChoice::Fill);
+  require_at_least("longest_handle", options.longest_handle, 0);
+  require_at_least("longest_handle_length", options.longest_handle_length, 0);
   RepairState state(mesh);
   MeshInspection inspection = inspect_mesh(mesh);
   if (!mesh.positions.allFinite()) return as_result(std::move(state), std::move(inspection));

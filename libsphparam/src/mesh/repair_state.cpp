@@ -11,7 +11,7 @@ namespace {
 
 constexpr size_t listed = 10;  // places kept of an action
 
-std::vector<Vector3> scaled(const std::vector<Vector3>& positions) {
+std::vector<Vector3> scaled(const std::vector<Vector3>& positions, double& scale) {
   if (positions.empty()) return {};
   Vector3 lower = positions[0], upper = positions[0];
   for (const Vector3& p : positions) {
@@ -20,7 +20,7 @@ std::vector<Vector3> scaled(const std::vector<Vector3>& positions) {
   }
   const Vector3 centre = lower / 2 + upper / 2;
   const double extent = (upper / 2 - lower / 2).maxCoeff();
-  const double scale = extent > 0 && std::isfinite(extent) ? extent : 1;
+  scale = extent > 0 && std::isfinite(extent) ? extent : 1;
   std::vector<Vector3> shape;
   shape.reserve(positions.size());
   for (const Vector3& p : positions) shape.push_back((p - centre) / scale);
@@ -45,7 +45,7 @@ RepairState::RepairState(const TriangleMesh& mesh) {
     positions.emplace_back(mesh.positions.row(v));
     vertex_origin.push_back(static_cast<Vertex>(v));
   }
-  shape = scaled(positions);
+  shape = scaled(positions, scale);
   mean_of.resize(positions.size());
   for (int f = 0; f < static_cast<int>(mesh.face_count()); ++f) {
     faces.push_back({mesh.triangles(f, 0), mesh.triangles(f, 1), mesh.triangles(f, 2)});

@@ -21,7 +21,10 @@ struct RepairState {
   std::vector<std::vector<Vertex>> mean_of;  // #V: of created vertices, else empty
   std::vector<RepairAction> actions;         // one a kind
   KeptParts parts;
-  long largest_hole_left = 0;  // found when holes were last looked for
+  std::vector<HandleLoop> handles;
+  double shortest_handle_left = 0;  // found when handles were last looked for
+  double scale = 1;                 // a length of `positions` is this times that of `shape`
+  long largest_hole_left = 0;       // found when holes were last looked for
 
   int vertex_count() const { return static_cast<int>(positions.size()); }
   int face_count() const { return static_cast<int>(faces.size()); }
@@ -50,6 +53,7 @@ void orient_alike(RepairState& state);
 void split_non_manifold(RepairState& state);
 void keep_component(RepairState& state, int rank, double least_kept);
 void fill_holes(RepairState& state, int largest_hole);
+void remove_handles(RepairState& state, const RepairOptions& options);
 void mend_flat_faces(RepairState& state);
 
 }  // namespace sphparam

@@ -1,5 +1,5 @@
-#include "sphparam/mesh/mesh_repair.h"
 #include "number_text.h"
+#include "sphparam/mesh/mesh_repair.h"
 
 // What was done, in words. A switch over all kinds, so that the compiler names a forgotten one.
 
@@ -32,6 +32,10 @@ std::pair<std::string, const char*> words(RepairKind kind, long n) {
       return {counted(n, "component", "components") + " dropped", "with vertices"};
     case RepairKind::HoleFilled:
       return {counted(n, "hole", "holes") + " filled", "at vertices"};
+    case RepairKind::HandleCut:
+      return {counted(n, "handle", "handles") + " cut through and both ends closed", "at vertices"};
+    case RepairKind::HandleFilled:
+      return {counted(n, "tunnel", "tunnels") + " closed on both sides", "at vertices"};
     case RepairKind::TurnedOutward:
       return {"the whole surface turned over: it was inside out", ""};
     case RepairKind::FlatFaceTurned:
@@ -60,6 +64,8 @@ RepairPlace place_of(RepairKind kind) {
     case RepairKind::VertexSplit:
     case RepairKind::ComponentDropped:
     case RepairKind::HoleFilled:
+    case RepairKind::HandleCut:
+    case RepairKind::HandleFilled:
     case RepairKind::FlatFaceCollapsed:
     case RepairKind::UnusedVertexDropped:
       return RepairPlace::Vertices;

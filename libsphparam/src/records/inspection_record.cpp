@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "number_text.h"
 #include "records/json_parts.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/repair_advice.h"
@@ -10,7 +11,6 @@
 #include "sphparam/names.h"
 #include "sphparam/version.h"
 #include "sphparam/words.h"
-#include "number_text.h"
 
 namespace sphparam {
 
@@ -80,6 +80,7 @@ Json trial_json(const std::optional<RepairTrial>& trial) {
   return {{"mends", trial->mends_unasked()},
           {"mends_with", trial->can_mend() ? Json(options_line(trial->options)) : Json()},
           {"actions", repairs_json(trial->actions)},
+          {"handles", handles_json(trial->handles)},
           {"components", parts_json(trial->parts)},
           {"remaining", remaining}};
 }

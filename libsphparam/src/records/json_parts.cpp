@@ -42,6 +42,19 @@ Json repairs_json(const std::vector<RepairAction>& repairs) {
   return result;
 }
 
+Json handles_json(const std::vector<HandleLoop>& loops) {
+  Json result = Json::array();
+  for (const HandleLoop& loop : loops) {
+    result.push_back({{"kind", loop.filled ? "fill" : "cut"},
+                      {"length", loop.length},
+                      {"diagonals", loop.share},
+                      {"centre", vector_json(loop.centre)},
+                      {"area_added", loop.area_added},
+                      {"vertices", loop.vertices}});
+  }
+  return result;
+}
+
 Json parts_json(const KeptParts& parts) {
   if (parts.count == 0) return nullptr;
   Json largest = Json::array();

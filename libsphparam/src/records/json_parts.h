@@ -24,6 +24,8 @@ Json input_json(const MeshSource& source);
 Json inspection_json(const MeshInspection& inspection);
 Json defect_json(const MeshDefect& defect);
 Json repairs_json(const std::vector<RepairAction>& repairs);
+/// The loops that handles were cut along, in order.
+Json handles_json(const std::vector<HandleLoop>& loops);
 /// What choosing a component kept, or may choose from; null where there was one only.
 Json parts_json(const KeptParts& parts);
 Json stages_json(const std::vector<StageRecord>& stages);

@@ -126,6 +126,7 @@ std::string to_json(const MapRecord& record) {
                   {"input", input_json(record.source)},
                   {"inspection", inspection_json(record.source.inspection)},
                   {"repairs", repairs_json(record.source.repairs)},
+                  {"handles", handles_json(record.source.handles)},
                   {"components", parts_json(record.source.parts)},
                   {"options", options_json(record)},
                   {"account", account_json(record.account)},

@@ -22,6 +22,7 @@ struct MeshSource {
   std::vector<std::string> notes;     // of the reader, then what was done to the mesh
   std::vector<RepairAction> repairs;  // with the numbers of the file; see `repaired`
   KeptParts parts;                    // what they kept of the surface, so numbered too
+  std::vector<HandleLoop> handles;    // that they removed; so numbered too
 };
 
 /// Throws: ReadError. A mesh that is no sphere is returned all the same: see `inspection`.
@@ -32,14 +33,15 @@ MeshSource read_source(const std::string& path, const ReadOptions& options = {})
 void keep_textures(const MeshFile& file);
 
 /// What repair would do to a mesh, tried out: as it is; where that is not enough, with the
-/// component and the holes that it does not take unasked.
+/// component, the holes and the handles that it does not take unasked.
 struct RepairTrial {
   RepairOptions options;              // that mend it, or would most
   std::vector<RepairAction> actions;  // by the numbers of the file
   std::vector<MeshDefect> remaining;  // those that stand in the way even then
   KeptParts parts;                    // those that can be chosen from; so numbered too
+  std::vector<HandleLoop> handles;    // that would go; so numbered too
   bool can_mend() const { return remaining.empty(); }
-  bool mends_unasked() const;  // without choosing a component or a larger hole
+  bool mends_unasked() const;  // without choosing a component, or a larger hole or handle
 };
 RepairTrial try_repair(const MeshSource& source);
 

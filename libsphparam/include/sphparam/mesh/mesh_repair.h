@@ -15,6 +15,14 @@ class NoSuchComponent : public std::out_of_range {
   using std::out_of_range::out_of_range;
 };
 
+/// Which of the two loops of a handle it is cut along. The mug's handle: one loop is about the
+/// handle, its cap goes through the clay; the other is about the finger hole, its cap through air.
+enum class HandleChoice {
+  Shortest,  // whichever is shorter
+  Cut,       // handles are cut through, what is between them stays open
+  Fill,      // what goes through them is closed, the handles stay
+};
+
 /// What `repair_mesh` may do. The names, in the order in which it is done:
 struct RepairOptions {
   bool duplicates = true;    // remove faces that name a vertex twice, and copies of faces
@@ -22,6 +30,7 @@ struct RepairOptions {
   bool non_manifold = true;  // give each sheet its own copy of the edges and vertices it shares
   bool components = true;    // keep one component, where that loses no more than specks
   bool holes = true;         // fill holes
+  bool handles = true;       // of closed surfaces: cut along short loops, and close the two holes
   bool flat_faces = true;    // turn or collapse faces without area where the surface stays a sphere
   bool unused = true;        // drop vertices that no face uses
 
@@ -30,6 +39,11 @@ struct RepairOptions {
   int component = 0;
   double least_kept = 0.98;
   int largest_hole = 500;  // edges of a hole that may be filled
+  HandleChoice handle_choice = HandleChoice::Shortest;
+  /// The longest loop that a handle may be cut along, in diagonals of the bounding box; a length of
+  /// the mesh instead where `longest_handle_length` is more than 0.
+  double longest_handle = 0.35;
+  double longest_handle_length = 0;
 
   /// Nothing at all is wanted; then single ones are switched on.
   static RepairOptions none() {
@@ -38,6 +52,7 @@ struct RepairOptions {
             .non_manifold = false,
             .components = false,
             .holes = false,
+            .handles = false,
             .flat_faces = false,
             .unused = false};
   }
@@ -53,6 +68,8 @@ enum class RepairKind {
   VertexSplit,        // one copy for each fan of faces
   ComponentDropped,
   HoleFilled,
+  HandleCut,          // along a loop about the handle: both ends closed
+  HandleFilled,       // along a loop about what goes through it: closed on both sides
   TurnedOutward,      // the whole surface was inside out
   FlatFaceTurned,     // with its neighbour across its longest edge
   FlatFaceCollapsed,  // two vertices at the same place became one
@@ -98,6 +115,17 @@ struct KeptParts {
   double face_share = 1;
 };
 
+/// A loop of edges that the surface was cut along, to be rid of a handle.
+struct HandleLoop {
+  bool filled = false;    // its caps go through air; else through what the surface encloses
+  double length = 0;      // in units of the mesh
+  double share = 0;       // the same in diagonals of the bounding box
+  double area_added = 0;  // of both caps
+  Vector3 centre = Vector3::Zero();  // mean of its points
+  std::vector<Vertex> vertices;      // in order, ids in the input; −1 for created ones
+  std::vector<Vector3> points;       // theirs
+};
+
 /// The mended mesh, and where everything in it comes from.
 struct RepairedMesh {
   TriangleMesh mesh;
@@ -107,23 +135,34 @@ struct RepairedMesh {
   std::vector<CreatedVertex> created;  // by vertex
   std::vector<RepairAction> actions;   // in the order of RepairKind; empty: nothing was done
   KeptParts parts;
+  std::vector<HandleLoop> handles;  // one for each that is gone, in the order of the cuts
   long largest_hole_left = 0;  // edges of the largest hole that the limit alone kept open; or 0
-  MeshInspection inspection;   // of `mesh`; `is_sphere()` tells whether it can be mapped
+  /// The shortest loop that the limit kept from being cut, in diagonals of the box; or 0. What
+  /// comes after it may be longer.
+  double shortest_handle_left = 0;
+  MeshInspection inspection;  // of `mesh`; `is_sphere()` tells whether it can be mapped
 };
 
-/// Mends what can be mended without changing what the surface is: faults of files and of modelling
-/// programs. What is one surface with handles, or one-sided, stays so: `inspection` says it.
+/// Mends what can be mended with little change to what the surface is: faults of files, of
+/// modelling programs and of segmentations. What is one-sided, or has large handles, stays so:
+/// `inspection` says it.
 ///
 /// Vertices keep their order, copies and created ones come last; faces keep theirs, those that fill
 /// holes come last. A mesh without defects is returned as it is, with the same ids. Non-manifold
 /// edges are cut apart and their sheets paired across the material between them (Guéziec, Taubin,
 /// Lazarus & Horn, "Cutting and stitching", 2001); holes are filled by ears, or by the fan of a
 /// created vertex where every ear would double an edge. Repeated until nothing more is to be done.
+/// Handles: loops that do not separate the surface, the shortest found first (a basis of loops by
+/// tree and cotree, Eppstein 2003; each shorter one crosses one of these, so searches begin there;
+/// which loops separate is told by random cohomology classes), each tightened until no vertex of it
+/// has a shorter one of its class; the faces beside it get copies of its vertices, and both rims
+/// are filled as holes are. No position changes, and no face but that it names copies.
 /// Components are ranked by area; of equal ones the one with more faces comes first, then the one
 /// with the lowest vertex.
-/// Throws: NoSuchComponent; std::invalid_argument unless component ≥ 0, least_kept from 0 to 1 and
-///         largest_hole ≥ 3.
-/// Ensures: deterministic. Cost: O((#V + #F) log #F), for any valence and any hole.
+/// Throws: NoSuchComponent; std::invalid_argument unless component ≥ 0, least_kept from 0 to 1,
+///         largest_hole ≥ 3, and longest_handle, longest_handle_length ≥ 0.
+/// Ensures: deterministic. Cost: O((#V + #F) log #F), for any valence and any hole; about
+///          that again for each doubling of the length of handles, on all cores.
 RepairedMesh repair_mesh(const TriangleMesh& mesh, const RepairOptions& options = {});
 
 }  // namespace sphparam

@@ -1,0 +1,172 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "mesh/handles/handle_cutting.h"
+#include "mesh/handles/loop_side.h"
+#include "mesh/handles/short_loops.h"
+#include "mesh/repair_state.h"
+#include "mesh/union_find.h"
+#include "sphparam/parallel.h"
+
+// Rounds: of the short loops that are found, the shortest first, those are taken that have no
+// vertex in common and, together, separate nothing: their labels are independent. Cutting them
+// makes a new surface with as many handles less, and a new basis. Where nothing is found the reach
+// is doubled. What is taken does not depend on the limit, which only ends it: a handle that is
+// refused for a loop of some length goes when that length is allowed.
+
+namespace sphparam {
+namespace {
+
+constexpr double first_reach = 12;  // edges
+
+/// Of loops without common vertices, shortest first, those that together separate nothing: all
+/// loops leave pieces, which stay connected across the longest that can be spared.
+std::vector<EdgeLoop> not_separating(const Topology& topology, std::vector<EdgeLoop> loops) {
+  std::vector<char> is_cut(static_cast<size_t>(topology.halfedge_count()), 0);
+  std::vector<Halfedge> on_loop;
+  for (const EdgeLoop& loop : loops) {
+    for (size_t i = 0; i < loop.vertices.size(); ++i) {
+      const Vertex next = loop.vertices[(i + 1) % loop.vertices.size()];
+      const Halfedge h = topology.find_halfedge(loop.vertices[i], next);
+      is_cut[h] = is_cut[topology.twin(h)] = 1;
+      if (i == 0) on_loop.push_back(h);
+    }
+  }
+  UnionFind pieces(static_cast<size_t>(topology.face_count()));
+  for (Halfedge h = 0; h < topology.halfedge_count(); ++h) {
+    if (!is_cut[h]) pieces.unite(Topology::face(h), Topology::face(topology.twin(h)));
+  }
+  std::vector<EdgeLoop> kept;
+  for (size_t i = loops.size(); i-- > 0;) {
+    const Halfedge h = on_loop[i];
+    const bool connects = pieces.unite(Topology::face(h), Topology::face(topology.twin(h)));
+    if (!connects) kept.push_back(std::move(loops[i]));
+  }
+  std::reverse(kept.begin(), kept.end());
+  return kept;
+}
+
+double diagonal_of(const RepairState& state) {
+  if (state.faces.empty()) return 0;
+  Vector3 lower = Vector3::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
+  for (const auto& face : state.faces) {
+    for (const Vertex v : face) {
+      lower = lower.cwiseMin(state.shape[v]);
+      upper = upper.cwiseMax(state.shape[v]);
+    }
+  }
+  return (upper - lower).norm();
+}
+
+/// Per vertex: is its component inside out?
+std::vector<char> inside_out(const RepairState& state) {
+  UnionFind components(state.positions.size());
+  for (const auto& [a, b, c] : state.faces) {
+    components.unite(a, b);
+    components.unite(b, c);
+  }
+  std::vector<double> volume(state.positions.size(), 0);
+  for (const auto& [a, b, c] : state.faces) {
+    volume[components.find(a)] += state.shape[a].dot(state.shape[b].cross(state.shape[c]));
+  }
+  std::vector<char> result(state.positions.size());
+  for (Vertex v = 0; v < state.vertex_count(); ++v) result[v] = volume[components.find(v)] < 0;
+  return result;
+}
+
+class HandleRemover {
+ public:
+  HandleRemover(RepairState& state, const RepairOptions& options)
+      : state_(state),
+        choice_(options.handle_choice),
+        diagonal_(diagonal_of(state)),
+        limit_(options.longest_handle_length > 0 ? options.longest_handle_length / state.scale
+                                                 : options.longest_handle * diagonal_) {}
+
+  void run() {
+    while (const std::optional<Topology> topology =
+               Topology::try_build(state_.triangles(), state_.vertex_count())) {
+      const LoopBasis basis = loop_basis(*topology);
+      if (basis.loops.empty() || !cut_some(*topology, basis)) return;
+    }
+  }
+
+ private:
+  bool cut_some(const Topology& topology, const LoopBasis& basis) {
+    const std::vector<Vector3> places = state_.shape;  // the state's grow while it is cut
+    const ShortLoops search(topology, basis, places);
+    inside_out_ = inside_out(state_);
+    double shortest = std::numeric_limits<double>::infinity();
+    for (;; reach_ *= 2) {
+      const std::vector<EdgeLoop> found = chosen(topology, search);
+      std::vector<LoopToCut> allowed;
+      for (const EdgeLoop& loop : found) {
+        const double length = length_of(loop.vertices, places);
+        shortest = std::min(shortest, length);
+        if (length <= limit_) allowed.push_back({loop.vertices, fills(topology, loop)});
+      }
+      if (!allowed.empty()) {
+        cut_along(state_, topology, allowed, diagonal_);
+        return true;
+      }
+      const bool beyond_limit = std::isfinite(shortest) && search.reaches(limit_, reach_);
+      if (!beyond_limit && !search.reaches_all(reach_)) continue;
+      if (std::isfinite(shortest)) state_.shortest_handle_left = shortest / diagonal_;
+      return false;
+    }
+  }
+
+  bool fills(const Topology& topology, const EdgeLoop& loop) const {
+    return spans_outside(topology, state_.shape, loop.vertices) !=
+           (inside_out_[loop.vertices.front()] != 0);
+  }
+  bool is_wanted(const Topology& topology, const EdgeLoop& loop) const {
+    return choice_ == HandleChoice::Shortest ||
+           fills(topology, loop) == (choice_ == HandleChoice::Fill);
+  }
+
+  /// Loops of the kind that is wanted, shortest first, without common vertices.
+  std::vector<EdgeLoop> apart(const Topology& topology, std::vector<EdgeLoop> loops) const {
+    std::stable_sort(loops.begin(), loops.end(),
+                     [](const EdgeLoop& x, const EdgeLoop& y) { return x.length < y.length; });
+    std::vector<char> taken(state_.positions.size(), 0);
+    std::vector<EdgeLoop> result;
+    for (EdgeLoop& loop : loops) {
+      const auto is_taken = [&](Vertex v) { return taken[v] != 0; };
+      if (std::any_of(loop.vertices.begin(), loop.vertices.end(), is_taken)) continue;
+      if (!is_wanted(topology, loop)) continue;
+      for (const Vertex v : loop.vertices) taken[v] = 1;
+      result.push_back(std::move(loop));
+    }
+    return result;
+  }
+
+  std::vector<EdgeLoop> chosen(const Topology& topology, const ShortLoops& search) const {
+    std::vector<EdgeLoop> loops = apart(topology, search.crossing_basis(reach_));
+    parallel_for(static_cast<std::int64_t>(loops.size()), 1, 0,
+                 [&](std::int64_t first, std::int64_t last) {
+                   for (std::int64_t i = first; i < last; ++i) {
+                     EdgeLoop& loop = loops[static_cast<size_t>(i)];
+                     loop = search.tightened(std::move(loop));
+                   }
+                 });
+    return not_separating(topology, apart(topology, std::move(loops)));
+  }
+
+  RepairState& state_;
+  const HandleChoice choice_;
+  const double diagonal_, limit_;
+  double reach_ = first_reach;
+  std::vector<char> inside_out_;
+};
+
+}  // namespace
+
+void remove_handles(RepairState& state, const RepairOptions& options) {
+  state.shortest_handle_left = 0;
+  if (state.face_count() >= 4) HandleRemover(state, options).run();
+}
+
+}  // namespace sphparam
