@@ -77,16 +77,15 @@ TEST_CASE("map_record: what was asked for, what came out, by the numbers of the 
       keys_of(json) ==
       "sphparam,command,input,inspection,repairs,handles,components,options,account,stages,made_by,"
       "poles,meridian,pole_residuals,pins,lambda,balance,energy_gap,energy_cost,certificate,"
-      "distortion,"
-      "chart,outputs,warnings,notes,seconds");
+      "distortion,chart,outputs,warnings,notes,seconds");
   REQUIRE(result.energy_gap);
   CHECK(json["energy_gap"] == *result.energy_gap);
   CHECK(json["input"]["file"] == "folder/ball.ply");
   CHECK(json["inspection"]["mappable"] == true);
   CHECK(json["options"]["method"] == "progressive");
   CHECK(json["options"]["poles"]["north"] == 1003);
-  CHECK(json["options"]["repair"] ==
-        Json({"duplicates", "orientation", "non-manifold", "components", "flat-faces", "unused"}));
+  CHECK(json["options"]["repair"] == Json({"duplicates", "orientation", "non-manifold",
+                                           "components", "handles", "flat-faces", "unused"}));
   CHECK(json["account"].is_null());
   CHECK(json["stages"].size() == result.stages.size());
   REQUIRE(result.poles);
