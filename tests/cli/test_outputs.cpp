@@ -33,7 +33,7 @@ const std::vector<Subcommand> subcommands = {
      {"", "--sphere", "--image", "--normal-map", "--occlusion-map", "--images"},
      {"-o", "--json"}},
     {"info", {""}, {"--json"}},
-    {"map", {"", "--pin"}, {"-o", "--write-sphere", "--json", "--plots"}},
+    {"map", {"", "--pin"}, {"-o", "--write-sphere", "--json", "--plots", "--loops"}},
     {"measure", {"", ""}, {"--per-vertex", "--json"}, {}, 2},
     {"paint", {"", "--image", "--sphere"}, {"-o"}, {"--image"}},
     {"remesh",

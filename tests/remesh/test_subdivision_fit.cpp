@@ -223,11 +223,13 @@ TEST_CASE("subdivision fit: smooth shapes are met at least three times nearer th
   }
 }
 
-TEST_CASE("subdivision fit: limbs and edges are never met worse than by flat faces") {
+// An odd cube: the vertices of an even one lie on the octahedron's edges, where flat faces are
+// exact.
+TEST_CASE("subdivision fit: protrusions and edges are never met worse than by flat faces") {
   for (const TriangleMesh& mesh : {tube(40, 8), tube(5, 100), octahedron()}) {
     const SphereMap map = parameterize(mesh, {.threads = 1}).map;
     for (const LimitSubject& subject :
-         {LimitSubject{"ico:2", Scheme::Loop}, LimitSubject{"cube:6", Scheme::CatmullClark}}) {
+         {LimitSubject{"ico:2", Scheme::Loop}, LimitSubject{"cube:7", Scheme::CatmullClark}}) {
       INFO(subject.name);
       const Distances off = distances(mesh, map, subject);
       CHECK(off.fitted < off.plain);

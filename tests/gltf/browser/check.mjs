@@ -48,7 +48,7 @@ function prepare(mesh) {
   run('bake', map, '-q', '--size', '2048', '--map', 'checker', '--refine-poles', '16',
       '-o', join(output, `${name}_poles_{map}.png`));
   const export_ = (as, texture, ...options) => {
-    run('export', map, '-q', '--unlit', '--up', 'z', '--texture', join(output, `${name}_${texture}.png`),
+    run('export', map, '-q', '--unlit', '--up', 'z', '--image', join(output, `${name}_${texture}.png`),
         '-o', join(output, `${name}_${as}.glb`), ...options);
     return `${name}_${as}.glb`;
   };

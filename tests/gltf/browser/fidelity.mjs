@@ -17,7 +17,7 @@ for (const [from, to] of [['spot_triangulated.obj', 'spot.obj'], ['spot_texture.
   copyFileSync(join(folder, from), at(to));
 run('map', at('spot.obj'), '-o', at('spot.sph.ply'));
 run('bake', at('spot.sph.ply'), '--map', 'basecolor', '--size', '4096', '--texture', at('spot.png'), '-o', at('spot_baked.png'));
-run('export', at('spot.sph.ply'), '--up', 'y', '--texture', at('spot_baked.png'), '-o', at('spot_ours.glb'));
+run('export', at('spot.sph.ply'), '--up', 'y', '--image', at('spot_baked.png'), '-o', at('spot_ours.glb'));
 run('export', at('duck.glb'), '--image-size', '4096', '-o', at('duck_ours.glb'));
 
 const models = [], comparisons = [];
