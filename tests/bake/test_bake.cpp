@@ -319,6 +319,41 @@ TEST_CASE("id: labels have colours of their own in 8 bits, and none has none's")
   CHECK(std::ssize(colours) == file.mesh.face_count() + 1);
 }
 
+TEST_CASE("scalar: whole numbers are labels, never mixed; of two corners and one the two win") {
+  MeshFile file;
+  file.mesh = icosphere(2);
+  Property parcel{"parcel", ScalarType::Int32, {}}, patch{"patch", ScalarType::Uint8, {}};
+  for (Vertex v = 0; v < file.mesh.vertex_count(); ++v) parcel.values.push_back(100 * (v % 3) - 7);
+  for (Face f = 0; f < file.mesh.face_count(); ++f) patch.values.push_back(f % 2 ? 9 : 200);
+  file.set_face_property(patch);
+  file.vertex_properties.push_back(parcel);
+  const SphereMap map = normalised(file.mesh.positions);
+  const auto scene = scene_of(file, map);
+  const std::set<float> parcels = {-7, 93, 193}, patches = {9, 200};
+  for (const int samples : {1, 3}) {
+    for (const float value : baked(*scene, make_scalar(*scene, "parcel"), size(64, samples))) {
+      REQUIRE(parcels.count(value) == 1);
+    }
+    for (const float value : baked(*scene, make_scalar(*scene, "patch"), size(64, samples))) {
+      REQUIRE(patches.count(value) == 1);
+    }
+  }
+
+  const Property two_and_one{"label", ScalarType::Int8, {5, 5, 3}};
+  file.vertex_properties.front() = two_and_one;
+  file.vertex_properties.front().values.resize(static_cast<size_t>(file.mesh.vertex_count()), 3);
+  file.mesh.triangles.row(0) << 0, 1, 2;
+  const auto at = [&](const Vector3& weights) {
+    const SurfaceRun run{0, 1, weights, Vector3::Zero(), Vector3::Zero()};
+    float label = 0;
+    make_scalar(*scene, "label").evaluate_runs(std::span(&run, 1), &label);
+    return label;
+  };
+  CHECK(at({0.3, 0.3, 0.4}) == 5);
+  CHECK(at({0.2, 0.2, 0.6}) == 3);
+  CHECK(at({0.25, 0.25, 0.5}) == 3);  // the lowest of several
+}
+
 TEST_CASE("basecolor: a face without a material is white, also where there is but one material") {
   MeshFile file;
   file.mesh = icosphere(2);

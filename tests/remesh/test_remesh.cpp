@@ -228,6 +228,33 @@ TEST_CASE("remesh: over cells nothing is left out, at points most is") {
   CHECK(spread(SampleMode::Point) > 1.5);
 }
 
+TEST_CASE("remesh: two corners of one label outweigh a heavier one") {
+  MeshFile source;
+  source.mesh = icosphere(0);
+  source.vertex_properties.push_back({"label", ScalarType::Int32, std::vector<double>(12, 7.0)});
+  source.vertex_properties.front().values[0] = 2;
+  const SphereGrid grid = grid_named("ico:4");
+  const Remeshed result = remesh(mapped(source, {source.mesh.positions}), grid);
+  const auto& labels = vertex_property(result.file(), "label").values;
+  int heaviest_and_outvoted = 0;
+  for (Face f = 0; f < source.mesh.face_count(); ++f) {
+    const Eigen::RowVector3i triangle = source.mesh.triangles.row(f);
+    const auto k = std::find(triangle.begin(), triangle.end(), 0) - triangle.begin();
+    if (k == 3) continue;
+    Eigen::Matrix3d corners;
+    for (int i = 0; i < 3; ++i) corners.col(i) = source.mesh.position(source.mesh.triangles(f, i));
+    for (Eigen::Index v = 0; v < grid.directions.rows(); ++v) {
+      Vector3 weights = corners.inverse() * grid.directions.row(v).transpose();
+      if (weights.minCoeff() < 1e-9) continue;  // not inside this face
+      weights /= weights.sum();
+      if (std::abs(weights[k] - 0.5) < 1e-9) continue;
+      CHECK(labels[static_cast<size_t>(v)] == (weights[k] > 0.5 ? 2 : 7));
+      heaviest_and_outvoted += weights[k] < 0.5 && weights[k] == weights.maxCoeff();
+    }
+  }
+  CHECK(heaviest_and_outvoted > 20);
+}
+
 TEST_CASE("remesh: texture coordinates never run across a seam") {
   const TriangleMesh mesh = icosphere(3);
   const MeshFile source = two_charts(mesh);

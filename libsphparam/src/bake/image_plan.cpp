@@ -10,28 +10,50 @@
 namespace sphparam {
 namespace {
 
-/// As asked for; else what the format has and the values need.
-SampleType depth_of(const BakeSettings& settings, ImageFormat format, FieldKind kind) {
+/// As asked for; else what the format has and the values need: numbers are data and numbered
+/// labels.
+SampleType depth_of(const BakeSettings& settings, ImageFormat format, FieldKind kind,
+                    bool numbers) {
   if (settings.depth) return *settings.depth;
-  const bool data = kind == FieldKind::Data;
   if (format == ImageFormat::Exr) {
-    return data || kind == FieldKind::Label ? SampleType::Float : SampleType::Half;
+    return numbers || kind == FieldKind::Label ? SampleType::Float : SampleType::Half;
   }
-  return data && format != ImageFormat::Jpeg ? SampleType::Uint16 : SampleType::Uint8;
+  return numbers && format != ImageFormat::Jpeg ? SampleType::Uint16 : SampleType::Uint8;
+}
+
+bool has_numbers(const SurfaceField& field) {
+  return field.kind == FieldKind::Data || (field.kind == FieldKind::Label && field.channels == 1);
+}
+
+/// How many whole numbers from 0, or from the least in integers, a type tells apart.
+double exact_numbers(SampleType type) {
+  switch (type) {
+    case SampleType::Uint8:
+      return 255;
+    case SampleType::Uint16:
+      return 65535;
+    case SampleType::Half:
+      return 1 << 11;
+    default:
+      return 1 << 24;
+  }
 }
 
 /// Numbers that are rounded would name other faces.
 void require_exact_labels(const PlannedImage& image) {
-  if (image.field.kind != FieldKind::Label || !image.field.range) return;
-  const bool half = image.file.sample_type == SampleType::Half;
-  if (!half && image.file.sample_type != SampleType::Float) return;
-  const double most = half ? 1 << 11 : 1 << 24;
-  if (image.field.range->second <= most) return;
-  throw BakeSettingError(
-      "depth", std::string(name_of(image.file.sample_type)) + " holds whole numbers up to " +
-                   std::to_string(std::lround(most)) + " exactly; " + image.field.name +
-                   " goes up to " + std::to_string(std::lround(image.field.range->second)) +
-                   (half ? "; float holds more" : ""));
+  if (image.field.kind != FieldKind::Label || !image.field.range || image.field.channels > 1)
+    return;
+  const auto [least, greatest] = *image.field.range;
+  const SampleType type = image.file.sample_type;
+  const double most = exact_numbers(type);
+  const double needed =
+      is_integer(type) ? greatest - least : std::max(std::abs(least), std::abs(greatest));
+  if (needed <= most) return;
+  throw BakeSettingError("depth",
+                         std::string(name_of(type)) + " holds whole numbers up to " +
+                             std::to_string(std::lround(most)) + " exactly; " + image.field.name +
+                             " goes up to " + std::to_string(std::lround(needed)) +
+                             (type == SampleType::Float ? "" : "; float holds more, in an .exr"));
 }
 
 void require_channels(const PlannedImage& image) {
@@ -59,9 +81,10 @@ PlannedImage plan_image(const BakeRequest& request, BakeScene& scene,
                               .convention = settings.convention,
                               .tiles = settings.mip}};
   image.file.format = is_stream(request.path) ? ImageFormat::Png : *image_format_of(request.path);
-  scene.ids_as_colours = is_integer(depth_of(settings, image.file.format, FieldKind::Label));
+  scene.ids_as_colours = is_integer(depth_of(settings, image.file.format, FieldKind::Label, false));
   if (!image.drawn) image.field = make_field(request.field, scene);
-  image.file.sample_type = depth_of(settings, image.file.format, image.field.kind);
+  image.file.sample_type =
+      depth_of(settings, image.file.format, image.field.kind, has_numbers(image.field));
   require_channels(image);
   require_exact_labels(image);
   return image;

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
+#include "io/attributes/weightiest_label.h"
 #include "sphparam/parallel.h"
 #include "srgb_curves.h"
 
@@ -76,34 +78,6 @@ double colour_unit(ScalarType type) {
   }
 }
 
-/// The label of the largest total weight, the lowest of several.
-double majority(const Sources& sources, const std::vector<double>& labels,
-                std::vector<std::pair<double, double>>& scratch) {
-  scratch.clear();
-  for (size_t e = 0; e < sources.vertices.size(); ++e) {
-    scratch.emplace_back(labels[static_cast<size_t>(sources.vertices[e])], sources.weights[e]);
-  }
-  std::sort(scratch.begin(), scratch.end());
-  double best = scratch.front().first, best_weight = -1;
-  for (size_t e = 0; e < scratch.size();) {
-    const double label = scratch[e].first;
-    double weight = 0;
-    for (; e < scratch.size() && scratch[e].first == label; ++e) weight += scratch[e].second;
-    if (weight > best_weight) std::tie(best, best_weight) = std::tie(label, weight);
-  }
-  return best;
-}
-
-double nearest(const Sources& sources, const std::vector<double>& labels) {
-  const auto heaviest = std::max_element(sources.weights.begin(), sources.weights.end());
-  double best = labels[static_cast<size_t>(sources.vertices[heaviest - sources.weights.begin()])];
-  for (size_t e = 0; e < sources.vertices.size(); ++e) {
-    const double label = labels[static_cast<size_t>(sources.vertices[e])];
-    if (sources.weights[e] == *heaviest) best = std::min(best, label);
-  }
-  return best;
-}
-
 }  // namespace
 
 std::vector<double> resample(const Resampling& resampling, const double* values, int width) {
@@ -150,9 +124,13 @@ std::vector<double> resample_colour(const Resampling& resampling, const Property
 std::vector<double> resample_labels(const Resampling& resampling, const Property& property) {
   std::vector<double> result(resampling.points.size());
   for_each_sample(resampling, [&](std::int64_t i, const Sources& sources) {
-    thread_local std::vector<std::pair<double, double>> scratch;
-    result[static_cast<size_t>(i)] = sources.of_cell ? majority(sources, property.values, scratch)
-                                                     : nearest(sources, property.values);
+    thread_local std::vector<std::pair<double, double>> labelled;
+    labelled.clear();
+    for (size_t e = 0; e < sources.vertices.size(); ++e) {
+      labelled.emplace_back(property.values[static_cast<size_t>(sources.vertices[e])],
+                            sources.weights[e]);
+    }
+    result[static_cast<size_t>(i)] = weightiest_label(labelled);
   });
   return result;
 }

@@ -39,8 +39,8 @@ std::vector<double> resample_property(const Resampling& resampling, const Proper
 /// vertices; over cells in linear light, but for the channel "alpha".
 std::vector<double> resample_colour(const Resampling& resampling, const Property& channel);
 
-/// For values that name something: at a point that of the corner with the largest weight, over a
-/// cell that of the largest total weight; the lowest where there are several.
+/// For values that name something: that of the largest total weight, the lowest where there are
+/// several.
 std::vector<double> resample_labels(const Resampling& resampling, const Property& property);
 
 }  // namespace sphparam

@@ -1,4 +1,5 @@
-// Properties are interpolated linearly over faces, those of faces are constant on them.
+// Properties are interpolated linearly over faces, those of faces are constant on them; whole
+// numbers are labels and never mixed, as where meshes are resampled.
 
 #include "bake/fields/attribute_fields.h"
 
@@ -7,6 +8,7 @@
 
 #include "bake/fields/linear_field.h"
 #include "io/attributes/source_attributes.h"
+#include "io/attributes/weightiest_label.h"
 
 namespace sphparam {
 namespace {
@@ -33,8 +35,52 @@ std::uint32_t mixed(std::uint32_t x) {
   return x ^ x >> 12;
 }
 
-/// A label, one a face.
-SurfaceField label_field(const BakeScene& scene, std::string name, std::vector<int> labels) {
+/// A field of labels: `label(face, weights)` is that of a point. Requires: what it refers to
+/// outlives the field.
+template <class LabelAt>
+SurfaceField label_field(SurfaceField described, LabelAt label) {
+  described.kind = FieldKind::Label;
+  described.evaluate_runs = [label](std::span<const SurfaceRun> runs, float* values) {
+    for (const SurfaceRun& run : runs) {
+      for (int i = 0; i < run.count; ++i) {
+        *values++ = static_cast<float>(label(run.face, Vector3(run.first + i * run.step)));
+      }
+    }
+  };
+  return described;
+}
+
+/// A property of vertices: of numbers that measure, or that name something.
+SurfaceField vertex_field(SurfaceField described, const Triangles& triangles,
+                          const Property& property) {
+  const auto corner = [&triangles, &property](Face f, int k) {
+    return property.values[static_cast<size_t>(triangles(f, k))];
+  };
+  if (is_floating(property.type)) {
+    return linear_field<1>(
+        std::move(described),
+        [corner](Face f, int k, std::array<double, 1>& value) { value[0] = corner(f, k); });
+  }
+  return label_field(std::move(described), [corner](Face f, const Vector3& weights) {
+    std::array<std::pair<double, double>, 3> labelled;
+    for (int k = 0; k < 3; ++k) labelled[static_cast<size_t>(k)] = {corner(f, k), weights[k]};
+    return weightiest_label(labelled);
+  });
+}
+
+SurfaceField face_field(SurfaceField described, const Property& property) {
+  const auto value_of = [&property](Face f) { return property.values[static_cast<size_t>(f)]; };
+  if (!is_floating(property.type)) {
+    return label_field(std::move(described),
+                       [value_of](Face f, const Vector3&) { return value_of(f); });
+  }
+  return linear_field<1>(
+      std::move(described),
+      [value_of](Face f, int, std::array<double, 1>& value) { value[0] = value_of(f); });
+}
+
+/// Whose texel it is: a label, one a face, as its number or as a colour.
+SurfaceField owner_field(const BakeScene& scene, std::string name, std::vector<int> labels) {
   SurfaceField field{.name = std::move(name), .kind = FieldKind::Label};
   const int greatest = *std::ranges::max_element(labels);
   if (!scene.ids_as_colours) {
@@ -116,21 +162,15 @@ SurfaceField make_texcoords(const BakeScene& scene, const std::string&) {
 
 SurfaceField make_scalar(const BakeScene& scene, const std::string& name) {
   const MeshFile& file = scene.source.file();
-  const SurfaceField described{.name = "scalar:" + name, .about = "property " + name};
+  const auto described = [&name](const Property& property) {
+    return SurfaceField{
+        .name = "scalar:" + name, .about = "property " + name, .range = range_of(property.values)};
+  };
   if (const Property* property = file.find_vertex_property(name)) {
-    SurfaceField field = described;
-    field.range = range_of(property->values);
-    return linear_field<1>(
-        std::move(field), [&file, property](Face f, int k, std::array<double, 1>& value) {
-          value[0] = property->values[static_cast<size_t>(file.mesh.triangles(f, k))];
-        });
+    return vertex_field(described(*property), file.mesh.triangles, *property);
   }
   if (const Property* property = file.find_face_property(name)) {
-    SurfaceField field = described;
-    field.range = range_of(property->values);
-    return linear_field<1>(std::move(field), [property](Face f, int, std::array<double, 1>& value) {
-      value[0] = property->values[static_cast<size_t>(f)];
-    });
+    return face_field(described(*property), *property);
   }
   const std::string vertices = names_of(file.vertex_properties),
                     faces = names_of(file.face_properties);
@@ -160,7 +200,7 @@ SurfaceField make_id(const BakeScene& scene, const std::string& what) {
   } else if (chosen != "component") {
     throw FieldError("id:" + chosen + ": there are id:face, id:material and id:component");
   }
-  return label_field(scene, "id:" + chosen, std::move(labels));
+  return owner_field(scene, "id:" + chosen, std::move(labels));
 }
 
 }  // namespace sphparam
