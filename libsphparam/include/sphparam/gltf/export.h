@@ -141,7 +141,7 @@ std::vector<std::string> asset_files(const std::string& path, const Asset& asset
 WrittenFiles add_asset(PendingFiles& files, const std::string& path, const Asset& asset,
                        const GltfOptions& options = {});
 
-/// Writes them, all or none.
+/// Writes the files of an asset, all or none; the path decides which. Throws: as `add_asset`.
 void write_asset(const std::string& path, const Asset& asset, const GltfOptions& options = {});
 
 // The same for programs that read texts: numbers are doubles, properties of vertices and faces come
@@ -166,7 +166,8 @@ TexturedFiles add_textured_mesh(PendingFiles& files, const std::string& path,
                                 const MappedMesh& mapped, const Look& look,
                                 const ExportOptions& options = {});
 
-/// Writes them with the look of the options, all or none.
+/// Writes an .obj or .ply and what it names, with the look of the options, all or none. Throws: as
+/// `make_look` and `add_textured_mesh`.
 TexturedFiles write_textured_mesh(const std::string& path, const MappedMesh& mapped,
                                   const ExportOptions& options = {});
 
