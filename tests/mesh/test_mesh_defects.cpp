@@ -158,6 +158,14 @@ TEST_CASE("mesh_defects: what is odd but harmless is reported and does not stop 
   CHECK_NOTHROW(require_sphere(mesh));
 }
 
+TEST_CASE("mesh_defects: faces without any vertex are listed") {
+  TriangleMesh mesh = icosphere(0);
+  mesh.positions.resize(0, 3);
+  const MeshInspection inspection = inspect_mesh(mesh);
+  REQUIRE(find(inspection, DefectKind::IndexOutOfRange));
+  CHECK(find(inspection, DefectKind::IndexOutOfRange)->count == mesh.face_count());
+}
+
 TEST_CASE("mesh_defects: huge and tiny coordinates are measured without overflow") {
   for (const double scale : {1e300, 1e-300}) {
     TriangleMesh mesh = icosphere(1);

@@ -90,11 +90,11 @@ std::vector<Path> module_folders() {
     add(folders, named);
   }
   const Path program = program_path(), own = own_file();
-  if (!program.empty()) add_about(folders, program);
-  if (!own.empty() && own != program) {
+  if (!own.empty() && own != program) {  // first: that of the same version
     add(folders, own.parent_path() / "sphparam");
     add_about(folders, own);
   }
+  if (!program.empty()) add_about(folders, program);
   return folders;
 }
 

@@ -133,7 +133,7 @@ class Inspector {
       if (!mesh_.positions.row(v).allFinite()) places.add({v});
     }
     finite_ = places.count == 0;
-    if (finite_ && faces_ > 0) measure_box();
+    if (finite_ && faces_ > 0 && vertices_ > 0) measure_box();
     if (finite_) return;
     add_fatal(DefectKind::NonFinitePosition, places.count, places.elements,
               counted(places.count, "vertex has", "vertices have") +

@@ -1,0 +1,109 @@
+"""All that is public has its types and says what it is; the page of the documents names it."""
+
+import ast
+import inspect
+import os
+import pathlib
+import typing
+
+import pytest
+
+import sphparam as sp
+
+package = pathlib.Path(os.path.realpath(sp.__file__)).parent
+page = (package.parent.parent.parent / "docs" / "python.md").read_text()
+modules = [ast.parse(file.read_text()) for file in package.glob("*.py")]
+
+
+def classes():
+    return {node.name: node for tree in modules for node in tree.body if isinstance(node, ast.ClassDef)}
+
+
+def functions():
+    return {node.name: node for tree in modules for node in tree.body if isinstance(node, ast.FunctionDef)}
+
+
+def is_public(name):
+    return not name.startswith("_") or name in ("__init__", "__call__")
+
+
+def assert_typed(function, where):
+    taken = function.args.posonlyargs + function.args.args + function.args.kwonlyargs
+    for argument in taken:
+        assert argument.annotation is not None or argument.arg in ("self", "cls"), f"{where}: {argument.arg}"
+    assert function.returns is not None, where
+
+
+def said_after(body):
+    """Names that are declared in a body, with whether a text follows them."""
+    for node, following in zip(body, [*body[1:], None]):
+        if not isinstance(node, ast.AnnAssign):
+            continue
+        target = node.target.attr if isinstance(node.target, ast.Attribute) else node.target.id
+        text = isinstance(following, ast.Expr) and isinstance(following.value, ast.Constant)
+        yield target, text and isinstance(following.value.value, str)
+
+
+def test_everything_that_is_named_is_there():
+    assert len(sp.__all__) == len(set(sp.__all__)) >= 37
+    assert [getattr(sp, name) for name in sp.__all__]
+    with pytest.raises(AttributeError, match="no attribute 'tutte'"):
+        sp.tutte
+
+
+@pytest.mark.parametrize("name", sp.__all__)
+def test_a_public_name_is_typed_and_documented(name):
+    if name == "remeshing_lambda":
+        return
+    thing = getattr(sp, name)
+    assert inspect.getdoc(thing) and thing.__doc__
+    if name in functions():
+        assert_typed(functions()[name], name)
+        return
+    node = classes()[name]
+    for part in node.body:
+        if isinstance(part, ast.FunctionDef) and is_public(part.name):
+            assert_typed(part, f"{name}.{part.name}")
+            assert ast.get_docstring(part) or part.name == "__init__", f"{name}.{part.name} says nothing"
+    if issubclass(thing, tuple) or thing.__module__ in ("sphparam._chart", "sphparam._harmonics"):
+        holder = node if issubclass(thing, tuple) else next(p for p in node.body if getattr(p, "name", "") == "__init__")
+        declared = dict(said_after(holder.body))
+        assert len(declared) >= 4 and all(declared.values()), declared
+
+
+@pytest.mark.parametrize("name", ["SphereMap", "Mesh"])
+def test_every_parameter_is_explained(name):
+    methods = {part.name: part for part in classes()[name].body if isinstance(part, ast.FunctionDef)}
+    for method, node in methods.items():
+        if not is_public(method) or method == "__init__":
+            continue
+        text = ast.get_docstring(node) or ""
+        for argument in node.args.kwonlyargs:
+            known = argument.arg in ("threads", "progress")  # explained once, by `map`
+            others = method == "bake_files"  # "the others are those of bake"
+            assert known or others or argument.arg in text, f"{name}.{method}: {argument.arg}"
+
+
+@pytest.mark.parametrize("name", ["map", "repair", "measure"])
+def test_every_parameter_of_a_function_is_explained(name):
+    text = ast.get_docstring(functions()[name])
+    for argument in functions()[name].args.args + functions()[name].args.kwonlyargs:
+        known = argument.arg in ("threads", "progress", "seed")
+        assert known or argument.arg in text, argument.arg
+
+
+@pytest.mark.parametrize("name", sp.__all__)
+def test_the_page_names_it(name):
+    assert f"`{name}" in page or f"sp.{name}" in page
+
+
+@pytest.mark.parametrize("name", [n for n, _ in inspect.getmembers(sp.SphereMap) if not n.startswith("_")])
+def test_the_page_names_what_maps_can_do(name):
+    assert f"`{name}" in page or f"m.{name}" in page
+
+
+def test_annotations_can_be_read():
+    import numpy  # noqa: F401  what the types of arrays are of
+
+    for name in ("Defect", "Stage", "Distance"):
+        assert typing.get_type_hints(getattr(sp, name), vars(typing) | vars(sp))

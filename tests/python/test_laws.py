@@ -1,0 +1,287 @@
+"""What holds for every call: arrays of any layout, the bytes of the program, memory, Ctrl-C."""
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import sphparam as sp
+from shapes import octahedron, potato, sphere
+
+V, F = potato(4)
+
+
+@pytest.fixture(scope="module")
+def mapped():
+    return sp.map(V, F)
+
+
+def strided(array):
+    """The same numbers, no two of them side by side."""
+    wide = np.zeros((2 * len(array), 2 * array.shape[1]), array.dtype)
+    wide[::2, ::2] = array
+    return wide[::2, ::2]
+
+
+def unaligned(array):
+    memory = bytearray(array.nbytes + 1)
+    view = np.frombuffer(memory, array.dtype, array.size, 1).reshape(array.shape)
+    view[:] = array
+    return view
+
+
+def read_only(array):
+    copy = array.copy()
+    copy.flags.writeable = False
+    return copy
+
+
+layouts = {
+    "as it is": lambda a: a,
+    "Fortran order": np.asfortranarray,
+    "read-only": read_only,
+    "big-endian": lambda a: a.astype(a.dtype.newbyteorder(">")),
+    "big-endian, Fortran order": lambda a: np.asfortranarray(a.astype(a.dtype.newbyteorder(">"))),
+    "with gaps": strided,
+    "backwards in memory": lambda a: a[::-1].copy()[::-1],
+    "columns backwards in memory": lambda a: a[:, ::-1].copy()[:, ::-1],
+    "unaligned": unaligned,
+    "a list": lambda a: a.tolist(),
+    "a subclass": lambda a: a.view(np.matrix),
+}
+
+
+@pytest.mark.parametrize("layout", layouts)
+@pytest.mark.parametrize("kind", [np.int32, np.int64, np.uint32, np.uint64, np.int16])
+def test_any_layout_gives_the_same_map(layout, kind, mapped):
+    vertices, faces = layouts[layout](V.copy()), layouts[layout](F.astype(kind))
+    assert (sp.map(vertices, faces, quality="draft").points == drafts()).all()
+
+
+def drafts(made={}):
+    if not made:
+        made["points"] = sp.map(V, F, quality="draft").points
+    return made["points"]
+
+
+def test_single_precision_is_taken_as_it_is():
+    single = V.astype(np.float32)
+    assert (sp.map(single, F).points == sp.map(single.astype(float), F).points).all()
+    assert (sp.map(single, F).vertices == single).all()
+
+
+def test_halves_long_doubles_and_whole_numbers_are_coordinates_too():
+    vertices, faces = octahedron()
+    for kind in (np.float16, np.longdouble, np.int8, np.uint16, np.int64):
+        shifted = (vertices + 1).astype(kind)
+        assert (sp.map(shifted, faces).vertices == vertices + 1).all()
+
+
+def test_nothing_that_is_passed_in_is_changed():
+    vertices, faces = V.copy(), F.copy()
+    vertices.flags.writeable = faces.flags.writeable = True
+    sulc = np.linspace(0, 1, len(V))
+    made = sp.map(vertices, faces, values={"sulc": sulc}, repair=True)
+    made.resample(sulc, V)
+    made.locate(vertices)
+    made.remesh("ico:2")
+    assert (vertices == V).all() and (faces == F).all() and (sulc == np.linspace(0, 1, len(V))).all()
+
+
+def test_what_is_passed_in_may_change_afterwards(mapped):
+    vertices, faces = V.copy(), F.copy()
+    made = sp.map(vertices, faces)
+    vertices[:], faces[:] = np.nan, -1
+    assert (made.vertices == V).all() and (made.faces == F).all()
+
+
+def test_results_outlive_what_they_came_from():
+    points = sp.map(V, F, quality="draft").points
+    face, weights = sp.map(V, F, quality="draft").locate(V)
+    uv = sp.map(V, F, quality="draft").chart().uv
+    for _ in range(50):
+        sp.map(*octahedron())
+    assert (points == drafts()).all() and np.isfinite(weights).all() and np.isfinite(uv).all()
+    assert np.allclose(np.linalg.norm(points, axis=1), 1)
+
+
+def test_a_proved_map_cannot_be_written_to(mapped):
+    for array in (mapped.points, mapped.vertices, mapped.faces):
+        assert not array.flags.writeable
+        with pytest.raises(ValueError):
+            array[0] = 0
+        with pytest.raises(ValueError):
+            array.flags.writeable = True
+    face, weights = mapped.locate(V)
+    weights[0] = 0  # one's own
+
+
+def test_a_mesh_that_was_mapped_is_still_there():
+    mesh = sp.Mesh(V, F)
+    first = sp.map(mesh)
+    assert (mesh.vertices == V).all() and (sp.map(mesh).points == first.points).all()
+
+
+@pytest.mark.parametrize("threads", [1, 2, 3])
+def test_the_same_bits_for_any_number_of_threads(threads, mapped):
+    assert (sp.map(V, F, threads=threads).points == mapped.points).all()
+
+
+def program():
+    return os.environ["SPHPARAM_PROGRAM"]
+
+
+@pytest.mark.parametrize("name", ["potato.ply", "potato.obj"])
+def test_the_program_writes_the_same_bytes(name, tmp_path):
+    path = tmp_path / name
+    sp.write(path, V, F, values={"sulc": V[:, 0].astype(np.float32)})
+    ours, theirs = tmp_path / "ours.sph.ply", tmp_path / "theirs.sph.ply"
+    sp.map(sp.read(path)).save(ours)
+    subprocess.run([program(), "map", path, "-o", theirs, "--quiet"], check=True)
+    assert ours.read_bytes() == theirs.read_bytes()
+
+
+def test_points_of_arrays_are_those_of_the_program(mapped, tmp_path):
+    sp.write(tmp_path / "a.ply", V, F)
+    subprocess.run([program(), "map", tmp_path / "a.ply", "-o", tmp_path / "a.sph.ply", "--quiet"], check=True)
+    read = sp.load(tmp_path / "a.sph.ply")
+    assert (read.points == mapped.points).all()
+    assert (read.theta == mapped.theta).all() and (read.phi == mapped.phi).all()
+    assert sp.verify(tmp_path / "a.sph.ply").one_to_one
+
+
+def test_progress_is_told_in_the_thread_that_asked():
+    told = []
+    vertices, faces = potato(6)
+
+    def listen(stage, fraction):
+        assert threading.current_thread() is threading.main_thread()
+        told.append((stage, fraction))
+
+    sp.map(vertices, faces, progress=listen)
+    assert told and all(isinstance(s, str) and 0 <= f <= 1 for s, f in told)
+
+
+def test_progress_that_says_false_stops():
+    with pytest.raises(sp.Cancelled):
+        sp.map(*potato(7), progress=lambda stage, fraction: False)
+
+
+def test_progress_that_raises_stops():
+    def broken(stage, fraction):
+        raise KeyError("mine")
+
+    with pytest.raises(KeyError, match="mine"):
+        sp.map(*potato(7), progress=broken)
+
+
+def test_a_bar_appears_and_goes(capsys, monkeypatch):
+    import sphparam._progress as progress
+
+    monkeypatch.setattr(progress.Bar, "patience", 0)
+    sp.map(*potato(6), progress=True)
+    written = capsys.readouterr().err
+    assert "%|" in written and written.endswith("\r")
+    sp.map(*potato(4), progress=None)  # nobody watches here
+    assert capsys.readouterr().err == ""
+
+
+@pytest.mark.parametrize("delay", [0.02, 0.2, 0.6])
+def test_ctrl_c_is_heard(delay):
+    vertices, faces = sphere(8)
+    vertices = vertices * (1 + 0.3 * np.sin(5 * vertices[:, :1]))
+    hit = []
+
+    def press():
+        time.sleep(delay)
+        hit.append(time.monotonic())
+        os.kill(os.getpid(), signal.SIGINT)
+
+    thread = threading.Thread(target=press)
+    thread.start()
+    with pytest.raises(KeyboardInterrupt):
+        for _ in range(20):
+            sp.map(vertices, faces, quality="best")
+    late = time.monotonic() - hit[0]
+    thread.join()
+    assert late < 5  # the figure, half a second, is measured by tests/bench/python_figures.py
+    assert sp.map(*octahedron()).certificate.one_to_one  # all is well afterwards
+
+
+def test_ctrl_c_leaves_no_file(tmp_path):
+    mapped = sp.map(*potato(5))
+
+    def press():
+        time.sleep(0.15)
+        os.kill(os.getpid(), signal.SIGINT)
+
+    thread = threading.Thread(target=press)
+    thread.start()
+    with pytest.raises(KeyboardInterrupt):
+        for _ in range(100):
+            mapped.bake_files({"ao": tmp_path / "ao.png"}, size=1024, rays=256)
+            (tmp_path / "ao.png").unlink()
+    thread.join()
+    time.sleep(0.3)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_other_threads_go_on():
+    ticks = []
+    stop = threading.Event()
+
+    def tick():
+        while not stop.is_set():
+            ticks.append(time.monotonic())
+            time.sleep(0.002)
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    sp.map(*potato(7))
+    stop.set()
+    thread.join()
+    assert len(ticks) > 20
+
+
+def test_several_threads_map_at_once(mapped):
+    found = []
+
+    def work():
+        found.append((sp.map(V, F).points == mapped.points).all())
+
+    threads = [threading.Thread(target=work) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert found == [True] * 4
+
+
+def test_importing_opens_no_images_and_casts_no_rays():
+    code = (
+        "import sphparam, sys\n"
+        "maps = open('/proc/self/maps').read()\n"
+        "assert 'embree' not in maps and 'OpenImageIO' not in maps\n"
+        "assert 'numpy' not in sys.modules\n"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_a_program_may_end_while_a_left_call_runs():
+    code = (
+        "import os, signal, sys, threading, time\n"
+        f"sys.path.insert(0, {os.path.dirname(__file__)!r})\n"
+        "import shapes, sphparam as sp\n"
+        "threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()\n"
+        "try:\n"
+        "    sp.map(*shapes.potato(8), quality='best')\n"
+        "except KeyboardInterrupt:\n"
+        "    print('heard')\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert (done.stdout, done.returncode) == ("heard\n", 0), done.stderr

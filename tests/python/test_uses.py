@@ -1,0 +1,439 @@
+"""What maps are good for: each use against a law or against what the program writes."""
+
+import base64
+import os
+import re
+import subprocess
+import warnings
+
+import numpy as np
+import pytest
+
+import sphparam as sp
+from shapes import octahedron, potato, sphere, torus
+
+V, F = potato(4)
+
+
+@pytest.fixture(scope="module")
+def mapped():
+    label = (V[:, 2] > 0).astype(np.int32) + 2 * (V[:, 0] > 0)
+    colour = (127 + 120 * V / np.abs(V).max()).astype(np.uint8)
+    return sp.map(V, F, values={"height": V[:, 2], "label": label, "color": colour})
+
+
+def program(*arguments, cwd):
+    subprocess.run([os.environ["SPHPARAM_PROGRAM"], *arguments], check=True, cwd=cwd, capture_output=True)
+
+
+# Objects of other packages, by their attributes.
+
+
+class Trimesh:
+    vertices, faces = V, F
+    vertex_attributes = {"sulc": V[:, 0].astype(np.float32)}
+
+    class visual:
+        kind, vertex_colors = "vertex", np.full((len(V), 4), 200, np.uint8)
+
+
+class PyVista:
+    points = V.astype(np.float32)
+    faces = np.c_[np.full(len(F), 3), F].ravel()
+    point_data = {"sulc": V[:, 0], "Normals": V, "name": np.array(["x"] * len(V))}
+
+
+class Meshio:
+    points, cells_dict = V, {"triangle": F.astype(np.uint64), "line": F[:, :2]}
+    point_data = {"area share": V[:, 1]}
+
+
+class Gifti:
+    def agg_data(self, intent):
+        return {"pointset": V.astype(np.float32), "triangle": F.astype(np.int32)}[intent]
+
+
+class Open3D:
+    vertices, triangles, vertex_colors = V.tolist(), F.astype(np.int32).tolist(), np.zeros((len(V), 3))
+
+    def has_vertex_colors(self):
+        return True
+
+
+@pytest.mark.parametrize(
+    "mesh, values",
+    [
+        (Trimesh(), {"sulc", "color"}),
+        (PyVista(), {"sulc", "normal"}),
+        (Meshio(), {"area_share"}),
+        (Gifti(), set()),
+        (Open3D(), {"color"}),
+        ((V, F.astype(">i4")), set()),
+        ([V, F], set()),
+    ],
+    ids=["trimesh", "pyvista", "meshio", "nibabel", "open3d", "a pair", "a list of two"],
+)
+def test_meshes_of_other_packages_are_known_by_their_attributes(mesh, values):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", sp.LossWarning)
+        made = sp.map(mesh)
+    single = made.vertices.dtype == float and (made.vertices == V.astype(np.float32)).all()
+    assert (made.vertices == V).all() or single
+    assert (made.faces == F).all() and set(made.values) == values
+
+
+def test_what_is_not_carried_is_told():
+    with pytest.warns(sp.LossWarning, match="name.*numbers are needed"):
+        sp.map(PyVista())
+
+
+# Values.
+
+
+def test_values_come_back_as_they_were(mapped):
+    assert mapped.values["height"].dtype == float and (mapped.values["height"] == V[:, 2]).all()
+    assert mapped.values["label"].dtype == np.int32 and mapped.values["color"].dtype == np.uint8
+    assert mapped.values["color"].shape == (len(V), 3)
+
+
+@pytest.mark.parametrize("kind", ["i1", "u1", "i2", "u2", "i4", "u4", "f4", "f8"])
+def test_every_type_of_a_value_is_kept(kind, tmp_path):
+    vertices, faces = octahedron()
+    given = np.arange(12, dtype=kind).reshape(6, 2)
+    sp.map(vertices, faces, values={"pair": given}).save(tmp_path / "a.sph.ply")
+    found = sp.load(tmp_path / "a.sph.ply").values["pair"]
+    assert found.dtype == np.dtype(kind) and (found == given).all()
+
+
+def test_more_values_than_ten_stay_in_their_order():
+    vertices, faces = octahedron()
+    many = np.arange(72, dtype=float).reshape(6, 12)
+    assert (sp.map(vertices, faces, values={"many": many}).values["many"] == many).all()
+
+
+# Directions.
+
+
+def test_vertices_are_located_where_they_are(mapped):
+    face, weights = mapped.locate(mapped.points)
+    corner = weights.argmax(axis=1)
+    assert (weights.max(axis=1) == 1).all() and (weights.sum(axis=1) == 1).all()
+    assert (mapped.faces[face, corner] == np.arange(len(V))).all()
+
+
+def test_located_points_have_the_direction_that_was_asked_for(mapped):
+    directions = np.random.default_rng(1).normal(size=(500, 3))
+    face, weights = mapped.locate(directions)
+    found = (mapped.points[mapped.faces[face]] * weights[..., None]).sum(axis=1)
+    unit = [a / np.linalg.norm(a, axis=1, keepdims=True) for a in (found, directions)]
+    assert np.allclose(unit[0], unit[1], atol=1e-12)
+
+
+def test_values_at_the_vertices_are_the_values(mapped):
+    for values in (V, V[:, 0], V[:, 0].astype(np.float32), np.arange(len(V)), V[:, 0] > 0):
+        found = mapped.resample(values, mapped.points)
+        assert found.dtype == values.dtype and (found == values).all()
+    assert (mapped.resample("vertices", mapped.points) == V).all()
+
+
+def test_labels_are_never_mixed(mapped):
+    directions = np.random.default_rng(2).normal(size=(2000, 3))
+    labels = mapped.values["label"]
+    assert set(mapped.resample("label", directions)) <= set(labels)
+    face, weights = mapped.locate(directions)
+    corners = labels[mapped.faces[face]]
+    for row, share, found in zip(corners, weights, mapped.resample("label", directions)):
+        votes = {label: share[row == label].sum() for label in row}
+        assert votes[found] == max(votes.values())
+
+
+def test_nan_stays_where_it_has_weight(mapped):
+    values = V[:, 0].copy()
+    values[7] = np.nan
+    found = mapped.resample(values, mapped.points)
+    assert np.isnan(found[7]) and np.isfinite(np.delete(found, 7)).all()
+
+
+# Charts.
+
+
+def test_a_chart_covers_the_rectangle_once(mapped):
+    chart = mapped.chart()
+    assert chart.one_to_one
+    assert (chart.uv >= 0).all() and (chart.uv <= 1).all() and len(chart.wedge_vertices) == len(chart.uv)
+    assert (chart.vertices[: len(V)] == V).all()  # but for those that were moved to a pole
+    area = np.linalg.norm(np.cross(*(chart.vertices[chart.faces[:, k]] - chart.vertices[chart.faces[:, 0]] for k in (1, 2))), axis=1)
+    source = np.linalg.norm(np.cross(*(V[F[:, k]] - V[F[:, 0]] for k in (1, 2))), axis=1)
+    assert area.sum() == pytest.approx(source.sum())
+    assert not mapped.chart(keep_topology=True).one_to_one
+
+
+# Images.
+
+
+def test_normals_are_unit_and_point_outwards(mapped):
+    image = mapped.bake("normal-object", size=128)
+    assert image.shape == (64, 128, 3) and image.dtype == np.float32 and image.field == "normal-object"
+    assert np.allclose(np.linalg.norm(image, axis=2), 1, atol=1e-3)
+    position = mapped.bake("position", size=128)
+    assert ((np.asarray(image) * np.asarray(position)).sum(axis=2) > 0).mean() > 0.95
+
+
+def test_texels_are_the_points_that_locate_finds():
+    coarse = sp.map(*potato(2))  # a texel that holds several triangles has their mean
+    width, height = 512, 256
+    image = coarse.bake("position", size=width, interpolation="sphere")
+    t, p = np.meshgrid(2 * np.pi * (np.arange(width) + 0.5) / width, np.pi * (np.arange(height) + 0.5) / height)
+    directions = np.stack([np.cos(t) * np.sin(p), np.sin(t) * np.sin(p), np.cos(p)], -1).reshape(-1, 3)
+    apart = np.abs(np.asarray(image).reshape(-1, 3) - coarse.resample("vertices", directions)).max(axis=1)
+    assert (apart < 1e-5).mean() > 0.8 and apart.max() < 0.05
+
+
+def test_longitude_goes_where_the_convention_has_it(mapped):
+    ours, gis = (mapped.bake("position", size=64, convention=c) for c in ("sphparam", "gis"))
+    assert (np.roll(ours, 32, axis=1) == gis).all() or (np.roll(ours, -32, axis=1) == gis).all()
+
+
+def test_files_are_those_that_the_program_bakes(mapped, tmp_path):
+    mapped.save(tmp_path / "a.sph.ply")
+    [file] = sp.load(tmp_path / "a.sph.ply").bake_files({"normal-object": tmp_path / "n.png"}, size=64)
+    program("bake", "a.sph.ply", "--map", "normal-object", "--size", "64", "-o", "m.png", cwd=tmp_path)
+    assert (tmp_path / "n.png").read_bytes() == (tmp_path / "m.png").read_bytes()
+    assert file.sample_type == "uint8" and file.channels == 3
+
+
+def test_images_know_what_they_show(mapped):
+    image = mapped.bake("curvature:mean", size=32)
+    assert image[:, :, 0].field == "curvature:mean" and "curvature" in repr(image.field)
+    picture = image.picture()
+    assert picture.shape == (16, 32, 3) and picture.min() == 0 and picture.max() == 255
+    assert (mapped.bake("normal-object", size=32).picture() >= 0).all()
+
+
+def test_a_colour_painted_on_everything_is_that_colour(mapped):
+    image = np.full((16, 32, 3), (10, 100, 200), np.uint8)
+    assert (mapped.paint(image) == (10, 100, 200)).all()
+    assert (mapped.paint(image.astype(float) / 255) == (10, 100, 200)).all()
+
+
+def test_a_texture_is_painted_for_the_meshs_own_coordinates(tmp_path):
+    made = sp.map(V, F, values={"uv": (V[:, :2] - V[:, :2].min()) / np.ptp(V[:, :2])})
+    with pytest.warns(sp.LossWarning, match="overlap|inside more than one"):  # front and back lie on each other
+        skin = made.paint_texture(np.full((16, 32, 3), (10, 100, 200), np.uint8), size=32, padding=2)
+    assert skin.shape == (32, 32, 4) and (skin[16, 16] == (10, 100, 200, 255)).all()
+
+
+# Grids.
+
+
+@pytest.mark.parametrize("grid", ["ico:3", "octa:33", "cube:8", "uv:32x16", "healpix:8"])
+def test_a_mesh_on_a_grid_has_the_grids_directions(mapped, grid):
+    low = mapped.remesh(grid)
+    assert low.certificate.one_to_one and set(low.values) >= {"height", "label", "color"}
+    assert np.allclose(low.vertices, mapped.resample("vertices", low.points), atol=1e-12)
+    assert set(low.values["label"]) <= set(mapped.values["label"])
+    quads = low.polygons is not None and {len(p) for p in low.polygons} != {3}
+    assert quads == (grid[:2] in ("cu", "uv", "he"))
+
+
+def test_the_grid_of_another_map_gives_its_connectivity(mapped):
+    other = sp.with_sphere(sphere(3), sphere(3)[0])
+    low = mapped.remesh(other)
+    assert (low.faces == other.faces).all() and (low.points == other.points).all()
+    assert set(mapped.remesh("ico:1", transfer=["label"]).values) == {"label"}
+
+
+def test_more_vertices_go_where_it_bends(mapped):
+    assert mapped.remesh("ico:3", adaptive=True).certificate.one_to_one
+
+
+def test_levels_have_about_a_quarter_each(mapped):
+    counts = [len(level.faces) for level in mapped.levels(2)]
+    assert len(counts) == 2 and 0.2 * len(F) < counts[0] < 0.3 * len(F) and 0.2 * counts[0] < counts[1] < 0.4 * counts[0]
+
+
+@pytest.mark.parametrize("scheme, grid", [("loop", "ico:2"), ("catmark", "cube:4")])
+def test_a_fitted_surface_is_near_the_mesh(mapped, scheme, grid, tmp_path):
+    fit = mapped.fit(grid, scheme=scheme)
+    assert fit.rms <= fit.max and fit.two_sided_rms < 0.1
+    assert fit.limit_vertices().shape == fit.control.vertices.shape
+    vertices, faces = fit.fine_mesh(2000)
+    assert len(faces) >= 2000 and sp.inspect(vertices, faces).is_sphere
+    lack = fit.displace(tmp_path / "d.png", size=(64, 32), rebuilt=tmp_path / "r.ply")
+    assert lack.least < 0 < lack.greatest and lack.rebuilt_rms < lack.base_rms
+    assert sp.verify(tmp_path / "r.ply").one_to_one
+
+
+# Files.
+
+
+def test_a_map_is_read_as_it_was_written(mapped, tmp_path):
+    mapped.save(tmp_path / "a.sph.ply")
+    again = sp.load(tmp_path / "a.sph.ply")
+    assert (again.points == mapped.points).all() and again.provenance == mapped.provenance
+    assert sp.read(tmp_path / "a.sph.ply").has_map and set(again.values) == set(mapped.values)
+    assert again.stages == () and mapped.stages
+
+
+@pytest.mark.parametrize("ending", ["ply", "obj", "off", "gii", "ply.gz"])
+def test_meshes_are_written_and_read(ending, tmp_path):
+    path = tmp_path / f"a.{ending.removesuffix('.gz')}"
+    sp.write(path, V, F)
+    if ending.endswith("gz"):
+        subprocess.run(["gzip", path], check=True)
+        path = tmp_path / f"a.{ending}"
+    read = sp.read(path)
+    assert (read.faces == F).all() and np.allclose(read.vertices, V, atol=1e-6)
+    assert read.path == str(path) and read.format
+
+
+def test_spheres_are_written_for_others(mapped, tmp_path):
+    sp.write(tmp_path / "a.ply", V, F)
+    for name in ("s.gii", "s.ply", "s.obj"):
+        mapped.save_sphere(tmp_path / name)
+        assert sp.verify(tmp_path / "a.ply", points=tmp_path / name).one_to_one
+    again = sp.load(tmp_path / "a.ply", tmp_path / "s.ply")
+    assert np.allclose(again.points, mapped.points, atol=1e-14)
+
+
+@pytest.mark.parametrize("name", ["a.glb", "a.gltf", "a.obj", "a.ply"])
+def test_an_asset_carries_the_image(mapped, name, tmp_path):
+    image = mapped.bake("normal-object", size=64)
+    files = mapped.export(tmp_path / name, texture=image)
+    assert sorted(os.listdir(tmp_path)) == sorted(os.path.basename(f) for f in files)
+    assert sp.read(tmp_path / name).vertices.shape[1] == 3
+
+
+def test_the_asset_is_the_programs(mapped, tmp_path):
+    mapped.save(tmp_path / "a.sph.ply")
+    sp.load(tmp_path / "a.sph.ply").export(tmp_path / "ours.glb", variants=["checker"], morph="sphere", name="a.sph")
+    program("export", "a.sph.ply", "-o", "a.glb", "--variants", "checker", "--morph", "sphere", cwd=tmp_path)
+    assert (tmp_path / "ours.glb").read_bytes() == (tmp_path / "a.glb").read_bytes()
+
+
+# Figures.
+
+
+def test_a_surface_is_no_distance_from_itself(mapped):
+    assert sp.measure(mapped, (V, F), samples=2000).max == 0
+    farther = sp.measure((V, F), (1.1 * V, F), samples=2000)
+    assert 0 < farther.rms < farther.max <= farther.max_bound and farther.forth.samples > 0
+
+
+def test_harmonics_are_evaluated_where_the_vertices_are(mapped):
+    shape = mapped.spharm(12, values=["height"])
+    assert shape.functions == ["x", "y", "z", "height"] and shape.coefficients.shape == (169, 4)
+    assert np.allclose(shape(mapped.points), shape.reconstructed, atol=1e-10)
+    assert shape.rms < 0.05 * shape.diagonal and shape.degree == 12
+    assert list(shape.ellipsoid) == sorted(shape.ellipsoid, reverse=True)
+
+
+def test_distortion_is_told_face_by_face(mapped):
+    faces = mapped.face_distortion
+    assert faces.area_ratio.shape == (len(F),) and faces.angle_ratio.shape == (len(F), 3)
+    assert np.abs(np.log(faces.area_ratio)).mean() == pytest.approx(mapped.distortion.mean_abs_ln_area)
+
+
+def test_the_distortion_is_what_the_program_tells(mapped, tmp_path):
+    import json
+
+    sp.write(tmp_path / "a.ply", V, F)
+    program("map", "a.ply", "-o", "a.sph.ply", "--json", "a.json", cwd=tmp_path)
+    told = json.loads((tmp_path / "a.json").read_text())
+    assert mapped.distortion.mean_abs_ln_area in set(numbers_in(told))
+    assert mapped.distortion.quasi_conformal_mean in set(numbers_in(told))
+
+
+def numbers_in(thing):
+    if isinstance(thing, dict):
+        thing = list(thing.values())
+    if isinstance(thing, list):
+        for part in thing:
+            yield from numbers_in(part)
+    elif isinstance(thing, float):
+        yield thing
+
+
+# Options of maps.
+
+
+def test_poles_meridian_and_pins_are_where_they_were_wanted():
+    made = sp.map(V, F, poles=(4, 5), meridian=0)
+    assert made.poles == (4, 5) and made.meridian == 0
+    assert (made.points[4] == (0, 0, 1)).all() and (made.points[5] == (0, 0, -1)).all()
+    assert made.theta[0] == 0
+    pinned = sp.map(V, F, pins={4: (0.5, 0.4)})
+    assert pinned.theta[4] == pytest.approx(0.5) and pinned.phi[4] == pytest.approx(0.4)
+    assert pinned.pin_residuals == [0]
+
+
+def test_balances_keep_what_they_promise():
+    angle = sp.map(V, F, balance="conformal").distortion.mean_abs_ln_angle
+    area = sp.map(V, F, balance="equal-area").distortion.mean_abs_ln_area
+    usual = sp.map(V, F).distortion
+    assert angle < usual.mean_abs_ln_angle and area < usual.mean_abs_ln_area
+
+
+def test_the_paper_folds_and_says_so():
+    vertices, faces = potato(5)
+    vertices = vertices * [1, 1, 6]
+    vertices[:, 0] += 2 * np.sin(vertices[:, 2])
+    try:
+        sp.map(vertices, faces, method="paper")
+    except sp.NotCertified as error:
+        assert error.certificate.folded.size or error.certificate.degenerate.size
+        assert not error.certificate.one_to_one
+    assert sp.map(vertices, faces, method="paper", repair_map=True).certificate.one_to_one
+
+
+def test_numbers_of_vertices_are_those_that_were_given():
+    vertices = np.insert(V, 3, 9, axis=0)  # nobody uses it
+    faces = np.where(F >= 3, F + 1, F)
+    made = sp.map(vertices, faces, repair=dict(unused=True), poles=(5, 6))
+    assert made.poles == (5, 6) and 3 not in made.vertex_origin
+    assert (vertices[made.vertex_origin] == made.vertices).all()
+
+
+def test_a_handle_is_cut_or_filled():
+    for choice in ("cut", "fill"):
+        mended = sp.repair(*torus(), handle_choice=choice, longest_handle=2)
+        assert sp.inspect(mended).is_sphere and mended.handles[0].filled == (choice == "fill")
+        assert mended.handles[0].points.shape[1] == 3
+
+
+def test_a_map_of_somebodys_is_judged():
+    vertices, faces = octahedron()
+    assert sp.verify(vertices, faces, 7 * vertices).one_to_one
+    mirrored = sp.verify(vertices, faces, vertices * [-1, 1, 1])
+    assert mirrored.reversed and not mirrored.one_to_one and len(mirrored.folded) == 8
+    assert sp.verify(vertices, faces, np.zeros((6, 3))).unusable_points.size == 6
+    assert sp.with_sphere((vertices, faces), 7 * vertices).certificate.one_to_one
+
+
+# Notebooks.
+
+
+def test_a_notebook_shows_mesh_and_sphere(mapped):
+    html = mapped._repr_html_()
+    assert len(html.encode()) <= 200_000 and "one-to-one" in html and "height" in html
+    [picture] = re.findall(r'src="data:image/png;base64,([^"]+)"', html)
+    assert base64.b64decode(picture).startswith(b"\x89PNG")
+    assert "<script" not in html and "1,026" in html
+
+
+def test_names_of_strangers_stay_text():
+    made = sp.map(*octahedron(), values={"<b>": np.zeros(6)})
+    assert "<b>" not in made._repr_html_().replace("<b>mesh</b>", "") and "&lt;b&gt;" in made._repr_html_()
+
+
+def test_the_page_is_opened_in_a_browser(mapped, monkeypatch):
+    import webbrowser
+
+    opened = []
+    monkeypatch.setattr(webbrowser, "open", opened.append)
+    path = mapped.show(size=64)
+    assert opened == ["file://" + path] and "<html" in open(path).read(1000)
+
+
+def test_a_picture_is_a_png(mapped):
+    assert mapped.picture(size=64, view="sphere", colours="checker").startswith(b"\x89PNG")

@@ -1,0 +1,116 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sphparam/io/mapped_mesh.h"
+#include "sphparam/io/mesh_source.h"
+#include "sphparam/parameterize.h"
+#include "sphparam/sphere/certificate.h"
+
+namespace sphparam::python {
+
+namespace py = pybind11;
+
+// Each file of this folder declares some of the module `_core`: what the library has, in its words,
+// with arrays for tables. What users see is written in Python above it.
+
+void declare_errors(py::module_& module);
+void declare_meshes(py::module_& module);
+void declare_maps(py::module_& module);
+void declare_images(py::module_& module);
+void declare_grids(py::module_& module);
+void declare_exports(py::module_& module);
+void declare_figures(py::module_& module);
+
+/// A mesh on its way to a map. Python holds it alone until it is mapped.
+struct Source {
+  MeshSource mesh;
+};
+
+/// A mesh with its proved map and, where it was made here, how that went.
+struct Mapped {
+  MappedMesh mesh;
+  std::optional<Parameterization> made = {};  // its map and certificate were moved away
+  std::vector<RepairAction> repairs = {};
+  std::vector<HandleLoop> handles = {};
+};
+
+/// A map that was to be one-to-one, and what is proved of it instead.
+class NotOneToOne : public NotCertifiedError {
+ public:
+  NotOneToOne(const std::string& message, Certificate certificate)
+      : NotCertifiedError(message), certificate_(std::move(certificate)) {}
+  const Certificate& certificate() const { return certificate_; }
+
+ private:
+  Certificate certificate_;
+};
+
+py::dict as_dict(const Certificate& certificate);
+py::dict as_dict(const DistortionSummary& summary);
+py::list as_list(const std::vector<MeshDefect>& defects);
+py::list as_list(const std::vector<RepairAction>& actions);
+py::list as_list(const std::vector<HandleLoop>& loops);
+
+/// The value that a word stands for; the words are the library's own.
+template <class Value, class Name>
+Value named(const std::string& word, std::initializer_list<Value> values, const Name& name,
+            const char* what) {
+  std::string known;
+  for (const Value value : values) {
+    if (name(value) == word) return value;
+    known += (known.empty() ? "'" : ", '") + std::string(name(value)) + "'";
+  }
+  throw py::value_error(std::string(what) + ": no '" + word + "' among " + known);
+}
+
+/// Sets what a dictionary names; every name must be known.
+class Settings {
+ public:
+  explicit Settings(const py::dict& values) : values_(values) {}
+
+  /// Takes the value of this name, where there is one.
+  template <class Value>
+  Settings& take(const char* name, Value& value) {
+    if (has(name)) value = cast<Value>(name);
+    return *this;
+  }
+  /// The same for a word.
+  template <class Value, class Name>
+  Settings& take(const char* name, Value& value, std::initializer_list<Value> values,
+                 const Name& word) {
+    if (has(name)) value = named(cast<std::string>(name), values, word, name);
+    return *this;
+  }
+  bool has(const char* name) {
+    known_.add(name);
+    return values_.contains(name);
+  }
+  /// Throws py::type_error for a name that nobody has asked for.
+  void require_all_known() const {
+    for (const auto& [name, value] : values_) {
+      if (!known_.contains(name))
+        throw py::type_error("no option is called " + py::cast<std::string>(name));
+    }
+  }
+
+ private:
+  template <class Value>
+  Value cast(const char* name) const try {
+    return py::cast<Value>(values_[name]);
+  } catch (const py::cast_error&) {
+    const auto given = py::cast<std::string>(py::str(py::type::of(values_[name]).attr("__name__")));
+    throw py::type_error(std::string(name) + ": this cannot be a " + given);
+  }
+
+  const py::dict& values_;
+  py::set known_;
+};
+
+}  // namespace sphparam::python

@@ -1,0 +1,108 @@
+// Exceptions of the library as those of the package: what is wrong with a mesh comes along as data.
+
+#include <pybind11/stl.h>
+
+#include "binding.h"
+#include "sphparam/bake/bake_errors.h"
+#include "sphparam/bake/fields.h"
+#include "sphparam/gltf/export.h"
+#include "sphparam/image/image_format.h"
+#include "sphparam/io/file_numbers.h"
+#include "sphparam/io/read_options.h"
+#include "sphparam/io/safe_file.h"
+#include "sphparam/mesh/mesh_repair.h"
+#include "sphparam/names.h"
+#include "sphparam/paint/paint.h"
+
+namespace sphparam::python {
+namespace {
+
+py::object class_of(const char* name) { return py::module_::import("sphparam._errors").attr(name); }
+
+void raise(const char* name, const std::exception& error) {
+  PyErr_SetString(class_of(name).ptr(), error.what());
+}
+
+/// What repair would do to a mesh that was refused, as keyword arguments of `repair`.
+py::object advice(const RepairTrial& trial) {
+  py::dict wanted;
+  const RepairOptions &options = trial.options, defaults;
+  if (options.component > 0) wanted["component"] = options.component;
+  if (options.largest_hole != defaults.largest_hole) wanted["largest_hole"] = options.largest_hole;
+  if (options.longest_handle != defaults.longest_handle) {
+    wanted["longest_handle"] = options.longest_handle;
+  }
+  py::list remaining = as_list(trial.remaining);
+  return py::make_tuple(wanted, as_list(trial.actions), remaining);
+}
+
+void raise_mesh_error(const MeshError& error) {
+  const auto* const refusal = dynamic_cast<const MeshRefusal*>(&error);
+  py::object trial = py::none();
+  if (refusal && refusal->trial()) trial = advice(*refusal->trial());
+  const py::object type = class_of("MeshError");
+  const py::object value = type.attr("_of")(as_list(error.defects()), trial);
+  PyErr_SetObject(type.ptr(), value.ptr());
+}
+
+void raise_not_one_to_one(const NotOneToOne& error) {
+  const py::object type = class_of("NotCertified");
+  const py::object value =
+      type.attr("_of")(std::string(error.what()), as_dict(error.certificate()));
+  PyErr_SetObject(type.ptr(), value.ptr());
+}
+
+}  // namespace
+
+py::list as_list(const std::vector<MeshDefect>& defects) {
+  py::list list;
+  for (const MeshDefect& defect : defects) {
+    list.append(py::make_tuple(name_of(defect.kind), defect.fatal, defect.count,
+                               py::tuple(py::cast(defect.elements)), defect.message, defect.hint));
+  }
+  return list;
+}
+
+void declare_errors(py::module_&) {
+  py::register_exception_translator([](std::exception_ptr pointer) {
+    try {
+      if (pointer) std::rethrow_exception(pointer);
+    } catch (const MeshError& error) {
+      raise_mesh_error(error);
+    } catch (const NotOneToOne& error) {
+      raise_not_one_to_one(error);
+    } catch (const NotCertifiedError& error) {
+      raise("NotCertified", error);
+    } catch (const Cancelled& error) {
+      raise("Cancelled", error);
+    } catch (const ReadError& error) {
+      raise("ReadError", error);
+    } catch (const WriteError& error) {
+      raise("WriteError", error);
+    } catch (const ImageError& error) {
+      raise("ImageError", error);
+    } catch (const SolveError& error) {
+      raise("SolveError", error);
+    } catch (const UnmeasurableMesh& error) {
+      PyErr_SetString(PyExc_ValueError, error.what());
+    } catch (const FieldError& error) {
+      PyErr_SetString(PyExc_ValueError, error.what());
+    } catch (const LookError& error) {
+      PyErr_SetString(PyExc_ValueError, error.what());
+    } catch (const ImageOfOtherChart& error) {
+      PyErr_SetString(PyExc_ValueError, error.what());
+    } catch (const OtherSphereError& error) {
+      PyErr_SetString(PyExc_ValueError, error.what());
+    } catch (const AtlasError& error) {
+      PyErr_SetString(PyExc_ValueError, error.what());
+    } catch (const NoSuchVertex& error) {
+      PyErr_SetString(PyExc_ValueError, (error.whose() + ": " + error.what()).c_str());
+    } catch (const NoSuchComponent& error) {
+      PyErr_SetString(PyExc_ValueError, error.what());
+    } catch (const std::range_error& error) {
+      PyErr_SetString(PyExc_ValueError, error.what());
+    }
+  });
+}
+
+}  // namespace sphparam::python

@@ -1,0 +1,125 @@
+// Files that other programs show: glTF, textured OBJ and PLY, pages.
+
+#include <pybind11/stl.h>
+
+#include "binding.h"
+#include "call.h"
+#include "sphparam/gltf/export.h"
+#include "sphparam/io/paths.h"
+#include "sphparam/report/report_page.h"
+
+namespace sphparam::python {
+namespace {
+
+Convention convention_of(const std::string& name) {
+  if (const auto convention = convention_named(name)) return *convention;
+  throw py::value_error("convention: there is no '" + name + "'");
+}
+
+const char* word_of(ShapeKind shape) {
+  return shape == ShapeKind::Mesh ? "mesh" : shape == ShapeKind::Sphere ? "sphere" : "flat";
+}
+
+const char* word_of(Morph morph) {
+  return morph == Morph::None ? "none" : morph == Morph::Sphere ? "sphere" : "flat";
+}
+
+/// What is exported, and how the file holds it.
+struct ExportRequest {
+  ExportOptions options;
+  GltfOptions gltf;
+};
+
+void take_look(Settings& settings, LookOptions& look) {
+  settings.take("texture", look.texture)
+      .take("normal_map", look.normal)
+      .take("occlusion_map", look.occlusion)
+      .take("images", look.folder)
+      .take("variants", look.variants)
+      .take("image_size", look.image_width)
+      .take("unlit", look.unlit)
+      .take("tangents", look.tangents);
+}
+
+ExportRequest request_of(const py::dict& values) {
+  ExportRequest request;
+  ExportOptions& options = request.options;
+  Settings settings(values);
+  take_look(settings, options.look);
+  settings.take("name", options.name)
+      .take("refine_poles", options.refine_poles)
+      .take("keep_topology", options.keep_topology)
+      .take("theta_phi", options.theta_phi)
+      .take("source_uv", options.source_uv)
+      .take("quantise", options.quantise)
+      .take("threads", options.threads)
+      .take("compress", request.gltf.compress)
+      .take("shape", options.shape, {ShapeKind::Mesh, ShapeKind::Sphere, ShapeKind::Flat},
+            [](ShapeKind shape) { return word_of(shape); })
+      .take("morph", options.morph, {Morph::None, Morph::Sphere, Morph::Flat},
+            [](Morph morph) { return word_of(morph); });
+  std::string convention = info_of(options.convention).name, up;
+  std::vector<Mapped> coarser;
+  bool embedded = false;
+  settings.take("convention", convention)
+      .take("up", up)
+      .take("levels", coarser)
+      .take("embedded", embedded);
+  options.convention = convention_of(convention);
+  if (!up.empty()) options.up = up == "y" ? Up::Y : Up::Z;
+  for (const Mapped& level : coarser) options.coarser.push_back(level.mesh);
+  if (embedded) request.gltf.container = GltfContainer::Embedded;
+  request.gltf.quantise = options.quantise;
+  settings.require_all_known();
+  return request;
+}
+
+/// What was written, and what the user should know.
+struct Exported {
+  WrittenFiles files;
+  std::vector<std::string> warnings;
+};
+
+Exported export_mesh(const std::string& path, const MappedMesh& mesh,
+                     const ExportRequest& request) {
+  const std::string kind = extension_of(path);
+  if (kind == ".obj" || kind == ".ply") {
+    TexturedFiles written = write_textured_mesh(path, mesh, request.options);
+    return {std::move(written.files), std::move(written.warnings)};
+  }
+  const Asset asset = make_asset(mesh, request.options);
+  PendingFiles files;
+  WrittenFiles written = add_asset(files, path, asset, request.gltf);
+  files.publish();
+  return {std::move(written), asset.warnings};
+}
+
+py::tuple write_export(const Mapped& mapped, const std::string& path, const py::dict& values,
+                       const py::object& progress) {
+  ExportRequest request = request_of(values);
+  Exported exported =
+      writing_call(progress, [=, mesh = mapped.mesh](const Progress& report) mutable {
+        request.options.progress = report;
+        return export_mesh(path, mesh, request);
+      });
+  return py::make_tuple(exported.files, exported.warnings);
+}
+
+void write_page(const Mapped& mapped, const std::string& path, int size, const std::string& up,
+                int threads, const py::object& progress) {
+  writing_call(progress, [=, mesh = mapped.mesh](const Progress& report) {
+    PageOptions options{.size = size, .threads = threads, .progress = report};
+    if (!up.empty()) options.up = up == "y" ? Up::Y : Up::Z;
+    write_report(path, mesh, options);
+    return true;
+  });
+}
+
+}  // namespace
+
+void declare_exports(py::module_& module) {
+  module.def("export", write_export);
+  module.def("report", write_page);
+}
+
+}  // namespace sphparam::python

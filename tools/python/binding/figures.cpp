@@ -1,0 +1,92 @@
+// Figures of surfaces: distances, spherical harmonics.
+
+#include <pybind11/stl.h>
+
+#include "arrays.h"
+#include "binding.h"
+#include "call.h"
+#include "sphparam/io/harmonic_expansion.h"
+#include "sphparam/measure/surface_distance.h"
+#include "sphparam/sphere/spherical_harmonics.h"
+
+namespace sphparam::python {
+namespace {
+
+py::dict as_dict(const OneSidedDistance& distance) {
+  py::dict dict;
+  dict["rms"] = distance.rms;
+  dict["mean"] = distance.mean;
+  dict["max"] = distance.max;
+  dict["max_bound"] = distance.max_bound;
+  dict["min"] = distance.min;
+  dict["samples"] = distance.samples;
+  dict["farthest"] =
+      py::make_tuple(distance.farthest.x(), distance.farthest.y(), distance.farthest.z());
+  return dict;
+}
+
+py::dict measure(const Source& first, const Source& second, std::int64_t samples,
+                 std::uint64_t seed, bool extremes, int threads, const py::object& progress) {
+  using Mesh = std::shared_ptr<const TriangleMesh>;
+  const Mesh one = std::make_shared<TriangleMesh>(first.mesh.file.mesh);
+  const Mesh other = std::make_shared<TriangleMesh>(second.mesh.file.mesh);
+  const SurfaceDistance found = call(progress, [=](const Progress& report) {
+    return measure_distance(*one, *other,
+                            {.samples = samples,
+                             .seed = seed,
+                             .extremes = extremes,
+                             .threads = threads,
+                             .progress = report});
+  });
+  py::dict dict;
+  dict["rms"] = found.rms();
+  dict["mean"] = found.mean();
+  dict["max"] = found.max();
+  dict["max_bound"] = found.max_bound();
+  dict["diagonal"] = found.diagonal_first;
+  dict["forth"] = as_dict(found.forth);
+  dict["back"] = as_dict(found.back);
+  return dict;
+}
+
+py::dict expand(const Mapped& mapped, int degree, const std::vector<std::string>& scalars,
+                bool least_squares, int threads, const py::object& progress) {
+  HarmonicExpansion found = call(progress, [=, mesh = mapped.mesh](const Progress& report) {
+    return expand_in_harmonics(
+        mesh, scalars,
+        {.degree = degree, .least_squares = least_squares, .threads = threads, .progress = report});
+  });
+  const Vector3 axes = degree > 0 ? first_order_ellipsoid(found.fit.coefficients.leftCols<3>())
+                                  : Vector3(Vector3::Zero());
+  py::dict dict;
+  dict["functions"] = found.functions;
+  dict["rms"] = found.position_rms();
+  dict["plain_rms"] = found.plain_position_rms();
+  dict["diagonal"] = found.diagonal;
+  dict["ellipsoid"] = py::make_tuple(axes.x(), axes.y(), axes.z());
+  dict["power"] = owning_rows(power_per_degree(found.fit.coefficients));
+  dict["values"] = owning_rows(std::move(found.values));
+  dict["coefficients"] = owning_rows(std::move(found.fit.coefficients));
+  return dict;
+}
+
+py::array evaluate(const py::array_t<double, py::array::c_style>& coefficients,
+                   const py::array& rows, int threads) {
+  bool finite = true;
+  Points directions = points_of(rows, finite);
+  directions.rowwise().normalize();
+  Functions table(coefficients.shape(0), coefficients.shape(1));
+  std::copy(coefficients.data(), coefficients.data() + coefficients.size(), table.data());
+  return owning_rows(
+      call(py::none(), [=](const Progress&) { return synthesise(table, directions, threads); }));
+}
+
+}  // namespace
+
+void declare_figures(py::module_& module) {
+  module.def("measure", measure);
+  module.def("expand", expand);
+  module.def("evaluate", evaluate);
+}
+
+}  // namespace sphparam::python

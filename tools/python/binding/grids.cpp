@@ -1,0 +1,187 @@
+// Meshes on grids of the sphere: resampled, fitted, displaced.
+
+#include <pybind11/stl.h>
+
+#include "arrays.h"
+#include "binding.h"
+#include "call.h"
+#include "sphparam/remesh/adaptation.h"
+#include "sphparam/remesh/displacement.h"
+#include "sphparam/remesh/levels_of_detail.h"
+#include "sphparam/remesh/remesh.h"
+#include "sphparam/remesh/sphere_grid.h"
+#include "sphparam/remesh/subdivision.h"
+
+namespace sphparam::python {
+namespace {
+
+/// A surface fitted to a mesh, and what is needed to use it.
+struct Fitted {
+  MappedMesh source;
+  Remeshed control;
+  SubdivisionFit fit;
+};
+
+struct GridRequest {
+  std::string name;  // "ico:6"; empty: the rays of `like`
+  std::optional<MappedMesh> like = {};
+};
+
+GridRequest request_of(const py::object& grid) {
+  if (py::isinstance<py::str>(grid)) {
+    const auto name = py::cast<std::string>(grid);
+    try {
+      parse_grid(name);  // its mistakes are told before any work
+    } catch (const std::invalid_argument& error) {
+      throw py::value_error("grid: '" + name + "': " + error.what());
+    }
+    return {name};
+  }
+  return {"", py::cast<const Mapped&>(grid).mesh};
+}
+
+SphereGrid grid_of(const GridRequest& request, int threads) {
+  if (request.like) {
+    SphereGrid grid = sphparam::grid_of(*request.like);
+    grid.name = "like:" + request.like->name();
+    return grid;
+  }
+  SphereGrid grid = make_grid(parse_grid(request.name), {.threads = threads});
+  grid.name = request.name;
+  return grid;
+}
+
+SampleMode mode_named(const std::string& word) {
+  return named(
+      word, {SampleMode::Point, SampleMode::Cell},
+      [](SampleMode mode) { return mode == SampleMode::Point ? "point" : "cell"; }, "sample");
+}
+
+Mapped remesh_on(const Mapped& mapped, const py::object& grid, const std::string& sample,
+                 const std::vector<std::string>& transfer, bool adaptive, int threads,
+                 const py::object& progress) {
+  const GridRequest request = request_of(grid);
+  const SampleMode mode = mode_named(sample);
+  return call(progress, [=, source = mapped.mesh](const Progress& report) mutable {
+    SphereGrid made = grid_of(request, threads);
+    if (adaptive) {
+      source = adapt_map(source, made.directions.rows(), {.threads = threads, .progress = report})
+                   .mapped;
+    }
+    return Mapped{
+        remesh(source, std::move(made),
+               {.sample = mode, .transfer = transfer, .threads = threads, .progress = report})};
+  });
+}
+
+std::vector<Mapped> levels(const Mapped& mapped, int count, int threads,
+                           const py::object& progress) {
+  return call(progress, [=, source = mapped.mesh](const Progress& report) {
+    std::vector<Mapped> made;
+    for (MappedMesh& mesh :
+         quartered_meshes(source, count, {.threads = threads, .progress = report}))
+      made.push_back({std::move(mesh)});
+    return made;
+  });
+}
+
+Scheme scheme_named(const std::string& word) {
+  return named(
+      word, {Scheme::Loop, Scheme::CatmullClark}, [](Scheme scheme) { return name_of(scheme); },
+      "scheme");
+}
+
+std::unique_ptr<Fitted> fit(const Mapped& mapped, const py::object& grid, const std::string& scheme,
+                            const std::vector<std::string>& transfer, int threads,
+                            const py::object& progress) {
+  const GridRequest request = request_of(grid);
+  const Scheme surface = scheme_named(scheme);
+  return call(progress, [=, source = mapped.mesh](const Progress& report) {
+    const SubdivisionFitOptions options{.scheme = surface, .threads = threads, .progress = report};
+    const SphereGrid made = grid_of(request, threads);
+    SubdivisionFit found = fit_subdivision(source, made, options);
+    const Remeshed flat =
+        remesh(source, made, {.transfer = transfer, .threads = threads, .progress = report});
+    compare_with_flat(found, source, flat, options);
+    Remeshed control = control_mesh(flat, found, threads);
+    return std::make_unique<Fitted>(Fitted{source, std::move(control), std::move(found)});
+  });
+}
+
+std::optional<ImageDepth> depth_named(const std::string& word) {
+  if (word.empty()) return std::nullopt;
+  return named(
+      word, {ImageDepth::Half, ImageDepth::Float, ImageDepth::Uint16},
+      [](ImageDepth depth) {
+        return depth == ImageDepth::Half ? "half" : depth == ImageDepth::Float ? "float" : "uint16";
+      },
+      "depth");
+}
+
+py::dict as_dict(const WrittenDisplacement& written) {
+  py::dict dict;
+  dict["least"] = written.figures.least;
+  dict["greatest"] = written.figures.greatest;
+  dict["missed"] = written.figures.missed;
+  dict["rebuilt_rms"] = py::none();
+  dict["base_rms"] = py::none();
+  if (written.proof) {
+    dict["rebuilt_rms"] = written.proof->rebuilt.rms;
+    dict["base_rms"] = written.proof->base.rms;
+  }
+  return dict;
+}
+
+py::dict displace(const Fitted& fitted, const std::string& path, const std::string& rebuilt,
+                  int width, int height, const std::string& depth, int threads,
+                  const py::object& progress) {
+  const DisplacementFiles files{path, depth_named(depth), rebuilt};
+  const auto held = std::make_shared<const Fitted>(fitted);
+  return as_dict(writing_call(progress, [=](const Progress& report) {
+    PendingFiles pending;
+    const WrittenDisplacement written = add_displacement(
+        pending, files, held->source, held->control, held->fit,
+        {.width = width, .height = height, .threads = threads, .progress = report});
+    pending.publish();
+    return written;
+  }));
+}
+
+py::array limit_vertices(const Fitted& fitted, int threads) {
+  const auto held = std::make_shared<const Fitted>(fitted);
+  return owning_rows(call(py::none(), [=](const Progress&) {
+    return Points(limit_mesh(held->control, held->fit, threads).mesh().positions);
+  }));
+}
+
+py::tuple fine_mesh(const Fitted& fitted, std::int64_t pieces, int threads) {
+  const auto held = std::make_shared<const Fitted>(fitted);
+  TriangleMesh mesh = call(py::none(), [=](const Progress&) {
+    return fine_limit_mesh(held->fit, held->control.faces(), pieces, threads);
+  });
+  return py::make_tuple(owning_rows(std::move(mesh.positions)),
+                        owning_rows(std::move(mesh.triangles)));
+}
+
+}  // namespace
+
+void declare_grids(py::module_& module) {
+  py::class_<Fitted>(module, "Fitted", "A subdivision surface fitted to a mesh.")
+      .def_property_readonly("control", [](const Fitted& self) { return Mapped{self.control}; })
+      .def_property_readonly("rms", [](const Fitted& self) { return self.fit.rms; })
+      .def_property_readonly("max", [](const Fitted& self) { return self.fit.max; })
+      .def_property_readonly("two_sided_rms",
+                             [](const Fitted& self) { return self.fit.two_sided_rms; })
+      .def_property_readonly("flat_rms", [](const Fitted& self) { return self.fit.flat_rms; })
+      .def_property_readonly("thin_vertices",
+                             [](const Fitted& self) { return self.fit.thin_vertices; });
+  module.def("remesh", remesh_on);
+  module.def("levels", levels);
+  module.def("fit", fit);
+  module.def("displace", displace);
+  module.def("limit_vertices", limit_vertices);
+  module.def("fine_mesh", fine_mesh);
+  module.def("grid_patterns", &grid_patterns);
+}
+
+}  // namespace sphparam::python

@@ -1,0 +1,19 @@
+// The module `_core`: what the library has, for the Python that is written above it.
+
+#include "binding.h"
+#include "call.h"
+#include "sphparam/version.h"
+
+PYBIND11_MODULE(_core, module) {
+  using namespace sphparam::python;
+  module.doc() = "What the C++ library has; users want the package sphparam, which stands on it.";
+  module.attr("version") = sphparam::version;
+  declare_errors(module);
+  declare_meshes(module);
+  declare_maps(module);
+  declare_images(module);
+  declare_grids(module);
+  declare_exports(module);
+  declare_figures(module);
+  py::module_::import("atexit").attr("register")(py::cpp_function(wait_for_left_calls));
+}

@@ -1,0 +1,120 @@
+"""Maps closed genus-0 triangle meshes one-to-one onto the unit sphere, proves it, and uses the maps.
+
+>>> import sphparam as sp
+>>> m = sp.map(vertices, faces)
+>>> m.certificate.one_to_one, m.points, m.distortion
+>>> image = m.bake("normal-object", size=2048)
+>>> low = m.remesh("ico:6")
+>>> m.export("statue.glb", texture=image)
+
+Positions are (V, 3), faces (F, 3) counter-clockwise from outside, angles are radians, distances in
+units of the mesh. Results own their memory or show that of an object that never changes; nothing that
+is passed in is changed.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+try:
+    from . import _core
+except ImportError as error:
+    if "cannot open shared object" not in str(error):
+        raise
+    raise ImportError(
+        f"{error}\nsphparam needs libraries of Debian: apt-get install libosdcpu3.5.0 libmeshoptimizer2d "
+        "libtinygltf2d libnifti2 libexpat1 zlib1g libembree3-3 libopenimageio2.4"
+    ) from None
+from ._errors import (
+    Cancelled,
+    Defect,
+    ImageError,
+    LossWarning,
+    MeshError,
+    NotCertified,
+    ReadError,
+    SolveError,
+    WriteError,
+)
+from ._figures import (
+    Action,
+    BakedFile,
+    Certificate,
+    Displacement,
+    Distance,
+    Distortion,
+    FaceDistortion,
+    HandleLoop,
+    Inspection,
+    OneSided,
+    Stage,
+)
+from ._map import SphereMap, fields, load, map, remeshing_lambda, verify, with_sphere
+from ._measure import measure
+from ._mesh import Mesh, inspect, read, repair, write
+
+if TYPE_CHECKING:
+    from ._chart import Chart
+    from ._harmonics import Harmonics
+    from ._images import BakedImage
+    from ._subdivision import SubdivisionFit
+
+__version__: str = _core.version
+
+__all__ = [
+    "Action",
+    "BakedFile",
+    "BakedImage",
+    "Cancelled",
+    "Certificate",
+    "Chart",
+    "Defect",
+    "Displacement",
+    "Distance",
+    "Distortion",
+    "FaceDistortion",
+    "HandleLoop",
+    "Harmonics",
+    "ImageError",
+    "Inspection",
+    "LossWarning",
+    "Mesh",
+    "MeshError",
+    "NotCertified",
+    "OneSided",
+    "ReadError",
+    "SolveError",
+    "SphereMap",
+    "Stage",
+    "SubdivisionFit",
+    "WriteError",
+    "fields",
+    "inspect",
+    "load",
+    "map",
+    "measure",
+    "read",
+    "remeshing_lambda",
+    "repair",
+    "verify",
+    "with_sphere",
+    "write",
+]
+
+_later = {
+    "BakedImage": "_images",
+    "Chart": "_chart",
+    "Harmonics": "_harmonics",
+    "SubdivisionFit": "_subdivision",
+}
+
+
+if not TYPE_CHECKING:  # or every name would be there for type checkers
+
+    def __getattr__(name: str) -> Any:
+        """What few programs need is imported when it is asked for."""
+        if name in _later:
+            from importlib import import_module
+
+            return getattr(import_module("." + _later[name], __name__), name)
+        raise AttributeError(f"module 'sphparam' has no attribute {name!r}")

@@ -1,0 +1,233 @@
+"""Figures of meshes and maps, as named tuples."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple, Optional, Tuple
+
+from ._errors import Defect
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+    Ints = npt.NDArray[np.int32]
+    Floats = npt.NDArray[np.float64]
+
+
+class Certificate(NamedTuple):
+    """What was proved of a map with exact signs, and where the proof fails."""
+
+    one_to_one: bool
+    """The one question: does every point of the sphere have exactly one point of the surface?"""
+    verdict: str
+    """``"one-to-one"``, ``"folded 3"``, ``"degree 2"``, ``"unusable points 1"``."""
+    degree: int
+    """Triangles that a generic ray meets; counted when nothing is folded."""
+    covering: float
+    """Sum of the solid angles over 4π, in floating point."""
+    reversed: bool
+    """Every triangle is negative: the sphere is seen from inside."""
+    folded: Ints
+    """Faces that are turned over."""
+    degenerate: Ints
+    """Faces that are flat."""
+    unusable_points: Ints
+    """Vertices whose ray is zero, not finite or beyond 2⁶⁴."""
+    branch_vertices: Ints
+    """Vertices whose triangles wind more than once about them."""
+    max_length_error: float
+    """Largest | |ray| − 1 |."""
+
+
+class Distortion(NamedTuple):
+    """How a map distorts. Ratios are sphere over surface, total areas made equal; 1 is perfect."""
+
+    mean_abs_ln_area: float
+    """Mean of |ln area ratio| over the triangles (the paper's measure)."""
+    mean_abs_ln_angle: float
+    """Mean of |ln angle ratio| over the corners (the paper's measure)."""
+    area_within_two: float
+    """Share of triangles whose area ratio is from 1/2 to 2."""
+    area_ratio_p01: float
+    """The first percentile of the area ratios."""
+    area_ratio_p50: float
+    """Their median."""
+    area_ratio_p99: float
+    """Their 99th percentile."""
+    area_ratio_min: float
+    """The least area ratio."""
+    area_ratio_max: float
+    """The greatest area ratio."""
+    angle_ratio_max: float
+    """The greatest of max(ratio, 1/ratio) of the angles."""
+    weighted_abs_log2_area: float
+    """Mean of |log2 area ratio|, weighted by the area of the surface."""
+    symmetric_dirichlet: float
+    """Symmetric Dirichlet energy, weighted by area; 4 is isometry."""
+    quasi_conformal_mean: float
+    """Mean of the larger over the smaller singular value, weighted by area; 1 is conformal."""
+    quasi_conformal_max: float
+    """Its maximum."""
+    stretch_l2: float
+    """L2 stretch of Sander et al. (2001)."""
+    stretch_linf: float
+    """L-infinity stretch: the largest 1/σ_min."""
+
+
+class FaceDistortion(NamedTuple):
+    """Distortion face by face: see :class:`Distortion`."""
+
+    area_ratio: Floats
+    """(F,) spherical area over source area."""
+    angle_ratio: Floats
+    """(F, 3) corner by corner."""
+    sigma_max: Floats
+    """(F,) larger singular value."""
+    sigma_min: Floats
+    """(F,) smaller singular value."""
+    source_area: Floats
+    """(F,) share of the total area of the surface."""
+
+
+class Stage(NamedTuple):
+    """What one stage of a map did."""
+
+    name: str
+    """``"relaxation"``, ``"certificate"`` and so on."""
+    seconds: float
+    """Wall time."""
+    folds: int
+    """Triangles that are not positive after it; −1: not counted."""
+    distortion: Optional[Distortion]
+    """After it, with ``measure_stages``; else None."""
+
+
+class Inspection(NamedTuple):
+    """What a mesh is, and everything that is wrong with it."""
+
+    vertices: int
+    """Number of vertices."""
+    used_vertices: int
+    """Number of vertices that faces use."""
+    edges: int
+    """Number of edges."""
+    faces: int
+    """Number of faces."""
+    components: int
+    """Number of connected components."""
+    boundary_loops: int
+    """Number of loops of boundary edges."""
+    euler_characteristic: int
+    """V − E + F of what is used."""
+    genus: int
+    """Of the one component; −1 where it has no meaning."""
+    area: float
+    """In squared units of the mesh."""
+    volume: float
+    """In cubed units; positive when faces are counter-clockwise from outside."""
+    lower: Tuple[float, float, float]
+    """Least coordinates."""
+    upper: Tuple[float, float, float]
+    """Greatest coordinates."""
+    is_sphere: bool
+    """True for a closed genus-0 manifold: a map to the sphere exists."""
+    defects: Tuple[Defect, ...]
+    """All defects, fatal ones first."""
+
+
+class Action(NamedTuple):
+    """One kind of thing that repair did."""
+
+    kind: str
+    """``"hole-filled"``, ``"handle-cut"`` and so on."""
+    times: int
+    """How many times."""
+    ids: Tuple[int, ...]
+    """The first places by their numbers in the mesh that was given; −1: not of it."""
+    message: str
+    """For people."""
+
+
+class HandleLoop(NamedTuple):
+    """A loop that the surface was cut along, to be rid of a handle."""
+
+    filled: bool
+    """Closed through air (what goes through the handle); else the handle is cut through."""
+    length: float
+    """In units of the mesh."""
+    share: float
+    """The same in diagonals of the bounding box."""
+    area_added: float
+    """Of both caps."""
+    points: Floats
+    """(k, 3) in order."""
+
+
+class OneSided(NamedTuple):
+    """How far the points of one surface are from another one, in units of the mesh."""
+
+    rms: float
+    """Root mean square."""
+    mean: float
+    """Mean."""
+    max: float
+    """Of any point that was looked at."""
+    max_bound: float
+    """No point is farther; infinite without ``extremes``."""
+    min: float
+    """Of all points that were looked at."""
+    samples: int
+    """How many points mean and rms are of."""
+    farthest: Tuple[float, float, float]
+    """The point at ``max``."""
+
+
+class Distance(NamedTuple):
+    """How far two surfaces are apart, both ways, in units of the mesh."""
+
+    rms: float
+    """Root mean square, the larger of both ways."""
+    mean: float
+    """Mean, the larger of both ways."""
+    max: float
+    """Largest distance found; the Hausdorff distance is from it to ``max_bound``."""
+    max_bound: float
+    """No point is farther."""
+    diagonal: float
+    """Of the first surface's bounding box: what to hold distances against."""
+    forth: OneSided
+    """From the first to the second."""
+    back: OneSided
+    """From the second to the first."""
+
+
+class BakedFile(NamedTuple):
+    """An image file that was baked."""
+
+    field: str
+    """What it shows."""
+    about: str
+    """Unit, space, convention."""
+    path: str
+    """Where it is."""
+    sample_type: str
+    """``"uint8"``, ``"uint16"``, ``"half"`` or ``"float"``."""
+    channels: int
+    """1, 3 or 4."""
+    range: Optional[Tuple[float, float]]
+    """What 0 and 1 of integers stand for, where that is not fixed."""
+
+
+class Displacement(NamedTuple):
+    """What a fitted surface lacks, as it was written."""
+
+    least: float
+    """The least displacement, in units of the mesh."""
+    greatest: float
+    """The greatest."""
+    missed: int
+    """Texels whose normal meets no surface near by."""
+    base_rms: Optional[float]
+    """RMS distance of the fitted surface alone from the mesh, where a mesh was rebuilt."""
+    rebuilt_rms: Optional[float]
+    """RMS distance of surface and image together."""

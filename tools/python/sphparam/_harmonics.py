@@ -1,0 +1,53 @@
+"""Surfaces as sums of spherical harmonics."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Dict, List, Tuple
+
+from . import _arrays, _core
+from ._numpy import np
+
+if TYPE_CHECKING:
+    import numpy
+    import numpy.typing as npt
+
+    Floats = npt.NDArray[numpy.float64]
+
+
+class Harmonics:
+    """Coefficients of a surface, and of what its vertices carry.
+
+    The basis is real and orthonormal, without the Condon–Shortley phase. :meth:`SphereMap.spharm`
+    makes it.
+    """
+
+    def __init__(self, found: Dict[str, Any]) -> None:
+        self.functions: List[str] = found["functions"]
+        """What the columns are: ``"x"``, ``"y"``, ``"z"``, then values by name."""
+        self.coefficients: Floats = found["coefficients"]
+        """((L + 1)², k): row l² + l + m has the coefficients of Y_lm."""
+        self.power: Floats = found["power"]
+        """(L + 1, k) sum of the squared coefficients of each degree."""
+        self.reconstructed: Floats = found["values"]
+        """(V, k) what the harmonics have at the vertices."""
+        self.rms: float = found["rms"]
+        """RMS distance at the vertices, weighted by solid angle, in units of the mesh."""
+        self.plain_rms: float = found["plain_rms"]
+        """The same with each vertex counted once."""
+        self.diagonal: float = found["diagonal"]
+        """Of the bounding box: what to hold ``rms`` against."""
+        self.ellipsoid: Tuple[float, float, float] = found["ellipsoid"]
+        """Semi-axes of the first-order ellipsoid, descending."""
+
+    @property
+    def degree(self) -> int:
+        """L."""
+        return len(self.power) - 1
+
+    def __call__(self, directions: Any, *, threads: int = 0) -> Floats:
+        """(n, k) what the harmonics have in directions, (n, 3) of any length but 0."""
+        rows = _arrays.directions(directions)
+        return _core.evaluate(np.asarray(self.coefficients), rows, _arrays.threads(threads))
+
+    def __repr__(self) -> str:
+        return f"<sphparam.Harmonics: degree {self.degree}, {', '.join(self.functions)}, rms {self.rms:.3g}>"

@@ -1,0 +1,42 @@
+"""How far surfaces are apart."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from . import _arrays, _core
+from ._figures import Distance, OneSided
+from ._mesh import _any_mesh
+from ._progress import Progress, told
+
+
+def measure(
+    first: Any,
+    second: Any,
+    *,
+    samples: int = 1_000_000,
+    seed: int = 1,
+    extremes: bool = True,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Distance:
+    """How far two surfaces are apart, both ways; neither needs to be closed.
+
+    Parameters
+    ----------
+    first, second
+        Meshes as :class:`Mesh` takes them, a pair of arrays among them, or maps.
+    samples
+        On the faces of each, from 1.
+    extremes
+        False: RMS and mean alone, in half the time.
+    """
+    meshes = [_any_mesh(mesh, None) for mesh in (first, second)]
+    for mesh in meshes:
+        mesh._require_sound()
+    with told(progress) as report:
+        found = _core.measure(
+            meshes[0]._source, meshes[1]._source, samples, seed, extremes, _arrays.threads(threads), report
+        )
+    found["forth"], found["back"] = OneSided(**found["forth"]), OneSided(**found["back"])
+    return Distance(**found)

@@ -1,0 +1,106 @@
+"""Subdivision surfaces fitted to meshes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Tuple
+
+from . import _arrays, _core
+from ._figures import Displacement
+from ._mesh import Path, path_of
+from ._progress import Progress, told
+
+if TYPE_CHECKING:
+    import numpy
+    import numpy.typing as npt
+
+    from ._map import SphereMap
+
+    Floats = npt.NDArray[numpy.float64]
+    Ints = npt.NDArray[numpy.int32]
+
+
+class SubdivisionFit:
+    """A smooth surface on a grid of the sphere, as near to a mesh as its control points allow.
+
+    :meth:`SphereMap.fit` makes it.
+    """
+
+    __slots__ = ("_fitted", "_control")
+
+    _fitted: _core.Fitted
+    _control: SphereMap
+
+    @classmethod
+    def _of(cls, fitted: _core.Fitted) -> SubdivisionFit:
+        from ._map import SphereMap
+
+        made = cls.__new__(cls)
+        made._fitted, made._control = fitted, SphereMap._of(fitted.control)
+        return made
+
+    @property
+    def control(self) -> SphereMap:
+        """The control mesh; ``control.polygons`` are the faces to subdivide, quads too."""
+        return self._control
+
+    @property
+    def rms(self) -> float:
+        """RMS distance from the surface to the mesh, in units of the mesh."""
+        return self._fitted.rms
+
+    @property
+    def max(self) -> float:
+        """The largest such distance among the samples."""
+        return self._fitted.max
+
+    @property
+    def two_sided_rms(self) -> float:
+        """RMS distance, both ways."""
+        return self._fitted.two_sided_rms
+
+    @property
+    def flat_rms(self) -> float:
+        """The same of flat faces on the grid: smaller where the grid is too coarse for a surface."""
+        return self._fitted.flat_rms
+
+    def limit_vertices(self, *, threads: int = 0) -> Floats:
+        """(V, 3) the control points moved to the surface."""
+        return _core.limit_vertices(self._fitted, _arrays.threads(threads))
+
+    def fine_mesh(self, triangles: int = 100_000, *, threads: int = 0) -> Tuple[Floats, Ints]:
+        """Vertices and faces of the smooth surface, in about so many triangles or more."""
+        return _core.fine_mesh(self._fitted, triangles, _arrays.threads(threads))
+
+    def displace(
+        self,
+        path: Path,
+        *,
+        size: Tuple[int, int] = (4096, 2048),
+        depth: str = "",
+        rebuilt: Path = "",
+        threads: int = 0,
+        progress: Progress = None,
+    ) -> Displacement:
+        """Writes what the surface lacks, along its normals, as an equirectangular image.
+
+        Parameters
+        ----------
+        path
+            An ``.exr`` (half or float) or ``.png`` (16 bits).
+        size
+            Width and height in texels.
+        depth
+            ``"half"``, ``"float"``, ``"uint16"``; empty: as the format has it.
+        rebuilt
+            Also a mesh of surface and image together, read back: a ``.ply`` or ``.obj``, and its
+            distance from the mesh.
+        """
+        width, height = size
+        other = path_of(rebuilt) if rebuilt else ""
+        count = _arrays.threads(threads)
+        with told(progress) as report:
+            found = _core.displace(self._fitted, path_of(path), other, width, height, depth, count, report)
+        return Displacement(**found)
+
+    def __repr__(self) -> str:
+        return f"<sphparam.SubdivisionFit: {len(self._control.vertices)} control points, rms {self.rms:.3g}>"
