@@ -2,7 +2,7 @@
 #
 # SPHPARAM_COMPONENTS chooses them; what they stand on comes along. Who adds this folder to a project
 # of their own gets the map alone unless they ask for more.
-set(all_components io image measure render bake remesh gltf report)
+set(all_components io image measure render bake remesh gltf report batch)
 set(default_components)
 if(PROJECT_IS_TOP_LEVEL)
   set(default_components ${all_components})
@@ -19,10 +19,15 @@ set(needs_bake io image measure render)
 set(needs_remesh io image measure)
 set(needs_gltf io image measure render bake)
 set(needs_report io image measure render bake remesh gltf)
+set(needs_batch io image measure render bake remesh gltf report)
 set(SPHPARAM_BUILT)
+set(asked_for ${SPHPARAM_COMPONENTS})
+if(SPHPARAM_BUILD_TOOLS)  # the program is made of all
+  set(asked_for ${all_components})
+endif()
 foreach(component IN LISTS all_components)  # in the order of building
   set(wanted FALSE)
-  foreach(other IN LISTS SPHPARAM_COMPONENTS)
+  foreach(other IN LISTS asked_for)
     if(NOT other IN_LIST all_components)
       message(FATAL_ERROR "SPHPARAM_COMPONENTS: no ${other} among ${all_components}")
     endif()
@@ -121,4 +126,10 @@ if(report IN_LIST SPHPARAM_BUILT)
   embed_texts(sphparam_report src/report/page.css src/report/plot.css src/report/viewer.css
     src/report/viewer.js src/showcase/report_page.css)
   include(src/report/viewer.cmake)
+endif()
+if(batch IN_LIST SPHPARAM_BUILT)
+  find_path(XXHASH_INCLUDE_DIR xxhash.h REQUIRED)  # a header: nothing is linked
+  add_component(batch ROOMS batch LIBRARIES nlohmann_json::nlohmann_json)
+  target_include_directories(sphparam_batch SYSTEM PRIVATE ${XXHASH_INCLUDE_DIR})
+  embed_texts(sphparam_batch src/batch/batch_page.css src/batch/batch_page.js)
 endif()

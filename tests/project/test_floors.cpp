@@ -93,7 +93,8 @@ const std::map<std::string, std::set<std::string>> below{
       "sphere", "mesh"}},
     {"records",
      {"compare", "gltf", "bake", "remesh", "measure", "io", "chart", "baselines", "sphere",
-      "mesh"}}};
+      "mesh"}},
+    {"batch", {"report", "render", "io", "mesh"}}};
 
 void require_in_no_line(const std::vector<std::string>& folders, const std::regex& pattern) {
   for (const std::string& folder : folders) {
@@ -175,7 +176,7 @@ TEST_CASE("floors: third-party headers stay in their rooms") {
       {"OpenImageIO/", {"libsphparam/src/image/oiio"}},
       {"CLI/", {"tools/"}},
       {"nlohmann/",
-       {"libsphparam/src/records/", "libsphparam/src/io/formats/gltf/gltf_json",
+       {"libsphparam/src/records/", "libsphparam/src/batch/", "libsphparam/src/io/formats/gltf/gltf_json",
         "libsphparam/src/gltf/gltf_writer"}},
       {"tiny_gltf", {"libsphparam/src/io/formats/gltf/gltf_document"}},
       {"meshoptimizer", {"libsphparam/src/gltf/meshopt_encoding"}},
@@ -185,6 +186,7 @@ TEST_CASE("floors: third-party headers stay in their rooms") {
       {"boost/", {"libsphparam/src/sphere"}},
       {"embree3/", {"libsphparam/src/rays/ray_scene"}},
       {"opensubdiv/", {"libsphparam/src/remesh/"}},
+      {"xxhash", {"libsphparam/src/batch/content_hash"}},
       {"unsupported/", {}}};
   for (const char* folder : {"libsphparam", "tools", "samples"}) {
     for (const auto& [file, target] : includes_below(folder)) {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "arguments/declaration.h"
 #include "console/exit_codes.h"
@@ -53,6 +54,7 @@ Command declare_paint(CLI::App& program);
 Command declare_report(CLI::App& program);
 Command declare_export(CLI::App& program);
 Command declare_bake(CLI::App& program);
+std::vector<Command> declare_batch(CLI::App& program);  // and its own subcommands
 Command declare_manual(CLI::App& program);
 Command declare_completion(CLI::App& program);
 

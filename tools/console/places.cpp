@@ -22,7 +22,7 @@ std::set<const CLI::Option*>& options_that_write() {
   return options;
 }
 
-Names& files_read() {
+Names& noted_files() {
   static Names files;
   return files;
 }
@@ -53,7 +53,7 @@ Names files_named(const CLI::Option& option) {
 /// `output` may be a device, or not there.
 void require_not_read(const std::string& option, const std::string& output) {
   if (!is_file(output)) return;
-  for (const std::string& input : files_read()) {
+  for (const std::string& input : noted_files()) {
     std::error_code missing;  // a file that is not there is no other file
     if (fs::equivalent(input, output, missing))
       throw UsageMistake(option + ": " + output + " is the input; it would be replaced");
@@ -86,17 +86,20 @@ void require_distinct(const Outputs& outputs) {
 
 void mark_written(const CLI::Option& option) { options_that_write().insert(&option); }
 
-void note_files_read(const CLI::App& command) {
-  const auto writes = [](const CLI::Option* option) {
-    return options_that_write().contains(option);
-  };
+std::vector<std::string> files_read(const CLI::App& command) {
+  Names files;
   for (const CLI::Option* option : command.get_options()) {
-    if (writes(option)) continue;
-    for (std::string& file : files_named(*option)) files_read().push_back(std::move(file));
+    if (options_that_write().contains(option)) continue;
+    for (std::string& file : files_named(*option)) files.push_back(std::move(file));
   }
-  keep_from_outputs(files_read());
+  return files;
+}
+
+void note_files_read(const CLI::App& command) {
+  for (std::string& file : files_read(command)) noted_files().push_back(std::move(file));
+  keep_from_outputs(noted_files());
   for (const CLI::Option* option : command.get_options()) {
-    if (!writes(option)) continue;
+    if (!options_that_write().contains(option)) continue;
     for (const std::string& file : files_named(*option)) require_not_read(option->get_name(), file);
   }
 }

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <map>
@@ -127,10 +128,16 @@ std::string hint_of_json(const CLI::App& command, const CLI::ParseError& error) 
   return missing || swallowed ? "; --json takes a file, `--json -` is standard output" : "";
 }
 
+/// The subcommand that was asked for, of a subcommand where that has some; else the program.
+const CLI::App& chosen_command(const CLI::App& program) {
+  const std::vector<CLI::App*> chosen = program.get_subcommands();
+  return chosen.empty() ? program : chosen_command(*chosen.front());
+}
+
 /// What is wrong with a command line, the mistyped word first: the other complaints follow from it.
 std::string explain(const CLI::App& program, const CLI::ParseError& error) {
-  const std::vector<CLI::App*> chosen = program.get_subcommands();
-  const CLI::App& app = chosen.empty() ? program : *chosen.front();
+  const CLI::App& app = chosen_command(program);
+  const bool wants_subcommand = !app.get_subcommands({}).empty();
   for (const std::string& word : app.remaining()) {
     const bool is_option = word.size() > 1 && word.front() == '-';
     if (is_option) {
@@ -139,47 +146,75 @@ std::string explain(const CLI::App& program, const CLI::ParseError& error) {
       if (!now.empty()) return now;
       return "unknown option " + name + did_you_mean(name, option_names(app));
     }
-    if (chosen.empty())
-      return "unknown subcommand " + word + did_you_mean(word, command_names(program));
+    if (wants_subcommand)
+      return "unknown subcommand " + word + did_you_mean(word, command_names(app));
   }
   return error.what() + hint_of_json(app, error);
 }
 
 int usage_error(const CLI::App& program, const std::string& message) {
-  const std::vector<CLI::App*> chosen = program.get_subcommands();
-  const std::string name = chosen.empty() ? "sphparam" : "sphparam " + chosen.front()->get_name();
+  std::string name = "sphparam";
+  for (const CLI::App* app = &program; !app->get_subcommands().empty();) {
+    app = app->get_subcommands().front();
+    name += " " + app->get_name();
+  }
   print_error(message);
   std::fprintf(stderr, "Try '%s --help'.\n", name.c_str());
   return UsageError;
 }
 
-int run_program(int argc, char** argv) {
-  CLI::App program(summary, "sphparam");
-  program.formatter(std::make_shared<Help>());
-  program.footer(footer());
-  program.set_version_flag("--version", std::string("sphparam ") + version);
-  program.require_subcommand(0, 1);
+/// All subcommands, as they are declared.
+struct Program {
+  CLI::App app{summary, "sphparam"};
   std::vector<Command> commands;
-  for (const auto declare :
-       {declare_info, declare_map, declare_verify, declare_render, declare_compare, declare_spharm,
-        declare_remesh, declare_unimage, declare_measure, declare_paint, declare_report,
-        declare_export, declare_bake, declare_manual, declare_completion}) {
-    commands.push_back(declare(program));
+
+  Program() {
+    app.formatter(std::make_shared<Help>());
+    app.footer(footer());
+    app.set_version_flag("--version", std::string("sphparam ") + version);
+    app.require_subcommand(0, 1);
+    for (const auto declare :
+         {declare_info, declare_map, declare_verify, declare_render, declare_compare,
+          declare_spharm, declare_remesh, declare_unimage, declare_measure, declare_paint,
+          declare_report, declare_export, declare_bake}) {
+      commands.push_back(declare(app));
+    }
+    for (Command& command : declare_batch(app)) commands.push_back(std::move(command));
+    for (const auto declare : {declare_manual, declare_completion})
+      commands.push_back(declare(app));
   }
+
+  /// Null: none.
+  const Command* asked_for() const {
+    for (const Command& command : commands)
+      if (command.options->parsed()) return &command;
+    return nullptr;
+  }
+};
+
+/// Null: there is none.
+const CLI::App* subcommand_named(const CLI::App& program, const std::string& name) {
+  for (const CLI::App* command : program.get_subcommands({}))
+    if (command->get_name() == name) return command;
+  return nullptr;
+}
+
+int run_program(int argc, char** argv) {
+  Program program;
   try {
     put_subcommand_first(argc, argv);
-    program.parse(argc, argv);
-    for (const Command& command : commands) {
-      if (!command.options->parsed()) continue;
-      note_files_read(*command.options);
-      return command.run();
+    take_steps(argc, argv);
+    program.app.parse(argc, argv);
+    if (const Command* const command = program.asked_for()) {
+      note_files_read(*command->options);
+      return command->run();
     }
   } catch (const CLI::Success& help_or_version) {
-    return program.exit(help_or_version);
+    return program.app.exit(help_or_version);
   } catch (const CLI::ParseError& error) {
-    return usage_error(program, explain(program, error));
+    return usage_error(program.app, explain(program.app, error));
   } catch (const UsageMistake& mistake) {
-    return usage_error(program, mistake.what());
+    return usage_error(program.app, mistake.what());
   }
   std::fprintf(stderr, "%s\nMore: sphparam --help\n", summary);
   return UsageError;
@@ -246,6 +281,40 @@ int guarded_main(int argc, char** argv) {
 }
 
 }  // namespace
+
+int run_command_line(std::vector<std::string> words,
+                     const std::vector<std::pair<std::string, std::string>>& presets) {
+  {
+    const Program program;
+    const CLI::App* const command = subcommand_named(program.app, words.at(0));
+    for (const auto& [option, value] : presets) {
+      const bool said = std::ranges::any_of(words, [&](const std::string& word) {
+        return word == option || word.starts_with(option + "=");
+      });
+      if (!said && command && command->get_option_no_throw(option))
+        words.insert(words.end(), {option, value});
+    }
+  }
+  words.insert(words.begin(), "sphparam");
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  return guarded_main(static_cast<int>(words.size()), argv.data());
+}
+
+std::vector<std::string> files_read_by(const std::vector<std::string>& words) {
+  Program program;
+  try {
+    program.app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+  } catch (const CLI::Success&) {
+    throw UsageMistake(joined(words, " ") + " does nothing but show help");
+  } catch (const CLI::ParseError& error) {
+    throw UsageMistake(joined(words, " ") + ": " + explain(program.app, error));
+  }
+  const Command* const command = program.asked_for();
+  if (!command) throw UsageMistake("no subcommand in " + joined(words, " "));
+  return files_read(*command->options);
+}
 
 int run_sphparam(int argc, char** argv) {
   forbid_core_dumps();

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+
+#include "sphparam/batch/plan.h"
+
+namespace sphparam {
+
+/// One row an item, in the plan's order: id, path, outcome, code, reason, attempt, then every
+/// figure of the reports of its steps under SUBCOMMAND.KEY, as `--json` names them, then what it
+/// took. RFC 4180, UTF-8. Throws: ReadError. Cost: reads all records.
+std::string batch_table(const std::string& folder, const BatchPlan& plan, int threads = 0);
+
+struct BatchPageOptions {
+  /// Where the page will lie: links to pictures and files are relative to this folder.
+  std::string page_folder;
+  std::string title;
+  int threads = 0;
+};
+
+/// One page of HTML of a whole batch: counts, failures by reason, distributions of distortion with
+/// their outliers by name, every shape with its picture, verdict and figures, outliers first; to be
+/// sorted, filtered and leafed through. Pictures are loaded from the batch's folder when they are
+/// looked at. An outlier is beyond the upper quartile by more than three times the distance of the
+/// quartiles (Tukey's far out), of logarithms. Ensures: nothing is loaded from anywhere else.
+/// Throws: ReadError. Cost: reads all records; about 300 bytes of page an item.
+std::string batch_page(const std::string& folder, const BatchPlan& plan,
+                       const BatchPageOptions& options);
+
+}  // namespace sphparam

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sphparam/batch/plan.h"
+
+namespace sphparam {
+
+/// Failures that are alike: the same exit code and, but for names and numbers, the same message.
+struct BatchFailures {
+  int code = 0;        // 128 + N: signal N
+  std::string reason;  // of the first of them in the plan's order
+  std::size_t count = 0;
+  std::vector<std::string> ids;  // the first ten
+};
+
+struct BatchStatus {
+  std::string plan;
+  std::size_t items = 0;
+  std::size_t done = 0, failed = 0;
+  std::size_t to_retry = 0;  // failed, and to be tried again
+  std::size_t running = 0;   // folders below `staging` whose processes live, or may live elsewhere
+  std::vector<BatchFailures> failures = {};  // most first
+  double cpu_seconds_left = 0;               // of what is not settled, by size of input
+  std::optional<double> seconds_left = {};   // at the pace of the last items that ended; nothing:
+                                            // none ended lately
+  std::size_t open() const { return items - done - failed + to_retry; }
+};
+
+/// How far a batch is, from its files alone: no input is read, no scheduler asked.
+/// Throws: ReadError for a record that is broken. Cost: reads the record of each item, 20 µs each.
+BatchStatus batch_status(const std::string& folder, const BatchPlan& plan, int threads = 0);
+
+/// Several lines for people; as JSON.
+std::string to_text(const BatchStatus& status);
+std::string to_json(const BatchStatus& status);
+
+/// Which failures are to be tried again; all where nothing is said.
+struct BatchRetryOptions {
+  std::vector<int> codes = {};
+  std::vector<std::string> ids = {};
+};
+
+struct BatchRetry {
+  std::size_t items = 0;
+  std::vector<int> tasks;  // that have them, ascending
+};
+
+/// Marks failures, so that the next run tries them again. Attempts go on being counted.
+/// Throws: BatchInputError for an id that did not fail; ReadError; WriteError.
+BatchRetry retry_batch(const std::string& folder, const BatchPlan& plan,
+                       const BatchRetryOptions& options = {});
+
+/// "1-3,7" of 1, 2, 3, 7: as `sbatch --array` takes them.
+std::string ranges_of(const std::vector<int>& numbers);
+
+}  // namespace sphparam

@@ -1,0 +1,279 @@
+// Places → shapes: what kind of place it is, is told by its name and by what lies in it.
+
+#include "sphparam/batch/inputs.h"
+
+#include <glob.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "batch/tables.h"
+#include "io/files/file_bytes.h"
+#include "number_text.h"
+#include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/paths.h"
+
+namespace sphparam {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t told_at_most = 5;
+
+std::string whole_path(const fs::path& path) {
+  return fs::absolute(path).lexically_normal().string();
+}
+
+bool is_hidden(const fs::path& path) { return path.filename().string().starts_with('.'); }
+
+/// Only what may stand in the name of a folder everywhere.
+std::string safe_id(std::string text) {
+  for (char& c : text) {
+    const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                       c == '-' || c == '_' || c == '.';
+    if (!plain) c = '_';
+  }
+  if (text.empty() || text.front() == '.') text.insert(text.begin(), '_');
+  return text;
+}
+
+/// "sub-01_hemi-L_white" of "sub-01_hemi-L_white.surf.gii", "lh.white" of itself.
+std::string id_of_name(const std::string& path) {
+  std::string name = is_mesh_name(path) ? stem_of(path) : fs::path(path).filename().string();
+  if (name.ends_with(".surf")) name.resize(name.size() - 5);
+  return safe_id(name);
+}
+
+/// One shape, which has no id yet where nobody gave one.
+struct Found {
+  std::string path, id;
+  std::vector<std::string> values;
+};
+
+class Finder {
+ public:
+  explicit Finder(const BatchInputOptions& options) : options_(options) {}
+
+  void look_at(const std::string& place) {
+    const std::string extension = extension_of(place);
+    if (fs::is_directory(place)) return folder(place);
+    if (!is_stream(place) && !fs::exists(place)) return pattern(place);
+    if (extension == ".csv" || extension == ".tsv") return table(place);
+    if (!is_stream(place) && is_mesh_name(place)) return add(place);
+    list(place);
+  }
+
+  const std::vector<std::string>& columns() const { return columns_; }
+  std::vector<Found>& found() { return found_; }
+
+ private:
+  void add(const fs::path& path, std::string id = "", std::vector<std::string> values = {}) {
+    values.resize(columns_.size());
+    found_.push_back({whole_path(path), std::move(id), std::move(values)});
+  }
+
+  void pattern(const std::string& place) {
+    if (place.find_first_of("*?[") == std::string::npos)
+      throw BatchInputError(place + ": no such file or folder");
+    glob_t matches{};
+    const int result = ::glob(place.c_str(), GLOB_BRACE | GLOB_TILDE, nullptr, &matches);
+    for (std::size_t i = 0; i < matches.gl_pathc; ++i)
+      if (fs::is_regular_file(matches.gl_pathv[i])) add(matches.gl_pathv[i]);
+    ::globfree(&matches);
+    if (result == GLOB_NOMATCH) throw BatchInputError(place + ": no file matches this pattern");
+  }
+
+  /// As it stands beside the list, or else in the current folder.
+  static fs::path named_in(const std::string& list, const std::string& name) {
+    const fs::path beside = (is_stream(list) ? fs::path() : fs::path(list).parent_path()) / name;
+    return fs::exists(beside) ? beside : fs::path(name);
+  }
+
+  void list(const std::string& place) {
+    const FileBytes bytes(place, std::numeric_limits<std::uint64_t>::max());
+    for (std::string line : lines_of(bytes.view())) {
+      const std::size_t remark = line.find('#');
+      if (remark == 0 || (remark != std::string::npos && line[remark - 1] == ' '))
+        line.resize(remark);
+      while (!line.empty() && (line.back() == ' ' || line.back() == '\t')) line.pop_back();
+      if (line.find('\0') != std::string::npos)
+        throw BatchInputError(display_name(place) +
+                              ": neither a mesh that can be read nor a list of meshes");
+      if (!line.empty()) add(named_in(place, line));
+    }
+  }
+
+  void table(const std::string& place) {
+    const FileBytes bytes(place, std::numeric_limits<std::uint64_t>::max());
+    const TextTable table =
+        read_table(bytes.view(), extension_of(place) == ".tsv" ? '\t' : ',', display_name(place));
+    const auto path = std::ranges::find(table.header, "path");
+    if (path == table.header.end())
+      throw BatchInputError(display_name(place) + ": no column `path` among " +
+                            joined(table.header));
+    for (const std::string& name : table.header) {
+      const bool known = name == "path" || name == "id" || std::ranges::count(columns_, name) > 0;
+      if (!known) columns_.push_back(name);
+    }
+    const std::size_t path_column = path - table.header.begin();
+    for (const auto& row : table.rows) add_row(place, table.header, row, path_column);
+  }
+
+  void add_row(const std::string& place, const std::vector<std::string>& header,
+               const std::vector<std::string>& row, std::size_t path_column) {
+    std::vector<std::string> values(columns_.size());
+    std::string id;
+    for (std::size_t i = 0; i < header.size(); ++i) {
+      if (header[i] == "id") id = safe_id(row[i]);
+      const auto column = std::ranges::find(columns_, header[i]);
+      if (column != columns_.end()) values[column - columns_.begin()] = row[i];
+    }
+    add(named_in(place, row[path_column]), std::move(id), std::move(values));
+  }
+
+  void folder(const fs::path& place) {
+    const std::size_t before = found_.size();
+    if (fs::exists(place / "dataset_description.json")) {
+      bids(place);
+    } else if (!freesurfer(place)) {
+      meshes_below(place);
+    }
+    if (found_.size() == before)
+      throw BatchInputError(place.string() + ": no mesh in this folder" +
+                            (fs::exists(place / "dataset_description.json")
+                                 ? " is called *_" + options_.surface + ".surf.gii; see --surface"
+                                 : ""));
+  }
+
+  /// Subjects in the order of their names, left before right.
+  bool freesurfer(const fs::path& place) {
+    bool any = false;
+    for (const fs::path& subject : sorted(place)) {
+      if (!fs::is_directory(subject / "surf")) continue;
+      for (const std::string side : {"lh", "rh"}) {
+        const std::string name = side + "." + options_.surface;
+        for (const std::string ending : {".surf.gii", ".gii", ""}) {
+          const fs::path file = subject / "surf" / (name + ending);
+          if (!fs::is_regular_file(file)) continue;
+          add(file, safe_id(subject.filename().string() + "_" + side + "_" + options_.surface));
+          any = true;
+          break;
+        }
+      }
+    }
+    return any;
+  }
+
+  void bids(const fs::path& place) {
+    const std::string ending = "_" + options_.surface + ".surf.gii";
+    for (const fs::path& file : files_below(place)) {
+      const std::string name = file.filename().string();
+      if (!name.starts_with("sub-")) continue;
+      if (name.ends_with(ending) || name.ends_with(ending + ".gz")) add(file);
+    }
+  }
+
+  void meshes_below(const fs::path& place) {
+    for (const fs::path& file : files_below(place))
+      if (is_mesh_name(file.string())) add(file);
+  }
+
+  static std::vector<fs::path> sorted(const fs::path& place) {
+    std::vector<fs::path> entries;
+    for (const auto& entry : fs::directory_iterator(place))
+      if (!is_hidden(entry.path())) entries.push_back(entry.path());
+    std::ranges::sort(entries);
+    return entries;
+  }
+
+  static std::vector<fs::path> files_below(const fs::path& place) {
+    std::vector<fs::path> files;
+    for (const fs::path& entry : sorted(place)) {
+      if (fs::is_directory(entry)) {
+        const std::vector<fs::path> more = files_below(entry);
+        files.insert(files.end(), more.begin(), more.end());
+      } else {
+        files.push_back(entry);
+      }
+    }
+    return files;
+  }
+
+  const BatchInputOptions& options_;
+  std::vector<std::string> columns_;
+  std::vector<Found> found_;
+};
+
+/// Names of files, and where one stands for several, with the names of folders before them, as many
+/// as it takes for all of these.
+void name_apart(std::vector<Found>& found) {
+  std::map<std::string, std::vector<Found*>> by_name;
+  for (Found& one : found) {
+    if (one.id.empty()) by_name[id_of_name(one.path)].push_back(&one);
+  }
+  for (auto& [name, group] : by_name) {
+    fs::path folder;
+    std::set<std::string> ids;
+    for (int depth = 0; depth < 32 && ids.size() < group.size(); ++depth) {
+      ids.clear();
+      for (Found* one : group) {
+        folder = fs::path(one->path).parent_path();
+        one->id = name;
+        for (int level = 0; level < depth && folder.has_relative_path(); ++level) {
+          one->id = safe_id(folder.filename().string()) + "_" + one->id;
+          folder = folder.parent_path();
+        }
+        ids.insert(one->id);
+      }
+    }
+  }
+}
+
+void require_distinct(const std::vector<Found>& found) {
+  std::map<std::string, const Found*> by_id;
+  for (const Found& one : found) {
+    const auto [other, is_new] = by_id.emplace(one.id, &one);
+    if (is_new) continue;
+    throw BatchInputError(
+        "two shapes have the id " + one.id + ": " + other->second->path + " and " + one.path +
+        (other->second->path == one.path ? "; a shape belongs into a batch once"
+                                         : "; a table with a column `id` tells them apart"));
+  }
+}
+
+void require_there(const std::vector<Found>& found) {
+  std::vector<std::string> missing;
+  for (const Found& one : found)
+    if (!fs::is_regular_file(one.path)) missing.push_back(one.path);
+  if (missing.empty()) return;
+  const std::size_t count = missing.size();
+  missing.resize(std::min(count, told_at_most));
+  throw BatchInputError(counted(std::ssize(found), "shape", "shapes") + ", of which " +
+                        std::to_string(count) + (count == 1 ? " is" : " are") +
+                        " not there: " + joined(missing) + (count > told_at_most ? ", …" : ""));
+}
+
+}  // namespace
+
+BatchInputs find_batch_inputs(const std::vector<std::string>& places,
+                              const BatchInputOptions& options) {
+  Finder finder(options);
+  for (const std::string& place : places) finder.look_at(place);
+  std::vector<Found>& found = finder.found();
+  if (found.empty()) throw BatchInputError("no shape in " + joined(places));
+  require_there(found);
+  name_apart(found);
+  require_distinct(found);
+  BatchInputs inputs{finder.columns(), {}};
+  for (Found& one : found) {
+    one.values.resize(inputs.columns.size());
+    inputs.shapes.push_back({std::move(one.id), std::move(one.path), std::move(one.values)});
+  }
+  return inputs;
+}
+
+}  // namespace sphparam

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "sphparam/batch/plan.h"
+
+namespace sphparam {
+
+/// The hashes of what runs for items: the words without the input's path, the size of its picture,
+/// and the content of files that words name. A file is read once.
+class OptionsHash {
+ public:
+  explicit OptionsHash(const BatchPlan& plan) : plan_(plan) {}
+
+  /// Throws: BatchInputError for an unknown placeholder; ReadError.
+  std::string of(const BatchItem& item);
+
+ private:
+  std::string content_of(const std::string& word);
+
+  const BatchPlan& plan_;
+  std::map<std::string, std::string> contents_;  // by the word that names the file; empty: none
+};
+
+}  // namespace sphparam

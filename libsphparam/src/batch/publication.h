@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "batch/record.h"
+
+namespace sphparam {
+
+/// Gives a folder of results its name, in one step. False: another run did so for the same item
+/// before; then nothing happened. What is there of another plan is replaced, and is where the
+/// results were. A failure of the item is forgotten. Throws: BatchMachineError.
+bool publish_results(const std::string& folder, const std::string& staged, const BatchItem& item);
+
+/// The record of a failure, in one step. Throws: BatchMachineError; WriteError.
+void publish_failure(const std::string& folder, const std::string& staged,
+                     const BatchRecord& record);
+
+/// The same from the record's bytes.
+void publish_failure_bytes(const std::string& folder, const std::string& staged,
+                           const std::string& id, std::string bytes);
+
+/// All files below a folder, by name. Throws: ReadError.
+std::vector<BatchFile> files_below(const std::string& folder);
+
+/// Why a step failed, in a line: the last error that it told, or the signal that ended it.
+std::string reason_of_end(int code, std::string_view log);
+
+}  // namespace sphparam

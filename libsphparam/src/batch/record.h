@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "batch/content_hash.h"
+#include "sphparam/batch/plan.h"
+
+namespace sphparam {
+
+enum class BatchOutcome {
+  Certified,  // all steps ended well, and a map is proved one-to-one
+  Done,       // all steps ended well; none of them makes or takes a map
+  Failed,
+};
+
+/// A file among the results of an item.
+struct BatchFile {
+  std::string name;  // below results/ID
+  std::uint64_t size = 0;
+  std::string hash;
+};
+
+/// What decides whether an item is run: the beginning of its record.
+struct BatchRecordHead {
+  BatchOutcome outcome = BatchOutcome::Failed;
+  int code = 0;  // of the step that failed; 128 + N: signal N
+  int attempt = 1;
+  bool retry = false;                   // of a failure: to be tried again
+  std::string input, options, program;  // hashes; input is empty where it could not be read
+  FileStamp stamp;                      // of the input as it was read; all 0: not to be trusted
+  double seconds = 0, cpu_seconds = 0;
+  std::int64_t ended = 0;  // seconds since 1970
+  std::string reason;      // of a failure, one line
+  std::vector<BatchFile> files;
+
+  bool failed() const { return outcome == BatchOutcome::Failed; }
+};
+
+struct BatchStepRecord {
+  BatchStep words;
+  int code = 0;
+  double seconds = 0;
+  std::string report;  // what --json of the step says; empty: nothing
+};
+
+struct BatchRecord {
+  BatchRecordHead head;
+  std::string id, path, plan, host;
+  std::int64_t peak_bytes = 0;  // of memory, of the largest step
+  std::vector<BatchStepRecord> steps;
+  std::string log;  // what the steps said
+};
+
+/// As it is written: one object of JSON, what `BatchRecordHead` has first. Of the steps' reports
+/// lists of more than 32 entries are left out (coefficients, numbers of vertices).
+std::string to_json(const BatchRecord& record);
+
+/// Reads the beginning and no more. `file`: for messages. Throws: ReadError.
+BatchRecordHead read_head(std::string_view json, const std::string& file);
+
+/// What is known of an item: the record of its success, or else of its failure, if it is about what
+/// is planned; a success with other options or of another input is none.
+struct StoredRecord {
+  BatchRecordHead head;
+  std::string bytes, path;
+};
+/// Nothing: it is to be run. Throws: ReadError.
+std::optional<StoredRecord> record_about(const std::string& folder, const BatchItem& item);
+
+std::string result_folder(const std::string& folder, const std::string& id);
+std::string failure_path(const std::string& folder, const std::string& id);
+
+/// What failed, in a line: the last error in a log.
+std::string reason_in(std::string_view log);
+
+/// The bytes of a small file; nothing where there is none. Throws: ReadError.
+std::optional<std::string> small_file(const std::string& path);
+
+}  // namespace sphparam

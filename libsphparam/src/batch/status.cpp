@@ -1,0 +1,221 @@
+#include "sphparam/batch/status.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <ctime>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "batch/engines.h"
+#include "batch/publication.h"
+#include "batch/record.h"
+#include "batch/staging.h"
+#include "number_text.h"
+#include "sphparam/io/safe_file.h"
+#include "sphparam/parallel.h"
+
+namespace sphparam {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t told_ids = 10;
+constexpr std::size_t last_items = 200;  // whose pace is that of the batch
+constexpr std::int64_t lately = 3600;    // seconds
+
+using Heads = std::vector<std::optional<BatchRecordHead>>;
+
+Heads heads_of(const std::string& folder, const BatchPlan& plan, int threads) {
+  Heads heads(plan.items.size());
+  constexpr std::int64_t grain = 256;
+  parallel_for(std::ssize(heads), grain, threads, [&](std::int64_t first, std::int64_t last) {
+    for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
+      if (auto record = record_about(folder, plan.items[i])) heads[i] = std::move(record->head);
+  });
+  return heads;
+}
+
+/// "ID: vertex # of #" of "sub-01: vertex 17 of 8": what is the same in all messages of a kind.
+std::string kind_of_reason(const std::string& reason, const BatchItem& item) {
+  std::string text = reason;
+  for (const std::string& name : {item.path, fs::path(item.path).filename().string(), item.id}) {
+    for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name))
+      text.replace(at, name.size(), "#");
+  }
+  std::string kind;
+  for (const char c : text) {
+    const bool digit = std::isdigit(static_cast<unsigned char>(c)) != 0;
+    if (!digit) kind += c;
+    if (digit && !kind.ends_with('#')) kind += '#';
+  }
+  return kind;
+}
+
+std::vector<BatchFailures> grouped(const BatchPlan& plan, const Heads& heads) {
+  std::map<std::pair<int, std::string>, BatchFailures> groups;
+  for (std::size_t i = 0; i < heads.size(); ++i) {
+    if (!heads[i] || !heads[i]->failed()) continue;
+    const BatchRecordHead& head = *heads[i];
+    BatchFailures& group = groups[{head.code, kind_of_reason(head.reason, plan.items[i])}];
+    if (group.count++ == 0) group.reason = head.reason;
+    group.code = head.code;
+    if (group.ids.size() < told_ids) group.ids.push_back(plan.items[i].id);
+  }
+  std::vector<BatchFailures> failures;
+  for (auto& [key, group] : groups) failures.push_back(std::move(group));
+  std::ranges::stable_sort(failures, std::ranges::greater{}, &BatchFailures::count);
+  return failures;
+}
+
+/// By the bytes of inputs, as large meshes take longer.
+void estimate_time(BatchStatus& status, const BatchPlan& plan, const Heads& heads) {
+  double settled_bytes = 0, open_bytes = 0, cpu = 0;
+  std::vector<std::pair<std::int64_t, double>> ends;  // when, how many bytes
+  for (std::size_t i = 0; i < heads.size(); ++i) {
+    const auto bytes = static_cast<double>(plan.items[i].size);
+    if (!heads[i] || heads[i]->retry) {
+      open_bytes += bytes;
+      continue;
+    }
+    settled_bytes += bytes;
+    cpu += heads[i]->cpu_seconds;
+    ends.emplace_back(heads[i]->ended, bytes);
+  }
+  if (settled_bytes > 0) status.cpu_seconds_left = cpu / settled_bytes * open_bytes;
+  if (ends.size() < 2 || open_bytes == 0) return;
+  std::ranges::sort(ends);
+  const std::size_t count = std::min(ends.size(), last_items);
+  const auto first = ends.end() - static_cast<std::ptrdiff_t>(count);
+  const double took = static_cast<double>(ends.back().first - first->first);
+  double done = 0;
+  for (auto end = first + 1; end != ends.end(); ++end) done += end->second;
+  if (took > 0 && done > 0 && std::time(nullptr) - ends.back().first < lately)
+    status.seconds_left = open_bytes * took / done;
+}
+
+std::string duration(double seconds) {
+  if (seconds < 90) return std::to_string(std::lround(seconds)) + " s";
+  if (seconds < 5400) return std::to_string(std::lround(seconds / 60)) + " min";
+  if (seconds < 48 * 3600.0) return short_number(seconds / 3600, 2) + " h";
+  return short_number(seconds / 86400, 2) + " days";
+}
+
+/// Rewrites a record of failure as one that is to be tried again.
+void mark_for_retry(const std::string& folder, const BatchItem& item, const StoredRecord& record) {
+  auto json = nlohmann::ordered_json::parse(record.bytes);
+  json["retry"] = true;
+  const std::string staged = folder + "/staging/" + staging_name(item.id);
+  fs::create_directories(staged);
+  publish_failure_bytes(folder, staged, item.id,
+                        json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  fs::remove_all(staged);
+}
+
+bool is_wanted(const BatchRetryOptions& options, const BatchItem& item,
+               const BatchRecordHead& head) {
+  const bool code = options.codes.empty() || std::ranges::count(options.codes, head.code) > 0;
+  const bool id = options.ids.empty() || std::ranges::count(options.ids, item.id) > 0;
+  return code && id;
+}
+
+}  // namespace
+
+BatchStatus batch_status(const std::string& folder, const BatchPlan& plan, int threads) {
+  const Heads heads = heads_of(folder, plan, threads);
+  BatchStatus status{.plan = plan.name, .items = plan.items.size()};
+  for (const std::optional<BatchRecordHead>& head : heads) {
+    if (!head) continue;
+    ++(head->failed() ? status.failed : status.done);
+    status.to_retry += head->retry;
+  }
+  status.running = static_cast<std::size_t>(count_staging(folder));
+  status.failures = grouped(plan, heads);
+  estimate_time(status, plan, heads);
+  return status;
+}
+
+std::string to_text(const BatchStatus& status) {
+  const double all = static_cast<double>(std::max<std::size_t>(status.items, 1));
+  std::string text = counted(static_cast<long>(status.items), "item") + ": " +
+                     std::to_string(status.done) + " done (" +
+                     percent(static_cast<double>(status.done) / all) + "), " +
+                     std::to_string(status.failed) + " failed, " + std::to_string(status.open()) +
+                     " open, " + std::to_string(status.running) + " being worked on\n";
+  if (status.to_retry > 0)
+    text += "  of the failed " + std::to_string(status.to_retry) + " are to be tried again\n";
+  if (status.cpu_seconds_left > 0)
+    text += "  left: " + duration(status.cpu_seconds_left) + " of one core";
+  if (status.cpu_seconds_left > 0 && status.seconds_left)
+    text += "; " + duration(*status.seconds_left) + " at the pace of the last items";
+  if (status.cpu_seconds_left > 0) text += "\n";
+  for (const BatchFailures& group : status.failures) {
+    text += "  " + std::to_string(group.count) + " × code " + std::to_string(group.code) + ": " +
+            group.reason + "\n      " + joined(group.ids) +
+            (group.count > group.ids.size() ? ", …" : "") + "\n";
+  }
+  return text;
+}
+
+std::string to_json(const BatchStatus& status) {
+  nlohmann::ordered_json failures = nlohmann::ordered_json::array();
+  for (const BatchFailures& group : status.failures)
+    failures.push_back({{"code", group.code},
+                        {"reason", group.reason},
+                        {"count", group.count},
+                        {"ids", group.ids}});
+  const nlohmann::ordered_json json = {
+      {"plan", status.plan},
+      {"items", status.items},
+      {"done", status.done},
+      {"failed", status.failed},
+      {"to_retry", status.to_retry},
+      {"open", status.open()},
+      {"running", status.running},
+      {"cpu_seconds_left", status.cpu_seconds_left},
+      {"seconds_left", status.seconds_left ? nlohmann::ordered_json(*status.seconds_left)
+                                           : nlohmann::ordered_json()},
+      {"failures", failures}};
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+BatchRetry retry_batch(const std::string& folder, const BatchPlan& plan,
+                       const BatchRetryOptions& options) {
+  BatchRetry retry;
+  std::size_t known = 0;
+  for (std::size_t i = 0; i < plan.items.size(); ++i) {
+    const BatchItem& item = plan.items[i];
+    const auto record = record_about(folder, item);
+    if (!record || !record->head.failed()) continue;
+    known += std::ranges::count(options.ids, item.id) > 0;
+    if (!is_wanted(options, item, record->head)) continue;
+    if (!record->head.retry) mark_for_retry(folder, item, *record);
+    ++retry.items;
+    const int task = static_cast<int>(i) / plan.chunk + 1;
+    if (retry.tasks.empty() || retry.tasks.back() != task) retry.tasks.push_back(task);
+  }
+  if (known < options.ids.size())
+    throw BatchInputError("not all of " + joined(options.ids) + " are items that failed");
+  for (const int task : retry.tasks) {
+    std::error_code hidden;  // without Snakemake there is no mark
+    fs::remove(task_mark(folder, plan, task), hidden);
+  }
+  return retry;
+}
+
+std::string ranges_of(const std::vector<int>& numbers) {
+  std::string text;
+  for (std::size_t i = 0; i < numbers.size();) {
+    std::size_t end = i + 1;
+    while (end < numbers.size() && numbers[end] == numbers[end - 1] + 1) ++end;
+    if (!text.empty()) text += ",";
+    text += std::to_string(numbers[i]);
+    if (end - i > 1) text += "-" + std::to_string(numbers[end - 1]);
+    i = end;
+  }
+  return text;
+}
+
+}  // namespace sphparam

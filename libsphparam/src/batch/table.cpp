@@ -1,0 +1,120 @@
+// Whatever a step's report says in single values is a column, by the way to it; lists have no place
+// in a row. What runs took stands in the last columns: all others are the same for every run.
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "batch/record.h"
+#include "batch/tables.h"
+#include "number_text.h"
+#include "sphparam/batch/results.h"
+#include "sphparam/parallel.h"
+
+namespace sphparam {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Cells = std::vector<std::pair<std::string, std::string>>;  // column, value
+
+std::string text_of(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_boolean()) return value.get<bool>() ? "true" : "false";
+  if (value.is_number_float()) return shortest(value.get<double>());
+  return value.is_null() ? "" : value.dump();
+}
+
+/// Not figures: where things lie, and the version, which is said once.
+bool is_no_figure(const std::string& key) {
+  return key == "sphparam" || key == "command" || key == "outputs" || key == "file" ||
+         key == "seconds" || key == "viewer";
+}
+
+void flatten(const Json& json, const std::string& name, Cells& cells) {
+  if (json.is_object()) {
+    for (const auto& [key, value] : json.items())
+      if (!is_no_figure(key)) flatten(value, name + "." + key, cells);
+  } else if (!json.is_array() && !json.is_null()) {
+    cells.emplace_back(name, text_of(json));
+  }
+}
+
+/// "map", and "map2" of the second `map` of a pipeline.
+std::string column_prefix(const std::string& subcommand, std::map<std::string, int>& seen) {
+  const int count = ++seen[subcommand];
+  return count == 1 ? subcommand : subcommand + std::to_string(count);
+}
+
+Cells figures_of(const Json& record) {
+  Cells cells;
+  std::map<std::string, int> seen;
+  for (const Json& step : record.value("steps", Json::array())) {
+    const std::string prefix = column_prefix(step["command"].at(0).get<std::string>(), seen);
+    if (step["report"].is_object()) flatten(step["report"], prefix, cells);
+  }
+  return cells;
+}
+
+const std::vector<std::string> first_columns = {"id",   "path",   "outcome",
+                                                "code", "reason", "attempt"};
+const std::vector<std::string> last_columns = {"seconds", "cpu_seconds", "peak_bytes",
+                                               "ended",   "host",        "sphparam"};
+
+struct Row {
+  Cells cells;
+  std::map<std::string, std::string> own;
+};
+
+Row row_of(const std::string& folder, const BatchItem& item) {
+  Row row;
+  row.own = {{"id", item.id}, {"path", item.path}, {"outcome", "open"}};
+  const auto stored = record_about(folder, item);
+  if (!stored) return row;
+  const Json record = Json::parse(stored->bytes, nullptr, false);
+  if (record.is_discarded()) throw ReadError(stored->path, "this is no whole record of a batch");
+  for (const auto& columns : {first_columns, last_columns})
+    for (const std::string& name : columns)
+      if (name != "id" && name != "path" && record.contains(name))
+        row.own[name] = text_of(record[name]);
+  row.cells = figures_of(record);
+  return row;
+}
+
+std::string line_of(const std::vector<std::string>& fields) {
+  std::string line;
+  for (std::size_t i = 0; i < fields.size(); ++i) line += (i ? "," : "") + csv_field(fields[i]);
+  return line + "\r\n";
+}
+
+}  // namespace
+
+std::string batch_table(const std::string& folder, const BatchPlan& plan, int threads) {
+  std::vector<Row> rows(plan.items.size());
+  constexpr std::int64_t grain = 64;
+  parallel_for(std::ssize(rows), grain, threads, [&](std::int64_t first, std::int64_t last) {
+    for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
+      rows[i] = row_of(folder, plan.items[i]);
+  });
+  std::vector<std::string> names = first_columns;
+  std::map<std::string, std::size_t> place;
+  for (std::size_t i = 0; i < names.size(); ++i) place[names[i]] = i;
+  const auto column = [&](const std::string& name) {
+    const auto [known, is_new] = place.emplace(name, names.size());
+    if (is_new) names.push_back(name);
+    return known->second;
+  };
+  for (const Row& row : rows)
+    for (const auto& [name, value] : row.cells) column(name);
+  for (const std::string& name : last_columns) column(name);
+  std::string text = line_of(names);
+  for (const Row& row : rows) {
+    std::vector<std::string> fields(names.size());
+    for (const auto& [name, value] : row.own) fields[column(name)] = value;
+    for (const auto& [name, value] : row.cells) fields[column(name)] = value;
+    text += line_of(fields);
+  }
+  return text;
+}
+
+}  // namespace sphparam

@@ -1,0 +1,221 @@
+// `sphparam batch plan`: shapes and steps → a manifest, and scripts for who runs it.
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+
+#include "arguments/leading_options.h"
+#include "arguments/numbers.h"
+#include "commands/batch.h"
+#include "console/program.h"
+#include "number_text.h"
+#include "sphparam/batch/plan.h"
+#include "sphparam/batch/run.h"
+#include "sphparam/batch/status.h"
+
+namespace sphparam::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char plan_help[] =
+    "Plan a batch: which shapes, which steps, how many of them a task.\n"
+    "\n"
+    "Examples:\n"
+    "  sphparam batch plan meshes/ -o work/ -- map --repair\n"
+    "  sphparam batch plan 'scans/*.stl' -o work/ --chunk 50 -- map --quality draft\n"
+    "  sphparam batch plan subjects.csv -o work/ -- map --pin {pins}\n"
+    "  sphparam batch plan $SUBJECTS_DIR -o work/ --surface pial -- map -- spharm --degree 15\n"
+    "  sphparam batch plan meshes/ -o work/ -- map -- remesh --grid ico:5 -- export\n"
+    "\n"
+    "INPUT is a mesh, a pattern, a list of paths (a line each), a table (.csv, .tsv with a column\n"
+    "path; an id, and options of a row where they have a column), or a folder: of meshes, of\n"
+    "FreeSurfer subjects, or a BIDS data set. After `--` come the steps as on the command line of\n"
+    "sphparam, with `--` between them: {input}, {id} and {COLUMN} stand for what differs. A step\n"
+    "without any of these takes the mesh of the step before and writes {id} with its ending.\n"
+    "What is written goes to work/results/ID/; names in steps are relative to that.\n";
+
+struct PlanArguments : CommonArguments {
+  Words inputs;
+  std::string folder;
+  std::string chunk = "auto";
+  std::string surface = "white";
+  int thumbnail = 128;
+};
+
+/// What is found out before anything is planned for thousands.
+constexpr std::size_t dry_items = 3;
+constexpr double task_seconds = 600;      // long enough to be worth a job, short enough to be lost
+constexpr std::size_t most_tasks = 1000;  // Slurm's MaxArraySize is 1001 where nobody changed it
+constexpr std::size_t least_tasks = 16;   // or few cores would have all the work
+
+std::vector<BatchStep> given_steps() {
+  std::vector<BatchStep> steps;
+  for (const std::string& word : taken_steps()) {
+    if (word == "--") {
+      steps.emplace_back();
+    } else {
+      steps.back().push_back(word);
+    }
+  }
+  if (steps.empty()) throw UsageMistake("no step: after the inputs `-- map` is wanted, or more");
+  return steps;
+}
+
+/// Steps run elsewhere: the files that they read are named from the root. Their words are those of
+/// the first shape; what differs between shapes is a column's business.
+std::vector<BatchStep> with_whole_paths(std::vector<BatchStep> steps, const BatchInputs& inputs) {
+  const BatchPlan sample{.steps = steps, .columns = inputs.columns};
+  const BatchInput& shape = inputs.shapes.front();
+  const BatchItem item{.id = shape.id, .path = shape.path, .values = shape.values};
+  const std::vector<BatchStep> words = steps_of(sample, item);
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    for (const std::string& file : files_read_by(words[k])) {
+      for (std::string& word : steps[k]) {
+        if (word == file || word.ends_with("=" + file) || word.ends_with(":" + file))
+          word.replace(word.size() - file.size(), file.size(), fs::absolute(file).string());
+      }
+    }
+  }
+  return steps;
+}
+
+/// Values of columns that name files beside the table or here, from the root too.
+void complete_values(BatchInputs& inputs) {
+  for (BatchInput& shape : inputs.shapes)
+    for (std::string& value : shape.values)
+      if (!value.empty() && fs::is_regular_file(value)) value = fs::absolute(value).string();
+}
+
+std::string first_reason(const std::string& folder, const BatchPlan& plan) {
+  const BatchStatus status = batch_status(folder, plan);
+  return status.failures.empty() ? "" : status.failures.front().reason;
+}
+
+/// Some of them as they will run: of small, middle and large ones. Seconds an item; what is done is
+/// done for good. Throws: UsageMistake where the words of the steps make no sense.
+std::optional<double> dry_run(const std::string& folder, const BatchPlan& plan, Session& session) {
+  std::vector<std::size_t> order(plan.items.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return plan.items[i].size; });
+  BatchRunOptions options;
+  for (std::size_t k = 0; k < std::min(dry_items, order.size()); ++k)
+    options.only.push_back(order[(2 * k + 1) * order.size() / (2 * dry_items)]);
+  std::ranges::sort(options.only);
+  const auto repeated = std::ranges::unique(options.only);
+  options.only.erase(repeated.begin(), repeated.end());
+  options.workers = 1;
+  options.run_step = [](const BatchStep& words, const BatchStepSetting& step) {
+    return run_batch_step(words, step.report, step.threads);
+  };
+  options.progress = [&](std::size_t ended, std::size_t all) {
+    return session.console.progress("dry run",
+                                    static_cast<double>(ended) / static_cast<double>(all));
+  };
+  const BatchRunSummary summary = run_batch(folder, plan, options);
+  if (summary.interrupted) throw Cancelled();
+  if (summary.first_failure == UsageError)
+    throw UsageMistake("the steps make no sense: " + first_reason(folder, plan));
+  if (summary.failed > 0)
+    session.console.warning("of " + counted(static_cast<long>(summary.items), "item") + " tried, " +
+                            std::to_string(summary.failed) +
+                            " failed: " + first_reason(folder, plan));
+  const std::size_t ran = summary.done + summary.failed;
+  if (ran == 0) return std::nullopt;
+  return std::max(1e-3, summary.seconds / static_cast<double>(ran));
+}
+
+int chunk_for(std::size_t items, double seconds_an_item) {
+  const double by_time = std::max(1.0, std::floor(task_seconds / seconds_an_item));
+  const double most = std::max(1.0, std::floor(static_cast<double>(items) / least_tasks));
+  const double least = std::ceil(static_cast<double>(items) / most_tasks);
+  return static_cast<int>(std::max(least, std::min(by_time, most)));
+}
+
+int chunk_of(const std::string& text) {
+  int chunk = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, chunk);
+  if (error != std::errc{} || stop != end || chunk < 1)
+    throw UsageMistake("--chunk: expected auto or a number from 1, not " + text);
+  return chunk;
+}
+
+void tell(const BatchPlan& plan, const std::string& folder, std::optional<double> item_seconds,
+          Console& console) {
+  console.say(counted(static_cast<long>(plan.items.size()), "item") + " in " +
+              counted(plan.tasks(), "task") + " of up to " + std::to_string(plan.chunk) + " → " +
+              (fs::path(folder) / ("plan-" + plan.name + ".tsv")).string());
+  if (item_seconds) {
+    const double all = *item_seconds * static_cast<double>(plan.items.size());
+    console.say("  an item takes about " + short_number(*item_seconds) + " s of one core, a task " +
+                short_number(*item_seconds * plan.chunk) + " s, all " + short_number(all / 3600) +
+                " h");
+  }
+  if (plan.tasks() > static_cast<int>(most_tasks))
+    console.warning(std::to_string(plan.tasks()) +
+                    " tasks are more than the 1000 that Slurm takes unless its MaxArraySize is "
+                    "raised; --chunk " +
+                    std::to_string((plan.items.size() + most_tasks - 1) / most_tasks) +
+                    " makes fewer");
+  const fs::path work(folder);
+  console.say("  sbatch " + (work / "array.sbatch").string());
+  console.say("  snakemake -s " + (work / "Snakefile").string() + " --cores all --keep-going");
+  console.say("  sphparam batch run " + folder);
+}
+
+int run_plan(PlanArguments& arguments) try {
+  const std::vector<BatchStep> steps = complete_steps(given_steps());
+  Session session(arguments);
+  BatchInputs inputs = find_batch_inputs(arguments.inputs, {.surface = arguments.surface});
+  complete_values(inputs);
+  const bool automatic = arguments.chunk == "auto";
+  session.hold_signals();
+  BatchPlan plan = make_plan(inputs, {.steps = with_whole_paths(steps, inputs),
+                                      .chunk = automatic ? 1 : chunk_of(arguments.chunk),
+                                      .thumbnail = arguments.thumbnail,
+                                      .threads = arguments.threads,
+                                      .progress = session.progress()});
+  std::optional<double> item_seconds;
+  if (automatic) {
+    item_seconds = dry_run(arguments.folder, plan, session);
+    plan = with_chunk(std::move(plan), chunk_for(plan.items.size(), item_seconds.value_or(60)));
+  }
+  const std::string program = fs::read_symlink("/proc/self/exe").string();
+  save_plan(arguments.folder, plan, program);
+  session.console.clear_progress();
+  tell(plan, arguments.folder, item_seconds, session.console);
+  return Ok;
+} catch (const BatchInputError& error) {
+  throw UsageMistake(error.what());
+} catch (const BatchMachineError& error) {
+  print_error(error.what());
+  return FileError;
+}
+
+void declare_options(Declaration& command, PlanArguments& arguments) {
+  command.texts("INPUT", arguments.inputs, " ", "Shapes; then -- and the steps")
+      .required()
+      .output(arguments.folder, "FOLDER", "Of the batch; made where it is not there")
+      .text("--chunk", arguments.chunk, "auto|N",
+            "Items a task; auto: ten minutes of work, by a dry run of three items")
+      .text("--surface", arguments.surface, "NAME", "Which surface of FreeSurfer and BIDS subjects")
+      .number("--thumbnail", arguments.thumbnail, "PIXELS", {0, 1024},
+              "Size of the pictures for the report; 0: none")
+      .threads(arguments)
+      .console(arguments);
+}
+
+}  // namespace
+
+int run_batch_step(const std::vector<std::string>& words, const std::string& report, int threads) {
+  return run_command_line(words, {{"--json", report}, {"--threads", std::to_string(threads)}});
+}
+
+Command declare_batch_plan(CLI::App& program) {
+  return make_command(program, "plan", plan_help, declare_options, run_plan);
+}
+
+}  // namespace sphparam::cli
