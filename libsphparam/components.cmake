@@ -129,7 +129,7 @@ if(report IN_LIST SPHPARAM_BUILT)
 endif()
 if(batch IN_LIST SPHPARAM_BUILT)
   find_path(XXHASH_INCLUDE_DIR xxhash.h REQUIRED)  # a header: nothing is linked
-  add_component(batch ROOMS batch LIBRARIES nlohmann_json::nlohmann_json)
+  add_component(batch ROOMS batch LIBRARIES nlohmann_json::nlohmann_json ZLIB::ZLIB=z)
   target_include_directories(sphparam_batch SYSTEM PRIVATE ${XXHASH_INCLUDE_DIR})
   embed_texts(sphparam_batch src/batch/batch_page.css src/batch/batch_page.js)
 endif()

@@ -14,8 +14,10 @@ using Catch::Contains;
 using Catch::StartsWith;
 
 const std::vector<std::string> subcommands = {
-    "info",    "map",     "verify", "render", "compare", "bake",   "paint",     "remesh",
-    "unimage", "measure", "export", "report", "spharm",  "manual", "completion"};
+    "info",        "map",          "verify",     "render",    "compare",      "bake",
+    "paint",       "remesh",       "unimage",    "measure",   "export",       "report",
+    "spharm",      "batch",        "batch plan", "batch run", "batch status", "batch retry",
+    "batch table", "batch report", "manual",     "completion"};
 
 /// Every "--name" in a text.
 std::set<std::string> long_options(const std::string& text) {
@@ -26,6 +28,15 @@ std::set<std::string> long_options(const std::string& text) {
     if (end > at + 3) names.insert(text.substr(at, end - at));
   }
   return names;
+}
+
+/// "batch plan" is two words.
+std::string help_of(const std::string& command) {
+  std::vector<std::string> words;
+  std::stringstream split(command);
+  for (std::string word; split >> word;) words.push_back(word);
+  words.emplace_back("--help");
+  return sphparam_program(words).out;
 }
 
 std::string without(std::string text, const std::string& part) {
@@ -43,7 +54,7 @@ TEST_CASE("manual: every option of every subcommand and every exit code is in it
   const std::string plain = without(manual.out, "\\");
   for (const std::string& command : subcommands) {
     CHECK_THAT(plain, Contains("sphparam " + command));
-    for (const std::string& option : long_options(sphparam_program({command, "--help"}).out)) {
+    for (const std::string& option : long_options(help_of(command))) {
       INFO(command << " " << option);
       CHECK_THAT(plain, Contains("fB" + option + "fR"));
     }
@@ -111,6 +122,8 @@ TEST_CASE("completion: bash completes subcommands, options and words") {
   CHECK(completed("sphparam map a.obj --method cur") == "curvilinear\n");
   CHECK(completed("sphparam map a.obj --poles ") == "auto none\n");
   CHECK(completed("sphparam render m --view ") == "mesh sphere both\n");
+  CHECK(completed("sphparam batch st") == "status\n");
+  CHECK(completed("sphparam batch run --rehash --any") == "--any-program\n");
   CHECK(completed("sphparam completion ") == "bash zsh fish\n");
 }
 

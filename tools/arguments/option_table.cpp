@@ -23,11 +23,32 @@ OptionEntry entry_of(const CLI::Option& option) {
   return entry;
 }
 
-CommandEntry entry_of(const CLI::App& command) {
-  CommandEntry entry{command.get_name(), command.get_description(), {}};
+CommandEntry entry_of(const CLI::App& command, const std::string& name) {
+  CommandEntry entry{name, command.get_description(), {}};
   for (const CLI::Option* option : command.get_options())
     entry.options.push_back(entry_of(*option));
   return entry;
+}
+
+/// What stands for the subcommands that a subcommand has.
+OptionEntry choice_of_subcommands(const std::vector<const CLI::App*>& subcommands) {
+  OptionEntry choice;
+  choice.names = {"SUBCOMMAND"};
+  choice.description = "Each with options of its own";
+  for (const CLI::App* command : subcommands)
+    choice.value += (choice.value.empty() ? "" : "|") + command->get_name();
+  choice.required = choice.positional = true;
+  return choice;
+}
+
+void add_entries(const CLI::App& command, const std::string& name,
+                 std::vector<CommandEntry>& table) {
+  table.push_back(entry_of(command, name));
+  const std::vector<const CLI::App*> subcommands = command.get_subcommands({});
+  if (subcommands.empty()) return;
+  table.back().options.push_back(choice_of_subcommands(subcommands));
+  for (const CLI::App* subcommand : subcommands)
+    add_entries(*subcommand, name + " " + subcommand->get_name(), table);
 }
 
 }  // namespace
@@ -47,8 +68,9 @@ bool OptionEntry::takes_file() const {
 }
 
 std::vector<CommandEntry> option_table(const CLI::App& program) {
-  std::vector<CommandEntry> table = {entry_of(program)};
-  for (const CLI::App* command : program.get_subcommands({})) table.push_back(entry_of(*command));
+  std::vector<CommandEntry> table = {entry_of(program, program.get_name())};
+  for (const CLI::App* command : program.get_subcommands({}))
+    add_entries(*command, command->get_name(), table);
   return table;
 }
 

@@ -26,7 +26,7 @@ struct OptionEntry {
 };
 
 struct CommandEntry {
-  std::string name;
+  std::string name;  // "batch plan" of a subcommand's subcommand
   std::string text;  // of --help: a line, examples, remarks
   std::vector<OptionEntry> options;
 
@@ -34,7 +34,7 @@ struct CommandEntry {
 };
 
 /// The program as data, for its manual and its completions: the options of the program itself come
-/// first, under its own name, then the subcommands.
+/// first, under its own name, then the subcommands, those of subcommands behind theirs.
 std::vector<CommandEntry> option_table(const CLI::App& program);
 
 }  // namespace sphparam::cli

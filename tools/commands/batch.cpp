@@ -13,7 +13,7 @@ constexpr char summary[] =
     "\n"
     "Examples:\n"
     "  sphparam batch plan subjects.txt -o work/ -- map --repair\n"
-    "  sbatch work/array.sbatch        # or: snakemake -s work/Snakefile --cores 16\n"
+    "  sbatch work/array.sbatch        # or: snakemake -s work/Snakefile -j 16\n"
     "                                  # or: sphparam batch run work/\n"
     "  sphparam batch status work/\n"
     "  sphparam batch retry work/ --code 1\n"

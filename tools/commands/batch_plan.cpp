@@ -34,7 +34,8 @@ constexpr char plan_help[] =
     "path; an id, and options of a row where they have a column), or a folder: of meshes, of\n"
     "FreeSurfer subjects, or a BIDS data set. After `--` come the steps as on the command line of\n"
     "sphparam, with `--` between them: {input}, {id} and {COLUMN} stand for what differs. A step\n"
-    "without any of these takes the mesh of the step before and writes {id} with its ending.\n"
+    "that names no file to take takes the mesh of the step before, and writes {id} with its "
+    "ending.\n"
     "What is written goes to work/results/ID/; names in steps are relative to that.\n";
 
 struct PlanArguments : CommonArguments {
@@ -42,7 +43,6 @@ struct PlanArguments : CommonArguments {
   std::string folder;
   std::string chunk = "auto";
   std::string surface = "white";
-  int thumbnail = 128;
 };
 
 /// What is found out before anything is planned for thousands.
@@ -175,7 +175,6 @@ int run_plan(PlanArguments& arguments) try {
   session.hold_signals();
   BatchPlan plan = make_plan(inputs, {.steps = with_whole_paths(steps, inputs),
                                       .chunk = automatic ? 1 : chunk_of(arguments.chunk),
-                                      .thumbnail = arguments.thumbnail,
                                       .threads = arguments.threads,
                                       .progress = session.progress()});
   std::optional<double> item_seconds;
@@ -202,8 +201,6 @@ void declare_options(Declaration& command, PlanArguments& arguments) {
       .text("--chunk", arguments.chunk, "auto|N",
             "Items a task; auto: ten minutes of work, by a dry run of three items")
       .text("--surface", arguments.surface, "NAME", "Which surface of FreeSurfer and BIDS subjects")
-      .number("--thumbnail", arguments.thumbnail, "PIXELS", {0, 1024},
-              "Size of the pictures for the report; 0: none")
       .threads(arguments)
       .console(arguments);
 }

@@ -34,10 +34,22 @@ std::string flags_of(const CommandEntry& command) {
   return joined(names, " ");
 }
 
+/// Is it a subcommand of a subcommand?
+bool is_nested(const CommandEntry& command) { return command.name.find(' ') != std::string::npos; }
+
 std::vector<std::string> command_names(const std::vector<CommandEntry>& table) {
   std::vector<std::string> names;
-  for (size_t i = 1; i < table.size(); ++i) names.push_back(table[i].name);
+  for (size_t i = 1; i < table.size(); ++i)
+    if (!is_nested(table[i])) names.push_back(table[i].name);
   return names;
+}
+
+/// Those that have subcommands, in the words of a shell: "batch".
+std::string groups(const std::vector<CommandEntry>& table, const std::string& between) {
+  std::vector<std::string> names;
+  for (size_t i = 1; i + 1 < table.size(); ++i)
+    if (!is_nested(table[i]) && is_nested(table[i + 1])) names.push_back(table[i].name);
+  return joined(names, between);
 }
 
 /// The words that the positional arguments of a command may be; empty: files.
@@ -71,9 +83,13 @@ std::string bash_script(const std::vector<CommandEntry>& table) {
       "  local options=" +
       quoted(flags_of(table.front())) + " rest=" + quoted(joined(command_names(table), " ")) +
       "\n"
-      "  [[ $COMP_CWORD -gt 1 ]] && case \"${COMP_WORDS[1]}\" in\n";
+      "  local command=\"${COMP_WORDS[1]}\"\n"
+      "  [[ $COMP_CWORD -gt 2 ]] && case $command in " +
+      groups(table, "|") +
+      ") command+=\" ${COMP_WORDS[2]}\" ;; esac\n"
+      "  [[ $COMP_CWORD -gt 1 ]] && case $command in\n";
   for (size_t i = 1; i < table.size(); ++i) {
-    script += "    " + table[i].name + ")\n      options=" + quoted(flags_of(table[i])) +
+    script += "    '" + table[i].name + "')\n      options=" + quoted(flags_of(table[i])) +
               " rest=" + quoted(joined(positional_words(table[i]), " ")) + "\n";
     const std::string values = bash_values(table[i]);
     if (!values.empty()) script += "      case \"$before\" in\n" + values + "      esac\n";
@@ -122,6 +138,7 @@ std::string zsh_script(const std::vector<CommandEntry>& table) {
       "_sphparam() {\n"
       "  local -a commands=(\n";
   for (size_t i = 1; i < table.size(); ++i) {
+    if (is_nested(table[i])) continue;
     script += "    " + quoted(table[i].name + ":" + escaped(table[i].headline(), ":")) + "\n";
   }
   script +=
@@ -135,9 +152,14 @@ std::string zsh_script(const std::vector<CommandEntry>& table) {
       "  fi\n"
       "  local command=$words[2]\n"
       "  shift words; (( CURRENT-- ))\n"
+      "  case $command in " +
+      groups(table, "|") +
+      ") (( CURRENT > 2 )) && { command+=\" $words[2]\"; shift words; (( CURRENT-- )); } ;; "
+      "esac\n"
       "  case $command in\n";
   for (size_t i = 1; i < table.size(); ++i) {
-    script += "    " + table[i].name + ")\n      _arguments -s" + zsh_arguments(table[i]) + " ;;\n";
+    script +=
+        "    '" + table[i].name + "')\n      _arguments -s" + zsh_arguments(table[i]) + " ;;\n";
   }
   return script +
          "  esac\n"
@@ -173,9 +195,16 @@ std::string fish_script(const std::vector<CommandEntry>& table) {
   }
   for (size_t i = 1; i < table.size(); ++i) {
     const CommandEntry& command = table[i];
-    script += line + "__fish_use_subcommand -a " + command.name + " -d " +
-              quoted(command.headline()) + "\n";
-    const std::string here = line + quoted("__fish_seen_subcommand_from " + command.name);
+    const std::string name = command.name.substr(command.name.find(' ') + 1);
+    const std::string group =
+        is_nested(command) ? command.name.substr(0, command.name.find(' ')) : "";
+    const std::string in_group =
+        group.empty() ? "" : "__fish_seen_subcommand_from " + group + "; and ";
+    script +=
+        line +
+        (group.empty() ? "__fish_use_subcommand" : quoted("__fish_seen_subcommand_from " + group)) +
+        " -a " + name + " -d " + quoted(command.headline()) + "\n";
+    const std::string here = line + quoted(in_group + "__fish_seen_subcommand_from " + name);
     for (const OptionEntry& option : command.options) {
       if (!option.positional) script += here + fish_option(option) + "\n";
     }

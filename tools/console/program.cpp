@@ -280,6 +280,16 @@ int guarded_main(int argc, char** argv) {
   }
 }
 
+/// The exit code, whatever happens.
+int run_to_the_end(int argc, char** argv) {
+  try {
+    return guarded_main(argc, argv);
+  } catch (...) {  // memory ran out, perhaps while another error was being told
+    std::fputs(out_of_memory_message(), stderr);
+    return InternalError;
+  }
+}
+
 }  // namespace
 
 int run_command_line(std::vector<std::string> words,
@@ -299,7 +309,7 @@ int run_command_line(std::vector<std::string> words,
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
-  return guarded_main(static_cast<int>(words.size()), argv.data());
+  return run_to_the_end(static_cast<int>(words.size()), argv.data());
 }
 
 std::vector<std::string> files_read_by(const std::vector<std::string>& words) {
@@ -321,12 +331,7 @@ int run_sphparam(int argc, char** argv) {
   end_on_interruption();
   turn_signals_into_errors();
   std::set_terminate(end_at_once);
-  try {
-    return guarded_main(argc, argv);
-  } catch (...) {  // memory ran out, perhaps while another error was being told
-    std::fputs(out_of_memory_message(), stderr);
-    return InternalError;
-  }
+  return run_to_the_end(argc, argv);
 }
 
 }  // namespace sphparam::cli

@@ -59,13 +59,13 @@
           place),
       cards);
 
-  const picture = (row, results) => {
+  const picture = row => {
     if (!row[PICTURE]) {
       const why = row[OUTCOME] === 'failed' ? 'no map' : row[OUTCOME] === 'open' ? 'not run' :
         'no picture';
       return element('div', {class: 'none'}, why);
     }
-    return element('img', {src: results + 'thumbnail.png', loading: 'lazy', decoding: 'async',
+    return element('img', {src: folder + row[PICTURE], loading: 'lazy', decoding: 'async',
       width: 256, height: 128, alt: row[ID] + ' and its sphere, coloured by area distortion'});
   };
   const facts = row => {
@@ -90,7 +90,7 @@
   const card = row => {
     const results = folder + 'results/' + row[ID] + '/';
     const made = element('article', {class: 'card', id: 'shape-' + row[ID]},
-        picture(row, results), element('h3', {}, row[ID]),
+        picture(row), element('h3', {}, row[ID]),
         element('span', {class: 'badge ' + row[OUTCOME]}, row[OUTCOME]));
     if (row[OUT] > farOut) made.append(' ', element('span', {class: 'badge out'}, 'outlier'));
     made.append(facts(row));

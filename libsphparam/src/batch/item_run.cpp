@@ -18,7 +18,6 @@
 #include "batch/options_hash.h"
 #include "batch/publication.h"
 #include "batch/staging.h"
-#include "batch/thumbnail.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/stopwatch.h"
 
@@ -61,10 +60,10 @@ BatchRecord record_of(const ItemSetting& setting, const BatchItem& item) {
   record.path = item.path;
   record.plan = setting.plan.name;
   record.host = host_name();
-  record.head.input = item.input;
+  record.head.planned = record.head.input = item.input;
   record.head.options = item.options;
   record.head.program = program_hash();
-  if (const auto before = record_about(setting.folder, item); before && before->head.failed())
+  if (const auto before = record_about(setting.folder, item))
     record.head.attempt = before->head.attempt + 1;
   return record;
 }
@@ -143,7 +142,6 @@ class ItemRun {
     const bool certified =
         std::ranges::any_of(record_.steps, tells_of_certificate, &BatchStepRecord::report);
     record_.head.outcome = certified ? BatchOutcome::Certified : BatchOutcome::Done;
-    add_thumbnail(setting_.plan.thumbnail);
     complete();
     record_.head.files = files_below(".");
     write_file("record.json", to_json(record_));

@@ -57,10 +57,8 @@ class ManifestReader {
       plan_.steps.emplace_back(fields.begin() + 1, fields.end());
       return;
     }
-    int* const number = fields.front() == "#chunk"       ? &plan_.chunk
-                        : fields.front() == "#thumbnail" ? &plan_.thumbnail
-                                                         : nullptr;
-    if (!number || fields.size() != 2 || !read_whole(fields[1], *number) || plan_.chunk < 1)
+    const bool is_chunk = fields.front() == "#chunk" && fields.size() == 2;
+    if (!is_chunk || !read_whole(fields[1], plan_.chunk) || plan_.chunk < 1)
       fail("a line that this program does not know");
   }
 
@@ -107,8 +105,7 @@ void make_folder(const fs::path& folder) {
 }  // namespace
 
 std::string manifest_text(const BatchPlan& plan) {
-  std::string text = std::string(format) + "\n#chunk\t" + std::to_string(plan.chunk) +
-                     "\n#thumbnail\t" + std::to_string(plan.thumbnail) + "\n";
+  std::string text = std::string(format) + "\n#chunk\t" + std::to_string(plan.chunk) + "\n";
   for (const BatchStep& step : plan.steps) text += "#step\t" + line_of(step);
   std::vector<std::string> names = {"id", "path", "size", "input", "options"};
   names.insert(names.end(), plan.columns.begin(), plan.columns.end());

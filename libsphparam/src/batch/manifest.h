@@ -10,7 +10,7 @@ namespace sphparam {
 /// A plan as the bytes of its manifest; without its name, which is their hash.
 ///
 /// Lines of fields between tabs. Those that begin with '#' tell what the format is, `chunk`,
-/// `thumbnail`, and each `step` with its words; the next names the columns, the others are items.
+/// and each `step` with its words; the next names the columns, the others are items.
 std::string manifest_text(const BatchPlan& plan);
 
 /// Throws: ReadError. `file`: for messages.

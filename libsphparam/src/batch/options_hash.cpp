@@ -12,7 +12,7 @@ std::string OptionsHash::of(const BatchItem& item) {
   for (BatchStep& step : steps)
     for (std::string& word : step) word = substituted(word, plan_, item, false);
   add_options_of_row(steps, plan_, item);
-  std::string text = std::to_string(plan_.thumbnail);
+  std::string text;
   for (const BatchStep& step : steps) {
     text += '\n';
     for (const std::string& word : step) text += word + '\0' + content_of(word) + '\0';

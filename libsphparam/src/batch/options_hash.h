@@ -7,8 +7,8 @@
 
 namespace sphparam {
 
-/// The hashes of what runs for items: the words without the input's path, the size of its picture,
-/// and the content of files that words name. A file is read once.
+/// The hashes of what runs for items: the words without the input's path, and the content
+/// of files that words name. A file is read once.
 class OptionsHash {
  public:
   explicit OptionsHash(const BatchPlan& plan) : plan_(plan) {}

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "batch/distribution.h"
+#include "batch/pictures.h"
 #include "batch/record.h"
 #include "embedded/batch_page.css.h"
 #include "embedded/batch_page.js.h"
@@ -30,9 +31,10 @@ constexpr std::size_t named_outliers = 8;
 
 /// What the page shows of an item; figures of its first step that has them.
 struct Shape {
-  std::string outcome = "open", reason, page;  // of its own; empty: none
+  std::string outcome = "open", reason;
+  std::string page;     // of its own; empty: none
+  std::string picture;  // below the folder of the batch; empty: none
   int code = 0, attempt = 0;
-  bool thumbnail = false;
   std::optional<double> area, angle, within_two, vertices, seconds;
 };
 
@@ -67,16 +69,17 @@ Shape shape_of(const std::string& folder, const BatchItem& item) {
   shape.attempt = stored->head.attempt;
   shape.seconds = stored->head.cpu_seconds;
   for (const BatchFile& file : stored->head.files) {
-    shape.thumbnail |= file.name == "thumbnail.png";
     if (shape.page.empty() && file.name.ends_with(".html")) shape.page = file.name;
   }
+  shape.picture = picture_of(folder, item.id, stored->head.files);
   for (const Json& step : record.value("steps", Json::array())) take_figures(step["report"], shape);
   return shape;
 }
 
 std::vector<Shape> shapes_of(const std::string& folder, const BatchPlan& plan, int threads) {
+  fs::create_directories(fs::path(folder) / "pictures");
   std::vector<Shape> shapes(plan.items.size());
-  constexpr std::int64_t grain = 64;
+  constexpr std::int64_t grain = 16;
   parallel_for(std::ssize(shapes), grain, threads, [&](std::int64_t first, std::int64_t last) {
     for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
       shapes[i] = shape_of(folder, plan.items[i]);
@@ -100,7 +103,7 @@ Json row_json(const BatchItem& item, const Shape& shape, double outlyingness) {
           short_json(shape.within_two),
           short_json(shape.seconds),
           short_json(outlyingness),
-          shape.thumbnail ? 1 : 0,
+          shape.picture,
           shape.page,
           shape.code,
           shape.reason,

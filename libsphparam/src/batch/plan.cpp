@@ -63,7 +63,6 @@ BatchPlan make_plan(const BatchInputs& inputs, const BatchPlanOptions& options) 
   BatchPlan plan;
   plan.steps = complete_steps(options.steps);
   plan.columns = inputs.columns;
-  plan.thumbnail = options.thumbnail;
   for (const BatchInput& shape : inputs.shapes)
     plan.items.push_back({.id = shape.id, .path = shape.path, .values = shape.values});
   OptionsHash hash(plan);  // before anything is read: it complains of placeholders

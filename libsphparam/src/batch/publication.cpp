@@ -1,6 +1,7 @@
 #include "batch/publication.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -41,7 +42,9 @@ bool publish_results(const std::string& folder, const std::string& staged, const
   if (!rename_to(staged, target)) {
     if (errno != EEXIST && errno != ENOTEMPTY) fail(target);
     const auto there = record_about(folder, item);
-    if (there && !there->head.failed() && there->head.program == program_hash()) return false;
+    const bool same = there && !there->head.failed() && there->head.program == program_hash() &&
+                      has_its_files(target, there->head.files);
+    if (same) return false;
     replace(staged, target);
   }
   sync_folder(folder + "/results", target);
@@ -60,6 +63,14 @@ void publish_failure_bytes(const std::string& folder, const std::string& staged,
   write_file(file, std::move(bytes));
   if (!rename_to(file, target)) fail(target);
   sync_folder(folder + "/failed", target);
+}
+
+bool has_its_files(const std::string& folder, const std::vector<BatchFile>& files) {
+  return std::ranges::all_of(files, [&](const BatchFile& file) {
+    struct stat status {};
+    return ::stat((folder + "/" + file.name).c_str(), &status) == 0 &&
+           static_cast<std::uint64_t>(status.st_size) == file.size;
+  });
 }
 
 std::vector<BatchFile> files_below(const std::string& folder) {

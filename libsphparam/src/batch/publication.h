@@ -21,6 +21,9 @@ void publish_failure(const std::string& folder, const std::string& staged,
 void publish_failure_bytes(const std::string& folder, const std::string& staged,
                            const std::string& id, std::string bytes);
 
+/// Are the files of a result there, with their sizes?
+bool has_its_files(const std::string& folder, const std::vector<BatchFile>& files);
+
 /// All files below a folder, by name. Throws: ReadError.
 std::vector<BatchFile> files_below(const std::string& folder);
 

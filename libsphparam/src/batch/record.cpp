@@ -94,6 +94,7 @@ class HeadReader : public nlohmann::json_sax<nlohmann::json> {
   }
   bool string(string_t& value) override {
     if (key_ == "outcome") return outcome(value);
+    if (key_ == "planned") head.planned = value;
     if (key_ == "input") head.input = value;
     if (key_ == "options") head.options = value;
     if (key_ == "program") head.program = value;
@@ -174,6 +175,7 @@ std::string to_json(const BatchRecord& record) {
                {"code", head.code},
                {"attempt", head.attempt},
                {"retry", head.retry},
+               {"planned", head.planned},
                {"input", head.input},
                {"options", head.options},
                {"program", head.program},
@@ -228,16 +230,17 @@ std::string failure_path(const std::string& folder, const std::string& id) {
 }
 
 std::optional<StoredRecord> record_about(const std::string& folder, const BatchItem& item) {
+  std::optional<StoredRecord> latest;
   for (std::string path :
        {result_folder(folder, item.id) + "/record.json", failure_path(folder, item.id)}) {
     std::optional<std::string> bytes = small_file(path);
     if (!bytes) continue;
     BatchRecordHead head = read_head(*bytes, path);
-    const bool is_about =
-        head.options == item.options && (head.failed() || head.input == item.input);
-    if (is_about) return StoredRecord{std::move(head), std::move(*bytes), std::move(path)};
+    if (head.options != item.options || head.planned != item.input) continue;
+    if (!latest || head.attempt > latest->head.attempt)
+      latest = StoredRecord{std::move(head), std::move(*bytes), std::move(path)};
   }
-  return std::nullopt;
+  return latest;
 }
 
 std::string reason_in(std::string_view log) {

@@ -32,6 +32,7 @@ struct BatchRecordHead {
   int code = 0;  // of the step that failed; 128 + N: signal N
   int attempt = 1;
   bool retry = false;                   // of a failure: to be tried again
+  std::string planned;                  // hash of the input that was planned
   std::string input, options, program;  // hashes; input is empty where it could not be read
   FileStamp stamp;                      // of the input as it was read; all 0: not to be trusted
   double seconds = 0, cpu_seconds = 0;
@@ -64,8 +65,8 @@ std::string to_json(const BatchRecord& record);
 /// Reads the beginning and no more. `file`: for messages. Throws: ReadError.
 BatchRecordHead read_head(std::string_view json, const std::string& file);
 
-/// What is known of an item: the record of its success, or else of its failure, if it is about what
-/// is planned; a success with other options or of another input is none.
+/// What is known of an item: the record of its success or of its failure, whichever attempt was
+/// later; records with other options, or for another input than is planned, are none.
 struct StoredRecord {
   BatchRecordHead head;
   std::string bytes, path;

@@ -7,7 +7,6 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/resource.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -69,14 +68,6 @@ bool has_same_input(const BatchRecordHead& head, const std::string& path, bool r
   return head.input.empty();  // it could not be read then either
 }
 
-bool has_its_files(const std::string& folder, const std::vector<BatchFile>& files) {
-  return std::ranges::all_of(files, [&](const BatchFile& file) {
-    struct stat status {};
-    return ::stat((folder + "/" + file.name).c_str(), &status) == 0 &&
-           static_cast<std::uint64_t>(status.st_size) == file.size;
-  });
-}
-
 struct RunningItem {
   std::size_t item;
   pid_t child;
@@ -99,6 +90,7 @@ class BatchRun {
   BatchRunSummary run() {
     const Stopwatch stopwatch;
     const double cpu_before = own_cpu_seconds();
+    make_folders();
     remove_left_staging(folder_);
     summary_.items = items_.size();
     for (std::size_t next = 0; next < items_.size() || !running_.empty();) {
@@ -118,6 +110,13 @@ class BatchRun {
   }
 
  private:
+  void make_folders() const try {
+    for (const char* const name : {"results", "failed", "staging"})
+      fs::create_directories(fs::path(folder_) / name);
+  } catch (const fs::filesystem_error& error) {
+    throw BatchMachineError(folder_ + ": " + error.code().message());
+  }
+
   int threads_of_item() const {
     const int items = static_cast<int>(std::min<std::size_t>(items_.size(), 4096));
     return std::max(1, workers_ / std::max(1, items));

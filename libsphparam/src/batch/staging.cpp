@@ -26,18 +26,29 @@ std::string first_word_of(const std::string& path) {
   return word;
 }
 
-/// When the process began, in ticks since the boot; empty: there is none.
-std::string start_of(const std::string& pid) {
+struct ProcessLine {
+  char state = 'X';   // as in ps; X: there is none
+  std::string start;  // in ticks since the boot
+};
+
+ProcessLine line_of_process(const std::string& pid) {
   std::ifstream in("/proc/" + pid + "/stat");
   std::string line;
   std::getline(in, line);
   const std::size_t name_end = line.rfind(')');  // what the process calls itself may hold anything
-  if (name_end == std::string::npos) return "";
+  if (name_end == std::string::npos) return {};
   std::istringstream fields(line.substr(name_end + 1));
-  std::string field;
-  constexpr int start_field = 20;  // the 22nd, of which two are before
-  for (int i = 0; i < start_field; ++i) fields >> field;
-  return field;
+  ProcessLine process;
+  fields >> process.state;
+  constexpr int fields_between = 19;  // of 22, three are before or are this one
+  for (int i = 0; i < fields_between; ++i) fields >> process.start;
+  return process;
+}
+
+/// Does it run? One that ended may stand there for as long as nobody has asked how it did.
+bool lives(const std::string& pid, const std::string& start) {
+  const ProcessLine process = line_of_process(pid);
+  return process.state != 'Z' && process.state != 'X' && process.start == start;
 }
 
 std::string boot_of_machine() {
@@ -91,7 +102,8 @@ std::string staging_name(const std::string& id) { return staging_name(id, ::getp
 
 std::string staging_name(const std::string& id, pid_t process) {
   const std::string pid = std::to_string(process);
-  return id + "~" + here()[0] + "~" + here()[1] + "~" + here()[2] + "~" + pid + "~" + start_of(pid);
+  return id + "~" + here()[0] + "~" + here()[1] + "~" + here()[2] + "~" + pid + "~" +
+         line_of_process(pid).start;
 }
 
 StagingOwner owner_of_staging(const std::string& name) {
@@ -99,7 +111,7 @@ StagingOwner owner_of_staging(const std::string& name) {
   if (parts.size() != 5) return StagingOwner::Unknown;
   const bool same_boot = parts[1] == here()[1], same_space = parts[2] == here()[2];
   if (same_boot && same_space)
-    return start_of(parts[3]) == parts[4] ? StagingOwner::Lives : StagingOwner::IsGone;
+    return lives(parts[3], parts[4]) ? StagingOwner::Lives : StagingOwner::IsGone;
   return parts[0] == here()[0] && !same_boot ? StagingOwner::IsGone : StagingOwner::Unknown;
 }
 

@@ -42,10 +42,8 @@ const Subcommand* known(const std::string& name) {
   return found == subcommands.end() ? nullptr : &*found;
 }
 
-bool has_placeholder(const std::string& word) {
-  for (const Placeholder& placeholder : placeholders_in(word))
-    if (!is_foreign(placeholder.name)) return true;
-  return false;
+bool has_placeholder(const std::string& word, std::string_view name) {
+  return std::ranges::count(placeholders_in(word), name, &Placeholder::name) > 0;
 }
 
 /// "-o" where the table says "-o": also as --output, and with the value behind an equals sign.
@@ -72,8 +70,14 @@ std::string written_to(const BatchStep& step, std::string_view option) {
   return "";
 }
 
+/// Does it say what it takes: {input} anywhere, or {id} in a word that is no option's value?
 bool takes_input(const BatchStep& step) {
-  return std::any_of(step.begin() + 1, step.end(), has_placeholder);
+  for (std::size_t i = 1; i < step.size(); ++i) {
+    const bool is_value = i > 1 && step[i - 1].starts_with('-');
+    if (has_placeholder(step[i], "input")) return true;
+    if (!is_value && !step[i].starts_with('-') && has_placeholder(step[i], "id")) return true;
+  }
+  return false;
 }
 
 }  // namespace

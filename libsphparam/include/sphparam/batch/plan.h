@@ -30,22 +30,20 @@ struct BatchPlan {
   std::vector<BatchStep> steps = {};
   std::vector<std::string> columns = {};
   std::vector<BatchItem> items = {};
-  int chunk = 1;      // items a task
-  int thumbnail = 0;  // pixels of a picture of each map; 0: none
+  int chunk = 1;  // items a task
 
   int tasks() const { return static_cast<int>((items.size() + chunk - 1) / chunk); }
 };
 
 struct BatchPlanOptions {
   std::vector<BatchStep> steps;
-  int chunk = 1;        // at least 1
-  int thumbnail = 128;  // pixels; 0: none
-  int threads = 0;      // that read inputs; 0: all cores
+  int chunk = 1;    // at least 1
+  int threads = 0;  // that read inputs; 0: all cores
   Progress progress = {};
 };
 
-/// Completes steps: one that has no placeholder takes the mesh that the steps before left, the
-/// first the input; one that does not say where it writes gets {id} with the ending that its
+/// Completes steps: one without {input}, and without {id} but in values of options, takes the mesh
+/// that the steps before left, the first the input; one that does not say where it writes gets {id} with the ending that its
 /// subcommand has (.sph.ply of `map`, .glb of `export`). Throws: BatchInputError for an empty step,
 /// or a subcommand that cannot be run in a batch.
 std::vector<BatchStep> complete_steps(std::vector<BatchStep> steps);

@@ -20,10 +20,11 @@ struct BatchPageOptions {
 
 /// One page of HTML of a whole batch: counts, failures by reason, distributions of distortion with
 /// their outliers by name, every shape with its picture, verdict and figures, outliers first; to be
-/// sorted, filtered and leafed through. Pictures are loaded from the batch's folder when they are
-/// looked at. An outlier is beyond the upper quartile by more than three times the distance of the
-/// quartiles (Tukey's far out), of logarithms. Ensures: nothing is loaded from anywhere else.
-/// Throws: ReadError. Cost: reads all records; about 300 bytes of page an item.
+/// sorted, filtered and leafed through. Pictures are drawn into the batch's folder, where they are
+/// not there yet, and loaded when they are looked at. An outlier is beyond the upper quartile by
+/// more than three times the distance of the quartiles (Tukey's far out), of logarithms. Ensures:
+/// nothing is loaded from anywhere else. Throws: ReadError; WriteError. Cost: reads all records,
+/// and each map once; about 300 bytes of page an item.
 std::string batch_page(const std::string& folder, const BatchPlan& plan,
                        const BatchPageOptions& options);
 

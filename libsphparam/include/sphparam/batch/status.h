@@ -26,7 +26,7 @@ struct BatchStatus {
   std::vector<BatchFailures> failures = {};  // most first
   double cpu_seconds_left = 0;               // of what is not settled, by size of input
   std::optional<double> seconds_left = {};   // at the pace of the last items that ended; nothing:
-                                            // none ended lately
+                                             // none ended lately
   std::size_t open() const { return items - done - failed + to_retry; }
 };
 

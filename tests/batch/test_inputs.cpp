@@ -1,0 +1,108 @@
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+
+#include "batch/tables.h"
+#include "sphparam/batch/inputs.h"
+
+/// What a batch is made of, found in folders, lists and tables.
+namespace sphparam::tests {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Catch::Contains;
+
+struct TreeOfFiles {
+  fs::path root = fs::temp_directory_path() / ("sphparam-batch-" + std::to_string(::getpid()));
+  explicit TreeOfFiles(const std::vector<std::string>& files) {
+    for (const std::string& file : files) write(file, "x");
+  }
+  ~TreeOfFiles() { fs::remove_all(root); }
+
+  void write(const std::string& name, const std::string& text) const {
+    fs::create_directories((root / name).parent_path());
+    std::ofstream(root / name, std::ios::binary) << text;
+  }
+  std::vector<std::string> ids(const std::string& place, const std::string& surface = "white") {
+    std::vector<std::string> ids;
+    for (const BatchInput& shape : find_batch_inputs({(root / place).string()}, {surface}).shapes)
+      ids.push_back(shape.id);
+    return ids;
+  }
+};
+
+using Ids = std::vector<std::string>;
+
+}  // namespace
+
+TEST_CASE("inputs: a folder is its meshes, below it too, and nothing else") {
+  TreeOfFiles tree({"b.obj", "a.ply", "notes.txt", ".hidden.ply", "deep/er/c.sph.ply"});
+  CHECK(tree.ids("") == Ids{"a", "b", "c"});
+}
+
+TEST_CASE("inputs: meshes of one name are told apart by as many folders as it takes") {
+  TreeOfFiles tree({"x/left/m.ply", "y/left/m.ply", "only.ply"});
+  CHECK(tree.ids("") == Ids{"only", "x_left_m", "y_left_m"});
+}
+
+TEST_CASE("inputs: FreeSurfer's subjects, the surface that is wanted, left before right") {
+  TreeOfFiles tree({"s2/surf/lh.white", "s2/surf/rh.white", "s1/surf/rh.white.gii",
+                    "s1/surf/rh.white", "s1/surf/lh.pial", "fsaverage.txt"});
+  CHECK(tree.ids("") == Ids{"s1_rh_white", "s2_lh_white", "s2_rh_white"});
+  CHECK(tree.ids("", "pial") == Ids{"s1_lh_pial"});
+  const auto inputs = find_batch_inputs({tree.root.string()});
+  CHECK_THAT(inputs.shapes.front().path, Contains("rh.white.gii"));
+}
+
+TEST_CASE("inputs: a BIDS data set has the surfaces of its subjects") {
+  TreeOfFiles tree({"dataset_description.json", "sub-1/anat/sub-1_hemi-L_white.surf.gii",
+                    "sub-1/anat/sub-1_hemi-L_pial.surf.gii", "other/mesh.ply"});
+  CHECK(tree.ids("") == Ids{"sub-1_hemi-L_white"});
+  CHECK_THROWS_WITH(tree.ids("", "inflated"), Contains("--surface"));
+}
+
+TEST_CASE("inputs: a list is relative to itself, has remarks, and all it names must be there") {
+  TreeOfFiles tree({"in/a.ply", "in/b c.ply"});
+  tree.write("in/list.txt", "# two\na.ply\r\n\nb c.ply  # with a blank\n");
+  CHECK(tree.ids("in/list.txt") == Ids{"a", "b_c"});
+  tree.write("in/list.txt", "a.ply\nnot_there.ply\n");
+  CHECK_THROWS_WITH(tree.ids("in/list.txt"),
+                    Contains("of which 1 is not there") && Contains("not_there.ply"));
+  tree.write("in/list.txt", "a.ply\n./a.ply\n");
+  CHECK_THROWS_WITH(tree.ids("in/list.txt"), Contains("once"));
+}
+
+TEST_CASE("inputs: a table has ids and columns of its own") {
+  TreeOfFiles tree({"a.ply", "b.ply"});
+  tree.write("t.csv", "id, path,pins\nfirst,a.ply,\"x, \"\"y\"\".txt\"\nsecond,b.ply,\n");
+  const auto inputs = find_batch_inputs({(tree.root / "t.csv").string()});
+  CHECK(inputs.columns == Ids{"pins"});
+  REQUIRE(inputs.shapes.size() == 2);
+  CHECK(inputs.shapes[0].id == "first");
+  CHECK(inputs.shapes[0].values == Ids{"x, \"y\".txt"});
+  tree.write("t.csv", "id,path\nfirst,a.ply,too much\n");
+  CHECK_THROWS_WITH(tree.ids("t.csv"), Contains("t.csv:2: 3 fields, the header has 2"));
+  tree.write("t.csv", "id,file\nfirst,a.ply\n");
+  CHECK_THROWS_WITH(tree.ids("t.csv"), Contains("no column `path`"));
+  tree.write("t.csv", "path\n\"a.ply\n");
+  CHECK_THROWS_WITH(tree.ids("t.csv"), Contains("quote that does not end"));
+}
+
+TEST_CASE("inputs: patterns, and places where nothing is") {
+  TreeOfFiles tree({"a.ply", "b.ply", "c.obj"});
+  CHECK(tree.ids("*.ply") == Ids{"a", "b"});
+  CHECK_THROWS_WITH(tree.ids("*.stl"), Contains("no file matches"));
+  CHECK_THROWS_WITH(tree.ids("nowhere"), Contains("no such file or folder"));
+}
+
+TEST_CASE("inputs: fields of manifests and tables come back as they were") {
+  const std::string odd = "a\tb\\c\nd\re, \"f\"";
+  CHECK(tsv_fields(tsv_field(odd) + "\t" + tsv_field("")) == Ids{odd, ""});
+  CHECK(read_table("h\n" + csv_field(odd) + "\n", ',', "t").rows ==
+        std::vector<std::vector<std::string>>{{odd}});
+}
+
+}  // namespace sphparam::tests

@@ -1,0 +1,89 @@
+#include <catch2/catch.hpp>
+
+#include "batch/manifest.h"
+#include "batch/steps.h"
+#include "sphparam/batch/plan.h"
+#include "sphparam/batch/status.h"
+#include "sphparam/io/read_options.h"
+
+/// Steps, and the manifest that holds them.
+namespace sphparam::tests {
+
+namespace {
+
+using Catch::Contains;
+using Steps = std::vector<BatchStep>;
+
+BatchPlan plan_of_two() {
+  BatchPlan plan{.steps = {{"map", "{input}", "--lambda", "{lambda}", "-o", "{id}.sph.ply"}},
+                 .columns = {"lambda"},
+                 .items = {{.id = "a", .path = "/x/a\tb.ply", .size = 7, .values = {"1"}},
+                           {.id = "b", .path = "/x/b.ply", .size = 8, .values = {"2"}}},
+                 .chunk = 1};
+  return with_chunk(plan, 1);
+}
+
+}  // namespace
+
+TEST_CASE("steps: each takes the mesh that was left, and writes by its id") {
+  CHECK(complete_steps({{"map", "--repair"},
+                        {"remesh", "--grid", "ico:5"},
+                        {"spharm"},
+                        {"export", "--output=x.glb"}}) ==
+        Steps{{"map", "{input}", "--repair", "-o", "{id}.sph.ply"},
+              {"remesh", "{id}.sph.ply", "--grid", "ico:5", "-o", "{id}_remesh.sph.ply"},
+              {"spharm", "{id}_remesh.sph.ply", "--csv", "{id}_spharm.csv"},
+              {"export", "{id}_remesh.sph.ply", "--output=x.glb"}});
+}
+
+TEST_CASE("steps: what names its files is left alone") {
+  const Steps steps = {{"map", "-o", "m.sph.ply", "{input}"},
+                       {"bake", "{id}.sph.ply", "-o", "{id}_{map}.png"}};
+  CHECK(complete_steps(steps) == steps);
+  CHECK(complete_steps({{"map", "-o", "{id}.ply", "--pin", "{pins}"}}) ==
+        Steps{{"map", "{input}", "-o", "{id}.ply", "--pin", "{pins}"}});
+  CHECK_THROWS_AS(complete_steps({}), BatchInputError);
+  CHECK_THROWS_WITH(complete_steps({{"batch"}}), Contains("cannot be a step"));
+}
+
+TEST_CASE("steps: placeholders stand for the shape; an unknown one is told with those there are") {
+  const BatchPlan plan = plan_of_two();
+  CHECK(steps_of(plan, plan.items[1]).front() ==
+        BatchStep{"map", "/x/b.ply", "--lambda", "2", "-o", "b.sph.ply"});
+  CHECK(substituted("{id}_{map}_{n}", plan, plan.items[0], true) == "a_{map}_{n}");
+  CHECK_THROWS_WITH(substituted("{lamda}", plan, plan.items[0], true),
+                    Contains("no {lamda} among {input}, {id}, {lambda}"));
+}
+
+TEST_CASE("steps: words of a row's options, as a shell splits them") {
+  CHECK(words_of(" --pin 'my file.txt'  --x=\"a b\" ") ==
+        std::vector<std::string>{"--pin", "my file.txt", "--x=a b"});
+  CHECK_THROWS_AS(words_of("'open"), BatchInputError);
+}
+
+TEST_CASE("manifest: what was planned comes back, and its name is that of its bytes") {
+  const BatchPlan plan = plan_of_two();
+  const std::string text = manifest_text(plan);
+  const BatchPlan again = parse_manifest(text, "plan.tsv");
+  CHECK(manifest_text(again) == text);
+  CHECK(again.items[0].path == plan.items[0].path);
+  CHECK(with_chunk(plan, 1).name == plan.name);
+  CHECK(with_chunk(plan, 2).name != plan.name);
+  CHECK(with_chunk(plan, 2).tasks() == 1);
+}
+
+TEST_CASE("manifest: one that is cut off or another file is refused with the line") {
+  const std::string text = manifest_text(plan_of_two());
+  CHECK_THROWS_AS(parse_manifest("ply\n", "plan.tsv"), ReadError);
+  CHECK_THROWS_WITH(parse_manifest(text.substr(0, text.size() - 4), "plan.tsv"),
+                    Contains("plan.tsv:6: an item that is not whole"));
+  CHECK_THROWS_WITH(parse_manifest("#sphparam-batch\t1\n#colour\tred\n", "plan.tsv"),
+                    Contains("plan.tsv:2"));
+}
+
+TEST_CASE("tasks: as sbatch takes them") {
+  CHECK(ranges_of({1, 2, 3, 7, 9, 10}) == "1-3,7,9-10");
+  CHECK(ranges_of({}).empty());
+}
+
+}  // namespace sphparam::tests

@@ -1,0 +1,125 @@
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <csignal>
+#include <nlohmann/json.hpp>
+
+#include "batch/content_hash.h"
+#include "batch/distribution.h"
+#include "batch/png.h"
+#include "batch/record.h"
+#include "batch/staging.h"
+
+/// What is written of an item, and what is told from it.
+namespace sphparam::tests {
+
+using Catch::Contains;
+
+TEST_CASE("record: its head is read back, and nothing behind it is looked at") {
+  BatchRecord record;
+  record.id = "sub \"1\"";
+  record.head = {.outcome = BatchOutcome::Certified,
+                 .code = 0,
+                 .attempt = 3,
+                 .retry = true,
+                 .planned = "",
+                 .input = "i",
+                 .options = "o",
+                 .program = "p",
+                 .stamp = {1, -2, 3, 18446744073709551615ULL},
+                 .seconds = 1.5,
+                 .cpu_seconds = 2,
+                 .ended = 1795390320,
+                 .reason = "why, \\ and \"where\"",
+                 .files = {{"a/b.ply", 12, "h1"}, {"c", 0, "h2"}}};
+  const std::string json = to_json(record);
+  const BatchRecordHead head = read_head(json.substr(0, json.find("\"path\"")), "r");
+  CHECK(head.outcome == BatchOutcome::Certified);
+  CHECK(head.attempt == 3);
+  CHECK(head.retry);
+  CHECK(head.input + head.options + head.program == "iop");
+  CHECK(head.stamp == record.head.stamp);
+  CHECK(head.seconds == 1.5);
+  CHECK(head.cpu_seconds == 2);
+  CHECK(head.ended == 1795390320);
+  CHECK(head.reason == record.head.reason);
+  REQUIRE(head.files.size() == 2);
+  CHECK(head.files[0].name == "a/b.ply");
+  CHECK(head.files[0].size == 12);
+  CHECK(head.files[1].hash == "h2");
+  CHECK_THROWS_WITH(read_head(json.substr(0, 40), "r"), Contains("no whole record"));
+}
+
+TEST_CASE("record: long lists of reports are left out, all else stays") {
+  BatchRecord record;
+  record.steps.push_back(
+      {{"map"},
+       0,
+       0.5,
+       R"({"a":[1,2],"b":)" + nlohmann::json(std::vector<int>(33, 1)).dump() + "}"});
+  const auto report = nlohmann::json::parse(to_json(record))["steps"][0]["report"];
+  CHECK(report["a"] == nlohmann::json({1, 2}));
+  CHECK(report["b"].is_null());
+}
+
+TEST_CASE("record: the reason is the last error of a log, with what follows a colon") {
+  CHECK(reason_in("sphparam: warning: w\nsphparam: error: not this:\n  a hole\n    hint: fill\n") ==
+        "not this: a hole");
+  CHECK(reason_in("sphparam: error: one\nsphparam: error: two\n") == "two");
+  CHECK(reason_in("something else\n") == "something else");
+  CHECK(reason_in("").empty());
+}
+
+TEST_CASE("hash: what xxh128sum prints") {
+  CHECK(content_hash("") == "99aa06d3014798d86001c324468d497f");
+}
+
+TEST_CASE("staging: a process is known while it lives, and known to be gone after") {
+  const std::string own = staging_name("x");
+  CHECK(owner_of_staging(own) == StagingOwner::Lives);
+  const pid_t child = fork();
+  if (child == 0) {
+    pause();
+    _exit(0);
+  }
+  const std::string name = staging_name("x", child);
+  CHECK(owner_of_staging(name) == StagingOwner::Lives);
+  kill(child, SIGKILL);
+  siginfo_t ended;
+  waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOWAIT);
+  CHECK(owner_of_staging(name) == StagingOwner::IsGone);  // nobody has asked how it ended
+  CHECK(staging_name("x", child) == name);
+  waitpid(child, nullptr, 0);
+  CHECK(owner_of_staging(name) == StagingOwner::IsGone);
+  CHECK(owner_of_staging("x~elsewhere~12345678~1~2~3") == StagingOwner::Unknown);
+  CHECK(owner_of_staging("x") == StagingOwner::Unknown);
+}
+
+TEST_CASE("distribution: quartiles, and what is far out of them") {
+  std::vector<std::optional<double>> values;
+  for (int i = 0; i < 99; ++i) values.emplace_back(1 + 0.01 * i);
+  values.emplace_back(40);
+  values.emplace_back(std::nullopt);
+  const Distribution d = distribution_of(values);
+  CHECK(d.values.size() == 100);
+  CHECK(d.median == Approx(1.495));
+  CHECK(d.outlier_from < 40);
+  CHECK(d.outlier_from > 1.98);
+  CHECK(outlyingness(d, 40) > 3);
+  CHECK(outlyingness(d, 1.9) < 3);
+  std::vector<std::string> names(values.size(), "shape");
+  names[99] = "far<out";
+  CHECK_THAT(distribution_plot(d, "title", names),
+             Contains("href=\"#far&lt;out\"") && Contains("1 outlier beyond"));
+  CHECK_THAT(distribution_plot(distribution_of({}), "title", {}), Contains("no values"));
+}
+
+TEST_CASE("png: signature, size, and chunks with their sums") {
+  const std::string png = png_bytes(std::string(3 * 5 * 2, '\x40'), 5, 2);
+  CHECK(png.substr(0, 16) == std::string("\x89PNG\r\n\x1A\n\0\0\0\x0DIHDR", 16));
+  CHECK(png.substr(16, 8) == std::string("\0\0\0\5\0\0\0\2", 8));
+  CHECK(png.substr(png.size() - 12) == std::string("\0\0\0\0IEND\xAE\x42\x60\x82", 12));
+}
+
+}  // namespace sphparam::tests

@@ -1,0 +1,239 @@
+#include <catch2/catch.hpp>
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "program.h"
+#include "support/test_meshes.h"
+
+/// Batches as users run them.
+namespace sphparam::tests {
+
+namespace {
+
+using Catch::Contains;
+using Json = nlohmann::json;
+
+/// A folder with balls and what is none.
+struct Shapes {
+  Folder folder;
+  std::string work = folder / "work";
+
+  explicit Shapes(int good = 3) {
+    fs::create_directories(folder / "in");
+    for (int i = 0; i < good; ++i) {
+      TriangleMesh ball = icosphere(2);
+      ball.positions.col(0) *= 1 + 0.3 * i;
+      write_bytes(folder / ("in/ball" + std::to_string(i) + ".obj"), obj_text(ball));
+    }
+  }
+  void add_bad() const {
+    write_bytes(folder / "in/bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  }
+
+  Ended plan(std::vector<std::string> words = {"map"}, const std::string& chunk = "2") const {
+    words.insert(words.begin(),
+                 {"batch", "plan", folder / "in", "-o", work, "--chunk", chunk, "--"});
+    return sphparam_program(words);
+  }
+  Ended batch(const std::string& command, std::vector<std::string> words = {}) const {
+    words.insert(words.begin(), {"batch", command, work});
+    return sphparam_program(words);
+  }
+  Json status() const { return Json::parse(batch("status", {"--json", "-", "-q"}).out); }
+  Json record(const std::string& id) const {
+    return Json::parse(bytes_of(work + "/results/" + id + "/record.json"));
+  }
+  std::string map(const std::string& id) const {
+    return bytes_of(work + "/results/" + id + "/" + id + ".sph.ply");
+  }
+};
+
+}  // namespace
+
+TEST_CASE("batch: all shapes are mapped, the same bytes as by map, and a bad one stops nobody") {
+  const Shapes shapes;
+  shapes.add_bad();
+  REQUIRE(shapes.plan().code == 0);
+  const Ended run = shapes.batch("run", {"--threads", "2"});
+  CHECK(run.code == 0);
+  CHECK_THAT(run.err, Contains("4 items: 3 done, 1 failed, 0 done before"));
+  REQUIRE(
+      sphparam_program({"map", shapes.folder / "in/ball1.obj", "-o", shapes.folder / "m.sph.ply"})
+          .code == 0);
+  CHECK(shapes.map("ball1") == bytes_of(shapes.folder / "m.sph.ply"));
+  CHECK(shapes.record("ball1")["outcome"] == "certified");
+  CHECK(shapes.record("ball1")["steps"][0]["report"]["certificate"]["one_to_one"] == true);
+  const Json failure = Json::parse(bytes_of(shapes.work + "/failed/bad.json"));
+  CHECK(failure["code"] == 4);
+  CHECK_THAT(failure["log"].get<std::string>(), Contains("hint"));
+  CHECK(fs::is_empty(shapes.work + "/staging"));
+  CHECK(shapes.batch("run", {"--strict"}).code == 4);
+}
+
+TEST_CASE("batch: what is done is skipped until its input, its options or its files change") {
+  const Shapes shapes;
+  shapes.plan();
+  shapes.batch("run");
+  CHECK_THAT(shapes.batch("run").err, Contains("3 items: 0 done, 0 failed, 3 done before"));
+  CHECK_THAT(shapes.batch("run", {"--rehash"}).err, Contains("3 done before"));
+
+  fs::remove(shapes.work + "/results/ball0/ball0.sph.ply");
+  CHECK_THAT(shapes.batch("run").err, Contains("1 done, 0 failed, 2 done before"));
+
+  write_bytes(shapes.folder / "in/ball1.obj", obj_text(icosphere(1)));
+  CHECK_THAT(shapes.batch("run").err, Contains("0 done, 1 failed, 2 done before"));
+  CHECK_THAT(shapes.batch("status").out, Contains("the input has changed since the plan"));
+  shapes.plan();
+  CHECK_THAT(shapes.batch("run").err, Contains("1 done, 0 failed, 2 done before"));
+
+  shapes.plan({"map", "--quality", "draft"});
+  CHECK_THAT(shapes.batch("run").err, Contains("3 done, 0 failed, 0 done before"));
+  CHECK(shapes.status()["done"] == 3);
+}
+
+TEST_CASE("batch: a plan never changes; tasks that wait run what they were planned for") {
+  const Shapes shapes;
+  shapes.plan();
+  const std::string first = bytes_of(shapes.work + "/plan").substr(0, 16);
+  const std::string manifest = bytes_of(shapes.work + "/plan-" + first + ".tsv");
+  shapes.plan({"map", "--quality", "draft"});
+  CHECK(bytes_of(shapes.work + "/plan-" + first + ".tsv") == manifest);
+  CHECK_THAT(bytes_of(shapes.work + "/array.sbatch"), !Contains(first));
+  CHECK(shapes.batch("run", {"--plan", first, "--task", "1"}).code == 0);
+  CHECK(shapes.record("ball0")["steps"][0]["command"].size() == 4);
+  write_bytes(shapes.work + "/plan-" + first + ".tsv", manifest + "\n");
+  const Ended changed = shapes.batch("run", {"--plan", first});
+  CHECK(changed.code == 3);
+  CHECK_THAT(changed.err, Contains("it was changed"));
+}
+
+TEST_CASE("batch: failures are tried again when somebody says so, and attempts are counted") {
+  const Shapes shapes(1);
+  shapes.add_bad();
+  shapes.plan();
+  shapes.batch("run");
+  CHECK_THAT(shapes.batch("run").err, Contains("1 failed before"));
+  CHECK_THAT(shapes.batch("retry", {"--code", "5"}).err, Contains("0 items in 0 tasks"));
+  const Ended retry = shapes.batch("retry", {"--code", "4,5"});
+  CHECK_THAT(retry.err, Contains("1 item in 1 task") && Contains("--array=1 "));
+  CHECK(shapes.status()["to_retry"] == 1);
+  CHECK_THAT(shapes.batch("run").err, Contains("0 done, 1 failed, 1 done before"));
+  CHECK(Json::parse(bytes_of(shapes.work + "/failed/bad.json"))["attempt"] == 2);
+  CHECK(shapes.batch("retry", {"--id", "ball0"}).code == 2);
+}
+
+TEST_CASE("batch: several steps a shape, with values of a table") {
+  const Shapes shapes(2);
+  write_bytes(shapes.folder / "pins.txt", "0 1.0 1.0\n");
+  write_bytes(shapes.folder / "t.csv",
+              "path,grid,options\nin/ball0.obj,ico:3,--quality draft\nin/ball1.obj,ico:4,\n");
+  REQUIRE(sphparam_program({"batch",
+                            "plan",
+                            shapes.folder / "t.csv",
+                            "-o",
+                            shapes.work,
+                            "--chunk",
+                            "1",
+                            "--",
+                            "map",
+                            "--pin",
+                            shapes.folder / "pins.txt",
+                            "--",
+                            "remesh",
+                            "--grid",
+                            "{grid}",
+                            "--",
+                            "spharm",
+                            "--degree",
+                            "4",
+                            "--",
+                            "export"})
+              .code == 0);
+  REQUIRE(shapes.batch("run").code == 0);
+  for (const char* name :
+       {"ball1.sph.ply", "ball1_remesh.sph.ply", "ball1_spharm.csv", "ball1.glb"})
+    CHECK(fs::exists(shapes.work + "/results/ball1/" + name));
+  CHECK(shapes.record("ball0")["steps"][0]["report"]["options"]["quality"] == "draft");
+  CHECK(shapes.record("ball1")["steps"][0]["report"]["options"]["quality"] == "normal");
+
+  write_bytes(shapes.folder / "pins.txt", "0 2.0 1.0\n");
+  REQUIRE(shapes.batch("run").code == 0);  // a settled item is not asked for its pins
+  CHECK(shapes.batch("table", {"-o", shapes.folder / "t.csv"}).code == 0);
+  CHECK_THAT(bytes_of(shapes.folder / "t.csv"),
+             Contains("map.distortion.mean_abs_ln_area") && Contains("remesh."));
+}
+
+TEST_CASE("batch: mistakes are told before anything is planned") {
+  const Shapes shapes(1);
+  const auto complaint = [&](const std::vector<std::string>& steps) {
+    const Ended ended = shapes.plan(steps);
+    CHECK(ended.code == 2);
+    return ended.err;
+  };
+  CHECK_THAT(complaint({"map", "--qualty", "draft"}), Contains("did you mean --quality?"));
+  CHECK_THAT(complaint({"mpa"}), Contains("did you mean map?"));
+  CHECK_THAT(complaint({"map", "--pin", "{pin}"}), Contains("no {pin} among"));
+  CHECK_THAT(complaint({"map", "--", "--"}), Contains("without a subcommand"));
+  CHECK(sphparam_program({"batch", "plan", shapes.folder / "in", "-o", shapes.work}).code == 2);
+  CHECK_FALSE(fs::exists(shapes.work));
+  CHECK_THAT(shapes.batch("run").err, Contains("no batch in this folder"));
+}
+
+TEST_CASE("batch: with --chunk auto three shapes are tried, and are done for good") {
+  const Shapes shapes(5);
+  const Ended plan = shapes.plan({"map"}, "auto");
+  CHECK(plan.code == 0);
+  CHECK_THAT(plan.err, Contains("an item takes about"));
+  CHECK(shapes.status()["done"] == 3);
+  CHECK(shapes.plan({"map", "--lambda", "1", "--balance", "conformal"}, "auto").code == 2);
+}
+
+TEST_CASE("batch: an item that needs too much memory fails alone") {
+  const Shapes shapes(2);
+  write_bytes(shapes.folder / "in/large.obj", obj_text(icosphere(6)));
+  shapes.plan();
+  CHECK(shapes.batch("run", {"--max-memory", "24M", "--threads", "1"}).code == 0);
+  CHECK(shapes.status()["done"] == 2);
+  CHECK_THAT(shapes.batch("status").out, Contains("code 1: out of memory"));
+}
+
+TEST_CASE("batch: killed or stopped, nothing is lost, half or done twice") {
+  const Shapes shapes(12);
+  shapes.plan();
+  for (const int signal : {SIGKILL, SIGTERM, SIGKILL}) {
+    Running run({"batch", "run", shapes.work, "--threads", "2"}, "");
+    std::this_thread::sleep_for(std::chrono::milliseconds(60));
+    run.signal(signal);
+    const int code = run.wait().code;
+    if (signal == SIGTERM) CHECK((code == 130 || code == 0));
+  }
+  std::vector<std::string> before;
+  for (const auto& entry : fs::directory_iterator(shapes.work + "/results"))
+    before.push_back(entry.path().string() + bytes_of(entry.path().string() + "/record.json"));
+  CHECK(shapes.batch("run").code == 0);
+  for (const std::string& record : before)
+    CHECK(bytes_of(record.substr(0, record.find('{')) + "/record.json") ==
+          record.substr(record.find('{')));
+  CHECK(shapes.status()["done"] == 12);
+  CHECK(fs::is_empty(shapes.work + "/staging"));
+}
+
+TEST_CASE("batch: the page has every shape, failures by reason and pictures beside it") {
+  const Shapes shapes(2);
+  shapes.add_bad();
+  shapes.plan();
+  shapes.batch("run");
+  REQUIRE(shapes.batch("report", {"-o", shapes.folder / "all.html"}).code == 0);
+  const std::string page = bytes_of(shapes.folder / "all.html");
+  CHECK_THAT(page, Contains("\"ball0\",\"certified\"") && Contains("\"bad\",\"failed\""));
+  CHECK_THAT(page, Contains("const folder = \"work/\"") && Contains("<h2>Failures</h2>"));
+  int pictures = 0;
+  for (const auto& entry : fs::directory_iterator(shapes.work + "/pictures")) {
+    CHECK_THAT(page, Contains(entry.path().filename().string()));
+    ++pictures;
+  }
+  CHECK(pictures == 2);
+}
+
+}  // namespace sphparam::tests
