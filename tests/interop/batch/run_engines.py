@@ -71,6 +71,15 @@ def steps_of(folder):
     return found
 
 
+def wait_for_items(folder, count, run=None):
+    """Until so many items are done, or there is nothing to wait for."""
+    end = time.time() + 20
+    while len(os.listdir(folder / "results")) < count and time.time() < end:
+        if run and run.poll() is not None:
+            return
+        time.sleep(0.01)
+
+
 def kill_some(pids, numbers):
     for pid in pids if numbers.random() < 0.5 else pids[:1]:
         try:
@@ -101,7 +110,7 @@ def by_slurm(a, reference, check, numbers):
         slurm.submit(folder / "array.sbatch")
         seen = {}
         for kill in range(a.kills):
-            time.sleep(0.3 + numbers.random())
+            wait_for_items(folder, len(seen) + numbers.randint(2, 8))
             if kill == 0:
                 slurm.kill_slurmd()
                 time.sleep(0.3)
@@ -143,7 +152,7 @@ def by_snakemake(a, reference, check, numbers):
         run = subprocess.Popen(words, env=environment, cwd=folder,
                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
                                start_new_session=True)
-        time.sleep(0.8 + 0.7 * numbers.random())
+        wait_for_items(folder, len(seen) + numbers.randint(2, 12), run)
         if numbers.random() < 0.5:
             os.killpg(run.pid, signal.SIGKILL)
         else:
