@@ -84,12 +84,41 @@ class Inflater {
   std::size_t filled_ = 0;
 };
 
+/// Ends a compression on every way out.
+struct Deflation {
+  z_stream stream{};
+  ~Deflation() { deflateEnd(&stream); }
+};
+
 }  // namespace
 
 bool looks_like_gzip(std::string_view bytes) { return bytes.starts_with("\x1f\x8b"); }
 
 Unzipped unzip(std::string_view bytes, const std::string& name, std::uint64_t max_bytes) {
   return Inflater(bytes, name, max_bytes).run();
+}
+
+std::string zip(std::string_view bytes) {
+  constexpr int gzip = 15 + 16, memory_level = 8;
+  constexpr std::size_t most_at_once = 1u << 30, room = 1u << 16;  // zlib counts in 32 bits
+  Deflation deflation;
+  z_stream& stream = deflation.stream;
+  if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, gzip, memory_level,
+                   Z_DEFAULT_STRATEGY) != Z_OK)
+    throw std::bad_alloc();
+  std::string packed;
+  std::string piece(room, '\0');
+  for (int status = Z_OK; status != Z_STREAM_END;) {
+    const auto given = static_cast<uInt>(std::min(most_at_once, bytes.size()));
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+    stream.avail_in = given;
+    stream.next_out = reinterpret_cast<Bytef*>(piece.data());
+    stream.avail_out = static_cast<uInt>(room);
+    status = deflate(&stream, given == bytes.size() ? Z_FINISH : Z_NO_FLUSH);
+    bytes.remove_prefix(given - stream.avail_in);
+    packed.append(piece, 0, room - stream.avail_out);
+  }
+  return packed;
 }
 
 }  // namespace sphparam

@@ -20,4 +20,7 @@ struct Unzipped {
 /// Throws: ReadError where the data is corrupt, cut short or unpacks to more than `max_bytes`.
 Unzipped unzip(std::string_view bytes, const std::string& name, std::uint64_t max_bytes);
 
+/// A gzip file of one member, without name and time: the same bytes give the same file.
+std::string zip(std::string_view bytes);
+
 }  // namespace sphparam
