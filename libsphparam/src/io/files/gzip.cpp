@@ -121,4 +121,27 @@ std::string zip(std::string_view bytes) {
   return packed;
 }
 
+std::string packed_block(std::string_view bytes) {
+  std::string packed(compressBound(static_cast<uLong>(bytes.size())), '\0');
+  auto size = static_cast<uLongf>(packed.size());
+  if (compress(reinterpret_cast<Bytef*>(packed.data()), &size,
+               reinterpret_cast<const Bytef*>(bytes.data()),
+               static_cast<uLong>(bytes.size())) != Z_OK)
+    throw std::bad_alloc();
+  packed.resize(size);
+  return packed;
+}
+
+bool unpack_block(std::string_view packed, std::uint64_t size, std::string& bytes) {
+  // zlib judges a block that holds what was asked for and more as one without room.
+  const std::size_t before = bytes.size();
+  bytes.resize(before + size);
+  auto unpacked = static_cast<uLongf>(size);
+  const int status =
+      uncompress(reinterpret_cast<Bytef*>(bytes.data() + before), &unpacked,
+                 reinterpret_cast<const Bytef*>(packed.data()), static_cast<uLong>(packed.size()));
+  if (status == Z_MEM_ERROR) throw std::bad_alloc();
+  return status == Z_OK && unpacked == size;
+}
+
 }  // namespace sphparam

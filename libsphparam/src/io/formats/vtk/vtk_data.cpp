@@ -2,15 +2,13 @@
 // Compressed: number of blocks, size of a block, size of the last one or 0, then the packed size
 // of each. A size is believed only as far as the bytes that are there can bear it out.
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <limits>
 
 #include "io/files/base64.h"
+#include "io/files/gzip.h"
 #include "io/formats/vtk/vtk_document.h"
 
 namespace sphparam {
@@ -119,19 +117,11 @@ class DataReader {
   void unpack(std::uint64_t packed_size, std::uint64_t size, std::string& bytes) {
     std::string packed;
     read(packed_size, packed);
-    if (size > most_inflation * packed_size + block_overhead ||
-        size > std::numeric_limits<uLong>::max() / 2)
+    if (size > most_inflation * packed_size + block_overhead)
       fail("has blocks that cannot unpack to the size they announce");
-    const std::size_t before = bytes.size();
     require_within(size);
-    require_within(before + size);
-    bytes.resize(before + size);
-    auto unpacked = static_cast<uLongf>(size);
-    const int status = uncompress(reinterpret_cast<Bytef*>(bytes.data() + before), &unpacked,
-                                  reinterpret_cast<const Bytef*>(packed.data()),
-                                  static_cast<uLong>(packed.size()));
-    if (status == Z_MEM_ERROR) throw std::bad_alloc();
-    if (status != Z_OK || unpacked != size) fail("has compressed data that is corrupt");
+    require_within(bytes.size() + size);
+    if (!unpack_block(packed, size, bytes)) fail("has compressed data that is corrupt");
   }
 
   const VtkDocument& document_;

@@ -1,12 +1,10 @@
 #include "io/formats/vtk/xml_vtk_writer.h"
 
-#include <zlib.h>
-
 #include <cstdint>
-#include <new>
 
 #include "io/files/base64.h"
 #include "io/files/byte_reader.h"
+#include "io/files/gzip.h"
 #include "io/formats/vtk/vtk_surface.h"
 
 // Blocks have the size that VTK's own writers give them. Names and strings go into XML as text
@@ -57,17 +55,6 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-std::string packed(std::string_view block) {
-  std::string bytes(compressBound(static_cast<uLong>(block.size())), '\0');
-  auto size = static_cast<uLongf>(bytes.size());
-  const int status = compress2(reinterpret_cast<Bytef*>(bytes.data()), &size,
-                               reinterpret_cast<const Bytef*>(block.data()),
-                               static_cast<uLong>(block.size()), Z_DEFAULT_COMPRESSION);
-  if (status != Z_OK) throw std::bad_alloc();
-  bytes.resize(size);
-  return bytes;
-}
-
 /// Header and blocks of compressed data, each in base64 of its own.
 std::string encoded(std::string_view bytes) {
   std::string header, data;
@@ -79,7 +66,7 @@ std::string encoded(std::string_view bytes) {
   put(block_bytes);
   put(bytes.size() % block_bytes);
   for (std::size_t i = 0; i < blocks; ++i) {
-    const std::string block = packed(bytes.substr(i * block_bytes, block_bytes));
+    const std::string block = packed_block(bytes.substr(i * block_bytes, block_bytes));
     put(block.size());
     data += block;
   }
