@@ -12,6 +12,8 @@ std::string name_of(Method method) {
       return "curvilinear";
     case Method::Paper:
       return "paper";
+    case Method::Radial:
+      return "radial";
   }
   return "";
 }
@@ -150,6 +152,10 @@ std::string options_line(const ParameterizeOptions& options) {
   const PaperSettings& paper = options.paper;
   const std::string lambda = "--lambda " + shortest(options.energy.lambda);
   if (options.method == Method::Curvilinear) return lambda;
+  if (options.method == Method::Radial) {
+    const Vector3& c = options.centre;
+    return lambda + " --centre " + shortest(c.x()) + "," + shortest(c.y()) + "," + shortest(c.z());
+  }
   if (options.method == Method::Progressive) {
     const std::string rest =
         "--quality " + name_of(options.quality) + " --energy " + name_of(options.energy.kind);

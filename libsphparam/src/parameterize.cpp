@@ -9,20 +9,24 @@
 #include "embedding/newton/freed_memory.h"
 #include "embedding/sweeps/relaxation.h"
 #include "mesh/rings.h"
+#include "pipeline/alignment.h"
 #include "pipeline/balanced_embedding.h"
 #include "pipeline/frame.h"
 #include "pipeline/map_in_progress.h"
+#include "pipeline/radial_map.h"
 #include "pipeline/repair_ladder.h"
 #include "pipeline/required_options.h"
 #include "sphparam/mesh/mesh_defects.h"
 
-// The table of contents. Three methods, each a straight line of stages:
+// The table of contents. Four methods, each a straight line of stages:
 //   paper        poles → date line, cut, harmonic, quasi-harmonic, lift, smoothing
 //   curvilinear  poles → the same, periodic and accumulated → relaxation along the date line
 //   progressive  hierarchy, embedding
+//   radial       directions from a centre
 // Then the certificate; where it fails and repair is wanted, the repair ladder: untangling, the
 // progressive embedding, the one-vertex lift, the grid lift. A certified map gets its frame last:
-// poles, pins, meridian. Whatever comes out last is certified as it is.
+// poles, pins, meridian, or the directions that it is aligned to. Whatever comes out last is
+// certified as it is.
 
 namespace sphparam {
 namespace {
@@ -115,6 +119,8 @@ void map_by_method(MapInProgress& work) {
       return map_curvilinear(work);
     case Method::Progressive:
       return map_progressive(work);
+    case Method::Radial:
+      return map_radially(work);
   }
 }
 
@@ -123,7 +129,11 @@ Parameterization run(const TriangleMesh& mesh, const Topology& topology,
   MapInProgress work(mesh, topology, options);
   map_by_method(work);
   if (options.repair && (options.method != Method::Paper || options.repair_paper)) repair(work);
-  if (work.certified()) place_frame(work);
+  if (options.method == Method::Radial) {
+    note_movement(work);
+  } else if (work.certified()) {
+    options.align_to ? align(work) : place_frame(work);
+  }
   if (work.certified()) warn_of_balance(work);
   if (work.certified()) warn_of_gap(work);
   return std::move(work.result);
@@ -132,9 +142,12 @@ Parameterization run(const TriangleMesh& mesh, const Topology& topology,
 Parameterization run_from(const SphereMap& map, const TriangleMesh& mesh, const Topology& topology,
                           const ParameterizeOptions& options) {
   MapInProgress work(mesh, topology, options);
+  work.orientation = map;
   work.accept("given map", map);
   repair(work);
-  if (work.certified()) place_frame(work);
+  const bool framed = options.poles || options.meridian || !options.pins.empty();
+  if (work.certified() && framed) place_frame(work);
+  if (work.certified() && options.align_to) align(work);
   if (work.certified()) warn_of_gap(work);
   return std::move(work.result);
 }

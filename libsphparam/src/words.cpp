@@ -1,6 +1,7 @@
 #include "sphparam/words.h"
 
 #include <algorithm>
+#include <numbers>
 
 #include "number_text.h"
 
@@ -47,6 +48,23 @@ std::string handle_lines(const std::vector<HandleLoop>& loops, const std::string
 std::string distortion_line(const DistortionSummary& distortion) {
   return "angle " + short_number(distortion.mean_abs_ln_angle) + " area " +
          short_number(distortion.mean_abs_ln_area);
+}
+
+std::string radial_line(const RadialRecord& radial) {
+  const Vector3& c = radial.centre;
+  const std::string centre =
+      "(" + short_number(c.x()) + ", " + short_number(c.y()) + ", " + short_number(c.z()) + ")";
+  if (radial.folds == 0 && radial.moved == 0) {
+    return "planetocentric: the surface is star-shaped about " + centre;
+  }
+  constexpr double degrees = 180 / std::numbers::pi;
+  const std::string folds = "not star-shaped about " + centre + ": " +
+                            counted(radial.folds, "triangle folds", "triangles fold") + ", " +
+                            percent(radial.folded_area) + " of the area";
+  if (radial.moved == 0) return folds;
+  return folds + "; " + percent(radial.moved) + " of the vertices moved, by " +
+         short_number(radial.largest_movement * degrees) +
+         "° at most, the others are planetocentric";
 }
 
 std::string stage_line(const StageRecord& stage) {

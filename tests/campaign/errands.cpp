@@ -96,7 +96,20 @@ void info(Maker& make) {
   make.errand.commands.push_back(words);
 }
 
+/// Maps that lie as the body does. No vertex is at these centres.
+void map_of_body(Maker& make) {
+  Words words = {"map",      make.mesh("mesh", false),
+                 "-o",       "map.sph.ply",
+                 "--centre", make.one_of({"0.3,-0.2,1e-9", "-1e-7,0.1234567,1e200"})};
+  make.maybe(words, 0.5, {"--align", "body"});
+  if (words.back() != "body") words.insert(words.end(), {"--method", "radial"});
+  make.maybe(words, 0.3, {"--json", "map.json"});
+  make.errand.commands.push_back(words);
+  make.errand.commands.push_back({"verify", "map.sph.ply"});
+}
+
 void map(Maker& make) {
+  if (make.one_of({"own", "own", "own", "own", "body"}) == "body") return map_of_body(make);
   Words words = {"map", make.mesh("mesh", false), "-o", "map.sph.ply"};
   make.add_map_options(words);
   make.maybe(words, 0.1, {"--method", make.one_of({"curvilinear", "paper", "tangential"})});

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "expect.h"
 #include "recipe.h"
@@ -25,11 +26,21 @@ using namespace sphparam::tests;
 ParameterizeOptions options_of(Recipe& recipe, int vertices) {
   ParameterizeOptions options;
   const unsigned what = recipe.byte();
-  constexpr Method methods[] = {Method::Progressive, Method::Curvilinear, Method::Paper};
-  options.method = methods[what % 3];
+  constexpr Method methods[] = {Method::Progressive, Method::Curvilinear, Method::Paper,
+                                Method::Radial};
+  options.method = methods[what % 4];
   options.repair_paper = true;
   options.threads = 1;
-  if (what & 64) {
+  if (what & 8) options.centre = Vector3(0.25, -3, 1e-9);
+  if (what & 16 && options.method != Method::Radial) {
+    SphereMap there{Points(vertices, 3)};
+    for (int v = 0; v < vertices; ++v) {
+      there.points.row(v) = Vector3(std::cos(1.0 * v), std::sin(2.0 * v), 0.1 * recipe.byte());
+    }
+    options.align_to = std::move(there);
+    return options;
+  }
+  if (what & 64 && options.method != Method::Radial) {
     const int north = static_cast<int>(recipe.byte()) % vertices;
     const int south = static_cast<int>(recipe.byte()) % vertices;
     if (north != south) options.poles = Poles{north, south};

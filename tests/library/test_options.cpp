@@ -142,7 +142,7 @@ TEST_CASE("options: parameterize and repair_map refuse what is outside of a doma
     };
     using Options = ParameterizeOptions;
     refused("energy.lambda", [](Options& o) { o.energy.lambda = 0; });
-    refused("method", [](Options& o) { o.method = static_cast<Method>(3); });
+    refused("method", [](Options& o) { o.method = static_cast<Method>(4); });
     refused("quality", [](Options& o) { o.quality = static_cast<Quality>(-1); });
     refused("balance", [](Options& o) { o.balance = static_cast<Balance>(7); });
     refused("paper.weights", [](Options& o) { o.paper.weights = static_cast<WeightKind>(9); });
@@ -160,6 +160,7 @@ TEST_CASE("options: parameterize and repair_map refuse what is outside of a doma
     }
     refused("poles.south", [](Options& o) { o.poles = Poles{3, 3}; });
     for (const double bad : {no_number, infinity}) {
+      refused("centre", [=](Options& o) { o.centre.y() = bad; });
       refused("pins: theta", [=](Options& o) { o.pins = {{0, {bad, 1}}}; });
       refused("pins: phi", [=](Options& o) { o.pins = {{0, {1, bad}}}; });
     }

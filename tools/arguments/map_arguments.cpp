@@ -55,13 +55,33 @@ void require_method(const MapArguments& arguments, Method needed, const Words& n
 void require_no_settings(const MapArguments& arguments) {
   if (!std::holds_alternative<Baseline>(arguments.method)) return;
   const std::string method = info_of(arguments.method).name;
-  for (const std::string name : {"--poles", "--meridian", "--pin"}) {
+  for (const std::string name : {"--poles", "--meridian", "--pin", "--align"}) {
     if (!arguments.given(name)) continue;
     throw UsageMistake(name + " is not for --method " + method +
                        ", which lays out the sphere in its own way");
   }
   if (arguments.given("--lambda") && !arguments.given("--repair-map"))
     throw UsageMistake("--lambda is for --method " + method + " only with --repair-map");
+}
+
+/// A radial map lies as the body does, an aligned one as it is told to.
+void require_one_frame(const MapArguments& arguments) {
+  const bool radial = arguments.method == AnyMethod(Method::Radial);
+  for (const std::string name : {"--poles", "--meridian", "--pin"}) {
+    if (!arguments.given(name)) continue;
+    if (radial) {
+      throw UsageMistake(name + " is not for --method radial, which lies as the body does");
+    }
+    if (!arguments.align.empty()) {
+      throw UsageMistake(name + " and --align contradict each other: both say where the map lies");
+    }
+  }
+  if (radial && !arguments.align.empty()) {
+    throw UsageMistake("--align is not for --method radial, which lies as the body does");
+  }
+  if (arguments.given("--centre") && !radial && arguments.align != "body") {
+    throw UsageMistake("--centre is for --method radial and --align body only");
+  }
 }
 
 /// What poles, meridian and pins may not say together, and not with every method.
@@ -89,15 +109,16 @@ void require_sensible_frame(const MapArguments& arguments) {
 }
 
 void require_sensible(const MapArguments& arguments) {
-  require_one_stream({arguments.input, arguments.pins}, "the mesh and --pin");
-  const std::string extension = inner_extension_of(arguments.output);
-  if (!extension.empty() && !keeps_map(arguments.output)) {
-    throw UsageMistake("-o: the map is a PLY, .ply, or a polydata of VTK, .vtk or .vtp; for " +
-                       extension + " see --write-sphere");
+  require_one_stream({arguments.input, arguments.pins, arguments.align},
+                     "the mesh, --pin and --align");
+  const std::string extension = extension_of(arguments.output);
+  if (!extension.empty() && extension != ".ply") {
+    throw UsageMistake("-o: the map is a PLY, the name must end in .ply; for " + extension +
+                       " see --write-sphere");
   }
-  const bool is_named = !inner_extension_of(arguments.sphere).empty();
+  const bool is_named = !extension_of(arguments.sphere).empty();
   if (!arguments.sphere.empty() && !(is_named && is_written(arguments.sphere))) {
-    throw UsageMistake("--write-sphere: the name must end in " + written_extensions());
+    throw UsageMistake("--write-sphere: the name must end in .ply, .obj, .off or .gii");
   }
   check_places({{"-o", arguments.output},
                 {"--write-sphere", arguments.sphere},
@@ -108,12 +129,9 @@ void require_sensible(const MapArguments& arguments) {
 
 void declare_files(Declaration& command, MapArguments& arguments) {
   command.input("MESH", arguments.input, readable_formats("or") + "; - for standard input")
-      .output(arguments.output, "FILE",
-              "The map, a .sph.ply (or .vtk, .vtp); - for standard output")
+      .output(arguments.output, "FILE", "The map, a .sph.ply; - for standard output")
       .text("--write-sphere", arguments.sphere, "FILE",
-            "The bare sphere too: .ply, .obj, .off, .vtk or .vtp in doubles, .gii, .sphere or .mz3 "
-            "in "
-            "floats of radius 100")
+            "The bare sphere too: .ply, .obj or .off in doubles, .gii in floats of radius 100")
       .written()
       .json(arguments)
       .text("--plots", arguments.plots, "FOLDER", "The distortion as SVG plots")
@@ -123,17 +141,18 @@ void declare_files(Declaration& command, MapArguments& arguments) {
 void declare_method(Declaration& command, MapArguments& arguments) {
   ParameterizeOptions& options = arguments.options;
   std::vector<std::pair<std::string, AnyMethod>> methods;
-  for (const MethodInfo& info : all_methods()) methods.emplace_back(info.name, info.method);
+  for (const MethodInfo& info : mapping_methods()) methods.emplace_back(info.name, info.method);
   command
       .choice("--method", arguments.method, methods,
-              "How; paper and all after it: as printed, folds and all; after paper, as others "
-              "published them (default: progressive)")
+              "How; paper to flow: as printed, folds and all; after paper, as others published "
+              "them; radial: directions from a centre (default: progressive)")
       .number("--lambda", options.energy.lambda, "NUMBER", lambdas,
               "Weight of area against angle, " + lambdas.text())
       .flag("--repair-map", options.repair_paper,
             "Untangle what --method paper or one of others folds")
       .flag("--keep-folded", arguments.keep_folded,
-            "Write a folded map too, marked in its header; the exit status stays 5")
+            "Write a folded map too, marked in its header; the exit status stays 5; with --method "
+            "radial, untangle nothing")
       .threads(arguments);
 }
 
@@ -143,7 +162,20 @@ void declare_frame(Declaration& command, MapArguments& arguments) {
             "The vertices that go to +z and -z, or none")
       .number("--meridian", arguments.options.meridian, "V", {0}, "The vertex that gets theta = 0")
       .text("--pin", arguments.pins, "FILE",
-            "Vertices to be exactly at given points; a line is: vertex theta phi (radians)");
+            "Vertices to be exactly at given points; a line is: vertex theta phi (radians)")
+      .group("The axes of a body")
+      .text("--align", arguments.align, "body|FILE",
+            "Turn the map to the directions from the centre, or to another map of the mesh")
+      .parsed(
+          "--centre", "X,Y,Z",
+          [&centre = arguments.options.centre](const std::string& text) {
+            const auto numbers = three_numbers(text);
+            if (numbers) centre = Vector3(numbers->data());
+            return numbers.has_value();
+          },
+          "expected three numbers, as in 0,0,1.5, not ",
+          "The centre of --method radial and --align body, in the mesh's coordinates")
+      .preset("0,0,0");
 }
 
 const Words progressive_only = {"--balance", "--quality", "--energy"};
@@ -206,9 +238,12 @@ void settle(MapArguments& arguments) {
         "--lambda and --balance weigh the energy angle-and-area; symmetric-dirichlet has no "
         "weight");
   }
+  require_one_frame(arguments);
   require_sensible_frame(arguments);
   require_sensible(arguments);
   options.threads = arguments.threads;
+  // What folds in the directions of a body may be what one wants to see.
+  options.repair = !(arguments.keep_folded && options.method == Method::Radial);
   options.measure_stages = arguments.method == AnyMethod(Method::Paper) || arguments.verbose;
 }
 

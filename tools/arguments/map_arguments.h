@@ -17,6 +17,7 @@ struct MapArguments : CommonArguments {
   std::string sphere;  // empty: not wanted; so are:
   std::string plots;
   std::string pins;
+  std::string align;  // body, or another map of the mesh
   std::string poles = "auto";
   std::string balance = "balanced";  // a word, or the λ it stands for
   RepairArguments repair;

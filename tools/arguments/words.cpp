@@ -5,6 +5,8 @@
 #include "arguments/words.h"
 
 #include <algorithm>
+#include <charconv>
+#include <limits>
 #include <sstream>
 
 #include "arguments/numbers.h"
@@ -38,6 +40,19 @@ Words split(const std::string& text) {
   std::stringstream rest(text);
   for (std::string part; std::getline(rest, part, ',');) parts.push_back(part);
   return text.empty() ? Words{""} : parts;
+}
+
+std::optional<std::array<double, 3>> three_numbers(const std::string& text) {
+  const Words words = split(text);
+  std::array<double, 3> values;
+  if (words.size() != values.size()) return std::nullopt;
+  for (size_t i = 0; i < values.size(); ++i) {
+    const Range<double> any = {std::numeric_limits<double>::lowest()};
+    if (!complaint_of_number(words[i], any).empty()) return std::nullopt;
+    const bool plus = words[i].starts_with('+');
+    std::from_chars(words[i].data() + plus, words[i].data() + words[i].size(), values[i]);
+  }
+  return values;
 }
 
 std::optional<std::pair<std::string, std::string>> name_and_file(const std::string& text) {

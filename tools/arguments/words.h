@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -15,6 +16,9 @@ using Words = std::vector<std::string>;
 
 /// "a", "b", "c" of "a,b,c".
 Words split(const std::string& text);
+
+/// x, y and z of "1,-2.5,3"; nothing for anything else, also for what is not finite.
+std::optional<std::array<double, 3>> three_numbers(const std::string& text);
 
 /// NAME and FILE of "NAME=FILE"; nothing where a part is missing.
 std::optional<std::pair<std::string, std::string>> name_and_file(const std::string& text);

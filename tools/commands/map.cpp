@@ -9,7 +9,10 @@
 #include "commands/map_outputs.h"
 #include "reports/map_wording.h"
 #include "sphparam/io/file_numbers.h"
+#include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/pin_file.h"
+#include "sphparam/io/written_map.h"
+#include "sphparam/sphere/radial_directions.h"
 
 namespace sphparam::cli {
 
@@ -26,6 +29,7 @@ constexpr char summary[] =
     "  sphparam map statue.obj -o even.sph.ply --balance equal-area --quality best\n"
     "  cat statue.obj | sphparam map - -o - > statue.sph.ply\n"
     "  sphparam map scan.ply -o scan.sph.ply --repair\n"
+    "  sphparam map eros.obj -o eros.sph.ply --method radial\n"
     "  sphparam map statue.obj -o folded.sph.ply --method paper --keep-folded\n"
     "  sphparam map statue.obj -o mended.sph.ply --method tangential --repair-map\n";
 
@@ -46,6 +50,23 @@ void settle_vertices(const std::string& pins, const MeshFile& file,
   throw UsageMistake("--" + error.whose() + ": " + error.what());
 }
 
+/// The directions that the map takes or is turned to.
+void settle_directions(const MapArguments& arguments, const MeshSource& source,
+                       ParameterizeOptions& options) try {
+  const bool to_body = arguments.align == "body";
+  if (to_body || options.method == Method::Radial) {
+    SphereMap directions = radial_directions(source.file.mesh, options.centre);
+    if (to_body) options.align_to = std::move(directions);
+  } else if (!arguments.align.empty()) {
+    options.align_to =
+        unit_rays(read_map_of(source, arguments.align, input_limits(), "map to align to").map);
+  }
+} catch (const VertexAtCentre& error) {
+  const long number = FileNumbers(source.file).number(error.vertex());
+  throw UsageMistake("--centre: vertex " + std::to_string(number) +
+                     " lies at the centre: it has no direction from there");
+}
+
 MapOutcome compute(MeshSource source, const MapArguments& arguments, Session& session) {
   require_mappable(source);
   MapOutcome outcome = {
@@ -54,6 +75,7 @@ MapOutcome compute(MeshSource source, const MapArguments& arguments, Session& se
   ParameterizeOptions& options = outcome.options;
   options.progress = session.progress();
   settle_vertices(arguments.pins, outcome.source.file, options);
+  settle_directions(arguments, outcome.source, options);
   MethodRun run = run_method(arguments.method, mesh, outcome.topology(), options);
   outcome.result = std::move(run.result);
   outcome.account = std::move(run.account);
@@ -87,6 +109,7 @@ int run_map(MapArguments& arguments) {
   MapOutcome outcome = compute(std::move(source), arguments, session);
   tell_stages(outcome, session.console);
   tell_frame(outcome, session.console);
+  tell_directions(outcome, session.console);
   const bool writes =
       outcome.has_map() && outcome.frame.holds() && (outcome.bijective() || arguments.keep_folded);
   write_outputs(arguments, outcome, writes, session);

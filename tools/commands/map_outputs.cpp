@@ -51,7 +51,8 @@ void add_sphere(const std::string& path, const MapOutcome& outcome, Session& ses
       {outcome.source.file, outcome.topology(), outcome.result.map, outcome.result.certificate,
        provenance(outcome)},
       {.energy = options.energy,
-       .may_remap = options.pins.empty() && !options.poles && !options.meridian,
+       .may_remap = options.pins.empty() && !options.poles && !options.meridian &&
+                    !options.align_to && options.method != Method::Radial,
        .threads = session.threads(),
        .progress = session.progress()});
   if (least_area == 0) return;

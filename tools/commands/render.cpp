@@ -1,7 +1,6 @@
 // `sphparam render`: pictures of a mesh and of its map, side by side, in the same colours, so that
 // one sees where each part of the shape went.
 
-#include <cstdio>
 #include <stdexcept>
 
 #include "arguments/limits.h"
@@ -41,13 +40,9 @@ struct RenderArguments : CommonArguments {
 };
 
 Vector3 parse_direction(const std::string& text) {
-  Vector3 direction;
-  char rest = 0;
-  const int read = std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &direction[0], &direction[1],
-                               &direction[2], &rest);
-  if (read != 3 || !direction.allFinite() || direction.isZero(0)) {
-    throw UsageMistake("--from: expected a direction, as in 1,-0.6,0.45");
-  }
+  const auto numbers = three_numbers(text);
+  const Vector3 direction = numbers ? Vector3(numbers->data()) : Vector3::Zero();
+  if (direction.isZero(0)) throw UsageMistake("--from: expected a direction, as in 1,-0.6,0.45");
   return direction;
 }
 

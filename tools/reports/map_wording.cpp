@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include "console/places.h"
 #include "number_text.h"
 #include "reports/told_losses.h"
-#include "reports/told_repairs.h"
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/words.h"
@@ -75,7 +75,12 @@ void tell_stages(const MapOutcome& outcome, Console& console) {
   const std::vector<std::string> told = losses_among(outcome.source.notes);
   for (const std::string& note : outcome.source.notes)
     if (std::find(told.begin(), told.end(), note) == told.end()) console.detail("  note: " + note);
-  tell_repairs(outcome.source, console);
+  for (const RepairAction& repair : outcome.source.repairs) console.say("  " + repair.message);
+  if (const std::string lines = handle_lines(outcome.source.handles, "    "); !lines.empty()) {
+    console.say(lines.substr(0, lines.size() - 1));
+  }
+  const std::string kept = kept_line(outcome.source.parts);
+  if (!kept.empty()) console.say("  " + kept);
   for (const MeshDefect& defect : outcome.source.inspection.defects) {
     // What looks wrong on the map is told unasked.
     const bool visible = defect.kind == DefectKind::InsideOut;
@@ -113,6 +118,16 @@ void tell_frame(const MapOutcome& outcome, Console& console) {
   line += ": " + short_number(std::abs(percent)) + " % " + (percent < 0 ? "less" : "more") +
           " energy than before";
   given ? console.say(line) : console.detail(line);
+}
+
+void tell_directions(const MapOutcome& outcome, Console& console) {
+  if (!outcome.has_map()) return;
+  if (const auto& radial = outcome.result.radial) console.say("  " + radial_line(*radial));
+  if (const auto& angle = outcome.result.alignment) {
+    console.say("  turned to the directions it is aligned to: " +
+                short_number(*angle * 180 / std::numbers::pi) +
+                "° are left (RMS over the surface)");
+  }
 }
 
 void tell_result(const MapOutcome& outcome, const std::string& written, double seconds,

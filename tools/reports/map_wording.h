@@ -14,6 +14,9 @@ void tell_stages(const MapOutcome& outcome, Console& console);
 /// What holding the given vertices cost; with -v also what automatic poles cost.
 void tell_frame(const MapOutcome& outcome, Console& console);
 
+/// Where the map lies by directions: what --method radial had to move, what --align left.
+void tell_directions(const MapOutcome& outcome, Console& console);
+
 /// The verdict in a line, what is wrong with it, and where it was written; empty: nowhere.
 void tell_result(const MapOutcome& outcome, const std::string& written, double seconds,
                  Console& console);

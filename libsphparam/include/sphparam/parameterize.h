@@ -23,6 +23,8 @@ enum class Method {
   Progressive,  // coarse to fine, never folded, near the least distortion: the default
   Curvilinear,  // the paper made sound: periodic θ, guarded relaxation, untangling, fallback
   Paper,        // what the paper prints, folds and all
+  Radial,       // directions from a centre: one-to-one where the body is star-shaped, untangled
+                // where it folds
 };
 
 /// What only `Method::Paper` reads. The defaults are the paper's. No number is below 0.
@@ -50,6 +52,11 @@ struct ParameterizeOptions {
   /// and the poles, fold their triangle, none is tried: a warning names the three.
   std::vector<Landmark> pins = {};
   PaperSettings paper = {};
+  Vector3 centre = Vector3::Zero();  // of Method::Radial, in the mesh's coordinates; finite
+  /// Directions, one finite ray that is not 0 a vertex, that the finished map is turned to, as one
+  /// piece and as near as it can be: `radial_directions`, or another map of the mesh. Not with
+  /// poles, meridian or pins, nor with Method::Radial; then no poles are chosen either.
+  std::optional<SphereMap> align_to = std::nullopt;
   // What is minimised; `lambda`, from 1e-10 to 1e6, weighs area against angle.
   DistortionEnergy energy = {};
   // Of Method::Progressive: time against distortion; and what λ is to reach, if not a given value.
@@ -79,6 +86,16 @@ struct BalanceRecord {
   bool moved;         // false: no step was possible, the map is that of λ = 1
 };
 
+/// How a map of Method::Radial differs from the directions from its centre. Without folds it does
+/// not: θ and ϕ are planetocentric, exactly.
+struct RadialRecord {
+  Vector3 centre;               // in the mesh's coordinates
+  long folds = 0;               // triangles that are not positive in these directions
+  double folded_area = 0;       // their share of the surface's area
+  double moved = 0;             // share of the vertices that the map has elsewhere
+  double largest_movement = 0;  // of a vertex, in radians
+};
+
 constexpr double greatest_energy_gap = 0.01;  // that nobody is told of
 
 struct Parameterization {
@@ -95,6 +112,10 @@ struct Parameterization {
   std::optional<double> energy_gap;
   /// Of Method::Progressive with a `balance` to find, or a λ far from 1; empty where none was made.
   std::optional<BalanceRecord> balance;
+  std::optional<RadialRecord> radial;  // of Method::Radial
+  /// With `align_to`: the angle left between the map and these directions, in radians; root of the
+  /// mean of squares over the surface.
+  std::optional<double> alignment;
   std::optional<Vertex> meridian;  // a vertex with θ = 0 that was asked for or chosen
   /// Per pin, radians from its point; 0: exactly there. Of pins that were not tried, too.
   std::vector<double> pin_residuals;
@@ -113,7 +134,9 @@ struct Parameterization {
 ///          mirror image of the surface far better than the surface.
 /// Throws: std::invalid_argument before anything else, naming the option that is outside of its
 ///         domain: a number, or a pole, pin or meridian that is no vertex, poles that are one, a
-///         vertex that is pinned twice, two that are pinned at one point; MeshError before any
+///         vertex that is pinned twice, two that are pinned at one point, a vertex at the centre of
+///         Method::Radial, directions to align to that are not one a vertex, or that come with
+///         poles, meridian or pins; MeshError before any
 ///         arithmetic if the mesh is not a closed genus-0 manifold; SolveError naming the system;
 ///         Cancelled.
 /// Cost: Method::Progressive: linear, some 2 µs and 200 bytes a triangle, with long protrusions or
@@ -125,13 +148,13 @@ Parameterization parameterize(const TriangleMesh& mesh, const Topology& topology
                               const ParameterizeOptions& options = {});
 
 /// Makes a map that came from elsewhere one-to-one: the repair of `parameterize` from a given
-/// start. Few folds are untangled where they are; more, or what stays folded, is embedded anew.
-/// `made_by` says which: "given map" where nothing had to be done. Poles and pins come last, as
-/// there.
+/// start. Few folds are untangled where they are; more, or what stays folded, is embedded anew, and
+/// turned to the directions of the given map. `made_by` says which: "given map" where nothing had
+/// to be done. Poles, meridian and pins that are asked for come last, as there; none are chosen.
 ///
-/// Of the options, `paper`, `repair` and `repair_paper` are not read, and `method` only to hold no
-/// pins where it is Method::Paper. Throws: as `parameterize`; std::invalid_argument also unless
-/// there is one finite ray a vertex.
+/// Of the options, `paper`, `repair`, `repair_paper` and `automatic_poles` are not read, and
+/// `method` only to hold no pins where it is Method::Paper. Throws: as `parameterize`;
+/// std::invalid_argument also unless there is one finite ray a vertex.
 Parameterization repair_map(const TriangleMesh& mesh, const SphereMap& map,
                             const ParameterizeOptions& options = {});
 

@@ -29,6 +29,10 @@ std::string handle_lines(const std::vector<HandleLoop>& loops, const std::string
 /// "angle 0.55 area 0.59": the paper's means of |ln ratio|.
 std::string distortion_line(const DistortionSummary& distortion);
 
+/// "planetocentric: the surface is star-shaped about (0, 0, 0)", or what folds there and how far
+/// the map had to go from these directions.
+std::string radial_line(const RadialRecord& radial);
+
 /// "harmonic: 0.12 s, 3 folds, angle 0.55 area 0.59"
 std::string stage_line(const StageRecord& stage);
 

@@ -92,8 +92,17 @@ const std::vector<MethodInfo>& all_methods() {
   return methods;
 }
 
+const std::vector<MethodInfo>& mapping_methods() {
+  static const std::vector<MethodInfo> methods = [] {
+    std::vector<MethodInfo> all = all_methods();
+    all.push_back({Method::Radial, "radial", "ours: directions from a centre"});
+    return all;
+  }();
+  return methods;
+}
+
 const MethodInfo& info_of(AnyMethod method) {
-  return *std::find_if(all_methods().begin(), all_methods().end(),
+  return *std::find_if(mapping_methods().begin(), mapping_methods().end(),
                        [&](const MethodInfo& info) { return info.method == method; });
 }
 

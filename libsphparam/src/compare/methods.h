@@ -23,10 +23,12 @@ struct MethodInfo {
   const char* citation;  // authors and year; of ours: what it is
 };
 
-/// All of them; ours come first, and of these the default.
+/// All that look for a map; ours come first, and of these the default: what is compared.
 const std::vector<MethodInfo>& all_methods();
+/// These, and the one that takes the map from where the mesh lies: radial.
+const std::vector<MethodInfo>& mapping_methods();
 const MethodInfo& info_of(AnyMethod method);
-std::optional<AnyMethod> method_named(std::string_view name);
+std::optional<AnyMethod> method_named(std::string_view name);  // one of `all_methods`
 
 struct MethodRun {
   Parameterization result;  // no rows in its map: none was made

@@ -4,9 +4,12 @@
 
 #include "embedding/constructions/float32_safe.h"
 #include "io/files/read_back.h"
+#include "number_text.h"
 #include "sphparam/errors.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/mesh_writer.h"
+#include "sphparam/io/paths.h"
+#include "sphparam/io/planetocentric.h"
 #include "sphparam/version.h"
 
 namespace sphparam {
@@ -14,7 +17,7 @@ namespace sphparam {
 namespace {
 
 /// The radius that FreeSurfer, HCP and MSM give their spheres; areas are compared at it.
-constexpr double float_radius = 100;
+constexpr double gifti_radius = 100;
 
 std::string words(const std::optional<Poles>& poles, const FileNumbers& numbers) {
   if (!poles) return "none";
@@ -37,14 +40,14 @@ struct HeldMap {
   double least_area = 0;  // of triangles, of the mean: what they had to be taken for
 };
 
-/// Formats of brains have coordinates of 32 bits. Rounding must not cost a certified map its
-/// certificate; one that is folded anyway may get other folds.
+/// GIFTI has coordinates of 32 bits. Rounding must not cost a certified map its certificate; one
+/// that is folded anyway may get other folds.
 HeldMap as_floats(const std::string& path, const FinishedMap& finished,
                   const SphereOptions& options) {
   auto [rounding, least_area] =
       round_float32_safe(finished.file.mesh, finished.topology, finished.map,
                          {.energy = options.energy,
-                          .radius = float_radius,
+                          .radius = gifti_radius,
                           .threads = options.threads,
                           .progress = options.progress});
   if (least_area > 0 && !options.may_remap) {
@@ -85,6 +88,8 @@ Provenance provenance_of(const Parameterization& result, const MapOrigin& origin
   if (result.meridian) {
     lines.emplace_back("meridian", std::to_string(numbers.number(*result.meridian)));
   }
+  for (auto& line : planetocentric_lines(result)) lines.push_back(std::move(line));
+  if (result.alignment) lines.emplace_back("alignment", shortest(*result.alignment));
   if (origin.pins > 0) lines.emplace_back("pins", std::to_string(origin.pins));
   lines.emplace_back("verdict", origin.verdict);
   return lines;
@@ -101,7 +106,7 @@ void add_map(PendingFiles& files, const std::string& path, const MeshFile& with_
 
 double add_sphere(PendingFiles& files, const std::string& path, const FinishedMap& finished,
                   const SphereOptions& options) {
-  const HeldMap held = has_float_spheres(path)
+  const HeldMap held = extension_of(path) == ".gii"
                            ? as_floats(path, finished, options)
                            : HeldMap{finished.map, verdict(finished.certificate)};
   const MeshFile sphere =

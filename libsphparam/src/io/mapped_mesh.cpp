@@ -10,6 +10,7 @@
 #include "sphparam/errors.h"
 #include "sphparam/io/certified_files.h"
 #include "sphparam/io/paths.h"
+#include "sphparam/io/planetocentric.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/io/written_map.h"
 #include "sphparam/names.h"
@@ -56,13 +57,13 @@ WrittenMap made_map(const MeshSource& source, const ParameterizeOptions& options
     throw NotCertifiedError(display_name(source.path) +
                             ": no one-to-one map was found: " + verdict(result.certificate));
   }
-  return {{},
-          std::move(result.map),
-          {{"version", version},
-           {"method", name_of(options.method)},
-           {"stage", result.made_by},
-           {"options", options_line(options)},
-           {"verdict", verdict(result.certificate)}}};
+  Provenance lines = {{"version", version},
+                      {"method", name_of(options.method)},
+                      {"stage", result.made_by},
+                      {"options", options_line(options)}};
+  for (auto& line : planetocentric_lines(result)) lines.push_back(std::move(line));
+  lines.emplace_back("verdict", verdict(result.certificate));
+  return {{}, std::move(result.map), std::move(lines)};
 }
 
 Topology topology_of(MappedMesh::Parts& parts, int threads) {

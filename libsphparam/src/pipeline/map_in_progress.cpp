@@ -6,11 +6,12 @@
 // taken as it is, folds and all; a change of frame is not worth a fold.
 
 namespace sphparam {
-MapInProgress::MapInProgress(const TriangleMesh& given, const Topology& given_topology,
+MapInProgress::MapInProgress(const TriangleMesh& given_mesh, const Topology& given_topology,
                              const ParameterizeOptions& given_options)
-    : rescaled_(at_unit_size(given)),
+    : rescaled_(at_unit_size(given_mesh)),
       topology(given_topology),
-      mesh(rescaled_ ? rescaled_->mesh : given),
+      given(given_mesh),
+      mesh(rescaled_ ? rescaled_->mesh : given_mesh),
       options(given_options),
       energy(given_options.energy) {}
 

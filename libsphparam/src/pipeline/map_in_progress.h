@@ -27,10 +27,13 @@ class MapInProgress {
   MapInProgress& operator=(const MapInProgress&) = delete;
 
   const Topology& topology;
-  const TriangleMesh& mesh;  // at about unit size, if its squares could overflow or vanish
+  const TriangleMesh& given;
+  const TriangleMesh& mesh;  // the same at about unit size, if its squares could overflow or vanish
   const ParameterizeOptions& options;
   DistortionEnergy energy;  // minimised at last: with the λ that a balance has found
   bool tried_to_embed = false;
+  /// Directions that a map which is made anew is turned to; empty: it may lie as it comes.
+  SphereMap orientation = {};
   Parameterization result;
 
   /// Of the mesh; measured when first needed.

@@ -5,6 +5,7 @@
 #include "embedding/constructions/gnomonic.h"
 #include "embedding/constructions/grid_lift.h"
 #include "embedding/constructions/untangle.h"
+#include "pipeline/alignment.h"
 #include "pipeline/balanced_embedding.h"
 #include "sphparam/errors.h"
 
@@ -14,12 +15,13 @@
 namespace sphparam {
 namespace {
 
-constexpr double most_folds = 0.02;  // of the faces: beyond it nothing is local any more
+constexpr double most_folds = 0.02;        // of the faces: beyond it nothing is local any more
+constexpr double most_radial_folds = 0.2;  // where what lies right is worth more work
 
 void untangle_folds(MapInProgress& work) {
   if (work.result.map.points.rows() == 0) return;  // the method made no map
-  if (static_cast<double>(work.result.certificate.fold_count()) >
-      most_folds * work.topology.face_count())
+  const double most = work.options.method == Method::Radial ? most_radial_folds : most_folds;
+  if (static_cast<double>(work.result.certificate.fold_count()) > most * work.topology.face_count())
     return;
   UntangleOptions untangling{.lambda = work.options.energy.lambda,
                              .threads = work.options.threads,
@@ -66,9 +68,11 @@ void lift_grid(MapInProgress& work) {
 
 void repair(MapInProgress& work) {
   if (!work.certified()) untangle_folds(work);
-  if (!work.certified()) embed_from_nothing(work);
+  if (work.certified()) return;
+  embed_from_nothing(work);
   if (!work.certified()) lift_one_vertex(work);
   if (!work.certified()) lift_grid(work);
+  if (work.certified()) keep_orientation(work);
 }
 
 }  // namespace sphparam

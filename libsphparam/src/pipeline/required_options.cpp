@@ -9,6 +9,7 @@
 #include "curvilinear/harmonic.h"
 #include "embedding/energy/energy_domain.h"
 #include "option_domain.h"
+#include "sphere/required_directions.h"
 
 namespace sphparam {
 namespace {
@@ -48,6 +49,28 @@ void require_pins(const TriangleMesh& mesh, const ParameterizeOptions& options) 
   }
 }
 
+/// One finite ray a vertex, none of them 0, and nothing else that says where the map lies.
+void require_alignment(const TriangleMesh& mesh, const ParameterizeOptions& options) {
+  const Points& rays = options.align_to->points;
+  if (rays.rows() != mesh.vertex_count() || !rays.allFinite() ||
+      (rays.array() == 0).rowwise().all().any()) {
+    throw std::invalid_argument("align_to: one finite ray a vertex is needed, none of them 0");
+  }
+  if (options.poles || options.meridian || !options.pins.empty()) {
+    throw std::invalid_argument("align_to: not with poles, meridian or pins");
+  }
+}
+
+void require_radial(const TriangleMesh& mesh, const ParameterizeOptions& options) {
+  for (int axis = 0; axis < 3; ++axis) require_finite("centre", options.centre[axis]);
+  if (options.method != Method::Radial) return;
+  if (options.poles || options.meridian || !options.pins.empty() || options.align_to) {
+    throw std::invalid_argument(
+        "method: Method::Radial lies as the body does: no poles, meridian, pins or align_to");
+  }
+  require_directions(mesh, options.centre);
+}
+
 void require_frame(const TriangleMesh& mesh, const ParameterizeOptions& options) {
   if (options.poles) {
     require_vertex("poles.north", options.poles->north, mesh.vertex_count());
@@ -56,6 +79,8 @@ void require_frame(const TriangleMesh& mesh, const ParameterizeOptions& options)
       refuse_option("poles.south", options.poles->south, "another vertex than poles.north");
     }
   }
+  if (options.align_to) require_alignment(mesh, options);
+  require_radial(mesh, options);
   if (options.meridian) require_vertex("meridian", *options.meridian, mesh.vertex_count());
   require_pins(mesh, options);
 }
@@ -63,7 +88,7 @@ void require_frame(const TriangleMesh& mesh, const ParameterizeOptions& options)
 }  // namespace
 
 void require_domain(const TriangleMesh& mesh, const ParameterizeOptions& options) {
-  require_one_of("method", options.method, Method::Paper);
+  require_one_of("method", options.method, Method::Radial);
   require_one_of("quality", options.quality, Quality::Best);
   require_one_of("balance", options.balance, Balance::EqualArea);
   require_at_least("sweeps", options.sweeps, 0);

@@ -64,6 +64,16 @@ Json balance_json(const std::optional<BalanceRecord>& balance) {
           {"moved", balance->moved}};
 }
 
+Json radial_json(const std::optional<RadialRecord>& radial) {
+  if (!radial) return nullptr;
+  const Vector3& c = radial->centre;
+  return {{"centre", {c.x(), c.y(), c.z()}},
+          {"folds", radial->folds},
+          {"folded_area", radial->folded_area},
+          {"moved", radial->moved},
+          {"largest_movement", radial->largest_movement}};
+}
+
 Json options_json(const MapRecord& record) {
   const ParameterizeOptions& options = record.options;
   const std::string method = record.method.empty() ? name_of(options.method) : record.method;
@@ -134,6 +144,8 @@ std::string to_json(const MapRecord& record) {
                   {"made_by", record.result.made_by},
                   {"poles", poles_json(record.result.poles, numbers)},
                   {"meridian", vertex_json(record.result.meridian, numbers)},
+                  {"radial", radial_json(record.result.radial)},
+                  {"alignment", record.result.alignment ? Json(*record.result.alignment) : Json()},
                   {"pole_residuals", pole_residuals_json(record.pole_residuals)},
                   {"pins", pins_json(record)},
                   {"lambda", lambda_json(record)},

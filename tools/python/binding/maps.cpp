@@ -29,7 +29,8 @@ struct Request {
 
 void take_method(Settings& settings, ParameterizeOptions& options) {
   settings
-      .take("method", options.method, {Method::Progressive, Method::Curvilinear, Method::Paper},
+      .take("method", options.method,
+            {Method::Progressive, Method::Curvilinear, Method::Paper, Method::Radial},
             [](Method method) { return name_of(method); })
       .take("quality", options.quality, {Quality::Draft, Quality::Normal, Quality::Best},
             [](Quality quality) { return name_of(quality); })

@@ -789,7 +789,8 @@ def map(
         True, or a dict of arguments of :func:`repair`: the mesh is mended first. Then vertices have
         other numbers, see ``vertex_origin``.
     method
-        ``"progressive"``; ``"curvilinear"``, the paper made sound; ``"paper"``, as printed, which folds.
+        ``"progressive"``; ``"curvilinear"``, the paper made sound; ``"paper"``, as printed, which folds;
+        ``"radial"``, directions from the origin: planetocentric where the body is star-shaped.
     balance
         ``"balanced"``, ``"conformal"``, ``"equal-area"``, or a number: the weight of area against angle.
     weight

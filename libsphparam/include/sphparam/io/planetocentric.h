@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+
+#include "sphparam/io/sphere_file.h"
+#include "sphparam/parameterize.h"
+
+namespace sphparam {
+
+/// Of a map of Method::Radial: θ and π/2 − ϕ of a vertex are its planetocentric longitude and
+/// latitude, but for this movement.
+struct Planetocentric {
+  Vector3 centre;               // in the mesh's coordinates
+  double largest_movement = 0;  // of a vertex from its direction, in radians; 0: none was moved
+};
+
+/// The lines that say so in the header of a written map: radial-centre, radial-movement. None of
+/// other maps.
+Provenance planetocentric_lines(const Parameterization& result);
+
+/// What such lines say; nothing where there are none, or other things than numbers in them.
+std::optional<Planetocentric> planetocentric(const Provenance& provenance);
+
+}  // namespace sphparam

@@ -1,0 +1,133 @@
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "program.h"
+#include "support/test_meshes.h"
+
+/// Maps that lie as the body does: `map --method radial`, `--align`, `--centre`.
+namespace sphparam::tests {
+
+namespace {
+
+using Catch::Contains;
+using Json = nlohmann::json;
+
+std::string body(const Vector3& centre = Vector3::Zero()) {
+  TriangleMesh mesh = icosphere(3);
+  for (Vertex v = 0; v < mesh.vertex_count(); ++v) {
+    const Vector3 x = mesh.position(v);
+    mesh.positions.row(v) = centre + (1 + 0.2 * x.x() * x.y()) * Vector3(2 * x.x(), x.y(), x.z());
+  }
+  return obj_text(mesh);
+}
+
+}  // namespace
+
+TEST_CASE("map: --method radial says what it is, in a line, in --json and in the header") {
+  const Folder folder;
+  const std::string map = folder / "map.sph.ply";
+  const Ended ended = sphparam_program(
+      {"map", "-", "-o", map, "--method", "radial", "--json", folder / "map.json"}, body());
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.err, Contains("planetocentric: the surface is star-shaped about (0, 0, 0)"));
+  const Json report = Json::parse(bytes_of(folder / "map.json"));
+  CHECK(report["radial"]["folds"] == 0);
+  CHECK(report["radial"]["largest_movement"] == 0);
+  CHECK(report["options"]["method"] == "radial");
+  CHECK(report["alignment"].is_null());
+  const std::string header = bytes_of(map).substr(0, 1200);
+  CHECK_THAT(header, Contains("sphparam radial-centre 0 0 0\n"));
+  CHECK_THAT(header, Contains("sphparam radial-movement 0\n"));
+  CHECK(sphparam_program({"verify", map}).code == 0);
+}
+
+TEST_CASE("map: --centre moves the centre, and none of the vertices may be there") {
+  const Folder folder;
+  const std::string map = folder / "map.sph.ply";
+  const std::string moved = body({5, 6, 7});
+  const Ended ended =
+      sphparam_program({"map", "-", "-o", map, "--method", "radial", "--centre", "5,6,7"}, moved);
+  INFO(ended.err);
+  CHECK(ended.code == 0);
+  CHECK_THAT(ended.err, Contains("star-shaped about (5, 6, 7)"));
+  const std::string first = moved.substr(2, moved.find('\n') - 2);
+  std::string commas = first;
+  for (char& c : commas) c = c == ' ' ? ',' : c;
+  const Ended refused =
+      sphparam_program({"map", "-", "-o", map, "--method", "radial", "--centre", commas}, moved);
+  CHECK(refused.code == 2);
+  CHECK_THAT(refused.err, Contains("--centre: vertex 0 lies at the centre"));
+}
+
+TEST_CASE("map: --align turns a map to the body, or to another map of the mesh") {
+  const Folder folder;
+  write_bytes(folder / "body.obj", body());
+  const std::string mesh = folder / "body.obj", to_body = folder / "a.sph.ply";
+  const Ended ended =
+      sphparam_program({"map", mesh, "-o", to_body, "--align", "body", "--json", "-"});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.err, Contains("are left (RMS over the surface)"));
+  const Json report = Json::parse(ended.out);
+  CHECK(report["alignment"] > 0);
+  CHECK(report["alignment"] < 0.3);
+  CHECK(report["radial"].is_null());
+  CHECK_THAT(bytes_of(to_body).substr(0, 1200), Contains("sphparam alignment 0."));
+  const Ended again = sphparam_program(
+      {"map", mesh, "-o", folder / "b.sph.ply", "--align", to_body, "--json", "-"});
+  INFO(again.err);
+  REQUIRE(again.code == 0);
+  CHECK(Json::parse(again.out)["alignment"] < 1e-9);
+  const Ended other = sphparam_program({"map", "-", "-o", folder / "c.sph.ply", "--align", to_body},
+                                       obj_text(icosphere(2)));
+  CHECK(other.code == 3);
+}
+
+TEST_CASE("map: --method radial --keep-folded writes the directions as they are, folds and all") {
+  const Folder folder;
+  const std::string map = folder / "folds.sph.ply";
+  const Ended ended = sphparam_program(
+      {"map", "-", "-o", map, "--method", "radial", "--keep-folded", "--json", "-"},
+      obj_text(random_sphere_mesh(200, 4)));
+  INFO(ended.err);
+  CHECK(ended.code == 5);
+  const Json report = Json::parse(ended.out);
+  CHECK(report["radial"]["folds"] > 0);
+  CHECK(report["radial"]["folds"] == report["certificate"]["folds"]);
+  CHECK(report["radial"]["moved"] == 0);
+  CHECK(sphparam_program({"verify", map}).code == 5);
+}
+
+TEST_CASE("map: what radial, --align and --centre may not be said with ends with 2") {
+  const Folder folder;
+  write_bytes(folder / "pins.txt", "5 0.5 1.0\n");
+  const std::vector<std::vector<std::string>> senseless = {
+      {"--method", "radial", "--poles", "3,40"},
+      {"--method", "radial", "--poles", "none"},
+      {"--method", "radial", "--meridian", "3"},
+      {"--method", "radial", "--pin", folder / "pins.txt"},
+      {"--method", "radial", "--align", "body"},
+      {"--method", "radial", "--quality", "best"},
+      {"--method", "radial", "--centre", "1,2"},
+      {"--method", "radial", "--centre", "1,2,x"},
+      {"--method", "radial", "--centre", "1,2,inf"},
+      {"--align", "body", "--poles", "3,40"},
+      {"--align", "body", "--meridian", "3"},
+      {"--align", "body", "--method", "tangential"},
+      {"--align", "-"},
+      {"--centre", "0,0,0"},
+  };
+  for (const auto& options : senseless) {
+    std::vector<std::string> arguments = {"map", "-", "-o", "-"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    std::string line;
+    for (const std::string& argument : arguments) line += argument + " ";
+    const Ended ended = sphparam_program(arguments, body());
+    INFO(line << ended.err);
+    CHECK(ended.code == 2);
+    CHECK(ended.out.empty());
+  }
+}
+
+}  // namespace sphparam::tests
