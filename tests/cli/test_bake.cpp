@@ -15,6 +15,7 @@ namespace sphparam::tests {
 namespace {
 
 using Catch::Contains;
+using Json = nlohmann::json;
 using namespace sphparam;
 
 /// A ball whose texture coordinates are x and y: a picture laid on it from above.
@@ -269,6 +270,70 @@ TEST_CASE("bake: what cannot be done is said before anything is written") {
     CHECK(lost.code == 3);
     CHECK_THAT(lost.err, Contains("the folder " + (folder / "no") + " does not exist"));
   }
+}
+
+TEST_CASE("bake: --body writes what tells GDAL where an image lies, and says whose longitudes") {
+  const Folder folder;
+  const std::string map = folder / "stone.sph.ply";
+  TriangleMesh mesh = icosphere(3);
+  mesh.positions *= Vector3(17, 9, 7).asDiagonal();
+  REQUIRE(sphparam_program({"map", "-", "-o", map, "--method", "radial"}, obj_text(mesh)).code == 0);
+  const Ended ended = sphparam_program({"bake", map, "--body", "eros", "--unit", "km", "--map",
+                                        "radius,elevation,lon", "--size", "64", "-o",
+                                        folder / "{map}.tif", "--json", folder / "b.json"});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.err, Contains("longitude and latitude: Eros (2015) - Sphere / Ocentric"));
+  for (const std::string name : {"radius", "elevation", "lon"}) {
+    const std::string beside = bytes_of(folder / (name + ".tif.aux.xml"));
+    CHECK_THAT(beside, Contains("<GeoTransform>-180, 5.625, 0, 90, 0, -5.625</GeoTransform>") &&
+                           Contains("<Scale>") && Contains("<Description>" + name));
+  }
+  const Json report = Json::parse(bytes_of(folder / "b.json"));
+  CHECK(report["convention"] == "gis");
+  CHECK(report["body"]["name"] == "Eros");
+  CHECK(report["images"][0]["sidecar"] == folder / "radius.tif.aux.xml");
+  const Ended own = sphparam_program({"bake", "-", "--body", "17", "--unit", "km", "--map", "radius",
+                                      "--size", "64", "-o", folder / "own.png"},
+                                     obj_text(mesh));
+  INFO(own.err);
+  CHECK(own.code == 0);
+  CHECK_THAT(own.err, Contains("longitude and latitude: sphparam map of"));
+}
+
+TEST_CASE("bake: what --body, --unit, --west and --centre may not say ends with 2, without a file") {
+  const Folder folder;
+  const std::string ball = obj_text(icosphere(2)), image = folder / "x.tif";
+  const std::string wkt =
+      "GEOGCRS[\"X\",DATUM[\"X\",ELLIPSOID[\"X\",9,0,LENGTHUNIT[\"metre\",1]]],CS[ellipsoidal,2],"
+      "AXIS[\"latitude\",north],AXIS[\"longitude\",east],ANGLEUNIT[\"degree\",0.017453]]";
+  const std::vector<std::pair<std::vector<std::string>, std::string>> senseless = {
+      {{"--body", "vespa"}, "did you mean vesta?"},
+      {{"--body", "0"}, "above 0"},
+      {{"--body", "1,2"}, "three semi-axes"},
+      {{"--body", "vesta", "--convention", "three"}, "in the convention gis"},
+      {{"--body", "vesta", "--unit", "mile"}, "--unit"},
+      {{"--body", wkt, "--west"}, "--west contradicts --body"},
+      {{"--unit", "km"}, "--unit is for --body only"},
+      {{"--centre", "1,2"}, "--centre"},
+      {{"--map", "elevation"}, "above which body?"},
+  };
+  for (const auto& [options, said] : senseless) {
+    std::vector<std::string> arguments = {"bake", "-", "-o", image, "--size", "16"};
+    if (options.front() != "--map") arguments.insert(arguments.end(), {"--map", "radius"});
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Ended ended = sphparam_program(arguments, ball);
+    INFO(options.back() << ": " << ended.err);
+    CHECK(ended.code == 2);
+    CHECK_THAT(ended.err, Contains(said));
+  }
+  CHECK(folder.names().empty());
+  write_bytes(folder / "x.tif.aux.xml", "mine");
+  const Ended read = sphparam_program({"bake", "-", "--map", "radius", "--body", "1", "--texture",
+                                       folder / "x.tif.aux.xml", "-o", image, "--size", "16"},
+                                      ball);
+  CHECK(read.code == 2);
+  CHECK(bytes_of(folder / "x.tif.aux.xml") == "mine");
 }
 
 }  // namespace sphparam::tests

@@ -22,6 +22,9 @@ void check_all_places(const BakeArguments& arguments, const std::vector<BakeRequ
     if (arguments.settings.fields.heat && !is_stream(image.path)) {
       written.emplace_back("--heat", scale_path(image.path));
     }
+    if (arguments.settings.fields.body && has_sidecar(image.path)) {
+      written.emplace_back("--body", sidecar_path(image.path));
+    }
   }
   written.emplace_back("--json", arguments.json);
   check_places(written);
@@ -58,6 +61,27 @@ void declare_inputs(Declaration& command, BakeArguments& arguments) {
       .text("--for", arguments.target, "FILE",
             "Another mesh on the same sphere that the images are for: its chart, its frame of "
             "normals, its surface as base of heights; one with a map of its own is refused");
+}
+
+void declare_body(Declaration& command, BakeArguments& arguments) {
+  FieldOptions& fields = arguments.settings.fields;
+  command.group("Maps of a body")
+      .text("--body", arguments.body, "NAME|RADIUS|A,B,C|WKT",
+            "Whose surface it is: one of the IAU's names, radii in the mesh's unit, or a "
+            "coordinate system; files beside .tif and .png tell GDAL and QGIS where they lie")
+      .choice("--unit", arguments.unit, {{"m", 1.0}, {"km", 1000.0}},
+              "Of the mesh's coordinates (default: m)")
+      .flag("--west", fields.positive_west, "Longitudes grow to the west")
+      .parsed(
+          "--centre", "X,Y,Z",
+          [&fields](const std::string& text) {
+            const auto numbers = three_numbers(text);
+            if (numbers) fields.centre = Vector3(numbers->data());
+            return numbers.has_value();
+          },
+          "expected three numbers, as in 0,0,1.5, not ",
+          "The body's centre, in the mesh's coordinates")
+      .preset("that of a radial map, else 0,0,0");
 }
 
 void declare_images(Declaration& command, BakeSettings& settings) {
@@ -105,6 +129,7 @@ std::string bake_summary() {
       "    --map basecolor,normal-object,ao\n"
       "  sphparam bake statue.sph.ply --for low.sph.ply --map basecolor,normal-tangent -o low/\n"
       "  sphparam bake statue.sph.ply --map position --depth float --mip -o statue.exr\n"
+      "  sphparam bake eros.sph.ply --body eros --unit km --map radius,slope -o eros_{map}.tif\n"
       "\n"
       "Longitude runs along the rows, the north pole is the first one; every texel has the value\n"
       "of the one point of the surface that maps there. A mesh without a map is mapped first.\n"
@@ -120,8 +145,10 @@ std::string bake_summary() {
 
 void declare_bake_options(Declaration& command, BakeArguments& arguments) {
   declare_inputs(command, arguments);
+  arguments.given = command.given();
   declare_images(command, arguments.settings);
-  command.json(arguments).threads(arguments).console(arguments);
+  declare_body(command, arguments);
+  command.group("Options").json(arguments).threads(arguments).console(arguments);
 }
 
 UsageMistake as_mistake(const BakeSettingError& error) {
@@ -134,7 +161,9 @@ UsageMistake as_mistake(const BakeSettingError& error) {
       {"mip", "--mip"},
       {"refine_poles", "--refine-poles"},
       {"rays", "--rays"},
-      {"max_ray_distance", "--max-dist"}};
+      {"max_ray_distance", "--max-dist"},
+      {"body", "--body"},
+      {"centre", "--centre"}};
   const auto known = options.find(error.setting());
   const std::string option = known == options.end() ? error.setting() : known->second;
   return UsageMistake(option + (option.ends_with(' ') ? "" : ": ") + error.what());
@@ -153,6 +182,27 @@ UsageMistake as_mistake(const OtherSphereError& error, const MappedMesh& source,
                       settings.source_name +
                       " --grid ico:6 -o LOW.sph.ply` makes a mesh on its sphere" +
                       (source.mapped_here() ? ", of a map that is kept (`sphparam map`)" : ""));
+}
+
+void settle_body(BakeArguments& arguments) {
+  BakeSettings& settings = arguments.settings;
+  if (arguments.body.empty()) {
+    if (arguments.given("--unit")) throw UsageMistake("--unit is for --body only");
+    return;
+  }
+  try {
+    settings.fields.body = body_of(arguments.body, arguments.unit);
+  } catch (const BodyError& error) {
+    throw UsageMistake(std::string("--body: ") + error.what() +
+                       did_you_mean(error.unknown(), error.known()));
+  }
+  Body& body = *settings.fields.body;
+  if (settings.fields.positive_west && !body.wkt.empty() && !body.positive_west) {
+    throw UsageMistake("--west contradicts --body: the WKT has longitudes that grow to the east");
+  }
+  body.positive_west |= settings.fields.positive_west;
+  if (!arguments.given("--convention")) settings.convention = Convention::Gis;
+  if (!arguments.given("--interp")) settings.interpolation = Interpolation::Sphere;
 }
 
 std::vector<BakeRequest> bake_requests(const BakeArguments& arguments) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -12,16 +13,23 @@ namespace sphparam::cli {
 struct BakeArguments : CommonArguments {
   std::string input;
   std::string output;
-  std::vector<std::string> maps;  // fields; none: the base colour
-  std::string sphere;             // the map in a file of its own; empty: none
-  std::string target;             // --for; empty: the source
-  BakeSettings settings;          // what has an option; names, target, progress are the command's
+  std::vector<std::string> maps;                  // fields; none: the base colour
+  std::string sphere;                             // the map in a file of its own; empty: none
+  std::string target;                             // --for; empty: the source
+  std::string body;                               // a name, radii or WKT; empty: none
+  double unit = 1;                                // metres that the mesh's unit has
+  std::function<bool(const std::string&)> given;  // was this option on the command line?
+  BakeSettings settings;  // what has an option; names, target, progress are the command's
 };
 
 /// What `sphparam bake --help` begins with.
 std::string bake_summary();
 
 void declare_bake_options(Declaration& command, BakeArguments& arguments);
+
+/// Completes the settings of a body. Throws: UsageMistake where there is no such body, or options
+/// do not go together.
+void settle_body(BakeArguments& arguments);
 
 /// The images of the arguments, in their order, {map} replaced, before any work is done.
 /// Throws: UsageMistake, for maps that do not exist (with the nearest), files that would be

@@ -81,10 +81,12 @@ BakeReport bake_for_user(const MappedMesh& source, const std::vector<BakeRequest
 }
 
 int run_bake(BakeArguments& arguments) {
+  settle_body(arguments);
   Session session(arguments);
   const std::vector<BakeRequest> images = bake_requests(arguments);
   const MappedMesh source = read_mapped(arguments.input, arguments.sphere, session);
   const BakeSettings settings = settings_of(arguments, session);
+  tell_longitudes(source, settings.convention, session);
   const BakeReport baked = bake_for_user(source, images, settings, session.files);
   session.warn(baked.warnings);
   session.add_report([&] {
@@ -92,6 +94,9 @@ int run_bake(BakeArguments& arguments) {
                               session.stopwatch.seconds()});
   });
   session.publish();
+  if (!baked.coordinate_system.empty()) {
+    session.console.say("  longitude and latitude: " + baked.coordinate_system);
+  }
   for (const BakedImage& image : baked.images) session.console.say(line_of(image, settings));
   session.console.detail("  " + short_number(session.stopwatch.seconds()) + " s");
   return Ok;

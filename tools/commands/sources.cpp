@@ -1,11 +1,16 @@
 #include "commands/sources.h"
 
+#include <numbers>
 #include <utility>
 
 #include "arguments/limits.h"
 #include "console/exit_codes.h"
+#include "embedding/frame/nearest_rotation.h"
+#include "number_text.h"
 #include "reports/told_losses.h"
 #include "sphparam/io/paths.h"
+#include "sphparam/io/planetocentric.h"
+#include "sphparam/sphere/radial_directions.h"
 
 namespace sphparam::cli {
 
@@ -26,6 +31,23 @@ MappedMesh read_mapped(const std::string& path, const std::string& sphere, Sessi
   if (mapped.mapped_here())
     session.console.say(mapped.name() + ": carries no map; mapped now (progressive)");
   return mapped;
+}
+
+void tell_longitudes(const MappedMesh& mapped, Convention convention, Session& session) try {
+  if (convention != Convention::Gis) return;
+  constexpr double degrees = 180 / std::numbers::pi, nothing = 1e-4;
+  const std::optional<Planetocentric> radial = planetocentric(mapped.provenance());
+  const SphereMap directions =
+      radial_directions(mapped.mesh(), radial ? radial->centre : Vector3(0, 0, 0));
+  const VectorX even = VectorX::Ones(mapped.mesh().vertex_count());
+  const double angle = degrees * rms_angle(mapped.map(), directions, even);
+  if (angle < nothing) return;
+  session.console.say("  the map's longitudes and latitudes are " + short_number(angle) +
+                      "° from those of the body (RMS); " +
+                      (radial ? "it moved what folds"
+                              : "`sphparam map` --method radial has the body's, --align body comes "
+                                "near"));
+} catch (const VertexAtCentre&) {  // no body about the origin
 }
 
 std::shared_ptr<const MeshTextures> read_shown_textures(const MeshFile& file,

@@ -6,6 +6,7 @@
 #include "console/session.h"
 #include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/mesh_source.h"
+#include "sphparam/texture/convention.h"
 #include "sphparam/texture/mesh_textures.h"
 
 namespace sphparam::cli {
@@ -17,6 +18,11 @@ MeshSource read_source(const std::string& path);
 /// file loses is told, and so is a map that had to be made, with the λ given.
 MappedMesh read_mapped(const std::string& path, const std::string& sphere, Session& session,
                        double lambda = 1);
+
+/// Of images for geographers: how far the map's longitudes and latitudes are from those of the body
+/// that the mesh is, seen from the centre of a radial map or the origin; nothing where they are the
+/// same.
+void tell_longitudes(const MappedMesh& mapped, Convention convention, Session& session);
 
 /// `shown_textures` with --texture IMAGE, if it is not empty; what stands against those of the file
 /// is told. `path`: of the mesh. Throws: UsageMistake where there is no place for the image.

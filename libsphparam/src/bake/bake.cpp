@@ -8,6 +8,7 @@
 #include "bake/baked_chart.h"
 #include "bake/choose_target.h"
 #include "bake/field_registry.h"
+#include "bake/georeference/georeference.h"
 #include "bake/image_plan.h"
 #include "bake/make_scene.h"
 #include "bake/write_images.h"
@@ -74,6 +75,7 @@ BakeReport bake(const MappedMesh& source, const std::vector<BakeRequest>& images
   find_ranges(plan, scene, settings);
   write_images(plan, scene, settings, texts_of_all(source, settings), files);
   for (const PlannedImage& image : plan) report.images.push_back(told(image));
+  add_sidecars(plan, source, settings, files, report);
   return report;
 }
 

@@ -118,7 +118,7 @@ void add_samples(const Work& work, int band, double x, double y, int sample, flo
   for_each_batch(work, band, x, y, sample, [&](Batch& batch, size_t texel, size_t count) {
     for (size_t f = 0; f < work.fields.size(); ++f) {
       const SurfaceField& field = work.fields[f];
-      if ((field.kind == FieldKind::Label) != labels) continue;
+      if (has_means(field.kind) == labels) continue;
       const auto channels = static_cast<size_t>(field.channels);
       float* out = &values[f][texel * channels];
       if (weight == 1) {
@@ -142,7 +142,7 @@ void average_crowded(const Work& work, int band, BandValues& values) {
   std::vector<float> buffer;
   for (size_t f = 0; f < work.fields.size(); ++f) {
     const SurfaceField& field = work.fields[f];
-    if (field.kind == FieldKind::Label) continue;
+    if (!has_means(field.kind)) continue;
     const auto channels = static_cast<size_t>(field.channels);
     buffer.resize(crowded.points.runs.size() * channels);
     Batch(crowded.points.runs, crowded.points.places, start * crowded_seeds, 0, work.progress)
@@ -159,7 +159,7 @@ void average_crowded(const Work& work, int band, BandValues& values) {
   }
 }
 
-bool is_label(const SurfaceField& field) { return field.kind == FieldKind::Label; }
+bool is_label(const SurfaceField& field) { return !has_means(field.kind); }
 
 /// How often the texels are gone through.
 int passes(std::span<const SurfaceField> fields, const BakeOptions& options) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "sphparam/bake/fields.h"
@@ -43,5 +44,8 @@ struct BakeScene {
   bool mirrored = false;        // u of the image runs against longitude: see `Convention`
   bool ids_as_colours = false;  // in integer images, which cannot hold large numbers
 };
+
+/// "m", "km", "0.3 m"; nothing where no body says what the mesh's unit is.
+std::string unit_of_lengths(const FieldOptions& options);
 
 }  // namespace sphparam

@@ -40,6 +40,21 @@ void require_whole_texels(const BakeSettings& settings) {
   }
 }
 
+void require_body(const BakeSettings& settings) {
+  if (settings.fields.centre && !settings.fields.centre->allFinite()) {
+    throw BakeSettingError("centre", "is not finite");
+  }
+  if (!settings.fields.body) return;
+  const Body& body = *settings.fields.body;
+  if (settings.convention != Convention::Gis) {
+    throw BakeSettingError("body", "its images are in the convention gis, not " +
+                                       std::string(info_of(settings.convention).name));
+  }
+  const bool positive = (body.semi_axes.array() > 0).all() && body.semi_axes.allFinite() &&
+                        body.unit > 0 && std::isfinite(body.unit);
+  if (!positive) throw BakeSettingError("body", "semi-axes and unit must be above 0 and finite");
+}
+
 void require_format(const std::string& path, const BakeSettings& settings) {
   const std::optional<ImageFormat> format =
       is_stream(path) ? ImageFormat::Png : image_format_of(path);
@@ -59,9 +74,17 @@ void require_format(const std::string& path, const BakeSettings& settings) {
 
 }  // namespace
 
+std::string sidecar_path(const std::string& image) { return image + ".aux.xml"; }
+
+bool has_sidecar(const std::string& image) {
+  const std::optional<ImageFormat> format = image_format_of(image);
+  return format == ImageFormat::Png || format == ImageFormat::Tiff;
+}
+
 void require_bakeable(const std::vector<BakeRequest>& images, const BakeSettings& settings) {
   require_whole_texels(settings);
   require_domains(settings);
+  require_body(settings);
   std::set<std::string> paths;
   for (const BakeRequest& image : images) {
     require_field_name(image.field);

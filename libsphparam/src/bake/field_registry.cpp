@@ -6,6 +6,7 @@
 
 #include "bake/fields/attribute_fields.h"
 #include "bake/fields/base_colour.h"
+#include "bake/fields/body_fields.h"
 #include "bake/fields/curvature_field.h"
 #include "bake/fields/distortion_fields.h"
 #include "bake/fields/height_field.h"
@@ -24,6 +25,12 @@ const std::vector<FieldMaker>& field_makers() {
       {"position", "x y z", make_position},
       {"height", "height over the mesh it is for, or (radial) distance from the origin",
        height_field, true},
+      {"lon", "planetocentric longitude, degrees", make_longitude},
+      {"lat", "planetocentric latitude, degrees", make_latitude},
+      {"lonlat", "both, in the first two channels", make_longitude_latitude},
+      {"radius", "distance from the centre of the body", make_radius},
+      {"slope", "degrees between normal and direction from the centre", make_slope},
+      {"elevation", "radius above the sphere or ellipsoid of the body", make_elevation},
       {"ao", "ambient occlusion: how much of the sky is seen", make_occlusion},
       {"bent", "mean direction of the sky that is seen", make_bent_normal},
       {"thickness", "mean way inwards to the other side", make_thickness},

@@ -24,7 +24,7 @@ void ImageLevel::add_rows(const float* values, int rows) {
       const int offset = next_row_ - box->first;
       if (offset >= 4) continue;
       const float weight = box->weights[static_cast<size_t>(offset)];
-      const bool takes = kind_ == FieldKind::Label ? offset == 0 : weight > 0;
+      const bool takes = !has_means(kind_) ? offset == 0 : weight > 0;
       if (takes) add_row(fine, static_cast<size_t>(box - rows_.begin()), weight);
     }
   }
@@ -34,7 +34,7 @@ void ImageLevel::add_row(const float* fine, size_t row, float weight) {
   float* out = &values_[row * columns_.size() * channels_];
   for (const BoxShares& box : columns_) {
     const float* in = fine + static_cast<size_t>(box.first) * channels_;
-    if (kind_ == FieldKind::Label) {
+    if (!has_means(kind_)) {
       std::copy_n(in, channels_, out);
     } else {
       for (size_t k = 0; k < 4 && box.weights[k] > 0; ++k, in += channels_) {

@@ -22,7 +22,8 @@ SampleType depth_of(const BakeSettings& settings, ImageFormat format, FieldKind 
 }
 
 bool has_numbers(const SurfaceField& field) {
-  return field.kind == FieldKind::Data || (field.kind == FieldKind::Label && field.channels == 1);
+  return field.kind == FieldKind::Data || field.kind == FieldKind::Place ||
+         (field.kind == FieldKind::Label && field.channels == 1);
 }
 
 /// How many whole numbers from 0, or from the least in integers, a type tells apart.

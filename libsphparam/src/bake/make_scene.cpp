@@ -2,6 +2,7 @@
 
 #include "io/attributes/hard_edges.h"
 #include "io/attributes/shading_normals.h"
+#include "number_text.h"
 #include "sphparam/chart/carry_attributes.h"
 #include "sphparam/chart/refine_poles.h"
 #include "sphparam/chart/tangent_frame.h"
@@ -27,6 +28,12 @@ BakeTarget make_target(const MappedMesh& mapped, bool is_source, int threads, in
                        const Progress& progress) {
   return make_target(mapped.file(), mapped.topology(), mapped.map(), is_source, threads,
                      pole_wedges, progress);
+}
+
+std::string unit_of_lengths(const FieldOptions& options) {
+  if (!options.body) return "";
+  const double unit = options.body->unit;
+  return unit == 1 ? "m" : unit == 1000 ? "km" : shortest(unit) + " m";
 }
 
 BakeSource make_source(const MappedMesh& mapped) {

@@ -18,7 +18,13 @@ enum class FieldKind : std::uint8_t {
   Data,       // averaged as it is, never colour-converted
   Direction,  // unit vectors: averaged, then made unit again; stored as ½ + ½·n in integers
   Label,      // never averaged: the value at the texel's centre
+  Place,      // numbers that have no mean, as longitudes at ±180°: those at the texel's centre
 };
+
+/// Whether values of neighbouring places make a value.
+inline bool has_means(FieldKind kind) {
+  return kind != FieldKind::Label && kind != FieldKind::Place;
+}
 
 /// A point of the source surface that a texel asks for.
 struct SurfaceSample {
@@ -42,6 +48,7 @@ struct SurfaceField {
   int channels = 1;  // 1, 3 or 4
   FieldKind kind = FieldKind::Data;
   std::string about = {};  // one line for metadata: unit, space, convention
+  std::string unit = {};   // "m", "degree"; empty: none, or nobody knows
   // Where values of integer images come from and go to; none: known only once all are baked.
   std::optional<std::pair<double, double>> range = std::nullopt;
   /// Fills values[channels·i …] for sample i. Called from many threads at once.

@@ -1,15 +1,19 @@
 #include "bake/texel_points.h"
 
+#include <cmath>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
 
+#include "sphparam/io/planetocentric.h"
 #include "sphparam/sphere/spherical_coordinates.h"
 
 // A refined face lies in one source face, and its map to it is affine in (u, v): a run of the chart
 // is a run of the source. (Not so on the sphere, where the rays of new vertices have unit length.)
 // Through another mesh, λ of the source is projective in the direction q: λ ∝ M⁻¹q, M = (x₀ x₁ x₂);
-// its derivative, λ̇ = (M⁻¹q̇ − λ Σ M⁻¹q̇) / Σ M⁻¹q, is what a texel covers.
+// its derivative, λ̇ = (M⁻¹q̇ − λ Σ M⁻¹q̇) / Σ M⁻¹q, is what a texel covers. Of a radial map M has the
+// vertices as seen from its centre instead of their rays: λ is then of the point where q, as a ray
+// from there, meets the triangle, on neighbouring triangles at the same points of their edge.
 
 namespace sphparam {
 namespace {
@@ -29,6 +33,13 @@ Eigen::Matrix3d rays(const Triangles& triangles, const Points& points, Face f) {
 
 TexelRun single(const SurfacePoint& point, int row, int column) {
   return {point.face, row, column, 1, {point.barycentric[0], point.barycentric[1]}, {0, 0}, {0, 0}};
+}
+
+/// λ of the triangle with corners at these distances along its rays, from λ of the rays.
+void move_to_surface(const Eigen::Matrix3d& corners, Vector3& weights) {
+  const Vector3 moved = weights.cwiseQuotient(Vector3(corners.colwise().norm()));
+  const double sum = moved.sum();
+  if (std::isfinite(sum) && sum > 0) weights = moved / sum;
 }
 
 }  // namespace
@@ -53,7 +64,12 @@ TexelFinder::TexelFinder(const BakeScene& scene, const TexelOwners& owners,
     }
   }
   const bool sphere = interpolation == Interpolation::Sphere;
-  if (sphere || !scene.target.is_source) source_ = &scene.source.mapped.locator();
+  if (sphere || !scene.target.is_source) {
+    source_ = &scene.source.mapped.locator();
+    if (const auto radial = planetocentric(scene.source.mapped.provenance())) {
+      seen_from_centre_ = scene.source.mesh().positions.rowwise() - radial->centre.transpose();
+    }
+  }
   if (sphere) {
     if (!chart.certificate.inverted.empty()) {
       throw std::invalid_argument("the chart's points are no sphere map");
@@ -96,10 +112,13 @@ std::array<Vector3, 2> derivatives(const Eigen::Matrix3d& corners, const Surface
 }  // namespace
 
 SurfaceRun TexelFinder::located(const Vector3& q, const Vector3& east, const Vector3& south) const {
-  const SurfacePoint point = source_->locate(q);
+  SurfacePoint point = source_->locate(q);
   const BakeSource& source = scene_->source;
-  const auto [step, below] = derivatives(
-      rays(source.mesh().triangles, source.map().points, point.face), point, q, east, south);
+  const Eigen::Matrix3d corners =
+      rays(source.mesh().triangles, seen_from_centre_ ? *seen_from_centre_ : source.map().points,
+           point.face);
+  if (seen_from_centre_) move_to_surface(corners, point.barycentric);
+  const auto [step, below] = derivatives(corners, point, q, east, south);
   return {point.face, 1, point.barycentric, step, below};
 }
 

@@ -60,6 +60,8 @@ class TexelFinder {
   std::vector<int> refined_;  // per chart face, into corners_; −1: the source's own
   std::vector<Eigen::Matrix3d> corners_;
   const SphereLocator* source_ = nullptr;  // of the source's map, where points are located
+  // Of a radial map the vertices as seen from its centre; else nothing.
+  std::optional<Points> seen_from_centre_;
   std::optional<Topology> chart_topology_;
   std::optional<SphereMap> chart_map_;
   std::optional<SphereLocator> chart_;  // of the chart's refined map

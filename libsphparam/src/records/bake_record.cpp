@@ -18,10 +18,20 @@ Json images_json(const std::vector<BakedImage>& images) {
                 {"file", image.path},
                 {"sample_type", name_of(image.sample_type)},
                 {"channels", image.channels}};
+    if (!image.sidecar.empty()) one["sidecar"] = image.sidecar;
     if (image.range) one["range"] = {image.range->first, image.range->second};
     result.push_back(std::move(one));
   }
   return result;
+}
+
+Json body_json(const Body& body, const BakeReport& baked) {
+  const Vector3& a = body.semi_axes;
+  return {{"name", body.name},
+          {"semi_axes_metres", {a.x(), a.y(), a.z()}},
+          {"unit_metres", body.unit},
+          {"positive_west", body.positive_west},
+          {"coordinate_system", baked.coordinate_system}};
 }
 
 }  // namespace
@@ -29,24 +39,26 @@ Json images_json(const std::vector<BakedImage>& images) {
 std::string to_json(const BakeRecord& record) {
   const BakeSettings& settings = record.settings;
   const std::optional<double>& distance = record.baked.target_distance;
-  return text_of(
-      {{"version", version},
-       {"source", {{"file", record.input}, {"triangles", record.source.mesh().face_count()}}},
-       {"for", record.target.empty() ? Json() : Json(record.target)},
-       {"for_distance", distance ? Json(*distance) : Json()},
-       {"width", settings.width},
-       {"height", settings.width / 2},
-       {"samples", settings.samples},
-       {"convention", info_of(settings.convention).name},
-       {"refine_poles", settings.refine_poles},
-       {"images", images_json(record.baked.images)},
-       {"seconds", record.seconds}});
+  Json json = {
+      {"version", version},
+      {"source", {{"file", record.input}, {"triangles", record.source.mesh().face_count()}}},
+      {"for", record.target.empty() ? Json() : Json(record.target)},
+      {"for_distance", distance ? Json(*distance) : Json()},
+      {"width", settings.width},
+      {"height", settings.width / 2},
+      {"samples", settings.samples},
+      {"convention", info_of(settings.convention).name},
+      {"refine_poles", settings.refine_poles},
+      {"images", images_json(record.baked.images)},
+      {"seconds", record.seconds}};
+  if (settings.fields.body) json["body"] = body_json(*settings.fields.body, record.baked);
+  return text_of(json);
 }
 
 std::string line_of(const BakedImage& image, const BakeSettings& settings) {
   return settings.source_name + ": " + image.field + ", " + std::to_string(settings.width) + " × " +
          std::to_string(settings.width / 2) + " " + name_of(image.sample_type) + " → " +
-         output_name(image.path);
+         output_name(image.path) + (image.sidecar.empty() ? "" : ", " + image.sidecar);
 }
 
 }  // namespace sphparam

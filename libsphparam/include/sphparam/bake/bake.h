@@ -60,18 +60,24 @@ struct BakedImage {
   SampleType sample_type = SampleType::Uint8;
   int channels = 1;
   std::optional<std::pair<double, double>> range = {};  // what 0 and 1 of integers stand for
+  std::string sidecar = {};  // the file beside it that says where it lies; empty: none
 };
 
 struct BakeReport {
   std::vector<BakedImage> images;         // as they were asked for
   std::optional<double> target_distance;  // from the source, median, in its diagonals
   std::vector<std::string> warnings;      // what the user should look at
+  // What the sidecars call longitude and latitude: "Vesta (2015) - Sphere / Ocentric"; empty: none.
+  std::string coordinate_system = {};
 };
 
 /// Bakes fields of a mesh into equirectangular images: longitude along the rows, the north pole is
 /// the first one; every texel has the value of the one point of the surface that maps there. All
 /// images are baked together, row by row, and get their names at the end: all of them or none.
-/// Images of heat maps have their scale beside them, as `scale_path` says.
+/// Images of heat maps have their scale beside them, as `scale_path` says; with a body
+/// (`FieldOptions::body`), images in Convention::Gis have what tells GDAL, QGIS and others their
+/// coordinates, scale, offset and unit beside them, as `sidecar_path` says. That calls longitudes
+/// planetocentric only where the map is one by Method::Radial that moved no vertex.
 ///
 /// Ensures: the same bytes for any number of threads. Each file is read back before it gets its
 /// name.
@@ -89,6 +95,11 @@ BakeReport bake(const MappedMesh& source, const std::vector<BakeRequest>& images
 
 /// Throws what `bake` would throw before it looks at a mesh: BakeSettingError; FieldError.
 void require_bakeable(const std::vector<BakeRequest>& images, const BakeSettings& settings);
+
+/// Where what geographic programs read beside an image goes: map.tif.aux.xml.
+std::string sidecar_path(const std::string& image);
+/// Whether an image has one where a body is given: those of .png and .tif have.
+bool has_sidecar(const std::string& image);
 
 /// Where the scale of a heat map goes: heat.png has it in heat_scale.png beside it.
 std::string scale_path(const std::string& image);

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "sphparam/bake/body.h"
 #include "sphparam/texture/texture_options.h"
 
 namespace sphparam {
@@ -17,6 +19,11 @@ struct FieldOptions {
   bool heat = false;              // distortion and curvature as colours instead of numbers
   int rays = 64;                  // a sample, of ao, bent and thickness: 1 to 65536
   double max_ray_distance = 0.1;  // of ao and bent, in diagonals of the bounding box: positive
+  // Of lon, lat, radius, slope and elevation: the body's centre, in the mesh's coordinates; none:
+  // that of a radial map, else the origin.
+  std::optional<Vector3> centre = {};
+  bool positive_west = false;     // longitudes grow to the west
+  std::optional<Body> body = {};  // what elevations are above, and what images say they lie on
 };
 
 /// A kind of field that can be baked.

@@ -128,6 +128,7 @@ SurfaceField make_position(const BakeScene& scene, const std::string&) {
   return linear_field<3>(
       {.name = "position",
        .about = "x y z of the mesh, its own unit and axes; one range for all three",
+       .unit = unit_of_lengths(scene.options),
        .range = std::pair(mesh.positions.minCoeff(), mesh.positions.maxCoeff())},
       [&mesh](Face f, int k, std::array<double, 3>& value) {
         const int v = mesh.triangles(f, k);

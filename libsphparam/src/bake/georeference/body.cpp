@@ -1,0 +1,133 @@
+#include "sphparam/bake/body.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+namespace sphparam {
+namespace {
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return result;
+}
+
+/// The number that a text begins with, and what follows it.
+std::optional<std::pair<double, std::string_view>> leading_number(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{}) return std::nullopt;
+  return std::pair(value, text.substr(static_cast<size_t>(end - text.data())));
+}
+
+/// The numbers of "a" or "a,b,c"; nothing for other texts.
+std::optional<std::vector<double>> numbers_of(std::string_view text) {
+  std::vector<double> numbers;
+  for (;;) {
+    const auto number = leading_number(text);
+    if (!number) return std::nullopt;
+    numbers.push_back(number->first);
+    if (number->second.empty()) return numbers;
+    if (number->second.front() != ',') return std::nullopt;
+    text = number->second.substr(1);
+  }
+}
+
+void require_length(double length, const std::string& text) {
+  if (length > 0 && std::isfinite(length)) return;
+  throw BodyError(text + ": radii of a body are finite numbers above 0");
+}
+
+Body with_radii(const std::vector<double>& radii, const std::string& text, double unit) {
+  if (radii.size() != 1 && radii.size() != 3) {
+    throw BodyError(text + ": a body has one radius, or three semi-axes with commas between");
+  }
+  for (const double radius : radii) require_length(radius * unit, text);
+  const Vector3 axes(radii.front(), radii[radii.size() / 2], radii.back());
+  return {.semi_axes = axes * unit, .unit = unit};
+}
+
+// --- WKT
+
+bool is_wkt(std::string_view text) {
+  return text.starts_with("GEOGCRS[") || text.starts_with("GEODCRS[") ||
+         text.starts_with("GEOGCS[");
+}
+
+/// What follows `keyword["NAME",` at its first place; nothing where there is none.
+std::optional<std::string_view> after_name(std::string_view wkt, std::string_view keyword) {
+  const size_t place = wkt.find(keyword);
+  if (place == std::string_view::npos) return std::nullopt;
+  const size_t open = wkt.find('"', place);
+  const size_t close = open == std::string_view::npos ? open : wkt.find('"', open + 1);
+  if (close == std::string_view::npos || close + 1 >= wkt.size() || wkt[close + 1] != ',')
+    return std::nullopt;
+  const size_t value = wkt.find_first_not_of(" \n\t", close + 2);
+  return value == std::string_view::npos ? std::nullopt : std::optional(wkt.substr(value));
+}
+
+/// Semi-major axis and inverse flattening, which is 0 for a sphere.
+std::optional<std::pair<double, double>> ellipsoid_of(std::string_view wkt) {
+  std::optional<std::string_view> text = after_name(wkt, "ELLIPSOID[");
+  if (!text) text = after_name(wkt, "SPHEROID[");
+  const auto axis = text ? leading_number(*text) : std::nullopt;
+  if (!axis || !axis->second.starts_with(',')) return std::nullopt;
+  std::string_view rest = axis->second.substr(1);
+  rest.remove_prefix(std::min(rest.find_first_not_of(" \n\t"), rest.size()));
+  const auto flattening = leading_number(rest);
+  if (!flattening) return std::nullopt;
+  return std::pair(axis->first, flattening->first);
+}
+
+bool brackets_match(std::string_view wkt) {
+  return !wkt.empty() && wkt.back() == ']' &&
+         std::ranges::count(wkt, '[') == std::ranges::count(wkt, ']') &&
+         std::ranges::count(wkt, '"') % 2 == 0;
+}
+
+Body of_wkt(const std::string& text, double unit) {
+  const auto ellipsoid = ellipsoid_of(text);
+  const size_t open = text.find('"'), close = text.find('"', open + 1);
+  if (!ellipsoid || !brackets_match(text) || close == std::string::npos) {
+    throw BodyError("the WKT of the body is not complete: it needs a name and an ellipsoid");
+  }
+  const auto [major, inverse] = *ellipsoid;
+  require_length(major, "the WKT's ellipsoid");
+  const double minor = inverse == 0 ? major : major * (1 - 1 / inverse);
+  require_length(minor, "the WKT's ellipsoid");
+  const std::string axes = lower(text);
+  return {.name = text.substr(open + 1, close - open - 1),
+          .semi_axes = Vector3(major, major, minor),
+          .wkt = text,
+          .unit = unit,
+          .positive_west = axes.find(",west") != std::string::npos};
+}
+
+}  // namespace
+
+Body body_of(const std::string& text, double unit) {
+  require_length(unit, "the unit of the mesh");
+  if (is_wkt(text)) return of_wkt(text, unit);
+  if (const auto radii = numbers_of(text)) return with_radii(*radii, text, unit);
+  std::vector<std::string> known;
+  for (const IauBody& body : iau_bodies()) {
+    if (lower(body.name) == lower(text)) {
+      return {.name = body.name,
+              .semi_axes = Vector3::Constant(body.radius),
+              .iau_code = body.code,
+              .unit = unit};
+    }
+    known.push_back(lower(body.name));
+  }
+  throw BodyError("there is no body " + text +
+                      " among those of the IAU; a radius, three semi-axes, or WKT say it too",
+                  lower(text), std::move(known));
+}
+
+}  // namespace sphparam

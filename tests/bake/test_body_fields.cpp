@@ -1,0 +1,312 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <numbers>
+
+#include "rays/ray_scene.h"
+#include "sphparam/bake/bake.h"
+#include "sphparam/sphere/radial_directions.h"
+#include "sphparam/sphere/spherical_coordinates.h"
+#include "support/test_meshes.h"
+
+// Where texels lie on the body, against rays from its centre; and what geographic programs are
+// told.
+
+using namespace sphparam;
+using namespace sphparam::tests;
+
+namespace {
+
+namespace fs = std::filesystem;
+using Catch::Contains;
+
+constexpr double pi = std::numbers::pi;
+
+/// Small bodies, star-shaped about the origin: a bumpy ellipsoid, one with craters, a peanut.
+TriangleMesh star_shaped(int which, int level) {
+  TriangleMesh mesh = icosphere(level);
+  for (Vertex v = 0; v < mesh.vertex_count(); ++v) {
+    const Vector3 x = mesh.position(v);
+    double r = 1 + 0.1 * std::sin(5 * x.x()) * std::cos(4 * x.y() + 1);
+    if (which == 1) {
+      r = 1 - 0.12 * std::exp(-20 * (x - Vector3(0.6, 0.64, 0.48)).squaredNorm()) -
+          0.08 * std::exp(-60 * (x - Vector3(-1, 0, 0)).squaredNorm());
+    }
+    if (which == 2) r = std::sqrt(0.16 + x.x() * x.x());
+    mesh.positions.row(v) = r * x;
+    if (which == 0) mesh.positions.row(v) = mesh.position(v).cwiseProduct(Vector3(1.5, 1, 0.8));
+  }
+  return mesh;
+}
+
+MappedMesh mapped_radially(const TriangleMesh& mesh, const Vector3& centre = Vector3::Zero(),
+                           double movement = 0) {
+  MeshFile file;
+  file.mesh = mesh;
+  const auto text = [](double x) { return std::to_string(x); };
+  return MappedMesh({.file = std::move(file),
+                     .map = radial_directions(mesh, centre),
+                     .provenance = {{"radial-centre", text(centre.x()) + " " + text(centre.y()) +
+                                                          " " + text(centre.z())},
+                                    {"radial-movement", text(movement)}},
+                     .name = "stone.sph.ply"});
+}
+
+/// Values of a field in degrees of an image: by row and column, u = θ/2π.
+struct Baked {
+  int width, channels;
+  std::vector<float> values;
+  double at(int row, int column, int channel = 0) const {
+    return static_cast<double>(
+        values[static_cast<size_t>((row * width + column) * channels + channel)]);
+  }
+};
+
+Baked baked(const MappedMesh& mesh, const std::string& field, BakeSettings settings = {},
+            int width = 256) {
+  settings.width = width;
+  settings.interpolation = Interpolation::Sphere;
+  Baked result{settings.width, 0, {}};
+  bake_values(mesh, {field}, settings,
+              [&](size_t, const BakedField& of, int first, int rows, const float* values) {
+                result.channels = of.channels;
+                const size_t line = static_cast<size_t>(settings.width * of.channels);
+                REQUIRE(result.values.size() == static_cast<size_t>(first) * line);
+                result.values.insert(result.values.end(), values,
+                                     values + static_cast<size_t>(rows) * line);
+              });
+  return result;
+}
+
+Vector3 direction_of(int row, int column, int width) {
+  return to_cartesian({(column + 0.5) / width * 2 * pi, (row + 0.5) / (width / 2.0) * pi});
+}
+
+struct Folder {
+  fs::path path;
+  Folder() {
+    std::string name = (fs::temp_directory_path() / "sphparam_body_XXXXXX").string();
+    REQUIRE(mkdtemp(name.data()));
+    path = name;
+  }
+  ~Folder() { fs::remove_all(path); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  std::string operator/(const std::string& name) const { return (path / name).string(); }
+};
+
+std::string text_of(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// What is between <NAME> and </NAME>, at its first place.
+std::string element(const std::string& xml, const std::string& name) {
+  const size_t open = xml.find("<" + name), from = xml.find('>', open) + 1;
+  return xml.substr(from, xml.find("</" + name + ">", from) - from);
+}
+
+}  // namespace
+
+TEST_CASE("radius: maps of star-shaped bodies agree with rays from the centre to 1e-4") {
+  const TriangleMesh mesh = star_shaped(GENERATE(0, 1, 2), 6);
+  const double mean = mesh.positions.rowwise().norm().mean();
+  const RayScene scene(mesh);
+  // Texels finer than triangles: larger ones are means of what lies in them.
+  const Baked radius = baked(mapped_radially(mesh), "radius", {}, 1024);
+  double worst = 0;
+  for (int row = 0; row < radius.width / 2; ++row) {
+    for (int column = 0; column < radius.width; ++column) {
+      const RayHit hit =
+          scene.first_hit(Vector3::Zero(), direction_of(row, column, radius.width), 10);
+      REQUIRE(hit.face >= 0);
+      worst = std::max(worst, std::abs(radius.at(row, column) - hit.distance));
+    }
+  }
+  CHECK(worst < 1e-4 * mean);
+}
+
+TEST_CASE("lonlat: texels of a radial map have their own longitude and latitude") {
+  const Baked places = baked(mapped_radially(star_shaped(0, 6)), "lonlat");
+  CHECK(places.channels == 3);
+  double worst = 0;
+  for (int row = 0; row < places.width / 2; ++row) {
+    for (int column = 0; column < places.width; ++column) {
+      const double theta = (column + 0.5) / places.width * 360;
+      const double longitude = theta > 180 ? theta - 360 : theta;
+      const double latitude = 90 - (row + 0.5) / (places.width / 2.0) * 180;
+      const double off = std::remainder(places.at(row, column, 0) - longitude, 360) *
+                         std::cos(latitude * pi / 180);
+      worst = std::max({worst, std::abs(off), std::abs(places.at(row, column, 1) - latitude)});
+      CHECK(places.at(row, column, 2) == 0);
+    }
+  }
+  CHECK(worst < 1e-4);  // degrees: a ray from the centre meets the point
+}
+
+TEST_CASE("lon: never a mean across 180 degrees, with many samples and crowded texels too") {
+  const MappedMesh mesh = mapped_radially(star_shaped(1, 6));
+  BakeSettings settings;
+  settings.samples = 3;
+  for (const bool west : {false, true}) {
+    settings.fields.positive_west = west;
+    const Baked longitude = baked(mesh, "lon", settings);
+    for (int row = 0; row < longitude.width / 2; ++row) {
+      for (int column = 0; column < longitude.width; ++column) {
+        const double theta = (column + 0.5) / longitude.width * 360;
+        const double wanted = west ? -theta : theta;
+        const double off = std::remainder(longitude.at(row, column) - wanted, 360);
+        CHECK(std::abs(off) * std::sin((row + 0.5) / 128 * pi) < 0.05);
+        CHECK(longitude.at(row, column) <= 180);
+        CHECK(longitude.at(row, column) >= -180);
+      }
+    }
+  }
+}
+
+TEST_CASE("slope: 0 on a sphere about its centre, that of the plane on a cube's face") {
+  const Baked none = baked(mapped_radially(icosphere(6)), "slope");
+  CHECK(*std::ranges::max_element(none.values) < 1.2);  // a facet's own tilt
+  TriangleMesh box = octahedron();                      // its faces: normals (±1, ±1, ±1)/√3
+  const Baked slope = baked(mapped_radially(box), "slope");
+  for (const auto [row, column] : {std::pair(20, 30), {60, 100}, {100, 200}}) {
+    const Vector3 x = direction_of(row, column, slope.width);
+    const double wanted = std::acos(x.cwiseAbs().sum() / std::sqrt(3)) * 180 / pi;
+    CHECK(slope.at(row, column) == Approx(wanted).margin(0.5));
+  }
+}
+
+TEST_CASE("elevation: above the sphere or ellipsoid of the body, in the mesh's unit") {
+  TriangleMesh mesh = icosphere(6);  // in kilometres
+  mesh.positions *= Vector3(17, 9, 6).asDiagonal();
+  const MappedMesh mapped = mapped_radially(mesh);
+  BakeSettings settings;
+  settings.convention = Convention::Gis;
+  settings.fields.body = body_of("17,9,6", 1000);
+  const Baked nothing = baked(mapped, "elevation", settings);
+  CHECK(std::abs(*std::ranges::max_element(nothing.values)) < 0.02);
+  CHECK(std::abs(*std::ranges::min_element(nothing.values)) < 0.02);
+  settings.fields.body = body_of("10", 1000);
+  const Baked radius = baked(mapped, "radius", settings);
+  const Baked above = baked(mapped, "elevation", settings);
+  for (size_t i = 0; i < radius.values.size(); i += 97) {
+    CHECK(above.values[i] == Approx(radius.values[i] - 10).margin(1e-5));
+  }
+  settings.fields.body.reset();
+  CHECK_THROWS_AS(baked(mapped, "elevation", settings), FieldError);
+}
+
+TEST_CASE("radius: the centre is that of the radial map, or a given one") {
+  const Vector3 centre(3, -1, 2);
+  TriangleMesh mesh = icosphere(4);
+  mesh.positions.rowwise() += centre.transpose();
+  const Baked own = baked(mapped_radially(mesh, centre), "radius");
+  CHECK(*std::ranges::max_element(own.values) <= 1 + 1e-6F);
+  CHECK(*std::ranges::min_element(own.values) > 0.99F);
+  BakeSettings settings;
+  settings.fields.centre = Vector3::Zero();
+  const Baked origin = baked(mapped_radially(mesh, centre), "radius", settings);
+  CHECK(*std::ranges::max_element(origin.values) > 3);
+}
+
+TEST_CASE("body_of: names, radii and WKT, and what is none of them") {
+  const Body vesta = body_of("vesta");
+  CHECK(vesta.name == "Vesta");
+  CHECK(vesta.iau_code == 200000400);
+  CHECK(vesta.semi_axes == Vector3(255000, 255000, 255000));
+  CHECK(body_of("0.25", 1000).semi_axes == Vector3(250, 250, 250));
+  CHECK(body_of("3,2,1").semi_axes == Vector3(3, 2, 1));
+  const Body given = body_of(
+      "GEOGCRS[\"Ryugu\",DATUM[\"Ryugu\",ELLIPSOID[\"Ryugu\",448,0,LENGTHUNIT[\"metre\",1]]],"
+      "CS[ellipsoidal,2],AXIS[\"latitude\",north],AXIS[\"longitude\",west],"
+      "ANGLEUNIT[\"degree\",0.0174532925199433]]");
+  CHECK(given.name == "Ryugu");
+  CHECK(given.semi_axes == Vector3(448, 448, 448));
+  CHECK(given.positive_west);
+  for (const char* text : {"vespa", "", "-3", "0", "1,2", "1,2,3,4", "1,,2", "nan", "3,2,inf",
+                           "GEOGCRS[\"x\"]", "GEOGCRS[\"x\",ELLIPSOID[\"x\",1,0]", "PROJCRS[]"}) {
+    INFO(text);
+    CHECK_THROWS_AS(body_of(text), BodyError);
+  }
+  CHECK_THROWS_AS(body_of("vesta", 0), BodyError);
+}
+
+TEST_CASE("sidecars: coordinates, scale, offset and unit beside each image, or no file at all") {
+  const Folder folder;
+  BakeSettings settings;
+  settings.width = 64;
+  settings.convention = Convention::Gis;
+  settings.fields.body = body_of("Vesta", 1000);
+  TriangleMesh mesh = star_shaped(0, 4);
+  mesh.positions *= 255;
+  const BakeReport report =
+      bake(mapped_radially(mesh),
+           {{"radius", folder / "r.tif"}, {"normal-object", folder / "n.png"}}, settings);
+  CHECK(report.coordinate_system == "Vesta (2015) - Sphere / Ocentric");
+  CHECK(report.warnings.empty());
+  CHECK(report.images[0].sidecar == folder / "r.tif.aux.xml");
+  const std::string radius = text_of(folder / "r.tif.aux.xml");
+  CHECK(element(radius, "GeoTransform") == "-180, 5.625, 0, 90, 0, -5.625");
+  CHECK(element(radius, "UnitType") == "km");
+  const auto [least, greatest] = report.images[0].range.value();
+  CHECK(std::stod(element(radius, "Offset")) == least);
+  CHECK(std::stod(element(radius, "Scale")) == (greatest - least) / 65535);
+  CHECK_THAT(element(radius, "SRS"), Contains("ID[&quot;IAU&quot;,200000400,2015]"));
+  const std::string normal = text_of(folder / "n.png.aux.xml");
+  CHECK(std::stod(element(normal, "Offset")) == -1);
+  CHECK_THAT(normal, Contains("<PAMRasterBand band=\"3\">"));
+}
+
+TEST_CASE("sidecars: longitudes are called planetocentric only where they are") {
+  const Folder folder;
+  BakeSettings settings;
+  settings.width = 64;
+  settings.convention = Convention::Gis;
+  settings.fields.body = body_of("Eros", 1000);
+  TriangleMesh mesh = star_shaped(0, 3);
+  mesh.positions *= 17;
+  const auto system = [&](const MappedMesh& mapped) {
+    const BakeReport report = bake(mapped, {{"radius", folder / "r.tif"}}, settings);
+    const std::string srs = element(text_of(folder / "r.tif.aux.xml"), "SRS");
+    CHECK((srs.find("200043300") != std::string::npos) ==
+          (report.coordinate_system == "Eros (2015) - Sphere / Ocentric"));
+    return report.coordinate_system;
+  };
+  CHECK(system(mapped_radially(mesh)) == "Eros (2015) - Sphere / Ocentric");
+  CHECK_THAT(system(mapped_radially(mesh, Vector3::Zero(), 0.02)), Contains("within 1.15 degrees"));
+  MeshFile file;
+  file.mesh = mesh;
+  CHECK(system(MappedMesh({.file = file, .map = radial_directions(mesh)})) ==
+        "sphparam map of Eros");
+  settings.fields.body->positive_west = true;
+  CHECK(system(mapped_radially(mesh)) == "Eros (2015) - Sphere / Ocentric, positive west");
+  CHECK(element(text_of(folder / "r.tif.aux.xml"), "GeoTransform") ==
+        "180, -5.625, 0, 90, 0, -5.625");
+}
+
+TEST_CASE("sidecars: what is odd is told: another unit, images without one, one left behind") {
+  const Folder folder;
+  BakeSettings settings;
+  settings.width = 64;
+  settings.convention = Convention::Gis;
+  settings.fields.body = body_of("Eros");
+  const MappedMesh mesh = mapped_radially(star_shaped(0, 3));
+  const BakeReport other_unit = bake(mesh, {{"radius", folder / "r.tif"}}, settings);
+  REQUIRE(other_unit.warnings.size() == 1);
+  CHECK_THAT(other_unit.warnings.front(), Contains("another unit"));
+  settings.fields.body = body_of("1");
+  const BakeReport exr = bake(mesh, {{"radius", folder / "r.exr"}}, settings);
+  REQUIRE(exr.warnings.size() == 1);
+  CHECK_FALSE(fs::exists(folder / "r.exr.aux.xml"));
+  settings.fields.body.reset();
+  const BakeReport stale = bake(mesh, {{"radius", folder / "r.tif"}}, settings);
+  REQUIRE(stale.warnings.size() == 1);
+  CHECK_THAT(stale.warnings.front(), Contains("earlier image"));
+  settings.fields.body = body_of("1");
+  settings.convention = Convention::Sphparam;
+  CHECK_THROWS_AS(bake(mesh, {{"radius", folder / "x.tif"}}, settings), BakeSettingError);
+  CHECK_FALSE(fs::exists(folder / "x.tif"));
+}
