@@ -26,7 +26,9 @@ constexpr char usage[] =
     "  make_samples samples-out body                  body.ply and its texture body.png\n"
     "  make_samples samples-out body --frequency 59   20·59² = 69,620 triangles\n"
     "\n"
-    "Names: body (20,480 triangles unless --frequency says otherwise), creature, cortex.\n";
+    "Names: body (20,480 triangles unless --frequency says otherwise), creature, cortex; and "
+    "comet,\n"
+    "which is made only where it is named.\n";
 
 struct Arguments {
   std::string directory;
@@ -49,7 +51,7 @@ Arguments parse(int count, char** values) {
       }
     } else if (arguments.directory.empty()) {
       arguments.directory = value;
-    } else if (value == "body" || value == "creature" || value == "cortex") {
+    } else if (value == "body" || value == "creature" || value == "cortex" || value == "comet") {
       arguments.names.insert(value);
     } else {
       throw std::invalid_argument("no sample is called " + value);
@@ -86,6 +88,9 @@ void make(const Arguments& arguments) {
   }
   if (names.contains("creature")) {
     write_mesh(directory / "creature.ply", sphparam::samples::make_creature());
+  }
+  if (names.contains("comet")) {
+    write_mesh(directory / "comet.ply", sphparam::samples::make_comet());
   }
   if (names.contains("cortex")) {
     MeshFile cortex = sphparam::samples::make_cortex();

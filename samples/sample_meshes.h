@@ -19,6 +19,10 @@ sphparam::Image make_body_texture(int square = 176);
 /// size on a smooth surface.
 sphparam::MeshFile make_creature();
 
+/// A comet of two lobes, in kilometres, that is not star-shaped: the smaller lobe leans over the
+/// larger, and about the neck a ray from the origin meets the surface three times.
+sphparam::MeshFile make_comet();
+
 /// A deeply folded surface like a brain's cortex, with overhangs; 40,500 triangles.
 sphparam::MeshFile make_cortex();
 

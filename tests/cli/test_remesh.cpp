@@ -1,4 +1,7 @@
 #include <catch2/catch.hpp>
+#include <sstream>
+#include <cstdio>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "mapped.h"
@@ -155,6 +158,32 @@ TEST_CASE("remesh: what makes no sense is refused, and nothing is written") {
   CHECK(mapped.remesh({"--grid", "like:" + (mapped.folder / "none.ply"), "-o", out}).code == 3);
   CHECK(sphparam_program({"unimage", mapped.path, "-o", out}).code == 3);
   CHECK(sphparam_program({"verify", out}).code == 3);
+}
+
+TEST_CASE("remesh: --degrees has longitude and latitude in the table of --csv") {
+  const Mapped mapped;
+  const std::string radians = mapped.folder / "r.csv", degrees = mapped.folder / "d.csv";
+  REQUIRE(mapped.remesh({"--grid", "ico:1", "--csv", radians}).code == 0);
+  REQUIRE(mapped.remesh({"--grid", "ico:1", "--csv", degrees, "--degrees"}).code == 0);
+  CHECK(mapped.remesh({"--grid", "ico:1", "-o", mapped.folder / "x.ply", "--degrees"}).code == 2);
+  std::istringstream ours(bytes_of(radians)), theirs(bytes_of(degrees));
+  std::string line, other;
+  std::getline(ours, line);
+  std::getline(theirs, other);
+  CHECK_THAT(line, Catch::StartsWith("vertex,theta,phi,x,y,z"));
+  CHECK_THAT(other, Catch::StartsWith("vertex,lon,lat,x,y,z"));
+  int rows = 0;
+  for (; std::getline(ours, line) && std::getline(theirs, other); ++rows) {
+    double theta = 0, phi = 0, lon = 0, lat = 0;
+    REQUIRE(std::sscanf(line.c_str(), "%*d,%lf,%lf", &theta, &phi) == 2);
+    REQUIRE(std::sscanf(other.c_str(), "%*d,%lf,%lf", &lon, &lat) == 2);
+    constexpr double degree = 180 / 3.14159265358979323846;
+    CHECK(std::abs(std::remainder(lon - theta * degree, 360)) < 1e-10);
+    CHECK(lat == Approx(90 - phi * degree).margin(1e-10));
+    CHECK(lon > -180);
+    CHECK(lon <= 180);
+  }
+  CHECK(rows == 42);
 }
 
 }  // namespace sphparam::tests

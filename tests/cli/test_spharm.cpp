@@ -138,6 +138,32 @@ TEST_CASE("spharm: the same bytes for 1, 2 and 4 threads") {
   }
 }
 
+TEST_CASE("spharm: the radius of a radial map, in geodesy's normalisation, and as SHADR") {
+  const Folder folder;
+  const std::string map = folder / "egg.sph.ply", table = folder / "egg.sha";
+  REQUIRE(sphparam_program({"map", "-", "-o", map, "--method", "radial"},
+                           obj_text(ellipsoid(icosphere(4))))
+              .code == 0);
+  const Ended ended = sphparam_program({"spharm", map, "--degree", "6", "--radius",
+                                        "--normalisation", "4pi", "--shadr", table, "--json", "-"});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.err, !Contains("warning"));
+  const Json report = Json::parse(ended.out);
+  CHECK_THAT(report["basis"].get<std::string>(), Contains("4pi-normalised"));
+  CHECK(report["functions"][3]["name"] == "radius");
+  const std::string text = bytes_of(table);
+  CHECK(std::count(text.begin(), text.end(), '\n') == 1 + 28);
+  const double mean = report["functions"][3]["coefficients"][0];
+  CHECK(std::stod(text.substr(0, text.find(','))) == Approx(mean).epsilon(1e-15));
+  const Ended other = sphparam_program(
+      {"spharm", "-", "--degree", "4", "--radius", "--csv", folder / "x.csv"},
+      obj_text(ellipsoid(icosphere(3))));
+  CHECK(other.code == 0);
+  CHECK_THAT(other.err, Contains("are the map's, not the body's"));
+  CHECK(sphparam_program({"spharm", map, "--centre", "0,0,0", "--json", "-"}).code == 2);
+}
+
 TEST_CASE("spharm: what makes no sense is refused, and nothing is written") {
   const Folder folder;
   write_bytes(folder / "ball.obj", obj_text(icosphere(2)));

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -76,7 +78,7 @@ TEST_CASE("map_record: what was asked for, what came out, by the numbers of the 
   CHECK(
       keys_of(json) ==
       "sphparam,command,input,inspection,repairs,handles,components,options,account,stages,made_by,"
-      "poles,meridian,pole_residuals,pins,lambda,balance,energy_gap,energy_cost,certificate,"
+      "poles,meridian,radial,alignment,pole_residuals,pins,lambda,balance,energy_gap,energy_cost,certificate,"
       "distortion,chart,outputs,warnings,notes,seconds");
   REQUIRE(result.energy_gap);
   CHECK(json["energy_gap"] == *result.energy_gap);
@@ -237,6 +239,47 @@ TEST_CASE("harmonics_record: coefficients come back exactly, as JSON and as a ta
   CHECK(std::stod(line.substr(line.rfind(',') + 1)) == coefficients(harmonic_index(1, 0), 2));
 }
 
+TEST_CASE("harmonics_record: 4π-normalised coefficients, and SHADR of the radius") {
+  const MappedMesh mapped = ball();
+  HarmonicExpansion expansion =
+      expand_in_harmonics(mapped, {}, {.degree = 2}, Vector3(0.1, 0.2, 0.3));
+  REQUIRE(expansion.functions.back() == "radius");
+  const Functions orthonormal = expansion.fit.coefficients;
+  expansion.normalisation = HarmonicNormalisation::FourPi;
+  const Json json = Json::parse(to_json(expansion, "ball.ply", {}));
+  CHECK_THAT(json["basis"].get<std::string>(), Contains("4pi-normalised"));
+  const double factor = 1 / std::sqrt(4 * std::numbers::pi);
+  for (Eigen::Index i = 0; i < orthonormal.rows(); ++i) {
+    CHECK(json["functions"][3]["coefficients"][i].get<double>() ==
+          Approx(factor * orthonormal(i, 3)).margin(1e-15));
+  }
+  CHECK_THAT(to_csv(expansion), StartsWith("l,m,x (4pi),y (4pi),z (4pi),radius (4pi)\n"));
+  // A point off the centre of a ball: the radius is 1 − a·x to first order, C_10 = −a_z/√3.
+  const std::string shadr = to_shadr(expansion);
+  std::vector<std::vector<double>> rows;
+  std::istringstream lines(shadr);
+  for (std::string line; std::getline(lines, line);) {
+    CHECK(line.back() == '\r');
+    std::vector<double> row;
+    std::istringstream cells(line);
+    for (std::string cell; std::getline(cells, cell, ',');) row.push_back(std::stod(cell));
+    rows.push_back(row);
+  }
+  REQUIRE(rows.size() == 1 + 6);  // l, m ≥ 0 to degree 2
+  CHECK(rows[0].size() == 8);
+  CHECK(rows[0][3] == 2);
+  CHECK(rows[0][5] == 1);  // normalised
+  CHECK(rows[0][0] == rows[1][2]);
+  CHECK(rows[1][2] == Approx(factor * orthonormal(0, 3)));
+  CHECK(rows[2][0] == 1);
+  CHECK(rows[2][1] == 0);
+  CHECK(rows[2][2] == Approx(factor * orthonormal(harmonic_index(1, 0), 3)));
+  CHECK(rows[2][2] == Approx(-0.3 / std::sqrt(3)).epsilon(0.1));
+  CHECK(rows[3][3] == Approx(factor * orthonormal(harmonic_index(1, -1), 3)));
+  CHECK(rows[3][3] == Approx(-0.2 / std::sqrt(3)).epsilon(0.1));
+  CHECK_THROWS_AS(to_shadr(expansion, "gravity"), std::invalid_argument);
+}
+
 TEST_CASE("harmonics_record: for people, what is left in a line, and the ellipsoid") {
   const MappedMesh mapped = ball();
   const HarmonicExpansion expansion = expand_in_harmonics(mapped, {}, {.degree = 2});
@@ -260,6 +303,12 @@ TEST_CASE("bake_record: images, and what they are for") {
   CHECK(keys_of(json) ==
         "version,source,for,for_distance,width,height,samples,convention,refine_poles,images,"
         "seconds");
+  settings.fields.body = body_of("Vesta", 1000);
+  baked.coordinate_system = "Vesta (2015) - Sphere / Ocentric";
+  const Json of_body = Json::parse(to_json(record))["body"];
+  CHECK(of_body["name"] == "Vesta");
+  CHECK(of_body["unit_metres"] == 1000);
+  CHECK(of_body["coordinate_system"] == baked.coordinate_system);
   CHECK(json["source"] == Json({{"file", "in/ball.ply"}, {"triangles", 320}}));
   CHECK(json["for"].is_null());
   CHECK(json["height"] == 32);

@@ -214,6 +214,22 @@ TEST_CASE("samples: the cortex is a sphere, deeply folded, with overhangs") {
   CHECK(hanging > 0.05 * inspection.area);
 }
 
+TEST_CASE("samples: the comet is a sphere of two lobes, with cliffs that hang over") {
+  const sphparam::MeshFile comet = make_comet();
+  check_sample(comet);
+  CHECK(comet.mesh.face_count() > 10000);
+  CHECK(comet.mesh.face_count() < 60000);
+  CHECK(mean_quality(comet.mesh) > 0.9);
+  double hanging = 0, area = 0;
+  for (Eigen::Index f = 0; f < comet.mesh.face_count(); ++f) {
+    const Vector3 normal = face_normal(comet.mesh, f);
+    area += normal.norm();
+    if (normal.dot(face_centre(comet.mesh, f)) < 0) hanging += normal.norm();
+  }
+  CHECK(hanging > 0.01 * area);
+  CHECK(hanging < 0.1 * area);
+}
+
 TEST_CASE("samples: each vertex of the cortex has a lobe that the label table names") {
   sphparam::MeshFile cortex = make_cortex();
   add_lobes(cortex);

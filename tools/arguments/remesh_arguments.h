@@ -35,6 +35,7 @@ struct RemeshArguments : CommonArguments {
   Words attribute_images;  // NAME=FILE
   std::optional<ImageDepth> depth;
   std::string csv;
+  bool degrees = false;  // in it
 };
 
 void declare_remesh_options(Declaration& command, RemeshArguments& arguments);

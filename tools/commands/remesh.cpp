@@ -12,7 +12,6 @@
 #include "console/places.h"
 #include "number_text.h"
 #include "reports/remesh_wording.h"
-#include "reports/told_losses.h"
 #include "sphparam/gltf/export.h"
 #include "sphparam/io/certified_files.h"
 #include "sphparam/measure/measurable.h"
@@ -126,9 +125,6 @@ void add_glb(const RemeshArguments& arguments, const MappedMesh& mapped,
   });
 }
 
-/// Places are computed here: GIFTI has them in 32 bits, as the tools about it ask.
-constexpr WriteOptions new_mesh = {.float32 = true};
-
 void add_meshes(const RemeshArguments& arguments, const RemeshRequests& requests,
                 const MappedMesh& mapped, const std::vector<LevelOfDetail>& levels,
                 Session& session) {
@@ -136,17 +132,12 @@ void add_meshes(const RemeshArguments& arguments, const RemeshRequests& requests
     add_glb(arguments, mapped, levels, session);
   } else if (!arguments.output.empty()) {
     for (size_t level = 0; level < levels.size(); ++level)
-      tell_losses(requests.outputs[level],
-                  add_mapped(session.files, requests.outputs[level], levels[level].mesh,
-                             session.threads(), new_mesh),
-                  session.console);
+      add_mapped(session.files, requests.outputs[level], levels[level].mesh, session.threads());
   }
   if (arguments.limit_output.empty()) return;
   const LevelOfDetail& finest = levels.front();
-  const auto limit = limit_mesh(finest.mesh, finest.fit.value(), session.threads());
-  tell_losses(arguments.limit_output,
-              add_mapped(session.files, arguments.limit_output, limit, session.threads(), new_mesh),
-              session.console);
+  add_mapped(session.files, arguments.limit_output,
+             limit_mesh(finest.mesh, finest.fit.value(), session.threads()), session.threads());
 }
 
 std::optional<WrittenDisplacement> displace(const RemeshArguments& arguments,
@@ -220,7 +211,10 @@ int run_remesh(RemeshArguments& arguments) {
   add_meshes(arguments, requests, mapped, levels, session);
   record.displacement = displace(arguments, mapped, finest, session);
   add_images(session.files, arguments, requests, finest.mesh);
-  if (!arguments.csv.empty()) session.files.add(arguments.csv, sample_table(finest.mesh));
+  if (!arguments.csv.empty())
+    session.files.add(
+        arguments.csv,
+        sample_table(finest.mesh, arguments.degrees ? TableAngles::Degrees : TableAngles::Radians));
   record.seconds = session.stopwatch.seconds();
   session.add_report([&] { return to_json(record); });
   session.publish();

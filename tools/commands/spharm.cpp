@@ -1,12 +1,12 @@
 // `sphparam spharm`: the surface, and what it carries, as a sum of spherical harmonics: the shape
 // description that a map to the sphere was first made for (Brechbühler, Gerig, Kübler 1995).
 
-#include "arguments/mesh_names.h"
 #include "commands/command.h"
 #include "commands/sources.h"
 #include "console/places.h"
 #include "number_text.h"
 #include "sphparam/io/mesh_writer.h"
+#include "sphparam/io/planetocentric.h"
 #include "sphparam/measure/measurable.h"
 #include "sphparam/records/harmonics_record.h"
 
@@ -21,8 +21,10 @@ constexpr char summary[] =
     "  sphparam spharm brain.sph.ply --degree 20 --json brain.json\n"
     "  sphparam spharm brain.ply --sphere brain.sphere.gii --degree 60 --reconstruct smooth.ply\n"
     "  sphparam spharm moon.sph.ply --degree 90 --scalar gravity --csv moon.csv\n"
+    "  sphparam spharm eros.sph.ply --degree 24 --shadr eros.sha\n"
     "\n"
-    "The coefficients are of x, y and z, and of the scalars named, in a real orthonormal basis.\n"
+    "The coefficients are of x, y and z, of the scalars named, and of the radius where it is\n"
+    "wanted, in a real orthonormal basis or in that of geodesy.\n"
     "Least squares weigh each vertex by its solid angle on the sphere, that is, the part of the\n"
     "sphere that it stands for; residuals are told so weighted, and plain.\n";
 
@@ -31,6 +33,10 @@ struct SpharmArguments : CommonArguments {
   std::string sphere;  // empty: the mesh's own map; so are, not wanted:
   std::string csv;
   std::string reconstruction;
+  std::string shadr;
+  bool radius = false;
+  std::optional<Vector3> centre;  // none: that of a radial map, else the origin
+  HarmonicNormalisation normalisation = HarmonicNormalisation::Orthonormal;
   Words scalars;
   int degree = 20;
   bool least_squares = true;
@@ -44,21 +50,47 @@ void require_scalars(const MeshFile& file, const Words& scalars) {
   }
 }
 
+/// What the radius is measured from; nothing where none is wanted.
+std::optional<Vector3> centre_of_radius(const SpharmArguments& arguments, const MappedMesh& mapped,
+                                        Console& console) {
+  if (!arguments.radius && arguments.shadr.empty()) return std::nullopt;
+  const std::optional<Planetocentric> radial = planetocentric(mapped.provenance());
+  if (!radial) {
+    console.warning(
+        "the longitudes of these harmonics are the map's, not the body's: "
+        "`sphparam map --method radial` makes maps that have the body's");
+  }
+  return arguments.centre.value_or(radial ? radial->centre : Vector3(0, 0, 0));
+}
+
 HarmonicExpansion expand(const SpharmArguments& arguments, const MappedMesh& mapped,
                          Session& session) {
   require_measurable(mapped.mesh());
   require_scalars(mapped.file(), arguments.scalars);
-  return expand_in_harmonics(mapped, arguments.scalars,
-                             {.degree = arguments.degree,
-                              .least_squares = arguments.least_squares,
-                              .threads = session.threads(),
-                              .progress = session.progress()});
+  HarmonicExpansion expansion =
+      expand_in_harmonics(mapped, arguments.scalars,
+                          {.degree = arguments.degree,
+                           .least_squares = arguments.least_squares,
+                           .threads = session.threads(),
+                           .progress = session.progress()},
+                          centre_of_radius(arguments, mapped, session.console));
+  expansion.normalisation = arguments.normalisation;
+  return expansion;
 }
 
 void require_sensible(const SpharmArguments& arguments) {
-  require_mesh_name("--reconstruct", "the surface", arguments.reconstruction);
+  if (arguments.centre && !arguments.radius && arguments.shadr.empty()) {
+    throw UsageMistake("--centre is for --radius and --shadr only");
+  }
+  const std::string& mesh = arguments.reconstruction;
+  const std::string extension = extension_of(mesh);
+  const bool can_be = is_written(mesh) && !extension.empty() && extension != ".gii";
+  if (!mesh.empty() && !is_stream(mesh) && !can_be) {
+    throw UsageMistake("--reconstruct: the name must end in .ply, .obj or .off");
+  }
   check_places({{"--json", arguments.json},
                 {"--csv", arguments.csv},
+                {"--shadr", arguments.shadr},
                 {"--reconstruct", arguments.reconstruction}});
 }
 
@@ -80,6 +112,7 @@ int run_spharm(SpharmArguments& arguments) {
   const HarmonicExpansion expansion = expand(arguments, mapped, session);
   session.add_report([&] { return to_json(expansion, arguments.input, mapped.provenance()); });
   if (!arguments.csv.empty()) session.files.add(arguments.csv, to_csv(expansion));
+  if (!arguments.shadr.empty()) session.files.add(arguments.shadr, to_shadr(expansion));
   if (!arguments.reconstruction.empty())
     add_reconstruction(session.files, arguments.reconstruction, mapped, expansion,
                        session.threads());
@@ -102,11 +135,30 @@ void declare_options(Declaration& command, SpharmArguments& arguments) {
       .choice("--fit", arguments.least_squares, {{"least-squares", true}, {"quadrature", false}},
               "At the vertices, weighted by their solid angles, or the integral over the "
               "sphere (default: least-squares)")
+      .flag("--radius", arguments.radius, "The distance from the centre of the body too")
+      .parsed(
+          "--centre", "X,Y,Z",
+          [&arguments](const std::string& text) {
+            const auto numbers = three_numbers(text);
+            if (numbers) arguments.centre = Vector3(numbers->data());
+            return numbers.has_value();
+          },
+          "expected three numbers, as in 0,0,1.5, not ",
+          "The body's centre, in the mesh's coordinates")
+      .preset("that of a radial map, else 0,0,0")
+      .choice("--normalisation", arguments.normalisation,
+              {{"orthonormal", HarmonicNormalisation::Orthonormal},
+               {"4pi", HarmonicNormalisation::FourPi}},
+              "Of the functions that coefficients in --json and --csv belong to; 4pi: as in "
+              "geodesy (default: orthonormal)")
       .json(arguments, "Coefficients and figures")
       .text("--csv", arguments.csv, "FILE", "Coefficients, a line each; - for standard output")
       .written()
+      .text("--shadr", arguments.shadr, "FILE",
+            "4pi-normalised C and S of the radius as the PDS has them")
+      .written()
       .text("--reconstruct", arguments.reconstruction, "FILE",
-            "The mesh as the harmonics have it, in the format of its name")
+            "The mesh as the harmonics have it: .ply, .obj or .off")
       .written()
       .threads(arguments)
       .console(arguments);

@@ -1,6 +1,7 @@
 #include "sphparam/io/harmonic_expansion.h"
 
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -14,9 +15,11 @@ namespace {
 
 constexpr Eigen::Index axes = 3;
 
-/// x, y, z and the scalars, one a column.
-Functions functions_of(const MeshFile& file, const std::vector<std::string>& scalars) {
-  Functions values(file.mesh.vertex_count(), axes + std::ssize(scalars));
+/// x, y, z, the scalars and the radius, one a column.
+Functions functions_of(const MeshFile& file, const std::vector<std::string>& scalars,
+                       const std::optional<Vector3>& radius_about) {
+  const Eigen::Index radius = radius_about ? 1 : 0;
+  Functions values(file.mesh.vertex_count(), axes + std::ssize(scalars) + radius);
   values.leftCols(axes) = file.mesh.positions;
   Eigen::Index column = axes;
   for (const std::string& name : scalars) {
@@ -24,6 +27,10 @@ Functions functions_of(const MeshFile& file, const std::vector<std::string>& sca
     if (!property) throw std::invalid_argument("the vertices have no property " + name);
     values.col(column++) =
         Eigen::Map<const VectorX>(property->values.data(), file.mesh.vertex_count());
+  }
+  if (radius_about) {
+    values.col(column) =
+        (file.mesh.positions.rowwise() - radius_about->transpose()).rowwise().norm();
   }
   return values;
 }
@@ -34,17 +41,24 @@ int HarmonicExpansion::degree() const {
   return static_cast<int>(std::lround(std::sqrt(double(fit.coefficients.rows())))) - 1;
 }
 
+Functions HarmonicExpansion::told_coefficients() const {
+  if (normalisation == HarmonicNormalisation::Orthonormal) return fit.coefficients;
+  return fit.coefficients / std::sqrt(4 * std::numbers::pi);
+}
+
 HarmonicExpansion expand_in_harmonics(const MappedMesh& mapped,
                                       const std::vector<std::string>& scalars,
-                                      const HarmonicFitOptions& options) {
+                                      const HarmonicFitOptions& options,
+                                      const std::optional<Vector3>& radius_about) {
   const MeshFile& file = mapped.file();
   const Points& positions = file.mesh.positions;
   HarmonicExpansion result;
   result.functions = {"x", "y", "z"};
   result.functions.insert(result.functions.end(), scalars.begin(), scalars.end());
+  if (radius_about) result.functions.emplace_back("radius");
   result.least_squares = options.least_squares;
   result.diagonal = (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
-  const Functions values = functions_of(file, scalars);
+  const Functions values = functions_of(file, scalars, radius_about);
   result.fit = fit_harmonics(mapped.topology(), mapped.map(), values, options);
   if (options.progress && !options.progress("residuals", 0)) throw Cancelled();
   result.values = synthesise(result.fit.coefficients, mapped.map().points, options.threads);

@@ -1,22 +1,51 @@
 #include "sphparam/records/harmonics_record.h"
 
+#include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
+#include <stdexcept>
 
+#include "number_text.h"
 #include "records/json_parts.h"
 #include "sphparam/version.h"
-#include "number_text.h"
 
 namespace sphparam {
 
 namespace {
 
-constexpr char basis[] =
+constexpr char orthonormal_basis[] =
     "real, orthonormal on the unit sphere, without the Condon-Shortley phase; row l*l + l + m; "
     "m > 0: cos(m theta), m < 0: sin(|m| theta); Y_11, Y_1-1, Y_10 = sqrt(3/(4 pi)) (x, y, z)";
+
+constexpr char geodetic_basis[] =
+    "real, 4pi-normalised, without the Condon-Shortley phase, as in geodesy; row l*l + l + m; "
+    "m >= 0: C_lm of cos(m theta), m < 0: S_l|m| of sin(|m| theta); Y_11, Y_1-1, Y_10 = sqrt(3) "
+    "(x, y, z)";
+
+bool is_geodetic(const HarmonicExpansion& expansion) {
+  return expansion.normalisation == HarmonicNormalisation::FourPi;
+}
 
 constexpr char rms_meaning[] =
     "of what is left at the vertices, each weighted by its solid angle on the sphere, as the least "
     "squares are; unweighted: each vertex counts the same";
+
+/// As E23.16 of FORTRAN has it: 17 digits, which come back exactly.
+std::string fortran_number(double value) {
+  char digits[32];
+  const auto end =
+      std::to_chars(digits, digits + sizeof digits, value, std::chars_format::scientific, 16).ptr;
+  std::string text(digits, end);
+  std::ranges::replace(text, 'e', 'E');
+  return std::string(24 - std::min<size_t>(text.size(), 24), ' ') + text;
+}
+
+std::string right_aligned(int number) {
+  const std::string text = std::to_string(number);
+  return std::string(5 - std::min<size_t>(text.size(), 5), ' ') + text;
+}
 
 Json column(const Functions& values, Eigen::Index k) {
   Json result = Json::array();
@@ -28,7 +57,8 @@ Json column(const Functions& values, Eigen::Index k) {
 
 std::string to_json(const HarmonicExpansion& expansion, const std::string& mesh,
                     const Provenance& map) {
-  const Functions power = power_per_degree(expansion.fit.coefficients);
+  const Functions coefficients = expansion.told_coefficients();
+  const Functions power = power_per_degree(coefficients);
   Json functions = Json::array();
   for (size_t k = 0; k < expansion.functions.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
@@ -36,13 +66,13 @@ std::string to_json(const HarmonicExpansion& expansion, const std::string& mesh,
                          {"rms_residual", expansion.fit.rms[i]},
                          {"rms_residual_unweighted", expansion.plain_rms[i]},
                          {"power_per_degree", column(power, i)},
-                         {"coefficients", column(expansion.fit.coefficients, i)}});
+                         {"coefficients", column(coefficients, i)}});
   }
   Json json = {{"sphparam", version},
                {"mesh", mesh},
                {"map", pairs_json(map)},
                {"degree", expansion.degree()},
-               {"basis", basis},
+               {"basis", is_geodetic(expansion) ? geodetic_basis : orthonormal_basis},
                {"fit", expansion.least_squares ? "least-squares" : "quadrature"},
                {"iterations", expansion.fit.iterations},
                {"position_rms", expansion.position_rms()},
@@ -59,16 +89,39 @@ std::string to_json(const HarmonicExpansion& expansion, const std::string& mesh,
 
 std::string to_csv(const HarmonicExpansion& expansion) {
   std::string text = "l,m";
-  for (const std::string& name : expansion.functions) text += "," + name;
+  const Functions coefficients = expansion.told_coefficients();
+  for (const std::string& name : expansion.functions)
+    text += "," + name + (is_geodetic(expansion) ? " (4pi)" : "");
   text += "\n";
   for (int l = 0; l <= expansion.degree(); ++l) {
     for (int m = -l; m <= l; ++m) {
       text += std::to_string(l) + "," + std::to_string(m);
-      for (Eigen::Index k = 0; k < expansion.fit.coefficients.cols(); ++k) {
+      for (Eigen::Index k = 0; k < coefficients.cols(); ++k) {
         text += ",";
-        text += shortest(expansion.fit.coefficients(harmonic_index(l, m), k));
+        text += shortest(coefficients(harmonic_index(l, m), k));
       }
       text += "\n";
+    }
+  }
+  return text;
+}
+
+std::string to_shadr(const HarmonicExpansion& expansion, const std::string& function) {
+  const auto found = std::ranges::find(expansion.functions, function);
+  if (found == expansion.functions.end()) {
+    throw std::invalid_argument("to_shadr: " + function + " was not expanded");
+  }
+  const VectorX c = expansion.fit.coefficients.col(found - expansion.functions.begin()) /
+                    std::sqrt(4 * std::numbers::pi);
+  const std::string zero = fortran_number(0), degree = right_aligned(expansion.degree());
+  std::string text = fortran_number(c[0]) + "," + zero + "," + zero + "," + degree + "," + degree +
+                     "," + right_aligned(1) + "," + zero + "," + zero + "\r\n";
+  for (int l = 0; l <= expansion.degree(); ++l) {
+    for (int m = 0; m <= l; ++m) {
+      const double s = m == 0 ? 0 : c[harmonic_index(l, -m)];
+      text += right_aligned(l) + "," + right_aligned(m) + "," +
+              fortran_number(c[harmonic_index(l, m)]) + "," + fortran_number(s) + "," + zero + "," +
+              zero + "\r\n";
     }
   }
   return text;

@@ -1,4 +1,5 @@
 #include <charconv>
+#include <numbers>
 
 #include "sphparam/remesh/remesh.h"
 #include "sphparam/sphere/spherical_coordinates.h"
@@ -22,12 +23,20 @@ std::string quoted_name(const std::string& name) {
   return quoted;
 }
 
+/// In degrees, in their order.
+SphericalCoordinates longitude_and_latitude(SphericalCoordinates place) {
+  constexpr double degrees = 180 / std::numbers::pi;
+  const double east = place.theta * degrees;
+  return {east > 180 ? east - 360 : east, 90 - place.phi * degrees};
+}
+
 }  // namespace
 
-std::string sample_table(const MappedMesh& mesh) {
+std::string sample_table(const MappedMesh& mesh, TableAngles angles) {
   const MeshFile& file = mesh.file();
   constexpr size_t expected_bytes = 100;  // of a row
-  std::string text = "vertex,theta,phi,x,y,z";
+  const bool in_degrees = angles == TableAngles::Degrees;
+  std::string text = in_degrees ? "vertex,lon,lat,x,y,z" : "vertex,theta,phi,x,y,z";
   for (const Property& property : file.vertex_properties)
     text.append(",").append(quoted_name(property.name));
   text += "\n";
@@ -35,7 +44,8 @@ std::string sample_table(const MappedMesh& mesh) {
   text.reserve(text.size() + expected_bytes * count);
   for (size_t v = 0; v < count; ++v) {
     const auto row = static_cast<Vertex>(v);
-    const SphericalCoordinates place = to_spherical(mesh.map().point(row));
+    SphericalCoordinates place = to_spherical(mesh.map().point(row));
+    if (in_degrees) place = longitude_and_latitude(place);
     put(text, row);
     for (const double x : {place.theta, place.phi, file.mesh.positions(row, 0),
                            file.mesh.positions(row, 1), file.mesh.positions(row, 2)}) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,28 +10,42 @@
 
 namespace sphparam {
 
+/// How large the functions are that coefficients belong to: of unit integral of squares over the
+/// sphere, or, as geodesy has them, of 4π. Nothing else differs: both are real and without the
+/// Condon–Shortley phase, so that rows m ≥ 0 and −m are geodesy's C̄_lm and S̄_lm.
+enum class HarmonicNormalisation { Orthonormal, FourPi };
+
 /// A surface, and what it carries, as a sum of spherical harmonics: the shape description that a
 /// map to the sphere was first made for (Brechbühler, Gerig and Kübler 1995).
 struct HarmonicExpansion {
-  std::vector<std::string> functions;  // "x", "y", "z", then scalars by name: one a column
-  bool least_squares = true;           // else by quadrature
-  HarmonicFit fit;                     // its residuals are weighted by solid angle
-  Functions values;                    // #V: what the harmonics have at the vertices
-  VectorX plain_rms;                   // of what is left at the vertices, each counted once
-  double diagonal = 0;                 // of the bounding box: the scale of the residuals of x, y, z
+  // "x", "y", "z", then scalars by name, "radius" last where it was wanted: one a column
+  std::vector<std::string> functions;
+  bool least_squares = true;  // else by quadrature
+  HarmonicFit fit;            // orthonormal; its residuals are weighted by solid angle
+  Functions values;           // #V: what the harmonics have at the vertices
+  VectorX plain_rms;          // of what is left at the vertices, each counted once
+  double diagonal = 0;        // of the bounding box: the scale of the residuals of x, y, z
+
+  // Of the coefficients that are told: `told_coefficients`, and what `records` writes of them.
+  HarmonicNormalisation normalisation = HarmonicNormalisation::Orthonormal;
 
   int degree() const;
+  /// Those of `fit` in the normalisation that is told.
+  Functions told_coefficients() const;
   /// Of the distances, not of one coordinate: weighted by solid angle, and plain.
   double position_rms() const { return fit.rms.head<3>().norm(); }
   double plain_position_rms() const { return plain_rms.head<3>().norm(); }
 };
 
-/// Expands the positions of a mesh's vertices, and the vertex properties of these names.
+/// Expands the positions of a mesh's vertices, the vertex properties of these names, and, with a
+/// centre in the mesh's coordinates, the distance from there under the name "radius". Of a radial
+/// map its harmonics are those of planetocentric longitude and latitude.
 /// Requires: numbers whose squares doubles hold. Throws: std::invalid_argument for a name that no
 /// vertex property has, and as `fit_harmonics`; Cancelled. Cost: `fit_harmonics`'.
 HarmonicExpansion expand_in_harmonics(const MappedMesh& mapped,
                                       const std::vector<std::string>& scalars = {},
-                                      const HarmonicFitOptions& options = {});
+                                      const HarmonicFitOptions& options = {},
+                                      const std::optional<Vector3>& radius_about = {});
 
 /// The mesh with the positions and scalars that the harmonics have at its vertices, and its map,
 /// with one line of provenance more. Normals go: they were of the other surface.

@@ -14,8 +14,15 @@ std::string to_json(const HarmonicExpansion& expansion, const std::string& mesh,
                     const Provenance& map);
 
 /// One line a coefficient: l, m, then one number a function; a header line first. Numbers come back
-/// exactly.
+/// exactly. Names end with " (4pi)" where coefficients are 4π-normalised.
 std::string to_csv(const HarmonicExpansion& expansion);
+
+/// The coefficients of a function as a table of spherical harmonics in ASCII (SHADR of the PDS),
+/// always 4π-normalised: a header of reference radius, GM and its uncertainty (0), degree, order,
+/// normalisation state (1), reference longitude and latitude (0); then a line a pair l, m ≥ 0: C, S
+/// and their uncertainties (0), in the function's unit. The reference radius is C_00. Lines end
+/// with CR and LF. Requires: a function that was expanded. Throws: std::invalid_argument if not.
+std::string to_shadr(const HarmonicExpansion& expansion, const std::string& function = "radius");
 
 /// For people: "degree 20, RMS distance at the vertices, weighted by solid angle, 0.12 (0.01 % of
 /// the diagonal), unweighted 0.13".

@@ -72,8 +72,12 @@ class Remeshed : public MappedMesh {
 Remeshed remesh(const MappedMesh& source, SphereGrid grid, const RemeshOptions& options = {});
 Remeshed remesh(const MappedMesh& source, const GridSpec& grid, const RemeshOptions& options = {});
 
-/// Comma-separated values, a row a vertex: its number, theta and phi (radians), x y z, and every
-/// property of vertices; shortest text that reads back the same.
-std::string sample_table(const MappedMesh& mesh);
+/// The angles of tables: theta and phi in radians; or longitude, above −180 to 180 to the east, and
+/// latitude in degrees.
+enum class TableAngles { Radians, Degrees };
+
+/// Comma-separated values, a row a vertex: its number, theta and phi (or lon and lat), x y z, and
+/// every property of vertices; shortest text that reads back the same.
+std::string sample_table(const MappedMesh& mesh, TableAngles angles = TableAngles::Radians);
 
 }  // namespace sphparam
