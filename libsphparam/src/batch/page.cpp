@@ -64,7 +64,7 @@ Shape shape_of(const std::string& folder, const BatchItem& item) {
   const Json record = Json::parse(stored->bytes, nullptr, false);
   if (record.is_discarded()) throw ReadError(stored->path, "this is no whole record of a batch");
   shape.outcome = record.value("outcome", "open");
-  shape.reason = stored->head.reason;
+  shape.reason = without_folders(stored->head.reason, item);
   shape.code = stored->head.code;
   shape.attempt = stored->head.attempt;
   shape.seconds = stored->head.cpu_seconds;
@@ -164,7 +164,7 @@ void add_counts(Page& page, const BatchStatus& status, const std::vector<Shape>&
                     {"certified", grouped(certified)},
                     {"done, without a map", grouped(static_cast<long>(status.done) - certified)},
                     {"failed", grouped(static_cast<long>(status.failed))},
-                    {"CPU time", short_number(cpu / 3600, 3) + " h"}});
+                    {"CPU time", duration(cpu)}});
 }
 
 void add_failures(Page& page, const BatchStatus& status) {

@@ -243,6 +243,14 @@ std::optional<StoredRecord> record_about(const std::string& folder, const BatchI
   return latest;
 }
 
+std::string without_folders(std::string reason, const BatchItem& item) {
+  const std::string name = fs::path(item.path).filename().string();
+  for (std::size_t at = reason.find(item.path); at != std::string::npos;
+       at = reason.find(item.path, at + name.size()))
+    reason.replace(at, item.path.size(), name);
+  return reason;
+}
+
 std::string reason_in(std::string_view log) {
   constexpr std::string_view mark = "sphparam: error: ";
   std::string reason;

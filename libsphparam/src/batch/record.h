@@ -77,6 +77,9 @@ std::optional<StoredRecord> record_about(const std::string& folder, const BatchI
 std::string result_folder(const std::string& folder, const std::string& id);
 std::string failure_path(const std::string& folder, const std::string& id);
 
+/// A reason as people read it: the input by its name alone.
+std::string without_folders(std::string reason, const BatchItem& item);
+
 /// What failed, in a line: the last error in a log.
 std::string reason_in(std::string_view log);
 

@@ -60,7 +60,7 @@ std::vector<BatchFailures> grouped(const BatchPlan& plan, const Heads& heads) {
     if (!heads[i] || !heads[i]->failed()) continue;
     const BatchRecordHead& head = *heads[i];
     BatchFailures& group = groups[{head.code, kind_of_reason(head.reason, plan.items[i])}];
-    if (group.count++ == 0) group.reason = head.reason;
+    if (group.count++ == 0) group.reason = without_folders(head.reason, plan.items[i]);
     group.code = head.code;
     if (group.ids.size() < told_ids) group.ids.push_back(plan.items[i].id);
   }
@@ -96,13 +96,6 @@ void estimate_time(BatchStatus& status, const BatchPlan& plan, const Heads& head
     status.seconds_left = open_bytes * took / done;
 }
 
-std::string duration(double seconds) {
-  if (seconds < 90) return std::to_string(std::lround(seconds)) + " s";
-  if (seconds < 5400) return std::to_string(std::lround(seconds / 60)) + " min";
-  if (seconds < 48 * 3600.0) return short_number(seconds / 3600, 2) + " h";
-  return short_number(seconds / 86400, 2) + " days";
-}
-
 /// Rewrites a record of failure as one that is to be tried again.
 void mark_for_retry(const std::string& folder, const BatchItem& item, const StoredRecord& record) {
   auto json = nlohmann::ordered_json::parse(record.bytes);
@@ -135,6 +128,13 @@ BatchStatus batch_status(const std::string& folder, const BatchPlan& plan, int t
   status.failures = grouped(plan, heads);
   estimate_time(status, plan, heads);
   return status;
+}
+
+std::string duration(double seconds) {
+  if (seconds < 90) return short_number(seconds, 2) + " s";
+  if (seconds < 5400) return std::to_string(std::lround(seconds / 60)) + " min";
+  if (seconds < 48 * 3600.0) return short_number(seconds / 3600, 2) + " h";
+  return short_number(seconds / 86400, 2) + " days";
 }
 
 std::string to_text(const BatchStatus& status) {

@@ -34,6 +34,9 @@ struct BatchStatus {
 /// Throws: ReadError for a record that is broken. Cost: reads the record of each item, 20 µs each.
 BatchStatus batch_status(const std::string& folder, const BatchPlan& plan, int threads = 0);
 
+/// "17 s", "25 min", "3.1 h", "12 days".
+std::string duration(double seconds);
+
 /// Several lines for people; as JSON.
 std::string to_text(const BatchStatus& status);
 std::string to_json(const BatchStatus& status);
