@@ -42,6 +42,7 @@ const std::vector<Subcommand> subcommands = {
       "--displace", "--rebuild", "--csv", "--json"},
      {"--grid"}},
     {"render", {"", "--texture", "--sphere"}, {"-o"}},
+    {"repair", {""}, {"-o", "--loops", "--json"}},
     {"report", {"", "--sphere", "--texture"}, {"-o", "--json"}},
     {"spharm", {"", "--sphere"}, {"--json", "--csv", "--reconstruct"}},
     {"unimage", {"", "--normals", "--attribute q="}, {"-o"}},

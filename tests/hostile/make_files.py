@@ -9,6 +9,7 @@ import shutil
 import struct
 
 import other_formats
+import science_formats
 from corpus import *
 
 # --- OBJ ---------------------------------------------------------------------------------------
@@ -419,10 +420,10 @@ def make_no_spheres():
 def make_foreign():
     for name, data, message in (
             ("a.gz", b"\x1f\x8b\x08" + bytes(40), "gzip data is corrupt"), ("a.zip", b"PK\x03\x04" + bytes(40), "ZIP"),
-            ("a.xz", b"\xfd7zXZ\0", "xz"), ("a.bz2", b"BZh91AY", "bzip2"), ("a.mz3", b"MZ\x03\0", "MZ3"),
-            ("lh.white", b"\xff\xff\xfe" + bytes(40), "FreeSurfer"), ("a.fbx", b"Kaydara FBX Binary  \0", "FBX"),
+            ("a.xz", b"\xfd7zXZ\0", "xz"), ("a.bz2", b"BZh91AY", "bzip2"), ("a.mz3", b"MZ\x03\0", "ends within"),
+            ("lh.white", b"\xff\xff\xfe" + bytes(40), "ends within"), ("a.fbx", b"Kaydara FBX Binary  \0", "FBX"),
             ("a.png", b"\x89PNG\r\n\x1a\n" + bytes(40), "PNG"), ("a.jpg", b"\xff\xd8\xff\xe0" + bytes(40), "JPEG"),
-            ("a.vtk", b"# vtk DataFile Version 3.0\n", "VTK"), ("a.txt", b"hello\n", "not recognised"),
+            ("a.vtu", b"<VTKFile type=\"UnstructuredGrid\"/>", "UnstructuredGrid"), ("a.txt", b"hello\n", "not recognised"),
             ("a.bin", bytes(range(256)), "not recognised"), ("zeros.bin", bytes(512), "not recognised"),
             ("ones.bin", b"\xff" * 512, "not recognised"),
             ("gzip_named.obj", b"\x1f\x8b\x08\0", "gzip data is cut short"),
@@ -475,6 +476,7 @@ def main():
     make_foreign()
     make_gzip()
     other_formats.make_all()
+    science_formats.make_all()
     with open(HERE / "expected.tsv", "w") as table:
         for row in sorted(TABLE):
             table.write("%s\t%d\t%s\n" % row)

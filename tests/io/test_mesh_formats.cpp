@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
+#include "io/files/gzip.h"
 #include "io/formats/mesh_formats.h"
 #include "reading.h"
 #include "sphparam/io/mesh_writer.h"
@@ -52,8 +53,13 @@ TEST_CASE(
     }
     const std::string bytes = serialise_mesh(name_for(format), mapped_icosphere());
     CHECK(format.looks_so(bytes));
+    const std::string packed = serialise_mesh(name_for(format) + ".gz", mapped_icosphere());
+    CHECK(unzip(packed, "a", bytes.size()).bytes == bytes);
+    CHECK(read(packed, "nameless").format.ends_with(", gzip"));
     const MeshFile back = read(bytes, "nameless");
-    CHECK(back.mesh.positions == mapped_icosphere().mesh.positions);
+    const double rounding = back.position_type == ScalarType::Float32 ? 1e-6 : 0;
+    CHECK((back.mesh.positions - mapped_icosphere().mesh.positions).cwiseAbs().maxCoeff() <=
+          rounding);
     CHECK(back.mesh.triangles == mapped_icosphere().mesh.triangles);
     CHECK(read_sphere(back).has_value() == format.keeps_map);
     CHECK(read_provenance(back).empty() != format.keeps_map);  // no verdict on a map that is gone
@@ -63,7 +69,7 @@ TEST_CASE(
 
 TEST_CASE("mesh_formats: on a sphere the verdict stays, for the positions are the map") {
   MeshFile sphere = sphere_mesh(mapped_icosphere(), {icosphere(1).positions}, {{"verdict", "x"}});
-  for (const char* name : {"s.ply", "s.obj", "s.off", "s.gii"}) {
+  for (const char* name : {"s.ply", "s.obj", "s.off", "s.gii", "s.vtk", "s.vtp.gz"}) {
     const MeshFile back = read(serialise_mesh(name, sphere, {.is_sphere = true}), name);
     CHECK(read_provenance(back) == Provenance{{"verdict", "x"}});
   }
@@ -77,6 +83,6 @@ TEST_CASE("mesh_formats: without an extension, and on standard output, a mesh is
 }
 
 TEST_CASE("mesh_formats: people are told all that are read") {
-  CHECK(readable_formats() == "OBJ, PLY, OFF, STL, glTF, GLB and GIFTI");
-  CHECK(readable_formats("or") == "OBJ, PLY, OFF, STL, glTF, GLB or GIFTI");
+  CHECK(readable_formats() == "OBJ, PLY, OFF, STL, glTF, GLB, VTK, VTP, GIFTI, FreeSurfer and MZ3");
+  CHECK(readable_formats("or").ends_with("FreeSurfer or MZ3"));
 }

@@ -111,14 +111,14 @@ void require_sensible_frame(const MapArguments& arguments) {
 void require_sensible(const MapArguments& arguments) {
   require_one_stream({arguments.input, arguments.pins, arguments.align},
                      "the mesh, --pin and --align");
-  const std::string extension = extension_of(arguments.output);
-  if (!extension.empty() && extension != ".ply") {
-    throw UsageMistake("-o: the map is a PLY, the name must end in .ply; for " + extension +
-                       " see --write-sphere");
+  const std::string extension = inner_extension_of(arguments.output);
+  if (!extension.empty() && !keeps_map(arguments.output)) {
+    throw UsageMistake("-o: the map is a PLY, .ply, or a polydata of VTK, .vtk or .vtp; for " +
+                       extension + " see --write-sphere");
   }
-  const bool is_named = !extension_of(arguments.sphere).empty();
+  const bool is_named = !inner_extension_of(arguments.sphere).empty();
   if (!arguments.sphere.empty() && !(is_named && is_written(arguments.sphere))) {
-    throw UsageMistake("--write-sphere: the name must end in .ply, .obj, .off or .gii");
+    throw UsageMistake("--write-sphere: the name must end in " + written_extensions());
   }
   check_places({{"-o", arguments.output},
                 {"--write-sphere", arguments.sphere},
@@ -129,9 +129,12 @@ void require_sensible(const MapArguments& arguments) {
 
 void declare_files(Declaration& command, MapArguments& arguments) {
   command.input("MESH", arguments.input, readable_formats("or") + "; - for standard input")
-      .output(arguments.output, "FILE", "The map, a .sph.ply; - for standard output")
+      .output(arguments.output, "FILE",
+              "The map, a .sph.ply (or .vtk, .vtp); - for standard output")
       .text("--write-sphere", arguments.sphere, "FILE",
-            "The bare sphere too: .ply, .obj or .off in doubles, .gii in floats of radius 100")
+            "The bare sphere too: .ply, .obj, .off, .vtk or .vtp in doubles, .gii, .sphere or .mz3 "
+            "in "
+            "floats of radius 100")
       .written()
       .json(arguments)
       .text("--plots", arguments.plots, "FOLDER", "The distortion as SVG plots")

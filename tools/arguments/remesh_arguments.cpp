@@ -21,7 +21,8 @@ void declare_subdivision(Declaration& command, RemeshArguments& arguments) {
               "The new mesh is the control mesh of a subdivision surface that is fitted to the "
               "mesh: loop on grids of triangles, catmark on grids of quads")
       .text("--limit-mesh", arguments.limit_output, "FILE",
-            "With --subdiv-fit, also the mesh whose vertices lie on that surface: .ply, .obj")
+            "With --subdiv-fit, also the mesh whose vertices lie on that surface, in the format of its "
+            "name")
       .written()
       .text("--displace", arguments.displacement, "FILE",
             "With --subdiv-fit: an equirectangular image of how far the mesh is from the fitted "
@@ -43,8 +44,8 @@ void declare_subdivision(Declaration& command, RemeshArguments& arguments) {
 void declare_outputs(Declaration& command, RemeshArguments& arguments) {
   command
       .text("-o,--output", arguments.output, "FILE",
-            "The new mesh: .ply with its map, .obj (quads stay quads in both), or .glb with its "
-            "chart")
+            "The new mesh in the format of its name (.ply, .vtk and .vtp with its map), or .glb with "
+            "its chart")
       .written()
       .text("--geometry-image", arguments.geometry_image, "FILE",
             "Positions as an image, of octa and cube grids: .exr in float, .png in 16 bits")

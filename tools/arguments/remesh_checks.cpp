@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "arguments/mesh_names.h"
 #include "arguments/remesh_arguments.h"
 #include "console/exit_codes.h"
 #include "console/places.h"
@@ -49,8 +50,7 @@ void require_kind(const std::string& option, const std::string& path, const std:
 }
 
 void check_outputs(const RemeshArguments& arguments) {
-  require_kind("-o", arguments.output, "the new mesh", {".ply", ".obj", ".glb"},
-               ".ply, .obj or .glb");
+  require_mesh_name("-o", "the new mesh", arguments.output, {".glb"});
   if (arguments.output.empty() && arguments.limit_output.empty() && arguments.csv.empty() &&
       arguments.displacement.empty() && images_asked_for(arguments).empty()) {
     throw UsageMistake("nothing to write: give -o, --geometry-image or --csv");
@@ -102,7 +102,7 @@ void check_subdivision(const RemeshArguments& arguments, const std::optional<Gri
                        std::to_string(LimitTopology::most_faces_about_a_vertex) +
                        " can about a vertex of a limit surface");
   }
-  require_kind("--limit-mesh", limit, "the mesh", {".ply", ".obj"}, ".ply or .obj");
+  require_mesh_name("--limit-mesh", "the mesh", limit);
 }
 
 void check_displacement(const RemeshArguments& arguments) {

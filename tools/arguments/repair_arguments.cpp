@@ -120,4 +120,9 @@ std::optional<RepairOptions> wanted_repairs(const RepairArguments& arguments) {
   return options;
 }
 
+RepairOptions all_or_wanted_repairs(RepairArguments arguments) {
+  if (arguments.words.empty()) arguments.words = without_words;
+  return wanted_repairs(arguments).value();
+}
+
 }  // namespace sphparam::cli

@@ -31,4 +31,7 @@ void declare_repair_options(Declaration& command, RepairArguments& arguments);
 ///         where handles are not wanted, or of no format.
 std::optional<RepairOptions> wanted_repairs(const RepairArguments& arguments);
 
+/// The same where a repair is what the subcommand is for: everything, unless --repair names some.
+RepairOptions all_or_wanted_repairs(RepairArguments arguments);
+
 }  // namespace sphparam::cli

@@ -51,10 +51,12 @@ void settle_sampled(const std::string& text, DistanceOptions& options) {
 
 void require_sensible(const MeasureArguments& arguments) {
   require_one_stream({arguments.first, arguments.second}, "the two meshes");
-  const std::string extension = extension_of(arguments.per_vertex);
-  if (!extension.empty() && extension != ".ply") {
-    throw UsageMistake("--per-vertex: the mesh is a PLY, the name must end in .ply, not " +
-                       extension);
+  const std::string extension = inner_extension_of(arguments.per_vertex);
+  if (!extension.empty() && !keeps_map(arguments.per_vertex)) {
+    throw UsageMistake(
+        "--per-vertex: distances have a place in .ply, .vtk and .vtp; the name must end so, not "
+        "in " +
+        extension);
   }
   check_places({{"--per-vertex", arguments.per_vertex}, {"--json", arguments.json}});
 }

@@ -9,6 +9,7 @@
 #include "commands/sources.h"
 #include "console/places.h"
 #include "io/attributes/appearance.h"
+#include "number_text.h"
 #include "sphparam/io/mesh_writer.h"
 
 namespace sphparam::cli {
@@ -40,10 +41,10 @@ struct PaintArguments : CommonArguments {
 };
 
 void require_coloured_format(const std::string& path) {
-  const std::string extension = extension_of(path);
-  const bool has_colours = extension == ".ply" || extension == ".obj" || extension == ".off";
-  if (has_colours || is_stream(path)) return;
-  throw UsageMistake("-o: colours of vertices go into a .ply, .obj or .off file, not " +
+  const std::string extension = inner_extension_of(path);
+  const Words with_colours = {".ply", ".obj", ".off", ".vtk", ".vtp", ".mz3"};
+  if (std::ranges::find(with_colours, extension) != with_colours.end() || is_stream(path)) return;
+  throw UsageMistake("-o: colours of vertices go into a " + joined(with_colours) + " file, not " +
                      (extension.empty() ? "one without a name" : extension) +
                      "; an image is written with --atlas SIZE");
 }

@@ -12,6 +12,7 @@
 #include "console/places.h"
 #include "number_text.h"
 #include "reports/remesh_wording.h"
+#include "reports/told_losses.h"
 #include "sphparam/gltf/export.h"
 #include "sphparam/io/certified_files.h"
 #include "sphparam/measure/measurable.h"
@@ -125,6 +126,9 @@ void add_glb(const RemeshArguments& arguments, const MappedMesh& mapped,
   });
 }
 
+/// Places are computed here: GIFTI has them in 32 bits, as the tools about it ask.
+constexpr WriteOptions new_mesh = {.float32 = true};
+
 void add_meshes(const RemeshArguments& arguments, const RemeshRequests& requests,
                 const MappedMesh& mapped, const std::vector<LevelOfDetail>& levels,
                 Session& session) {
@@ -132,12 +136,17 @@ void add_meshes(const RemeshArguments& arguments, const RemeshRequests& requests
     add_glb(arguments, mapped, levels, session);
   } else if (!arguments.output.empty()) {
     for (size_t level = 0; level < levels.size(); ++level)
-      add_mapped(session.files, requests.outputs[level], levels[level].mesh, session.threads());
+      tell_losses(requests.outputs[level],
+                  add_mapped(session.files, requests.outputs[level], levels[level].mesh,
+                             session.threads(), new_mesh),
+                  session.console);
   }
   if (arguments.limit_output.empty()) return;
   const LevelOfDetail& finest = levels.front();
-  add_mapped(session.files, arguments.limit_output,
-             limit_mesh(finest.mesh, finest.fit.value(), session.threads()), session.threads());
+  const auto limit = limit_mesh(finest.mesh, finest.fit.value(), session.threads());
+  tell_losses(arguments.limit_output,
+              add_mapped(session.files, arguments.limit_output, limit, session.threads(), new_mesh),
+              session.console);
 }
 
 std::optional<WrittenDisplacement> displace(const RemeshArguments& arguments,

@@ -1,6 +1,7 @@
 // `sphparam spharm`: the surface, and what it carries, as a sum of spherical harmonics: the shape
 // description that a map to the sphere was first made for (Brechbühler, Gerig, Kübler 1995).
 
+#include "arguments/mesh_names.h"
 #include "commands/command.h"
 #include "commands/sources.h"
 #include "console/places.h"
@@ -82,12 +83,7 @@ void require_sensible(const SpharmArguments& arguments) {
   if (arguments.centre && !arguments.radius && arguments.shadr.empty()) {
     throw UsageMistake("--centre is for --radius and --shadr only");
   }
-  const std::string& mesh = arguments.reconstruction;
-  const std::string extension = extension_of(mesh);
-  const bool can_be = is_written(mesh) && !extension.empty() && extension != ".gii";
-  if (!mesh.empty() && !is_stream(mesh) && !can_be) {
-    throw UsageMistake("--reconstruct: the name must end in .ply, .obj or .off");
-  }
+  require_mesh_name("--reconstruct", "the surface", arguments.reconstruction);
   check_places({{"--json", arguments.json},
                 {"--csv", arguments.csv},
                 {"--shadr", arguments.shadr},
@@ -158,7 +154,7 @@ void declare_options(Declaration& command, SpharmArguments& arguments) {
             "4pi-normalised C and S of the radius as the PDS has them")
       .written()
       .text("--reconstruct", arguments.reconstruction, "FILE",
-            "The mesh as the harmonics have it: .ply, .obj or .off")
+            "The mesh as the harmonics have it, in the format of its name")
       .written()
       .threads(arguments)
       .console(arguments);

@@ -1,7 +1,9 @@
 // `sphparam unimage`: a geometry image back to the mesh it was made of, with its map.
 
+#include "arguments/mesh_names.h"
 #include "commands/command.h"
 #include "console/places.h"
+#include "reports/told_losses.h"
 #include "sphparam/io/certified_files.h"
 #include "sphparam/remesh/geometry_image.h"
 
@@ -39,14 +41,15 @@ GeometryImageFiles files_of(const UnimageArguments& arguments) {
 
 int run_unimage(UnimageArguments& arguments) {
   Session session(arguments);
-  const std::string kind = is_stream(arguments.output) ? ".ply" : extension_of(arguments.output);
-  if (kind != ".ply" && kind != ".obj") throw UsageMistake("-o: written are .ply and .obj");
+  require_mesh_name("-o", "the mesh", arguments.output);
   check_places({{"-o", arguments.output}});
   session.hold_signals();
   const Remeshed mesh =
       load_geometry_image(files_of(arguments), session.threads(), session.progress());
   session.console.progress("write", 0);
-  add_mapped(session.files, arguments.output, mesh, session.threads());
+  tell_losses(arguments.output,
+              add_mapped(session.files, arguments.output, mesh, session.threads()),
+              session.console);
   session.publish();
   session.console.say(display_name(arguments.input) + ": " + mesh.name() + ", " +
                       std::to_string(mesh.mesh().vertex_count()) +
@@ -56,7 +59,8 @@ int run_unimage(UnimageArguments& arguments) {
 
 void declare_options(Declaration& command, UnimageArguments& arguments) {
   command.input("IMAGE", arguments.input, "Positions, .exr or .png, as `remesh` makes them")
-      .output(arguments.output, "FILE", "The mesh: .ply with its map, or .obj")
+      .output(arguments.output, "FILE",
+              "The mesh: .ply, .vtk or .vtp with its map, or another format of meshes")
       .text("--normals", arguments.normals, "FILE", "The image of the normals")
       .texts("--attribute", arguments.attributes, "NAME=FILE",
              "An image of a property, as in thickness=FILE or color=FILE; may be given again")

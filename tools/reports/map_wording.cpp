@@ -9,6 +9,7 @@
 #include "console/places.h"
 #include "number_text.h"
 #include "reports/told_losses.h"
+#include "reports/told_repairs.h"
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/words.h"
@@ -75,12 +76,7 @@ void tell_stages(const MapOutcome& outcome, Console& console) {
   const std::vector<std::string> told = losses_among(outcome.source.notes);
   for (const std::string& note : outcome.source.notes)
     if (std::find(told.begin(), told.end(), note) == told.end()) console.detail("  note: " + note);
-  for (const RepairAction& repair : outcome.source.repairs) console.say("  " + repair.message);
-  if (const std::string lines = handle_lines(outcome.source.handles, "    "); !lines.empty()) {
-    console.say(lines.substr(0, lines.size() - 1));
-  }
-  const std::string kept = kept_line(outcome.source.parts);
-  if (!kept.empty()) console.say("  " + kept);
+  tell_repairs(outcome.source, console);
   for (const MeshDefect& defect : outcome.source.inspection.defects) {
     // What looks wrong on the map is told unasked.
     const bool visible = defect.kind == DefectKind::InsideOut;

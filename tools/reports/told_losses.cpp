@@ -10,4 +10,9 @@ void tell_losses(const MeshSource& source, Console& console) {
     console.say("  " + display_name(source.path) + ": " + loss);
 }
 
+void tell_losses(const std::string& path, const std::vector<std::string>& losses,
+                 Console& console) {
+  for (const std::string& loss : losses) console.say("  " + output_name(path) + ": " + loss);
+}
+
 }  // namespace sphparam::cli

@@ -9,4 +9,7 @@ namespace sphparam::cli {
 /// carry what a mesh carries calls it.
 void tell_losses(const MeshSource& source, Console& console);
 
+/// The same of a file that was written: what its format has no place for.
+void tell_losses(const std::string& path, const std::vector<std::string>& losses, Console& console);
+
 }  // namespace sphparam::cli

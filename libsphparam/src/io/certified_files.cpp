@@ -5,6 +5,7 @@
 
 #include "io/files/read_back.h"
 #include "sphparam/errors.h"
+#include "sphparam/io/losses.h"
 #include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/mesh_writer.h"
@@ -63,24 +64,45 @@ void add_certified(PendingFiles& files, const std::string& path, std::string byt
   });
 }
 
-void add_mapped(PendingFiles& files, const std::string& path, MeshFile file, const Polygons& faces,
-                const Topology& topology, int threads) {
+std::vector<std::string> add_mapped(PendingFiles& files, const std::string& path, MeshFile file,
+                                    const Polygons& faces, const Topology& topology, int threads,
+                                    WriteOptions options) {
   require_numbers(file, path);
-  if (keeps_map(path)) {
-    add_certified(files, path, serialise_mesh(path, file, {.faces = &faces}), topology, threads);
-  } else {
-    const SphereMap map = read_sphere(file).value();
-    add_certified(files, path, serialise_mesh(path, file, {.faces = &faces}), topology, map,
-                  threads);
-  }
+  const bool has_place = keeps_map(path);
+  const std::optional<SphereMap> map = has_place ? std::nullopt : read_sphere(file);
+  std::vector<std::string> losses;
+  options.faces = &faces;
+  files.add(path, serialise_mesh(path, file, options), [&](std::string_view written) {
+    const MeshFile read = read_mesh(written, path, own_file);
+    const SphereMap rays = has_place ? read_sphere(read).value() : map.value();
+    require_certified(certify_read_back(read, rays, topology, threads), path + ", as written");
+    losses = losses_of_writing(file, read);
+  });
+  return losses;
 }
 
-void add_mapped(PendingFiles& files, const std::string& path, const MappedMesh& mapped,
-                int threads) {
+std::vector<std::string> add_mesh(PendingFiles& files, const std::string& path,
+                                  const MeshFile& file) {
+  require_numbers(file, path);
+  std::vector<std::string> losses;
+  files.add(path, serialise_mesh(path, file), [&](std::string_view written) {
+    ReadOptions options = own_file;
+    options.repeated_corners = true;
+    const MeshFile read = read_mesh(written, path, options);
+    if (read.mesh.triangles != file.mesh.triangles)
+      throw WriteError(path, "as written, it has other triangles");
+    losses = losses_of_writing(file, read);
+  });
+  return losses;
+}
+
+std::vector<std::string> add_mapped(PendingFiles& files, const std::string& path,
+                                    const MappedMesh& mapped, int threads,
+                                    const WriteOptions& options) {
   const Polygons faces =
       mapped.polygons() ? *mapped.polygons() : triangles_as_polygons(mapped.mesh().triangles);
-  add_mapped(files, path, attach_map(mapped.file(), mapped.map(), mapped.provenance()), faces,
-             mapped.topology(), threads);
+  return add_mapped(files, path, attach_map(mapped.file(), mapped.map(), mapped.provenance()),
+                    faces, mapped.topology(), threads, options);
 }
 
 }  // namespace sphparam

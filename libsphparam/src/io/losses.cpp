@@ -3,10 +3,56 @@
 #include <algorithm>
 #include <iterator>
 
+#include "number_text.h"
+
 namespace sphparam {
 namespace {
 
 constexpr std::string_view prefix = "not carried: ";
+
+bool is_one_of(std::string_view name, std::initializer_list<std::string_view> names) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Whether what was read has the attribute, be it at vertices or at corners; colours may have been
+/// rounded to bytes or from them.
+bool is_carried(const Property& property, const std::vector<Property>& read, const MeshFile& file) {
+  if (is_one_of(property.name, {"s", "t"}) && file.corner_texcoords) return true;
+  if (is_one_of(property.name, {"nx", "ny", "nz"}) && file.corner_normals) return true;
+  const auto found = std::find_if(read.begin(), read.end(), [&](const Property& candidate) {
+    return candidate.name == property.name;
+  });
+  if (found == read.end()) return false;
+  return is_one_of(property.name, {"red", "green", "blue", "alpha"}) ||
+         found->values == property.values;
+}
+
+/// The names of those that are gone; `renamed` counts those that are there under another name.
+std::vector<std::string> gone(const std::vector<Property>& written,
+                              const std::vector<Property>& read, const MeshFile& file,
+                              std::vector<std::string>& renamed) {
+  std::vector<std::string> names;
+  for (const Property& property : written) {
+    if (is_one_of(property.name, {"sx", "sy", "sz", "theta", "phi", "source_face"})) continue;
+    if (is_carried(property, read, file)) continue;
+    const bool elsewhere = std::any_of(read.begin(), read.end(), [&](const Property& candidate) {
+      return candidate.values == property.values;
+    });
+    (elsewhere ? renamed : names).push_back(property.name);
+  }
+  return names;
+}
+
+void compare_positions(const MeshFile& written, const MeshFile& read,
+                       std::vector<std::string>& losses) {
+  const Points &before = written.mesh.positions, &after = read.mesh.positions;
+  if (before.rows() != after.rows() || before == after) return;
+  long moved = 0;
+  for (Eigen::Index v = 0; v < before.rows(); ++v) moved += before.row(v) != after.row(v);
+  add_loss(losses, "the last digits of " + std::to_string(moved) + " of " +
+                       counted(before.rows(), "vertex", "vertices") +
+                       ": coordinates there have 32 bits");
+}
 
 }  // namespace
 
@@ -18,6 +64,35 @@ std::vector<std::string> losses_among(const std::vector<std::string>& notes) {
   std::vector<std::string> losses;
   std::copy_if(notes.begin(), notes.end(), std::back_inserter(losses),
                [](const std::string& note) { return note.starts_with(prefix); });
+  return losses;
+}
+
+std::vector<std::string> losses_of_writing(const MeshFile& written, const MeshFile& read) {
+  std::vector<std::string> losses, renamed;
+  compare_positions(written, read, losses);
+  const auto tell = [&](const std::vector<std::string>& names, const std::string& whose) {
+    if (!names.empty()) add_loss(losses, enumerated(names) + " of " + whose);
+  };
+  tell(gone(written.vertex_properties, read.vertex_properties, read, renamed), "vertices");
+  tell(gone(written.face_properties, read.face_properties, read, renamed), "faces");
+  tell(renamed, "properties whose numbers are kept without their names");
+  const auto has_any = [&](const MeshFile& file, const char* name) {
+    return file.find_vertex_property(name) != nullptr;
+  };
+  if (written.corner_texcoords && !read.corner_texcoords && !has_any(read, "s"))
+    add_loss(losses, "texture coordinates of corners");
+  if (written.corner_normals && !read.corner_normals && !has_any(read, "nx"))
+    add_loss(losses, "normals of corners");
+  if (written.materials.size() > read.materials.size())
+    add_loss(losses, counted(static_cast<long>(written.materials.size()), "material"));
+  if (!written.base_colours.empty() && read.base_colours.empty())
+    add_loss(losses, "colours and textures of materials");
+  const auto lines = [](const MeshFile& file) {
+    return std::count_if(file.comments.begin(), file.comments.end(),
+                         [](const std::string& line) { return !line.starts_with("sphparam "); });
+  };
+  if (const long missing = lines(written) - lines(read); missing > 0)
+    add_loss(losses, counted(missing, "comment"));
   return losses;
 }
 

@@ -8,7 +8,6 @@
 #include "sphparam/errors.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/mesh_writer.h"
-#include "sphparam/io/paths.h"
 #include "sphparam/io/planetocentric.h"
 #include "sphparam/version.h"
 
@@ -17,7 +16,7 @@ namespace sphparam {
 namespace {
 
 /// The radius that FreeSurfer, HCP and MSM give their spheres; areas are compared at it.
-constexpr double gifti_radius = 100;
+constexpr double float_radius = 100;
 
 std::string words(const std::optional<Poles>& poles, const FileNumbers& numbers) {
   if (!poles) return "none";
@@ -40,14 +39,14 @@ struct HeldMap {
   double least_area = 0;  // of triangles, of the mean: what they had to be taken for
 };
 
-/// GIFTI has coordinates of 32 bits. Rounding must not cost a certified map its certificate; one
-/// that is folded anyway may get other folds.
+/// Formats of brains have coordinates of 32 bits. Rounding must not cost a certified map its
+/// certificate; one that is folded anyway may get other folds.
 HeldMap as_floats(const std::string& path, const FinishedMap& finished,
                   const SphereOptions& options) {
   auto [rounding, least_area] =
       round_float32_safe(finished.file.mesh, finished.topology, finished.map,
                          {.energy = options.energy,
-                          .radius = gifti_radius,
+                          .radius = float_radius,
                           .threads = options.threads,
                           .progress = options.progress});
   if (least_area > 0 && !options.may_remap) {
@@ -106,7 +105,7 @@ void add_map(PendingFiles& files, const std::string& path, const MeshFile& with_
 
 double add_sphere(PendingFiles& files, const std::string& path, const FinishedMap& finished,
                   const SphereOptions& options) {
-  const HeldMap held = extension_of(path) == ".gii"
+  const HeldMap held = has_float_spheres(path)
                            ? as_floats(path, finished, options)
                            : HeldMap{finished.map, verdict(finished.certificate)};
   const MeshFile sphere =

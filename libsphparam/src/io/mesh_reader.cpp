@@ -1,15 +1,12 @@
 #include "sphparam/io/mesh_reader.h"
 
 #include <algorithm>
-#include <cctype>
-#include <cstring>
 #include <filesystem>
 #include <optional>
 
 #include "io/files/file_bytes.h"
 #include "io/files/gzip.h"
 #include "io/formats/mesh_formats.h"
-#include "io/formats/obj_reader.h"
 #include "sphparam/io/paths.h"
 
 namespace sphparam {
@@ -27,30 +24,16 @@ constexpr ForeignFormat foreign_magic[] = {
      "7zXZ",
      "xz-compressed data (unpack it first)"},
     {"BZh", "bzip2-compressed data (unpack it first)"},
-    {"MZ", "MZ3"},
-    {"\xff\xff\xfe", "a FreeSurfer surface"},
     {"Kaydara FBX", "FBX"},
-    {"<?xml", "XML other than GIFTI (COLLADA or VTK)"},
-    {"# vtk DataFile", "legacy VTK"},
+    {"<?xml", "XML other than GIFTI and VTP (COLLADA?)"},
     {"\x89PNG", "a PNG image"},
     {"\xff\xd8\xff", "a JPEG image"},
 };
 
 constexpr ForeignFormat foreign_extensions[] = {
-    {".mz3", "MZ3"}, {".fbx", "FBX"},        {".dae", "COLLADA"},
-    {".3ds", "3DS"}, {".vtk", "legacy VTK"}, {".vtp", "VTK"},
-    {".msh", "MSH"}, {".stp", "STEP"},       {".step", "STEP"},
+    {".fbx", "FBX"}, {".dae", "COLLADA"}, {".3ds", "3DS"},   {".vtu", "VTK other than polydata"},
+    {".msh", "MSH"}, {".stp", "STEP"},    {".step", "STEP"},
 };
-
-/// In lower case; of "statue.obj.gz" the one of what is in it.
-std::string inner_extension(const std::string& name) {
-  const std::size_t dot = name.rfind('.');
-  if (dot == std::string::npos || name.find('/', dot) != std::string::npos) return {};
-  std::string extension = name.substr(dot);
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".gz" ? inner_extension(name.substr(0, dot)) : extension;
-}
 
 std::string supported() { return readable_formats("and") + " files are"; }
 
@@ -60,12 +43,8 @@ std::string supported() { return readable_formats("and") + " files are"; }
 }
 
 void refuse_foreign_content(std::string_view bytes, const std::string& name) {
-  if (inner_extension(name) == ".mz3") refuse(name, "MZ3");
-  for (const auto& [magic, format] : foreign_magic) {
-    // An OBJ may open with any comment, also with "# vtk DataFile".
-    if (bytes.starts_with(magic) && !(magic.front() == '#' && looks_like_obj(bytes)))
-      refuse(name, format);
-  }
+  for (const auto& [magic, format] : foreign_magic)
+    if (bytes.starts_with(magic)) refuse(name, format);
 }
 
 /// What the bytes look like, by evidence of this kind.
@@ -81,7 +60,7 @@ const MeshFormat& format_of(std::string_view bytes, const std::string& name) {
   for (const Evidence evidence : {Evidence::MagicWord, Evidence::Layout})
     if (const MeshFormat* format = recognised(bytes, evidence)) return *format;
   refuse_foreign_content(bytes, name);
-  const std::string extension = inner_extension(name);
+  const std::string extension = inner_extension_of(name);
   const MeshFormat* const named = format_of_extension(extension);
   if (named && named->evidence == Evidence::Text) return *named;
   if (const MeshFormat* format = recognised(bytes, Evidence::Text)) return *format;
@@ -117,10 +96,8 @@ MeshFile read_bytes(std::string_view bytes, const std::string& name,
   if (bytes.size() > options.max_file_bytes)
     throw ReadError(
         name, "is larger than the limit of " + std::to_string(options.max_file_bytes) + " bytes");
-  const bool packed =
-      looks_like_gzip(bytes) && inner_extension(name) != ".mz3";  // which is gzip too
-  return packed ? read_gzip(bytes, name, folder, options)
-                : read_unpacked(bytes, name, folder, options);
+  return looks_like_gzip(bytes) ? read_gzip(bytes, name, folder, options)
+                                : read_unpacked(bytes, name, folder, options);
 }
 
 }  // namespace
@@ -133,7 +110,7 @@ std::string readable_formats(const std::string& conjunction) {
 }
 
 bool is_mesh_name(const std::string& path) {
-  return format_of_extension(inner_extension(path)) || extension_of(path) == ".gz";
+  return format_of_extension(inner_extension_of(path)) || is_packed_name(path);
 }
 
 MeshFile read_mesh(std::string_view bytes, const std::string& name, const ReadOptions& options) {

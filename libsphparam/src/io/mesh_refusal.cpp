@@ -8,7 +8,9 @@
 
 #include "io/repaired_file.h"
 #include "sphparam/io/file_numbers.h"
+#include "sphparam/io/losses.h"
 #include "sphparam/io/mesh_source.h"
+#include "sphparam/io/sphere_file.h"
 
 namespace sphparam {
 
@@ -100,12 +102,23 @@ MeshRefusal::MeshRefusal(const MeshSource& source, std::optional<RepairTrial> tr
       trial_(std::move(trial)),
       done_(source.repairs) {}
 
+MeshSource mended(MeshSource source, const RepairOptions& options) {
+  RepairedMesh result = repair_mesh(source.file.mesh, options);
+  return with_repairs(std::move(source), std::move(result));
+}
+
+MeshFile written_as_mended(const MeshSource& source, std::vector<std::string>& losses) {
+  if (source.repairs.empty() || !read_sphere(source.file)) return source.file;
+  add_loss(losses, "its map, which is of the mesh before the repair");
+  return without_map(source.file);
+}
+
 MeshSource repaired(MeshSource source, const RepairOptions& options) {
-  RepairedMesh mended = repair_mesh(source.file.mesh, options);
-  if (mended.inspection.is_sphere()) return with_repairs(std::move(source), std::move(mended));
+  RepairedMesh result = repair_mesh(source.file.mesh, options);
+  if (result.inspection.is_sphere()) return with_repairs(std::move(source), std::move(result));
   // Components are numbered as they are in the mesh that was given.
   std::optional<RepairTrial> trial = affordable_trial(source);
-  source = with_repairs(std::move(source), std::move(mended));
+  source = with_repairs(std::move(source), std::move(result));
   throw MeshRefusal(source, std::move(trial));
 }
 

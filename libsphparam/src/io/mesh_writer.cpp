@@ -1,5 +1,6 @@
 #include "sphparam/io/mesh_writer.h"
 
+#include "io/files/gzip.h"
 #include "io/formats/mesh_formats.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/safe_file.h"
@@ -10,19 +11,19 @@ namespace {
 
 /// Null where no format is written under this name.
 const MeshFormat* written_format(const std::string& path) {
-  const std::string extension = is_stream(path) ? "" : extension_of(path);
+  const std::string extension = is_stream(path) ? "" : inner_extension_of(path);
   const MeshFormat* format = format_of_extension(extension.empty() ? ".ply" : extension);
   return format && format->write ? format : nullptr;
 }
 
-std::string written_extensions() {
+}  // namespace
+
+std::string written_extensions(const std::string& conjunction) {
   std::string all;
   for (const MeshFormat& format : mesh_formats())
     if (format.write) all += (all.empty() ? "" : ", ") + std::string(format.extensions.front());
-  return all;
+  return all.replace(all.rfind(", "), 2, " " + conjunction + " ");
 }
-
-}  // namespace
 
 bool is_written(const std::string& path) { return written_format(path) != nullptr; }
 
@@ -31,12 +32,21 @@ bool keeps_map(const std::string& path) {
   return format && format->keeps_map;
 }
 
+bool has_float_spheres(const std::string& path) {
+  const MeshFormat* const format = written_format(path);
+  return format && format->float_spheres;
+}
+
 std::string serialise_mesh(const std::string& path, const MeshFile& file,
                            const WriteOptions& options) {
   const MeshFormat* const format = written_format(path);
-  if (!format) throw WriteError(path, "meshes are written as " + written_extensions());
-  if (format->keeps_map || options.is_sphere) return format->write(file, options);
-  return format->write(without_map(file), options);
+  if (!format)
+    throw WriteError(
+        path, "meshes are written as " + written_extensions("or") + ", with .gz after it for gzip");
+  std::string bytes = format->keeps_map || options.is_sphere
+                          ? format->write(file, options)
+                          : format->write(without_map(file), options);
+  return is_packed_name(path) ? zip(bytes) : bytes;
 }
 
 void write_mesh(const std::string& path, const MeshFile& file, const WriteOptions& options) {

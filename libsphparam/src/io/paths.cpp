@@ -22,6 +22,12 @@ std::string extension_of(const std::string& path) {
   return extension;
 }
 
+bool is_packed_name(const std::string& path) { return extension_of(path) == ".gz"; }
+
+std::string inner_extension_of(const std::string& path) {
+  return extension_of(is_packed_name(path) ? std::filesystem::path(path).stem().string() : path);
+}
+
 std::string display_name(const std::string& path) {
   return is_stream(path) ? "standard input" : file_name(path);
 }
@@ -32,7 +38,7 @@ std::string output_name(const std::string& path) {
 
 std::string stem_of(const std::string& path) {
   std::filesystem::path name = std::filesystem::path(path).filename();
-  if (extension_of(name.string()) == ".gz") name = name.stem();
+  if (is_packed_name(name.string())) name = name.stem();
   name = name.stem();
   if (extension_of(name.string()) == ".sph") name = name.stem();
   return name.string();

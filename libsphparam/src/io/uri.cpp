@@ -1,12 +1,12 @@
 #include "io/uri.h"
 
 #include <cctype>
-#include <cstdint>
+
+#include "io/files/base64.h"
 
 namespace sphparam {
 namespace {
 
-constexpr char alphabet[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 constexpr char hexadecimal[] = "0123456789ABCDEF";
 
 bool is_unreserved(unsigned char c) {
@@ -16,18 +16,7 @@ bool is_unreserved(unsigned char c) {
 }  // namespace
 
 std::string data_uri(std::string_view mime, std::string_view bytes) {
-  std::string uri = "data:";
-  uri.reserve(uri.size() + mime.size() + 8 + bytes.size() / 3 * 4 + 4);
-  uri.append(mime).append(";base64,");
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group = group << 8 | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    for (std::size_t k = 0; k < 4; ++k)
-      uri += k <= count ? alphabet[group >> (18 - 6 * k) & 63] : '=';
-  }
-  return uri;
+  return "data:" + std::string(mime) + ";base64," + to_base64(bytes);
 }
 
 std::string uri_of_file(std::string_view name) {

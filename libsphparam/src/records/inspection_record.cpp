@@ -51,6 +51,14 @@ std::string topology(const MeshInspection& mesh) {
   return text;
 }
 
+/// An STL names no vertices: its corners are put together by their coordinates as they are read.
+bool is_soup(const MeshFile& file) { return file.format.starts_with("STL"); }
+
+std::string welding(const MeshSource& source) {
+  if (is_soup(source.file)) return "used: corners of the same coordinates are one vertex";
+  return source.welded ? "used: the faces as indexed are not closed" : "not used";
+}
+
 std::string figures(const MeshSource& source) {
   const MeshInspection& mesh = source.inspection;
   const MeshFile& file = source.file;
@@ -63,8 +71,7 @@ std::string figures(const MeshSource& source) {
          line("bounding box", point(mesh.lower) + " to " + point(mesh.upper)) +
          line("area", short_number(mesh.area, figure_digits)) +
          line("volume", short_number(mesh.volume, figure_digits)) +
-         line("attributes", attributes(file)) +
-         line("welding", source.welded ? "used: the faces as indexed are not closed" : "not used");
+         line("attributes", attributes(file)) + line("welding", welding(source));
 }
 
 /// How the map that a file has came about; nothing where it has none.
@@ -93,7 +100,7 @@ std::string to_json(const InspectionRecord& record) {
                   {"input", input_json(record.source)},
                   {"inspection", inspection_json(record.source.inspection)},
                   {"repair", trial_json(record.repair)},
-                  {"welded", record.source.welded},
+                  {"welded", record.source.welded || is_soup(record.source.file)},
                   {"provenance", pairs_json(provenance_in(record.source.file))},
                   {"notes", record.source.notes},
                   {"seconds", record.seconds}});

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "sphparam/io/mesh_file.h"
+#include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/polygons.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/mesh/topology.h"
@@ -27,13 +29,22 @@ void add_certified(PendingFiles& files, const std::string& path, std::string byt
 
 /// Adds a mesh that carries a map, proved like this, in the format that the name asks for (see
 /// `serialise_mesh`); where that has no place for a map, the mesh alone. `faces`: the polygons that
-/// its triangles are cut of, as `adopt_triangulation` does.
+/// its triangles are cut of, as `adopt_triangulation` does. GIFTI gets coordinates of 32 bits,
+/// which the tools about it ask for. Returns what the format had no place for (losses.h), not the
+/// map. Throws: UnmeasurableMesh as `require_numbers`; WriteError for a name of no format.
+std::vector<std::string> add_mapped(PendingFiles& files, const std::string& path, MeshFile file,
+                                    const Polygons& faces, const Topology& topology, int threads,
+                                    WriteOptions options = {});
+
+/// Adds a mesh whatever it is, in the format that the name asks for. It is read back once written,
+/// and must have the same triangles: WriteError if not. Returns what the format had no place for.
 /// Throws: UnmeasurableMesh as `require_numbers`; WriteError for a name of no format.
-void add_mapped(PendingFiles& files, const std::string& path, MeshFile file, const Polygons& faces,
-                const Topology& topology, int threads);
+std::vector<std::string> add_mesh(PendingFiles& files, const std::string& path,
+                                  const MeshFile& file);
 
 /// Adds a mapped mesh like this, its provenance with it: what `save_mapped` writes.
-void add_mapped(PendingFiles& files, const std::string& path, const MappedMesh& mapped,
-                int threads = 0);
+std::vector<std::string> add_mapped(PendingFiles& files, const std::string& path,
+                                    const MappedMesh& mapped, int threads = 0,
+                                    const WriteOptions& options = {});
 
 }  // namespace sphparam

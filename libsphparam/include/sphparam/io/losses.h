@@ -16,6 +16,11 @@ void add_loss(std::vector<std::string>& notes, const std::string& what);
 /// Those of the notes that `add_loss` made, in their order.
 std::vector<std::string> losses_among(const std::vector<std::string>& notes);
 
+/// What a mesh file lost where it was written: `read` is what reading those bytes gave. Lines as
+/// `add_loss` makes them, with the share where only part is lost; the rays of a map and what is
+/// said of it are not among them. Cost: O(#V + #F) a property.
+std::vector<std::string> losses_of_writing(const MeshFile& written, const MeshFile& read);
+
 /// "a, b and c"; of more than eight words the first ones, and how many others.
 std::string enumerated(const std::vector<std::string>& words);
 

@@ -60,6 +60,15 @@ class MeshRefusal : public MeshError {
   std::vector<RepairAction> done_;
 };
 
+/// The mesh mended as far as these repairs go, whether it can be mapped then or not: `inspection` is
+/// that of what it is then, `repairs`, `parts`, `handles` and `notes` say what was done.
+/// Throws: NoSuchComponent.
+MeshSource mended(MeshSource source, const RepairOptions& options);
+
+/// What is to be written of it: its file, without a map where something was done to the mesh, which
+/// is told among the losses.
+MeshFile written_as_mended(const MeshSource& source, std::vector<std::string>& losses);
+
 /// The mesh mended, with the inspection of what it is then; `repairs`, `parts` and `notes` say what
 /// was done, by the numbers of the file.
 /// Throws: NoSuchComponent; MeshRefusal where it cannot be mapped even then.

@@ -7,23 +7,37 @@
 
 namespace sphparam {
 
-// Meshes are written in the format that the name of the file asks for: .ply, .obj, .off or .gii. A
-// name without an extension, and "-", standard output, ask for PLY.
+// Meshes are written in the format that the name of the file asks for: .ply, .obj, .off, .vtk,
+// .vtp, .gii, .mz3, or a name of FreeSurfer (.white, .pial, .inflated, .sphere, .orig, .smoothwm,
+// .reg, .surf). ".gz" after it asks for gzip. A name without an extension, and "-", standard
+// output, ask for PLY.
 //
 // All are lossless in what they carry, and reading gives it back. PLY: everything. OBJ: positions,
 // colours, texture coordinates, normals, materials, comments. OFF: what vertices have of these, and
-// colours of faces. GIFTI: positions, comments as metadata.
+// colours of faces. VTK, VTP: all but what corners have. GIFTI: positions, comments as metadata.
+// MZ3: positions as float32, colours as bytes, properties of vertices without their names.
+// FreeSurfer: positions as float32, comments of its own. `losses_of_writing` tells.
 
 struct WriteOptions {
   /// The polygons that the triangles are cut of, in their order; the formats that have polygons,
-  /// PLY and OBJ, write these for faces. Null: triangles are.
+  /// PLY, OBJ, VTK and VTP, write these for faces. Null: triangles are.
   const Polygons* faces = nullptr;
   /// The positions are points of a sphere, in no space but its own. GIFTI says so.
   bool is_sphere = false;
+  /// Coordinates of GIFTI are rounded to 32 bits, as the tools about it ask; else they are written
+  /// with 64 where that is what they have.
+  bool float32 = false;
 };
 
 /// Whether there is a format that is written under this name.
 bool is_written(const std::string& path);
+
+/// What names may end in: ".ply, .obj or .gii", with another last word if wanted.
+std::string written_extensions(const std::string& conjunction = "or");
+
+/// Whether spheres get coordinates of 32 bits and the radius 100 under this name, as GIFTI,
+/// FreeSurfer and MZ3 have them.
+bool has_float_spheres(const std::string& path);
 
 /// Whether that format has a place for a map, the vertex properties sx sy sz.
 bool keeps_map(const std::string& path);
@@ -31,7 +45,8 @@ bool keeps_map(const std::string& path);
 /// The bytes of a mesh file. Where the format has no place for a map, what the comments say of it
 /// goes too, but on a sphere, which is the map. Requires: finite numbers; names of properties
 /// without blanks. Throws: WriteError for a name of no format that is written; for GIFTI, where
-/// libgiftiio fails. Cost: near a copy of the bytes for PLY, 0.2 µs a number of text.
+/// libgiftiio fails; for FreeSurfer and MZ3, of coordinates beyond float32. Cost: near a copy of
+/// the bytes for PLY, 0.2 µs a number of text.
 std::string serialise_mesh(const std::string& path, const MeshFile& file,
                            const WriteOptions& options = {});
 

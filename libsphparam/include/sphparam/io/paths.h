@@ -7,6 +7,12 @@ namespace sphparam {
 /// ".ply" of "STATUE.PLY": in lower case, with its dot; empty where there is none.
 std::string extension_of(const std::string& path);
 
+/// ".ply" of "statue.PLY" and of "statue.ply.gz": what is in the file, packed or not.
+std::string inner_extension_of(const std::string& path);
+
+/// Whether a file of this name is packed by gzip: "statue.ply.gz".
+bool is_packed_name(const std::string& path);
+
 /// Is this path the name of standard input or output?
 inline bool is_stream(const std::string& path) { return path == "-"; }
 
@@ -16,7 +22,7 @@ std::string display_name(const std::string& path);
 /// The same for a file that is written.
 std::string output_name(const std::string& path);
 
-/// "statue" of "folder/statue.ply" and of "folder/statue.sph.ply".
+/// "statue" of "folder/statue.ply" and of "folder/statue.sph.ply", packed (.gz) or not.
 std::string stem_of(const std::string& path);
 
 /// The path of a level of detail's file: {n} becomes its number, else _lodN is added from the

@@ -84,12 +84,64 @@ class Inflater {
   std::size_t filled_ = 0;
 };
 
+/// Ends a compression on every way out.
+struct Deflation {
+  z_stream stream{};
+  ~Deflation() { deflateEnd(&stream); }
+};
+
 }  // namespace
 
 bool looks_like_gzip(std::string_view bytes) { return bytes.starts_with("\x1f\x8b"); }
 
 Unzipped unzip(std::string_view bytes, const std::string& name, std::uint64_t max_bytes) {
   return Inflater(bytes, name, max_bytes).run();
+}
+
+std::string zip(std::string_view bytes) {
+  constexpr int gzip = 15 + 16, memory_level = 8;
+  constexpr std::size_t most_at_once = 1u << 30, room = 1u << 16;  // zlib counts in 32 bits
+  Deflation deflation;
+  z_stream& stream = deflation.stream;
+  if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, gzip, memory_level,
+                   Z_DEFAULT_STRATEGY) != Z_OK)
+    throw std::bad_alloc();
+  std::string packed;
+  std::string piece(room, '\0');
+  for (int status = Z_OK; status != Z_STREAM_END;) {
+    const auto given = static_cast<uInt>(std::min(most_at_once, bytes.size()));
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+    stream.avail_in = given;
+    stream.next_out = reinterpret_cast<Bytef*>(piece.data());
+    stream.avail_out = static_cast<uInt>(room);
+    status = deflate(&stream, given == bytes.size() ? Z_FINISH : Z_NO_FLUSH);
+    bytes.remove_prefix(given - stream.avail_in);
+    packed.append(piece, 0, room - stream.avail_out);
+  }
+  return packed;
+}
+
+std::string packed_block(std::string_view bytes) {
+  std::string packed(compressBound(static_cast<uLong>(bytes.size())), '\0');
+  auto size = static_cast<uLongf>(packed.size());
+  if (compress(reinterpret_cast<Bytef*>(packed.data()), &size,
+               reinterpret_cast<const Bytef*>(bytes.data()),
+               static_cast<uLong>(bytes.size())) != Z_OK)
+    throw std::bad_alloc();
+  packed.resize(size);
+  return packed;
+}
+
+bool unpack_block(std::string_view packed, std::uint64_t size, std::string& bytes) {
+  // zlib judges a block that holds what was asked for and more as one without room.
+  const std::size_t before = bytes.size();
+  bytes.resize(before + size);
+  auto unpacked = static_cast<uLongf>(size);
+  const int status =
+      uncompress(reinterpret_cast<Bytef*>(bytes.data() + before), &unpacked,
+                 reinterpret_cast<const Bytef*>(packed.data()), static_cast<uLong>(packed.size()));
+  if (status == Z_MEM_ERROR) throw std::bad_alloc();
+  return status == Z_OK && unpacked == size;
 }
 
 }  // namespace sphparam

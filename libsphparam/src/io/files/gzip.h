@@ -20,4 +20,15 @@ struct Unzipped {
 /// Throws: ReadError where the data is corrupt, cut short or unpacks to more than `max_bytes`.
 Unzipped unzip(std::string_view bytes, const std::string& name, std::uint64_t max_bytes);
 
+/// A gzip file of one member, without name and time: the same bytes give the same file.
+std::string zip(std::string_view bytes);
+
+// One block of zlib's own format (RFC 1950), as it stands within other files:
+
+std::string packed_block(std::string_view bytes);
+
+/// Puts a block that unpacks to exactly `size` bytes at the end of `bytes`. False where it does
+/// not. Requires: the size can be afforded.
+bool unpack_block(std::string_view packed, std::uint64_t size, std::string& bytes);
+
 }  // namespace sphparam

@@ -5,9 +5,13 @@
 
 #include <algorithm>
 
+#include "io/formats/freesurfer_reader.h"
+#include "io/formats/freesurfer_writer.h"
 #include "io/formats/gifti/gifti_reader.h"
 #include "io/formats/gifti/gifti_writer.h"
 #include "io/formats/gltf/gltf_reader.h"
+#include "io/formats/mz3_reader.h"
+#include "io/formats/mz3_writer.h"
 #include "io/formats/obj_reader.h"
 #include "io/formats/obj_writer.h"
 #include "io/formats/off_reader.h"
@@ -16,6 +20,10 @@
 #include "io/formats/ply_writer.h"
 #include "io/formats/polygon_ply.h"
 #include "io/formats/stl_reader.h"
+#include "io/formats/vtk/legacy_vtk_reader.h"
+#include "io/formats/vtk/legacy_vtk_writer.h"
+#include "io/formats/vtk/xml_vtk_reader.h"
+#include "io/formats/vtk/xml_vtk_writer.h"
 
 namespace sphparam {
 namespace {
@@ -45,30 +53,101 @@ std::string write_obj(const MeshFile& file, const WriteOptions& options) {
 std::string write_off(const MeshFile& file, const WriteOptions&) { return serialise_off(file); }
 
 std::string write_gifti(const MeshFile& file, const WriteOptions& options) {
-  return serialise_gifti(file, {.geometric_type = options.is_sphere ? "Spherical" : ""});
+  return serialise_gifti(
+      file, {.geometric_type = options.is_sphere ? "Spherical" : "", .float32 = options.float32});
 }
 
+std::string write_freesurfer(const MeshFile& file, const WriteOptions&) {
+  return serialise_freesurfer(file);
+}
+
+std::string write_mz3(const MeshFile& file, const WriteOptions&) { return serialise_mz3(file); }
+
 constexpr bool with_map = true, without_map = false;
+constexpr bool spheres_in_floats = true, spheres_in_doubles = false;
+constexpr auto magic = Evidence::MagicWord;
 
 constexpr MeshFormat formats[] = {
-    {"OBJ", {".obj"}, Evidence::Text, looks_like_obj, read<read_obj>, write_obj, without_map},
-    {"PLY", {".ply"}, Evidence::MagicWord, looks_like_ply, read<read_ply>, write_ply, with_map},
-    {"OFF", {".off"}, Evidence::MagicWord, looks_like_off, read<read_off>, write_off, without_map},
-    {"STL", {".stl"}, Evidence::Layout, looks_like_stl, read<read_stl>, nullptr, without_map},
+    {"OBJ",
+     {".obj"},
+     Evidence::Text,
+     looks_like_obj,
+     read<read_obj>,
+     write_obj,
+     without_map,
+     spheres_in_doubles},
+    {"PLY",
+     {".ply"},
+     magic,
+     looks_like_ply,
+     read<read_ply>,
+     write_ply,
+     with_map,
+     spheres_in_doubles},
+    {"OFF",
+     {".off"},
+     magic,
+     looks_like_off,
+     read<read_off>,
+     write_off,
+     without_map,
+     spheres_in_doubles},
+    {"STL",
+     {".stl"},
+     Evidence::Layout,
+     looks_like_stl,
+     read<read_stl>,
+     nullptr,
+     without_map,
+     spheres_in_doubles},
     {"glTF, GLB",
      {".gltf", ".glb"},
-     Evidence::MagicWord,
+     magic,
      looks_like_gltf,
      read_gltf_files,
      nullptr,
-     without_map},
+     without_map,
+     spheres_in_doubles},
+    {"VTK",
+     {".vtk"},
+     magic,
+     looks_like_legacy_vtk,
+     read<read_legacy_vtk>,
+     serialise_legacy_vtk,
+     with_map,
+     spheres_in_doubles},
+    {"VTP",
+     {".vtp"},
+     magic,
+     looks_like_xml_vtk,
+     read<read_xml_vtk>,
+     serialise_xml_vtk,
+     with_map,
+     spheres_in_doubles},
     {"GIFTI",
      {".gii"},
-     Evidence::MagicWord,
+     magic,
      looks_like_gifti,
      read<read_gifti>,
      write_gifti,
-     without_map},
+     without_map,
+     spheres_in_floats},
+    {"FreeSurfer",
+     {".white", ".pial", ".inflated", ".sphere", ".orig", ".smoothwm", ".reg", ".surf"},
+     magic,
+     looks_like_freesurfer,
+     read<read_freesurfer>,
+     write_freesurfer,
+     without_map,
+     spheres_in_floats},
+    {"MZ3",
+     {".mz3"},
+     Evidence::Layout,
+     looks_like_mz3,
+     read<read_mz3>,
+     write_mz3,
+     without_map,
+     spheres_in_floats},
 };
 
 }  // namespace

@@ -27,14 +27,15 @@ struct MeshBytes {
 /// A format of mesh files.
 struct MeshFormat {
   const char* names;                           // for people: "glTF, GLB"
-  std::array<std::string_view, 2> extensions;  // in lower case, with their dots
+  std::array<std::string_view, 8> extensions;  // in lower case, with their dots; then empty ones
   Evidence evidence;                           // that `looks_so` gives
   bool (*looks_so)(std::string_view bytes);
   /// Also of bytes that do not look so, where a file is named so: the reader says what is wrong.
   MeshFile (*read)(const MeshBytes& bytes, const ReadOptions& options);
   /// Null: it is only read. Where a format has no polygons, the triangles are written.
   std::string (*write)(const MeshFile& file, const WriteOptions& options);
-  bool keeps_map;  // what is written has a place for the rays
+  bool keeps_map;      // what is written has a place for the rays
+  bool float_spheres;  // spheres are written with coordinates of 32 bits, of radius 100
 };
 
 /// All formats, in the order in which they are named to people.

@@ -154,7 +154,8 @@ Image build_image(const MeshFile& file, const GiftiOptions& options) {
   if (!image) throw std::bad_alloc();
   const Points& positions = file.mesh.positions;
   giiDataArray& points = *image->darray[0];
-  if (lossless_type(ScalarType::Float32, positions.data(), positions.size()) == ScalarType::Float32)
+  if (options.float32 ||
+      lossless_type(ScalarType::Float32, positions.data(), positions.size()) == ScalarType::Float32)
     fill<float>(points, NIFTI_INTENT_POINTSET, NIFTI_TYPE_FLOAT32, positions);
   else
     fill<double>(points, NIFTI_INTENT_POINTSET, NIFTI_TYPE_FLOAT64, positions);

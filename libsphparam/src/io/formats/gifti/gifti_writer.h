@@ -10,6 +10,7 @@ struct GiftiOptions {
   /// Metadata of the coordinates; what the comments "gifti KEY VALUE" say, where empty.
   std::string geometric_type = {};        // "Anatomical"; "Spherical": in no space but its own
   std::string anatomical_structure = {};  // "CortexLeft", …; "Other" where nobody says
+  bool float32 = false;                   // coordinates are rounded to 32 bits
 };
 
 /// A GIFTI surface: coordinates, triangles as INT32, comments of our own as metadata, those of

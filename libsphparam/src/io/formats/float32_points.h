@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+#include "io/files/byte_reader.h"
+#include "sphparam/io/safe_file.h"
+#include "sphparam/mesh/triangle_mesh.h"
+
+namespace sphparam {
+
+/// Coordinates rounded to the nearest float32 numbers. `format`: for the message.
+/// Throws: WriteError where one is beyond their range.
+inline void append_points32(std::string& bytes, const Points& points, std::endian order,
+                            const char* format) {
+  for (Eigen::Index i = 0; i < points.size(); ++i) {
+    const auto value = static_cast<float>(points.data()[i]);
+    if (!std::isfinite(value))
+      throw WriteError(format, "a coordinate of vertex " + std::to_string(i / 3) +
+                                   " is beyond numbers of 32 bits; .ply, .obj, .off, .vtk and "
+                                   ".vtp hold it");
+    append_number(bytes, value, order);
+  }
+}
+
+inline void append_triangles32(std::string& bytes, const Triangles& triangles, std::endian order) {
+  for (Eigen::Index i = 0; i < triangles.size(); ++i)
+    append_number(bytes, static_cast<std::int32_t>(triangles.data()[i]), order);
+}
+
+}  // namespace sphparam

@@ -1,0 +1,292 @@
+#include "io/formats/vtk/vtk_surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+
+#include "io/formats/lossless_type.h"
+#include "number_text.h"
+#include "sphparam/io/losses.h"
+
+// An array is known by its role, which the file says or its name does, as VTK's own writers name
+// them. All others become one property a component.
+
+namespace sphparam {
+namespace {
+
+constexpr std::size_t most_properties = 256;
+
+struct KnownArray {
+  VtkRole role;
+  std::vector<std::string> names;  // what VTK and others call it
+  std::vector<std::string> properties;
+};
+
+const std::vector<KnownArray>& known_arrays() {
+  static const std::vector<KnownArray> known = {
+      {VtkRole::Normals, {"Normals", "normals"}, {"nx", "ny", "nz"}},
+      {VtkRole::Texcoords, {"TCoords", "Texture Coordinates", "TextureCoordinates"}, {"s", "t"}},
+      {VtkRole::Colours,
+       {"RGB", "RGBA", "Colors", "colors", "rgb", "rgba", "Color", "color"},
+       {"red", "green", "blue", "alpha"}}};
+  return known;
+}
+
+/// Bytes, or fractions.
+bool may_be_colours(const VtkArray& array) {
+  if (array.type == ScalarType::Uint8) return true;
+  return is_floating(array.type) && std::all_of(array.values.begin(), array.values.end(),
+                                                [](double v) { return v >= 0 && v <= 1; });
+}
+
+/// Null where the array is none of them, or has another width.
+const KnownArray* known_array(const VtkArray& array) {
+  for (const KnownArray& known : known_arrays()) {
+    const bool is_it =
+        array.role == known.role ||
+        (array.role == VtkRole::Plain &&
+         std::find(known.names.begin(), known.names.end(), array.name) != known.names.end());
+    if (!is_it) continue;
+    const auto width = static_cast<std::size_t>(array.width);
+    const bool fits = width == known.properties.size() ||
+                      (known.role == VtkRole::Colours && width == 3) ||
+                      (known.role == VtkRole::Texcoords && width == 3);
+    const bool good = known.role != VtkRole::Colours || may_be_colours(array);
+    return fits && good ? &known : nullptr;
+  }
+  return nullptr;
+}
+
+/// A name that every format can keep, unlike those that are there.
+std::string free_name(const std::vector<Property>& properties, std::string name) {
+  constexpr std::size_t longest_allowed = 64;
+  name = name.substr(0, longest_allowed);
+  for (char& c : name)
+    if (!std::isgraph(static_cast<unsigned char>(c))) c = '_';
+  const auto taken = [&](const std::string& candidate) {
+    return candidate.empty() || candidate == "x" || candidate == "y" || candidate == "z" ||
+           std::any_of(properties.begin(), properties.end(),
+                       [&](const Property& property) { return property.name == candidate; });
+  };
+  if (name.empty()) name = "array";
+  if (!taken(name)) return name;
+  int number = 2;
+  while (taken(name + "_" + std::to_string(number))) ++number;
+  return name + "_" + std::to_string(number);
+}
+
+std::string component_name(const VtkArray& array, std::size_t k, const KnownArray* known) {
+  if (known) return known->properties[k];
+  if (array.width == 1) return array.name;
+  const bool named = array.component_names.size() == static_cast<std::size_t>(array.width) &&
+                     !array.component_names[k].empty();
+  return array.name + "_" + (named ? array.component_names[k] : std::to_string(k));
+}
+
+/// Puts an array among the properties of points or cells, `count` of them, or notes why not.
+void adopt(const VtkArray& array, std::int64_t count, std::vector<Property>& properties,
+           std::vector<std::string>& notes) {
+  const auto leave = [&](const std::string& why) {
+    add_loss(notes, "array " + quoted(array.name) + ": " + why);
+  };
+  if (array.count() != count)
+    return leave("it has " + std::to_string(array.count()) + " tuples, not " +
+                 std::to_string(count));
+  if (!std::all_of(array.values.begin(), array.values.end(),
+                   [](double value) { return std::isfinite(value); }))
+    return leave("it has values that are not finite");
+  const KnownArray* const known = known_array(array);
+  std::size_t kept = static_cast<std::size_t>(array.width);
+  if (known && known->role == VtkRole::Texcoords && kept == 3) {
+    kept = 2;
+    add_loss(notes, "the third texture coordinates");
+  }
+  if (properties.size() + kept > most_properties)
+    return leave("only " + std::to_string(most_properties) + " numbers each are kept");
+  for (std::size_t k = 0; k < kept; ++k) {
+    Property property{free_name(properties, component_name(array, k, known)), array.type, {}};
+    property.values.reserve(static_cast<std::size_t>(count));
+    for (std::size_t i = k; i < array.values.size(); i += static_cast<std::size_t>(array.width))
+      property.values.push_back(array.values[i]);
+    properties.push_back(std::move(property));
+  }
+}
+
+/// Of arrays of all cells the part of the polygons, which come after vertices and lines.
+void adopt_cells(const VtkSurface& surface, MeshFile& file) {
+  const std::int64_t faces = surface.polygons.count(), before = surface.other_cells;
+  for (const VtkArray& array : surface.cell_arrays) {
+    if (surface.has_strips) {
+      add_loss(file.notes, "array " + quoted(array.name) + " of cells that are strips");
+      continue;
+    }
+    VtkArray of_faces = array;
+    if (before > 0 && array.count() == before + faces)
+      of_faces.values.erase(of_faces.values.begin(),
+                            of_faces.values.begin() + before * array.width);
+    adopt(of_faces, faces, file.face_properties, file.notes);
+  }
+}
+
+Points positions_of(const VtkSurface& surface, const std::string& name) {
+  if (!surface.points) throw ReadError(name, "holds no points");
+  const VtkArray& points = *surface.points;
+  if (points.width != 3) throw ReadError(name, "points do not have three coordinates");
+  for (std::size_t i = 0; i < points.values.size(); ++i)
+    if (!std::isfinite(points.values[i]))
+      throw ReadError(name, "a coordinate of point " + std::to_string(i / 3) + " is not finite");
+  return Eigen::Map<const Points>(points.values.data(), points.count(), 3);
+}
+
+/// How many properties from `at` on are the components of a known array; 0 where they are none.
+std::size_t known_width(const std::vector<Property>& properties, std::size_t at,
+                        const KnownArray& known) {
+  std::size_t width = 0;
+  while (width < known.properties.size() && at + width < properties.size() &&
+         properties[at + width].name == known.properties[width] &&
+         properties[at + width].type == properties[at].type)
+    ++width;
+  if (width == known.properties.size()) return width;
+  return known.role == VtkRole::Colours && width == 3 ? width : 0;
+}
+
+VtkArray gathered(const std::vector<Property>& properties, std::size_t at, std::size_t width) {
+  VtkArray array;
+  array.width = static_cast<std::int64_t>(width);
+  const std::size_t count = properties[at].values.size();
+  array.values.resize(count * width);
+  for (std::size_t k = 0; k < width; ++k)
+    for (std::size_t i = 0; i < count; ++i)
+      array.values[i * width + k] = properties[at + k].values[i];
+  array.type = lossless_type(properties[at].type, array.values.data(),
+                             static_cast<Eigen::Index>(array.values.size()));
+  return array;
+}
+
+}  // namespace
+
+std::size_t size_in_bytes(VtkType type) {
+  return with_vtk_type(type, [](auto scalar) { return sizeof scalar; });
+}
+
+ScalarType kept_type(VtkType type, const VtkArray& array, std::vector<std::string>& notes) {
+  static constexpr std::pair<VtkType, ScalarType> same[] = {
+      {VtkType::Int8, ScalarType::Int8},       {VtkType::Uint8, ScalarType::Uint8},
+      {VtkType::Int16, ScalarType::Int16},     {VtkType::Uint16, ScalarType::Uint16},
+      {VtkType::Int32, ScalarType::Int32},     {VtkType::Uint32, ScalarType::Uint32},
+      {VtkType::Float32, ScalarType::Float32}, {VtkType::Float64, ScalarType::Float64}};
+  for (const auto& [written, kept] : same)
+    if (type == written) return kept;
+  constexpr double most_exact = 9007199254740992.0;  // 2⁵³
+  const auto all = [&](auto holds) {
+    return std::all_of(array.values.begin(), array.values.end(), holds);
+  };
+  if (all([](double v) { return holds_exactly(ScalarType::Int32, v); })) return ScalarType::Int32;
+  if (!all([](double v) { return std::abs(v) < most_exact; }))
+    add_loss(notes, "array " + quoted(array.name) + ": the last digits of numbers from 2^53 on");
+  return ScalarType::Float64;
+}
+
+std::string add_strip(VtkSurface& surface, const std::vector<int>& strip,
+                      const ReadOptions& options) {
+  surface.has_strips = true;
+  for (std::size_t i = 2; i < strip.size(); ++i) {
+    const int a = strip[i - 2], b = strip[i - 1], c = strip[i];
+    if (a == b || b == c || c == a) {
+      ++surface.turns;
+      continue;
+    }
+    const bool turned = i % 2 == 1;
+    for (const int v : {turned ? b : a, turned ? a : b, c}) surface.polygons.add_corner(v);
+    const std::string problem = surface.polygons.close_polygon(options);
+    if (!problem.empty()) return problem;
+  }
+  return {};
+}
+
+bool take_strings(VtkSurface& surface, const std::string& name, std::vector<std::string> strings) {
+  std::vector<std::string>* const taken = name == "comments"    ? &surface.comments
+                                          : name == "materials" ? &surface.materials
+                                                                : nullptr;
+  if (!taken) return false;
+  for (const std::string& text : strings) taken->push_back(one_line(text));
+  return true;
+}
+
+MeshFile as_mesh_file(VtkSurface surface, const std::string& name, const ReadOptions& options) {
+  MeshFile file;
+  file.mesh.positions = positions_of(surface, name);
+  file.position_type =
+      surface.points->type == ScalarType::Float32 ? ScalarType::Float32 : ScalarType::Float64;
+  file.notes = std::move(surface.notes);
+  if (surface.other_cells > 0)
+    add_loss(file.notes,
+             counted(static_cast<long>(surface.other_cells), "cell") + " that are points or lines");
+  if (surface.turns > 0)
+    file.notes.push_back(counted(surface.turns, "triangle") +
+                         " of strips with a vertex twice: left out, as strips turn so");
+  static constexpr std::array<std::string_view, 3> rays = {"sx", "sy", "sz"};
+  for (const VtkArray& array : surface.point_arrays) {
+    const bool wanted =
+        !options.only_map || std::find(rays.begin(), rays.end(), array.name) != rays.end();
+    if (wanted) adopt(array, file.mesh.vertex_count(), file.vertex_properties, file.notes);
+  }
+  if (!options.only_map) adopt_cells(surface, file);
+  adopt_triangulation(file, triangulate(file.mesh.positions, surface.polygons));
+  file.comments = std::move(surface.comments);
+  file.materials = std::move(surface.materials);
+  return file;
+}
+
+std::vector<VtkArray> vtk_arrays(const std::vector<Property>& properties) {
+  std::vector<VtkArray> arrays;
+  for (std::size_t at = 0; at < properties.size();) {
+    std::size_t width = 0;
+    const KnownArray* found = nullptr;
+    for (const KnownArray& known : known_arrays()) {
+      width = known_width(properties, at, known);
+      if (width > 0) found = &known;
+      if (found) break;
+    }
+    if (!found) width = 1;
+    VtkArray array = gathered(properties, at, width);
+    array.role = found ? found->role : VtkRole::Plain;
+    array.name = found ? found->names[found->role == VtkRole::Colours && width == 4]
+                       : one_line(properties[at].name);
+    arrays.push_back(std::move(array));
+    at += width;
+  }
+  return arrays;
+}
+
+ScalarType point_type(const MeshFile& file) {
+  const Points& positions = file.mesh.positions;
+  return file.position_type == ScalarType::Float32
+             ? lossless_type(ScalarType::Float32, positions.data(), positions.size())
+             : ScalarType::Float64;
+}
+
+VtkFaces vtk_faces(const MeshFile& file, const WriteOptions& options) {
+  VtkFaces faces;
+  const bool has_polygons =
+      options.faces && std::ssize(options.faces->corners) != 3 * options.faces->count();
+  faces.polygons = has_polygons ? *options.faces : triangles_as_polygons(file.mesh.triangles);
+  if (!has_polygons) {
+    faces.arrays = vtk_arrays(file.face_properties);
+    return faces;
+  }
+  const std::vector<int> corners = corners_in(file.mesh.triangles, faces.polygons);
+  std::vector<Property> properties;
+  for (const Property& property : file.face_properties) {
+    if (property.name == "source_face") continue;
+    Property of_polygons{property.name, property.type, {}};
+    for (std::int64_t p = 0; p < faces.polygons.count(); ++p)
+      of_polygons.values.push_back(property.values[corners[faces.polygons.starts[p]] / 3]);
+    properties.push_back(std::move(of_polygons));
+  }
+  faces.arrays = vtk_arrays(properties);
+  return faces;
+}
+
+}  // namespace sphparam

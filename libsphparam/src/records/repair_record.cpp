@@ -1,0 +1,37 @@
+#include "sphparam/records/repair_record.h"
+
+#include <nlohmann/json.hpp>
+
+#include "number_text.h"
+#include "records/json_parts.h"
+#include "sphparam/names.h"
+#include "sphparam/version.h"
+
+namespace sphparam {
+
+std::string to_json(const RepairRecord& record) {
+  const MeshSource& source = record.source;
+  return text_of({{"sphparam", version},
+                  {"command", "repair"},
+                  {"input", input_json(source)},
+                  {"wanted", names_of(record.wanted)},
+                  {"welded", source.welded},
+                  {"repairs", repairs_json(source.repairs)},
+                  {"handles", handles_json(source.handles)},
+                  {"components", parts_json(source.parts)},
+                  {"inspection", inspection_json(source.inspection)},
+                  {"losses", record.losses},
+                  {"outputs", pairs_json(record.outputs)},
+                  {"notes", source.notes},
+                  {"seconds", record.seconds}});
+}
+
+std::string outcome_line(const MeshInspection& mended) {
+  if (mended.is_sphere()) return "a closed genus-0 mesh: it can be mapped";
+  std::vector<std::string> reasons;
+  for (const MeshDefect& defect : mended.defects)
+    if (defect.fatal) reasons.push_back(defect.message);
+  return "still no closed genus-0 mesh: " + joined(reasons, "; ");
+}
+
+}  // namespace sphparam

@@ -1,0 +1,130 @@
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "program.h"
+#include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/mesh_writer.h"
+#include "sphparam/io/sphere_file.h"
+#include "support/test_meshes.h"
+
+namespace sphparam::tests {
+
+namespace {
+
+using Catch::Contains;
+using Json = nlohmann::json;
+
+/// A ball without a face, a face twice, one turned over, a vertex that nobody uses.
+TriangleMesh scan() {
+  TriangleMesh mesh = icosphere(2);
+  const Eigen::Index faces = mesh.face_count(), vertices = mesh.vertex_count();
+  mesh.triangles.row(7) = mesh.triangles.row(faces - 1);
+  mesh.triangles.row(faces - 1) = mesh.triangles.row(3);
+  std::swap(mesh.triangles(20, 0), mesh.triangles(20, 1));
+  mesh.positions.conservativeResize(vertices + 1, 3);
+  mesh.positions.row(vertices) << 9, 9, 9;
+  return mesh;
+}
+
+/// A ring of triangles about nothing: it has no inside and one edge too long a hole to fill.
+std::string moebius_band() {
+  std::string text;
+  for (int i = 0; i < 8; ++i) {
+    const double turn = 3.14159265358979323846 * i / 4;
+    for (const double side : {-0.4, 0.4}) {
+      const double r = 2 + side * std::cos(turn / 2);
+      text += "v " + std::to_string(r * std::cos(turn)) + " " + std::to_string(r * std::sin(turn)) +
+              " " + std::to_string(side * std::sin(turn / 2)) + "\n";
+    }
+  }
+  for (int i = 0; i < 8; ++i) {
+    const bool last = i == 7;
+    const int a = 2 * i + 1, b = 2 * i + 2, c = last ? 2 : 2 * i + 3, d = last ? 1 : 2 * i + 4;
+    text += "f " + std::to_string(a) + " " + std::to_string(c) + " " + std::to_string(b) + "\nf " +
+            std::to_string(c) + " " + std::to_string(d) + " " + std::to_string(b) + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("repair command: a scan is mended, told, and can be mapped then") {
+  const Folder folder;
+  const std::string out = folder / "mended.ply";
+  const Ended ended = sphparam_program({"repair", "-", "-o", out}, obj_text(scan()));
+  INFO(ended.err);
+  CHECK(ended.code == 0);
+  CHECK_THAT(ended.err, Contains("1 duplicate face removed") && Contains("hole filled") &&
+                            Contains("can be mapped → mended.ply"));
+  const MeshFile mended = read_mesh(out);
+  CHECK(mended.find_vertex_property("source_vertex"));
+  CHECK(mended.find_face_property("source_face"));
+  CHECK(sphparam_program({"map", out, "-o", folder / "map.sph.ply"}).code == 0);
+}
+
+TEST_CASE("repair command: mended once, a mesh is mended, in every format that is written") {
+  const Folder folder;
+  for (const char* name : {"a.ply", "a.obj", "a.off", "a.vtk", "a.vtp", "a.gii", "a.mz3",
+                           "lh.white", "a.ply.gz", "a.vtp.gz"}) {
+    INFO(name);
+    const std::string once = folder / ("1" + std::string(name)),
+                      twice = folder / ("2" + std::string(name));
+    REQUIRE(sphparam_program({"repair", "-", "-o", once}, obj_text(scan())).code == 0);
+    const Ended again = sphparam_program({"repair", once, "-o", twice, "--json", "-"});
+    REQUIRE(again.code == 0);
+    CHECK(Json::parse(again.out)["repairs"].empty());
+    CHECK(bytes_of(twice) == bytes_of(once));
+  }
+}
+
+TEST_CASE("repair command: what cannot be mended is written too, and ends with 4") {
+  const Folder folder;
+  const std::string out = folder / "band.off";
+  const Ended ended = sphparam_program({"repair", "-", "-o", out}, moebius_band());
+  CHECK(ended.code == 4);
+  CHECK_THAT(ended.err, Contains("still no closed genus-0 mesh") && Contains("→ band.off"));
+  CHECK(read_mesh(out).mesh.face_count() >= 16);
+  const Ended quiet = sphparam_program({"repair", "-q", "-", "-o", out}, moebius_band());
+  CHECK(quiet.code == 4);
+  CHECK_THAT(quiet.err, Contains("error:") && Contains("still no closed genus-0 mesh"));
+}
+
+TEST_CASE("repair command: the report says what was done, and what the format has no place for") {
+  const Folder folder;
+  const Ended ended = sphparam_program(
+      {"repair", "-", "-o", folder / "a.off", "--json", "-", "--repair=duplicates"},
+      obj_text(scan()));
+  CHECK(ended.code == 4);
+  const Json report = Json::parse(ended.out);
+  CHECK(report["command"] == "repair");
+  CHECK(report["wanted"] == Json::array({"duplicates", "unused"}));
+  CHECK(report["repairs"].size() == 1);  // the vertex that nobody uses goes on reading
+  CHECK(report["inspection"]["mappable"] == false);
+  CHECK_THAT(report["losses"][0].get<std::string>(), Contains("source_vertex"));
+  CHECK_THAT(ended.err, Contains("a.off: not carried: source_vertex"));
+  CHECK(report["outputs"]["mesh"] == folder / "a.off");
+}
+
+TEST_CASE("repair command: a map stays with a mesh that needs nothing, and with no other") {
+  const Folder folder;
+  const std::string map = folder / "map.sph.ply", same = folder / "same.ply";
+  REQUIRE(sphparam_program({"map", "-", "-o", map}, obj_text(icosphere(2))).code == 0);
+  REQUIRE(sphparam_program({"repair", map, "-o", same}).code == 0);
+  CHECK(bytes_of(same) == bytes_of(map));
+  MeshFile hurt = read_mesh(map);
+  hurt.mesh.triangles.conservativeResize(hurt.mesh.face_count() - 1, 3);
+  write_bytes(folder / "hurt.ply", serialise_ply(hurt));
+  const Ended ended = sphparam_program({"repair", folder / "hurt.ply", "-o", same});
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.err, Contains("not carried: its map"));
+  CHECK_FALSE(read_sphere(read_mesh(same)).has_value());
+}
+
+TEST_CASE("repair command: a name of no format, or one that is read, is refused before work") {
+  const Ended ended = sphparam_program({"repair", "-", "-o", "a.stl"}, "");
+  CHECK(ended.code == 2);
+  CHECK_THAT(ended.err, Contains("written as .ply") || Contains("written as .obj"));
+  CHECK(sphparam_program({"repair", "-", "-o", "a.ply", "--loops", "a.ply"}, "").code == 2);
+}
+
+}  // namespace sphparam::tests

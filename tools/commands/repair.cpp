@@ -1,0 +1,99 @@
+// `sphparam repair`: a mesh mended as far as it can be, for this program or for others.
+
+#include <algorithm>
+#include <iterator>
+
+#include "arguments/limits.h"
+#include "arguments/mesh_names.h"
+#include "arguments/repair_arguments.h"
+#include "commands/command.h"
+#include "console/places.h"
+#include "reports/told_losses.h"
+#include "reports/told_repairs.h"
+#include "sphparam/io/certified_files.h"
+#include "sphparam/io/loop_file.h"
+#include "sphparam/io/mesh_reader.h"
+#include "sphparam/records/repair_record.h"
+
+namespace sphparam::cli {
+
+namespace {
+
+constexpr char summary[] =
+    "Mend a mesh and write it, also where it cannot be mapped even then.\n"
+    "\n"
+    "Examples:\n"
+    "  sphparam repair scan.ply -o mended.ply\n"
+    "  sphparam repair scan.stl -o mended.obj --repair=duplicates,orientation,unused\n"
+    "  sphparam repair brain.vtk -o brain.surf.gii --max-handle 10% --loops loops.obj\n"
+    "  sphparam repair parts.obj -o body.ply --component 2 --json repair.json\n"
+    "\n"
+    "The exit status is 0 when the mesh as written can be mapped, 4 when it cannot: it is written\n"
+    "all the same. What was whole is written as it was.\n";
+
+struct RepairCommandArguments : CommonArguments {
+  std::string input, output;
+  RepairArguments repair;
+};
+
+void require_sensible(const RepairCommandArguments& arguments) {
+  require_mesh_name("-o", "the mesh", arguments.output);
+  check_places(
+      {{"-o", arguments.output}, {"--loops", arguments.repair.loops}, {"--json", arguments.json}});
+}
+
+MeshSource read_and_mend(const RepairCommandArguments& arguments, const RepairOptions& wanted) {
+  ReadOptions options = input_limits();
+  options.repeated_corners = true;
+  try {
+    return mended(read_source(arguments.input, options), wanted);
+  } catch (const NoSuchComponent& error) {
+    throw UsageMistake(std::string("--component: ") + error.what());
+  }
+}
+
+int run_repair(RepairCommandArguments& arguments) {
+  require_sensible(arguments);
+  const RepairOptions wanted = all_or_wanted_repairs(arguments.repair);
+  Session session(arguments);
+  session.console.progress("repair", 0);
+  const MeshSource source = read_and_mend(arguments, wanted);
+  session.hold_signals();
+  session.console.clear_progress();
+  tell_losses(source, session.console);
+  tell_repairs(source, session.console);
+  std::vector<std::string> losses;
+  const MeshFile file = written_as_mended(source, losses);
+  std::ranges::copy(add_mesh(session.files, arguments.output, file), std::back_inserter(losses));
+  tell_losses(arguments.output, losses, session.console);
+  RepairRecord record = {source, wanted, losses, {{"mesh", arguments.output}}};
+  if (const std::string& loops = arguments.repair.loops; !loops.empty()) {
+    session.files.add(loops, serialise_loops(loops, source.handles));
+    record.outputs.emplace_back("loops", loops);
+  }
+  record.seconds = session.stopwatch.seconds();
+  session.add_report([&] { return to_json(record); });
+  session.publish();
+  const std::string line = display_name(arguments.input) + ": " + outcome_line(source.inspection);
+  session.console.say(line + " → " + output_name(arguments.output));
+  if (source.inspection.is_sphere()) return Ok;
+  if (arguments.quiet) print_error(line);
+  return MeshUnusable;
+}
+
+void declare_options(Declaration& command, RepairCommandArguments& arguments) {
+  command.input("MESH", arguments.input, readable_formats("or") + "; - for standard input")
+      .output(arguments.output, "FILE",
+              "The mended mesh, in the format of its name; - for standard output")
+      .json(arguments);
+  declare_repair_options(command, arguments.repair);
+  command.console(arguments);
+}
+
+}  // namespace
+
+Command declare_repair(CLI::App& program) {
+  return make_command(program, "repair", summary, declare_options, run_repair);
+}
+
+}  // namespace sphparam::cli
