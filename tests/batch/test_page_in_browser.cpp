@@ -110,7 +110,7 @@ TEST_CASE("batch page in Chromium: a thousand shapes are sorted, filtered, searc
   const BatchPlan plan = write_batch(folder.path);
   std::string page =
       batch_page(folder.path.string(), plan, {.page_folder = folder.path.string(), .title = "all"});
-  CHECK_THAT(page, Contains("Far out: <a href=\"#i0777\">") && Contains("a &lt;hole&gt;"));
+  CHECK_THAT(page, Contains("Outliers: <a href=\"#i0777\">") && Contains("a &lt;hole&gt;"));
   if (!fs::exists("/usr/bin/chromium")) {
     WARN("skipped: no Chromium");
     return;

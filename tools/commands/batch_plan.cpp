@@ -50,6 +50,7 @@ constexpr std::size_t dry_items = 3;
 constexpr double task_seconds = 600;      // long enough to be worth a job, short enough to be lost
 constexpr std::size_t most_tasks = 1000;  // Slurm's MaxArraySize is 1001 where nobody changed it
 constexpr std::size_t least_tasks = 16;   // or few cores would have all the work
+constexpr double least_seconds = 60;      // of a task, or starting tasks would be most of the work
 
 std::vector<BatchStep> given_steps() {
   std::vector<BatchStep> steps;
@@ -129,9 +130,11 @@ std::optional<double> dry_run(const std::string& folder, const BatchPlan& plan, 
 
 int chunk_for(std::size_t items, double seconds_an_item) {
   const double by_time = std::max(1.0, std::floor(task_seconds / seconds_an_item));
-  const double most = std::max(1.0, std::floor(static_cast<double>(items) / least_tasks));
+  const double most = std::max(std::floor(static_cast<double>(items) / least_tasks),
+                               std::max(1.0, std::floor(least_seconds / seconds_an_item)));
   const double least = std::ceil(static_cast<double>(items) / most_tasks);
-  return static_cast<int>(std::max(least, std::min(by_time, most)));
+  return static_cast<int>(
+      std::min(static_cast<double>(items), std::max(least, std::min(by_time, most))));
 }
 
 int chunk_of(const std::string& text) {

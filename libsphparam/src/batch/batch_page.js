@@ -3,7 +3,7 @@
 (() => {
   const [ID, OUTCOME, VERTICES, AREA, ANGLE, WITHIN, SECONDS, OUT, PICTURE, PAGE, CODE, REASON,
     ATTEMPT] = [...Array(13).keys()];
-  const leafSize = 60, farOut = 3;
+  const leafSize = 60, farOut = 1.5;
   const state = {words: '', which: 'all', order: 'outliers', leaf: 0, chosen: ''};
 
   const element = (name, attributes = {}, ...children) => {

@@ -14,8 +14,7 @@ namespace {
 
 constexpr int width = 640, height = 220, left = 16, right = 16, top = 42, bottom = 42;
 constexpr int bar_count = 40;
-constexpr std::size_t named_outliers = 5;
-constexpr double far_out = 3;  // Tukey's, in distances of the quartiles
+constexpr double far_out = 1.5;  // Tukey's fences, in distances of the quartiles
 
 double quantile(const std::vector<double>& sorted, double share) {
   const double at = share * static_cast<double>(sorted.size() - 1);

@@ -12,7 +12,7 @@ struct Distribution {
   std::vector<std::size_t> items;  // that have the figure
   std::vector<double> values;      // theirs, positive
   double lower_quartile = 0, median = 0, upper_quartile = 0;
-  double outlier_from = 0;  // beyond the upper quartile by three distances of the quartiles, of ln
+  double outlier_from = 0;  // beyond the upper quartile by 1.5 distances of the quartiles, of ln
 };
 
 /// Figures that are not finite or not positive count as missing.
@@ -22,7 +22,7 @@ Distribution distribution_of(const std::vector<std::optional<double>>& values);
 double outlyingness(const Distribution& distribution, double value);
 
 /// As SVG: logarithmic bars, quartiles marked, outliers as marks of their own that are links to
-/// #ID. `names`: of the items; the farthest five outliers are named.
+/// #ID. `names`: of the items.
 std::string distribution_plot(const Distribution& distribution, const std::string& title,
                               const std::vector<std::string>& names);
 

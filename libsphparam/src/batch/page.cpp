@@ -137,7 +137,7 @@ class Figure {
         outliers.emplace_back(distribution_.values[i], distribution_.items[i]);
     std::ranges::sort(outliers, std::ranges::greater{});
     if (outliers.empty()) return "";
-    std::string html = "<figcaption>Far out: ";
+    std::string html = "<figcaption>Outliers: ";
     for (std::size_t i = 0; i < std::min(outliers.size(), named_outliers); ++i) {
       const std::string id = escaped(names[outliers[i].second]);
       html += (i ? ", " : "") + std::string("<a href=\"#") + id + "\">" + id + "</a> (" +

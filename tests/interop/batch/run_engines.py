@@ -73,7 +73,7 @@ def steps_of(folder):
 
 def wait_for_items(folder, count, run=None):
     """Until so many items are done, or there is nothing to wait for."""
-    end = time.time() + 20
+    end = time.time() + 5
     while len(os.listdir(folder / "results")) < count and time.time() < end:
         if run and run.poll() is not None:
             return
@@ -106,26 +106,35 @@ def by_slurm(a, reference, check, numbers):
     folder = a.work / "slurm"
     plan(a.program, folder, a.work / "shapes", 10)
     with one_node_slurm.OneNodeSlurm(a.work / "one-node") as slurm:
-        begin = time.time()
-        slurm.submit(folder / "array.sbatch")
-        seen = {}
+        begin, seen, killed = time.time(), {}, {}
         for kill in range(a.kills):
+            if not slurm.jobs():
+                if status(a.program, folder)["done"] == a.items - BAD:
+                    break
+                batch(a.program, "retry", folder, "--code", "137")
+                slurm.submit(folder / "array.sbatch")
             wait_for_items(folder, len(seen) + numbers.randint(2, 8))
-            if kill == 0:
+            what = numbers.choice(("slurmd", "runs", "all")) if kill else "slurmd"
+            killed[what] = killed.get(what, 0) + 1
+            if what != "runs":
                 slurm.kill_slurmd()
-                time.sleep(0.3)
-                slurm.start_slurmd()
-            else:
+            if what != "slurmd":
                 kill_some(steps_of(folder), numbers)
+            time.sleep(0.2)
+            if what != "runs":
+                slurm.start_slurmd()
             now = records(folder)
-            check(f"Slurm, kill {kill}: {len(now)} items done stay as they are",
-                  all(now.get(i) == seen[i] for i in seen))
+            good = all(now.get(i) == seen[i] for i in seen)
+            if kill < 3 or not good:
+                check(f"Slurm, {what} killed: {len(now)} items done stay as they are", good)
             seen = now
+        print(f"   kills: {killed}")
         slurm.wait_for_jobs()
-        print(f"   first array: {time.time() - begin:.1f} s, {status(a.program, folder)}")
-        batch(a.program, "retry", folder, "--code", "137")
-        slurm.submit(folder / "array.sbatch")
-        slurm.wait_for_jobs()
+        for _ in range(2):  # what was killed may be killed by slurmd's return once more
+            batch(a.program, "retry", folder, "--code", "137")
+            slurm.submit(folder / "array.sbatch")
+            slurm.wait_for_jobs()
+        print(f"   {time.time() - begin:.1f} s in all")
         check("Slurm: nothing is done twice", all(records(folder)[i] == seen[i] for i in seen))
         check("Slurm: the same bytes, the same failures", results(folder) == reference,
               f"{status(a.program, folder)}")

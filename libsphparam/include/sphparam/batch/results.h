@@ -22,7 +22,7 @@ struct BatchPageOptions {
 /// their outliers by name, every shape with its picture, verdict and figures, outliers first; to be
 /// sorted, filtered and leafed through. Pictures are drawn into the batch's folder, where they are
 /// not there yet, and loaded when they are looked at. An outlier is beyond the upper quartile by
-/// more than three times the distance of the quartiles (Tukey's far out), of logarithms. Ensures:
+/// more than 1.5 times the distance of the quartiles (Tukey's fence), of logarithms. Ensures:
 /// nothing is loaded from anywhere else. Throws: ReadError; WriteError. Cost: reads all records,
 /// and each map once; about 300 bytes of page an item.
 std::string batch_page(const std::string& folder, const BatchPlan& plan,
