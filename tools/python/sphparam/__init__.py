@@ -23,7 +23,7 @@ except ImportError as error:
         raise
     raise ImportError(
         f"{error}\nsphparam needs libraries of Debian: apt-get install libosdcpu3.5.0 libmeshoptimizer2d "
-        "libtinygltf2d libnifti2 libexpat1 zlib1g libembree3-3 libopenimageio2.4"
+        "libtinygltf2d libgiftiio0 libembree3-3 libopenimageio2.4"
     ) from None
 from ._errors import (
     Cancelled,

@@ -607,7 +607,9 @@ class SphereMap:
 
         ``view``: ``"mesh"``, ``"sphere"``, ``"both"``. ``colours``: ``"own"``, ``"plain"``,
         ``"normals"``, ``"checker"``, ``"area"``, ``"angle"``. ``size``: pixels, 16 to 16384. ``eye``:
-        the direction to look from.
+        the direction to look from; ``up``: ``"z"`` or ``"y"``, else as the file says. ``wireframe``,
+        ``graticule``: lines; ``occlusion``: darker where little light comes; ``legend``: below colours
+        that are numbers.
         """
         if up not in (None, "y", "z"):
             raise ValueError(f"up: 'y', 'z' or None, not {up!r}")
@@ -628,12 +630,16 @@ class SphereMap:
         threads: int = 0,
         progress: Progress = None,
     ) -> None:
-        """Writes one page of HTML that shows the map: models or pictures, heat maps, charts, tables."""
+        """Writes one page of HTML that shows the map: models or pictures, heat maps, charts, tables.
+
+        ``size``: pixels of textures and pictures, 64 to 8192; ``up``: ``"z"`` or ``"y"``, else as the
+        file says.
+        """
         with told(progress) as report:
             _core.report(self._mapped, path_of(path), size, up or "", _arrays.threads(threads), report)
 
     def show(self, *, size: int = 1024) -> str:
-        """Opens the page of :meth:`report` in a browser; returns where the page is."""
+        """Opens the page of :meth:`report`, of that ``size``, in a browser; returns where it is."""
         from ._page import show
 
         return show(self, size)
