@@ -3,6 +3,7 @@
 #include <pybind11/pybind11.h>
 
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -33,12 +34,44 @@ struct Source {
   MeshSource mesh;
 };
 
-/// A mesh with its proved map and, where it was made here, how that went.
-struct Mapped {
-  MappedMesh mesh;
-  std::optional<Parameterization> made = {};  // its map and certificate were moved away
-  std::vector<RepairAction> repairs = {};
-  std::vector<HandleLoop> handles = {};
+/// Seconds by the clock, and of all processors.
+struct Spent {
+  double wall = 0, processors = 0;
+};
+
+/// A mesh with its proved map. Copies share it.
+///
+/// A map that was made here is proved already: it becomes a `MappedMesh`, which proves it again,
+/// when that is first wanted, so that who wants its points alone waits for nothing more.
+class Mapped {
+ public:
+  explicit Mapped(MappedMesh mesh);
+  /// `made`: how it went; its map is that of the mesh.
+  Mapped(MeshSource source, Topology topology, Provenance provenance, Parameterization made,
+         Spent spent, int threads);
+
+  const MappedMesh& mesh() const;
+  const SphereMap& map() const;
+  const Certificate& certificate() const;
+
+  /// Nothing where it was read.
+  const std::optional<Parameterization>& made() const { return state_->made; }
+  Spent spent() const { return state_->spent; }  // by the library's call
+  const std::vector<RepairAction>& repairs() const { return state_->repairs; }
+  const std::vector<HandleLoop>& handles() const { return state_->handles; }
+
+ private:
+  struct State {
+    std::optional<MappedMesh::Parts> parts = {};  // until the mesh is made
+    int threads = 0;
+    std::once_flag is_made = {};
+    std::optional<MappedMesh> mesh = {};
+    std::optional<Parameterization> made = {};
+    Spent spent = {};
+    std::vector<RepairAction> repairs = {};
+    std::vector<HandleLoop> handles = {};
+  };
+  std::shared_ptr<State> state_;
 };
 
 /// A map that was to be one-to-one, and what is proved of it instead.

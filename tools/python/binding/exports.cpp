@@ -67,7 +67,7 @@ ExportRequest request_of(const py::dict& values) {
       .take("embedded", embedded);
   options.convention = convention_of(convention);
   if (!up.empty()) options.up = up == "y" ? Up::Y : Up::Z;
-  for (const Mapped& level : coarser) options.coarser.push_back(level.mesh);
+  for (const Mapped& level : coarser) options.coarser.push_back(level.mesh());
   if (embedded) request.gltf.container = GltfContainer::Embedded;
   request.gltf.quantise = options.quantise;
   settings.require_all_known();
@@ -98,7 +98,7 @@ py::tuple write_export(const Mapped& mapped, const std::string& path, const py::
                        const py::object& progress) {
   ExportRequest request = request_of(values);
   Exported exported =
-      writing_call(progress, [=, mesh = mapped.mesh](const Progress& report) mutable {
+      writing_call(progress, [=, mesh = mapped.mesh()](const Progress& report) mutable {
         request.options.progress = report;
         return export_mesh(path, mesh, request);
       });
@@ -107,7 +107,7 @@ py::tuple write_export(const Mapped& mapped, const std::string& path, const py::
 
 void write_page(const Mapped& mapped, const std::string& path, int size, const std::string& up,
                 int threads, const py::object& progress) {
-  writing_call(progress, [=, mesh = mapped.mesh](const Progress& report) {
+  writing_call(progress, [=, mesh = mapped.mesh()](const Progress& report) {
     PageOptions options{.size = size, .threads = threads, .progress = report};
     if (!up.empty()) options.up = up == "y" ? Up::Y : Up::Z;
     write_report(path, mesh, options);

@@ -51,7 +51,7 @@ py::dict measure(const Source& first, const Source& second, std::int64_t samples
 
 py::dict expand(const Mapped& mapped, int degree, const std::vector<std::string>& scalars,
                 bool least_squares, int threads, const py::object& progress) {
-  HarmonicExpansion found = call(progress, [=, mesh = mapped.mesh](const Progress& report) {
+  HarmonicExpansion found = call(progress, [=, mesh = mapped.mesh()](const Progress& report) {
     return expand_in_harmonics(
         mesh, scalars,
         {.degree = degree, .least_squares = least_squares, .threads = threads, .progress = report});

@@ -37,7 +37,7 @@ GridRequest request_of(const py::object& grid) {
     }
     return {name};
   }
-  return {"", py::cast<const Mapped&>(grid).mesh};
+  return {"", py::cast<const Mapped&>(grid).mesh()};
 }
 
 SphereGrid grid_of(const GridRequest& request, int threads) {
@@ -62,25 +62,25 @@ Mapped remesh_on(const Mapped& mapped, const py::object& grid, const std::string
                  const py::object& progress) {
   const GridRequest request = request_of(grid);
   const SampleMode mode = mode_named(sample);
-  return call(progress, [=, source = mapped.mesh](const Progress& report) mutable {
+  return call(progress, [=, source = mapped.mesh()](const Progress& report) mutable {
     SphereGrid made = grid_of(request, threads);
     if (adaptive) {
       source = adapt_map(source, made.directions.rows(), {.threads = threads, .progress = report})
                    .mapped;
     }
-    return Mapped{
+    return Mapped(
         remesh(source, std::move(made),
-               {.sample = mode, .transfer = transfer, .threads = threads, .progress = report})};
+               {.sample = mode, .transfer = transfer, .threads = threads, .progress = report}));
   });
 }
 
 std::vector<Mapped> levels(const Mapped& mapped, int count, int threads,
                            const py::object& progress) {
-  return call(progress, [=, source = mapped.mesh](const Progress& report) {
+  return call(progress, [=, source = mapped.mesh()](const Progress& report) {
     std::vector<Mapped> made;
     for (MappedMesh& mesh :
          quartered_meshes(source, count, {.threads = threads, .progress = report}))
-      made.push_back({std::move(mesh)});
+      made.emplace_back(std::move(mesh));
     return made;
   });
 }
@@ -96,7 +96,7 @@ std::unique_ptr<Fitted> fit(const Mapped& mapped, const py::object& grid, const 
                             const py::object& progress) {
   const GridRequest request = request_of(grid);
   const Scheme surface = scheme_named(scheme);
-  return call(progress, [=, source = mapped.mesh](const Progress& report) {
+  return call(progress, [=, source = mapped.mesh()](const Progress& report) {
     const SubdivisionFitOptions options{.scheme = surface, .threads = threads, .progress = report};
     const SphereGrid made = grid_of(request, threads);
     SubdivisionFit found = fit_subdivision(source, made, options);
@@ -167,7 +167,7 @@ py::tuple fine_mesh(const Fitted& fitted, std::int64_t pieces, int threads) {
 
 void declare_grids(py::module_& module) {
   py::class_<Fitted>(module, "Fitted", "A subdivision surface fitted to a mesh.")
-      .def_property_readonly("control", [](const Fitted& self) { return Mapped{self.control}; })
+      .def_property_readonly("control", [](const Fitted& self) { return Mapped(self.control); })
       .def_property_readonly("rms", [](const Fitted& self) { return self.fit.rms; })
       .def_property_readonly("max", [](const Fitted& self) { return self.fit.max; })
       .def_property_readonly("two_sided_rms",

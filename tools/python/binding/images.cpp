@@ -76,7 +76,7 @@ BakeSettings bake_settings(const py::dict& values) {
   }
   const Mapped* target = nullptr;
   settings.take("target", target);
-  if (target) made.target = target->mesh;
+  if (target) made.target = target->mesh();
   settings.require_all_known();
   return made;
 }
@@ -111,7 +111,7 @@ py::list bake_to_arrays(const Mapped& mapped, const std::vector<std::string>& fi
   BakeSettings settings = bake_settings(values);
   const int width = settings.width;
   std::vector<BakedArray> baked =
-      call(progress, [=, mesh = mapped.mesh](const Progress& report) mutable {
+      call(progress, [=, mesh = mapped.mesh()](const Progress& report) mutable {
         settings.progress = report;
         return bake_arrays(mesh, fields, settings);
       });
@@ -131,7 +131,7 @@ py::list bake_to_files(const Mapped& mapped,
   std::vector<BakeRequest> requests;
   for (const auto& [field, path] : images) requests.push_back({field, path});
   const BakeReport report =
-      writing_call(progress, [=, mesh = mapped.mesh](const Progress& told) mutable {
+      writing_call(progress, [=, mesh = mapped.mesh()](const Progress& told) mutable {
         settings.progress = told;
         return bake(mesh, requests, settings);
       });
@@ -148,7 +148,7 @@ py::array paint(const Mapped& mapped, const std::string& path, const std::string
                 int threads, const py::object& progress) {
   const Convention longitude = convention_of(convention);
   std::vector<std::vector<double>> channels =
-      call(progress, [=, mesh = mapped.mesh](const Progress& report) {
+      call(progress, [=, mesh = mapped.mesh()](const Progress& report) {
         const EquirectangularImage image = read_equirectangular(path, longitude, threads);
         const MeshFile painted =
             paint_vertices(mesh, image, {.threads = threads, .progress = report});
@@ -172,7 +172,7 @@ py::tuple paint_texture(const Mapped& mapped, const std::string& path,
                         const std::string& convention, int size, int padding, int threads,
                         const py::object& progress) {
   const Convention longitude = convention_of(convention);
-  auto [atlas, warning] = call(progress, [=, mesh = mapped.mesh](const Progress& report) {
+  auto [atlas, warning] = call(progress, [=, mesh = mapped.mesh()](const Progress& report) {
     const EquirectangularImage image = read_equirectangular(path, longitude, threads);
     PaintedAtlas painted = paint_atlas(
         mesh, image, {.size = size, .padding = padding, .threads = threads, .progress = report});
@@ -235,7 +235,7 @@ DrawingOptions drawing_options(const py::dict& values) {
 /// The bytes of a PNG.
 py::bytes draw(const Mapped& mapped, const py::dict& values) {
   const DrawingOptions options = drawing_options(values);
-  return call(py::none(), [=, mesh = mapped.mesh](const Progress&) {
+  return call(py::none(), [=, mesh = mapped.mesh()](const Progress&) {
     return draw_png(mesh.file(), mesh.map(), options);
   });
 }

@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 
 #include <array>
+#include <ctime>
 
 #include "arrays.h"
 #include "binding.h"
@@ -17,6 +18,7 @@
 #include "sphparam/names.h"
 #include "sphparam/sphere/distortion.h"
 #include "sphparam/sphere/spherical_coordinates.h"
+#include "sphparam/stopwatch.h"
 
 namespace sphparam::python {
 namespace {
@@ -111,28 +113,33 @@ void require_wanted(const Parameterization& result, const ParameterizeOptions& o
   throw NotOneToOne(missed, result.certificate);
 }
 
+/// Poles and meridian as the caller's mesh numbers them.
+void by_file_numbers(Parameterization& result, const FileNumbers& numbers) {
+  const auto number = [&](Vertex v) { return static_cast<Vertex>(numbers.number(v)); };
+  if (result.poles) result.poles = Poles{number(result.poles->north), number(result.poles->south)};
+  if (result.meridian) result.meridian = number(*result.meridian);
+}
+
 Mapped map_mesh(MeshSource source, Request request) {
   ParameterizeOptions& options = request.options;
-  Topology topology = topology_of(source);
   settle_vertices(request, source.file);
+  const Stopwatch stopwatch;
+  const std::clock_t begin = std::clock();
+  Topology topology = topology_of(source);
   Parameterization result = parameterize(source.file.mesh, topology, options);
+  const Spent spent{stopwatch.seconds(),
+                    static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC};
   require_wanted(result, options);
+  const FileNumbers numbers(source.file);
   Provenance provenance = provenance_of(result,
                                         {.method = name_of(options.method),
                                          .options = options_line(options),
                                          .pins = options.pins.size(),
                                          .verdict = verdict(result.certificate)},
-                                        FileNumbers(source.file));
-  MappedMesh mapped({.file = std::move(source.file),
-                     .map = std::move(result.map),
-                     .provenance = std::move(provenance),
-                     .topology = std::move(topology),
-                     .notes = std::move(source.notes),
-                     .mapped_here = true,
-                     .name = std::move(source.path)},
-                    options.threads);
-  return {std::move(mapped), std::move(result), std::move(source.repairs),
-          std::move(source.handles)};
+                                        numbers);
+  by_file_numbers(result, numbers);
+  return {std::move(source), std::move(topology), std::move(provenance), std::move(result), spent,
+          options.threads};
 }
 
 /// Of a source that nobody else has, whose memory is taken, or of a copy.
@@ -152,7 +159,7 @@ Mapped load(const std::string& path, const std::string& sphere, const py::dict& 
   LoadOptions options{.sphere = sphere, .map = request_of(values).options};
   return call(progress, [path, options](const Progress& report) mutable {
     options.map.progress = report;
-    return Mapped{load_mapped(path, options)};
+    return Mapped(load_mapped(path, options));
   });
 }
 
@@ -166,24 +173,24 @@ Mapped with_points(const Source& source, const py::array& rays, int threads) {
     const Certificate certificate = certify(topology, *points, threads);
     if (!certificate.bijective())
       throw NotOneToOne("the map is not one-to-one: " + verdict(certificate), certificate);
-    return Mapped{MappedMesh({.file = std::move(mesh->file),
+    return Mapped(MappedMesh({.file = std::move(mesh->file),
                               .map = std::move(*points),
                               .topology = std::move(topology),
                               .notes = std::move(mesh->notes),
                               .name = mesh->path},
-                             threads)};
+                             threads));
   });
 }
 
 void save(const Mapped& mapped, const std::string& path, int threads) {
-  writing_call(py::none(), [mesh = mapped.mesh, path, threads](const Progress&) {
+  writing_call(py::none(), [mesh = mapped.mesh(), path, threads](const Progress&) {
     save_mapped(path, mesh, threads);
     return true;
   });
 }
 
 void save_sphere_file(const Mapped& mapped, const std::string& path, int threads) {
-  writing_call(py::none(), [mesh = mapped.mesh, path, threads](const Progress& report) {
+  writing_call(py::none(), [mesh = mapped.mesh(), path, threads](const Progress& report) {
     return save_sphere(path, mesh, {.threads = threads, .progress = report});
   });
 }
@@ -214,7 +221,7 @@ py::tuple locate(const Mapped& mapped, const py::array& rows, int threads) {
   bool finite = true;
   const auto directions = std::make_shared<const Points>(points_of(rows, finite));
   using Located = std::pair<std::vector<int>, Points>;
-  Located found = call(py::none(), [=, mesh = mapped.mesh](const Progress&) {
+  Located found = call(py::none(), [=, mesh = mapped.mesh()](const Progress&) {
     const std::vector<SurfacePoint> points = mesh.locator().locate_all(*directions, threads);
     Located located{{}, Points(directions->rows(), 3)};
     located.first.reserve(points.size());
@@ -229,7 +236,7 @@ py::tuple locate(const Mapped& mapped, const py::array& rows, int threads) {
 
 /// theta and phi of rays, as files have them.
 py::tuple angles(const Mapped& mapped) {
-  const Points& points = mapped.mesh.map().points;
+  const Points& points = mapped.map().points;
   std::vector<double> theta, phi;
   for (Eigen::Index v = 0; v < points.rows(); ++v) {
     const SphericalCoordinates coordinates = to_spherical(points.row(v));
@@ -240,7 +247,7 @@ py::tuple angles(const Mapped& mapped) {
 }
 
 py::dict distortion(const Mapped& mapped, int threads) {
-  const MappedMesh mesh = mapped.mesh;
+  const MappedMesh mesh = mapped.mesh();
   auto measured = call(py::none(), [mesh, threads](const Progress&) {
     Distortion found = measure_distortion(mesh.mesh(), mesh.map(), threads);
     const DistortionSummary summary = summarise(found, threads);
@@ -268,7 +275,7 @@ py::dict splits_of(const ChartCounts& counts) {
 }
 
 py::dict chart(const Mapped& mapped, bool keep_topology, int threads, const py::object& progress) {
-  SphericalChart made = call(progress, [=, mesh = mapped.mesh](const Progress& report) {
+  SphericalChart made = call(progress, [=, mesh = mapped.mesh()](const Progress& report) {
     return keep_topology
                ? wrapped_chart(mesh.mesh(), mesh.topology(), mesh.map(), threads)
                : spherical_chart(mesh.mesh(), mesh.topology(), mesh.map(), threads, report);
@@ -297,17 +304,16 @@ py::dict chart(const Mapped& mapped, bool keep_topology, int threads, const py::
 
 /// How the map came about; nothing where it was read.
 py::object account(const Mapped& mapped) {
-  if (!mapped.made) return py::none();
-  const Parameterization& made = *mapped.made;
-  const FileNumbers numbers(mapped.mesh.file());
+  if (!mapped.made()) return py::none();
+  const Parameterization& made = *mapped.made();
   py::dict dict;
   dict["made_by"] = made.made_by;
+  dict["seconds"] = mapped.spent().wall;
+  dict["processor_seconds"] = mapped.spent().processors;
   dict["poles"] = py::none();
-  if (made.poles)
-    dict["poles"] =
-        py::make_tuple(numbers.number(made.poles->north), numbers.number(made.poles->south));
+  if (made.poles) dict["poles"] = py::make_tuple(made.poles->north, made.poles->south);
   dict["meridian"] = py::none();
-  if (made.meridian) dict["meridian"] = numbers.number(*made.meridian);
+  if (made.meridian) dict["meridian"] = *made.meridian;
   dict["pole_cost"] = made.pole_cost;
   dict["energy_gap"] = made.energy_gap;
   dict["pin_residuals"] = made.pin_residuals;
@@ -323,7 +329,7 @@ py::object account(const Mapped& mapped) {
 
 /// The faces as they were written: quads of a grid too.
 py::object polygons(const Mapped& mapped) {
-  const std::optional<Polygons>& faces = mapped.mesh.polygons();
+  const std::optional<Polygons>& faces = mapped.mesh().polygons();
   if (!faces) return py::none();
   return py::make_tuple(owning(std::vector<int>(faces->corners)),
                         owning(std::vector<int>(faces->starts)));
@@ -331,8 +337,8 @@ py::object polygons(const Mapped& mapped) {
 
 std::unique_ptr<Source> source_of_mapped(const Mapped& mapped) {
   auto source = std::make_unique<Source>();
-  source->mesh.file = mapped.mesh.file();
-  source->mesh.path = mapped.mesh.name();
+  source->mesh.file = mapped.mesh().file();
+  source->mesh.path = mapped.mesh().name();
   return source;
 }
 
@@ -347,35 +353,34 @@ void declare_mapped(py::module_& module) {
   py::class_<Mapped>(module, "Mapped", "A mesh with its proved map.")
       .def_property_readonly("vertices",
                              [](const py::object& self) {
-                               return shown_rows(self.cast<const Mapped&>().mesh.mesh().positions,
+                               return shown_rows(self.cast<const Mapped&>().mesh().mesh().positions,
                                                  self);
                              })
       .def_property_readonly("faces",
                              [](const py::object& self) {
-                               return shown_rows(self.cast<const Mapped&>().mesh.mesh().triangles,
+                               return shown_rows(self.cast<const Mapped&>().mesh().mesh().triangles,
                                                  self);
                              })
       .def_property_readonly("points",
                              [](const py::object& self) {
-                               return shown_rows(self.cast<const Mapped&>().mesh.map().points,
-                                                 self);
+                               return shown_rows(self.cast<const Mapped&>().map().points, self);
                              })
-      .def_property_readonly("name", [](const Mapped& self) { return self.mesh.name(); })
-      .def_property_readonly("notes", [](const Mapped& self) { return self.mesh.notes(); })
+      .def_property_readonly("name", [](const Mapped& self) { return self.mesh().name(); })
+      .def_property_readonly("notes", [](const Mapped& self) { return self.mesh().notes(); })
       .def_property_readonly("provenance",
-                             [](const Mapped& self) { return self.mesh.provenance(); })
+                             [](const Mapped& self) { return self.mesh().provenance(); })
       .def_property_readonly("mapped_here",
-                             [](const Mapped& self) { return self.mesh.mapped_here(); })
+                             [](const Mapped& self) { return self.mesh().mapped_here(); })
       .def_property_readonly("certificate",
-                             [](const Mapped& self) { return as_dict(self.mesh.certificate()); })
+                             [](const Mapped& self) { return as_dict(self.certificate()); })
       .def_property_readonly("account", account)
       .def_property_readonly("polygons", polygons)
-      .def_property_readonly("repairs", [](const Mapped& self) { return as_list(self.repairs); })
-      .def_property_readonly("handles", [](const Mapped& self) { return as_list(self.handles); })
+      .def_property_readonly("repairs", [](const Mapped& self) { return as_list(self.repairs()); })
+      .def_property_readonly("handles", [](const Mapped& self) { return as_list(self.handles()); })
       .def("vertex_values",
-           [](const Mapped& self) { return listed(self.mesh.file().vertex_properties); })
+           [](const Mapped& self) { return listed(self.mesh().file().vertex_properties); })
       .def("face_values",
-           [](const Mapped& self) { return listed(self.mesh.file().face_properties); });
+           [](const Mapped& self) { return listed(self.mesh().file().face_properties); });
 }
 
 }  // namespace

@@ -147,6 +147,18 @@ class SphereMap:
         return tuple(Stage(n, s, f, Distortion(**d) if d else None) for n, s, f, d in rows)
 
     @property
+    def seconds(self) -> float:
+        """Wall time of the map in the library, its certificate included; 0 for maps that were read."""
+        seconds: float = self._account().get("seconds", 0.0)
+        return seconds
+
+    @property
+    def processor_seconds(self) -> float:
+        """The same summed over all processors, and over all that this process did meanwhile."""
+        seconds: float = self._account().get("processor_seconds", 0.0)
+        return seconds
+
+    @property
     def poles(self) -> Optional[Tuple[int, int]]:
         """The vertices at +z and −z by their numbers in the mesh that was given, or None."""
         return self._account().get("poles")
