@@ -162,11 +162,10 @@ def by_snakemake(a, reference, check, numbers):
                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
                                start_new_session=True)
         wait_for_items(folder, len(seen) + numbers.randint(2, 12), run)
-        if numbers.random() < 0.5:
-            os.killpg(run.pid, signal.SIGKILL)
-        else:
+        if numbers.random() >= 0.5:
             kill_some(steps_of("."), numbers)
-            run.wait()
+        elif run.poll() is None:  # not waited for, so the group is there
+            os.killpg(run.pid, signal.SIGKILL)
         run.wait()
         now = records(folder)
         check(f"Snakemake, kill {kill}: {len(now)} items done stay as they are",
