@@ -147,6 +147,30 @@ TEST_CASE("lonlat: texels of a radial map have their own longitude and latitude"
   CHECK(worst < 1e-4);  // degrees: a ray from the centre meets the point
 }
 
+TEST_CASE("albedo: what vertices carry appears in the direction where they lie, to half a degree") {
+  const TriangleMesh mesh = star_shaped(GENERATE(0, 2), 6);
+  const MappedMesh plain = mapped_radially(mesh);
+  MeshFile file = plain.file();
+  for (int axis = 0; axis < 3; ++axis) {  // a colour that says which direction it is of
+    const auto column = plain.map().points.col(axis);
+    file.set_vertex_property({std::string(1, "xyz"[axis]) + "_albedo", ScalarType::Float64,
+                              std::vector<double>(column.begin(), column.end())});
+  }
+  const MappedMesh painted(
+      {.file = file, .map = plain.map(), .provenance = plain.provenance(), .name = "stone"});
+  const Baked x = baked(painted, "scalar:x_albedo"), y = baked(painted, "scalar:y_albedo"),
+              z = baked(painted, "scalar:z_albedo");
+  double worst = 0;
+  for (int row = 0; row < x.width / 2; ++row) {
+    for (int column = 0; column < x.width; ++column) {
+      const Vector3 seen(x.at(row, column), y.at(row, column), z.at(row, column));
+      const double cosine = seen.normalized().dot(direction_of(row, column, x.width));
+      worst = std::max(worst, std::acos(std::min(cosine, 1.0)) * 180 / pi);
+    }
+  }
+  CHECK(worst < 0.5);
+}
+
 TEST_CASE("lon: never a mean across 180 degrees, with many samples and crowded texels too") {
   const MappedMesh mesh = mapped_radially(star_shaped(1, 6));
   BakeSettings settings;

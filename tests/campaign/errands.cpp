@@ -172,7 +172,9 @@ void bake(Maker& make) {
                 "area",          "angle",
                 "stretch",       "id",
                 "id:component",  "axes",
-                "checker",       "graticule"};
+                "checker",       "graticule",
+                "lonlat",        "radius",
+                "slope",         "elevation"};
   if (make.has_texcoords) maps.insert(maps.end(), {"uv", "basecolor"});
   if (make.has_scalar) maps.insert(maps.end(), {"scalar:depth", "vcolor"});
   const std::string format = make.one_of({".png", ".exr", ".tif"});
@@ -189,6 +191,10 @@ void bake(Maker& make) {
   make.maybe(words, 0.2, {"--heat"});
   make.maybe(words, 0.2, {"--normal-y", "dx"});
   make.maybe(words, 0.2, {"--convention", make.one_of({"three", "gis", "envmap", "blender"})});
+  make.maybe(words, 0.3,
+             {"--body", make.one_of({"vesta", "1,2,3", "1e-300", "1e300"}), "--unit", "km"});
+  make.maybe(words, 0.1, {"--west"});
+  make.maybe(words, 0.1, {"--centre", make.one_of({"0,0,0", "1e300,-1,2"})});
   make.maybe(words, 0.3, {"--json", "bake.json"});
   if (format == ".exr") {
     make.maybe(words, 0.3, {"--depth", "half"});
@@ -284,6 +290,9 @@ void spharm(Maker& make) {
   make.maybe(words, 0.5,
              {"--reconstruct", make.one_of({"smooth.ply", "smooth.obj", "smooth.off"})});
   make.maybe(words, 0.3, {"--csv", "harmonics.csv"});
+  make.maybe(words, 0.3, {"--radius", "--centre", make.one_of({"0,0,0", "1e300,-1,2"})});
+  make.maybe(words, 0.3, {"--shadr", "radius.sha"});
+  make.maybe(words, 0.3, {"--normalisation", "4pi"});
   words.insert(words.end(), {"--json", "harmonics.json"});
   make.errand.commands.push_back(words);
 }

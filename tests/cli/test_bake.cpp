@@ -277,7 +277,8 @@ TEST_CASE("bake: --body writes what tells GDAL where an image lies, and says who
   const std::string map = folder / "stone.sph.ply";
   TriangleMesh mesh = icosphere(3);
   mesh.positions *= Vector3(17, 9, 7).asDiagonal();
-  REQUIRE(sphparam_program({"map", "-", "-o", map, "--method", "radial"}, obj_text(mesh)).code == 0);
+  REQUIRE(sphparam_program({"map", "-", "-o", map, "--method", "radial"}, obj_text(mesh)).code ==
+          0);
   const Ended ended = sphparam_program({"bake", map, "--body", "eros", "--unit", "km", "--map",
                                         "radius,elevation,lon", "--size", "64", "-o",
                                         folder / "{map}.tif", "--json", folder / "b.json"});
@@ -293,15 +294,16 @@ TEST_CASE("bake: --body writes what tells GDAL where an image lies, and says who
   CHECK(report["convention"] == "gis");
   CHECK(report["body"]["name"] == "Eros");
   CHECK(report["images"][0]["sidecar"] == folder / "radius.tif.aux.xml");
-  const Ended own = sphparam_program({"bake", "-", "--body", "17", "--unit", "km", "--map", "radius",
-                                      "--size", "64", "-o", folder / "own.png"},
+  const Ended own = sphparam_program({"bake", "-", "--body", "17", "--unit", "km", "--map",
+                                      "radius", "--size", "64", "-o", folder / "own.png"},
                                      obj_text(mesh));
   INFO(own.err);
   CHECK(own.code == 0);
   CHECK_THAT(own.err, Contains("longitude and latitude: sphparam map of"));
 }
 
-TEST_CASE("bake: what --body, --unit, --west and --centre may not say ends with 2, without a file") {
+TEST_CASE(
+    "bake: what --body, --unit, --west and --centre may not say ends with 2, without a file") {
   const Folder folder;
   const std::string ball = obj_text(icosphere(2)), image = folder / "x.tif";
   const std::string wkt =
@@ -334,6 +336,21 @@ TEST_CASE("bake: what --body, --unit, --west and --centre may not say ends with 
                                       ball);
   CHECK(read.code == 2);
   CHECK(bytes_of(folder / "x.tif.aux.xml") == "mine");
+}
+
+TEST_CASE("bake: an image whose sidecar cannot be written does not appear either") {
+  const Folder folder;
+  fs::create_directory(folder / "b.tif.aux.xml");
+  const Ended ended = sphparam_program({"bake", "-", "--body", "1", "--map", "radius,slope",
+                                        "--size", "16", "-o", folder / "{map}.tif"},
+                                       obj_text(icosphere(2)));
+  CHECK(ended.code == 0);
+  CHECK(fs::exists(folder / "slope.tif.aux.xml"));
+  const Ended lost = sphparam_program(
+      {"bake", "-", "--body", "1", "--map", "radius", "--size", "16", "-o", folder / "b.tif"},
+      obj_text(icosphere(2)));
+  CHECK(lost.code == 3);
+  CHECK_FALSE(fs::exists(folder / "b.tif"));
 }
 
 }  // namespace sphparam::tests
