@@ -196,7 +196,7 @@ TEST_CASE("slope: 0 on a sphere about its centre, that of the plane on a cube's 
   CHECK(*std::ranges::max_element(none.values) < 1.2);  // a facet's own tilt
   TriangleMesh box = octahedron();                      // its faces: normals (±1, ±1, ±1)/√3
   const Baked slope = baked(mapped_radially(box), "slope");
-  for (const auto [row, column] : {std::pair(20, 30), {60, 100}, {100, 200}}) {
+  for (const auto& [row, column] : {std::pair(20, 30), {60, 100}, {100, 200}}) {
     const Vector3 x = direction_of(row, column, slope.width);
     const double wanted = std::acos(x.cwiseAbs().sum() / std::sqrt(3)) * 180 / pi;
     CHECK(slope.at(row, column) == Approx(wanted).margin(0.5));

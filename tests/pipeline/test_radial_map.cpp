@@ -80,7 +80,8 @@ TEST_CASE("radial: what folds is untangled there, told with its shares, all else
     farthest = std::max(farthest, 2 * std::asin(way / 2));
   }
   CHECK(moved > 0);
-  CHECK(result.radial->moved == Approx(static_cast<double>(moved) / mesh.vertex_count()));
+  CHECK(result.radial->moved ==
+        Approx(static_cast<double>(moved) / static_cast<double>(mesh.vertex_count())));
   CHECK(result.radial->moved < 0.05);
   CHECK(result.radial->largest_movement == Approx(farthest));
   CHECK(result.radial->largest_movement < 0.3);
