@@ -205,7 +205,7 @@ def test_results_go_back_to_open3d(mapped, tmp_path):
     open3d = pytest.importorskip("open3d")
     low = mapped.remesh("ico:3")
     mesh = open3d.geometry.TriangleMesh(
-        open3d.utility.Vector3dVector(low.vertices), open3d.utility.Vector3iVector(low.faces.copy())
+        open3d.utility.Vector3dVector(low.vertices.copy()), open3d.utility.Vector3iVector(low.faces.copy())
     )
     assert mesh.is_watertight() and mesh.is_orientable()
     open3d.io.write_triangle_mesh(str(tmp_path / "low.ply"), mesh)
