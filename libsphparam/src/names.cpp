@@ -102,6 +102,14 @@ std::string name_of(DefectKind kind) {
 
 std::string name_of(RepairKind kind) {
   switch (kind) {
+    case RepairKind::NonFiniteFaceRemoved:
+      return "non-finite-face-removed";
+    case RepairKind::NonFiniteVertexDropped:
+      return "non-finite-vertex-dropped";
+    case RepairKind::VertexWelded:
+      return "vertex-welded";
+    case RepairKind::EdgeSplitAtVertex:
+      return "edge-split-at-vertex";
     case RepairKind::InvalidFaceRemoved:
       return "invalid-face-removed";
     case RepairKind::DuplicateFaceRemoved:
@@ -170,7 +178,9 @@ std::string options_line(const ParameterizeOptions& options) {
 }
 
 const std::vector<RepairSwitch>& repair_switches() {
-  static const std::vector<RepairSwitch> all = {{"duplicates", &RepairOptions::duplicates},
+  static const std::vector<RepairSwitch> all = {{"non-finite", &RepairOptions::non_finite},
+                                                {"duplicates", &RepairOptions::duplicates},
+                                                {"cracks", &RepairOptions::cracks},
                                                 {"orientation", &RepairOptions::orientation},
                                                 {"non-manifold", &RepairOptions::non_manifold},
                                                 {"components", &RepairOptions::components},
@@ -192,6 +202,11 @@ std::vector<std::string> names_of(const RepairOptions& options) {
 std::string options_line(const RepairOptions& options) {
   std::string line = "--repair";
   if (options.component > 0) line += " --component " + std::to_string(options.component);
+  if (options.weld_length >= 0) {
+    line += " --weld " + shortest(options.weld_length);
+  } else if (options.weld_share >= 0) {
+    line += " --weld " + short_number(100 * options.weld_share, 6) + "%";
+  }
   if (options.largest_hole != RepairOptions{}.largest_hole) {
     line += " --max-hole " + std::to_string(options.largest_hole);
   }

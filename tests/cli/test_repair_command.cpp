@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "program.h"
@@ -118,6 +119,48 @@ TEST_CASE("repair command: a map stays with a mesh that needs nothing, and with 
   REQUIRE(ended.code == 0);
   CHECK_THAT(ended.err, Contains("not carried: its map"));
   CHECK_FALSE(read_sphere(read_mesh(same)).has_value());
+}
+
+TEST_CASE("repair command: vertices without a place are read to be dropped, in text and in bytes") {
+  const Folder folder;
+  TriangleMesh mesh = icosphere(2);
+  std::string text = obj_text(mesh);
+  const size_t first = text.find('\n');
+  text = "v nan 0 inf" + text.substr(first);
+  CHECK(sphparam_program({"map", "-", "-o", "-"}, text).code == 3);
+  CHECK(sphparam_program({"map", "-", "-o", "-", "--repair=holes"}, text).code == 3);
+  CHECK(sphparam_program({"map", "-", "-o", folder / "map.sph.ply", "--repair"}, text).code == 0);
+  const Ended ended = sphparam_program({"repair", "-", "-o", folder / "a.ply"}, text);
+  INFO(ended.err);
+  CHECK(ended.code == 0);
+  CHECK_THAT(ended.err, Contains("1 vertex dropped whose coordinates were no finite numbers"));
+  mesh.positions(0, 1) = std::numeric_limits<double>::infinity();
+  MeshFile file;
+  file.mesh = mesh;
+  write_bytes(folder / "b.ply", serialise_ply(file));
+  write_bytes(folder / "b.vtp", serialise_mesh("b.vtp", file));
+  for (const char* name : {"b.ply", "b.vtp"}) {
+    CHECK(sphparam_program({"repair", folder / name, "-o", folder / "c.ply"}).code == 0);
+    CHECK(read_mesh(folder / "c.ply").mesh.triangles == read_mesh(folder / "a.ply").mesh.triangles);
+  }
+}
+
+TEST_CASE("repair command: --weld takes what is near for what is there, and only where asked") {
+  TriangleMesh mesh = icosphere(2);
+  const int copy = static_cast<int>(mesh.vertex_count());
+  mesh.positions.conservativeResize(copy + 1, 3);
+  mesh.positions.row(copy) = mesh.positions.row(mesh.triangles(0, 0)) * 1.0001;
+  mesh.triangles(0, 0) = copy;
+  const Folder folder;
+  const Ended asked =
+      sphparam_program({"repair", "-", "-o", folder / "a.ply", "--weld", "0.1%"}, obj_text(mesh));
+  CHECK(asked.code == 0);
+  CHECK_THAT(asked.err, Contains("1 boundary vertex welded"));
+  CHECK(read_mesh(folder / "a.ply").mesh.vertex_count() == copy);
+  CHECK_THAT(sphparam_program({"repair", "-", "-o", folder / "b.ply"}, obj_text(mesh)).err,
+             !Contains("welded"));
+  for (const char* wrong : {"-1", "nan", "x", "inf"})
+    CHECK(sphparam_program({"repair", "-", "-o", folder / "c.ply", "--weld", wrong}).code == 2);
 }
 
 TEST_CASE("repair command: a name of no format, or one that is read, is refused before work") {

@@ -86,8 +86,9 @@ TEST_CASE("map_record: what was asked for, what came out, by the numbers of the 
   CHECK(json["inspection"]["mappable"] == true);
   CHECK(json["options"]["method"] == "progressive");
   CHECK(json["options"]["poles"]["north"] == 1003);
-  CHECK(json["options"]["repair"] == Json({"duplicates", "orientation", "non-manifold",
-                                           "components", "handles", "flat-faces", "unused"}));
+  CHECK(json["options"]["repair"] == Json({"non-finite", "duplicates", "cracks", "orientation",
+                                           "non-manifold", "components", "handles", "flat-faces",
+                                           "unused"}));
   CHECK(json["account"].is_null());
   CHECK(json["stages"].size() == result.stages.size());
   REQUIRE(result.poles);

@@ -38,6 +38,18 @@ bool read_longest(const std::string& text, std::optional<Amount>& longest) {
   return longest && std::isfinite(longest->value) && longest->value > 0;
 }
 
+/// "0.01", a length, or "0.1%" of the diagonal; 0 is what lies at one place.
+bool read_weld(const std::string& text, std::optional<Amount>& weld) {
+  weld = amount_of(text);
+  return weld && std::isfinite(weld->value) && weld->value >= 0;
+}
+
+void settle_weld(const RepairArguments& arguments, RepairOptions& options) {
+  if (!arguments.weld) return;
+  options.cracks = true;
+  (arguments.weld->percent ? options.weld_share : options.weld_length) = arguments.weld->of(1);
+}
+
 void settle_handles(const RepairArguments& arguments, RepairOptions& options) {
   if (arguments.given("--handles") || arguments.longest_handle) options.handles = true;
   options.handle_choice = arguments.handle_choice;
@@ -63,6 +75,7 @@ void declare_repair_options(Declaration& command, RepairArguments& arguments) {
   const auto longest = [&](const std::string& text) {
     return read_longest(text, arguments.longest_handle);
   };
+  const auto weld = [&](const std::string& text) { return read_weld(text, arguments.weld); };
   const auto read = [&](const std::string& text) { return read_share(text, arguments.least_kept); };
   command.group("Repairs")
       .flag("--repair", arguments.words,
@@ -76,6 +89,9 @@ void declare_repair_options(Declaration& command, RepairArguments& arguments) {
       .number("--max-hole", arguments.largest_hole, "EDGES", {3},
               "Fill holes of at most so many edges (--repair: " +
                   std::to_string(RepairOptions{}.largest_hole) + ")")
+      .parsed("--weld", "LENGTH", weld, "expected a length, as in 0.01 or 0.1%",
+              "Weld boundary vertices that are at most so far apart, and split boundary edges at "
+              "vertices that lie so near; % is of the bounding box's diagonal")
       .choice("--handles", arguments.handle_choice,
               {{name_of(HandleChoice::Shortest), HandleChoice::Shortest},
                {name_of(HandleChoice::Cut), HandleChoice::Cut},
@@ -94,7 +110,7 @@ void declare_repair_options(Declaration& command, RepairArguments& arguments) {
 std::optional<RepairOptions> wanted_repairs(const RepairArguments& arguments) {
   const bool chosen = arguments.component > 0 || arguments.least_kept;
   if (arguments.words.empty() && !chosen && !arguments.largest_hole && !arguments.longest_handle &&
-      !arguments.given("--handles")) {
+      !arguments.weld && !arguments.given("--handles")) {
     require_sensible_loops(arguments, false);
     return std::nullopt;
   }
@@ -113,6 +129,7 @@ std::optional<RepairOptions> wanted_repairs(const RepairArguments& arguments) {
     options.holes = true;
     options.largest_hole = arguments.largest_hole;
   }
+  settle_weld(arguments, options);
   settle_handles(arguments, options);
   require_sensible_loops(arguments, options.handles);
   // What other repairs leave without faces must not stand in the way of the map.

@@ -16,17 +16,17 @@ struct RepairArguments {
   std::optional<double> least_kept;
   int largest_hole = 0;
   HandleChoice handle_choice = HandleChoice::Shortest;
-  std::optional<Amount> longest_handle;
+  std::optional<Amount> longest_handle, weld;
   std::string loops;                              // empty: not wanted
   std::function<bool(const std::string&)> given;  // was this option on the command line?
 };
 
 /// --repair[=WORD,…], --component N, --min-kept SHARE, --max-hole N, --handles WORD, --max-handle
-/// LENGTH and --loops FILE.
+/// LENGTH, --weld LENGTH and --loops FILE.
 void declare_repair_options(Declaration& command, RepairArguments& arguments);
 
 /// What is wanted, or nothing. --repair alone wants everything; --component, --min-kept,
-/// --max-hole, --handles and --max-handle want their own repair also without it.
+/// --max-hole, --handles, --max-handle and --weld want their own repair also without it.
 /// Throws: UsageMistake for a word that is none, for --component with --min-kept, or for --loops
 ///         where handles are not wanted, or of no format.
 std::optional<RepairOptions> wanted_repairs(const RepairArguments& arguments);

@@ -92,6 +92,7 @@ MeshSource read_mended(const MapArguments& arguments) {
   const std::optional<RepairOptions> repairs = wanted_repairs(arguments.repair);
   ReadOptions options = input_limits();
   options.repeated_corners = repairs && repairs->duplicates;
+  options.non_finite = repairs && repairs->non_finite;
   MeshSource source = sphparam::read_source(arguments.input, options);
   if (!repairs) return source;
   try {

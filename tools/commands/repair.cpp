@@ -45,6 +45,7 @@ void require_sensible(const RepairCommandArguments& arguments) {
 MeshSource read_and_mend(const RepairCommandArguments& arguments, const RepairOptions& wanted) {
   ReadOptions options = input_limits();
   options.repeated_corners = true;
+  options.non_finite = wanted.non_finite;
   try {
     return mended(read_source(arguments.input, options), wanted);
   } catch (const NoSuchComponent& error) {

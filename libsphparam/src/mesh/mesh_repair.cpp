@@ -54,6 +54,8 @@ void run_round(RepairState& state, const RepairOptions& options, bool first) {
     remove_invalid_faces(state);
     remove_duplicate_faces(state);
   }
+  // Once: splitting sheets makes copies of vertices at one place, which are to stay apart.
+  if (options.cracks && first && !is_closed_manifold(state)) close_cracks(state, options);
   const bool closed = is_closed_manifold(state);  // which these three would find out one by one
   if (options.orientation && !closed) orient_alike(state);
   if (options.non_manifold && !closed) split_non_manifold(state);
@@ -104,9 +106,15 @@ RepairedMesh repair_mesh(const TriangleMesh& mesh, const RepairOptions& options)
   require_one_of("handle_choice", options.handle_choice, HandleChoice::Fill);
   require_at_least("longest_handle", options.longest_handle, 0);
   require_at_least("longest_handle_length", options.longest_handle_length, 0);
+  require_at_least("weld_share", options.weld_share, -1);
+  require_at_least("weld_length", options.weld_length, -1);
   RepairState state(mesh);
   MeshInspection inspection = inspect_mesh(mesh);
-  if (!mesh.positions.allFinite()) return as_result(std::move(state), std::move(inspection));
+  if (options.non_finite && !mesh.positions.allFinite()) {
+    remove_non_finite(state);
+    inspection = inspect_mesh(state.mesh());
+  }
+  if (!state.is_finite()) return as_result(std::move(state), std::move(inspection));
   for (int round = 0; round < most_rounds; ++round) {
     const bool first = round == 0;
     const bool other_component = first && options.components && options.component > 1;

@@ -45,7 +45,7 @@ RepairState::RepairState(const TriangleMesh& mesh) {
     positions.emplace_back(mesh.positions.row(v));
     vertex_origin.push_back(static_cast<Vertex>(v));
   }
-  shape = scaled(positions, scale);
+  measure();
   mean_of.resize(positions.size());
   for (int f = 0; f < static_cast<int>(mesh.face_count()); ++f) {
     faces.push_back({mesh.triangles(f, 0), mesh.triangles(f, 1), mesh.triangles(f, 2)});
@@ -113,23 +113,36 @@ void RepairState::keep_faces(const std::vector<char>& kept) {
   keep(corner_origin, kept);
 }
 
+void RepairState::keep_vertices(const std::vector<char>& kept) {
+  std::vector<Vertex> name(positions.size(), -1);
+  Vertex next = 0;
+  for (size_t v = 0; v < kept.size(); ++v) {
+    if (kept[v]) name[v] = next++;
+  }
+  keep(positions, kept);
+  keep(shape, kept);
+  keep(vertex_origin, kept);
+  keep(mean_of, kept);
+  // Faces may name vertices that are not there: these stay so.
+  const auto count = static_cast<Vertex>(name.size());
+  for (auto& face : faces) {
+    for (Vertex& v : face) v = v >= 0 && v < count ? name[v] : -1;
+  }
+}
+
 void RepairState::drop_unused_vertices() {
   std::vector<char> used(positions.size(), 0);
   for (const auto& face : faces) {
     for (const Vertex v : face) used[v] = 1;
   }
-  std::vector<Vertex> name(positions.size(), -1);
-  Vertex next = 0;
-  for (size_t v = 0; v < used.size(); ++v) {
-    if (used[v]) name[v] = next++;
-  }
-  keep(positions, used);
-  keep(shape, used);
-  keep(vertex_origin, used);
-  keep(mean_of, used);
-  for (auto& face : faces) {
-    for (Vertex& v : face) v = name[v];
-  }
+  keep_vertices(used);
+}
+
+void RepairState::measure() { shape = scaled(positions, scale); }
+
+bool RepairState::is_finite() const {
+  return std::all_of(positions.begin(), positions.end(),
+                     [](const Vector3& p) { return p.allFinite(); });
 }
 
 Triangles RepairState::triangles() const {

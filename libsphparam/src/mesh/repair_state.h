@@ -26,6 +26,7 @@ struct RepairState {
   double scale = 1;                 // a length of `positions` is this times that of `shape`
   long largest_hole_left = 0;       // found when holes were last looked for
 
+  bool is_finite() const;
   int vertex_count() const { return static_cast<int>(positions.size()); }
   int face_count() const { return static_cast<int>(faces.size()); }
   Vertex corner(int i) const { return faces[i / 3][i % 3]; }
@@ -40,15 +41,19 @@ struct RepairState {
   void add_face(const std::array<Vertex, 3>& vertices, const std::array<int, 3>& corners_like);
   void turn_over(Face f);
   void keep_faces(const std::vector<char>& kept);
+  void keep_vertices(const std::vector<char>& kept);  // no face names the others
   void drop_unused_vertices();
+  void measure();  // `shape` and `scale`, of the positions there are
 
   Triangles triangles() const;
   TriangleMesh mesh() const;
 };
 
 // The steps, each in a file of its own. They log what they do.
+void remove_non_finite(RepairState& state);
 void remove_invalid_faces(RepairState& state);
 void remove_duplicate_faces(RepairState& state);
+void close_cracks(RepairState& state, const RepairOptions& options);
 void orient_alike(RepairState& state);
 void split_non_manifold(RepairState& state);
 void keep_component(RepairState& state, int rank, double least_kept);

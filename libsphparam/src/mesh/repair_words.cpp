@@ -9,6 +9,18 @@ namespace {
 /// What was done, and the noun of the places that follow.
 std::pair<std::string, const char*> words(RepairKind kind, long n) {
   switch (kind) {
+    case RepairKind::NonFiniteFaceRemoved:
+      return {counted(n, "face", "faces") + " removed that had a vertex without a place", "faces"};
+    case RepairKind::NonFiniteVertexDropped:
+      return {
+          counted(n, "vertex", "vertices") + " dropped whose coordinates were no finite numbers",
+          "vertices"};
+    case RepairKind::VertexWelded:
+      return {counted(n, "boundary vertex", "boundary vertices") + " welded onto others nearby",
+              "vertices"};
+    case RepairKind::EdgeSplitAtVertex:
+      return {counted(n, "boundary edge", "boundary edges") + " split at a vertex that lay on it",
+              "at vertices"};
     case RepairKind::InvalidFaceRemoved:
       return {counted(n, "face", "faces") + " that named a vertex twice removed", "faces"};
     case RepairKind::DuplicateFaceRemoved:
@@ -68,7 +80,11 @@ RepairPlace place_of(RepairKind kind) {
     case RepairKind::HandleFilled:
     case RepairKind::FlatFaceCollapsed:
     case RepairKind::UnusedVertexDropped:
+    case RepairKind::NonFiniteVertexDropped:
+    case RepairKind::VertexWelded:
+    case RepairKind::EdgeSplitAtVertex:
       return RepairPlace::Vertices;
+    case RepairKind::NonFiniteFaceRemoved:
     case RepairKind::InvalidFaceRemoved:
     case RepairKind::DuplicateFaceRemoved:
     case RepairKind::FaceTurned:

@@ -16,9 +16,10 @@ namespace sphparam {
 /// read from a file may have buffers in other files, next to it. A file that breaks the rules of
 /// its format is refused with the place; a mesh that is no closed surface is read all the same,
 /// `inspect_mesh` tells. What the file carries and a `MeshFile` does not is among the notes
-/// (losses.h). Ensures: all indices are in range, all numbers finite, no triangle names a vertex
-/// twice (but where options let that pass, and for STL, where corners of the same coordinates are
-/// one vertex). Throws: ReadError. Cost: about 0.1 µs a triangle of text, 0.02 µs of binary data.
+/// (losses.h). Ensures: all indices are in range, all numbers finite (but coordinates where options
+/// let others pass), no triangle names a vertex twice (but where options let that pass, and for
+/// STL, where corners of the same coordinates are one vertex). Throws: ReadError. Cost: about 0.1
+/// µs a triangle of text, 0.02 µs of binary data.
 MeshFile read_mesh(const std::string& path, const ReadOptions& options = {});
 
 /// The formats that are read: "OBJ, PLY, … and MZ3", or with another last word.

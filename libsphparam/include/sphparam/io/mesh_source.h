@@ -60,9 +60,9 @@ class MeshRefusal : public MeshError {
   std::vector<RepairAction> done_;
 };
 
-/// The mesh mended as far as these repairs go, whether it can be mapped then or not: `inspection` is
-/// that of what it is then, `repairs`, `parts`, `handles` and `notes` say what was done.
-/// Throws: NoSuchComponent.
+/// The mesh mended as far as these repairs go, whether it can be mapped then or not: `inspection`
+/// is that of what it is then, `repairs`, `parts`, `handles` and `notes` say what was done. Throws:
+/// NoSuchComponent.
 MeshSource mended(MeshSource source, const RepairOptions& options);
 
 /// What is to be written of it: its file, without a map where something was done to the mesh, which

@@ -15,6 +15,9 @@ struct ReadOptions {
   /// Faces that name a vertex twice are let through: a vertex named twice in a row counts once, and
   /// what repeats one even so is one triangle that does, for a repair to remove. Else refused.
   bool repeated_corners = false;
+  /// Coordinates that are no finite numbers are let through, as NaN, for a repair to drop them with
+  /// their faces. Else refused.
+  bool non_finite = false;
   std::uint64_t max_file_bytes = std::uint64_t{1} << 31;
   std::int64_t max_vertices = std::int64_t{1} << 28;
   std::int64_t max_faces = std::int64_t{1} << 28;  // of the file, and of triangles

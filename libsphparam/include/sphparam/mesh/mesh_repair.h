@@ -25,7 +25,9 @@ enum class HandleChoice {
 
 /// What `repair_mesh` may do. The names, in the order in which it is done:
 struct RepairOptions {
-  bool duplicates = true;    // remove faces that name a vertex twice, and copies of faces
+  bool non_finite = true;  // drop vertices whose coordinates are no finite numbers, and their faces
+  bool duplicates = true;  // remove faces that name a vertex twice, and copies of faces
+  bool cracks = true;      // split boundary edges at the boundary vertices that lie on them
   bool orientation = true;   // orient faces alike, by majority; the closed surface outward
   bool non_manifold = true;  // give each sheet its own copy of the edges and vertices it shares
   bool components = true;    // keep one component, where that loses no more than specks
@@ -40,6 +42,10 @@ struct RepairOptions {
   double least_kept = 0.98;
   int largest_hole = 500;  // edges of a hole that may be filled
   HandleChoice handle_choice = HandleChoice::Shortest;
+  /// Not negative: boundary vertices that are at most so far apart become one, and edges are split
+  /// at vertices that lie so near (with `cracks`); in diagonals of the bounding box, or a length of
+  /// the mesh instead where `weld_length` is not negative.
+  double weld_share = -1, weld_length = -1;
   /// The longest loop that a handle may be cut along, in diagonals of the bounding box; a length of
   /// the mesh instead where `longest_handle_length` is more than 0.
   double longest_handle = 0.35;
@@ -47,7 +53,9 @@ struct RepairOptions {
 
   /// Nothing at all is wanted; then single ones are switched on.
   static RepairOptions none() {
-    return {.duplicates = false,
+    return {.non_finite = false,
+            .duplicates = false,
+            .cracks = false,
             .orientation = false,
             .non_manifold = false,
             .components = false,
@@ -59,8 +67,12 @@ struct RepairOptions {
 };
 
 enum class RepairKind {
-  InvalidFaceRemoved,  // it named a vertex twice, or one that is not there
+  NonFiniteFaceRemoved,    // one of its vertices has no place
+  NonFiniteVertexDropped,  // it had none
+  InvalidFaceRemoved,      // it named a vertex twice, or one that is not there
   DuplicateFaceRemoved,
+  VertexWelded,       // onto another one that was near
+  EdgeSplitAtVertex,  // a boundary edge, at a vertex that lay on it
   FaceTurned,         // to run the same way as its neighbours
   EdgeSplit,          // shared by several sheets; each got its own
   DiagonalTurned,     // two sheets had the same edge between the same vertices
@@ -147,6 +159,10 @@ struct RepairedMesh {
 /// modelling programs and of segmentations. What is one-sided, or has large handles, stays so:
 /// `inspection` says it.
 ///
+/// The order is that of the options; it is gone through until a round does nothing, but that
+/// vertices without a place are dropped and cracks are closed once, before all else. Mended once, a
+/// mesh is mended: a closed surface comes back as it is.
+///
 /// Vertices keep their order, copies and created ones come last; faces keep theirs, those that fill
 /// holes come last. A mesh without defects is returned as it is, with the same ids. Non-manifold
 /// edges are cut apart and their sheets paired across the material between them (Guéziec, Taubin,
@@ -160,7 +176,8 @@ struct RepairedMesh {
 /// Components are ranked by area; of equal ones the one with more faces comes first, then the one
 /// with the lowest vertex.
 /// Throws: NoSuchComponent; std::invalid_argument unless component ≥ 0, least_kept from 0 to 1,
-///         largest_hole ≥ 3, and longest_handle, longest_handle_length ≥ 0.
+///         largest_hole ≥ 3, and longest_handle, longest_handle_length ≥ 0, or
+///         where a weld is NaN.
 /// Ensures: deterministic. Cost: O((#V + #F) log #F), for any valence and any hole; about
 ///          that again for each doubling of the length of handles, on all cores.
 RepairedMesh repair_mesh(const TriangleMesh& mesh, const RepairOptions& options = {});

@@ -51,6 +51,9 @@ class TextScanner {
 
   /// The next number, finite. Text that overflows is refused, text that underflows is zero.
   double real() { return number<double>("a number"); }
+  /// The same for coordinates, which options may let be no finite numbers.
+  double coordinate() { return number<double>("a number", options_.non_finite); }
+  float coordinate32() { return number<float>("a number", options_.non_finite); }
   float real32() { return number<float>("a number"); }
 
   /// The next whole number. A token such as 3.0 is refused.
@@ -121,13 +124,13 @@ class TextScanner {
   }
 
   template <class Real>
-  Real number(const char* what) {
+  Real number(const char* what, bool any = false) {
     const char* const start = skip_plus();
     Real value = 0;
     const auto [stop, error] = std::from_chars(start, line_end_, value);
     if (error != std::errc{}) [[unlikely]]
       value = static_cast<Real>(out_of_range_number(start, stop, error));
-    if (!std::isfinite(value) || !ends_token(stop)) [[unlikely]]
+    if (!(any || std::isfinite(value)) || !ends_token(stop)) [[unlikely]]
       fail_expected(what);
     cursor_ = stop;
     return value;

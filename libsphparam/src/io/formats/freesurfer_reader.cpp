@@ -36,7 +36,7 @@ class FreeSurferReader {
     reader_.require(
         row_bytes * (static_cast<std::uint64_t>(vertices) + static_cast<std::uint64_t>(faces)),
         "the coordinates and triangles");
-    file_.mesh.positions = read_points32(reader_, vertices);
+    file_.mesh.positions = read_points32(reader_, vertices, options_);
     file_.position_type = ScalarType::Float32;
     file_.mesh.triangles = read_triangles32(reader_, faces, vertices, options_);
     read_footer();

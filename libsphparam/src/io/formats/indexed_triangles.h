@@ -26,12 +26,13 @@ inline void check_counts(const ByteReader& reader, std::int64_t vertices, std::i
   check(faces, options.max_faces, "triangles");
 }
 
-/// Requires: the bytes are there. Throws: ReadError for numbers that are not finite.
-inline Points read_points32(ByteReader& reader, std::int64_t count) {
+/// Requires: the bytes are there. Throws: ReadError for numbers that are not finite, where options
+/// do not let them pass.
+inline Points read_points32(ByteReader& reader, std::int64_t count, const ReadOptions& options) {
   Points points(count, 3);
   for (Eigen::Index i = 0; i < points.size(); ++i) {
     const auto value = reader.number<float>("the coordinates");
-    if (!std::isfinite(value))
+    if (!std::isfinite(value) && !options.non_finite)
       reader.fail("a coordinate of vertex " + std::to_string(i / 3) + " is not finite");
     points.data()[i] = static_cast<double>(value);
   }

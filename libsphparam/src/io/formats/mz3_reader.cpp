@@ -62,7 +62,7 @@ class Mz3Reader {
     reader_.take(header.skipped, "");
     // Positions come after the triangles, which name them.
     file_.mesh.triangles = read_triangles32(reader_, header.faces, header.vertices, options_);
-    file_.mesh.positions = read_points32(reader_, header.vertices);
+    file_.mesh.positions = read_points32(reader_, header.vertices, options_);
     file_.position_type = ScalarType::Float32;
     if (header.has(Has::colours)) read_colours();
     read_layers(header);

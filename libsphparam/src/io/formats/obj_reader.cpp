@@ -113,7 +113,7 @@ class ObjReader {
   }
 
   void read_vertex() {
-    for (int i = 0; i < 3; ++i) positions_.push_back(scanner_.real());
+    for (int i = 0; i < 3; ++i) positions_.push_back(scanner_.coordinate());
     if (++vertices_.count > std::min(options_.max_vertices, most_vertices))
       scanner_.fail("more vertices than the limit of " + std::to_string(options_.max_vertices));
     if (!scanner_.at_line_end()) read_vertex_extras();

@@ -142,7 +142,7 @@ class OffReader {
     std::size_t width = 0;
     for (std::int64_t v = 0; v < vertex_count_; ++v) {
       next_record("vertex", v, vertex_count_);
-      for (int axis = 0; axis < 3; ++axis) file_.mesh.positions(v, axis) = scanner_.real();
+      for (int axis = 0; axis < 3; ++axis) file_.mesh.positions(v, axis) = scanner_.coordinate();
       if (v == 0) {
         width = count_numbers();
         lay_out_columns(width);

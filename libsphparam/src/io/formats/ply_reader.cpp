@@ -49,6 +49,12 @@ class TextBody {
       scanner_.fail("unexpected " + quoted(scanner_.peek_word()) + " at the end of the line");
   }
 
+  double coordinate(ScalarType type) {
+    if (type == ScalarType::Float64) return scanner_.coordinate();
+    if (type == ScalarType::Float32) return static_cast<double>(scanner_.coordinate32());
+    return real(type);
+  }
+
   double real(ScalarType type) {
     if (type == ScalarType::Float64) return scanner_.real();
     if (type == ScalarType::Float32) return static_cast<double>(scanner_.real32());
@@ -78,16 +84,24 @@ template <std::endian Order>
 class BinaryBody {
  public:
   BinaryBody(std::string_view bytes, const PlyHeader& header, const std::string& name,
-             const ReadOptions&)
-      : bytes_(bytes), name_(name), offset_(header.body_offset) {}
+             const ReadOptions& options)
+      : bytes_(bytes), name_(name), options_(options), offset_(header.body_offset) {}
 
   void begin(const Record& record) { record_ = record; }
   void end() {}
 
+  double coordinate(ScalarType type) {
+    return with_scalar(type, [this](auto scalar) {
+      const double value = static_cast<double>(this->template read<decltype(scalar)>());
+      if (!std::isfinite(value) && !options_.non_finite) fail_not_finite();
+      return value;
+    });
+  }
+
   double real(ScalarType type) {
     return with_scalar(type, [this](auto scalar) {
       const double value = static_cast<double>(this->template read<decltype(scalar)>());
-      if (!std::isfinite(value)) fail("number is not finite in " + record_.describe());
+      if (!std::isfinite(value)) fail_not_finite();
       return value;
     });
   }
@@ -110,6 +124,10 @@ class BinaryBody {
   }
 
  private:
+  [[noreturn]] void fail_not_finite() const {
+    fail("number is not finite in " + record_.describe());
+  }
+
   void require(bool bytes_are_there) const {
     if (!bytes_are_there) [[unlikely]]
       fail("the file ends within " + record_.describe());
@@ -129,6 +147,7 @@ class BinaryBody {
 
   std::string_view bytes_;
   const std::string& name_;
+  const ReadOptions& options_;
   std::size_t offset_;
   Record record_;
 };
@@ -238,7 +257,7 @@ class PlyReader {
       if (property.is_list || !is_wanted(element, property))
         targets.push_back({nullptr, 0});
       else if (property.name.size() == 1 && axis != std::string_view::npos)
-        targets.push_back({positions.data() + axis, 3});
+        targets.push_back({positions.data() + axis, 3, true});
       else
         targets.push_back({file_.vertex_properties[column++].values.data(), 1});
     }
@@ -273,6 +292,7 @@ class PlyReader {
   struct Target {
     double* first;
     std::int64_t stride;
+    bool is_coordinate = false;
   };
 
   void read_record(const PlyElement& element, const std::vector<Target>& targets, std::int64_t i) {
@@ -281,7 +301,8 @@ class PlyReader {
       if (!targets[p].first)
         skip(property);
       else
-        targets[p].first[i * targets[p].stride] = body_.real(property.type);
+        targets[p].first[i * targets[p].stride] =
+            targets[p].is_coordinate ? body_.coordinate(property.type) : body_.real(property.type);
     }
   }
 

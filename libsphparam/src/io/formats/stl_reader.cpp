@@ -132,7 +132,7 @@ class AsciiReader {
     expect("loop");
     for (int corner = 0; corner < 3; ++corner) {
       expect("vertex");
-      const double x = scanner_.real(), y = scanner_.real(), z = scanner_.real();
+      const double x = scanner_.coordinate(), y = scanner_.coordinate(), z = scanner_.coordinate();
       welder_.add(x, y, z);
     }
     const std::string word = next_word();
@@ -205,7 +205,7 @@ class BinaryReader {
     float xyz[3];
     for (std::size_t axis = 0; axis < 3; ++axis) {
       xyz[axis] = std::bit_cast<float>(little_endian(bytes_, at + 4 * axis, 4));
-      if (!std::isfinite(xyz[axis]))
+      if (!std::isfinite(xyz[axis]) && !options_.non_finite)
         throw ReadError::at_byte(name_, at + 4 * axis, "coordinate is not a finite number");
     }
     welder.add(xyz[0], xyz[1], xyz[2]);

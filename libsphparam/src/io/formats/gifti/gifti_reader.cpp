@@ -73,7 +73,7 @@ class GiftiReader {
       fail_in_array(name_, array, "has coordinates that are no real numbers");
     const std::vector<double> xyz = triples(array, options_.max_vertices, "vertices");
     for (std::size_t i = 0; i < xyz.size(); ++i)
-      if (!std::isfinite(xyz[i]))
+      if (!std::isfinite(xyz[i]) && !options_.non_finite)
         fail_in_array(
             name_, array,
             "has a coordinate of vertex " + std::to_string(i / 3) + " that is not finite");

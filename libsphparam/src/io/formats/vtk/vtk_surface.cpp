@@ -129,12 +129,13 @@ void adopt_cells(const VtkSurface& surface, MeshFile& file) {
   }
 }
 
-Points positions_of(const VtkSurface& surface, const std::string& name) {
+Points positions_of(const VtkSurface& surface, const std::string& name,
+                    const ReadOptions& options) {
   if (!surface.points) throw ReadError(name, "holds no points");
   const VtkArray& points = *surface.points;
   if (points.width != 3) throw ReadError(name, "points do not have three coordinates");
   for (std::size_t i = 0; i < points.values.size(); ++i)
-    if (!std::isfinite(points.values[i]))
+    if (!std::isfinite(points.values[i]) && !options.non_finite)
       throw ReadError(name, "a coordinate of point " + std::to_string(i / 3) + " is not finite");
   return Eigen::Map<const Points>(points.values.data(), points.count(), 3);
 }
@@ -216,7 +217,7 @@ bool take_strings(VtkSurface& surface, const std::string& name, std::vector<std:
 
 MeshFile as_mesh_file(VtkSurface surface, const std::string& name, const ReadOptions& options) {
   MeshFile file;
-  file.mesh.positions = positions_of(surface, name);
+  file.mesh.positions = positions_of(surface, name, options);
   file.position_type =
       surface.points->type == ScalarType::Float32 ? ScalarType::Float32 : ScalarType::Float64;
   file.notes = std::move(surface.notes);

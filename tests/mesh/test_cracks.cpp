@@ -1,0 +1,146 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <limits>
+
+#include "sphparam/mesh/mesh_repair.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+
+namespace {
+
+long count(const RepairedMesh& repaired, RepairKind kind) {
+  for (const RepairAction& action : repaired.actions)
+    if (action.kind == kind) return action.count;
+  return 0;
+}
+
+/// Each vertex of the northern half has a copy that the faces of that half use, moved by `gap`.
+TriangleMesh cracked_ball(double gap) {
+  TriangleMesh mesh = icosphere(3);
+  const Eigen::Index vertices = mesh.vertex_count();
+  mesh.positions.conservativeResize(2 * vertices, 3);
+  for (Eigen::Index v = 0; v < vertices; ++v) {
+    mesh.positions.row(vertices + v) = mesh.positions.row(v);
+    mesh.positions(vertices + v, 2) += gap;
+  }
+  for (Eigen::Index f = 0; f < mesh.face_count(); ++f) {
+    double height = 0;
+    for (int k = 0; k < 3; ++k) height += mesh.positions(mesh.triangles(f, k), 2);
+    if (height > 0) mesh.triangles.row(f).array() += static_cast<int>(vertices);
+  }
+  return mesh;
+}
+
+/// A box whose top has a vertex amid one edge that the side does not know, `away` from the edge.
+TriangleMesh t_junction(double away) {
+  TriangleMesh mesh;
+  mesh.positions.resize(9, 3);
+  mesh.positions << 0, 0, 0, 4, 0, 0, 4, 4, 0, 0, 4, 0, 0, 0, 4, 4, 0, 4, 4, 4, 4, 0, 4, 4, 1, 0,
+      4 + away;
+  mesh.triangles.resize(13, 3);
+  mesh.triangles << 0, 2, 1, 0, 3, 2, 0, 1, 5, 0, 5, 4, 1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4,
+      3, 4, 7, 4, 8, 7, 8, 5, 6, 8, 6, 7;
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("cracks: a T-junction is closed by splitting the long edge, nothing moves") {
+  const TriangleMesh mesh = t_junction(0);
+  const RepairedMesh repaired = repair_mesh(mesh);
+  CHECK(repaired.inspection.is_sphere());
+  CHECK(count(repaired, RepairKind::EdgeSplitAtVertex) == 1);
+  CHECK(repaired.actions.size() == 1);
+  CHECK(repaired.mesh.positions == mesh.positions);
+  CHECK(repaired.mesh.face_count() == mesh.face_count() + 1);
+  CHECK(std::count(repaired.face_origin.begin(), repaired.face_origin.end(), 3) == 2);
+  CHECK(repaired.inspection.volume == Approx(64));
+}
+
+TEST_CASE("cracks: a vertex beside the edge is taken for one on it only when that is asked for") {
+  const TriangleMesh mesh = t_junction(0.01);
+  CHECK(count(repair_mesh(mesh), RepairKind::EdgeSplitAtVertex) == 0);
+  for (const RepairOptions& options :
+       {RepairOptions{.weld_length = 0.02}, RepairOptions{.weld_share = 0.02 / 6.9}}) {
+    const RepairedMesh repaired = repair_mesh(mesh, options);
+    CHECK(repaired.inspection.is_sphere());
+    CHECK(count(repaired, RepairKind::EdgeSplitAtVertex) == 1);
+    CHECK(count(repaired, RepairKind::HoleFilled) == 0);
+  }
+  CHECK(count(repair_mesh(mesh, {.weld_length = 0.005}), RepairKind::EdgeSplitAtVertex) == 0);
+}
+
+TEST_CASE("cracks: seams are welded within the tolerance, the lower numbers and places stay") {
+  for (const double gap : {0.0, 1e-3}) {
+    const TriangleMesh mesh = cracked_ball(gap);
+    const RepairedMesh repaired = repair_mesh(mesh, {.weld_length = 2e-3});
+    CHECK(repaired.inspection.is_sphere());
+    CHECK(count(repaired, RepairKind::VertexWelded) > 20);
+    CHECK(count(repaired, RepairKind::HoleFilled) == 0);
+    CHECK(repaired.mesh.face_count() == mesh.face_count());
+    for (std::size_t v = 0; v < repaired.vertex_origin.size(); ++v)
+      CHECK(repaired.mesh.positions.row(static_cast<Eigen::Index>(v)) ==
+            mesh.positions.row(repaired.vertex_origin[v]));
+  }
+  CHECK(count(repair_mesh(cracked_ball(0)), RepairKind::VertexWelded) == 0);
+}
+
+TEST_CASE("cracks: a tolerance larger than the faces takes no face's vertices together") {
+  const RepairedMesh repaired = repair_mesh(cracked_ball(1e-3), {.weld_length = 10});
+  for (Eigen::Index f = 0; f < repaired.mesh.face_count(); ++f) {
+    const auto face = repaired.mesh.triangles.row(f);
+    CHECK((face[0] != face[1] && face[1] != face[2] && face[2] != face[0]));
+  }
+}
+
+TEST_CASE("repair_mesh: mended once, a mesh is mended, whichever of its parts were wrong") {
+  TriangleMesh scan = icosphere(3);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  scan.positions(7, 1) = nan;
+  scan.triangles.row(40) = scan.triangles.row(41);
+  std::swap(scan.triangles(100, 0), scan.triangles(100, 1));
+  for (const TriangleMesh& mesh : {scan, t_junction(0), t_junction(0.01), cracked_ball(1e-3)}) {
+    const RepairOptions options{.weld_length = 0.02};
+    const RepairedMesh once = repair_mesh(mesh, options);
+    REQUIRE(once.inspection.is_sphere());
+    const RepairedMesh twice = repair_mesh(once.mesh, options);
+    CHECK(twice.actions.empty());
+    CHECK(twice.mesh.positions == once.mesh.positions);
+    CHECK(twice.mesh.triangles == once.mesh.triangles);
+  }
+}
+
+TEST_CASE("non_finite: vertices without a place go with their faces, and the hole is filled") {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), -std::numeric_limits<double>::infinity()}) {
+    TriangleMesh mesh = icosphere(2);
+    mesh.positions(30, 2) = bad;
+    const RepairedMesh repaired = repair_mesh(mesh);
+    CHECK(repaired.inspection.is_sphere());
+    CHECK(repaired.mesh.positions.allFinite());
+    CHECK(count(repaired, RepairKind::NonFiniteVertexDropped) == 1);
+    CHECK(count(repaired, RepairKind::NonFiniteFaceRemoved) == 6);
+    CHECK(count(repaired, RepairKind::HoleFilled) == 1);
+    CHECK(std::find(repaired.vertex_origin.begin(), repaired.vertex_origin.end(), 30) ==
+          repaired.vertex_origin.end());
+    for (std::size_t v = 0; v < repaired.vertex_origin.size(); ++v)
+      if (repaired.vertex_origin[v] >= 0)
+        CHECK(repaired.mesh.positions.row(static_cast<Eigen::Index>(v)) ==
+              mesh.positions.row(repaired.vertex_origin[v]));
+  }
+}
+
+TEST_CASE("non_finite: where it is not wanted, and where nothing is left, the mesh says so") {
+  TriangleMesh mesh = icosphere(1);
+  mesh.positions(3, 0) = std::numeric_limits<double>::quiet_NaN();
+  RepairOptions options;
+  options.non_finite = false;
+  CHECK(repair_mesh(mesh, options).actions.empty());
+  mesh.positions.setConstant(std::numeric_limits<double>::quiet_NaN());
+  const RepairedMesh nothing = repair_mesh(mesh);
+  CHECK(nothing.mesh.vertex_count() == 0);
+  CHECK(nothing.mesh.face_count() == 0);
+  CHECK_FALSE(nothing.inspection.is_sphere());
+}
