@@ -339,14 +339,17 @@ TEST_CASE("scalar: whole numbers are labels, never mixed; of two corners and one
     }
   }
 
-  const Property two_and_one{"label", ScalarType::Int8, {5, 5, 3}};
+  Property two_and_one{"label", ScalarType::Int8, {}};
+  two_and_one.values.resize(static_cast<size_t>(file.mesh.vertex_count()), 3);
+  for (const int corner : {0, 1}) {
+    two_and_one.values[static_cast<size_t>(file.mesh.triangles(0, corner))] = 5;
+  }
   file.vertex_properties.front() = two_and_one;
-  file.vertex_properties.front().values.resize(static_cast<size_t>(file.mesh.vertex_count()), 3);
-  file.mesh.triangles.row(0) << 0, 1, 2;
+  const auto labelled = scene_of(file, map);
   const auto at = [&](const Vector3& weights) {
     const SurfaceRun run{0, 1, weights, Vector3::Zero(), Vector3::Zero()};
     float label = 0;
-    make_scalar(*scene, "label").evaluate_runs(std::span(&run, 1), &label);
+    make_scalar(*labelled, "label").evaluate_runs(std::span(&run, 1), &label);
     return label;
   };
   CHECK(at({0.3, 0.3, 0.4}) == 5);
