@@ -128,6 +128,8 @@ std::string name_of(RepairKind kind) {
       return "component-dropped";
     case RepairKind::HoleFilled:
       return "hole-filled";
+    case RepairKind::HoleKept:
+      return "hole-kept";
     case RepairKind::HandleCut:
       return "handle-cut";
     case RepairKind::HandleFilled:
@@ -152,6 +154,8 @@ std::string name_of(HandleChoice choice) {
       return "cut";
     case HandleChoice::Fill:
       return "fill";
+    case HandleChoice::Area:
+      return "area";
   }
   return "";
 }
@@ -207,7 +211,9 @@ std::string options_line(const RepairOptions& options) {
   } else if (options.weld_share >= 0) {
     line += " --weld " + short_number(100 * options.weld_share, 6) + "%";
   }
-  if (options.largest_hole != RepairOptions{}.largest_hole) {
+  if (options.keep_holes) {
+    line += " --keep-holes";
+  } else if (options.largest_hole != RepairOptions{}.largest_hole) {
     line += " --max-hole " + std::to_string(options.largest_hole);
   }
   if (options.handle_choice != HandleChoice::Shortest) {

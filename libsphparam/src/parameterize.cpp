@@ -136,6 +136,7 @@ Parameterization run(const TriangleMesh& mesh, const Topology& topology,
   }
   if (work.certified()) warn_of_balance(work);
   if (work.certified()) warn_of_gap(work);
+  if (work.certified()) tell_filler_share(work);
   return std::move(work.result);
 }
 
@@ -149,6 +150,7 @@ Parameterization run_from(const SphereMap& map, const TriangleMesh& mesh, const 
   if (work.certified() && framed) place_frame(work);
   if (work.certified() && options.align_to) align(work);
   if (work.certified()) warn_of_gap(work);
+  if (work.certified()) tell_filler_share(work);
   return std::move(work.result);
 }
 

@@ -29,7 +29,8 @@ std::string handle_line(const HandleLoop& loop) {
          counted(std::ssize(loop.vertices), "edge", "edges") + ", " + short_number(loop.length) +
          " long (" + percent(loop.share) + " of the diagonal), about (" + short_number(c.x(), 6) +
          ", " + short_number(c.y(), 6) + ", " + short_number(c.z(), 6) + "): area " +
-         short_number(loop.area_added) + " added";
+         short_number(loop.area_added) + " added" +
+         (loop.crossings > 0 ? ", passing through the surface" : "");
 }
 
 std::string handle_lines(const std::vector<HandleLoop>& loops, const std::string& indent) {
@@ -40,9 +41,15 @@ std::string handle_lines(const std::vector<HandleLoop>& loops, const std::string
   }
   if (loops.size() <= told) return lines;
   double longest = 0;
-  for (const HandleLoop& loop : loops) longest = std::max(longest, loop.share);
+  long crossing = 0;
+  for (const HandleLoop& loop : loops) {
+    longest = std::max(longest, loop.share);
+    crossing += loop.crossings > 0;
+  }
   return lines + indent + "and " + std::to_string(loops.size() - told) +
-         " more; the longest of all has " + percent(longest) + " of the diagonal\n";
+         " more; the longest of all has " + percent(longest) + " of the diagonal; " +
+         (crossing == 0 ? "none passes" : std::to_string(crossing) + " of all pass") +
+         " through the surface\n";
 }
 
 std::string distortion_line(const DistortionSummary& distortion) {

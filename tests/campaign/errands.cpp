@@ -116,8 +116,9 @@ void map(Maker& make) {
   make.maybe(words, 0.3, {"--json", "map.json"});
   make.maybe(words, 0.2, {"--plots", "plots"});
   make.maybe(words, 0.3,
-             {"--repair", "--handles", make.one_of({"shortest", "cut", "fill"}), "--max-handle",
-              make.one_of({"1e-9", "5%", "1e300%"}), "--loops", "loops.obj"});
+             {"--repair", "--handles", make.one_of({"shortest", "cut", "fill", "area"}),
+              "--max-handle", make.one_of({"1e-9", "5%", "1e300%"}), "--loops", "loops.obj"});
+  make.maybe(words, 0.2, {make.one_of({"--keep-holes", "--keep-holes=20%"})});
   make.errand.commands.push_back(words);
   make.errand.commands.push_back({"verify", "map.sph.ply", "--chart"});
 }

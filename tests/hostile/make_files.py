@@ -212,6 +212,12 @@ def make_ply():
     ok("modern_types", t.replace("float", "float64").replace("uchar int", "uint8 int32"))
     ok("comments", t.replace("element", "comment \x1b[31m\nobj_info x\nelement"))
     ok("trailing_data", t + "3 0 1 2\n")
+    fillers = lambda kind, marks: "".join(
+        line + (" " + marks.pop(0) if line.startswith("3 ") else "") + "\n"
+        for line in t.replace("end_header", "property %s filler\nend_header" % kind).splitlines())
+    ok("fillers_but_one", fillers("uchar", ["1", "1", "0", "1"]))
+    ok("fillers_alone", fillers("uchar", ["1", "1", "1", "1"]))
+    ok("fillers_of_odd_values", fillers("float", ["1", "0.5", "-1", "1e30"]))
     ok("empty_element", t.replace("end_header", "element edge 0\nproperty int a\nend_header"))
     ok("empty_element_without_properties", t.replace("end_header", "element edge 0\nend_header"))
     ok("unknown_element", t.replace("end_header", "element edge 1\nproperty int a\nend_header") + "7\n")

@@ -108,6 +108,22 @@ void require_sensible_frame(const MapArguments& arguments) {
   }
 }
 
+/// Files of their own, and vertices of no one part.
+void require_sensible_parts(const MapArguments& arguments) {
+  if (!arguments.all_components) return;
+  for (const std::string name :
+       {"--component", "--write-sphere", "--plots", "--loops", "--meridian", "--pin"}) {
+    if (!arguments.given(name)) continue;
+    throw UsageMistake(name + " is for one map, and --all-components makes several");
+  }
+  if (arguments.options.poles) {
+    throw UsageMistake("--poles V1,V2 is for one map, and --all-components makes several");
+  }
+  if (is_stream(arguments.output)) {
+    throw UsageMistake("--all-components writes NAME_0001.sph.ply and so on: -o must name a file");
+  }
+}
+
 void require_sensible(const MapArguments& arguments) {
   require_one_stream({arguments.input, arguments.pins, arguments.align},
                      "the mesh, --pin and --align");
@@ -116,6 +132,7 @@ void require_sensible(const MapArguments& arguments) {
     throw UsageMistake("-o: the map is a PLY, .ply, or a polydata of VTK, .vtk or .vtp; for " +
                        extension + " see --write-sphere");
   }
+  require_sensible_parts(arguments);
   const bool is_named = !inner_extension_of(arguments.sphere).empty();
   if (!arguments.sphere.empty() && !(is_named && is_written(arguments.sphere))) {
     throw UsageMistake("--write-sphere: the name must end in " + written_extensions());
@@ -131,6 +148,8 @@ void declare_files(Declaration& command, MapArguments& arguments) {
   command.input("MESH", arguments.input, readable_formats("or") + "; - for standard input")
       .output(arguments.output, "FILE",
               "The map, a .sph.ply (or .vtk, .vtp); - for standard output")
+      .flag("--all-components", arguments.all_components,
+            "A map of each component, the largest by area first: NAME_0001.sph.ply, …")
       .text("--write-sphere", arguments.sphere, "FILE",
             "The bare sphere too: .ply, .obj, .off, .vtk or .vtp in doubles, .gii, .sphere or .mz3 "
             "in "
@@ -234,6 +253,7 @@ void settle(MapArguments& arguments) {
   require_no_settings(arguments);
   if (const auto* own = std::get_if<Method>(&arguments.method)) options.method = *own;
   settle_poles(arguments.poles, options);
+  options.filler_share = wanted_filler_share(arguments.repair);
   settle_balance(arguments.balance, arguments.given("--lambda"), options);
   const bool weighted = arguments.given("--lambda") || arguments.given("--balance");
   if (weighted && options.energy.kind == EnergyKind::SymmetricDirichlet) {

@@ -21,6 +21,7 @@ struct MapArguments : CommonArguments {
   std::string poles = "auto";
   std::string balance = "balanced";  // a word, or the λ it stands for
   RepairArguments repair;
+  bool all_components = false;
   bool keep_folded = false;
   AnyMethod method = Method::Progressive;
   // Complete but for `progress` and `pins`, once settled. Vertices have their numbers in the file.

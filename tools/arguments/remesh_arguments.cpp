@@ -74,6 +74,10 @@ void declare_remesh_options(Declaration& command, RemeshArguments& arguments) {
       .text("--grid", arguments.grid, "GRID", grid_patterns() + " or like:MESH")
       .required()
       .sphere(arguments.sphere)
+      .choice("--holes", arguments.holes,
+              {{"keep", FillersInFile::Kept}, {"drop", FillersInFile::Left}},
+              "What closes holes of the mesh: keep it or leave it out (default: kept and marked in "
+              "a map, else left out)")
       .text("--transfer", arguments.transfer, "NAMES",
             "What to carry, with commas between: all, none, color, normal, uv, material, or names "
             "of properties")

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "arguments/declaration.h"
+#include "sphparam/io/certified_files.h"
 #include "sphparam/remesh/displacement.h"
 #include "sphparam/remesh/sphere_grid.h"
 
@@ -36,6 +37,7 @@ struct RemeshArguments : CommonArguments {
   std::optional<ImageDepth> depth;
   std::string csv;
   bool degrees = false;  // in it
+  FillersInFile holes = FillersInFile::Marked;
 };
 
 void declare_remesh_options(Declaration& command, RemeshArguments& arguments);

@@ -6,6 +6,7 @@
 #include "number_text.h"
 #include "sphparam/io/loop_file.h"
 #include "sphparam/names.h"
+#include "sphparam/parameterize.h"
 
 // --repair is a flag that may carry words after an equals sign, so that it never takes the name of
 // the mesh for one of them.
@@ -92,12 +93,16 @@ void declare_repair_options(Declaration& command, RepairArguments& arguments) {
       .parsed("--weld", "LENGTH", weld, "expected a length, as in 0.01 or 0.1%",
               "Weld boundary vertices that are at most so far apart, and split boundary edges at "
               "vertices that lie so near; % is of the bounding box's diagonal")
+      .flag("--keep-holes", arguments.keep_holes,
+            "Holes of any length stay holes: what closes them is marked, and left out by all "
+            "subcommands; at most 2% of the sphere goes to it, or as in --keep-holes=10%")
       .choice("--handles", arguments.handle_choice,
               {{name_of(HandleChoice::Shortest), HandleChoice::Shortest},
                {name_of(HandleChoice::Cut), HandleChoice::Cut},
-               {name_of(HandleChoice::Fill), HandleChoice::Fill}},
-              "Cut handles through, fill what goes through them, or whichever is shorter "
-              "(default: shortest)")
+               {name_of(HandleChoice::Fill), HandleChoice::Fill},
+               {name_of(HandleChoice::Area), HandleChoice::Area}},
+              "Cut handles through, fill what goes through them, or whichever is shorter, or adds "
+              "less area (default: shortest)")
       .parsed("--max-handle", "LENGTH", longest, "expected a length, as in 12.5 or 40%",
               "Remove handles along loops of at most this length; % is of the bounding box's "
               "diagonal (--repair: " +
@@ -109,8 +114,9 @@ void declare_repair_options(Declaration& command, RepairArguments& arguments) {
 
 std::optional<RepairOptions> wanted_repairs(const RepairArguments& arguments) {
   const bool chosen = arguments.component > 0 || arguments.least_kept;
-  if (arguments.words.empty() && !chosen && !arguments.largest_hole && !arguments.longest_handle &&
-      !arguments.weld && !arguments.given("--handles")) {
+  if (arguments.words.empty() && !chosen && !arguments.largest_hole &&
+      arguments.keep_holes.empty() && !arguments.longest_handle && !arguments.weld &&
+      !arguments.given("--handles")) {
     require_sensible_loops(arguments, false);
     return std::nullopt;
   }
@@ -118,6 +124,10 @@ std::optional<RepairOptions> wanted_repairs(const RepairArguments& arguments) {
     throw UsageMistake(
         "--component and --min-kept contradict each other: a component that is named is kept "
         "whatever its share");
+  }
+  if (arguments.largest_hole && !arguments.keep_holes.empty()) {
+    throw UsageMistake(
+        "--max-hole and --keep-holes contradict each other: a hole is filled, or it is kept");
   }
   RepairOptions options = arguments.words == without_words ? RepairOptions{}
                           : arguments.words.empty()        ? RepairOptions::none()
@@ -130,6 +140,7 @@ std::optional<RepairOptions> wanted_repairs(const RepairArguments& arguments) {
     options.largest_hole = arguments.largest_hole;
   }
   settle_weld(arguments, options);
+  if (!arguments.keep_holes.empty()) options.holes = options.keep_holes = true;
   settle_handles(arguments, options);
   require_sensible_loops(arguments, options.handles);
   // What other repairs leave without faces must not stand in the way of the map.
@@ -140,6 +151,16 @@ std::optional<RepairOptions> wanted_repairs(const RepairArguments& arguments) {
 RepairOptions all_or_wanted_repairs(RepairArguments arguments) {
   if (arguments.words.empty()) arguments.words = without_words;
   return wanted_repairs(arguments).value();
+}
+
+double wanted_filler_share(const RepairArguments& arguments) {
+  if (arguments.keep_holes.empty() || arguments.keep_holes == without_words) {
+    return ParameterizeOptions{}.filler_share;
+  }
+  std::optional<double> share;
+  if (read_share(arguments.keep_holes, share) && *share > 0) return *share;
+  throw UsageMistake("--keep-holes: expected a share of the sphere, as in 0.1 or 10%, not " +
+                     arguments.keep_holes);
 }
 
 }  // namespace sphparam::cli

@@ -15,23 +15,27 @@ struct RepairArguments {
   int component = 0;  // 0: not given
   std::optional<double> least_kept;
   int largest_hole = 0;
+  std::string keep_holes;  // empty: not given, "true" when it was without a share
   HandleChoice handle_choice = HandleChoice::Shortest;
   std::optional<Amount> longest_handle, weld;
   std::string loops;                              // empty: not wanted
   std::function<bool(const std::string&)> given;  // was this option on the command line?
 };
 
-/// --repair[=WORD,…], --component N, --min-kept SHARE, --max-hole N, --handles WORD, --max-handle
-/// LENGTH, --weld LENGTH and --loops FILE.
+/// --repair[=WORD,…], --component N, --min-kept SHARE, --max-hole N, --keep-holes[=SHARE],
+/// --handles WORD, --max-handle LENGTH, --weld LENGTH and --loops FILE.
 void declare_repair_options(Declaration& command, RepairArguments& arguments);
 
-/// What is wanted, or nothing. --repair alone wants everything; --component, --min-kept,
-/// --max-hole, --handles, --max-handle and --weld want their own repair also without it.
+/// What is wanted, or nothing. --repair alone wants everything; --component, --min-kept, --max-hole,
+/// --keep-holes, --handles, --max-handle and --weld want their own repair also without it.
 /// Throws: UsageMistake for a word that is none, for --component with --min-kept, or for --loops
 ///         where handles are not wanted, or of no format.
 std::optional<RepairOptions> wanted_repairs(const RepairArguments& arguments);
 
 /// The same where a repair is what the subcommand is for: everything, unless --repair names some.
 RepairOptions all_or_wanted_repairs(RepairArguments arguments);
+
+/// The share of the sphere that fillers may take, as --keep-holes says. Throws: UsageMistake.
+double wanted_filler_share(const RepairArguments& arguments);
 
 }  // namespace sphparam::cli

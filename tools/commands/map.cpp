@@ -7,8 +7,10 @@
 #include "arguments/map_arguments.h"
 #include "commands/command.h"
 #include "commands/map_outputs.h"
+#include "commands/map_parts.h"
 #include "reports/map_wording.h"
 #include "sphparam/io/file_numbers.h"
+#include "sphparam/io/fillers.h"
 #include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/pin_file.h"
 #include "sphparam/io/written_map.h"
@@ -30,6 +32,8 @@ constexpr char summary[] =
     "  cat statue.obj | sphparam map - -o - > statue.sph.ply\n"
     "  sphparam map scan.ply -o scan.sph.ply --repair\n"
     "  sphparam map eros.obj -o eros.sph.ply --method radial\n"
+    "  sphparam map face.ply -o face.sph.ply --repair --keep-holes\n"
+    "  sphparam map hemispheres.ply -o hemispheres.sph.ply --all-components\n"
     "  sphparam map statue.obj -o folded.sph.ply --method paper --keep-folded\n"
     "  sphparam map statue.obj -o mended.sph.ply --method tangential --repair-map\n";
 
@@ -74,6 +78,7 @@ MapOutcome compute(MeshSource source, const MapArguments& arguments, Session& se
   const TriangleMesh& mesh = outcome.source.file.mesh;
   ParameterizeOptions& options = outcome.options;
   options.progress = session.progress();
+  options.fillers = fillers_of(outcome.source.file);
   settle_vertices(arguments.pins, outcome.source.file, options);
   settle_directions(arguments, outcome.source, options);
   MethodRun run = run_method(arguments.method, mesh, outcome.topology(), options);
@@ -81,30 +86,38 @@ MapOutcome compute(MeshSource source, const MapArguments& arguments, Session& se
   outcome.account = std::move(run.account);
   outcome.frame = check_frame(outcome.result, options);
   if (outcome.has_map()) {
-    outcome.distortion = measure_distortion(mesh, outcome.result.map, options.threads);
+    outcome.distortion =
+        measure_distortion(surface_of(mesh, options.fillers), outcome.result.map, options.threads);
     outcome.figures = summarise(*outcome.distortion, options.threads);
   }
   return outcome;
 }
 
 /// The mesh, after the repairs that are wanted.
+MeshSource mended(MeshSource source, const MapArguments& arguments) try {
+  const std::optional<RepairOptions> repairs = wanted_repairs(arguments.repair);
+  return repairs ? repaired(std::move(source), *repairs) : source;
+} catch (const NoSuchComponent& error) {
+  throw UsageMistake(std::string("--component: ") + error.what());
+}
+
 MeshSource read_mended(const MapArguments& arguments) {
   const std::optional<RepairOptions> repairs = wanted_repairs(arguments.repair);
   ReadOptions options = input_limits();
   options.repeated_corners = repairs && repairs->duplicates;
   options.non_finite = repairs && repairs->non_finite;
-  MeshSource source = sphparam::read_source(arguments.input, options);
-  if (!repairs) return source;
-  try {
-    return repaired(std::move(source), *repairs);
-  } catch (const NoSuchComponent& error) {
-    throw UsageMistake(std::string("--component: ") + error.what());
-  }
+  return mended(sphparam::read_source(arguments.input, options), arguments);
 }
 
 int run_map(MapArguments& arguments) {
   settle(arguments);
   Session session(arguments);
+  if (arguments.all_components) {
+    session.hold_signals();
+    return run_map_of_parts(arguments, session, [&](MeshSource part) {
+      return compute(mended(std::move(part), arguments), arguments, session);
+    });
+  }
   MeshSource source = read_mended(arguments);
   session.hold_signals();
   MapOutcome outcome = compute(std::move(source), arguments, session);

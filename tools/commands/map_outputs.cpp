@@ -113,8 +113,8 @@ std::string report_on(const MapArguments& arguments, MapOutcome& outcome, const 
 
 }  // namespace
 
-void write_outputs(const MapArguments& arguments, MapOutcome& outcome, bool with_map,
-                   Session& session) {
+std::string add_outputs(const MapArguments& arguments, MapOutcome& outcome, bool with_map,
+                        Session& session) {
   Outputs outputs;
   if (with_map) {
     add_map(arguments.output, outcome, session);
@@ -134,7 +134,13 @@ void write_outputs(const MapArguments& arguments, MapOutcome& outcome, bool with
     add_plots(arguments.plots, stem_or(arguments.input, "map"), *outcome.distortion, session.files);
     outputs.emplace_back("charts", arguments.plots);
   }
-  session.add_report([&] { return report_on(arguments, outcome, outputs, session); });
+  return arguments.json.empty() ? "" : report_on(arguments, outcome, outputs, session);
+}
+
+void write_outputs(const MapArguments& arguments, MapOutcome& outcome, bool with_map,
+                   Session& session) {
+  const std::string report = add_outputs(arguments, outcome, with_map, session);
+  session.add_report([&] { return report; });
   session.publish();
 }
 

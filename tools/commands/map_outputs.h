@@ -12,4 +12,8 @@ namespace sphparam::cli {
 void write_outputs(const MapArguments& arguments, MapOutcome& outcome, bool with_map,
                    Session& session);
 
+/// The same without writing: the files wait in the session. Returns the report, if one is wanted.
+std::string add_outputs(const MapArguments& arguments, MapOutcome& outcome, bool with_map,
+                        Session& session);
+
 }  // namespace sphparam::cli

@@ -1,6 +1,7 @@
 // `sphparam measure`: how far two surfaces are apart. The one command that takes any triangles,
 // closed or not.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -8,6 +9,7 @@
 #include "commands/command.h"
 #include "console/places.h"
 #include "number_text.h"
+#include "sphparam/io/fillers.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/records/distance_record.h"
@@ -61,6 +63,17 @@ void require_sensible(const MeasureArguments& arguments) {
   check_places({{"--per-vertex", arguments.per_vertex}, {"--json", arguments.json}});
 }
 
+/// What is surface of a mesh.
+MeshFile read_surface(const std::string& path, Session& session) {
+  MeshFile file = read_mesh(path, input_limits());
+  const FillerMarks fillers = fillers_of(file);
+  if (fillers.empty()) return file;
+  const auto count = std::count(fillers.begin(), fillers.end(), 1);
+  session.console.say("  " + display_name(path) + ": " + counted(count, "filler", "fillers") +
+                      " left out");
+  return without_fillers(file);
+}
+
 SurfaceDistance measure(const MeasureArguments& arguments, const MeshFile& first,
                         const MeshFile& second, Session& session) try {
   DistanceOptions options = arguments.options;
@@ -102,8 +115,8 @@ int run_measure(MeasureArguments& arguments) {
   Session session(arguments);
   settle_sampled(arguments.sampled, arguments.options);
   require_sensible(arguments);
-  const MeshFile first = read_mesh(arguments.first, input_limits());
-  const MeshFile second = read_mesh(arguments.second, input_limits());
+  const MeshFile first = read_surface(arguments.first, session);
+  const MeshFile second = read_surface(arguments.second, session);
   for (const MeshFile* file : {&first, &second}) {
     for (const std::string& note : file->notes) session.console.detail(note);
   }

@@ -138,14 +138,14 @@ void add_meshes(const RemeshArguments& arguments, const RemeshRequests& requests
     for (size_t level = 0; level < levels.size(); ++level)
       tell_losses(requests.outputs[level],
                   add_mapped(session.files, requests.outputs[level], levels[level].mesh,
-                             session.threads(), new_mesh),
+                             session.threads(), new_mesh, arguments.holes),
                   session.console);
   }
   if (arguments.limit_output.empty()) return;
   const LevelOfDetail& finest = levels.front();
   const auto limit = limit_mesh(finest.mesh, finest.fit.value(), session.threads());
   tell_losses(arguments.limit_output,
-              add_mapped(session.files, arguments.limit_output, limit, session.threads(), new_mesh),
+              add_mapped(session.files, arguments.limit_output, limit, session.threads(), new_mesh, arguments.holes),
               session.console);
 }
 

@@ -106,6 +106,8 @@ void declare_look(Declaration& command, RenderArguments& arguments) {
       .text("--texture", arguments.texture, "IMAGE",
             "Image for the mesh's texture coordinates, instead of its own")
       .flag("--wire", drawing.wireframe, "The edges of the triangles")
+      .flag("--repairs", drawing.repairs,
+            "Outline what repair has closed: loops of handles, rims of filled holes")
       .flag("--graticule", drawing.graticule, "Lines of longitude and latitude")
       .flag("--occlusion", drawing.occlusion, "Darken what little light reaches")
       .flag_off("--no-legend", drawing.legend, "Without the scale of area or angle");

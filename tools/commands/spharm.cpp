@@ -68,6 +68,10 @@ HarmonicExpansion expand(const SpharmArguments& arguments, const MappedMesh& map
                          Session& session) {
   require_measurable(mapped.mesh());
   require_scalars(mapped.file(), arguments.scalars);
+  if (!mapped.fillers().empty()) {
+    session.console.warning(mapped.name() +
+                            ": harmonics are of the whole sphere, with what closes the holes");
+  }
   HarmonicExpansion expansion =
       expand_in_harmonics(mapped, arguments.scalars,
                           {.degree = arguments.degree,

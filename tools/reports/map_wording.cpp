@@ -90,6 +90,9 @@ void tell_stages(const MapOutcome& outcome, Console& console) {
     const bool asked = outcome.method == AnyMethod(Method::Paper);
     asked ? console.say("  " + stage_line(stage)) : console.detail("  " + stage_line(stage));
   }
+  if (outcome.result.filler_share) {
+    console.say("  fillers: " + percent(*outcome.result.filler_share) + " of the sphere");
+  }
   if (const std::optional<BalanceRecord>& balance = outcome.result.balance) {
     console.detail("  balanced at lambda " + short_number(balance->lambda, 6) +
                    ", mean |log2 area ratio| " + short_number(balance->area_error));

@@ -9,6 +9,7 @@
 #include "sphparam/embedding/distortion_energy.h"
 #include "sphparam/embedding/quality.h"
 #include "sphparam/mesh/edge_weights.h"
+#include "sphparam/mesh/fillers.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/mesh/triangle_mesh.h"
 #include "sphparam/progress.h"
@@ -57,6 +58,10 @@ struct ParameterizeOptions {
   /// piece and as near as it can be: `radial_directions`, or another map of the mesh. Not with
   /// poles, meridian or pins, nor with Method::Radial; then no poles are chosen either.
   std::optional<SphereMap> align_to = std::nullopt;
+  /// What Method::Progressive makes leaves fillers at most this share of the sphere, above 0 to 1,
+  /// where that can be reached; else, and with other methods, a warning tells what they have.
+  FillerMarks fillers = {};
+  double filler_share = 0.02;
   // What is minimised; `lambda`, from 1e-10 to 1e6, weighs area against angle.
   DistortionEnergy energy = {};
   // Of Method::Progressive: time against distortion; and what λ is to reach, if not a given value.
@@ -117,6 +122,7 @@ struct Parameterization {
   /// mean of squares over the surface.
   std::optional<double> alignment;
   std::optional<Vertex> meridian;  // a vertex with θ = 0 that was asked for or chosen
+  std::optional<double> filler_share;  // of the sphere, where there are fillers
   /// Per pin, radians from its point; 0: exactly there. Of pins that were not tried, too.
   std::vector<double> pin_residuals;
   std::optional<DateLine> date_line;  // where the method has one

@@ -56,7 +56,7 @@ class Batch {
     }
     if (field.kind != FieldKind::Colour) return;
     const SrgbCurves& curves = SrgbCurves::get();
-    const int colours = std::min(field.channels, 3);
+    const int colours = std::min(field.proper_channels(), 3);
     for (size_t i = 0; i < samples_.size(); ++i, values += field.channels) {
       for (int c = 0; c < colours; ++c) values[c] = curves.to_linear(values[c]);
     }
@@ -188,7 +188,7 @@ BandValues bake_band(const Work& work, int band) {
     add_samples(work, band, 0.5, 0.5, 0, 1, true, values);
   }
   for (size_t f = 0; f < work.fields.size(); ++f) {
-    if (work.fields[f].kind == FieldKind::Direction) make_unit(values[f]);
+    if (work.fields[f].kind == FieldKind::Direction) make_unit(values[f], work.fields[f].channels);
   }
   return values;
 }

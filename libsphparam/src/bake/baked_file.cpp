@@ -8,9 +8,9 @@
 #include <limits>
 
 #include "bake/image_level.h"
+#include "number_text.h"
 #include "sphparam/bake/bake_errors.h"
 #include "srgb_curves.h"
-#include "number_text.h"
 
 namespace sphparam {
 namespace {
@@ -74,10 +74,12 @@ std::vector<Sample> integers(const float* values, size_t count, const SurfaceFie
   const SrgbCurves& curves = SrgbCurves::get();
   const bool colour = field.kind == FieldKind::Colour;
   const auto channels = static_cast<size_t>(field.channels);
+  const auto proper = static_cast<size_t>(field.proper_channels());
   for (size_t i = 0; i < count; ++i) {
     const auto value = static_cast<double>(values[i]);
-    const double x = colour && i % channels < 3 ? static_cast<double>(curves.to_srgb(values[i]))
-                                                : (value - base) * scale;
+    const double x = i % channels >= proper       ? value
+                     : colour && i % channels < 3 ? static_cast<double>(curves.to_srgb(values[i]))
+                                                  : (value - base) * scale;
     samples[i] = x > 0 ? static_cast<Sample>(std::min(x, 1.0) * full + 0.5) : Sample{0};
   }
   return samples;

@@ -39,6 +39,7 @@ const std::vector<FieldMaker>& field_makers() {
       {"angle", "log2 of the factor by which angles are off", angle_field},
       {"stretch", "log2 of the stretch of lengths, mean of squares", stretch_field},
       {"id", "id:face, id:material or id:component", make_id, true},
+      {"mask", "1 on the surface, 0 on what closes its holes", make_mask},
       {"uv", "the texture coordinates of the mesh", make_texcoords},
       {"scalar", "scalar:NAME, a property of vertices or faces", make_scalar, true},
   };

@@ -46,11 +46,11 @@ void ImageLevel::add_row(const float* fine, size_t row, float weight) {
 }
 
 void ImageLevel::finish() {
-  if (kind_ == FieldKind::Direction) make_unit(values_);
+  if (kind_ == FieldKind::Direction) make_unit(values_, static_cast<int>(channels_));
 }
 
-void make_unit(std::vector<float>& values) {
-  for (size_t i = 0; i + 2 < values.size(); i += 3) {
+void make_unit(std::vector<float>& values, int channels) {
+  for (size_t i = 0; i + 2 < values.size(); i += static_cast<size_t>(channels)) {
     float* n = &values[i];
     const float length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     if (length > 0) std::for_each(n, n + 3, [length](float& x) { x /= length; });

@@ -32,7 +32,7 @@ class ImageLevel {
   std::vector<float> values_;
 };
 
-/// Divides vectors of three by their lengths, where these are not zero.
-void make_unit(std::vector<float>& values);
+/// Divides the first three of so many channels by their length, where it is not zero.
+void make_unit(std::vector<float>& values, int channels);
 
 }  // namespace sphparam

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "bake/coverage.h"
 #include "bake/field_registry.h"
+#include "bake/fields/attribute_fields.h"
 #include "sphparam/io/paths.h"
 
 namespace sphparam {
@@ -23,7 +25,7 @@ SampleType depth_of(const BakeSettings& settings, ImageFormat format, FieldKind 
 
 bool has_numbers(const SurfaceField& field) {
   return field.kind == FieldKind::Data || field.kind == FieldKind::Place ||
-         (field.kind == FieldKind::Label && field.channels == 1);
+         (field.kind == FieldKind::Label && field.proper_channels() == 1);
 }
 
 /// How many whole numbers from 0, or from the least in integers, a type tells apart.
@@ -84,6 +86,10 @@ PlannedImage plan_image(const BakeRequest& request, BakeScene& scene,
   image.file.format = is_stream(request.path) ? ImageFormat::Png : *image_format_of(request.path);
   scene.ids_as_colours = is_integer(depth_of(settings, image.file.format, FieldKind::Label, false));
   if (!image.drawn) image.field = make_field(request.field, scene);
+  const FillerMarks& fillers = scene.source.mapped.fillers();
+  if (!fillers.empty() && !image.drawn && image.field.name != surface_mask) {
+    image.field = with_coverage(std::move(image.field), fillers);
+  }
   image.file.sample_type =
       depth_of(settings, image.file.format, image.field.kind, has_numbers(image.field));
   require_channels(image);
@@ -119,10 +125,13 @@ void find_ranges(std::vector<PlannedImage>& images, const BakeScene& scene,
   std::vector<std::pair<double, double>> ranges(fields.size(), {infinity, -infinity});
   bake(scene, fields, engine_options(settings, "range"),
        [&](size_t i, int, int rows, const float* values) {
-         const auto count = static_cast<std::ptrdiff_t>(rows) * settings.width * fields[i].channels;
-         const auto [least, greatest] = std::minmax_element(values, values + count);
-         ranges[i].first = std::min(ranges[i].first, static_cast<double>(*least));
-         ranges[i].second = std::max(ranges[i].second, static_cast<double>(*greatest));
+         const std::ptrdiff_t channels = fields[i].channels, proper = fields[i].proper_channels();
+         const float* const end = values + std::ptrdiff_t{rows} * settings.width * channels;
+         for (; values != end; values += channels) {
+           const auto [least, greatest] = std::minmax_element(values, values + proper);
+           ranges[i].first = std::min(ranges[i].first, static_cast<double>(*least));
+           ranges[i].second = std::max(ranges[i].second, static_cast<double>(*greatest));
+         }
        });
   for (size_t i = 0; i < unknown.size(); ++i) unknown[i]->field.range = ranges[i];
 }

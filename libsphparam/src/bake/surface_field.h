@@ -45,7 +45,10 @@ struct SurfaceRun {
 /// Something that has a value everywhere on the source mesh: a texture, a property, what rays see.
 struct SurfaceField {
   std::string name;  // "position", "scalar:thickness"
-  int channels = 1;  // 1, 3 or 4
+  int channels = 1;  // 1, 3 or 4; one more with coverage, but never more than 4
+  /// The last channel is coverage: 1 on the surface, 0 on fillers; averaged as it is, whatever the
+  /// kind. Else a fourth one of colours is alpha.
+  bool has_coverage = false;
   FieldKind kind = FieldKind::Data;
   std::string about = {};  // one line for metadata: unit, space, convention
   std::string unit = {};   // "m", "degree"; empty: none, or nobody knows
@@ -57,6 +60,9 @@ struct SurfaceField {
   /// whole sample a texel, and for those that want to know how large a texel is on the surface;
   /// `evaluate` is not called then. Colours are linear here: to be averaged they would be made so.
   std::function<void(std::span<const SurfaceRun> runs, float* values)> evaluate_runs = {};
+
+  /// Of the values proper: those of the kind.
+  int proper_channels() const { return has_coverage ? channels - 1 : channels; }
 };
 
 }  // namespace sphparam

@@ -5,12 +5,14 @@
 #include <stdexcept>
 
 #include "gltf/export_names.h"
+#include "gltf/fillers_left_out.h"
 #include "gltf/image_kind.h"
 #include "gltf/level.h"
 #include "gltf/textured_mesh.h"
 #include "gltf/written_check.h"
 #include "sphparam/gltf/export.h"
 #include "sphparam/io/certified_files.h"
+#include "sphparam/io/fillers.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/paths.h"
 
@@ -117,11 +119,13 @@ TexturedFiles add_textured_mesh(PendingFiles& files, const std::string& path,
                                 const ExportOptions& options) {
   const bool obj = is_obj(path);
   const ExportChart chart = chart_of_level(mapped, options);
-  MeshFile textured = textured_mesh(chart, mapped.file(), options.shape, options.threads);
+  const FillerMarks fillers = fillers_of_chart(chart.chart, mapped.fillers());
+  MeshFile textured =
+      without_fillers(textured_mesh(chart, mapped.file(), options.shape, options.threads));
   require_numbers(textured, path);
   TexturedFiles result{.chart = figures_of(chart), .warnings = {}, .files = {}};
   const BytesCheck check = [&](std::string_view on_disk) {
-    result.chart.stored = certify_written(on_disk, path, chart, options.threads);
+    result.chart.stored = certify_written(on_disk, path, chart, fillers, options.threads);
   };
   const AssetImage& image = look.images.front();
   const std::string image_path = image_file(path, image);

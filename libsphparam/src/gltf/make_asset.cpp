@@ -2,6 +2,7 @@
 
 #include "gltf/export_asset.h"
 #include "gltf/export_names.h"
+#include "gltf/fillers_left_out.h"
 #include "gltf/level.h"
 #include "sphparam/gltf/export.h"
 
@@ -57,6 +58,7 @@ void add_level(Asset& asset, const MappedMesh& mapped, const std::string& name, 
   figures.sphere_folds = geometry.stored_sphere_folds;
   warn_of_folds(name, figures, options.keep_topology, asset.warnings);
   asset.charts.push_back(std::move(figures));
+  leave_out(geometry.surface, fillers_of_chart(chart.chart, mapped.fillers()));
   asset.levels.push_back(std::move(geometry.surface));
 }
 

@@ -5,6 +5,7 @@
 
 #include "gltf/export_chart.h"
 #include "sphparam/gltf/gltf_writer.h"
+#include "sphparam/mesh/fillers.h"
 
 namespace sphparam {
 
@@ -17,9 +18,11 @@ void check_written(std::string_view glb, const std::string& name, const Asset& a
                    const GltfOptions& options);
 
 /// Reads an .obj or .ply of `textured_mesh` back and certifies the chart with the texture
-/// coordinates that stand there. `name`: its extension decides where the content does not. Throws:
-/// std::runtime_error where triangles or coordinates are missing or differ; ReadError.
+/// coordinates that stand there. `fillers` of the chart are not in the file. `name`: its extension
+/// decides where the content does not. Throws: std::runtime_error where triangles or coordinates
+/// are missing or differ; ReadError.
 ChartCertificate certify_written(std::string_view bytes, const std::string& name,
-                                 const ExportChart& chart, int threads = 0);
+                                 const ExportChart& chart, const FillerMarks& fillers = {},
+                                 int threads = 0);
 
 }  // namespace sphparam

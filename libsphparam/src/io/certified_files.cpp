@@ -1,10 +1,13 @@
 #include "sphparam/io/certified_files.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "io/files/read_back.h"
+#include "number_text.h"
 #include "sphparam/errors.h"
+#include "sphparam/io/fillers.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/mesh_reader.h"
@@ -21,6 +24,51 @@ namespace {
                          (count > 1 ? " and " + std::to_string(count - 1) + " more" : "") + " of " +
                          std::to_string(all) +
                          " would be no finite number; is the mesh very large or small? scale it");
+}
+
+/// The polygons of the triangles that are surface, with the numbers that vertices have there.
+Polygons surface_polygons(const MappedMesh& mapped) {
+  const Polygons& all = *mapped.polygons();
+  const Triangulation cut = triangulate(mapped.mesh().positions, all);
+  std::vector<char> kept(static_cast<std::size_t>(all.count()), 0);
+  for (Eigen::Index t = 0; t < cut.triangles.rows(); ++t) {
+    if (!mapped.fillers()[t]) kept[cut.polygon_of(t)] = 1;
+  }
+  std::vector<int> name(static_cast<std::size_t>(mapped.mesh().vertex_count()), -1);
+  for (std::int64_t p = 0; p < all.count(); ++p) {
+    if (!kept[p]) continue;
+    for (const int v : all.polygon(p)) name[v] = 0;
+  }
+  int next = 0;
+  for (int& v : name) {
+    if (v == 0) v = next++;
+  }
+  Polygons surface;
+  for (std::int64_t p = 0; p < all.count(); ++p) {
+    if (!kept[p]) continue;
+    for (const int v : all.polygon(p)) surface.corners.push_back(name[v]);
+    surface.starts.push_back(static_cast<int>(surface.corners.size()));
+  }
+  return surface;
+}
+
+std::vector<std::string> add_surface(PendingFiles& files, const std::string& path,
+                                     const MappedMesh& mapped, WriteOptions options) {
+  const MeshFile surface = without_map(without_fillers(mapped.file()));
+  require_numbers(surface, path);
+  const Polygons faces =
+      mapped.polygons() ? surface_polygons(mapped) : triangles_as_polygons(surface.mesh.triangles);
+  options.faces = &faces;
+  const auto fillers = std::count(mapped.fillers().begin(), mapped.fillers().end(), 1);
+  std::vector<std::string> losses = {"the surface alone, without the map: " +
+                                     counted(fillers, "filler", "fillers") + " of holes left out"};
+  files.add(path, serialise_mesh(path, surface, options), [&](std::string_view written) {
+    const MeshFile read = read_mesh(written, path, own_file);
+    if (read.mesh.triangles != surface.mesh.triangles)
+      throw WriteError(path, "as written, it has other triangles");
+    for (std::string& loss : losses_of_writing(surface, read)) losses.push_back(std::move(loss));
+  });
+  return losses;
 }
 
 }  // namespace
@@ -98,7 +146,10 @@ std::vector<std::string> add_mesh(PendingFiles& files, const std::string& path,
 
 std::vector<std::string> add_mapped(PendingFiles& files, const std::string& path,
                                     const MappedMesh& mapped, int threads,
-                                    const WriteOptions& options) {
+                                    const WriteOptions& options, FillersInFile fillers) {
+  const bool leaves =
+      fillers == FillersInFile::Left || (fillers == FillersInFile::Marked && !keeps_map(path));
+  if (leaves && !mapped.fillers().empty()) return add_surface(files, path, mapped, options);
   const Polygons faces =
       mapped.polygons() ? *mapped.polygons() : triangles_as_polygons(mapped.mesh().triangles);
   return add_mapped(files, path, attach_map(mapped.file(), mapped.map(), mapped.provenance()),

@@ -89,6 +89,9 @@ Provenance provenance_of(const Parameterization& result, const MapOrigin& origin
   }
   for (auto& line : planetocentric_lines(result)) lines.push_back(std::move(line));
   if (result.alignment) lines.emplace_back("alignment", shortest(*result.alignment));
+  if (result.filler_share) {
+    lines.emplace_back("fillers", percent(*result.filler_share) + " of the sphere");
+  }
   if (origin.pins > 0) lines.emplace_back("pins", std::to_string(origin.pins));
   lines.emplace_back("verdict", origin.verdict);
   return lines;

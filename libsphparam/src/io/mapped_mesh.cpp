@@ -9,6 +9,7 @@
 
 #include "sphparam/errors.h"
 #include "sphparam/io/certified_files.h"
+#include "sphparam/io/fillers.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/planetocentric.h"
 #include "sphparam/io/safe_file.h"
@@ -26,6 +27,10 @@ struct MappedMesh::Shape {
   std::vector<std::string> notes;
   std::string name;
   int threads;
+  FillerMarks fillers = fillers_of(file);
+  // Without fillers it is the mesh.
+  std::optional<TriangleMesh> surface =
+      fillers.empty() ? std::nullopt : std::optional(surface_of(file.mesh, fillers));
 };
 
 struct MappedMesh::State {
@@ -51,7 +56,8 @@ std::optional<WrittenMap> written_map(const MeshSource& source, const LoadOption
   return WrittenMap{{}, std::move(*map), read_provenance(source.file)};
 }
 
-WrittenMap made_map(const MeshSource& source, const ParameterizeOptions& options) {
+WrittenMap made_map(const MeshSource& source, ParameterizeOptions options) {
+  options.fillers = fillers_of(source.file);
   Parameterization result = parameterize(source.file.mesh, source.topology.value(), options);
   if (!result.certificate.bijective()) {
     throw NotCertifiedError(display_name(source.path) +
@@ -118,6 +124,10 @@ const Provenance& MappedMesh::provenance() const { return state_->provenance; }
 const std::optional<Polygons>& MappedMesh::polygons() const { return shape_->polygons; }
 const std::vector<std::string>& MappedMesh::notes() const { return shape_->notes; }
 bool MappedMesh::mapped_here() const { return state_->mapped_here; }
+const FillerMarks& MappedMesh::fillers() const { return shape_->fillers; }
+const TriangleMesh& MappedMesh::surface() const {
+  return shape_->surface ? *shape_->surface : mesh();
+}
 const std::string& MappedMesh::name() const { return shape_->name; }
 
 const SphereLocator& MappedMesh::locator() const {

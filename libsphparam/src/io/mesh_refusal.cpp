@@ -68,6 +68,15 @@ std::vector<MeshDefect> fatal_ones(const MeshInspection& inspection) {
   return fatal;
 }
 
+/// Whether repair would help; nothing where there is no memory to find out.
+std::optional<RepairTrial> affordable_trial(const MeshSource& source, bool keep_holes = false) {
+  try {
+    return try_repair(source, keep_holes);
+  } catch (const std::bad_alloc&) {
+    return std::nullopt;
+  }
+}
+
 MeshSource with_repairs(MeshSource source, RepairedMesh mended) {
   source.repairs = by_file_numbers(mended.actions, source);
   source.parts = by_file_numbers(mended.parts, source);
@@ -77,15 +86,6 @@ MeshSource with_repairs(MeshSource source, RepairedMesh mended) {
   source.topology = Topology::try_build(source.file.mesh.triangles,
                                         static_cast<int>(source.file.mesh.vertex_count()));
   return source;
-}
-
-/// Whether repair would help; nothing where there is no memory to find out.
-std::optional<RepairTrial> affordable_trial(const MeshSource& source) {
-  try {
-    return try_repair(source);
-  } catch (const std::bad_alloc&) {
-    return std::nullopt;
-  }
 }
 
 }  // namespace
@@ -117,14 +117,14 @@ MeshSource repaired(MeshSource source, const RepairOptions& options) {
   RepairedMesh result = repair_mesh(source.file.mesh, options);
   if (result.inspection.is_sphere()) return with_repairs(std::move(source), std::move(result));
   // Components are numbered as they are in the mesh that was given.
-  std::optional<RepairTrial> trial = affordable_trial(source);
+  std::optional<RepairTrial> trial = affordable_trial(source, options.keep_holes);
   source = with_repairs(std::move(source), std::move(result));
   throw MeshRefusal(source, std::move(trial));
 }
 
-RepairTrial try_repair(const MeshSource& source) {
+RepairTrial try_repair(const MeshSource& source, bool keep_holes) {
   constexpr double any_length = std::numeric_limits<double>::max();  // in diagonals
-  RepairOptions options;
+  RepairOptions options{.keep_holes = keep_holes};
   KeptParts parts;
   for (;;) {
     RepairedMesh mended = repair_mesh(source.file.mesh, options);

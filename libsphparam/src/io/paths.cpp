@@ -2,6 +2,7 @@
 
 #include "sphparam/io/paths.h"
 
+#include <algorithm>
 #include <filesystem>
 
 namespace sphparam {
@@ -42,6 +43,16 @@ std::string stem_of(const std::string& path) {
   name = name.stem();
   if (extension_of(name.string()) == ".sph") name = name.stem();
   return name.string();
+}
+
+std::string path_of_part(const std::string& path, int part) {
+  constexpr size_t digits = 4;
+  std::string number = std::to_string(part);
+  number.insert(0, digits - std::min(digits, number.size()), '0');
+  const std::string name = file_name(path), stem = stem_of(path);
+  return std::filesystem::path(path)
+      .replace_filename(stem + "_" + number + name.substr(stem.size()))
+      .string();
 }
 
 std::string level_path(const std::string& path, int level) {

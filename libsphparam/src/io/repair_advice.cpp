@@ -42,7 +42,8 @@ std::string choice_lines(const KeptParts& parts) {
   if (!parts.refused) return "";
   return "  --repair keeps one of " + std::to_string(parts.count) +
          " components, and drops no more than specks unasked. By area:\n" + part_lines(parts) +
-         "  --component N keeps the N-th, --min-kept " + reached_share(parts) + " the largest.\n";
+         "  --component N keeps the N-th, --min-kept " + reached_share(parts) +
+         " the largest, and\n  --all-components maps each into a file of its own.\n";
 }
 
 /// A name as a shell takes it.
@@ -66,9 +67,12 @@ std::string repair_advice(const RepairTrial& trial, const std::string& path) {
            message_lines(trial.remaining);
   }
   const std::string kept = kept_line(trial.parts);
+  const auto closes = [](const RepairAction& done) { return done.kind == RepairKind::HoleFilled; };
+  const bool fills = std::any_of(trial.actions.begin(), trial.actions.end(), closes);
   return choice + "  " + options + " would mend it, as in `sphparam map " + for_shell(path) + " " +
          options + " -o mended.sph.ply`:\n" + message_lines(trial.actions) +
-         handle_lines(trial.handles, "      ") + (kept.empty() ? "" : "    " + kept + "\n");
+         handle_lines(trial.handles, "      ") + (kept.empty() ? "" : "    " + kept + "\n") +
+         (fills ? "  With --keep-holes holes stay holes.\n" : "");
 }
 
 std::string repair_advice(const MeshRefusal& refusal) {

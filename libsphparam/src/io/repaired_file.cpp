@@ -1,7 +1,9 @@
 #include "io/repaired_file.h"
 
 #include <cmath>
-#include <numeric>
+
+#include "io/mesh_part.h"
+#include "sphparam/io/fillers.h"
 
 // Every table is gathered by the ids that the repair returned. The ids of the file are a property
 // like any other, added before where the file had none, so that they are gathered too.
@@ -11,12 +13,6 @@ namespace {
 
 constexpr const char* source_vertex = "source_vertex";
 constexpr const char* source_face = "source_face";
-
-Property ids(const std::string& name, Eigen::Index count) {
-  Property property{name, ScalarType::Int32, std::vector<double>(static_cast<std::size_t>(count))};
-  std::iota(property.values.begin(), property.values.end(), 0.0);
-  return property;
-}
 
 double mean_value(const Property& property, const std::vector<Vertex>& vertices) {
   double sum = 0;
@@ -58,17 +54,21 @@ void gather_corners(std::optional<Table>& table, const std::vector<int>& corner_
   table = std::move(gathered);
 }
 
+/// Those of before, and those of this repair. What closes a handle is surface.
+FillerMarks all_fillers(const MeshFile& gathered, const RepairedMesh& repaired) {
+  FillerMarks fillers = fillers_of(gathered);
+  if (fillers.empty()) return repaired.fillers;
+  for (std::size_t f = 0; f < fillers.size(); ++f) {
+    if (repaired.face_origin[f] < 0) fillers[f] = repaired.fillers[f];
+  }
+  return fillers;
+}
+
 }  // namespace
 
 MeshFile repaired_file(const MeshFile& file, const RepairedMesh& repaired) {
   if (repaired.actions.empty()) return file;
-  MeshFile result = file;
-  if (!file.find_vertex_property(source_vertex)) {
-    result.set_vertex_property(ids(source_vertex, file.mesh.vertex_count()));
-  }
-  if (!file.find_face_property(source_face)) {
-    result.set_face_property(ids(source_face, file.mesh.face_count()));
-  }
+  MeshFile result = with_numbers(file);
   // Whatever type the file gave them: it must hold −1.
   for (auto* properties : {&result.vertex_properties, &result.face_properties}) {
     for (Property& property : *properties) {
@@ -82,6 +82,7 @@ MeshFile repaired_file(const MeshFile& file, const RepairedMesh& repaired) {
   gather_corners(result.corner_texcoords, repaired.corner_origin);
   gather_corners(result.corner_normals, repaired.corner_origin);
   result.mesh = repaired.mesh;
+  if (!repaired.fillers.empty()) mark_fillers(result, all_fillers(result, repaired));
   return result;
 }
 

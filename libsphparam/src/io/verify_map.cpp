@@ -7,9 +7,11 @@
 
 #include "io/sphere_angles.h"
 #include "sphparam/io/connectivity.h"
+#include "sphparam/io/fillers.h"
 #include "sphparam/io/mesh_source.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/sphere_file.h"
+#include "sphparam/sphere/sphere_share.h"
 
 namespace sphparam {
 
@@ -53,6 +55,7 @@ VerifiedMap claim_of(MeshSource source) {
   if (!map && has_angles_only(source.file) && (map = read_angles(source.file)))
     claim.place = is_gltf(source.file) ? RayPlace::AnglesAttribute : RayPlace::Angles;
   claim.map = map ? std::move(*map) : SphereMap{source.file.mesh.positions};
+  claim.fillers = fillers_of(source.file);
   claim.mesh = std::move(source.file.mesh);
   claim.format = std::move(source.file.format);
   claim.notes = std::move(source.notes);
@@ -71,6 +74,7 @@ VerifiedMap claim_of(MeshSource shape, const MeshSource& sphere) {
   claim.of_two_files = true;
   claim.cut_otherwise = cut_otherwise(shape.file, sphere.file);
   claim.map = map ? std::move(*map) : SphereMap{sphere.file.mesh.positions};
+  claim.fillers = fillers_of(shape.file);
   claim.mesh = std::move(shape.file.mesh);
   claim.format = std::move(shape.file.format);
   claim.notes = std::move(shape.notes);
@@ -102,10 +106,13 @@ VerifiedMap verify_map(const std::string& path, const VerifyOptions& options) {
   verified.mean_length = radius.mean;
   verified.length_deviation = radius.deviation;
   const bool has_shape = verified.of_two_files || verified.place != RayPlace::Positions;
-  if (has_shape && verified.certificate.unusable_points.empty()) {
-    const SphereMap unit = normalised(verified.map.points);  // any radius is judged alike
-    verified.distortion =
-        summarise(measure_distortion(as_claimed, unit, options.threads), options.threads);
+  if (!verified.certificate.unusable_points.empty()) return verified;
+  const SphereMap unit = normalised(verified.map.points);  // any radius is judged alike
+  verified.filler_share = sphere_share(as_claimed.triangles, unit, verified.fillers);
+  if (has_shape) {
+    verified.distortion = summarise(
+        measure_distortion(surface_of(as_claimed, verified.fillers), unit, options.threads),
+        options.threads);
   }
   return verified;
 }

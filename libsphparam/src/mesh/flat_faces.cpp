@@ -8,7 +8,7 @@
 // A flat face with two vertices at one place loses the edge between them, if the surface stays what
 // it is. Any other has a vertex on its longest edge; that edge is turned about to end there, if
 // this leaves fewer flat faces and folds nothing. Positions never change. What neither helps stays:
-// the map does not mind.
+// the map does not mind. Fillers may be as flat as they like.
 
 namespace sphparam {
 namespace {
@@ -24,7 +24,8 @@ class FlatFaceMender {
     for (int round = 0; round < most_rounds; ++round) {
       bool any = false;
       for (Face f = 0; f < state_.face_count(); ++f) {
-        if (faces_.is_alive(f) && is_flat_face(f) && (collapse(f) || turn(f))) any = true;
+        if (faces_.is_alive(f) && !state_.fillers[f] && is_flat_face(f) && (collapse(f) || turn(f)))
+          any = true;
       }
       if (!any) break;
     }
@@ -57,6 +58,7 @@ class FlatFaceMender {
     }
     if (!faces_.can_turn(longest)) return false;
     const Halfedge other = faces_.twin(longest);
+    if (state_.fillers[other / 3]) return false;
     const Vector3 &a = origin(longest), &b = origin(other), &c = point(faces_.apex(longest)),
                   &d = point(faces_.apex(other));
     const Vector3 normal = (b - a).cross(c - a) + (a - b).cross(d - b);
@@ -78,8 +80,9 @@ class FlatFaceMender {
 };
 
 bool has_flat_face(const RepairState& state) {
-  for (const auto& [a, b, c] : state.faces) {
-    if (is_flat(state.shape[a], state.shape[b], state.shape[c])) return true;
+  for (Face f = 0; f < state.face_count(); ++f) {
+    const auto& [a, b, c] = state.faces[f];
+    if (!state.fillers[f] && is_flat(state.shape[a], state.shape[b], state.shape[c])) return true;
   }
   return false;
 }

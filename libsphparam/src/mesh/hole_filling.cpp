@@ -156,7 +156,7 @@ void fill_rim(RepairState& state, EdgeKeys& edges, const Rim& rim, bool apart) {
   HoleFiller(state, edges, rim).fill(apart);
 }
 
-void fill_holes(RepairState& state, int largest_hole) {
+void fill_holes(RepairState& state, const RepairOptions& options) {
   const std::vector<FaceSide> sides = sorted_sides(state.triangles(), [](Face) { return true; });
   const std::vector<Halfedge> into = boundary_into(state, sides);
   EdgeKeys edges;
@@ -168,7 +168,12 @@ void fill_holes(RepairState& state, int largest_hole) {
   for (Vertex v = 0; v < vertices; ++v) {
     if (into[v] < 0 || seen[v]) continue;
     const Rim rim = walk(state, into, v, seen);
-    if (rim.size() > static_cast<size_t>(largest_hole)) {
+    if (options.keep_holes && rim.size() >= 3) {
+      close_by_rings(state, rim, true);
+      state.log(RepairKind::HoleKept, {state.vertex_origin[v]});
+      continue;
+    }
+    if (rim.size() > static_cast<size_t>(options.largest_hole)) {
       state.largest_hole_left = std::max(state.largest_hole_left, static_cast<long>(rim.size()));
       continue;
     }

@@ -17,7 +17,7 @@ constexpr int most_rounds = 5;
 
 bool turn_outward(RepairState& state, const MeshInspection& inspection) {
   const auto inside_out = [](const MeshDefect& d) { return d.kind == DefectKind::InsideOut; };
-  if (!inspection.is_sphere() ||
+  if (!inspection.is_sphere() || state.has_fillers() ||
       std::none_of(inspection.defects.begin(), inspection.defects.end(), inside_out)) {
     return false;
   }
@@ -61,7 +61,7 @@ void run_round(RepairState& state, const RepairOptions& options, bool first) {
   if (options.non_manifold && !closed) split_non_manifold(state);
   if (options.components) choose_component(state, options, first);
   if (closed) state.largest_hole_left = 0;
-  if (options.holes && !closed) fill_holes(state, options.largest_hole);
+  if (options.holes && !closed) fill_holes(state, options);
   if (options.handles) remove_handles(state, options);
   if (options.flat_faces) mend_flat_faces(state);
   if (options.unused) drop_unused(state);
@@ -84,6 +84,7 @@ RepairedMesh as_result(RepairState&& state, MeshInspection inspection) {
   result.handles = std::move(state.handles);
   result.shortest_handle_left = state.shortest_handle_left;
   result.largest_hole_left = state.largest_hole_left;
+  if (state.has_fillers()) result.fillers = std::move(state.fillers);
   result.inspection = std::move(inspection);
   for (const auto& corners : state.corner_origin) {
     result.corner_origin.insert(result.corner_origin.end(), corners.begin(), corners.end());
@@ -103,7 +104,7 @@ RepairedMesh repair_mesh(const TriangleMesh& mesh, const RepairOptions& options)
   require_at_least("component", options.component, 0);
   require_between("least_kept", options.least_kept, 0, 1);
   require_at_least("largest_hole", options.largest_hole, 3);
-  require_one_of("handle_choice", options.handle_choice, HandleChoice::Fill);
+  require_one_of("handle_choice", options.handle_choice, HandleChoice::Area);
   require_at_least("longest_handle", options.longest_handle, 0);
   require_at_least("longest_handle_length", options.longest_handle_length, 0);
   require_at_least("weld_share", options.weld_share, -1);

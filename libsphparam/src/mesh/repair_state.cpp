@@ -52,6 +52,7 @@ RepairState::RepairState(const TriangleMesh& mesh) {
     face_origin.push_back(f);
     corner_origin.push_back({3 * f, 3 * f + 1, 3 * f + 2});
   }
+  fillers.assign(faces.size(), 0);
 }
 
 void RepairState::log(RepairKind kind, std::initializer_list<int> input_ids) {
@@ -100,6 +101,7 @@ void RepairState::add_face(const std::array<Vertex, 3>& vertices,
   faces.push_back(vertices);
   face_origin.push_back(-1);
   corner_origin.push_back(corners_like);
+  fillers.push_back(0);
 }
 
 void RepairState::turn_over(Face f) {
@@ -111,6 +113,11 @@ void RepairState::keep_faces(const std::vector<char>& kept) {
   keep(faces, kept);
   keep(face_origin, kept);
   keep(corner_origin, kept);
+  keep(fillers, kept);
+}
+
+bool RepairState::has_fillers() const {
+  return std::find(fillers.begin(), fillers.end(), 1) != fillers.end();
 }
 
 void RepairState::keep_vertices(const std::vector<char>& kept) {

@@ -18,6 +18,7 @@ struct RepairState {
   std::vector<Vertex> vertex_origin;
   std::vector<Face> face_origin;
   std::vector<std::array<int, 3>> corner_origin;
+  FillerMarks fillers;                       // #F: of holes that are kept
   std::vector<std::vector<Vertex>> mean_of;  // #V: of created vertices, else empty
   std::vector<RepairAction> actions;         // one a kind
   KeptParts parts;
@@ -42,6 +43,7 @@ struct RepairState {
   void turn_over(Face f);
   void keep_faces(const std::vector<char>& kept);
   void keep_vertices(const std::vector<char>& kept);  // no face names the others
+  bool has_fillers() const;
   void drop_unused_vertices();
   void measure();  // `shape` and `scale`, of the positions there are
 
@@ -57,7 +59,7 @@ void close_cracks(RepairState& state, const RepairOptions& options);
 void orient_alike(RepairState& state);
 void split_non_manifold(RepairState& state);
 void keep_component(RepairState& state, int rank, double least_kept);
-void fill_holes(RepairState& state, int largest_hole);
+void fill_holes(RepairState& state, const RepairOptions& options);
 void remove_handles(RepairState& state, const RepairOptions& options);
 void mend_flat_faces(RepairState& state);
 

@@ -44,6 +44,9 @@ std::pair<std::string, const char*> words(RepairKind kind, long n) {
       return {counted(n, "component", "components") + " dropped", "with vertices"};
     case RepairKind::HoleFilled:
       return {counted(n, "hole", "holes") + " filled", "at vertices"};
+    case RepairKind::HoleKept:
+      return {counted(n, "hole", "holes") + " kept: closed by fillers, which are no surface",
+              "at vertices"};
     case RepairKind::HandleCut:
       return {counted(n, "handle", "handles") + " cut through and both ends closed", "at vertices"};
     case RepairKind::HandleFilled:
@@ -76,6 +79,7 @@ RepairPlace place_of(RepairKind kind) {
     case RepairKind::VertexSplit:
     case RepairKind::ComponentDropped:
     case RepairKind::HoleFilled:
+    case RepairKind::HoleKept:
     case RepairKind::HandleCut:
     case RepairKind::HandleFilled:
     case RepairKind::FlatFaceCollapsed:

@@ -37,4 +37,9 @@ class EdgeKeys {
 /// Requires: at least three vertices. Cost: O(n log n).
 void fill_rim(RepairState& state, EdgeKeys& edges, const Rim& rim, bool apart);
 
+/// Closes a hole by faces that are marked as fillers, or not: rings of created vertices, each with
+/// half as many as the one before, and one in the middle. No edge of it is there already, whatever
+/// surrounds the hole. Requires: at least three vertices. Cost: O(n); no more than 4 n faces.
+void close_by_rings(RepairState& state, const Rim& rim, bool as_fillers);
+
 }  // namespace sphparam

@@ -8,7 +8,9 @@
 
 #include "embedding/constructions/progressive.h"
 #include "embedding/newton/optimise.h"
+#include "embedding/newton/pressed_fillers.h"
 #include "sphparam/sphere/distortion.h"
+#include "sphparam/sphere/sphere_share.h"
 
 // The embedding's own sweeps and steps serve λ near 1; from there on λ goes step by step.
 
@@ -34,24 +36,40 @@ std::vector<Vertex> vertices_of(const std::vector<Pin>& pins) {
   return vertices;
 }
 
+double least_gain_of(Quality quality) {
+  return quality == Quality::Draft ? 1e-2 : quality == Quality::Normal ? 1e-3 : 1e-6;
+}
+
 SphereMap balance(MapInProgress& work, const SphereMap& map, double from_lambda,
                   const std::vector<Pin>& pins) {
-  const double least_gain = work.options.quality == Quality::Draft    ? 1e-2
-                            : work.options.quality == Quality::Normal ? 1e-3
-                                                                      : 1e-6;
-  BalancedMap result = optimise_balance(work.topology, work.source(), map,
-                                        {.balance = work.options.balance,
-                                         .from_lambda = from_lambda,
-                                         .optimise = {.energy = work.options.energy,
-                                                      .least_gain = least_gain,
-                                                      .pinned = vertices_of(pins),
-                                                      .threads = work.options.threads,
-                                                      .progress = work.options.progress}});
+  BalancedMap result =
+      optimise_balance(work.topology, work.source(), map,
+                       {.balance = work.options.balance,
+                        .from_lambda = from_lambda,
+                        .optimise = {.energy = work.options.energy,
+                                     .least_gain = least_gain_of(work.options.quality),
+                                     .pinned = vertices_of(pins),
+                                     .threads = work.options.threads,
+                                     .progress = work.options.progress}});
   work.energy.lambda = result.lambda;
   const bool moved = result.report.steps > 0 && result.lambda != from_lambda;
   work.result.balance = {moved ? result.lambda : from_lambda, result.area_error, moved};
   work.record("balance", result.map);
   return std::move(result.map);
+}
+
+/// Fillers take no more of the sphere than they may.
+SphereMap press(MapInProgress& work, SphereMap map, const std::vector<Pin>& pins) {
+  PressedMap pressed = press_fillers(work.topology, measure_source(work.mesh, work.options.threads),
+                                     map, work.options.filler_share,
+                                     {.energy = work.energy,
+                                      .least_gain = least_gain_of(work.options.quality),
+                                      .pinned = vertices_of(pins),
+                                      .pressed = work.options.fillers,
+                                      .threads = work.options.threads,
+                                      .progress = work.options.progress});
+  if (pressed.pressure > 0) work.record("fillers pressed", pressed.map);
+  return std::move(pressed.map);
 }
 
 /// Three digits, as people read.
@@ -71,8 +89,8 @@ void warn_of_balance(MapInProgress& work) {
   if (!balance) {
     return work.warn(name + ": the map is not balanced: it was made by the " + work.result.made_by);
   }
-  const Distortion distortion =
-      measure_distortion(work.mesh, work.result.map, work.options.threads);
+  const Distortion distortion = measure_distortion(surface_of(work.mesh, work.options.fillers),
+                                                   work.result.map, work.options.threads);
   const DistortionSummary summary = summarise(distortion, work.options.threads);
   balance->area_error = summary.weighted_abs_log2_area;
   const bool even = balance->area_error <= BalanceOptions{}.area_error;
@@ -96,6 +114,15 @@ void warn_of_gap(MapInProgress& work) {
                          "they need be");
 }
 
+void tell_filler_share(MapInProgress& work) {
+  if (work.options.fillers.empty()) return;
+  const double share = sphere_share(work.mesh.triangles, work.result.map, work.options.fillers);
+  work.result.filler_share = share;
+  if (share <= work.options.filler_share) return;
+  work.warn("fillers take " + figure(100 * share) + " % of the sphere, more than the " +
+            figure(100 * work.options.filler_share) + " % that they may");
+}
+
 bool embed(MapInProgress& work, const std::vector<Pin>& pins) {
   work.tried_to_embed = true;
   DistortionEnergy energy = work.options.energy;
@@ -112,8 +139,10 @@ bool embed(MapInProgress& work, const std::vector<Pin>& pins) {
   if (!embedding.map) return false;
   work.record(pins.empty() ? "progressive embedding" : "pinned embedding", *embedding.map);
   if (balanced) *embedding.map = balance(work, *embedding.map, energy.lambda, pins);
+  const bool pressed = !work.options.fillers.empty();
+  if (pressed) *embedding.map = press(work, std::move(*embedding.map), pins);
   work.accept(balanced ? balanced_map : "progressive embedding", std::move(*embedding.map));
-  if (!balanced) work.result.energy_gap = embedding.report.energy_left;
+  if (!balanced && !pressed) work.result.energy_gap = embedding.report.energy_left;
   return true;
 }
 

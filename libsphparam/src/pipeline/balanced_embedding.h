@@ -20,4 +20,8 @@ void warn_of_balance(MapInProgress& work);
 /// Warns where steps have left more of the energy than `greatest_energy_gap`.
 void warn_of_gap(MapInProgress& work);
 
+/// `work.result.filler_share` is that of the finished map; warns where it is more than was asked
+/// for.
+void tell_filler_share(MapInProgress& work);
+
 }  // namespace sphparam

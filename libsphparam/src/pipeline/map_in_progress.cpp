@@ -57,7 +57,8 @@ long MapInProgress::count_folds(const SphereMap& map) const {
 
 std::optional<DistortionSummary> MapInProgress::measured(const SphereMap& map) const {
   if (!options.measure_stages) return std::nullopt;
-  return summarise(measure_distortion(mesh, map, options.threads), options.threads);
+  const TriangleMesh surface = surface_of(mesh, options.fillers);
+  return summarise(measure_distortion(surface, map, options.threads), options.threads);
 }
 
 }  // namespace sphparam

@@ -1,5 +1,6 @@
 #include "pipeline/required_options.h"
 
+#include <algorithm>
 #include <array>
 #include <numbers>
 #include <set>
@@ -85,6 +86,20 @@ void require_frame(const TriangleMesh& mesh, const ParameterizeOptions& options)
   require_pins(mesh, options);
 }
 
+void require_fillers(const TriangleMesh& mesh, const ParameterizeOptions& options) {
+  require_more_than("filler_share", options.filler_share, 0);
+  require_between("filler_share", options.filler_share, 0, 1);
+  const FillerMarks& fillers = options.fillers;
+  if (fillers.empty()) return;
+  if (std::ssize(fillers) != mesh.face_count()) {
+    throw std::invalid_argument("fillers: " + std::to_string(fillers.size()) + " marks of " +
+                                std::to_string(mesh.face_count()) + " triangles");
+  }
+  if (std::find(fillers.begin(), fillers.end(), 0) == fillers.end()) {
+    throw std::invalid_argument("fillers: every triangle is marked, there is no surface");
+  }
+}
+
 }  // namespace
 
 void require_domain(const TriangleMesh& mesh, const ParameterizeOptions& options) {
@@ -95,6 +110,7 @@ void require_domain(const TriangleMesh& mesh, const ParameterizeOptions& options
   require_paper(options.paper);
   require_energy(options);
   require_frame(mesh, options);
+  require_fillers(mesh, options);
 }
 
 }  // namespace sphparam

@@ -50,6 +50,7 @@ Json handles_json(const std::vector<HandleLoop>& loops) {
                       {"diagonals", loop.share},
                       {"centre", vector_json(loop.centre)},
                       {"area_added", loop.area_added},
+                      {"crossings", loop.crossings},
                       {"vertices", loop.vertices}});
   }
   return result;

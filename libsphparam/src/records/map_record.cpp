@@ -55,7 +55,7 @@ Json lambda_json(const MapRecord& record) {
   return record.result.balance ? record.result.balance->lambda : options.energy.lambda;
 }
 
-Json energy_gap_json(const std::optional<double>& gap) { return gap ? Json(*gap) : Json(); }
+Json optional_json(const std::optional<double>& number) { return number ? Json(*number) : Json(); }
 
 Json balance_json(const std::optional<BalanceRecord>& balance) {
   if (!balance) return nullptr;
@@ -149,8 +149,9 @@ std::string to_json(const MapRecord& record) {
                   {"pole_residuals", pole_residuals_json(record.pole_residuals)},
                   {"pins", pins_json(record)},
                   {"lambda", lambda_json(record)},
+                  {"filler_share", optional_json(record.result.filler_share)},
                   {"balance", balance_json(record.result.balance)},
-                  {"energy_gap", energy_gap_json(record.result.energy_gap)},
+                  {"energy_gap", optional_json(record.result.energy_gap)},
                   {"energy_cost", record.result.pole_cost},
                   {"certificate", certificate_json(record.result.certificate)},
                   {"distortion", distortion_json(record.distortion)},

@@ -1,12 +1,13 @@
 #include "sphparam/records/verification_record.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "number_text.h"
 #include "records/json_parts.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/version.h"
 #include "sphparam/words.h"
-#include "number_text.h"
 
 namespace sphparam {
 
@@ -36,6 +37,16 @@ std::string rays_of(const VerifiedMap& map) {
   return words;
 }
 
+std::string filler_count(const VerifiedMap& map) {
+  return std::to_string(std::count(map.fillers.begin(), map.fillers.end(), 1));
+}
+
+Json fillers_json(const VerifiedMap& map) {
+  if (map.fillers.empty()) return nullptr;
+  return {{"triangles", std::count(map.fillers.begin(), map.fillers.end(), 1)},
+          {"share", map.filler_share}};
+}
+
 }  // namespace
 
 std::string roundness_warning(const VerifiedMap& map) {
@@ -60,6 +71,7 @@ std::string to_json(const VerificationRecord& record) {
                   {"mean_length", map.mean_length},
                   {"length_deviation", map.length_deviation},
                   {"certificate", certificate_json(map.certificate)},
+                  {"fillers", fillers_json(map)},
                   {"distortion", distortion_json(map.distortion)},
                   {"chart", chart_json(record.chart)},
                   {"notes", notes},
@@ -74,6 +86,10 @@ std::string to_text(const VerificationRecord& record) {
   text += complaint(map.certificate);
   text += "  rays: " + rays_of(map) + ", mean length " + short_number(map.mean_length) +
           ", largest relative deviation " + short_number(map.length_deviation) + "\n";
+  if (!map.fillers.empty()) {
+    text += "  fillers, proved with the rest: " + filler_count(map) + " triangles, " +
+            percent(map.filler_share) + " of the sphere\n";
+  }
   if (map.distortion) text += "  " + distortion_line(*map.distortion) + "\n";
   if (record.chart_wanted) text += "  " + chart_line(record.chart) + "\n";
   return text;

@@ -35,8 +35,11 @@ LevelOfDetail make_level(const MappedMesh& source, SphereGrid grid, const LevelO
 }
 
 void measure(LevelOfDetail& level, const MappedMesh& source, const LevelOptions& options) {
+  // A fit has no holes.
+  const TriangleMesh& from = level.fit ? source.mesh() : source.surface();
+  const TriangleMesh shown = level.fit ? shown_mesh(level, options.threads) : level.mesh.surface();
   const SurfaceDistance distance =
-      distance_on_grid(source.mesh(), shown_mesh(level, options.threads), level.mesh.name(),
+      distance_on_grid(from, shown, level.mesh.name(),
                        {.samples = distance_samples(level.mesh.faces()),
                         .threads = options.threads,
                         .progress = options.progress});

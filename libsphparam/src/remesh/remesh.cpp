@@ -14,6 +14,7 @@
 #include "remesh/resampling.h"
 #include "remesh/seams.h"
 #include "remesh/wanted_values.h"
+#include "sphparam/io/fillers.h"
 #include "sphparam/parallel.h"
 #include "sphparam/remesh/adaptation.h"
 #include "sphparam/sphere/sphere_locator.h"
@@ -131,7 +132,7 @@ class Transfer {
     const bool normal = source_.corner_normals && wanted_.corner_normals();
     const bool any_property =
         std::any_of(source_.face_properties.begin(), source_.face_properties.end(),
-                    [&](const Property& property) { return wanted_.property(property.name); });
+                    [&](const Property& property) { return carries(property); });
     if (!uv && !normal && !any_property) return;
     const Points directions = middles(grid_);
     const auto places = locate(locator_, directions, "locate faces", options_);
@@ -161,6 +162,11 @@ class Transfer {
   double locate_seconds = 0;
 
  private:
+  /// Of faces; what marks fillers is no matter of choice.
+  bool carries(const Property& property) const {
+    return property.name == filler_property || wanted_.property(property.name);
+  }
+
   Resampling resampling() const {
     return {source_.mesh.triangles, points_, cells_, options_.threads};
   }
@@ -186,7 +192,7 @@ class Transfer {
   void face_properties(MeshFile& file, const std::vector<SurfacePoint>& places,
                        const Triangulation& cut) const {
     for (const Property& property : source_.face_properties) {
-      if (!wanted_.property(property.name)) continue;
+      if (!carries(property) || property.name == filler_property) continue;
       std::vector<double> values(static_cast<size_t>(cut.triangles.rows()));
       for (size_t t = 0; t < values.size(); ++t) {
         const auto polygon = static_cast<size_t>(cut.polygon_of(static_cast<std::int64_t>(t)));
@@ -195,6 +201,42 @@ class Transfer {
       file.set_face_property({property.name, property.type, std::move(values)});
       if (property.name == "material") file.materials = source_.materials;
     }
+    mark_fillers(file, fillers_on_grid(cut));
+  }
+
+  /// Faces of which some point that is looked at lies on a filler: corners, and three a side. One
+  /// that reaches over a boundary, or across a slit, would be no surface.
+  FillerMarks fillers_on_grid(const Triangulation& cut) const {
+    const FillerMarks fillers = fillers_of(source_);
+    if (fillers.empty()) return {};
+    constexpr int looks = 4;  // a side, from its first corner
+    const Polygons& faces = grid_.faces;
+    Points directions(looks * std::ssize(faces.corners), 3);
+    Eigen::Index row = 0;
+    for (std::int64_t f = 0; f < faces.count(); ++f) {
+      const auto corners = faces.polygon(f);
+      for (size_t k = 0; k < corners.size(); ++k) {
+        const auto from = grid_.directions.row(corners[k]);
+        const auto to = grid_.directions.row(corners[(k + 1) % corners.size()]);
+        for (int i = 0; i < looks; ++i) {
+          const double along = static_cast<double>(i) / looks;
+          directions.row(row++) = ((1 - along) * from + along * to).normalized();
+        }
+      }
+    }
+    const auto places = locate(locator_, directions, "locate holes", options_);
+    const auto on_filler = [&](int corner) {
+      const auto first = places.begin() + std::ptrdiff_t{looks} * corner;
+      return std::any_of(first, first + looks, [&](const SurfacePoint& place) {
+        return fillers[static_cast<size_t>(place.face)] != 0;
+      });
+    };
+    FillerMarks marks(static_cast<size_t>(cut.triangles.rows()), 0);
+    for (size_t t = 0; t < marks.size(); ++t) {
+      const auto p = static_cast<size_t>(cut.polygon_of(static_cast<std::int64_t>(t)));
+      for (int i = faces.starts[p]; i < faces.starts[p + 1]; ++i) marks[t] |= on_filler(i);
+    }
+    return marks;
   }
 
   template <class Table>

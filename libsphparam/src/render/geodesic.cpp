@@ -183,7 +183,12 @@ RenderObject on_sphere(const RenderObject& object, const Points& rays) {
   sphere.paint = refined_paint(object.paint, refinement, sphere.mesh.positions);
   if (sphere.graticule) sphere.graticule->rays = sphere.mesh.positions;
   if (sphere.wireframe) {
-    for (const Piece& piece : pieces) sphere.wireframe->hidden_sides.push_back(piece.inner);
+    const std::vector<std::uint8_t> hidden = std::move(sphere.wireframe->hidden_sides);
+    sphere.wireframe->hidden_sides.clear();
+    for (const Piece& piece : pieces) {
+      const unsigned before = hidden.empty() ? 0U : hidden[static_cast<size_t>(piece.source)];
+      sphere.wireframe->hidden_sides.push_back(static_cast<std::uint8_t>(piece.inner | before));
+    }
   }
   return sphere;
 }

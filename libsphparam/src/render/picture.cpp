@@ -6,6 +6,7 @@
 
 #include "image/image_codec.h"
 #include "io/attributes/shading_normals.h"
+#include "render/added_outline.h"
 #include "render/drawing_size.h"
 #include "render/figure.h"
 #include "render/geodesic.h"
@@ -13,6 +14,7 @@
 #include "render/own_paint.h"
 #include "render/render.h"
 #include "sphparam/io/file_numbers.h"
+#include "sphparam/io/fillers.h"
 #include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/paths.h"
@@ -54,10 +56,34 @@ SphereMap directions_of(const MeshSource& source, const std::string& sphere,
 
 enum class Shape { Mesh, Sphere };
 
+/// What is drawn of a mesh with fillers: its surface. On the sphere fillers have a colour of their
+/// own, so that nobody looks inside.
+struct Shown {
+  MeshFile file;
+  std::optional<SphereMap> map;
+  std::optional<TriangleMesh> fillers;  // on the sphere
+};
+
+Shown shown_surface(const MeshFile& file, const std::optional<SphereMap>& map,
+                    const FillerMarks& fillers) {
+  if (!map) return {without_fillers(file), std::nullopt, std::nullopt};
+  Shown shown{without_fillers(attach_map(file, *map, {})), std::nullopt, std::nullopt};
+  shown.map = read_sphere(shown.file);
+  FillerMarks surface;
+  for (const unsigned char mark : fillers) surface.push_back(mark ? 0 : 1);
+  shown.fillers = surface_of({normalised(map->points).points, file.mesh.triangles}, surface);
+  return shown;
+}
+
 class Drawing {
  public:
-  Drawing(const MeshFile& file, const std::optional<SphereMap>& map, const DrawingOptions& options)
-      : file_(file), map_(map), options_(options), up_(options.up.value_or(up_axis(file))) {}
+  Drawing(const MeshFile& file, const std::optional<SphereMap>& map, const DrawingOptions& options,
+          const TriangleMesh* fillers)
+      : file_(file),
+        map_(map),
+        options_(options),
+        fillers_(fillers),
+        up_(options.up.value_or(up_axis(file))) {}
 
   Image image() const {
     const Paint paint = make_paint();
@@ -91,16 +117,30 @@ class Drawing {
   }
 
   Image draw(Shape shape, const Paint& paint) const {
-    RenderObject object = {.mesh = file_.mesh, .normals = shading_normals(file_), .paint = paint};
-    object.occlusion = options_.occlusion;
-    if (options_.wireframe) object.wireframe = Wireframe{};
-    if (options_.graticule) object.graticule = Graticule{.rays = map_.value().points};
-    if (shape == Shape::Sphere) object = on_sphere(object, normalised(map_.value().points).points);
-    return render({.objects = {object},
-                   .camera = framing(shape, object.mesh.positions),
+    std::vector<RenderObject> objects = {drawn(shape, paint)};
+    const Camera camera = framing(shape, objects.front().mesh.positions);
+    if (shape == Shape::Sphere && fillers_) objects.push_back(filler_object());
+    return render({.objects = std::move(objects),
+                   .camera = camera,
                    .width = options_.size,
                    .height = options_.size},
                   options_.threads);
+  }
+
+  RenderObject filler_object() const {
+    return {.mesh = *fillers_,
+            .normals = fillers_->positions,
+            .paint = UniformPaint{{0.30F, 0.30F, 0.32F}}};
+  }
+
+  RenderObject drawn(Shape shape, const Paint& paint) const {
+    RenderObject object = {.mesh = file_.mesh, .normals = shading_normals(file_), .paint = paint};
+    object.occlusion = options_.occlusion;
+    if (options_.wireframe) object.wireframe = Wireframe{};
+    if (options_.repairs) object.wireframe = added_outline(file_);
+    if (options_.graticule) object.graticule = Graticule{.rays = map_.value().points};
+    if (shape == Shape::Sphere) object = on_sphere(object, normalised(map_.value().points).points);
+    return object;
   }
 
   /// Looks at the middle of what is seen from there, all of it in the picture. North is up on the
@@ -129,6 +169,7 @@ class Drawing {
   const MeshFile& file_;
   const std::optional<SphereMap>& map_;
   const DrawingOptions& options_;
+  const TriangleMesh* const fillers_;  // on the sphere; null: there are none
   const Up up_;
 };
 
@@ -161,7 +202,13 @@ bool draws_without_map(const DrawingOptions& options) {
 std::string draw_png(const MeshFile& file, const std::optional<SphereMap>& map,
                      const DrawingOptions& options) {
   if (!map && !draws_without_map(options)) throw std::invalid_argument("this needs a map");
-  const Image image = Drawing(file, map, options).image();
+  const FillerMarks fillers = fillers_of(file);
+  std::optional<Shown> shown;
+  if (!fillers.empty()) shown = shown_surface(file, map, fillers);
+  const Image image =
+      shown ? Drawing(shown->file, shown->map, options, shown->fillers ? &*shown->fillers : nullptr)
+                  .image()
+            : Drawing(file, map, options, nullptr).image();
   const std::vector<char> png = encode_image(image, ImageFormat::Png);
   return {png.begin(), png.end()};
 }

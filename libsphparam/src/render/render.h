@@ -66,6 +66,7 @@ struct Wireframe {
   float opacity = 0.6F;
   Rgb colour{0.10F, 0.12F, 0.16F};
   std::vector<std::uint8_t> hidden_sides = {};  // #F, bit k: not the side that faces corner k
+  bool fades = true;                            // where triangles are of a few pixels
 };
 
 enum class Shading { Smooth, Flat };

@@ -166,7 +166,9 @@ Rgb SurfaceColour::with_wireframe(const ShadedSample& sample, const Rgb& below) 
   }
   if (distance > wireframe.width / 2) return below;
   // Edges of triangles of a few pixels fade away, or the surface would be black.
-  const double fade = std::clamp(sample.altitude.minCoeff() / (6 * wireframe.width), 0.0, 1.0);
+  const double fade = wireframe.fades
+                          ? std::clamp(sample.altitude.minCoeff() / (6 * wireframe.width), 0.0, 1.0)
+                          : 1.0;
   return below +
          wireframe.opacity * static_cast<float>(fade) * (to_linear(wireframe.colour) - below);
 }

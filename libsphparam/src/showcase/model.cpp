@@ -6,8 +6,10 @@
 #include "compare/pictures.h"
 #include "embedding/frame/landmarks.h"
 #include "gltf/chart_surface.h"
+#include "gltf/fillers_left_out.h"
 #include "render/drawing_size.h"
 #include "sphparam/gltf/gltf_writer.h"
+#include "sphparam/io/fillers.h"
 
 // A map is free to turn its sphere; for the eye it is turned back, so that head stays head and the
 // morph is short.
@@ -42,6 +44,7 @@ std::string showcase_model(const std::string& name, const MeshFile& file,
   const Shape sphere =
       placed(turned_like(mesh, middle, sphere_shape(chart, threads)), radius, middle);
   Surface surface = chart_surface(chart, mesh, {{"sphere", sphere}}, file, {});
+  leave_out(surface, fillers_of_chart(chart, fillers_of(file)));
   Asset asset{
       .name = name, .levels = {std::move(surface)}, .images = {}, .materials = {}, .extras = {}};
   for (const PaintedSurface& paint : surfaces) {

@@ -4,8 +4,10 @@
 #include <utility>
 
 #include "bake/make_scene.h"
+#include "sphparam/io/fillers.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/names.h"
+#include "sphparam/sphere/sphere_share.h"
 #include "sphparam/version.h"
 
 namespace sphparam {
@@ -28,8 +30,16 @@ std::string new_name(const std::string& path, const std::vector<PageEntry>& entr
   return name;
 }
 
-PageEntry mapped_now(const std::string& name, const MeshFile& file,
-                     const ParameterizeOptions& options) {
+/// Figures of the surface alone.
+void measure_surface(Entry& entry, const MeshFile& file, int threads) {
+  const FillerMarks fillers = fillers_of(file);
+  if (fillers.empty() || !entry.distortion) return;
+  entry.distortion = measure_distortion(surface_of(file.mesh, fillers), entry.map, threads);
+  entry.figures = summarise(*entry.distortion, threads);
+}
+
+PageEntry mapped_now(const std::string& name, const MeshFile& file, ParameterizeOptions options) {
+  options.fillers = fillers_of(file);
   Entry entry = entry_of_method(options.method, file.mesh, options);
   Provenance lines = {{"version", version},
                       {"method", entry.name},
@@ -42,11 +52,17 @@ PageEntry mapped_now(const std::string& name, const MeshFile& file,
 }  // namespace
 
 PageEntry make_page_entry(Entry entry, Provenance provenance, const MeshFile& file, int threads) {
+  measure_surface(entry, file, threads);
   PageEntry page_entry{std::move(entry), std::move(provenance), std::nullopt};
   if (!page_entry.entry.certificate.bijective()) return page_entry;
   // What comes from elsewhere may have rays of other lengths; made unit they are other rays.
   const Topology topology(file.mesh);
   if (!certify(topology, page_entry.entry.map, threads).bijective()) return page_entry;
+  const FillerMarks fillers = fillers_of(file);
+  if (!fillers.empty()) {
+    const SphereMap rays = normalised(page_entry.entry.map.points);
+    page_entry.filler_share = sphere_share(file.mesh.triangles, rays, fillers);
+  }
   page_entry.target = make_target(file, topology, page_entry.entry.map, true, threads);
   return page_entry;
 }

@@ -19,6 +19,7 @@ struct PageEntry {
   Entry entry;
   Provenance provenance;             // of the file, or of the map that was made here
   std::optional<BakeTarget> target;  // the chart of a map that is one-to-one
+  std::optional<double> filler_share = std::nullopt;  // of the sphere, of a mesh with fillers
 
   const SphericalChart* chart() const { return target ? &target->chart : nullptr; }
 };

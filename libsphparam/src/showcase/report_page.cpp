@@ -7,6 +7,7 @@
 #include "gltf/painted_surfaces.h"
 #include "io/attributes/shading_normals.h"
 #include "io/uri.h"
+#include "render/added_outline.h"
 #include "render/heat.h"
 #include "report/plots.h"
 #include "report/svg.h"
@@ -14,6 +15,8 @@
 #include "showcase/model.h"
 #include "showcase/tables.h"
 #include "sphparam/errors.h"
+#include "sphparam/io/fillers.h"
+#include "sphparam/render/picture.h"
 
 // What is largest comes first on the page and last to be thought of: models and images are made map
 // by map, each from one baked scene; then the page is written from top to bottom.
@@ -41,6 +44,7 @@ class Reporter {
     page.add_style(embedded::report_page_css);
     lead(page);
     views(page);
+    repairs(page);
     charts(page);
     tables(page);
     provenance(page);
@@ -109,6 +113,27 @@ class Reporter {
             noun + " distortion of " + c.name + " over the whole sphere: mean |ln ratio| " +
                 significant(mean),
             (many() ? c.name + ": " : "") + noun + " distortion"};
+  }
+
+  /// Where repair has closed the surface, if it has.
+  void repairs(Page& page) {
+    const MeshFile surface = without_fillers(file_);
+    if (!added_outline(surface)) return;
+    page.heading("What repair has closed");
+    page.paragraph(
+        "Loops along which handles were cut, and rims of holes that were filled, in red.");
+    const std::string picture =
+        draw_png(surface, std::nullopt,
+                 {.view = View::Mesh,
+                  .colouring = Colouring::Plain,
+                  .from = options_.look.view,
+                  .up = options_.look.up == Vector3::UnitY() ? Up::Y : Up::Z,
+                  .repairs = true,
+                  .size = options_.look.size,
+                  .threads = options_.threads});
+    page.figures({{data_uri("image/png", picture), "The mesh with what repair has closed outlined",
+                   "The mesh"}},
+                 panel_width);
   }
 
   std::string mesh_png() const {

@@ -81,14 +81,21 @@ PageTable distortion_table(const std::vector<PageEntry>& entries) {
 }
 
 PageTable certificate_table(const std::vector<PageEntry>& entries) {
+  std::vector<std::pair<std::string, Cell>> rows = {
+      {"verdict", [](const PageEntry& e) { return short_verdict(e.entry); }},
+      {"folded triangles",
+       [](const PageEntry& e) { return grouped(e.entry.certificate.fold_count()); }},
+      {"degree", degree}};
+  if (std::any_of(entries.begin(), entries.end(),
+                  [](const PageEntry& e) { return e.filler_share.has_value(); })) {
+    rows.emplace_back("of the sphere, what closes holes", [](const PageEntry& e) {
+      return e.filler_share ? decimal(100 * *e.filler_share, 2) + " %" : nothing;
+    });
+  }
   return table_of(
       "A map is one-to-one when the determinant of every triangle is positive, decided exactly, "
       "and the sphere is covered once.",
-      entries,
-      {{"verdict", [](const PageEntry& e) { return short_verdict(e.entry); }},
-       {"folded triangles",
-        [](const PageEntry& e) { return grouped(e.entry.certificate.fold_count()); }},
-       {"degree", degree}});
+      entries, rows);
 }
 
 PageTable chart_table(const std::vector<PageEntry>& entries) {

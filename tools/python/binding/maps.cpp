@@ -11,6 +11,7 @@
 #include "sphparam/chart/spherical_chart.h"
 #include "sphparam/frame_check.h"
 #include "sphparam/io/file_numbers.h"
+#include "sphparam/io/fillers.h"
 #include "sphparam/io/map_files.h"
 #include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/verify_map.h"
@@ -126,6 +127,7 @@ Mapped map_mesh(MeshSource source, Request request) {
   const Stopwatch stopwatch;
   const std::clock_t begin = std::clock();
   Topology topology = topology_of(source);
+  options.fillers = fillers_of(source.file);
   Parameterization result = parameterize(source.file.mesh, topology, options);
   const Spent spent{stopwatch.seconds(),
                     static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC};

@@ -81,7 +81,8 @@ py::dict inspect(const Source& source) {
 
 HandleChoice choice_named(const std::string& word) {
   return named(
-      word, {HandleChoice::Shortest, HandleChoice::Cut, HandleChoice::Fill},
+      word,
+      {HandleChoice::Shortest, HandleChoice::Cut, HandleChoice::Fill, HandleChoice::Area},
       [](HandleChoice choice) { return name_of(choice); }, "handle_choice");
 }
 
@@ -93,6 +94,7 @@ RepairOptions repair_options(const py::dict& values) {
       .take("non_manifold", options.non_manifold)
       .take("components", options.components)
       .take("holes", options.holes)
+      .take("keep_holes", options.keep_holes)
       .take("handles", options.handles)
       .take("flat_faces", options.flat_faces)
       .take("unused", options.unused)

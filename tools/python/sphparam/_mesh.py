@@ -244,6 +244,7 @@ def repair(
     component: int = 0,
     least_kept: float = 0.98,
     largest_hole: int = 500,
+    keep_holes: bool = False,
     handle_choice: str = "shortest",
     longest_handle: float = 0.35,
     longest_handle_length: float = 0.0,
@@ -279,8 +280,11 @@ def repair(
         Share of the area, 0 to 1.
     largest_hole
         Edges of a hole that may be filled, from 3.
+    keep_holes
+        Close holes of any length by fillers, which are no surface: the face value ``filler`` marks them.
     handle_choice
-        ``"shortest"``; ``"cut"`` handles through, or ``"fill"`` what goes through them.
+        ``"shortest"``; ``"cut"`` handles through, or ``"fill"`` what goes through them; ``"area"``:
+        whichever adds less area.
     longest_handle
         The longest loop that a handle may be cut along, in diagonals of the bounding box; in units of
         the mesh instead where ``longest_handle_length`` is more than 0.

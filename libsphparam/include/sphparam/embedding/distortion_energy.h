@@ -60,8 +60,9 @@ enum class EnergyKind {
 /// triangle has no barrier where the spherical triangle degenerates.
 struct DistortionEnergy {
   EnergyKind kind = EnergyKind::AngleAndArea;
-  double lambda = 1;   // area against angle, 0 to `greatest_lambda`: conformal to equal-area
-  double epsilon = 0;  // > 0: regularised; finite
+  double lambda = 1;    // area against angle, 0 to `greatest_lambda`: conformal to equal-area
+  double epsilon = 0;   // > 0: regularised; finite
+  double pressure = 0;  // finite; times the image's area of what `optimise` presses
 };
 
 /// Beyond these weights of area against angle doubles forget one of the two.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -42,9 +43,19 @@ std::vector<std::string> add_mapped(PendingFiles& files, const std::string& path
 std::vector<std::string> add_mesh(PendingFiles& files, const std::string& path,
                                   const MeshFile& file);
 
-/// Adds a mapped mesh like this, its provenance with it: what `save_mapped` writes.
+/// What becomes of fillers where a mapped mesh is written.
+enum class FillersInFile {
+  Marked,  // kept where the format has a place for their mark, which is where it has one for a map
+  Kept,    // everywhere
+  Left,    // the surface alone, and no map: it has holes
+};
+
+/// Adds a mapped mesh like this, its provenance with it: what `save_mapped` writes. A surface alone
+/// is proved by the map that it had, and is compared with what is read back; what is returned tells
+/// how many fillers were left out. Throws: also WriteError where what was read back differs.
 std::vector<std::string> add_mapped(PendingFiles& files, const std::string& path,
                                     const MappedMesh& mapped, int threads = 0,
-                                    const WriteOptions& options = {});
+                                    const WriteOptions& options = {},
+                                    FillersInFile fillers = FillersInFile::Marked);
 
 }  // namespace sphparam

@@ -9,6 +9,7 @@
 #include "sphparam/io/mesh_source.h"
 #include "sphparam/io/polygons.h"
 #include "sphparam/io/sphere_file.h"
+#include "sphparam/mesh/fillers.h"
 #include "sphparam/mesh/topology.h"
 #include "sphparam/parameterize.h"
 #include "sphparam/sphere/certificate.h"
@@ -54,6 +55,8 @@ class MappedMesh {
   const Provenance& provenance() const;
   const std::optional<Polygons>& polygons() const;
   const std::vector<std::string>& notes() const;
+  const FillerMarks& fillers() const;   // of the file
+  const TriangleMesh& surface() const;  // `surface_of` mesh and fillers: what is not filler
   bool mapped_here() const;
   const std::string& name() const;
 

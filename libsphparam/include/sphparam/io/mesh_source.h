@@ -43,7 +43,8 @@ struct RepairTrial {
   bool can_mend() const { return remaining.empty(); }
   bool mends_unasked() const;  // without choosing a component, or a larger hole or handle
 };
-RepairTrial try_repair(const MeshSource& source);
+/// With `keep_holes`, holes of any length are kept.
+RepairTrial try_repair(const MeshSource& source, bool keep_holes = false);
 
 /// A mesh that cannot be mapped, and what could be done about it.
 class MeshRefusal : public MeshError {

@@ -25,6 +25,9 @@ std::string output_name(const std::string& path);
 /// "statue" of "folder/statue.ply" and of "folder/statue.sph.ply", packed (.gz) or not.
 std::string stem_of(const std::string& path);
 
+/// The path of the file of a part, from 1: NAME_0001.sph.ply of NAME.sph.ply.
+std::string path_of_part(const std::string& path, int part);
+
 /// The path of a level of detail's file: {n} becomes its number, else _lodN is added from the
 /// second on, before ".ply" as before ".sph.ply"; level 0, the finest, has the path as it is.
 std::string level_path(const std::string& path, int level);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sphparam/io/read_options.h"
+#include "sphparam/mesh/fillers.h"
 #include "sphparam/mesh/triangle_mesh.h"
 #include "sphparam/sphere/certificate.h"
 #include "sphparam/sphere/distortion.h"
@@ -32,9 +33,11 @@ struct VerifiedMap {
   long cut_otherwise = 0;       // polygons of the sphere's file, cut as the mesh's are
   double mean_length = 1;       // of the rays
   double length_deviation = 0;  // largest | length / mean − 1 |
-  /// Of the map with unit rays; nothing where there is no shape but the sphere, or rays are
-  /// unusable.
+  /// Of the map with unit rays, without fillers; nothing where there is no shape but the sphere, or
+  /// rays are unusable.
   std::optional<DistortionSummary> distortion;
+  FillerMarks fillers;             // that the mesh's file marks: the map is proved with them
+  double filler_share = 0;         // of the sphere; of the map with unit rays
   std::string format;              // of the mesh's file
   std::vector<std::string> notes;  // of its reader
 

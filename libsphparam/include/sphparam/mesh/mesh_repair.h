@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "sphparam/mesh/fillers.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/mesh/triangle_mesh.h"
 
@@ -21,6 +22,7 @@ enum class HandleChoice {
   Shortest,  // whichever is shorter
   Cut,       // handles are cut through, what is between them stays open
   Fill,      // what goes through them is closed, the handles stay
+  Area,      // whichever has the smaller caps
 };
 
 /// What `repair_mesh` may do. The names, in the order in which it is done:
@@ -41,6 +43,9 @@ struct RepairOptions {
   int component = 0;
   double least_kept = 0.98;
   int largest_hole = 500;  // edges of a hole that may be filled
+  /// With `holes`: all holes, of any length, are closed by fillers, which are no part of the
+  /// surface: see `RepairedMesh::fillers`.
+  bool keep_holes = false;
   HandleChoice handle_choice = HandleChoice::Shortest;
   /// Not negative: boundary vertices that are at most so far apart become one, and edges are split
   /// at vertices that lie so near (with `cracks`); in diagonals of the bounding box, or a length of
@@ -80,6 +85,7 @@ enum class RepairKind {
   VertexSplit,        // one copy for each fan of faces
   ComponentDropped,
   HoleFilled,
+  HoleKept,           // closed by fillers, which are marked
   HandleCut,          // along a loop about the handle: both ends closed
   HandleFilled,       // along a loop about what goes through it: closed on both sides
   TurnedOutward,      // the whole surface was inside out
@@ -133,6 +139,7 @@ struct HandleLoop {
   double length = 0;      // in units of the mesh
   double share = 0;       // the same in diagonals of the bounding box
   double area_added = 0;  // of both caps
+  long crossings = 0;     // pairs of triangles, of a cap and of the surface, that cross
   Vector3 centre = Vector3::Zero();  // mean of its points
   std::vector<Vertex> vertices;      // in order, ids in the input; −1 for created ones
   std::vector<Vector3> points;       // theirs
@@ -145,6 +152,7 @@ struct RepairedMesh {
   std::vector<Face> face_origin;       // #F: id in the input, −1 for faces that fill holes
   std::vector<int> corner_origin;      // #F·3: corner 3·face + k of the input that it is like
   std::vector<CreatedVertex> created;  // by vertex
+  FillerMarks fillers;                 // that close holes that are kept
   std::vector<RepairAction> actions;   // in the order of RepairKind; empty: nothing was done
   KeptParts parts;
   std::vector<HandleLoop> handles;  // one for each that is gone, in the order of the cuts
@@ -168,11 +176,15 @@ struct RepairedMesh {
 /// edges are cut apart and their sheets paired across the material between them (Guéziec, Taubin,
 /// Lazarus & Horn, "Cutting and stitching", 2001); holes are filled by ears, or by the fan of a
 /// created vertex where every ear would double an edge. Repeated until nothing more is to be done.
+/// Holes that are kept are closed by rings of created vertices, each of half as many as the one
+/// before: O(n) faces, none of them long, whatever the boundary is like. No other step touches the
+/// surface for their sake: with fillers nothing is turned outward, no flat filler is mended, and
+/// loops of handles keep to the surface where they can.
 /// Handles: loops that do not separate the surface, the shortest found first (a basis of loops by
 /// tree and cotree, Eppstein 2003; each shorter one crosses one of these, so searches begin there;
 /// which loops separate is told by random cohomology classes), each tightened until no vertex of it
 /// has a shorter one of its class; the faces beside it get copies of its vertices, and both rims
-/// are filled as holes are. No position changes, and no face but that it names copies.
+/// get caps, bent apart and out of the surface's way. No position changes, and no face but its names.
 /// Components are ranked by area; of equal ones the one with more faces comes first, then the one
 /// with the lowest vertex.
 /// Throws: NoSuchComponent; std::invalid_argument unless component ≥ 0, least_kept from 0 to 1,

@@ -47,11 +47,12 @@ struct DrawingOptions {
   std::optional<Up> up = std::nullopt;         // of the mesh; nothing: as its file says
   std::shared_ptr<const MeshTextures> textures = nullptr;  // see `shown_textures`; null: none
   bool wireframe = false;                                  // the edges of the triangles
-  bool graticule = false;                                  // lines of longitude and latitude
-  bool occlusion = false;                                  // darken what little light reaches
-  bool legend = true;                                      // below area and angle
-  int size = 800;   // pixels, of each side of a picture; 16 to 16384
-  int threads = 0;  // 0: all cores
+  bool repairs = false;    // outlines of what repair has closed, instead of the edges of triangles
+  bool graticule = false;  // lines of longitude and latitude
+  bool occlusion = false;  // darken what little light reaches
+  bool legend = true;      // below area and angle
+  int size = 800;          // pixels, of each side of a picture; 16 to 16384
+  int threads = 0;         // 0: all cores
 };
 
 /// Does nothing of it need a map? Views of the sphere, some colourings and the graticule do.

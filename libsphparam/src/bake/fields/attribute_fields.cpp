@@ -184,6 +184,20 @@ SurfaceField make_scalar(const BakeScene& scene, const std::string& name) {
                    name, std::move(known));
 }
 
+SurfaceField make_mask(const BakeScene& scene, const std::string&) {
+  SurfaceField field{.name = surface_mask,
+                     .about = "1 on the surface, 0 on what closes its holes",
+                     .range = std::pair(0.0, 1.0)};
+  const FillerMarks& fillers = scene.source.mapped.fillers();
+  field.evaluate_runs = [&fillers](std::span<const SurfaceRun> runs, float* values) {
+    for (const SurfaceRun& run : runs) {
+      const bool surface = fillers.empty() || !fillers[static_cast<size_t>(run.face)];
+      values = std::fill_n(values, run.count, surface ? 1.0F : 0.0F);
+    }
+  };
+  return field;
+}
+
 SurfaceField make_id(const BakeScene& scene, const std::string& what) {
   const MeshFile& file = scene.source.file();
   const auto count = static_cast<size_t>(file.mesh.face_count());

@@ -13,6 +13,9 @@ SurfaceField make_vertex_colour(const BakeScene& scene, const std::string&);
 SurfaceField make_texcoords(const BakeScene& scene, const std::string&);
 /// A property of vertices or faces, by its name.
 SurfaceField make_scalar(const BakeScene& scene, const std::string& name);
+/// 1 on the surface, 0 on fillers.
+SurfaceField make_mask(const BakeScene& scene, const std::string&);
+inline constexpr char surface_mask[] = "mask";
 /// What a point belongs to: "face", "component" or "material" (default: material where the file has
 /// some, else face). As colours in integer images, in others as numbers. The colours of labels
 /// below 2^24 − 1 all differ, in 8 bits too, and none of them is black.

@@ -1,6 +1,7 @@
 #include "bake/fields/distortion_fields.h"
 
 #include <array>
+#include <cmath>
 
 #include "bake/fields/heat_field.h"
 #include "bake/fields/linear_field.h"
@@ -11,10 +12,23 @@ namespace {
 
 constexpr double extreme = 32;  // log₂ of what stands for 0 and ∞
 
+/// As if the surface were all that there is: its area alone is made that of the sphere.
+void leave_out_areas(Distortion& distortion, const FillerMarks& fillers) {
+  if (fillers.empty()) return;
+  double share = 0;
+  for (Eigen::Index f = 0; f < std::ssize(fillers); ++f) {
+    if (!fillers[static_cast<size_t>(f)]) share += distortion.source_area[f];
+  }
+  distortion.area_ratio *= share;
+  distortion.sigma_max *= std::sqrt(share);
+  distortion.sigma_min *= std::sqrt(share);
+}
+
 SurfaceField distortion_field(Heat heat, const char* name, const char* about,
                               const BakeScene& scene) {
-  const Distortion distortion =
+  Distortion distortion =
       measure_distortion(scene.source.mesh(), scene.source.map(), scene.threads);
+  leave_out_areas(distortion, scene.source.mapped.fillers());
   const VectorX values = heat_values(heat, distortion).cwiseMax(-extreme).cwiseMin(extreme);
   const HeatScale& scale = heat_scale(heat);
   SurfaceField field = linear_field<1>(

@@ -167,6 +167,18 @@ SurfaceField thickness_field(std::shared_ptr<const RayScene> scene, const Triang
 
 namespace {
 
+/// What rays meet: not what only closes holes.
+std::shared_ptr<const RayScene> rays_on_surface(const MappedMesh& mapped) {
+  if (mapped.fillers().empty()) return std::make_shared<const RayScene>(mapped.mesh());
+  struct Kept {
+    TriangleMesh mesh;
+    RayScene scene;
+    explicit Kept(TriangleMesh surface) : mesh(std::move(surface)), scene(mesh) {}
+  };
+  const auto kept = std::make_shared<const Kept>(surface_in_place(mapped.mesh(), mapped.fillers()));
+  return {kept, &kept->scene};
+}
+
 using MakeRayField = SurfaceField(std::shared_ptr<const RayScene>, const TriangleMesh&,
                                   const Points&, const RayFieldOptions&);
 
@@ -174,7 +186,7 @@ SurfaceField make_of_scene(MakeRayField* make, const BakeScene& scene, const std
                            double reach) {
   if (!argument.empty()) throw FieldError("no argument is known here: " + argument);
   const TriangleMesh& mesh = scene.source.mesh();
-  return make(std::make_shared<const RayScene>(mesh), mesh, scene.source.normals,
+  return make(rays_on_surface(scene.source.mapped), mesh, scene.source.normals,
               {.rays = scene.options.rays, .reach = reach});
 }
 

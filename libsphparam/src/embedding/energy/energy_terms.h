@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "embedding/energy/lanes.h"
 #include "sphparam/embedding/distortion_energy.h"
 
@@ -82,11 +84,74 @@ struct SymmetricDirichletTerms {
   };
 };
 
+/// Of triangles that nothing presses: no number carries a mark in its sign.
+template <class Base>
+struct UnpressedTerms : Base {
+  template <class Number>
+  SPHPARAM_INLINE static Number plain(Number number) {
+    return number;
+  }
+  template <class Number>
+  SPHPARAM_INLINE Number triangle_value(Number d, Number s, Number) const {
+    return Base::value(d, s);
+  }
+  template <class Number>
+  SPHPARAM_INLINE EnergyTerms<Number> triangle_terms(Number d, Number s, Number) const {
+    return Base::terms(d, s);
+  }
+};
+
+/// The same with a pressure p on marked triangles: those with a negative α, or with a negative
+/// base. F f gains p S there, the area of their image.
+template <class Base>
+struct PressedTerms : Base {
+  double pressure;
+
+  template <class Number>
+  SPHPARAM_INLINE static Number plain(Number number) {
+    return magnitude(number);
+  }
+  template <class Number>
+  SPHPARAM_INLINE Number on(Number marked) const {
+    return select(marked < 0.0, Number(pressure), Number(0.0));
+  }
+  template <class Number>
+  SPHPARAM_INLINE Number triangle_value(Number d, Number s, Number base) const {
+    return Base::value(d, s) + on(base) * s;
+  }
+  template <class Number>
+  SPHPARAM_INLINE EnergyTerms<Number> triangle_terms(Number d, Number s, Number base) const {
+    EnergyTerms<Number> terms = Base::terms(d, s);
+    terms.f += on(base) * s;
+    terms.f_s += on(base);
+    return terms;
+  }
+  template <class Number>
+  SPHPARAM_INLINE Number corner_value(Number k, Number s, Number alpha, Number beta) const {
+    return Base::corner_value(k, s, magnitude(alpha), beta) + on(alpha) * s;
+  }
+  template <class Number>
+  SPHPARAM_INLINE EnergyTerms<Number> corner_terms(Number k, Number s, Number alpha,
+                                                   Number beta) const {
+    EnergyTerms<Number> terms = Base::corner_terms(k, s, magnitude(alpha), beta);
+    terms.f += on(alpha) * s;
+    terms.f_s += on(alpha);
+    return terms;
+  }
+};
+
 /// visit(terms), the terms those of this energy. Its ε is not looked at.
 template <class Visit>
 decltype(auto) with_terms_of(const DistortionEnergy& energy, const Visit& visit) {
-  if (energy.kind == EnergyKind::SymmetricDirichlet) return visit(SymmetricDirichletTerms{});
-  return visit(AngleAndAreaTerms{energy.lambda});
+  const auto pressed_or_not = [&](const auto& base) -> decltype(auto) {
+    using Base = std::decay_t<decltype(base)>;
+    if (energy.pressure != 0) return visit(PressedTerms<Base>{base, energy.pressure});
+    return visit(UnpressedTerms<Base>{base});
+  };
+  if (energy.kind == EnergyKind::SymmetricDirichlet) {
+    return pressed_or_not(SymmetricDirichletTerms{});
+  }
+  return pressed_or_not(AngleAndAreaTerms{energy.lambda});
 }
 
 }  // namespace sphparam

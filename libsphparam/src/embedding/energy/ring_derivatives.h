@@ -15,7 +15,8 @@
 // they add a constant to E, pass the guard, and add nothing to derivatives but −S ∂f/∂S on the
 // diagonal, which is masked.
 //
-// `RestRing` has valence() and, of slot i, alpha(i), beta(i) and shear(i); `ring` has the points.
+// `RestRing` has valence() and, of slot i, alpha(i), beta(i) and shear(i); `ring` has the points. A
+// negative α marks a triangle that is pressed (PressedTerms).
 
 namespace sphparam {
 
@@ -38,7 +39,7 @@ SPHPARAM_INLINE Lanes<W> guarded_ring_energy(const Terms& energy, const RestRing
     const Lanes<W> s = select(beta > 0.0, 0.5 * dot(y, cross(a, b)), Lanes<W>(1.0));
     certain = certain & certainly_positive(s, aa + bb);
     const LaneVectors<W> u = b - rest.shear(i) * a;
-    sum += energy.corner_value(alpha * aa + beta * dot(u, u), s, alpha, beta);
+    sum += energy.corner_value(energy.plain(alpha) * aa + beta * dot(u, u), s, alpha, beta);
     a = b;
     aa = bb;
   }
@@ -75,13 +76,14 @@ SPHPARAM_INLINE RingModel<W> second_order_model(const Terms& energy, const RestR
   for (int i = 0; i < rest.valence(); ++i) {
     // The triangle's K and S, and f's derivatives by them.
     const LaneVectors<W> b = i + 1 == rest.valence() ? first : local(ring[i + 1]);
-    const Lanes<W> alpha = rest.alpha(i), beta = rest.beta(i), t = rest.shear(i);
+    const Lanes<W> marked = rest.alpha(i), alpha = energy.plain(marked);
+    const Lanes<W> beta = rest.beta(i), t = rest.shear(i);
     const LaneMask<W> live = beta > 0.0;
     const Lanes<W> s = select(live, 0.5 * (a.x * b.y - a.y * b.x), Lanes<W>(1.0));
     m.defined = m.defined & (s > 0.0);
     const LaneVectors<W> u = b - t * a;
     const EnergyTerms<Lanes<W>> e =
-        energy.corner_terms(alpha * dot(a, a) + beta * dot(u, u), s, alpha, beta);
+        energy.corner_terms(alpha * dot(a, a) + beta * dot(u, u), s, marked, beta);
     m.value += e.f;
     // ∇K = −2αA − 2β(1 − t)(B − tA);  ∇S = ½(A × B) + ½ x × (A − B) in the tangent plane.
     const Lanes<W> flat = 1.0 - t, ka = -2.0 * alpha, kb = -2.0 * (beta * flat);

@@ -16,7 +16,7 @@ namespace sphparam {
 /// the energy needs of the rest triangle (v, neighbour, next neighbour).
 struct alignas(32) RingSlot {
   Vertex neighbour[pack_width];
-  float alpha[pack_width];  // F² / 2|a|²
+  float alpha[pack_width];  // F² / 2|a|²; negative where the triangle is pressed
   float beta[pack_width];   // |a|² / 8; zero marks a slot beyond the vertex's valence
   float shear[pack_width];  // a·b / |a|²
 };

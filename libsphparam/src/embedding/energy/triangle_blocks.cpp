@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "sphparam/parallel.h"
 
@@ -15,7 +16,7 @@ size_t at(int i) { return static_cast<size_t>(i); }
 
 /// Appends packs of these triangles; lanes left over in the last one repeat its last triangle.
 /// Returns how many packs.
-int append_packs(const Topology& topology, const RestTriangles& source,
+int append_packs(const Topology& topology, const RestTriangles& source, const FillerMarks& pressed,
                  const std::vector<int>& new_name, const std::vector<Face>& faces,
                  std::vector<TrianglePack>& packs) {
   for (size_t i = 0; i < faces.size(); ++i) {
@@ -25,6 +26,7 @@ int append_packs(const Topology& topology, const RestTriangles& source,
     for (int k = 0; k < 3; ++k) corners[at(k)] = new_name[at(topology.vertex(faces[i], k))];
     for (int lane = filled; lane < pack_width; ++lane) {
       fill_lane(source[at(faces[i])], corners, lane, packs.back());
+      if (!pressed.empty() && pressed[at(faces[i])]) press_lane(lane, packs.back());
     }
   }
   return static_cast<int>((faces.size() + pack_width - 1) / pack_width);
@@ -67,7 +69,8 @@ std::vector<Vertex> patch_order(const Topology& topology) {
 
 TriangleBlocks::TriangleBlocks(const Topology& topology, const RestTriangles& source,
                                const std::vector<Vertex>& old_name,
-                               const std::vector<int>& new_name, const std::vector<int>& start) {
+                               const std::vector<int>& new_name, const std::vector<int>& start,
+                               const FillerMarks& pressed) {
   const int n = topology.vertex_count();
   slots_.resize(at(topology.halfedge_count()));
   std::vector<int> place(at(topology.face_count()), -1);
@@ -77,7 +80,7 @@ TriangleBlocks::TriangleBlocks(const Topology& topology, const RestTriangles& so
     for (size_t i = 0; i < faces.size(); ++i) {
       place[at(faces[i])] = first_place + static_cast<int>(i);
     }
-    return append_packs(topology, source, new_name, faces, packs_);
+    return append_packs(topology, source, pressed, new_name, faces, packs_);
   };
   for (int first = 0; first < n; first += size) {
     const int last = std::min(n, first + size);
@@ -134,7 +137,7 @@ void TriangleBlocks::measure_ring(int row, int first, int last, int lane, RingSl
     const double product = corner == 0   ? t * l2
                            : corner == 1 ? (1 - t) * l2
                                          : h2 - t * (1 - t) * l2;
-    slots->alpha[lane] = static_cast<float>(l2 * h2 / (8 * base2));
+    slots->alpha[lane] = static_cast<float>(std::copysign(l2 * h2 / (8 * base2), base));
     slots->beta[lane] = static_cast<float>(base2 / 8);
     slots->shear[lane] = static_cast<float>(product / base2);
   }

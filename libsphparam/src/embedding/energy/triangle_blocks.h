@@ -7,6 +7,7 @@
 #include "embedding/energy/ring_slot.h"
 #include "embedding/energy/triangle_packs.h"
 #include "sphparam/embedding/distortion_energy.h"
+#include "sphparam/mesh/fillers.h"
 #include "sphparam/mesh/topology.h"
 
 namespace sphparam {
@@ -27,10 +28,10 @@ class TriangleBlocks {
 
   /// Keeps nothing of what it is given. Row v is the vertex old_name[v], and `new_name` is the
   /// inverse; its neighbours have the entries start[v] … start[v + 1] − 1, in the order of
-  /// `for_each_outgoing`. Cost: linear.
+  /// `for_each_outgoing`. `pressed`: the triangles that feel the energy's pressure. Cost: linear.
   TriangleBlocks(const Topology& topology, const RestTriangles& source,
                  const std::vector<Vertex>& old_name, const std::vector<int>& new_name,
-                 const std::vector<int>& start);
+                 const std::vector<int>& start, const FillerMarks& pressed = {});
 
   int count() const { return static_cast<int>(blocks_.size()); }
 

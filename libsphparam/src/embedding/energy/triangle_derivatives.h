@@ -30,14 +30,17 @@ struct TriangleDerivatives {
     Lanes d, s;
     LaneMask<W> certain;  // that s is positive
     Lanes base, height, foot, area;
+    Lanes marked;  // the base, negative where the triangle is pressed
   };
 
   /// Lanes `first` … of a pack.
-  static SPHPARAM_INLINE Image measure(const TrianglePack& pack, int first,
+  template <class Terms>
+  static SPHPARAM_INLINE Image measure(const Terms& energy, const TrianglePack& pack, int first,
                                        const ImagePoint* points) {
     Image m;
     for (int k = 0; k < 3; ++k) m.x[k] = gather<W>(points, pack.corner[k] + first);
-    m.base = load<W>(pack.inverse_base + first);
+    m.marked = load<W>(pack.inverse_base + first);
+    m.base = energy.plain(m.marked);
     m.height = load<W>(pack.inverse_height + first);
     m.foot = load<W>(pack.foot + first);
     m.area = 0.5 / (m.base * m.height);
@@ -68,7 +71,7 @@ struct TriangleDerivatives {
   static SPHPARAM_INLINE void exact_hessian(const Terms& energy, const Image& m,
                                             const LaneVectors* u, const LaneVectors* v, Six* h,
                                             Lanes gradient[3][2]) {
-    const EnergyTerms<Lanes> f = energy.terms(m.d, m.s);
+    const EnergyTerms<Lanes> f = energy.triangle_terms(m.d, m.s, m.marked);
     const Lanes f_d = m.area * f.f_d, f_s = m.area * f.f_s, f_ds = m.area * f.f_ds,
                 f_ss = m.area * f.f_ss, inverse = 0.5 / m.area;
     // L = ggᵀ + kkᵀ

@@ -22,9 +22,9 @@ SPHPARAM_INLINE double sum_energy(const Terms& energy, const TrianglePack* packs
   for (int first = 0; first < pack_width; first += W) {
     Lanes<W> sum = 0.0;
     for (int p = 0; p < full + (rest > 0); ++p) {
-      const auto m = TriangleDerivatives<W>::measure(packs[p], first, points);
+      const auto m = TriangleDerivatives<W>::measure(energy, packs[p], first, points);
       if ((~m.certain).any()) return std::numeric_limits<double>::infinity();
-      Lanes<W> e = m.area * energy.value(m.d, m.s);
+      Lanes<W> e = m.area * energy.triangle_value(m.d, m.s, m.marked);
       if (p == full) {
         for (int i = std::max(0, rest - first); i < W; ++i) e.v[i] = 0;
       }
@@ -40,7 +40,7 @@ template <int W, class Terms>
 SPHPARAM_INLINE void differentiate_part(const Terms& energy, const TrianglePack& pack, int first,
                                         const ImagePoint* points, TriangleTerms& terms) {
   using Derivatives = TriangleDerivatives<W>;
-  const auto m = Derivatives::measure(pack, first, points);
+  const auto m = Derivatives::measure(energy, pack, first, points);
   LaneVectors<W> u[3], v[3];
   for (int k = 0; k < 3; ++k) Derivatives::frame(m.x[k], u[k], v[k]);
   typename Derivatives::Six h[6];

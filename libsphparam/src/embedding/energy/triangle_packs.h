@@ -11,7 +11,7 @@ namespace sphparam {
 /// Eight triangles, one a lane. What the energy needs of a RestTriangle, in floats: as if the
 /// source had been rounded. The area is 1 / (2 inverse_base inverse_height).
 struct alignas(8 * pack_width) TrianglePack {
-  float inverse_base[pack_width];
+  float inverse_base[pack_width];  // negative where the triangle is pressed
   float inverse_height[pack_width];
   float foot[pack_width];
   Vertex corner[3][pack_width];
@@ -28,6 +28,11 @@ struct alignas(8 * pack_width) TriangleTerms {
 /// Puts a triangle into a lane.
 void fill_lane(const RestTriangle& source, const std::array<Vertex, 3>& corners, int lane,
                TrianglePack& pack);
+
+/// The triangle in a lane feels the energy's pressure.
+inline void press_lane(int lane, TrianglePack& pack) {
+  pack.inverse_base[lane] = -pack.inverse_base[lane];
+}
 
 /// Sum of A f of the first `count` triangles; +∞ unless the orientation of every one, of the rest
 /// of the last pack too, is certain to be positive.

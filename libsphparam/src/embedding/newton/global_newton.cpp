@@ -38,7 +38,7 @@ constexpr std::int64_t sweep_grain = 16;  // packs
 
 GlobalNewton::GlobalNewton(const Topology& topology, const RestTriangles& source,
                            const std::vector<ImagePoint>& image, const std::vector<Vertex>& pinned,
-                           int threads)
+                           int threads, const FillerMarks& pressed)
     : threads_(topology.vertex_count() < least_parallel_vertices ? 1 : threads),
       old_name_(patch_order(topology)) {
   const int n = topology.vertex_count();
@@ -51,7 +51,7 @@ GlobalNewton::GlobalNewton(const Topology& topology, const RestTriangles& source
   pinned_.assign(at(n), 0);
   for (const Vertex v : pinned) pinned_[at(new_name[at(v)])] = 1;
   make_pattern(topology, new_name);
-  blocks_ = TriangleBlocks(topology, source, old_name_, new_name, hessian_.start);
+  blocks_ = TriangleBlocks(topology, source, old_name_, new_name, hessian_.start, pressed);
   measure_units();
   order_ = order_sweeps(hessian_.start, hessian_.column, TriangleBlocks::size);
 }

@@ -23,10 +23,10 @@ namespace sphparam {
 class GlobalNewton {
  public:
   /// Keeps nothing of what it is given. Requires: every determinant certain to be positive.
-  /// Cost: linear.
+  /// `pressed`: the triangles that feel the energy's pressure. Cost: linear.
   GlobalNewton(const Topology& topology, const RestTriangles& source,
-               const std::vector<ImagePoint>& image, const std::vector<Vertex>& pinned,
-               int threads);
+               const std::vector<ImagePoint>& image, const std::vector<Vertex>& pinned, int threads,
+               const FillerMarks& pressed = {});
 
   /// `ask` is called between the parts of all that follows, at least once in a pass over the mesh,
   /// and may throw; then the image is lost.

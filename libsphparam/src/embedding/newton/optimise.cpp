@@ -25,10 +25,13 @@ constexpr double factor_down = 0.1, factor_up = 4;
 constexpr double no_difference = 2e-3;  // of the mean angle error, by a factor of λ
 
 /// A f of an isometry: what no map of small triangles gets below.
-double isometric_energy(const RestTriangles& source, const DistortionEnergy& energy) {
-  double area = 0;
+double isometric_energy(const RestTriangles& source, const DistortionEnergy& energy,
+                        const FillerMarks& pressed) {
+  double area = 0, of_pressed = 0;
   for (const RestTriangle& triangle : source) area += triangle.area;
-  return area * (energy.kind == EnergyKind::SymmetricDirichlet ? 2 : 1 + energy.lambda);
+  for (size_t f = 0; f < pressed.size(); ++f) of_pressed += pressed[f] ? source[f].area : 0;
+  return energy.pressure * of_pressed +
+         area * (energy.kind == EnergyKind::SymmetricDirichlet ? 2 : 1 + energy.lambda);
 }
 
 ImageTriangle triangle_of(const Topology& topology, const std::vector<ImagePoint>& image, Face f) {
@@ -143,9 +146,10 @@ Optimisation optimise(const Topology& topology, const RestTriangles& source, con
                       const OptimiseOptions& options) {
   require_domain(options, topology.vertex_count());
   std::vector<ImagePoint> image = image_of(map);
-  GlobalNewton newton(topology, source, image, options.pinned, options.threads);
+  GlobalNewton newton(topology, source, image, options.pinned, options.threads, options.pressed);
   Optimisation result;
-  minimise(newton, isometric_energy(source, options.energy), options, result.report);
+  minimise(newton, isometric_energy(source, options.energy, options.pressed), options,
+           result.report);
   newton.write_to(image);
   result.map = map_of(image);
   return result;
@@ -199,7 +203,7 @@ class Continuation {
 
   void settle(OptimiseOptions how) {
     how.energy.lambda = lambda_;
-    minimise(newton_, isometric_energy(source_, how.energy), how, report_);
+    minimise(newton_, isometric_energy(source_, how.energy, {}), how, report_);
     newton_.write_to(image_);
   }
 

@@ -4,6 +4,7 @@
 
 #include "sphparam/embedding/distortion_energy.h"
 #include "sphparam/embedding/quality.h"
+#include "sphparam/mesh/fillers.h"
 #include "sphparam/progress.h"
 
 namespace sphparam {
@@ -17,6 +18,7 @@ struct OptimiseOptions {
                              // this share of what all have: more steps against cheaper ones
   int sweeps = 4;            // ≥ 0: of guarded relaxation after every step
   std::vector<Vertex> pinned = {};  // may not move
+  FillerMarks pressed = {};         // triangles that feel the energy's pressure; empty: none
   int threads = 0;                  // 0: all cores
   Progress progress = {};           // told after every step
 };

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "mesh/vertex_normals.h"
+#include "sphparam/io/fillers.h"
 
 // A vertex whose own normal is missing, zero or not finite takes that of its faces.
 
@@ -29,11 +30,25 @@ std::optional<Points> own_normals(const MeshFile& file) {
   return normals;
 }
 
+/// Of the faces about a vertex, those that are surface; of all where none is.
+Points normals_of_faces(const MeshFile& file) {
+  const FillerMarks fillers = fillers_of(file);
+  Points normals = vertex_normals(file.mesh);
+  if (fillers.empty()) return normals;
+  const TriangleMesh surface = surface_of(file.mesh, fillers);
+  const Points of_surface = vertex_normals(surface);
+  for (Eigen::Index i = 0; i < surface.triangles.size(); ++i) {
+    const Vertex v = surface.triangles.data()[i];
+    normals.row(v) = of_surface.row(v);
+  }
+  return normals;
+}
+
 }  // namespace
 
 Points shading_normals(const MeshFile& file) {
   const std::optional<Points> own = own_normals(file);
-  Points normals = vertex_normals(file.mesh);
+  Points normals = normals_of_faces(file);
   if (!own) return normals;
   for (Eigen::Index v = 0; v < normals.rows(); ++v) {
     const double length = own->row(v).stableNorm();

@@ -1,7 +1,8 @@
 #include "mesh/handles/handle_cutting.h"
 
+#include "mesh/handles/cap.h"
 #include "mesh/handles/short_loops.h"
-#include "mesh/rim_filling.h"
+#include "mesh/handles/surface_cells.h"
 #include "mesh/triangle_geometry.h"
 
 // A half-edge of the loop has its left face; from there counter-clockwise about its origin, up to
@@ -12,30 +13,26 @@ namespace {
 
 class LoopCutter {
  public:
-  LoopCutter(RepairState& state, const Topology& topology, const std::vector<Vertex>& loop)
-      : state_(state), topology_(topology), loop_(loop) {}
+  LoopCutter(RepairState& state, const Topology& topology, const std::vector<Vertex>& loop,
+             const SurfaceCells& surface)
+      : state_(state), topology_(topology), loop_(loop), surface_(surface) {}
 
-  void run() {
-    for (const Vertex v : loop_) note_faces_about(v);
+  /// Returns how often the caps pass through the surface.
+  long run() {
     for (size_t i = 0; i < loop_.size(); ++i) open_at(i);
-    for (const Face f : faces_) {
-      for (int k = 0; k < 3; ++k) edges_.insert(state_.faces[f][k], state_.faces[f][(k + 1) % 3]);
-    }
     const std::vector<RimVertex> left(left_.rbegin(), left_.rend());
-    fill_rim(state_, edges_, right_, true);
-    fill_rim(state_, edges_, left, true);
+    const long of_right = close_by_cap(state_, right_, into_right_, surface_);
+    return of_right + close_by_cap(state_, left, into_left_, surface_);
   }
 
  private:
-  void note_faces_about(Vertex v) {
-    topology_.for_each_outgoing(v, [&](Halfedge h) { faces_.push_back(Topology::face(h)); });
-  }
-
   void open_at(size_t i) {
     const size_t n = loop_.size();
     const Vertex v = loop_[i];
     const Halfedge on = topology_.find_halfedge(v, loop_[(i + 1) % n]);
     const Halfedge back = topology_.find_halfedge(v, loop_[(i + n - 1) % n]);
+    into_left_ += from_side(on);
+    into_right_ += from_side(topology_.twin(on));
     const Vertex copy = state_.copy_vertex(v);
     left_.push_back({copy, state_.corner_like(on)});
     right_.push_back({v, state_.corner_like(Topology::next(topology_.twin(on)))});
@@ -44,12 +41,19 @@ class LoopCutter {
     }
   }
 
+  /// From the middle of a side to the corner opposite.
+  Vector3 from_side(Halfedge h) const {
+    const std::vector<Vector3>& places = state_.shape;
+    return places[topology_.apex(h)] -
+           (places[topology_.origin(h)] + places[topology_.target(h)]) / 2;
+  }
+
   RepairState& state_;
   const Topology& topology_;
   const std::vector<Vertex>& loop_;
-  std::vector<Face> faces_;
-  EdgeKeys edges_;
+  const SurfaceCells& surface_;
   Rim left_, right_;
+  Vector3 into_left_ = Vector3::Zero(), into_right_ = Vector3::Zero();
 };
 
 HandleLoop account_of(const RepairState& state, const LoopToCut& loop, double diagonal) {
@@ -80,10 +84,12 @@ double area_from(const RepairState& state, Face first) {
 
 void cut_along(RepairState& state, const Topology& topology, const std::vector<LoopToCut>& loops,
                double diagonal) {
+  const SurfaceCells surface(state);
   for (const LoopToCut& loop : loops) {
     state.handles.push_back(account_of(state, loop, diagonal));
     const Face first = state.face_count();
-    LoopCutter(state, topology, loop.vertices).run();
+    const long crossings = LoopCutter(state, topology, loop.vertices, surface).run();
+    state.handles.back().crossings = crossings;
     state.handles.back().area_added = area_from(state, first);
     state.log(loop.filled ? RepairKind::HandleFilled : RepairKind::HandleCut,
               {state.vertex_origin[loop.vertices.front()]});

@@ -7,6 +7,7 @@
 #include "mesh/handles/loop_side.h"
 #include "mesh/handles/short_loops.h"
 #include "mesh/repair_state.h"
+#include "mesh/triangle_geometry.h"
 #include "mesh/union_find.h"
 #include "sphparam/parallel.h"
 
@@ -76,6 +77,22 @@ std::vector<char> inside_out(const RepairState& state) {
   return result;
 }
 
+/// Where the vertices are, for lengths: what only fillers use is far off, so that loops go round a
+/// hole and not across it.
+std::vector<Vector3> places_off_fillers(const RepairState& state) {
+  constexpr double far_off = 8;               // a few diagonals of the unit box
+  std::vector<Vector3> places = state.shape;  // which grows while the surface is cut
+  std::vector<char> on_surface(places.size(), 0);
+  for (Face f = 0; f < state.face_count(); ++f) {
+    if (state.fillers[f]) continue;
+    for (const Vertex v : state.faces[f]) on_surface[v] = 1;
+  }
+  for (size_t v = 0; v < places.size(); ++v) {
+    if (!on_surface[v]) places[v].z() += far_off;
+  }
+  return places;
+}
+
 class HandleRemover {
  public:
   HandleRemover(RepairState& state, const RepairOptions& options)
@@ -95,7 +112,7 @@ class HandleRemover {
 
  private:
   bool cut_some(const Topology& topology, const LoopBasis& basis) {
-    const std::vector<Vector3> places = state_.shape;  // the state's grow while it is cut
+    const std::vector<Vector3> places = places_off_fillers(state_);
     const ShortLoops search(topology, basis, places);
     inside_out_ = inside_out(state_);
     double shortest = std::numeric_limits<double>::infinity();
@@ -123,14 +140,28 @@ class HandleRemover {
            (inside_out_[loop.vertices.front()] != 0);
   }
   bool is_wanted(const Topology& topology, const EdgeLoop& loop) const {
-    return choice_ == HandleChoice::Shortest ||
+    return choice_ == HandleChoice::Shortest || choice_ == HandleChoice::Area ||
            fills(topology, loop) == (choice_ == HandleChoice::Fill);
   }
 
-  /// Loops of the kind that is wanted, shortest first, without common vertices.
+  /// What the choice makes least: the length, or about the area of a cap.
+  double cost_of(const EdgeLoop& loop) const {
+    if (choice_ != HandleChoice::Area) return loop.length;
+    const size_t n = loop.vertices.size();
+    Vector3 middle = Vector3::Zero();
+    for (const Vertex v : loop.vertices) middle += state_.shape[v] / static_cast<double>(n);
+    double area = 0;
+    for (size_t i = 0; i < n; ++i) {
+      area += triangle_area(middle, state_.shape[loop.vertices[i]],
+                            state_.shape[loop.vertices[(i + 1) % n]]);
+    }
+    return area;
+  }
+
+  /// Loops of the kind that is wanted, the best first, without common vertices.
   std::vector<EdgeLoop> apart(const Topology& topology, std::vector<EdgeLoop> loops) const {
     std::stable_sort(loops.begin(), loops.end(),
-                     [](const EdgeLoop& x, const EdgeLoop& y) { return x.length < y.length; });
+                     [&](const EdgeLoop& x, const EdgeLoop& y) { return cost_of(x) < cost_of(y); });
     std::vector<char> taken(state_.positions.size(), 0);
     std::vector<EdgeLoop> result;
     for (EdgeLoop& loop : loops) {

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mesh/repair_state.h"
+
+namespace sphparam {
+
+/// The faces that a surface has now, by the cells of a grid about it: which are near a triangle.
+class SurfaceCells {
+ public:
+  /// `state` outlives this; its faces may get other names of vertices at the same places, and more
+  /// may come, which are not looked at. Cost: linear.
+  explicit SurfaceCells(const RepairState& state);
+
+  using Triangle = std::array<Vector3, 3>;  // places in the unit box
+
+  /// How many of these faces the triangle passes through, or they through it: those that have a
+  /// corner at the same place as the triangle are not looked at.
+  long crossings(const Triangle& triangle) const;
+
+ private:
+  Triangle triangle(Face f) const;
+  std::array<int, 3> cell_of(const Vector3& place) const;
+  template <class Visit>
+  void for_each_cell(const Triangle& triangle, const Visit& visit) const;
+
+  const RepairState& state_;
+  int cells_;               // a side
+  std::vector<int> first_;  // per cell, and the end
+  std::vector<Face> faces_;
+};
+
+}  // namespace sphparam

@@ -1,0 +1,212 @@
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "program.h"
+#include "support/test_meshes.h"
+#include "support/volume_surface.h"
+
+namespace sphparam::tests {
+
+namespace {
+
+using Catch::Contains;
+using Json = nlohmann::json;
+
+/// A ball, longer than wide, that is open at the top; without its unused vertices.
+TriangleMesh bowl() {
+  const TriangleMesh ball = icosphere(3);
+  std::vector<Vertex> name(static_cast<size_t>(ball.vertex_count()), -1);
+  TriangleMesh mesh{Points(ball.vertex_count(), 3), Triangles(ball.face_count(), 3)};
+  Vertex vertices = 0;
+  Face faces = 0;
+  for (Face f = 0; f < ball.face_count(); ++f) {
+    const Vector3 sum = ball.position(ball.triangles(f, 0)) + ball.position(ball.triangles(f, 1)) +
+                        ball.position(ball.triangles(f, 2));
+    if (sum.z() > 0.6) continue;
+    for (int k = 0; k < 3; ++k) {
+      const Vertex v = ball.triangles(f, k);
+      if (name[static_cast<size_t>(v)] < 0) {
+        name[static_cast<size_t>(v)] = vertices;
+        mesh.positions.row(vertices++) << ball.positions(v, 0), ball.positions(v, 1),
+            2 * ball.positions(v, 2);
+      }
+      mesh.triangles(faces, k) = name[static_cast<size_t>(v)];
+    }
+    ++faces;
+  }
+  mesh.positions.conservativeResize(vertices, 3);
+  mesh.triangles.conservativeResize(faces, 3);
+  return mesh;
+}
+
+/// The bowl with its map in a folder.
+struct MappedBowl {
+  Folder folder;
+  std::string mesh = folder / "bowl.obj", map = folder / "bowl.sph.ply",
+              json = folder / "bowl.json";
+  Ended ended;
+
+  MappedBowl() {
+    write_bytes(mesh, obj_text(bowl()));
+    ended = sphparam_program({"map", mesh, "-o", map, "--keep-holes", "--json", json});
+  }
+};
+
+/// Bodies beside each other.
+TriangleMesh together(const std::vector<TriangleMesh>& bodies) {
+  TriangleMesh all;
+  for (const TriangleMesh& body : bodies) {
+    const Eigen::Index vertices = all.vertex_count(), faces = all.face_count();
+    all.positions.conservativeResize(vertices + body.vertex_count(), 3);
+    all.triangles.conservativeResize(faces + body.face_count(), 3);
+    all.positions.bottomRows(body.vertex_count()) =
+        (body.positions.array() + static_cast<double>(10 * faces)).matrix();
+    all.triangles.bottomRows(body.face_count()) =
+        (body.triangles.array() + static_cast<int>(vertices)).matrix();
+  }
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("kept holes: map closes them, certifies, marks, and tells what they take") {
+  const MappedBowl bowl;
+  INFO(bowl.ended.err);
+  REQUIRE(bowl.ended.code == 0);
+  CHECK_THAT(bowl.ended.err, Contains("1 hole kept") && Contains("of the sphere"));
+  const Json report = Json::parse(bytes_of(bowl.json));
+  CHECK(report["filler_share"].get<double>() > 0);
+  CHECK(report["filler_share"].get<double>() <= 0.02);
+  CHECK_THAT(bytes_of(bowl.map), Contains("property uchar filler") && Contains("sphparam fillers"));
+  const Ended verified = sphparam_program({"verify", bowl.map});
+  CHECK(verified.code == 0);
+  CHECK_THAT(verified.out, Contains("fillers, proved with the rest"));
+  // Not the least change of the surface.
+  const Ended same = sphparam_program({"measure", bowl.mesh, bowl.map, "--max-distance", "0"});
+  CHECK(same.code == 0);
+  CHECK_THAT(same.err, Contains("fillers left out"));
+}
+
+TEST_CASE("kept holes: a share that is asked for is kept to; without a map they are told") {
+  const MappedBowl bowl;
+  const std::string other = bowl.folder / "other.sph.ply", json = bowl.folder / "other.json";
+  REQUIRE(
+      sphparam_program({"map", bowl.mesh, "-o", other, "--keep-holes=12%", "--json", json, "-q"})
+          .code == 0);
+  const double share = Json::parse(bytes_of(json))["filler_share"];
+  CHECK(share > 0.02);
+  CHECK(share <= 0.12);
+  const Ended refused = sphparam_program({"map", bowl.mesh, "-o", other});
+  CHECK(refused.code == 4);
+  CHECK_THAT(refused.err, Contains("With --keep-holes holes stay holes"));
+}
+
+TEST_CASE("kept holes: bake leaves their texels transparent, and has a mask of them") {
+  const MappedBowl bowl;
+  const Ended baked = sphparam_program({"bake", bowl.map, "--map", "normal-object,area,mask",
+                                        "--size", "64", "-o", bowl.folder / "b_{map}.png"});
+  INFO(baked.err);
+  REQUIRE(baked.code == 0);
+  constexpr size_t colour_type = 25;  // in a PNG's header: 0 grey, 4 with alpha, 6 RGB with alpha
+  CHECK(bytes_of(bowl.folder / "b_normal-object.png")[colour_type] == 6);
+  CHECK(bytes_of(bowl.folder / "b_area.png")[colour_type] == 4);
+  CHECK(bytes_of(bowl.folder / "b_mask.png")[colour_type] == 0);
+  const Ended jpeg =
+      sphparam_program({"bake", bowl.map, "--map", "normal-object", "-o", bowl.folder / "b.jpg"});
+  CHECK(jpeg.code == 2);
+  CHECK_THAT(jpeg.err, Contains("no alpha"));
+}
+
+TEST_CASE("kept holes: export has the surface alone") {
+  const MappedBowl bowl;
+  for (const char* name : {"e.glb", "e.obj", "e.ply"}) {
+    const std::string file = bowl.folder / name;
+    const Ended exported = sphparam_program({"export", bowl.map, "-o", file, "--up", "y"});
+    INFO(name << "\n" << exported.err);
+    REQUIRE(exported.code == 0);
+    CHECK(sphparam_program({"measure", bowl.mesh, file, "--max-distance", "0.00001"}).code == 0);
+  }
+}
+
+TEST_CASE(
+    "kept holes: remesh keeps them marked in a map, and drops them elsewhere, or as is asked") {
+  const MappedBowl bowl;
+  const auto loops = [](const std::string& file) {
+    return sphparam_program({"info", file, "--json", "-"}).out;
+  };
+  const std::string map = bowl.folder / "r.sph.ply", open = bowl.folder / "r.obj",
+                    closed = bowl.folder / "k.obj", surface = bowl.folder / "d.ply";
+  const auto remesh = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"remesh", bowl.map, "--grid", "ico:5"});
+    return sphparam_program(arguments);
+  };
+  REQUIRE(remesh({"-o", map}).code == 0);
+  CHECK_THAT(sphparam_program({"verify", map}).out, Contains("fillers, proved with the rest"));
+  const Ended dropped = remesh({"-o", open});
+  CHECK(dropped.code == 0);
+  CHECK_THAT(dropped.err, Contains("the surface alone"));
+  CHECK(Json::parse(loops(open))["inspection"]["boundary_loops"] == 1);
+  CHECK(remesh({"-o", closed, "--holes", "keep"}).code == 0);
+  CHECK(Json::parse(loops(closed))["inspection"]["boundary_loops"] == 0);
+  CHECK(remesh({"-o", surface, "--holes", "drop", "--transfer", "none"}).code == 0);
+  CHECK(Json::parse(loops(surface))["inspection"]["boundary_loops"] == 1);
+}
+
+TEST_CASE("kept holes: what makes no sense is refused") {
+  const MappedBowl bowl;
+  const auto refused = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"map", bowl.mesh, "-o", bowl.folder / "x.sph.ply"});
+    return sphparam_program(arguments).code;
+  };
+  CHECK(refused({"--keep-holes", "--max-hole", "20"}) == 2);
+  for (const char* share : {"0", "-1", "101%", "much"}) {
+    CHECK(refused({std::string("--keep-holes=") + share}) == 2);
+  }
+}
+
+TEST_CASE("parts: each is mapped into a file of its own, the largest first") {
+  const Folder folder;
+  const std::string mesh = folder / "two.obj", json = folder / "two.json";
+  TriangleMesh large = icosphere(1);
+  large.positions *= 3;
+  write_bytes(mesh, obj_text(together({icosphere(2), large})));
+  const Ended ended = sphparam_program(
+      {"map", mesh, "-o", folder / "two.sph.ply", "--all-components", "--json", json});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  CHECK(folder.names() ==
+        std::vector<std::string>{"two.json", "two.obj", "two_0001.sph.ply", "two_0002.sph.ply"});
+  for (const char* name : {"two_0001.sph.ply", "two_0002.sph.ply"}) {
+    CHECK(sphparam_program({"verify", folder / name, "-q"}).code == 0);
+  }
+  const Json parts = Json::parse(bytes_of(json))["parts"];
+  REQUIRE(parts.size() == 2);
+  CHECK(parts[0]["input"]["triangles"] == 80);
+  CHECK(parts[1]["input"]["triangles"] == 320);
+  CHECK(parts[0]["poles"]["north"].get<int>() >= 162);  // by its number in the file
+}
+
+TEST_CASE("parts: one that cannot be mapped ends it, but for specks, which are told") {
+  const Folder folder;
+  const std::string mesh = folder / "m.obj", map = folder / "m.sph.ply";
+  TriangleMesh ring = bumped_torus(8, 20, 0.4, 0, 1);
+  write_bytes(mesh, obj_text(together({icosphere(2), ring})));
+  const Ended refused = sphparam_program({"map", mesh, "-o", map, "--all-components", "--repair"});
+  CHECK(refused.code == 4);
+  CHECK_THAT(refused.err, Contains("component 1 of 2") && Contains("nothing is written"));
+  CHECK(folder.names() == std::vector<std::string>{"m.obj"});
+
+  ring.positions *= 0.05;
+  write_bytes(mesh, obj_text(together({icosphere(2), ring})));
+  const Ended told = sphparam_program({"map", mesh, "-o", map, "--all-components", "--repair"});
+  INFO(told.err);
+  CHECK(told.code == 0);
+  CHECK_THAT(told.err, Contains("left out: component 2 of 2"));
+  CHECK(folder.names() == std::vector<std::string>{"m.obj", "m_0001.sph.ply"});
+  CHECK(sphparam_program({"map", mesh, "-o", map, "--all-components"}).code == 4);
+  CHECK(sphparam_program({"map", mesh, "-o", "-", "--all-components"}).code == 2);
+  CHECK(sphparam_program({"map", mesh, "-o", map, "--all-components", "--component", "1"}).code ==
+        2);
+}
+
+}  // namespace sphparam::tests

@@ -1,0 +1,106 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "embedding/newton/pressed_fillers.h"
+#include "sphparam/sphere/certificate.h"
+#include "sphparam/sphere/sphere_share.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+
+namespace {
+
+/// A ball of which all that is higher than this is filler.
+struct Bowl {
+  TriangleMesh mesh;
+  Topology topology;
+  SphereMap map;
+  FillerMarks fillers;
+
+  explicit Bowl(double height, int level = 4)
+      : mesh(icosphere(level)), topology(mesh), map{mesh.positions} {
+    for (Face f = 0; f < mesh.face_count(); ++f) {
+      const double z =
+          (mesh.positions(mesh.triangles(f, 0), 2) + mesh.positions(mesh.triangles(f, 1), 2) +
+           mesh.positions(mesh.triangles(f, 2), 2)) /
+          3;
+      fillers.push_back(z > height ? 1 : 0);
+    }
+  }
+
+  double share(const SphereMap& of) const { return sphere_share(mesh.triangles, of, fillers); }
+  PressedMap pressed(double most, int threads = 1) const {
+    return press_fillers(topology, measure_source(mesh), map, most,
+                         {.least_gain = 1e-3, .pressed = fillers, .threads = threads});
+  }
+};
+
+}  // namespace
+
+TEST_CASE("pressed fillers: the share of a cap is its share of the sphere") {
+  const Bowl bowl(0.5, 6);
+  CHECK(bowl.share(bowl.map) == Approx(0.25).epsilon(0.02));
+  CHECK(sphere_share(bowl.mesh.triangles, bowl.map, {}) == 0);
+  CHECK(sphere_share(bowl.mesh.triangles, bowl.map,
+                     FillerMarks(static_cast<size_t>(bowl.mesh.face_count()), 1)) == Approx(1));
+}
+
+TEST_CASE("pressed fillers: they end at their share or below, and the map stays one-to-one") {
+  for (const double height : {0.8, 0.3, 0.0, -0.4}) {
+    const Bowl bowl(height);
+    for (const double most : {0.02, 0.1}) {
+      INFO("above " << height << ", at most " << most);
+      const PressedMap result = bowl.pressed(most);
+      CHECK(result.share <= most);
+      CHECK(result.share == bowl.share(result.map));
+      CHECK(result.share > 0.3 * std::min(most, bowl.share(bowl.map)));  // no more than asked for
+      CHECK(certify(bowl.topology, result.map).bijective());
+    }
+  }
+}
+
+TEST_CASE("pressed fillers: what is small enough is left as it is") {
+  const Bowl bowl(0.97);
+  const PressedMap result = bowl.pressed(0.1);
+  CHECK(result.map.points == bowl.map.points);
+  CHECK(result.pressure == 0);
+}
+
+TEST_CASE("pressed fillers: the same bits for any number of threads") {
+  const Bowl bowl(0.2, 5);
+  CHECK(bowl.pressed(0.02, 1).map.points == bowl.pressed(0.02, 3).map.points);
+}
+
+TEST_CASE("pressed fillers: pressure adds its multiple of the area, and no more") {
+  const Bowl bowl(0.4, 3);
+  const RestTriangles source = measure_source(bowl.mesh);
+  const auto energy = [&](double pressure) {
+    return optimise(bowl.topology, source, bowl.map,
+                    {.energy = {.pressure = pressure}, .max_steps = 0, .pressed = bowl.fillers})
+        .report.energy_before;
+  };
+  double half_determinants = 0;
+  for (Face f = 0; f < bowl.mesh.face_count(); ++f) {
+    if (!bowl.fillers[static_cast<size_t>(f)]) continue;
+    const auto ray = [&](int k) { return bowl.map.point(bowl.mesh.triangles(f, k)); };
+    half_determinants += ray(0).dot(ray(1).cross(ray(2))) / 2;
+  }
+  CHECK(energy(3) - energy(0) == Approx(3 * half_determinants).epsilon(1e-6));
+}
+
+TEST_CASE("pressed fillers: steps, with sweeps and without, draw out what is rewarded") {
+  const Bowl bowl(0.2, 4);
+  const RestTriangles source = measure_source(bowl.mesh);
+  FillerMarks surface;
+  for (const unsigned char mark : bowl.fillers) surface.push_back(mark ? 0 : 1);
+  for (const int sweeps : {0, 4}) {
+    const Optimisation result = optimise(
+        bowl.topology, source, bowl.map,
+        {.energy = {.pressure = -20}, .least_gain = 1e-4, .sweeps = sweeps, .pressed = surface});
+    INFO(sweeps << " sweeps");
+    CHECK(result.report.energy_after < result.report.energy_before);
+    CHECK(bowl.share(result.map) < 0.5 * bowl.share(bowl.map));
+    CHECK(certify(bowl.topology, result.map).bijective());
+  }
+}

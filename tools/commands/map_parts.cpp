@@ -1,0 +1,124 @@
+// `sphparam map --all-components`: a map a part.
+
+#include "commands/map_parts.h"
+
+#include <exception>
+#include <utility>
+
+#include "arguments/limits.h"
+#include "commands/map_outputs.h"
+#include "console/exit_codes.h"
+#include "number_text.h"
+#include "reports/map_wording.h"
+#include "sphparam/io/components.h"
+#include "sphparam/io/paths.h"
+
+namespace sphparam::cli {
+
+namespace {
+
+/// What may be left out of all.
+double least_kept(const MapArguments& arguments) {
+  const std::optional<RepairOptions> repairs = wanted_repairs(arguments.repair);
+  return repairs && repairs->components ? repairs->least_kept : 1;
+}
+
+class PartsRun {
+ public:
+  PartsRun(const MapArguments& arguments, Session& session,
+           const std::function<MapOutcome(MeshSource)>& map)
+      : arguments_(arguments), session_(session), map_(map) {}
+
+  int run() {
+    std::vector<MeshPart> parts =
+        connected_parts(sphparam::read_source(arguments_.input, limits()),
+                        wanted_repairs(arguments_.repair).value_or(RepairOptions::none()));
+    if (!parts.empty()) {
+      for (const RepairAction& done : parts.front().source.repairs) {
+        session_.console.say("  " + done.message);
+      }
+    }
+    count_ = parts.size();
+    for (size_t i = 0; i < count_; ++i) map_part(i + 1, std::move(parts[i]));
+    if (refused_ && (written_ == 0 || 1 - lost_ < least_kept(arguments_))) {
+      session_.console.error(first_refused_ + " cannot be mapped; nothing is written");
+      std::rethrow_exception(refused_);
+    }
+    session_.add_report([&] { return "{\"parts\": [" + reports_ + "]}\n"; });
+    session_.publish();
+    tell();
+    return code_;
+  }
+
+ private:
+  ReadOptions limits() const {
+    const std::optional<RepairOptions> repairs = wanted_repairs(arguments_.repair);
+    ReadOptions options = input_limits();
+    options.repeated_corners = repairs && repairs->duplicates;
+    options.non_finite = repairs && repairs->non_finite;
+    return options;
+  }
+
+  std::string name_of(size_t number, const MeshPart& part) const {
+    return "component " + std::to_string(number) + " of " + std::to_string(count_) + " (" +
+           percent(part.area_share) + " of the area, " +
+           counted(static_cast<long>(part.source.file.mesh.face_count()), "triangle", "triangles") +
+           ")";
+  }
+
+  void map_part(size_t number, MeshPart part) {
+    const std::string name = name_of(number, part);
+    const double share = part.area_share;
+    try {
+      MapOutcome outcome = map_(std::move(part.source));
+      session_.console.say(name + ":");
+      tell_stages(outcome, session_.console);
+      add(number, outcome);
+    } catch (const MeshError&) {
+      lost_ += share;
+      if (!refused_) {
+        refused_ = std::current_exception();
+        first_refused_ = name;
+      }
+      left_out_.push_back(name);
+    }
+  }
+
+  void add(size_t number, MapOutcome& outcome) {
+    const bool writes = outcome.has_map() && outcome.frame.holds() &&
+                        (outcome.bijective() || arguments_.keep_folded);
+    MapArguments of_part = arguments_;
+    of_part.output = path_of_part(arguments_.output, static_cast<int>(number));
+    const std::string report = add_outputs(of_part, outcome, writes, session_);
+    if (!report.empty()) reports_ += (reports_.empty() ? "" : ", ") + report;
+    tell_result(outcome, writes ? of_part.output : "", session_.stopwatch.seconds(),
+                session_.console);
+    if (!outcome.succeeded()) code_ = NotCertified;
+    ++written_;
+  }
+
+  void tell() const {
+    if (left_out_.empty()) return;
+    session_.console.say("  left out: " + joined(left_out_) +
+                         ", which cannot be mapped: " + percent(lost_) + " of the area");
+  }
+
+  const MapArguments& arguments_;
+  Session& session_;
+  const std::function<MapOutcome(MeshSource)>& map_;
+  size_t count_ = 0, written_ = 0;
+  double lost_ = 0;
+  std::vector<std::string> left_out_;
+  std::exception_ptr refused_;
+  std::string first_refused_, reports_;
+  int code_ = Ok;
+};
+
+}  // namespace
+
+int run_map_of_parts(const MapArguments& arguments, Session& session,
+                     const std::function<MapOutcome(MeshSource)>& map) {
+  return PartsRun(arguments, session, map).run();
+}
+
+}  // namespace sphparam::cli
