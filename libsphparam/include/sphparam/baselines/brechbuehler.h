@@ -47,7 +47,8 @@ struct LatitudeLongitude {
   std::vector<Vertex> date_line;  // from pole to pole
 };
 
-/// Nothing when the poles are the same or adjacent. Throws: SolveError.
+/// Latitude and longitude as two stationary temperatures: one between the poles, one around them
+/// from the date line. Nothing when the poles are the same or adjacent. Throws: SolveError.
 std::optional<LatitudeLongitude> conduct_heat(const Topology& topology, Vertex north, Vertex south,
                                               int threads = 0);
 

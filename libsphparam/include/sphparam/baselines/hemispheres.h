@@ -41,7 +41,9 @@ struct Bisection {
   std::vector<Vertex> seam;  // a simple closed path of edges
 };
 
-/// Requires: closed genus-0 mesh. Throws: SolveError. Cost: one factorisation, O(#F log #F).
+/// Cuts a mesh into two disks of as many faces each, along a level of a harmonic function between
+/// two far vertices. Requires: closed genus-0 mesh. Throws: SolveError. Cost: one factorisation,
+/// O(#F log #F).
 Bisection bisect(const TriangleMesh& mesh, const Topology& topology, int threads = 0);
 
 /// The start of the method: each half on its hemisphere, side 0 north, the seam on the equator.

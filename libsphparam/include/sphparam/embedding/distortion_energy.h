@@ -102,6 +102,7 @@ inline double energy_density(const DistortionEnergy& energy, double d, double s)
 /// Corner points of an image triangle, in the order of the rest triangle's corners.
 using ImageTriangle = std::array<Vector3, 3>;
 
+/// How an image triangle differs from its rest triangle: what the densities above take.
 TriangleDistortion distortion(const RestTriangle& source, const ImageTriangle& image);
 
 /// Two unit vectors that make (u, v, x) a right-handed orthonormal frame.

@@ -47,18 +47,19 @@ class MappedMesh {
   /// The same mesh, shared, with another map, made here and proved as above.
   MappedMesh with_map(SphereMap map, Provenance provenance) const;
 
+  /// Vertices and triangles, as they are mapped.
   const TriangleMesh& mesh() const;
-  const MeshFile& file() const;  // the mesh with all that its file carried
-  const Topology& topology() const;
-  const SphereMap& map() const;  // unit rays
-  const Certificate& certificate() const;
-  const Provenance& provenance() const;
-  const std::optional<Polygons>& polygons() const;
-  const std::vector<std::string>& notes() const;
-  const FillerMarks& fillers() const;   // of the file
+  const MeshFile& file() const;                     // the mesh with all that its file carried
+  const Topology& topology() const;                 // of the triangles
+  const SphereMap& map() const;                     // unit rays, one a vertex
+  const Certificate& certificate() const;           // that the map is one-to-one, as it is here
+  const Provenance& provenance() const;             // how the map came about
+  const std::optional<Polygons>& polygons() const;  // that the triangles are cut of, where known
+  const std::vector<std::string>& notes() const;    // of reader and repair, a line each
+  const FillerMarks& fillers() const;               // of the file
   const TriangleMesh& surface() const;  // `surface_of` mesh and fillers: what is not filler
-  bool mapped_here() const;
-  const std::string& name() const;
+  bool mapped_here() const;             // no file had the map
+  const std::string& name() const;      // for messages
 
   /// Which triangle a direction lies in. Made at the first call, from whatever thread, and shared
   /// by the copies: 0.3 µs and 100 bytes a triangle.

@@ -43,7 +43,8 @@ struct RepairTrial {
   bool can_mend() const { return remaining.empty(); }
   bool mends_unasked() const;  // without choosing a component, or a larger hole or handle
 };
-/// With `keep_holes`, holes of any length are kept.
+/// Tries the repairs on a copy; the source stays as it is. With `keep_holes`, holes of any length
+/// are kept. Cost: that of the repairs.
 RepairTrial try_repair(const MeshSource& source, bool keep_holes = false);
 
 /// A mesh that cannot be mapped, and what could be done about it.

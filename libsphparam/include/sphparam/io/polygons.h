@@ -14,11 +14,12 @@ namespace sphparam {
 /// The faces of a file, as they were written: polygon p has the corners
 /// corners[starts[p]] … corners[starts[p + 1] − 1], each the index of a vertex.
 struct Polygons {
-  std::vector<int> corners;
-  std::vector<int> starts{0};
+  std::vector<int> corners;    // indices of vertices, polygon after polygon
+  std::vector<int> starts{0};  // where each begins in `corners`, and at last where all end
   std::vector<int> repeating;  // polygons that name a vertex twice, where options let them pass
 
   std::int64_t count() const { return static_cast<std::int64_t>(starts.size()) - 1; }
+  /// How many corners a polygon has, and which they are.
   int degree(std::int64_t p) const { return starts[p + 1] - starts[p]; }
   std::span<const int> polygon(std::int64_t p) const {
     return {corners.data() + starts[p], static_cast<std::size_t>(degree(p))};

@@ -33,11 +33,14 @@ class Topology {
   int halfedge_count() const { return static_cast<int>(origin_.size()); }
   int edge_count() const { return halfedge_count() / 2; }
 
+  /// The face that h runs around, and at which of its corners h starts.
   static Face face(Halfedge h) { return h / 3; }
   static int corner(Halfedge h) { return h % 3; }
+  /// The half-edges before and after h in its face.
   static Halfedge next(Halfedge h) { return h % 3 == 2 ? h - 2 : h + 1; }
   static Halfedge previous(Halfedge h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
+  /// The half-edge that runs the other way, in the face across the edge.
   Halfedge twin(Halfedge h) const { return twin_[static_cast<size_t>(h)]; }
   Vertex origin(Halfedge h) const { return origin_[static_cast<size_t>(h)]; }
   Vertex target(Halfedge h) const { return origin(next(h)); }

@@ -23,8 +23,8 @@ using Points = RowTable<double, 3>;
 /// #F×3 vertex indices, one triangle a row, counter-clockwise seen from outside.
 using Triangles = RowTable<int, 3>;
 
-/// Indices into a mesh. A *wedge* (a copy of a vertex across the cut) has a type of its own, see
-/// curvilinear/cut_mesh.h.
+/// Indices into a mesh. A *wedge* (a copy of a vertex across the cut) has a type of its own
+/// where meshes are cut.
 using Vertex = int;
 using Face = int;
 using Halfedge = int;
@@ -32,8 +32,8 @@ using Halfedge = int;
 /// A triangle mesh as plain data. Nothing is promised about it: `inspect_mesh` says what is wrong
 /// with it, and `Topology` can only be made from a mesh that is closed and manifold.
 struct TriangleMesh {
-  Points positions;
-  Triangles triangles;
+  Points positions;     // a row a vertex
+  Triangles triangles;  // a row a face, of indices of vertices
 
   Eigen::Index vertex_count() const { return positions.rows(); }
   Eigen::Index face_count() const { return triangles.rows(); }

@@ -40,6 +40,7 @@ struct QuadratureGrid {
   Points directions;
   VectorX weights;
 };
+/// The grid of degree L ≥ 0. Cost: O(L²).
 QuadratureGrid quadrature_grid(int degree);
 
 struct HarmonicFitOptions {

@@ -23,9 +23,12 @@ struct ConventionInfo {
   double offset;  // in turns: 0, ¼ or ½
 };
 
-/// Source: the viewers named, their u at the axes measured.
+/// All conventions, in the order in which they are listed. Source: the viewers named, their u at
+/// the axes measured.
 const std::vector<ConventionInfo>& all_conventions();
+/// The row of a convention.
 const ConventionInfo& info_of(Convention convention);
+/// By its name on the command line; nothing for a name nobody knows.
 std::optional<Convention> convention_named(std::string_view name);
 
 /// Rows of texels in u = θ/2π, interleaved, with their columns where the convention has them.
