@@ -1,4 +1,8 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "folder.h"
 #include "sphparam/io/certified_files.h"
@@ -88,8 +92,14 @@ TEST_CASE("fillers: files of maps keep them marked, others get the surface alone
   const MappedMesh ball = mapped_ball();
   const auto written = [&](const std::string& name, FillersInFile fillers) {
     PendingFiles files;
-    const std::int64_t left = add_mapped(files, folder.file(name), ball, 1, fillers);
+    const std::vector<std::string> losses =
+        add_mapped(files, folder.file(name), ball, 1, {}, fillers);
     files.publish();
+    const std::int64_t left =
+        std::ranges::count(losses,
+                           "the surface alone, without the map: 30 fillers of holes left out") > 0
+            ? 30
+            : 0;
     const MeshFile read = read_mesh(folder.file(name));
     CHECK(read.mesh.face_count() == ball.mesh().face_count() - left);
     return std::pair(left, read);
