@@ -11,7 +11,7 @@ import pytest
 import sphparam as sp
 
 package = pathlib.Path(os.path.realpath(sp.__file__)).parent
-page = (package.parent.parent.parent / "docs" / "python.md").read_text()
+page = (pathlib.Path(__file__).resolve().parents[2] / "docs" / "python.md").read_text()
 modules = [ast.parse(file.read_text()) for file in package.glob("*.py")]
 
 

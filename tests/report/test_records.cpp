@@ -78,7 +78,8 @@ TEST_CASE("map_record: what was asked for, what came out, by the numbers of the 
   CHECK(
       keys_of(json) ==
       "sphparam,command,input,inspection,repairs,handles,components,options,account,stages,made_by,"
-      "poles,meridian,radial,alignment,pole_residuals,pins,lambda,balance,energy_gap,energy_cost,certificate,"
+      "poles,meridian,radial,alignment,pole_residuals,pins,lambda,"
+      "filler_share,balance,energy_gap,energy_cost,certificate,"
       "distortion,chart,outputs,warnings,notes,seconds");
   REQUIRE(result.energy_gap);
   CHECK(json["energy_gap"] == *result.energy_gap);
@@ -86,9 +87,9 @@ TEST_CASE("map_record: what was asked for, what came out, by the numbers of the 
   CHECK(json["inspection"]["mappable"] == true);
   CHECK(json["options"]["method"] == "progressive");
   CHECK(json["options"]["poles"]["north"] == 1003);
-  CHECK(json["options"]["repair"] == Json({"non-finite", "duplicates", "cracks", "orientation",
-                                           "non-manifold", "components", "handles", "flat-faces",
-                                           "unused"}));
+  CHECK(json["options"]["repair"] ==
+        Json({"non-finite", "duplicates", "cracks", "orientation", "non-manifold", "components",
+              "handles", "flat-faces", "unused"}));
   CHECK(json["account"].is_null());
   CHECK(json["stages"].size() == result.stages.size());
   REQUIRE(result.poles);
@@ -174,7 +175,8 @@ TEST_CASE("verification_record: where the rays are, what was proved, what is odd
     return Json::parse(to_json(VerificationRecord{.file = "a/ball.obj", .map = map}));
   };
   CHECK(keys_of(json_of()) ==
-        "sphparam,command,file,rays,mean_length,length_deviation,certificate,distortion,chart,"
+        "sphparam,command,file,rays,mean_length,length_deviation,certificate,fillers,distortion,"
+        "chart,"
         "notes,seconds");
   CHECK(json_of()["rays"] == "vertex positions");
   CHECK(json_of()["certificate"]["verdict"] == "one-to-one");
