@@ -71,6 +71,8 @@ TEST_CASE("inputs: a list is relative to itself, has remarks, and all it names m
   tree.write("in/list.txt", "a.ply\nnot_there.ply\n");
   CHECK_THROWS_WITH(tree.ids("in/list.txt"),
                     Contains("of which 1 is not there") && Contains("not_there.ply"));
+  tree.write("in/letter.txt", "Dear reader,\n" + std::string(5000, 'x') + "\n");
+  CHECK_THROWS_WITH(tree.ids("in/letter.txt"), Contains("letter.txt was read as a list of paths"));
   tree.write("in/list.txt", "a.ply\n./a.ply\n");
   CHECK_THROWS_WITH(tree.ids("in/list.txt"), Contains("once"));
 }

@@ -40,6 +40,10 @@ addEventListener('load', async () => {
   set('[data-key=which]', 'failed', 'change');
   tell('failed', names().length === 30, names().length);
   tell('reasons', document.querySelector('.card').textContent.includes('code 4: a <hole>'), '');
+  set('[data-key=which]', 'repaired', 'change');
+  tell('repaired', names().join() === 'i0555', names().join());
+  tell('repairs', document.querySelector('.badge.repaired').textContent === 'repaired' &&
+      document.querySelector('.card').textContent.includes('hole-filled 1; handle-cut 2'), '');
   set('[data-key=which]', 'all', 'change');
   set('[data-key=order]', 'area', 'change');
   tell('order', names()[0] === 'i0777', names()[0]);
@@ -69,6 +73,7 @@ BatchPlan write_batch(const fs::path& folder) {
     const bool failed = i % 33 == 1 && i < 991;
     record.head.outcome = failed ? BatchOutcome::Failed : BatchOutcome::Certified;
     if (failed) record.head.code = 4, record.head.reason = "a <hole>";
+    if (i == 555) record.head.repairs = "hole-filled 1; handle-cut 2";
     const double area = i == 777 ? 9 : 0.2 + 0.0001 * i;
     record.steps.push_back({{"map"},
                             0,

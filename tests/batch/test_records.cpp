@@ -32,6 +32,7 @@ TEST_CASE("record: its head is read back, and nothing behind it is looked at") {
                  .cpu_seconds = 2,
                  .ended = 1795390320,
                  .reason = "why, \\ and \"where\"",
+                 .repairs = "hole-filled 1",
                  .files = {{"a/b.ply", 12, "h1"}, {"c", 0, "h2"}}};
   const std::string json = to_json(record);
   const BatchRecordHead head = read_head(json.substr(0, json.find("\"path\"")), "r");
@@ -44,6 +45,7 @@ TEST_CASE("record: its head is read back, and nothing behind it is looked at") {
   CHECK(head.cpu_seconds == 2);
   CHECK(head.ended == 1795390320);
   CHECK(head.reason == record.head.reason);
+  CHECK(head.repairs == "hole-filled 1");
   REQUIRE(head.files.size() == 2);
   CHECK(head.files[0].name == "a/b.ply");
   CHECK(head.files[0].size == 12);

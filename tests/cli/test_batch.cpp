@@ -117,7 +117,13 @@ TEST_CASE("batch: failures are tried again when somebody says so, and attempts a
   CHECK_THAT(shapes.batch("retry", {"--code", "5"}).err, Contains("0 items in 0 tasks"));
   const Ended retry = shapes.batch("retry", {"--code", "4,5"});
   CHECK_THAT(retry.err, Contains("1 item in 1 task") && Contains("--array=1 "));
-  CHECK(shapes.status()["to_retry"] == 1);
+  const Json waiting = shapes.status();
+  CHECK(waiting["to_retry"] == 1);
+  CHECK(waiting["done"].get<int>() + waiting["failed"].get<int>() + waiting["open"].get<int>() ==
+        waiting["items"]);
+  CHECK_THAT(shapes.batch("status").out, Contains("2 items: 1 done (50 %), 1 failed, 0 open") &&
+                                             Contains("of the failed 1 are to be tried again") &&
+                                             Contains("of the done: 1 certified one-to-one\n"));
   CHECK_THAT(shapes.batch("run").err, Contains("0 done, 1 failed, 1 done before"));
   CHECK(Json::parse(bytes_of(shapes.work + "/failed/bad.json"))["attempt"] == 2);
   CHECK(shapes.batch("retry", {"--id", "ball0"}).code == 2);
@@ -187,6 +193,50 @@ TEST_CASE("batch: with --chunk auto three shapes are tried, and are done for goo
   CHECK_THAT(plan.err, Contains("an item takes about"));
   CHECK(shapes.status()["done"] == 3);
   CHECK(shapes.plan({"map", "--lambda", "1", "--balance", "conformal"}, "auto").code == 2);
+}
+
+TEST_CASE("batch: planned again where the trial is done, tasks are as long as before") {
+  const Shapes shapes(40);
+  REQUIRE(shapes.plan({"map", "--quality", "draft"}, "auto").code == 0);
+  const Ended again = shapes.plan({"map", "--quality", "draft"}, "auto");
+  CHECK_THAT(again.err,
+             Contains("an item takes about") && !Contains("40 tasks") && Contains("array.sbatch"));
+}
+
+TEST_CASE("batch: a plan whose shapes were all tried has nothing to submit, and no double slash") {
+  const Shapes shapes(2);
+  shapes.add_bad();
+  const Ended plan = sphparam_program(
+      {"batch", "plan", shapes.folder / "in", "-o", shapes.work + "/", "--", "map"});
+  CHECK(plan.code == 0);
+  CHECK_THAT(plan.err, Contains("nothing left to do") && !Contains("array.sbatch"));
+  CHECK_THAT(bytes_of(shapes.work + "/array.sbatch"), Contains("work/logs/") && !Contains("//"));
+  shapes.batch("retry");
+  CHECK_THAT(shapes.plan({"map"}, "1").err, Contains("array.sbatch"));
+}
+
+TEST_CASE("batch: a mesh that was repaired is told in the table, the page and the status") {
+  const Shapes shapes(1);
+  TriangleMesh open = icosphere(2);
+  open.triangles.conservativeResize(open.face_count() - 1, 3);
+  write_bytes(shapes.folder / "in/open.obj", obj_text(open));
+  shapes.plan({"map", "--repair"});
+  REQUIRE(shapes.batch("run").code == 0);
+  CHECK(shapes.record("open")["repairs"] == "hole-filled 1");
+  CHECK(shapes.record("ball0")["repairs"] == "");
+  const Json status = shapes.status();
+  CHECK(status["done"] == 2);
+  CHECK(status["certified"] == 2);
+  CHECK(status["repaired"] == 1);
+  CHECK_THAT(shapes.batch("status").out,
+             Contains("of the done: 2 certified one-to-one, 1 repaired\n"));
+  REQUIRE(shapes.batch("table", {"-o", shapes.folder / "t.csv"}).code == 0);
+  const std::string table = bytes_of(shapes.folder / "t.csv");
+  CHECK_THAT(table, Contains("id,path,outcome,code,reason,attempt,repairs,"));
+  CHECK_THAT(table, Contains("open.obj,certified,0,,1,hole-filled 1,") &&
+                        Contains("ball0.obj,certified,0,,1,,"));
+  REQUIRE(shapes.batch("report", {"-o", shapes.folder / "all.html"}).code == 0);
+  CHECK_THAT(bytes_of(shapes.folder / "all.html"), Contains("\"hole-filled 1\"]"));
 }
 
 TEST_CASE("batch: an item that needs too much memory fails alone") {

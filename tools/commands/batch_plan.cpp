@@ -95,9 +95,9 @@ std::string first_reason(const std::string& folder, const BatchPlan& plan) {
   return status.failures.empty() ? "" : status.failures.front().reason;
 }
 
-/// Some of them as they will run: of small, middle and large ones. Seconds an item; what is done is
-/// done for good. Throws: UsageMistake where the words of the steps make no sense.
-std::optional<double> dry_run(const std::string& folder, const BatchPlan& plan, Session& session) {
+/// Some of them as they will run: of small, middle and large ones; what is done is done for good.
+/// Is anything left to do? Throws: UsageMistake where the words of the steps make no sense.
+bool dry_run(const std::string& folder, const BatchPlan& plan, Session& session) {
   std::vector<std::size_t> order(plan.items.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return plan.items[i].size; });
@@ -123,9 +123,17 @@ std::optional<double> dry_run(const std::string& folder, const BatchPlan& plan, 
     session.console.warning("of " + counted(static_cast<long>(summary.items), "item") + " tried, " +
                             std::to_string(summary.failed) +
                             " failed: " + first_reason(folder, plan));
-  const std::size_t ran = summary.done + summary.failed;
-  if (ran == 0) return std::nullopt;
-  return std::max(1e-3, summary.seconds / static_cast<double>(ran));
+  const BatchStatus status = batch_status(folder, plan);
+  const bool all_tried = summary.items == plan.items.size();
+  return !all_tried && (status.open() + status.to_retry > 0 || summary.other_program > 0);
+}
+
+/// Seconds an item, by what was ever run of it: nothing, where all was done before, is no reason
+/// for tasks of one item.
+std::optional<double> seconds_of_item(const std::string& folder, const BatchPlan& plan) {
+  const BatchStatus status = batch_status(folder, plan);
+  if (status.done + status.failed == status.to_retry) return std::nullopt;
+  return std::max(1e-3, status.cpu_seconds_an_item);
 }
 
 int chunk_for(std::size_t items, double seconds_an_item) {
@@ -147,7 +155,7 @@ int chunk_of(const std::string& text) {
 }
 
 void tell(const BatchPlan& plan, const std::string& folder, std::optional<double> item_seconds,
-          Console& console) {
+          bool anything_left, Console& console) {
   console.say(counted(static_cast<long>(plan.items.size()), "item") + " in " +
               counted(plan.tasks(), "task") + " of up to " + std::to_string(plan.chunk) + " → " +
               (fs::path(folder) / ("plan-" + plan.name + ".tsv")).string());
@@ -164,6 +172,11 @@ void tell(const BatchPlan& plan, const std::string& folder, std::optional<double
                     std::to_string((plan.items.size() + most_tasks - 1) / most_tasks) +
                     " makes fewer");
   const fs::path work(folder);
+  if (!anything_left) {
+    console.say("  nothing left to do: all were tried; `sphparam batch status " + folder +
+                "` says how they ended");
+    return;
+  }
   console.say("  sbatch " + (work / "array.sbatch").string());
   console.say("  snakemake -s " + (work / "Snakefile").string() + " --cores all --keep-going");
   console.say("  sphparam batch run " + folder);
@@ -181,14 +194,16 @@ int run_plan(PlanArguments& arguments) try {
                                       .threads = arguments.threads,
                                       .progress = session.progress()});
   std::optional<double> item_seconds;
+  bool anything_left = true;
   if (automatic) {
-    item_seconds = dry_run(arguments.folder, plan, session);
+    anything_left = dry_run(arguments.folder, plan, session);
+    item_seconds = seconds_of_item(arguments.folder, plan);
     plan = with_chunk(std::move(plan), chunk_for(plan.items.size(), item_seconds.value_or(60)));
   }
   const std::string program = fs::read_symlink("/proc/self/exe").string();
   save_plan(arguments.folder, plan, program);
   session.console.clear_progress();
-  tell(plan, arguments.folder, item_seconds, session.console);
+  tell(plan, arguments.folder, item_seconds, anything_left, session.console);
   return Ok;
 } catch (const BatchInputError& error) {
   throw UsageMistake(error.what());

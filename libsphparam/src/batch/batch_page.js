@@ -2,7 +2,7 @@
 // of them is in the document at a time, so that ten thousand open as fast as ten.
 (() => {
   const [ID, OUTCOME, VERTICES, AREA, ANGLE, WITHIN, SECONDS, OUT, PICTURE, PAGE, CODE, REASON,
-    ATTEMPT] = [...Array(13).keys()];
+    ATTEMPT, REPAIRS] = [...Array(14).keys()];
   const leafSize = 60, farOut = 1.5;
   const state = {words: '', which: 'all', order: 'outliers', leaf: 0, chosen: ''};
 
@@ -31,6 +31,7 @@
     outliers: ['outliers', row => row[OUT] > farOut],
     certified: ['certified', row => row[OUTCOME] === 'certified'],
     done: ['done, without a map', row => row[OUTCOME] === 'done'],
+    repaired: ['repaired', row => row[REPAIRS] !== ''],
     failed: ['failed', row => row[OUTCOME] === 'failed'],
     open: ['not run', row => row[OUTCOME] === 'open'],
   };
@@ -93,7 +94,9 @@
         picture(row), element('h3', {}, row[ID]),
         element('span', {class: 'badge ' + row[OUTCOME]}, row[OUTCOME]));
     if (row[OUT] > farOut) made.append(' ', element('span', {class: 'badge out'}, 'outlier'));
+    if (row[REPAIRS]) made.append(' ', element('span', {class: 'badge repaired'}, 'repaired'));
     made.append(facts(row));
+    if (row[REPAIRS]) made.append(element('p', {}, row[REPAIRS]));
     if (row[REASON]) made.append(element('p', {}, `code ${row[CODE]}: ${row[REASON]}`));
     if (row[ATTEMPT] > 1) made.append(element('p', {}, `attempt ${row[ATTEMPT]}`));
     made.append(links(row, results));

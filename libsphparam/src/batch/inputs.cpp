@@ -52,6 +52,7 @@ std::string id_of_name(const std::string& path) {
 struct Found {
   std::string path, id;
   std::vector<std::string> values;
+  std::string list = {};  // that names it; empty: none does
 };
 
 class Finder {
@@ -90,7 +91,8 @@ class Finder {
   /// As it stands beside the list, or else in the current folder.
   static fs::path named_in(const std::string& list, const std::string& name) {
     const fs::path beside = (is_stream(list) ? fs::path() : fs::path(list).parent_path()) / name;
-    return fs::exists(beside) ? beside : fs::path(name);
+    std::error_code hidden;  // a line that is too long for a name is none
+    return fs::exists(beside, hidden) ? beside : fs::path(name);
   }
 
   void list(const std::string& place) {
@@ -103,7 +105,9 @@ class Finder {
       if (line.find('\0') != std::string::npos)
         throw BatchInputError(display_name(place) +
                               ": neither a mesh that can be read nor a list of meshes");
-      if (!line.empty()) add(named_in(place, line));
+      if (line.empty()) continue;
+      add(named_in(place, line));
+      found_.back().list = display_name(place);
     }
   }
 
@@ -247,14 +251,20 @@ void require_distinct(const std::vector<Found>& found) {
 
 void require_there(const std::vector<Found>& found) {
   std::vector<std::string> missing;
-  for (const Found& one : found)
-    if (!fs::is_regular_file(one.path)) missing.push_back(one.path);
+  std::string list;
+  for (const Found& one : found) {
+    std::error_code hidden;
+    if (fs::is_regular_file(one.path, hidden)) continue;
+    missing.push_back(one.path);
+    if (list.empty()) list = one.list;
+  }
   if (missing.empty()) return;
   const std::size_t count = missing.size();
   missing.resize(std::min(count, told_at_most));
   throw BatchInputError(counted(std::ssize(found), "shape", "shapes") + ", of which " +
                         std::to_string(count) + (count == 1 ? " is" : " are") +
-                        " not there: " + joined(missing) + (count > told_at_most ? ", …" : ""));
+                        " not there: " + joined(missing) + (count > told_at_most ? ", …" : "") +
+                        (list.empty() ? "" : "; " + list + " was read as a list of paths"));
 }
 
 }  // namespace

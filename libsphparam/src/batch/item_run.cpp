@@ -18,6 +18,7 @@
 #include "batch/options_hash.h"
 #include "batch/publication.h"
 #include "batch/staging.h"
+#include "number_text.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/stopwatch.h"
 
@@ -74,6 +75,27 @@ bool tells_of_certificate(const std::string& report) {
   const auto certificate = json.find("certificate");
   return certificate != json.end() && certificate->is_object() &&
          certificate->value("one_to_one", false);
+}
+
+/// "hole-filled 1; handle-cut 2", as a step that mends a mesh tells it.
+std::string repairs_told(const std::string& report) {
+  const auto json = nlohmann::json::parse(report, nullptr, false);
+  const auto repairs = json.find("repairs");
+  if (repairs == json.end() || !repairs->is_array()) return "";
+  std::vector<std::string> told;
+  for (const auto& repair : *repairs)
+    told.push_back(repair.value("kind", "repair") + " " + std::to_string(repair.value("count", 0)));
+  return joined(told, "; ");
+}
+
+/// Those of all steps; two that mend the same mesh alike count once.
+std::string repairs_of(const std::vector<BatchStepRecord>& steps) {
+  std::vector<std::string> told;
+  for (const BatchStepRecord& step : steps) {
+    const std::string repairs = repairs_told(step.report);
+    if (!repairs.empty() && std::ranges::count(told, repairs) == 0) told.push_back(repairs);
+  }
+  return joined(told, "; ");
 }
 
 /// Where a step says what it found: its own --json, or one that is added.
@@ -162,6 +184,7 @@ class ItemRun {
 
   void complete() {
     record_.log = small_file(staged_ + "/log").value_or("");
+    record_.head.repairs = repairs_of(record_.steps);
     record_.head.seconds = stopwatch_.seconds();
     record_.head.cpu_seconds = cpu_seconds_so_far();
     record_.head.ended = std::time(nullptr);

@@ -134,7 +134,8 @@ void save_plan(const std::string& folder, const BatchPlan& plan, const std::stri
   const std::string manifest = manifest_path(folder, plan.name);
   PendingFiles files;
   if (!fs::exists(manifest)) files.add(manifest, manifest_text(plan));
-  files.add(path("array.sbatch"), slurm_script(fs::absolute(folder).string(), plan, program));
+  const std::string whole = (fs::absolute(folder) / "").lexically_normal().parent_path().string();
+  files.add(path("array.sbatch"), slurm_script(whole, plan, program));
   files.add(path("Snakefile"), snakefile(plan, program));
   files.add(path("plan"), plan.name + "\n");
   files.publish();

@@ -31,7 +31,7 @@ constexpr std::size_t named_outliers = 8;
 
 /// What the page shows of an item; figures of its first step that has them.
 struct Shape {
-  std::string outcome = "open", reason;
+  std::string outcome = "open", reason, repairs;
   std::string page;     // of its own; empty: none
   std::string picture;  // below the folder of the batch; empty: none
   int code = 0, attempt = 0;
@@ -65,6 +65,7 @@ Shape shape_of(const std::string& folder, const BatchItem& item) {
   if (record.is_discarded()) throw ReadError(stored->path, "this is no whole record of a batch");
   shape.outcome = record.value("outcome", "open");
   shape.reason = without_folders(stored->head.reason, item);
+  shape.repairs = stored->head.repairs;
   shape.code = stored->head.code;
   shape.attempt = stored->head.attempt;
   shape.seconds = stored->head.cpu_seconds;
@@ -107,7 +108,8 @@ Json row_json(const BatchItem& item, const Shape& shape, double outlyingness) {
           shape.page,
           shape.code,
           shape.reason,
-          shape.attempt};
+          shape.attempt,
+          shape.repairs};
 }
 
 /// A figure of all shapes, with its plot and who is far out.
@@ -155,14 +157,14 @@ void add_counts(Page& page, const BatchStatus& status, const std::vector<Shape>&
   const auto certified = std::ranges::count(shapes, std::string("certified"), &Shape::outcome);
   double cpu = 0;
   for (const Shape& shape : shapes) cpu += shape.seconds.value_or(0);
-  page.verdict(certified == std::ssize(shapes)
-                   ? "all shapes are certified one-to-one"
-                   : std::to_string(status.failed) + " failed, " +
-                         std::to_string(status.items - status.done - status.failed) + " not run",
+  page.verdict(certified == std::ssize(shapes) ? "all shapes are certified one-to-one"
+                                               : std::to_string(status.failed) + " failed, " +
+                                                     std::to_string(status.open()) + " not run",
                status.done == status.items);
   page.key_figures({{"shapes", grouped(static_cast<long>(status.items))},
                     {"certified", grouped(certified)},
                     {"done, without a map", grouped(static_cast<long>(status.done) - certified)},
+                    {"repaired", grouped(static_cast<long>(status.repaired))},
                     {"failed", grouped(static_cast<long>(status.failed))},
                     {"CPU time", duration(cpu)}});
 }

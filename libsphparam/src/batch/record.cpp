@@ -99,6 +99,7 @@ class HeadReader : public nlohmann::json_sax<nlohmann::json> {
     if (key_ == "options") head.options = value;
     if (key_ == "program") head.program = value;
     if (key_ == "reason") head.reason = value;
+    if (key_ == "repairs") head.repairs = value;
     if (list_ == 2 && key_ == "files") {
       BatchFile& file = head.files.back();
       (file.name.empty() ? file.name : file.hash) = value;
@@ -184,6 +185,7 @@ std::string to_json(const BatchRecord& record) {
                {"cpu_seconds", head.cpu_seconds},
                {"ended", head.ended},
                {"reason", head.reason},
+               {"repairs", head.repairs},
                {"files", files_json(head.files)},
                {"id", record.id},
                {"path", record.path},

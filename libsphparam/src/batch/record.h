@@ -38,6 +38,7 @@ struct BatchRecordHead {
   double seconds = 0, cpu_seconds = 0;
   std::int64_t ended = 0;  // seconds since 1970
   std::string reason;      // of a failure, one line
+  std::string repairs;     // of the mesh: "hole-filled 1; handle-cut 2"; empty: none
   std::vector<BatchFile> files;
 
   bool failed() const { return outcome == BatchOutcome::Failed; }

@@ -84,6 +84,7 @@ void estimate_time(BatchStatus& status, const BatchPlan& plan, const Heads& head
     cpu += heads[i]->cpu_seconds;
     ends.emplace_back(heads[i]->ended, bytes);
   }
+  if (!ends.empty()) status.cpu_seconds_an_item = cpu / static_cast<double>(ends.size());
   if (settled_bytes > 0) status.cpu_seconds_left = cpu / settled_bytes * open_bytes;
   if (ends.size() < 2 || open_bytes == 0) return;
   std::ranges::sort(ends);
@@ -94,6 +95,15 @@ void estimate_time(BatchStatus& status, const BatchPlan& plan, const Heads& head
   for (auto end = first + 1; end != ends.end(); ++end) done += end->second;
   if (took > 0 && done > 0 && std::time(nullptr) - ends.back().first < lately)
     status.seconds_left = open_bytes * took / done;
+}
+
+/// What "done" stands for.
+std::string done_text(const BatchStatus& status) {
+  std::vector<std::string> told;
+  if (status.certified > 0)
+    told.push_back(std::to_string(status.certified) + " certified one-to-one");
+  if (status.repaired > 0) told.push_back(std::to_string(status.repaired) + " repaired");
+  return told.empty() ? "" : "  of the done: " + joined(told) + "\n";
 }
 
 /// Rewrites a record of failure as one that is to be tried again.
@@ -122,6 +132,8 @@ BatchStatus batch_status(const std::string& folder, const BatchPlan& plan, int t
   for (const std::optional<BatchRecordHead>& head : heads) {
     if (!head) continue;
     ++(head->failed() ? status.failed : status.done);
+    status.certified += head->outcome == BatchOutcome::Certified;
+    status.repaired += !head->failed() && !head->repairs.empty();
     status.to_retry += head->retry;
   }
   status.running = static_cast<std::size_t>(count_staging(folder));
@@ -144,6 +156,7 @@ std::string to_text(const BatchStatus& status) {
                      percent(static_cast<double>(status.done) / all) + "), " +
                      std::to_string(status.failed) + " failed, " + std::to_string(status.open()) +
                      " open, " + std::to_string(status.running) + " being worked on\n";
+  text += done_text(status);
   if (status.to_retry > 0)
     text += "  of the failed " + std::to_string(status.to_retry) + " are to be tried again\n";
   if (status.cpu_seconds_left > 0)
@@ -170,6 +183,8 @@ std::string to_json(const BatchStatus& status) {
       {"plan", status.plan},
       {"items", status.items},
       {"done", status.done},
+      {"certified", status.certified},
+      {"repaired", status.repaired},
       {"failed", status.failed},
       {"to_retry", status.to_retry},
       {"open", status.open()},

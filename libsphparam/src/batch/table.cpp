@@ -56,8 +56,8 @@ Cells figures_of(const Json& record) {
   return cells;
 }
 
-const std::vector<std::string> first_columns = {"id",   "path",   "outcome",
-                                                "code", "reason", "attempt"};
+const std::vector<std::string> first_columns = {"id",     "path",    "outcome", "code",
+                                                "reason", "attempt", "repairs"};
 const std::vector<std::string> last_columns = {"seconds", "cpu_seconds", "peak_bytes",
                                                "ended",   "host",        "sphparam"};
 
