@@ -122,7 +122,7 @@ TEST_CASE("batch: failures are tried again when somebody says so, and attempts a
   CHECK(waiting["done"].get<int>() + waiting["failed"].get<int>() + waiting["open"].get<int>() ==
         waiting["items"]);
   CHECK_THAT(shapes.batch("status").out, Contains("2 items: 1 done (50 %), 1 failed, 0 open") &&
-                                             Contains("of the failed 1 are to be tried again") &&
+                                             Contains("to be tried again: 1 of the failed") &&
                                              Contains("of the done: 1 certified one-to-one\n"));
   CHECK_THAT(shapes.batch("run").err, Contains("0 done, 1 failed, 1 done before"));
   CHECK(Json::parse(bytes_of(shapes.work + "/failed/bad.json"))["attempt"] == 2);

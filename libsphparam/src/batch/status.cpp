@@ -158,7 +158,7 @@ std::string to_text(const BatchStatus& status) {
                      " open, " + std::to_string(status.running) + " being worked on\n";
   text += done_text(status);
   if (status.to_retry > 0)
-    text += "  of the failed " + std::to_string(status.to_retry) + " are to be tried again\n";
+    text += "  to be tried again: " + std::to_string(status.to_retry) + " of the failed\n";
   if (status.cpu_seconds_left > 0)
     text += "  left: " + duration(status.cpu_seconds_left) + " of one core";
   if (status.cpu_seconds_left > 0 && status.seconds_left)
