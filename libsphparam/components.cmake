@@ -49,7 +49,7 @@ function(add_component component)
     file(GLOB_RECURSE room_sources CONFIGURE_DEPENDS src/${room}/*.cpp)
     list(APPEND sources ${room_sources})
   endforeach()
-  list(FILTER sources EXCLUDE REGEX "/oiio/")
+  list(FILTER sources EXCLUDE REGEX "/(oiio|draco)/")
   set(target sphparam_${component})
   add_library(${target} ${sources})
   add_library(sphparam::${component} ALIAS ${target})
@@ -82,9 +82,10 @@ endfunction()
 set(CMAKE_FIND_PACKAGE_TARGETS_GLOBAL ON)  # tests and benchmarks use them too
 list(PREPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_SOURCE_DIR}/cmake/modules)
 if(io IN_LIST SPHPARAM_BUILT)
-  # glTF by tinygltf; GIFTI read by expat and zlib, written by libgiftiio, which is built on them.
+  # glTF by tinygltf, its compressed parts by Draco and meshoptimizer; GIFTI read by expat and zlib, written by libgiftiio, which is built on them.
   find_package(TinyGLTF REQUIRED)
   find_package(nlohmann_json 3.11 REQUIRED)
+  find_package(meshoptimizer REQUIRED)
   find_package(EXPAT REQUIRED)
   find_package(ZLIB REQUIRED)
   find_path(GIFTIIO_INCLUDE_DIR gifti/gifti_io.h REQUIRED)
@@ -92,9 +93,11 @@ if(io IN_LIST SPHPARAM_BUILT)
   find_library(GIFTIIO_LIBRARY giftiio REQUIRED)
   add_component(io ROOMS io
     LIBRARIES TinyGLTF::TinyGLTF=tinygltf nlohmann_json::nlohmann_json ${GIFTIIO_LIBRARY}=giftiio
-      EXPAT::EXPAT=expat ZLIB::ZLIB=z)
+      meshoptimizer::meshoptimizer=meshoptimizer EXPAT::EXPAT=expat
+      ZLIB::ZLIB=z)
   target_include_directories(sphparam_io SYSTEM PRIVATE ${GIFTIIO_INCLUDE_DIR}
     ${NIFTIIO_INCLUDE_DIR})
+  include(draco_inside.cmake)
 endif()
 if(image IN_LIST SPHPARAM_BUILT)
   add_component(image ROOMS image texture LIBRARIES ${CMAKE_DL_LIBS}=${CMAKE_DL_LIBS})
@@ -115,7 +118,6 @@ if(remesh IN_LIST SPHPARAM_BUILT)
   add_component(remesh ROOMS remesh displace LIBRARIES OpenSubdiv::osdCPU=osdCPU)
 endif()
 if(gltf IN_LIST SPHPARAM_BUILT)
-  find_package(meshoptimizer REQUIRED)
   add_component(gltf ROOMS gltf
     LIBRARIES meshoptimizer::meshoptimizer=meshoptimizer nlohmann_json::nlohmann_json)
 endif()

@@ -88,10 +88,10 @@ WrittenFiles add_asset(PendingFiles& files, const std::string& path, const Asset
   const GltfOptions options = resolved(given, path, asset);
   const bool is_binary = options.container == GltfContainer::Binary;
   const auto check = [&](std::string_view glb) {
-    if (!options.compress) check_written(glb, output_name(path), asset, options);
+    check_written(glb, output_name(path), asset, options);
   };
   GltfFiles made = write_gltf(asset, options);
-  if (!is_binary && !options.compress) check(glb_bytes(asset, options));
+  if (!is_binary) check(glb_bytes(asset, options));
   Adder adder(files);
   for (auto& [name, bytes] : made) {
     const bool is_checked = name.empty() && is_binary;

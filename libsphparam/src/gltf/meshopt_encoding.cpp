@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-// The only file that knows meshoptimizer. Versions of its encoding that decoders of the extension
+// The only file that knows meshoptimizer's encoders. Versions of its encoding that decoders of the extension
 // have: 0 for vertices, 1 for indices. Vertices are decoded again and compared, indices decoded.
 
 namespace sphparam {

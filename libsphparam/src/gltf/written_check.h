@@ -10,9 +10,9 @@
 namespace sphparam {
 
 /// Reads a .glb back by the reader of strangers' files and compares its first level with the asset:
-/// the same triangles, positions and (u, v), number by number; quantised ones within half a step.
-/// So what was certified of the asset holds for the file. Compressed files are not for that reader:
-/// `encode_vertices` and `encode_triangles` decode what they made.
+/// the same triangles, positions and (u, v), number by number; quantised ones within half a step,
+/// compressed triangles but for which corner is first. So what was certified of the asset holds for
+/// the file.
 /// Throws: std::runtime_error that names what differs; ReadError.
 void check_written(std::string_view glb, const std::string& name, const Asset& asset,
                    const GltfOptions& options);

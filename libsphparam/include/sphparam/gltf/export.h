@@ -135,7 +135,7 @@ std::vector<std::string> asset_files(const std::string& path, const Asset& asset
 /// Adds the files of an asset: one .glb; a .gltf beside a .bin and images, or by
 /// GltfContainer::Embedded alone. The path decides: container and stem of the options do not count
 /// otherwise; "-" is a .glb on standard output. What is on the disk is read back and compared
-/// number by number, unless it is compressed.
+/// number by number.
 /// Throws: WriteError; std::length_error where a .glb would be beyond 4 GiB; std::runtime_error
 /// where what was read back differs; std::invalid_argument for other endings.
 WrittenFiles add_asset(PendingFiles& files, const std::string& path, const Asset& asset,

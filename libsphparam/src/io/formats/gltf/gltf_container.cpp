@@ -17,6 +17,10 @@ std::uint32_t word_at(std::string_view bytes, std::size_t at) {
   return value;
 }
 
+void append_word(std::string& bytes, std::size_t word) {
+  for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<char>(word >> shift));
+}
+
 /// The chunk at `at`: its kind, its bytes.
 std::pair<std::uint32_t, std::string_view> chunk_at(std::string_view whole, std::size_t at,
                                                     const std::string& name) {
@@ -69,6 +73,18 @@ GltfContainer open_gltf(std::string_view bytes, const std::string& name,
   if (bytes.size() > std::numeric_limits<std::int32_t>::max())
     throw ReadError(name, "is too large for a glTF");
   return {.json = bytes, .whole = bytes};
+}
+
+std::string with_json(const GltfContainer& container, std::string json) {
+  if (!container.is_binary) return json;
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  const std::string_view rest =
+      container.whole.substr(container.json_offset + container.json.size());
+  std::string whole(container.whole.substr(0, 8));  // magic and version
+  append_word(whole, header_bytes + chunk_header_bytes + json.size() + rest.size());
+  append_word(whole, json.size());
+  append_word(whole, json_chunk);
+  return whole.append(json).append(rest);
 }
 
 }  // namespace sphparam

@@ -21,4 +21,8 @@ struct GltfContainer {
 GltfContainer open_gltf(std::string_view bytes, const std::string& name,
                         std::vector<std::string>& notes);
 
+/// The whole file with other JSON in the place of its own.
+/// Requires: fewer than 2³² bytes in all. Ensures: as the container is, text or binary.
+std::string with_json(const GltfContainer& container, std::string json);
+
 }  // namespace sphparam

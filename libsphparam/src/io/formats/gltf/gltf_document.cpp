@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "io/formats/gltf/gltf_compression.h"
 #include "io/formats/gltf/gltf_container.h"
 #include "io/formats/gltf/gltf_document_materials.h"
 #include "io/formats/gltf/gltf_document_model.h"
@@ -64,22 +65,22 @@ bool keep_image(tinygltf::Image* image, int, std::string*, std::string*, int, in
   return true;
 }
 
-tinygltf::Model parse(const GltfContainer& container, BufferFiles& files, const std::string& name) {
+tinygltf::Model parse(std::string_view whole, bool is_binary, BufferFiles& files,
+                      const std::string& name) {
   tinygltf::TinyGLTF loader;
   loader.SetImageLoader(keep_image, nullptr);
   loader.SetFsCallbacks(
       {BufferFiles::exists, BufferFiles::same_path, BufferFiles::read, BufferFiles::write, &files});
   tinygltf::Model model;
   std::string error, warning;
-  const auto size = static_cast<unsigned int>(container.whole.size());
+  const auto size = static_cast<unsigned int>(whole.size());
   bool loaded = false;
   try {
-    loaded = container.is_binary
-                 ? loader.LoadBinaryFromMemory(
-                       &model, &error, &warning,
-                       reinterpret_cast<const unsigned char*>(container.whole.data()), size, "")
-                 : loader.LoadASCIIFromString(&model, &error, &warning, container.whole.data(),
-                                              size, "");
+    loaded = is_binary
+                 ? loader.LoadBinaryFromMemory(&model, &error, &warning,
+                                               reinterpret_cast<const unsigned char*>(whole.data()),
+                                               size, "")
+                 : loader.LoadASCIIFromString(&model, &error, &warning, whole.data(), size, "");
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& unexpected) {
@@ -173,13 +174,19 @@ GltfDocument load_gltf(std::string_view bytes, const std::string& name,
   GltfSummary summary = check_gltf_json(container.json, container.json_offset,
                                         container.has_binary_chunk, name, options);
   BufferFiles files{std::move(summary.external_buffers), folder, options.max_file_bytes};
-  tinygltf::Model model = parse(container, files, name);
+  GltfCompression compression;
+  if (summary.compressed) compression = compression_of(container.json, name);
+  const std::string loadable =
+      compression.loadable_json.empty() ? "" : with_json(container, compression.loadable_json);
+  tinygltf::Model model =
+      parse(loadable.empty() ? container.whole : loadable, container.is_binary, files, name);
   std::int64_t primitives = 0;
   for (const tinygltf::Mesh& mesh : model.meshes)
     primitives += static_cast<std::int64_t>(mesh.primitives.size());
   if (primitives != summary.primitives)
     throw ReadError(name, "a mesh has a primitive without attributes");
   copy_model(model, name, document);
+  decompress(document, compression, name);
   for (GltfDocument::Material& material : document.materials) {
     BaseColour& colour = material.base_colour;
     if (colour.path.empty()) continue;

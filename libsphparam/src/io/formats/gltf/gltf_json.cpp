@@ -19,11 +19,12 @@ bool starts_with_any(std::string_view text, std::initializer_list<std::string_vi
                      [&](std::string_view beginning) { return text.starts_with(beginning); });
 }
 
-/// Extensions that change the look only, or the types of accessors that are read anyway.
+/// Extensions that change the look only, or how numbers are stored that are read anyway.
 bool is_supported(std::string_view extension) {
   return starts_with_any(
-      extension, {"KHR_mesh_quantization", "KHR_materials_", "KHR_lights_punctual", "KHR_texture_",
-                  "EXT_texture_", "MSFT_texture_dds"});
+      extension, {"KHR_mesh_quantization", "EXT_meshopt_compression", "KHR_draco_mesh_compression",
+                  "KHR_materials_", "KHR_lights_punctual", "KHR_texture_", "EXT_texture_",
+                  "MSFT_texture_dds"});
 }
 
 class Checker : public nlohmann::json_sax<Json> {
@@ -80,7 +81,10 @@ class Checker : public nlohmann::json_sax<Json> {
     if (++objects_ > options_.max_json_objects)
       fail("has more JSON objects than the limit of " + std::to_string(options_.max_json_objects));
     const std::string place = path();
+    if (steps_.size() == 1 && (place == "buffers" || place == "accessors" || place == "meshes"))
+      fail(place + " have names, as in glTF 1.0, which is not supported; glTF 2.0 is");
     if (place == "buffers/#") uri_seen_ = false;
+    note_compression(place);
     if (place == "meshes/#/primitives/#") ++summary_.primitives;
     return enter();
   }
@@ -166,6 +170,13 @@ class Checker : public nlohmann::json_sax<Json> {
     return std::find(std::begin(keys), std::end(keys), last) != std::end(keys) ||
            parent == "attributes" ||
            (last == "#" && (parent == "children" || parent == "nodes") && steps_.size() > 2);
+  }
+
+  void note_compression(const std::string& place) {
+    // A buffer that only decoded views are in has no bytes of its own, and so no URI.
+    if (place == "buffers/#/extensions/EXT_meshopt_compression") uri_seen_ = true;
+    summary_.compressed |= place.ends_with("/extensions/EXT_meshopt_compression") ||
+                           place.ends_with("/extensions/KHR_draco_mesh_compressi");
   }
 
   void add_buffer_uri(const std::string& uri) {

@@ -55,6 +55,8 @@ class SceneReader {
 
   MeshFile read() {
     for (const PlacedMesh& placed : placed_meshes(document_, name_, file_.notes)) add_mesh(placed);
+    if (triangles_.empty() && without_area_ > 0)
+      fail(first_without_area_ + ", which are not supported; triangles are");
     if (triangles_.empty()) fail("holds no triangles");
     file_.mesh.positions = Eigen::Map<const Points>(positions_.data(), vertex_count(), 3);
     file_.mesh.triangles = Eigen::Map<const Triangles>(triangles_.data(), triangle_count(), 3);
@@ -79,6 +81,7 @@ class SceneReader {
     for (std::size_t p = 0; p < primitives.size(); ++p) {
       const GltfDocument::Primitive& primitive = primitives[p];
       where_ = "mesh " + std::to_string(placed.mesh) + " primitive " + std::to_string(p);
+      if (leave_out(primitive)) continue;
       const int position = check_primitive(primitive);
       const auto [first, is_new] =
           first_vertex.try_emplace(primitive.attributes, static_cast<int>(vertex_count()));
@@ -87,13 +90,19 @@ class SceneReader {
     }
   }
 
+  /// Points and lines are no surface.
+  bool leave_out(const GltfDocument::Primitive& primitive) {
+    if (primitive.mode < ModePoints || primitive.mode >= ModeTriangles) return false;
+    if (without_area_++ == 0)
+      first_without_area_ =
+          where_ + " holds " + (primitive.mode == ModePoints ? "points" : "lines");
+    return true;
+  }
+
   /// The accessor of the positions.
   int check_primitive(const GltfDocument::Primitive& primitive) const {
     if (primitive.mode < ModePoints || primitive.mode > ModeFan)
       fail(where_ + " has the unknown mode " + std::to_string(primitive.mode));
-    if (primitive.mode < ModeTriangles)
-      fail(where_ + " holds " + (primitive.mode == ModePoints ? "points" : "lines") +
-           ", which are not supported; triangles are");
     const auto position = primitive.attributes.find("POSITION");
     if (position == primitive.attributes.end()) fail(where_ + " has no positions");
     require_components(position->second, {3});
@@ -308,6 +317,8 @@ class SceneReader {
                                 " of " +
                                 counted(static_cast<long>(file_.materials.size()), "material") +
                                 ", only base colours are");
+    if (without_area_ > 0)
+      add_loss(file_.notes, counted(without_area_, "primitive") + " of points or lines");
     if (skinned_ > 0)
       add_loss(file_.notes, counted(skinned_, "skin") + ": the mesh is read as it rests");
     if (morph_targets_ > 0) add_loss(file_.notes, counted(morph_targets_, "morph target"));
@@ -338,6 +349,8 @@ class SceneReader {
   long skinned_ = 0;                   // meshes placed with a skin
   int morph_targets_ = 0;
   long degenerate_ = 0;
+  long without_area_ = 0;           // primitives of points and lines
+  std::string first_without_area_;  // the first of them, in words
   MeshFile file_;
 };
 
