@@ -5,7 +5,7 @@
                    [--status 100000]
 
 The figures of docs/results.md are with --meshes 10000. CPU is that of all processes, in user and
-system; the mapping's is that of `sphparam map --json`, one process a mesh.
+system; the mapping's is that of `sphparam map --json`, one process a mesh, just before and after.
 """
 
 import argparse
@@ -49,48 +49,72 @@ def cpu_of_daemon(pid):
     return sum(map(int, fields[11:15])) / os.sysconf("SC_CLK_TCK")
 
 
-def overheads(a):
-    shapes, maps = a.work / "shapes", a.work / "maps"
-    maps.mkdir(exist_ok=True)
-    loop = (f'for m in {shapes}/*.ply; do "{a.program}" map "$m" -o {maps}/x.sph.ply '
-            f'--json {maps}/x.json --threads 1 -q; done')
-    mapping, _ = measured(["sh", "-c", loop])
-    print(f"mapping: {mapping:.1f} s of CPU, {1000 * mapping / a.meshes:.1f} ms a mesh", flush=True)
+class Mapping:
+    """The mapping alone, one process a mesh: a sample of it is timed before and after each batch, so
+    that a machine that becomes slower or faster meanwhile does so for both."""
 
-    def tell(name, cpu, wall):
-        print(f"{name}: {cpu:.1f} s of CPU, {100 * (cpu / mapping - 1):+.1f} % of the mapping, "
-              f"{wall:.1f} s", flush=True)
+    def __init__(self, a):
+        self.a, self.maps = a, a.work / "maps"
+        self.sample = sorted((a.work / "shapes").glob("*.ply"))[::max(a.meshes // 1000, 1)]
+        self.maps.mkdir(exist_ok=True)
+        self.before = self.seconds()
+
+    def seconds(self):
+        """Of CPU, for all meshes, after the sample."""
+        command = (f'for m; do "{self.a.program}" map "$m" -o {self.maps}/x.sph.ply '
+                   f'--json {self.maps}/x.json --threads 1 -q; done')
+        cpu, _ = measured(["sh", "-c", command, "sh", *self.sample])
+        return cpu * self.a.meshes / len(self.sample)
+
+    def about(self, measure):
+        """What `measure` returns, and the seconds of CPU that the mapping takes about that time."""
+        result, after = measure(), self.seconds()
+        mapping, self.before = (self.before + after) / 2, after
+        return result, mapping
+
+
+def overheads(a):
+    mapping = Mapping(a)
+    print(f"mapping: {1000 * mapping.before / a.meshes:.1f} ms of CPU a mesh", flush=True)
+
+    def tell(name, words, **settings):
+        (cpu, wall), alone = mapping.about(lambda: measured(words, **settings))
+        print(f"{name}: {cpu:.1f} s of CPU, {100 * (cpu / alone - 1):+.1f} % of the mapping's "
+              f"{alone:.1f}, {wall:.1f} s", flush=True)
         return wall
 
     walls = {}
     for threads in (1, 2):
-        plan(a.program, a.work / "alone", shapes, 50)
+        plan(a.program, a.work / "alone", a.work / "shapes", 50)
         walls[threads] = tell(f"batch run --threads {threads}",
-                              *measured([a.program, "batch", "run", a.work / "alone", "--threads",
-                                         threads]))
+                              [a.program, "batch", "run", a.work / "alone", "--threads", threads])
     print(f"throughput of two threads: {walls[1] / walls[2]:.2f} × one's", flush=True)
     if shutil.which("snakemake"):
-        plan(a.program, a.work / "snakemake", shapes, 50)
-        tell("Snakemake", *measured(["snakemake", "-s", a.work / "snakemake" / "Snakefile", "--cores",
-                                     "2", "--quiet", "all"], cwd=a.work / "snakemake"))
+        plan(a.program, a.work / "snakemake", a.work / "shapes", 50)
+        tell("Snakemake", ["snakemake", "-s", a.work / "snakemake" / "Snakefile", "--cores", "2",
+                           "--quiet", "all"], cwd=a.work / "snakemake")
     if not one_node_slurm.missing():
-        by_slurm(a, shapes, mapping)
+        by_slurm(a, mapping)
 
 
-def by_slurm(a, shapes, mapping):
+def by_slurm(a, mapping):
     folder = a.work / "slurm"
-    plan(a.program, folder, shapes, 50)
-    with one_node_slurm.OneNodeSlurm(a.work / "one-node") as slurm:
-        daemons = [slurm.pid(name) for name in ("slurmd", "slurmctld", "munged")]
-        before, begin = sum(map(cpu_of_daemon, daemons)), time.time()
-        slurm.submit(folder / "array.sbatch")
-        slurm.wait_for_jobs(36000)
-        wall = time.time() - begin
-        items = item_cpu(folder)
-        # Steps are no children of slurmd that it waits for everywhere: items are counted by records.
-        daemons_cpu = sum(map(cpu_of_daemon, daemons)) - before
-    print(f"Slurm: daemons and their children {daemons_cpu:.1f} s of CPU, items {items:.1f} s, "
-          f"the mapping {mapping:.1f} s, {wall:.1f} s", flush=True)
+    plan(a.program, folder, a.work / "shapes", 50)
+
+    def measure():
+        with one_node_slurm.OneNodeSlurm(a.work / "one-node") as slurm:
+            daemons = [slurm.pid(name) for name in ("slurmd", "slurmctld", "munged")]
+            before, begin = sum(map(cpu_of_daemon, daemons)), time.time()
+            slurm.submit(folder / "array.sbatch")
+            slurm.wait_for_jobs(36000)
+            wall = time.time() - begin
+            # Steps are no children of slurmd that it waits for everywhere: items are counted by records.
+            return sum(map(cpu_of_daemon, daemons)) - before, item_cpu(folder), wall
+
+    (daemons_cpu, items, wall), alone = mapping.about(measure)
+    print(f"Slurm: daemons and their children {daemons_cpu:.1f} s of CPU, "
+          f"{100 * daemons_cpu / alone:.1f} % of the mapping's {alone:.1f}; items {items:.1f} s; "
+          f"{wall:.1f} s", flush=True)
 
 
 def resume(a):
