@@ -122,7 +122,7 @@ if(gltf IN_LIST SPHPARAM_BUILT)
     LIBRARIES meshoptimizer::meshoptimizer=meshoptimizer nlohmann_json::nlohmann_json)
 endif()
 if(report IN_LIST SPHPARAM_BUILT)
-  add_component(report ROOMS report compare showcase records
+  add_component(report ROOMS report compare showcase survey records
     LIBRARIES nlohmann_json::nlohmann_json)
   include(cmake/embed_texts.cmake)
   embed_texts(sphparam_report src/report/page.css src/report/plot.css src/report/viewer.css

@@ -45,6 +45,7 @@ const std::vector<Subcommand> subcommands = {
     {"repair", {""}, {"-o", "--loops", "--json"}},
     {"report", {"", "--sphere", "--texture"}, {"-o", "--json"}},
     {"spharm", {"", "--sphere"}, {"--json", "--csv", "--shadr", "--reconstruct"}},
+    {"survey", {}, {"-o", "--json"}},
     {"unimage", {"", "--normals", "--attribute q="}, {"-o"}},
     {"verify", {""}, {"--json"}, {}, 2},
 };
