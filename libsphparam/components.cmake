@@ -122,7 +122,7 @@ if(gltf IN_LIST SPHPARAM_BUILT)
     LIBRARIES meshoptimizer::meshoptimizer=meshoptimizer nlohmann_json::nlohmann_json)
 endif()
 if(report IN_LIST SPHPARAM_BUILT)
-  add_component(report ROOMS report compare showcase survey records
+  add_component(report ROOMS report compare showcase records
     LIBRARIES nlohmann_json::nlohmann_json)
   include(cmake/embed_texts.cmake)
   embed_texts(sphparam_report src/report/page.css src/report/plot.css src/report/viewer.css
@@ -131,7 +131,7 @@ if(report IN_LIST SPHPARAM_BUILT)
 endif()
 if(batch IN_LIST SPHPARAM_BUILT)
   find_path(XXHASH_INCLUDE_DIR xxhash.h REQUIRED)  # a header: nothing is linked
-  add_component(batch ROOMS batch LIBRARIES nlohmann_json::nlohmann_json ZLIB::ZLIB=z)
+  add_component(batch ROOMS batch survey LIBRARIES nlohmann_json::nlohmann_json ZLIB::ZLIB=z)
   target_include_directories(sphparam_batch SYSTEM PRIVATE ${XXHASH_INCLUDE_DIR})
   embed_texts(sphparam_batch src/batch/batch_page.css src/batch/batch_page.js)
 endif()

@@ -45,7 +45,7 @@ const std::vector<Subcommand> subcommands = {
     {"repair", {""}, {"-o", "--loops", "--json"}},
     {"report", {"", "--sphere", "--texture"}, {"-o", "--json"}},
     {"spharm", {"", "--sphere"}, {"--json", "--csv", "--shadr", "--reconstruct"}},
-    {"survey", {}, {"-o", "--json"}},
+    {"survey", {}, {"-o", "--records", "--json"}},
     {"unimage", {"", "--normals", "--attribute q="}, {"-o"}},
     {"verify", {""}, {"--json"}, {}, 2},
 };

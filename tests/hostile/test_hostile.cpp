@@ -134,3 +134,25 @@ TEST_CASE("hostile: the table and the folder name the same files") {
   CHECK(expected == there);
   CHECK(bytes <= 1u << 20);
 }
+
+TEST_CASE("hostile: a survey of a folder of them comes to its end") {
+  const Scratch scratch;
+  fs::create_directory(scratch.path / "files");
+  std::size_t count = 0;
+  const std::vector<HostileFile> rows = table();
+  for (std::size_t i = 0; i < rows.size(); i += 8) {  // an eighth of them
+    const fs::path file = folder / "files" / rows[i].name;
+    if (!fs::is_regular_file(file)) continue;
+    fs::copy(file, scratch.path / "files" / file.filename());
+    ++count;
+  }
+  REQUIRE(count > 100);
+  const ProcessLimits limits{.seconds = 300};
+  const ProcessEnd end = run_process({SPHPARAM_PROGRAM, "survey", (scratch.path / "files").string(),
+                                      "-o", (scratch.path / "page.html").string(), "--size", "32"},
+                                     {}, limits);
+  INFO(end.messages);
+  CHECK(end.code == 4);
+  CHECK(end.messages.find(" do not") != std::string::npos);
+  CHECK(fs::file_size(scratch.path / "page.html") > 10000);
+}

@@ -1,12 +1,15 @@
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "sphparam/errors.h"
 #include "sphparam/io/mesh_writer.h"
+#include "sphparam/io/safe_file.h"
 #include "sphparam/survey/survey.h"
 #include "support/test_meshes.h"
 
@@ -15,6 +18,8 @@ using namespace sphparam::tests;
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr double pi = 3.141592653589793;
 
 /// A folder with a mesh of each end, gone at the end.
 struct Meshes {
@@ -34,6 +39,7 @@ struct Meshes {
     write("two.off", two_balls());
     std::ofstream(folder / "broken.ply") << "ply\nformat ascii 1.0\n";
     std::ofstream(folder / "triangle.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    write("torus.obj", torus());
     std::ofstream(folder / "readme.txt") << "no mesh\n";
   }
   ~Meshes() { fs::remove_all(folder); }
@@ -42,6 +48,25 @@ struct Meshes {
     MeshFile file;
     file.mesh = mesh;
     std::ofstream(folder / name, std::ios::binary) << serialise_mesh(name, file);
+  }
+
+  /// Its loops are longer than those that a repair cuts unasked.
+  static TriangleMesh torus() {
+    constexpr int around = 24, across = 12;
+    TriangleMesh mesh;
+    mesh.positions.resize(around * across, 3);
+    mesh.triangles.resize(2 * around * across, 3);
+    const auto at = [](int i, int j) { return i % around * across + j % across; };
+    for (int i = 0; i < around; ++i) {
+      for (int j = 0; j < across; ++j) {
+        const double u = 2 * pi * i / around, v = 2 * pi * j / across, r = 2 + 1.5 * std::cos(v);
+        mesh.positions.row(at(i, j)) << r * std::cos(u), r * std::sin(u), 1.5 * std::sin(v);
+        const int face = 2 * (i * across + j);
+        mesh.triangles.row(face) << at(i, j), at(i + 1, j), at(i + 1, j + 1);
+        mesh.triangles.row(face + 1) << at(i, j), at(i + 1, j + 1), at(i, j + 1);
+      }
+    }
+    return mesh;
   }
 
   static TriangleMesh two_balls() {
@@ -67,24 +92,43 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
+std::vector<std::string> certified_ways(const SurveyedMesh& mesh) {
+  std::vector<std::string> ways;
+  for (const SurveyedWay& way : mesh.ways)
+    if (way.certified) ways.push_back(way.options);
+  return ways;
+}
+
+using Words = std::vector<std::string>;
+
 }  // namespace
 
-TEST_CASE("survey: every mesh of a folder comes to its end, with its reasons and its picture") {
+TEST_CASE("survey: every mesh of a folder comes to its end, with its reasons and its pictures") {
   const Meshes meshes;
   const Survey survey = survey_folder(meshes.folder.string(), {.picture_size = 64});
-  REQUIRE(survey.meshes.size() == 6);
+  REQUIRE(survey.meshes.size() == 7);
   CHECK(named(survey, "ball.ply").end == SurveyEnd::Maps);
-  CHECK(named(survey, "ball.ply").picture.empty());
+  CHECK(named(survey, "ball.ply").pictures.empty());
   const SurveyedMesh& open = named(survey, "deeper/open.obj");
   CHECK(open.end == SurveyEnd::MapsMended);
   CHECK(contains(open.repairs.at(0), "1 hole filled"));
-  CHECK(open.picture.starts_with("\x89PNG"));
+  CHECK(certified_ways(open) == Words{"--repair", "--repair --keep-holes"});
+  CHECK(open.boundaries == 1);
+  REQUIRE(open.pictures.size() == 2);
+  CHECK(open.pictures[0].png.starts_with("\x89PNG"));
+  CHECK(open.pictures[1].png.starts_with("\x89PNG"));
   const SurveyedMesh& nan = named(survey, "nan.ply");
   CHECK(nan.end == SurveyEnd::MapsMended);
   CHECK(contains(nan.defects.at(0), "not finite"));
   const SurveyedMesh& two = named(survey, "two.off");
   CHECK(two.end == SurveyEnd::MapsIfAsked);
-  CHECK(two.advice == "--repair --component 1");
+  CHECK(certified_ways(two) == Words{"--repair --component 1", "--repair --all-components"});
+  CHECK(two.ways.at(1).told == "2 of 2 components map");
+  const SurveyedMesh& torus = named(survey, "torus.obj");
+  CHECK(torus.end == SurveyEnd::MapsIfAsked);
+  CHECK(torus.genus == 1);
+  REQUIRE(torus.ways.size() == 1);
+  CHECK(torus.ways[0].options.starts_with("--repair --max-handle "));
   CHECK(named(survey, "broken.ply").end == SurveyEnd::Unreadable);
   CHECK(named(survey, "triangle.obj").end == SurveyEnd::CannotMap);
   CHECK(survey.count(SurveyEnd::MapsMended) == 2);
@@ -93,30 +137,104 @@ TEST_CASE("survey: every mesh of a folder comes to its end, with its reasons and
 TEST_CASE("survey: the page and the report name every file, its end and what to type") {
   const Meshes meshes;
   const Survey survey = survey_folder(meshes.folder.string(), {.picture_size = 0});
-  const std::string page = survey_page(survey), json = to_json(survey, 1.5);
-  for (const SurveyedMesh& mesh : survey.meshes) {
-    CHECK(mesh.picture.empty());
+  const std::string page = survey_page(survey);
+  CHECK(contains(page, "5 of 7 files map onto the sphere: 1 as they are, 2 after --repair, 2 "));
+  CHECK(contains(page, "two.off --repair --component 1 -o mapped.sph.ply"));
+  const auto json = nlohmann::json::parse(to_json(survey, 1.5));
+  CHECK(json["counts"]["maps-mended"] == 2);
+  CHECK(json["counts"]["unreadable"] == 1);
+  REQUIRE(json["meshes"].size() == survey.meshes.size());
+  for (std::size_t i = 0; i < survey.meshes.size(); ++i) {
+    const SurveyedMesh& mesh = survey.meshes[i];
+    CHECK(mesh.pictures.empty());
     CHECK(contains(page, mesh.name));
-    CHECK(contains(json, "\"" + name_of(mesh.end) + "\""));
+    CHECK(json["meshes"][i]["name"] == mesh.name);
+    CHECK(json["meshes"][i]["end"] == name_of(mesh.end));
+    CHECK(json["meshes"][i]["ways"].size() == mesh.ways.size());
   }
-  CHECK(contains(page, "3 of 6 files"));
-  CHECK(contains(page, "--repair --component 1"));
-  CHECK(contains(json, "\"counts\""));
 }
 
-TEST_CASE("survey: names and reasons cannot break the page") {
+TEST_CASE(
+    "survey: names and reasons cannot break the page, nor the shell that a line is typed to") {
   const Meshes meshes;
   std::ofstream(meshes.folder / "<script>alert(1)<_script>.obj") << "quux <b>\n";
-  CHECK_FALSE(contains(survey_page(survey_folder(meshes.folder.string(), {.picture_size = 0})),
-                       "<script>alert"));
+  std::ofstream(meshes.folder / "\xff\xfe.obj") << "v 0 0 0\n";
+  fs::copy(meshes.folder / "deeper/open.obj", meshes.folder / "a b'$(id).obj");
+  const Survey survey =
+      survey_folder(meshes.folder.string(), {.picture_size = 0, .isolated = true});
+  REQUIRE(survey.meshes.size() == 10);
+  const std::string page = survey_page(survey);
+  CHECK_FALSE(contains(page, "<script>alert"));
+  CHECK(contains(page, "/a b'\\''$(id).obj' --repair"));
+  CHECK(nlohmann::json::accept(to_json(survey, 0)));
+}
+
+TEST_CASE("survey: files in processes of their own, and on other threads, end as all do") {
+  const Meshes meshes;
+  const std::string folder = meshes.folder.string();
+  const Survey survey = survey_folder(folder, {.picture_size = 48, .threads = 1});
+  const std::string page = survey_page(survey);
+  CHECK(survey_page(survey_folder(folder, {.picture_size = 48, .isolated = true})) == page);
+  CHECK(survey_page(survey_folder(folder, {.picture_size = 48, .threads = 3})) == page);
+}
+
+TEST_CASE("survey: a file that takes too long is stopped, and the others go on") {
+  const Meshes meshes;
+  meshes.write("slow.ply", icosphere(7));
+  const Survey survey = survey_folder(
+      meshes.folder.string(), {.picture_size = 0, .isolated = true, .longest = 0.3, .threads = 1});
+  CHECK(named(survey, "slow.ply").end == SurveyEnd::Stopped);
+  CHECK(named(survey, "slow.ply").reasons == Words{"it took more than 0.3 s"});
+  CHECK(named(survey, "two.off").end != SurveyEnd::Unreadable);
+}
+
+TEST_CASE("survey: stopped, it goes on from its records; what has changed is tried again") {
+  const Meshes meshes;
+  const std::string folder = meshes.folder.string();
+  const fs::path records = meshes.folder / "records";
+  fs::create_directory(records);
+  const SurveyOptions plain{.picture_size = 48};
+  const std::string page = survey_page(survey_folder(folder, plain));
+  SurveyOptions kept = plain;
+  kept.records = records.string();
+  int asked = 0;
+  kept.progress = [&](auto, double) { return ++asked < 4; };  // three files
+  CHECK_THROWS_AS(survey_folder(folder, kept), Cancelled);
+  const auto count = [&] {
+    return std::distance(fs::directory_iterator(records), fs::directory_iterator());
+  };
+  CHECK(count() == 2);  // the third is broken.ply, of which there is no record
+  kept.progress = {};
+  CHECK(survey_page(survey_folder(folder, kept)) == page);
+  CHECK(count() == 6);
+
+  // A record that is there is believed; one that is damaged is not.
+  for (const auto& entry : fs::directory_iterator(records)) {
+    std::ifstream in(entry.path());
+    std::string text((std::istreambuf_iterator<char>(in)), {});
+    if (contains(text, "\"name\": \"ball.ply\"")) {
+      text.replace(text.find("\"maps\""), 6, "\"cannot-map\"");
+    } else {
+      text.resize(text.size() / 2);
+    }
+    std::ofstream(entry.path()) << text;
+  }
+  const Survey again = survey_folder(folder, kept);
+  CHECK(named(again, "ball.ply").end == SurveyEnd::CannotMap);
+  CHECK(named(again, "deeper/open.obj").end == SurveyEnd::MapsMended);
+  meshes.write("ball.ply", icosphere(1));
+  CHECK(named(survey_folder(folder, kept), "ball.ply").end == SurveyEnd::Maps);
 }
 
 TEST_CASE("survey: a folder without meshes, or none at all, is an error; it can be stopped") {
   const Meshes meshes;
+  const std::string folder = meshes.folder.string();
   CHECK_THROWS_AS(survey_folder((meshes.folder / "nowhere").string()), ReadError);
   fs::create_directory(meshes.folder / "empty");
   CHECK_THROWS_AS(survey_folder((meshes.folder / "empty").string()), ReadError);
-  CHECK_THROWS_AS(
-      survey_folder(meshes.folder.string(), {.progress = [](const auto&...) { return false; }}),
-      Cancelled);
+  CHECK_THROWS_AS(survey_folder(folder, {.records = folder + "/nowhere"}), WriteError);
+  CHECK_THROWS_AS(survey_folder(folder, {.picture_size = 15}), std::invalid_argument);
+  CHECK_THROWS_AS(survey_folder(folder, {.longest = -1}), std::invalid_argument);
+  CHECK_THROWS_AS(survey_folder(folder, {.progress = [](const auto&...) { return false; }}),
+                  Cancelled);
 }

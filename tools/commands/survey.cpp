@@ -5,6 +5,7 @@
 #include "arguments/limits.h"
 #include "commands/command.h"
 #include "console/places.h"
+#include "sphparam/batch/run.h"
 
 namespace sphparam::cli {
 
@@ -16,15 +17,16 @@ constexpr char summary[] =
     "Examples:\n"
     "  sphparam survey scans/ -o survey.html\n"
     "  sphparam survey scans/ -o survey.html --json survey.json --size 640\n"
-    "  sphparam survey scans/ -o survey.html --size 0   without pictures\n"
+    "  sphparam survey scans/ -o survey.html --records found/   goes on where it was stopped\n"
+    "  sphparam survey scans/ -o survey.html --max-seconds 60 --size 0\n"
     "\n"
-    "The exit status is 0 when all map, be it after --repair, and 4 when one does not; the page "
-    "is\n"
-    "written all the same.\n";
+    "The exit status is 0 when all map, be it after --repair, and 4 when one does not or asks for\n"
+    "more; the page is written all the same.\n";
 
 struct SurveyArguments : CommonArguments {
-  std::string folder, output;
+  std::string folder, output, records;
   int size = SurveyOptions{}.picture_size;
+  double longest = 0;
 };
 
 void require_sensible(const SurveyArguments& arguments) {
@@ -36,33 +38,55 @@ void require_sensible(const SurveyArguments& arguments) {
   check_places({{"-o", arguments.output}, {"--json", arguments.json}});
 }
 
-int run_survey(SurveyArguments& arguments) {
+Survey surveyed(const SurveyArguments& arguments, Session& session) {
+  return survey_folder(arguments.folder, {.picture_size = arguments.size,
+                                          .read = input_limits(),
+                                          .isolated = true,
+                                          .longest = arguments.longest,
+                                          .records = arguments.records,
+                                          .threads = session.threads(),
+                                          .progress = session.progress()});
+}
+
+std::string line_of(const Survey& survey) {
+  const auto all = static_cast<long>(survey.meshes.size());
+  const long whole = survey.count(SurveyEnd::Maps), mended = survey.count(SurveyEnd::MapsMended),
+             asked = survey.count(SurveyEnd::MapsIfAsked);
+  return survey.folder + ": of " + std::to_string(all) + " " + std::to_string(whole) +
+         " map as they are, " + std::to_string(mended) + " after --repair, " +
+         std::to_string(asked) + " if asked for more, " +
+         std::to_string(all - whole - mended - asked) + " do not";
+}
+
+int run_survey(SurveyArguments& arguments) try {
   require_sensible(arguments);
   Session session(arguments);
   session.hold_signals();
-  const Survey survey = survey_folder(arguments.folder, {.picture_size = arguments.size,
-                                                         .read = input_limits(),
-                                                         .threads = session.threads(),
-                                                         .progress = session.progress()});
+  const Survey survey = surveyed(arguments, session);
   session.console.clear_progress();
   session.files.add(arguments.output, survey_page(survey));
   session.add_report([&] { return to_json(survey, session.stopwatch.seconds()); });
   session.publish();
-  const long all = static_cast<long>(survey.meshes.size());
-  const long whole = survey.count(SurveyEnd::Maps), mended = survey.count(SurveyEnd::MapsMended);
-  const std::string line = arguments.folder + ": " + std::to_string(whole) + " of " +
-                           std::to_string(all) + " map as they are, " + std::to_string(mended) +
-                           " after --repair, " + std::to_string(all - whole - mended) + " do not";
+  const std::string line = line_of(survey);
   session.console.say(line + " → " + output_name(arguments.output));
-  if (whole + mended == all) return Ok;
+  const long unasked = survey.count(SurveyEnd::Maps) + survey.count(SurveyEnd::MapsMended);
+  if (unasked == static_cast<long>(survey.meshes.size())) return Ok;
   if (arguments.quiet) print_error(line);
   return MeshUnusable;
+} catch (const BatchMachineError& error) {
+  print_error(error.what());
+  return FileError;
 }
 
 void declare_options(Declaration& command, SurveyArguments& arguments) {
   command.text("FOLDER", arguments.folder, " ", "Meshes are looked for in it and in its folders")
       .required()
       .output(arguments.output, "PAGE.html", "The page; - for standard output")
+      .text("--records", arguments.records, "FOLDER",
+            "What is found of a file is written to this folder, and taken from it if it is there")
+      .written()
+      .number("--max-seconds", arguments.longest, "N", {0, 1e9},
+              "A file that takes longer is stopped; 0: as long as it takes")
       .number("--size", arguments.size, "N", {0, 4096},
               "Pixels of a picture, 16 to 4096; 0: no pictures")
       .json(arguments)

@@ -1,10 +1,9 @@
 #include "sphparam/io/repair_advice.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <string_view>
 
+#include "io/shell_word.h"
 #include "number_text.h"
 #include "sphparam/names.h"
 #include "sphparam/words.h"
@@ -46,18 +45,6 @@ std::string choice_lines(const KeptParts& parts) {
          " the largest, and\n  --all-components maps each into a file of its own.\n";
 }
 
-/// A name as a shell takes it.
-std::string for_shell(const std::string& path) {
-  constexpr std::string_view harmless = "._-/+:@%,=";
-  const auto plain = [&](unsigned char c) {
-    return std::isalnum(c) || c >= 0x80 || harmless.find(static_cast<char>(c)) < harmless.size();
-  };
-  if (std::all_of(path.begin(), path.end(), plain)) return path;
-  std::string result = "'";
-  for (const char c : path) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return result + "'";
-}
-
 }  // namespace
 
 std::string repair_advice(const RepairTrial& trial, const std::string& path) {
@@ -69,7 +56,7 @@ std::string repair_advice(const RepairTrial& trial, const std::string& path) {
   const std::string kept = kept_line(trial.parts);
   const auto closes = [](const RepairAction& done) { return done.kind == RepairKind::HoleFilled; };
   const bool fills = std::any_of(trial.actions.begin(), trial.actions.end(), closes);
-  return choice + "  " + options + " would mend it, as in `sphparam map " + for_shell(path) + " " +
+  return choice + "  " + options + " would mend it, as in `sphparam map " + shell_word(path) + " " +
          options + " -o mended.sph.ply`:\n" + message_lines(trial.actions) +
          handle_lines(trial.handles, "      ") + (kept.empty() ? "" : "    " + kept + "\n") +
          (fills ? "  With --keep-holes holes stay holes.\n" : "");

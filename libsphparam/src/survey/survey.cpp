@@ -1,17 +1,20 @@
+// A loop over files: what a record knows is taken from it, all else is tried, one after another,
+// each on all cores.
+
 #include "sphparam/survey/survey.h"
 
 #include <algorithm>
 #include <filesystem>
 
+#include "batch/content_hash.h"
+#include "batch/record.h"
 #include "option_domain.h"
 #include "sphparam/errors.h"
-#include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/mesh_reader.h"
-#include "sphparam/io/mesh_source.h"
-#include "sphparam/names.h"
-
-// Every file goes the way of `map --repair`, one after another, each on all cores. What a strict
-// reader refuses is read again for a repair, so that its defects can be seen.
+#include "sphparam/io/safe_file.h"
+#include "survey/isolated_trial.h"
+#include "survey/survey_record.h"
+#include "survey/surveyor.h"
 
 namespace sphparam {
 namespace {
@@ -23,7 +26,8 @@ std::vector<std::string> mesh_files(const std::string& folder) {
   std::vector<std::string> names;
   for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end;
        at.increment(error)) {
-    if (at->is_regular_file() && is_mesh_name(at->path().string()))
+    std::error_code gone;  // between two looks: it is passed over
+    if (at->is_regular_file(gone) && is_mesh_name(at->path().string()))
       names.push_back(at->path().lexically_relative(folder).string());
   }
   if (error) throw ReadError(folder, error.message());
@@ -33,104 +37,42 @@ std::vector<std::string> mesh_files(const std::string& folder) {
   return names;
 }
 
-std::vector<std::string> messages(const std::vector<MeshDefect>& defects) {
-  std::vector<std::string> texts;
-  for (const MeshDefect& defect : defects)
-    if (defect.fatal) texts.push_back(defect.message);
-  return texts;
-}
+/// Ends that are the file's own.
+bool is_lasting(SurveyEnd end) { return end != SurveyEnd::Unreadable && end != SurveyEnd::Stopped; }
 
-std::vector<std::string> messages(const std::vector<RepairAction>& actions) {
-  std::vector<std::string> texts;
-  for (const RepairAction& action : actions) texts.push_back(action.message);
-  return texts;
-}
-
-/// One file, from its bytes to its end.
-class Surveyor {
+/// What was found before, by a hash of all that it depends on.
+class Records {
  public:
-  Surveyor(const std::string& folder, const std::string& name, const SurveyOptions& options)
-      : path_((fs::path(folder) / name).string()), options_(options) {
-    mesh_.name = name;
+  Records(const std::string& folder, const SurveyOptions& options)
+      : folder_(folder), records_(options.records), size_(options.picture_size) {
+    if (!records_.empty()) require_writable(records_ + "/record.json");
   }
 
-  SurveyedMesh run() {
+  /// Empty: there are no records, or the file cannot be read.
+  std::string path_of(const std::string& name) const {
+    if (records_.empty()) return "";
     try {
-      go();
-    } catch (const Cancelled&) {
-      throw;
-    } catch (const NotCertifiedError& error) {
-      end(SurveyEnd::NotCertified, error.what());
-    } catch (const ReadError& error) {
-      end(SurveyEnd::Unreadable, error.what());
-    } catch (const std::exception& error) {  // of this file, not of the survey
-      end(SurveyEnd::CannotMap, error.what());
+      const std::string about = program_hash() + ' ' + std::to_string(size_) + ' ' + name + ' ' +
+                                hash_of_file((fs::path(folder_) / name).string());
+      return (fs::path(records_) / (content_hash(about) + ".json")).string();
+    } catch (const ReadError&) {
+      return "";
     }
-    return std::move(mesh_);
+  }
+
+  static std::optional<SurveyedMesh> find(const std::string& path) {
+    if (path.empty()) return std::nullopt;
+    const auto bytes = small_file(path);
+    return bytes ? surveyed_of(*bytes) : std::nullopt;
+  }
+
+  static void keep(const std::string& path, const SurveyedMesh& mesh) {
+    if (!path.empty() && is_lasting(mesh.end)) write_file(path, record_of(mesh));
   }
 
  private:
-  void go() {
-    MeshSource source = read();
-    mesh_.format = source.file.format;
-    mesh_.inspection = source.inspection;
-    for (std::string& message : messages(source.inspection.defects))
-      mesh_.defects.push_back(std::move(message));
-    if (source.inspection.is_sphere() && mesh_.defects.empty()) {
-      certify(std::move(source));
-      mesh_.end = SurveyEnd::Maps;
-      return;
-    }
-    if (options_.picture_size > 0)
-      mesh_.picture = picture_of_defects(source.file, source.inspection, options_.picture_size,
-                                         options_.threads);
-    mend(std::move(source));
-  }
-
-  /// As it is, or, where that is refused, as a repair wants it.
-  MeshSource read() {
-    try {
-      return read_source(path_, options_.read);
-    } catch (const ReadError& refusal) {
-      ReadOptions lenient = options_.read;
-      lenient.repeated_corners = lenient.non_finite = true;
-      MeshSource source = read_source(path_, lenient);
-      mesh_.defects.push_back(refusal.what());
-      return source;
-    }
-  }
-
-  void mend(MeshSource source) {
-    const RepairTrial trial = try_repair(source);
-    mesh_.repairs = messages(trial.actions);
-    mesh_.reasons = messages(trial.remaining);
-    if (trial.can_mend()) mesh_.advice = options_line(trial.options);
-    if (!trial.can_mend()) {
-      mesh_.end = SurveyEnd::CannotMap;
-      return;
-    }
-    source = repaired(std::move(source), trial.options);
-    std::vector<std::string> stale;  // a map of the mesh before
-    source.file = written_as_mended(source, stale);
-    certify(std::move(source));
-    mesh_.end = trial.mends_unasked() ? SurveyEnd::MapsMended : SurveyEnd::MapsIfAsked;
-  }
-
-  void certify(MeshSource source) {
-    LoadOptions load;
-    load.map.threads = options_.threads;
-    load.map.progress = options_.progress;
-    mapped_mesh(std::move(source), load);
-  }
-
-  void end(SurveyEnd how, const std::string& why) {
-    mesh_.end = how;
-    mesh_.reasons = {why};
-  }
-
-  std::string path_;
-  const SurveyOptions& options_;
-  SurveyedMesh mesh_;
+  std::string folder_, records_;
+  int size_;
 };
 
 }  // namespace
@@ -149,6 +91,8 @@ std::string name_of(SurveyEnd end) {
       return "not-certified";
     case SurveyEnd::Unreadable:
       return "unreadable";
+    case SurveyEnd::Stopped:
+      return "stopped";
   }
   return "";
 }
@@ -160,12 +104,23 @@ long Survey::count(SurveyEnd end) const {
 
 Survey survey_folder(const std::string& folder, const SurveyOptions& options) {
   if (options.picture_size != 0) require_between("picture_size", options.picture_size, 16, 4096);
+  if (options.longest != 0) require_more_than("longest", options.longest, 0);
+  const Records records(folder, options);
   Survey survey{folder, {}};
   const std::vector<std::string> names = mesh_files(folder);
   for (const std::string& name : names) {
-    const auto done = static_cast<double>(survey.meshes.size());
-    report(options.progress, name, done / static_cast<double>(names.size()));
-    survey.meshes.push_back(Surveyor(folder, name, options).run());
+    const double done =
+        static_cast<double>(survey.meshes.size()) / static_cast<double>(names.size());
+    report(options.progress, name, done);
+    const std::string record = records.path_of(name);
+    std::optional<SurveyedMesh> mesh = Records::find(record);
+    if (!mesh) {
+      mesh = options.isolated ? isolated_trial(folder, name, options, done)
+                              : survey_mesh(folder, name, options);
+      Records::keep(record, *mesh);
+    }
+    mesh->name = name;  // which need not be UTF-8, as records are
+    survey.meshes.push_back(std::move(*mesh));
   }
   return survey;
 }

@@ -3,9 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "sphparam/io/mesh_file.h"
 #include "sphparam/io/read_options.h"
-#include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/progress.h"
 
 namespace sphparam {
@@ -14,32 +12,52 @@ namespace sphparam {
 enum class SurveyEnd {
   Maps,          // as it is: its map is certified
   MapsMended,    // after `--repair`, with nothing else asked for
-  MapsIfAsked,   // after a repair that takes more than it does unasked: `advice` says which
+  MapsIfAsked,   // after a repair that takes more than it does unasked: `ways` say which
   CannotMap,     // whatever is repaired: `reasons` say why
-  NotCertified,  // it is a closed genus-0 mesh, and its map is not one-to-one
-  Unreadable,    // `reasons` says why
+  NotCertified,  // a closed genus-0 mesh can be made of it, but its map is not one-to-one
+  Unreadable,    // `reasons` say why
+  Stopped,       // it took too long or too much memory, or ended the process that tried it
 };
 
 /// "maps", "maps-mended", …
 std::string name_of(SurveyEnd end);
+
+/// A picture, and what it shows.
+struct SurveyPicture {
+  std::string caption, png;
+};
+
+/// Options of `map` that a mesh needs, tried out.
+struct SurveyedWay {
+  std::string options;  // "--repair --component 1"
+  bool certified =
+      false;         // it ended with a certified map; of all components, where they are wanted
+  std::string told;  // "12 of 13 components map", or why it is not certified; may be empty
+};
 
 /// What became of one file.
 struct SurveyedMesh {
   std::string name;  // its path below the folder
   SurveyEnd end = SurveyEnd::Unreadable;
   std::string format;
-  MeshInspection inspection;         // as it was read
-  std::vector<std::string> defects;  // that stand in the way of a map as it is
-  std::vector<std::string> repairs;  // done, or tried
-  std::vector<std::string> reasons;  // why it cannot be mapped even so
-  std::string advice;                // options that would mend it: "--repair --component 1"
-  std::string picture;               // PNG: the mesh, its defects red; empty: nothing to see
+  long vertices = 0, triangles = 0, components = 0, boundaries = 0;  // as it was read
+  long genus = -1;                      // of the one component; −1 where it has no meaning
+  std::vector<std::string> defects;     // that stand in the way of a map as it is
+  std::vector<SurveyedWay> ways;        // around them: the first is what `repairs` tell of
+  std::vector<std::string> repairs;     // that were done, or tried in vain
+  std::vector<std::string> reasons;     // why there is no map even so
+  std::vector<SurveyPicture> pictures;  // of its defects, and of the mended mesh
 };
 
 struct SurveyOptions {
   int picture_size = 320;  // pixels of a side, 16 to 4096; 0: no pictures
   ReadOptions read = {};
-  int threads = 0;  // 0: all cores
+  /// Each file is tried in a process forked from this one, which must have no other thread then:
+  /// whatever ends that process ends nothing else.
+  bool isolated = false;
+  double longest = 0;   // seconds for a file, where files are isolated; 0: as long as it takes
+  std::string records;  // a folder: what is found is written to it, and taken from it; empty: none
+  int threads = 0;      // 0: all cores
   Progress progress = {};
 };
 
@@ -51,20 +69,23 @@ struct Survey {
 
 /// Tries every mesh file of a folder and the folders in it, told by its name; links to folders are
 /// not followed. Each is read, inspected, mended where that is needed, mapped and certified; none
-/// is written. A file that stops one step is told with its reason, and the others go on.
-/// Throws: ReadError for a folder that cannot be read, or without mesh files; Cancelled.
-/// Cost: that of a map each.
+/// is written. Of open meshes also the way that keeps the holes is tried, and of meshes with
+/// several components each as a mesh. A file that stops one step is told with its reason, and the
+/// others go on.
+///
+/// With `records`, a survey that was stopped or killed goes on where it was: a record is that of a
+/// file's bytes, of its name, of the program's, and of what was asked for. Files that are stopped
+/// or cannot be read are tried again.
+/// Throws: ReadError for a folder that cannot be read, or without mesh files; WriteError for
+/// records that cannot be written; Cancelled; std::invalid_argument for `picture_size` and
+/// `longest` out of their domains. Ensures: the same for any number of threads, as long as no file
+/// is stopped. Cost: that of a map for each way.
 Survey survey_folder(const std::string& folder, const SurveyOptions& options = {});
-
-/// The mesh with its defects red, for people to look at: edges with one face or more than two,
-/// and the places that the inspection names. Empty where there is no place to show.
-std::string picture_of_defects(const MeshFile& file, const MeshInspection& inspection, int size,
-                               int threads);
 
 /// A page that needs nothing but itself: what maps, what after repair, what not and why.
 std::string survey_page(const Survey& survey);
 
-/// The same as `sphparam survey --json` tells it.
+/// The same as `sphparam survey --json` tells it, without the pictures.
 std::string to_json(const Survey& survey, double seconds);
 
 }  // namespace sphparam

@@ -1,0 +1,209 @@
+// A file goes the ways that `map` has: as it is; with --repair, and what that must be asked for;
+// with holes that stay holes; each component for itself. What a strict reader refuses is read again
+// for a repair, so that its defects can be seen.
+
+#include "survey/surveyor.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <new>
+#include <optional>
+
+#include "sphparam/errors.h"
+#include "sphparam/io/components.h"
+#include "sphparam/io/mapped_mesh.h"
+#include "sphparam/io/mesh_source.h"
+#include "sphparam/names.h"
+#include "survey/defect_picture.h"
+
+namespace sphparam {
+namespace {
+
+std::vector<std::string> messages(const std::vector<MeshDefect>& defects) {
+  std::vector<std::string> texts;
+  for (const MeshDefect& defect : defects)
+    if (defect.fatal) texts.push_back(defect.message);
+  return texts;
+}
+
+std::vector<std::string> messages(const std::vector<RepairAction>& actions) {
+  std::vector<std::string> texts;
+  for (const RepairAction& action : actions) texts.push_back(action.message);
+  return texts;
+}
+
+/// One file, from its bytes to its end.
+class Surveyor {
+ public:
+  Surveyor(const std::string& folder, const std::string& name, const SurveyOptions& options)
+      : path_((std::filesystem::path(folder) / name).string()), options_(options) {
+    mesh_.name = name;
+  }
+
+  SurveyedMesh run() {
+    try {
+      go();
+    } catch (const Cancelled&) {
+      throw;
+    } catch (const NotCertifiedError& error) {
+      end(SurveyEnd::NotCertified, error.what());
+    } catch (const ReadError& error) {
+      end(SurveyEnd::Unreadable, error.what());
+    } catch (const std::bad_alloc&) {
+      end(SurveyEnd::Stopped, "there is not enough memory for it");
+    } catch (const std::exception& error) {  // of this file, not of the survey
+      end(SurveyEnd::CannotMap, error.what());
+    }
+    for (auto* texts : {&mesh_.defects, &mesh_.repairs, &mesh_.reasons})
+      for (std::string& text : *texts) text = by_name(std::move(text));
+    for (SurveyedWay& way : mesh_.ways) way.told = by_name(std::move(way.told));
+    return std::move(mesh_);
+  }
+
+ private:
+  void go() {
+    const MeshSource source = read();
+    const MeshInspection& found = source.inspection;
+    mesh_.format = source.file.format;
+    mesh_.vertices = found.vertices;
+    mesh_.triangles = found.faces;
+    mesh_.components = found.components;
+    mesh_.boundaries = found.boundary_loops;
+    mesh_.genus = found.genus;
+    for (std::string& message : messages(found.defects))
+      mesh_.defects.push_back(std::move(message));
+    if (found.is_sphere() && mesh_.defects.empty()) {
+      certify(source);
+      mesh_.end = SurveyEnd::Maps;
+      return;
+    }
+    const RepairTrial trial = try_repair(source);
+    draw_defects(source, trial);
+    mesh_.repairs = messages(trial.actions);
+    if (trial.can_mend()) {
+      try_way(source, trial);
+    } else {
+      mesh_.reasons = messages(trial.remaining);
+    }
+    if (found.boundary_loops > 0) try_kept_holes(source);
+    if (trial.parts.refused) try_components(source);
+    conclude(trial);
+  }
+
+  /// As it is, or, where that is refused, as a repair wants it.
+  MeshSource read() {
+    try {
+      return read_source(path_, options_.read);
+    } catch (const ReadError& refusal) {
+      ReadOptions lenient = options_.read;
+      lenient.repeated_corners = lenient.non_finite = true;
+      MeshSource source = read_source(path_, lenient);
+      mesh_.defects.push_back(refusal.what());
+      return source;
+    }
+  }
+
+  void try_way(const MeshSource& source, const RepairTrial& trial) {
+    SurveyedWay& way = mesh_.ways.emplace_back(SurveyedWay{options_line(trial.options), false, ""});
+    MeshSource mended = repaired(source, trial.options);
+    std::vector<std::string> stale;  // a map of the mesh before
+    mended.file = written_as_mended(mended, stale);
+    if (mesh_.ways.size() == 1) draw_mended(mended.file);
+    try {
+      certify(std::move(mended));
+      way.certified = true;
+    } catch (const NotCertifiedError& error) {
+      way.told = error.what();
+    }
+  }
+
+  void try_kept_holes(const MeshSource& source) {
+    const RepairTrial trial = try_repair(source, true);
+    if (trial.can_mend()) try_way(source, trial);
+  }
+
+  void try_components(const MeshSource& source) {
+    const RepairOptions repairs;
+    std::vector<MeshPart> parts = connected_parts(source, repairs);
+    const std::size_t all = parts.size();
+    std::size_t mapped = 0;
+    for (MeshPart& part : parts) mapped += maps(std::move(part.source), repairs) ? 1 : 0;
+    const std::string told =
+        std::to_string(mapped) + " of " + std::to_string(all) + " components map";
+    mesh_.ways.push_back({"--repair --all-components", mapped == all, told});
+  }
+
+  bool maps(MeshSource part, const RepairOptions& repairs) {
+    try {
+      certify(repaired(std::move(part), repairs));
+      return true;
+    } catch (const MeshError&) {
+      return false;
+    } catch (const NotCertifiedError&) {
+      return false;
+    }
+  }
+
+  /// Throws: NotCertifiedError.
+  void certify(MeshSource source) {
+    LoadOptions load;
+    load.map.threads = options_.threads;
+    mapped_mesh(std::move(source), load);
+  }
+
+  void conclude(const RepairTrial& trial) {
+    const auto is_certified = [](const SurveyedWay& way) { return way.certified; };
+    if (trial.mends_unasked() && mesh_.ways.front().certified) {
+      mesh_.end = SurveyEnd::MapsMended;
+    } else if (std::any_of(mesh_.ways.begin(), mesh_.ways.end(), is_certified)) {
+      mesh_.end = SurveyEnd::MapsIfAsked;
+    } else {
+      mesh_.end = trial.can_mend() ? SurveyEnd::NotCertified : SurveyEnd::CannotMap;
+    }
+  }
+
+  void draw_defects(const MeshSource& source, const RepairTrial& trial) {
+    if (options_.picture_size == 0) return;
+    DefectPicture picture = picture_of_defects(source, trial.handles, options_);
+    from_ = picture.from;
+    std::string caption = "red: defects";
+    if (!trial.handles.empty()) caption += " and loops about handles";
+    if (source.inspection.components > 1) caption += "; orange: components beside the largest";
+    if (!picture.png.empty()) mesh_.pictures.push_back({caption, std::move(picture.png)});
+  }
+
+  void draw_mended(const MeshFile& file) {
+    if (options_.picture_size == 0) return;
+    std::string png = picture_of_mended(file, from_, options_);
+    const std::string caption =
+        "after " + mesh_.ways.front().options + "; red lines: about what was closed";
+    if (!png.empty()) mesh_.pictures.push_back({caption, std::move(png)});
+  }
+
+  void end(SurveyEnd how, const std::string& why) {
+    mesh_.end = how;
+    mesh_.reasons = {why};
+  }
+
+  /// Messages name the file as the page does, wherever the folder lies.
+  std::string by_name(std::string text) const {
+    for (std::size_t at = 0; (at = text.find(path_, at)) != std::string::npos;
+         at += mesh_.name.size())
+      text.replace(at, path_.size(), mesh_.name);
+    return text;
+  }
+
+  std::string path_;
+  const SurveyOptions& options_;
+  SurveyedMesh mesh_;
+  std::optional<Vector3> from_;  // where pictures are seen from
+};
+
+}  // namespace
+
+SurveyedMesh survey_mesh(const std::string& folder, const std::string& name,
+                         const SurveyOptions& options) {
+  return Surveyor(folder, name, options).run();
+}
+
+}  // namespace sphparam
