@@ -10,6 +10,7 @@
 #include "bake/field_registry.h"
 #include "scenes.h"
 #include "sphparam/bake/bake.h"
+#include "sphparam/io/fillers.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -165,4 +166,26 @@ TEST_CASE("bake images: values are had without files, as the engine has them") {
   const std::vector<float> expected =
       baked(*scene, make_field("position", *scene), {.width = 32, .height = 16, .threads = 1});
   CHECK(values == expected);
+}
+
+TEST_CASE("bake: values have coverage where holes were closed, as images do") {
+  MappedMesh whole = egg(3);
+  MeshFile file = whole.file();
+  FillerMarks fillers(static_cast<size_t>(file.mesh.face_count()), 0);
+  fillers[7] = fillers[8] = 1;
+  mark_fillers(file, fillers);
+  const MappedMesh source({.file = std::move(file), .map = whole.map(), .name = "egg"});
+  float least = 1, greatest = 0;
+  const std::vector<BakedField> fields =
+      bake_values(source, {"position", "mask"}, small,
+                  [&](size_t index, const BakedField& field, int, int rows, const float* row) {
+                    for (int i = 0; index == 0 && i < rows * small.width; ++i) {
+                      least = std::min(least, row[i * field.channels + 3]);
+                      greatest = std::max(greatest, row[i * field.channels + 3]);
+                    }
+                  });
+  CHECK(fields.at(0).channels == 4);
+  CHECK(fields.at(1).channels == 1);
+  CHECK(least == 0);
+  CHECK(greatest == 1);
 }

@@ -170,6 +170,34 @@ TEST_CASE("mesh_repair: a copy of a face goes, the first stays") {
   CHECK(repaired.mesh.triangles == icosphere(1).triangles);
 }
 
+TEST_CASE("mesh_repair: a mesh whose indices count from one is no mesh to mend") {
+  TriangleMesh mesh = icosphere(1);
+  mesh.triangles.array() += 1;
+  const RepairedMesh repaired = repair_mesh(mesh);
+  CHECK(repaired.actions.empty());
+  CHECK(same(repaired.mesh, mesh));
+  REQUIRE_FALSE(repaired.inspection.is_sphere());
+  CHECK(repaired.inspection.defects.at(0).kind == DefectKind::IndexOutOfRange);
+  CHECK(repaired.inspection.defects.at(0).hint == "the indices count from 1: faces - 1");
+}
+
+TEST_CASE("mesh_repair: a face of an absent vertex goes and is told as such") {
+  TriangleMesh mesh = icosphere(1);
+  mesh.triangles(5, 1) = 42;
+  CHECK(inspect_mesh(mesh).defects.at(0).message ==
+        "1 face names a vertex that does not exist: faces 5");
+  const RepairedMesh repaired = repair_mesh(mesh);
+  check_is_sphere(repaired);
+  REQUIRE(find(repaired, RepairKind::InvalidFaceRemoved));
+  CHECK(find(repaired, RepairKind::InvalidFaceRemoved)->message ==
+        "1 face removed that named a vertex that does not exist: faces 5");
+  mesh.triangles(7, 0) = -1;
+  mesh.triangles(9, 0) = mesh.triangles(9, 1);
+  CHECK(find(repair_mesh(mesh), RepairKind::InvalidFaceRemoved)->message ==
+        "2 faces removed that named vertices that do not exist, 1 that named a vertex twice: "
+        "faces 5, 7, 9");
+}
+
 TEST_CASE("mesh_repair: of two faces back to back on a surface the one that runs with it stays") {
   TriangleMesh mesh = icosphere(1);
   append_face(mesh, mesh.triangles(3, 0), mesh.triangles(3, 1), mesh.triangles(3, 2));

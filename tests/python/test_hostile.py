@@ -97,7 +97,7 @@ bad_meshes = {
     "vertices: NaN in Fortran order": (
         (np.asfortranarray(vertices_with((0, 2), np.nan)), F), sp.MeshError, "finite"),
     "vertices: beyond doubles": (
-        (vertices_with((0, 0), np.longdouble("1e4000"), np.longdouble), F), sp.MeshError, "finite"),
+        (vertices_with((0, 0), np.longdouble("1e4000"), np.longdouble), F), TypeError, "64 bits"),
     "vertices: infinite halves": ((vertices_with((0, 0), np.inf, np.float16), F), sp.MeshError, "finite"),
     # Faces that are no #×3 whole numbers.
     "faces: none": ((V, None), TypeError, "no mesh"),
@@ -120,7 +120,7 @@ bad_meshes = {
     "faces: ragged": ((V, [[0, 1, 2], [0, 1]]), ValueError, "faces"),
     # Indices of nothing.
     "faces: −1": ((V, faces_with((3, 1), -1)), sp.MeshError, "faces 3"),
-    "faces: one too many": ((V, faces_with((7, 2), N)), sp.MeshError, "do not exist: faces 7"),
+    "faces: one too many": ((V, faces_with((7, 2), N)), sp.MeshError, "does not exist: faces 7"),
     "faces: 2⁴⁰": ((V, faces_with((2, 0), BIG)), sp.MeshError, "faces 2"),
     "faces: 2⁴⁰ as uint64": ((V, faces_with((2, 0), BIG, np.uint64)), sp.MeshError, "faces 2"),
     "faces: 2³² + 1": ((V, faces_with((0, 0), 2**32 + 1)), sp.MeshError, "faces 0"),

@@ -96,7 +96,7 @@ std::vector<BakedField> bake_values(const MappedMesh& source, const std::vector<
   std::vector<SurfaceField> fields;
   std::vector<BakedField> baked;
   for (const std::string& name : names) {
-    fields.push_back(make_field(name, scene));
+    fields.push_back(make_covered_field(name, scene));
     baked.push_back(told(fields.back()));
   }
   if (fields.empty()) return baked;

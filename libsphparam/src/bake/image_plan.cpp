@@ -74,6 +74,13 @@ bool lacks_range(const PlannedImage& image) {
 
 }  // namespace
 
+SurfaceField make_covered_field(const std::string& name, const BakeScene& scene) {
+  SurfaceField field = make_field(name, scene);
+  const FillerMarks& fillers = scene.source.mapped.fillers();
+  if (fillers.empty() || field.name == surface_mask) return field;
+  return with_coverage(std::move(field), fillers);
+}
+
 PlannedImage plan_image(const BakeRequest& request, BakeScene& scene,
                         const BakeSettings& settings) {
   PlannedImage image{.request = request,
@@ -85,11 +92,7 @@ PlannedImage plan_image(const BakeRequest& request, BakeScene& scene,
                               .tiles = settings.mip}};
   image.file.format = is_stream(request.path) ? ImageFormat::Png : *image_format_of(request.path);
   scene.ids_as_colours = is_integer(depth_of(settings, image.file.format, FieldKind::Label, false));
-  if (!image.drawn) image.field = make_field(request.field, scene);
-  const FillerMarks& fillers = scene.source.mapped.fillers();
-  if (!fillers.empty() && !image.drawn && image.field.name != surface_mask) {
-    image.field = with_coverage(std::move(image.field), fillers);
-  }
+  if (!image.drawn) image.field = make_covered_field(request.field, scene);
   image.file.sample_type =
       depth_of(settings, image.file.format, image.field.kind, has_numbers(image.field));
   require_channels(image);

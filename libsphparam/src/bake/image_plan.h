@@ -19,6 +19,9 @@ struct PlannedImage {
   BakedFileOptions file;           // but for its metadata
 };
 
+/// The field of this name, with coverage where the source has fillers. Throws: FieldError.
+SurfaceField make_covered_field(const std::string& name, const BakeScene& scene);
+
 /// Throws: FieldError where the scene has not what the field needs; BakeSettingError where the file
 /// cannot hold the field's values.
 PlannedImage plan_image(const BakeRequest& request, BakeScene& scene, const BakeSettings& settings);

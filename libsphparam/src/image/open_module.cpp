@@ -61,7 +61,10 @@ Path find_module() {
 std::string all_places(const std::string& said) {
   std::string places;
   for (const Path& folder : module_folders()) places += "\n  " + folder.string();
-  return places + "\n  where the loader looks: " + said;
+  return places + "\n  where the loader looks: " + said +
+         "\nthe Debian package sphparam-image has it; the environment variable SPHPARAM_MODULES "
+         "may "
+         "name the folder where it lies";
 }
 
 const SphparamImageTable& open_module() {
@@ -70,7 +73,9 @@ const SphparamImageTable& open_module() {
   void* module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!module) {
     const std::string said = dlerror();
-    if (path.has_parent_path()) throw ImageError("cannot open the image module: " + said);
+    if (path.has_parent_path())
+      throw ImageError("cannot open the image module: " + said +
+                       "; the Debian package libopenimageio2.4 has OpenImageIO, which it opens");
     throw ImageError(std::string("the image module ") + module_name + " is in none of" +
                      all_places(said));
   }

@@ -11,6 +11,7 @@
 
 #include "mesh/face_sides.h"
 #include "mesh/flat_face.h"
+#include "mesh/index_range.h"
 #include "mesh/triangle_geometry.h"
 #include "mesh/union_find.h"
 #include "number_text.h"
@@ -109,9 +110,10 @@ class Inspector {
     }
     if (out_of_range.count > 0) {
       add_fatal(DefectKind::IndexOutOfRange, out_of_range.count, out_of_range.elements,
-                counted(out_of_range.count, "face names a vertex", "faces name vertices") +
-                    " that do not exist" + place_list(out_of_range, "faces", 1),
-                "");
+                counted(out_of_range.count, "face names a vertex that does not exist",
+                        "faces name vertices that do not exist") +
+                    place_list(out_of_range, "faces", 1),
+                counts_from_one(mesh_) ? "the indices count from 1: faces - 1" : "");
     }
     if (repeated.count > 0) {
       add_fatal(DefectKind::RepeatedVertex, repeated.count, repeated.elements,

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "mesh/index_range.h"
 #include "mesh/repair_state.h"
+#include "number_text.h"
 #include "option_domain.h"
 #include "sphparam/mesh/topology.h"
 
@@ -74,6 +76,22 @@ bool all_indices_inside(const RepairState& state) {
   });
 }
 
+/// The kind has two reasons; where faces named vertices that were never there, which it was.
+void tell_absent_vertices(RepairedMesh& result, const Triangles& given, Eigen::Index vertices) {
+  long absent = 0;
+  for (Face f = 0; f < given.rows(); ++f) absent += is_inside(given, f, vertices) ? 0 : 1;
+  if (absent == 0) return;
+  for (RepairAction& action : result.actions) {
+    if (action.kind != RepairKind::InvalidFaceRemoved) continue;
+    const std::string places = action.message.substr(action.message.rfind(": faces"));
+    action.message = counted(absent, "face", "faces") + " removed that named " +
+                     (absent == 1 ? "a vertex that does not exist" : "vertices that do not exist");
+    if (const long twice = action.count - absent; twice > 0)
+      action.message += ", " + std::to_string(twice) + " that named a vertex twice";
+    action.message += places;
+  }
+}
+
 RepairedMesh as_result(RepairState&& state, MeshInspection inspection) {
   RepairedMesh result;
   result.mesh = state.mesh();
@@ -111,6 +129,7 @@ RepairedMesh repair_mesh(const TriangleMesh& mesh, const RepairOptions& options)
   require_at_least("weld_length", options.weld_length, -1);
   RepairState state(mesh);
   MeshInspection inspection = inspect_mesh(mesh);
+  if (counts_from_one(mesh)) return as_result(std::move(state), std::move(inspection));
   if (options.non_finite && !mesh.positions.allFinite()) {
     remove_non_finite(state);
     inspection = inspect_mesh(state.mesh());
@@ -129,7 +148,9 @@ RepairedMesh repair_mesh(const TriangleMesh& mesh, const RepairOptions& options)
     }
     if (state.log_size() == done_before) break;
   }
-  return as_result(std::move(state), std::move(inspection));
+  RepairedMesh result = as_result(std::move(state), std::move(inspection));
+  tell_absent_vertices(result, mesh.triangles, mesh.positions.rows());
+  return result;
 }
 
 }  // namespace sphparam

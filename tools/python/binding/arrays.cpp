@@ -117,4 +117,11 @@ py::array values_of(const Property& property) {
   });
 }
 
+py::list columns_of(const std::vector<Property>& properties) {
+  py::list list;
+  for (const Property& property : properties)
+    list.append(py::make_tuple(property.name, values_of(property)));
+  return list;
+}
+
 }  // namespace sphparam::python

@@ -66,4 +66,7 @@ py::array owning_rows(Table table) {
 /// The values of a property, in its own type.
 py::array values_of(const Property& property);
 
+/// Properties as a list of names and arrays.
+py::list columns_of(const std::vector<Property>& properties);
+
 }  // namespace sphparam::python

@@ -11,8 +11,10 @@
 
 #include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/mesh_source.h"
+#include "sphparam/io/up_axis.h"
 #include "sphparam/parameterize.h"
 #include "sphparam/sphere/certificate.h"
+#include "sphparam/texture/convention.h"
 
 namespace sphparam::python {
 
@@ -23,7 +25,11 @@ namespace py = pybind11;
 
 void declare_errors(py::module_& module);
 void declare_meshes(py::module_& module);
+void declare_repairs(py::module_& module);
+void declare_mapped(py::module_& module);
 void declare_maps(py::module_& module);
+void declare_sphere(py::module_& module);
+void declare_bakes(py::module_& module);
 void declare_images(py::module_& module);
 void declare_grids(py::module_& module);
 void declare_exports(py::module_& module);
@@ -102,6 +108,14 @@ Value named(const std::string& word, std::initializer_list<Value> values, const 
   }
   throw py::value_error(std::string(what) + ": no '" + word + "' among " + known);
 }
+
+/// Whether all numbers are finite and all indices those of vertices.
+bool is_sound(const MeshInspection& found);
+
+/// "sphparam", "gis" and so on. Throws: py::value_error.
+Convention convention_of(const std::string& name);
+/// "y" or "z"; nothing where it is empty.
+std::optional<Up> up_of(const std::string& name);
 
 /// Sets what a dictionary names; every name must be known.
 class Settings {

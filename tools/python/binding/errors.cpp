@@ -27,6 +27,7 @@ void raise(const char* name, const std::exception& error) {
 py::object advice(const RepairTrial& trial) {
   py::dict wanted;
   const RepairOptions &options = trial.options, defaults;
+  if (options.keep_holes) wanted["keep_holes"] = true;
   if (options.component > 0) wanted["component"] = options.component;
   if (options.largest_hole != defaults.largest_hole) wanted["largest_hole"] = options.largest_hole;
   if (options.longest_handle != defaults.longest_handle) {
@@ -52,16 +53,15 @@ void raise_not_one_to_one(const NotOneToOne& error) {
   PyErr_SetObject(type.ptr(), value.ptr());
 }
 
-}  // namespace
-
-py::list as_list(const std::vector<MeshDefect>& defects) {
-  py::list list;
-  for (const MeshDefect& defect : defects) {
-    list.append(py::make_tuple(name_of(defect.kind), defect.fatal, defect.count,
-                               py::tuple(py::cast(defect.elements)), defect.message, defect.hint));
-  }
-  return list;
+/// With the names that there are.
+void raise_field_error(const FieldError& error) {
+  std::string known;
+  for (const std::string& name : error.known())
+    known += (known.empty() ? "; there are " : ", ") + name;
+  PyErr_SetString(PyExc_ValueError, (error.what() + known).c_str());
 }
+
+}  // namespace
 
 void declare_errors(py::module_&) {
   py::register_exception_translator([](std::exception_ptr pointer) {
@@ -86,7 +86,10 @@ void declare_errors(py::module_&) {
     } catch (const UnmeasurableMesh& error) {
       PyErr_SetString(PyExc_ValueError, error.what());
     } catch (const FieldError& error) {
-      PyErr_SetString(PyExc_ValueError, error.what());
+      raise_field_error(error);
+    } catch (const BakeSettingError& error) {
+      const std::string name = error.setting() == "width" ? "size" : error.setting();
+      PyErr_SetString(PyExc_ValueError, (name + ": " + error.what()).c_str());
     } catch (const LookError& error) {
       PyErr_SetString(PyExc_ValueError, error.what());
     } catch (const ImageOfOtherChart& error) {

@@ -11,11 +11,6 @@
 namespace sphparam::python {
 namespace {
 
-Convention convention_of(const std::string& name) {
-  if (const auto convention = convention_named(name)) return *convention;
-  throw py::value_error("convention: there is no '" + name + "'");
-}
-
 const char* word_of(ShapeKind shape) {
   return shape == ShapeKind::Mesh ? "mesh" : shape == ShapeKind::Sphere ? "sphere" : "flat";
 }
@@ -66,7 +61,7 @@ ExportRequest request_of(const py::dict& values) {
       .take("levels", coarser)
       .take("embedded", embedded);
   options.convention = convention_of(convention);
-  if (!up.empty()) options.up = up == "y" ? Up::Y : Up::Z;
+  options.up = up_of(up);
   for (const Mapped& level : coarser) options.coarser.push_back(level.mesh());
   if (embedded) request.gltf.container = GltfContainer::Embedded;
   request.gltf.quantise = options.quantise;
@@ -109,7 +104,7 @@ void write_page(const Mapped& mapped, const std::string& path, int size, const s
                 int threads, const py::object& progress) {
   writing_call(progress, [=, mesh = mapped.mesh()](const Progress& report) {
     PageOptions options{.size = size, .threads = threads, .progress = report};
-    if (!up.empty()) options.up = up == "y" ? Up::Y : Up::Z;
+    options.up = up_of(up);
     write_report(path, mesh, options);
     return true;
   });

@@ -5,6 +5,7 @@
 #include "arrays.h"
 #include "binding.h"
 #include "call.h"
+#include "sphparam/io/fillers.h"
 #include "sphparam/io/harmonic_expansion.h"
 #include "sphparam/measure/surface_distance.h"
 #include "sphparam/sphere/spherical_harmonics.h"
@@ -28,8 +29,11 @@ py::dict as_dict(const OneSidedDistance& distance) {
 py::dict measure(const Source& first, const Source& second, std::int64_t samples,
                  std::uint64_t seed, bool extremes, int threads, const py::object& progress) {
   using Mesh = std::shared_ptr<const TriangleMesh>;
-  const Mesh one = std::make_shared<TriangleMesh>(first.mesh.file.mesh);
-  const Mesh other = std::make_shared<TriangleMesh>(second.mesh.file.mesh);
+  // What closes holes is no surface.
+  const auto surface = [](const MeshFile& file) {
+    return std::make_shared<TriangleMesh>(surface_of(file.mesh, fillers_of(file)));
+  };
+  const Mesh one = surface(first.mesh.file), other = surface(second.mesh.file);
   const SurfaceDistance found = call(progress, [=](const Progress& report) {
     return measure_distance(*one, *other,
                             {.samples = samples,

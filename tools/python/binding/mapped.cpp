@@ -1,4 +1,10 @@
+// A mesh with its proved map, and what is known of it.
+
+#include <pybind11/stl.h>
+
+#include "arrays.h"
 #include "binding.h"
+#include "sphparam/io/fillers.h"
 
 namespace sphparam::python {
 
@@ -37,6 +43,102 @@ const SphereMap& Mapped::map() const { return made() ? made()->map : state_->mes
 
 const Certificate& Mapped::certificate() const {
   return made() ? made()->certificate : state_->mesh->certificate();
+}
+
+namespace {
+
+/// How the map came about; nothing where it was read.
+py::object account(const Mapped& mapped) {
+  if (!mapped.made()) return py::none();
+  const Parameterization& made = *mapped.made();
+  py::dict dict;
+  dict["made_by"] = made.made_by;
+  dict["seconds"] = mapped.spent().wall;
+  dict["processor_seconds"] = mapped.spent().processors;
+  dict["poles"] = py::none();
+  if (made.poles) dict["poles"] = py::make_tuple(made.poles->north, made.poles->south);
+  dict["meridian"] = py::none();
+  if (made.meridian) dict["meridian"] = *made.meridian;
+  dict["pole_cost"] = made.pole_cost;
+  dict["energy_gap"] = made.energy_gap;
+  dict["pin_residuals"] = made.pin_residuals;
+  dict["warnings"] = made.warnings;
+  dict["filler_share"] = made.filler_share;
+  dict["alignment"] = made.alignment;
+  dict["radial"] = py::none();
+  if (const auto& radial = made.radial)
+    dict["radial"] =
+        py::make_tuple(py::make_tuple(radial->centre.x(), radial->centre.y(), radial->centre.z()),
+                       radial->folds, radial->folded_area, radial->moved, radial->largest_movement);
+  py::list stages;
+  for (const StageRecord& stage : made.stages)
+    stages.append(
+        py::make_tuple(stage.name, stage.seconds, stage.folds,
+                       stage.distortion ? py::object(as_dict(*stage.distortion)) : py::none()));
+  dict["stages"] = stages;
+  return dict;
+}
+
+/// The faces as they were written: quads of a grid too.
+py::object polygons(const Mapped& mapped) {
+  const std::optional<Polygons>& faces = mapped.mesh().polygons();
+  if (!faces) return py::none();
+  return py::make_tuple(owning(std::vector<int>(faces->corners)),
+                        owning(std::vector<int>(faces->starts)));
+}
+
+/// The mesh alone; `whole`: with what closes its holes.
+std::unique_ptr<Source> source_of_mapped(const Mapped& mapped, bool whole) {
+  auto source = std::make_unique<Source>();
+  const MeshFile& file = mapped.mesh().file();
+  source->mesh.file = whole ? file : without_fillers(file);
+  source->mesh.path = mapped.mesh().name();
+  return source;
+}
+
+/// One a face.
+py::array fillers(const Mapped& mapped) {
+  FillerMarks marks = mapped.mesh().fillers();
+  marks.resize(static_cast<std::size_t>(mapped.mesh().mesh().face_count()));  // none: all surface
+  return owning(std::move(marks));
+}
+
+}  // namespace
+
+void declare_mapped(py::module_& module) {
+  py::class_<Mapped>(module, "Mapped", "A mesh with its proved map.")
+      .def_property_readonly("vertices",
+                             [](const py::object& self) {
+                               return shown_rows(self.cast<const Mapped&>().mesh().mesh().positions,
+                                                 self);
+                             })
+      .def_property_readonly("faces",
+                             [](const py::object& self) {
+                               return shown_rows(self.cast<const Mapped&>().mesh().mesh().triangles,
+                                                 self);
+                             })
+      .def_property_readonly("points",
+                             [](const py::object& self) {
+                               return shown_rows(self.cast<const Mapped&>().map().points, self);
+                             })
+      .def_property_readonly("name", [](const Mapped& self) { return self.mesh().name(); })
+      .def_property_readonly("notes", [](const Mapped& self) { return self.mesh().notes(); })
+      .def_property_readonly("provenance",
+                             [](const Mapped& self) { return self.mesh().provenance(); })
+      .def_property_readonly("mapped_here",
+                             [](const Mapped& self) { return self.mesh().mapped_here(); })
+      .def_property_readonly("certificate",
+                             [](const Mapped& self) { return as_dict(self.certificate()); })
+      .def_property_readonly("account", account)
+      .def_property_readonly("polygons", polygons)
+      .def_property_readonly("fillers", fillers)
+      .def_property_readonly("repairs", [](const Mapped& self) { return as_list(self.repairs()); })
+      .def_property_readonly("handles", [](const Mapped& self) { return as_list(self.handles()); })
+      .def("vertex_values",
+           [](const Mapped& self) { return columns_of(self.mesh().file().vertex_properties); })
+      .def("face_values",
+           [](const Mapped& self) { return columns_of(self.mesh().file().face_properties); });
+  module.def("source_of_mapped", source_of_mapped);
 }
 
 }  // namespace sphparam::python

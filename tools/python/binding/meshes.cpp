@@ -2,16 +2,18 @@
 
 #include <pybind11/stl.h>
 
+#include <algorithm>
+
 #include "arrays.h"
 #include "binding.h"
 #include "call.h"
+#include "sphparam/io/certified_files.h"
+#include "sphparam/io/fillers.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/io/sphere_file.h"
-#include "sphparam/mesh/mesh_repair.h"
-#include "sphparam/names.h"
 
 namespace sphparam::python {
 namespace {
@@ -28,9 +30,10 @@ py::tuple source_of(const py::array& vertices, const py::array& faces) {
   return py::make_tuple(std::move(source), finite, inside);
 }
 
-std::unique_ptr<Source> read(const std::string& path, bool repeated_corners) {
+std::unique_ptr<Source> read(const std::string& path, bool repeated_corners, bool non_finite) {
   ReadOptions options;
   options.repeated_corners = repeated_corners;
+  options.non_finite = non_finite;
   return call(py::none(), [path, options](const Progress&) {
     return std::make_unique<Source>(Source{read_source(path, options)});
   });
@@ -46,13 +49,6 @@ using Values = py::array_t<double, py::array::c_style>;
 
 Property property_of(const std::string& name, const std::string& type, const Values& values) {
   return {name, type_named(type), {values.data(), values.data() + values.size()}};
-}
-
-py::list listed(const std::vector<Property>& properties) {
-  py::list list;
-  for (const Property& property : properties)
-    list.append(py::make_tuple(property.name, values_of(property)));
-  return list;
 }
 
 py::dict as_dict(const MeshInspection& found) {
@@ -79,54 +75,31 @@ py::dict inspect(const Source& source) {
   return as_dict(call(py::none(), [mesh](const Progress&) { return inspect_mesh(*mesh); }));
 }
 
-HandleChoice choice_named(const std::string& word) {
-  return named(
-      word,
-      {HandleChoice::Shortest, HandleChoice::Cut, HandleChoice::Fill, HandleChoice::Area},
-      [](HandleChoice choice) { return name_of(choice); }, "handle_choice");
-}
-
-RepairOptions repair_options(const py::dict& values) {
-  RepairOptions options;
-  Settings settings(values);
-  settings.take("duplicates", options.duplicates)
-      .take("orientation", options.orientation)
-      .take("non_manifold", options.non_manifold)
-      .take("components", options.components)
-      .take("holes", options.holes)
-      .take("keep_holes", options.keep_holes)
-      .take("handles", options.handles)
-      .take("flat_faces", options.flat_faces)
-      .take("unused", options.unused)
-      .take("component", options.component)
-      .take("least_kept", options.least_kept)
-      .take("largest_hole", options.largest_hole)
-      .take("longest_handle", options.longest_handle)
-      .take("longest_handle_length", options.longest_handle_length);
-  std::string choice = name_of(options.handle_choice);
-  settings.take("handle_choice", choice);
-  options.handle_choice = choice_named(choice);
-  settings.require_all_known();
-  return options;
-}
-
-/// Another mesh, mended; this one stays.
-std::unique_ptr<Source> repair(const Source& source, const py::dict& values,
-                               const py::object& progress) {
-  const RepairOptions options = repair_options(values);
-  const auto mesh = std::make_shared<MeshSource>(source.mesh);
-  return call(progress, [mesh, options](const Progress&) {
-    if (mesh->inspection.faces == 0) mesh->inspection = inspect_mesh(mesh->file.mesh);
-    return std::make_unique<Source>(Source{repaired(std::move(*mesh), options)});
+/// Returns what the format had no place for.
+std::vector<std::string> write(const Source& source, const std::string& path) {
+  const auto mesh = std::make_shared<const MeshSource>(source.mesh);
+  return writing_call(py::none(), [mesh, path](const Progress&) {
+    std::vector<std::string> losses;
+    const MeshFile file = written_as_mended(*mesh, losses);
+    PendingFiles files;
+    const std::vector<std::string> more = add_mesh(files, path, file);
+    files.publish();
+    losses.insert(losses.end(), more.begin(), more.end());
+    return losses;
   });
 }
 
-void write(const Source& source, const std::string& path) {
-  const auto file = std::make_shared<const MeshFile>(source.mesh.file);
-  writing_call(py::none(), [file, path](const Progress&) {
-    write_mesh(path, *file);
-    return true;
-  });
+py::array fillers(const Source& source) {
+  FillerMarks marks = fillers_of(source.mesh.file);
+  marks.resize(static_cast<std::size_t>(source.mesh.file.mesh.face_count()));  // none: all surface
+  return owning(std::move(marks));
+}
+
+std::unique_ptr<Source> surface(const Source& source) {
+  auto made = std::make_unique<Source>();
+  made->mesh.file = without_fillers(source.mesh.file);
+  made->mesh.path = source.mesh.path;
+  return made;
 }
 
 template <class Table>
@@ -136,25 +109,11 @@ py::object optional_rows(const std::optional<Table>& table, py::handle owner) {
 
 }  // namespace
 
-py::list as_list(const std::vector<RepairAction>& actions) {
-  py::list list;
-  for (const RepairAction& action : actions) {
-    list.append(py::make_tuple(name_of(action.kind), action.count,
-                               py::tuple(py::cast(action.elements)), action.message));
-  }
-  return list;
-}
-
-py::list as_list(const std::vector<HandleLoop>& loops) {
-  py::list list;
-  for (const HandleLoop& loop : loops) {
-    Points points(static_cast<Eigen::Index>(loop.points.size()), 3);
-    for (std::size_t i = 0; i < loop.points.size(); ++i)
-      points.row(static_cast<Eigen::Index>(i)) = loop.points[i];
-    list.append(py::make_tuple(loop.filled, loop.length, loop.share, loop.area_added,
-                               owning_rows(std::move(points))));
-  }
-  return list;
+bool is_sound(const MeshInspection& found) {
+  return std::ranges::none_of(found.defects, [](const MeshDefect& defect) {
+    return defect.kind == DefectKind::NonFinitePosition ||
+           defect.kind == DefectKind::IndexOutOfRange;
+  });
 }
 
 void declare_meshes(py::module_& module) {
@@ -184,14 +143,18 @@ void declare_meshes(py::module_& module) {
       .def_property_readonly("materials",
                              [](const Source& self) { return self.mesh.file.materials; })
       .def_property_readonly("comments", [](const Source& self) { return self.mesh.file.comments; })
+      .def_property_readonly("is_sound",
+                             [](const Source& self) { return is_sound(self.mesh.inspection); })
+      .def_property_readonly("fillers", fillers)
       .def_property_readonly("has_map", [](const Source& self) { return has_map(self.mesh.file); })
       .def_property_readonly("repairs",
                              [](const Source& self) { return as_list(self.mesh.repairs); })
       .def_property_readonly("handles",
                              [](const Source& self) { return as_list(self.mesh.handles); })
       .def("vertex_values",
-           [](const Source& self) { return listed(self.mesh.file.vertex_properties); })
-      .def("face_values", [](const Source& self) { return listed(self.mesh.file.face_properties); })
+           [](const Source& self) { return columns_of(self.mesh.file.vertex_properties); })
+      .def("face_values",
+           [](const Source& self) { return columns_of(self.mesh.file.face_properties); })
       .def(
           "set_vertex_values",
           [](Source& self, const std::string& name, const std::string& type, const Values& values) {
@@ -205,10 +168,10 @@ void declare_meshes(py::module_& module) {
   module.def("copied", [](const Source& source) { return std::make_unique<Source>(source); });
   module.def("read", read);
   module.def("write", write);
+  module.def("surface", surface);
   module.def("inspect", inspect);
-  module.def("repair", repair);
   module.def("readable_formats", [] { return readable_formats(); });
-  module.def("is_written", &is_written);
+  module.def("written_extensions", [] { return written_extensions(); });
 }
 
 }  // namespace sphparam::python

@@ -10,7 +10,11 @@ PYBIND11_MODULE(_core, module) {
   module.attr("version") = sphparam::version;
   declare_errors(module);
   declare_meshes(module);
+  declare_repairs(module);
+  declare_mapped(module);
   declare_maps(module);
+  declare_sphere(module);
+  declare_bakes(module);
   declare_images(module);
   declare_grids(module);
   declare_exports(module);

@@ -47,16 +47,20 @@ from ._figures import (
     HandleLoop,
     Inspection,
     OneSided,
+    Radial,
     Stage,
 )
-from ._map import SphereMap, fields, load, map, remeshing_lambda, verify, with_sphere
+from ._map import load, map, remeshing_lambda, verify, with_sphere
+from ._map_images import fields
 from ._measure import measure
-from ._mesh import Mesh, inspect, read, repair, write
+from ._mesh import Mesh, inspect, read, write
+from ._repair import components, repair
+from ._sphere_map import SphereMap
 
 if TYPE_CHECKING:
+    from ._baked import BakedImage
     from ._chart import Chart
     from ._harmonics import Harmonics
-    from ._images import BakedImage
     from ._subdivision import SubdivisionFit
 
 __version__: str = _core.version
@@ -82,12 +86,14 @@ __all__ = [
     "MeshError",
     "NotCertified",
     "OneSided",
+    "Radial",
     "ReadError",
     "SolveError",
     "SphereMap",
     "Stage",
     "SubdivisionFit",
     "WriteError",
+    "components",
     "fields",
     "inspect",
     "load",
@@ -102,7 +108,7 @@ __all__ = [
 ]
 
 _later = {
-    "BakedImage": "_images",
+    "BakedImage": "_baked",
     "Chart": "_chart",
     "Harmonics": "_harmonics",
     "SubdivisionFit": "_subdivision",

@@ -102,6 +102,21 @@ class Stage(NamedTuple):
     """After it, with ``measure_stages``; else None."""
 
 
+class Radial(NamedTuple):
+    """How a map of ``method="radial"`` differs from the directions from its centre."""
+
+    centre: Tuple[float, float, float]
+    """In the mesh's coordinates."""
+    folds: int
+    """Triangles that are not positive in these directions; 0: θ and φ are planetocentric, exactly."""
+    folded_area: float
+    """Their share of the area."""
+    moved: float
+    """Share of the vertices that the map has elsewhere."""
+    largest_movement: float
+    """Of a vertex, in radians."""
+
+
 class Inspection(NamedTuple):
     """What a mesh is, and everything that is wrong with it."""
 
@@ -216,6 +231,8 @@ class BakedFile(NamedTuple):
     """1, 3 or 4."""
     range: Optional[Tuple[float, float]]
     """What 0 and 1 of integers stand for, where that is not fixed."""
+    sidecar: str
+    """The file beside it that tells GIS programs where it lies; empty: none."""
 
 
 class Displacement(NamedTuple):

@@ -6,7 +6,7 @@ from typing import Any
 
 from . import _arrays, _core
 from ._figures import Distance, OneSided
-from ._mesh import _any_mesh
+from ._mesh import any_mesh
 from ._progress import Progress, told
 
 
@@ -20,7 +20,7 @@ def measure(
     threads: int = 0,
     progress: Progress = None,
 ) -> Distance:
-    """How far two surfaces are apart, both ways; neither needs to be closed.
+    """How far two surfaces are apart, both ways; neither needs to be closed. Fillers are left out.
 
     Parameters
     ----------
@@ -31,7 +31,8 @@ def measure(
     extremes
         False: RMS and mean alone, in half the time.
     """
-    meshes = [_any_mesh(mesh, None) for mesh in (first, second)]
+    samples, seed = _arrays.whole(samples, "samples", 1), _arrays.whole(seed, "seed", 0)
+    meshes = [any_mesh(mesh, None) for mesh in (first, second)]
     for mesh in meshes:
         mesh._require_sound()
     with told(progress) as report:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from ._errors import ImageError
 
 if TYPE_CHECKING:
-    from ._map import SphereMap
+    from ._sphere_map import SphereMap
 
 most_bytes = 200_000
 """Of what a notebook keeps of a map."""
@@ -31,6 +31,11 @@ def _picture(mapped: SphereMap) -> str:
     return ""
 
 
+def _maker(method: str, stage: str) -> str:
+    """The method and its last stage, each once."""
+    return stage if stage.startswith(method) else ", ".join(filter(None, (method, stage)))
+
+
 def html_of(mapped: SphereMap) -> str:
     """The mesh and its sphere, verdict and figures."""
     distortion, provenance = mapped.distortion, mapped.provenance
@@ -40,7 +45,7 @@ def html_of(mapped: SphereMap) -> str:
         ("area, mean |ln ratio|", f"{distortion.mean_abs_ln_area:.3f}"),
         ("angle, mean |ln ratio|", f"{distortion.mean_abs_ln_angle:.3f}"),
         ("conformal, mean σ₁/σ₂", f"{distortion.quasi_conformal_mean:.3f}"),
-        ("made by", " ".join(filter(None, (provenance.get("method"), provenance.get("stage"))))),
+        ("made by", _maker(provenance.get("method", ""), provenance.get("stage", ""))),
         ("values", ", ".join(list(mapped.values)[:12])),
     ]
     cells = "".join(

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import html
 import sys
 import time
 from contextlib import contextmanager
+from importlib import import_module
 from typing import Any, Callable, Iterator, Optional, Union
 
 Progress = Union[None, bool, Callable[[str, float], Any]]
@@ -29,7 +31,9 @@ class Bar:
             return
         done = min(max(fraction, 0.0), 1.0)
         full = int(done * self.width)
-        line = f"{stage[:20]:20} {100 * done:3.0f}%|{'█' * full}{' ' * (self.width - full)}|"
+        self._show(f"{stage[:20]:20} {100 * done:3.0f}%|{'█' * full}{' ' * (self.width - full)}|")
+
+    def _show(self, line: str) -> None:
         sys.stderr.write("\r" + line.ljust(self._shown))
         sys.stderr.flush()
         self._shown = len(line)
@@ -41,10 +45,33 @@ class Bar:
             sys.stderr.flush()
 
 
+class NotebookBar(Bar):
+    """The same in the output of a notebook's cell, where nothing is left of it in the end."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._cell: Any = None
+
+    def _show(self, line: str) -> None:
+        shown = import_module("IPython.display")
+        page = shown.HTML(f"<pre>{html.escape(line)}</pre>" if line else "")
+        if self._cell is None:
+            self._cell = shown.display(page, display_id=True)
+        else:
+            self._cell.update(page)
+
+    def close(self) -> None:
+        """Takes the line away."""
+        if self._cell is not None:
+            self._show("")
+
+
+def _in_notebook() -> bool:
+    return "ipykernel" in sys.modules
+
+
 def _is_watched() -> bool:
-    if "ipykernel" in sys.modules:
-        return True
-    return sys.stderr is not None and sys.stderr.isatty()
+    return _in_notebook() or (sys.stderr is not None and sys.stderr.isatty())
 
 
 @contextmanager
@@ -55,7 +82,7 @@ def told(progress: Progress) -> Iterator[Optional[Callable[[str, float], Any]]]:
     if progress is False:
         yield None
     elif progress is True:
-        bar = Bar()
+        bar = NotebookBar() if _in_notebook() else Bar()
         try:
             yield bar
         finally:

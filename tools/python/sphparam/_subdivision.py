@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     import numpy
     import numpy.typing as npt
 
-    from ._map import SphereMap
+    from ._sphere_map import SphereMap
 
     Floats = npt.NDArray[numpy.float64]
     Ints = npt.NDArray[numpy.int32]
@@ -32,7 +32,7 @@ class SubdivisionFit:
 
     @classmethod
     def _of(cls, fitted: _core.Fitted) -> SubdivisionFit:
-        from ._map import SphereMap
+        from ._sphere_map import SphereMap
 
         made = cls.__new__(cls)
         made._fitted, made._control = fitted, SphereMap._of(fitted.control)
@@ -69,7 +69,8 @@ class SubdivisionFit:
 
     def fine_mesh(self, triangles: int = 100_000, *, threads: int = 0) -> Tuple[Floats, Ints]:
         """Vertices and faces of the smooth surface, in about so many triangles or more."""
-        return _core.fine_mesh(self._fitted, triangles, _arrays.threads(threads))
+        least = _arrays.whole(triangles, "triangles", 1)
+        return _core.fine_mesh(self._fitted, least, _arrays.threads(threads))
 
     def displace(
         self,
@@ -95,7 +96,7 @@ class SubdivisionFit:
             Also a mesh of surface and image together, read back: a ``.ply`` or ``.obj``, and its
             distance from the mesh.
         """
-        width, height = size
+        width, height = (_arrays.whole(number, "size", 1) for number in size)
         other = path_of(rebuilt) if rebuilt else ""
         count = _arrays.threads(threads)
         with told(progress) as report:

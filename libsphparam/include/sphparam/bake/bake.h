@@ -108,7 +108,7 @@ std::string scale_path(const std::string& image);
 struct BakedField {
   std::string name;   // "curvature:mean" of "curvature"
   std::string about;  // unit, space, convention
-  int channels = 1;   // 1, 3 or 4
+  int channels = 1;   // 1, 3 or 4; where there are fillers one more, 0 on them, 4 at most
 };
 
 /// Takes rows of the field with this index, from the top, one call after the other for a field; for

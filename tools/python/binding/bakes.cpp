@@ -1,0 +1,170 @@
+// Fields of a surface, baked into arrays or files.
+
+#include <pybind11/stl.h>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "arrays.h"
+#include "binding.h"
+#include "call.h"
+#include "sphparam/bake/bake.h"
+
+namespace sphparam::python {
+namespace {
+
+const char* word_of(Interpolation interpolation) {
+  return interpolation == Interpolation::Uv ? "uv" : "sphere";
+}
+
+const char* word_of(TextureFilter filter) {
+  switch (filter) {
+    case TextureFilter::Nearest:
+      return "nearest";
+    case TextureFilter::Bilinear:
+      return "bilinear";
+    case TextureFilter::Bicubic:
+      break;
+  }
+  return "bicubic";
+}
+
+const char* word_of(TextureWrap wrap) {
+  return wrap == TextureWrap::Repeat ? "repeat" : wrap == TextureWrap::Mirror ? "mirror" : "clamp";
+}
+
+/// The body whose surface it is, and the directions of its longitudes.
+void take_body(Settings& settings, FieldOptions& fields) {
+  std::string body;
+  double unit = 1;
+  std::optional<std::array<double, 3>> centre;
+  settings.take("positive_west", fields.positive_west)
+      .take("body", body)
+      .take("unit", unit)
+      .take("centre", centre);
+  if (centre) fields.centre = Vector3(centre->data());
+  if (body.empty()) return;
+  fields.body = body_of(body, unit);
+  fields.body->positive_west |= fields.positive_west;
+}
+
+void take_fields(Settings& settings, FieldOptions& fields) {
+  take_body(settings, fields);
+  settings.take("normal_y_down", fields.normal_y_down)
+      .take("height_radial", fields.height_radial)
+      .take("heat", fields.heat)
+      .take("rays", fields.rays)
+      .take("max_ray_distance", fields.max_ray_distance)
+      .take("filter", fields.filter,
+            {TextureFilter::Nearest, TextureFilter::Bilinear, TextureFilter::Bicubic},
+            [](TextureFilter filter) { return word_of(filter); });
+}
+
+BakeSettings bake_settings(const py::dict& values) {
+  BakeSettings made;
+  Settings settings(values);
+  settings.take("size", made.width)
+      .take("samples", made.samples)
+      .take("texture", made.texture)
+      .take("refine_poles", made.refine_poles)
+      .take("mip", made.mip)
+      .take("threads", made.threads)
+      .take("interpolation", made.interpolation, {Interpolation::Uv, Interpolation::Sphere},
+            [](Interpolation interpolation) { return word_of(interpolation); });
+  settings.take("wrap", made.wrap, {TextureWrap::Repeat, TextureWrap::Mirror, TextureWrap::Clamp},
+                [](TextureWrap wrap) { return word_of(wrap); });
+  take_fields(settings, made.fields);
+  std::string convention = info_of(made.convention).name, depth;
+  settings.take("convention", convention).take("depth", depth);
+  made.convention = convention_of(convention);
+  if (!depth.empty()) {
+    made.depth = named(
+        depth, {SampleType::Uint8, SampleType::Uint16, SampleType::Half, SampleType::Float},
+        [](SampleType type) { return name_of(type); }, "depth");
+  }
+  const Mapped* target = nullptr;
+  settings.take("target", target);
+  if (target) made.target = target->mesh();
+  settings.require_all_known();
+  return made;
+}
+
+/// A field as numbers, and what they are.
+struct BakedArray {
+  BakedField field;
+  std::vector<float> values;
+};
+
+std::vector<BakedArray> bake_arrays(const MappedMesh& source,
+                                    const std::vector<std::string>& fields,
+                                    const BakeSettings& settings) {
+  std::vector<BakedArray> baked(fields.size());
+  const auto width = static_cast<std::size_t>(settings.width), height = width / 2;
+  bake_values(source, fields, settings,
+              [&](std::size_t index, const BakedField& field, int first_row, int rows,
+                  const float* values) {
+                BakedArray& array = baked[index];
+                const std::size_t row = width * static_cast<std::size_t>(field.channels);
+                if (array.values.empty()) array = {field, std::vector<float>(row * height)};
+                const std::vector<float> turned = in_convention(settings.convention, settings.width,
+                                                                field.channels, rows, values);
+                std::copy(turned.begin(), turned.end(),
+                          array.values.begin() + static_cast<std::ptrdiff_t>(row) * first_row);
+              });
+  return baked;
+}
+
+py::list bake_to_arrays(const Mapped& mapped, const std::vector<std::string>& fields,
+                        const py::dict& values, const py::object& progress) {
+  BakeSettings settings = bake_settings(values);
+  const int width = settings.width;
+  std::vector<BakedArray> baked =
+      call(progress, [=, mesh = mapped.mesh()](const Progress& report) mutable {
+        settings.progress = report;
+        return bake_arrays(mesh, fields, settings);
+      });
+  py::list list;
+  for (BakedArray& array : baked) {
+    const int channels = array.field.channels;
+    list.append(py::make_tuple(array.field.name, array.field.about,
+                               owning(std::move(array.values), {width / 2, width, channels})));
+  }
+  return list;
+}
+
+py::list bake_to_files(const Mapped& mapped,
+                       const std::vector<std::pair<std::string, std::string>>& images,
+                       const py::dict& values, const py::object& progress) {
+  BakeSettings settings = bake_settings(values);
+  std::vector<BakeRequest> requests;
+  for (const auto& [field, path] : images) requests.push_back({field, path});
+  const BakeReport report =
+      writing_call(progress, [=, mesh = mapped.mesh()](const Progress& told) mutable {
+        settings.progress = told;
+        return bake(mesh, requests, settings);
+      });
+  py::list list;
+  for (const BakedImage& image : report.images)
+    list.append(py::make_tuple(image.field, image.about, image.path, name_of(image.sample_type),
+                               image.channels, image.range, image.sidecar));
+  list.append(report.warnings);
+  return list;
+}
+
+}  // namespace
+
+void declare_bakes(py::module_& module) {
+  module.def("bake_to_arrays", bake_to_arrays);
+  module.def("bake_to_files", bake_to_files);
+  module.def("fields", [] {
+    py::list list;
+    for (const FieldInfo& field : all_fields())
+      list.append(py::make_tuple(field.name, field.about));
+    return list;
+  });
+}
+
+}  // namespace sphparam::python

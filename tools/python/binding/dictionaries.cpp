@@ -1,0 +1,76 @@
+// Figures of the library as dictionaries and lists, by the names that Python has for them.
+
+#include <pybind11/stl.h>
+
+#include "arrays.h"
+#include "binding.h"
+#include "sphparam/names.h"
+
+namespace sphparam::python {
+
+py::dict as_dict(const Certificate& certificate) {
+  py::dict dict;
+  dict["one_to_one"] = certificate.bijective();
+  dict["verdict"] = verdict(certificate);
+  dict["degree"] = certificate.degree;
+  dict["covering"] = certificate.covering;
+  dict["reversed"] = certificate.reversed;
+  dict["folded"] = owning(std::vector<int>(certificate.folded));
+  dict["degenerate"] = owning(std::vector<int>(certificate.degenerate));
+  dict["unusable_points"] = owning(std::vector<int>(certificate.unusable_points));
+  dict["branch_vertices"] = owning(std::vector<int>(certificate.branch_vertices));
+  dict["max_length_error"] = certificate.max_length_error;
+  return dict;
+}
+
+py::dict as_dict(const DistortionSummary& summary) {
+  py::dict dict;
+  dict["mean_abs_ln_area"] = summary.mean_abs_ln_area;
+  dict["mean_abs_ln_angle"] = summary.mean_abs_ln_angle;
+  dict["area_within_two"] = summary.area_within_two;
+  dict["area_ratio_p01"] = summary.area_ratio_p01;
+  dict["area_ratio_p50"] = summary.area_ratio_p50;
+  dict["area_ratio_p99"] = summary.area_ratio_p99;
+  dict["area_ratio_min"] = summary.area_ratio_min;
+  dict["area_ratio_max"] = summary.area_ratio_max;
+  dict["angle_ratio_max"] = summary.angle_ratio_max;
+  dict["weighted_abs_log2_area"] = summary.weighted_abs_log2_area;
+  dict["symmetric_dirichlet"] = summary.symmetric_dirichlet;
+  dict["quasi_conformal_mean"] = summary.quasi_conformal_mean;
+  dict["quasi_conformal_max"] = summary.quasi_conformal_max;
+  dict["stretch_l2"] = summary.stretch_l2;
+  dict["stretch_linf"] = summary.stretch_linf;
+  return dict;
+}
+
+py::list as_list(const std::vector<MeshDefect>& defects) {
+  py::list list;
+  for (const MeshDefect& defect : defects) {
+    list.append(py::make_tuple(name_of(defect.kind), defect.fatal, defect.count,
+                               py::tuple(py::cast(defect.elements)), defect.message, defect.hint));
+  }
+  return list;
+}
+
+py::list as_list(const std::vector<RepairAction>& actions) {
+  py::list list;
+  for (const RepairAction& action : actions) {
+    list.append(py::make_tuple(name_of(action.kind), action.count,
+                               py::tuple(py::cast(action.elements)), action.message));
+  }
+  return list;
+}
+
+py::list as_list(const std::vector<HandleLoop>& loops) {
+  py::list list;
+  for (const HandleLoop& loop : loops) {
+    Points points(static_cast<Eigen::Index>(loop.points.size()), 3);
+    for (std::size_t i = 0; i < loop.points.size(); ++i)
+      points.row(static_cast<Eigen::Index>(i)) = loop.points[i];
+    list.append(py::make_tuple(loop.filled, loop.length, loop.share, loop.area_added,
+                               owning_rows(std::move(points))));
+  }
+  return list;
+}
+
+}  // namespace sphparam::python

@@ -1,0 +1,90 @@
+// The options of a map, and what they mean on the mesh at hand.
+
+#include "map_request.h"
+
+#include <pybind11/stl.h>
+
+#include "arrays.h"
+#include "sphparam/io/file_numbers.h"
+#include "sphparam/names.h"
+#include "sphparam/sphere/radial_directions.h"
+
+namespace sphparam::python {
+namespace {
+
+void take_method(Settings& settings, ParameterizeOptions& options) {
+  settings
+      .take("method", options.method,
+            {Method::Progressive, Method::Curvilinear, Method::Paper, Method::Radial},
+            [](Method method) { return name_of(method); })
+      .take("quality", options.quality, {Quality::Draft, Quality::Normal, Quality::Best},
+            [](Quality quality) { return name_of(quality); })
+      .take("balance", options.balance, {Balance::Lambda, Balance::Conformal, Balance::EqualArea},
+            [](Balance balance) { return name_of(balance); })
+      .take("energy", options.energy.kind,
+            {EnergyKind::AngleAndArea, EnergyKind::SymmetricDirichlet},
+            [](EnergyKind kind) { return name_of(kind); })
+      .take("lambda", options.energy.lambda);
+}
+
+void take_paper(Settings& settings, PaperSettings& paper) {
+  settings.take("epsilon", paper.epsilon)
+      .take("iterations", paper.iterations)
+      .take("rings", paper.rings)
+      .take("sweeps", paper.sweeps)
+      .take("weights", paper.weights, {WeightKind::MeanValue, WeightKind::Cotangent},
+            [](WeightKind kind) {
+              return kind == WeightKind::MeanValue ? "mean-value" : "cotangent";
+            });
+}
+
+/// Where the map lies.
+void take_frame(Settings& settings, Request& request) {
+  ParameterizeOptions& options = request.options;
+  std::optional<std::pair<int, int>> poles;
+  std::optional<std::array<double, 3>> centre;
+  std::optional<py::array> rays;
+  settings.take("automatic_poles", options.automatic_poles)
+      .take("pins", request.pins)
+      .take("poles", poles)
+      .take("meridian", options.meridian)
+      .take("centre", centre)
+      .take("to_body", request.to_body)
+      .take("align_to", rays);
+  if (poles) options.poles = Poles{poles->first, poles->second};
+  if (centre) options.centre = Vector3(centre->data());
+  bool finite = true;
+  if (rays) options.align_to = SphereMap{points_of(*rays, finite)};
+}
+
+}  // namespace
+
+Request map_request_of(const py::dict& values) {
+  Request request;
+  ParameterizeOptions& options = request.options;
+  Settings settings(values);
+  take_method(settings, options);
+  take_paper(settings, options.paper);
+  take_frame(settings, request);
+  settings.take("threads", options.threads)
+      .take("filler_share", options.filler_share)
+      .take("repair_map", options.repair_paper)
+      .take("measure_stages", options.measure_stages);
+  settings.require_all_known();
+  return request;
+}
+
+void settle(Request& request, const MeshFile& file) {
+  ParameterizeOptions& options = request.options;
+  if (request.to_body) options.align_to = radial_directions(file.mesh, options.centre);
+  if (!options.poles && !options.meridian && request.pins.empty()) return;
+  const FileNumbers numbers(file);
+  options = with_vertices_of_mesh(std::move(options), numbers);
+  for (const auto& [number, theta, phi] : request.pins) {
+    const Vertex vertex = numbers.vertex(static_cast<long>(number));
+    if (vertex < 0) throw NoSuchVertex("pins", numbers.absence(static_cast<long>(number)));
+    options.pins.push_back({vertex, {theta, phi}});
+  }
+}
+
+}  // namespace sphparam::python

@@ -1,0 +1,92 @@
+"""What directions mean on the surface, and texture coordinates."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Tuple
+
+from . import _arrays, _core
+from ._map_facts import MapFacts
+from ._numpy import np
+from ._progress import Progress, told
+
+if TYPE_CHECKING:
+    from ._chart import Chart
+    from ._map_facts import Array, Floats, Ints
+
+
+class MapDirections(MapFacts):
+    """From the sphere to the surface."""
+
+    __slots__ = ()
+
+    def locate(self, directions: Any, *, threads: int = 0) -> Tuple[Ints, Floats]:
+        """The points of the surface that the map takes to some directions.
+
+        Parameters
+        ----------
+        directions
+            (k, 3), finite, of any length but 0.
+
+        Returns
+        -------
+        face, weights
+            (k,) the face, and (k, 3) barycentric weights of its corners; exactly 0 where a direction
+            lies on an edge or at a vertex. Directions as they are, to the last bit.
+        """
+        rows = _arrays.directions(directions)
+        return _core.locate(self._mapped, rows, _arrays.threads(threads))
+
+    def resample(self, values: Any, directions: Any, *, threads: int = 0) -> Array:
+        """Values of the vertices at directions.
+
+        Floating numbers are interpolated linearly in each triangle; whole numbers and truth values are
+        labels: the one with the largest weight among the corners. NaN spreads to where it has weight.
+
+        Parameters
+        ----------
+        values
+            (V,) or (V, k), or the name of one of ``values``; ``"vertices"``: positions.
+        directions
+            (n, 3), finite, of any length but 0.
+        """
+        if isinstance(values, str):
+            values = self.vertices if values == "vertices" else self._named(values)
+        table = np.asarray(values)
+        if table.dtype.kind not in "fiubc":
+            raise TypeError(f"values: numbers are needed, not {table.dtype}")
+        if table.ndim == 0 or len(table) != len(self.vertices):
+            shape = "×".join(str(n) for n in table.shape) or "a single number"
+            raise ValueError(f"values: {len(self.vertices)} rows are needed, one a vertex, not {shape}")
+        face, weights = self.locate(directions, threads=threads)
+        corners = self.faces[face]
+        weights = weights.reshape(weights.shape + (1,) * (table.ndim - 1))
+        if table.dtype.kind in "iub":
+            return heaviest(table[corners], weights)
+        parts = np.where(weights == 0, 0, table[corners] * weights)
+        mixed: Array = parts.sum(axis=1).astype(table.dtype, copy=False)
+        return mixed
+
+    def _named(self, name: str) -> Array:
+        if name not in self.values:
+            known = ", ".join(["vertices", *self.values])
+            raise ValueError(f"values: the mesh has no {name!r}; it has {known}")
+        return self.values[name]
+
+    def chart(self, *, keep_topology: bool = False, threads: int = 0, progress: Progress = None) -> Chart:
+        """The mesh split for texture coordinates (u, v): every point of the rectangle has one owner.
+
+        ``keep_topology``: no vertex is added; triangles fold at the poles then.
+        """
+        from ._chart import Chart
+
+        with told(progress) as report:
+            found = _core.chart(self._mapped, bool(keep_topology), _arrays.threads(threads), report)
+        return Chart(self.vertices, self.faces, found)
+
+
+def heaviest(labels: Array, weights: Array) -> Array:
+    """Of three labels a row, (n, 3, …), the one whose weights add up to most; of equals the first."""
+    votes = [(weights * (labels == labels[:, k : k + 1])).sum(axis=1) for k in range(3)]
+    best = np.argmax(np.stack(votes, axis=1), axis=1)
+    chosen: Array = np.take_along_axis(labels, best[:, None], axis=1)[:, 0]
+    return chosen

@@ -1,0 +1,247 @@
+"""What a map is, and what is known of it."""
+
+from __future__ import annotations
+
+import zlib
+from typing import TYPE_CHECKING, Any, Callable, Dict, List, NoReturn, Optional, Tuple, Type, TypeVar
+
+from . import _core, _values
+from ._figures import Action, Certificate, Distortion, FaceDistortion, HandleLoop, Radial, Stage
+from ._mesh import Mesh, numbered
+from ._numpy import np
+
+if TYPE_CHECKING:
+    import numpy
+    import numpy.typing as npt
+
+    Array = npt.NDArray[Any]
+    Flags = npt.NDArray[numpy.bool_]
+    Floats = npt.NDArray[numpy.float64]
+    Ints = npt.NDArray[numpy.int32]
+
+_T = TypeVar("_T")
+_M = TypeVar("_M", bound="MapFacts")
+
+
+class MapFacts:
+    """A mesh with a proved map. It never changes, and what is asked of it is found out once."""
+
+    __slots__ = ("_mapped", "_found")
+
+    _mapped: _core.Mapped
+    _found: Dict[str, Any]
+
+    def __init__(self) -> None:
+        raise TypeError("sphparam.map(vertices, faces) makes maps, sphparam.load(path) reads them")
+
+    @classmethod
+    def _of(cls: Type[_M], mapped: _core.Mapped) -> _M:
+        made = cls.__new__(cls)
+        made._mapped, made._found = mapped, {}
+        return made
+
+    def _once(self, name: str, make: Callable[[], _T]) -> _T:
+        if name not in self._found:
+            self._found[name] = make()
+        found: _T = self._found[name]
+        return found
+
+    def _fingerprint(self) -> int:
+        """The same for the same mesh with the same map."""
+
+        def count() -> int:
+            found = 0
+            arrays: Tuple[Any, ...] = (self.vertices, self.faces, self.points)
+            for array in arrays:
+                found = zlib.crc32(array, found)
+            return found
+
+        return self._once("fingerprint", count)
+
+    def __copy__(self: _M) -> _M:
+        return self
+
+    def __deepcopy__(self: _M, memo: Any) -> _M:
+        return self
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("a map cannot be pickled: m.save('a.sph.ply') writes it, sphparam.load reads it again")
+
+    @property
+    def vertices(self) -> Floats:
+        """(V, 3) positions on the surface, read-only."""
+        return self._mapped.vertices
+
+    @property
+    def faces(self) -> Ints:
+        """(F, 3) indices of vertices, read-only."""
+        return self._mapped.faces
+
+    @property
+    def points(self) -> Floats:
+        """(V, 3) unit vectors, where the vertices go on the sphere; read-only."""
+        return self._mapped.points
+
+    @property
+    def theta(self) -> Floats:
+        """(V,) longitude in radians, 0 to 2π."""
+        return self._once("angles", lambda: _core.angles(self._mapped))[0]
+
+    @property
+    def phi(self) -> Floats:
+        """(V,) polar angle in radians, 0 at +z to π at −z."""
+        return self._once("angles", lambda: _core.angles(self._mapped))[1]
+
+    @property
+    def values(self) -> Dict[str, Array]:
+        """What vertices carry: name to (V,) or (V, k), in its own type."""
+        return self._once("values", lambda: _values.grouped(self._mapped.vertex_values()))
+
+    @property
+    def face_values(self) -> Dict[str, Array]:
+        """What faces carry: name to (F,) or (F, k)."""
+        return self._once("face_values", lambda: _values.grouped(self._mapped.face_values()))
+
+    @property
+    def polygons(self) -> Optional[List[Ints]]:
+        """Faces as a grid has them, quads too, where ``faces`` are these cut; else None."""
+        found = self._mapped.polygons
+        return None if found is None else np.split(found[0], found[1][1:-1])
+
+    @property
+    def mesh(self) -> Mesh:
+        """The mesh alone, a copy."""
+        return Mesh._of(_core.source_of_mapped(self._mapped, True))
+
+    @property
+    def fillers(self) -> Flags:
+        """(F,) True where a face only closes a hole that was kept: it is mapped, but no surface."""
+        marks: Flags = self._once("fillers", lambda: self._mapped.fillers.view(bool))
+        return marks
+
+    @property
+    def surface(self) -> Mesh:
+        """The mesh without its fillers, a copy: with its holes where these were kept."""
+        return Mesh._of(_core.source_of_mapped(self._mapped, False))
+
+    @property
+    def name(self) -> str:
+        """The file or grid it comes from."""
+        return self._mapped.name
+
+    @property
+    def certificate(self) -> Certificate:
+        """What was proved of ``points``, with exact signs."""
+        return self._once("certificate", lambda: Certificate(**self._mapped.certificate))
+
+    @property
+    def distortion(self) -> Distortion:
+        """How the map distorts the surface, in figures."""
+        return self._measured()[0]
+
+    @property
+    def face_distortion(self) -> FaceDistortion:
+        """How the map distorts, face by face; NaN for fillers."""
+        return self._measured()[1]
+
+    def _measured(self) -> Tuple[Distortion, FaceDistortion]:
+        def measure() -> Tuple[Distortion, FaceDistortion]:
+            found = _core.distortion(self._mapped, 0)
+            return Distortion(**found.pop("summary")), FaceDistortion(**found)
+
+        return self._once("distortion", measure)
+
+    def _account(self) -> Dict[str, Any]:
+        return self._once("account", lambda: self._mapped.account or {})
+
+    @property
+    def stages(self) -> Tuple[Stage, ...]:
+        """What each stage of the map did, in their order; empty for maps that were read."""
+        rows = self._account().get("stages", ())
+        return tuple(Stage(n, s, f, Distortion(**d) if d else None) for n, s, f, d in rows)
+
+    @property
+    def seconds(self) -> float:
+        """Wall time of the map in the library, its certificate included; 0 for maps that were read."""
+        seconds: float = self._account().get("seconds", 0.0)
+        return seconds
+
+    @property
+    def processor_seconds(self) -> float:
+        """The same summed over all processors, and over all that this process did meanwhile."""
+        seconds: float = self._account().get("processor_seconds", 0.0)
+        return seconds
+
+    @property
+    def poles(self) -> Optional[Tuple[int, int]]:
+        """The vertices at +z and −z by their numbers in the mesh that was given, or None."""
+        return self._account().get("poles")
+
+    @property
+    def meridian(self) -> Optional[int]:
+        """A vertex with θ = 0 that was asked for or chosen, or None."""
+        return self._account().get("meridian")
+
+    @property
+    def pin_residuals(self) -> List[float]:
+        """Radians of each pin from where it was wanted; 0: exactly there."""
+        return self._account().get("pin_residuals", [])
+
+    @property
+    def filler_share(self) -> Optional[float]:
+        """The share of the sphere that fillers have got, of maps made here; None: there are none."""
+        return self._account().get("filler_share")
+
+    @property
+    def alignment(self) -> Optional[float]:
+        """With ``align``: the angle that is left, in radians, RMS over the surface; else None."""
+        return self._account().get("alignment")
+
+    @property
+    def radial(self) -> Optional[Radial]:
+        """Of ``method="radial"``: how the map differs from the directions from the centre; else None."""
+        found = self._account().get("radial")
+        return None if found is None else Radial(*found)
+
+    @property
+    def energy_gap(self) -> Optional[float]:
+        """An estimate of the share of its energy that more steps would take; None: not made."""
+        return self._account().get("energy_gap")
+
+    @property
+    def warnings(self) -> List[str]:
+        """What the library has to say of how the map came out."""
+        return self._account().get("warnings", [])
+
+    @property
+    def provenance(self) -> Dict[str, str]:
+        """How the map came about: version, method, stage, options, poles, verdict."""
+        return dict(self._mapped.provenance)
+
+    @property
+    def notes(self) -> List[str]:
+        """What was odd about the file, or done to the mesh."""
+        return self._mapped.notes
+
+    @property
+    def repairs(self) -> Tuple[Action, ...]:
+        """What ``repair`` did to the mesh before it was mapped."""
+        return tuple(Action(*row) for row in self._mapped.repairs)
+
+    @property
+    def handles(self) -> Tuple[HandleLoop, ...]:
+        """The loops that the mesh was cut along, to be rid of handles."""
+        return tuple(HandleLoop(*row) for row in self._mapped.handles)
+
+    @property
+    def vertex_origin(self) -> Ints:
+        """(V,) numbers of the vertices in the mesh or file that was given; −1: created."""
+        found = dict(self._mapped.vertex_values()).get("source_vertex")
+        return numbered(len(self.vertices)) if found is None else found
+
+
+def mapped_of(thing: Any, name: str) -> _core.Mapped:
+    """What a map is to the library."""
+    if not isinstance(thing, MapFacts):
+        raise TypeError(f"{name}: a sphparam.SphereMap is needed, not {type(thing).__name__}")
+    return thing._mapped

@@ -1,0 +1,166 @@
+"""Maps in files: their own, those of other programs, pages."""
+
+from __future__ import annotations
+
+import os
+from contextlib import ExitStack
+from typing import TYPE_CHECKING, List, Optional, Sequence
+
+from . import _arrays, _core
+from ._losses import tell
+from ._map_facts import MapFacts, mapped_of
+from ._map_images import require_up
+from ._mesh import Path, path_of
+from ._progress import Progress, told
+
+if TYPE_CHECKING:
+    from ._images import Image
+    from ._sphere_map import SphereMap
+
+_export_options = (
+    "variants", "image_size", "unlit", "tangents", "name", "convention", "refine_poles", "keep_topology",
+    "shape", "morph", "theta_phi", "source_uv", "quantise", "compress", "embedded",
+)  # fmt: skip
+_export_endings = (".glb", ".gltf", ".obj", ".ply")
+
+
+def _require_ending(path: str) -> str:
+    """Before any work is done for a file that cannot be written."""
+    ending = os.path.splitext(path)[1]
+    if ending.lower() not in _export_endings:
+        known = ", ".join(_export_endings)
+        raise ValueError(f"path: {path!r}: exports end in {known}; save() writes the mesh in other formats")
+    return path
+
+
+class MapFiles(MapFacts):
+    """To files."""
+
+    __slots__ = ()
+
+    def save(self, path: Path, *, holes: str = "marked", threads: int = 0) -> None:
+        """Writes mesh and map as ``.sph.ply``, proved as read back; ``.vtk`` and ``.vtp`` hold both too.
+
+        Other formats take the mesh alone. ``holes``: what closes those that were kept is ``"marked"`` where
+        the format can, else left out; ``"keep"``, ``"drop"``: in all formats, in none. All of it or nothing.
+        Raises :class:`WriteError`; warns, as :class:`LossWarning`, of what the format has no room for.
+        """
+        name = path_of(path)
+        losses = _core.save(self._mapped, name, _arrays.text(holes, "holes"), _arrays.threads(threads))
+        tell(f"{name}: {loss}" for loss in losses)
+
+    def save_sphere(self, path: Path, *, threads: int = 0) -> None:
+        """Writes the bare sphere: ``.ply``, ``.obj``, ``.off``, ``.vtk`` in doubles; ``.gii``, ``.sphere``,
+        ``.mz3`` of radius 100 in floats.
+        """
+        _core.save_sphere(self._mapped, path_of(path), _arrays.threads(threads))
+
+    def export(
+        self,
+        path: Path,
+        *,
+        texture: Optional[Image] = None,
+        normal_map: Optional[Image] = None,
+        occlusion_map: Optional[Image] = None,
+        images: Optional[Path] = None,
+        variants: Sequence[str] = (),
+        image_size: int = 2048,
+        unlit: bool = False,
+        tangents: bool = False,
+        name: str = "",
+        convention: str = "sphparam",
+        refine_poles: int = 1,
+        keep_topology: bool = False,
+        shape: str = "mesh",
+        morph: str = "none",
+        up: Optional[str] = None,
+        theta_phi: bool = False,
+        source_uv: bool = False,
+        quantise: bool = False,
+        compress: bool = False,
+        embedded: bool = False,
+        levels: Sequence[SphereMap] = (),
+        threads: int = 0,
+        progress: Progress = None,
+    ) -> List[str]:
+        """Writes the mesh with spherical texture coordinates: ``.glb``, ``.gltf``, ``.obj``, ``.ply``.
+
+        Parameters
+        ----------
+        texture, normal_map, occlusion_map
+            Equirectangular images, twice as wide as high: files, or arrays (H, W, 3 or 4), uint8 or floats
+            from 0 to 1, in sRGB; or what :meth:`bake` made, which is turned into colours. That must be of
+            the same ``convention`` and ``refine_poles``, a normal map ``"normal-tangent"`` and for this mesh.
+        images
+            A folder of the program's ``bake``: its base colour, normal map and occlusion.
+        variants
+            More materials to switch to: ``"axes"``, ``"checker"``, ``"graticule"``, ``"area"``,
+            ``"angle"``.
+        image_size
+            Of images that are made here; 16 to 16384, a multiple of 4.
+        unlit, tangents
+            The colours without light; tangents also without a normal map.
+        name
+            Of the asset; empty: that of the mesh.
+        convention
+            Where longitude goes in the images.
+        refine_poles, keep_topology
+            Each triangle at a pole is cut into so many; no vertex is added at all.
+        shape
+            ``"mesh"``, its ``"sphere"``, or the ``"flat"`` rectangle.
+        morph
+            What an animation turns the mesh into: ``"none"``, ``"sphere"``, ``"flat"``.
+        up
+            ``"z"`` or ``"y"``; None: as its file says, else z.
+        theta_phi, source_uv
+            The angles as an attribute; the mesh's own texture coordinates as a second set.
+        quantise, compress, embedded
+            16-bit numbers; meshopt compression; a ``.gltf`` in one file.
+        levels
+            Levels of detail on the same sphere, in the same file.
+
+        Returns
+        -------
+        list of str
+            The files that were written, all or none.
+        """
+        from ._baked import require_kind
+        from ._images import as_file
+
+        name_of_file = _require_ending(path_of(path))
+        given = dict(locals())
+        options = {name: given[name] for name in _export_options}
+        options.update(
+            up=require_up(up),
+            images=path_of(images) if images is not None else "",
+            variants=[_arrays.text(v, "variants") for v in ([variants] if isinstance(variants, str) else variants)],
+            levels=[mapped_of(level, "levels") for level in levels],
+            threads=_arrays.threads(threads),
+        )
+        require_kind(normal_map, "normal_map", "normal-tangent", self._fingerprint)
+        require_kind(occlusion_map, "occlusion_map", "ao")
+        # .obj and .ply keep a copy of the image, .gltf and .glb hold it: the file made here may go.
+        with ExitStack() as held:
+            for what, image in (("texture", texture), ("normal_map", normal_map), ("occlusion_map", occlusion_map)):
+                options[what] = held.enter_context(as_file(image, what, convention, refine_poles))
+            report = held.enter_context(told(progress))
+            files, warned = _core.export(self._mapped, name_of_file, options, report)
+        tell(warned)
+        return [file for file, _ in files]
+
+    def report(
+        self,
+        path: Path,
+        *,
+        size: int = 1024,
+        up: Optional[str] = None,
+        threads: int = 0,
+        progress: Progress = None,
+    ) -> None:
+        """Writes one page of HTML that shows the map: models or pictures, heat maps, charts, tables.
+
+        ``size``: pixels of textures and pictures, 64 to 8192; ``up``: ``"z"`` or ``"y"``, else as the
+        file says.
+        """
+        with told(progress) as report:
+            _core.report(self._mapped, path_of(path), _arrays.whole(size, "size", 64, 8192), require_up(up), _arrays.threads(threads), report)

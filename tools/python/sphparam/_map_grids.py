@@ -1,0 +1,120 @@
+"""Maps on grids of the sphere: resampled, fitted, expanded."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Iterable, List, Sequence, Union
+
+from . import _arrays, _core
+from ._losses import tell
+from ._map_facts import MapFacts, mapped_of
+from ._progress import Progress, told
+
+if TYPE_CHECKING:
+    from ._harmonics import Harmonics
+    from ._sphere_map import SphereMap
+    from ._subdivision import SubdivisionFit
+
+
+class MapGrids(MapFacts):
+    """To other meshes on the same sphere."""
+
+    __slots__ = ()
+
+    def remesh(
+        self,
+        grid: Union[str, SphereMap],
+        *,
+        sample: str = "point",
+        transfer: Union[str, Iterable[str]] = "all",
+        adaptive: bool = False,
+        threads: int = 0,
+        progress: Progress = None,
+    ) -> SphereMap:
+        """The surface on a grid of the sphere, whose directions are the map of the result.
+
+        Holes that were kept are closed in the result as well: its ``fillers`` mark these faces.
+
+        Parameters
+        ----------
+        grid
+            ``"ico:6"``, ``"ico:f=40"``, ``"octa:257"``, ``"cube:32"``, ``"uv:512x256"``,
+            ``"healpix:64"``; or another map, whose connectivity the result gets.
+        sample
+            ``"point"``: the surface at the direction; ``"cell"``: its mean over the cell.
+        transfer
+            What to carry: ``"all"``, or names of values; ``[]``: positions alone.
+        adaptive
+            More vertices where the surface bends.
+        """
+        from ._sphere_map import SphereMap
+
+        names = _names(transfer, "transfer")
+        with told(progress) as report:
+            made = _core.remesh(
+                self._mapped, _grid(grid), sample, names, bool(adaptive), _arrays.threads(threads), report
+            )
+        return SphereMap._of(made)
+
+    def levels(self, count: int, *, threads: int = 0, progress: Progress = None) -> List[SphereMap]:
+        """Levels of detail on icosahedra, the first with a quarter of the vertices, and so on."""
+        from ._sphere_map import SphereMap
+
+        _arrays.whole(count, "count", 0)
+        with told(progress) as report:
+            made = _core.levels(self._mapped, count, _arrays.threads(threads), report)
+        return [SphereMap._of(level) for level in made]
+
+    def fit(
+        self,
+        grid: Union[str, SphereMap],
+        *,
+        scheme: str = "loop",
+        transfer: Union[str, Iterable[str]] = "all",
+        threads: int = 0,
+        progress: Progress = None,
+    ) -> SubdivisionFit:
+        """A subdivision surface on a grid, nearest to the mesh in the sense of least squares.
+
+        ``scheme``: ``"loop"`` for triangles, ``"catmark"`` for quads and triangles. ``grid`` and
+        ``transfer`` are those of :meth:`remesh`.
+        """
+        from ._subdivision import SubdivisionFit
+
+        names = _names(transfer, "transfer")
+        with told(progress) as report:
+            made = _core.fit(self._mapped, _grid(grid), scheme, names, _arrays.threads(threads), report)
+        return SubdivisionFit._of(made)
+
+    def spharm(
+        self,
+        degree: int = 20,
+        *,
+        values: Sequence[str] = (),
+        least_squares: bool = True,
+        threads: int = 0,
+        progress: Progress = None,
+    ) -> Harmonics:
+        """The surface as a sum of spherical harmonics up to a degree, 0 to 1000.
+
+        ``values``: names of what vertices carry, expanded too. ``least_squares``: at the vertices;
+        else by quadrature.
+        """
+        from ._harmonics import Harmonics
+
+        names = _names(values, "values")
+        degree = _arrays.whole(degree, "degree", 0, 1000)
+        if self.fillers.any():
+            tell([f"{self.name}: harmonics are of the whole sphere, with what closes the holes"])
+        with told(progress) as report:
+            found = _core.expand(
+                self._mapped, degree, names, bool(least_squares), _arrays.threads(threads), report
+            )
+        return Harmonics(found)
+
+
+def _names(names: Union[str, Iterable[str]], what: str) -> List[str]:
+    return [_arrays.text(name, what) for name in ([names] if isinstance(names, str) else names)]
+
+
+def _grid(grid: Any) -> Union[str, _core.Mapped]:
+    return grid if isinstance(grid, str) else mapped_of(grid, "grid")

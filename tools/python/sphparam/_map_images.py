@@ -1,0 +1,256 @@
+"""Images of maps: fields baked, images painted back, pictures."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Dict, Mapping, Optional, Tuple
+
+from . import _arrays, _core
+from ._figures import BakedFile
+from ._losses import tell
+from ._map_facts import MapFacts, mapped_of
+from ._mesh import Path, existing, path_of
+from ._progress import Progress, told
+
+if TYPE_CHECKING:
+    from ._baked import BakedImage, Bytes
+    from ._images import Image
+    from ._sphere_map import SphereMap
+
+_baking_options = (
+    "size", "samples", "depth", "mip", "filter", "wrap", "heat", "normal_y_down", "height_radial", "rays",
+    "max_ray_distance", "refine_poles", "body", "positive_west", "centre", "threads",
+)  # fmt: skip
+_units = {"m": 1.0, "km": 1000.0}
+
+
+def fields() -> Dict[str, str]:
+    """What can be baked: name to one line about it; ``"scalar:NAME"`` wants a name."""
+    return dict(_core.fields())
+
+
+def _baking(given: Dict[str, Any]) -> Dict[str, Any]:
+    """The settings of a bake, as `_core` takes them."""
+    options = {name: given[name] for name in _baking_options if given.get(name) is not None}
+    options["threads"] = _arrays.threads(given["threads"])
+    options["convention"] = given["convention"] or ("gis" if given["body"] else "sphparam")
+    options["interpolation"] = given["interpolation"] or ("sphere" if given["body"] else "uv")
+    if given["unit"] not in _units:
+        raise ValueError(f"unit: 'm' or 'km', not {given['unit']!r}")
+    options["unit"] = _units[given["unit"]]
+    if given["texture"] is not None:
+        options["texture"] = existing(given["texture"])
+    if given["target"] is not None:
+        options["target"] = mapped_of(given["target"], "target")
+    return options
+
+
+def require_up(up: Optional[str]) -> str:
+    """The axis that points up, or an empty text."""
+    if up not in (None, "y", "z"):
+        raise ValueError(f"up: 'y', 'z' or None, not {up!r}")
+    return up or ""
+
+
+class MapImages(MapFacts):
+    """From the surface to images, and back."""
+
+    __slots__ = ()
+
+    def bake(
+        self,
+        field: str,
+        *,
+        size: int = 2048,
+        samples: int = 1,
+        convention: Optional[str] = None,
+        interpolation: Optional[str] = None,
+        texture: Optional[Path] = None,
+        filter: str = "bilinear",
+        wrap: str = "repeat",
+        heat: bool = False,
+        normal_y_down: bool = False,
+        height_radial: bool = False,
+        rays: int = 64,
+        max_ray_distance: float = 0.1,
+        target: Optional[SphereMap] = None,
+        refine_poles: int = 1,
+        body: str = "",
+        unit: str = "m",
+        positive_west: bool = False,
+        centre: Optional[Tuple[float, float, float]] = None,
+        threads: int = 0,
+        progress: Progress = None,
+    ) -> BakedImage:
+        """A field of the surface as an equirectangular array.
+
+        Row 0 is at the north pole, φ = π (row + ½) / H; columns go with longitude, in the convention
+        ``"sphparam"`` θ = 2π (column + ½) / W. Where holes were kept, a last channel is 1 on the surface and
+        0 on what closes them.
+
+        Parameters
+        ----------
+        field
+            ``"normal-object"``, ``"position"``, ``"ao"``, ``"curvature:mean"``, ``"scalar:NAME"``, …:
+            see :func:`fields`.
+        size
+            Texels a row, even, 2 to 65536; half as many rows.
+        samples
+            N: N × N a texel, 1 to 32.
+        convention
+            Where longitude goes: ``"sphparam"``, ``"three"``, ``"gis"``, ``"envmap"``, ``"blender"``.
+            None: the first of these, with a ``body`` ``"gis"``.
+        interpolation
+            ``"uv"`` as a GPU does on the mesh's chart; ``"sphere"`` by direction. None: ``"uv"``, with a
+            ``body`` ``"sphere"``.
+        texture
+            An image for the mesh's own texture coordinates, for ``"basecolor"``.
+        filter, wrap
+            How it is magnified: ``"nearest"``, ``"bilinear"``, ``"bicubic"``; what it is beyond its
+            borders: ``"repeat"``, ``"mirror"``, ``"clamp"``.
+        heat
+            Distortion and curvature as colours instead of numbers.
+        normal_y_down
+            ``"normal-tangent"`` for DirectX; else for OpenGL and glTF.
+        height_radial
+            Heights as distances from the origin; else along the target's normal.
+        rays
+            Of ``"ao"``, ``"bent"``, ``"thickness"``, a sample: 1 to 65536.
+        max_ray_distance
+            Of ``"ao"`` and ``"bent"``, in diagonals of the bounding box.
+        target
+            The mesh that the image is for, on the same sphere: a map that :meth:`remesh` made.
+        refine_poles
+            Triangles at a pole are cut into so many, as in :meth:`export`.
+        body, unit
+            Whose surface it is, for ``"elevation"`` and GIS: a name of the IAU's (``"vesta"``), a radius or
+            three semi-axes (``"285,277,226"``) in ``unit``, the mesh's: ``"m"``, ``"km"``; or WKT.
+        positive_west
+            Longitudes of ``"lon"`` grow to the west.
+        centre
+            Of the body, in the mesh's coordinates; None: that of a radial map, else the origin.
+
+        Returns
+        -------
+        BakedImage
+            (size / 2, size, channels) float32: unit vectors, linear light, numbers of labels, or units
+            of the mesh; ``about`` says which.
+        """
+        from ._baked import Baked, BakedImage
+
+        options = _baking(locals())
+        with told(progress) as report:
+            [(name, about, table)] = _core.bake_to_arrays(
+                self._mapped, [_arrays.text(field, "field")], options, report
+            )
+        frame = (target or self)._fingerprint() if name == "normal-tangent" else None
+        poles = refine_poles if options["interpolation"] == "uv" else None
+        return BakedImage._of(table, name, about, Baked(options["convention"], poles, normal_y_down, frame))
+
+    def bake_files(
+        self,
+        images: Mapping[str, Path],
+        *,
+        size: int = 2048,
+        samples: int = 1,
+        convention: Optional[str] = None,
+        interpolation: Optional[str] = None,
+        depth: Optional[str] = None,
+        mip: bool = False,
+        texture: Optional[Path] = None,
+        filter: str = "bilinear",
+        wrap: str = "repeat",
+        heat: bool = False,
+        normal_y_down: bool = False,
+        height_radial: bool = False,
+        rays: int = 64,
+        max_ray_distance: float = 0.1,
+        target: Optional[SphereMap] = None,
+        refine_poles: int = 1,
+        body: str = "",
+        unit: str = "m",
+        positive_west: bool = False,
+        centre: Optional[Tuple[float, float, float]] = None,
+        threads: int = 0,
+        progress: Progress = None,
+    ) -> Tuple[BakedFile, ...]:
+        """Bakes fields into image files, all of them or none.
+
+        ``images`` is field to path, a ``.png``, ``.jpg``, ``.tif`` or ``.exr``. ``depth``: ``"uint8"``,
+        ``"uint16"``, ``"half"``, ``"float"``, as the format has them. ``mip``: tiles and all levels, EXR
+        only. The others are those of :meth:`bake`. With a ``body``, files beside ``.png`` and ``.tif`` tell
+        GDAL and QGIS where they lie.
+        """
+        options = _baking(locals())
+        pairs = [(_arrays.text(name, "images"), path_of(path)) for name, path in dict(images).items()]
+        with told(progress) as report:
+            *rows, warned = _core.bake_to_files(self._mapped, pairs, options, report)
+        tell(warned)
+        return tuple(BakedFile(*row) for row in rows)
+
+    def paint(
+        self, image: Image, *, convention: str = "sphparam", threads: int = 0, progress: Progress = None
+    ) -> Bytes:
+        """An equirectangular image as colours of the vertices, (V, 3) or (V, 4), 0 to 255.
+
+        ``image`` is a file, or an array as :meth:`export` takes it; ``convention`` as in :meth:`bake`.
+        """
+        from ._images import as_file
+
+        with as_file(image, "image", convention) as path, told(progress) as report:
+            return _core.paint(self._mapped, path, convention, _arrays.threads(threads), report)
+
+    def paint_texture(
+        self,
+        image: Image,
+        *,
+        size: int = 2048,
+        padding: int = 16,
+        convention: str = "sphparam",
+        threads: int = 0,
+        progress: Progress = None,
+    ) -> Bytes:
+        """An equirectangular image as a texture for the mesh's own coordinates, (size, size, 4).
+
+        Colours run on over the borders of charts by ``padding`` texels, 0 to 254. ``convention`` and
+        ``image`` are those of :meth:`paint`, ``size`` is of each side.
+        """
+        from ._baked import as_bytes
+        from ._images import as_file
+
+        size, padding = _arrays.whole(size, "size", 1, 65536), _arrays.whole(padding, "padding", 0, 254)
+        with as_file(image, "image", convention) as path, told(progress) as report:
+            table, warned = _core.paint_texture(
+                self._mapped, path, convention, size, padding, _arrays.threads(threads), report
+            )
+        tell([warned] if warned else [])
+        return as_bytes(table)
+
+    def picture(
+        self,
+        *,
+        view: str = "both",
+        colours: str = "own",
+        size: int = 800,
+        eye: Optional[Tuple[float, float, float]] = None,
+        up: Optional[str] = None,
+        wireframe: bool = False,
+        graticule: bool = False,
+        occlusion: bool = False,
+        legend: bool = True,
+        threads: int = 0,
+    ) -> bytes:
+        """A picture of the mesh and its sphere, as the bytes of a PNG.
+
+        ``view``: ``"mesh"``, ``"sphere"``, ``"both"``. ``colours``: ``"own"``, ``"plain"``,
+        ``"normals"``, ``"checker"``, ``"area"``, ``"angle"``. ``size``: pixels, 16 to 16384. ``eye``:
+        the direction to look from; ``up``: ``"z"`` or ``"y"``, else as the file says. ``wireframe``,
+        ``graticule``: lines; ``occlusion``: darker where little light comes; ``legend``: below colours
+        that are numbers.
+        """
+        options: Dict[str, Any] = dict(
+            view=view, colours=colours, size=size, up=require_up(up), wireframe=wireframe, graticule=graticule,
+            occlusion=occlusion, legend=legend, threads=_arrays.threads(threads),
+        )  # fmt: skip
+        if eye is not None:
+            options["eye"] = tuple(float(x) for x in eye)
+        return _core.draw(self._mapped, options)

@@ -1,0 +1,104 @@
+"""The options of a map, as `_core` takes them."""
+
+from __future__ import annotations
+
+from typing import Any, Dict, List, Mapping, Optional, Tuple, Union
+
+from . import _arrays
+from ._map_facts import MapFacts
+from ._numpy import np
+
+_of_the_paper = ("weights", "epsilon", "iterations", "rings", "sweeps")
+
+
+def _pins(pins: Any) -> List[Tuple[float, float, float]]:
+    """Vertex to (theta, phi), as rows."""
+    rows = []
+    for vertex, place in dict(pins).items():
+        if not hasattr(vertex, "__index__") or isinstance(vertex, bool):
+            raise TypeError(f"pins: a vertex is a whole number, not {vertex!r}")
+        theta, phi = (float(x) for x in place)
+        if not (np.isfinite(theta) and 0 <= phi <= np.pi):
+            raise ValueError(f"pins[{vertex}]: theta is finite and phi from 0 to π, not {theta}, {phi}")
+        rows.append((float(vertex), theta, phi))
+    return rows
+
+
+def _vertex_number(thing: Any, name: str) -> int:
+    if not hasattr(thing, "__index__") or isinstance(thing, bool):
+        raise TypeError(f"{name}: a vertex is a whole number, not {thing!r}")
+    if not 0 <= int(thing) < 2**31:
+        raise ValueError(f"{name}: no mesh has a vertex {int(thing)}")
+    return int(thing)
+
+
+def _weight(balance: Union[str, float], weight: Optional[float]) -> Dict[str, Any]:
+    """A word, or the number that it stands for."""
+    options: Dict[str, Any] = {"balance": balance} if isinstance(balance, str) else {"lambda": float(balance)}
+    if weight is not None:
+        options["lambda"] = float(weight)
+    return options
+
+
+def _poles(poles: Any) -> Dict[str, Any]:
+    if not isinstance(poles, str):
+        north, south = poles
+        return {"poles": (_vertex_number(north, "poles"), _vertex_number(south, "poles"))}
+    if poles not in ("auto", "none"):
+        raise ValueError(f"poles: 'auto', 'none' or two vertices, not {poles!r}")
+    return {"automatic_poles": poles == "auto"}
+
+
+def _alignment(align: Any) -> Dict[str, Any]:
+    if isinstance(align, str):
+        if align != "body":
+            raise ValueError(f"align: 'body', a map or rays, not {align!r}")
+        return {"to_body": True}
+    return {"align_to": align.points if isinstance(align, MapFacts) else _arrays.directions(align, "align")}
+
+
+def _paper(settings: Any) -> Dict[str, Any]:
+    if not isinstance(settings, Mapping):
+        raise TypeError(f"paper: a dict of {', '.join(_of_the_paper)} is needed, not {type(settings).__name__}")
+    for name in settings:
+        if name not in _of_the_paper:
+            raise TypeError(f"paper: no option is called {name!r}; there are {', '.join(_of_the_paper)}")
+    return dict(settings)
+
+
+def requested(
+    *,
+    method: str = "progressive",
+    balance: Union[str, float] = "balanced",
+    weight: Optional[float] = None,
+    quality: str = "normal",
+    energy: str = "angle-and-area",
+    poles: Any = "auto",
+    meridian: Optional[int] = None,
+    pins: Any = None,
+    centre: Optional[Tuple[float, float, float]] = None,
+    align: Any = None,
+    filler_share: float = 0.02,
+    paper: Any = None,
+    repair_map: bool = False,
+    measure_stages: bool = False,
+    threads: int = 0,
+) -> Dict[str, Any]:
+    """What :func:`map` was asked for."""
+    options: Dict[str, Any] = dict(
+        method=_arrays.text(method, "method"), quality=_arrays.text(quality, "quality"),
+        energy=_arrays.text(energy, "energy"), filler_share=filler_share, repair_map=repair_map,
+        measure_stages=measure_stages, threads=_arrays.threads(threads),
+    )  # fmt: skip
+    options.update(_weight(balance, weight), **_poles(poles))
+    if meridian is not None:
+        options["meridian"] = _vertex_number(meridian, "meridian")
+    if pins:
+        options["pins"] = _pins(pins)
+    if centre is not None:
+        options["centre"] = tuple(float(x) for x in _arrays.finite_points([centre], "centre")[0])
+    if align is not None:
+        options.update(_alignment(align))
+    if paper is not None:
+        options.update(_paper(paper))
+    return options
