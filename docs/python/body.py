@@ -10,8 +10,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 import sphparam as sp
 
-m = sp.map(sp.read("body.ply"))
-print(m)
+# θ and π/2 − ϕ are planetocentric longitude and latitude, exactly where nothing folds.
+m = sp.map(sp.read("body.ply"), method="radial")
+print(m, "folds:", m.radial.folds)
 
 # Heights as an array: longitude −180° to 180°, north above.
 height = m.bake("height", size=720, convention="gis", height_radial=True)

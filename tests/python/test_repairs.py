@@ -206,6 +206,31 @@ def test_a_body_lies_as_it_does():
         sp.map(vertices, faces, method="radial", centre=vertices[3])
 
 
+@pytest.mark.parametrize(
+    "options, words",
+    [
+        (dict(method="radial", centre=(0.1, 0, 0)), ["--method", "radial", "--centre", "0.1,0,0"]),
+        (dict(align="body"), ["--align", "body"]),
+    ],
+    ids=["radial", "aligned"],
+)
+def test_maps_and_images_of_a_body_are_the_programs(options, words, tmp_path):
+    sp.write(tmp_path / "a.ply", *body())
+    for arguments in (
+        ["map", "a.ply", "-o", "theirs.sph.ply", *words],
+        ["bake", "theirs.sph.ply", "--body", "3,2,2", "--unit", "km", "--size", "64", "--map", "elevation,lon", "-o", "t_{map}.tif"],
+    ):
+        subprocess.run([os.environ["SPHPARAM_PROGRAM"], *arguments], check=True, cwd=tmp_path, capture_output=True)
+    sp.map(sp.read(tmp_path / "a.ply"), **options).save(tmp_path / "ours.sph.ply")
+    assert (tmp_path / "ours.sph.ply").read_bytes() == (tmp_path / "theirs.sph.ply").read_bytes()
+    images = {field: tmp_path / f"o_{field}.tif" for field in ("elevation", "lon")}
+    sp.load(tmp_path / "theirs.sph.ply").bake_files(images, size=64, body="3,2,2", unit="km")
+    for field in images:
+        for ending in ("tif", "tif.aux.xml"):
+            ours, theirs = (tmp_path / f"{who}_{field}.{ending}" for who in "ot")
+            assert ours.read_bytes().replace(b"ours.sph", b"theirs.sph") == theirs.read_bytes()
+
+
 def test_images_of_a_body_say_where_they_lie(tmp_path):
     made = sp.map(*body(), method="radial")
     latitude, longitude = (made.bake(field, size=64, body="2")[:, :, 0] for field in ("lat", "lon"))
