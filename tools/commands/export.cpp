@@ -39,7 +39,7 @@ constexpr char summary[] =
     "a checker, or white where a normal or occlusion map is given.\n"
     "Texture coordinates are certified as they are stored, rounding included; what folds there is "
     "told.\n"
-    "A .glb, .obj or .ply is read back from the disk and compared, but for --compress. A normal "
+    "A .glb, .obj or .ply is read back from the disk and compared. A normal "
     "map\n"
     "is of one mesh: coarser --lods are without.\n";
 

@@ -40,6 +40,10 @@ MeshFile read_gltf_files(const MeshBytes& bytes, const ReadOptions& options) {
   return read_gltf(bytes.bytes, bytes.name, bytes.folder, options);
 }
 
+MeshFile read_obj_files(const MeshBytes& bytes, const ReadOptions& options) {
+  return read_obj(bytes.bytes, bytes.name, bytes.folder, options);
+}
+
 std::string write_ply(const MeshFile& file, const WriteOptions& options) {
   const Polygons* const faces = options.faces;
   const bool has_polygons = faces && std::ssize(faces->corners) != 3 * faces->count();
@@ -72,7 +76,7 @@ constexpr MeshFormat formats[] = {
      {".obj"},
      Evidence::Text,
      looks_like_obj,
-     read<read_obj>,
+     read_obj_files,
      write_obj,
      without_map,
      spheres_in_doubles},

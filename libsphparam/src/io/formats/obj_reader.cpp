@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "io/files/text_scanner.h"
+#include "io/formats/obj_materials.h"
 #include "number_text.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/polygons.h"
@@ -75,8 +76,9 @@ struct CornerIndices {
 
 class ObjReader {
  public:
-  ObjReader(std::string_view text, const std::string& name, const ReadOptions& options)
-      : scanner_(text, name, options), options_(options) {
+  ObjReader(std::string_view text, const std::string& name,
+            const std::optional<std::filesystem::path>& folder, const ReadOptions& options)
+      : scanner_(text, name, options), folder_(folder), options_(options) {
     scanner_.require_text();
     // A line of a vertex or a face has about 25 bytes.
     constexpr std::size_t usual_line_bytes = 25;
@@ -214,7 +216,7 @@ class ObjReader {
     if (is_in(noted)) {
       ++ignored_[keyword];
     } else if (unknown_++ == 0) {
-      first_unknown_ = quoted(keyword);
+      first_unknown_ = sphparam::quoted(keyword);
       first_unknown_line_ = scanner_.line_number();
     }
   }
@@ -229,7 +231,8 @@ class ObjReader {
 
   void expect_line_end() {
     if (!scanner_.at_line_end())
-      scanner_.fail("unexpected " + quoted(scanner_.peek_word()) + " at the end of the line");
+      scanner_.fail("unexpected " + sphparam::quoted(scanner_.peek_word()) +
+                    " at the end of the line");
   }
 
   void check_forward_references() const {
@@ -334,7 +337,7 @@ class ObjReader {
   }
 
   void add_notes() {
-    note_libraries();
+    add_libraries();
     note_groups();
     for (const auto& [keyword, count] : ignored_)
       add_loss(file_.notes, counted(count, "'" + keyword + "' statement"));
@@ -344,15 +347,33 @@ class ObjReader {
                                 first_unknown_ + " in line " + std::to_string(first_unknown_line_));
   }
 
-  void note_libraries() {
-    std::vector<std::string> libraries;
-    for (const std::string& library : names_["mtllib"].distinct)
-      libraries.push_back(quoted(library));
+  /// Base colours from the libraries; what is not carried of them, or why they are not read.
+  void add_libraries() {
+    const std::set<std::string>& libraries = names_["mtllib"].distinct;
     if (libraries.empty() || file_.materials.empty()) return;
-    add_loss(file_.notes, "colours and textures of " +
-                              counted(static_cast<long>(file_.materials.size()), "material") +
-                              " in " + enumerated(libraries) +
-                              ", which is not read; their names are");
+    const std::string materials = counted(static_cast<long>(file_.materials.size()), "material");
+    ObjMaterials read;
+    if (folder_) read = read_obj_materials(file_.materials, libraries, *folder_, options_);
+    file_.base_colours = std::move(read.base_colours);
+    for (std::size_t m = 0; m < file_.base_colours.size(); ++m)
+      if (const std::string& image = file_.base_colours[m].image; !image.empty())
+        file_.comments.push_back("base colour of " + file_.materials[m] + ": texture " + image);
+    const std::vector<std::string> unread =
+        read.problems.empty() ? quoted_all(libraries) : read.problems;
+    if (file_.base_colours.empty())
+      add_loss(file_.notes, "colours and textures of " + materials + " in " + enumerated(unread) +
+                                ", which is not read; their names are");
+    else if (!read.problems.empty())
+      add_loss(file_.notes, "materials in " + enumerated(unread));
+    if (read.with_others > 0)
+      add_loss(file_.notes, enumerated(read.others) + " of " + std::to_string(read.with_others) +
+                                " of " + materials + ", only base colours are");
+  }
+
+  static std::vector<std::string> quoted_all(const std::set<std::string>& names) {
+    std::vector<std::string> all;
+    for (const std::string& name : names) all.push_back(sphparam::quoted(name));
+    return all;
   }
 
   /// One group that holds everything says nothing.
@@ -372,6 +393,7 @@ class ObjReader {
   static constexpr std::int64_t most_vertices = std::numeric_limits<int>::max();
 
   TextScanner scanner_;
+  const std::optional<std::filesystem::path>& folder_;  // of libraries
   const ReadOptions& options_;
   bool in_header_ = true;  // only comments so far
 
@@ -414,8 +436,9 @@ bool looks_like_obj(std::string_view bytes) {
   return std::find(std::begin(statements), std::end(statements), word) != std::end(statements);
 }
 
-MeshFile read_obj(std::string_view text, const std::string& name, const ReadOptions& options) {
-  return ObjReader(text, name, options).read();
+MeshFile read_obj(std::string_view text, const std::string& name,
+                  const std::optional<std::filesystem::path>& folder, const ReadOptions& options) {
+  return ObjReader(text, name, folder, options).read();
 }
 
 }  // namespace sphparam

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -15,10 +17,13 @@ bool looks_like_obj(std::string_view bytes);
 ///
 /// Kept: v with optional colours (x y z r g b [a]), vt per corner, vn per vertex where each vertex
 /// has one normal and per corner where not, polygons, usemtl as the face property `material`, the
-/// comments at the top. Told as not carried: groups, objects and smoothing groups where there are
-/// several, lines, points, free-form geometry, materials' libraries (no other file is ever opened),
-/// statements that OBJ does not have. A text with such a statement and no face is no OBJ.
-/// Throws: ReadError with the line.
-MeshFile read_obj(std::string_view text, const std::string& name, const ReadOptions& options = {});
+/// comments at the top; where `folder` is given, the base colours of materials from their libraries
+/// (obj_materials.h), which are looked for below it. Told as not carried: groups, objects and
+/// smoothing groups where there are several, lines, points, free-form geometry, libraries that are
+/// not read, what else materials say, statements that OBJ does not have. A text with such a
+/// statement and no face is no OBJ. Throws: ReadError with the line.
+MeshFile read_obj(std::string_view text, const std::string& name,
+                  const std::optional<std::filesystem::path>& folder,
+                  const ReadOptions& options = {});
 
 }  // namespace sphparam

@@ -1,0 +1,200 @@
+#include "io/formats/obj_materials.h"
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <stdexcept>
+
+#include "io/files/text_scanner.h"
+#include "io/formats/gltf/gltf_files.h"
+#include "number_text.h"
+
+// Libraries are text from strangers, and written by hand more often than the rest: a line that
+// makes no sense is passed over, and what a name means is decided as other readers do.
+
+namespace sphparam {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Material {
+  BaseColour colour = {};
+  std::array<double, 3> diffuse = {1, 1, 1};
+  std::set<std::string> others = {};
+};
+
+bool is_number(std::string_view word) {
+  double value = 0;
+  const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return error == std::errc{} && stop == word.data() + word.size();
+}
+
+/// Words that follow an option of an image; scales, offsets and turbulence have one to three
+/// numbers.
+int words_after(std::string_view option) {
+  if (option == "-o" || option == "-s" || option == "-t") return 3;
+  return option == "-mm" ? 2 : 1;
+}
+
+/// The path as a file of its own folder, where that can be said of it at all.
+fs::path path_below(std::string text) {
+  std::replace(text.begin(), text.end(), '\\', '/');
+  const fs::path path(text);
+  const bool elsewhere = path.is_absolute() || text.find(':') < text.find('/') ||
+                         std::find(path.begin(), path.end(), "..") != path.end();
+  return elsewhere ? path.filename() : path;
+}
+
+class Library {
+ public:
+  Library(std::string_view text, const std::string& name, const fs::path& folder,
+          const fs::path& images, const ReadOptions& options,
+          std::map<std::string, Material>& known)
+      : scanner_(text, name, options), folder_(folder), images_(images), known_(known) {
+    scanner_.require_text();
+  }
+
+  void read() {
+    while (scanner_.next_line())
+      if (!scanner_.at_line_end()) read_line(std::string(scanner_.word()));
+  }
+
+ private:
+  void read_line(const std::string& keyword) {
+    if (keyword == "newmtl") {
+      material_ = &known_[one_line(scanner_.rest())];
+      *material_ = {};
+    } else if (material_ != nullptr) {
+      read_statement(keyword);
+    }
+  }
+
+  void read_statement(const std::string& keyword) {
+    if (keyword == "Kd") return set_diffuse();
+    if (keyword == "d" || keyword == "Tr") return set_alpha(keyword == "Tr");
+    if (keyword == "map_Kd") return set_image();
+    static constexpr std::pair<std::string_view, const char*> said_beside[] = {
+        {"Ks", "highlights"},    {"map_Ks", "highlights"},      {"map_Ns", "highlights"},
+        {"Ke", "emission"},      {"map_Ke", "emission"},        {"map_d", "textures of alpha"},
+        {"bump", "bumps"},       {"map_bump", "bumps"},         {"map_Bump", "bumps"},
+        {"norm", "normal maps"}, {"map_Kn", "normal maps"},     {"disp", "displacement"},
+        {"Pr", "roughness"},     {"map_Pr", "roughness"},       {"Pm", "metallic"},
+        {"map_Pm", "metallic"},  {"map_Ka", "ambient textures"}};
+    for (const auto& [word, what] : said_beside)
+      if (keyword == word && !is_black()) material_->others.insert(what);
+  }
+
+  /// Numbers that are all zero say nothing.
+  bool is_black() {
+    const std::string rest(scanner_.peek_rest());
+    return rest.find_first_not_of(" \t\r0.") == std::string::npos;
+  }
+
+  void set_diffuse() {
+    std::array<double, 3> numbers{};
+    for (double& number : numbers) {
+      if (!is_number(scanner_.peek_word())) return;  // spectral, xyz
+      number = std::clamp(scanner_.real(), 0.0, 1.0);
+    }
+    material_->diffuse = numbers;
+  }
+
+  void set_alpha(bool transparency) {
+    if (!is_number(scanner_.peek_word())) return;
+    const double number = std::clamp(scanner_.real(), 0.0, 1.0);
+    material_->colour.factor[3] = transparency ? 1 - number : number;
+  }
+
+  void set_image() {
+    BaseColour& colour = material_->colour;
+    while (scanner_.peek_word().starts_with("-")) read_option(colour);
+    const std::string written = one_line(scanner_.rest());
+    if (written.empty()) return;
+    const fs::path path = path_below(written);
+    colour.image = path.string();
+    colour.path = (images_ / path).string();
+    colour.folder = folder_.string();
+  }
+
+  void read_option(BaseColour& colour) {
+    const std::string option(scanner_.word());
+    const bool moves = option == "-o" || option == "-s";
+    for (int i = 0; i < words_after(option); ++i) {
+      const std::string word(scanner_.peek_word());
+      if (words_after(option) == 3 && !is_number(word)) break;
+      scanner_.word();
+      const double neutral = option == "-s" ? 1 : 0;
+      if (moves && std::stod(word) != neutral)
+        colour.problem = "its texture coordinates are transformed, which is not supported";
+      if (option == "-clamp" && word == "on") colour.wrap_s = colour.wrap_t = Wrapping::Clamp;
+    }
+  }
+
+  TextScanner scanner_;
+  const fs::path &folder_, &images_;
+  std::map<std::string, Material>& known_;
+  Material* material_ = nullptr;
+};
+
+/// A statement may name several libraries; and a name may have blanks in it.
+std::vector<std::string> names_in(const std::string& statement) {
+  std::vector<std::string> names = {statement};
+  std::size_t at = 0;
+  while (statement.find(' ') != std::string::npos && at < statement.size()) {
+    const std::size_t end = std::min(statement.find(' ', at), statement.size());
+    if (end > at) names.push_back(statement.substr(at, end - at));
+    at = end + 1;
+  }
+  return names;
+}
+
+void read_library(const std::string& statement, const fs::path& folder, const ReadOptions& options,
+                  std::map<std::string, Material>& known, std::vector<std::string>& problems) {
+  std::string problem;
+  bool any = false;
+  for (const std::string& name : names_in(statement)) {
+    try {
+      const fs::path path = path_below(name);
+      const auto bytes =
+          read_below(folder, path, static_cast<std::uint64_t>(options.max_file_bytes));
+      Library({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name, folder,
+              path.parent_path(), options, known)
+          .read();
+      any = true;
+      if (name == statement) return;
+    } catch (const std::runtime_error& error) {
+      if (problem.empty()) problem = sphparam::quoted(name) + " (" + error.what() + ")";
+    }
+  }
+  if (!any) problems.push_back(problem);
+}
+
+BaseColour finished(const Material& material) {
+  BaseColour colour = material.colour;
+  if (colour.image.empty()) std::ranges::copy(material.diffuse, colour.factor.begin());
+  return colour;
+}
+
+}  // namespace
+
+ObjMaterials read_obj_materials(const std::vector<std::string>& names,
+                                const std::set<std::string>& libraries, const fs::path& folder,
+                                const ReadOptions& options) {
+  ObjMaterials result;
+  std::map<std::string, Material> known;
+  for (const std::string& statement : libraries)
+    read_library(statement, folder, options, known, result.problems);
+  const auto is_known = [&](const std::string& name) { return known.contains(name); };
+  if (std::ranges::none_of(names, is_known)) return result;
+  std::set<std::string> others;
+  for (const std::string& name : names) {
+    const Material& material = known[name];
+    result.base_colours.push_back(finished(material));
+    result.with_others += !material.others.empty();
+    others.insert(material.others.begin(), material.others.end());
+  }
+  result.others.assign(others.begin(), others.end());
+  return result;
+}
+
+}  // namespace sphparam

@@ -1,0 +1,109 @@
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+
+#include "reading.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A folder of its own with an OBJ of two materials, red and wood, and what a test writes beside
+/// it.
+class ObjFolder {
+ public:
+  ObjFolder() { fs::create_directories(folder_); }
+  ~ObjFolder() { fs::remove_all(folder_); }
+  ObjFolder(const ObjFolder&) = delete;
+  ObjFolder& operator=(const ObjFolder&) = delete;
+
+  void write(const std::string& name, const std::string& text) const {
+    fs::create_directories((folder_ / name).parent_path());
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+  }
+
+  MeshFile read_with(const std::string& statement, const std::string& library = "") const {
+    write("a.obj", statement +
+                       "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n"
+                       "usemtl red\nf 1/1 2/2 3/3\nusemtl wood\nf 3/3 2/2 1/1\n");
+    if (!library.empty()) write("a.mtl", library);
+    return read_mesh((folder_ / "a.obj").string());
+  }
+
+  const fs::path& path() const { return folder_; }
+
+ private:
+  fs::path folder_ = fs::temp_directory_path() / ("sphparam_mtl_" + std::to_string(getpid()));
+};
+
+}  // namespace
+
+TEST_CASE("obj_materials: base colours are those of the library") {
+  const ObjFolder folder;
+  const MeshFile file = folder.read_with("mtllib a.mtl",
+                                         "# by hand\nnewmtl wood\nKd 0.8 0.8 0.8\nmap_Kd -clamp on "
+                                         "-s 1 1 1 -bm 0.5 maps\\my wood.png\n"
+                                         "newmtl red\n\tKd 1 0.25 0\nd 0.5\nKs 0 0 0\nillum 2\n");
+  REQUIRE(file.base_colours.size() == 2);
+  const BaseColour &red = file.base_colours[0], &wood = file.base_colours[1];
+  CHECK(red.factor == std::array<double, 4>{1, 0.25, 0, 0.5});
+  CHECK(red.image.empty());
+  CHECK(wood.factor == std::array<double, 4>{1, 1, 1, 1});
+  CHECK(wood.image == "maps/my wood.png");
+  CHECK(wood.path == "maps/my wood.png");
+  CHECK(wood.folder == folder.path().string());
+  CHECK(wood.wrap_s == Wrapping::Clamp);
+  CHECK(wood.problem.empty());
+  CHECK(file.notes.empty());
+  CHECK(file.comments == std::vector<std::string>{"base colour of wood: texture maps/my wood.png"});
+}
+
+TEST_CASE("obj_materials: what else they say is told once") {
+  const ObjFolder folder;
+  const MeshFile file = folder.read_with(
+      "mtllib a.mtl",
+      "newmtl red\nKs 1 1 1\nmap_Bump b.png\nnewmtl wood\nmap_Ks k.png\nTr 0.25\nKd spectral x\n");
+  CHECK(file.notes ==
+        std::vector<std::string>{
+            "not carried: bumps and highlights of 2 of 2 materials, only base colours are"});
+  CHECK(file.base_colours.at(1).factor == std::array<double, 4>{1, 1, 1, 0.75});
+}
+
+TEST_CASE("obj_materials: names that lead elsewhere mean the file beside the library") {
+  const ObjFolder folder;
+  folder.write("lib/b.mtl",
+               "newmtl red\nmap_Kd C:\\Users\\me\\red.png\nnewmtl wood\nmap_Kd ../../w.png\n");
+  const MeshFile file = folder.read_with("mtllib lib/b.mtl");
+  CHECK(file.base_colours.at(0).path == "lib/red.png");
+  CHECK(file.base_colours.at(1).path == "lib/w.png");
+}
+
+TEST_CASE("obj_materials: several libraries, and names with blanks") {
+  const ObjFolder folder;
+  folder.write("my red.mtl", "newmtl red\nKd 1 0 0\n");
+  folder.write("wood.mtl", "newmtl wood\nKd 0 1 0\n");
+  folder.write("red.mtl", "newmtl red\nKd 0 0 1\n");
+  CHECK(folder.read_with("mtllib my red.mtl\nmtllib wood.mtl").base_colours.at(0).factor[0] == 1);
+  const MeshFile both = folder.read_with("mtllib red.mtl wood.mtl");
+  CHECK(both.base_colours.at(0).factor[2] == 1);
+  CHECK(both.base_colours.at(1).factor[1] == 1);
+}
+
+TEST_CASE("obj_materials: a library that cannot be read leaves the mesh, and is told") {
+  const ObjFolder folder;
+  const MeshFile missing = folder.read_with("mtllib a.mtl");
+  CHECK(missing.base_colours.empty());
+  CHECK(missing.mesh.face_count() == 2);
+  REQUIRE(missing.notes.size() == 1);
+  CHECK(contains(missing.notes[0], "2 materials in 'a.mtl' (No such file or directory)"));
+  const MeshFile binary = folder.read_with("mtllib a.mtl", std::string("newmtl red\n\0", 12));
+  REQUIRE(binary.notes.size() == 1);
+  CHECK(contains(binary.notes[0], "'a.mtl' ("));
+  CHECK(folder.read_with("mtllib a.mtl", "Kd 1 0 0\nnewmtl other\n").base_colours.empty());
+  const MeshFile moved = folder.read_with("mtllib a.mtl", "newmtl wood\nmap_Kd -o 0.5 0 0 x.png\n");
+  CHECK(contains(moved.base_colours.at(1).problem, "transformed"));
+}
