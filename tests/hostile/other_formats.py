@@ -130,6 +130,43 @@ def sparse(index_bytes, count, values=3, index_type=5121):
     return glb(doc, BUFFER + index_bytes.ljust(4, b"\0") + struct.pack("<%df" % (3 * values), *([2.0] * 3 * values)))
 
 
+def make_compressed_glb():
+    """Extensions that claim what their bytes do not hold."""
+    bad = lambda name, data, message="": case("glb_%s.glb" % name, data, UNREADABLE, message)
+    said = {"buffer": 0, "byteLength": 48, "byteStride": 12, "count": 4, "mode": "ATTRIBUTES"}
+
+    def meshopt(name, message, **changes):
+        doc = edited("bufferViews", 0, "extensions", {"EXT_meshopt_compression": {**said, **changes}})
+        bad("meshopt_" + name, glb(doc), message)
+
+    meshopt("of_no_meshopt", "damaged")
+    meshopt("count_2_to_31", "more rows than its bytes can hold", count=2**31)
+    meshopt("count_2_to_60", "no whole number", count=2**60)
+    meshopt("count_zero", "more rows", count=0)
+    meshopt("stride_zero", "rows of 0 bytes", byteStride=0)
+    meshopt("stride_260", "rows of 260 bytes", byteStride=260)
+    meshopt("beyond_the_buffer", "past the end", byteOffset=60)
+    meshopt("buffer_that_is_not_there", "buffer that is not there", buffer=3)
+    meshopt("mode_unheard_of", "mode 'X'", mode="X")
+    bad("meshopt_no_object", glb(edited("bufferViews", 0, "extensions", {"EXT_meshopt_compression": 7})), "compression")
+
+    def draco(name, packed, message, attributes={"POSITION": 0}):
+        doc = document()
+        doc["bufferViews"].append({"buffer": 0, "byteOffset": len(BUFFER), "byteLength": len(packed)})
+        doc["buffers"][0]["byteLength"] = len(BUFFER) + len(packed)
+        doc["meshes"][0]["primitives"][0]["extensions"] = {
+            "KHR_draco_mesh_compression": {"bufferView": len(doc["bufferViews"]) - 1, "attributes": attributes}}
+        bad("draco_" + name, glb(doc, BUFFER + packed), message)
+
+    header = b"DRACO\2\2\1\1\0\0"
+    draco("of_no_draco", b"no Draco at all.", "Draco says")
+    draco("header_only", header, "Draco says")
+    draco("claims_2_to_28_faces", header + b"\0\4" + b"\x80\x80\x80\x80\1" + b"\0" * 20, "more triangles than its bytes")
+    draco("sequential_claims_2_to_28_faces", header[:8] + b"\0\0\0" + b"\x80\x80\x80\x80\1" + b"\4" + b"\0" * 20,
+          "more triangles than its bytes")
+    draco("attributes_are_a_list", header, "no attributes", attributes=[0])
+
+
 def make_glb():
     b = glb(document())
     ok = lambda name, data: case("glb_ok_%s.glb" % name, data, OK)
@@ -165,8 +202,10 @@ def make_glb():
     bad("json_bad_utf8", glb(json.dumps(document()).encode().replace(b'"2.0"', b'"2.0\xff\xfe"')))
     wrong("no_asset", "asset", None, message="asset.version is missing")
     wrong("asset_version_1", "asset", "version", "1.0", message="glTF '1.0'")
-    for extension in ("KHR_draco_mesh_compression", "EXT_meshopt_compression", "EXT_unheard_of"):
-        wrong("requires_" + extension, "extensionsRequired", [extension], message="requires the extension '%s'" % extension)
+    wrong("requires_EXT_unheard_of", "extensionsRequired", ["EXT_unheard_of"],
+          message="requires the extension 'EXT_unheard_of'")
+    for extension in ("KHR_draco_mesh_compression", "EXT_meshopt_compression"):
+        ok("requires_but_does_not_use_" + extension, glb(edited("extensionsRequired", [extension])))
     wrong("no_meshes", "meshes", [])
     wrong("no_primitives", "meshes", 0, "primitives", [])
     wrong("primitive_without_positions", "meshes", 0, "primitives", 0, "attributes", {"NORMAL": 0})
@@ -378,5 +417,6 @@ def make_gifti():
 def make_all():
     make_stl()
     make_glb()
+    make_compressed_glb()
     make_gltf()
     make_gifti()

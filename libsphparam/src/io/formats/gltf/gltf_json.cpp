@@ -84,7 +84,8 @@ class Checker : public nlohmann::json_sax<Json> {
     if (steps_.size() == 1 && (place == "buffers" || place == "accessors" || place == "meshes"))
       fail(place + " have names, as in glTF 1.0, which is not supported; glTF 2.0 is");
     if (place == "buffers/#") uri_seen_ = false;
-    note_compression(place);
+    // A buffer that only decoded views are in has no bytes of its own, and so no URI.
+    if (place == "buffers/#/extensions/EXT_meshopt_compression") uri_seen_ = true;
     if (place == "meshes/#/primitives/#") ++summary_.primitives;
     return enter();
   }
@@ -105,6 +106,8 @@ class Checker : public nlohmann::json_sax<Json> {
   }
   // A name that looks like a path must not be taken for one.
   bool key(string_t& text) override {
+    summary_.compressed |=
+        text == "EXT_meshopt_compression" || text == "KHR_draco_mesh_compression";
     std::replace_if(
         text.begin(), text.end(), [](char c) { return c == '/' || c == '#'; }, '?');
     steps_.back() = text;
@@ -170,13 +173,6 @@ class Checker : public nlohmann::json_sax<Json> {
     return std::find(std::begin(keys), std::end(keys), last) != std::end(keys) ||
            parent == "attributes" ||
            (last == "#" && (parent == "children" || parent == "nodes") && steps_.size() > 2);
-  }
-
-  void note_compression(const std::string& place) {
-    // A buffer that only decoded views are in has no bytes of its own, and so no URI.
-    if (place == "buffers/#/extensions/EXT_meshopt_compression") uri_seen_ = true;
-    summary_.compressed |= place.ends_with("/extensions/EXT_meshopt_compression") ||
-                           place.ends_with("/extensions/KHR_draco_mesh_compressi");
   }
 
   void add_buffer_uri(const std::string& uri) {
