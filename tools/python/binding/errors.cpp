@@ -17,7 +17,16 @@
 namespace sphparam::python {
 namespace {
 
-py::object class_of(const char* name) { return py::module_::import("sphparam._errors").attr(name); }
+/// By a name that is always the same object: Python remembers where types have their attributes by
+/// the address of the name, 4096 of them, and one made anew for each call would fill that up.
+py::object attribute(const py::handle& owner, const char* name) {
+  const auto kept = py::reinterpret_steal<py::object>(PyUnicode_InternFromString(name));
+  return py::getattr(owner, kept);
+}
+
+py::object class_of(const char* name) {
+  return attribute(py::module_::import("sphparam._errors"), name);
+}
 
 void raise(const char* name, const std::exception& error) {
   PyErr_SetString(class_of(name).ptr(), error.what());
@@ -42,14 +51,14 @@ void raise_mesh_error(const MeshError& error) {
   py::object trial = py::none();
   if (refusal && refusal->trial()) trial = advice(*refusal->trial());
   const py::object type = class_of("MeshError");
-  const py::object value = type.attr("_of")(as_list(error.defects()), trial);
+  const py::object value = attribute(type, "_of")(as_list(error.defects()), trial);
   PyErr_SetObject(type.ptr(), value.ptr());
 }
 
 void raise_not_one_to_one(const NotOneToOne& error) {
   const py::object type = class_of("NotCertified");
   const py::object value =
-      type.attr("_of")(std::string(error.what()), as_dict(error.certificate()));
+      attribute(type, "_of")(std::string(error.what()), as_dict(error.certificate()));
   PyErr_SetObject(type.ptr(), value.ptr());
 }
 
