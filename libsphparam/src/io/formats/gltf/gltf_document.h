@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -46,10 +47,20 @@ struct GltfDocument {
     std::vector<int> children;
     std::vector<double> matrix, translation, rotation, scale;  // empty where not given
   };
+  /// (u, v) of vertices → those of an image: scaled, turned, then moved. Source:
+  /// KHR_texture_transform; positive angles turn (u, v) counter-clockwise as an image shows it.
+  struct TextureTransform {
+    int texcoord = 0;  // which of the vertices' sets
+    std::array<double, 2> scale = {1, 1}, offset = {0, 0};
+    double rotation = 0;  // radians
+
+    bool operator==(const TextureTransform&) const = default;
+  };
   struct Material {
     std::string name;
     std::string words = {};  // texture and factor in words; empty when there is no texture
     BaseColour base_colour = {};
+    TextureTransform transform = {};       // of the base colour's image
     std::vector<std::string> others = {};  // what else it says, in words
   };
 

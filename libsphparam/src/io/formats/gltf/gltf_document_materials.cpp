@@ -92,9 +92,6 @@ void find_image(const tinygltf::Model& model, const tinygltf::TextureInfo& info,
                 BaseColour& colour) {
   if (info.index < 0) return;
   colour.image = "texture " + std::to_string(info.index);
-  if (info.texCoord != 0) colour.problem = "it uses other texture coordinates than the first";
-  if (info.extensions.count("KHR_texture_transform"))
-    colour.problem = "its texture coordinates are transformed, which is not supported";
   const auto index = static_cast<std::size_t>(info.index);
   if (index >= model.textures.size()) {
     colour.problem = "the file has no such texture";
@@ -124,6 +121,27 @@ void find_image(const tinygltf::Model& model, const tinygltf::TextureInfo& info,
   } else {
     colour.problem = "it has no bytes";
   }
+}
+
+/// Members of the wrong type are as if they were not there.
+GltfDocument::TextureTransform transform_of(const tinygltf::TextureInfo& info) {
+  GltfDocument::TextureTransform transform{.texcoord = info.texCoord};
+  const auto found = info.extensions.find("KHR_texture_transform");
+  if (found == info.extensions.end()) return transform;
+  const tinygltf::Value& said = found->second;
+  const auto pair = [&](const char* key, std::array<double, 2>& numbers) {
+    const tinygltf::Value& value = said.Get(key);
+    if (!value.IsArray() || value.ArrayLen() != 2) return;
+    for (int i = 0; i < 2; ++i)
+      if (value.Get(i).IsNumber())
+        numbers[static_cast<std::size_t>(i)] = value.Get(i).GetNumberAsDouble();
+  };
+  pair("scale", transform.scale);
+  pair("offset", transform.offset);
+  if (said.Get("rotation").IsNumber())
+    transform.rotation = said.Get("rotation").GetNumberAsDouble();
+  if (said.Get("texCoord").IsInt()) transform.texcoord = said.Get("texCoord").GetNumberAsInt();
+  return transform;
 }
 
 BaseColour base_colour_of(const tinygltf::Model& model, const tinygltf::Material& material,
@@ -168,7 +186,9 @@ std::vector<GltfDocument::Material> materials_of(const tinygltf::Model& model,
   std::vector<GltfDocument::Material> materials;
   for (const tinygltf::Material& material : model.materials)
     materials.push_back({one_line(material.name), base_colour(model, material),
-                         base_colour_of(model, material, images), others_of(material)});
+                         base_colour_of(model, material, images),
+                         transform_of(material.pbrMetallicRoughness.baseColorTexture),
+                         others_of(material)});
   return materials;
 }
 

@@ -76,18 +76,35 @@ class SceneReader {
     const Transform& transform = placed.transform;
     const bool turn_over = transform.linear.determinant() < 0;
     skinned_ += placed.skinned;
-    std::map<std::map<std::string, int>, int> first_vertex;  // by the accessors of the vertices
+    // By the accessors of the vertices and the material that says where its image lies on them.
+    std::map<std::pair<std::map<std::string, int>, int>, int> first_vertex;
     const auto& primitives = document_.meshes[static_cast<std::size_t>(placed.mesh)];
     for (std::size_t p = 0; p < primitives.size(); ++p) {
       const GltfDocument::Primitive& primitive = primitives[p];
       where_ = "mesh " + std::to_string(placed.mesh) + " primitive " + std::to_string(p);
       if (leave_out(primitive)) continue;
       const int position = check_primitive(primitive);
+      transform_of_uv_ = transform_of(primitive);
+      const bool plain = transform_of_uv_ == GltfDocument::TextureTransform();
       const auto [first, is_new] =
-          first_vertex.try_emplace(primitive.attributes, static_cast<int>(vertex_count()));
+          first_vertex.try_emplace({primitive.attributes, plain ? -1 : primitive.material},
+                                   static_cast<int>(vertex_count()));
       if (is_new) add_vertices(primitive, position, transform);
       add_triangles(primitive, accessors_.accessor(position).count, first->second, turn_over);
     }
+  }
+
+  GltfDocument::TextureTransform transform_of(const GltfDocument::Primitive& primitive) {
+    const auto material = static_cast<std::size_t>(primitive.material);
+    if (material >= document_.materials.size()) return {};
+    const GltfDocument::TextureTransform& transform = document_.materials[material].transform;
+    if (primitive.attributes.contains(texcoords_of(transform))) return transform;
+    if (transform.texcoord != 0) without_texcoords_.insert(primitive.material);
+    return {};
+  }
+
+  static std::string texcoords_of(const GltfDocument::TextureTransform& transform) {
+    return "TEXCOORD_" + std::to_string(transform.texcoord);
   }
 
   /// Points and lines are no surface.
@@ -153,10 +170,8 @@ class SceneReader {
       accessors_.fail(accessor, where_ + " has " + std::to_string(count) + " vertices");
     if (attribute == "NORMAL") {
       add_normals(accessor, transform, before);
-    } else if (attribute == "TEXCOORD_0") {
-      require_components(accessor, {2});
-      add_column("s", ScalarType::Float32, accessor, 0, before);
-      add_column("t", ScalarType::Float32, accessor, 1, before, [](double v) { return 1 - v; });
+    } else if (attribute == texcoords_of(transform_of_uv_)) {
+      add_texcoords(accessor, before);
     } else if (attribute == "COLOR_0") {
       add_colours(accessor, before);
     } else if (attribute == theta_phi) {
@@ -170,7 +185,8 @@ class SceneReader {
   }
 
   bool has_place(const std::string& attribute, int accessor) const {
-    if (attribute == "NORMAL" || attribute == "TEXCOORD_0" || attribute == "COLOR_0") return true;
+    if (attribute == "NORMAL" || attribute == "COLOR_0") return true;
+    if (attribute == texcoords_of(transform_of_uv_)) return true;
     const int components = accessors_.accessor(accessor).components;
     return attribute.starts_with("_") && components == (attribute == theta_phi ? 2 : 1);
   }
@@ -216,6 +232,24 @@ class SceneReader {
     const char* const names[] = {"nx", "ny", "nz"};
     for (int axis = 0; axis < 3; ++axis)
       append(names[axis], ScalarType::Float32, before, turned[axis]);
+  }
+
+  /// Where the image of the material lies; t upwards.
+  void add_texcoords(int accessor, std::size_t before) {
+    require_components(accessor, {2});
+    const GltfDocument::TextureTransform& t = transform_of_uv_;
+    const bool plain = t == GltfDocument::TextureTransform{.texcoord = t.texcoord};
+    const double c = elementary::cos(t.rotation), s = elementary::sin(t.rotation);
+    const std::vector<double>& numbers = accessors_.numbers(accessor);
+    std::vector<double> columns[2];
+    for (std::size_t i = 0; i < numbers.size(); i += 2) {
+      const double u = t.scale[0] * numbers[i], v = t.scale[1] * numbers[i + 1];
+      columns[0].push_back(plain ? numbers[i] : c * u + s * v + t.offset[0]);
+      columns[1].push_back(1 - (plain ? numbers[i + 1] : c * v - s * u + t.offset[1]));
+    }
+    const ScalarType type = plain ? ScalarType::Float32 : ScalarType::Float64;
+    append("s", type, before, columns[0]);
+    append("t", type, before, columns[1]);
   }
 
   void add_colours(int accessor, std::size_t before) {
@@ -297,10 +331,12 @@ class SceneReader {
   }
 
   void add_material(int id) {
-    const auto& [name, words, base_colour, others] =
+    const auto& [name, words, base_colour, unused, others] =
         document_.materials[static_cast<std::size_t>(id)];
     file_.materials.push_back(name.empty() ? "material " + std::to_string(id) : name);
     file_.base_colours.push_back(base_colour);
+    if (without_texcoords_.contains(id))
+      file_.base_colours.back().problem = "its texture coordinates are not there";
     if (!words.empty())
       file_.comments.push_back("base colour of " + file_.materials.back() + ": " + words);
     materials_with_others_ += !others.empty();
@@ -335,7 +371,8 @@ class SceneReader {
   const std::string& name_;
   const ReadOptions& options_;
   GltfAccessors accessors_;
-  std::string where_;  // "mesh 0 primitive 1", for messages
+  GltfDocument::TextureTransform transform_of_uv_;  // of the primitive being read
+  std::string where_;                               // "mesh 0 primitive 1", for messages
 
   std::vector<double> positions_;
   std::vector<int> triangles_;
@@ -345,6 +382,7 @@ class SceneReader {
   std::vector<std::string> others_;  // what materials say beside base colours, each once
   std::set<std::string> others_seen_;
   long materials_with_others_ = 0;
+  std::set<int> without_texcoords_;    // materials whose images some primitive has no place for
   std::set<std::string> not_carried_;  // attributes
   long skinned_ = 0;                   // meshes placed with a skin
   int morph_targets_ = 0;
