@@ -22,7 +22,7 @@ def mapped():
 
 
 def test_all_packages_are_there():
-    for name in ("nibabel", "meshio", "vtk", "open3d", "matplotlib"):
+    for name in ("nibabel", "meshio", "vtk", "open3d", "matplotlib", "nbconvert", "ipykernel"):
         assert importlib.util.find_spec(name), f"tests/interop/python/packages names {name}'s package"
 
 
@@ -41,6 +41,14 @@ def test_nibabel_images_are_mapped(mapped):
     nibabel = pytest.importorskip("nibabel")
     made = sp.map(gifti(nibabel, V, F))
     assert (made.vertices == single).all() and (made.faces == F).all()
+
+
+def test_other_arrays_of_nibabel_are_told():
+    nibabel = pytest.importorskip("nibabel")
+    image = gifti(nibabel, V, F)
+    image.add_gifti_data_array(nibabel.gifti.GiftiDataArray(single[:, 0], intent="NIFTI_INTENT_SHAPE"))
+    with pytest.warns(sp.LossWarning, match="arrays that are neither pointset nor triangle: 1"):
+        sp.map(image)
 
 
 def test_nibabel_and_we_read_the_same_gifti(tmp_path):
@@ -122,6 +130,20 @@ def test_results_go_back_to_meshio(mapped, tmp_path):
     assert (sp.map(meshio.read(tmp_path / "low.vtk")).faces == low.faces).all()
 
 
+def test_what_meshio_has_besides_comes_along_or_is_told():
+    meshio = pytest.importorskip("meshio")
+    mesh = meshio.Mesh(
+        V, [("triangle", F), ("line", F[:4, :2])], field_data={"lobe": np.array([1, 2])},
+        cell_data={"part": [np.arange(len(F)), np.arange(4)]},
+    )  # fmt: skip
+    with pytest.warns(sp.LossWarning) as caught:
+        made = sp.map(mesh)
+    assert (made.face_values["part"] == np.arange(len(F))).all()
+    told = "\n".join(str(w.message) for w in caught)
+    assert "line cells: 4" in told and "field_data: lobe" in told and len(caught) == 2
+    assert {w.filename for w in caught} == {__file__}
+
+
 def test_quads_of_meshio_are_refused():
     meshio = pytest.importorskip("meshio")
     with pytest.raises(ValueError, match="quad"):
@@ -152,6 +174,24 @@ def test_vtk_poly_data_is_mapped(kind, mapped):
     made = sp.map(poly_data(vtk, V.astype(kind), F))
     assert (made.vertices == V.astype(kind)).all() and (made.faces == F).all()
     assert (made.values["sulc"] == V[:, 0].astype(kind)).all()
+
+
+def test_cell_data_of_vtk_come_along_and_lines_are_told():
+    vtk = pytest.importorskip("vtk")
+    from vtk.util import numpy_support
+
+    mesh = poly_data(vtk, V, F)
+    part = numpy_support.numpy_to_vtk(np.arange(len(F)), deep=True)
+    part.SetName("part")
+    mesh.GetCellData().AddArray(part)
+    assert (sp.map(mesh).face_values["part"] == np.arange(len(F))).all()
+    lines = vtk.vtkCellArray()
+    lines.InsertNextCell(2, [0, 1])
+    mesh.SetLines(lines)
+    with pytest.warns(sp.LossWarning) as caught:
+        made = sp.map(mesh)
+    told = [str(w.message) for w in caught]
+    assert told == ["not carried: lines: 1", "not carried: cell data: part"] and made.face_values == {}
 
 
 def test_sources_of_vtk_are_mapped():
@@ -201,6 +241,15 @@ def test_open3d_meshes_are_mapped(mapped):
     assert np.allclose(made.values["color"], (0.2, 0.4, 0.6), atol=1e-6)
 
 
+def test_normals_of_open3d_come_along():
+    open3d = pytest.importorskip("open3d")
+    mesh = open3d.geometry.TriangleMesh(
+        open3d.utility.Vector3dVector(V), open3d.utility.Vector3iVector(F.astype(np.int32))
+    )
+    mesh.compute_vertex_normals()
+    assert np.allclose(sp.map(mesh).values["normal"], np.asarray(mesh.vertex_normals))
+
+
 def test_results_go_back_to_open3d(mapped, tmp_path):
     open3d = pytest.importorskip("open3d")
     low = mapped.remesh("ico:3")
@@ -212,6 +261,28 @@ def test_results_go_back_to_open3d(mapped, tmp_path):
     assert (sp.read(tmp_path / "low.ply").vertices == low.vertices).all()
     mapped.save(tmp_path / "a.sph.ply")
     assert len(open3d.io.read_triangle_mesh(str(tmp_path / "a.sph.ply")).triangles) == len(F)
+
+
+# Notebooks
+
+
+def test_a_notebook_shows_a_map_and_nothing_of_the_bar(tmp_path):
+    nbformat = pytest.importorskip("nbformat")
+    pytest.importorskip("ipykernel")
+    execute = pytest.importorskip("nbconvert.preprocessors").ExecutePreprocessor
+    cells = [
+        f"import sys; sys.path.insert(0, {str(pathlib.Path(__file__).parents[2] / 'python')!r})\n"
+        "import shapes, sphparam as sp\nfrom sphparam import _progress\n_progress.Bar.patience = 0",
+        "m = sp.map(*shapes.potato(7))",
+        "m",
+    ]
+    book = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell) for cell in cells])
+    execute(timeout=120, kernel_name="python3").preprocess(book, {"metadata": {"path": str(tmp_path)}})
+    _, mapping, shown = book.cells
+    [bar] = mapping.outputs  # its cell, empty in the end; nothing on the streams
+    assert bar.output_type == "display_data" and bar.data["text/html"] == ""
+    [table] = shown.outputs
+    assert "one-to-one" in table.data["text/html"] and len(table.data["text/html"]) <= 200_000
 
 
 # matplotlib

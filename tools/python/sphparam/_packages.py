@@ -57,7 +57,7 @@ def _named(what: str, names: Iterable[Any]) -> List[str]:
 
 
 def _counted(what: str, count: int) -> List[str]:
-    return [f"{count} {what}"] if count else []
+    return [f"{what}: {count}"] if count else []
 
 
 def _meshio(mesh: Any) -> Parts:
@@ -68,7 +68,7 @@ def _meshio(mesh: Any) -> Parts:
     if "triangle" not in cells:
         raise ValueError("the mesh has no triangles")
     data = getattr(mesh, "cell_data_dict", {})
-    losses = [line for kind in ("line", "vertex") for line in _counted(f"cells: {kind}", len(cells.get(kind, ())))]
+    losses = [line for kind in ("line", "vertex") for line in _counted(f"{kind} cells", len(cells.get(kind, ())))]
     for name in ("field_data", "point_sets", "cell_sets"):
         losses += _named(name, getattr(mesh, name, {}))
     face_values = {name: kinds["triangle"] for name, kinds in data.items() if "triangle" in kinds}
