@@ -1,0 +1,1 @@
+"""What the add-on computes and whom it asks, without Blender: arrays in, arrays out."""

@@ -1,0 +1,1 @@
+"""Meshes, images, modifiers and materials of Blender, from arrays and back."""
