@@ -11,7 +11,6 @@ import numpy as np
 from support import (install, load, make_active, positions, ran, routes, said, start_anew, use, work,
                      write_mesh)  # fmt: skip
 
-edges, levels = 16, 4
 
 
 def evaluated(obj):
@@ -24,8 +23,8 @@ def rms(first, second):
     return np.sqrt(sum(report[way]["RMS"] ** 2 for way in ("first_to_second", "second_to_first")) / 2)
 
 
-def ours(plain):
-    """What the program says of its own rebuilt mesh."""
+def ours(plain, edges, levels):
+    """Of the program's own rebuilt mesh."""
     out = work / "ours.json"
     width = 2 * 4 * edges * 2**levels
     ran("map", plain, "-o", work / "own.sph.ply")
@@ -35,10 +34,8 @@ def ours(plain):
     return rms(plain, work / "rebuilt.ply")
 
 
-def check(path):
-    """RMS distances: without displacement, with it, and our own."""
-    start_anew()
-    obj = load(path)
+def check(obj, edges=16, levels=4):
+    """RMS distances: without displacement, with it, and our own; and the control mesh."""
     plain = write_mesh(work / "plain.obj", obj.data)
     bpy.ops.object.spherical_map()
     bpy.ops.object.spherical_map_control(edges=edges, levels=levels)
@@ -50,7 +47,7 @@ def check(path):
     made.modifiers["Displacement"].show_viewport = False
     without = rms(plain, write_mesh(work / "smooth.obj", evaluated(made)))
     made.modifiers["Displacement"].show_viewport = True
-    own = ours(plain)
+    own = ours(plain, edges, levels)
     assert with_it <= 2 * own, (with_it, own)
     assert with_it < without, "displacement helps"
     return without, with_it, own, made
@@ -89,7 +86,8 @@ def check_undo():
 
 if __name__ == "__main__":
     install()
-    without, with_it, own, made = check(work / "creature.ply")
+    start_anew()
+    without, with_it, own, made = check(load(work / "creature.ply"))
     check_saved(made)
     check_undo()
     check_routes(work / "creature.ply")

@@ -8,6 +8,12 @@ from ..preferences import preferences_of
 from ..scene import selection
 
 _interval = 0.1  # seconds between two looks at a job
+_watched = []
+
+
+def jobs():
+    """The jobs that run in threads now, until their operators have ended."""
+    return list(_watched)
 
 
 class RunningOperator:
@@ -63,6 +69,7 @@ class RunningOperator:
         except Refusal as refusal:
             return self._refuse(context, refusal)
         self._job.start()
+        _watched.append(self._job)
         context.window_manager.progress_begin(0, 100)
         self._timer = context.window_manager.event_timer_add(_interval, window=context.window)
         context.window_manager.modal_handler_add(self)
@@ -97,6 +104,7 @@ class RunningOperator:
         return {"CANCELLED"}
 
     def _hide_progress(self, context):
+        _watched.remove(self._job)
         context.window_manager.event_timer_remove(self._timer)
         context.window_manager.progress_end()
         context.workspace.status_text_set(None)
