@@ -136,6 +136,8 @@ def test_parts_are_mapped_one_by_one():
     assert [len(part.faces) for part in parts] == [len(F)] * 3
     assert sum(part.area_share for part in parts) == pytest.approx(1)
     assert parts[0].area_share > parts[1].area_share > parts[2].area_share
+    with pytest.raises(sp.MeshError, match=r"sphparam.components\(mesh\)"):
+        sp.map(vertices, faces)
     whole = sp.map(V, F)
     for number, part in enumerate(parts):
         made = sp.map(part)

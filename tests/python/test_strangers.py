@@ -197,6 +197,10 @@ def test_an_image_that_does_not_fit_is_refused(mapped, low, tmp_path, monkeypatc
         with pytest.raises(ValueError, match=words):
             use()
     assert list(tmp_path.iterdir()) == []
+    mapped.bake_files({"position": "gis.png"}, size=32, convention="gis")
+    with pytest.raises(ValueError, match="baked in the convention gis, and would be shown in sphparam"):
+        mapped.export("a.glb", texture="gis.png")
+    mapped.export("gis.glb", texture="gis.png", convention="gis")
     low.export("a.glb", normal_map=normals, texture=plain)
     sp.map(V, F).export("b.glb", normal_map=mapped.bake("normal-tangent", size=32))  # the same mesh and map
 

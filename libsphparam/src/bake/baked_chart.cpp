@@ -45,4 +45,8 @@ std::optional<int> pole_wedges_of(const ImageTexts& texts) {
   return number;
 }
 
+std::optional<Convention> baked_convention_of(const ImageTexts& texts) {
+  return convention_named(text_named(texts, "sphparam:convention"));
+}
+
 }  // namespace sphparam

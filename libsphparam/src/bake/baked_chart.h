@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "image/image_codec.h"
+#include "sphparam/texture/convention.h"
 
 namespace sphparam {
 
@@ -15,5 +16,8 @@ ImageTexts texts_of_chart(bool linear_in_uv, int pole_wedges);
 /// nothing for images that suit any chart: those of strangers, and those baked by direction.
 /// `texts`: all of the file's metadata. JPEG and TIFF hold ours in one text, a line each.
 std::optional<int> pole_wedges_of(const ImageTexts& texts);
+
+/// The convention that an image says it was baked in; nothing for images of strangers.
+std::optional<Convention> baked_convention_of(const ImageTexts& texts);
 
 }  // namespace sphparam

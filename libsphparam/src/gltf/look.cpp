@@ -76,6 +76,12 @@ class LookMaker {
     AssetImage image = read_asset_image(path, name, &texts);
     const std::optional<int> baked = pole_wedges_of(texts);
     if (baked && *baked != options_.refine_poles) throw ImageOfOtherChart(path, *baked);
+    const std::optional<Convention> convention = baked_convention_of(texts);
+    if (convention && *convention != options_.convention) {
+      throw LookError(display_name(path) + " is baked in the convention " +
+                      info_of(*convention).name + ", and would be shown in " +
+                      info_of(options_.convention).name);
+    }
     return add(std::move(image));
   }
 

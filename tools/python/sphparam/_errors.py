@@ -41,7 +41,10 @@ class MeshError(ValueError):
         for defect in defects:
             if defect.fatal or defect.kind == "unused-vertex":
                 lines.append(f"  {defect.message}" + (f" ({defect.hint})" if defect.hint else ""))
-        return cls("\n".join(lines + _advice(trial)), defects)
+        lines += _advice(trial)
+        if any(defect.kind == "several-components" for defect in defects):
+            lines.append("sphparam.components(mesh) makes a mesh of each component")
+        return cls("\n".join(lines), defects)
 
 
 def _advice(trial: Optional[Tuple[Any, ...]]) -> list[str]:
