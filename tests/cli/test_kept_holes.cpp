@@ -152,6 +152,20 @@ TEST_CASE(
   CHECK(Json::parse(loops(surface))["inspection"]["boundary_loops"] == 1);
 }
 
+TEST_CASE("kept holes: a remeshed sheet is one piece with one boundary, however jagged") {
+  const MappedBowl bowl;
+  const std::string open = bowl.folder / "r.obj", json = bowl.folder / "r.json";
+  for (const std::string grid : {"ico:4", "ico:5", "ico:6", "uv:100x50"}) {
+    INFO(grid);
+    REQUIRE(sphparam_program({"remesh", bowl.map, "--grid", grid, "-o", open}).code == 0);
+    sphparam_program({"info", open, "--json", json});
+    const Json inspection = Json::parse(bytes_of(json))["inspection"];
+    CHECK(inspection["boundary_loops"] == 1);
+    CHECK(inspection["components"] == 1);
+    CHECK(inspection["euler_characteristic"] == 1);  // touches itself nowhere
+  }
+}
+
 TEST_CASE("kept holes: what makes no sense is refused") {
   const MappedBowl bowl;
   const auto refused = [&](std::vector<std::string> arguments) {

@@ -1,7 +1,10 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "embedding/constructions/progressive.h"
 #include "embedding/newton/pressed_fillers.h"
+#include "sphparam/mesh/mesh_repair.h"
+#include "sphparam/parameterize.h"
 #include "sphparam/sphere/certificate.h"
 #include "sphparam/sphere/sphere_share.h"
 #include "support/test_meshes.h"
@@ -102,5 +105,42 @@ TEST_CASE("pressed fillers: steps, with sweeps and without, draw out what is rew
     CHECK(result.report.energy_after < result.report.energy_before);
     CHECK(bowl.share(result.map) < 0.5 * bowl.share(bowl.map));
     CHECK(certify(bowl.topology, result.map).bijective());
+  }
+}
+
+TEST_CASE(
+    "pressed fillers: the embedding presses them on its coarse levels, the same bits always") {
+  const Bowl bowl(0.2, 5);
+  const auto embedded = [&](int threads) {
+    return embed_progressively(bowl.mesh, bowl.topology,
+                               {.fillers = bowl.fillers, .filler_share = 0.02, .threads = threads});
+  };
+  const ProgressiveEmbedding embedding = embedded(1);
+  REQUIRE(embedding.map);
+  CHECK(embedding.report.pressure > 0);
+  CHECK(certify(bowl.topology, *embedding.map).bijective());
+  CHECK(bowl.share(*embedding.map) < 0.04);  // sweeps alone on the finest level
+  CHECK(embedded(3).map->points == embedding.map->points);
+  const PressedMap settled = press_fillers(
+      bowl.topology, measure_source(bowl.mesh), *embedding.map, 0.02,
+      {.least_gain = 1e-2, .pressed = bowl.fillers, .threads = 1}, embedding.report.pressure);
+  CHECK(settled.share <= 0.02);
+  CHECK(settled.share > 0.01);
+}
+
+TEST_CASE("pressed fillers: small enough on meshes of a few triangles too, and with their poles") {
+  for (const TriangleMesh& closed : {octahedron(), icosahedron(), icosphere(1)}) {
+    TriangleMesh open = closed;
+    open.triangles = closed.triangles.bottomRows(closed.face_count() - 2);
+    RepairOptions options;
+    options.keep_holes = true;
+    const RepairedMesh mended = repair_mesh(open, options);
+    const Parameterization map =
+        parameterize(mended.mesh, {.fillers = mended.fillers, .filler_share = 0.02});
+    INFO(closed.face_count() << " triangles");
+    CHECK(map.certificate.bijective());
+    REQUIRE(map.filler_share);
+    CHECK(*map.filler_share <= 0.02);
+    if (map.poles) CHECK(map.map.point(map.poles->south) == -Vector3::UnitZ());
   }
 }

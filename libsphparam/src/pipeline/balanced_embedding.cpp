@@ -40,6 +40,11 @@ double least_gain_of(Quality quality) {
   return quality == Quality::Draft ? 1e-2 : quality == Quality::Normal ? 1e-3 : 1e-6;
 }
 
+/// Of the steps that settle fillers, after a map that coarser levels have pressed.
+double pressed_gain_of(Quality quality) {
+  return quality == Quality::Best ? least_gain_of(quality) : 1e-2;
+}
+
 SphereMap balance(MapInProgress& work, const SphereMap& map, double from_lambda,
                   const std::vector<Pin>& pins) {
   BalancedMap result =
@@ -58,20 +63,6 @@ SphereMap balance(MapInProgress& work, const SphereMap& map, double from_lambda,
   return std::move(result.map);
 }
 
-/// Fillers take no more of the sphere than they may.
-SphereMap press(MapInProgress& work, SphereMap map, const std::vector<Pin>& pins) {
-  PressedMap pressed = press_fillers(work.topology, measure_source(work.mesh, work.options.threads),
-                                     map, work.options.filler_share,
-                                     {.energy = work.energy,
-                                      .least_gain = least_gain_of(work.options.quality),
-                                      .pinned = vertices_of(pins),
-                                      .pressed = work.options.fillers,
-                                      .threads = work.options.threads,
-                                      .progress = work.options.progress});
-  if (pressed.pressure > 0) work.record("fillers pressed", pressed.map);
-  return std::move(pressed.map);
-}
-
 /// Three digits, as people read.
 std::string figure(double value) {
   std::ostringstream text;
@@ -80,6 +71,22 @@ std::string figure(double value) {
 }
 
 }  // namespace
+
+SphereMap with_fillers_pressed(MapInProgress& work, SphereMap map, const std::vector<Pin>& pins,
+                               double known) {
+  if (work.options.fillers.empty()) return map;
+  PressedMap pressed = press_fillers(work.topology, measure_source(work.mesh, work.options.threads),
+                                     map, work.options.filler_share,
+                                     {.energy = work.energy,
+                                      .least_gain = pressed_gain_of(work.options.quality),
+                                      .pinned = vertices_of(pins),
+                                      .pressed = work.options.fillers,
+                                      .threads = work.options.threads,
+                                      .progress = work.options.progress},
+                                     known);
+  if (pressed.pressure > 0) work.record("fillers pressed", pressed.map);
+  return std::move(pressed.map);
+}
 
 void warn_of_balance(MapInProgress& work) {
   const Balance wanted = work.options.balance;
@@ -134,13 +141,16 @@ bool embed(MapInProgress& work, const std::vector<Pin>& pins) {
        .quality = balanced ? std::min(work.options.quality, Quality::Normal) : work.options.quality,
        .sweeps = work.options.sweeps,
        .pins = pins,
+       .fillers = work.options.fillers,
+       .filler_share = work.options.filler_share,
        .threads = work.options.threads,
        .progress = work.options.progress});
   if (!embedding.map) return false;
   work.record(pins.empty() ? "progressive embedding" : "pinned embedding", *embedding.map);
   if (balanced) *embedding.map = balance(work, *embedding.map, energy.lambda, pins);
   const bool pressed = !work.options.fillers.empty();
-  if (pressed) *embedding.map = press(work, std::move(*embedding.map), pins);
+  *embedding.map = with_fillers_pressed(work, std::move(*embedding.map), pins,
+                                        balanced ? 0 : embedding.report.pressure);
   work.accept(balanced ? balanced_map : "progressive embedding", std::move(*embedding.map));
   if (!balanced && !pressed) work.result.energy_gap = embedding.report.energy_left;
   return true;

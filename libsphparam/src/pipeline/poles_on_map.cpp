@@ -6,6 +6,7 @@
 
 #include "embedding/frame/axis_choice.h"
 #include "embedding/frame/pole_placement.h"
+#include "pipeline/balanced_embedding.h"
 #include "pipeline/meridian.h"
 
 // The axis crosses the map where poles disturb least; the vertices nearest to it are moved there,
@@ -32,6 +33,14 @@ void go_without_poles(MapInProgress& work, const std::string& reason) {
   if (work.options.meridian) turn(work, work.result.map, *work.options.meridian);
 }
 
+/// What is relaxed about a pole may be most of a small mesh, and fillers with it.
+void press_again(MapInProgress& work, PolePlacement& placement) {
+  if (work.options.method != Method::Progressive) return;
+  const Vector3 up = Vector3::UnitZ();
+  placement.map = with_fillers_pressed(work, std::move(placement.map),
+                                       {{placement.north, up}, {placement.south, -up}});
+}
+
 }  // namespace
 
 void move_to_poles(MapInProgress& work, Poles poles) {
@@ -49,6 +58,7 @@ void choose_poles_on_map(MapInProgress& work) {
   std::optional<PolePlacement> placement = place_poles_on_axis(
       work.topology, work.source(), work.result.map, choice.axis, pole_options(work));
   if (!placement) return go_without_poles(work, "no vertex could be moved to -z");
+  press_again(work, *placement);
   const Vertex meridian =
       work.options.meridian ? *work.options.meridian : quiet_meridian(work, placement->map);
   if (!turn(work, placement->map, meridian) &&

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "remesh/cell_means.h"
+#include "remesh/grid_holes.h"
 #include "remesh/resampling.h"
 #include "remesh/seams.h"
 #include "remesh/wanted_values.h"
@@ -162,6 +163,8 @@ class Transfer {
   double locate_seconds = 0;
 
  private:
+  static size_t at(int i) { return static_cast<size_t>(i); }
+
   /// Of faces; what marks fillers is no matter of choice.
   bool carries(const Property& property) const {
     return property.name == filler_property || wanted_.property(property.name);
@@ -225,18 +228,23 @@ class Transfer {
       }
     }
     const auto places = locate(locator_, directions, "locate holes", options_);
-    const auto on_filler = [&](int corner) {
-      const auto first = places.begin() + std::ptrdiff_t{looks} * corner;
-      return std::any_of(first, first + looks, [&](const SurfacePoint& place) {
-        return fillers[static_cast<size_t>(place.face)] != 0;
-      });
+    const std::vector<int> holes = holes_of(topology_, fillers);
+    const auto hole_at = [&](int corner) {
+      int hole = -1;
+      for (int i = 0; i < looks; ++i) {
+        hole = std::max(hole, holes[static_cast<size_t>(places[looks * at(corner) + at(i)].face)]);
+      }
+      return hole;
     };
-    FillerMarks marks(static_cast<size_t>(cut.triangles.rows()), 0);
+    std::vector<int> marks(at(static_cast<int>(cut.triangles.rows())), -1);
     for (size_t t = 0; t < marks.size(); ++t) {
       const auto p = static_cast<size_t>(cut.polygon_of(static_cast<std::int64_t>(t)));
-      for (int i = faces.starts[p]; i < faces.starts[p + 1]; ++i) marks[t] |= on_filler(i);
+      for (int i = faces.starts[p]; i < faces.starts[p + 1]; ++i) {
+        marks[t] = std::max(marks[t], hole_at(i));
+      }
     }
-    return marks;
+    const int vertices = static_cast<int>(grid_.directions.rows());
+    return tidy_fillers(Topology(cut.triangles, vertices, options_.threads), marks);
   }
 
   template <class Table>

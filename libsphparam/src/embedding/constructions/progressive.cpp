@@ -12,6 +12,7 @@
 
 #include "elementary.h"
 #include "embedding/constructions/narrow_rings.h"
+#include "embedding/constructions/pressed_levels.h"
 #include "embedding/energy/energy_domain.h"
 #include "embedding/frame/pin_domain.h"
 #include "embedding/newton/freed_memory.h"
@@ -83,6 +84,12 @@ RefinementOptions refinement_options(const ProgressiveOptions& options) {
           .progress = options.progress};
 }
 
+PressedLevels::Options pressed_options(const ProgressiveOptions& options) {
+  return {options.fillers,
+          options.filler_share,
+          {.energy = options.energy, .threads = options.threads, .progress = options.progress}};
+}
+
 /// Uses the hierarchy up: a level is given back as soon as the next finer one is done.
 class Embedder {
  public:
@@ -93,7 +100,8 @@ class Embedder {
         hierarchy_(build_hierarchy(mesh, topology, options.threads, keep, options.progress)),
         options_(options),
         area_floor_(options.least_area * 4 * std::numbers::pi / topology.face_count()),
-        refinement_(topology.vertex_count(), refinement_options(options)) {
+        refinement_(topology.vertex_count(), refinement_options(options)),
+        pressed_(topology, hierarchy_, pressed_options(options)) {
     std::vector<Vertex> names;
     for (const Pin& pin : options.pins) names.push_back(pin.vertex);
     while (!names.empty() && std::count(names.begin(), names.end(), -1) == 0) {
@@ -119,12 +127,14 @@ class Embedder {
       const double before = done / all;
       const int vertices = hierarchy_[l].vertex_count();
       done += vertices;
+      if (pressed_.due(l, vertices)) press(l);
       if (!ring_energy_.empty()) refinement_.note_sampled_decrement(sampled());
-      if (refinement_.due(vertices)) refine_by_newton(l, {before, done / all});
+      if (refinement_.due(vertices) && !is_pressed()) refine_by_newton(l, {before, done / all});
       ask_();
     }
     result.report.energy_left = refinement_.energy_left();
     result.report.sweeps_sufficed = refinement_.sweeps_suffice();
+    result.report.pressure = pressed_.pressure();
     packs_ = {};
     hierarchy_.clear();
     result.map = map_of(image_);
@@ -163,12 +173,14 @@ class Embedder {
         ask_();
       }
     }
+    if (is_pressed()) pressed_.mark(l, packs_);
     const int sweeps = sweeps_on(level.vertex_count());
     // The first sweep need not move the removed vertices: they have just made their step.
     for (int sweep = 0; sweep < sweeps; ++sweep) {
       ask_();
       // Their rings are left out of the energies too: those of their neighbours cover them.
-      const bool told = l == 0 && sweep + 1 == sweeps && refinement_.finest_is_open();
+      const bool told =
+          l == 0 && sweep + 1 == sweeps && refinement_.finest_is_open() && !is_pressed();
       if (told) ring_energy_.assign(image_.size(), 0.0F);
       sweep_colours(packs_, sweep == 0 ? 1 : 0, options_.over_relaxation,
                     told ? ring_energy_.data() : nullptr);
@@ -186,6 +198,14 @@ class Embedder {
   RingPacks pack(size_t l, bool hold_pins, RingPacks used = {}) const {
     return pack_rings(hierarchy_[l], area_floor_, options_.threads,
                       hold_pins ? pinned_[l] : std::vector<Vertex>{}, std::move(used));
+  }
+
+  bool is_pressed() const { return pressed_.pressure() > 0; }
+
+  void press(size_t l) {
+    const std::vector<Vertex> pinned = pins_placed_ ? pinned_[l] : std::vector<Vertex>{};
+    const SphereMap map = pressed_.pressed(l, triangle_mesh(hierarchy_[l]), map_of(image_), pinned);
+    std::ranges::copy(image_of(map), image_.begin());  // which keeps its room
   }
 
   void refine_by_newton(size_t l, ProgressShare share) {
@@ -298,8 +318,10 @@ class Embedder {
 
   void sweep_colours(const RingPacks& packs, int first_colour, double over_relaxation,
                      float* ring_energy = nullptr) {
-    sweep_packs(packs, first_colour, image_.data(), options_.energy, over_relaxation,
-                options_.threads, ring_energy);
+    DistortionEnergy energy = options_.energy;
+    energy.pressure = -pressed_.pressure();
+    sweep_packs(packs, first_colour, image_.data(), energy, over_relaxation, options_.threads,
+                ring_energy);
   }
 
   const TriangleMesh& mesh_;
@@ -316,6 +338,7 @@ class Embedder {
   Image image_;
   std::vector<float> ring_energy_;  // of the finest level, if `refinement_` asks for a sample
   NewtonRefinement refinement_;
+  PressedLevels pressed_;
 };
 
 /// Towards the energy asked for, where the map was found by another one. Returns the share of it
@@ -435,6 +458,7 @@ void require_domain(const ProgressiveOptions& options, int vertices) {
   require_between("retries", options.retries, 0, most_retries);
   require_at_least("pin_level", options.pin_level, 0);
   require_between("least_area", options.least_area, 0, 1);
+  require_between("filler_share", options.filler_share, 0, 1);
   require_pins(options.pins, vertices);
 }
 

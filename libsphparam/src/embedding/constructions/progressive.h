@@ -7,6 +7,7 @@
 #include "mesh/mesh_hierarchy.h"
 #include "sphparam/embedding/distortion_energy.h"
 #include "sphparam/embedding/quality.h"
+#include "sphparam/mesh/fillers.h"
 #include "sphparam/progress.h"
 
 namespace sphparam {
@@ -22,6 +23,10 @@ struct ProgressiveOptions {
   std::vector<Pin> pins = {};    // vertices that lie at given points; no vertex twice
   int pin_level =
       400;  // vertices of the level where pins are placed, 20 a pin if that is more; ≥ 0
+  /// Triangles that are no surface, and what they may take of the sphere, 0 to 1: from some level
+  /// on they are pressed (see `press_fillers`). The finest level gets sweeps alone of that.
+  FillerMarks fillers = {};
+  double filler_share = 1;
   /// Of the mean area, 0 to 1: smaller triangles count as equilateral ones of that size.
   double least_area = 1e-9;
   int threads = 0;  // 0: all cores
@@ -38,6 +43,7 @@ struct ProgressiveReport {
   /// Estimated on the finest level: share of the energy that steps to come would take. Nothing
   /// where the quality is Draft.
   std::optional<double> energy_left = std::nullopt;
+  double pressure = 0;  // that fillers needed on the last level where they were pressed, or 0
   bool sweeps_sufficed = false;  // no protrusions that sweeps creep along
 };
 

@@ -11,33 +11,35 @@
 // a triangle, draws it out over the holes: what it covers fillers lose. (A price on fillers is the
 // same only while they are small: S is the volume below a triangle, and large ones hide from it.)
 // From reward to reward the map before is a good start; the last interval is halved, so that the
-// surface does not pay for more than was asked for.
+// surface does not pay for more than was asked for. On meshes of a few large triangles the volume
+// below them ends where they are alike, whatever the reward: what is missing there is pressed out
+// of the fillers, which are small by then, by a price on theirs.
 
 namespace sphparam {
 namespace {
 
-constexpr double rest_share = 0.5;  // of what fillers may take: their part of the source's area
+constexpr double rest_share = 0.5;  // of what fillers may take: their part of the rest areas
 constexpr double raise = 4;
-constexpr int most_raises = 10;   // a million times the energy of the surface
-constexpr int most_halvings = 3;  // of the last interval, in logarithms
-constexpr int most_retries = 4;   // where the last steps gave back more than the margin
+constexpr double least_reward = 0.01;  // of the first one that is tried
+constexpr int most_raises = 10;        // a million times the energy of the surface
+constexpr int most_halvings = 3;       // of the last interval, in logarithms
+constexpr int most_retries = 4;        // where the last steps gave back more than the margin
 constexpr double retry_raise = 1.5;
 constexpr double near_enough = 0.8;  // of the share: not worth another try
 constexpr double margin = 0.05;      // of it: what settles the map may give back
 constexpr double on_the_way_gain = 3e-2;
 constexpr int on_the_way_steps = 20;
+constexpr int small_mesh = 4000;  // vertices: where steps cost nothing, the search is thorough
+constexpr double small_gain = 5e-3;
+constexpr int small_steps = 60;
 
-/// Fillers shrunk to `share` of all, if they have more; the total stays.
-void shrink(RestTriangles& source, const FillerMarks& fillers, double share) {
-  double all = 0, of_fillers = 0;
+void shrink(RestTriangles& source, const FillerMarks& fillers, double most) {
+  double of_surface = 0, of_fillers = 0;
+  for (size_t f = 0; f < source.size(); ++f)
+    (fillers[f] ? of_fillers : of_surface) += source[f].area;
+  const auto [filler, surface] = pressed_areas(of_fillers, of_surface, most);
   for (size_t f = 0; f < source.size(); ++f) {
-    all += source[f].area;
-    if (fillers[f]) of_fillers += source[f].area;
-  }
-  const double surface = all - of_fillers, wanted = std::min(of_fillers, share * all);
-  if (!(surface > 0) || !(of_fillers > 0)) return;
-  for (size_t f = 0; f < source.size(); ++f) {
-    source[f] = scaled(source[f], fillers[f] ? wanted / of_fillers : (all - wanted) / surface);
+    source[f] = scaled(source[f], fillers[f] ? filler : surface);
   }
 }
 
@@ -65,18 +67,27 @@ class Press {
   /// The map for a reward, well enough to go on from.
   PressedMap roughly(const SphereMap& from, double pressure) const {
     OptimiseOptions options = options_;
-    options.least_gain = std::max(options.least_gain, on_the_way_gain);
-    options.max_steps = std::min(options.max_steps, on_the_way_steps);
+    const bool small = topology_.vertex_count() <= small_mesh;
+    options.least_gain = std::max(options.least_gain, small ? small_gain : on_the_way_gain);
+    options.max_steps = std::min(options.max_steps, small ? small_steps : on_the_way_steps);
     return at(from, pressure, std::move(options));
   }
   PressedMap settled(const PressedMap& map) const { return at(map.map, map.pressure, options_); }
+
+  /// With a price on fillers instead of the reward.
+  PressedMap priced(const SphereMap& from, double price) const {
+    OptimiseOptions options = options_;
+    options.pressed = fillers_;
+    options.max_steps = std::min(options.max_steps, on_the_way_steps);
+    return at(from, -price, std::move(options));
+  }
 
  private:
   PressedMap at(const SphereMap& from, double pressure, OptimiseOptions options) const {
     options.energy.pressure = -pressure;
     SphereMap map = optimise(topology_, source_, from, options).map;
     const double share = share_of(map);
-    return {std::move(map), share, pressure};
+    return {std::move(map), share, std::abs(pressure)};
   }
 
   const Topology& topology_;
@@ -95,8 +106,8 @@ PressedMap rewarded(const Press& press, const SphereMap& map, double most, doubl
     below = std::move(above);
     above = press.roughly(below.map, raise * below.pressure);
   }
-  double too_little = below.pressure;
-  for (int i = 0; i < most_halvings && too_little > 0 && above.share <= most; ++i) {
+  double too_little = std::max(below.pressure, least_reward * first);
+  for (int i = 0; i < most_halvings && above.share <= most; ++i) {
     if (above.share > near_enough * most) break;
     PressedMap middle = press.roughly(above.map, std::sqrt(too_little * above.pressure));
     if (middle.share > most) {
@@ -108,21 +119,38 @@ PressedMap rewarded(const Press& press, const SphereMap& map, double most, doubl
   return above;
 }
 
+/// Where no reward was enough. The better of what came and what the least price brings that is.
+PressedMap pressed_out(const Press& press, PressedMap map, double most, double first) {
+  double price = first;
+  for (int i = 0; i < most_raises && map.share > most; ++i, price *= raise) {
+    PressedMap next = press.priced(map.map, price);
+    if (next.share < map.share) map = std::move(next);
+  }
+  return map;
+}
+
 }  // namespace
 
+std::pair<double, double> pressed_areas(double of_fillers, double of_surface, double most) {
+  if (!(of_surface > 0) || !(of_fillers > 0)) return {1, 1};
+  const double all = of_fillers + of_surface;
+  const double wanted = std::min(of_fillers, rest_share * most * all);
+  return {wanted / of_fillers, (all - wanted) / of_surface};
+}
+
 PressedMap press_fillers(const Topology& topology, RestTriangles source, const SphereMap& map,
-                         double most, const OptimiseOptions& options) {
+                         double most, const OptimiseOptions& options, double known) {
   const Press press(topology, source, options);
-  const double before = press.share_of(map);
-  if (before <= most) return {map, before, 0};
-  shrink(source, options.pressed, rest_share * most);
-  PressedMap result = press.settled(
-      rewarded(press, map, most * (1 - margin), std::max(options.energy.lambda, 1.0)));
+  const double before = press.share_of(map), first = std::max(options.energy.lambda, 1.0);
+  if (before <= most && !(known > 0)) return {map, before, 0};
+  shrink(source, options.pressed, most);
+  PressedMap result = press.settled(known > 0 ? PressedMap{map, before, known}
+                                              : rewarded(press, map, most * (1 - margin), first));
   for (int i = 0; i < most_retries && result.share > most; ++i) {
     result.pressure = std::max(result.pressure, 1.0) * retry_raise;
     result = press.settled(result);
   }
-  return result;
+  return pressed_out(press, std::move(result), most, first);
 }
 
 }  // namespace sphparam

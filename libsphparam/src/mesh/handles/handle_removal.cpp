@@ -2,6 +2,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
+#include <unordered_set>
 
 #include "mesh/handles/handle_cutting.h"
 #include "mesh/handles/loop_side.h"
@@ -158,24 +160,54 @@ class HandleRemover {
     return area;
   }
 
-  /// Loops of the kind that is wanted, the best first, without common vertices.
+  /// Loops of the kind that is wanted, the best first, without common vertices. One that touches
+  /// those taken waits for the next round, and so do loops that would stand for it until then: of
+  /// its class, or of its class and theirs.
   std::vector<EdgeLoop> apart(const Topology& topology, std::vector<EdgeLoop> loops) const {
     std::stable_sort(loops.begin(), loops.end(),
                      [&](const EdgeLoop& x, const EdgeLoop& y) { return cost_of(x) < cost_of(y); });
-    std::vector<char> taken(state_.positions.size(), 0);
+    std::vector<int> taken_by(state_.positions.size(), -1);
+    std::unordered_set<std::uint64_t> waiting;  // classes
     std::vector<EdgeLoop> result;
     for (EdgeLoop& loop : loops) {
-      const auto is_taken = [&](Vertex v) { return taken[v] != 0; };
-      if (std::any_of(loop.vertices.begin(), loop.vertices.end(), is_taken)) continue;
       if (!is_wanted(topology, loop)) continue;
-      for (const Vertex v : loop.vertices) taken[v] = 1;
-      result.push_back(std::move(loop));
+      const std::set<int> touched = touched_by(loop, taken_by);
+      if (!touched.empty()) {
+        for (const std::uint64_t label : sums(loop, touched, result)) waiting.insert(label);
+      } else if (!waiting.contains(loop.label)) {
+        for (const Vertex v : loop.vertices) taken_by[v] = static_cast<int>(result.size());
+        result.push_back(std::move(loop));
+      }
     }
     return result;
   }
 
+  static std::set<int> touched_by(const EdgeLoop& loop, const std::vector<int>& taken_by) {
+    std::set<int> touched;
+    for (const Vertex v : loop.vertices) {
+      if (taken_by[v] >= 0) touched.insert(taken_by[v]);
+    }
+    return touched;
+  }
+
+  /// The class of a loop and of its sums with some of those that it touches.
+  static std::vector<std::uint64_t> sums(const EdgeLoop& loop, const std::set<int>& touched,
+                                         const std::vector<EdgeLoop>& taken) {
+    constexpr size_t most_sums = 64;
+    std::vector<std::uint64_t> labels = {loop.label};
+    for (const int i : touched) {
+      const size_t count = labels.size();
+      if (2 * count > most_sums) break;
+      for (size_t k = 0; k < count; ++k) {
+        labels.push_back(labels[k] ^ taken[static_cast<size_t>(i)].label);
+      }
+    }
+    return labels;
+  }
+
   std::vector<EdgeLoop> chosen(const Topology& topology, const ShortLoops& search) const {
-    std::vector<EdgeLoop> loops = apart(topology, search.crossing_basis(reach_));
+    std::vector<EdgeLoop> loops =
+        not_separating(topology, apart(topology, search.crossing_basis(reach_)));
     parallel_for(static_cast<std::int64_t>(loops.size()), 1, 0,
                  [&](std::int64_t first, std::int64_t last) {
                    for (std::int64_t i = first; i < last; ++i) {
@@ -183,7 +215,7 @@ class HandleRemover {
                      loop = search.tightened(std::move(loop));
                    }
                  });
-    return not_separating(topology, apart(topology, std::move(loops)));
+    return apart(topology, std::move(loops));  // of the same classes: they separate nothing
   }
 
   RepairState& state_;

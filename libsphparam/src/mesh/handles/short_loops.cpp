@@ -1,9 +1,10 @@
 #include "mesh/handles/short_loops.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <map>
-#include <queue>
 #include <utility>
 
 #include "sphparam/parallel.h"
@@ -16,9 +17,11 @@
 namespace sphparam {
 namespace {
 
-constexpr double least_edge = 1e-9;    // added to each edge, in the unit box
-constexpr double bases_a_length = 12;  // searches begin that near to each other, at the nearest
-constexpr size_t most_classes = 12;    // that one search tells
+constexpr double least_edge = 1e-9;  // added to each edge, in the unit box
+// How near to each other searches begin, at the nearest: all vertices where loops are of a few
+// edges, for the cost is small and so is what a loop beside them can be tightened.
+constexpr double bases_a_length(double reach) { return reach > 12 ? 10 : 24; }
+constexpr size_t most_classes = 12;  // that one search tells
 constexpr int most_tightenings = 8;
 constexpr size_t tried_vertices = 8;  // of a loop, each time
 constexpr double least_gain = 1e-9;   // relative; less is rounding
@@ -33,6 +36,44 @@ double length_of(const std::vector<Vertex>& loop, const std::vector<Vector3>& pl
   return length;
 }
 
+/// What waits to be settled, the nearest first. What is far waits unsorted in one of many bins.
+class ShortLoops::Queue {
+ public:
+  void begin(double radius) {
+    for (std::vector<Waiting>& bin : bins_) bin.clear();
+    near_.clear();
+    at_ = 0;
+    bins_a_length_ = radius > 0 ? static_cast<double>(bins_.size() - 1) / radius : 0;
+  }
+  void push(double distance, Vertex v) {
+    const size_t bin = std::min(static_cast<size_t>(distance * bins_a_length_), bins_.size() - 1);
+    if (bin > at_) return bins_[bin].emplace_back(distance, v), void();
+    near_.emplace_back(distance, v);
+    std::push_heap(near_.begin(), near_.end(), std::greater<>());
+  }
+  bool empty() {
+    while (near_.empty() && at_ + 1 < bins_.size()) {
+      near_.swap(bins_[++at_]);
+      std::make_heap(near_.begin(), near_.end(), std::greater<>());
+    }
+    return near_.empty();
+  }
+  /// Requires: not empty, as was just asked.
+  std::pair<double, Vertex> pop() {
+    std::pop_heap(near_.begin(), near_.end(), std::greater<>());
+    const Waiting nearest = near_.back();
+    near_.pop_back();
+    return nearest;
+  }
+
+ private:
+  using Waiting = std::pair<double, Vertex>;
+  std::array<std::vector<Waiting>, 64> bins_;
+  std::vector<Waiting> near_;  // a heap
+  size_t at_ = 0;              // bins up to here are empty
+  double bins_a_length_ = 0;
+};
+
 /// What a search writes down, by vertex. Valid where `search` is the present one.
 struct ShortLoops::Scratch {
   struct Entry {
@@ -46,18 +87,18 @@ struct ShortLoops::Scratch {
 
   std::vector<Entry> entries;
   int search = 0;
-  using Waiting = std::pair<double, Vertex>;
-  std::priority_queue<Waiting, std::vector<Waiting>, std::greater<>> queue;
+  Queue queue;
 
-  void begin(Vertex vertex) {
+  /// Nothing beyond the radius, or hardly anything, is going to be reached.
+  void begin(Vertex vertex, double radius) {
     ++search;
-    queue = {};
+    queue.begin(radius);
     reach(vertex, 0, 0, -1);
   }
   bool knows(Vertex v) const { return entries[v].search == search; }
   void reach(Vertex v, double distance, std::uint64_t label, Vertex from) {
     entries[v] = {search, false, from, distance, label};
-    queue.emplace(distance, v);
+    queue.push(distance, v);
   }
 };
 
@@ -144,11 +185,9 @@ std::vector<EdgeLoop> ShortLoops::through(Vertex vertex, double longest) const {
     }
     if (closings.size() < most_classes) closings.push_back(found);
   };
-  scratch.begin(vertex);
+  scratch.begin(vertex, longest / 2);
   while (!scratch.queue.empty()) {
-    const double distance = scratch.queue.top().first;
-    const Vertex u = scratch.queue.top().second;
-    scratch.queue.pop();
+    const auto [distance, u] = scratch.queue.pop();
     auto& here = scratch.entries[u];
     if (here.settled) continue;
     here.settled = true;
@@ -178,7 +217,7 @@ std::vector<ShortLoops::Base> ShortLoops::candidates(double reach) const {
     const double longest = reach * loop_lengths_[i] / static_cast<double>(loop.size());
     double since = longest;
     for (size_t k = 0; k < loop.size(); ++k) {
-      if (since * bases_a_length >= longest) {
+      if (since * bases_a_length(reach) >= longest) {
         result.push_back({loop[k], longest});
         since = 0;
       }
@@ -191,11 +230,9 @@ std::vector<ShortLoops::Base> ShortLoops::candidates(double reach) const {
 void ShortLoops::cover(std::vector<char>& covered, Vertex vertex, double radius) const {
   const Lease lease(*this);
   Scratch& scratch = *lease;
-  scratch.begin(vertex);
+  scratch.begin(vertex, radius);
   while (!scratch.queue.empty()) {
-    const double distance = scratch.queue.top().first;
-    const Vertex u = scratch.queue.top().second;
-    scratch.queue.pop();
+    const auto [distance, u] = scratch.queue.pop();
     if (std::exchange(scratch.entries[u].settled, true)) continue;
     covered[u] = 1;
     for (size_t i = first_arc_[u]; i < first_arc_[u + 1]; ++i) {
@@ -216,14 +253,15 @@ std::vector<ShortLoops::Base> ShortLoops::bases(double reach) const {
   std::vector<Base> result;
   for (const Base& base : wanted) {
     if (covered[base.vertex]) continue;
-    cover(covered, base.vertex, base.longest / bases_a_length);
+    cover(covered, base.vertex, base.longest / bases_a_length(reach));
     result.push_back(base);
   }
   return result;
 }
 
 bool ShortLoops::reaches(double length, double reach) const {
-  constexpr double slack = bases_a_length / (bases_a_length - 3);  // bases are not everywhere
+  const double slack =
+      bases_a_length(reach) / (bases_a_length(reach) - 3);  // bases are not everywhere
   for (size_t i = 0; i < basis_.loops.size(); ++i) {
     const double mean = loop_lengths_[i] / static_cast<double>(basis_.loops[i].size());
     if (reach * mean < slack * length) return false;

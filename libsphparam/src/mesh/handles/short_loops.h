@@ -45,6 +45,7 @@ class ShortLoops {
   EdgeLoop tightened(EdgeLoop loop) const;
 
  private:
+  class Queue;
   struct Scratch;
   class Lease;
   struct Base {
