@@ -109,6 +109,11 @@ def test_the_page_names_what_maps_can_do(name):
     assert f"`{name}" in page or f"m.{name}" in page
 
 
+@pytest.mark.parametrize("name", [n for n, _ in inspect.getmembers(sp.Mesh) if not n.startswith("_")])
+def test_the_page_names_what_meshes_have(name):
+    assert f"`{name}`" in page
+
+
 def test_annotations_can_be_read():
     import numpy  # noqa: F401  what the types of arrays are of
 
