@@ -1,4 +1,5 @@
-// Sends meshes with hurt positions through every subcommand of the program, with options by chance.
+// Sends meshes with hurt positions through every subcommand of the program, with options by chance;
+// broken surfaces through `repair` in all formats, `survey`, kept holes and maps of all parts.
 //
 // Usage: command_campaign [--command NAME,… | all] [--seed 1] [--count 10000] [--first 0]
 //                         [--jobs N] [--limit SECONDS] [--memory MIB] [--keep FOLDER]

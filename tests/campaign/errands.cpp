@@ -1,7 +1,10 @@
 #include "errands.h"
 
+#include <algorithm>
 #include <functional>
+#include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "hurt_meshes.h"
 
@@ -30,6 +33,21 @@ class Maker {
     add_map_options(map);
     errand.commands.push_back(map);
     return stem + ".sph.ply";
+  }
+
+  /// A surface that is none: of one or more hurt meshes, with faces missing, doubled and turned
+  /// over, vertices without a place. `parts`: how many meshes at most.
+  std::string broken_mesh(const std::string& stem, int parts) {
+    HurtMesh hurt = make_hurt_mesh(random_);
+    const int more = random_.below(parts);
+    for (int i = 0; i < more; ++i) append(hurt.mesh, make_hurt_mesh(random_).mesh);
+    hurt.polygons.clear();
+    hurt.texcoords.resize(0, 2);
+    errand.story += (errand.story.empty() ? "" : "; ") + hurt.story + " and " +
+                    std::to_string(more) + " more, " + break_faces(hurt.mesh);
+    const std::string extension = one_of({".off", ".obj", ".ply"});
+    errand.files.emplace_back(stem + extension, as_file(hurt, extension));
+    return stem + extension;
   }
 
   void add_map_options(Words& words) {
@@ -85,6 +103,42 @@ class Maker {
   bool has_texcoords = false, has_scalar = false;  // of the mesh made last
 
  private:
+  static void append(TriangleMesh& mesh, const TriangleMesh& other) {
+    const Eigen::Index vertices = mesh.positions.rows(), faces = mesh.triangles.rows();
+    mesh.positions.conservativeResize(vertices + other.positions.rows(), 3);
+    mesh.positions.bottomRows(other.positions.rows()) = other.positions;
+    mesh.triangles.conservativeResize(faces + other.triangles.rows(), 3);
+    mesh.triangles.bottomRows(other.triangles.rows()) =
+        (other.triangles.array() + static_cast<int>(vertices)).matrix();
+  }
+
+  /// Returns the story of it.
+  std::string break_faces(TriangleMesh& mesh) {
+    const auto any_face = [&] { return random_.below(static_cast<int>(mesh.face_count())); };
+    const int missing = std::min(random_.below(8), static_cast<int>(mesh.face_count()) - 1);
+    for (int i = 0; i < missing; ++i) {
+      mesh.triangles.row(any_face()) = mesh.triangles.row(mesh.face_count() - 1).eval();
+      mesh.triangles.conservativeResize(mesh.face_count() - 1, 3);
+    }
+    const int turned = random_.below(3), doubled = random_.below(3), shared = random_.below(3);
+    for (int i = 0; i < turned; ++i) {
+      const int face = any_face();
+      std::swap(mesh.triangles(face, 0), mesh.triangles(face, 1));
+    }
+    for (int i = 0; i < doubled; ++i) mesh.triangles.row(any_face()) = mesh.triangles.row(0).eval();
+    const auto vertices = static_cast<int>(mesh.vertex_count());
+    for (int i = 0; i < shared; ++i) {  // fans and edges of many faces come of it
+      const int face = any_face(), vertex = random_.below(vertices);
+      if ((mesh.triangles.row(face).array() != vertex).all()) mesh.triangles(face, 0) = vertex;
+    }
+    const bool placeless = random_.chance(0.3);
+    if (placeless)
+      mesh.positions(random_.below(vertices), 1) = std::numeric_limits<double>::quiet_NaN();
+    return std::to_string(missing) + " faces missing, " + std::to_string(turned) + " turned, " +
+           std::to_string(doubled) + " doubled, " + std::to_string(shared) + " elsewhere" +
+           (placeless ? ", a vertex without a place" : "");
+  }
+
   Random& random_;
   const std::string& picture_;
   bool has_picture_ = false;
@@ -332,6 +386,74 @@ void export_mesh(Maker& make) {
   make.errand.commands.push_back(words);
 }
 
+void add_repair_options(Maker& make, Words& words) {
+  make.maybe(words, 0.3,
+             {"--handles", make.one_of({"shortest", "cut", "fill", "area"}), "--max-handle",
+              make.one_of({"1e-9", "5%", "1e300%"})});
+  make.maybe(words, 0.2, {"--weld", make.one_of({"0", "1e-300", "1%", "1e300"})});
+  make.maybe(words, 0.2, {"--loops", make.one_of({"loops.obj", "loops.ply"})});
+}
+
+/// Every format out and in again.
+void repair(Maker& make) {
+  const std::string mended =
+      "mended" + make.one_of({".ply", ".obj", ".off", ".vtk", ".vtp", ".mz3", ".surf.gii", ".white",
+                              ".ply.gz", ".vtk.gz", ".obj.gz"});
+  Words words = {"repair", make.broken_mesh("mesh", 3), "-o", mended};
+  add_repair_options(make, words);
+  make.maybe(words, 0.2, {"--keep-holes"});
+  make.maybe(words, 0.3, {"--component", "1"});
+  make.maybe(words, 0.3, {"--json", "repair.json"});
+  make.errand.commands.push_back(words);
+  make.errand.commands.push_back({"map", mended, "-o", "map.sph.ply", "--repair"});
+}
+
+/// What follows a map with holes that stay.
+void holes(Maker& make) {
+  Words words = {"map",      make.broken_mesh("mesh", 1),
+                 "-o",       "map.sph.ply",
+                 "--repair", make.one_of({"--keep-holes", "--keep-holes=20%"})};
+  add_repair_options(make, words);
+  make.errand.commands.push_back(words);
+  const std::vector<Words> uses = {
+      {"verify", "map.sph.ply"},
+      {"bake", "map.sph.ply", "--map", make.some_of({"normal-object", "ao", "curvature", "area"}),
+       "-o", "map_{map}.png", "--size", "32"},
+      {"remesh", "map.sph.ply", "--grid", make.any_grid(), "-o", "low.ply"},
+      {"export", "map.sph.ply", "-o", make.one_of({"map.glb", "map.obj"})},
+      {"report", "map.sph.ply", "-o", "page.html", "--size", "32"},
+      {"measure", "map.sph.ply", "map.sph.ply"},
+      {"spharm", "map.sph.ply", "--degree", "4"},
+      {"render", "map.sph.ply", "-o", "map.png", "--size", "32"}};
+  make.errand.commands.push_back(
+      uses[static_cast<std::size_t>(std::stoi(make.number(0, static_cast<int>(uses.size()) - 1)))]);
+}
+
+void parts(Maker& make) {
+  Words words = {"map", make.broken_mesh("mesh", 5), "-o", "map.sph.ply", "--all-components"};
+  make.maybe(words, 0.8, {"--repair"});
+  if (words.back() == "--repair") {
+    make.maybe(words, 0.3, {"--keep-holes"});
+    add_repair_options(make, words);
+  }
+  make.maybe(words, 0.3, {"--json", "map.json"});
+  make.errand.commands.push_back(words);
+  make.errand.commands.push_back({"verify", "map_0001.sph.ply"});
+}
+
+/// Of the folder with all its files.
+void survey(Maker& make) {
+  const int count = std::stoi(make.number(1, 3));
+  for (int i = 0; i < count; ++i) make.broken_mesh("mesh" + std::to_string(i), 2);
+  if (make.chance(0.5))
+    make.errand.files.emplace_back("text.ply", "ply\nformat ascii 1.0\nnonsense\n");
+  Words words = {"survey", ".", "-o", "page.html", "--size", make.one_of({"0", "16", "64"})};
+  make.maybe(words, 0.3, {"--json", "survey.json"});
+  make.maybe(words, 0.3, {"--records", "."});
+  make.maybe(words, 0.2, {"--max-seconds", make.one_of({"1e-9", "0.05", "60"})});
+  make.errand.commands.push_back(words);
+}
+
 struct Kind {
   std::string name;
   void (*make)(Maker&);
@@ -340,7 +462,8 @@ struct Kind {
 const std::vector<Kind> kinds = {
     {"render", render},      {"report", report},   {"bake", bake},       {"remesh", remesh},
     {"export", export_mesh}, {"spharm", spharm},   {"measure", measure}, {"paint", paint},
-    {"unimage", unimage},    {"compare", compare}, {"map", map},         {"info", info}};
+    {"unimage", unimage},    {"compare", compare}, {"map", map},         {"info", info},
+    {"repair", repair},      {"holes", holes},     {"parts", parts},     {"survey", survey}};
 
 }  // namespace
 
@@ -364,7 +487,8 @@ Errand make_errand(const std::string& command, std::uint64_t seed, std::uint64_t
     Maker maker(random, picture);
     kind.make(maker);
     for (Words& words : maker.errand.commands) {
-      if (words.front() == "info" || words.front() == "verify") continue;  // have no threads
+      const std::string& word = words.front();
+      if (word == "info" || word == "verify" || word == "repair") continue;  // have no threads
       words.insert(words.end(), {"--threads", random.chance(0.2) ? "2" : "1"});
     }
     return maker.errand;

@@ -1,10 +1,12 @@
-// Runs `sphparam map` on a small mesh again and again, each time with another fault: the n-th
+// Runs a subcommand on a small mesh again and again, each time with another fault: the n-th
 // allocation or system call fails, a signal comes, the file may not grow. Afterwards every output
 // must be what it was or what a run without faults writes, a failed run must have changed nothing,
 // and no temporary may be left (after SIGKILL: none after the next run).
 //
-//   fault_runner PROGRAM SHIM COUNT     COUNT: how many faults at least; prints how many of which
-//   kind
+//   fault_runner PROGRAM SHIM COUNT [ERRAND]
+//
+// COUNT: how many faults at least; prints how many of which kind. ERRAND: map, holes (kept),
+// parts (all components), survey, or repair.EXT, which writes that format (default: map).
 
 #include <algorithm>
 #include <cerrno>
@@ -45,6 +47,69 @@ void write_off(const fs::path& path, const sphparam::TriangleMesh& mesh) {
   for (Eigen::Index f = 0; f < mesh.face_count(); ++f) file << "\n3 " << mesh.triangles.row(f);
 }
 
+/// A ball with a hole and a doubled face, or two whole balls.
+sphparam::TriangleMesh damaged_ball() {
+  sphparam::TriangleMesh mesh = icosphere(1);
+  mesh.triangles.row(7) = mesh.triangles.row(8);
+  mesh.triangles.conservativeResize(mesh.face_count() - 1, 3);
+  return mesh;
+}
+
+sphparam::TriangleMesh two_balls() {
+  const sphparam::TriangleMesh ball = icosphere(1);
+  sphparam::TriangleMesh mesh;
+  mesh.positions.resize(2 * ball.vertex_count(), 3);
+  mesh.positions << ball.positions, (ball.positions.array() + 5).matrix();
+  mesh.triangles.resize(2 * ball.face_count(), 3);
+  mesh.triangles << ball.triangles,
+      (ball.triangles.array() + static_cast<int>(ball.vertex_count())).matrix();
+  return mesh;
+}
+
+/// What is run: names of files stand in the scene's folder.
+struct Errand {
+  sphparam::TriangleMesh mesh;       // scans/mesh.off
+  std::vector<std::string> words;    // a word that begins with @ is a file
+  std::vector<std::string> outputs;  // the first is the one that counts
+  std::string map = {};              // of these, one to be proved
+  std::set<int> other_codes = {};    // that a fault may end it with besides
+};
+
+Errand errand_named(const std::string& name) {
+  if (name == "map")
+    return {icosphere(1),
+            {"map", "@scans/mesh.off", "-o", "@map.sph.ply", "--write-sphere", "@sphere.obj",
+             "--json", "@report.json", "--threads", "1"},
+            {"map.sph.ply", "sphere.obj", "report.json"},
+            "map.sph.ply"};
+  if (name == "holes")
+    return {damaged_ball(),
+            {"map", "@scans/mesh.off", "-o", "@map.sph.ply", "--repair", "--keep-holes", "--json",
+             "@report.json", "--threads", "1"},
+            {"map.sph.ply", "report.json"},
+            "map.sph.ply"};
+  if (name == "parts")
+    return {two_balls(),
+            {"map", "@scans/mesh.off", "-o", "@map.sph.ply", "--all-components", "--json",
+             "@report.json", "--threads", "1"},
+            {"map_0001.sph.ply", "map_0002.sph.ply", "report.json"},
+            "map_0002.sph.ply"};
+  if (name == "survey")  // of a file that a fault meets it says so and goes on
+    return {damaged_ball(),
+            {"survey", "@scans", "-o", "@page.html", "--records", "@found", "--size", "16",
+             "--json", "@report.json", "--threads", "1"},
+            {"page.html", "report.json"},
+            "",
+            {0, 4}};
+  if (name.starts_with("repair.")) {
+    const std::string output = "mended" + name.substr(6);
+    return {damaged_ball(),
+            {"repair", "@scans/mesh.off", "-o", "@" + output, "--json", "@report.json"},
+            {output, "report.json"}};
+  }
+  throw std::runtime_error("no errand " + name);
+}
+
 /// One thing that goes wrong, in the words of the shim or as a limit or a late signal.
 struct Fault {
   std::string kind = {};  // for the table
@@ -59,20 +124,23 @@ struct Fault {
 /// A folder with a mesh and old outputs, and what a run without faults makes of them.
 class Scene {
  public:
-  Scene(std::string program, std::string shim)
-      : program_(std::move(program)), shim_(std::move(shim)) {
+  Scene(std::string program, std::string shim, Errand errand)
+      : program_(std::move(program)), shim_(std::move(shim)), errand_(std::move(errand)) {
     std::string name = (fs::temp_directory_path() / "sphparam_faults_XXXXXX").string();
     if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
     folder_ = name;
-    write_off(folder_ / "mesh.off", icosphere(1));
+    fs::create_directory(folder_ / "scans");
+    write_off(folder_ / "scans/mesh.off", errand_.mesh);
+    reset(true);
     const auto start = std::chrono::steady_clock::now();
     const ProcessEnd end = run({}, {"SPHPARAM_FAULT_COUNTS=" + (folder_ / "counts").string()});
     if (end.code != 0) throw std::runtime_error("without a fault: " + end.messages);
     seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     std::ifstream counts(folder_ / "counts");
     for (std::string call; counts >> call;) counts >> calls[call];
-    for (const char* output : outputs) new_[output] = bytes_of(folder_ / output);
-    const ProcessEnd proof = run_process({program_, "verify", (folder_ / "map.sph.ply").string()});
+    for (const std::string& output : errand_.outputs) new_[output] = bytes_of(folder_ / output);
+    if (errand_.map.empty()) return;
+    const ProcessEnd proof = run_process({program_, "verify", (folder_ / errand_.map).string()});
     if (proof.code != 0) throw std::runtime_error("not certified: " + proof.messages);
   }
   ~Scene() { fs::remove_all(folder_); }
@@ -96,36 +164,49 @@ class Scene {
            complaint + "; the program ended with " + std::to_string(end.code) + ": " + end.messages;
   }
 
-  std::size_t largest_output() const { return new_.at("map.sph.ply").size(); }
+  std::size_t largest_output() const { return new_.at(errand_.outputs[0]).size(); }
 
   double seconds = 0;                    // of a run without faults
   std::map<std::string, long> calls;     // in it
   std::map<std::string, long> happened;  // by kind
 
  private:
-  static constexpr const char* outputs[] = {"map.sph.ply", "sphere.obj", "report.json"};
-
   ProcessEnd run(const Fault& fault, std::vector<std::string> environment) {
     if (!environment.empty()) environment.push_back("LD_PRELOAD=" + shim_);
-    const auto path = [this](const char* name) { return (folder_ / name).string(); };
-    return run_process(
-        {program_, "map", path("mesh.off"), "-o", path("map.sph.ply"), "--write-sphere",
-         path("sphere.obj"), "--json", path("report.json"), "--threads", "1", "-q"},
-        environment, fault.limits, fault.signal);
+    std::vector<std::string> words = {program_};
+    for (const std::string& word : errand_.words)
+      words.push_back(word.starts_with("@") ? (folder_ / word.substr(1)).string() : word);
+    words.push_back("-q");
+    return run_process(words, environment, fault.limits, fault.signal);
   }
 
   void reset(bool fresh) {
-    for (const char* output : outputs) {
+    fs::remove_all(folder_ / "found");
+    fs::create_directory(folder_ / "found");
+    for (const std::string& output : errand_.outputs) {
       fs::remove(folder_ / output);
       if (!fresh) std::ofstream(folder_ / output) << "old " << output;
     }
   }
 
-  /// The report holds times, so only its ends are known.
+  /// Of reports, which hold times, and of pages, which tell of faults, only the ends are known.
   bool is_new(const std::string& output) const {
     const std::string bytes = bytes_of(folder_ / output);
+    if (output == "page.html")
+      return bytes.starts_with("<!DOCTYPE html>") && bytes.ends_with("</html>\n");
     if (output != "report.json") return bytes == new_.at(output);
     return bytes.starts_with("{") && bytes.ends_with("}\n");
+  }
+
+  /// Records of a survey appear whole or not at all.
+  std::string half_record() const {
+    for (const auto& entry : fs::directory_iterator(folder_ / "found")) {
+      if (entry.path().extension() != ".json") continue;
+      const std::string bytes = bytes_of(entry.path());
+      if (!bytes.starts_with("{") || !bytes.ends_with("}\n"))
+        return entry.path().filename().string();
+    }
+    return {};
   }
 
   bool is_old(const std::string& output, bool fresh) const {
@@ -143,14 +224,16 @@ class Scene {
 
   std::string judge(const Fault& fault, const ProcessEnd& end, bool fresh) const {
     if (end.timed_out) return "it hangs";
-    if (!fault.codes.contains(end.code)) return "that is no documented exit code";
-    for (const char* output : outputs) {
+    const bool went_on = errand_.other_codes.contains(end.code);
+    if (!went_on && !fault.codes.contains(end.code)) return "that is no documented exit code";
+    for (const std::string& output : errand_.outputs) {
       const bool complete = is_new(output), untouched = is_old(output, fresh);
-      if (!complete && !untouched) return std::string(output) + " is half written";
-      if (end.code == 0 && !complete) return std::string(output) + " is missing";
-      if (end.code != 0 && !fault.kills && !fault.lasts && !untouched)
-        return std::string(output) + " was changed";
+      if (!complete && !untouched) return output + " is half written";
+      if ((end.code == 0 || went_on) && !complete) return output + " is missing";
+      if (end.code != 0 && !went_on && !fault.kills && !fault.lasts && !untouched)
+        return output + " was changed";
     }
+    if (const std::string name = half_record(); !name.empty()) return name + " is half written";
     if (!fault.kills && !temporaries().empty()) return "left " + temporaries().front();
     const bool silent = end.code != 0 && end.code != interrupted && end.messages.empty();
     if (silent && !fault.kills) return "not a word was said";
@@ -165,6 +248,7 @@ class Scene {
   }
 
   std::string program_, shim_;
+  Errand errand_;
   fs::path folder_;
   std::map<std::string, std::string> new_;
 };
@@ -244,8 +328,9 @@ std::vector<Fault> choose_faults(const Scene& scene, long count, std::mt19937& r
   return faults;
 }
 
-int run_faults(const std::string& program, const std::string& shim, long count) {
-  Scene scene(program, shim);
+int run_faults(const std::string& program, const std::string& shim, long count,
+               const std::string& errand) {
+  Scene scene(program, shim, errand_named(errand));
   std::mt19937 random(2006);
   long failures = 0;
   for (const Fault& fault : choose_faults(scene, count, random)) {
@@ -266,12 +351,12 @@ int run_faults(const std::string& program, const std::string& shim, long count) 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 4) {
-    std::fprintf(stderr, "fault_runner PROGRAM SHIM COUNT\n");
+  if (argc < 4 || argc > 5) {
+    std::fprintf(stderr, "fault_runner PROGRAM SHIM COUNT [ERRAND]\n");
     return 2;
   }
   try {
-    return run_faults(argv[1], argv[2], std::atol(argv[3]));
+    return run_faults(argv[1], argv[2], std::atol(argv[3]), argc > 4 ? argv[4] : "map");
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

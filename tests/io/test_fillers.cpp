@@ -58,6 +58,25 @@ TEST_CASE("fillers: marks are written down and read back, and taken away") {
   CHECK(fillers_of(file).empty());  // nothing would be surface
 }
 
+TEST_CASE(
+    "fillers: marks live in VTK and VTP, packed or not, and what has no place for them tells") {
+  const MeshFile file = marked_ball();
+  for (const char* name : {"a.vtk", "a.vtp", "a.vtk.gz", "a.vtp.gz", "a.ply.gz"}) {
+    const Folder folder;
+    PendingFiles files;
+    CHECK(add_mesh(files, folder.file(name), file).empty());
+    files.publish();
+    CHECK(fillers_of(read_mesh(folder.file(name))) == fillers_of(file));
+  }
+  for (const char* name : {"a.obj", "a.off", "a.mz3", "a.white", "a.surf.gii"}) {
+    const Folder folder;
+    PendingFiles files;
+    const std::vector<std::string> losses = add_mesh(files, folder.file(name), file);
+    CHECK(std::ranges::any_of(
+        losses, [](const std::string& loss) { return loss.find("filler") != std::string::npos; }));
+  }
+}
+
 TEST_CASE("fillers: what is left has all it carried, by its own faces and vertices") {
   const MeshFile file = marked_ball(), surface = without_fillers(file);
   CHECK(fillers_of(surface).empty());

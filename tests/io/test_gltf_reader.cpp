@@ -657,6 +657,38 @@ TEST_CASE("gltf_reader: bytes that many images show are kept once, and no more t
   CHECK(contains(complaint(greedy.bytes()), "more bytes than the buffers hold"));
 }
 
+TEST_CASE("gltf_reader: chunks without their padding are read, and noted") {
+  Gltf gltf = tetrahedron_gltf();
+  gltf.rest += " ";
+  gltf.add(integers({7}, 1), 5121, 1, "SCALAR");  // the buffer has a length that needs padding
+  gltf.binary.resize(gltf.binary.size() - 3);
+  while (gltf.json().size() % 4 == 0) gltf.rest += " ";
+  const std::string json = gltf.json();
+  const auto file = [&](bool json_padded, bool length_with_padding) {
+    std::string body;
+    const auto add = [&](const std::string& kind, std::string bytes, char filling, bool pad) {
+      const std::size_t bare = bytes.size();
+      while (pad && bytes.size() % 4 != 0) bytes.push_back(filling);
+      append(body, static_cast<std::uint32_t>(length_with_padding ? bytes.size() : bare));
+      body += kind + bytes;
+    };
+    add("JSON", json, ' ', json_padded);
+    add({"BIN\0", 4}, gltf.binary, '\0', false);
+    std::string header = "glTF";
+    append(header, 2);
+    append(header, static_cast<std::uint32_t>(12 + body.size()));
+    return header + body;
+  };
+  for (const bool json_padded : {false, true}) {
+    for (const bool length_with_padding : {false, true}) {
+      const MeshFile mesh = read(file(json_padded, length_with_padding), "a.glb");
+      CHECK(mesh.mesh.positions == tetrahedron().positions);
+      REQUIRE_FALSE(mesh.notes.empty());
+      CHECK(contains(mesh.notes[0], "lack their padding"));
+    }
+  }
+}
+
 TEST_CASE("gltf_reader: numbers that are not aligned are read as they are, and noted") {
   const TriangleMesh mesh = tetrahedron();
   Gltf gltf = Gltf()

@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "reading.h"
 
@@ -196,6 +197,8 @@ TEST_CASE("obj_reader: what breaks the rules is refused at its line") {
   refused("v 1 2", "found the end of the line");
   refused("v 1 2 nan", "'nan'");
   refused("v 1 2 -inf", "'-inf'");
+  refused("v 1 2 -1.#IND", "'-1.#IND'");
+  refused("v 1 2 1.#QNAN0", "'1.#QNAN0'");
   refused("v 1 2 0x10", "'0x10'");
   refused("v 1 2 1e999", "within range");
   refused("v 1,5 2 3", "decimal point");
@@ -217,4 +220,16 @@ TEST_CASE("obj_reader: errors after continued lines name the right line") {
   CHECK(contains(complaint(three_vertices + "f 1 \\\n2 \\\n3\nf 1 2 x\n", "a.obj"), "a.obj:7: "));
   CHECK(contains(complaint(three_vertices + "f 1 \\\n2 \\\nx\n", "a.obj"), "a.obj:4: "));
   CHECK(contains(complaint(three_vertices + "f 1 2 \\", "a.obj"), "a.obj:4: face has fewer"));
+}
+
+TEST_CASE(
+    "obj_reader: numbers that Microsoft's library calls none are none, and other # are comments") {
+  const ReadOptions lenient{.non_finite = true};
+  const MeshFile file =
+      read("v 1 2 1.#INF\nv -1.#IND 0 0\nv 1 2 3#INFO\nv 1 2 3#\nf 1 2 3\n", "a.obj", lenient);
+  CHECK(std::isnan(file.mesh.positions(0, 2)));
+  CHECK(std::isnan(file.mesh.positions(1, 0)));
+  CHECK(file.mesh.positions(1, 2) == 0);
+  CHECK(file.mesh.positions(2, 2) == 3);
+  CHECK(file.mesh.positions(3, 2) == 3);
 }

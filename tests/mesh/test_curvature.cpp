@@ -149,3 +149,32 @@ TEST_CASE("curvature: more area than a sphere in the range of doubles has is tol
   CHECK(radius == largest);
   CHECK(measure_curvature(mesh, Topology(mesh), 0.02 * radius).mean.allFinite());
 }
+
+TEST_CASE("curvature: fillers count for nothing, however they bend") {
+  TriangleMesh mesh = icosphere(4);
+  FillerMarks fillers(static_cast<size_t>(mesh.face_count()), 0);
+  std::vector<char> on_surface(static_cast<size_t>(mesh.vertex_count()), 0);
+  for (Face f = 0; f < mesh.face_count(); ++f) {
+    double height = 0;
+    for (int k = 0; k < 3; ++k) height += mesh.position(mesh.triangles(f, k)).z() / 3;
+    fillers[static_cast<size_t>(f)] = height > 0.5;
+    for (int k = 0; k < 3 && height <= 0.5; ++k)
+      on_surface[static_cast<size_t>(mesh.triangles(f, k))] = 1;
+  }
+  const Topology topology(mesh);
+  for (const bool flat : {false, true}) {
+    for (Vertex v = 0; v < mesh.vertex_count(); ++v)
+      if (flat && !on_surface[static_cast<size_t>(v)]) mesh.positions(v, 2) = 0.5;
+    for (const double scale : {0.0, 0.1}) {
+      const Curvature c = measure_curvature(mesh, topology, scale, 0, fillers);
+      for (Vertex v = 0; v < mesh.vertex_count(); ++v) {
+        if (on_surface[static_cast<size_t>(v)]) {
+          REQUIRE(c.mean[v] == Approx(1).epsilon(0.15));
+          REQUIRE(c.gauss[v] == Approx(1).epsilon(0.25));
+        } else if (scale == 0) {
+          REQUIRE(std::abs(c.mean[v]) + std::abs(c.gauss[v]) < 1e-6);
+        }
+      }
+    }
+  }
+}

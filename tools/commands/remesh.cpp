@@ -12,6 +12,7 @@
 #include "console/places.h"
 #include "number_text.h"
 #include "reports/remesh_wording.h"
+#include "reports/told_fillers.h"
 #include "reports/told_losses.h"
 #include "sphparam/gltf/export.h"
 #include "sphparam/io/certified_files.h"
@@ -145,7 +146,8 @@ void add_meshes(const RemeshArguments& arguments, const RemeshRequests& requests
   const LevelOfDetail& finest = levels.front();
   const auto limit = limit_mesh(finest.mesh, finest.fit.value(), session.threads());
   tell_losses(arguments.limit_output,
-              add_mapped(session.files, arguments.limit_output, limit, session.threads(), new_mesh, arguments.holes),
+              add_mapped(session.files, arguments.limit_output, limit, session.threads(), new_mesh,
+                         arguments.holes),
               session.console);
 }
 
@@ -196,6 +198,8 @@ int run_remesh(RemeshArguments& arguments) {
   const RemeshRequests requests = check_remesh_arguments(arguments);
   MappedMesh mapped = read_mapped(arguments.input, arguments.sphere, session, remeshing_lambda);
   if (arguments.subdivision || arguments.lods > 0) require_measurable(mapped.mesh());
+  if (arguments.subdivision) tell_counted_fillers(mapped, "what is fitted", session.console);
+  if (arguments.adaptive) tell_counted_fillers(mapped, "where vertices go", session.console);
   session.console.progress("grid", 0);
   const Stopwatch grid_stopwatch;
   SphereGrid grid = grid_for(arguments, requests);

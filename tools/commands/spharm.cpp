@@ -6,6 +6,7 @@
 #include "commands/sources.h"
 #include "console/places.h"
 #include "number_text.h"
+#include "reports/told_fillers.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/planetocentric.h"
 #include "sphparam/measure/measurable.h"
@@ -68,10 +69,7 @@ HarmonicExpansion expand(const SpharmArguments& arguments, const MappedMesh& map
                          Session& session) {
   require_measurable(mapped.mesh());
   require_scalars(mapped.file(), arguments.scalars);
-  if (!mapped.fillers().empty()) {
-    session.console.warning(mapped.name() +
-                            ": harmonics are of the whole sphere, with what closes the holes");
-  }
+  tell_counted_fillers(mapped, "these harmonics", session.console);
   HarmonicExpansion expansion =
       expand_in_harmonics(mapped, arguments.scalars,
                           {.degree = arguments.degree,

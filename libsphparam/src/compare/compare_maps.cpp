@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "compare/comparison.h"
+#include "sphparam/io/fillers.h"
 #include "sphparam/report/compare.h"
 
 namespace sphparam {
@@ -28,12 +29,14 @@ std::vector<Entry> make_entries(const MeshFile& file, const std::vector<std::str
   for (const std::string& method : methods) wanted.push_back(require_method(method));
   std::vector<Entry> entries;
   const auto add = [&](Entry entry) {
+    measure_surface(entry, file, options.threads);
     if (tell) tell(entry);
     entries.push_back(std::move(entry));
   };
   for (const AnyMethod method : wanted) {
-    add(entry_of_method(method, file.mesh,
-                        {.threads = options.threads, .progress = options.progress}));
+    add(entry_of_method(
+        method, file.mesh,
+        {.fillers = fillers_of(file), .threads = options.threads, .progress = options.progress}));
   }
   for (const NamedMap& other : others)
     add(entry_of_map(other.name, other.source, file.mesh, other.map, options.threads));

@@ -1,8 +1,11 @@
 #include "compare/comparison.h"
 
+#include <algorithm>
+
 #include "render/heat.h"
 #include "report/plots.h"
 #include "report/svg.h"
+#include "sphparam/io/fillers.h"
 
 namespace sphparam {
 
@@ -19,8 +22,10 @@ std::vector<Face> folds_of(const Entry& entry) {
 
 PageFigure heat_figure(FolderFiles& files, const std::string& name, const MeshFile& file,
                        const Entry& entry, const PictureOptions& look) {
-  const Image sphere =
-      sphere_picture(file, entry.map, heat_paint(Heat::Area, *entry.distortion), look);
+  const bool has_fillers = !fillers_of(file).empty();  // they are on the sphere all the same
+  const Distortion shown =
+      has_fillers ? measure_distortion(file.mesh, entry.map, look.threads) : *entry.distortion;
+  const Image sphere = sphere_picture(file, entry.map, heat_paint(Heat::Area, shown), look);
   files.emplace_back(name + ".png", png(with_legend(sphere, Heat::Area)));
   return {name + ".png",
           "Area distortion on the sphere of " + entry.name + ": mean |ln ratio| " +
@@ -113,6 +118,11 @@ FolderFiles comparison_files(const std::string& name, const MeshFile& file,
   Page page("Spherical maps of " + name);
   page.paragraph(grouped(file.mesh.face_count()) + " triangles, " +
                  grouped(file.mesh.vertex_count()) + " vertices.");
+  const FillerMarks fillers = fillers_of(file);
+  const auto left_out = std::count(fillers.begin(), fillers.end(), 1);
+  if (left_out > 0)
+    page.paragraph("Distortion is that of the surface: " + grouped(left_out) +
+                   " of the triangles close holes and are left out.");
   page.table(comparison_table(entries));
   page.list(statements(entries));
   if (options.pictures) add_pictures(page, files, file, entries, options);

@@ -4,6 +4,7 @@
 
 #include "number_text.h"
 #include "report/svg.h"
+#include "sphparam/io/fillers.h"
 #include "sphparam/stopwatch.h"
 
 namespace sphparam {
@@ -67,6 +68,13 @@ Entry entry_of_map(std::string name, std::string source, const TriangleMesh& mes
   entry.map = usable ? normalised(map.points) : map;
   measure(entry, mesh, threads);
   return entry;
+}
+
+void measure_surface(Entry& entry, const MeshFile& file, int threads) {
+  const FillerMarks fillers = fillers_of(file);
+  if (fillers.empty() || !entry.distortion) return;
+  entry.distortion = measure_distortion(surface_of(file.mesh, fillers), entry.map, threads);
+  entry.figures = summarise(*entry.distortion, threads);
 }
 
 std::string short_verdict(const Entry& entry) {

@@ -6,6 +6,7 @@
 
 #include "compare/methods.h"
 #include "report/page.h"
+#include "sphparam/io/mesh_file.h"
 #include "sphparam/mesh/topology.h"
 #include "sphparam/sphere/distortion.h"
 
@@ -35,6 +36,9 @@ Entry entry_of_method(AnyMethod method, const TriangleMesh& mesh,
 /// Requires: one ray a vertex.
 Entry entry_of_map(std::string name, std::string source, const TriangleMesh& mesh,
                    const SphereMap& map, int threads);
+
+/// Takes the fillers of the mesh, if it has any, out of the distortion and its figures.
+void measure_surface(Entry& entry, const MeshFile& file, int threads);
 
 /// "one-to-one", "12 folds", "degree 2", "no map".
 std::string short_verdict(const Entry& entry);

@@ -42,7 +42,11 @@ struct Faces {
   VectorX area;    // #F
 };
 
-Faces measure_faces(const TriangleMesh& mesh, int threads) {
+bool is_filler(const FillerMarks& fillers, Face face) {
+  return !fillers.empty() && fillers[static_cast<size_t>(face)] != 0;
+}
+
+Faces measure_faces(const TriangleMesh& mesh, const FillerMarks& fillers, int threads) {
   Faces faces{Points(mesh.face_count(), 3), VectorX(mesh.face_count())};
   parallel_for(mesh.face_count(), grain, threads, [&](std::int64_t first, std::int64_t last) {
     for (Eigen::Index f = first; f < last; ++f) {
@@ -50,7 +54,7 @@ Faces measure_faces(const TriangleMesh& mesh, int threads) {
       const Vector3 b = mesh.position(mesh.triangles(f, 1)) - a;
       const Vector3 c = mesh.position(mesh.triangles(f, 2)) - a;
       const Vector3 normal = b.cross(c);
-      faces.area[f] = normal.stableNorm() / 2;
+      faces.area[f] = is_filler(fillers, static_cast<Face>(f)) ? 0 : normal.stableNorm() / 2;
       faces.normals.row(f) = normal.stableNormalized();
     }
   });
@@ -100,6 +104,32 @@ Measures measure_vertices(const TriangleMesh& mesh, const Topology& topology, co
     }
   });
   return measures;
+}
+
+/// Rims have measures of a boundary, which are no curvature of the surface: they get the density of
+/// their neighbours inside; what only fillers use gets nothing. `area`: positive, without fillers.
+void leave_out_fillers(const Topology& topology, const FillerMarks& fillers, const VectorX& area,
+                       Measures& measures) {
+  const auto count = static_cast<Vertex>(area.size());
+  std::vector<char> inside(static_cast<size_t>(count), 1);
+  for (Vertex v = 0; v < count; ++v) {
+    topology.for_each_outgoing(v, [&](Halfedge h) {
+      if (fillers[static_cast<size_t>(Topology::face(h))]) inside[static_cast<size_t>(v)] = 0;
+    });
+  }
+  for (Vertex v = 0; v < count; ++v) {
+    if (inside[static_cast<size_t>(v)]) continue;
+    double mean = 0, gauss = 0, sum = 0;
+    topology.for_each_outgoing(v, [&](Halfedge h) {
+      const Vertex other = topology.target(h);
+      if (!inside[static_cast<size_t>(other)]) return;
+      mean += measures.mean[other];
+      gauss += measures.gauss[other];
+      sum += area[other];
+    });
+    measures.mean[v] = sum > 0 ? area[v] * (mean / sum) : 0;
+    measures.gauss[v] = sum > 0 ? area[v] * (gauss / sum) : 0;
+  }
 }
 
 double total_area(const TriangleMesh& mesh, int threads) {
@@ -166,13 +196,14 @@ void enlarge(Curvature& curvature, int exponent) {
 
 /// Requires: squares of the positions neither overflow nor vanish.
 Curvature measure_harmless(const TriangleMesh& mesh, const Topology& topology, double scale,
-                           int threads) {
+                           const FillerMarks& fillers, int threads) {
   // 1. The measures at the vertices, and their densities as they are.
-  const Faces faces = measure_faces(mesh, threads);
+  const Faces faces = measure_faces(mesh, fillers, threads);
   Measures measures = measure_vertices(mesh, topology, faces, threads);
   const double mean_area = measures.area.mean();
   VectorX& area = measures.area;
   area = area.cwiseMax(mean_area > 0 ? std::max(area_floor * mean_area, least_area) : 1);
+  if (!fillers.empty()) leave_out_fillers(topology, fillers, area, measures);
   Curvature curvature{measures.mean.cwiseQuotient(area), measures.gauss.cwiseQuotient(area), area,
                       scale};
   if (!(scale > 0) || !(mean_area > 0)) return curvature;
@@ -211,12 +242,12 @@ double equal_area_radius(const TriangleMesh& mesh, int threads) {
 }
 
 Curvature measure_curvature(const TriangleMesh& mesh, const Topology& topology, double scale,
-                            int threads) {
+                            int threads, const FillerMarks& fillers) {
   require_at_least("scale", scale, 0);
   const auto unit = at_unit_size(mesh);
-  if (!unit) return measure_harmless(mesh, topology, scale, threads);
+  if (!unit) return measure_harmless(mesh, topology, scale, fillers, threads);
   Curvature curvature =
-      measure_harmless(unit->mesh, topology, std::ldexp(scale, -unit->exponent), threads);
+      measure_harmless(unit->mesh, topology, std::ldexp(scale, -unit->exponent), fillers, threads);
   enlarge(curvature, unit->exponent);
   curvature.scale = scale;
   return curvature;

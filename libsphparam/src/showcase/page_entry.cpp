@@ -30,14 +30,6 @@ std::string new_name(const std::string& path, const std::vector<PageEntry>& entr
   return name;
 }
 
-/// Figures of the surface alone.
-void measure_surface(Entry& entry, const MeshFile& file, int threads) {
-  const FillerMarks fillers = fillers_of(file);
-  if (fillers.empty() || !entry.distortion) return;
-  entry.distortion = measure_distortion(surface_of(file.mesh, fillers), entry.map, threads);
-  entry.figures = summarise(*entry.distortion, threads);
-}
-
 PageEntry mapped_now(const std::string& name, const MeshFile& file, ParameterizeOptions options) {
   options.fillers = fillers_of(file);
   Entry entry = entry_of_method(options.method, file.mesh, options);

@@ -103,6 +103,21 @@ double TextScanner::out_of_range_number(const char* start, const char* stop, std
   return static_cast<double>(wide);
 }
 
+const char* TextScanner::after_hash_of_no_number(const char* hash) const {
+  const std::string_view rest(hash + 1, static_cast<std::size_t>(line_end_ - hash) - 1);
+  for (const std::string_view name : {"INF", "IND", "QNAN", "SNAN"}) {
+    if (!rest.starts_with(name)) continue;
+    const char* after = hash + 1 + name.size();
+    while (after != line_end_ && *after >= '0' && *after <= '9') ++after;
+    return after == line_end_ || is_blank(*after) ? after : nullptr;
+  }
+  return nullptr;
+}
+
+void TextScanner::fail_expected_instead_of(std::string_view found, const char* what) const {
+  fail(std::string("expected ") + what + ", found " + quoted(found));
+}
+
 void TextScanner::fail_expected(const char* what) {
   const std::string_view found = peek_word();
   if (found.empty()) fail(std::string("expected ") + what + ", found the end of the line");

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -130,12 +131,22 @@ class TextScanner {
     const auto [stop, error] = std::from_chars(start, line_end_, value);
     if (error != std::errc{}) [[unlikely]]
       value = static_cast<Real>(out_of_range_number(start, stop, error));
+    if (stop != line_end_ && *stop == '#') [[unlikely]]
+      if (const char* const after = after_hash_of_no_number(stop)) {
+        if (!any) fail_expected_instead_of({start, static_cast<std::size_t>(after - start)}, what);
+        cursor_ = after;
+        return std::numeric_limits<Real>::quiet_NaN();
+      }
     if (!(any || std::isfinite(value)) || !ends_token(stop)) [[unlikely]]
       fail_expected(what);
     cursor_ = stop;
     return value;
   }
 
+  /// Where "1.#INF", "-1.#IND", "1.#QNAN0" ends, as Microsoft's C library writes what is no number;
+  /// null: a comment begins here.
+  const char* after_hash_of_no_number(const char* hash) const;
+  [[noreturn]] void fail_expected_instead_of(std::string_view found, const char* what) const;
   double out_of_range_number(const char* start, const char* stop, std::errc error);
   void unify_line_ends();
   void check_line_length() const;

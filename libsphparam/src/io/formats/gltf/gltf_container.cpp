@@ -1,5 +1,6 @@
 #include "io/formats/gltf/gltf_container.h"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -31,6 +32,18 @@ std::pair<std::uint32_t, std::string_view> chunk_at(std::string_view whole, std:
     fail("chunk of " + std::to_string(length) + " bytes runs past the end of the file");
   if (length % 4 != 0) fail("the length of a chunk is no multiple of 4");
   return {kind, whole.substr(at + chunk_header_bytes, length)};
+}
+
+/// Where the chunk after one begins whose length is no multiple of 4: right after it, or after the
+/// padding that its length leaves out. 0: nowhere is one, nor the end.
+std::size_t next_chunk(std::string_view whole, std::size_t end_of_chunk) {
+  for (const std::size_t at : {end_of_chunk, (end_of_chunk + 3) / 4 * 4}) {
+    if (at == whole.size()) return at;
+    if (at > whole.size() || whole.size() - at < chunk_header_bytes) continue;
+    const std::uint32_t kind = word_at(whole, at + 4);
+    if (kind == json_chunk || kind == binary_chunk) return at;
+  }
+  return 0;
 }
 
 /// Checks the twelve bytes of the header and the headers of all chunks.
@@ -66,6 +79,31 @@ GltfContainer open_binary(std::string_view bytes, const std::string& name,
 }
 
 }  // namespace
+
+std::string with_padded_chunks(std::string_view bytes, std::vector<std::string>& notes) {
+  if (!bytes.starts_with("glTF") || bytes.size() < header_bytes) return {};
+  if (word_at(bytes, 8) > bytes.size()) return {};
+  const std::string_view whole = bytes.substr(0, word_at(bytes, 8));
+  std::string padded(whole.substr(0, std::min(whole.size(), header_bytes)));
+  bool lacked = false;
+  for (std::size_t at = header_bytes; at < whole.size();) {
+    if (whole.size() - at < chunk_header_bytes) return {};
+    const std::size_t length = word_at(whole, at), start = at + chunk_header_bytes;
+    if (length > whole.size() - start) return {};
+    lacked |= length % 4 != 0;
+    at = length % 4 == 0 ? start + length : next_chunk(whole, start + length);
+    if (at == 0) return {};
+    append_word(padded, (length + 3) / 4 * 4);
+    padded.append(whole, start - 4, 4 + length);
+    const bool is_json = word_at(whole, start - 4) == json_chunk;
+    padded.append((4 - length % 4) % 4, is_json ? ' ' : '\0');
+  }
+  if (!lacked) return {};
+  std::string size;
+  append_word(size, padded.size());
+  notes.emplace_back("chunks that lack their padding to multiples of 4 bytes read all the same");
+  return padded.replace(8, 4, size) + std::string(bytes.substr(whole.size()));
+}
 
 GltfContainer open_gltf(std::string_view bytes, const std::string& name,
                         std::vector<std::string>& notes) {

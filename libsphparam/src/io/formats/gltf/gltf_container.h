@@ -16,6 +16,10 @@ struct GltfContainer {
   std::string_view whole = {};  // without what follows its end
 };
 
+/// A binary glTF whose chunks lack the padding to multiples of 4 bytes, with it, as other readers
+/// take it; empty where nothing is to be done, or can be.
+std::string with_padded_chunks(std::string_view bytes, std::vector<std::string>& notes);
+
 /// Checks the header of a GLB and those of all its chunks; what follows its end is noted.
 /// Throws: ReadError.
 GltfContainer open_gltf(std::string_view bytes, const std::string& name,

@@ -170,7 +170,8 @@ GltfDocument load_gltf(std::string_view bytes, const std::string& name,
                        const std::optional<std::filesystem::path>& folder,
                        const ReadOptions& options) {
   GltfDocument document;
-  const GltfContainer container = open_gltf(bytes, name, document.notes);
+  const std::string padded = with_padded_chunks(bytes, document.notes);
+  const GltfContainer container = open_gltf(padded.empty() ? bytes : padded, name, document.notes);
   GltfSummary summary = check_gltf_json(container.json, container.json_offset,
                                         container.has_binary_chunk, name, options);
   BufferFiles files{std::move(summary.external_buffers), folder, options.max_file_bytes};
