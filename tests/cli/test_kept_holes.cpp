@@ -200,6 +200,58 @@ TEST_CASE("parts: each is mapped into a file of its own, the largest first") {
   CHECK(parts[0]["poles"]["north"].get<int>() >= 162);  // by its number in the file
 }
 
+TEST_CASE("parts: all are baked and exported in one go, each with what is its own") {
+  const Folder folder;
+  const std::string mesh = folder / "two.obj", map = folder / "two.sph.ply";
+  write_bytes(mesh, obj_text(together({icosphere(2), icosphere(1)})));
+  REQUIRE(sphparam_program({"map", mesh, "-o", map, "--all-components"}).code == 0);
+  fs::remove(mesh);
+  const Ended baked =
+      sphparam_program({"bake", map, "--all-components", "--map", "axes,position", "-o",
+                        folder / "two_{map}.png", "--size", "32", "--json", folder / "two.json"});
+  INFO(baked.err);
+  REQUIRE(baked.code == 0);
+  CHECK(Json::parse(bytes_of(folder / "two.json"))["parts"].size() == 2);
+  fs::remove(folder / "two.json");
+  const Ended exported = sphparam_program({"export", map, "--all-components", "--image",
+                                           folder / "two_axes.png", "-o", folder / "two.glb"});
+  INFO(exported.err);
+  REQUIRE(exported.code == 0);
+  CHECK(folder.names() ==
+        std::vector<std::string>{"two_0001.glb", "two_0001.sph.ply", "two_0002.glb",
+                                 "two_0002.sph.ply", "two_axes_0001.png", "two_axes_0002.png",
+                                 "two_position_0001.png", "two_position_0002.png"});
+  CHECK(sphparam_program({"info", folder / "two_0002.glb"}).code == 0);
+  fs::create_directory(folder / "images");
+  CHECK(sphparam_program({"bake", map, "--all-components", "--map", "axes", "-o",
+                          folder / "images/", "--size", "32"})
+            .code == 0);
+  CHECK(fs::exists(folder / "images/two_0002_axes.png"));
+}
+
+TEST_CASE("parts: where there are none, or one of them is broken, nothing is written") {
+  const Folder folder;
+  const std::string map = folder / "two.sph.ply";
+  for (const char* command : {"bake", "export"}) {
+    const Ended none =
+        sphparam_program({command, map, "--all-components", "-o",
+                          folder / (command == std::string("bake") ? "a.png" : "a.glb")});
+    CHECK(none.code == 2);
+    CHECK_THAT(none.err, Contains("two_0001.sph.ply") && Contains("map MESH --all-components"));
+  }
+  write_bytes(folder / "one.obj", obj_text(icosphere(1)));
+  REQUIRE(sphparam_program({"map", folder / "one.obj", "-o", folder / "two_0001.sph.ply"}).code ==
+          0);
+  write_bytes(folder / "two_0003.sph.ply", "ply\n");
+  const Ended broken = sphparam_program(
+      {"bake", map, "--all-components", "--map", "axes", "-o", folder / "a.png", "--size", "16"});
+  CHECK(broken.code == 3);
+  CHECK_THAT(broken.err, Contains("two_0003.sph.ply"));
+  CHECK(folder.names() ==
+        std::vector<std::string>{"one.obj", "two_0001.sph.ply", "two_0003.sph.ply"});
+  CHECK(sphparam_program({"export", map, "--all-components", "-o", "-"}).code == 2);
+}
+
 TEST_CASE("parts: one that cannot be mapped ends it, but for specks, which are told") {
   const Folder folder;
   const std::string mesh = folder / "m.obj", map = folder / "m.sph.ply";

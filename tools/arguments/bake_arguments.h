@@ -17,6 +17,7 @@ struct BakeArguments : CommonArguments {
   std::string sphere;                             // the map in a file of its own; empty: none
   std::string target;                             // --for; empty: the source
   std::string body;                               // a name, radii or WKT; empty: none
+  bool all_components = false;                    // of the files that `map` made of parts
   double unit = 1;                                // metres that the mesh's unit has
   std::function<bool(const std::string&)> given;  // was this option on the command line?
   BakeSettings settings;  // what has an option; names, target, progress are the command's

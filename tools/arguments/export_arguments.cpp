@@ -66,6 +66,8 @@ void declare_export_options(Declaration& command, ExportArguments& arguments) {
       .sphere(arguments.sphere)
       .output(arguments.output, "FILE",
               ".glb, .gltf, .obj or .ply; - for a .glb on standard output")
+      .flag("--all-components", arguments.all_components,
+            "Of MESH_0001 and so on, as `map --all-components` writes them; files are so numbered")
       .json(arguments);
   declare_look(command, arguments.exported.look);
   declare_chart(command, arguments.exported);
@@ -82,6 +84,9 @@ void check_export_arguments(const ExportArguments& a) {
     throw UsageMistake("-o: expected .glb, .gltf, .obj or .ply, not " +
                        (extension.empty() ? output_name(a.output) : extension));
   }
+  refuse(
+      a.all_components && (is_stream(a.output) || !a.sphere.empty() || !look.folder.empty()),
+      "--all-components writes several files: give -o a name, and leave out --sphere and --images");
   refuse(e.keep_topology && e.refine_poles > 1,
          "--refine-poles adds vertices, --keep-topology forbids them");
   refuse(e.morph != Morph::None && e.shape != ShapeKind::Mesh,

@@ -15,6 +15,7 @@ struct ExportArguments : CommonArguments {
   std::string sphere;  // a map of the mesh in a file of its own
   std::string output;
   ExportOptions exported = {};
+  bool all_components = false;  // of the files that `map` made of parts
   bool embedded = false, compress = false;
   int lods = 0;
   LodStyle lod_style = LodStyle::Files;

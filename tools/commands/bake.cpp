@@ -3,10 +3,13 @@
 #include "sphparam/bake/bake.h"
 
 #include <cstdio>
+#include <filesystem>
 
 #include "arguments/bake_arguments.h"
+#include "arguments/part_files.h"
 #include "commands/command.h"
 #include "commands/sources.h"
+#include "console/places.h"
 #include "number_text.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/records/bake_record.h"
@@ -80,24 +83,46 @@ BakeReport bake_for_user(const MappedMesh& source, const std::vector<BakeRequest
   }
 }
 
-int run_bake(BakeArguments& arguments) {
-  settle_body(arguments);
-  Session session(arguments);
+/// The arguments for one part: its files, where it has its own.
+BakeArguments of_part(BakeArguments arguments, int part) {
+  arguments.input = path_of_part(arguments.input, part);
+  arguments.target = file_for_part(arguments.target, part);
+  arguments.settings.texture = file_for_part(arguments.settings.texture, part);
+  const bool in_folder =
+      arguments.output.ends_with('/') || std::filesystem::is_directory(arguments.output);
+  if (!in_folder) arguments.output = path_of_part(arguments.output, part);
+  return arguments;
+}
+
+/// Bakes the images of one mesh; returns the report, and adds to the lines that are told at the
+/// end.
+std::string bake_one(const BakeArguments& arguments, Session& session, Words& lines) {
   const std::vector<BakeRequest> images = bake_requests(arguments);
   const MappedMesh source = read_mapped(arguments.input, arguments.sphere, session);
   const BakeSettings settings = settings_of(arguments, session);
   tell_longitudes(source, settings.convention, session);
   const BakeReport baked = bake_for_user(source, images, settings, session.files);
   session.warn(baked.warnings);
-  session.add_report([&] {
-    return to_json(BakeRecord{arguments.input, source, arguments.target, settings, baked,
-                              session.stopwatch.seconds()});
+  if (!baked.coordinate_system.empty())
+    lines.push_back("  longitude and latitude: " + baked.coordinate_system);
+  for (const BakedImage& image : baked.images) lines.push_back(line_of(image, settings));
+  return to_json(BakeRecord{arguments.input, source, arguments.target, settings, baked,
+                            session.stopwatch.seconds()});
+}
+
+int run_bake(BakeArguments& arguments) {
+  settle_body(arguments);
+  if (arguments.all_components && is_stream(arguments.output))
+    throw UsageMistake("-o: --all-components makes several images: give a name, not a stream");
+  if (arguments.all_components && !arguments.sphere.empty())
+    throw UsageMistake("--sphere is for one mesh, and --all-components bakes several");
+  Session session(arguments);
+  Words lines;
+  report_each(arguments.all_components, arguments.input, session, [&](int part) {
+    return bake_one(part > 0 ? of_part(arguments, part) : arguments, session, lines);
   });
   session.publish();
-  if (!baked.coordinate_system.empty()) {
-    session.console.say("  longitude and latitude: " + baked.coordinate_system);
-  }
-  for (const BakedImage& image : baked.images) session.console.say(line_of(image, settings));
+  for (const std::string& line : lines) session.console.say(line);
   session.console.detail("  " + short_number(session.stopwatch.seconds()) + " s");
   return Ok;
 }

@@ -8,11 +8,13 @@
 #include <utility>
 
 #include "arguments/export_arguments.h"
+#include "arguments/part_files.h"
 #include "commands/command.h"
 #include "commands/sources.h"
 #include "console/places.h"
 #include "io/attributes/appearance.h"
 #include "number_text.h"
+#include "sphparam/io/paths.h"
 #include "sphparam/records/export_record.h"
 #include "sphparam/remesh/levels_of_detail.h"
 
@@ -169,18 +171,35 @@ class Exporter {
   ExportRecord record_;
 };
 
-int run_export(ExportArguments& arguments) {
-  check_export_arguments(arguments);
-  Session session(arguments);
+/// The arguments for one part: its files, where it has its own.
+ExportArguments of_part(ExportArguments arguments, int part) {
+  arguments.input = path_of_part(arguments.input, part);
+  arguments.output = path_of_part(arguments.output, part);
+  LookOptions& look = arguments.exported.look;
+  for (std::string* image : {&look.texture, &look.normal, &look.occlusion})
+    *image = file_for_part(*image, part);
+  return arguments;
+}
+
+std::string export_one(const ExportArguments& arguments, Session& session, Words& lines) {
   check_first_places(arguments);
   const MappedMesh mapped = read_mapped(arguments.input, arguments.sphere, session);
   Exporter exporter(arguments, session);
   with_file_errors(arguments.input, arguments.output, [&] { exporter.add(mapped); });
-  session.add_report([&] { return to_json(exporter.record()); });
+  lines.push_back(display_name(arguments.input) + ": " + short_number(session.stopwatch.seconds()) +
+                  " s → " + output_name(arguments.output));
+  return to_json(exporter.record());
+}
+
+int run_export(ExportArguments& arguments) {
+  check_export_arguments(arguments);
+  Session session(arguments);
+  Words lines;
+  report_each(arguments.all_components, arguments.input, session, [&](int part) {
+    return export_one(part > 0 ? of_part(arguments, part) : arguments, session, lines);
+  });
   session.publish();
-  session.console.say(display_name(arguments.input) + ": " +
-                      short_number(session.stopwatch.seconds()) + " s → " +
-                      output_name(arguments.output));
+  for (const std::string& line : lines) session.console.say(line);
   return Ok;
 }
 

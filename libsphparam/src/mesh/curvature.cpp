@@ -106,29 +106,51 @@ Measures measure_vertices(const TriangleMesh& mesh, const Topology& topology, co
   return measures;
 }
 
+enum class Known : char { No, Yes, Never };  // Never: only fillers use it
+
 /// Rims have measures of a boundary, which are no curvature of the surface: they get the density of
-/// their neighbours inside; what only fillers use gets nothing. `area`: positive, without fillers.
+/// their neighbours inside, or of those that have got it; what only fillers use gets nothing.
+/// `area`: of the surface, positive.
 void leave_out_fillers(const Topology& topology, const FillerMarks& fillers, const VectorX& area,
                        Measures& measures) {
   const auto count = static_cast<Vertex>(area.size());
-  std::vector<char> inside(static_cast<size_t>(count), 1);
+  std::vector<Known> known(static_cast<size_t>(count), Known::Yes);
+  const auto known_of = [&](Vertex v) -> Known& { return known[static_cast<size_t>(v)]; };
+  std::vector<Vertex> waiting;
   for (Vertex v = 0; v < count; ++v) {
-    topology.for_each_outgoing(v, [&](Halfedge h) {
-      if (fillers[static_cast<size_t>(Topology::face(h))]) inside[static_cast<size_t>(v)] = 0;
-    });
+    bool surface = false, filler = false;
+    topology.for_each_outgoing(
+        v, [&](Halfedge h) { (is_filler(fillers, Topology::face(h)) ? filler : surface) = true; });
+    if (!filler) continue;
+    measures.mean[v] = measures.gauss[v] = 0;
+    known_of(v) = surface ? Known::No : Known::Never;
+    if (surface) waiting.push_back(v);
   }
-  for (Vertex v = 0; v < count; ++v) {
-    if (inside[static_cast<size_t>(v)]) continue;
-    double mean = 0, gauss = 0, sum = 0;
-    topology.for_each_outgoing(v, [&](Halfedge h) {
-      const Vertex other = topology.target(h);
-      if (!inside[static_cast<size_t>(other)]) return;
-      mean += measures.mean[other];
-      gauss += measures.gauss[other];
-      sum += area[other];
-    });
-    measures.mean[v] = sum > 0 ? area[v] * (mean / sum) : 0;
-    measures.gauss[v] = sum > 0 ? area[v] * (gauss / sum) : 0;
+  while (!waiting.empty()) {
+    std::vector<Vertex> reached, next;
+    for (const Vertex v : waiting) {
+      double sum = 0, mean = 0, gauss = 0;
+      topology.for_each_outgoing(v, [&](Halfedge h) {
+        const Vertex other = topology.target(h);
+        if (known_of(other) != Known::Yes) return;
+        mean += measures.mean[other];
+        gauss += measures.gauss[other];
+        sum += area[other];
+      });
+      if (!(sum > 0)) continue;
+      measures.mean[v] = area[v] * (mean / sum);
+      measures.gauss[v] = area[v] * (gauss / sum);
+      reached.push_back(v);
+    }
+    for (const Vertex v : reached) known_of(v) = Known::Yes;
+    for (const Vertex v : reached) {
+      topology.for_each_outgoing(v, [&](Halfedge h) {
+        if (known_of(topology.target(h)) == Known::No) next.push_back(topology.target(h));
+      });
+    }
+    std::sort(next.begin(), next.end());
+    next.erase(std::unique(next.begin(), next.end()), next.end());
+    waiting = std::move(next);
   }
 }
 
