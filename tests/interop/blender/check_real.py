@@ -10,8 +10,7 @@ import bpy
 import numpy as np
 from check_displacement import check
 from check_pictures import base_colour, with_texture
-from support import (column, directions, install, load, loop_vertices, make_active, positions, said, start_anew, use,
-                     uv)  # fmt: skip
+from support import (directions, expect_refusal, install, load, make_active, said, start_anew, use, uv)  # fmt: skip
 
 meshes = pathlib.Path(os.environ.get("SPHPARAM_MESHES", "/nowhere")) / "genus0"
 plain = ("spot_triangulated.obj", "homer.obj", "fox.ply", "hand_closed.obj", "nefertiti-lowres.obj")
@@ -60,14 +59,21 @@ def check_texture(name, obj, image):
 
 
 def import_gltf(path):
-    """As Blender reads it, vertices merged that glTF has several times."""
-    bpy.ops.import_scene.gltf(filepath=str(path), merge_vertices=True)
+    """As Blender reads it; vertices that glTF has several times merged, as the add-on's refusal advises."""
+    np.bool = bool  # Debian's Blender is older than its NumPy
+    bpy.ops.import_scene.gltf(filepath=str(path))
     obj = next(o for o in bpy.context.selected_objects if o.type == "MESH")
     for other in list(bpy.context.selected_objects):
         if other != obj:
             bpy.data.objects.remove(other)
     obj.parent = None
-    return make_active(obj)
+    make_active(obj)
+    expect_refusal(bpy.ops.object.spherical_map, "Merge by Distance")
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.remove_doubles()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    return obj
 
 
 if not meshes.is_dir():

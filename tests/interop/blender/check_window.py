@@ -52,6 +52,11 @@ def call(operator, **options):
         return operator("INVOKE_DEFAULT", True, **options)
 
 
+def undo(operator):
+    with bpy.context.temp_override(**window_context()):
+        operator()
+
+
 def script():
     """What happens, one step after the other; yields how long to wait."""
     install()
@@ -59,6 +64,7 @@ def script():
     obj = load(work / "creature.ply")
     context = window_context()
     context["area"].spaces.active.show_region_ui = True
+    undo(lambda: bpy.ops.ed.undo_push(message="loaded"))
     yield 0.5
 
     # From the menu: a thread, and the window goes on.
@@ -67,11 +73,11 @@ def script():
     yield from wait_for(lambda: "Spherical" in obj.data.uv_layers, "the map is made in a thread")
     assert not running_jobs() and obj.data["spherical_map"].startswith("one-to-one")
     yield 0.2
-    bpy.ops.ed.undo()
-    obj = bpy.context.object
-    assert "Spherical" not in obj.data.uv_layers, "one step of undo"
-    bpy.ops.ed.redo()
-    obj = make_active(bpy.data.objects[obj.name])
+    name = obj.name
+    undo(bpy.ops.ed.undo)
+    assert "Spherical" not in bpy.data.objects[name].data.uv_layers, "one step of undo"
+    undo(bpy.ops.ed.redo)
+    obj = make_active(bpy.data.objects[name])
     assert "Spherical" in obj.data.uv_layers
 
     # Stopped: nothing has changed.
@@ -89,19 +95,14 @@ def script():
         bpy.ops.object.spherical_map_bake(field="checker", size=1024, show=True)
     space = window_context()["area"].spaces.active
     space.shading.type, space.shading.color_type = "SOLID", "TEXTURE"
-    region = next(r for r in window_context()["area"].regions if r.type == "UI")
     with bpy.context.temp_override(**window_context()):
         bpy.ops.view3d.view_selected()
     yield 1.0
     screenshot("window_map.png")
-    with bpy.context.temp_override(**window_context()):
-        bpy.ops.wm.call_menu(name="VIEW3D_MT_spherical_map")
-    yield 1.0
-    screenshot("window_menu.png")
-    yield from controls(obj)
+    yield from other_pictures(obj)
 
 
-def controls(obj):
+def other_pictures(obj):
     """A control mesh, and then a mesh with a hole: what is at fault is seen in Edit Mode."""
     with bpy.context.temp_override(**window_context()):
         bpy.ops.object.spherical_map_control(edges=12, levels=3)
@@ -130,6 +131,11 @@ def controls(obj):
         bpy.ops.object.mode_set(mode="EDIT")
     yield 1.0
     screenshot("window_hole.png")
+    with bpy.context.temp_override(**window_context()):
+        bpy.ops.object.mode_set(mode="OBJECT")
+        bpy.ops.wm.call_panel(name="VIEW3D_PT_spherical_map")
+    yield 1.0
+    screenshot("window_panel.png")
     said("window: in a thread with progress, stopped, undone; four pictures")
 
 

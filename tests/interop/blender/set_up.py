@@ -8,4 +8,5 @@ import bpy
 from support import install
 
 install()
+bpy.context.preferences.view.show_splash = False
 bpy.ops.wm.save_userpref()

@@ -39,7 +39,9 @@ class VIEW3D_PT_spherical_map(bpy.types.Panel):
         _draw_entries(self.layout.column(align=True))
         if obj is not None and obj.type == "MESH":
             said = obj.data.get("spherical_map")
-            self.layout.label(text=said or "no map yet", icon="CHECKMARK" if said else "NONE")
+            told = self.layout.column(align=True)
+            for number, words in enumerate((said or "no map yet").split(", ")):
+                told.label(text=words, icon="CHECKMARK" if said and not number else "NONE")
 
 
 def _in_object_menu(self, context):

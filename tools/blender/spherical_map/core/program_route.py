@@ -92,7 +92,7 @@ class ProgramRoute:
         if code == _mesh_exit:
             raise self._refused(words[1])
         if code:
-            raise Refusal(_told(messages))
+            raise Refusal(_told(messages) or f"sphparam {words[0]} ended with status {code}")
 
     def _refused(self, mesh: str) -> MeshRefused:
         done = subprocess.run(
