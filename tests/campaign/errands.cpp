@@ -283,9 +283,9 @@ void remesh(Maker& make) {
   } else {
     add({"--grid", make.any_grid()});
   }
-  add({"-o", make.one_of({"low.ply", "low.obj", "low.glb"})});
+  add({"-o", make.one_of({"low.ply", "low.obj", "low.glb", "lh.low.surf.gii"})});
   make.maybe(words, 0.4, {"--adaptive"});
-  make.maybe(words, 0.3, {"--sample", "cell"});
+  make.maybe(words, 0.4, {"--sample", make.one_of({"cell", "adap-bary-area"})});
   make.maybe(words, 0.2, {"--transfer", make.one_of({"none", "uv", "normal", "color"})});
   make.maybe(words, 0.2, {"--csv", "low.csv"});
   make.maybe(words, 0.3, {"--json", "low.json"});

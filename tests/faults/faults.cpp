@@ -66,6 +66,15 @@ sphparam::TriangleMesh two_balls() {
   return mesh;
 }
 
+/// Numbers a vertex as FreeSurfer has them, all 0.
+void write_values(const fs::path& path, const sphparam::TriangleMesh& mesh) {
+  std::ofstream file(path, std::ios::binary);
+  file << "\xff\xff\xff";
+  for (const auto number : {mesh.vertex_count(), mesh.face_count(), Eigen::Index{1}})
+    for (int shift = 24; shift >= 0; shift -= 8) file.put(static_cast<char>(number >> shift));
+  file << std::string(4 * static_cast<std::size_t>(mesh.vertex_count()), '\0');
+}
+
 /// What is run: names of files stand in the scene's folder.
 struct Errand {
   sphparam::TriangleMesh mesh;       // scans/mesh.off
@@ -101,6 +110,11 @@ Errand errand_named(const std::string& name) {
             {"page.html", "report.json"},
             "",
             {0, 4}};
+  if (name == "data")  // numbers of vertices, in a file of their own and in another beside
+    return {icosphere(1),
+            {"repair", "@scans/mesh.off", "--data", "@rh.depth", "-o", "@lh.white", "--json",
+             "@report.json"},
+            {"lh.white", "lh.depth", "report.json"}};
   if (name.starts_with("repair.")) {
     const std::string output = "mended" + name.substr(6);
     return {damaged_ball(),
@@ -131,6 +145,7 @@ class Scene {
     folder_ = name;
     fs::create_directory(folder_ / "scans");
     write_off(folder_ / "scans/mesh.off", errand_.mesh);
+    write_values(folder_ / "rh.depth", errand_.mesh);
     reset(true);
     const auto start = std::chrono::steady_clock::now();
     const ProcessEnd end = run({}, {"SPHPARAM_FAULT_COUNTS=" + (folder_ / "counts").string()});

@@ -10,6 +10,7 @@ import struct
 
 import other_formats
 import science_formats
+import value_files
 from corpus import *
 
 # --- OBJ ---------------------------------------------------------------------------------------
@@ -483,6 +484,7 @@ def main():
     make_gzip()
     other_formats.make_all()
     science_formats.make_all()
+    value_files.make_all()
     with open(HERE / "expected.tsv", "w") as table:
         for row in sorted(TABLE):
             table.write("%s\t%d\t%s\n" % row)

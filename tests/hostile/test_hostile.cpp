@@ -73,7 +73,24 @@ std::string complaint_about(const ProcessEnd& end, const HostileFile& file) {
   return {};
 }
 
+/// Files of numbers a vertex go with a surface of four.
+bool is_of_values(const HostileFile& file) { return file.name.starts_with("values_"); }
+
+std::string try_values(const HostileFile& file, const fs::path& scratch) {
+  const std::string surface = (folder / "files/freesurfer_ok_plain.white").string();
+  const std::string values = (folder / "files" / file.name).string();
+  const std::string output = (scratch / (file.name + ".ply")).string();
+  const ProcessEnd repair =
+      run_process({SPHPARAM_PROGRAM, "repair", surface, "--data", values, "-o", output}, {},
+                  {.seconds = most_seconds, .memory = most_memory});
+  std::string complaint = complaint_about(repair, file);
+  if (!complaint.empty()) complaint = "repair " + file.name + " " + complaint + ": " + repair.messages;
+  if (fs::exists(output) != (file.code == ok)) complaint += file.name + ": output is there or not";
+  return complaint;
+}
+
 std::string try_file(const HostileFile& file, const fs::path& scratch) {
+  if (is_of_values(file)) return try_values(file, scratch);
   const std::string path = (folder / "files" / file.name).string();
   const fs::path output = scratch / (file.name + ".sph.ply");
   const ProcessLimits limits{.seconds = most_seconds, .memory = most_memory};

@@ -184,7 +184,7 @@ TEST_CASE("floors: third-party headers stay in their rooms") {
       {"meshoptimizer",
        {"libsphparam/src/gltf/meshopt_encoding", "libsphparam/src/io/formats/gltf/meshopt_decoding"}},
       {"draco/", {"libsphparam/src/io/formats/gltf/draco/"}},
-      {"gifti/", {"libsphparam/src/io/formats/gifti/gifti_writer"}},
+      {"gifti/", {"libsphparam/src/io/formats/gifti/gifti_image"}},
       {"expat", {"libsphparam/src/io/formats/xml_events"}},
       {"zlib",
        {"libsphparam/src/io/formats/gifti/gifti_data", "libsphparam/src/io/files/gzip",

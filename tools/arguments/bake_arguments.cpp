@@ -60,6 +60,7 @@ void declare_inputs(Declaration& command, BakeArguments& arguments) {
       .sphere(arguments.sphere)
       .flag("--all-components", arguments.all_components,
             "Of FILE_0001 and so on, as `map --all-components` writes them; images are so numbered")
+      .data(arguments.data)
       .text("--for", arguments.target, "FILE",
             "Another mesh on the same sphere that the images are for: its chart, its frame of "
             "normals, its surface as base of heights; one with a map of its own is refused");

@@ -15,6 +15,7 @@ struct BakeArguments : CommonArguments {
   std::string output;
   std::vector<std::string> maps;                  // fields; none: the base colour
   std::string sphere;                             // the map in a file of its own; empty: none
+  Words data;                                     // numbers a vertex in files of their own
   std::string target;                             // --for; empty: the source
   std::string body;                               // a name, radii or WKT; empty: none
   bool all_components = false;                    // of the files that `map` made of parts

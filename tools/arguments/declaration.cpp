@@ -107,6 +107,12 @@ Declaration& Declaration::sphere(std::string& path) {
   return text("--sphere", path, "FILE", "The map of the mesh, in a file of its own");
 }
 
+Declaration& Declaration::data(Words& files) {
+  return texts("--data", files, "FILE,…",
+               "Numbers a vertex of the mesh, in files of their own: .shape.gii, .func.gii, "
+               ".label.gii, .annot, .label, .mgh, .mgz, lh.thickness …; may be given again");
+}
+
 Declaration& Declaration::up(std::optional<Up>& up) {
   return choice(
       "--up", up, {{"auto", std::nullopt}, {"z", Up::Z}, {"y", Up::Y}},

@@ -74,6 +74,7 @@ class Declaration {
 
   // Options that several subcommands have, with one meaning in all of them:
   Declaration& sphere(std::string& path);
+  Declaration& data(Words& files);
   Declaration& up(std::optional<Up>& up);
   Declaration& convention(Convention& convention);
   Declaration& refine_poles(int& wedges, const std::string& about);

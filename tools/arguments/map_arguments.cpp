@@ -119,12 +119,26 @@ void require_sensible_parts(const MapArguments& arguments) {
   if (arguments.options.poles) {
     throw UsageMistake("--poles V1,V2 is for one map, and --all-components makes several");
   }
-  if (is_stream(arguments.output)) {
+  if (is_stream(arguments.output) || arguments.output.empty()) {
     throw UsageMistake("--all-components writes NAME_0001.sph.ply and so on: -o must name a file");
   }
 }
 
+/// The name of the sphere, where a pattern makes it.
+void settle_sphere(MapArguments& arguments) {
+  if (!arguments.naming.pattern) {
+    if (arguments.given("--subject")) throw UsageMistake("--subject is for --names only");
+    return;
+  }
+  if (arguments.sphere.empty())
+    throw UsageMistake("--names is of the sphere: give --write-sphere a folder");
+  arguments.sphere = named_surface(arguments.naming, arguments.sphere, "--write-sphere",
+                                   arguments.input, "", "sphere", "");
+}
+
 void require_sensible(const MapArguments& arguments) {
+  if (arguments.output.empty() && arguments.sphere.empty())
+    throw UsageMistake("nothing to write: give -o, the map, or --write-sphere, the bare sphere");
   require_one_stream({arguments.input, arguments.pins, arguments.align},
                      "the mesh, --pin and --align");
   const std::string extension = inner_extension_of(arguments.output);
@@ -146,8 +160,10 @@ void require_sensible(const MapArguments& arguments) {
 
 void declare_files(Declaration& command, MapArguments& arguments) {
   command.input("MESH", arguments.input, readable_formats("or") + "; - for standard input")
-      .output(arguments.output, "FILE",
-              "The map, a .sph.ply (or .vtk, .vtp); - for standard output")
+      .text("-o,--output", arguments.output, "FILE",
+            "The map, a .sph.ply (or .vtk, .vtp); - for standard output; without it, give "
+            "--write-sphere")
+      .written()
       .flag("--all-components", arguments.all_components,
             "A map of each component, the largest by area first: NAME_0001.sph.ply, …")
       .text("--write-sphere", arguments.sphere, "FILE",
@@ -155,9 +171,11 @@ void declare_files(Declaration& command, MapArguments& arguments) {
             "in "
             "floats of radius 100")
       .written()
+      .data(arguments.data)
       .json(arguments)
       .text("--plots", arguments.plots, "FOLDER", "The distortion as SVG plots")
       .written();
+  declare_naming(command, arguments.naming, "--write-sphere");
 }
 
 void declare_method(Declaration& command, MapArguments& arguments) {
@@ -263,6 +281,7 @@ void settle(MapArguments& arguments) {
   }
   require_one_frame(arguments);
   require_sensible_frame(arguments);
+  settle_sphere(arguments);
   require_sensible(arguments);
   options.threads = arguments.threads;
   // What folds in the directions of a body may be what one wants to see.

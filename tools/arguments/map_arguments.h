@@ -4,6 +4,7 @@
 #include <string>
 
 #include "arguments/declaration.h"
+#include "arguments/naming.h"
 #include "arguments/repair_arguments.h"
 #include "compare/methods.h"
 #include "sphparam/parameterize.h"
@@ -13,10 +14,12 @@ namespace sphparam::cli {
 /// What the command line of `sphparam map` says.
 struct MapArguments : CommonArguments {
   std::string input;
-  std::string output;
-  std::string sphere;  // empty: not wanted; so are:
+  std::string output;  // empty: not wanted; so are:
+  std::string sphere;
   std::string plots;
   std::string pins;
+  Words data;
+  Naming naming;      // of the sphere
   std::string align;  // body, or another map of the mesh
   std::string poles = "auto";
   std::string balance = "balanced";  // a word, or the λ it stands for

@@ -21,7 +21,8 @@ void declare_subdivision(Declaration& command, RemeshArguments& arguments) {
               "The new mesh is the control mesh of a subdivision surface that is fitted to the "
               "mesh: loop on grids of triangles, catmark on grids of quads")
       .text("--limit-mesh", arguments.limit_output, "FILE",
-            "With --subdiv-fit, also the mesh whose vertices lie on that surface, in the format of its "
+            "With --subdiv-fit, also the mesh whose vertices lie on that surface, in the format of "
+            "its "
             "name")
       .written()
       .text("--displace", arguments.displacement, "FILE",
@@ -43,9 +44,13 @@ void declare_subdivision(Declaration& command, RemeshArguments& arguments) {
 
 void declare_outputs(Declaration& command, RemeshArguments& arguments) {
   command
-      .text("-o,--output", arguments.output, "FILE",
-            "The new mesh in the format of its name (.ply, .vtk and .vtp with its map), or .glb with "
-            "its chart")
+      .text(
+          "-o,--output", arguments.output, "FILE",
+          "The new mesh in the format of its name (.ply, .vtk and .vtp with its map), or .glb with "
+          "its chart; beside .gii and FreeSurfer's, data has files of its own")
+      .written()
+      .texts("--write-data", arguments.data_outputs, "FILE,…",
+             "A file for each of --data, in the format of its name; may be given again")
       .written()
       .text("--geometry-image", arguments.geometry_image, "FILE",
             "Positions as an image, of octa and cube grids: .exr in float, .png in 16 bits")
@@ -65,6 +70,7 @@ void declare_outputs(Declaration& command, RemeshArguments& arguments) {
       .flag("--degrees", arguments.degrees,
             "Directions in --csv as longitude and latitude in degrees")
       .json(arguments);
+  declare_naming(command, arguments.naming, "-o");
 }
 
 }  // namespace
@@ -82,9 +88,17 @@ void declare_remesh_options(Declaration& command, RemeshArguments& arguments) {
             "What to carry, with commas between: all, none, color, normal, uv, material, or names "
             "of properties")
       .choice("--sample", arguments.sample,
-              {{"point", SampleMode::Point}, {"cell", SampleMode::Cell}},
+              {{"point", SampleMode::Point},
+               {"cell", SampleMode::Cell},
+               {"barycentric", SampleMode::Barycentric},
+               {"adap-bary-area", SampleMode::AdapBaryArea}},
               "point: the surface at a direction; cell: its mean, weighted by area, over the cell "
-              "where the grid is coarser than the mesh (default: point)")
+              "where the grid is coarser than the mesh; barycentric, adap-bary-area: positions as "
+              "point, what vertices have by wb_command's methods of these names (default: point)")
+      .data(arguments.data)
+      .text("--areas", arguments.areas, "SOURCE,GRID",
+            "With --sample adap-bary-area: surfaces, or files of areas a vertex, of the mesh's and "
+            "of the grid's vertices (default: the mesh, and what becomes of it)")
       .flag("--adaptive", arguments.adaptive,
             "Relax the map first, so that where the surface bends it gets more vertices");
   declare_subdivision(command, arguments);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "arguments/declaration.h"
+#include "arguments/naming.h"
 #include "sphparam/io/certified_files.h"
 #include "sphparam/remesh/displacement.h"
 #include "sphparam/remesh/sphere_grid.h"
@@ -22,6 +23,10 @@ struct RemeshArguments : CommonArguments {
   std::string sphere;  // a map of the mesh in a file of its own
   std::string grid;
   std::string output;
+  Words data;          // numbers a vertex in files of their own
+  std::string areas;   // of vertices: two files, on the source and on the grid
+  Words data_outputs;  // a file for each of `data`
+  Naming naming;       // of `output` and what lies beside it
   std::string transfer = "all";
   SampleMode sample = SampleMode::Point;
   std::optional<Scheme> subdivision;  // fitted to the source
@@ -56,9 +61,12 @@ struct RemeshRequests {
   std::vector<std::string> outputs;  // of -o and --lods: one a level, or one .glb
   std::vector<ImageRequest> images;
   bool one_file = false;  // a .glb
+  Words areas;            // none, or two files
+  Words data_outputs;
+  bool missing_values = false;  // may be in data: it goes into files of its own alone
 };
 
 /// Refuses before any work what makes no sense. Throws: UsageMistake; WriteError as `check_places`.
-RemeshRequests check_remesh_arguments(const RemeshArguments& arguments);
+RemeshRequests check_remesh_arguments(RemeshArguments& arguments);
 
 }  // namespace sphparam::cli

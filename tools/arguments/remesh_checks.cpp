@@ -7,7 +7,9 @@
 #include "arguments/remesh_arguments.h"
 #include "console/exit_codes.h"
 #include "console/places.h"
+#include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/paths.h"
+#include "sphparam/io/vertex_data.h"
 #include "sphparam/remesh/geometry_image.h"
 #include "sphparam/remesh/levels_of_detail.h"
 
@@ -49,11 +51,58 @@ void require_kind(const std::string& option, const std::string& path, const std:
                      output_name(path));
 }
 
+/// The name of the new mesh, where a pattern makes it.
+void settle_output(RemeshArguments& arguments) {
+  if (!arguments.naming.pattern) {
+    if (!arguments.naming.subject.empty()) throw UsageMistake("--subject is for --names only");
+    return;
+  }
+  if (arguments.output.empty()) throw UsageMistake("--names is of the new mesh: give -o a folder");
+  arguments.output = named_surface(arguments.naming, arguments.output, "-o", arguments.input,
+                                   arguments.sphere, "", arguments.grid);
+}
+
+/// Whether values may be missing: not where a mesh file or a table has them.
+bool takes_missing(const RemeshArguments& arguments) {
+  const auto is_beside = [](const std::string& path) {
+    return path.empty() || has_data_beside(path);
+  };
+  return is_beside(arguments.output) && is_beside(arguments.limit_output) &&
+         arguments.csv.empty() && images_asked_for(arguments).empty();
+}
+
+Words areas_asked_for(const RemeshArguments& arguments) {
+  if (arguments.areas.empty()) return {};
+  if (arguments.sample != SampleMode::AdapBaryArea)
+    throw UsageMistake("--areas is for --sample adap-bary-area only");
+  Words files = split(arguments.areas);
+  if (files.size() != 2 || files[0].empty() || files[1].empty())
+    throw UsageMistake(
+        "--areas: expected two files, of the mesh's vertices and of the grid's, not " +
+        arguments.areas);
+  return files;
+}
+
+Words data_outputs_of(const RemeshArguments& arguments) {
+  Words outputs = split_all(arguments.data_outputs);
+  if (outputs.empty()) return outputs;
+  const std::size_t inputs = split_all(arguments.data).size();
+  if (outputs.size() != inputs)
+    throw UsageMistake("--write-data: " + std::to_string(outputs.size()) + " files, for " +
+                       std::to_string(inputs) + " of --data");
+  for (const std::string& path : outputs)
+    if (!is_written_data(path))
+      throw UsageMistake("--write-data: values are written as " + written_data_names() +
+                         ", not as " + output_name(path));
+  return outputs;
+}
+
 void check_outputs(const RemeshArguments& arguments) {
   require_mesh_name("-o", "the new mesh", arguments.output, {".glb"});
   if (arguments.output.empty() && arguments.limit_output.empty() && arguments.csv.empty() &&
-      arguments.displacement.empty() && images_asked_for(arguments).empty()) {
-    throw UsageMistake("nothing to write: give -o, --geometry-image or --csv");
+      arguments.displacement.empty() && arguments.data_outputs.empty() &&
+      images_asked_for(arguments).empty()) {
+    throw UsageMistake("nothing to write: give -o, --write-data, --geometry-image or --csv");
   }
   if (arguments.degrees && arguments.csv.empty()) {
     throw UsageMistake("--degrees is for --csv only");
@@ -157,14 +206,19 @@ void check_all_places(const RemeshArguments& arguments, const RemeshRequests& re
     outputs.emplace_back("the image of " + request.what, request.path);
   for (size_t level = 1; level < requests.outputs.size(); ++level)
     outputs.emplace_back("--lods", requests.outputs[level]);
+  for (const std::string& path : requests.data_outputs) outputs.emplace_back("--write-data", path);
   check_places(outputs);
 }
 
 }  // namespace
 
-RemeshRequests check_remesh_arguments(const RemeshArguments& arguments) {
+RemeshRequests check_remesh_arguments(RemeshArguments& arguments) {
+  settle_output(arguments);
   check_outputs(arguments);
   RemeshRequests requests;
+  requests.areas = areas_asked_for(arguments);
+  requests.data_outputs = data_outputs_of(arguments);
+  requests.missing_values = takes_missing(arguments);
   requests.grid = grid_asked_for(arguments);
   if (!requests.grid) requests.like = arguments.grid.substr(like_prefix.size());
   requests.images = images_asked_for(arguments);

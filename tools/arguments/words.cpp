@@ -42,6 +42,14 @@ Words split(const std::string& text) {
   return text.empty() ? Words{""} : parts;
 }
 
+Words split_all(const Words& texts) {
+  Words all;
+  for (const std::string& text : texts)
+    for (std::string& word : split(text))
+      if (!word.empty()) all.push_back(std::move(word));
+  return all;
+}
+
 std::optional<std::array<double, 3>> three_numbers(const std::string& text) {
   const Words words = split(text);
   std::array<double, 3> values;

@@ -17,6 +17,9 @@ using Words = std::vector<std::string>;
 /// "a", "b", "c" of "a,b,c".
 Words split(const std::string& text);
 
+/// The same of several texts, one after the other, without empty words.
+Words split_all(const Words& texts);
+
 /// x, y and z of "1,-2.5,3"; nothing for anything else, also for what is not finite.
 std::optional<std::array<double, 3>> three_numbers(const std::string& text);
 

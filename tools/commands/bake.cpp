@@ -98,7 +98,8 @@ BakeArguments of_part(BakeArguments arguments, int part) {
 /// end.
 std::string bake_one(const BakeArguments& arguments, Session& session, Words& lines) {
   const std::vector<BakeRequest> images = bake_requests(arguments);
-  const MappedMesh source = read_mapped(arguments.input, arguments.sphere, session);
+  const MappedMesh source =
+      read_mapped(arguments.input, arguments.sphere, session, 1, arguments.data);
   const BakeSettings settings = settings_of(arguments, session);
   tell_longitudes(source, settings.convention, session);
   const BakeReport baked = bake_for_user(source, images, settings, session.files);

@@ -6,6 +6,7 @@
 #include "arguments/limits.h"
 #include "arguments/map_arguments.h"
 #include "commands/command.h"
+#include "commands/data_files.h"
 #include "commands/map_outputs.h"
 #include "commands/map_parts.h"
 #include "reports/map_wording.h"
@@ -25,6 +26,7 @@ constexpr char summary[] =
     "\n"
     "Examples:\n"
     "  sphparam map statue.obj -o statue.sph.ply\n"
+    "  sphparam map lh.white --write-sphere lh.sphere\n"
     "  sphparam map statue.ply -o statue.sph.ply --json map.json --plots plots/\n"
     "  sphparam map statue.off -o statue.sph.ply --write-sphere sphere.obj --poles 17,4203\n"
     "  sphparam map statue.obj -o placed.sph.ply --pin eyes.txt\n"
@@ -101,12 +103,14 @@ MeshSource mended(MeshSource source, const MapArguments& arguments) try {
   throw UsageMistake(std::string("--component: ") + error.what());
 }
 
-MeshSource read_mended(const MapArguments& arguments) {
+MeshSource read_mended(const MapArguments& arguments, Session& session) {
   const std::optional<RepairOptions> repairs = wanted_repairs(arguments.repair);
   ReadOptions options = input_limits();
   options.repeated_corners = repairs && repairs->duplicates;
   options.non_finite = repairs && repairs->non_finite;
-  return mended(sphparam::read_source(arguments.input, options), arguments);
+  MeshSource source = sphparam::read_source(arguments.input, options);
+  attach_data_files(source, arguments.data, MissingValues::LeftOut, session);
+  return mended(std::move(source), arguments);
 }
 
 int run_map(MapArguments& arguments) {
@@ -118,7 +122,7 @@ int run_map(MapArguments& arguments) {
       return compute(mended(std::move(part), arguments), arguments, session);
     });
   }
-  MeshSource source = read_mended(arguments);
+  MeshSource source = read_mended(arguments, session);
   session.hold_signals();
   MapOutcome outcome = compute(std::move(source), arguments, session);
   tell_stages(outcome, session.console);
@@ -128,7 +132,8 @@ int run_map(MapArguments& arguments) {
       outcome.has_map() && outcome.frame.holds() && (outcome.bijective() || arguments.keep_folded);
   write_outputs(arguments, outcome, writes, session);
   try {
-    const std::string written = writes ? arguments.output : "";
+    const std::string& file = arguments.output.empty() ? arguments.sphere : arguments.output;
+    const std::string written = writes ? file : "";
     tell_result(outcome, written, session.stopwatch.seconds(), session.console);
   } catch (const std::bad_alloc&) {  // what is on disk is there all the same
   }

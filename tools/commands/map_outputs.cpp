@@ -44,7 +44,8 @@ void add_map(const std::string& path, MapOutcome& outcome, Session& session) {
                     session.threads());
 }
 
-void add_sphere(const std::string& path, const MapOutcome& outcome, Session& session) {
+void add_sphere(const std::string& path, const MapArguments& arguments, const MapOutcome& outcome,
+                Session& session) {
   const ParameterizeOptions& options = outcome.options;
   const double least_area = sphparam::add_sphere(
       session.files, path,
@@ -53,6 +54,7 @@ void add_sphere(const std::string& path, const MapOutcome& outcome, Session& ses
       {.energy = options.energy,
        .may_remap = options.pins.empty() && !options.poles && !options.meridian &&
                     !options.align_to && options.method != Method::Radial,
+       .origin = arguments.input,
        .threads = session.threads(),
        .progress = session.progress()});
   if (least_area == 0) return;
@@ -116,12 +118,12 @@ std::string report_on(const MapArguments& arguments, MapOutcome& outcome, const 
 std::string add_outputs(const MapArguments& arguments, MapOutcome& outcome, bool with_map,
                         Session& session) {
   Outputs outputs;
-  if (with_map) {
+  if (with_map && !arguments.output.empty()) {
     add_map(arguments.output, outcome, session);
     outputs.emplace_back("map", arguments.output);
   }
   if (with_map && !arguments.sphere.empty()) {
-    add_sphere(arguments.sphere, outcome, session);
+    add_sphere(arguments.sphere, arguments, outcome, session);
     outputs.emplace_back("sphere", arguments.sphere);
   }
   if (!arguments.repair.loops.empty()) {

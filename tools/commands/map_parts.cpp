@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "arguments/limits.h"
+#include "commands/data_files.h"
 #include "commands/map_outputs.h"
 #include "console/exit_codes.h"
 #include "number_text.h"
@@ -30,9 +31,10 @@ class PartsRun {
       : arguments_(arguments), session_(session), map_(map) {}
 
   int run() {
-    std::vector<MeshPart> parts =
-        connected_parts(sphparam::read_source(arguments_.input, limits()),
-                        wanted_repairs(arguments_.repair).value_or(RepairOptions::none()));
+    MeshSource source = sphparam::read_source(arguments_.input, limits());
+    attach_data_files(source, arguments_.data, MissingValues::LeftOut, session_);
+    std::vector<MeshPart> parts = connected_parts(
+        std::move(source), wanted_repairs(arguments_.repair).value_or(RepairOptions::none()));
     if (!parts.empty()) {
       for (const RepairAction& done : parts.front().source.repairs) {
         session_.console.say("  " + done.message);

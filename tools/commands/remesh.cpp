@@ -1,6 +1,7 @@
 // `sphparam remesh`: a mapped mesh → a grid of the sphere → the mesh on that grid, whose map the
 // grid's directions are. What was written is read back and certified before it gets its name.
 
+#include <algorithm>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -16,8 +17,11 @@
 #include "reports/told_losses.h"
 #include "sphparam/gltf/export.h"
 #include "sphparam/io/certified_files.h"
+#include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/vertex_data.h"
 #include "sphparam/measure/measurable.h"
 #include "sphparam/remesh/geometry_image.h"
+#include "sphparam/remesh/resample.h"
 
 namespace sphparam::cli {
 
@@ -30,6 +34,9 @@ constexpr char summary[] =
     "  sphparam remesh statue.sph.ply --grid ico:7 -o statue_ico7.sph.ply\n"
     "  sphparam remesh statue.sph.ply --grid ico:5 --sample cell --transfer color,uv -o low.obj\n"
     "  sphparam remesh lh.white.gii --sphere lh.sphere.gii --grid like:ref.sphere.gii -o lh.ply\n"
+    "  sphparam remesh lh.midthickness --sphere lh.sphere.reg --grid like:fs_LR.L.sphere.surf.gii "
+    "\\\n"
+    "    --data lh.thickness,lh.aparc.annot --sample adap-bary-area -o L.midthickness.surf.gii\n"
     "  sphparam remesh bennu.sph.ply --grid healpix:128 --csv bennu.csv\n"
     "  sphparam remesh statue.sph.ply --grid cube:32 --subdiv-fit catmark -o base.obj\n"
     "  sphparam remesh statue.sph.ply --grid ico:5 --subdiv-fit loop --displace disp.exr -o "
@@ -63,11 +70,45 @@ Adaptation adapt(const MappedMesh& mapped, std::int64_t samples, const std::stri
   return adapted;
 }
 
+struct Areas {
+  VectorX source, grid;
+};
+
+VectorX areas_in_data(const std::string& path, Eigen::Index vertices) {
+  const VertexData data = read_vertex_data(path, vertices, input_limits());
+  const std::vector<double>& values = data.columns.front().values;
+  const bool are_areas = std::ranges::all_of(values, [](double area) { return area >= 0; });
+  if (data.columns.size() != 1 || !are_areas)
+    throw ReadError(path, "areas are one column of numbers that are not negative");
+  return Eigen::Map<const VectorX>(values.data(), vertices);
+}
+
+/// Areas of vertices: of a surface, or as a file has them.
+VectorX read_areas(const std::string& path, Eigen::Index vertices) {
+  std::optional<TriangleMesh> surface;
+  try {
+    surface = read_mesh(path, input_limits()).mesh;
+  } catch (const ReadError&) {
+    return areas_in_data(path, vertices);
+  }
+  if (surface->vertex_count() == vertices) return vertex_areas(*surface);
+  throw ReadError(path, "has " + std::to_string(surface->vertex_count()) + " vertices, and " +
+                            std::to_string(vertices) + " are wanted");
+}
+
+Areas read_areas(const RemeshRequests& requests, Eigen::Index vertices, Eigen::Index on_grid) {
+  if (requests.areas.empty()) return {};
+  return {read_areas(requests.areas[0], vertices), read_areas(requests.areas[1], on_grid)};
+}
+
 std::vector<LevelOfDetail> make_levels(const MappedMesh& mapped, SphereGrid grid,
                                        const RemeshArguments& arguments,
                                        const RemeshRequests& requests, Session& session) try {
+  const Areas areas = read_areas(requests, mapped.mesh().vertex_count(), grid.directions.rows());
   std::vector<LevelOfDetail> levels = levels_of_detail(mapped, std::move(grid), requests.coarser,
                                                        {.sample = arguments.sample,
+                                                        .source_areas = areas.source,
+                                                        .grid_areas = areas.grid,
                                                         .transfer = split(arguments.transfer),
                                                         .subdivision = arguments.subdivision,
                                                         .measure = !requests.coarser.empty(),
@@ -127,12 +168,24 @@ void add_glb(const RemeshArguments& arguments, const MappedMesh& mapped,
   });
 }
 
-/// Places are computed here: GIFTI has them in 32 bits, as the tools about it ask.
-constexpr WriteOptions new_mesh = {.float32 = true};
+/// The data that has files of its own.
+void add_data(const RemeshRequests& requests, const Remeshed& made, Session& session) {
+  std::vector<VertexData> data = attached_data(made.file());
+  const std::size_t first = data.size() - std::min(data.size(), requests.data_outputs.size());
+  for (std::size_t i = 0; i < requests.data_outputs.size(); ++i) {
+    VertexData& one = data.at(first + i);
+    one.triangles = made.mesh().face_count();
+    const std::string& path = requests.data_outputs[i];
+    tell_losses(path, add_vertex_data(session.files, path, one, &made.mesh().positions),
+                session.console);
+  }
+}
 
 void add_meshes(const RemeshArguments& arguments, const RemeshRequests& requests,
                 const MappedMesh& mapped, const std::vector<LevelOfDetail>& levels,
                 Session& session) {
+  // Places are computed here: GIFTI has them in 32 bits, as the tools about it ask.
+  const WriteOptions new_mesh{.float32 = true, .origin = arguments.input};
   if (requests.one_file) {
     add_glb(arguments, mapped, levels, session);
   } else if (!arguments.output.empty()) {
@@ -196,7 +249,9 @@ RemeshOutputs outputs_of(const RemeshArguments& arguments, const RemeshRequests&
 int run_remesh(RemeshArguments& arguments) {
   Session session(arguments);
   const RemeshRequests requests = check_remesh_arguments(arguments);
-  MappedMesh mapped = read_mapped(arguments.input, arguments.sphere, session, remeshing_lambda);
+  MappedMesh mapped =
+      read_mapped(arguments.input, arguments.sphere, session, remeshing_lambda, arguments.data,
+                  requests.missing_values ? MissingValues::Kept : MissingValues::LeftOut);
   if (arguments.subdivision || arguments.lods > 0) require_measurable(mapped.mesh());
   if (arguments.subdivision) tell_counted_fillers(mapped, "what is fitted", session.console);
   if (arguments.adaptive) tell_counted_fillers(mapped, "where vertices go", session.console);
@@ -222,6 +277,7 @@ int run_remesh(RemeshArguments& arguments) {
   session.console.progress("write", 0);
   const LevelOfDetail& finest = levels.front();
   add_meshes(arguments, requests, mapped, levels, session);
+  add_data(requests, finest.mesh, session);
   record.displacement = displace(arguments, mapped, finest, session);
   add_images(session.files, arguments, requests, finest.mesh);
   if (!arguments.csv.empty())

@@ -7,6 +7,7 @@
 #include "arguments/mesh_names.h"
 #include "arguments/repair_arguments.h"
 #include "commands/command.h"
+#include "commands/data_files.h"
 #include "console/places.h"
 #include "reports/told_losses.h"
 #include "reports/told_repairs.h"
@@ -33,6 +34,7 @@ constexpr char summary[] =
 
 struct RepairCommandArguments : CommonArguments {
   std::string input, output;
+  Words data;
   RepairArguments repair;
 };
 
@@ -42,12 +44,15 @@ void require_sensible(const RepairCommandArguments& arguments) {
       {{"-o", arguments.output}, {"--loops", arguments.repair.loops}, {"--json", arguments.json}});
 }
 
-MeshSource read_and_mend(const RepairCommandArguments& arguments, const RepairOptions& wanted) {
+MeshSource read_and_mend(const RepairCommandArguments& arguments, const RepairOptions& wanted,
+                         Session& session) {
   ReadOptions options = input_limits();
   options.repeated_corners = true;
   options.non_finite = wanted.non_finite;
   try {
-    return mended(read_source(arguments.input, options), wanted);
+    MeshSource source = read_source(arguments.input, options);
+    attach_data_files(source, arguments.data, MissingValues::LeftOut, session);
+    return mended(std::move(source), wanted);
   } catch (const NoSuchComponent& error) {
     throw UsageMistake(std::string("--component: ") + error.what());
   }
@@ -58,14 +63,15 @@ int run_repair(RepairCommandArguments& arguments) {
   const RepairOptions wanted = all_or_wanted_repairs(arguments.repair);
   Session session(arguments);
   session.console.progress("repair", 0);
-  const MeshSource source = read_and_mend(arguments, wanted);
+  const MeshSource source = read_and_mend(arguments, wanted, session);
   session.hold_signals();
   session.console.clear_progress();
   tell_losses(source, session.console);
   tell_repairs(source, session.console);
   std::vector<std::string> losses;
   const MeshFile file = written_as_mended(source, losses);
-  std::ranges::copy(add_mesh(session.files, arguments.output, file), std::back_inserter(losses));
+  std::ranges::copy(add_mesh(session.files, arguments.output, file, {.origin = arguments.input}),
+                    std::back_inserter(losses));
   tell_losses(arguments.output, losses, session.console);
   RepairRecord record = {source, wanted, losses, {{"mesh", arguments.output}}};
   if (const std::string& loops = arguments.repair.loops; !loops.empty()) {
@@ -86,6 +92,7 @@ void declare_options(Declaration& command, RepairCommandArguments& arguments) {
   command.input("MESH", arguments.input, readable_formats("or") + "; - for standard input")
       .output(arguments.output, "FILE",
               "The mended mesh, in the format of its name; - for standard output")
+      .data(arguments.data)
       .json(arguments);
   declare_repair_options(command, arguments.repair);
   command.console(arguments);

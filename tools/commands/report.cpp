@@ -44,7 +44,7 @@ bool is_of_other_kind(const std::string& path) {
 }
 
 struct ReportArguments : CommonArguments {
-  Words inputs;
+  Words inputs, data;
   std::string sphere, texture, output;
   PageOptions options;
 };
@@ -70,6 +70,7 @@ std::string command_line(const ReportArguments& arguments) {
   };
   for (const std::string& input : arguments.inputs) add("", input);
   add(" --sphere", arguments.sphere);
+  for (const std::string& file : split_all(arguments.data)) add(" --data", file);
   add(" --texture", arguments.texture);
   add(" -o", arguments.output);
   if (arguments.options.up == Up::Y) line += " --up y";
@@ -131,8 +132,9 @@ std::vector<PageEntry> load_entries(const ReportArguments& arguments, const Mesh
 int run_report(ReportArguments& arguments) {
   Session session(arguments);
   require_sense(arguments);
-  const MeshSource source = read_source(arguments.inputs.front());
+  MeshSource source = read_source(arguments.inputs.front());
   tell_losses(source, session.console);
+  attach_data_files(source, arguments.data, MissingValues::LeftOut, session);
   require_mappable(source);
   session.hold_signals();
   const std::vector<PageEntry> entries = load_entries(arguments, source, session);
@@ -153,6 +155,7 @@ void declare_options(Declaration& command, ReportArguments& arguments) {
       .required()
       .output(arguments.output, "PAGE.html", "The page; - for standard output")
       .sphere(arguments.sphere)
+      .data(arguments.data)
       .text("--texture", arguments.texture, "IMAGE", "The texture of the mesh")
       .up(arguments.options.up)
       .number("--size", arguments.options.size, "N", {64, 8192},

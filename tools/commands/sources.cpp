@@ -19,7 +19,7 @@ MeshSource read_source(const std::string& path) {
 }
 
 MappedMesh read_mapped(const std::string& path, const std::string& sphere, Session& session,
-                       double lambda) {
+                       double lambda, const Words& data, MissingValues missing) {
   session.hold_signals();
   LoadOptions options{.sphere = sphere, .read = input_limits()};
   options.map.energy.lambda = lambda;
@@ -27,6 +27,7 @@ MappedMesh read_mapped(const std::string& path, const std::string& sphere, Sessi
   options.map.progress = session.progress();
   MeshSource source = read_source(path);
   tell_losses(source, session.console);
+  attach_data_files(source, data, missing, session);
   const MappedMesh mapped = mapped_mesh(std::move(source), options);
   if (mapped.mapped_here())
     session.console.say(mapped.name() + ": carries no map; mapped now (progressive)");

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "commands/data_files.h"
 #include "console/session.h"
 #include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/mesh_source.h"
@@ -15,9 +16,10 @@ namespace sphparam::cli {
 MeshSource read_source(const std::string& path);
 
 /// `load_mapped` within the limits of the command line, from where on signals are held; what the
-/// file loses is told, and so is a map that had to be made, with the λ given.
+/// file loses is told, and so is a map that had to be made, with the λ given. `data`: of --data.
 MappedMesh read_mapped(const std::string& path, const std::string& sphere, Session& session,
-                       double lambda = 1);
+                       double lambda = 1, const Words& data = {},
+                       MissingValues missing = MissingValues::LeftOut);
 
 /// Of images for geographers: how far the map's longitudes and latitudes are from those of the body
 /// that the mesh is, seen from the centre of a radial map or the origin; nothing where they are the

@@ -7,12 +7,15 @@
 #include "io/files/read_back.h"
 #include "number_text.h"
 #include "sphparam/errors.h"
+#include "sphparam/io/brain_names.h"
 #include "sphparam/io/fillers.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/mesh_writer.h"
+#include "sphparam/io/paths.h"
 #include "sphparam/io/sphere_file.h"
+#include "sphparam/io/vertex_data.h"
 
 namespace sphparam {
 
@@ -52,16 +55,32 @@ Polygons surface_polygons(const MappedMesh& mapped) {
   return surface;
 }
 
+/// The mesh, without the data that lies beside it where its format has it so; `told` says where.
+MeshFile with_data_beside(PendingFiles& files, const std::string& path, MeshFile file,
+                          std::vector<std::string>& told) {
+  if (!has_data_beside(path)) return file;
+  for (VertexData& data : attached_data(file)) {
+    const std::string beside = data_path(path, data);
+    data.triangles = file.mesh.face_count();
+    told.push_back(data.name + " beside it: " + output_name(beside));
+    for (const std::string& loss : add_vertex_data(files, beside, data, &file.mesh.positions))
+      told.push_back(output_name(beside) + ": " + loss);
+  }
+  return without_data(std::move(file));
+}
+
 std::vector<std::string> add_surface(PendingFiles& files, const std::string& path,
                                      const MappedMesh& mapped, WriteOptions options) {
-  const MeshFile surface = without_map(without_fillers(mapped.file()));
+  std::vector<std::string> losses;
+  const MeshFile surface =
+      with_data_beside(files, path, without_map(without_fillers(mapped.file())), losses);
   require_numbers(surface, path);
   const Polygons faces =
       mapped.polygons() ? surface_polygons(mapped) : triangles_as_polygons(surface.mesh.triangles);
   options.faces = &faces;
   const auto fillers = std::count(mapped.fillers().begin(), mapped.fillers().end(), 1);
-  std::vector<std::string> losses = {"the surface alone, without the map: " +
-                                     counted(fillers, "filler", "fillers") + " of holes left out"};
+  losses.insert(losses.begin(), "the surface alone, without the map: " +
+                                    counted(fillers, "filler", "fillers") + " of holes left out");
   files.add(path, serialise_mesh(path, surface, options), [&](std::string_view written) {
     const MeshFile read = read_mesh(written, path, own_file);
     if (read.mesh.triangles != surface.mesh.triangles)
@@ -115,31 +134,33 @@ void add_certified(PendingFiles& files, const std::string& path, std::string byt
 std::vector<std::string> add_mapped(PendingFiles& files, const std::string& path, MeshFile file,
                                     const Polygons& faces, const Topology& topology, int threads,
                                     WriteOptions options) {
+  std::vector<std::string> losses;
+  file = with_data_beside(files, path, std::move(file), losses);
   require_numbers(file, path);
   const bool has_place = keeps_map(path);
   const std::optional<SphereMap> map = has_place ? std::nullopt : read_sphere(file);
-  std::vector<std::string> losses;
   options.faces = &faces;
   files.add(path, serialise_mesh(path, file, options), [&](std::string_view written) {
     const MeshFile read = read_mesh(written, path, own_file);
     const SphereMap rays = has_place ? read_sphere(read).value() : map.value();
     require_certified(certify_read_back(read, rays, topology, threads), path + ", as written");
-    losses = losses_of_writing(file, read);
+    for (std::string& loss : losses_of_writing(file, read)) losses.push_back(std::move(loss));
   });
   return losses;
 }
 
-std::vector<std::string> add_mesh(PendingFiles& files, const std::string& path,
-                                  const MeshFile& file) {
-  require_numbers(file, path);
+std::vector<std::string> add_mesh(PendingFiles& files, const std::string& path, MeshFile file,
+                                  const WriteOptions& options) {
   std::vector<std::string> losses;
-  files.add(path, serialise_mesh(path, file), [&](std::string_view written) {
-    ReadOptions options = own_file;
-    options.repeated_corners = true;
-    const MeshFile read = read_mesh(written, path, options);
+  file = with_data_beside(files, path, std::move(file), losses);
+  require_numbers(file, path);
+  files.add(path, serialise_mesh(path, file, options), [&](std::string_view written) {
+    ReadOptions reading = own_file;
+    reading.repeated_corners = true;
+    const MeshFile read = read_mesh(written, path, reading);
     if (read.mesh.triangles != file.mesh.triangles)
       throw WriteError(path, "as written, it has other triangles");
-    losses = losses_of_writing(file, read);
+    for (std::string& loss : losses_of_writing(file, read)) losses.push_back(std::move(loss));
   });
   return losses;
 }

@@ -113,7 +113,8 @@ double add_sphere(PendingFiles& files, const std::string& path, const FinishedMa
                            : HeldMap{finished.map, verdict(finished.certificate)};
   const MeshFile sphere =
       sphere_mesh(finished.file, held.map, provenance_of(held, finished.provenance));
-  files.add(path, serialise_mesh(path, sphere, {.is_sphere = true}), [&](std::string_view written) {
+  const WriteOptions as_sphere{.is_sphere = true, .origin = options.origin};
+  files.add(path, serialise_mesh(path, sphere, as_sphere), [&](std::string_view written) {
     const MeshFile read = read_mesh(written, path, own_map);
     require_verdict(
         held.verdict, path,
@@ -125,10 +126,12 @@ double add_sphere(PendingFiles& files, const std::string& path, const FinishedMa
 double save_sphere(const std::string& path, const MappedMesh& mapped,
                    const SphereOptions& options) {
   PendingFiles files;
+  SphereOptions told = options;
+  if (told.origin.empty()) told.origin = mapped.name();
   const double least_area = add_sphere(
       files, path,
       {mapped.file(), mapped.topology(), mapped.map(), mapped.certificate(), mapped.provenance()},
-      options);
+      told);
   files.publish();
   return least_area;
 }

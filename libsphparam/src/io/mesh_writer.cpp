@@ -37,6 +37,11 @@ bool has_float_spheres(const std::string& path) {
   return format && format->float_spheres;
 }
 
+bool has_data_beside(const std::string& path) {
+  const MeshFormat* const format = written_format(path);
+  return format && format->data_beside;
+}
+
 std::string serialise_mesh(const std::string& path, const MeshFile& file,
                            const WriteOptions& options) {
   const MeshFormat* const format = written_format(path);
@@ -44,8 +49,8 @@ std::string serialise_mesh(const std::string& path, const MeshFile& file,
     throw WriteError(
         path, "meshes are written as " + written_extensions("or") + ", with .gz after it for gzip");
   std::string bytes = format->keeps_map || options.is_sphere
-                          ? format->write(file, options)
-                          : format->write(without_map(file), options);
+                          ? format->write(file, options, path)
+                          : format->write(without_map(file), options, path);
   return is_packed_name(path) ? zip(bytes) : bytes;
 }
 

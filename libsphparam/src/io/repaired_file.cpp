@@ -1,7 +1,9 @@
 #include "io/repaired_file.h"
 
 #include <cmath>
+#include <set>
 
+#include "io/attributes/weightiest_label.h"
 #include "io/mesh_part.h"
 #include "sphparam/io/fillers.h"
 
@@ -14,7 +16,14 @@ namespace {
 constexpr const char* source_vertex = "source_vertex";
 constexpr const char* source_face = "source_face";
 
+/// Whole numbers may be labels: of colours alone there is something between two of them.
 double mean_value(const Property& property, const std::vector<Vertex>& vertices) {
+  static const std::set<std::string> colours = {"red", "green", "blue", "alpha"};
+  if (!is_floating(property.type) && !colours.contains(property.name)) {
+    std::vector<std::pair<double, double>> labelled;
+    for (const Vertex v : vertices) labelled.emplace_back(property.values[v], 1);
+    return weightiest_label(labelled);
+  }
   double sum = 0;
   for (const Vertex v : vertices) sum += property.values[v];
   const double mean = sum / static_cast<double>(vertices.size());

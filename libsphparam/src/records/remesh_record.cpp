@@ -176,7 +176,7 @@ Json head_json(const RemeshRecord& record) {
             {"vertices", made.map().points.rows()},
             {"faces", made.faces().count()},
             {"triangles", made.mesh().face_count()}}},
-          {"sample", record.sample == SampleMode::Cell ? "cell" : "point"}};
+          {"sample", name_of(record.sample)}};
 }
 
 }  // namespace

@@ -10,16 +10,6 @@ namespace {
 
 constexpr std::int64_t seen_by_a_point = 3;
 
-std::vector<double> vertex_areas(const TriangleMesh& mesh) {
-  std::vector<double> areas(static_cast<size_t>(mesh.vertex_count()), 0.0);
-  for (Eigen::Index f = 0; f < mesh.face_count(); ++f) {
-    const auto corner = [&](int k) { return mesh.position(mesh.triangles(f, k)); };
-    const double third = (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm() / 6;
-    for (int k = 0; k < 3; ++k) areas[static_cast<size_t>(mesh.triangles(f, k))] += third;
-  }
-  return areas;
-}
-
 struct Gift {
   Vertex to;
   double weight;
@@ -27,11 +17,11 @@ struct Gift {
 
 /// Calls give(source vertex, gift) for every weight that is not zero.
 template <class Give>
-void for_each_gift(const std::vector<SurfacePoint>& places, const std::vector<double>& areas,
+void for_each_gift(const std::vector<SurfacePoint>& places, const VectorX& areas,
                    const Topology& grid, const Give& give) {
   for (size_t v = 0; v < places.size(); ++v) {
     for (int k = 0; k < 3; ++k) {
-      const double weight = places[v].barycentric[k] * areas[v];
+      const double weight = places[v].barycentric[k] * areas[static_cast<Eigen::Index>(v)];
       if (weight > 0) give(static_cast<Vertex>(v), Gift{grid.vertex(places[v].face, k), weight});
     }
   }
@@ -43,7 +33,7 @@ Gather gather_cells(const TriangleMesh& source, const SphereMap& map, const Topo
                     const SphereMap& grid_map, int threads) {
   const std::vector<SurfacePoint> places =
       SphereLocator(grid, grid_map, threads).locate_all(map.points, threads);
-  const std::vector<double> areas = vertex_areas(source);
+  const VectorX areas = vertex_areas(source);
   const auto count = static_cast<size_t>(grid.vertex_count());
   std::vector<std::int64_t> gifts(count, 0);
   for_each_gift(places, areas, grid,

@@ -25,8 +25,11 @@ void fit_level(LevelOfDetail& level, const MappedMesh& source, const LevelOption
 }
 
 LevelOfDetail make_level(const MappedMesh& source, SphereGrid grid, const LevelOptions& options) {
+  const bool has_its_areas = options.grid_areas.size() == grid.directions.rows();
   LevelOfDetail level{remesh(source, std::move(grid),
                              {.sample = options.sample,
+                              .source_areas = options.source_areas,
+                              .grid_areas = has_its_areas ? options.grid_areas : VectorX(),
                               .transfer = options.transfer,
                               .threads = options.threads,
                               .progress = options.progress})};

@@ -113,6 +113,13 @@ class Transfer {
     return Eigen::Map<const Points>(rows.data(), static_cast<Eigen::Index>(rows.size() / 3), 3);
   }
 
+  /// From here on, what vertices have is as Workbench would take it.
+  void weigh(const MappedMesh& source, const TriangleMesh& on_grid) {
+    if (options_.sample == SampleMode::Barycentric)
+      cells_ = barycentric_weights(source, grid_.directions, options_.threads);
+    if (options_.sample == SampleMode::AdapBaryArea) weigh_by_areas(source, on_grid);
+  }
+
   void vertex_properties(MeshFile& file) const {
     for (const Property& property : source_.vertex_properties) {
       if (!wanted_.property(property.name)) continue;
@@ -152,6 +159,7 @@ class Transfer {
   }
 
   long averaged() const {
+    if (options_.sample != SampleMode::Cell) return 0;
     long count = 0;
     for (std::int64_t i = 0; i < cells_.count(); ++i) {
       const auto at = static_cast<size_t>(i);
@@ -164,6 +172,18 @@ class Transfer {
 
  private:
   static size_t at(int i) { return static_cast<size_t>(i); }
+
+  /// The new positions may have to tell the areas.
+  void weigh_by_areas(const MappedMesh& source, const TriangleMesh& on_grid) {
+    report(options_.progress, "gather", 0);
+    const VectorX& of_source = options_.source_areas;
+    const VectorX& of_grid = options_.grid_areas;
+    const Topology topology(on_grid, options_.threads);
+    cells_ = adap_bary_area_weights(source, topology, SphereMap{grid_.directions},
+                                    of_source.size() > 0 ? of_source : vertex_areas(source.mesh()),
+                                    of_grid.size() > 0 ? of_grid : vertex_areas(on_grid),
+                                    options_.threads);
+  }
 
   /// Of faces; what marks fillers is no matter of choice.
   bool carries(const Property& property) const {
@@ -293,7 +313,7 @@ Provenance provenance_of(const MappedMesh& source, const std::string& grid, Samp
   Provenance lines = {{"version", version},
                       {"method", "remesh"},
                       {"grid", std::filesystem::path(grid).filename().string()},
-                      {"sample", sample == SampleMode::Cell ? "cell" : "point"}};
+                      {"sample", name_of(sample)}};
   for (const auto& [key, value] : source.provenance()) {
     if (key == "method") lines.emplace_back("source", value);
   }
@@ -303,6 +323,19 @@ Provenance provenance_of(const MappedMesh& source, const std::string& grid, Samp
 }
 
 }  // namespace
+
+std::string name_of(SampleMode mode) {
+  switch (mode) {
+    case SampleMode::Cell:
+      return "cell";
+    case SampleMode::Barycentric:
+      return "barycentric";
+    case SampleMode::AdapBaryArea:
+      return "adap-bary-area";
+    default:
+      return "point";
+  }
+}
 
 Remeshed::Remeshed(MappedMesh mesh, std::optional<GridSpec> spec, const Figures& figures)
     : MappedMesh(std::move(mesh)), spec_(spec), figures_(figures) {}
@@ -319,7 +352,7 @@ SphereGrid Remeshed::grid() const {
 Remeshed remesh(const MappedMesh& source, SphereGrid grid, const RemeshOptions& options) {
   MeshFile file;
   Remeshed::Figures figures;
-  const Transfer transfer(source, grid, options);
+  Transfer transfer(source, grid, options);
   figures.locate_seconds = transfer.locate_seconds;
   figures.averaged = transfer.averaged();
   const Stopwatch stopwatch;
@@ -328,6 +361,7 @@ Remeshed remesh(const MappedMesh& source, SphereGrid grid, const RemeshOptions& 
   file.mesh.positions = transfer.positions();
   figures.transfer_seconds = stopwatch.seconds();
   const Triangulation cut = triangulate(file.mesh.positions, grid.faces);
+  transfer.weigh(source, {file.mesh.positions, cut.triangles});
   transfer.vertex_properties(file);
   adopt_triangulation(file, cut);
   transfer.of_faces(file, cut);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -47,17 +48,18 @@ void for_each_sample(const Resampling& resampling, const Visit& visit) {
   });
 }
 
-/// The mean of value(vertex).
+/// The mean of value(vertex). What has no weight is not looked at: it may be NaN.
 template <class Value>
 double mean(const Sources& sources, const Value& value) {
-  double sum = 0, least = value(sources.vertices[0]), greatest = least;
+  double sum = 0, least = std::numeric_limits<double>::infinity(), greatest = -least;
   for (size_t e = 0; e < sources.vertices.size(); ++e) {
+    if (sources.weights[e] == 0) continue;
     const double x = value(sources.vertices[e]);
     sum += sources.weights[e] * x;
     least = std::min(least, x);
     greatest = std::max(greatest, x);
   }
-  return std::clamp(sum, least, greatest);
+  return sum < least ? least : greatest < sum ? greatest : sum;
 }
 
 double in_type(ScalarType type, double value) {

@@ -1,23 +1,12 @@
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "sphparam/io/mesh_file.h"
 #include "sphparam/mesh/surface_point.h"
+#include "sphparam/remesh/resample.h"
 
 namespace sphparam {
-
-/// For each sample, which vertices of a mesh it is a mean of: entry e of sample i, for
-/// starts[i] ≤ e < starts[i + 1], has the vertex and its weight; weights of a sample sum to 1 up to
-/// rounding.
-struct Gather {
-  std::vector<std::int64_t> starts;
-  std::vector<Vertex> vertices;
-  std::vector<double> weights;
-
-  std::int64_t count() const { return static_cast<std::int64_t>(starts.size()) - 1; }
-};
 
 /// Where samples of a surface take their values from: at points of it, or, where `cells` has
 /// entries for a sample, from the mean over its cell.

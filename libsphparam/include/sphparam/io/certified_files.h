@@ -15,6 +15,10 @@ namespace sphparam {
 
 class MappedMesh;
 
+// Data that a mesh carries (vertex_data.h) is written beside it where its format has it so
+// (`has_data_beside`), in files named by `data_path`, with it or not at all. What these functions
+// return says where, too.
+
 /// Throws UnmeasurableMesh where a mesh that was made here, to be written as `path`, has positions
 /// or values that are no finite numbers.
 void require_numbers(const MeshFile& file, const std::string& path);
@@ -40,8 +44,8 @@ std::vector<std::string> add_mapped(PendingFiles& files, const std::string& path
 /// Adds a mesh whatever it is, in the format that the name asks for. It is read back once written,
 /// and must have the same triangles: WriteError if not. Returns what the format had no place for.
 /// Throws: UnmeasurableMesh as `require_numbers`; WriteError for a name of no format.
-std::vector<std::string> add_mesh(PendingFiles& files, const std::string& path,
-                                  const MeshFile& file);
+std::vector<std::string> add_mesh(PendingFiles& files, const std::string& path, MeshFile file,
+                                  const WriteOptions& options = {});
 
 /// What becomes of fillers where a mapped mesh is written.
 enum class FillersInFile {

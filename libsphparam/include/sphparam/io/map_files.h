@@ -39,8 +39,9 @@ void add_map(PendingFiles& files, const std::string& path, const MeshFile& with_
 
 struct SphereOptions {
   DistortionEnergy energy = {};  // where the map has to be made anew, what is minimised
-  bool may_remap = true;  // false: vertices of it are held at given points, which that would lose
-  int threads = 0;        // 0: all cores
+  bool may_remap = true;    // false: vertices of it are held at given points, which that would lose
+  std::string origin = {};  // the mesh's file: its name may say which hemisphere it is
+  int threads = 0;          // 0: all cores
   Progress progress = {};
 };
 

@@ -9,8 +9,8 @@ namespace sphparam {
 
 // Meshes are written in the format that the name of the file asks for: .ply, .obj, .off, .vtk,
 // .vtp, .gii, .mz3, or a name of FreeSurfer (.white, .pial, .inflated, .sphere, .orig, .smoothwm,
-// .reg, .surf). ".gz" after it asks for gzip. A name without an extension, and "-", standard
-// output, ask for PLY.
+// .midthickness, .graymid, .reg, .surf). ".gz" after it asks for gzip. A name without an extension,
+// and "-", standard output, ask for PLY.
 //
 // All are lossless in what they carry, and reading gives it back. PLY: everything. OBJ: positions,
 // colours, texture coordinates, normals, materials, comments. OFF: what vertices have of these, and
@@ -27,6 +27,9 @@ struct WriteOptions {
   /// Coordinates of GIFTI are rounded to 32 bits, as the tools about it ask; else they are written
   /// with 64 where that is what they have.
   bool float32 = false;
+  /// The file that the mesh is made of. GIFTI says by its name which hemisphere it is, and which
+  /// surface, where neither comments nor the new name do (brain_names.h).
+  std::string origin = {};
 };
 
 /// Whether there is a format that is written under this name.
@@ -38,6 +41,10 @@ std::string written_extensions(const std::string& conjunction = "or");
 /// Whether spheres get coordinates of 32 bits and the radius 100 under this name, as GIFTI,
 /// FreeSurfer and MZ3 have them.
 bool has_float_spheres(const std::string& path);
+
+/// Whether numbers a vertex lie in files of their own beside a mesh of this name (vertex_data.h),
+/// as beside GIFTI and FreeSurfer's.
+bool has_data_beside(const std::string& path);
 
 /// Whether that format has a place for a map, the vertex properties sx sy sz.
 bool keeps_map(const std::string& path);

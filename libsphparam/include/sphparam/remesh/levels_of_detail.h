@@ -14,6 +14,8 @@ namespace sphparam {
 
 struct LevelOptions {
   SampleMode sample = SampleMode::Point;
+  VectorX source_areas = {}, grid_areas = {};   // as in RemeshOptions; the latter, of the
+                                                // first level
   std::vector<std::string> transfer = {"all"};  // as in RemeshOptions
   /// A subdivision surface is fitted to each level: nested in vertices and directions, as near to
   /// the mesh as each can be. Loop for triangles, Catmull-Clark for quads.

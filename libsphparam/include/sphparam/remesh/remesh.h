@@ -15,7 +15,14 @@ namespace sphparam {
 enum class SampleMode {
   Point,  // the surface at the direction
   Cell,   // its mean over the cell, where the grid is coarser than the source
+  /// Positions, and what faces and corners have, as `Point`; what vertices have by
+  /// `barycentric_weights` or `adap_bary_area_weights` (resample.h)
+  Barycentric,
+  AdapBaryArea,
 };
+
+/// "point", "cell", "barycentric", "adap-bary-area".
+std::string name_of(SampleMode mode);
 
 /// A name that is none of what a mesh has, and what it has.
 class NoSuchProperty : public std::invalid_argument {
@@ -25,6 +32,9 @@ class NoSuchProperty : public std::invalid_argument {
 
 struct RemeshOptions {
   SampleMode sample = SampleMode::Point;
+  /// With AdapBaryArea: the areas of vertices of the source and of the grid; empty: on the source,
+  /// and on what becomes of it on the grid.
+  VectorX source_areas = {}, grid_areas = {};
   /// What to carry besides positions: "all", "color", "normal", "uv", "material", or names of
   /// properties; none: nothing.
   std::vector<std::string> transfer = {"all"};
@@ -62,12 +72,13 @@ class Remeshed : public MappedMesh {
 /// Floating numbers and colours are interpolated, normals made unit again, whole numbers are labels
 /// and never mixed. Texture coordinates and normals of corners come from the side of a seam that
 /// the face's middle lies on. Faces have the material and the properties of the source at their
-/// middle. With `Cell`, texture coordinates and properties of faces are point samples all the same.
-/// The result's provenance says which grid and how, and how the source was mapped.
-/// Ensures: the same bytes for any number of threads; a grid vertex in the direction of a source
-/// vertex gets that vertex's values, bit for bit.
+/// middle. Whatever is asked for, texture coordinates and properties of faces are point samples.
+/// Data of vertices may be NaN: what is a mean of it is NaN. The result's provenance says which
+/// grid and how, and how the source was mapped. Ensures: the same bytes for any number of threads;
+/// a grid vertex in the direction of a source vertex gets that vertex's values, bit for bit.
 /// Throws: NoSuchProperty for a name in `transfer` that the source has not; MeshError and
-/// NotCertifiedError for a grid of one's own that is no sphere; Cancelled.
+/// NotCertifiedError for a grid of one's own that is no sphere; std::invalid_argument for areas
+/// that are not one a vertex; Cancelled.
 /// Cost: about 1 µs a vertex of the grid, one thread, and the source's locator, once.
 Remeshed remesh(const MappedMesh& source, SphereGrid grid, const RemeshOptions& options = {});
 Remeshed remesh(const MappedMesh& source, const GridSpec& grid, const RemeshOptions& options = {});

@@ -24,6 +24,7 @@
 #include "io/formats/vtk/legacy_vtk_writer.h"
 #include "io/formats/vtk/xml_vtk_reader.h"
 #include "io/formats/vtk/xml_vtk_writer.h"
+#include "sphparam/io/brain_names.h"
 
 namespace sphparam {
 namespace {
@@ -44,6 +45,17 @@ MeshFile read_obj_files(const MeshBytes& bytes, const ReadOptions& options) {
   return read_obj(bytes.bytes, bytes.name, bytes.folder, options);
 }
 
+/// For formats that are told nothing but the mesh.
+template <std::string (&writer)(const MeshFile&)>
+std::string write(const MeshFile& file, const WriteOptions&, const std::string&) {
+  return writer(file);
+}
+
+template <std::string (&writer)(const MeshFile&, const WriteOptions&)>
+std::string write(const MeshFile& file, const WriteOptions& options, const std::string&) {
+  return writer(file, options);
+}
+
 std::string write_ply(const MeshFile& file, const WriteOptions& options) {
   const Polygons* const faces = options.faces;
   const bool has_polygons = faces && std::ssize(faces->corners) != 3 * faces->count();
@@ -54,21 +66,36 @@ std::string write_obj(const MeshFile& file, const WriteOptions& options) {
   return options.faces ? serialise_polygon_obj(file, *options.faces) : serialise_obj(file);
 }
 
-std::string write_off(const MeshFile& file, const WriteOptions&) { return serialise_off(file); }
-
-std::string write_gifti(const MeshFile& file, const WriteOptions& options) {
-  return serialise_gifti(
-      file, {.geometric_type = options.is_sphere ? "Spherical" : "", .float32 = options.float32});
+/// What the comments do not say of a brain's surface, its names do: its own, else that of the file
+/// it is made of.
+std::string write_gifti(const MeshFile& file, const WriteOptions& options,
+                        const std::string& path) {
+  GiftiOptions told{.float32 = options.float32};
+  const auto is_said = [&](std::string_view key) {
+    return std::ranges::any_of(file.comments, [&](const std::string& comment) {
+      return comment.starts_with("gifti " + std::string(key) + " ");
+    });
+  };
+  if (!is_said("AnatomicalStructurePrimary")) {
+    told.anatomical_structure = structure_of_name(path);
+    if (told.anatomical_structure.empty())
+      told.anatomical_structure = structure_of_name(options.origin);
+  }
+  if (options.is_sphere) {
+    told.geometric_type = "Spherical";
+  } else if (!is_said("GeometricType")) {
+    SurfaceWords words = surface_words_of_name(path);
+    if (words.geometric_type.empty()) words = surface_words_of_name(options.origin);
+    told.geometric_type = words.geometric_type;
+    if (!is_said("AnatomicalStructureSecondary"))
+      told.secondary_structure = words.secondary_structure;
+  }
+  return serialise_gifti(file, told);
 }
-
-std::string write_freesurfer(const MeshFile& file, const WriteOptions&) {
-  return serialise_freesurfer(file);
-}
-
-std::string write_mz3(const MeshFile& file, const WriteOptions&) { return serialise_mz3(file); }
 
 constexpr bool with_map = true, without_map = false;
 constexpr bool spheres_in_floats = true, spheres_in_doubles = false;
+constexpr bool with_data_beside = true;
 constexpr auto magic = Evidence::MagicWord;
 
 constexpr MeshFormat formats[] = {
@@ -77,7 +104,7 @@ constexpr MeshFormat formats[] = {
      Evidence::Text,
      looks_like_obj,
      read_obj_files,
-     write_obj,
+     write<write_obj>,
      without_map,
      spheres_in_doubles},
     {"PLY",
@@ -85,7 +112,7 @@ constexpr MeshFormat formats[] = {
      magic,
      looks_like_ply,
      read<read_ply>,
-     write_ply,
+     write<write_ply>,
      with_map,
      spheres_in_doubles},
     {"OFF",
@@ -93,7 +120,7 @@ constexpr MeshFormat formats[] = {
      magic,
      looks_like_off,
      read<read_off>,
-     write_off,
+     write<serialise_off>,
      without_map,
      spheres_in_doubles},
     {"STL",
@@ -117,7 +144,7 @@ constexpr MeshFormat formats[] = {
      magic,
      looks_like_legacy_vtk,
      read<read_legacy_vtk>,
-     serialise_legacy_vtk,
+     write<serialise_legacy_vtk>,
      with_map,
      spheres_in_doubles},
     {"VTP",
@@ -125,7 +152,7 @@ constexpr MeshFormat formats[] = {
      magic,
      looks_like_xml_vtk,
      read<read_xml_vtk>,
-     serialise_xml_vtk,
+     write<serialise_xml_vtk>,
      with_map,
      spheres_in_doubles},
     {"GIFTI",
@@ -135,21 +162,24 @@ constexpr MeshFormat formats[] = {
      read<read_gifti>,
      write_gifti,
      without_map,
-     spheres_in_floats},
+     spheres_in_floats,
+     with_data_beside},
     {"FreeSurfer",
-     {".white", ".pial", ".inflated", ".sphere", ".orig", ".smoothwm", ".reg", ".surf"},
+     {".white", ".pial", ".inflated", ".sphere", ".orig", ".smoothwm", ".reg", ".surf",
+      ".midthickness", ".graymid"},
      magic,
      looks_like_freesurfer,
      read<read_freesurfer>,
-     write_freesurfer,
+     write<serialise_freesurfer>,
      without_map,
-     spheres_in_floats},
+     spheres_in_floats,
+     with_data_beside},
     {"MZ3",
      {".mz3"},
      Evidence::Layout,
      looks_like_mz3,
      read<read_mz3>,
-     write_mz3,
+     write<serialise_mz3>,
      without_map,
      spheres_in_floats},
 };

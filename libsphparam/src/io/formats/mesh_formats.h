@@ -26,16 +26,18 @@ struct MeshBytes {
 
 /// A format of mesh files.
 struct MeshFormat {
-  const char* names;                           // for people: "glTF, GLB"
-  std::array<std::string_view, 8> extensions;  // in lower case, with their dots; then empty ones
-  Evidence evidence;                           // that `looks_so` gives
+  const char* names;                            // for people: "glTF, GLB"
+  std::array<std::string_view, 10> extensions;  // in lower case, with their dots; then empty ones
+  Evidence evidence;                            // that `looks_so` gives
   bool (*looks_so)(std::string_view bytes);
   /// Also of bytes that do not look so, where a file is named so: the reader says what is wrong.
   MeshFile (*read)(const MeshBytes& bytes, const ReadOptions& options);
-  /// Null: it is only read. Where a format has no polygons, the triangles are written.
-  std::string (*write)(const MeshFile& file, const WriteOptions& options);
-  bool keeps_map;      // what is written has a place for the rays
-  bool float_spheres;  // spheres are written with coordinates of 32 bits, of radius 100
+  /// Null: it is only read. Where a format has no polygons, the triangles are written. The path
+  /// says nothing but what the file is named.
+  std::string (*write)(const MeshFile& file, const WriteOptions& options, const std::string& path);
+  bool keeps_map;            // what is written has a place for the rays
+  bool float_spheres;        // spheres are written with coordinates of 32 bits, of radius 100
+  bool data_beside = false;  // numbers a vertex lie beside, in files of their own
 };
 
 /// All formats, in the order in which they are named to people.

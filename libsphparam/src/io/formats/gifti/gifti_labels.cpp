@@ -33,8 +33,10 @@ std::string shortest(float number) {
 
 }  // namespace
 
-std::string comment_of(const GiftiLabel& label) {
-  std::string text = std::string(prefix) + std::to_string(label.key);
+std::string comment_of(const Label& label) { return std::string(prefix) + label_text(label); }
+
+std::string label_text(const Label& label) {
+  std::string text = std::to_string(label.key);
   if (label.colour) {
     for (const float channel : *label.colour) text += " " + shortest(channel);
   } else {
@@ -43,19 +45,22 @@ std::string comment_of(const GiftiLabel& label) {
   return text + " " + one_line(label.name);
 }
 
-std::optional<GiftiLabel> label_in(std::string_view comment) {
+std::optional<Label> label_in(std::string_view comment) {
   if (!comment.starts_with(prefix)) return std::nullopt;
-  comment.remove_prefix(prefix.size());
-  GiftiLabel label;
-  if (!parse(take_word(comment), label.key)) return std::nullopt;
-  if (comment == "-" || comment.starts_with("- ")) {
-    take_word(comment);
+  return parse_label(comment.substr(prefix.size()));
+}
+
+std::optional<Label> parse_label(std::string_view text) {
+  Label label;
+  if (!parse(take_word(text), label.key)) return std::nullopt;
+  if (text == "-" || text.starts_with("- ")) {
+    take_word(text);
   } else {
     label.colour.emplace();
     for (float& channel : *label.colour)
-      if (!parse(take_word(comment), channel) || !std::isfinite(channel)) return std::nullopt;
+      if (!parse(take_word(text), channel) || !std::isfinite(channel)) return std::nullopt;
   }
-  label.name = comment;
+  label.name = text;
   return label;
 }
 

@@ -145,7 +145,7 @@ class GiftiReader {
     return name + "_" + std::to_string(number);
   }
 
-  static std::string value_of(const GiftiMetadata& metadata, std::string_view key) {
+  static std::string value_of(const Metadata& metadata, std::string_view key) {
     for (const auto& [name, value] : metadata)
       if (name == key) return value;
     return {};
@@ -163,7 +163,7 @@ class GiftiReader {
         file_.comments.push_back(one_line("gifti " + std::string(key) + " " + value));
     }
     note_metadata();
-    for (const GiftiLabel& label : document_.labels) file_.comments.push_back(comment_of(label));
+    for (const Label& label : document_.labels) file_.comments.push_back(comment_of(label));
     for (const auto& [from, to, matrix] : points.coordinate_systems)
       if (!is_identity(matrix))
         add_loss(file_.notes, "the transform from the space " + quoted(from) + " to " + quoted(to) +
@@ -172,7 +172,7 @@ class GiftiReader {
 
   void note_metadata() {
     std::vector<std::string> keys;
-    const auto add = [&](const GiftiMetadata& metadata) {
+    const auto add = [&](const Metadata& metadata) {
       for (const auto& [key, value] : metadata) {
         const bool known = key.empty() || key == "Name" || key.starts_with("sphparam ") ||
                            std::find(kept.begin(), kept.end(), key) != kept.end();

@@ -10,6 +10,7 @@ struct GiftiOptions {
   /// Metadata of the coordinates; what the comments "gifti KEY VALUE" say, where empty.
   std::string geometric_type = {};        // "Anatomical"; "Spherical": in no space but its own
   std::string anatomical_structure = {};  // "CortexLeft", …; "Other" where nobody says
+  std::string secondary_structure = {};   // "GrayWhite", "Pial", "MidThickness"
   bool float32 = false;                   // coordinates are rounded to 32 bits
 };
 

@@ -67,7 +67,7 @@ class Parser : public XmlEvents {
   bool inside(std::string_view parent) const { return !path_.empty() && path_.back() == parent; }
   bool in_array() const { return path_.size() > 1 && path_[1] == "DataArray"; }
   GiftiArray& array() { return document_.arrays.back(); }
-  GiftiMetadata& metadata() { return in_array() ? array().metadata : document_.metadata; }
+  Metadata& metadata() { return in_array() ? array().metadata : document_.metadata; }
 
   void start_gifti(const XmlAttributes& attributes) {
     if (!path_.empty()) fail("<GIFTI> within <GIFTI>");
@@ -107,7 +107,7 @@ class Parser : public XmlEvents {
 
   void start_label(const XmlAttributes& attributes) {
     static constexpr const char* channels[] = {"Red", "Green", "Blue", "Alpha"};
-    GiftiLabel label;
+    Label label;
     const char* const key = attributes.has("Key") ? "Key" : "Index";  // as it was called at first
     if (!attributes.has(key)) fail("label without a key");
     label.key = number<int>(attributes.value(key), "a whole number");

@@ -3,15 +3,12 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
-#include "io/formats/gifti/gifti_labels.h"
 #include "sphparam/io/read_options.h"
+#include "sphparam/io/vertex_data.h"
 
 namespace sphparam {
-
-using GiftiMetadata = std::vector<std::pair<std::string, std::string>>;
 
 /// One array of a GIFTI file: its attributes as written, its data still encoded.
 struct GiftiArray {
@@ -23,15 +20,15 @@ struct GiftiArray {
   long data_line = 0;  // of <Data>
   std::string intent, data_type, encoding, endian, order, external_file;
   std::vector<std::int64_t> dimensions;
-  GiftiMetadata metadata;
+  Metadata metadata;
   std::vector<CoordinateSystem> coordinate_systems;
   std::string data;
 };
 
 struct GiftiDocument {
-  GiftiMetadata metadata;
+  Metadata metadata;
   std::vector<GiftiArray> arrays;
-  std::vector<GiftiLabel> labels;
+  std::vector<Label> labels;
 };
 
 /// Takes the XML of a GIFTI file apart. Attributes and nesting are checked, the data is not

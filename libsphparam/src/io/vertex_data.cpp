@@ -1,0 +1,196 @@
+// The one place that knows all formats of numbers a vertex.
+
+#include "sphparam/io/vertex_data.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+
+#include "io/files/file_bytes.h"
+#include "io/files/gzip.h"
+#include "io/files/read_back.h"
+#include "io/formats/gifti/gifti_reader.h"
+#include "io/formats/gifti/gifti_values.h"
+#include "io/formats/values/annot.h"
+#include "io/formats/values/curv.h"
+#include "io/formats/values/label_file.h"
+#include "io/formats/values/mgh.h"
+#include "number_text.h"
+#include "sphparam/io/brain_names.h"
+#include "sphparam/io/losses.h"
+#include "sphparam/io/paths.h"
+#include "sphparam/io/safe_file.h"
+
+namespace sphparam {
+namespace {
+
+enum class ValuesFormat { Gifti, Curv, Annot, LabelFile, Mgh };
+
+constexpr std::array<std::string_view, 7> curv_endings = {
+    ".curv", ".thickness", ".sulc", ".area", ".volume", ".avg_curv", ".jacobian_white"};
+
+bool is_of_hemisphere(const std::string& path) {
+  const std::string name = std::filesystem::path(path).filename().string();
+  return name.size() > 3 && (name.starts_with("lh.") || name.starts_with("rh."));
+}
+
+/// By its name; nothing where that says nothing.
+std::optional<ValuesFormat> named_format(const std::string& path) {
+  const std::string extension = inner_extension_of(path);
+  if (extension == ".gii") return ValuesFormat::Gifti;
+  if (extension == ".annot") return ValuesFormat::Annot;
+  if (extension == ".label") return ValuesFormat::LabelFile;
+  if (extension == ".mgh" || extension == ".mgz") return ValuesFormat::Mgh;
+  if (std::ranges::find(curv_endings, extension) != curv_endings.end() || is_of_hemisphere(path))
+    return ValuesFormat::Curv;
+  return std::nullopt;
+}
+
+ValuesFormat format_of(std::string_view bytes, const std::string& name) {
+  if (looks_like_gifti(bytes)) return ValuesFormat::Gifti;
+  if (looks_like_curv(bytes)) return ValuesFormat::Curv;
+  if (looks_like_label_file(bytes)) return ValuesFormat::LabelFile;
+  if (looks_like_mgh(bytes)) return ValuesFormat::Mgh;
+  if (const std::optional<ValuesFormat> named = named_format(name)) return *named;
+  throw ReadError(name, "is no file of values that is known; " + written_data_names() + " are");
+}
+
+VertexData read_as(ValuesFormat format, std::string_view bytes, const std::string& name,
+                   Eigen::Index vertices, const ReadOptions& options) {
+  switch (format) {
+    case ValuesFormat::Gifti:
+      return read_gifti_values(bytes, name, options);
+    case ValuesFormat::Curv:
+      return read_curv(bytes, name, options);
+    case ValuesFormat::Annot:
+      return read_annot(bytes, name, options);
+    case ValuesFormat::LabelFile:
+      return read_label_file(bytes, name, vertices, options);
+    default:
+      return read_mgh(bytes, name, options);
+  }
+}
+
+std::string write_as(ValuesFormat format, const VertexData& data, const Points* surface) {
+  switch (format) {
+    case ValuesFormat::Gifti:
+      return serialise_gifti_values(data);
+    case ValuesFormat::Curv:
+      return serialise_curv(data);
+    case ValuesFormat::Annot:
+      return serialise_annot(data);
+    case ValuesFormat::LabelFile:
+      return serialise_label_file(data, surface);
+    default:
+      return serialise_mgh(data);
+  }
+}
+
+/// Without folder and endings.
+std::string name_of_data(const std::string& path) {
+  const std::string name = parse_brain_name(path).what;
+  return name.empty() ? "data" : name;
+}
+
+bool is_same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+
+/// Numbers of 32 bits are what these formats have. Of labels nothing may change, but −1 for 0.
+std::vector<std::string> losses_of_writing(const VertexData& written, const VertexData& read,
+                                           const std::string& path) {
+  std::vector<std::string> losses;
+  if (written.columns.size() != read.columns.size())
+    throw WriteError(path, "as written, it has other columns");
+  std::int64_t rounded = 0, metadata = 0, unnamed = 0;
+  for (std::size_t k = 0; k < written.columns.size(); ++k) {
+    const DataColumn &before = written.columns[k], &after = read.columns[k];
+    for (std::size_t v = 0; v < before.values.size(); ++v) {
+      const double value = before.values[v];
+      if (is_same(value, after.values[v])) continue;
+      const bool is_no_label = value <= 0 && after.values[v] <= 0;
+      const bool is_rounded =
+          is_same(static_cast<double>(static_cast<float>(value)), after.values[v]);
+      if (written.kind == DataKind::Labels
+              ? !is_no_label && named_format(path) != ValuesFormat::LabelFile
+              : !is_rounded)
+        throw WriteError(path, "as written, it has other values");
+      rounded += written.kind != DataKind::Labels;
+    }
+    metadata += std::ssize(before.metadata) - std::ssize(after.metadata);
+    unnamed += !before.name.empty() && after.name.empty();
+  }
+  metadata += std::ssize(written.metadata) - std::ssize(read.metadata);
+  if (rounded > 0)
+    add_loss(losses,
+             "the last digits of " + counted(rounded, "value") + ": they have 32 bits there");
+  if (unnamed > 0) add_loss(losses, "names of columns");
+  if (metadata > 0) add_loss(losses, counted(metadata, "line", "lines") + " of metadata");
+  return losses;
+}
+
+bool is_packed(const std::string& path) {
+  return is_packed_name(path) || extension_of(path) == ".mgz";
+}
+
+}  // namespace
+
+VertexData read_vertex_data(std::string_view bytes, const std::string& name, Eigen::Index vertices,
+                            const ReadOptions& options) {
+  if (bytes.size() > options.max_file_bytes)
+    throw ReadError(
+        name, "is larger than the limit of " + std::to_string(options.max_file_bytes) + " bytes");
+  std::string unpacked;
+  if (looks_like_gzip(bytes)) {
+    unpacked = unzip(bytes, name, options.max_file_bytes).bytes;
+    bytes = unpacked;
+  }
+  if (bytes.empty()) throw ReadError(name, "the file is empty");
+  VertexData data = read_as(format_of(bytes, name), bytes, name, vertices, options);
+  if (vertices > 0 && data.vertex_count() != vertices)
+    throw ReadError(name, "has values of " + std::to_string(data.vertex_count()) +
+                              " vertices, and the surface has " + std::to_string(vertices));
+  data.name = name_of_data(name);
+  if (data.structure.empty()) data.structure = structure_of_name(name);
+  return data;
+}
+
+VertexData read_vertex_data(const std::string& path, Eigen::Index vertices,
+                            const ReadOptions& options) {
+  const FileBytes bytes(path, options.max_file_bytes);
+  return read_vertex_data(bytes.view(), bytes.name(), vertices, options);
+}
+
+bool is_written_data(const std::string& path) { return named_format(path).has_value(); }
+
+std::string written_data_names() {
+  return ".shape.gii, .func.gii, .label.gii, .annot, .label, .mgh, .mgz and lh.NAME";
+}
+
+std::string serialise_vertex_data(const std::string& path, const VertexData& data,
+                                  const Points* surface) {
+  const std::optional<ValuesFormat> format = named_format(path);
+  if (!format) throw WriteError(path, "values are written as " + written_data_names());
+  if (data.columns.empty()) throw WriteError(path, "there are no values to write");
+  try {
+    const std::string bytes = write_as(*format, data, surface);
+    return is_packed(path) ? zip(bytes) : bytes;
+  } catch (const WriteError& error) {
+    throw WriteError(path, error.what());
+  }
+}
+
+std::vector<std::string> add_vertex_data(PendingFiles& files, const std::string& path,
+                                         const VertexData& data, const Points* surface) {
+  std::vector<std::string> losses;
+  files.add(path, serialise_vertex_data(path, data, surface), [&](std::string_view written) {
+    losses = losses_of_writing(data, read_vertex_data(written, path, data.vertex_count(), own_file),
+                               path);
+  });
+  return losses;
+}
+
+void write_vertex_data(const std::string& path, const VertexData& data, const Points* surface) {
+  write_file(path, serialise_vertex_data(path, data, surface));
+}
+
+}  // namespace sphparam
