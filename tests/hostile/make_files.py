@@ -84,6 +84,9 @@ def make_obj():
     for i, word in enumerate(("nan", "-nan", "inf", "-INF", "infinity", "NaN(1)", "0x10", "0x1p3", "1e", "1e+", "--1", "+-1", "1..2",
                                  "1_000", "1d5", "$", "1e99999", "-1e309", "'1'", "1f")):
         bad("number_%d" % i, changed(t, "v 1 1 1", "v 1 1 " + word), ":1: expected a number")
+    for i, word in enumerate(("-1.#IND", "1.#INF", "1.#QNAN0", "1.#SNAN")):
+        bad("microsoft_%d" % i, changed(t, "v 1 1 1", "v 1 1 " + word), ":1: expected a number, found '%s'" % word)
+    ok("comment_at_a_number", changed(t, "v 1 1 1", "v 1 1 1#INFO"))
     bad("decimal_comma", changed(t, "v 1 1 1", "v 1,0 1,0 1,0"), "decimal point")
     bad("comma_separated", changed(t, "v 1 1 1", "v 1,1,1"), "decimal point")
     bad("two_coordinates", changed(t, "v 1 1 1", "v 1 1"), "found the end of the line")
@@ -187,6 +190,7 @@ def make_off():
     bad("degree_more", changed(t, "3 0 2 1", "4 0 2 1"), "found the end of the line")
     for word in ("nan", "inf", "0x1", "1e400", "1,5", "x"):
         bad("number_%s" % word.replace(",", "_"), changed(t, "1 1 1\n", "1 1 %s\n" % word), ":3: expected a number")
+    bad("microsoft", changed(t, "1 1 1\n", "1 1 -1.#IND\n"), ":3: expected a number, found '-1.#IND'")
     bad("two_coordinates", changed(t, "-1 -1 1\n", "-1 -1\n"), ":4: expected a number")
     bad("extra_coordinate", changed(t, "-1 -1 1\n", "-1 -1 1 7\n"), ":4: unexpected '7'")
     bad("keyword_explains_not", "N" + changed(t, "1 1 1\n", "1 1 1 5\n"), "which NOFF does not explain")
@@ -462,6 +466,11 @@ def make_gzip():
         broken = bytearray(packed)
         broken[at] ^= 0xE0
         bad("%s.obj.gz" % name, bytes(broken), "gzip data is ")
+    for kind, text in (("vtk", science_formats.vtk()), ("vtp", science_formats.vtp()), ("mz3", science_formats.mz3()),
+                       ("white", science_formats.surface())):
+        ok("format.%s.gz" % kind, pack(text))
+        whole = pack(text)
+        bad("cut.%s.gz" % kind, whole[:len(whole) * 2 // 3], "gzip data is cut short")
     bad("twice.obj.gz", pack(packed), "gzip-compressed data within gzip")
     bad("of_nothing.obj.gz", pack(""), "the file is empty")
     bad("of_a_picture.gz", pack(b"\x89PNG\r\n\x1a\n" + bytes(40)), "PNG")

@@ -174,6 +174,11 @@ def make_glb():
     wrong = lambda name, *path_and_value, message="": bad(name, glb(edited(*path_and_value)), message)
     ok("plain", b)
     ok("data_after_the_end", b + b"\0\0\0\0")
+    for spaces in range(4):  # chunks without their padding, one of them with a length that is right
+        text = json.dumps(document()).encode() + b" " * spaces
+        bare = struct.pack("<I", len(text)) + b"JSON" + text + chunk(b"BIN\0", BUFFER, b"\0")
+        ok("unpadded_%d" % spaces, b[:8] + struct.pack("<I", 12 + len(bare)) + bare)
+    bad("unpadded_before_garbage", b[:8] + struct.pack("<I", 12 + len(bare) + 9) + bare + b"123456789")
     ok("unknown_chunk", b[:8] + struct.pack("<I", len(b) + 12) + b[12:] + chunk(b"ABCD", b"1234", b"\0"))
     ok("unused_extension", glb(edited("extensionsUsed", ["EXT_unheard_of"])))
     ok("sparse", sparse(b"\0\1", 1, 1))

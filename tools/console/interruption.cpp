@@ -59,7 +59,9 @@ void turn_signals_into_errors() {
 }
 
 OrderlyInterruption::OrderlyInterruption() { orderly = 1; }
-OrderlyInterruption::~OrderlyInterruption() { orderly = 0; }
+
+// What is written is there: it is no failure when a signal comes as the program ends.
+OrderlyInterruption::~OrderlyInterruption() = default;
 
 bool interrupted() { return arrived != 0; }
 

@@ -10,8 +10,8 @@ void end_on_interruption();
 /// exit code 3 with a message, not in death by SIGPIPE, SIGXFSZ or SIGBUS.
 void turn_signals_into_errors();
 
-/// While one lives, a signal only raises the flag that `interrupted` reads, so that the work can be
-/// cancelled and temporary files removed. A second signal ends the program at once,
+/// From the first one on, a signal only raises the flag that `interrupted` reads, so that the work
+/// can be cancelled and temporary files removed. A second signal ends the program at once,
 /// its temporary files removed.
 class OrderlyInterruption {
  public:
