@@ -243,6 +243,14 @@ def test_the_grid_of_another_map_gives_its_connectivity(mapped):
     assert set(mapped.remesh("ico:1", transfer=["label"]).values) == {"label"}
 
 
+def test_samples_are_those_that_have_names(mapped):
+    made = {mode: mapped.remesh("ico:2", sample=mode) for mode in ("point", "cell", "barycentric", "adap-bary-area")}
+    heights = [low.values["height"] for low in made.values()]
+    assert all(low.certificate.one_to_one for low in made.values())
+    assert (made["barycentric"].vertices == made["point"].vertices).all()
+    assert np.abs(heights[3] - heights[0]).max() > 1e-6 and np.allclose(heights[2], heights[0], atol=0.05)
+
+
 def test_more_vertices_go_where_it_bends(mapped):
     assert mapped.remesh("ico:3", adaptive=True).certificate.one_to_one
 

@@ -53,8 +53,9 @@ SphereGrid grid_of(const GridRequest& request, int threads) {
 
 SampleMode mode_named(const std::string& word) {
   return named(
-      word, {SampleMode::Point, SampleMode::Cell},
-      [](SampleMode mode) { return mode == SampleMode::Point ? "point" : "cell"; }, "sample");
+      word,
+      {SampleMode::Point, SampleMode::Cell, SampleMode::Barycentric, SampleMode::AdapBaryArea},
+      [](SampleMode mode) { return name_of(mode); }, "sample");
 }
 
 Mapped remesh_on(const Mapped& mapped, const py::object& grid, const std::string& sample,
