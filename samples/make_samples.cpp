@@ -1,6 +1,7 @@
 // make_samples DIRECTORY [NAME…] [--frequency N]: writes the sample meshes as PLY files.
 
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -13,6 +14,7 @@
 #include "image/image_codec.h"
 #include "sample_meshes.h"
 #include "sphparam/io/mesh_writer.h"
+#include "sphparam/io/vertex_data.h"
 #include "sphparam/mesh/mesh_defects.h"
 
 namespace {
@@ -27,8 +29,10 @@ constexpr char usage[] =
     "  make_samples samples-out body --frequency 59   20·59² = 69,620 triangles\n"
     "\n"
     "Names: body (20,480 triangles unless --frequency says otherwise), creature, cortex; and "
-    "comet,\n"
-    "which is made only where it is named.\n";
+    "comet\n"
+    "and brain (lh.white, lh.sulc, lh.lobes.annot: the cortex as FreeSurfer has one), which are "
+    "made "
+    "only\nwhere they are named.\n";
 
 struct Arguments {
   std::string directory;
@@ -51,7 +55,8 @@ Arguments parse(int count, char** values) {
       }
     } else if (arguments.directory.empty()) {
       arguments.directory = value;
-    } else if (value == "body" || value == "creature" || value == "cortex" || value == "comet") {
+    } else if (value == "body" || value == "creature" || value == "cortex" || value == "comet" ||
+               value == "brain") {
       arguments.names.insert(value);
     } else {
       throw std::invalid_argument("no sample is called " + value);
@@ -64,7 +69,7 @@ Arguments parse(int count, char** values) {
 
 void write_mesh(const std::filesystem::path& path, const MeshFile& file) {
   sphparam::require_sphere(file.mesh);
-  const std::string bytes = sphparam::serialise_ply(file);
+  const std::string bytes = sphparam::serialise_mesh(path.string(), file);
   std::ofstream out(path, std::ios::binary);
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   out.close();
@@ -72,6 +77,36 @@ void write_mesh(const std::filesystem::path& path, const MeshFile& file) {
   std::printf("%s: %ld vertices, %ld triangles\n", path.c_str(),
               static_cast<long>(file.mesh.vertex_count()),
               static_cast<long>(file.mesh.face_count()));
+}
+
+/// The cortex as FreeSurfer would have it: in millimetres, with the depth of its folds and with
+/// lobes, those of both sides by one name.
+void make_brain(const std::filesystem::path& directory) {
+  constexpr double millimetres = 70;
+  MeshFile cortex = sphparam::samples::make_cortex();
+  sphparam::samples::add_lobes(cortex);
+  cortex.mesh.positions *= millimetres;
+  sphparam::VertexData depth, lobes;
+  depth.columns.resize(1);
+  lobes.columns.resize(1);
+  const Eigen::VectorXd radius = cortex.mesh.positions.rowwise().norm();
+  for (const double r : radius) depth.columns[0].values.push_back(radius.mean() - r);
+  for (const double lobe : cortex.find_vertex_property("lobe")->values)
+    lobes.columns[0].values.push_back(std::ceil(lobe / 2));
+  lobes.kind = sphparam::DataKind::Labels;
+  lobes.labels = {{0, {{0, 0, 0, 0}}, "???"},
+                  {1, {{0.86F, 0.37F, 0.3F, 1}}, "frontal"},
+                  {2, {{0.95F, 0.77F, 0.3F, 1}}, "parietal"},
+                  {3, {{0.33F, 0.62F, 0.42F, 1}}, "temporal"},
+                  {4, {{0.3F, 0.45F, 0.76F, 1}}, "occipital"}};
+  MeshFile white;
+  white.mesh = cortex.mesh;
+  write_mesh(directory / "lh.white", white);
+  for (const auto& [name, data] :
+       {std::pair("lh.sulc", depth), std::pair("lh.lobes.annot", lobes)}) {
+    sphparam::write_vertex_data((directory / name).string(), data);
+    std::printf("%s\n", (directory / name).c_str());
+  }
 }
 
 void make(const Arguments& arguments) {
@@ -92,6 +127,7 @@ void make(const Arguments& arguments) {
   if (names.contains("comet")) {
     write_mesh(directory / "comet.ply", sphparam::samples::make_comet());
   }
+  if (names.contains("brain")) make_brain(directory);
   if (names.contains("cortex")) {
     MeshFile cortex = sphparam::samples::make_cortex();
     sphparam::samples::add_lobes(cortex);

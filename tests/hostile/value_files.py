@@ -136,7 +136,7 @@ def make_gifti_values():
     bad("no_rows.shape.gii", gifti(array("SHAPE", "FLOAT32", "", 'Dimensionality="1" Dim0="0"')), "no vertex")
     bad("no_columns.shape.gii", gifti(array("SHAPE", "FLOAT32", "", 'Dimensionality="2" Dim0="4" Dim1="0"')), "no numbers")
     bad("surface.surf.gii", gifti(array("POINTSET", "FLOAT32", "1 1 1", 'Dimensionality="2" Dim0="1" Dim1="3"')), "a surface")
-    bad("fewer.shape.gii", gifti(array("SHAPE", "FLOAT32", "1 2 3")), "fewer numbers")
+    bad("fewer.shape.gii", gifti(array("SHAPE", "FLOAT32", "1 2 3")), "its data cannot hold")
     bad("unknown.values", "nothing that is known", "no file of values")
 
 

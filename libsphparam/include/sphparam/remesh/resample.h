@@ -39,7 +39,7 @@ Gather barycentric_weights(const MappedMesh& current, const Points& directions, 
 VectorX vertex_areas(const TriangleMesh& mesh);
 
 /// ADAP_BARY_AREA, for data: nothing of the current sphere is left out where the new one is
-/// coarser, and integrals over the surface are kept. Each new vertex takes from the current ones
+/// coarser, and integrals over the surface are nearly kept. Each new vertex takes from the current ones
 /// that lie in triangles about it, by their barycentric weights there; where these are none but
 /// those that `barycentric_weights` names, as where the new sphere is finer, it takes from the
 /// latter; weights that float32 cannot tell from none do not count for that. Then weights are

@@ -1,0 +1,112 @@
+#include <catch2/catch.hpp>
+
+#include "mapped.h"
+#include "program.h"
+#include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/vertex_data.h"
+
+/// --data of all that take it, and what lies beside surfaces.
+namespace sphparam::tests {
+
+namespace {
+
+using Catch::Contains;
+
+/// A left hemisphere with a measure and labels, in the folder of `mapped`.
+struct Brain {
+  Mapped mapped;
+  std::string white = mapped.folder / "lh.white", sphere = mapped.folder / "lh.sphere";
+  std::string thickness = mapped.folder / "lh.thickness",
+              parcels = mapped.folder / "lh.parcels.annot";
+  Eigen::Index vertices = 0;
+
+  Brain() {
+    REQUIRE(sphparam_program({"remesh", mapped.path, "--grid", "ico:2", "-o", white}).code == 0);
+    REQUIRE(sphparam_program({"map", white, "--write-sphere", sphere}).code == 0);
+    vertices = read_mesh(white).mesh.vertex_count();
+    VertexData measure, labels;
+    measure.columns.resize(1);
+    labels.columns.resize(1);
+    labels.kind = DataKind::Labels;
+    labels.labels = {{0, {{0, 0, 0, 0}}, "???"}, {1, {{1, 0, 0, 1}}, "red"}};
+    for (Eigen::Index v = 0; v < vertices; ++v) {
+      measure.columns[0].values.push_back(static_cast<double>(v));
+      labels.columns[0].values.push_back(static_cast<double>(v % 2));
+    }
+    write_vertex_data(thickness, measure);
+    write_vertex_data(parcels, labels);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("data: a map carries it as properties, and a remesh of that writes it beside a surface") {
+  const Brain brain;
+  const std::string map = brain.mapped.folder / "lh.sph.ply",
+                    out = brain.mapped.folder / "x.surf.gii";
+  REQUIRE(sphparam_program(
+              {"map", brain.white, "--data", brain.thickness + "," + brain.parcels, "-o", map})
+              .code == 0);
+  CHECK(read_mesh(map).find_vertex_property("thickness")->values.at(5) == 5);
+  const Ended ended = sphparam_program({"remesh", map, "--grid", "like:" + map, "-o", out});
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.err + ended.out, Contains("thickness beside it: x.thickness.shape.gii"));
+  const VertexData back = read_vertex_data(brain.mapped.folder / "x.thickness.shape.gii");
+  CHECK(back.columns[0].values.at(7) == 7);
+  CHECK(read_vertex_data(brain.mapped.folder / "x.parcels.label.gii").labels.at(1).name == "red");
+}
+
+TEST_CASE("data: files have the names that are given, or those of a field") {
+  const Brain brain;
+  const std::string metric = brain.mapped.folder / "m.shape.gii",
+                    label = brain.mapped.folder / "l.annot";
+  REQUIRE(sphparam_program({"remesh", brain.sphere, "--sphere", brain.sphere, "--grid",
+                            "like:" + brain.sphere, "--sample", "barycentric", "--data",
+                            brain.thickness, "--data", brain.parcels, "--write-data",
+                            metric + "," + label})
+              .code == 0);
+  CHECK(read_vertex_data(metric).columns[0].values ==
+        read_vertex_data(brain.thickness).columns[0].values);
+  CHECK(read_vertex_data(label).labels.size() == 2);
+  const std::string folder = (brain.mapped.folder / "").substr(0);
+  REQUIRE(sphparam_program({"remesh", brain.white, "--sphere", brain.sphere, "--grid", "ico:1",
+                            "--data", brain.thickness, "--names", "hcp", "--subject", "S", "-o",
+                            folder})
+              .code == 0);
+  CHECK(read_mesh(brain.mapped.folder / "S.L.white.ico1.surf.gii").mesh.vertex_count() == 42);
+  CHECK(read_vertex_data(brain.mapped.folder / "S.L.thickness.ico1.shape.gii").structure ==
+        "CortexLeft");
+  REQUIRE(
+      sphparam_program({"map", brain.white, "--write-sphere", folder, "--names", "bids"}).code ==
+      0);
+  CHECK(read_mesh(brain.mapped.folder / "hemi-L_sphere.surf.gii").mesh.vertex_count() ==
+        brain.vertices);
+}
+
+TEST_CASE("data: what makes no sense is refused before any work") {
+  const Brain brain;
+  const auto refused = [&](std::vector<std::string> words, int code, const std::string& message) {
+    const Ended ended = sphparam_program(words);
+    CHECK(ended.code == code);
+    CHECK_THAT(ended.err, Contains(message));
+  };
+  const std::string out = brain.mapped.folder / "x.surf.gii", grid = "like:" + brain.sphere;
+  refused({"map", brain.white}, 2, "nothing to write");
+  refused({"map", brain.white, "--write-sphere", out, "--subject", "S"}, 2, "--names only");
+  refused({"map", brain.mapped.path, "--write-sphere", brain.mapped.folder / "", "--names", "hcp"},
+          2, "which hemisphere");
+  refused({"map", brain.white, "--write-sphere", out, "--names", "hcp"}, 2, "names a folder");
+  refused({"remesh", brain.white, "--grid", grid, "--data", brain.thickness, "--write-data",
+           out + "," + out},
+          2, "2 files, for 1 of --data");
+  refused({"remesh", brain.white, "--grid", grid, "--data", brain.thickness, "--write-data",
+           brain.mapped.folder / "a.txt"},
+          2, "values are written as");
+  refused({"remesh", brain.white, "--grid", grid, "-o", out, "--areas", "a,b"}, 2,
+          "--sample adap-bary-area only");
+  refused({"remesh", brain.mapped.path, "--grid", "ico:1", "-o", out, "--data", brain.thickness}, 3,
+          "lh.thickness");
+  refused({"repair", brain.white, "--data", brain.white, "-o", out}, 3, "file of values");
+}
+
+}  // namespace sphparam::tests

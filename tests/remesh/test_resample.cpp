@@ -1,0 +1,192 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "sphparam/remesh/remesh.h"
+#include "sphparam/remesh/resample.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+
+namespace {
+
+/// A ball that is its own map, turned so that no vertex lies on another one's.
+TriangleMesh ball(int halvings, double turn = 0) {
+  TriangleMesh mesh = icosphere(halvings);
+  const Eigen::AngleAxisd rotation(turn, Vector3(1, 2, 3).normalized());
+  mesh.positions = mesh.positions * rotation.toRotationMatrix().transpose();
+  return mesh;
+}
+
+MappedMesh mapped(const TriangleMesh& mesh) {
+  MeshFile file;
+  file.mesh = mesh;
+  return MappedMesh({.file = std::move(file), .map = {mesh.positions}});
+}
+
+struct Spheres {
+  MappedMesh current;
+  TriangleMesh target;
+  Topology topology;
+  Spheres(int from, int to)
+      : current(mapped(ball(from))), target(ball(to, 0.4)), topology(target) {}
+
+  Gather adaptive(int threads = 1) const {
+    return adap_bary_area_weights(current, topology, {target.positions},
+                                  vertex_areas(current.mesh()), vertex_areas(target), threads);
+  }
+};
+
+double sum_of(const Gather& gather, std::int64_t i) {
+  const auto at = static_cast<size_t>(i);
+  return std::accumulate(gather.weights.begin() + gather.starts[at],
+                         gather.weights.begin() + gather.starts[at + 1], 0.0);
+}
+
+std::vector<double> heights(const TriangleMesh& mesh) {
+  const auto z = mesh.positions.col(2);
+  return {z.begin(), z.end()};
+}
+
+double integral(const TriangleMesh& mesh, const std::vector<double>& values) {
+  return vertex_areas(mesh).dot(
+      Eigen::Map<const VectorX>(values.data(), static_cast<Eigen::Index>(values.size())));
+}
+
+}  // namespace
+
+TEST_CASE("resample: weights are of every new vertex, none is nothing, and they sum to 1") {
+  for (const auto& [from, to] : {std::pair(3, 1), std::pair(2, 2), std::pair(1, 3)}) {
+    const Spheres spheres(from, to);
+    for (const Gather& gather :
+         {barycentric_weights(spheres.current, spheres.target.positions), spheres.adaptive()}) {
+      REQUIRE(gather.count() == spheres.target.vertex_count());
+      for (std::int64_t i = 0; i < gather.count(); ++i) CHECK(sum_of(gather, i) == Approx(1));
+      CHECK(*std::min_element(gather.weights.begin(), gather.weights.end()) > 0);
+      CHECK(gather.vertices.size() == gather.weights.size());
+    }
+  }
+}
+
+TEST_CASE("resample: the direction of a vertex takes from it alone") {
+  const Spheres spheres(2, 2);
+  const Gather gather = barycentric_weights(spheres.current, 4 * spheres.current.mesh().positions);
+  for (std::int64_t i = 0; i < gather.count(); ++i) {
+    REQUIRE(gather.starts[static_cast<size_t>(i)] == i);
+    CHECK(gather.vertices[static_cast<size_t>(i)] == i);
+  }
+}
+
+TEST_CASE("resample: barycentric weights are those of the nearest point of flat triangles") {
+  const Spheres spheres(2, 1);
+  const Gather gather = barycentric_weights(spheres.current, spheres.target.positions);
+  const Points& points = spheres.current.mesh().positions;
+  for (std::int64_t i = 0; i < gather.count(); ++i) {
+    Vector3 place = Vector3::Zero();
+    for (auto e = gather.starts[static_cast<size_t>(i)];
+         e < gather.starts[static_cast<size_t>(i) + 1]; ++e)
+      place += gather.weights[static_cast<size_t>(e)] *
+               points.row(gather.vertices[static_cast<size_t>(e)]).transpose();
+    const Vector3 p = spheres.target.positions.row(i);
+    double nearest = 1;
+    for (Face f = 0; f < spheres.current.topology().face_count(); ++f)
+      for (double a = 0; a <= 1; a += 0.0625)
+        for (double b = 0; a + b <= 1; b += 0.0625) {
+          const auto corner = [&](int k) -> Vector3 {
+            return points.row(spheres.current.mesh().triangles(f, k));
+          };
+          const Vector3 other = a * corner(0) + b * corner(1) + (1 - a - b) * corner(2);
+          nearest = std::min(nearest, (other - p).norm());
+        }
+    CHECK((place - p).norm() <= nearest + 1e-12);
+  }
+}
+
+TEST_CASE("resample: by areas, a coarser sphere leaves nothing out and nearly keeps integrals") {
+  const Spheres spheres(4, 2);
+  const Gather gather = spheres.adaptive();
+  std::vector<char> used(static_cast<size_t>(spheres.current.mesh().vertex_count()), 0);
+  for (const Vertex v : gather.vertices) used[static_cast<size_t>(v)] = 1;
+  CHECK(std::count(used.begin(), used.end(), 0) == 0);
+  std::vector<double> spike(used.size(), 0.0);
+  spike[100] = 1;
+  const double before = integral(spheres.current.mesh(), spike);
+  CHECK(integral(spheres.target, weighted_means(gather, spike)) == Approx(before).epsilon(0.15));
+  CHECK(integral(spheres.target,
+                 weighted_means(barycentric_weights(spheres.current, spheres.target.positions),
+                                spike)) != Approx(before).epsilon(0.5));
+}
+
+TEST_CASE("resample: by areas, a finer sphere takes what the ray meets") {
+  const Spheres spheres(1, 3);
+  const Gather gather = spheres.adaptive();
+  const std::vector<double> found = weighted_means(gather, heights(spheres.current.mesh()));
+  const std::vector<double> wanted = heights(spheres.target);
+  for (size_t i = 0; i < found.size(); ++i) CHECK(found[i] == Approx(wanted[i]).margin(0.15));
+}
+
+TEST_CASE("resample: means stay among their values, NaN spreads as far as its weight") {
+  const Spheres spheres(2, 3);
+  const Gather gather = barycentric_weights(spheres.current, spheres.target.positions);
+  std::vector<double> values(static_cast<size_t>(spheres.current.mesh().vertex_count()), 0.1);
+  for (const double value : weighted_means(gather, values)) CHECK(value == 0.1);
+  values[7] = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<double> found = weighted_means(gather, values);
+  for (std::int64_t i = 0; i < gather.count(); ++i) {
+    const auto at = static_cast<size_t>(i);
+    const bool names = std::count(gather.vertices.begin() + gather.starts[at],
+                                  gather.vertices.begin() + gather.starts[at + 1], 7) > 0;
+    CHECK(std::isnan(found[at]) == names);
+  }
+}
+
+TEST_CASE("resample: labels go by the sum of their weights") {
+  Gather gather;
+  gather.starts = {0, 3, 6};
+  gather.vertices = {0, 1, 2, 0, 1, 2};
+  gather.weights = {0.4, 0.3, 0.3, 0.5, 0.25, 0.25};
+  CHECK(weightiest_labels(gather, {5, 9, 9}) == std::vector<double>{9, 5});
+}
+
+TEST_CASE("resample: all columns are resampled, and what a file says stays") {
+  VertexData data;
+  data.kind = DataKind::Labels;
+  data.labels = {{5, {}, "five"}};
+  data.triangles = 12;
+  data.columns = {{"a", ScalarType::Int32, {5, 5, 7}}, {"b", ScalarType::Int32, {7, 5, 7}}};
+  Gather gather;
+  gather.starts = {0, 3};
+  gather.vertices = {0, 1, 2};
+  gather.weights = {0.3, 0.3, 0.4};
+  const VertexData made = resample_data(data, gather);
+  CHECK(made.columns[0].values == std::vector<double>{5});
+  CHECK(made.columns[1].values == std::vector<double>{7});
+  CHECK(made.labels.size() == 1);
+  CHECK(made.triangles == 0);
+  gather.vertices = {0, 1, 3};
+  CHECK_THROWS_AS(resample_data(data, gather), std::invalid_argument);
+}
+
+TEST_CASE("resample: the same weights for any number of threads; remesh takes them") {
+  const Spheres spheres(3, 2);
+  const Gather one = spheres.adaptive(1), three = spheres.adaptive(3);
+  CHECK(one.vertices == three.vertices);
+  CHECK(one.weights == three.weights);
+  MeshFile file;
+  file.mesh = spheres.current.mesh();
+  file.vertex_properties = {{"height", ScalarType::Float64, heights(file.mesh)}};
+  const MappedMesh source({.file = file, .map = {file.mesh.positions}});
+  SphereGrid grid{.directions = spheres.target.positions, .faces = {}};
+  grid.faces = triangles_as_polygons(spheres.target.triangles);
+  const Remeshed made = remesh(source, grid,
+                               {.sample = SampleMode::AdapBaryArea,
+                                .source_areas = vertex_areas(file.mesh),
+                                .grid_areas = vertex_areas(spheres.target)});
+  CHECK(made.file().find_vertex_property("height")->values ==
+        weighted_means(one, heights(file.mesh)));
+  CHECK_THROWS_AS(
+      remesh(source, grid, {.sample = SampleMode::AdapBaryArea, .grid_areas = VectorX::Ones(3)}),
+      std::invalid_argument);
+}
