@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 #include <unordered_set>
+#include <utility>
 
 #include "mesh/handles/handle_cutting.h"
 #include "mesh/handles/loop_side.h"
@@ -132,6 +133,7 @@ class HandleRemover {
       }
       const bool beyond_limit = std::isfinite(shortest) && search.reaches(limit_, reach_);
       if (!beyond_limit && !search.reaches_all(reach_)) continue;
+      if (!std::isfinite(shortest) && !std::exchange(any_kind_, true)) continue;
       if (std::isfinite(shortest)) state_.shortest_handle_left = shortest / diagonal_;
       return false;
     }
@@ -142,7 +144,7 @@ class HandleRemover {
            (inside_out_[loop.vertices.front()] != 0);
   }
   bool is_wanted(const Topology& topology, const EdgeLoop& loop) const {
-    return choice_ == HandleChoice::Shortest || choice_ == HandleChoice::Area ||
+    return any_kind_ || choice_ == HandleChoice::Shortest || choice_ == HandleChoice::Area ||
            fills(topology, loop) == (choice_ == HandleChoice::Fill);
   }
 
@@ -222,6 +224,7 @@ class HandleRemover {
   const HandleChoice choice_;
   const double diagonal_, limit_;
   double reach_ = first_reach;
+  bool any_kind_ = false;  // of the kind that is wanted no loop was found: crumpled ones have none
   std::vector<char> inside_out_;
 };
 
