@@ -295,3 +295,19 @@ TEST_CASE("handles: after holes are filled and sheets cut apart, in one go, and 
   without.handles = false;
   CHECK(repair_mesh(mesh, without).inspection.genus > 0);
 }
+
+TEST_CASE("handles: a crumpled one without a loop of the kind asked for is cut along the other") {
+  constexpr unsigned seed = 5494;
+  const TriangleMesh torus =
+      relabelled(bumped_torus(3 + seed % 17, 4 + seed % 41, 0.05 + 0.008 * (seed % 100),
+                              0.01 * (seed % 60), seed),
+                 seed);
+  RepairOptions options = RepairOptions::none();
+  options.handles = true;
+  options.longest_handle = 10;
+  options.handle_choice = HandleChoice::Fill;
+  const RepairedMesh cut = repair_mesh(torus, options);
+  CHECK(cut.inspection.is_sphere());
+  REQUIRE(cut.handles.size() == 1);
+  CHECK_FALSE(cut.handles.front().filled);
+}
