@@ -29,7 +29,8 @@ class Baked(NamedTuple):
 class BakedImage(_Floats):
     """A baked field, (H, W, C) float32: an array like others that knows what it shows.
 
-    What is computed of it is numbers like others and knows no more; views and copies show what it shows.
+    Colours are sRGB from 0 to 1, as ``imshow`` shows and ``texture=`` takes them. What is computed of it is
+    an array of NumPy's and knows no more; views and copies show what it shows.
     """
 
     field: str
@@ -40,7 +41,9 @@ class BakedImage(_Floats):
 
     @classmethod
     def _of(cls, table: Any, field: str, about: str, baked: Baked) -> BakedImage:
-        image: BakedImage = table.view(cls)
+        if is_colour(field, about):
+            about += ", sRGB"
+        image: BakedImage = _encoded(table, field, about).view(cls)
         return image._showing((field, about, baked))
 
     def _showing(self, shown: Tuple[str, str, Optional[Baked]]) -> BakedImage:
@@ -66,8 +69,9 @@ class BakedImage(_Floats):
         self._showing((field, about, baked if same and self.ctypes.data == other.ctypes.data else None))
 
     def __array_wrap__(self, array: Any, *context: Any) -> Any:
-        made = super().__array_wrap__(array, *context)
-        return made._showing(("", "", None)) if isinstance(made, BakedImage) else made
+        if array is self:  # written to in place
+            return self._showing(("", "", None))
+        return np.asarray(array)[()]
 
     def copy(self, *order: Any, **orders: Any) -> Any:
         """Another array that shows the same."""
@@ -92,8 +96,8 @@ class BakedImage(_Floats):
     def picture(self) -> Bytes:
         """Colours to look at or to export, (H, W, 3) or (H, W, 4), 0 to 255.
 
-        Colours become sRGB; directions −1 … 1 become 0 … 255; of numbers the least is black and the
-        greatest white. Where holes were kept they are transparent.
+        Colours and shares 0 … 1 become 0 … 255, directions −1 … 1 too; of other numbers the least is black
+        and the greatest white. Where holes were kept they are transparent.
         """
         table: Any = np.asarray(self, dtype=np.float64)
         if table.ndim == 2:
@@ -103,9 +107,7 @@ class BakedImage(_Floats):
             table, covered = table[:, :, :-1], table[:, :, -1:]
         if self.field.startswith(("normal", "bent")):
             table = (table + 1) / 2
-        elif self.field == "basecolor" or self.field.startswith("color") or "heat" in self.about:
-            table = _srgb(table)
-        elif self.field != "ao":
+        elif self.field not in _shares and not is_colour(self.field, self.about):
             shown = table[covered[:, :, 0] > 0]
             least, greatest = (shown.min(), shown.max()) if shown.size else (0, 0)
             table = (table - least) / ((greatest - least) or 1)
@@ -113,9 +115,41 @@ class BakedImage(_Floats):
         return as_bytes(np.concatenate([colours, covered], axis=2) if self.shape[-1] in (2, 4) else colours)
 
 
+    def _repr_png_(self) -> Optional[bytes]:
+        """What a notebook shows: every so many texels of large images."""
+        from ._images import png_of
+
+        if self.ndim != 3 or not self.field or not self.size or self.shape[2] > 4:
+            return None
+        step = max(1, self.shape[1] // 1024)
+        every: Any = self[::step, ::step]
+        return png_of(every.picture())
+
+
+_shares = ("ao", "mask")
+
+
+def is_colour(field: str, about: str) -> bool:
+    """Whether a field shows colours: of the surface, or of numbers with ``heat``."""
+    return field in ("basecolor", "vcolor") or about.startswith("colours of ")
+
+
+def _encoded(table: Any, field: str, about: str) -> Any:
+    """Colours, which the library has in linear light, as sRGB, in place; shares of rounded weights at most 1."""
+    coverage = table.shape[2] in (2, 4)
+    if coverage or field in _shares:
+        shares = table[:, :, -1:] if field not in _shares else table
+        np.clip(shares, 0, 1, out=shares)
+    if is_colour(field, about):
+        for row in table[:, :, : 3 if coverage else None]:  # one by one: no second image in memory
+            row[...] = _srgb(row.astype(np.float64))
+    return table
+
+
 def _srgb(linear: Any) -> Any:
-    clipped = np.clip(linear, 0, 1)
-    return np.where(clipped <= 0.0031308, 12.92 * clipped, 1.055 * clipped ** (1 / 2.4) - 0.055)
+    """The curve, which goes on beyond 1 for images that are brighter; what is rounded beyond 1 is 1."""
+    light = np.where((linear > 1) & (linear < 1 + 1e-5), 1, linear)
+    return np.where(light <= 0.0031308, 12.92 * light, 1.055 * np.maximum(light, 0) ** (1 / 2.4) - 0.055)
 
 
 def as_bytes(table: Any) -> Bytes:

@@ -22,22 +22,28 @@ if TYPE_CHECKING:
     Image = Union[Path, npt.NDArray[Any]]
 
 
+_rounding = 1e-5
+"""What computed colours may be beyond 0 and 1."""
+
+
 def _colours(image: Any, name: str) -> Bytes:
     """The bytes of an array of colours, (H, W, 3) or (H, W, 4)."""
     if isinstance(image, BakedImage) and image.field:
         return image.picture()
     table = numbers(image, name)
     if table.ndim == 2:
-        table = np.repeat(table[:, :, None], 3, axis=2)
+        table = table[:, :, None]
+    if table.ndim == 3 and table.shape[2] == 1:
+        table = np.repeat(table, 3, axis=2)
     if table.ndim != 3 or table.shape[2] not in (3, 4) or 0 in table.shape:
         shape = "×".join(str(n) for n in table.shape)
-        raise ValueError(f"{name}: height×width×3 or ×4 are needed, not {shape}")
+        raise ValueError(f"{name}: height×width, ×3 or ×4 are needed, not {shape}")
     if table.dtype == np.uint8:
         return table
     if table.dtype.kind != "f":
         raise TypeError(f"{name}: uint8, or floats from 0 to 1, are needed, not {table.dtype}")
-    if not (np.isfinite(table).all() and table.min() >= 0 and table.max() <= 1):
-        raise ValueError(f"{name}: floats from 0 to 1 are needed, not {table.min():g} to {table.max():g}")
+    if not (np.isfinite(table).all() and table.min() >= -_rounding and table.max() <= 1 + _rounding):
+        raise ValueError(f"{name}: floats from 0 to 1 are needed, not {table.min():.7g} to {table.max():.7g}")
     return as_bytes(table)
 
 

@@ -9,7 +9,7 @@ from . import _arrays, _core
 from ._figures import Certificate
 from ._losses import tell
 from ._map_options import requested
-from ._mesh import Path, any_mesh, existing
+from ._mesh import Path, any_mesh, existing, path_of
 from ._progress import Progress, told
 from ._repair import mended, repair_options
 from ._sphere_map import SphereMap
@@ -124,7 +124,7 @@ def load(
     threads: int = 0,
     progress: Progress = None,
 ) -> SphereMap:
-    """Reads a mesh and the map that it carries, and proves it; one is made where there is none.
+    """Reads a mesh and the map that it carries, and proves it; one is made where there is none, with a warning.
 
     ``sphere``: the file with the sphere of the mesh, of the same connectivity (FreeSurfer, HCP).
     Raises :class:`ReadError`, :class:`MeshError`, :class:`NotCertified`.
@@ -132,7 +132,10 @@ def load(
     options = requested(balance=balance, quality=quality, threads=threads)
     other = existing(sphere) if sphere is not None else ""
     with told(progress) as report:
-        return SphereMap._of(_core.load(existing(path), other, options, report))
+        made = SphereMap._of(_core.load(existing(path), other, options, report))
+    if made._mapped.mapped_here:
+        tell([f"{path_of(path)}: carries no map, so another one was made; .sph.ply brings a map back"])
+    return made
 
 
 def with_sphere(mesh: Any, points: Any, *, faces: Any = None, threads: int = 0) -> SphereMap:

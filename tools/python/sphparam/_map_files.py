@@ -11,6 +11,7 @@ from ._losses import tell
 from ._map_facts import MapFacts, mapped_of
 from ._map_images import require_up
 from ._mesh import Path, path_of
+from ._numpy import np
 from ._progress import Progress, told
 
 if TYPE_CHECKING:
@@ -88,9 +89,9 @@ class MapFiles(MapFacts):
         Parameters
         ----------
         texture, normal_map, occlusion_map
-            Equirectangular images, twice as wide as high: files, or arrays (H, W, 3 or 4), uint8 or floats
-            from 0 to 1, in sRGB; or what :meth:`bake` made, which is turned into colours. That must be of
-            the same ``convention`` and ``refine_poles``, a normal map ``"normal-tangent"`` and for this mesh.
+            Equirectangular images, twice as wide as high: files, or arrays (H, W) of greys or (H, W, 3 or 4),
+            uint8 or floats from 0 to 1, in sRGB; or what :meth:`bake` made, which is turned into colours.
+            That must be of the same ``convention`` and ``refine_poles``, a normal map ``"normal-tangent"`` and for this mesh.
         images
             A folder of the program's ``bake``: its base colour, normal map and occlusion.
         variants
@@ -145,8 +146,20 @@ class MapFiles(MapFacts):
                 options[what] = held.enter_context(as_file(image, what, convention, refine_poles))
             report = held.enter_context(told(progress))
             files, warned = _core.export(self._mapped, name_of_file, options, report)
+        tell(self._not_exported(name_of_file, source_uv))
         tell(warned)
         return [file for file, _ in files]
+
+    def _not_exported(self, path: str, source_uv: bool) -> List[str]:
+        """A line about the values that the format of an export has no room for, if there are any."""
+        ending = os.path.splitext(path)[1].lower()
+        if ending == ".ply":
+            return []
+        kept = {"color", "normal", "source_vertex", "source_face", "filler"} | ({"uv"} if source_uv else set())
+        lost = sorted(name for name in self.values if name not in kept)
+        lost += sorted(f"{name} (of faces)" for name, of in self.face_values.items() if name not in kept and np.any(of != of[0]))
+        more = "; source_uv=True keeps uv" if "uv" in lost and ending != ".obj" else ""
+        return [f"{path}: not carried: {', '.join(lost)}; an export as .ply has room for them{more}"] if lost else []
 
     def report(
         self,

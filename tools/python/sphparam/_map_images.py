@@ -132,8 +132,9 @@ class MapImages(MapFacts):
         Returns
         -------
         BakedImage
-            (size / 2, size, channels) float32: unit vectors, linear light, numbers of labels, or units
-            of the mesh; ``about`` says which.
+            (size / 2, size, channels) float32: unit vectors, colours in sRGB from 0 to 1 (files of
+            :meth:`bake_files` in floats have linear light), numbers of labels, or units of the mesh;
+            ``about`` says which.
         """
         from ._baked import Baked, BakedImage
 

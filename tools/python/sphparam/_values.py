@@ -52,6 +52,15 @@ def _column_names(name: str, array: Array) -> Tuple[str, ...]:
     return tuple(f"{name}_{k}" for k in range(width))
 
 
+def _require_colours(array: Array, label: str) -> None:
+    """Floats beyond 1 would all become white."""
+    if array.dtype.kind == "f" and array.size and not (array.min() >= -1e-5 and array.max() <= 1 + 1e-5):
+        raise ValueError(
+            f"{label}: colours are floats from 0 to 1, or uint8, not {array.min():.7g} to {array.max():.7g}; "
+            "if they go to 255: .astype(np.uint8)"
+        )
+
+
 def columns(name: Any, thing: Any, count: int, what: str = "vertex") -> Rows:
     """An array of values, one row a vertex or face, as columns: name, PLY type, doubles."""
     label = f"values[{name!r}]"
@@ -73,6 +82,8 @@ def columns(name: Any, thing: Any, count: int, what: str = "vertex") -> Rows:
             "but a map's resample takes NaN"
         )
     names = _column_names(name, array)
+    if names[0] in _columns["color"]:
+        _require_colours(array, label)
     table = doubles.reshape(count, len(names))
     return [(n, kind, np.ascontiguousarray(table[:, k])) for k, n in enumerate(names)]
 
