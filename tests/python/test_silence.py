@@ -140,3 +140,122 @@ def test_a_file_without_a_map_is_told_as_such(painted, tmp_path):
     assert told(lambda: sp.load(tmp_path / "a.sph.ply"))[1] == []
     _, lines = told(lambda: sp.load(tmp_path / "a.glb"))
     assert any("a.glb: carries no map, so another one was made; .sph.ply" in line for line in lines)
+
+
+# Copies of vertices: triangles by themselves, seams of texture coordinates.
+
+
+def soup():
+    return V[F].reshape(-1, 3), np.arange(3 * len(F)).reshape(-1, 3)
+
+
+def seamed():
+    """The mesh cut in two halves, each vertex of the seam twice, with (u, v) of their own."""
+    faces = F + len(V) * (V[F].mean(axis=1)[:, :1] < 0)
+    used, faces = np.unique(faces, return_inverse=True)
+    vertices = np.concatenate([V, V])[used]
+    uv = np.column_stack([(used >= len(V)) + 0.1 * vertices[:, 0], vertices[:, 1]])
+    return vertices, faces.reshape(-1, 3), uv
+
+
+def test_welding_is_said_first_where_it_closes_the_mesh():
+    for vertices, faces in (soup(), seamed()[:2]):
+        for mesh in ((vertices, faces), (sp.Mesh(vertices, faces),)):
+            with pytest.raises(sp.MeshError) as caught:
+                sp.map(*mesh)
+            text = str(caught.value)
+            count = len(vertices) - len(V)
+            assert f"map(mesh, repair=True) welds {count} exact copies of vertices first, and mends it" in text
+            assert "component=1" not in text and caught.value.defects
+    holed = soup()[0], soup()[1][2:]
+    with pytest.raises(sp.MeshError, match="welds .* exact copies of vertices first, and mends it:\n  .*filled"):
+        sp.map(*holed)
+
+
+def test_copies_are_welded_by_repair_as_on_reading(tmp_path):
+    vertices, faces = soup()
+    made = sp.map(vertices, faces, repair=True)
+    assert len(made.vertices) == len(V) and made.mesh.area_share == 1 and made.mesh.format == "arrays"
+    [action] = made.repairs
+    assert action.kind == "vertex-welded" and action.times == len(vertices) - len(V)
+    assert (vertices[made.vertex_origin] == made.vertices).all()
+    sp.write(tmp_path / "a.ply", vertices, faces)
+    assert (sp.map(sp.read(tmp_path / "a.ply")).points == made.points).all()
+    assert len(sp.components(vertices, faces, repair=True)) == 1
+    closed = np.concatenate([V, V[:1]]), F.copy()
+    assert sp.repair(*closed).repairs[0].kind == "unused-vertex-dropped"
+
+
+def test_texture_coordinates_stay_at_the_corners_of_welded_vertices():
+    vertices, faces, uv = seamed()
+    made, lines = told(lambda: sp.map(vertices, faces, repair=True, values={"uv": uv}))
+    assert lines == [] and len(made.vertices) == len(V)
+    corners = made.mesh.corner_uv
+    assert corners.shape == (len(F), 3, 2) and (corners == uv[faces]).all()
+    labels = np.arange(len(vertices))
+    _, [line] = told(lambda: sp.repair(vertices, faces, values={"label": labels}))
+    assert "label: welded vertices have that of the first copy, in" in line
+    moved = vertices + 1e-6 * (uv[:, :1] > 0.5)
+    _, [line] = told(lambda: sp.repair(moved, faces, weld_share=1e-4, values={"uv": uv}))
+    assert "uv:" in line and "nearby" in line and "% of the faces" in line
+
+
+def test_a_share_is_that_of_what_was_given():
+    two = np.concatenate([V, 0.5 * V + 9]), np.concatenate([F, F + len(V)])
+    assert sp.repair(*two, component=1).area_share == pytest.approx(0.8)
+    assert sp.map(*two, repair=dict(component=2)).mesh.area_share == pytest.approx(0.2)
+    assert sp.map(sp.components(*two)[1]).mesh.area_share == pytest.approx(0.2)
+
+
+# What to type, the best first.
+
+
+def refusal(vertices, faces, **how):
+    with pytest.raises(sp.MeshError) as caught:
+        sp.map(vertices, faces, **how)
+    return str(caught.value)
+
+
+def test_a_refusal_says_what_loses_least_first():
+    two = np.concatenate([V, 0.5 * V + 9]), np.concatenate([F, F + len(V)])
+    text = refusal(*two)
+    assert text.index("[map(part) for part in sphparam.components(mesh)]") < text.index("component=1")
+    assert "map(mesh, repair=dict(component=1)) keeps 80 % of the area:" in text and "mends it" not in text
+    assert "sphparam.components(mesh, repair=True)" in refusal(two[0], two[1][1:])
+    assert "repair=dict(keep_holes=True)) keeps the holes" in refusal(V, F[1:])
+    assert refusal(V, F + 1) == (
+        "faces: the indices count from 1: faces - 1 is what to pass; as they are, 6 faces name vertices that do not exist"
+    )
+    faces = F.copy().astype(np.int64)
+    faces[7, 1], faces[9, 0] = 2**40, -4
+    assert refusal(V, faces) == (
+        "2 faces name vertices that do not exist: faces 7, 9: "
+        f"there are {len(V)} vertices, 0 to {len(V) - 1}, and faces name -4, {2**40}"
+    )
+
+
+def test_a_surface_inside_out_is_told():
+    assert "faces[:, ::-1]" in sp.map(V, F[:, ::-1]).warnings[0]
+    assert sp.map(V, F).warnings == [] and sp.map(V, F[:, ::-1], repair=True).warnings == []
+
+
+@pytest.mark.parametrize(
+    "use, error, words",
+    [
+        (lambda m: sp.map(V, F[1:], keep_holes=True), TypeError, r"map\(mesh, repair=dict\(keep_holes=True\)\)"),
+        (lambda m: sp.map(V, F, qualty="best"), TypeError, "qualty"),
+        (lambda m: m.remesh(5), TypeError, "'ico:5'"),
+        (lambda m: m.remesh("5"), TypeError, "'ico:5'"),
+        (lambda m: m.remesh("like:a.ply"), ValueError, "or a map"),
+        (lambda m: m.bake("ao", size=(16, 8)), TypeError, r"one number is needed, texels a row, not \(16, 8\)"),
+        (lambda m: m.bake("normals"), ValueError, "no field normals; there are .*; is 'normal-object' meant"),
+        (lambda m: m.bake("curvatur:mean"), ValueError, "'curvature' meant"),
+        (lambda m: m.save("q.glb"), sp.WriteError, r"export\(\) writes .glb"),
+        (lambda m: sp.write("q.GLB", V, F), sp.WriteError, r"export\(\) of sphparam.map"),
+    ],
+)
+def test_a_slip_is_answered_with_what_is_meant(use, error, words, painted, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(error, match=words):
+        use(painted)
+    assert list(tmp_path.iterdir()) == []

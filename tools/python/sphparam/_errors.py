@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple, Optional, Sequence, Tuple
+import re
+from typing import Any, List, NamedTuple, Optional, Sequence, Tuple
 
 
 class Defect(NamedTuple):
@@ -34,21 +35,63 @@ class MeshError(ValueError):
         super().__init__(message)
         self.defects = tuple(defects)
 
+    @property
+    def _text(self) -> List[str]:
+        return str(self).split("\n")[1:]
+
     @classmethod
     def _of(cls, rows: Sequence[Tuple[Any, ...]], trial: Optional[Tuple[Any, ...]]) -> MeshError:
         defects = [Defect(*row) for row in rows]
-        lines = ["the mesh is not a closed genus-0 manifold"]
+        return cls._instead(defects, _advice(defects, trial))
+
+    @classmethod
+    def _instead(cls, defects: Sequence[Defect], advice: Sequence[str]) -> MeshError:
         for defect in defects:
-            if defect.fatal or defect.kind == "unused-vertex":
-                lines.append(f"  {defect.message}" + (f" ({defect.hint})" if defect.hint else ""))
-        lines += _advice(trial)
-        if any(defect.kind == "several-components" for defect in defects):
-            lines.append("sphparam.components(mesh) makes a mesh of each component")
-        return cls("\n".join(lines), defects)
+            if "count from 1" in defect.hint:  # all else follows from that
+                what = defect.message.split(":")[0]
+                return cls(f"faces: {defect.hint} is what to pass; as they are, {what}", defects)
+        return cls("\n".join(["the mesh is not a closed genus-0 manifold", *_told(defects), *advice]), defects)
+
+    def _with_indices(self, outside: str) -> MeshError:
+        """Says which indices were out of range; what follows from them is no matter yet."""
+        if "count from 1" in str(self):
+            return self
+        wrong = [defect.message for defect in self.defects if defect.kind == "index-out-of-range"]
+        return MeshError(f"{wrong[0]}: {outside}", self.defects) if wrong else self
 
 
-def _advice(trial: Optional[Tuple[Any, ...]]) -> list[str]:
-    """What repair would do, and what to type for it."""
+def _told(defects: Sequence[Defect]) -> List[str]:
+    """A line about each that is in the way."""
+    return [
+        f"  {defect.message}" + (f" ({defect.hint})" if defect.hint else "")
+        for defect in defects
+        if defect.fatal or defect.kind == "unused-vertex"
+    ]
+
+
+def _advice(defects: Sequence[Defect], trial: Optional[Tuple[Any, ...]]) -> List[str]:
+    """What to type: the parts of a mesh by themselves before one of them alone, holes kept after holes filled."""
+    kinds = {defect.kind: defect for defect in defects}
+    if "index-out-of-range" in kinds:
+        return []
+    parts = kinds.get("several-components")
+    if parts is None:
+        kept = ["map(mesh, repair=dict(keep_holes=True)) keeps the holes, closed by what is no surface"]
+        return _repair_advice(trial, "mends it") + (kept if "boundary-edge" in kinds and trial else [])
+    alone = all(defect is parts or not defect.fatal for defect in defects)
+    each = "map(part) for part in sphparam.components(mesh)"
+    if not alone:
+        each = "map(part, repair=True) for part in sphparam.components(mesh, repair=True)"
+    share = re.search(r"([\d.]+) % of the area", parts.message)
+    keeps = f"keeps {share[1]} % of the area" if share else "keeps one"
+    return [
+        f"[{each}] maps each component;",
+        *_repair_advice(trial, keeps),
+    ]
+
+
+def _repair_advice(trial: Optional[Tuple[Any, ...]], does: str) -> List[str]:
+    """What repair would do."""
     if trial is None:
         return []
     options, actions, remaining = trial
@@ -56,7 +99,7 @@ def _advice(trial: Optional[Tuple[Any, ...]]) -> list[str]:
         left = "; ".join(Defect(*row).message for row in remaining)
         return [f"repair cannot mend it, this would remain: {left}"]
     wanted = "dict(" + ", ".join(f"{k}={v!r}" for k, v in options.items()) + ")" if options else "True"
-    lines = [f"map(mesh, repair={wanted}) mends it:"]
+    lines = [f"map(mesh, repair={wanted}) {does}:"]
     return lines + [f"  {message}" for _, _, _, message in actions]
 
 

@@ -3,21 +3,40 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Mapping, Optional, Tuple, Union
+from functools import wraps
+from typing import Any, Callable, Mapping, Optional, Tuple, TypeVar, Union, cast
 
 from . import _arrays, _core
+from ._errors import MeshError
 from ._figures import Certificate
 from ._losses import tell
 from ._map_options import requested
 from ._mesh import Path, any_mesh, existing, path_of
 from ._progress import Progress, told
-from ._repair import mended, repair_options
+from ._repair import mended, repair_option_names, repair_options
 from ._sphere_map import SphereMap
+from ._welding import advised
+
+_F = TypeVar("_F", bound=Callable[..., Any])
+
+
+def _hinting(function: _F) -> _F:
+    """Tells where an argument of :func:`repair` goes that was given to :func:`map`."""
+
+    @wraps(function)
+    def call(*arguments: Any, **named: Any) -> Any:
+        for name in named.keys() & repair_option_names - set(function.__kwdefaults__):
+            raise TypeError(f"map: {name} is an argument of repair: map(mesh, repair=dict({name}={named[name]!r}))")
+        return function(*arguments, **named)
+
+    return cast(_F, call)
+
 
 remeshing_lambda = 5.0
 """The weight of area that spreads a grid's vertices best: ``map(mesh, weight=…)`` before ``remesh``."""
 
 
+@_hinting
 def map(
     mesh: Any,
     faces: Any = None,
@@ -110,8 +129,12 @@ def map(
             found = mended(found, mending, report)
         found._require_sound()
         mine = found is not mesh
-        made = SphereMap._of(_core.map(found._source, mine, options, report))
-    tell(made.warnings)
+        try:
+            made = SphereMap._of(_core.map(found._source, mine, options, report))
+        except MeshError as error:
+            raise (advised(error, lambda: any_mesh(mesh, faces)) if mending is None else error) from None
+    made._found.update(welds=found._welds, share=found.area_share)
+    tell(made._account().get("warnings", []))
     return made
 
 

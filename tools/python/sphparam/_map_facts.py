@@ -111,7 +111,9 @@ class MapFacts:
     @property
     def mesh(self) -> Mesh:
         """The mesh alone, a copy."""
-        return Mesh._of(_core.source_of_mapped(self._mapped, True))
+        made = Mesh._of(_core.source_of_mapped(self._mapped, True), share=self._found.get("share", 1.0))
+        made._welds = self._found.get("welds", ())
+        return made
 
     @property
     def fillers(self) -> Flags:
@@ -210,8 +212,19 @@ class MapFacts:
 
     @property
     def warnings(self) -> List[str]:
-        """What the library has to say of how the map came out."""
-        return self._account().get("warnings", [])
+        """What there is to say of how the map came out, and of a surface that is inside out."""
+        said: List[str] = self._account().get("warnings", [])
+        return said + self._once("inside_out", self._inside_out)
+
+    def _inside_out(self) -> List[str]:
+        if not self._account() or self._volume() >= 0:
+            return []
+        return ["the faces are clockwise from outside, the volume is negative: faces[:, ::-1] or repair=True turns them"]
+
+    def _volume(self) -> float:
+        """Six times what the surface encloses."""
+        a, b, c = (self.vertices[self.faces[:, k]] - self.vertices[0] for k in range(3))
+        return float(np.einsum("ij,ij->", a, np.cross(b, c)))
 
     @property
     def provenance(self) -> Dict[str, str]:
@@ -226,7 +239,8 @@ class MapFacts:
     @property
     def repairs(self) -> Tuple[Action, ...]:
         """What ``repair`` did to the mesh before it was mapped."""
-        return tuple(Action(*row) for row in self._mapped.repairs)
+        welds: Tuple[Action, ...] = self._found.get("welds", ())
+        return welds + tuple(Action(*row) for row in self._mapped.repairs)
 
     @property
     def handles(self) -> Tuple[HandleLoop, ...]:

@@ -10,7 +10,7 @@ from . import _arrays, _core
 from ._losses import tell
 from ._map_facts import MapFacts, mapped_of
 from ._map_images import require_up
-from ._mesh import Path, path_of
+from ._mesh import Path, path_of, require_mesh_format
 from ._numpy import np
 from ._progress import Progress, told
 
@@ -46,7 +46,7 @@ class MapFiles(MapFacts):
         the format can, else left out; ``"keep"``, ``"drop"``: in all formats, in none. All of it or nothing.
         Raises :class:`WriteError`; warns, as :class:`LossWarning`, of what the format has no room for.
         """
-        name = path_of(path)
+        name = require_mesh_format(path_of(path), "export()")
         losses = _core.save(self._mapped, name, _arrays.text(holes, "holes"), _arrays.threads(threads))
         tell(f"{name}: {loss}" for loss in losses)
 

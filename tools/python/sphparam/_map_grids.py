@@ -118,4 +118,12 @@ def _names(names: Union[str, Iterable[str]], what: str) -> List[str]:
 
 
 def _grid(grid: Any) -> Union[str, _core.Mapped]:
+    if isinstance(grid, int) or (isinstance(grid, str) and grid.isdigit()):
+        raise TypeError(f"grid: 'ico:{grid}', another one of {_patterns()}, or a map, not {grid!r}")
+    if isinstance(grid, str) and not grid.startswith(("ico:", "octa:", "cube:", "uv:", "healpix:")):
+        raise ValueError(f"grid: {_patterns()}, or a map (remesh(other), where the program has like:), not {grid!r}")
     return grid if isinstance(grid, str) else mapped_of(grid, "grid")
+
+
+def _patterns() -> str:
+    return "'ico:L', 'ico:f=N', 'octa:N', 'cube:N', 'uv:WxH', 'healpix:NSIDE'"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 from typing import TYPE_CHECKING, Any, Dict, Mapping, Optional, Tuple
 
 from . import _arrays, _core
@@ -42,6 +43,16 @@ def _baking(given: Dict[str, Any]) -> Dict[str, Any]:
     if given["target"] is not None:
         options["target"] = mapped_of(given["target"], "target")
     return options
+
+
+def _require_field(name: str) -> None:
+    """Tells of a field that is not there which one may be meant."""
+    known = fields()
+    first = name.split(":")[0]
+    near = [other for other in known if other.startswith(first.rstrip("s"))]
+    near += difflib.get_close_matches(first, known, 1, 0.75)
+    if first not in known and near:
+        raise ValueError(f"there is no field {name}; there are {', '.join(known)}; is {near[0]!r} meant?")
 
 
 def require_up(up: Optional[str]) -> str:
@@ -138,11 +149,12 @@ class MapImages(MapFacts):
         """
         from ._baked import Baked, BakedImage
 
+        _require_field(_arrays.text(field, "field"))
+        if isinstance(size, tuple):
+            raise TypeError(f"size: one number is needed, texels a row, not {size!r}; there are half as many rows")
         options = _baking(locals())
         with told(progress) as report:
-            [(name, about, table)] = _core.bake_to_arrays(
-                self._mapped, [_arrays.text(field, "field")], options, report
-            )
+            [(name, about, table)] = _core.bake_to_arrays(self._mapped, [field], options, report)
         frame = (target or self)._fingerprint() if name == "normal-tangent" else None
         poles = refine_poles if options["interpolation"] == "uv" else None
         return BakedImage._of(table, name, about, Baked(options["convention"], poles, normal_y_down, frame))

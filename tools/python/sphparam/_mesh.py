@@ -6,7 +6,7 @@ import os
 from typing import TYPE_CHECKING, Any, Dict, List, Mapping, NoReturn, Optional, Tuple, Union
 
 from . import _arrays, _core, _values
-from ._errors import Defect
+from ._errors import Defect, MeshError, WriteError
 from ._figures import Action, HandleLoop, Inspection
 from ._losses import tell
 from ._numpy import np
@@ -29,6 +29,13 @@ def path_of(path: Path) -> str:
         raise TypeError("path: a text is needed, not bytes")
     if "\0" in name or not name:
         raise ValueError("path: no file has this name")
+    return name
+
+
+def require_mesh_format(name: str, other: str) -> str:
+    """Tells what writes the formats that meshes alone are not written in."""
+    if name.lower().endswith((".glb", ".gltf")):
+        raise WriteError(f"{name}: {other} writes .glb and .gltf; save() writes {_core.written_extensions()}")
     return name
 
 
@@ -61,11 +68,13 @@ class Mesh:
         are no finite numbers, with their places.
     """
 
-    __slots__ = ("_source", "_sound", "_share")
+    __slots__ = ("_source", "_sound", "_share", "_welds", "_outside")
 
     _source: _core.Source
     _sound: bool
     _share: float
+    _welds: Tuple[Action, ...]
+    _outside: str
 
     def __init__(
         self,
@@ -77,16 +86,21 @@ class Mesh:
         made = any_mesh(vertices, faces, values)
         made._require_sound()
         self._source, self._sound, self._share = made._source, True, made._share
+        self._welds, self._outside = made._welds, ""
 
     @classmethod
     def _of(cls, source: _core.Source, sound: bool = True, share: float = 1.0) -> Mesh:
         mesh = cls.__new__(cls)
         mesh._source, mesh._sound, mesh._share = source, sound, share
+        mesh._welds, mesh._outside = (), ""
         return mesh
 
     def _require_sound(self) -> None:
         if not self._sound:
-            _core.refuse(self._source)
+            try:
+                _core.refuse(self._source)
+            except MeshError as error:
+                raise error._with_indices(self._outside) if self._outside else error from None
 
     @property
     def vertices(self) -> npt.NDArray[numpy.float64]:
@@ -127,7 +141,9 @@ class Mesh:
 
     @property
     def area_share(self) -> float:
-        """Of a part that :func:`components` made, its share of the area of all; else 1."""
+        """Of a part that :func:`components` made, and where :func:`repair` dropped some, the share of the area
+        of all; else 1.
+        """
         return self._share
 
     @property
@@ -143,7 +159,7 @@ class Mesh:
     @property
     def format(self) -> str:
         """``"PLY binary little-endian"``, ``"OBJ"``, ``"arrays"`` and so on."""
-        return self._source.format
+        return "arrays" if self._welds else self._source.format
 
     @property
     def notes(self) -> List[str]:
@@ -158,7 +174,7 @@ class Mesh:
     @property
     def repairs(self) -> Tuple[Action, ...]:
         """What :func:`repair` did to make it."""
-        return tuple(Action(*row) for row in self._source.repairs)
+        return self._welds + tuple(Action(*row) for row in self._source.repairs)
 
     @property
     def handles(self) -> Tuple[HandleLoop, ...]:
@@ -174,7 +190,7 @@ class Mesh:
     def save(self, path: Path) -> None:
         """Writes it in the format of the name, as :func:`write` does."""
         self._require_sound()
-        name = path_of(path)
+        name = require_mesh_format(path_of(path), "export() of sphparam.map(mesh)")
         tell(f"{name}: {loss}" for loss in _core.write(self._source, name))
 
     def __copy__(self) -> Mesh:
@@ -213,7 +229,16 @@ def any_mesh(mesh: Any, faces: Any, values: Optional[Mapping[str, Any]] = None) 
             source.set_vertex_values(*row)
         for row in parts.face_values:
             source.set_face_values(*row)
-    return _with_values(Mesh._of(source, finite and inside), values)
+    made = Mesh._of(source, finite and inside)
+    made._outside = "" if inside else _outside(faces, len(vertices))
+    return _with_values(made, values)
+
+
+def _outside(faces: Array, count: int) -> str:
+    """What indices out of range are, in words."""
+    wrong = np.unique(faces[(faces < 0) | (faces >= count)])
+    first = ", ".join(str(number) for number in wrong[:5]) + (", …" if len(wrong) > 5 else "")
+    return f"there are {count} vertices, 0 to {count - 1}, and faces name {first}"
 
 
 def _with_values(mesh: Mesh, values: Optional[Mapping[str, Any]]) -> Mesh:

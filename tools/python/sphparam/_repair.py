@@ -5,8 +5,10 @@ from __future__ import annotations
 from typing import Any, Callable, Dict, List, Mapping, Optional, Union
 
 from . import _core
+from ._losses import tell
 from ._mesh import Mesh, any_mesh
 from ._progress import Progress, told
+from ._welding import lost_by_nearness, lost_by_welding, share_kept, welded
 
 
 def repair(
@@ -48,7 +50,8 @@ def repair(
         Remove faces that name a vertex twice or one that does not exist, and copies of faces. Indices
         that count from 1 are refused all the same.
     cracks
-        Split edges of holes at the vertices that lie on them.
+        Weld exact copies of vertices of arrays that are not closed, as :func:`read` does (texture coordinates
+        then go to ``corner_uv``), and split edges of holes at the vertices that lie on them.
     orientation
         Orient faces alike, and the closed surface outward.
     non_manifold
@@ -95,20 +98,34 @@ def repair(
     MeshError
         for what cannot be mended, with what remains.
     """
-    options = _known({name: value for name, value in locals().items() if name in _repair_options})
+    options = _known({name: value for name, value in locals().items() if name in repair_option_names})
     with told(progress) as report:
         return mended(any_mesh(mesh, faces, values), options, report, require_sphere)
 
 
-_repair_options = frozenset(repair.__kwdefaults__ or {}) - {"values", "progress", "require_sphere"}
+repair_option_names = frozenset(repair.__kwdefaults__ or {}) - {"values", "progress", "require_sphere"}
+"""What a dict for ``repair=`` may have."""
 
 
 def mended(
     mesh: Mesh, options: Dict[str, Any], report: Optional[Callable[[str, float], Any]], whole: bool = True
 ) -> Mesh:
-    """Another mesh, by options that were looked at."""
-    source = _core.repair(mesh._source, options, whole, report)
-    return Mesh._of(source, source.is_sound)
+    """Another mesh, by options that were looked at; exact copies of vertices are welded before."""
+    whole_mesh = _welded_first(mesh, options)
+    source = _core.repair(whole_mesh._source, options, whole, report)
+    made = Mesh._of(source, source.is_sound)
+    made._welds = whole_mesh._welds
+    tell(lost_by_nearness(whole_mesh, made))
+    made._share = share_kept(whole_mesh, made) if mesh._sound else mesh.area_share
+    return made
+
+
+def _welded_first(mesh: Mesh, options: Dict[str, Any]) -> Mesh:
+    found = welded(mesh) if options.get("cracks", True) else None
+    if found is None:
+        return mesh
+    tell(lost_by_welding(mesh, found))
+    return found
 
 
 def components(
@@ -130,6 +147,8 @@ def components(
     found = any_mesh(mesh, faces, values)
     if options is None:
         found._require_sound()
+    else:
+        found = _welded_first(found, options)
     with told(progress) as report:
         parts = _core.components(found._source, options, report)
     return [Mesh._of(source, share=share) for source, share in parts]
@@ -149,6 +168,6 @@ def repair_options(wanted: Any) -> Optional[Dict[str, Any]]:
     if not isinstance(wanted, Mapping):
         raise TypeError("repair: True, False, or a dict of arguments of sphparam.repair")
     for name in wanted:
-        if name not in _repair_options:
-            raise TypeError(f"repair: no option is called {name!r}; there are {', '.join(sorted(_repair_options))}")
+        if name not in repair_option_names:
+            raise TypeError(f"repair: no option is called {name!r}; there are {', '.join(sorted(repair_option_names))}")
     return _known(dict(wanted))

@@ -1,0 +1,104 @@
+"""Copies of vertices in arrays, as STL and seams of texture coordinates have them, welded as those of files."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+import warnings
+from typing import Any, Callable, Iterator, List, Optional
+
+from . import _core
+from ._errors import MeshError
+from ._figures import Action
+from ._mesh import Mesh
+from ._numpy import np
+
+
+def _may_have_copies(vertices: Any) -> bool:
+    """Whether two positions are alike, by a hash: never False where there are such."""
+    bits = np.ascontiguousarray(vertices + 0.0).view(np.uint64)  # −0 is 0
+    mixed = bits * np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9], np.uint64)
+    mixed ^= mixed >> np.uint64(29)
+    hashes = mixed[:, 0] + mixed[:, 1] * np.uint64(3) + mixed[:, 2] * np.uint64(7)
+    return len(np.unique(hashes)) < len(hashes)
+
+
+def welded(mesh: Mesh) -> Optional[Mesh]:
+    """A mesh of arrays with exact copies welded as :func:`read` welds them; None where nothing is to be welded.
+
+    A closed mesh is left as it is. Texture coordinates and normals that differ go to the corners.
+    """
+    if mesh.format != "arrays" or not mesh._sound or not len(mesh.faces) or not _may_have_copies(mesh.vertices):
+        return None
+    with tempfile.TemporaryDirectory(prefix="sphparam-") as folder:
+        path = os.path.join(folder, "mesh.ply")
+        _core.write(mesh._source, path)
+        source = _core.read(path, True, False)
+    if not any(note.startswith("welded") for note in source.notes):
+        return None
+    source.path = mesh.path
+    made = Mesh._of(source)
+    gone = np.setdiff1d(mesh.faces, made.vertex_origin)
+    first = tuple(int(v) for v in gone[:10])
+    message = f"{len(gone)} exact copies of vertices welded: vertices {', '.join(map(str, first))}"
+    made._welds = (Action("vertex-welded", len(gone), first, message + (", …" if len(gone) > 10 else "")),)
+    return made
+
+
+def lost_by_welding(given: Mesh, made: Mesh) -> Iterator[str]:
+    """A line about all values of which copies had different ones."""
+    theirs, faces = given.values, given.faces
+    for name, ours in made.values.items():
+        if name in theirs and name not in ("uv", "normal"):
+            differ = (theirs[name][faces] != ours[made.faces]).reshape(len(faces), -1).any(axis=1)
+            if differ.any():
+                share = 100 * differ.mean()
+                yield f"{name}: welded vertices have that of the first copy, in {share:.2g} % of the faces another"
+
+
+def lost_by_nearness(given: Mesh, made: Mesh) -> Iterator[str]:
+    """A line about texture coordinates of vertices that moved onto others."""
+    near = sum(action.times for action in made.repairs if action.kind == "vertex-welded") - sum(
+        action.times for action in made._welds
+    )
+    if near <= 0 or "uv" not in given.values:
+        return
+    share = 100 * (~np.isin(given.vertex_origin, made.vertex_origin)[given.faces]).any(axis=1).mean()
+    yield (
+        f"uv: {near} vertices were welded onto others nearby, which have other texture coordinates, of {share:.2g} % of "
+        "the faces; a file with uv at the corners (.obj, .glb), read by sphparam.read, keeps them"
+    )
+
+
+def share_kept(given: Mesh, made: Mesh) -> float:
+    """Of the area of a mesh that which is left of it once components were dropped."""
+    if not any(action.kind == "component-dropped" for action in made.repairs):
+        return given.area_share
+    areas = _areas(given)
+    kept = np.isin(given.vertex_origin, made.vertex_origin)[given.faces].all(axis=1)
+    total = areas.sum()
+    return float(given.area_share * areas[kept].sum() / total) if total > 0 else given.area_share
+
+
+def _areas(mesh: Mesh) -> Any:
+    a, b, c = (mesh.vertices[mesh.faces[:, k]] for k in range(3))
+    return np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+
+
+def advised(error: MeshError, again: Callable[[], Mesh]) -> MeshError:
+    """The same refusal with what welding would do, said first, where there is something to weld."""
+    if not any(defect.kind == "boundary-edge" for defect in error.defects):
+        return error
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # all was told before
+        better = welded(again())
+    if better is None:
+        return error
+    lines: List[str] = [f"map(mesh, repair=True) welds {better._welds[0].times} exact copies of vertices first,"]
+    try:
+        done = _core.repair(better._source, {}, True, None)
+    except MeshError as left:
+        lines[0] += " but then:"
+        return MeshError._instead(error.defects, lines + left._text)
+    lines[0] += " and mends it" + (":" if done.repairs else "")
+    return MeshError._instead(error.defects, lines + [f"  {row[3]}" for row in done.repairs])
