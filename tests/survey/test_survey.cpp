@@ -59,8 +59,8 @@ struct Meshes {
     const auto at = [](int i, int j) { return i % around * across + j % across; };
     for (int i = 0; i < around; ++i) {
       for (int j = 0; j < across; ++j) {
-        const double u = 2 * pi * i / around, v = 2 * pi * j / across, r = 2 + 1.5 * std::cos(v);
-        mesh.positions.row(at(i, j)) << r * std::cos(u), r * std::sin(u), 1.5 * std::sin(v);
+        const double u = 2 * pi * i / around, v = 2 * pi * j / across, r = 2 + 1.2 * std::cos(v);
+        mesh.positions.row(at(i, j)) << r * std::cos(u), r * std::sin(u), 1.2 * std::sin(v);
         const int face = 2 * (i * across + j);
         mesh.triangles.row(face) << at(i, j), at(i + 1, j), at(i + 1, j + 1);
         mesh.triangles.row(face + 1) << at(i, j), at(i + 1, j + 1), at(i, j + 1);
