@@ -200,6 +200,15 @@ def test_texture_coordinates_stay_at_the_corners_of_welded_vertices():
     assert "uv:" in line and "nearby" in line and "% of the faces" in line
 
 
+def test_copies_are_welded_also_where_other_faces_must_go_first():
+    vertices, faces, uv = seamed()
+    faces = np.concatenate([faces, [[0, 1, 10**6]]])
+    made, [line] = told(lambda: sp.map(vertices, faces, repair=True, values={"uv": uv}))
+    assert len(made.vertices) == len(V) and line.startswith("uv:")
+    apart, _ = told(lambda: sp.repair(vertices, faces, cracks=False, require_sphere=False))
+    assert not any(action.kind == "vertex-welded" for action in apart.repairs)
+
+
 def test_a_share_is_that_of_what_was_given():
     two = np.concatenate([V, 0.5 * V + 9]), np.concatenate([F, F + len(V)])
     assert sp.repair(*two, component=1).area_share == pytest.approx(0.8)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 from typing import TYPE_CHECKING, Any, Dict, Mapping, Optional, Tuple
 
 from . import _arrays, _core
@@ -48,10 +47,14 @@ def _baking(given: Dict[str, Any]) -> Dict[str, Any]:
 def _require_field(name: str) -> None:
     """Tells of a field that is not there which one may be meant."""
     known = fields()
+    if name.split(":")[0] in known:
+        return
+    from difflib import get_close_matches  # imported when it is wanted
+
     first = name.split(":")[0]
     near = [other for other in known if other.startswith(first.rstrip("s"))]
-    near += difflib.get_close_matches(first, known, 1, 0.75)
-    if first not in known and near:
+    near += get_close_matches(first, known, 1, 0.75)
+    if near:
         raise ValueError(f"there is no field {name}; there are {', '.join(known)}; is {near[0]!r} meant?")
 
 

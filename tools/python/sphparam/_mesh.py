@@ -58,8 +58,8 @@ class Mesh:
     faces
         (F, 3) whole numbers, counter-clockwise from outside.
     values
-        What vertices carry besides: name to (V,) or (V, k). ``"color"``, ``"normal"`` and ``"uv"`` are
-        known by their names; whole numbers are labels, never interpolated.
+        What vertices carry besides: name to (V,) or (V, k). ``"color"`` (uint8, or floats from 0 to 1),
+        ``"normal"`` and ``"uv"`` (v upwards, as in OBJ) are known by their names; whole numbers are labels, never interpolated.
 
     Raises
     ------

@@ -112,12 +112,19 @@ def mended(
 ) -> Mesh:
     """Another mesh, by options that were looked at; exact copies of vertices are welded before."""
     whole_mesh = _welded_first(mesh, options)
-    source = _core.repair(whole_mesh._source, options, whole, report)
+    source = _core.repair(whole_mesh._source, _welding_too(mesh, options), whole, report)
     made = Mesh._of(source, source.is_sound)
     made._welds = whole_mesh._welds
     tell(lost_by_nearness(whole_mesh, made))
     made._share = share_kept(whole_mesh, made) if mesh._sound else mesh.area_share
     return made
+
+
+def _welding_too(mesh: Mesh, options: Dict[str, Any]) -> Dict[str, Any]:
+    """Copies in arrays that must be mended before they can be welded as those of files."""
+    wanted = mesh.format == "arrays" and not mesh._sound and options.get("cracks", True)
+    named = options.keys() & {"weld_share", "weld_length"}
+    return {**options, "weld_share": 0.0} if wanted and not named else options
 
 
 def _welded_first(mesh: Mesh, options: Dict[str, Any]) -> Mesh:

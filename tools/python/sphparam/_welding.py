@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import tempfile
 import warnings
 from typing import Any, Callable, Iterator, List, Optional
 
@@ -30,6 +29,8 @@ def welded(mesh: Mesh) -> Optional[Mesh]:
     """
     if mesh.format != "arrays" or not mesh._sound or not len(mesh.faces) or not _may_have_copies(mesh.vertices):
         return None
+    import tempfile  # when it is wanted: it takes its time
+
     with tempfile.TemporaryDirectory(prefix="sphparam-") as folder:
         path = os.path.join(folder, "mesh.ply")
         _core.write(mesh._source, path)
@@ -63,7 +64,8 @@ def lost_by_nearness(given: Mesh, made: Mesh) -> Iterator[str]:
     )
     if near <= 0 or "uv" not in given.values:
         return
-    share = 100 * (~np.isin(given.vertex_origin, made.vertex_origin)[given.faces]).any(axis=1).mean()
+    there = given.faces[((given.faces >= 0) & (given.faces < len(given.vertices))).all(axis=1)]
+    share = 100 * (~np.isin(given.vertex_origin, made.vertex_origin)[there]).any(axis=1).mean()
     yield (
         f"uv: {near} vertices were welded onto others nearby, which have other texture coordinates, of {share:.2g} % of "
         "the faces; a file with uv at the corners (.obj, .glb), read by sphparam.read, keeps them"
