@@ -211,8 +211,12 @@ ItemEnd run_item(const ItemSetting& setting, const BatchItem& item) {
   return ItemRun(setting, item).run();
 }
 
-void record_crash(const ItemSetting& setting, const BatchItem& item, const std::string& staged,
+bool record_crash(const ItemSetting& setting, const BatchItem& item, const std::string& staged,
                   int code, double cpu_seconds) {
+  if (has_results(setting.folder, item)) {
+    fs::remove_all(staged);
+    return false;
+  }
   BatchRecord record = record_of(setting, item);
   fs::create_directories(staged);
   record.log = small_file(staged + "/log").value_or("");
@@ -222,6 +226,7 @@ void record_crash(const ItemSetting& setting, const BatchItem& item, const std::
   record.head.ended = std::time(nullptr);
   publish_failure(setting.folder, staged, record);
   fs::remove_all(staged);
+  return true;
 }
 
 }  // namespace sphparam

@@ -30,8 +30,9 @@ struct ItemSetting {
 ItemEnd run_item(const ItemSetting& setting, const BatchItem& item);
 
 /// Records that the process of an item ended in a way it could not record itself, and removes what
-/// it left below `staging`. Throws: BatchMachineError; WriteError.
-void record_crash(const ItemSetting& setting, const BatchItem& item, const std::string& staged,
+/// it left below `staging`. Returns false where its results were out already: whoever is killed
+/// after that has done his work, and nothing is recorded. Throws: BatchMachineError; WriteError.
+bool record_crash(const ItemSetting& setting, const BatchItem& item, const std::string& staged,
                   int code, double cpu_seconds);
 
 }  // namespace sphparam

@@ -41,15 +41,18 @@ bool publish_results(const std::string& folder, const std::string& staged, const
   const std::string target = result_folder(folder, item.id);
   if (!rename_to(staged, target)) {
     if (errno != EEXIST && errno != ENOTEMPTY) fail(target);
-    const auto there = record_about(folder, item);
-    const bool same = there && !there->head.failed() && there->head.program == program_hash() &&
-                      has_its_files(target, there->head.files);
-    if (same) return false;
+    if (has_results(folder, item)) return false;
     replace(staged, target);
   }
   sync_folder(folder + "/results", target);
   ::unlink(failure_path(folder, item.id).c_str());
   return true;
+}
+
+bool has_results(const std::string& folder, const BatchItem& item) {
+  const auto there = record_about(folder, item);
+  return there && !there->head.failed() && there->head.program == program_hash() &&
+         has_its_files(result_folder(folder, item.id), there->head.files);
 }
 
 void publish_failure(const std::string& folder, const std::string& staged,

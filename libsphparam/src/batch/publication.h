@@ -21,6 +21,9 @@ void publish_failure(const std::string& folder, const std::string& staged,
 void publish_failure_bytes(const std::string& folder, const std::string& staged,
                            const std::string& id, std::string bytes);
 
+/// Is the latest that is known of an item a result of this program, with its files?
+bool has_results(const std::string& folder, const BatchItem& item);
+
 /// Are the files of a result there, with their sizes?
 bool has_its_files(const std::string& folder, const std::vector<BatchFile>& files);
 

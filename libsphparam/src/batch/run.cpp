@@ -217,7 +217,10 @@ class BatchRun {
         break;
       default:
         if (stopping_) return;
-        record_crash(setting_, plan_.items[running.item], staged, end.code, end.cpu_seconds);
+        if (!record_crash(setting_, plan_.items[running.item], staged, end.code, end.cpu_seconds)) {
+          ++summary_.done;
+          return;
+        }
     }
     ++summary_.failed;
     const auto record = record_about(folder_, plan_.items[running.item]);

@@ -1,0 +1,81 @@
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+
+#include "batch/child.h"
+#include "batch/content_hash.h"
+#include "batch/item_run.h"
+#include "batch/options_hash.h"
+#include "batch/staging.h"
+
+/// What is left of an item whose process ends in one way or another.
+namespace sphparam::tests {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A batch of one shape, in a folder of its own.
+class OneShape {
+ public:
+  OneShape() {
+    for (const char* const name : {"results", "failed", "staging"})
+      fs::create_directories(fs::path(folder_) / name);
+    std::ofstream(folder_ + "/a.obj") << "v 0 0 0\n";
+    plan_ = {.name = "0123456789abcdef", .steps = {{"map", "{input}", "-o", "{id}.ply"}}};
+    plan_.items = {{.id = "a", .path = folder_ + "/a.obj", .size = 8}};
+    plan_.items[0].input = hash_of_file(plan_.items[0].path);
+    plan_.items[0].options = OptionsHash(plan_).of(plan_.items[0]);
+  }
+  ~OneShape() { fs::remove_all(folder_); }
+  OneShape(const OneShape&) = delete;
+  OneShape& operator=(const OneShape&) = delete;
+
+  ItemSetting setting() const { return {folder_, plan_, write_a_result}; }
+  const BatchItem& item() const { return plan_.items[0]; }
+  std::string record() const { return small_file(folder_ + "/results/a/record.json").value_or(""); }
+  bool has_failed() const { return fs::exists(folder_ + "/failed/a.json"); }
+  std::string staged() const { return folder_ + "/staging/" + staging_name("a"); }
+
+ private:
+  static int write_result(const BatchStep&, const BatchStepSetting&) {
+    std::ofstream("a.ply") << "ply\n";
+    return 0;
+  }
+
+  const std::string folder_ =
+      (fs::temp_directory_path() / ("sphparam_item_" + std::to_string(::getpid()))).string();
+  const std::function<int(const BatchStep&, const BatchStepSetting&)> write_a_result = write_result;
+  BatchPlan plan_;
+};
+
+int run_in_a_process(const OneShape& shape) {
+  return wait_for_child(start_child([&] { return run_item(shape.setting(), shape.item()); })).code;
+}
+
+}  // namespace
+
+TEST_CASE("item run: who is killed before his results are out has failed") {
+  const OneShape shape;
+  CHECK(record_crash(shape.setting(), shape.item(), shape.staged(), 128 + SIGKILL, 0.5));
+  CHECK(shape.has_failed());
+  CHECK_FALSE(fs::exists(shape.staged()));
+}
+
+TEST_CASE("item run: who is killed when his results are out has done his work, and not twice") {
+  const OneShape shape;
+  REQUIRE(run_in_a_process(shape) == ItemDone);
+  const std::string record = shape.record();
+  REQUIRE_FALSE(record.empty());
+  fs::create_directories(shape.staged());
+  CHECK_FALSE(record_crash(shape.setting(), shape.item(), shape.staged(), 128 + SIGKILL, 0.5));
+  CHECK_FALSE(shape.has_failed());
+  CHECK_FALSE(fs::exists(shape.staged()));
+  CHECK(run_in_a_process(shape) == ItemDoneElsewhere);
+  CHECK(shape.record() == record);
+}
+
+}  // namespace sphparam::tests
