@@ -167,6 +167,10 @@ def test_welding_is_said_first_where_it_closes_the_mesh():
             count = len(vertices) - len(V)
             assert f"map(mesh, repair=True) welds {count} exact copies of vertices first, and mends it" in text
             assert "component=1" not in text and caught.value.defects
+    two = np.concatenate([soup()[0], 0.5 * soup()[0] + 9]), np.concatenate([soup()[1], soup()[1] + F.size])
+    assert "first, but then:\n  2 separate" in refusal(*two)
+    assert "[map(part) for part in sphparam.components(mesh, repair=True)]" in refusal(*two)
+    assert len([sp.map(part) for part in sp.components(*two, repair=True)]) == 2
     holed = soup()[0], soup()[1][2:]
     with pytest.raises(sp.MeshError, match="welds .* exact copies of vertices first, and mends it:\n  .*filled"):
         sp.map(*holed)

@@ -7,7 +7,6 @@ from functools import wraps
 from typing import Any, Callable, Mapping, Optional, Tuple, TypeVar, Union, cast
 
 from . import _arrays, _core
-from ._errors import MeshError
 from ._figures import Certificate
 from ._losses import tell
 from ._map_options import requested
@@ -15,7 +14,7 @@ from ._mesh import Path, any_mesh, existing, path_of
 from ._progress import Progress, told
 from ._repair import mended, repair_option_names, repair_options
 from ._sphere_map import SphereMap
-from ._welding import advised
+from ._welding import require_welded
 
 _F = TypeVar("_F", bound=Callable[..., Any])
 
@@ -128,11 +127,10 @@ def map(
         if mending is not None:
             found = mended(found, mending, report)
         found._require_sound()
+        if mending is None:
+            require_welded(found)
         mine = found is not mesh
-        try:
-            made = SphereMap._of(_core.map(found._source, mine, options, report))
-        except MeshError as error:
-            raise (advised(error, lambda: any_mesh(mesh, faces)) if mending is None else error) from None
+        made = SphereMap._of(_core.map(found._source, mine, options, report))
     made._found.update(welds=found._welds, share=found.area_share)
     tell(made._account().get("warnings", []))
     return made

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import os
-import warnings
-from typing import Any, Callable, Iterator, List, Optional
+from typing import Any, Iterator, List, Optional
 
 from . import _core
-from ._errors import MeshError
+from ._errors import Defect, MeshError
 from ._figures import Action
 from ._mesh import Mesh
 from ._numpy import np
@@ -87,20 +86,22 @@ def _areas(mesh: Mesh) -> Any:
     return np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
 
 
-def advised(error: MeshError, again: Callable[[], Mesh]) -> MeshError:
-    """The same refusal with what welding would do, said first, where there is something to weld."""
-    if not any(defect.kind == "boundary-edge" for defect in error.defects):
-        return error
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # all was told before
-        better = welded(again())
+def require_welded(mesh: Mesh) -> None:
+    """Refuses arrays that repair would weld first, and says so before what else it would do.
+
+    Costs nothing where the numbers of vertices and faces are those of a closed genus-0 mesh.
+    """
+    if len(mesh.faces) == 2 * (len(mesh.vertices) - 2):
+        return
+    better = welded(mesh)
     if better is None:
-        return error
+        return
+    defects = [Defect(*row) for row in _core.inspect(mesh._source)["defects"]]
     lines: List[str] = [f"map(mesh, repair=True) welds {better._welds[0].times} exact copies of vertices first,"]
     try:
         done = _core.repair(better._source, {}, True, None)
     except MeshError as left:
-        lines[0] += " but then:"
-        return MeshError._instead(error.defects, lines + left._text)
+        more = [line.replace("sphparam.components(mesh)", "sphparam.components(mesh, repair=True)") for line in left._text]
+        raise MeshError._instead(defects, [lines[0] + " but then:", *more]) from None
     lines[0] += " and mends it" + (":" if done.repairs else "")
-    return MeshError._instead(error.defects, lines + [f"  {row[3]}" for row in done.repairs])
+    raise MeshError._instead(defects, lines + [f"  {row[3]}" for row in done.repairs])
