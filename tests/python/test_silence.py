@@ -190,6 +190,12 @@ def test_copies_are_welded_by_repair_as_on_reading(tmp_path):
     assert sp.repair(*closed).repairs[0].kind == "unused-vertex-dropped"
 
 
+def test_parts_that_only_copies_keep_asunder_are_told():
+    parts, [line] = told(lambda: sp.components(*soup()))
+    assert len(parts) == len(F) and "exact copies of vertices keep parts asunder; components(mesh, repair=True)" in line
+    assert told(lambda: sp.components(np.concatenate([V, V + 5]), np.concatenate([F, F + len(V)])))[1] == []
+
+
 def test_texture_coordinates_stay_at_the_corners_of_welded_vertices():
     vertices, faces, uv = seamed()
     made, lines = told(lambda: sp.map(vertices, faces, repair=True, values={"uv": uv}))

@@ -8,7 +8,7 @@ from . import _core
 from ._losses import tell
 from ._mesh import Mesh, any_mesh
 from ._progress import Progress, told
-from ._welding import lost_by_nearness, lost_by_welding, share_kept, welded
+from ._welding import kept_apart, lost_by_nearness, lost_by_welding, share_kept, welded
 
 
 def repair(
@@ -158,6 +158,8 @@ def components(
         found = _welded_first(found, options)
     with told(progress) as report:
         parts = _core.components(found._source, options, report)
+    if options is None and len(parts) > 1:
+        tell(kept_apart(found))
     return [Mesh._of(source, share=share) for source, share in parts]
 
 

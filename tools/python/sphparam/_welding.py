@@ -56,6 +56,14 @@ def lost_by_welding(given: Mesh, made: Mesh) -> Iterator[str]:
                 yield f"{name}: welded vertices have that of the first copy, in {share:.2g} % of the faces another"
 
 
+def kept_apart(mesh: Mesh) -> Iterator[str]:
+    """A line about parts that copies of vertices make."""
+    better = welded(mesh)
+    if better is not None:
+        count = better._welds[0].times
+        yield f"{count} exact copies of vertices keep parts asunder; components(mesh, repair=True) welds them first"
+
+
 def lost_by_nearness(given: Mesh, made: Mesh) -> Iterator[str]:
     """A line about texture coordinates of vertices that moved onto others."""
     near = sum(action.times for action in made.repairs if action.kind == "vertex-welded") - sum(
