@@ -10,6 +10,7 @@ import struct
 
 import other_formats
 import science_formats
+import shape_models
 import value_files
 from corpus import *
 
@@ -435,6 +436,7 @@ def make_foreign():
             ("lh.white", b"\xff\xff\xfe" + bytes(40), "ends within"), ("a.fbx", b"Kaydara FBX Binary  \0", "FBX"),
             ("a.png", b"\x89PNG\r\n\x1a\n" + bytes(40), "PNG"), ("a.jpg", b"\xff\xd8\xff\xe0" + bytes(40), "JPEG"),
             ("a.vtu", b"<VTKFile type=\"UnstructuredGrid\"/>", "UnstructuredGrid"), ("a.txt", b"hello\n", "not recognised"),
+            ("a.bds", b"DAS/DSK " + bytes(1016), "dskexp"), ("a.lbl", b"PDS_VERSION_ID = PDS3\n", "PDS label"),
             ("a.bin", bytes(range(256)), "not recognised"), ("zeros.bin", bytes(512), "not recognised"),
             ("ones.bin", b"\xff" * 512, "not recognised"),
             ("gzip_named.obj", b"\x1f\x8b\x08\0", "gzip data is cut short"),
@@ -493,6 +495,7 @@ def main():
     make_gzip()
     other_formats.make_all()
     science_formats.make_all()
+    shape_models.make_all()
     value_files.make_all()
     with open(HERE / "expected.tsv", "w") as table:
         for row in sorted(TABLE):

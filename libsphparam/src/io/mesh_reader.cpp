@@ -28,6 +28,9 @@ constexpr ForeignFormat foreign_magic[] = {
     {"<?xml", "XML other than GIFTI and VTP (COLLADA?)"},
     {"\x89PNG", "a PNG image"},
     {"\xff\xd8\xff", "a JPEG image"},
+    {"DAS/DSK",
+     "a DSK of SPICE (NAIF's `dskexp -dsk FILE -text FILE.obj -format obj` turns it into OBJ)"},
+    {"PDS_VERSION_ID", "a PDS label (its table is a file of its own, where it has one)"},
 };
 
 constexpr ForeignFormat foreign_extensions[] = {
@@ -54,7 +57,8 @@ const MeshFormat* recognised(std::string_view bytes, Evidence evidence) {
   return nullptr;
 }
 
-/// The format that a file is to be read as. OBJ, which anything may look like, is believed last.
+/// The format that a file is to be read as. Texts without a magic word are believed last; one that
+/// looks like its name, before others.
 /// Throws: ReadError, with the name of a format that is not read where it is known.
 const MeshFormat& format_of(std::string_view bytes, const std::string& name) {
   for (const Evidence evidence : {Evidence::MagicWord, Evidence::Layout})
@@ -62,7 +66,7 @@ const MeshFormat& format_of(std::string_view bytes, const std::string& name) {
   refuse_foreign_content(bytes, name);
   const std::string extension = inner_extension_of(name);
   const MeshFormat* const named = format_of_extension(extension);
-  if (named && named->evidence == Evidence::Text) return *named;
+  if (named && named->looks_so(bytes)) return *named;
   if (const MeshFormat* format = recognised(bytes, Evidence::Text)) return *format;
   if (named) return *named;
   for (const auto& [foreign, format] : foreign_extensions)

@@ -8,8 +8,8 @@
 
 namespace sphparam {
 
-/// Reads an OBJ, PLY, OFF, STL, glTF, GLB, GIFTI, MZ3 or FreeSurfer file or a polydata of VTK, as
-/// it is or in gzip; "-" is standard input.
+/// Reads OBJ, PLY, OFF, STL, glTF, GLB, polydata of VTK, GIFTI, FreeSurfer, MZ3, ICQ or a PDS plate
+/// table, as it is or in gzip; "-" is standard input.
 ///
 /// The format is told by the content, then by the extension of the name. Other formats are refused
 /// by their names. The limit on bytes holds for the file and for what gzip unpacks to. Only a glTF
@@ -22,7 +22,7 @@ namespace sphparam {
 /// µs a triangle of text, 0.02 µs of binary data.
 MeshFile read_mesh(const std::string& path, const ReadOptions& options = {});
 
-/// The formats that are read: "OBJ, PLY, … and MZ3", or with another last word.
+/// The formats that are read: "OBJ, PLY, … and PDS plate table", or with another last word.
 std::string readable_formats(const std::string& conjunction = "and");
 
 /// Whether a file of this name would be a mesh, packed by gzip or not.

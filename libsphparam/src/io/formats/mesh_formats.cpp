@@ -19,6 +19,8 @@
 #include "io/formats/ply_reader.h"
 #include "io/formats/ply_writer.h"
 #include "io/formats/polygon_ply.h"
+#include "io/formats/shapes/icq_reader.h"
+#include "io/formats/shapes/plate_reader.h"
 #include "io/formats/stl_reader.h"
 #include "io/formats/vtk/legacy_vtk_reader.h"
 #include "io/formats/vtk/legacy_vtk_writer.h"
@@ -182,6 +184,22 @@ constexpr MeshFormat formats[] = {
      write<serialise_mz3>,
      without_map,
      spheres_in_floats},
+    {"ICQ",
+     {".icq"},
+     Evidence::Text,
+     looks_like_icq,
+     read<read_icq>,
+     nullptr,
+     without_map,
+     spheres_in_doubles},
+    {"PDS plate table",
+     {".plt", ".tab", ".ver"},
+     Evidence::Text,
+     looks_like_plates,
+     read<read_plates>,
+     nullptr,
+     without_map,
+     spheres_in_doubles},
 };
 
 }  // namespace

@@ -93,6 +93,7 @@ class ObjReader {
     if (unknown_ > 0 && (polygons_.count() == 0 || vertices_.count == 0))
       scanner_.fail_at(first_unknown_line_, "unknown statement " + first_unknown_);
     check_forward_references();
+    if (first_zero_line_ > 0) count_from_zero();
     return finish();
   }
 
@@ -179,6 +180,11 @@ class ObjReader {
 
   int read_index(IndexedKind& kind) {
     const long written = scanner_.index();
+    counts_from_the_end_ |= written < 0;
+    if (written == 0 && &kind == &vertices_) {
+      if (first_zero_line_ == 0) first_zero_line_ = scanner_.line_number();
+      return no_index;
+    }
     if (written == 0) scanner_.fail(std::string(kind.name) + " index 0: indices start at 1");
     const std::int64_t index = written > 0 ? written - 1 : kind.count + written;
     if (index < 0)
@@ -190,6 +196,17 @@ class ObjReader {
     if (index >= kind.count) [[unlikely]]
       kind.forward.note(index, kind.count, scanner_.line_number());
     return static_cast<int>(index);
+  }
+
+  /// Tables of shape models (v x y z, f a b c) may count from 0: they name vertex 0, and as the
+  /// largest the last one. Throws: ReadError for any other index 0.
+  void count_from_zero() {
+    const int largest = *std::max_element(polygons_.corners.begin(), polygons_.corners.end()) + 1;
+    const bool bare = !corner_texcoords_.used() && !corner_normals_.used();
+    if (!bare || counts_from_the_end_ || largest != vertices_.count - 1)
+      scanner_.fail_at(first_zero_line_, "vertex index 0: indices start at 1");
+    for (int& corner : polygons_.corners) ++corner;
+    file_.notes.push_back("faces count vertices from 0");
   }
 
   void read_material() {
@@ -406,6 +423,8 @@ class ObjReader {
   bool weights_ = false;
 
   Polygons polygons_;
+  long first_zero_line_ = 0;  // of a face that names vertex 0; 0: none does
+  bool counts_from_the_end_ = false;
   CornerIndices corner_texcoords_, corner_normals_;
   int material_ = no_index;
   std::vector<int> material_of_;  // per polygon, from the first one with a material

@@ -21,7 +21,9 @@ bool looks_like_obj(std::string_view bytes);
 /// (obj_materials.h), which are looked for below it. Told as not carried: groups, objects and
 /// smoothing groups where there are several, lines, points, free-form geometry, libraries that are
 /// not read, what else materials say, statements that OBJ does not have. A text with such a
-/// statement and no face is no OBJ. Throws: ReadError with the line.
+/// statement and no face is no OBJ. Indices count from 1; from 0, which is noted, where a file
+/// without vt and vn in its faces names 0 and as the largest the number of vertices less 1. Throws:
+/// ReadError with the line.
 MeshFile read_obj(std::string_view text, const std::string& name,
                   const std::optional<std::filesystem::path>& folder,
                   const ReadOptions& options = {});

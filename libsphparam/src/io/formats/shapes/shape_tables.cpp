@@ -1,0 +1,168 @@
+#include "io/formats/shapes/shape_tables.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <limits>
+#include <optional>
+
+namespace sphparam {
+namespace {
+
+constexpr std::string_view blanks = " \t\v\f";
+
+/// A line is cut into at most this many words: more are none of ours.
+constexpr std::size_t most_words = 5;
+
+struct Words {
+  std::array<std::string_view, most_words> words{};
+  std::size_t count = 0;
+
+  template <class Predicate>
+  bool all(Predicate is_so) const {
+    return std::all_of(words.begin(), words.begin() + count, is_so);
+  }
+};
+
+Words split(std::string_view line) {
+  Words found;
+  line = line.substr(0, line.find('#'));
+  while (found.count < most_words) {
+    const std::size_t start = line.find_first_not_of(blanks);
+    if (start == std::string_view::npos) break;
+    line.remove_prefix(start);
+    const std::size_t stop = std::min(line.find_first_of(blanks), line.size());
+    found.words[found.count++] = line.substr(0, stop);
+    line.remove_prefix(stop);
+  }
+  return found;
+}
+
+/// The lines of a text that hold words, whatever ends them.
+class FilledLines {
+ public:
+  explicit FilledLines(std::string_view text) : text_(text) {}
+
+  /// No words at the end of the text.
+  Words next() {
+    while (!text_.empty()) {
+      const std::size_t stop = std::min(text_.find_first_of("\r\n"), text_.size());
+      const Words words = split(text_.substr(0, stop));
+      text_.remove_prefix(std::min(stop + 1, text_.size()));
+      if (words.count > 0) return words;
+    }
+    return {};
+  }
+
+  /// The line after `lines` others.
+  Words after(std::int64_t lines) {
+    Words words = next();
+    for (std::int64_t i = 0; i < lines && words.count > 0; ++i) words = next();
+    return words;
+  }
+
+ private:
+  std::string_view text_;
+};
+
+std::optional<std::int64_t> whole(std::string_view word) {
+  std::int64_t value = 0;
+  const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc{} || stop != word.data() + word.size()) return std::nullopt;
+  return value;
+}
+
+/// With an E where Fortran writes a D.
+std::string with_e(std::string_view word) {
+  std::string text(word);
+  for (char& c : text)
+    if (c == 'D' || c == 'd') c = 'e';
+  return text;
+}
+
+std::optional<double> real(std::string_view word) {
+  const std::string text = with_e(word.starts_with('+') ? word.substr(1) : word);
+  double value = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || stop != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+bool is_count(std::string_view word) { return whole(word).value_or(0) > 0; }
+bool is_index(std::string_view word) { return whole(word).value_or(-1) >= 0; }
+
+bool are_counts(const Words& line, std::size_t count) {
+  return line.count == count && line.all(is_count);
+}
+
+bool is_row(const Words& line) { return line.count == 3 || line.count == 4; }
+
+bool is_vector(const Words& line) {
+  return is_row(line) && line.all([](std::string_view word) { return real(word).has_value(); });
+}
+
+bool is_plate(const Words& line) { return is_row(line) && line.all(is_index); }
+
+}  // namespace
+
+ShapeTable shape_table(std::string_view text) {
+  FilledLines lines(text);
+  const Words first = lines.next();
+  if (!are_counts(first, 1) && !are_counts(first, 2)) return ShapeTable::None;
+  const std::int64_t count = *whole(first.words[0]);
+  const Words second = lines.next();
+  const bool two_lines = first.count == 1 && are_counts(second, 1);
+  if (!is_vector(two_lines ? lines.next() : second)) return ShapeTable::None;
+  const Words after_vertices = lines.after(count - 1);
+  // A number alone is that of the plates, or, where this is known, that of the first one's corners.
+  if (are_counts(after_vertices, 1))
+    return is_plate(lines.next()) ? ShapeTable::Plates : ShapeTable::None;
+  if (first.count == 2 || two_lines)
+    return is_plate(after_vertices) ? ShapeTable::Plates : ShapeTable::None;
+  return is_vector(after_vertices) ? ShapeTable::Icq : ShapeTable::None;
+}
+
+int words_left(const TextScanner& scanner) {
+  std::string_view line = scanner.peek_rest();
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  return static_cast<int>(split(line).count);
+}
+
+double table_number(TextScanner& scanner, bool non_finite) {
+  const std::string_view word = scanner.peek_word();
+  if (word.find_first_of("Dd") != std::string_view::npos) {
+    const std::optional<double> value = real(word);
+    if (value && (std::isfinite(*value) || non_finite)) {
+      scanner.word();
+      return *value;
+    }
+  }
+  return non_finite ? scanner.coordinate() : scanner.real();
+}
+
+std::int64_t table_count(TextScanner& scanner, const char* things, std::int64_t limit,
+                         std::uint64_t row_bytes) {
+  constexpr std::int64_t hard_limit = std::numeric_limits<int>::max() / 3;  // ids are ints
+  const long count = scanner.integer();
+  if (count < 0) scanner.fail(std::string("negative number of ") + things);
+  if (count > std::min(limit, hard_limit))
+    scanner.fail(std::to_string(count) + " " + things + " are over the limit of " +
+                 std::to_string(std::min(limit, hard_limit)));
+  if (row_bytes * static_cast<std::uint64_t>(count) > scanner.remaining_bytes() + 1)
+    scanner.fail(std::to_string(count) + " " + things + " do not fit the " +
+                 std::to_string(scanner.remaining_bytes()) + " bytes that follow");
+  return count;
+}
+
+void expect_table_line_end(TextScanner& scanner) {
+  if (!scanner.at_line_end())
+    scanner.fail("unexpected " + quoted(scanner.peek_word()) + " at the end of the line");
+}
+
+void next_table_row(TextScanner& scanner, const char* thing, std::int64_t i, std::int64_t count) {
+  if (scanner.next_filled_line()) return;
+  scanner.fail("the file ends before " + std::string(thing) + " " + std::to_string(i + 1) + " of " +
+               std::to_string(count));
+}
+
+}  // namespace sphparam

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "io/files/text_scanner.h"
+
+namespace sphparam {
+
+// What the tables that shape models of bodies come in share: counts, then lines of numbers, and no
+// magic word.
+
+enum class ShapeTable { None, Plates, Icq };
+
+/// Which table a text is, by its first lines and the line where the plates of a plate table begin:
+/// counts and vectors first, as both have, and there whole numbers, or one more vector.
+ShapeTable shape_table(std::string_view text);
+
+/// How many words are left on the line.
+int words_left(const TextScanner& scanner);
+
+/// The next number, also with an exponent of Fortran's: 1.5D+01. Throws: ReadError, also for what
+/// is not finite unless `non_finite`.
+double table_number(TextScanner& scanner, bool non_finite);
+
+/// A number of things, each of `row_bytes` at least. Throws: ReadError for what is negative, over
+/// the limit or what ids can count, or cannot fit the bytes that follow.
+std::int64_t table_count(TextScanner& scanner, const char* things, std::int64_t limit,
+                         std::uint64_t row_bytes);
+
+/// Throws: ReadError unless the line ends here.
+void expect_table_line_end(TextScanner& scanner);
+
+/// Moves to the next line that holds something. Throws: ReadError where there is none, which says
+/// that `thing` number i + 1 of `count` is missing.
+void next_table_row(TextScanner& scanner, const char* thing, std::int64_t i, std::int64_t count);
+
+}  // namespace sphparam
