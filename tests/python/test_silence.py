@@ -267,6 +267,7 @@ def test_a_surface_inside_out_is_told():
         (lambda m: m.remesh("5"), TypeError, "'ico:5'"),
         (lambda m: m.remesh("like:a.ply"), ValueError, "or a map"),
         (lambda m: m.bake("ao", size=(16, 8)), TypeError, r"one number is needed, texels a row, not \(16, 8\)"),
+        (lambda m: m.bake_files({"ao": "a.png"}, size=[16, 8]), TypeError, r"one number is needed, texels a row"),
         (lambda m: m.bake("normals"), ValueError, "no field normals; there are .*; is 'normal-object' meant"),
         (lambda m: m.bake("curvatur:mean"), ValueError, "'curvature' meant"),
         (lambda m: m.save("q.glb"), sp.WriteError, r"export\(\) writes .glb"),

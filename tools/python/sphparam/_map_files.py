@@ -91,7 +91,8 @@ class MapFiles(MapFacts):
         texture, normal_map, occlusion_map
             Equirectangular images, twice as wide as high: files, or arrays (H, W) of greys or (H, W, 3 or 4),
             uint8 or floats from 0 to 1, in sRGB; or what :meth:`bake` made, which is turned into colours.
-            That must be of the same ``convention`` and ``refine_poles``, a normal map ``"normal-tangent"`` and for this mesh.
+            That must be of the same ``convention`` and ``refine_poles``, a normal map ``"normal-tangent"``
+            and for this mesh.
         images
             A folder of the program's ``bake``: its base colour, normal map and occlusion.
         variants
@@ -157,7 +158,8 @@ class MapFiles(MapFacts):
             return []
         kept = {"color", "normal", "source_vertex", "source_face", "filler"} | ({"uv"} if source_uv else set())
         lost = sorted(name for name in self.values if name not in kept)
-        lost += sorted(f"{name} (of faces)" for name, of in self.face_values.items() if name not in kept and np.any(of != of[0]))
+        of_faces = {name: of for name, of in self.face_values.items() if name not in kept}
+        lost += sorted(f"{name} (of faces)" for name, of in of_faces.items() if np.any(of != of[0]))
         more = "; source_uv=True keeps uv" if "uv" in lost and ending != ".obj" else ""
         return [f"{path}: not carried: {', '.join(lost)}; an export as .ply has room for them{more}"] if lost else []
 

@@ -30,6 +30,8 @@ def fields() -> Dict[str, str]:
 
 def _baking(given: Dict[str, Any]) -> Dict[str, Any]:
     """The settings of a bake, as `_core` takes them."""
+    if isinstance(given["size"], (tuple, list)):
+        raise TypeError(f"size: one number is needed, texels a row, not {given['size']!r}; there are half as many rows")
     options = {name: given[name] for name in _baking_options if given.get(name) is not None}
     options["threads"] = _arrays.threads(given["threads"])
     options["convention"] = given["convention"] or ("gis" if given["body"] else "sphparam")
@@ -153,8 +155,6 @@ class MapImages(MapFacts):
         from ._baked import Baked, BakedImage
 
         _require_field(_arrays.text(field, "field"))
-        if isinstance(size, tuple):
-            raise TypeError(f"size: one number is needed, texels a row, not {size!r}; there are half as many rows")
         options = _baking(locals())
         with told(progress) as report:
             [(name, about, table)] = _core.bake_to_arrays(self._mapped, [field], options, report)

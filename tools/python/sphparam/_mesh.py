@@ -59,7 +59,8 @@ class Mesh:
         (F, 3) whole numbers, counter-clockwise from outside.
     values
         What vertices carry besides: name to (V,) or (V, k). ``"color"`` (uint8, or floats from 0 to 1),
-        ``"normal"`` and ``"uv"`` (v upwards, as in OBJ) are known by their names; whole numbers are labels, never interpolated.
+        ``"normal"`` and ``"uv"`` (v upwards, as in OBJ) are known by their names; whole
+        numbers are labels, never interpolated.
 
     Raises
     ------

@@ -53,7 +53,7 @@ def lost_by_welding(given: Mesh, made: Mesh) -> Iterator[str]:
             differ = (theirs[name][faces] != ours[made.faces]).reshape(len(faces), -1).any(axis=1)
             if differ.any():
                 share = 100 * differ.mean()
-                yield f"{name}: welded vertices have that of the first copy, in {share:.2g} % of the faces another"
+                yield f"{name}: welded vertices have that of the first copy, in {share:.3g} % of the faces another"
 
 
 def kept_apart(mesh: Mesh) -> Iterator[str]:
@@ -74,7 +74,7 @@ def lost_by_nearness(given: Mesh, made: Mesh) -> Iterator[str]:
     there = given.faces[((given.faces >= 0) & (given.faces < len(given.vertices))).all(axis=1)]
     share = 100 * (~np.isin(given.vertex_origin, made.vertex_origin)[there]).any(axis=1).mean()
     yield (
-        f"uv: {near} vertices were welded onto others nearby, which have other texture coordinates, of {share:.2g} % of "
+        f"uv: {near} vertices were welded onto others nearby, which have other texture coordinates, of {share:.3g} % of "
         "the faces; a file with uv at the corners (.obj, .glb), read by sphparam.read, keeps them"
     )
 
@@ -109,7 +109,8 @@ def require_welded(mesh: Mesh) -> None:
     try:
         done = _core.repair(better._source, {}, True, None)
     except MeshError as left:
-        more = [line.replace("sphparam.components(mesh)", "sphparam.components(mesh, repair=True)") for line in left._text]
+        parts = "sphparam.components(mesh"
+        more = [line.replace(parts + ")", parts + ", repair=True)") for line in left._text]
         raise MeshError._instead(defects, [lines[0] + " but then:", *more]) from None
     lines[0] += " and mends it" + (":" if done.repairs else "")
     raise MeshError._instead(defects, lines + [f"  {row[3]}" for row in done.repairs])
