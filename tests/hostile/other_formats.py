@@ -159,11 +159,15 @@ def make_compressed_glb():
         bad("draco_" + name, glb(doc, BUFFER + packed), message)
 
     header = b"DRACO\2\2\1\1\0\0"
-    draco("of_no_draco", b"no Draco at all.", "Draco says")
+    draco("of_no_draco", b"no Draco at all.", "not 2.2")
     draco("header_only", header, "Draco says")
     draco("claims_2_to_28_faces", header + b"\0\4" + b"\x80\x80\x80\x80\1" + b"\0" * 20, "more triangles than its bytes")
     draco("sequential_claims_2_to_28_faces", header[:8] + b"\0\0\0" + b"\x80\x80\x80\x80\1" + b"\4" + b"\0" * 20,
           "more triangles than its bytes")
+    draco("claims_2_to_28_faces_after_metadata",
+          header[:9] + b"\0\x80" + b"\0\0\0" + b"\0\4" + b"\x80\x80\x80\x80\1" + b"\0" * 20,
+          "more triangles than its bytes")
+    draco("version_1_3", b"DRACO\1\3\1\1\0\0" + b"\0" * 20, "is Draco 1.3, not 2.2")
     draco("attributes_are_a_list", header, "no attributes", attributes=[0])
 
 

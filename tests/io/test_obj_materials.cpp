@@ -106,4 +106,27 @@ TEST_CASE("obj_materials: a library that cannot be read leaves the mesh, and is 
   CHECK(folder.read_with("mtllib a.mtl", "Kd 1 0 0\nnewmtl other\n").base_colours.empty());
   const MeshFile moved = folder.read_with("mtllib a.mtl", "newmtl wood\nmap_Kd -o 0.5 0 0 x.png\n");
   CHECK(contains(moved.base_colours.at(1).problem, "transformed"));
+  REQUIRE(moved.notes.size() == 1);
+  CHECK(contains(moved.notes[0], "materials 'red' are white"));
+}
+
+TEST_CASE("obj_materials: a line that makes no sense is passed over, the rest is read") {
+  const ObjFolder folder;
+  const MeshFile file = folder.read_with(
+      "mtllib a.mtl",
+      "newmtl red\nKd nan 0 0\nd 1e999\nmap_Kd -o 1e-310 0 0 r.png\nnewmtl wood\nKd 0 1 0\n");
+  CHECK(file.base_colours.at(0).factor == std::array<double, 4>{1, 1, 1, 1});
+  CHECK(file.base_colours.at(0).image == "r.png");
+  CHECK(file.base_colours.at(1).factor[1] == 1);
+  CHECK(file.notes.empty());
+}
+
+TEST_CASE("obj_materials: of several libraries the later one wins, and a missing one is told") {
+  const ObjFolder folder;
+  folder.write("z.mtl", "newmtl red\nKd 1 0 0\nnewmtl wood\n");
+  folder.write("b.mtl", "newmtl red\nKd 0 0 1\n");
+  CHECK(folder.read_with("mtllib z.mtl\nmtllib b.mtl").base_colours.at(0).factor[2] == 1);
+  const MeshFile file = folder.read_with("mtllib z.mtl x.mtl");
+  REQUIRE(file.notes.size() == 1);
+  CHECK(contains(file.notes[0], "'x.mtl' (No such file or directory)"));
 }

@@ -12,7 +12,8 @@ from check_displacement import check
 from check_pictures import base_colour, with_texture
 from support import (directions, expect_refusal, install, load, make_active, said, start_anew, use, uv)  # fmt: skip
 
-meshes = pathlib.Path(os.environ.get("SPHPARAM_MESHES", "/nowhere")) / "genus0"
+beside = pathlib.Path(__file__).resolve().parents[4] / "shared" / "meshes"
+meshes = pathlib.Path(os.environ.get("SPHPARAM_MESHES", beside)) / "genus0"
 plain = ("spot_triangulated.obj", "homer.obj", "fox.ply", "hand_closed.obj", "nefertiti-lowres.obj")
 
 

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <map>
+#include <optional>
+#include <set>
 #include <stdexcept>
 
 #include "io/files/text_scanner.h"
@@ -23,10 +26,12 @@ struct Material {
   std::set<std::string> others = {};
 };
 
-bool is_number(std::string_view word) {
+/// A finite one.
+std::optional<double> number(std::string_view word) {
   double value = 0;
   const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return error == std::errc{} && stop == word.data() + word.size();
+  const bool whole = error == std::errc{} && stop == word.data() + word.size();
+  return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
 /// Words that follow an option of an image; scales, offsets and turbulence have one to three
@@ -92,17 +97,19 @@ class Library {
 
   void set_diffuse() {
     std::array<double, 3> numbers{};
-    for (double& number : numbers) {
-      if (!is_number(scanner_.peek_word())) return;  // spectral, xyz
-      number = std::clamp(scanner_.real(), 0.0, 1.0);
+    for (double& channel : numbers) {
+      const std::optional<double> written = number(scanner_.word());
+      if (!written) return;  // spectral, xyz
+      channel = std::clamp(*written, 0.0, 1.0);
     }
     material_->diffuse = numbers;
   }
 
   void set_alpha(bool transparency) {
-    if (!is_number(scanner_.peek_word())) return;
-    const double number = std::clamp(scanner_.real(), 0.0, 1.0);
-    material_->colour.factor[3] = transparency ? 1 - number : number;
+    const std::optional<double> written = number(scanner_.word());
+    if (!written) return;  // -halo
+    const double alpha = std::clamp(*written, 0.0, 1.0);
+    material_->colour.factor[3] = transparency ? 1 - alpha : alpha;
   }
 
   void set_image() {
@@ -121,10 +128,11 @@ class Library {
     const bool moves = option == "-o" || option == "-s";
     for (int i = 0; i < words_after(option); ++i) {
       const std::string word(scanner_.peek_word());
-      if (words_after(option) == 3 && !is_number(word)) break;
+      const std::optional<double> written = number(word);
+      if (words_after(option) == 3 && !written) break;
       scanner_.word();
       const double neutral = option == "-s" ? 1 : 0;
-      if (moves && std::stod(word) != neutral)
+      if (moves && *written != neutral)
         colour.problem = "its texture coordinates are transformed, which is not supported";
       if (option == "-clamp" && word == "on") colour.wrap_s = colour.wrap_t = Wrapping::Clamp;
     }
@@ -150,9 +158,8 @@ std::vector<std::string> names_in(const std::string& statement) {
 
 void read_library(const std::string& statement, const fs::path& folder, const ReadOptions& options,
                   std::map<std::string, Material>& known, std::vector<std::string>& problems) {
-  std::string problem;
-  bool any = false;
-  for (const std::string& name : names_in(statement)) {
+  const std::vector<std::string> names = names_in(statement);
+  for (const std::string& name : names) {
     try {
       const fs::path path = path_below(name);
       const auto bytes =
@@ -160,13 +167,12 @@ void read_library(const std::string& statement, const fs::path& folder, const Re
       Library({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name, folder,
               path.parent_path(), options, known)
           .read();
-      any = true;
       if (name == statement) return;
     } catch (const std::runtime_error& error) {
-      if (problem.empty()) problem = sphparam::quoted(name) + " (" + error.what() + ")";
+      const bool may_be_several = name == statement && names.size() > 1;
+      if (!may_be_several) problems.push_back(sphparam::quoted(name) + " (" + error.what() + ")");
     }
   }
-  if (!any) problems.push_back(problem);
 }
 
 BaseColour finished(const Material& material) {
@@ -178,7 +184,7 @@ BaseColour finished(const Material& material) {
 }  // namespace
 
 ObjMaterials read_obj_materials(const std::vector<std::string>& names,
-                                const std::set<std::string>& libraries, const fs::path& folder,
+                                const std::vector<std::string>& libraries, const fs::path& folder,
                                 const ReadOptions& options) {
   ObjMaterials result;
   std::map<std::string, Material> known;
@@ -188,6 +194,7 @@ ObjMaterials read_obj_materials(const std::vector<std::string>& names,
   if (std::ranges::none_of(names, is_known)) return result;
   std::set<std::string> others;
   for (const std::string& name : names) {
+    if (!is_known(name)) result.unknown.push_back(name);
     const Material& material = known[name];
     result.base_colours.push_back(finished(material));
     result.with_others += !material.others.empty();

@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -16,16 +15,17 @@ struct ObjMaterials {
   std::vector<BaseColour> base_colours;  // one a name, or none where no library could be read
   std::vector<std::string> others;       // what is said beside base colours, in words, each once
   long with_others = 0;                  // materials that say such things
+  std::vector<std::string> unknown;      // names that no library has
   std::vector<std::string> problems;     // libraries that could not be read, and why
 };
 
-/// Reads them from below `folder`: of Kd, d, Tr and map_Kd the base colour. Where there is an
-/// image, Kd is not multiplied with it: exporters write a grey there that nobody sees. Kd is linear
-/// light. Names of images that lead elsewhere (absolute, Windows drives, `..`) are looked for
-/// beside the library. Images are not opened. Materials that no library has are white. Never throws
-/// for what the libraries hold: the mesh is there without them.
+/// Reads them in their order from below `folder`: of Kd, d, Tr and map_Kd the base colour. Where
+/// there is an image, Kd is not multiplied with it: exporters write a grey there that nobody sees.
+/// Kd is linear light. Names of images that lead elsewhere (absolute, Windows drives, `..`) are
+/// looked for beside the library. Images are not opened. Materials that no library has are white.
+/// Never throws for what the libraries hold: the mesh is there without them.
 ObjMaterials read_obj_materials(const std::vector<std::string>& names,
-                                const std::set<std::string>& libraries,
+                                const std::vector<std::string>& libraries,
                                 const std::filesystem::path& folder, const ReadOptions& options);
 
 }  // namespace sphparam

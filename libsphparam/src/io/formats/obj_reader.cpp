@@ -53,6 +53,7 @@ class ForwardReferences {
 struct Names {
   std::string last;
   std::set<std::string> distinct;
+  std::vector<std::string> in_order;  // the distinct ones, as first seen
 };
 
 /// A kind of thing that corners point at: v, vt or vn.
@@ -243,7 +244,7 @@ class ObjReader {
     const std::string_view name = scanner_.rest();
     if (name.empty() || name == names.last) return;
     names.last = name;
-    names.distinct.insert(names.last);
+    if (names.distinct.insert(names.last).second) names.in_order.push_back(names.last);
   }
 
   void expect_line_end() {
@@ -366,7 +367,7 @@ class ObjReader {
 
   /// Base colours from the libraries; what is not carried of them, or why they are not read.
   void add_libraries() {
-    const std::set<std::string>& libraries = names_["mtllib"].distinct;
+    const std::vector<std::string>& libraries = names_["mtllib"].in_order;
     if (libraries.empty() || file_.materials.empty()) return;
     const std::string materials = counted(static_cast<long>(file_.materials.size()), "material");
     ObjMaterials read;
@@ -382,12 +383,15 @@ class ObjReader {
                                 ", which is not read; their names are");
     else if (!read.problems.empty())
       add_loss(file_.notes, "materials in " + enumerated(unread));
+    if (!read.unknown.empty())
+      add_loss(file_.notes, "what no library has: materials " +
+                                enumerated(quoted_all(read.unknown)) + " are white");
     if (read.with_others > 0)
       add_loss(file_.notes, enumerated(read.others) + " of " + std::to_string(read.with_others) +
                                 " of " + materials + ", only base colours are");
   }
 
-  static std::vector<std::string> quoted_all(const std::set<std::string>& names) {
+  static std::vector<std::string> quoted_all(const std::vector<std::string>& names) {
     std::vector<std::string> all;
     for (const std::string& name : names) all.push_back(sphparam::quoted(name));
     return all;

@@ -140,6 +140,25 @@ std::span<const unsigned char> bytes_of(const GltfDocument& document, int buffer
   return std::span(bytes).subspan(offset, length);
 }
 
+/// Views may share their bytes, and primitives their views: all that is decoded together is bounded
+/// by the bytes of the file. Regular meshes take some bits a dozen triangles.
+class Budget {
+ public:
+  explicit Budget(const GltfDocument& document) {
+    constexpr std::uint64_t most_growth = 1024, always_allowed = 1 << 16;
+    for (const auto& buffer : document.buffers) left_ += most_growth * buffer.size();
+    left_ += always_allowed;
+  }
+
+  void spend(std::uint64_t bytes, const Place& place) {
+    if (bytes > left_) place.fail("the file's compressed parts ask for more than it can hold");
+    left_ -= bytes;
+  }
+
+ private:
+  std::uint64_t left_ = 0;
+};
+
 /// A new view of a new buffer.
 int add_view(GltfDocument& document, std::vector<unsigned char> bytes) {
   document.views.push_back({static_cast<int>(document.buffers.size()), 0, bytes.size(), 0});
@@ -153,7 +172,7 @@ int add_accessor(GltfDocument& document, GltfDocument::Accessor accessor) {
 }
 
 void decompress_view(GltfDocument& document, int id, const GltfCompression::View& packed,
-                     const Place& place) {
+                     Budget& budget, const Place& place) {
   if (id >= static_cast<int>(document.views.size())) place.fail("there is no such view");
   const auto bytes = bytes_of(document, packed.buffer, packed.offset, packed.length, place);
   GltfDocument::View& view = document.views[static_cast<std::size_t>(id)];
@@ -164,7 +183,10 @@ void decompress_view(GltfDocument& document, int id, const GltfCompression::View
         decode_meshopt(bytes, packed.count, packed.stride, packed.mode, packed.filter);
     view = {static_cast<int>(document.buffers.size()), 0, rows.size(),
             packed.mode == "ATTRIBUTES" ? packed.stride : 0};
+    budget.spend(rows.size(), place);
     document.buffers.push_back(std::move(rows));
+  } catch (const ReadError&) {
+    throw;
   } catch (const std::runtime_error& error) {
     place.fail(std::string(meshopt) + ": " + error.what());
   }
@@ -236,14 +258,21 @@ void take_over(GltfDocument& document, GltfDocument::Primitive& primitive,
 }
 
 void decompress_primitive(GltfDocument& document, GltfDocument::Primitive& primitive,
-                          const GltfCompression::Primitive& packed, const Place& place) {
+                          const GltfCompression::Primitive& packed, Budget& budget,
+                          const Place& place) {
   if (packed.view < 0 || packed.view >= static_cast<int>(document.views.size()))
     place.fail("its compressed bytes are in a view that is not there");
   const GltfDocument::View view = document.views[static_cast<std::size_t>(packed.view)];
   const auto bytes = bytes_of(document, view.buffer, view.offset, view.length, place);
   const std::vector<DracoAttribute> wanted = wanted_attributes(document, primitive, packed, place);
   try {
-    take_over(document, primitive, packed, decode_draco(bytes, wanted));
+    DracoMesh mesh = decode_draco(bytes, wanted);
+    std::uint64_t decoded = mesh.corners.size() * sizeof(std::uint32_t);
+    for (const DracoAttribute& attribute : mesh.attributes) decoded += attribute.rows.size();
+    budget.spend(decoded, place);
+    take_over(document, primitive, packed, std::move(mesh));
+  } catch (const ReadError&) {
+    throw;
   } catch (const std::runtime_error& error) {
     place.fail(std::string(draco) + ": " + error.what());
   }
@@ -277,13 +306,14 @@ GltfCompression compression_of(std::string_view json, const std::string& name) {
 
 void decompress(GltfDocument& document, const GltfCompression& compression,
                 const std::string& name) {
+  Budget budget(document);
   for (const auto& [id, packed] : compression.views)
-    decompress_view(document, id, packed, {name, "buffer view " + std::to_string(id)});
+    decompress_view(document, id, packed, budget, {name, "buffer view " + std::to_string(id)});
   for (const auto& [at, packed] : compression.primitives)
     decompress_primitive(
         document,
         document.meshes[static_cast<std::size_t>(at.first)][static_cast<std::size_t>(at.second)],
-        packed, {name, name_of(at.first, at.second)});
+        packed, budget, {name, name_of(at.first, at.second)});
 }
 
 }  // namespace sphparam

@@ -27,28 +27,74 @@ namespace {
 /// Connectivity of the most regular meshes takes a hundredth of a bit a face.
 constexpr std::uint64_t most_faces_per_byte = 1024;
 
-/// The whole number at `at`, seven bits a byte, lowest first; 0 where it does not end.
-std::uint64_t varint(std::span<const unsigned char> bytes, std::size_t& at) {
-  std::uint64_t value = 0;
-  for (int shift = 0; shift < 35 && at < bytes.size(); shift += 7) {
-    const unsigned char byte = bytes[at++];
-    value |= static_cast<std::uint64_t>(byte & 127) << shift;
-    if (byte < 128) return value;
+/// What is read of the bytes before the decoder sees them. Beyond their end there are zeros.
+class Peek {
+ public:
+  explicit Peek(std::span<const unsigned char> bytes) : bytes_(bytes) {}
+
+  unsigned char byte() { return at_ < bytes_.size() ? bytes_[at_++] : 0; }
+
+  void skip(std::uint64_t count) {
+    at_ += static_cast<std::size_t>(std::min<std::uint64_t>(count, bytes_.size() - at_));
   }
-  return 0;
+
+  /// Seven bits a byte, lowest first.
+  std::uint64_t varint() {
+    std::uint64_t value = 0;
+    for (int shift = 0; shift < 35; shift += 7) {
+      const unsigned char next = byte();
+      value |= static_cast<std::uint64_t>(next & 127) << shift;
+      if (next < 128) break;
+    }
+    return value;
+  }
+
+  bool at_end() const { return at_ == bytes_.size(); }
+
+ private:
+  std::span<const unsigned char> bytes_;
+  std::size_t at_ = 0;
+};
+
+/// Entries of names and values, then the same with names, within each other.
+void skip_metadata(Peek& peek, int depth) {
+  constexpr int deepest = 64;
+  if (depth > deepest) fail("its metadata are nested too deep");
+  for (std::uint64_t left = peek.varint(); left > 0 && !peek.at_end(); --left) {
+    peek.skip(peek.byte());
+    peek.skip(peek.varint());
+  }
+  for (std::uint64_t left = peek.varint(); left > 0 && !peek.at_end(); --left) {
+    peek.skip(peek.byte());
+    skip_metadata(peek, depth + 1);
+  }
 }
 
-/// The faces that the header claims. Source: the Draco bitstream specification, version 2.2: eleven
-/// bytes, of which the ninth is the method; sequential: faces, points; by edge breaker: a byte,
-/// vertices, faces. Metadata, and versions before 2.2, are left to the decoder.
+/// The faces that the bytes claim to hold. Source: the Draco bitstream specification, version 2.2,
+/// which is that of the extension: magic, version, kind, method (0: sequential), flags; metadata of
+/// attributes and of all, where a flag says so; sequential: faces, points; by edge breaker: a byte,
+/// vertices, faces.
 std::uint64_t claimed_faces(std::span<const unsigned char> bytes) {
-  constexpr std::size_t header = 11;
-  if (bytes.size() < header || bytes[5] < 2 || bytes[6] < 2 || (bytes[10] & 128) != 0) return 0;
-  std::size_t at = header;
-  if (bytes[8] == 0) return varint(bytes, at);
-  ++at;
-  varint(bytes, at);
-  return varint(bytes, at);
+  Peek peek(bytes);
+  peek.skip(5);
+  const int major = peek.byte(), minor = peek.byte();
+  if (major != 2 || minor != 2)
+    fail("is Draco " + std::to_string(major) + "." + std::to_string(minor) + ", not 2.2");
+  peek.skip(1);
+  const bool sequential = peek.byte() == 0;
+  peek.skip(1);
+  if ((peek.byte() & 128) != 0) {
+    for (std::uint64_t left = peek.varint(); left > 0 && !peek.at_end(); --left) {
+      peek.varint();
+      skip_metadata(peek, 0);
+    }
+    skip_metadata(peek, 0);
+  }
+  if (!sequential) {
+    peek.skip(1);
+    peek.varint();
+  }
+  return peek.varint();
 }
 
 template <class T>
