@@ -57,6 +57,41 @@ TEST_CASE("repair: a refusal says that --repair would mend it, and how, only whe
   CHECK_THAT(hopeless.err, !Contains("--repair would"));
 }
 
+TEST_CASE("repair: a refusal's hint keeps the options and the outputs that were typed") {
+  const Folder folder;
+  const std::string mesh = folder / "ring.obj", map = folder / "my own.sph.ply";
+  write_bytes(mesh, obj_text(bumped_torus(8, 20, 0.4, 0, 1)));
+  const Ended refused =
+      sphparam_program({"map", mesh, "--repair", "--handles", "fill", "--max-handle=40%", "-o", map,
+                        "--balance", "equal-area"});
+  CHECK(refused.code == 4);
+  INFO(refused.err);
+  const std::string hint = " --balance equal-area --repair --handles fill --max-handle ";
+  CHECK_THAT(refused.err, Contains("'" + map + "'" + hint) && !Contains("=40%"));
+  const size_t at = refused.err.find(hint) + hint.size();
+  const std::string length = refused.err.substr(at, refused.err.find('`', at) - at);
+  CHECK(sphparam_program(
+            {"map", mesh, "--repair", "--handles", "fill", "--max-handle", length, "-o", map})
+            .code == 0);
+
+  write_bytes(mesh, obj_text(two_bodies()));
+  const Ended after = sphparam_program({"map", mesh, "--repair=components", "-o", map});
+  CHECK(after.code == 4);
+  CHECK_THAT(after.err, !Contains("after the repairs"));  // it did nothing
+}
+
+TEST_CASE(
+    "repair: components that cannot be mapped say why; unrepaired ones are sent to --repair") {
+  const Folder folder;
+  const std::string mesh = folder / "m.obj", map = folder / "m.sph.ply";
+  write_bytes(mesh, obj_text(with_a_hole()));
+  const Ended refused = sphparam_program({"map", mesh, "--all-components", "-o", map});
+  CHECK(refused.code == 4);
+  CHECK_THAT(refused.err, Contains("cannot be mapped: not closed: 3 boundary edges") &&
+                              Contains("--all-components -o " + map + " --repair`") &&
+                              !Contains("--component 1"));
+}
+
 TEST_CASE("repair: map --repair mends, certifies, and tells what it did") {
   const Folder folder;
   const std::string map = folder / "map.sph.ply", json = folder / "map.json";

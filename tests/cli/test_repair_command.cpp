@@ -7,6 +7,7 @@
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/sphere_file.h"
 #include "support/test_meshes.h"
+#include "support/volume_surface.h"
 
 namespace sphparam::tests {
 
@@ -88,6 +89,17 @@ TEST_CASE("repair command: what cannot be mended is written too, and ends with 4
   const Ended quiet = sphparam_program({"repair", "-q", "-", "-o", out}, moebius_band());
   CHECK(quiet.code == 4);
   CHECK_THAT(quiet.err, Contains("error:") && Contains("still no closed genus-0 mesh"));
+}
+
+TEST_CASE("repair command: what is left is answered with what would mend it") {
+  const Folder folder;
+  const std::string out = folder / "ring.off", mesh = folder / "ring.obj";
+  write_bytes(mesh, obj_text(bumped_torus(8, 20, 0.4, 0, 1)));
+  const Ended ended = sphparam_program({"repair", mesh, "-o", out, "--max-handle", "1%"});
+  CHECK(ended.code == 4);
+  INFO(ended.err);
+  CHECK_THAT(ended.err, Contains("would mend it, as in `sphparam repair " + mesh + " --repair") &&
+                            Contains(" -o " + out + "`"));
 }
 
 TEST_CASE("repair command: the report says what was done, and what the format has no place for") {

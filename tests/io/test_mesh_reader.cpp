@@ -33,6 +33,14 @@ TEST_CASE("mesh_reader: other formats are refused by name") {
   refused("\xff\xff\xff\x01", "lh.curv", "a FreeSurfer file of values");
   refused("hello", "a.txt", "not recognised");
   refused("hello", "a.ply", "a.ply:1: expected the magic word");
+  refused("hello", "t1.nii.gz", "a volume (NIfTI), not a mesh");
+  std::string header(540, '\0');
+  header.replace(344, 4, std::string("n+1\0", 4));
+  refused(header, "a", "make a surface of it first");
+  header.replace(4, 4, std::string("n+2\0", 4));
+  refused(header, "a.obj", "a volume (NIfTI)");
+  header.replace(504, 2, "\xbe\x0b");  // 3006
+  refused(header, "a.dscalar.nii", "CIFTI-2");
   refused("", "a.obj", "empty");
   refused("\xef\xbb\xbf", "a.obj", "empty");
 }
@@ -41,6 +49,21 @@ TEST_CASE("mesh_reader: files that cannot be opened say so") {
   using Catch::Matchers::Contains;
   CHECK_THROWS_WITH(sphparam::read_mesh("no/such/file.obj"), Contains("no/such/file.obj: No such"));
   CHECK_THROWS_WITH(sphparam::read_mesh("/"), Contains("is a directory"));
+}
+
+TEST_CASE("mesh_reader: a name that only components bear is answered with theirs") {
+  using Catch::Matchers::Contains;
+  const auto folder = std::filesystem::temp_directory_path() / "sphparam_test_parts";
+  std::filesystem::create_directory(folder);
+  const std::string path = (folder / "two.sph.ply").string();
+  std::ofstream(folder / "two_0002.sph.ply") << tetrahedron_ply;
+  CHECK_THROWS_WITH(read_mesh(path), Contains("1 component: name one, ") &&
+                                         Contains("two_0002.sph.ply") && !Contains(" to "));
+  std::ofstream(folder / "two_0011.sph.ply") << tetrahedron_ply;
+  CHECK_THROWS_WITH(read_mesh(path), Contains("2 components") && Contains("two_0011.sph.ply"));
+  std::ofstream(path) << tetrahedron_ply;
+  CHECK_NOTHROW(read_mesh(path));
+  std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("mesh_reader: a file on disk reads like its bytes") {

@@ -2,6 +2,7 @@
 
 #include "sphparam/io/repair_advice.h"
 #include "support/test_meshes.h"
+#include "support/volume_surface.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;
@@ -50,7 +51,28 @@ TEST_CASE("repair_advice: components are listed where one must be chosen") {
   CHECK_THAT(advice, StartsWith("  --repair keeps one of 2 components") && Contains("\n    2: ") &&
                          Contains("with vertex 42\n") && Contains("--min-kept 0.55 the largest") &&
                          Contains("  --repair --component 1 would mend it, as in `sphparam map "
-                                  "two.ply --repair --component 1 -o"));
+                                  "two.ply --repair --component 1 -o") &&
+                         Contains("    it keeps 55.2 % of the area\n"));
+}
+
+TEST_CASE("repair_advice: what is typed may be a command of one's own") {
+  const MeshSource source = source_of(open_ball(), "a.ply");
+  CHECK_THAT(repair_advice(try_repair(source), source.path, "mend a.ply"),
+             StartsWith("  --repair would mend it, as in `mend a.ply`:\n"));
+}
+
+TEST_CASE("try_repair_beyond: the component and the kind of handle that were chosen stay so") {
+  const MeshSource balls = source_of(two_balls(), "two.ply");
+  CHECK(try_repair_beyond(balls, {.component = 2}).options.component == 2);
+  CHECK_THROWS_AS(try_repair_beyond(balls, {.component = 3}), NoSuchComponent);
+  const MeshSource ring = source_of(bumped_torus(8, 20, 0.4, 0, 1), "ring.ply");
+  const RepairTrial shortest = try_repair(ring);
+  const RepairTrial fill = try_repair_beyond(ring, {.handle_choice = HandleChoice::Fill});
+  REQUIRE(shortest.can_mend());
+  REQUIRE(fill.can_mend());
+  CHECK(shortest.handles.at(0).filled == false);
+  CHECK(fill.handles.at(0).filled);
+  CHECK(fill.options.longest_handle > shortest.options.longest_handle);
 }
 
 TEST_CASE("repair_advice: a refusal says what was done before") {

@@ -24,6 +24,13 @@ double least_kept(const MapArguments& arguments) {
   return repairs && repairs->components ? repairs->least_kept : 1;
 }
 
+std::string reasons_of(const MeshError& error) {
+  Words reasons;
+  for (const MeshDefect& defect : error.defects())
+    if (defect.fatal) reasons.push_back(defect.message);
+  return joined(reasons, "; ");
+}
+
 class PartsRun {
  public:
   PartsRun(const MapArguments& arguments, Session& session,
@@ -76,7 +83,8 @@ class PartsRun {
       session_.console.say(name + ":");
       tell_stages(outcome, session_.console);
       add(number, outcome);
-    } catch (const MeshError&) {
+    } catch (const MeshError& error) {
+      session_.console.say(name + " cannot be mapped: " + reasons_of(error));
       lost_ += share;
       if (!refused_) {
         refused_ = std::current_exception();

@@ -1,7 +1,9 @@
 // `sphparam repair`: a mesh mended as far as it can be, for this program or for others.
 
 #include <algorithm>
+#include <cstdio>
 #include <iterator>
+#include <utility>
 
 #include "arguments/limits.h"
 #include "arguments/mesh_names.h"
@@ -9,11 +11,14 @@
 #include "commands/command.h"
 #include "commands/data_files.h"
 #include "console/places.h"
+#include "io/shell_word.h"
 #include "reports/told_losses.h"
 #include "reports/told_repairs.h"
 #include "sphparam/io/certified_files.h"
 #include "sphparam/io/loop_file.h"
 #include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/repair_advice.h"
+#include "sphparam/names.h"
 #include "sphparam/records/repair_record.h"
 
 namespace sphparam::cli {
@@ -58,6 +63,17 @@ MeshSource read_and_mend(const RepairCommandArguments& arguments, const RepairOp
   }
 }
 
+/// What would mend it, beyond what was wanted. Components that are there keep their numbers.
+void tell_what_else(const RepairCommandArguments& arguments, RepairOptions wanted,
+                    const MeshSource& source) {
+  const int component = std::exchange(wanted.component, 0);  // chosen already
+  RepairTrial trial = try_repair_beyond(source, wanted);
+  if (component > 0) trial.options.component = component;
+  const std::string command = "sphparam repair " + shell_word(arguments.input) + " " +
+                              options_line(trial.options) + " -o " + shell_word(arguments.output);
+  std::fputs(repair_advice(trial, arguments.input, command).c_str(), stderr);
+}
+
 int run_repair(RepairCommandArguments& arguments) {
   require_sensible(arguments);
   const RepairOptions wanted = all_or_wanted_repairs(arguments.repair);
@@ -84,6 +100,7 @@ int run_repair(RepairCommandArguments& arguments) {
   const std::string line = display_name(arguments.input) + ": " + outcome_line(source.inspection);
   session.console.say(line + " → " + output_name(arguments.output));
   if (source.inspection.is_sphere()) return Ok;
+  if (!arguments.quiet) tell_what_else(arguments, wanted, source);
   if (arguments.quiet) print_error(line);
   return MeshUnusable;
 }

@@ -24,12 +24,12 @@
 #include "console/console.h"
 #include "console/exit_codes.h"
 #include "console/interruption.h"
+#include "console/mending_advice.h"
 #include "console/places.h"
 #include "image/image_codec.h"
 #include "io/files/temporary_file.h"
 #include "sphparam/errors.h"
 #include "sphparam/io/mesh_reader.h"
-#include "sphparam/io/repair_advice.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/version.h"
@@ -248,8 +248,10 @@ int told(const std::exception& error, ExitCode code) {
   return code;
 }
 
-int mesh_error(const MeshError& error, const std::string& advice) {
-  print_error("this is not a closed genus-0 mesh:");
+/// After repairs, what is wrong is that of the mesh as they left it.
+int mesh_error(const MeshError& error, const std::string& advice, bool repaired = false) {
+  const std::string what = "this is not a closed genus-0 mesh";
+  print_error(repaired ? "after the repairs told last " + what + ":" : what + ":");
   std::fputs((defect_list(error.defects()) + advice).c_str(), stderr);
   return MeshUnusable;
 }
@@ -258,7 +260,7 @@ int guarded_main(int argc, char** argv) {
   try {
     return run_program(argc, argv);
   } catch (const MeshRefusal& error) {
-    return mesh_error(error, repair_advice(error));
+    return mesh_error(error, advice_for({argv + 1, argv + argc}, error), !error.done().empty());
   } catch (const MeshError& error) {
     return mesh_error(error, "");
   } catch (const UnmeasurableMesh& error) {

@@ -7,6 +7,7 @@
 #include "io/files/file_bytes.h"
 #include "io/files/gzip.h"
 #include "io/formats/mesh_formats.h"
+#include "number_text.h"
 #include "sphparam/io/paths.h"
 
 namespace sphparam {
@@ -50,6 +51,31 @@ void refuse_foreign_content(std::string_view bytes, const std::string& name) {
     if (bytes.starts_with(magic)) refuse(name, format);
 }
 
+[[noreturn]] void refuse_volume(const std::string& name) {
+  throw ReadError(name,
+                  "this is a volume (NIfTI), not a mesh: make a surface of it first, as marching "
+                  "cubes does; see docs/neuroimaging.md");
+}
+
+/// By the magic word of either version's header, a volume or what CIFTI has in its place.
+void refuse_nifti(std::string_view bytes, const std::string& name) {
+  constexpr std::size_t first = 344, second = 4, intent = 504;
+  const auto has = [&](std::size_t at, std::string_view word) {
+    return bytes.size() >= 348 && bytes.substr(at, word.size()) == word;
+  };
+  using namespace std::string_view_literals;
+  const bool is_second = has(second, "n+2\0"sv) || has(second, "ni2\0"sv);
+  if (!is_second && !has(first, "n+1\0"sv) && !has(first, "ni1\0"sv)) return;
+  if (is_second && bytes.size() >= intent + 4) {
+    const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(bytes[at]); };
+    const int little = byte(intent) | byte(intent + 1) << 8;
+    const int big = byte(intent + 3) | byte(intent + 2) << 8;
+    for (const int code : {little, big})  // either byte order
+      if (code >= 3000 && code < 3100) refuse(name, "CIFTI-2 (data of a surface, not a mesh)");
+  }
+  refuse_volume(name);
+}
+
 /// What the bytes look like, by evidence of this kind.
 const MeshFormat* recognised(std::string_view bytes, Evidence evidence) {
   for (const MeshFormat& format : mesh_formats())
@@ -64,11 +90,13 @@ const MeshFormat& format_of(std::string_view bytes, const std::string& name) {
   for (const Evidence evidence : {Evidence::MagicWord, Evidence::Layout})
     if (const MeshFormat* format = recognised(bytes, evidence)) return *format;
   refuse_foreign_content(bytes, name);
+  refuse_nifti(bytes, name);
   const std::string extension = inner_extension_of(name);
   const MeshFormat* const named = format_of_extension(extension);
   if (named && named->looks_so(bytes)) return *named;
   if (const MeshFormat* format = recognised(bytes, Evidence::Text)) return *format;
   if (named) return *named;
+  if (extension == ".nii") refuse_volume(name);
   for (const auto& [foreign, format] : foreign_extensions)
     if (extension == foreign) refuse(name, format);
   throw ReadError(name, "the format is not recognised; " + supported());
@@ -92,6 +120,24 @@ MeshFile read_gzip(std::string_view bytes, const std::string& name,
   file.format += ", gzip";
   if (unzipped.trailing_data) file.notes.push_back("data after the end of the gzip data ignored");
   return file;
+}
+
+/// A name that only the components of a mesh bear, each with its number.
+/// Throws: ReadError, with the names that are there.
+void refuse_name_of_parts(const std::string& path) {
+  constexpr int most = 9999;  // the numbers have four digits
+  std::error_code error;
+  if (path == "-" || std::filesystem::exists(path, error)) return;
+  std::vector<std::string> found;
+  for (int part = 1; part <= most; ++part) {
+    std::string name = path_of_part(path, part);
+    if (std::filesystem::exists(name, error)) found.push_back(std::move(name));
+  }
+  if (found.empty()) return;
+  const std::string last = found.size() > 1 ? " to " + found.back() : "";
+  throw ReadError(path, "there is no such file, but its " +
+                            counted(static_cast<long>(found.size()), "component", "components") +
+                            ": name one, " + found.front() + last);
 }
 
 MeshFile read_bytes(std::string_view bytes, const std::string& name,
@@ -122,6 +168,7 @@ MeshFile read_mesh(std::string_view bytes, const std::string& name, const ReadOp
 }
 
 MeshFile read_mesh(const std::string& path, const ReadOptions& options) {
+  refuse_name_of_parts(path);
   const FileBytes bytes(path, options.max_file_bytes);
   const bool is_file = path != "-";
   return read_bytes(

@@ -10,6 +10,7 @@
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/mesh_source.h"
+#include "sphparam/io/repair_advice.h"
 #include "sphparam/io/sphere_file.h"
 
 namespace sphparam {
@@ -69,12 +70,24 @@ std::vector<MeshDefect> fatal_ones(const MeshInspection& inspection) {
 }
 
 /// Whether repair would help; nothing where there is no memory to find out.
-std::optional<RepairTrial> affordable_trial(const MeshSource& source, bool keep_holes = false) {
+std::optional<RepairTrial> affordable_trial(const MeshSource& source,
+                                            const RepairOptions& wanted = {}) {
   try {
-    return try_repair(source, keep_holes);
+    return try_repair_beyond(source, wanted);
   } catch (const std::bad_alloc&) {
     return std::nullopt;
+  } catch (const NoSuchComponent&) {  // other repairs leave other components
+    return std::nullopt;
   }
+}
+
+/// All repairs, the way that these are done.
+RepairOptions all_as(const RepairOptions& wanted) {
+  return {.component = wanted.component,
+          .keep_holes = wanted.keep_holes,
+          .handle_choice = wanted.handle_choice,
+          .weld_share = wanted.weld_share,
+          .weld_length = wanted.weld_length};
 }
 
 MeshSource with_repairs(MeshSource source, RepairedMesh mended) {
@@ -117,14 +130,18 @@ MeshSource repaired(MeshSource source, const RepairOptions& options) {
   RepairedMesh result = repair_mesh(source.file.mesh, options);
   if (result.inspection.is_sphere()) return with_repairs(std::move(source), std::move(result));
   // Components are numbered as they are in the mesh that was given.
-  std::optional<RepairTrial> trial = affordable_trial(source, options.keep_holes);
+  std::optional<RepairTrial> trial = affordable_trial(source, options);
   source = with_repairs(std::move(source), std::move(result));
   throw MeshRefusal(source, std::move(trial));
 }
 
 RepairTrial try_repair(const MeshSource& source, bool keep_holes) {
+  return try_repair_beyond(source, {.keep_holes = keep_holes});
+}
+
+RepairTrial try_repair_beyond(const MeshSource& source, const RepairOptions& wanted) {
   constexpr double any_length = std::numeric_limits<double>::max();  // in diagonals
-  RepairOptions options{.keep_holes = keep_holes};
+  RepairOptions options = all_as(wanted);
   KeptParts parts;
   for (;;) {
     RepairedMesh mended = repair_mesh(source.file.mesh, options);

@@ -40,14 +40,22 @@ std::string reached_share(const KeptParts& parts) {
 std::string choice_lines(const KeptParts& parts) {
   if (!parts.refused) return "";
   return "  --repair keeps one of " + std::to_string(parts.count) +
-         " components, and drops no more than specks unasked. By area:\n" + part_lines(parts) +
-         "  --component N keeps the N-th, --min-kept " + reached_share(parts) +
+         " components, and drops no more than specks unasked. By area, before holes are closed:\n" +
+         part_lines(parts) + "  --component N keeps the N-th, --min-kept " + reached_share(parts) +
          " the largest, and\n  --all-components maps each into a file of its own.\n";
+}
+
+/// What a component that is chosen because it must be has of all.
+std::string share_line(const RepairTrial& trial) {
+  const auto chosen = static_cast<size_t>(trial.options.component);
+  if (!trial.parts.refused || chosen < 1 || chosen > trial.parts.largest.size()) return "";
+  return "    it keeps " + percent(trial.parts.largest[chosen - 1].area_share) + " of the area\n";
 }
 
 }  // namespace
 
-std::string repair_advice(const RepairTrial& trial, const std::string& path) {
+std::string repair_advice(const RepairTrial& trial, const std::string& path,
+                          const std::string& command) {
   const std::string choice = choice_lines(trial.parts), options = options_line(trial.options);
   if (!trial.can_mend()) {
     return choice + "  " + options + " cannot mend it. This would remain:\n" +
@@ -56,14 +64,17 @@ std::string repair_advice(const RepairTrial& trial, const std::string& path) {
   const std::string kept = kept_line(trial.parts);
   const auto closes = [](const RepairAction& done) { return done.kind == RepairKind::HoleFilled; };
   const bool fills = std::any_of(trial.actions.begin(), trial.actions.end(), closes);
-  return choice + "  " + options + " would mend it, as in `sphparam map " + shell_word(path) + " " +
-         options + " -o mended.sph.ply`:\n" + message_lines(trial.actions) +
+  const std::string plain =
+      "sphparam map " + shell_word(path) + " " + options + " -o mended.sph.ply";
+  return choice + "  " + options + " would mend it, as in `" + (command.empty() ? plain : command) +
+         "`:\n" + share_line(trial) + message_lines(trial.actions) +
          handle_lines(trial.handles, "      ") + (kept.empty() ? "" : "    " + kept + "\n") +
          (fills ? "  With --keep-holes holes stay holes.\n" : "");
 }
 
-std::string repair_advice(const MeshRefusal& refusal) {
-  std::string advice = refusal.trial() ? repair_advice(*refusal.trial(), refusal.path()) : "";
+std::string repair_advice(const MeshRefusal& refusal, const std::string& command) {
+  std::string advice =
+      refusal.trial() ? repair_advice(*refusal.trial(), refusal.path(), command) : "";
   if (!refusal.done().empty()) advice += "  Done already:\n" + message_lines(refusal.done());
   return advice;
 }

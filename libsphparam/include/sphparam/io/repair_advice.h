@@ -6,11 +6,16 @@
 
 namespace sphparam {
 
+/// `try_repair` where repairs were wanted that are not enough: the component, the kind of hole, the
+/// weld and the kind of handle that were chosen stay so. Throws: NoSuchComponent.
+RepairTrial try_repair_beyond(const MeshSource& source, const RepairOptions& wanted);
+
 /// Several lines for people: what repair would do to the mesh of this file and what to type, or
-/// that it cannot help and why.
-std::string repair_advice(const RepairTrial& trial, const std::string& path);
+/// that it cannot help and why. `command`: what to type; empty: a plain `sphparam map`.
+std::string repair_advice(const RepairTrial& trial, const std::string& path,
+                          const std::string& command = "");
 
 /// The same of a mesh that was refused, and what had been done to it before.
-std::string repair_advice(const MeshRefusal& refusal);
+std::string repair_advice(const MeshRefusal& refusal, const std::string& command = "");
 
 }  // namespace sphparam

@@ -1,0 +1,66 @@
+#include "console/mending_advice.h"
+
+#include <algorithm>
+
+#include "io/shell_word.h"
+#include "sphparam/io/repair_advice.h"
+#include "sphparam/names.h"
+
+namespace sphparam::cli {
+
+namespace {
+
+/// How many words an option takes that says how to repair, with its value; 0: it is none.
+int words_of_repair(const std::string& word) {
+  static const Words flags = {"--repair", "--keep-holes"};
+  static const Words with_value = {"--component", "--min-kept",   "--max-hole",
+                                   "--weld",      "--max-handle", "--handles"};
+  const std::string name = word.substr(0, word.find('='));
+  if (std::ranges::find(flags, name) != flags.end()) return 1;
+  if (std::ranges::find(with_value, name) == with_value.end()) return 0;
+  return name == word ? 2 : 1;
+}
+
+Words without_repairs(const Words& words) {
+  Words rest;
+  for (size_t at = 0; at < words.size();) {
+    const int repairs = words_of_repair(words[at]);
+    if (repairs == 0) rest.push_back(words[at]);
+    at += static_cast<size_t>(std::max(repairs, 1));
+  }
+  return rest;
+}
+
+std::string typed(const Words& words, const std::string& repairs) {
+  std::string line = "sphparam";
+  for (const std::string& word : words) line += " " + shell_word(word);
+  return line + " " + repairs;
+}
+
+/// Of one component among several: what is counted and chosen is of the file.
+std::string advice_for_component(const Words& words, const Words& rest,
+                                 const MeshRefusal& refusal) {
+  if (rest.size() == words.size())
+    return "  --repair mends each component first, as in `" + typed(rest, "--repair") + "`\n";
+  const bool helps =
+      refusal.trial() && refusal.trial()->can_mend() && refusal.trial()->options.component == 0;
+  if (!helps) {
+    std::string lines = "  --component N maps one of the components\n  Done already:\n";
+    for (const RepairAction& done : refusal.done()) lines += "    " + done.message + "\n";
+    return lines;
+  }
+  return repair_advice(refusal, typed(rest, options_line(refusal.trial()->options)));
+}
+
+}  // namespace
+
+std::string advice_for(const Words& words, const MeshRefusal& refusal) {
+  if (words.empty() || words.front() != "map") return repair_advice(refusal);
+  const Words rest = without_repairs(words);
+  if (std::ranges::find(rest, "--all-components") != rest.end())
+    return advice_for_component(words, rest, refusal);
+  if (!refusal.trial()) return repair_advice(refusal);
+  return repair_advice(refusal, typed(rest, options_line(refusal.trial()->options)));
+}
+
+}  // namespace sphparam::cli

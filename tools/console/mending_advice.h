@@ -1,0 +1,12 @@
+#pragma once
+
+#include "arguments/words.h"
+#include "sphparam/io/mesh_source.h"
+
+namespace sphparam::cli {
+
+/// Several lines: what would mend a mesh that this command line was refused for, and how the same
+/// command line, its own options and outputs kept, is typed then. words: the subcommand first.
+std::string advice_for(const Words& words, const MeshRefusal& refusal);
+
+}  // namespace sphparam::cli
