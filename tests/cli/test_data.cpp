@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <filesystem>
 
 #include "mapped.h"
 #include "program.h"
@@ -81,6 +82,22 @@ TEST_CASE("data: files have the names that are given, or those of a field") {
       0);
   CHECK(read_mesh(brain.mapped.folder / "hemi-L_sphere.surf.gii").mesh.vertex_count() ==
         brain.vertices);
+}
+
+TEST_CASE("data: no file that nobody named is replaced by what lies beside a surface") {
+  const Brain brain;
+  const std::string theta = brain.mapped.folder / "lh.theta",
+                    map = brain.mapped.folder / "t.sph.ply",
+                    out = brain.mapped.folder / "lh.mended.white";
+  std::filesystem::copy_file(brain.thickness, theta);
+  REQUIRE(sphparam_program({"map", brain.sphere, "--data", theta, "-o", map}).code == 0);
+  CHECK(read_mesh(map).find_vertex_property("theta_2")->values.at(5) == 5);
+  const Ended ended = sphparam_program({"remesh", map, "--grid", "ico:1", "-o", out});
+  CHECK(ended.code == 3);
+  CHECK_THAT(ended.err, Contains("lh.theta") && Contains("is there already"));
+  CHECK_FALSE(std::filesystem::exists(out));
+  CHECK(read_vertex_data(theta).vertex_count() == brain.vertices);
+  CHECK(sphparam_program({"repair", map, "-o", out}).code == 3);
 }
 
 TEST_CASE("data: what makes no sense is refused before any work") {

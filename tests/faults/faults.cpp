@@ -6,7 +6,7 @@
 //   fault_runner PROGRAM SHIM COUNT [ERRAND]
 //
 // COUNT: how many faults at least; prints how many of which kind. ERRAND: map, holes (kept),
-// parts (all components), survey, or repair.EXT, which writes that format (default: map).
+// parts (all components), survey, data, or repair.EXT, which writes that format (default: map).
 
 #include <algorithm>
 #include <cerrno>
@@ -82,6 +82,7 @@ struct Errand {
   std::vector<std::string> outputs;  // the first is the one that counts
   std::string map = {};              // of these, one to be proved
   std::set<int> other_codes = {};    // that a fault may end it with besides
+  std::string unnamed = {};          // of these, one that may not be there before
 };
 
 Errand errand_named(const std::string& name) {
@@ -114,7 +115,10 @@ Errand errand_named(const std::string& name) {
     return {icosphere(1),
             {"repair", "@scans/mesh.off", "--data", "@rh.depth", "-o", "@lh.white", "--json",
              "@report.json"},
-            {"lh.white", "lh.depth", "report.json"}};
+            {"lh.white", "lh.depth", "report.json"},
+            "",
+            {},
+            "lh.depth"};
   if (name.starts_with("repair.")) {
     const std::string output = "mended" + name.substr(6);
     return {damaged_ball(),
@@ -200,7 +204,7 @@ class Scene {
     fs::create_directory(folder_ / "found");
     for (const std::string& output : errand_.outputs) {
       fs::remove(folder_ / output);
-      if (!fresh) std::ofstream(folder_ / output) << "old " << output;
+      if (!fresh && output != errand_.unnamed) std::ofstream(folder_ / output) << "old " << output;
     }
   }
 
@@ -225,7 +229,7 @@ class Scene {
   }
 
   bool is_old(const std::string& output, bool fresh) const {
-    if (fresh) return !fs::exists(folder_ / output);
+    if (fresh || output == errand_.unnamed) return !fs::exists(folder_ / output);
     return bytes_of(folder_ / output) == "old " + output;
   }
 

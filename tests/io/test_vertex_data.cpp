@@ -325,3 +325,38 @@ TEST_CASE(
   mesh.mesh.positions(0, 0) = std::numeric_limits<double>::infinity();
   CHECK_THROWS(add_mesh(files, folder.file("x.surf.gii"), mesh));
 }
+
+TEST_CASE("vertex_data: a file beside a surface replaces none that is there") {
+  MeshFile mesh;
+  mesh.mesh = tetrahedron();
+  attach_data(mesh, thickness());
+  const Folder folder;
+  VertexData original = thickness();
+  original.columns[0].values[2] = 7;
+  write_vertex_data(folder.file("lh.thickness"), original);
+  {
+    PendingFiles files;
+    CHECK_THROWS_WITH(add_mesh(files, folder.file("lh.white"), mesh),
+                      Catch::Contains("lh.thickness: is there already") &&
+                          Catch::Contains("give -o another name"));
+  }
+  check_same(read_vertex_data(folder.file("lh.thickness"), 4), original);
+  for (int again = 0; again < 2; ++again) {
+    PendingFiles files;
+    add_mesh(files, folder.file("lh.pial.surf.gii"), mesh);
+    files.publish();
+  }
+  check_same(read_vertex_data(folder.file("lh.thickness.shape.gii"), 4), thickness());
+}
+
+TEST_CASE("vertex_data: names that mean something in a mesh are no names of data") {
+  for (const char* name : {"theta", "phi", "sx", "source_vertex", "source_face", "filler",
+                           "material", "nx", "red", "alpha", "s", "t", "x"}) {
+    MeshFile mesh;
+    mesh.mesh = tetrahedron();
+    VertexData data = thickness();
+    data.name = name;
+    CHECK(attach_data(mesh, data).at(0) == std::string(name) + "_2");
+    CHECK(attached_data(mesh).at(0).name == name);
+  }
+}

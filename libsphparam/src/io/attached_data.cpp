@@ -14,6 +14,7 @@
 #include "io/formats/lossless_type.h"
 #include "number_text.h"
 #include "sphparam/io/file_numbers.h"
+#include "sphparam/io/fillers.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/vertex_data.h"
 
@@ -114,13 +115,51 @@ std::vector<double> values_of_mesh(const MeshFile& mesh, const FileNumbers& numb
   return result;
 }
 
+/// Names that mean something in a mesh, and are taken for it when it is read.
+bool has_a_role(const std::string& name) {
+  static const std::set<std::string> names = {"",
+                                              "x",
+                                              "y",
+                                              "z",
+                                              "sx",
+                                              "sy",
+                                              "sz",
+                                              "theta",
+                                              "phi",
+                                              "nx",
+                                              "ny",
+                                              "nz",
+                                              "red",
+                                              "green",
+                                              "blue",
+                                              "alpha",
+                                              "diffuse_red",
+                                              "diffuse_green",
+                                              "s",
+                                              "t",
+                                              "u",
+                                              "v",
+                                              "r",
+                                              "g",
+                                              "b",
+                                              "diffuse_blue",
+                                              "diffuse_alpha",
+                                              "texture_u",
+                                              "texture_v",
+                                              "material",
+                                              "texnumber",
+                                              "source_vertex",
+                                              "source_face",
+                                              filler_property};
+  return names.contains(name);
+}
+
 /// What formats take for a name, and unlike those that are there.
 std::string free_name(const MeshFile& mesh, std::string name) {
   for (char& c : name)
     if (c <= ' ' || c > '~') c = '_';
   const auto taken = [&](const std::string& candidate) {
-    static const std::set<std::string> places = {"", "x", "y", "z"};
-    return places.contains(candidate) || mesh.find_vertex_property(candidate);
+    return has_a_role(candidate) || mesh.find_vertex_property(candidate);
   };
   if (!taken(name)) return name;
   int number = 2;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
+#include "io/files/file_bytes.h"
 #include "io/files/read_back.h"
 #include "number_text.h"
 #include "sphparam/errors.h"
@@ -55,6 +57,24 @@ Polygons surface_polygons(const MappedMesh& mapped) {
   return surface;
 }
 
+bool holds(const std::string& path, const std::string& bytes) try {
+  return std::filesystem::is_regular_file(path) && FileBytes(path, bytes.size()).view() == bytes;
+} catch (const ReadError&) {
+  return false;
+}
+
+/// Nobody named this place: what lies there may be somebody's only copy. The same bytes may stay.
+void require_free(const std::string& beside, const std::string& mesh, const VertexData& data,
+                  const Points& surface) {
+  std::error_code hidden;
+  if (!std::filesystem::exists(beside, hidden)) return;
+  if (holds(beside, serialise_vertex_data(beside, data, &surface))) return;
+  throw WriteError(beside, "is there already, and '" + data.name + "' would replace it, beside " +
+                               output_name(mesh) +
+                               "; move it away, or give -o another name, or one in .ply, which "
+                               "holds data itself");
+}
+
 /// The mesh, without the data that lies beside it where its format has it so; `told` says where.
 MeshFile with_data_beside(PendingFiles& files, const std::string& path, MeshFile file,
                           std::vector<std::string>& told) {
@@ -62,6 +82,7 @@ MeshFile with_data_beside(PendingFiles& files, const std::string& path, MeshFile
   for (VertexData& data : attached_data(file)) {
     const std::string beside = data_path(path, data);
     data.triangles = file.mesh.face_count();
+    require_free(beside, path, data, file.mesh.positions);
     told.push_back(data.name + " beside it: " + output_name(beside));
     for (const std::string& loss : add_vertex_data(files, beside, data, &file.mesh.positions))
       told.push_back(output_name(beside) + ": " + loss);

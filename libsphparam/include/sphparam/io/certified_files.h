@@ -17,7 +17,8 @@ class MappedMesh;
 
 // Data that a mesh carries (vertex_data.h) is written beside it where its format has it so
 // (`has_data_beside`), in files named by `data_path`, with it or not at all. What these functions
-// return says where, too.
+// return says where, too. Nobody gave these names: a file that is there already is left as it is,
+// and WriteError tells of it, unless it has the same bytes.
 
 /// Throws UnmeasurableMesh where a mesh that was made here, to be written as `path`, has positions
 /// or values that are no finite numbers.

@@ -111,7 +111,7 @@ void write_vertex_data(const std::string& path, const VertexData& data,
 
 /// Adds the columns to a mesh as properties. A single one is named as the file is, without its
 /// hemisphere ("thickness" of lh.thickness), others by themselves; a name that is taken gets a
-/// number. Where vertices were welded or dropped on reading, those that are left have the values of
+/// number, as do those that mean something in a mesh ("theta_2", "red_2", "material_2"). Where vertices were welded or dropped on reading, those that are left have the values of
 /// their numbers in the file (`source_vertex`). Returns the names.
 /// NaN stays NaN, which mesh files do not hold: see `without_missing`.
 /// Throws: std::invalid_argument where the data has not a number for each vertex of the mesh's
