@@ -166,6 +166,85 @@ TEST_CASE("kept holes: a remeshed sheet is one piece with one boundary, however 
   }
 }
 
+TEST_CASE("kept holes: repair writes the surface alone where a format has no place for the marks") {
+  const Folder folder;
+  const std::string mesh = folder / "bowl.obj";
+  write_bytes(mesh, obj_text(bowl()));
+  for (const char* name : {"m.obj", "m.off"}) {
+    const Ended ended = sphparam_program({"repair", mesh, "--keep-holes", "-o", folder / name});
+    INFO(ended.err);
+    CHECK(ended.code == 0);
+    CHECK_THAT(ended.err, Contains("the surface alone: ") && Contains("fillers of holes left out"));
+    const Json info = Json::parse(sphparam_program({"info", folder / name, "--json", "-"}).out);
+    CHECK(info["inspection"]["boundary_loops"] == 1);
+    CHECK(info["inspection"]["triangles"] == bowl().face_count());
+  }
+}
+
+TEST_CASE("kept holes: info leaves fillers out of the area, and says what they close") {
+  const MappedBowl bowl;
+  const auto info = [](const std::string& file) {
+    return Json::parse(sphparam_program({"info", file, "--json", "-"}).out);
+  };
+  const Json closed = info(bowl.map), open = info(bowl.mesh);
+  CHECK(closed["fillers"]["holes"] == 1);
+  CHECK(closed["fillers"]["triangles"].get<long>() ==
+        closed["input"]["triangles"].get<long>() - open["input"]["triangles"].get<long>());
+  CHECK(open["fillers"].is_null());
+  CHECK(closed["inspection"]["area"].get<double>() ==
+        Approx(open["inspection"]["area"].get<double>()).epsilon(1e-9));
+  CHECK_THAT(sphparam_program({"info", bowl.map}).out,
+             Contains("closing 1 hole; no surface") &&
+                 Contains("With its fillers a closed genus-0 mesh: it can be mapped."));
+}
+
+TEST_CASE("kept holes: remesh tells where a grid is too coarse for them, and only there") {
+  const Folder folder;
+  const std::string mesh = folder / "m.obj", map = folder / "m.sph.ply";
+  TriangleMesh two_holes = bowl();
+  Face lowest = 0;
+  const auto height = [&](Face f) {
+    const auto corners = two_holes.triangles.row(f);
+    return two_holes.positions(corners[0], 2) + two_holes.positions(corners[1], 2) +
+           two_holes.positions(corners[2], 2);
+  };
+  for (Face f = 1; f < two_holes.face_count(); ++f) {
+    if (height(f) < height(lowest)) lowest = f;
+  }
+  two_holes.triangles.row(lowest) = two_holes.triangles.row(two_holes.face_count() - 1);
+  two_holes.triangles.conservativeResize(two_holes.face_count() - 1, 3);
+  write_bytes(mesh, obj_text(two_holes));
+  REQUIRE(sphparam_program({"map", mesh, "-o", map, "--keep-holes", "-q"}).code == 0);
+  const auto told = [&](const std::string& grid) {
+    const Ended ended =
+        sphparam_program({"remesh", map, "--grid", grid, "-o", folder / "r.sph.ply"});
+    CHECK(ended.code == 0);
+    return ended.err;
+  };
+  CHECK_THAT(told("ico:1"), Contains("2 holes before, ") && Contains("a finer grid"));
+  CHECK_THAT(told("ico:7"), !Contains("a finer grid"));
+}
+
+TEST_CASE("kept holes: a body that is inside out is turned over, a sheet stays as it is") {
+  const Folder folder;
+  const auto turned = [&](TriangleMesh mesh) {
+    mesh.triangles.col(0).swap(mesh.triangles.col(1));
+    write_bytes(folder / "m.obj", obj_text(mesh));
+    const Ended ended = sphparam_program(
+        {"repair", folder / "m.obj", "--keep-holes", "--repair", "-o", folder / "m.ply"});
+    CHECK(ended.code == 0);
+    return ended.err.find("it was inside out") != std::string::npos;
+  };
+  CHECK(turned(bowl()));
+  TriangleMesh sheet{Points(4, 3), Triangles(2, 3)};
+  sheet.positions << 0, 0, 0, 1, 0, 0, 1, 1, 0.5, 0, 1, 0;
+  sheet.triangles << 0, 1, 2, 0, 2, 3;
+  const bool as_given = turned(sheet);
+  CHECK_FALSE(as_given);
+  sheet.triangles.col(0).swap(sheet.triangles.col(1));
+  CHECK_FALSE(turned(sheet));
+}
+
 TEST_CASE("kept holes: what makes no sense is refused") {
   const MappedBowl bowl;
   const auto refused = [&](std::vector<std::string> arguments) {
@@ -250,6 +329,32 @@ TEST_CASE("parts: where there are none, or one of them is broken, nothing is wri
   CHECK(folder.names() ==
         std::vector<std::string>{"one.obj", "two_0001.sph.ply", "two_0003.sph.ply"});
   CHECK(sphparam_program({"export", map, "--all-components", "-o", "-"}).code == 2);
+}
+
+TEST_CASE("parts: files of an earlier run are told, and not taken for parts of this one") {
+  const Folder folder;
+  const std::string map = folder / "m.sph.ply", three = folder / "three.obj",
+                    two = folder / "two.obj";
+  TriangleMesh large = icosphere(1);
+  large.positions *= 2;
+  write_bytes(three, obj_text(together({icosphere(2), icosphere(1), icosphere(0)})));
+  write_bytes(two, obj_text(together({icosphere(1), large})));
+  REQUIRE(sphparam_program({"map", three, "-o", map, "--all-components"}).code == 0);
+  CHECK_THAT(bytes_of(folder / "m_0002.sph.ply"), Contains("sphparam component 2 of 3 of "));
+  const Ended second = sphparam_program({"map", two, "-o", map, "--all-components"});
+  CHECK(second.code == 0);
+  CHECK_THAT(second.err, Contains("m_0003.sph.ply is of an earlier run"));
+  const std::vector<std::string> before = folder.names();
+  for (const char* command : {"bake", "export"}) {
+    const std::string output = folder / (command == std::string("bake") ? "a.png" : "a.glb");
+    const Ended mixed = sphparam_program({command, map, "--all-components", "-o", output});
+    CHECK(mixed.code == 2);
+    CHECK_THAT(mixed.err, Contains("m_0003.sph.ply is of another run of map than"));
+  }
+  CHECK(folder.names() == before);
+  fs::remove(folder / "m_0003.sph.ply");
+  CHECK(sphparam_program({"export", map, "--all-components", "-o", folder / "a.glb"}).code == 0);
+  CHECK(fs::exists(folder / "a_0002.glb"));
 }
 
 TEST_CASE("parts: one that cannot be mapped ends it, but for specks, which are told") {

@@ -118,6 +118,19 @@ TEST_CASE("repair command: the report says what was done, and what the format ha
   CHECK(report["outputs"]["mesh"] == folder / "a.off");
 }
 
+TEST_CASE("repair command: faces of more corners are cut into triangles, which is told") {
+  const Folder folder;
+  const std::string cube =
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+      "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+  const Ended ended = sphparam_program({"repair", "-", "-o", folder / "a.obj"}, cube);
+  CHECK(ended.code == 0);
+  CHECK_THAT(ended.err, Contains("6 faces of more than three corners, which are cut into"));
+  CHECK(read_mesh(folder / "a.obj").mesh.face_count() == 12);
+  const Ended again = sphparam_program({"repair", folder / "a.obj", "-o", folder / "b.obj"});
+  CHECK_THAT(again.err, !Contains("corners"));
+}
+
 TEST_CASE("repair command: a map stays with a mesh that needs nothing, and with no other") {
   const Folder folder;
   const std::string map = folder / "map.sph.ply", same = folder / "same.ply";

@@ -25,6 +25,7 @@ struct MapArguments : CommonArguments {
   std::string balance = "balanced";  // a word, or the λ it stands for
   RepairArguments repair;
   bool all_components = false;
+  std::string component;  // which it is of which mesh, for its file; empty: the mesh is whole
   bool keep_folded = false;
   AnyMethod method = Method::Progressive;
   // Complete but for `progress` and `pins`, once settled. Vertices have their numbers in the file.

@@ -6,6 +6,7 @@
 #include <new>
 #include <utility>
 
+#include "arguments/part_files.h"
 #include "console/places.h"
 #include "number_text.h"
 #include "report/plots.h"
@@ -36,8 +37,10 @@ Provenance provenance(const MapOutcome& outcome) {
 }
 
 /// The mesh gets its map where it stands: a copy of all its attributes would be the peak of memory.
-void add_map(const std::string& path, MapOutcome& outcome, Session& session) {
-  const Provenance lines = provenance(outcome);
+void add_map(const MapArguments& arguments, MapOutcome& outcome, Session& session) {
+  const std::string& path = arguments.output;
+  Provenance lines = provenance(outcome);
+  if (!arguments.component.empty()) lines.emplace_back(component_key, arguments.component);
   MeshFile& file = outcome.source.file;
   file = attach_map(std::move(file), outcome.result.map, lines);
   sphparam::add_map(session.files, path, file, outcome.topology(), outcome.verdict(),
@@ -119,7 +122,7 @@ std::string add_outputs(const MapArguments& arguments, MapOutcome& outcome, bool
                         Session& session) {
   Outputs outputs;
   if (with_map && !arguments.output.empty()) {
-    add_map(arguments.output, outcome, session);
+    add_map(arguments, outcome, session);
     outputs.emplace_back("map", arguments.output);
   }
   if (with_map && !arguments.sphere.empty()) {

@@ -2,10 +2,12 @@
 
 #include "commands/map_parts.h"
 
+#include <algorithm>
 #include <exception>
 #include <utility>
 
 #include "arguments/limits.h"
+#include "arguments/part_files.h"
 #include "commands/data_files.h"
 #include "commands/map_outputs.h"
 #include "console/exit_codes.h"
@@ -40,6 +42,7 @@ class PartsRun {
   int run() {
     MeshSource source = sphparam::read_source(arguments_.input, limits());
     attach_data_files(source, arguments_.data, MissingValues::LeftOut, session_);
+    mark_ = mark_of(source.file.mesh);
     std::vector<MeshPart> parts = connected_parts(
         std::move(source), wanted_repairs(arguments_.repair).value_or(RepairOptions::none()));
     if (!parts.empty()) {
@@ -99,6 +102,8 @@ class PartsRun {
                         (outcome.bijective() || arguments_.keep_folded);
     MapArguments of_part = arguments_;
     of_part.output = path_of_part(arguments_.output, static_cast<int>(number));
+    of_part.component = component_words(number, count_, mark_);
+    if (writes) files_.push_back(static_cast<int>(number));
     const std::string report = add_outputs(of_part, outcome, writes, session_);
     if (!report.empty()) reports_ += (reports_.empty() ? "" : ", ") + report;
     tell_result(outcome, writes ? of_part.output : "", session_.stopwatch.seconds(),
@@ -108,6 +113,12 @@ class PartsRun {
   }
 
   void tell() const {
+    for (const int number : parts_on_disk(arguments_.output)) {
+      if (std::ranges::find(files_, number) != files_.end()) continue;
+      session_.console.warning(path_of_part(arguments_.output, number) +
+                               " is of an earlier run: remove it before bake or export "
+                               "--all-components");
+    }
     if (left_out_.empty()) return;
     session_.console.say("  left out: " + joined(left_out_) +
                          ", which cannot be mapped: " + percent(lost_) + " of the area");
@@ -118,6 +129,8 @@ class PartsRun {
   const std::function<MapOutcome(MeshSource)>& map_;
   size_t count_ = 0, written_ = 0;
   double lost_ = 0;
+  std::string mark_;
+  std::vector<int> files_;
   std::vector<std::string> left_out_;
   std::exception_ptr refused_;
   std::string first_refused_, reports_;

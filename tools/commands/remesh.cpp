@@ -266,6 +266,7 @@ int run_remesh(RemeshArguments& arguments) {
   }
   const std::vector<LevelOfDetail> levels =
       make_levels(mapped, std::move(grid), arguments, requests, session);
+  for (const LevelOfDetail& level : levels) tell_changed_holes(mapped, level.mesh, session.console);
   RemeshRecord record{.input = arguments.input,
                       .grid = arguments.grid,
                       .source = mapped,

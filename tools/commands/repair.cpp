@@ -35,7 +35,8 @@ constexpr char summary[] =
     "  sphparam repair parts.obj -o body.ply --component 2 --json repair.json\n"
     "\n"
     "The exit status is 0 when the mesh as written can be mapped, 4 when it cannot: it is written\n"
-    "all the same. What was whole is written as it was.\n";
+    "all the same. What was whole is written as it was, but that faces of more corners are cut\n"
+    "into triangles. Formats without a place for the mark of fillers get the surface alone.\n";
 
 struct RepairCommandArguments : CommonArguments {
   std::string input, output;

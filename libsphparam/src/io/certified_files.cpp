@@ -173,6 +173,12 @@ std::vector<std::string> add_mapped(PendingFiles& files, const std::string& path
 std::vector<std::string> add_mesh(PendingFiles& files, const std::string& path, MeshFile file,
                                   const WriteOptions& options) {
   std::vector<std::string> losses;
+  if (const auto fillers = std::ranges::count(fillers_of(file), 1);
+      fillers > 0 && !keeps_map(path)) {
+    file = without_fillers(file);
+    losses.push_back("the surface alone: " + counted(fillers, "filler", "fillers") +
+                     " of holes left out; --keep-holes closes them again");
+  }
   file = with_data_beside(files, path, std::move(file), losses);
   require_numbers(file, path);
   files.add(path, serialise_mesh(path, file, options), [&](std::string_view written) {

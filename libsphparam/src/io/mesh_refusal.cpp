@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "io/repaired_file.h"
+#include "number_text.h"
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/mesh_source.h"
@@ -121,6 +122,11 @@ MeshSource mended(MeshSource source, const RepairOptions& options) {
 }
 
 MeshFile written_as_mended(const MeshSource& source, std::vector<std::string>& losses) {
+  if (source.file.polygons > 0) {
+    add_loss(losses, counted(source.file.polygons, "face of more than three corners, which is",
+                             "faces of more than three corners, which are") +
+                         " cut into triangles");
+  }
   if (source.repairs.empty() || !read_sphere(source.file)) return source.file;
   add_loss(losses, "its map, which is of the mesh before the repair");
   return without_map(source.file);

@@ -4,6 +4,7 @@
 
 #include "mesh/index_range.h"
 #include "mesh/repair_state.h"
+#include "mesh/triangle_geometry.h"
 #include "number_text.h"
 #include "option_domain.h"
 #include "sphparam/mesh/topology.h"
@@ -17,10 +18,26 @@ namespace {
 
 constexpr int most_rounds = 5;
 
+/// Whether inside and outside are those of the surface, whatever shape the fillers have. A sheet is
+/// as much filler as surface: which side of it is out, its file says.
+bool encloses(const RepairState& state) {
+  if (!state.has_fillers()) return true;
+  constexpr double most_filled = 0.4;
+  double area = 0, filled = 0;
+  for (Face f = 0; f < state.face_count(); ++f) {
+    const auto& [a, b, c] = state.faces[f];
+    const double of_face = triangle_area(state.shape[a], state.shape[b], state.shape[c]);
+    area += of_face;
+    if (state.fillers[f]) filled += of_face;
+  }
+  return filled <= most_filled * area;
+}
+
 bool turn_outward(RepairState& state, const MeshInspection& inspection) {
   const auto inside_out = [](const MeshDefect& d) { return d.kind == DefectKind::InsideOut; };
-  if (!inspection.is_sphere() || state.has_fillers() ||
-      std::none_of(inspection.defects.begin(), inspection.defects.end(), inside_out)) {
+  if (!inspection.is_sphere() ||
+      std::none_of(inspection.defects.begin(), inspection.defects.end(), inside_out) ||
+      !encloses(state)) {
     return false;
   }
   for (Face f = 0; f < state.face_count(); ++f) state.turn_over(f);

@@ -5,6 +5,7 @@
 
 #include "number_text.h"
 #include "records/json_parts.h"
+#include "sphparam/io/fillers.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/repair_advice.h"
 #include "sphparam/io/sphere_file.h"
@@ -51,6 +52,20 @@ std::string topology(const MeshInspection& mesh) {
   return text;
 }
 
+/// What fillers close of a mesh, and what is surface without them.
+struct ClosedHoles {
+  std::int64_t fillers = 0, holes = 0;
+  double area = 0;  // of the surface
+};
+
+/// Nothing where there are no fillers.
+std::optional<ClosedHoles> closed_holes(const MeshFile& file) {
+  const FillerMarks fillers = fillers_of(file);
+  if (fillers.empty()) return std::nullopt;
+  const MeshInspection surface = inspect_mesh(without_fillers(file).mesh);
+  return ClosedHoles{std::ranges::count(fillers, 1), surface.boundary_loops, surface.area};
+}
+
 /// An STL names no vertices: its corners are put together by their coordinates as they are read.
 bool is_soup(const MeshFile& file) { return file.format.starts_with("STL"); }
 
@@ -59,7 +74,13 @@ std::string welding(const MeshSource& source) {
   return source.welded ? "used: the faces as indexed are not closed" : "not used";
 }
 
-std::string figures(const MeshSource& source) {
+std::string filler_line(const std::optional<ClosedHoles>& closed) {
+  if (!closed) return "";
+  return line("fillers", counted(closed->fillers, "triangle", "triangles") + ", closing " +
+                             counted(closed->holes, "hole", "holes") + "; no surface");
+}
+
+std::string figures(const MeshSource& source, const std::optional<ClosedHoles>& closed) {
   const MeshInspection& mesh = source.inspection;
   const MeshFile& file = source.file;
   const std::string triangulated =
@@ -69,7 +90,8 @@ std::string figures(const MeshSource& source) {
          line("edges", std::to_string(mesh.edges)) +
          line("components", std::to_string(mesh.components)) + line("topology", topology(mesh)) +
          line("bounding box", point(mesh.lower) + " to " + point(mesh.upper)) +
-         line("area", short_number(mesh.area, figure_digits)) +
+         filler_line(closed) +
+         line("area", short_number(closed ? closed->area : mesh.area, figure_digits)) +
          line("volume", short_number(mesh.volume, figure_digits)) +
          line("attributes", attributes(file)) + line("welding", welding(source));
 }
@@ -77,6 +99,12 @@ std::string figures(const MeshSource& source) {
 /// How the map that a file has came about; nothing where it has none.
 Provenance provenance_in(const MeshFile& file) {
   return has_map(file) ? read_provenance(file) : Provenance{};
+}
+
+/// Null for a mesh without fillers.
+Json closed_json(const std::optional<ClosedHoles>& closed) {
+  if (!closed) return nullptr;
+  return {{"triangles", closed->fillers}, {"holes", closed->holes}};
 }
 
 /// What --repair would do; null for a mesh that needs none.
@@ -95,10 +123,14 @@ Json trial_json(const std::optional<RepairTrial>& trial) {
 }  // namespace
 
 std::string to_json(const InspectionRecord& record) {
+  const std::optional<ClosedHoles> closed = closed_holes(record.source.file);
+  Json inspection = inspection_json(record.source.inspection);
+  if (closed) inspection["area"] = closed->area;
   return text_of({{"sphparam", version},
                   {"command", "info"},
                   {"input", input_json(record.source)},
-                  {"inspection", inspection_json(record.source.inspection)},
+                  {"inspection", inspection},
+                  {"fillers", closed_json(closed)},
                   {"repair", trial_json(record.repair)},
                   {"welded", record.source.welded || is_soup(record.source.file)},
                   {"provenance", pairs_json(provenance_in(record.source.file))},
@@ -108,13 +140,17 @@ std::string to_json(const InspectionRecord& record) {
 
 std::string to_text(const InspectionRecord& record) {
   const MeshSource& source = record.source;
-  std::string text = display_name(source.path) + "\n" + figures(source);
+  const std::optional<ClosedHoles> closed = closed_holes(source.file);
+  std::string text = display_name(source.path) + "\n" + figures(source, closed);
   for (const auto& [key, value] : provenance_in(source.file)) text += line("map " + key, value);
   for (const std::string& note : source.notes) text += line("note", note);
   if (!source.inspection.defects.empty()) {
     text += "What is odd or wrong:\n" + defect_list(source.inspection.defects);
   }
-  if (source.inspection.is_sphere()) return text + "A closed genus-0 mesh: it can be mapped.\n";
+  if (source.inspection.is_sphere()) {
+    return text + (closed ? "With its fillers a closed genus-0 mesh" : "A closed genus-0 mesh") +
+           ": it can be mapped.\n";
+  }
   text += "This mesh cannot be mapped to a sphere as it is.\n";
   return record.repair ? text + repair_advice(*record.repair, source.path) : text;
 }

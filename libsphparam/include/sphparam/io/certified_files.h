@@ -42,8 +42,9 @@ std::vector<std::string> add_mapped(PendingFiles& files, const std::string& path
                                     const Polygons& faces, const Topology& topology, int threads,
                                     WriteOptions options = {});
 
-/// Adds a mesh whatever it is, in the format that the name asks for. It is read back once written,
-/// and must have the same triangles: WriteError if not. Returns what the format had no place for.
+/// Adds a mesh whatever it is, in the format that the name asks for: without its fillers where that
+/// has no place for their mark, as they would be surface there. It is read back once written, and
+/// must have the same triangles: WriteError if not. Returns what the format had no place for.
 /// Throws: UnmeasurableMesh as `require_numbers`; WriteError for a name of no format.
 std::vector<std::string> add_mesh(PendingFiles& files, const std::string& path, MeshFile file,
                                   const WriteOptions& options = {});

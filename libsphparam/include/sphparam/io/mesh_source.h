@@ -68,7 +68,7 @@ class MeshRefusal : public MeshError {
 MeshSource mended(MeshSource source, const RepairOptions& options);
 
 /// What is to be written of it: its file, without a map where something was done to the mesh, which
-/// is told among the losses.
+/// is told among the losses, as is how many of its faces were cut into triangles.
 MeshFile written_as_mended(const MeshSource& source, std::vector<std::string>& losses);
 
 /// The mesh mended, with the inspection of what it is then; `repairs`, `parts` and `notes` say what
