@@ -9,7 +9,7 @@ import numpy as np
 sys.path.insert(0, str(pathlib.Path(__file__).parents[3] / "tools/blender"))
 from spherical_map.core import connected, layout, ply
 from spherical_map.core.defects import places_of
-from spherical_map.core.refusal import Defect
+from spherical_map.core.refusal import Defect, Refusal
 from spherical_map.core.surface import Surface, surface_of
 
 assert "bpy" not in sys.modules
@@ -134,10 +134,53 @@ def check_lookup():
         assert abs(value - np.dot(direction, [0.3, -0.5, 0.8])) < 0.01, direction
 
 
+def check_limit():
+    """What the operator's properties allow is made up to so many texels, and refused above it with what to choose."""
+    for edges in range(2, 257):
+        for levels in range(1, 8):
+            fits = 6 * (edges * 2**levels + 1) ** 2 <= 2**24
+            try:
+                layout.require_size(edges, levels)
+                assert fits, (edges, levels)
+            except Refusal as refusal:
+                assert not fits, (edges, levels)
+                most = int(str(refusal).split("Levels ")[1].split()[0])
+                assert 1 <= most < levels
+                layout.require_size(edges, most)
+
+
+def check_source():
+    """Twice the edges of the subdivided mesh about the equator, as long as nothing is told."""
+    for edges in range(2, 257):
+        for levels in range(1, 8):
+            width, lost = layout.source_width(edges, levels)
+            around = 4 * edges * 2**levels
+            assert width == min(2 * around, 8192) and bool(lost) == (2 * around > 8192)
+            assert not lost or ("8192 × 4096 texels" in lost and f"{2 * around} × {around}" in lost)
+
+
+def check_columns(folder):
+    """No name of an attribute takes the place of a column with a role."""
+    ball = surface(tetrahedron)
+    ball.directions = ball.positions.astype(float)
+    ball.colours = np.full((4, 4), 9, np.uint8)
+    names = ("x", "sx", "red", "alpha", "attribute_0", "two words", "two\nlines")
+    ball.scalars = {name: np.full(4, 100 + number, np.float32) for number, name in enumerate(names)}
+    ball.write(folder / "names.ply")
+    found = ply.read(folder / "names.ply")
+    assert (found.table("x", "y", "z").astype(np.float32) == ball.positions).all()
+    assert (found.table("sx", "sy", "sz") == ball.directions).all() and (found.table("red", "alpha") == 9).all()
+    for number, name in enumerate(names):
+        assert (found.vertices[ball.column_of(name)] == 100 + number).all()
+
+
 check_defects()
 check_connected()
 with tempfile.TemporaryDirectory() as name:
     check_ply(pathlib.Path(name))
+    check_columns(pathlib.Path(name))
 check_layout()
+check_limit()
+check_source()
 check_lookup()
 print("blender: the core works without Blender")

@@ -113,6 +113,85 @@ def check_uses():
     expect_refusal(bpy.ops.object.spherical_map_remesh, "came after it was mapped", "1 vertices selected")
 
 
+def uses():
+    return (lambda: bpy.ops.object.spherical_map_bake(field="ao", size=32), bpy.ops.object.spherical_map_remesh,
+            bpy.ops.object.spherical_map_control)  # fmt: skip
+
+
+def mapped(name="bad"):
+    obj = obj_of(ball(), name)
+    bpy.ops.object.spherical_map()
+    return obj
+
+
+def remove_face(obj):
+    bm = bmesh.new()
+    bm.from_mesh(obj.data)
+    bm.faces.ensure_lookup_table()
+    bm.faces.remove(bm.faces[7])
+    bm.to_mesh(obj.data)
+    bm.free()
+
+
+def things():
+    return [len(items) for items in (bpy.data.objects, bpy.data.meshes, bpy.data.images, bpy.data.textures)]
+
+
+def check_broken_later():
+    """A mesh that was mapped and then lost a face: each use says what Map says of it."""
+    start_anew()
+    obj = mapped()
+    remove_face(obj)
+    before, told = things(), []
+    for call in (*uses(), bpy.ops.object.spherical_map):
+        told.append(expect_refusal(call, "bad is not a closed genus-0 mesh", "3 boundary edges", "3 edges selected"))
+        assert selected(obj)[1] == 3
+    assert len(set(told)) == 1 and things() == before, told
+    return told[0]
+
+
+def check_broken_target():
+    """Of two meshes the broken one is named and selected."""
+    start_anew()
+    source, target = mapped("source"), mapped("target")
+    remove_face(target)
+    make_active(target, source)
+    told = expect_refusal(uses()[0], "target is not a closed", "3 edges selected")
+    assert bpy.context.object == target and selected(target)[1] == 3
+    return told
+
+
+def check_no_area():
+    """A mesh that has a map, no defect, and yet no control mesh: what sphparam says of it is told."""
+    start_anew()
+    obj = mapped()
+    obj.data.vertices.foreach_set("co", np.ones(3 * len(obj.data.vertices), np.float32))
+    before = things()
+    told = expect_refusal(bpy.ops.object.spherical_map_control, "no area")
+    assert things() == before
+    return told
+
+
+def check_not_finite():
+    start_anew()
+    obj = mapped()
+    obj.data.attributes.new("my heat", "FLOAT", "POINT").data[3].value = float("nan")
+    told = expect_refusal(bpy.ops.object.spherical_map_remesh, "my heat of 1 vertices", "1 vertices selected")
+    assert column(obj.data.vertices, "select", bool).nonzero()[0].tolist() == [3]
+    return told
+
+
+def check_too_large():
+    """An image that would take the memory of the machine is refused before any work."""
+    start_anew()
+    mapped()
+    before = things()
+    told = expect_refusal(lambda: bpy.ops.object.spherical_map_control(edges=256, levels=7),
+                          "32769 × 196614 texels", "Levels 2 or fewer Edges")  # fmt: skip
+    assert things() == before
+    return told
+
+
 def check_nowhere():
     """Without package and program the preferences are named."""
     wanted = bpy.context.preferences.addons["spherical_map"].preferences
@@ -129,7 +208,7 @@ def check_nowhere():
 
 
 install()
-said_by = []
+said_by, told_by = [], []
 check_nowhere()
 for route in routes:
     start_anew()
@@ -138,6 +217,10 @@ for route in routes:
     check_others()
     check_copies()
     check_uses()
+    told_by.append([check() for check in (check_broken_later, check_broken_target, check_no_area,
+                                          check_not_finite, check_too_large)])  # fmt: skip
+    start_anew()
     said_by.append(refused(with_hole(), "boundary"))
 assert said_by[0].replace("bad.001", "bad") .split("\n")[1:] == said_by[1].split("\n")[1:], "both routes say the same"
+assert told_by[0] == told_by[1], told_by
 said("errors: all told, all places selected, nothing changed")

@@ -6,7 +6,7 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import bpy
 import numpy as np
-from support import (directions, drawn_triangles, install, load, load_pixels, loop_vertices, make_active, pixels,
+from support import (column, directions, drawn_triangles, install, load, load_pixels, loop_vertices, make_active, pixels,
                      positions, ran, routes, said, start_anew, use, uv, work, write_mesh)  # fmt: skip
 
 width = 512
@@ -117,6 +117,45 @@ def check_attribute():
     assert np.abs(found[:, :, 0] - place[:, :, 2]).max() < 1e-5
 
 
+taken = ("x", "sx", "red", "s", "source_vertex", "theta", "nx", "attribute_0", "my heat", "Color")
+
+
+def check_names():
+    """Attributes may be called as anything in sphparam's files is, and keep their names and numbers."""
+    made = []
+    for route in routes:
+        use(route)
+        obj = mapped("creature.ply")
+        bpy.ops.object.spherical_map_remesh(grid="ICO", level=4)
+        plain = bpy.context.object.data
+        for number, name in enumerate(taken):
+            kind = "INT" if name == "source_vertex" else "FLOAT"
+            values = np.full(len(obj.data.vertices), number) if kind == "INT" else number + positions(obj.data)[:, 2]
+            obj.data.attributes.new(name, kind, "POINT").data.foreach_set("value", values)
+        make_active(obj)
+        bpy.ops.object.spherical_map_remesh(grid="ICO", level=4)
+        mesh = bpy.context.object.data
+        assert (positions(mesh) == positions(plain)).all() and (directions(mesh) == directions(plain)).all()
+        assert len(mesh.color_attributes) == len(plain.color_attributes) == 1
+        assert (column(mesh.color_attributes[0].data, "color", width=4) ==
+                column(plain.color_attributes[0].data, "color", width=4)).all()  # fmt: skip
+        for number, name in enumerate(taken):
+            kind = np.int32 if name == "source_vertex" else np.float32
+            found = column(mesh.attributes[name].data, "value", kind)
+            wanted = np.full(len(found), number) if kind == np.int32 else number + positions(mesh)[:, 2]
+            assert np.abs(found - wanted).max() < 1e-4, name
+        make_active(obj)
+        bpy.ops.object.spherical_map_bake(field="position", size=64)
+        place = pixels(bpy.data.images[f"{obj.name} position"])
+        for number, name in enumerate(taken):
+            bpy.ops.object.spherical_map_bake(field="scalar", attribute=name, size=64)
+            image = pixels(bpy.data.images[f"{obj.name} {name}"])
+            wanted = number + (0 if name == "source_vertex" else place[:, :, 2])
+            assert np.abs(image[:, :, 0] - wanted).max() < 1e-4, name
+        made.append(image.copy())
+    assert (made[0] == made[1]).all(), "both routes alike"
+
+
 def check_file():
     """What a saved file has when it is opened again."""
     obj = mapped("creature.ply")
@@ -152,9 +191,10 @@ obj = load(work / "creature.ply")
 off = check_images(write_mesh(work / "own.obj", obj.data))
 check_vertex_colours()
 check_remesh()
+check_names()
 use("PROGRAM")
 check_selected_to_active()
 check_attribute()
 check_undo()
 check_file()
-said(f"uses: images are the program's but for {100 * off:.2f} % of the texels at most; remesh, save, undo")
+said(f"uses: images are the program's but for {100 * off:.2f} % of the texels at most; remesh, any names, save, undo")

@@ -7,18 +7,56 @@ to the next, its first and last texel at its border; where the subdivided mesh h
 has the middle of a texel.
 """
 
+from typing import Tuple
+
 import numpy as np
 
+from .refusal import Refusal
+
+_most = 2**24  # texels: each takes half a kilobyte while Blender subdivides, so that these take 8 GB
+_texels_a_step = 2  # of sphparam's image, to one edge of the subdivided mesh at the equator
+_widest = 8192
 _normals = np.array([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]])
 _rights = np.array([[0, 1, 0], [0, -1, 0], [-1, 0, 0], [1, 0, 0], [0, 1, 0], [0, 1, 0]])
 _ups = np.array([[0, 0, 1], [0, 0, 1], [0, 0, 1], [0, 0, 1], [-1, 0, 0], [1, 0, 0]])
+
+
+def size_of(edges: int, steps: int) -> Tuple[int, int]:
+    """Width and height of the image."""
+    return edges * steps + 1, 6 * (edges * steps + 1)
+
+
+def _fits(edges: int, level: int) -> bool:
+    width, height = size_of(edges, 2**level)
+    return width * height <= _most
+
+
+def require_size(edges: int, levels: int) -> None:
+    """Raises Refusal where the image for so many levels of subdivision would be too large to be made."""
+    if _fits(edges, levels):
+        return
+    width, height = size_of(edges, 2**levels)
+    most = max((level for level in range(levels) if _fits(edges, level)), default=0)
+    raise Refusal(
+        f"{edges} edges and {levels} levels need an image of {width} × {height} texels, and {_most:,} texels are the "
+        f"most: Levels {most} or fewer Edges"
+    )
+
+
+def source_width(edges: int, levels: int) -> Tuple[int, str]:
+    """Of the equirectangular image that this one is resampled from; and, where that is less than the levels
+    could show, words that say so, to be put after others."""
+    wanted = _texels_a_step * 4 * edges * 2**levels
+    if wanted <= _widest:
+        return wanted, ""
+    return _widest, f"; read from {_widest} × {_widest // 2} texels, these levels could show {wanted} × {wanted // 2}"
 
 
 class CubeLayout:
     """Of a control mesh on `cube:edges`. Requires: (Q, 4) quads and the directions of their vertices."""
 
     def __init__(self, quads: np.ndarray, directions: np.ndarray, edges: int, steps: int):
-        self.side = edges * steps + 1
+        self.side = size_of(edges, steps)[0]
         """Texels of a side of a square."""
         corners = directions[quads]
         self._square = (corners.sum(axis=1) @ _normals.T).argmax(axis=1)
@@ -33,7 +71,7 @@ class CubeLayout:
         """… and its row, from the top."""
 
     @property
-    def size(self):
+    def size(self) -> Tuple[int, int]:
         """Width and height of the image."""
         return self.side, 6 * self.side
 

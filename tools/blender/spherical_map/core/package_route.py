@@ -26,12 +26,12 @@ class PackageRoute:
     name = "package"
 
     def __init__(self, package: Any, threads: int = 0):
-        self._sphparam, self._threads = package, threads
+        self._sphparam, self._threads, self._mesh = package, threads, ""
         self.progress: Callable[[str, float], bool] = lambda stage, fraction: True
 
     def map(self, mesh: str, out: str, balance: str, quality: str) -> Verdict:
         def step(sp, common):
-            made = sp.map(sp.read(mesh), balance=balance, quality=quality, **common)
+            made = sp.map(self._opened(sp.read, mesh), balance=balance, quality=quality, **common)
             made.save(out)
             distortion = made.distortion
             return Verdict(
@@ -70,7 +70,12 @@ class PackageRoute:
         return self._run(step)
 
     def _load(self, path: str) -> Any:
-        return self._sphparam.load(path, threads=self._threads)
+        return self._opened(self._sphparam.load, path, threads=self._threads)
+
+    def _opened(self, read: Callable[..., Any], path: str, **options: int) -> Any:
+        """What `read` makes of a file; errors about a mesh are about the last one."""
+        self._mesh = path
+        return read(path, **options)
 
     def _run(self, step) -> Any:
         """A step with the options that all calls have; its exceptions as those of `routes`."""
@@ -83,6 +88,8 @@ class PackageRoute:
             raise Stopped from None
         except sp.MeshError as error:
             defects = tuple(Defect(d.kind, d.fatal, d.ids, d.message, d.hint) for d in error.defects)
-            raise MeshRefused(defects) from None
+            if any(defect.fatal for defect in defects):
+                raise MeshRefused(defects, self._mesh) from None
+            raise Refusal(str(error)) from None
         except (sp.NotCertified, ValueError, OSError, ArithmeticError) as error:
             raise Refusal(str(error)) from None

@@ -6,7 +6,7 @@ import shutil
 import signal
 import subprocess
 import tempfile
-from typing import Callable, Dict, List, Optional
+from typing import Callable, Dict, List, Optional, Sequence, Tuple
 
 from .refusal import Defect, MeshRefused, Refusal, Stopped
 from .routes import BakeSettings, Fit, Verdict
@@ -90,14 +90,25 @@ class ProgramRoute:
         if code == _interrupted_exit or code == -signal.SIGTERM:
             raise Stopped
         if code == _mesh_exit:
-            raise self._refused(words[1])
+            raise self._refused(words, messages)
         if code:
             raise Refusal(_told(messages) or f"sphparam {words[0]} ended with status {code}")
 
-    def _refused(self, mesh: str) -> MeshRefused:
+    def _refused(self, words: Sequence[str], messages: List[str]) -> Exception:
+        """Of the meshes that a subcommand was given, the first that is broken; where none is, as a mesh
+        without area that is to be fitted, what was said."""
+        meshes = [words[1]] + [path for word, path in zip(words, words[1:]) if word == "--for"]
+        for mesh in meshes:
+            defects = self._defects(mesh)
+            if any(defect.fatal for defect in defects):
+                return MeshRefused(defects, mesh)
+        return Refusal(_told(messages) or f"sphparam {words[0]} ended with status {_mesh_exit}")
+
+    def _defects(self, mesh: str) -> Tuple[Defect, ...]:
         done = subprocess.run(
             [self._program, "info", mesh, "--json", "-"], capture_output=True, encoding="utf-8", check=False
         )
+        if not done.stdout:
+            return ()
         found = json.loads(done.stdout)["inspection"]["defects"]
-        defects = tuple(Defect(d["kind"], d["fatal"], tuple(d["first"]), d["message"], d["hint"]) for d in found)
-        return MeshRefused(defects)
+        return tuple(Defect(d["kind"], d["fatal"], tuple(d["first"]), d["message"], d["hint"]) for d in found)

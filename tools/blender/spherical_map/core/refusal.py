@@ -43,8 +43,9 @@ class Defect:
 
 
 class MeshRefused(Exception):
-    """What sphparam says of a mesh that cannot be mapped; numbers are those of the file."""
+    """What sphparam says of a mesh that cannot be mapped: at least one defect that is fatal. Numbers are those
+    of the file `mesh`, the path that the route was given."""
 
-    def __init__(self, defects: Tuple[Defect, ...]):
+    def __init__(self, defects: Tuple[Defect, ...], mesh: str):
         super().__init__("no closed genus-0 mesh")
-        self.defects = defects
+        self.defects, self.mesh = defects, mesh

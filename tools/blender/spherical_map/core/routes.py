@@ -8,7 +8,7 @@ Both take and write the same files, so that it makes no difference to whoever as
     remesh(mapped, grid, out)              → a mesh on a grid, with its map
     fit(mapped, grid, out, image, size)    → control mesh and displacement; a Fit
 
-and raises MeshRefused for meshes that cannot be mapped, Refusal with what was said otherwise, Stopped
+and raises MeshRefused for a file whose mesh cannot be mapped, Refusal with what was said otherwise, Stopped
 once `progress`, a function of stage and fraction, has returned False.
 """
 

@@ -1,8 +1,9 @@
 """What is done with surfaces: each step writes files for a route, asks it, and reads what it wrote."""
 
 import os
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from typing import List, Optional
+from typing import Dict, Iterator, Optional
 
 import numpy as np
 
@@ -38,6 +39,7 @@ class Baking:
 
     surface: Surface
     field: str
+    """In the words of `bake --map`; `scalar:NAME` for a scalar of the surface."""
     ending: str
     settings: BakeSettings
     texture: Optional[ImageFile] = None
@@ -50,6 +52,8 @@ class Remeshed:
 
     mesh: ply.Ply
     mapped: Mapped
+    scalars: Dict[str, np.ndarray]
+    """Those of the surface, by their names there."""
 
 
 @dataclass
@@ -68,6 +72,11 @@ def _require_sound(surface: Surface) -> None:
     if len(bad):
         message = f"{surface.name}: {len(bad)} vertices have no finite coordinates"
         raise Refusal(message, surface.name, Elements(vertices=bad))
+    for name, values in surface.scalars.items():
+        bad = surface.used[~np.isfinite(values[surface.used])]
+        if len(bad):
+            message = f"{surface.name}: the attribute {name} of {len(bad)} vertices is no finite number"
+            raise Refusal(message, surface.name, Elements(vertices=bad))
 
 
 def _explained(surface: Surface, refused: MeshRefused) -> Refusal:
@@ -78,6 +87,15 @@ def _explained(surface: Surface, refused: MeshRefused) -> Refusal:
             what = defect.message.split(": first")[0].split(": between")[0]
             lines.append(what + (f" ({defect.hint})" if defect.hint else ""))
     return Refusal("\n".join(lines), surface.name, places_of(surface, refused.defects))
+
+
+@contextmanager
+def _explaining(surfaces: Dict[str, Surface]) -> Iterator[None]:
+    """What a route refuses of files is told of the surfaces in them."""
+    try:
+        yield
+    except MeshRefused as refused:
+        raise _explained(surfaces[refused.mesh], refused) from None
 
 
 def _require_unwelded(surface: Surface, mapped: ply.Ply) -> None:
@@ -96,10 +114,8 @@ def map_surface(route, folder: str, surface: Surface, balance: str, quality: str
     _require_sound(surface)
     mesh, mapped = os.path.join(folder, "mesh.ply"), os.path.join(folder, "map.sph.ply")
     replace(surface, directions=None).write(mesh)
-    try:
+    with _explaining({mesh: surface}):
         verdict = route.map(mesh, mapped, balance, quality)
-    except MeshRefused as refused:
-        raise _explained(surface, refused) from None
     _require_unwelded(surface, ply.read(mapped))
     return Mapped(surface, _chart(route, folder, mapped, keep_topology), verdict)
 
@@ -129,18 +145,26 @@ def write_mapped(folder: str, surface: Surface, name: str = "map") -> str:
 
 
 def bake(route, folder: str, baking: Baking) -> ImageFile:
-    """Bakes an image."""
+    """Bakes an image. Raises Refusal with the elements at fault; Stopped. So do those below."""
     settings = replace(baking.settings)
     source = write_mapped(folder, baking.surface)
+    surfaces = {source: baking.surface}
     if baking.target is not None:
         settings.target = write_mapped(folder, baking.target, "target")
+        surfaces[settings.target] = baking.target
     if baking.texture is not None:
         settings.texture = os.path.join(folder, "texture" + baking.texture.ending)
         with open(settings.texture, "wb") as file:
             file.write(baking.texture.data)
     path = os.path.join(folder, "baked" + baking.ending)
-    route.bake(source, {baking.field: path}, settings)
+    with _explaining(surfaces):
+        route.bake(source, {_field_in_file(baking): path}, settings)
     return _image_file(path)
+
+
+def _field_in_file(baking: Baking) -> str:
+    kind, _, name = baking.field.partition(":")
+    return f"scalar:{baking.surface.column_of(name)}" if kind == "scalar" else baking.field
 
 
 def _image_file(path: str) -> ImageFile:
@@ -151,17 +175,22 @@ def _image_file(path: str) -> ImageFile:
 def remesh(route, folder: str, surface: Surface, grid: str) -> Remeshed:
     """A mesh on a grid of the sphere, and its chart."""
     out, again = os.path.join(folder, "remeshed.ply"), os.path.join(folder, "again")
-    route.remesh(write_mapped(folder, surface), grid, out)
+    mapped = write_mapped(folder, surface)
+    with _explaining({mapped: surface}):
+        route.remesh(mapped, grid, out)
     os.mkdir(again)
     found = ply.read(out)
     made = surface_of(found, f"{surface.name} {grid}")
-    return Remeshed(found, Mapped(made, _chart(route, again, write_mapped(again, made), False), None))
+    scalars = {name: found.vertices[surface.column_of(name)] for name in surface.scalars}
+    return Remeshed(found, Mapped(made, _chart(route, again, write_mapped(again, made), False), None), scalars)
 
 
 def fit_control(route, folder: str, surface: Surface, edges: int, width: int) -> Control:
     """A Catmull-Clark control mesh of 6·edges² quads, and what its surface lacks."""
     out, image = os.path.join(folder, "control.ply"), os.path.join(folder, "displacement.exr")
-    figures = route.fit(write_mapped(folder, surface), f"cube:{edges}", out, image, (width, width // 2))
+    mapped = write_mapped(folder, surface)
+    with _explaining({mapped: surface}):
+        figures = route.fit(mapped, f"cube:{edges}", out, image, (width, width // 2))
     return Control(ply.read(out), _image_file(image), figures)
 
 
@@ -173,12 +202,3 @@ def colours_of(found: ply.Ply) -> Optional[np.ndarray]:
     rows.append(found.vertices.get("alpha", np.full(len(rows[0]), 255 if rows[0].dtype == np.uint8 else 1)))
     table = np.stack(rows, axis=1)
     return table.astype(np.float64) / (255 if rows[0].dtype == np.uint8 else 1)
-
-
-_own = {"x", "y", "z", "nx", "ny", "nz", "sx", "sy", "sz", "theta", "phi", "red", "green", "blue", "alpha",
-        "source_vertex", "source_face", "triangle"}  # fmt: skip
-
-
-def scalars_of(found: ply.Ply) -> List[str]:
-    """The other properties of its vertices."""
-    return [name for name in found.vertices if name not in _own]

@@ -32,7 +32,7 @@ class Surface:
     colours: Optional[np.ndarray] = None
     """(V, 4) uint8, sRGB."""
     scalars: Dict[str, np.ndarray] = field(default_factory=dict)
-    """Name to (V,): float32 or int32."""
+    """Name to (V,): float32 or int32. Names are the user's, also `x` or `red`; see `column_of`."""
     used: np.ndarray = field(init=False)
     """Vertices of triangles, in order: numbers in the file count these."""
     triangles: np.ndarray = field(init=False)
@@ -47,6 +47,11 @@ class Surface:
         """How many polygons there are."""
         return len(self.polygon_starts)
 
+    def column_of(self, scalar: str) -> str:
+        """What a scalar is called in the file: by number, for its own name may be that of a coordinate, a
+        colour or part of the map there, or be no name of PLY."""
+        return f"attribute_{list(self.scalars).index(scalar)}"
+
     def write(self, path) -> None:
         """Writes used vertices and all triangles, each with its number as `triangle`."""
         columns = dict(zip("xyz", self.positions[self.used].astype("<f4").T))
@@ -54,7 +59,7 @@ class Surface:
             columns.update(zip(("sx", "sy", "sz"), self.directions[self.used].astype("<f8").T))
         if self.colours is not None:
             columns.update(zip(("red", "green", "blue", "alpha"), self.colours[self.used].T))
-        columns.update({name: values[self.used] for name, values in self.scalars.items()})
+        columns.update({self.column_of(name): values[self.used] for name, values in self.scalars.items()})
         numbers = np.arange(len(self.triangles), dtype="<i4")
         ply.write_triangles(
             path,

@@ -2,12 +2,9 @@
 
 import bpy
 
-from ..core import steps
+from ..core import layout, steps
 from ..scene import control, mesh_reading, selection
 from .running import RunningOperator
-
-_texels_a_step = 2  # of sphparam's image, to one edge of the subdivided mesh at the equator
-_widest = 8192
 
 
 class SPHERICAL_MAP_OT_control(RunningOperator, bpy.types.Operator):
@@ -28,11 +25,12 @@ class SPHERICAL_MAP_OT_control(RunningOperator, bpy.types.Operator):
         return context.window_manager.invoke_props_dialog(self)
 
     def gather(self, context):
+        layout.require_size(self.edges, self.levels)
         return mesh_reading.surface_of(context.object, with_directions=True)
 
     def work(self, surface):
         self._source = surface.name
-        width = min(_widest, _texels_a_step * 4 * self.edges * 2**self.levels)
+        width, self._lost = layout.source_width(self.edges, self.levels)
         return lambda route, folder: steps.fit_control(route, folder, surface, self.edges, width)
 
     def finish(self, context, result):
@@ -42,5 +40,5 @@ class SPHERICAL_MAP_OT_control(RunningOperator, bpy.types.Operator):
         said = result.figures
         return (
             f"{made.name}: {6 * self.edges ** 2} quads, RMS {said.base_rms:.4g} from the mesh without displacement, "
-            f"which is from {said.least:.4g} to {said.greatest:.4g}"
+            f"which is from {said.least:.4g} to {said.greatest:.4g}{self._lost}"
         )

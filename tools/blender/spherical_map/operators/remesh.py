@@ -54,7 +54,8 @@ class SPHERICAL_MAP_OT_remesh(RunningOperator, bpy.types.Operator):
 
     def finish(self, context, result):
         found, mapped = result.mesh, result.mapped
-        made = mesh_writing.new_object(mapped.surface.name, found, bpy.data.objects[self._source], context)
+        beside = bpy.data.objects[self._source]
+        made = mesh_writing.new_object(mapped.surface.name, found, beside, context, result.scalars)
         mesh_writing.apply_chart(made.data, mapped.surface, mapped.chart, True)
         selection.make_active(context, made)
         return f"{made.name}: {len(found.vertices['x'])} vertices, {len(found.counts)} faces"

@@ -80,7 +80,6 @@ def scalar_names(mesh: bpy.types.Mesh) -> List[str]:
     return [
         a.name for a in mesh.attributes
         if a.domain == "POINT" and a.data_type in ("FLOAT", "INT") and not a.name.startswith((".", "spherical_map"))
-        and " " not in a.name
     ]  # fmt: skip
 
 

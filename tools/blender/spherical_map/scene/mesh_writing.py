@@ -1,6 +1,6 @@
 """Maps, UV maps and normals onto meshes of Blender; new objects."""
 
-from typing import Optional
+from typing import Dict, Optional
 
 import bpy
 import numpy as np
@@ -95,8 +95,11 @@ def apply_chart(mesh: bpy.types.Mesh, surface: Surface, chart: charts.Chart, cut
     return int((~cut.kept).sum())
 
 
-def new_object(name: str, found: ply.Ply, beside: bpy.types.Object, context) -> bpy.types.Object:
-    """An object of a mesh with its map, where another one is, in the same collections; smooth."""
+def new_object(
+    name: str, found: ply.Ply, beside: bpy.types.Object, context, scalars: Optional[Dict[str, np.ndarray]] = None
+) -> bpy.types.Object:
+    """An object of a mesh with its map, colours and scalars, where another one is, in the same collections;
+    smooth."""
     mesh = bpy.data.meshes.new(name)
     mesh.vertices.add(len(found.vertices["x"]))
     mesh.vertices.foreach_set("co", found.table("x", "y", "z").astype(np.float32).ravel())
@@ -109,7 +112,7 @@ def new_object(name: str, found: ply.Ply, beside: bpy.types.Object, context) -> 
     mesh.polygons.foreach_set("use_smooth", np.ones(len(found.counts), bool))
     mesh.update(calc_edges=True)
     write_directions(mesh, found.table("sx", "sy", "sz").astype(np.float64))
-    _write_carried(mesh, found)
+    _write_carried(mesh, found, scalars or {})
     made = bpy.data.objects.new(name, mesh)
     made.matrix_world = beside.matrix_world
     for collection in beside.users_collection or [context.scene.collection]:
@@ -117,13 +120,12 @@ def new_object(name: str, found: ply.Ply, beside: bpy.types.Object, context) -> 
     return made
 
 
-def _write_carried(mesh: bpy.types.Mesh, found: ply.Ply) -> None:
-    """Colours and numbers that came along."""
+def _write_carried(mesh: bpy.types.Mesh, found: ply.Ply, scalars: Dict[str, np.ndarray]) -> None:
+    """Numbers and colours that came along: colours last, where Blender finds another name for them if need be."""
+    for name, values in scalars.items():
+        kind = "FLOAT" if values.dtype.kind == "f" else "INT"
+        write_attribute(mesh, name, kind, values.astype(np.float32 if kind == "FLOAT" else np.int32))
     colours: Optional[np.ndarray] = steps.colours_of(found)
     if colours is not None:
         attribute = mesh.color_attributes.new("Color", "BYTE_COLOR", "POINT")
         attribute.data.foreach_set("color_srgb", colours.astype(np.float32).ravel())
-    for name in steps.scalars_of(found):
-        values = found.vertices[name]
-        kind = "FLOAT" if values.dtype.kind == "f" else "INT"
-        write_attribute(mesh, name, kind, values.astype(np.float32 if kind == "FLOAT" else np.int32))
