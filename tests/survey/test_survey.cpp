@@ -123,7 +123,12 @@ TEST_CASE("survey: every mesh of a folder comes to its end, with its reasons and
   const SurveyedMesh& two = named(survey, "two.off");
   CHECK(two.end == SurveyEnd::MapsIfAsked);
   CHECK(certified_ways(two) == Words{"--repair --component 1", "--repair --all-components"});
+  CHECK(two.ways.at(0).told == "kept 50 % of the area and 50 % of the faces, lost 50 % and 50 %");
+  CHECK(two.ways.at(0).area_share == Approx(0.5));
+  CHECK(two.ways.at(0).drops_much());
   CHECK(two.ways.at(1).told == "2 of 2 components map");
+  CHECK(two.ways.at(1).area_share == 1);
+  CHECK(two.best_way() == &two.ways.at(1));
   const SurveyedMesh& torus = named(survey, "torus.obj");
   CHECK(torus.end == SurveyEnd::MapsIfAsked);
   CHECK(torus.genus == 1);
@@ -139,9 +144,21 @@ TEST_CASE("survey: the page and the report name every file, its end and what to 
   const Survey survey = survey_folder(meshes.folder.string(), {.picture_size = 0});
   const std::string page = survey_page(survey);
   CHECK(contains(page, "5 of 7 files map onto the sphere: 1 as they are, 2 after --repair, 2 "));
-  CHECK(contains(page, "two.off --repair --component 1 -o mapped.sph.ply"));
+  const std::size_t all = page.find("two.off --repair --all-components -o two.sph.ply: certified");
+  const std::size_t one =
+      page.find("two.off --repair --component 1 -o two.sph.ply: certified; kept");
+  CHECK(all < one);
+  CHECK(one != std::string::npos);
+  CHECK(contains(page, "open.obj --repair -o deeper_open.sph.ply"));
+  CHECK(contains(page, "<td>--repair --all-components</td>"));
+  CHECK(contains(page, "<a href=\"#file-7\">two.off</a>"));
+  CHECK(contains(page, "<h3 id=\"file-7\">two.off</h3>"));
+  CHECK_FALSE(contains(page, ">ball.ply</a>"));
   const auto json = nlohmann::json::parse(to_json(survey, 1.5));
   CHECK(json["counts"]["maps-mended"] == 2);
+  CHECK(json["meshes"][6]["needs"] == "--repair --all-components");
+  CHECK(json["meshes"][6]["ways"][0]["area_share"].get<double>() == Approx(0.5));
+  CHECK(json["meshes"][0]["needs"].is_null());
   CHECK(json["counts"]["unreadable"] == 1);
   REQUIRE(json["meshes"].size() == survey.meshes.size());
   for (std::size_t i = 0; i < survey.meshes.size(); ++i) {
@@ -152,6 +169,41 @@ TEST_CASE("survey: the page and the report name every file, its end and what to 
     CHECK(json["meshes"][i]["end"] == name_of(mesh.end));
     CHECK(json["meshes"][i]["ways"].size() == mesh.ways.size());
   }
+}
+
+TEST_CASE("survey: components that cannot be mapped are left out as map leaves them out") {
+  const Meshes meshes;
+  const auto with_ring = [&](double size) {
+    const TriangleMesh ball = icosphere(2);
+    TriangleMesh ring = Meshes::torus(), mesh;
+    ring.positions = (size * ring.positions).array() + 20;
+    mesh.positions.resize(ball.vertex_count() + ring.vertex_count(), 3);
+    mesh.positions << ball.positions, ring.positions;
+    mesh.triangles.resize(ball.face_count() + ring.face_count(), 3);
+    mesh.triangles << ball.triangles,
+        (ring.triangles.array() + static_cast<int>(ball.vertex_count())).matrix();
+    return mesh;
+  };
+  meshes.write("half.off", with_ring(0.5));
+  TriangleMesh three = with_ring(0.02);
+  const Eigen::Index vertices = three.vertex_count(), faces = three.face_count();
+  three.positions.conservativeResize(2 * vertices, 3);
+  three.positions.bottomRows(vertices) = three.positions.topRows(vertices).array() + 50;
+  three.triangles.conservativeResize(2 * faces, 3);
+  three.triangles.bottomRows(faces) =
+      three.triangles.topRows(faces).array() + static_cast<int>(vertices);
+  meshes.write("specks.off", three);
+  const Survey survey = survey_folder(meshes.folder.string(), {.picture_size = 0});
+  const SurveyedMesh& specks = named(survey, "specks.off");
+  REQUIRE(specks.best_way());
+  CHECK(specks.best_way()->options == "--repair --all-components");
+  CHECK(contains(specks.best_way()->told, "2 of 4 components map, with 99."));
+  CHECK(contains(specks.best_way()->told, "left out: component 4 ("));
+  CHECK(contains(specks.best_way()->told, "of the area): genus 1"));
+  CHECK_FALSE(specks.best_way()->drops_much());
+  const SurveyedMesh& half = named(survey, "half.off");
+  CHECK_FALSE(half.ways.back().certified);
+  CHECK(half.ways.back().drops_much());
 }
 
 TEST_CASE(

@@ -17,7 +17,7 @@ constexpr char summary[] =
     "Examples:\n"
     "  sphparam survey scans/ -o survey.html\n"
     "  sphparam survey scans/ -o survey.html --json survey.json --size 640\n"
-    "  sphparam survey scans/ -o survey.html --records found/   goes on where it was stopped\n"
+    "  mkdir found && sphparam survey scans/ -o survey.html --records found/\n"
     "  sphparam survey scans/ -o survey.html --max-seconds 60 --size 0\n"
     "\n"
     "The exit status is 0 when all map, be it after --repair, and 4 when one does not or asks for\n"

@@ -38,12 +38,17 @@ std::string pairs(std::string_view css_class,
   return html + "</dl>\n";
 }
 
-std::string row(std::string_view cell, const std::vector<std::string>& texts) {
+std::string linked(std::string_view text, const std::string& id) {
+  return id.empty() ? escaped(text) : "<a href=\"#" + escaped(id) + "\">" + escaped(text) + "</a>";
+}
+
+std::string row(std::string_view cell, const std::vector<std::string>& texts,
+                const std::string& link = "") {
   std::string html = "<tr>";
   for (size_t k = 0; k < texts.size(); ++k) {
     const bool names_row = k == 0 && cell == "td";
-    html +=
-        names_row ? "<th scope=\"row\">" + escaped(texts[k]) + "</th>" : element(cell, texts[k]);
+    html += names_row ? "<th scope=\"row\">" + linked(texts[k], link) + "</th>"
+                      : element(cell, texts[k]);
   }
   return html + "</tr>\n";
 }
@@ -54,7 +59,11 @@ Page::Page(std::string_view title) : title_(title) { body_ = element("h1", title
 
 void Page::heading(std::string_view text) { body_ += element("h2", text) + "\n"; }
 
-void Page::subheading(std::string_view text) { body_ += element("h3", text) + "\n"; }
+void Page::subheading(std::string_view text, std::string_view id) {
+  body_ += (id.empty() ? element("h3", text)
+                       : "<h3 id=\"" + escaped(id) + "\">" + escaped(text) + "</h3>") +
+           "\n";
+}
 
 void Page::paragraph(std::string_view text) { body_ += element("p", text) + "\n"; }
 
@@ -82,7 +91,8 @@ void Page::table(const PageTable& table) {
   }
   body_ += "<div class=\"wide\" tabindex=\"0\"><table>\n";
   body_ += "<thead>" + row("th", table.header) + "</thead>\n<tbody>\n";
-  for (const std::vector<std::string>& texts : table.rows) body_ += row("td", texts);
+  for (size_t k = 0; k < table.rows.size(); ++k)
+    body_ += row("td", table.rows[k], k < table.links.size() ? table.links[k] : "");
   body_ += "</tbody></table></div>\n";
 }
 

@@ -17,6 +17,8 @@ struct PageTable {
   std::string caption;
   std::vector<std::string> header;             // one a column
   std::vector<std::vector<std::string>> rows;  // texts; the first column names the row
+  /// Where the name of each row leads on this page: an id, or empty; none at all: no row's does.
+  std::vector<std::string> links = {};
 };
 
 /// A page of HTML that needs nothing but its own figures: no network; readable on a phone, on
@@ -25,8 +27,9 @@ class Page {
  public:
   explicit Page(std::string_view title);
 
-  void heading(std::string_view text);     // of a section
-  void subheading(std::string_view text);  // of a part of it
+  void heading(std::string_view text);  // of a section
+  /// Of a part of it; with an id, links lead there.
+  void subheading(std::string_view text, std::string_view id = "");
   void paragraph(std::string_view text);
   void list(const std::vector<std::string>& items);
   /// Side by side where there is room; `least_width` is that of one, in pixels.

@@ -12,6 +12,7 @@
 #include "sphparam/errors.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/safe_file.h"
+#include "sphparam/mesh/mesh_repair.h"
 #include "survey/isolated_trial.h"
 #include "survey/survey_record.h"
 #include "survey/surveyor.h"
@@ -95,6 +96,16 @@ std::string name_of(SurveyEnd end) {
       return "stopped";
   }
   return "";
+}
+
+bool SurveyedWay::drops_much() const { return area_share < RepairOptions{}.least_kept; }
+
+const SurveyedWay* SurveyedMesh::best_way() const {
+  constexpr double equal = 1e-3;
+  const SurveyedWay* best = nullptr;
+  for (const SurveyedWay& way : ways)
+    if (way.certified && (!best || way.area_share > best->area_share + equal)) best = &way;
+  return best;
 }
 
 long Survey::count(SurveyEnd end) const {

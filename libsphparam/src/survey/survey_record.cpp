@@ -16,7 +16,11 @@ constexpr SurveyEnd ends[] = {SurveyEnd::Maps,      SurveyEnd::MapsMended,   Sur
 Json json_of(const SurveyedMesh& mesh) {
   Json ways = Json::array();
   for (const SurveyedWay& way : mesh.ways)
-    ways.push_back({{"options", way.options}, {"certified", way.certified}, {"told", way.told}});
+    ways.push_back({{"options", way.options},
+                    {"certified", way.certified},
+                    {"told", way.told},
+                    {"area_share", way.area_share}});
+  const SurveyedWay* const best = mesh.best_way();
   return {{"name", mesh.name},
           {"end", name_of(mesh.end)},
           {"format", mesh.format},
@@ -27,6 +31,7 @@ Json json_of(const SurveyedMesh& mesh) {
           {"genus", mesh.genus < 0 ? Json() : Json(mesh.genus)},
           {"defects", mesh.defects},
           {"ways", ways},
+          {"needs", best ? Json(best->options) : Json()},
           {"repairs", mesh.repairs},
           {"reasons", mesh.reasons}};
 }
@@ -57,7 +62,8 @@ SurveyedMesh mesh_of(const Json& json) {
   mesh.genus = json.at("genus").is_null() ? -1 : json.at("genus").get<long>();
   json.at("defects").get_to(mesh.defects);
   for (const Json& way : json.at("ways"))
-    mesh.ways.push_back({way.at("options"), way.at("certified"), way.at("told")});
+    mesh.ways.push_back(
+        {way.at("options"), way.at("certified"), way.at("told"), way.at("area_share")});
   json.at("repairs").get_to(mesh.repairs);
   json.at("reasons").get_to(mesh.reasons);
   for (const Json& picture : json.at("pictures"))

@@ -9,11 +9,13 @@
 #include <new>
 #include <optional>
 
+#include "number_text.h"
 #include "sphparam/errors.h"
 #include "sphparam/io/components.h"
 #include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/mesh_source.h"
 #include "sphparam/names.h"
+#include "sphparam/words.h"
 #include "survey/defect_picture.h"
 
 namespace sphparam {
@@ -104,10 +106,13 @@ class Surveyor {
   }
 
   void try_way(const MeshSource& source, const RepairTrial& trial) {
-    SurveyedWay& way = mesh_.ways.emplace_back(SurveyedWay{options_line(trial.options), false, ""});
+    SurveyedWay& way =
+        mesh_.ways.emplace_back(SurveyedWay{options_line(trial.options), false, "", 1});
     MeshSource mended = repaired(source, trial.options);
     std::vector<std::string> stale;  // a map of the mesh before
     mended.file = written_as_mended(mended, stale);
+    way.told = kept_line(mended.parts);
+    if (!way.told.empty()) way.area_share = mended.parts.area_share;
     if (mesh_.ways.size() == 1) draw_mended(mended.file);
     try {
       certify(std::move(mended));
@@ -116,6 +121,8 @@ class Surveyor {
       way.told = error.what();
     }
   }
+
+  /// Parts that cannot be mapped are left out as `map` leaves them out: specks.
 
   void try_kept_holes(const MeshSource& source) {
     const RepairTrial trial = try_repair(source, true);
@@ -127,20 +134,39 @@ class Surveyor {
     std::vector<MeshPart> parts = connected_parts(source, repairs);
     const std::size_t all = parts.size();
     std::size_t mapped = 0;
-    for (MeshPart& part : parts) mapped += maps(std::move(part.source), repairs) ? 1 : 0;
-    const std::string told =
-        std::to_string(mapped) + " of " + std::to_string(all) + " components map";
-    mesh_.ways.push_back({"--repair --all-components", mapped == all, told});
+    bool folds = false;
+    double lost = 0;
+    std::string left_out;
+    for (std::size_t i = 0; i < all; ++i) {
+      const std::string name = "component " + std::to_string(i + 1) + " (" +
+                               percent(parts[i].area_share) + " of the area)";
+      std::string why = why_not(std::move(parts[i].source), repairs, folds);
+      if (why.empty()) {
+        ++mapped;
+      } else {
+        lost += parts[i].area_share;
+        left_out += "; left out: " + name + ": " + std::move(why);
+      }
+    }
+    const std::string kept =
+        mapped < all ? ", with " + percent(1 - lost, 5) + " of the area" : std::string();
+    const bool enough = mapped == all || (mapped > 0 && 1 - lost >= repairs.least_kept);
+    mesh_.ways.push_back({"--repair --all-components", enough && !folds,
+                          std::to_string(mapped) + " of " + std::to_string(all) +
+                              " components map" + kept + left_out,
+                          mapped == all ? 1 : 1 - lost});
   }
 
-  bool maps(MeshSource part, const RepairOptions& repairs) {
+  /// Empty: it maps. `folds`: a map was not certified, which ends `map` with an error.
+  std::string why_not(MeshSource part, const RepairOptions& repairs, bool& folds) {
     try {
       certify(repaired(std::move(part), repairs));
-      return true;
-    } catch (const MeshError&) {
-      return false;
-    } catch (const NotCertifiedError&) {
-      return false;
+      return "";
+    } catch (const MeshError& error) {
+      return joined(messages(error.defects()), "; ");
+    } catch (const NotCertifiedError& error) {
+      folds = true;
+      return error.what();
     }
   }
 

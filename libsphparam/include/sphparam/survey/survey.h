@@ -29,10 +29,14 @@ struct SurveyPicture {
 
 /// Options of `map` that a mesh needs, tried out.
 struct SurveyedWay {
-  std::string options;  // "--repair --component 1"
-  bool certified =
-      false;         // it ended with a certified map; of all components, where they are wanted
-  std::string told;  // "12 of 13 components map", or why it is not certified; may be empty
+  std::string options;     // "--repair --component 1"
+  bool certified = false;  // it ended with a certified map; of all components, where they are
+                           // wanted, but for specks
+  std::string told;  // "kept 99.7 % of the area …", "12 of 13 components map; …", or why it is
+                     // not certified; may be empty
+  double area_share = 1;  // that it keeps of the surface
+  /// More is left out than specks.
+  bool drops_much() const;
 };
 
 /// What became of one file.
@@ -47,6 +51,9 @@ struct SurveyedMesh {
   std::vector<std::string> repairs;     // that were done, or tried in vain
   std::vector<std::string> reasons;     // why there is no map even so
   std::vector<SurveyPicture> pictures;  // of its defects, and of the mended mesh
+  /// The way to go: of those that are certified the one that keeps most, the first of equals; null
+  /// where none is.
+  const SurveyedWay* best_way() const;
 };
 
 struct SurveyOptions {
