@@ -1,5 +1,7 @@
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <filesystem>
+#include <limits>
 
 #include "mapped.h"
 #include "program.h"
@@ -98,6 +100,49 @@ TEST_CASE("data: no file that nobody named is replaced by what lies beside a sur
   CHECK_FALSE(std::filesystem::exists(out));
   CHECK(read_vertex_data(theta).vertex_count() == brain.vertices);
   CHECK(sphparam_program({"repair", map, "-o", out}).code == 3);
+}
+
+TEST_CASE("data: a file that is written has the data of its --data, or there is none") {
+  const Brain brain;
+  const std::string metric = brain.mapped.folder / "m.shape.gii",
+                    label = brain.mapped.folder / "l.label.gii",
+                    map = brain.mapped.folder / "lh.sph.ply";
+  REQUIRE(sphparam_program({"map", brain.white, "--data", brain.parcels, "-o", map}).code == 0);
+  const auto remeshed = [&](const std::string& transfer) {
+    return sphparam_program({"remesh", map, "--grid", "ico:1", "--data", brain.thickness,
+                             "--write-data", metric, "--transfer", transfer});
+  };
+  for (const char* transfer : {"none", "parcels"}) {
+    const Ended ended = remeshed(transfer);
+    CHECK(ended.code == 2);
+    CHECK_THAT(ended.err, Contains("m.shape.gii") && Contains("--transfer all carries it"));
+    CHECK_FALSE(std::filesystem::exists(metric));
+  }
+  CHECK(remeshed("thickness").code == 0);
+  CHECK(read_vertex_data(metric).kind == DataKind::Metric);
+}
+
+TEST_CASE("data: missing values stay missing in files beside, and no mesh file loses them unsaid") {
+  const Brain brain;
+  VertexData measure = read_vertex_data(brain.thickness);
+  measure.columns[0].values[3] = std::numeric_limits<double>::quiet_NaN();
+  write_vertex_data(brain.mapped.folder / "lh.depth", measure);
+  const std::string depth = brain.mapped.folder / "lh.depth",
+                    out = brain.mapped.folder / "S.L.white.surf.gii",
+                    ply = brain.mapped.folder / "out.ply",
+                    metric = brain.mapped.folder / "m.shape.gii";
+  REQUIRE(sphparam_program({"repair", brain.white, "--data", depth, "-o", out}).code == 0);
+  CHECK(std::isnan(
+      read_vertex_data(brain.mapped.folder / "S.L.depth.shape.gii").columns[0].values.at(3)));
+  const Ended left = sphparam_program({"repair", brain.white, "--data", depth, "-o", ply});
+  CHECK(left.code == 0);
+  CHECK_THAT(left.err + left.out, Contains("are no finite numbers"));
+  const Ended refused =
+      sphparam_program({"remesh", brain.white, "--sphere", brain.sphere, "--grid", "ico:1",
+                        "--data", depth, "--write-data", metric, "-o", ply});
+  CHECK(refused.code == 2);
+  CHECK_THAT(refused.err, Contains("lh.depth has values that are no finite numbers"));
+  CHECK_FALSE(std::filesystem::exists(metric));
 }
 
 TEST_CASE("data: what makes no sense is refused before any work") {

@@ -360,3 +360,68 @@ TEST_CASE("vertex_data: names that mean something in a mesh are no names of data
     CHECK(attached_data(mesh).at(0).name == name);
   }
 }
+
+TEST_CASE("vertex_data: keys that are no whole numbers are refused where labels are written") {
+  for (const double key : {1.5, missing, 1e10}) {
+    VertexData data = lobes();
+    data.columns[0].values[1] = key;
+    for (const char* name : {"a.label.gii", "lh.a.annot", "lh.a.label"})
+      CHECK(contains(writing_complaint(name, data), "keys are whole numbers"));
+  }
+}
+
+TEST_CASE("vertex_data: text in UTF-8 passes through GIFTI, other bytes are told") {
+  const Folder folder;
+  PendingFiles files;
+  VertexData data = lobes();
+  data.labels[1].name = "cortex cérébral 脳 𝛼";
+  data.metadata = {{"Größe", "½ µm"}};
+  CHECK(add_vertex_data(files, folder.file("a.label.gii"), data).empty());
+  const VertexData again = read_values(serialise_vertex_data("a.label.gii", data), "a.label.gii");
+  CHECK(again.labels.at(1).name == data.labels[1].name);
+  CHECK(again.metadata == data.metadata);
+  data.labels[1].name = "caf\xe9 \xed\xa0\x80 \xc0\x80\x01";
+  data.metadata[0].second = "\xff";
+  CHECK(add_vertex_data(files, folder.file("b.label.gii"), data) ==
+        std::vector<std::string>{"not carried: key, name or colour, as they were, of 1 of 3 labels",
+                                 "not carried: 1 line of metadata"});
+  CHECK(read_values(serialise_vertex_data("b.label.gii", data), "b.label.gii").labels.at(1).name ==
+        "caf? ??? ???");
+}
+
+TEST_CASE("vertex_data: what other formats have no place for is told in a line each") {
+  const Folder folder;
+  PendingFiles files;
+  VertexData series = thickness();
+  series.kind = DataKind::TimeSeries;
+  series.structure = "CortexLeft";
+  series.columns[0].name.clear();
+  CHECK(add_vertex_data(files, folder.file("a.mgh"), series) ==
+        std::vector<std::string>{
+            "not carried: that the columns are a time series (NIFTI_INTENT_TIME_SERIES)",
+            "not carried: the structure CortexLeft"});
+  VertexData curvature = series;
+  curvature.kind = DataKind::Metric;
+  curvature.columns[0].intent = "NIFTI_INTENT_ZSCORE";
+  CHECK(add_vertex_data(files, folder.file("lh.curv"), curvature) ==
+        std::vector<std::string>{"not carried: the intent of 1 column (NIFTI_INTENT_ZSCORE)"});
+  VertexData one = lobes();
+  one.columns[0].values = {0, 2, 0, 2};
+  CHECK(add_vertex_data(files, folder.file("parietal.label"), one) ==
+        std::vector<std::string>{"not carried: key, name or colour, as they were, of 2 of 3 labels",
+                                 "not carried: names of columns"});
+  CHECK(add_vertex_data(files, folder.file("lobes.label.gii"), one).empty());
+}
+
+TEST_CASE("vertex_data: data that is attached keeps its number where other data is gone") {
+  MeshFile mesh;
+  mesh.mesh = tetrahedron();
+  CHECK(last_attached(mesh) == 0);
+  attach_data(mesh, lobes());
+  attach_data(mesh, thickness());
+  CHECK(last_attached(mesh) == 2);
+  remove_properties(mesh.vertex_properties, {"thickness"});
+  REQUIRE(attached_data(mesh).size() == 1);
+  CHECK(attached_data(mesh)[0].attached_as == 1);
+  CHECK(last_attached(mesh) == 2);
+}

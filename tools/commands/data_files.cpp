@@ -26,11 +26,16 @@ Eigen::Index vertices_of_file(const MeshSource& source) {
 void attach(MeshSource& source, const std::string& path, MissingValues missing, Session& session) {
   VertexData data = read_vertex_data(path, vertices_of_file(source), input_limits());
   std::vector<std::string> losses = losses_among(data.notes);
-  if (missing == MissingValues::LeftOut) data = without_missing(std::move(data), losses);
+  const std::size_t columns = data.columns.size();
+  if (missing != MissingValues::Kept) data = without_missing(std::move(data), losses);
+  if (missing == MissingValues::Refused && data.columns.size() < columns)
+    throw UsageMistake("--write-data: " + display_name(path) +
+                       " has values that are no finite numbers, which meshes, tables and images "
+                       "do not hold: write it in a run without those, or with -o NAME.surf.gii");
   for (const std::string& loss : losses)
     session.console.say("  " + display_name(path) + ": " + loss);
   const std::size_t properties = source.file.vertex_properties.size() + data.columns.size();
-  if (missing == MissingValues::LeftOut && properties > most_properties) {
+  if (missing != MissingValues::Kept && properties > most_properties) {
     throw UsageMistake(
         "--data: " + display_name(path) + " has " + std::to_string(data.columns.size()) +
         " columns, and a mesh file holds " + std::to_string(most_properties) +

@@ -168,14 +168,20 @@ void add_glb(const RemeshArguments& arguments, const MappedMesh& mapped,
   });
 }
 
-/// The data that has files of its own.
-void add_data(const RemeshRequests& requests, const Remeshed& made, Session& session) {
+/// The data that has files of its own. `last`: the `last_attached` of what was read.
+void add_data(const RemeshRequests& requests, int last, const Remeshed& made, Session& session) {
   std::vector<VertexData> data = attached_data(made.file());
-  const std::size_t first = data.size() - std::min(data.size(), requests.data_outputs.size());
+  const int first = last + 1 - static_cast<int>(requests.data_outputs.size());
   for (std::size_t i = 0; i < requests.data_outputs.size(); ++i) {
-    VertexData& one = data.at(first + i);
-    one.triangles = made.mesh().face_count();
     const std::string& path = requests.data_outputs[i];
+    const auto found =
+        std::ranges::find(data, first + static_cast<int>(i), &VertexData::attached_as);
+    if (found == data.end())
+      throw UsageMistake("--write-data: " + output_name(path) +
+                         ": nothing of its --data is on the new mesh: --transfer leaves it out; "
+                         "--transfer all carries it");
+    VertexData& one = *found;
+    one.triangles = made.mesh().face_count();
     tell_losses(path, add_vertex_data(session.files, path, one, &made.mesh().positions),
                 session.console);
   }
@@ -246,12 +252,17 @@ RemeshOutputs outputs_of(const RemeshArguments& arguments, const RemeshRequests&
           .levels = requests.outputs};
 }
 
+MissingValues missing_values(const RemeshRequests& requests) {
+  if (requests.missing_values) return MissingValues::Kept;
+  return requests.data_outputs.empty() ? MissingValues::LeftOut : MissingValues::Refused;
+}
+
 int run_remesh(RemeshArguments& arguments) {
   Session session(arguments);
   const RemeshRequests requests = check_remesh_arguments(arguments);
-  MappedMesh mapped =
-      read_mapped(arguments.input, arguments.sphere, session, remeshing_lambda, arguments.data,
-                  requests.missing_values ? MissingValues::Kept : MissingValues::LeftOut);
+  MappedMesh mapped = read_mapped(arguments.input, arguments.sphere, session, remeshing_lambda,
+                                  arguments.data, missing_values(requests));
+  const int last_data = last_attached(mapped.file());
   if (arguments.subdivision || arguments.lods > 0) require_measurable(mapped.mesh());
   if (arguments.subdivision) tell_counted_fillers(mapped, "what is fitted", session.console);
   if (arguments.adaptive) tell_counted_fillers(mapped, "where vertices go", session.console);
@@ -278,7 +289,7 @@ int run_remesh(RemeshArguments& arguments) {
   session.console.progress("write", 0);
   const LevelOfDetail& finest = levels.front();
   add_meshes(arguments, requests, mapped, levels, session);
-  add_data(requests, finest.mesh, session);
+  add_data(requests, last_data, finest.mesh, session);
   record.displacement = displace(arguments, mapped, finest, session);
   add_images(session.files, arguments, requests, finest.mesh);
   if (!arguments.csv.empty())

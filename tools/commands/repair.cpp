@@ -17,6 +17,7 @@
 #include "sphparam/io/certified_files.h"
 #include "sphparam/io/loop_file.h"
 #include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/repair_advice.h"
 #include "sphparam/names.h"
 #include "sphparam/records/repair_record.h"
@@ -57,7 +58,9 @@ MeshSource read_and_mend(const RepairCommandArguments& arguments, const RepairOp
   options.non_finite = wanted.non_finite;
   try {
     MeshSource source = read_source(arguments.input, options);
-    attach_data_files(source, arguments.data, MissingValues::LeftOut, session);
+    const bool is_beside = has_data_beside(arguments.output);
+    attach_data_files(source, arguments.data,
+                      is_beside ? MissingValues::Kept : MissingValues::LeftOut, session);
     return mended(std::move(source), wanted);
   } catch (const NoSuchComponent& error) {
     throw UsageMistake(std::string("--component: ") + error.what());

@@ -173,13 +173,6 @@ std::string wanted_name(const VertexData& data, std::size_t k) {
   return column.name.empty() ? data.name + "_" + std::to_string(k + 1) : column.name;
 }
 
-int next_file(const MeshFile& mesh) {
-  int last = 0;
-  for (const std::string& comment : mesh.comments)
-    if (const std::optional<Line> line = parse_line(comment)) last = std::max(last, line->file);
-  return last + 1;
-}
-
 std::string_view word_of(DataKind kind) {
   return std::ranges::find(kinds, kind, &std::pair<DataKind, std::string_view>::first)->second;
 }
@@ -241,6 +234,7 @@ class DataBuilder {
     for (const auto& [kind, name] : kinds)
       if (name == word) data.kind = kind;
     data.name = from_word(rest);
+    data.attached_as = number;
     numbers_.push_back(number);
     files_.push_back(std::move(data));
     in_column_ = false;
@@ -270,7 +264,7 @@ class DataBuilder {
 
 std::vector<std::string> attach_data(MeshFile& mesh, const VertexData& data) {
   const FileNumbers numbers(mesh);
-  const std::string head = std::string(prefix) + std::to_string(next_file(mesh)) + " ";
+  const std::string head = std::string(prefix) + std::to_string(last_attached(mesh) + 1) + " ";
   std::vector<Property> properties;
   for (const DataColumn& column : data.columns)
     properties.push_back(
@@ -312,6 +306,13 @@ std::vector<VertexData> attached_data(const MeshFile& mesh) {
   for (const std::string& comment : mesh.comments)
     if (const std::optional<Line> line = parse_line(comment)) builder.add(*line);
   return builder.finish();
+}
+
+int last_attached(const MeshFile& mesh) {
+  int last = 0;
+  for (const std::string& comment : mesh.comments)
+    if (const std::optional<Line> line = parse_line(comment)) last = std::max(last, line->file);
+  return last;
 }
 
 MeshFile without_data(MeshFile mesh) {

@@ -95,6 +95,43 @@ std::string name_of_data(const std::string& path) {
 
 bool is_same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
+/// Labels that are not what they were; those of no label may have any key that is not positive.
+std::int64_t changed_labels(const VertexData& written, const VertexData& read) {
+  return std::ranges::count_if(written.labels, [&](const Label& label) {
+    const bool is_none = label.key <= 0 && label.name == "???";
+    return !is_none && std::ranges::none_of(read.labels, [&](const Label& other) {
+      return other.key == label.key && other.name == label.name && other.colour == label.colour;
+    });
+  });
+}
+
+/// Lines of metadata that are not there, or not as they were.
+std::int64_t changed_lines(const Metadata& written, const Metadata& read) {
+  return std::ranges::count_if(
+      written, [&](const auto& line) { return std::ranges::find(read, line) == read.end(); });
+}
+
+/// What the numbers are, in the words of the format.
+void compare_meanings(const VertexData& written, const VertexData& read,
+                      std::vector<std::string>& losses) {
+  const bool is_series = written.kind == DataKind::TimeSeries;
+  if (is_series && read.kind != written.kind)
+    add_loss(losses, "that the columns are a time series (NIFTI_INTENT_TIME_SERIES)");
+  std::int64_t intents = 0;
+  for (std::size_t k = 0; k < written.columns.size(); ++k) {
+    const std::string& intent = written.columns[k].intent;
+    intents += !intent.empty() && intent != read.columns[k].intent;
+  }
+  if (written.kind == DataKind::Metric && intents > 0)
+    add_loss(losses, "the intent of " + counted(intents, "column") + " (" +
+                         written.columns.front().intent + ")");
+  if (!written.structure.empty() && written.structure != read.structure)
+    add_loss(losses, "the structure " + written.structure);
+  if (const std::int64_t changed = changed_labels(written, read); changed > 0)
+    add_loss(losses, "key, name or colour, as they were, of " + std::to_string(changed) + " of " +
+                         counted(std::ssize(written.labels), "label"));
+}
+
 /// Numbers of 32 bits are what these formats have. Of labels nothing may change, but −1 for 0.
 std::vector<std::string> losses_of_writing(const VertexData& written, const VertexData& read,
                                            const std::string& path) {
@@ -116,10 +153,11 @@ std::vector<std::string> losses_of_writing(const VertexData& written, const Vert
         throw WriteError(path, "as written, it has other values");
       rounded += written.kind != DataKind::Labels;
     }
-    metadata += std::ssize(before.metadata) - std::ssize(after.metadata);
-    unnamed += !before.name.empty() && after.name.empty();
+    metadata += changed_lines(before.metadata, after.metadata);
+    unnamed += !before.name.empty() && after.name != before.name;
   }
-  metadata += std::ssize(written.metadata) - std::ssize(read.metadata);
+  metadata += changed_lines(written.metadata, read.metadata);
+  compare_meanings(written, read, losses);
   if (rounded > 0)
     add_loss(losses,
              "the last digits of " + counted(rounded, "value") + ": they have 32 bits there");

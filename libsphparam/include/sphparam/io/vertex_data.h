@@ -54,6 +54,7 @@ struct VertexData {
   long triangles = 0;                   // that the surface has, where the file says so
   std::string format = {};              // "GIFTI", "FreeSurfer curv", …
   std::vector<std::string> notes = {};  // of the reader: what is not carried (losses.h)
+  int attached_as = 0;                  // its number among the data of a mesh, from 1; 0: of none
 
   Eigen::Index vertex_count() const {
     return columns.empty() ? 0 : static_cast<Eigen::Index>(columns.front().values.size());
@@ -111,11 +112,11 @@ void write_vertex_data(const std::string& path, const VertexData& data,
 
 /// Adds the columns to a mesh as properties. A single one is named as the file is, without its
 /// hemisphere ("thickness" of lh.thickness), others by themselves; a name that is taken gets a
-/// number, as do those that mean something in a mesh ("theta_2", "red_2", "material_2"). Where vertices were welded or dropped on reading, those that are left have the values of
-/// their numbers in the file (`source_vertex`). Returns the names.
-/// NaN stays NaN, which mesh files do not hold: see `without_missing`.
-/// Throws: std::invalid_argument where the data has not a number for each vertex of the mesh's
-/// file. Cost: a copy.
+/// number, as do those that mean something in a mesh ("theta_2", "red_2", "material_2"). Where
+/// vertices were welded or dropped on reading, those that are left have the values of their numbers
+/// in the file (`source_vertex`). Returns the names. NaN stays NaN, which mesh files do not hold:
+/// see `without_missing`. Throws: std::invalid_argument where the data has not a number for each
+/// vertex of the mesh's file. Cost: a copy.
 std::vector<std::string> attach_data(MeshFile& mesh, const VertexData& data);
 
 /// The data without columns that have values that are no finite numbers; `losses` tells of them.
@@ -124,6 +125,10 @@ VertexData without_missing(VertexData data, std::vector<std::string>& losses);
 /// The data that a mesh carries so, as it is at its vertices; properties that are gone are left
 /// out.
 std::vector<VertexData> attached_data(const MeshFile& mesh);
+
+/// The number, `attached_as`, of the data that was attached last, also where its properties are
+/// gone; 0 where there is none.
+int last_attached(const MeshFile& mesh);
 
 /// The mesh without it, its properties and comments.
 MeshFile without_data(MeshFile mesh);

@@ -4,8 +4,10 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <string_view>
 
 #include "io/files/file_bytes.h"
 #include "sphparam/io/safe_file.h"
@@ -42,11 +44,30 @@ class ScratchFile {
   bool temporary_ = false;
 };
 
+/// How many bytes the character at the start takes, in UTF-8 and as XML 1.0 allows; 0: it is none.
+std::size_t character_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned first = byte(0);
+  if (first < 0x80) return first >= ' ' || first == '\n' || first == '\t' ? 1 : 0;
+  const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
+  if (first < 0xc2 || first > 0xf4 || text.size() < length) return 0;
+  unsigned code = first & (0x7fU >> length);
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xc0U) != 0x80) return 0;
+    code = code << 6 | (byte(i) & 0x3fU);
+  }
+  constexpr unsigned least[] = {0x80, 0x800, 0x10000};
+  const bool is_surrogate = code >= 0xd800 && code <= 0xdfff;
+  const bool is_one = code >= least[length - 2] && code <= 0x10ffff && !is_surrogate;
+  return is_one && code != 0xfffe && code != 0xffff ? length : 0;
+}
+
 /// Text that XML can hold: other bytes become question marks, and CDATA does not end early.
 std::string in_cdata(std::string text) {
-  for (char& c : text) {
-    const bool is_line_end = c == '\n' || c == '\t';
-    if (!is_line_end && (c < ' ' || c > '~')) c = '?';
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = character_length(std::string_view(text).substr(at));
+    if (length == 0) text[at] = '?';
+    at += std::max<std::size_t>(length, 1);
   }
   for (std::size_t at = 0; (at = text.find("]]>", at)) != std::string::npos;) text[at + 2] = '?';
   return text;

@@ -146,8 +146,14 @@ int intent_of(const VertexData& data, const DataColumn& column) {
 
 void fill_column(giiDataArray& array, const VertexData& data, const DataColumn& column) {
   const std::span<const double> values(column.values);
-  for (const double value : values) as_float32(value, "GIFTI");
-  if (data.kind == DataKind::Labels)
+  const bool has_keys = data.kind == DataKind::Labels;
+  for (const double value : values) {
+    if (has_keys)
+      as_key(value, "GIFTI");
+    else
+      as_float32(value, "GIFTI");
+  }
+  if (has_keys)
     fill_gifti<int>(array, NIFTI_INTENT_LABEL, NIFTI_TYPE_INT32, values, 1);
   else
     fill_gifti<float>(array, intent_of(data, column), NIFTI_TYPE_FLOAT32, values, 1);

@@ -157,7 +157,7 @@ class LabelColours {
   explicit LabelColours(const VertexData& data) {
     for (const Label& label : data.labels) labels_[label.key] = &label;
     for (const double value : data.columns.front().values) {
-      const int key = static_cast<int>(value);
+      const int key = as_key(value, format);
       if (key >= 0 && !used_.contains(key)) use(key);
     }
   }

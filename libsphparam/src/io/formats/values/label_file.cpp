@@ -27,7 +27,7 @@ std::string name_of_label(const std::string& path) {
 int key_of(const VertexData& data) {
   int key = 0;
   for (const double value : data.columns.front().values) {
-    const int other = static_cast<int>(value);
+    const int other = as_key(value, format);
     if (other == 0 || other == key) continue;
     if (key != 0)
       throw WriteError(format, "holds one label, and " + data.name +

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "number_text.h"
 #include "sphparam/io/safe_file.h"
 
 namespace sphparam {
@@ -30,6 +31,12 @@ float as_float32(double value, const char* format) {
   if (std::isinf(rounded) && !std::isinf(value))
     throw WriteError(format, "a value is beyond numbers of 32 bits");
   return rounded;
+}
+
+int as_key(double value, const char* format) {
+  if (holds_exactly(ScalarType::Int32, value)) return static_cast<int>(value);
+  throw WriteError(format, "holds labels, whose keys are whole numbers of 32 bits, and one is " +
+                               short_number(value));
 }
 
 std::string trimmed_text(std::string_view text) {

@@ -30,6 +30,9 @@ void require_measures(const VertexData& data, const char* format);
 /// The number as float32. Throws: WriteError where that has no room for it; NaN stays NaN.
 float as_float32(double value, const char* format);
 
+/// The key of a label. Throws: WriteError where it is no whole number that an int holds.
+int as_key(double value, const char* format);
+
 /// Texts of these files end in a NUL, or at their length; line ends become blanks.
 std::string trimmed_text(std::string_view text);
 
