@@ -143,7 +143,7 @@ TEST_CASE("inspection_record: a mesh that cannot be mapped, and what would mend 
   const InspectionRecord record{.source = source, .repair = try_repair(source), .seconds = 2};
   const Json json = Json::parse(to_json(record));
   CHECK(keys_of(json) ==
-        "sphparam,command,input,inspection,repair,welded,provenance,notes,seconds");
+        "sphparam,command,input,inspection,fillers,repair,welded,provenance,notes,seconds");
   CHECK(json["inspection"]["mappable"] == false);
   CHECK(json["inspection"]["boundary_loops"] == 1);
   CHECK(json["inspection"]["defects"][0]["kind"] == "boundary-edge");
