@@ -5,6 +5,7 @@
 
 Each wb_command must end with 0 and warn of nothing. Prints what was found, a line a figure.
 """
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -130,6 +131,8 @@ def one_surface(surface, halvings):
             str(folder / file) for file in ("lh.thickness", "lh.noise", "lh.parcels.annot")), "-o", folder / "lh.white.surf.gii")
         save_sphere(folder / "new.sphere.surf.gii", *icosphere(halvings, 0.37))
         for sample, method in (("barycentric", "BARYCENTRIC"), ("adap-bary-area", "ADAP_BARY_AREA")):
+            shutil.rmtree(folder / "new")  # data beside a surface replaces nothing
+            (folder / "new").mkdir()
             run("remesh", folder / "lh.white", "--sphere", folder / "lh.sphere.surf.gii", "--grid",
                 "like:" + str(folder / "new.sphere.surf.gii"), "--data", data, "--sample", sample,
                 "-o", folder / "new/lh.white.surf.gii")
