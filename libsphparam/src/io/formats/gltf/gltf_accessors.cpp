@@ -35,6 +35,25 @@ double largest(ScalarType type) {
 
 }  // namespace
 
+std::optional<ScalarType> type_of_component(int code) {
+  switch (code) {
+    case 5120:
+      return ScalarType::Int8;
+    case 5121:
+      return ScalarType::Uint8;
+    case 5122:
+      return ScalarType::Int16;
+    case 5123:
+      return ScalarType::Uint16;
+    case 5125:
+      return ScalarType::Uint32;
+    case 5126:
+      return ScalarType::Float32;
+    default:
+      return std::nullopt;
+  }
+}
+
 GltfAccessors::GltfAccessors(const GltfDocument& document, const std::string& name)
     : document_(document), name_(name) {
   for (const auto& buffer : document.buffers) buffer_bytes_ += buffer.size();
@@ -51,22 +70,9 @@ const GltfDocument::Accessor& GltfAccessors::accessor(int accessor) const {
 }
 
 ScalarType GltfAccessors::component_type(int accessor, int code) const {
-  switch (code) {
-    case 5120:
-      return ScalarType::Int8;
-    case 5121:
-      return ScalarType::Uint8;
-    case 5122:
-      return ScalarType::Int16;
-    case 5123:
-      return ScalarType::Uint16;
-    case 5125:
-      return ScalarType::Uint32;
-    case 5126:
-      return ScalarType::Float32;
-    default:
-      fail(accessor, "glTF has no component type " + std::to_string(code));
-  }
+  const std::optional<ScalarType> type = type_of_component(code);
+  if (!type) fail(accessor, "glTF has no component type " + std::to_string(code));
+  return *type;
 }
 
 ScalarType GltfAccessors::type(int id) const {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -10,6 +11,9 @@
 #include "sphparam/io/scalar_type.h"
 
 namespace sphparam {
+
+/// The type behind glTF's code of a component; nothing for codes that it does not have.
+std::optional<ScalarType> type_of_component(int code);
 
 /// The numbers behind the accessors of a glTF file. Everything is checked before it is read:
 /// component types, strides, byte ranges, sparse indices (strictly increasing), finite values.

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "io/formats/gltf/draco/draco_decoding.h"
+#include "io/formats/gltf/gltf_accessors.h"
 #include "io/formats/gltf/meshopt_decoding.h"
 #include "sphparam/io/mesh_file.h"
 
@@ -192,25 +193,6 @@ void decompress_view(GltfDocument& document, int id, const GltfCompression::View
   }
 }
 
-ScalarType scalar_type(int code, const Place& place) {
-  switch (code) {
-    case 5120:
-      return ScalarType::Int8;
-    case 5121:
-      return ScalarType::Uint8;
-    case 5122:
-      return ScalarType::Int16;
-    case 5123:
-      return ScalarType::Uint16;
-    case 5125:
-      return ScalarType::Uint32;
-    case 5126:
-      return ScalarType::Float32;
-    default:
-      place.fail("glTF has no component type " + std::to_string(code));
-  }
-}
-
 /// What Draco is asked for: each compressed attribute as its accessor describes it.
 std::vector<DracoAttribute> wanted_attributes(const GltfDocument& document,
                                               const GltfDocument::Primitive& primitive,
@@ -224,9 +206,9 @@ std::vector<DracoAttribute> wanted_attributes(const GltfDocument& document,
       place.fail("its compressed attribute " + attribute + " has no accessor");
     const auto& accessor = document.accessors[static_cast<std::size_t>(found->second)];
     if (accessor.components == 0) place.fail("attribute " + attribute + " is of matrices");
-    wanted.push_back({.id = id,
-                      .type = scalar_type(accessor.component_type, place),
-                      .components = accessor.components});
+    const std::optional<ScalarType> type = type_of_component(accessor.component_type);
+    if (!type) place.fail("glTF has no component type " + std::to_string(accessor.component_type));
+    wanted.push_back({.id = id, .type = *type, .components = accessor.components});
   }
   return wanted;
 }
