@@ -40,7 +40,9 @@ struct Meshes {
     std::ofstream(folder / "broken.ply") << "ply\nformat ascii 1.0\n";
     std::ofstream(folder / "triangle.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     write("torus.obj", torus());
-    std::ofstream(folder / "readme.txt") << "no mesh\n";
+    for (const char* other : {"readme.txt", "scans.tar.gz", "ct.nii.gz", "sulc.shape.gii",
+                              "lobes.label.gii.gz", "bold.func.gii"})
+      std::ofstream(folder / other) << "no mesh\n";
   }
   ~Meshes() { fs::remove_all(folder); }
 
@@ -271,6 +273,9 @@ TEST_CASE("survey: stopped, it goes on from its records; what has changed is tri
     }
     std::ofstream(entry.path()) << text;
   }
+  kept.read.max_vertices = 20;  // other limits are another question
+  CHECK(named(survey_folder(folder, kept), "ball.ply").end == SurveyEnd::Unreadable);
+  kept.read = {};
   const Survey again = survey_folder(folder, kept);
   CHECK(named(again, "ball.ply").end == SurveyEnd::CannotMap);
   CHECK(named(again, "deeper/open.obj").end == SurveyEnd::MapsMended);

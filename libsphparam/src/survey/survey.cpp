@@ -11,6 +11,7 @@
 #include "option_domain.h"
 #include "sphparam/errors.h"
 #include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/paths.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/mesh/mesh_repair.h"
 #include "survey/isolated_trial.h"
@@ -22,13 +23,33 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// By its name. Folders hold other things that are packed by gzip, and of GIFTI files data, too.
+bool is_looked_at(const std::string& path) {
+  std::string name = path;
+  if (is_packed_name(name)) name.resize(name.size() - 3);
+  if (!is_mesh_name(name)) return false;
+  const std::string kind = extension_of(fs::path(name).stem().string());
+  return extension_of(name) != ".gii" || (kind != ".shape" && kind != ".func" && kind != ".label");
+}
+
+/// What decides besides the mesh whether its file is read.
+std::string limits_line(const ReadOptions& read) {
+  std::string line;
+  for (const auto limit : {static_cast<std::int64_t>(read.max_file_bytes), read.max_vertices,
+                           read.max_faces, read.max_polygon_degree, read.max_line_bytes,
+                           read.max_ply_elements, read.max_ply_properties, read.max_json_bytes,
+                           read.max_json_depth, read.max_json_values, read.max_json_objects})
+    line += std::to_string(limit) + ' ';
+  return line;
+}
+
 std::vector<std::string> mesh_files(const std::string& folder) {
   std::error_code error;
   std::vector<std::string> names;
   for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end;
        at.increment(error)) {
     std::error_code gone;  // between two looks: it is passed over
-    if (at->is_regular_file(gone) && is_mesh_name(at->path().string()))
+    if (at->is_regular_file(gone) && is_looked_at(at->path().string()))
       names.push_back(at->path().lexically_relative(folder).string());
   }
   if (error) throw ReadError(folder, error.message());
@@ -45,7 +66,9 @@ bool is_lasting(SurveyEnd end) { return end != SurveyEnd::Unreadable && end != S
 class Records {
  public:
   Records(const std::string& folder, const SurveyOptions& options)
-      : folder_(folder), records_(options.records), size_(options.picture_size) {
+      : folder_(folder),
+        records_(options.records),
+        asked_(std::to_string(options.picture_size) + ' ' + limits_line(options.read)) {
     if (!records_.empty()) require_writable(records_ + "/record.json");
   }
 
@@ -53,7 +76,7 @@ class Records {
   std::string path_of(const std::string& name) const {
     if (records_.empty()) return "";
     try {
-      const std::string about = program_hash() + ' ' + std::to_string(size_) + ' ' + name + ' ' +
+      const std::string about = program_hash() + ' ' + asked_ + name + ' ' +
                                 hash_of_file((fs::path(folder_) / name).string());
       return (fs::path(records_) / (content_hash(about) + ".json")).string();
     } catch (const ReadError&) {
@@ -72,8 +95,7 @@ class Records {
   }
 
  private:
-  std::string folder_, records_;
-  int size_;
+  std::string folder_, records_, asked_;
 };
 
 }  // namespace

@@ -21,6 +21,9 @@
 namespace sphparam {
 namespace {
 
+constexpr const char* components_way = "--repair --all-components";
+constexpr const char* no_memory = "there is not enough memory for it";
+
 std::vector<std::string> messages(const std::vector<MeshDefect>& defects) {
   std::vector<std::string> texts;
   for (const MeshDefect& defect : defects)
@@ -52,7 +55,7 @@ class Surveyor {
     } catch (const ReadError& error) {
       end(SurveyEnd::Unreadable, error.what());
     } catch (const std::bad_alloc&) {
-      end(SurveyEnd::Stopped, "there is not enough memory for it");
+      end(SurveyEnd::Stopped, no_memory);
     } catch (const std::exception& error) {  // of this file, not of the survey
       end(SurveyEnd::CannotMap, error.what());
     }
@@ -87,9 +90,27 @@ class Surveyor {
     } else {
       mesh_.reasons = messages(trial.remaining);
     }
-    if (found.boundary_loops > 0) try_kept_holes(source);
-    if (trial.parts.refused) try_components(source);
+    if (found.boundary_loops > 0)
+      try_besides("--repair --keep-holes", [&] { try_kept_holes(source); });
+    if (trial.parts.refused) try_besides(components_way, [&] { try_components(source); });
     conclude(trial);
+  }
+
+  /// A way that nobody has to go: what goes wrong on it takes nothing from the others.
+  template <typename Way>
+  void try_besides(const std::string& options, Way way) {
+    const auto failed = [&](const std::string& why) {
+      mesh_.ways.push_back({options, false, why, 0});
+    };
+    try {
+      way();
+    } catch (const Cancelled&) {
+      throw;
+    } catch (const std::bad_alloc&) {
+      failed(no_memory);
+    } catch (const std::exception& error) {
+      failed(error.what());
+    }
   }
 
   /// As it is, or, where that is refused, as a repair wants it.
@@ -106,29 +127,28 @@ class Surveyor {
   }
 
   void try_way(const MeshSource& source, const RepairTrial& trial) {
-    SurveyedWay& way =
-        mesh_.ways.emplace_back(SurveyedWay{options_line(trial.options), false, "", 1});
+    SurveyedWay way{options_line(trial.options), false, "", 1};
     MeshSource mended = repaired(source, trial.options);
     std::vector<std::string> stale;  // a map of the mesh before
     mended.file = written_as_mended(mended, stale);
     way.told = kept_line(mended.parts);
     if (!way.told.empty()) way.area_share = mended.parts.area_share;
-    if (mesh_.ways.size() == 1) draw_mended(mended.file);
+    if (mesh_.ways.empty()) draw_mended(mended.file, way.options);
     try {
       certify(std::move(mended));
       way.certified = true;
     } catch (const NotCertifiedError& error) {
       way.told = error.what();
     }
+    mesh_.ways.push_back(std::move(way));
   }
-
-  /// Parts that cannot be mapped are left out as `map` leaves them out: specks.
 
   void try_kept_holes(const MeshSource& source) {
     const RepairTrial trial = try_repair(source, true);
     if (trial.can_mend()) try_way(source, trial);
   }
 
+  /// Parts that cannot be mapped are left out as `map` leaves them out: specks.
   void try_components(const MeshSource& source) {
     const RepairOptions repairs;
     std::vector<MeshPart> parts = connected_parts(source, repairs);
@@ -151,7 +171,7 @@ class Surveyor {
     const std::string kept =
         mapped < all ? ", with " + percent(1 - lost, 5) + " of the area" : std::string();
     const bool enough = mapped == all || (mapped > 0 && 1 - lost >= repairs.least_kept);
-    mesh_.ways.push_back({"--repair --all-components", enough && !folds,
+    mesh_.ways.push_back({components_way, enough && !folds,
                           std::to_string(mapped) + " of " + std::to_string(all) +
                               " components map" + kept + left_out,
                           mapped == all ? 1 : 1 - lost});
@@ -198,11 +218,10 @@ class Surveyor {
     if (!picture.png.empty()) mesh_.pictures.push_back({caption, std::move(picture.png)});
   }
 
-  void draw_mended(const MeshFile& file) {
+  void draw_mended(const MeshFile& file, const std::string& options) {
     if (options_.picture_size == 0) return;
     std::string png = picture_of_mended(file, from_, options_);
-    const std::string caption =
-        "after " + mesh_.ways.front().options + "; red lines: about what was closed";
+    const std::string caption = "after " + options + "; red lines: about what was closed";
     if (!png.empty()) mesh_.pictures.push_back({caption, std::move(png)});
   }
 

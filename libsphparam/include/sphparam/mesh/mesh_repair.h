@@ -16,8 +16,8 @@ class NoSuchComponent : public std::out_of_range {
   using std::out_of_range::out_of_range;
 };
 
-/// Which of the two loops of a handle it is cut along. The mug's handle: one loop is about the
-/// handle, its cap goes through the clay; the other is about the finger hole, its cap through air.
+/// Which of the two loops of a handle it is cut along, or the other where it has none such. The
+/// mug's: about the handle, with a cap through the clay, or about the hole, with one through air.
 enum class HandleChoice {
   Shortest,  // whichever is shorter
   Cut,       // handles are cut through, what is between them stays open

@@ -75,10 +75,11 @@ struct Survey {
 };
 
 /// Tries every mesh file of a folder and the folders in it, told by its name; links to folders are
-/// not followed. Each is read, inspected, mended where that is needed, mapped and certified; none
-/// is written. Of open meshes also the way that keeps the holes is tried, and of meshes with
-/// several components each as a mesh. A file that stops one step is told with its reason, and the
-/// others go on.
+/// not followed; data of vertices (.shape.gii, .func.gii, .label.gii) are no meshes. Each is read,
+/// inspected, mended where that is needed, mapped and certified; none is written. Of open meshes
+/// also the way that keeps the holes is tried, and of meshes with several components each as a
+/// mesh; what stops one of these two ways is told as that way's. A file that stops one step is told
+/// with its reason, and the others go on.
 ///
 /// With `records`, a survey that was stopped or killed goes on where it was: a record is that of a
 /// file's bytes, of its name, of the program's, and of what was asked for. Files that are stopped
