@@ -51,18 +51,20 @@ def cpu_of_daemon(pid):
 
 class Mapping:
     """The mapping alone, one process a mesh: a sample of it is timed before and after each batch, so
-    that a machine that becomes slower or faster meanwhile does so for both."""
+    that a machine that becomes slower or faster meanwhile does so for both. Each map is a new file
+    that stays, as in a batch: one that is written over never reaches the disk, and costs less."""
 
     def __init__(self, a):
         self.a, self.maps = a, a.work / "maps"
         self.sample = sorted((a.work / "shapes").glob("*.ply"))[::max(a.meshes // 1000, 1)]
-        self.maps.mkdir(exist_ok=True)
         self.before = self.seconds()
 
     def seconds(self):
         """Of CPU, for all meshes, after the sample."""
-        command = (f'for m; do "{self.a.program}" map "$m" -o {self.maps}/x.sph.ply '
-                   f'--json {self.maps}/x.json --threads 1 -q; done')
+        shutil.rmtree(self.maps, ignore_errors=True)
+        self.maps.mkdir()
+        command = (f'for m; do "{self.a.program}" map "$m" -o "{self.maps}/${{m##*/}}.sph.ply" '
+                   f'--json "{self.maps}/${{m##*/}}.json" --threads 1 -q; done')
         cpu, _ = measured(["sh", "-c", command, "sh", *self.sample])
         return cpu * self.a.meshes / len(self.sample)
 

@@ -18,6 +18,7 @@
 #include <numeric>
 
 #include "batch/child.h"
+#include "batch/content_hash.h"
 #include "batch/item_run.h"
 #include "batch/publication.h"
 #include "batch/staging.h"
@@ -90,6 +91,7 @@ class BatchRun {
   BatchRunSummary run() {
     const Stopwatch stopwatch;
     const double cpu_before = own_cpu_seconds();
+    program_hash();  // once, before there are children that would each read the program for it
     make_folders();
     remove_left_staging(folder_);
     summary_.items = items_.size();
