@@ -1,7 +1,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "mapped.h"
 #include "program.h"
@@ -143,6 +145,80 @@ TEST_CASE("data: missing values stay missing in files beside, and no mesh file l
   CHECK(refused.code == 2);
   CHECK_THAT(refused.err, Contains("lh.depth has values that are no finite numbers"));
   CHECK_FALSE(std::filesystem::exists(metric));
+}
+
+TEST_CASE("data: the vertices of the file count, also where some were dropped and in a map of it") {
+  const Mapped mapped;
+  const std::string mesh = mapped.folder / "lh.obj", map = mapped.folder / "lh.sph.ply",
+                    label = mapped.folder / "lh.piece.label", few = mapped.folder / "lh.few.mgh",
+                    all = mapped.folder / "lh.all.mgh", out = mapped.folder / "out.ply";
+  std::ofstream(mesh) << "v 9 9 9\nv 1 1 1\nv -1 -1 1\nv -1 1 -1\nv 1 -1 -1\n"
+                         "f 2 4 3\nf 2 3 5\nf 2 5 4\nf 3 4 5\n";
+  std::ofstream(label) << "#!ascii label\n2\n0 0 0 0 0\n4 0 0 0 0\n";
+  VertexData data;
+  data.columns.resize(1);
+  data.columns[0].values = {1, 2, 3, 4};
+  write_vertex_data(few, data);
+  data.columns[0].values.push_back(5);
+  write_vertex_data(all, data);
+  REQUIRE(sphparam_program({"map", mesh, "--data", all, "-o", map}).code == 0);
+  for (const std::string& input : {mesh, map}) {
+    const Ended refused = sphparam_program({"repair", input, "--data", few, "-o", out});
+    CHECK(refused.code == 3);
+    CHECK_THAT(refused.err, Contains("values of 4 vertices") && Contains("has 5"));
+    REQUIRE(sphparam_program({"repair", input, "--data", label, "-o", out}).code == 0);
+    CHECK(read_mesh(out).find_vertex_property("piece")->values == std::vector<double>{0, 0, 0, 1});
+  }
+}
+
+TEST_CASE("data: info says what a file of numbers holds, and that --data takes it") {
+  const Brain brain;
+  const Ended measured = sphparam_program({"info", brain.thickness});
+  CHECK(measured.code == 4);
+  CHECK_THAT(measured.out, Contains("FreeSurfer curv") && Contains("thickness: 0 to 161") &&
+                               Contains("CortexLeft") && Contains("--data lh.thickness"));
+  const Ended labels = sphparam_program({"info", brain.parcels, "--json", "-"});
+  CHECK(labels.code == 4);
+  const auto data = nlohmann::json::parse(labels.out)["data"];
+  CHECK(data["kind"] == "labels");
+  CHECK(data["vertices"] == brain.vertices);
+  CHECK(data["columns"][0]["name"] == "parcels");
+  CHECK(data["labels"][1]["name"] == "red");
+  CHECK_THAT(sphparam_program({"info", brain.parcels}).out, Contains("parcels: 2 of 2 labels"));
+  const std::string label = brain.mapped.folder / "lh.piece.label";
+  std::ofstream(label) << "#!ascii label\n2\n0 0 0 0 0\n999999999 0 0 0 0\n";
+  CHECK_THAT(sphparam_program({"info", label}).out, Contains("FreeSurfer label"));
+  const std::string cut = brain.mapped.folder / "lh.cut";
+  std::ofstream(cut) << bytes_of(brain.thickness).substr(0, 30);
+  const Ended broken = sphparam_program({"info", cut});
+  CHECK(broken.code == 3);
+  CHECK(broken.out.empty());
+}
+
+TEST_CASE("data: columns without a name are called after their file where programs show names") {
+  const Brain brain;
+  const std::string shape = brain.mapped.folder / "x.shape.gii";
+  REQUIRE(sphparam_program({"remesh", brain.white, "--sphere", brain.sphere, "--grid", "ico:1",
+                            "--data", brain.thickness, "--write-data", shape})
+              .code == 0);
+  CHECK(read_vertex_data(shape).columns[0].name == "thickness");
+}
+
+TEST_CASE("data: the other hemisphere's is told in a line") {
+  const Brain brain;
+  const std::string other = brain.mapped.folder / "rh.thickness",
+                    gii = brain.mapped.folder / "a.gii", out = brain.mapped.folder / "out.ply";
+  std::filesystem::copy_file(brain.thickness, other);
+  const auto told = [&](const std::string& surface, const std::string& data) {
+    const Ended ended = sphparam_program({"repair", surface, "--data", data, "-o", out});
+    CHECK(ended.code == 0);
+    return ended.err + ended.out;
+  };
+  const std::string line = "rh.thickness is of CortexRight, and ";
+  CHECK_THAT(told(brain.white, other), Contains(line) && Contains("lh.white is of CortexLeft"));
+  CHECK_THAT(told(brain.white, brain.thickness), !Contains("is of Cortex"));
+  REQUIRE(sphparam_program({"repair", brain.white, "-o", gii}).code == 0);
+  CHECK_THAT(told(gii, other), Contains(line) && Contains("a.gii is of CortexLeft"));
 }
 
 TEST_CASE("data: what makes no sense is refused before any work") {

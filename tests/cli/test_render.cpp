@@ -1,6 +1,8 @@
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "program.h"
+#include "sphparam/io/vertex_data.h"
 #include "support/test_meshes.h"
 
 namespace sphparam::tests {
@@ -66,6 +68,38 @@ TEST_CASE("render: the legend of a distortion can be left out") {
     return sphparam_program(arguments).out;
   };
   CHECK(picture("") != picture("--no-legend"));
+}
+
+TEST_CASE("render: numbers a vertex are shown as colours, of their own files or of the mesh") {
+  const Folder folder;
+  const std::string ball = folder / "lh.obj", up = folder / "lh.up.mgh";
+  const TriangleMesh mesh = icosphere(2);
+  write_bytes(ball, obj_text(mesh));
+  VertexData data;
+  data.columns.resize(2);
+  for (Eigen::Index v = 0; v < mesh.vertex_count(); ++v) {
+    data.columns[0].values.push_back(mesh.positions(v, 2));
+    data.columns[1].values.push_back(v == 0 ? std::nan("") : mesh.positions(v, 1));
+  }
+  write_vertex_data(up, data);
+  const auto picture = [&](std::vector<std::string> words) {
+    std::vector<std::string> all = {"render", ball, "-o", "-", "--size", "200"};
+    all.insert(all.end(), words.begin(), words.end());
+    const Ended ended = sphparam_program(all);
+    INFO(ended.err);
+    CHECK(ended.code == 0);
+    CHECK_THAT(ended.out, StartsWith(png_signature));
+    return ended.out;
+  };
+  const std::string first = picture({"--data", up});
+  CHECK(first != picture({}));
+  CHECK(first == picture({"--data", up, "--scalar", "up_1"}));
+  CHECK(first != picture({"--data", up, "--scalar", "up_2"}));
+  CHECK(first != picture({"--data", up, "--no-legend"}));
+  const Ended wrong =
+      sphparam_program({"render", ball, "-o", "-", "--data", up, "--scalar", "depth"});
+  CHECK(wrong.code == 2);
+  CHECK_THAT(wrong.err, Contains("no 'depth'; there are up_1 and up_2"));
 }
 
 TEST_CASE("render: what needs a map says so") {

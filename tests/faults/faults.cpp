@@ -6,7 +6,8 @@
 //   fault_runner PROGRAM SHIM COUNT [ERRAND]
 //
 // COUNT: how many faults at least; prints how many of which kind. ERRAND: map, holes (kept),
-// parts (all components), survey, data, or repair.EXT, which writes that format (default: map).
+// parts (all components), survey, data, repair.EXT, which writes that format, read.EXT, which reads
+// it, or data.EXT, which reads and writes that format of numbers a vertex (default: map).
 
 #include <algorithm>
 #include <cerrno>
@@ -83,7 +84,29 @@ struct Errand {
   std::string map = {};              // of these, one to be proved
   std::set<int> other_codes = {};    // that a fault may end it with besides
   std::string unnamed = {};          // of these, one that may not be there before
+  std::string given = {};            // a file of tests/hostile, with the ending of its format
 };
+
+/// Numbers of four vertices, to other vertices.
+Errand data_errand(const std::string& extension) {
+  const std::string packed = extension == ".mgz" ? "packed" : "plain";
+  const std::string output = "made" + extension;
+  return {.mesh = tetrahedron(),
+          .words = {"remesh", "@scans/mesh.off", "--grid", "ico:0", "--data", "@given" + extension,
+                    "--write-data", "@" + output, "--json", "@report.json", "--threads", "1"},
+          .outputs = {output, "report.json"},
+          .given = "values_ok_" + packed + extension};
+}
+
+Errand read_errand(const std::string& extension) {
+  const std::string kind = extension == ".icq"   ? "icq"
+                           : extension == ".tab" ? "plates"
+                                                 : "freesurfer";
+  return {.mesh = tetrahedron(),
+          .words = {"repair", "@given" + extension, "-o", "@made.ply", "--json", "@report.json"},
+          .outputs = {"made.ply", "report.json"},
+          .given = kind + "_ok_plain" + extension};
+}
 
 Errand errand_named(const std::string& name) {
   if (name == "map")
@@ -119,6 +142,8 @@ Errand errand_named(const std::string& name) {
             "",
             {},
             "lh.depth"};
+  if (name.starts_with("data.")) return data_errand(name.substr(4));
+  if (name.starts_with("read.")) return read_errand(name.substr(4));
   if (name.starts_with("repair.")) {
     const std::string output = "mended" + name.substr(6);
     return {damaged_ball(),
@@ -150,6 +175,9 @@ class Scene {
     fs::create_directory(folder_ / "scans");
     write_off(folder_ / "scans/mesh.off", errand_.mesh);
     write_values(folder_ / "rh.depth", errand_.mesh);
+    if (!errand_.given.empty())
+      fs::copy_file(fs::path(SPHPARAM_HOSTILE_FILES) / errand_.given,
+                    folder_ / ("given" + errand_.given.substr(errand_.given.find('.'))));
     reset(true);
     const auto start = std::chrono::steady_clock::now();
     const ProcessEnd end = run({}, {"SPHPARAM_FAULT_COUNTS=" + (folder_ / "counts").string()});

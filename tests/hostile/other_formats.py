@@ -345,6 +345,19 @@ def gifti(points=None, triangles=None, count=2, prologue='<?xml version="1.0" en
     return prologue + '<GIFTI Version="%s" NumberOfDataArrays="%d">\n' % (version, count) + points + triangles + "</GIFTI>\n"
 
 
+VOLUME = {"VolGeom" + key: value for key, value in {
+    "Width": 256, "Height": 256, "Depth": 256, "Xsize": 1, "Ysize": 1, "Zsize": 1, "X_R": -1, "X_A": 0, "X_S": 0,
+    "Y_R": 0, "Y_A": 0, "Y_S": -1, "Z_R": 0, "Z_A": 1, "Z_S": 0, "C_R": 0.5, "C_A": -1.25, "C_S": 3,
+    "Fname": "../mri/filled.mgz"}.items()}
+
+
+def of_volume(**other):
+    """A surface that says which volume it is of."""
+    said = {**VOLUME, **{"VolGeom" + key: value for key, value in other.items()}}
+    lines = "".join("<MD><Name>%s</Name><Value>%s</Value></MD>" % line for line in said.items() if line[1] is not None)
+    return changed(gifti(), "<Data>", "<MetaData>%s</MetaData><Data>" % lines)
+
+
 def make_gifti():
     t = gifti()
     ok = lambda name, data: case("gifti_ok_%s.gii" % name, data, OK)
@@ -357,6 +370,13 @@ def make_gifti():
     ok("compressed", points("FLOAT32", 4, packed("f", P4, squeeze=True), "GZipBase64Binary"))
     ok("doubles", points("FLOAT64", 4, packed("d", P4), "Base64Binary"))
     ok("document_type", gifti(prologue='<?xml version="1.0"?>\n<!DOCTYPE GIFTI SYSTEM "http://localhost/gifti.dtd">\n'))
+    ok("volume", of_volume())
+    ok("volume_not_all_there", of_volume(C_S=None))
+    ok("volume_of_words", of_volume(C_S="far away"))
+    ok("volume_of_no_number", of_volume(C_S="nan"))
+    ok("volume_of_lines", of_volume(Fname="a\nb\n\n", C_S="1\n"))
+    ok("volume_of_no_name", of_volume(Fname=None))
+    ok("volume_huge", of_volume(Width="9" * 400, Fname="n" * 9000))
     ok("triangles_first", gifti(data_array("TRIANGLE", "INT32", 4, numbers(F4)),
                                 data_array("POINTSET", "FLOAT32", 4, numbers(P4))))
     bad("entity", gifti(prologue='<?xml version="1.0"?>\n<!DOCTYPE GIFTI [<!ENTITY a "b">]>\n'), "declares an entity")

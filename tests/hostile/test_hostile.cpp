@@ -26,7 +26,7 @@ constexpr std::uint64_t most_memory = 0;  // the sanitizer reserves terabytes
 #else
 constexpr std::uint64_t most_memory = 512u << 20;
 #endif
-constexpr int ok = 0;
+constexpr int ok = 0, unreadable = 3, no_mesh = 4;
 
 const fs::path folder = source_folder() / "tests/hostile";
 
@@ -86,6 +86,11 @@ std::string try_values(const HostileFile& file, const fs::path& scratch) {
   std::string complaint = complaint_about(repair, file);
   if (!complaint.empty()) complaint = "repair " + file.name + " " + complaint + ": " + repair.messages;
   if (fs::exists(output) != (file.code == ok)) complaint += file.name + ": output is there or not";
+  // Its own file says what it holds whatever the surface, or that it cannot be read.
+  const ProcessEnd info = run_process({SPHPARAM_PROGRAM, "info", values}, {},
+                                      {.seconds = most_seconds, .memory = most_memory});
+  if (info.timed_out || (info.code != no_mesh && (info.code != unreadable || file.code == ok)))
+    complaint += "info " + file.name + " ends with " + std::to_string(info.code) + info.messages;
   return complaint;
 }
 

@@ -1,6 +1,12 @@
 #include <catch2/catch.hpp>
 
+#include "folder.h"
+#include "reading.h"
 #include "sphparam/io/file_numbers.h"
+#include "sphparam/io/mesh_source.h"
+#include "sphparam/io/mesh_writer.h"
+#include "sphparam/io/safe_file.h"
+#include "sphparam/io/vertex_data.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -48,4 +54,67 @@ TEST_CASE("file numbers: a number of no vertex says whose it was") {
   options.meridian = {};
   options.poles = Poles{104, 104};
   CHECK_THROWS_WITH(with_vertices_of_mesh(options, numbers), Catch::Contains("one vertex"));
+}
+
+namespace {
+
+/// A tetrahedron whose file has two vertices that no face uses, the first and the last.
+const std::string with_unused =
+    "v 9 9 9\nv 1 1 1\nv -1 -1 1\nv -1 1 -1\nv 1 -1 -1\nv 8 8 8\n"
+    "f 2 4 3\nf 2 3 5\nf 2 5 4\nf 3 4 5\n";
+
+VertexData values(std::size_t count) {
+  VertexData data;
+  data.name = "depth";
+  data.columns.push_back({"depth", ScalarType::Float64, std::vector<double>(count, 1)});
+  return data;
+}
+
+MeshSource read_text(const Folder& folder, const std::string& text) {
+  write_file(folder.file("x.obj"), text);
+  return read_source(folder.file("x.obj"));
+}
+
+}  // namespace
+
+TEST_CASE("file numbers: a mesh knows how many vertices its file had, after dropping and repair") {
+  const Folder folder;
+  MeshSource source = read_text(folder, with_unused);
+  REQUIRE(source.file.mesh.vertex_count() == 4);
+  CHECK(vertices_of_file(source.file) == 6);
+  // One face gone: repair puts it back, and numbers anew.
+  source = repaired(read_text(folder, with_unused.substr(0, with_unused.rfind("f "))), {});
+  CHECK(source.file.mesh.vertex_count() == 4);
+  CHECK(vertices_of_file(source.file) == 6);
+  MeshFile whole;
+  whole.mesh = tetrahedron();
+  CHECK(vertices_of_file(whole) == 4);
+}
+
+TEST_CASE("file numbers: the count passes through the formats that keep the numbers") {
+  const Folder folder;
+  const MeshSource source = read_text(folder, with_unused);
+  for (const char* name : {"x.ply", "x.vtk", "x.vtp"}) {
+    write_mesh(folder.file(name), source.file);
+    const MeshSource back = read_source(folder.file(name));
+    CHECK(vertices_of_file(back.file) == 6);
+    MeshFile file = back.file;
+    attach_data(file, values(6));
+    CHECK_THROWS_WITH(attach_data(file, values(5)),
+                      Catch::Contains("values of 5 vertices") && Catch::Contains("file has 6"));
+    CHECK_THROWS_WITH(attach_data(file, values(7)), Catch::Contains("file has 6"));
+  }
+}
+
+TEST_CASE("file numbers: what cannot be the number of vertices is none") {
+  MeshFile file = renumbered();
+  CHECK(vertices_of_file(file) == 0);
+  keep_vertices_of_file(file, 111);
+  CHECK(vertices_of_file(file) == 111);
+  for (const char* text : {"110", "-1", "x", "1e3", "99999999999"}) {
+    file.comments = {std::string("source_vertices ") + text};
+    CHECK(vertices_of_file(file) == 0);
+  }
+  keep_vertices_of_file(file, 200);
+  CHECK(file.comments == std::vector<std::string>{"source_vertices 200"});
 }

@@ -6,6 +6,7 @@
 #include "sphparam/io/losses.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/safe_file.h"
+#include "sphparam/io/sphere_file.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -54,10 +55,54 @@ TEST_CASE("freesurfer: what is said of a surface goes through other formats and 
     CHECK(serialise_freesurfer(read(serialise_mesh(name, file), name)) == bytes);
 }
 
+TEST_CASE("freesurfer: the volume geometry is metadata in GIFTI, and comes back as it was") {
+  for (const char* real_ras : {"0", "1"}) {
+    MeshFile file = read(as_written_by_freesurfer(tags + geometry), "lh.white");
+    for (std::string& comment : file.comments)
+      if (comment.starts_with("freesurfer real_ras")) comment.back() = *real_ras;
+    const std::string gifti = serialise_mesh("lh.white.surf.gii", file);
+    for (const char* value : {"256", "0.5", "-1.25", "3.0", "1.000000000000000e+00"})
+      CHECK(contains(gifti, "<![CDATA[" + std::string(value) + "]]>"));
+    for (const char* key : {"VolGeomWidth", "VolGeomZsize", "VolGeomX_R", "VolGeomC_S"})
+      CHECK(contains(gifti, key));
+    CHECK(contains(gifti, "NIFTI_XFORM_SCANNER_ANAT") == (*real_ras == '1'));
+    const MeshFile back = read(gifti, "lh.white.surf.gii");
+    CHECK(losses_among(back.notes).empty());
+    file.comments[0] = "freesurfer created by sphparam";  // which GIFTI has no place for
+    CHECK(serialise_freesurfer(back) == serialise_freesurfer(file));
+  }
+}
+
+TEST_CASE("freesurfer: a volume geometry that is none, or not all there, is not made up") {
+  const MeshFile whole = read(as_written_by_freesurfer(tags + geometry), "lh.white");
+  const auto gifti = [&](const std::string& from, const std::string& to) {
+    MeshFile file = whole;
+    for (std::string& comment : file.comments) comment = replaced(comment, from, to);
+    return serialise_mesh("x.surf.gii", file);
+  };
+  for (const auto& [from, to] : {std::pair("valid = 1", "valid = 0"), std::pair("cras", "x"),
+                                 std::pair("-1.25", "nan"), std::pair("-1.25", "")})
+    CHECK_FALSE(contains(gifti(from, to), "VolGeom"));
+  const std::string broken = replaced(gifti("x", "x"), "-1.25", "far");
+  const MeshFile read_back = read(broken, "x.surf.gii");
+  CHECK(contains(losses_among(read_back.notes).at(0), "VolGeom"));
+  CHECK_FALSE(contains(serialise_freesurfer(read_back), "cras"));
+}
+
+TEST_CASE("freesurfer: a sphere has the footer of its surface, and in GIFTI no volume") {
+  const MeshFile file = read(as_written_by_freesurfer(tags + geometry), "lh.white");
+  const MeshFile sphere = sphere_mesh(file, {file.mesh.positions}, {{"verdict", "bijective"}});
+  const std::string bytes = serialise_mesh("lh.sphere", sphere, {.is_sphere = true});
+  CHECK(contains(bytes, tags + geometry));
+  CHECK(contains(bytes, "created by sphparam"));
+  CHECK_FALSE(contains(serialise_mesh("s.surf.gii", sphere, {.is_sphere = true}), "VolGeom"));
+}
+
 TEST_CASE("freesurfer: a footer may be missing, start with its geometry, or say more") {
   CHECK(read(as_written_by_freesurfer("")).notes.empty());
   CHECK(read(as_written_by_freesurfer(tags.substr(8) + geometry)).comments.size() == 9);
-  const MeshFile more = read(as_written_by_freesurfer(tags + geometry + std::string("\0\0\0\3commands", 12)));
+  const MeshFile more =
+      read(as_written_by_freesurfer(tags + geometry + std::string("\0\0\0\3commands", 12)));
   CHECK(losses_among(more.notes).size() == 1);
   CHECK(more.comments.size() == 10);
   const MeshFile other = read(as_written_by_freesurfer("something else"));

@@ -3,6 +3,8 @@
 #include <limits>
 #include <numeric>
 
+#include "remesh/flat_places.h"
+#include "remesh/float32_places.h"
 #include "sphparam/remesh/remesh.h"
 #include "sphparam/remesh/resample.h"
 #include "support/test_meshes.h"
@@ -189,4 +191,71 @@ TEST_CASE("resample: the same weights for any number of threads; remesh takes th
   CHECK_THROWS_AS(
       remesh(source, grid, {.sample = SampleMode::AdapBaryArea, .grid_areas = VectorX::Ones(3)}),
       std::invalid_argument);
+}
+
+TEST_CASE("resample: rays of unit length are found again as their file had them") {
+  // As programs of the field write them, and as Workbench scales them: to 100, rounded.
+  const TriangleMesh target = ball(3, 0.3);
+  for (const float radius : {100.0F, 1.0F}) {
+    const Float32Points file = (static_cast<double>(radius) * target.positions).cast<float>();
+    const Points rays = file.cast<double>();
+    const Float32Points direct = at_radius_100(rays),
+                        again = at_radius_100(rays.rowwise().normalized());
+    CHECK(direct == again);
+    for (Eigen::Index i = 0; i < file.rows(); ++i) {
+      const float x = file(i, 0), y = file(i, 1), z = file(i, 2);
+      const float factor = 100 / std::sqrt(x * x + y * y + z * z);
+      CHECK(again(i, 0) == x * factor);
+      CHECK(again(i, 2) == z * factor);
+    }
+  }
+}
+
+TEST_CASE("resample: places in 32 bits are the nearest ones, from wherever they are looked for") {
+  const Spheres spheres(3, 4);
+  const Topology& topology = spheres.current.topology();
+  const Points& directions = spheres.target.positions;
+  const std::vector<SurfacePoint> located = spheres.current.locator().locate_all(directions);
+  const Float32Points sphere = at_radius_100(spheres.current.map().points);
+  const Float32Points points = at_radius_100(directions);
+  const auto exact = nearest_on_facets(topology, spheres.current.map(), directions, located);
+  const auto found = nearest_in_float32(topology, sphere, points, located);
+  std::vector<SurfacePoint> elsewhere = found;
+  for (SurfacePoint& place : elsewhere)
+    place.face = Topology::face(topology.twin(3 * place.face + 1));
+  const auto again = nearest_in_float32(topology, sphere, points, elsewhere, 2);
+  const auto place_of = [&](const SurfacePoint& place) {
+    Vector3 sum = Vector3::Zero();
+    for (int k = 0; k < 3; ++k)
+      sum += place.barycentric[k] * spheres.current.map().point(topology.vertex(place.face, k));
+    return sum;
+  };
+  for (size_t i = 0; i < found.size(); ++i) {
+    CHECK((place_of(found[i]) - place_of(exact[i])).norm() < 1e-5);
+    CHECK(again[i].face == found[i].face);
+    CHECK(again[i].barycentric == found[i].barycentric);
+  }
+}
+
+TEST_CASE("resample: in 32 bits, what is nearest on a side or at a corner has no other weights") {
+  const Spheres spheres(2, 2);
+  const Topology& topology = spheres.current.topology();
+  const Points& corners = spheres.current.map().points;
+  Points middles(topology.face_count(), 3);
+  std::vector<SurfacePoint> located;
+  for (Face f = 0; f < topology.face_count(); ++f) {
+    middles.row(f) = corners.row(topology.vertex(f, 0)) + corners.row(topology.vertex(f, 1));
+    located.push_back({f, Vector3(0.5, 0.5, 0)});
+  }
+  const Float32Points sphere = at_radius_100(corners);
+  for (const SurfacePoint& place :
+       nearest_in_float32(topology, sphere, at_radius_100(middles), located))
+    CHECK(place.barycentric.minCoeff() < 1e-5);
+  located.resize(static_cast<size_t>(corners.rows()));
+  for (Vertex v = 0; v < corners.rows(); ++v)
+    located[v].face = Topology::face(topology.outgoing(v));
+  for (const SurfacePoint& place : nearest_in_float32(topology, sphere, sphere, located)) {
+    CHECK(place.barycentric.maxCoeff() == 1);
+    CHECK(place.barycentric.minCoeff() == 0);
+  }
 }

@@ -1,9 +1,14 @@
 // `sphparam info`: what a file holds, and everything that is wrong with it.
 
+#include <optional>
+
+#include "arguments/limits.h"
 #include "commands/command.h"
 #include "commands/sources.h"
 #include "console/places.h"
 #include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/vertex_data.h"
+#include "sphparam/records/data_record.h"
 #include "sphparam/records/inspection_record.h"
 
 namespace sphparam::cli {
@@ -17,18 +22,35 @@ constexpr char summary[] =
     "  sphparam info statue.obj\n"
     "  sphparam info statue.ply --json -\n"
     "  cat statue.off | sphparam info -\n"
+    "  sphparam info lh.aparc.annot\n"
     "\n"
+    "Of a file of numbers a vertex it says what it holds.\n"
     "The exit status is 0 when the mesh can be mapped to a sphere, 4 when it cannot.\n";
 
 struct InfoArguments : CommonArguments {
   std::string input;
 };
 
-int run_info(InfoArguments& arguments) {
-  Session session(arguments);
-  require_report_place(arguments.json);
-  session.console.progress("inspection", 0);
-  const MeshSource source = read_source(arguments.input);
+/// A file of numbers a vertex; nothing where it is none.
+std::optional<VertexData> read_data(const std::string& path) try {
+  if (is_stream(path)) return std::nullopt;
+  return read_vertex_data(path, any_vertices, input_limits());
+} catch (const ReadError&) {
+  return std::nullopt;
+}
+
+/// It is told what it is, and that it is no mesh.
+int tell_data(const VertexData& data, InfoArguments& arguments, Session& session) {
+  const DataRecord record = {data, arguments.input, session.stopwatch.seconds()};
+  session.console.clear_progress();
+  session.add_report([&] { return to_json(record); });
+  if (!is_stream(arguments.json) && !arguments.quiet) session.files.add("-", to_text(record));
+  session.publish();
+  if (arguments.quiet) print_error(display_name(arguments.input) + ": this is no mesh");
+  return MeshUnusable;
+}
+
+int tell_mesh(const MeshSource& source, InfoArguments& arguments, Session& session) {
   InspectionRecord record = {.source = source};
   if (!source.inspection.is_sphere()) record.repair = try_repair(source);
   record.seconds = session.stopwatch.seconds();
@@ -40,6 +62,21 @@ int run_info(InfoArguments& arguments) {
   if (arguments.quiet)
     print_error(display_name(arguments.input) + ": this is not a closed genus-0 mesh");
   return MeshUnusable;
+}
+
+int run_info(InfoArguments& arguments) {
+  Session session(arguments);
+  require_report_place(arguments.json);
+  session.console.progress("inspection", 0);
+  std::optional<MeshSource> source;
+  try {
+    source = read_source(arguments.input);
+  } catch (const ReadError&) {
+    const std::optional<VertexData> data = read_data(arguments.input);
+    if (!data) throw;
+    return tell_data(*data, arguments, session);
+  }
+  return tell_mesh(*source, arguments, session);
 }
 
 void declare_options(Declaration& command, InfoArguments& arguments) {

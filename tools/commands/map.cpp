@@ -109,7 +109,7 @@ MeshSource read_mended(const MapArguments& arguments, Session& session) {
   options.repeated_corners = repairs && repairs->duplicates;
   options.non_finite = repairs && repairs->non_finite;
   MeshSource source = sphparam::read_source(arguments.input, options);
-  attach_data_files(source, arguments.data, MissingValues::LeftOut, session);
+  attach_data_files(source.file, source.path, arguments.data, MissingValues::LeftOut, session);
   return mended(std::move(source), arguments);
 }
 

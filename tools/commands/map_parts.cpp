@@ -41,7 +41,7 @@ class PartsRun {
 
   int run() {
     MeshSource source = sphparam::read_source(arguments_.input, limits());
-    attach_data_files(source, arguments_.data, MissingValues::LeftOut, session_);
+    attach_data_files(source.file, source.path, arguments_.data, MissingValues::LeftOut, session_);
     mark_ = mark_of(source.file.mesh);
     std::vector<MeshPart> parts = connected_parts(
         std::move(source), wanted_repairs(arguments_.repair).value_or(RepairOptions::none()));

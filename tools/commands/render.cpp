@@ -5,8 +5,10 @@
 
 #include "arguments/limits.h"
 #include "commands/command.h"
+#include "commands/data_files.h"
 #include "commands/sources.h"
 #include "console/places.h"
+#include "sphparam/io/losses.h"
 #include "sphparam/render/picture.h"
 
 namespace sphparam::cli {
@@ -22,13 +24,16 @@ constexpr char summary[] =
     "  sphparam render statue.sph.ply -o ball.png --view sphere --colour checker --size 1200\n"
     "  sphparam render statue.obj -o front.png --texture statue_skin.png --from 1,0.3,0 --up y\n"
     "  sphparam render duck.glb --sphere duck.sph.ply -o duck.png\n"
+    "  sphparam render lh.white --data lh.aparc.annot --from -1,0,0 -o parcels.png\n"
     "\n"
     "Colours: own (the texture, of --texture or of a glTF file; else the colours of vertices; else "
     "of\n"
     "materials; else normals), plain, normals, checker (of longitude and latitude), area (red "
     "grows, blue shrinks, full at a factor of 8), angle (the factor by "
     "which\n"
-    "a triangle's angles are off in the mean, dark 1 to yellow 8).\n";
+    "a triangle's angles are off in the mean, dark 1 to yellow 8). Instead of these, --data or "
+    "--scalar\n"
+    "shows a number a vertex: labels in the colours of their table, what is measured on a scale.\n";
 
 struct RenderArguments : CommonArguments {
   std::string input;
@@ -36,6 +41,7 @@ struct RenderArguments : CommonArguments {
   std::string output;
   std::string texture;  // empty: none
   std::string from;     // empty: in front, to the right, above
+  Words data;           // numbers a vertex in files of their own
   DrawingOptions drawing = {};
 };
 
@@ -64,11 +70,30 @@ void require_png(const std::string& path) {
   throw UsageMistake("-o: the picture is a PNG, the name must end in .png, not " + extension);
 }
 
-std::string drawn(const DrawnMesh& mesh, const RenderArguments& arguments, Session& session) try {
+/// What there is to choose from.
+std::string names_of_numbers(const MeshFile& file) {
+  std::vector<std::string> names;
+  for (const Property& property : file.vertex_properties) names.push_back(property.name);
+  return names.empty() ? "its vertices have no numbers" : "there are " + enumerated(names);
+}
+
+/// The number a vertex that is shown: the one that is named, else the first of the data.
+std::string shown_number(DrawnMesh& mesh, const RenderArguments& arguments, Session& session) {
+  const Words attached =
+      attach_data_files(mesh.file, arguments.input, arguments.data, MissingValues::Kept, session);
+  const std::string& wanted = arguments.drawing.scalar;
+  if (wanted.empty()) return attached.empty() ? "" : attached.front();
+  if (mesh.file.find_vertex_property(wanted)) return wanted;
+  throw UsageMistake("--scalar: " + display_name(arguments.input) + " has no '" + wanted + "'; " +
+                     names_of_numbers(mesh.file));
+}
+
+std::string drawn(DrawnMesh& mesh, const RenderArguments& arguments, Session& session) try {
   DrawingOptions drawing = arguments.drawing;
+  drawing.scalar = shown_number(mesh, arguments, session);
   drawing.threads = session.threads();
   if (!arguments.from.empty()) drawing.from = parse_direction(arguments.from);
-  if (drawing.colouring == Colouring::Own)
+  if (drawing.colouring == Colouring::Own && drawing.scalar.empty())
     drawing.textures = read_shown_textures(mesh.file, arguments.input, arguments.texture, session);
   if (!mesh.map) require_map(drawing);
   return draw_png(mesh.file, mesh.map, drawing);
@@ -82,7 +107,7 @@ int run_render(RenderArguments& arguments) {
   check_places({{"-o", arguments.output}});
   Session session(arguments);
   session.console.progress("picture", 0);
-  const DrawnMesh mesh = load_drawn(arguments.input, arguments.sphere, input_limits());
+  DrawnMesh mesh = load_drawn(arguments.input, arguments.sphere, input_limits());
   session.files.add(arguments.output, drawn(mesh, arguments, session));
   session.publish();
   session.console.say(display_name(arguments.input) + " → " + output_name(arguments.output));
@@ -103,6 +128,9 @@ void declare_look(Declaration& command, RenderArguments& arguments) {
                {"area", Colouring::Area},
                {"angle", Colouring::Angle}},
               "See above (default: own)")
+      .data(arguments.data)
+      .text("--scalar", drawing.scalar, "NAME",
+            "The number a vertex that is shown as colours (default: the first of --data)")
       .text("--texture", arguments.texture, "IMAGE",
             "Image for the mesh's texture coordinates, instead of its own")
       .flag("--wire", drawing.wireframe, "The edges of the triangles")
@@ -110,7 +138,7 @@ void declare_look(Declaration& command, RenderArguments& arguments) {
             "Outline what repair has closed: loops of handles, rims of filled holes")
       .flag("--graticule", drawing.graticule, "Lines of longitude and latitude")
       .flag("--occlusion", drawing.occlusion, "Darken what little light reaches")
-      .flag_off("--no-legend", drawing.legend, "Without the scale of area or angle");
+      .flag_off("--no-legend", drawing.legend, "Without the scale of area, angle or numbers");
 }
 
 void declare_options(Declaration& command, RenderArguments& arguments) {

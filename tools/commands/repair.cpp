@@ -59,7 +59,7 @@ MeshSource read_and_mend(const RepairCommandArguments& arguments, const RepairOp
   try {
     MeshSource source = read_source(arguments.input, options);
     const bool is_beside = has_data_beside(arguments.output);
-    attach_data_files(source, arguments.data,
+    attach_data_files(source.file, source.path, arguments.data,
                       is_beside ? MissingValues::Kept : MissingValues::LeftOut, session);
     return mended(std::move(source), wanted);
   } catch (const NoSuchComponent& error) {

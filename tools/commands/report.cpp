@@ -134,7 +134,7 @@ int run_report(ReportArguments& arguments) {
   require_sense(arguments);
   MeshSource source = read_source(arguments.inputs.front());
   tell_losses(source, session.console);
-  attach_data_files(source, arguments.data, MissingValues::LeftOut, session);
+  attach_data_files(source.file, source.path, arguments.data, MissingValues::LeftOut, session);
   require_mappable(source);
   session.hold_signals();
   const std::vector<PageEntry> entries = load_entries(arguments, source, session);

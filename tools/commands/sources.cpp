@@ -27,7 +27,7 @@ MappedMesh read_mapped(const std::string& path, const std::string& sphere, Sessi
   options.map.progress = session.progress();
   MeshSource source = read_source(path);
   tell_losses(source, session.console);
-  attach_data_files(source, data, missing, session);
+  attach_data_files(source.file, source.path, data, missing, session);
   const MappedMesh mapped = mapped_mesh(std::move(source), options);
   if (mapped.mapped_here())
     session.console.say(mapped.name() + ": carries no map; mapped now (progressive)");

@@ -13,6 +13,7 @@
 #include "io/formats/gifti/gifti_labels.h"
 #include "io/formats/lossless_type.h"
 #include "number_text.h"
+#include "sphparam/io/brain_names.h"
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/io/fillers.h"
 #include "sphparam/io/losses.h"
@@ -98,10 +99,11 @@ ScalarType type_of_property(const VertexData& data, const DataColumn& column) {
 std::vector<double> values_of_mesh(const MeshFile& mesh, const FileNumbers& numbers,
                                    const std::vector<double>& values) {
   const Eigen::Index count = mesh.mesh.vertex_count();
-  const bool renumbered = mesh.find_vertex_property("source_vertex") != nullptr;
-  if (!renumbered && static_cast<Eigen::Index>(values.size()) != count)
+  const Eigen::Index wanted = vertices_of_file(mesh);
+  if (wanted > 0 && std::ssize(values) != wanted)
     throw std::invalid_argument("values of " + std::to_string(values.size()) +
-                                " vertices, and the mesh has " + std::to_string(count));
+                                " vertices, and the mesh" + (wanted == count ? "" : "'s file") +
+                                " has " + std::to_string(wanted));
   std::vector<double> result;
   result.reserve(static_cast<std::size_t>(count));
   for (Vertex v = 0; v < count; ++v) {
@@ -168,9 +170,7 @@ std::string free_name(const MeshFile& mesh, std::string name) {
 }
 
 std::string wanted_name(const VertexData& data, std::size_t k) {
-  const DataColumn& column = data.columns[k];
-  if (data.columns.size() == 1) return data.name;
-  return column.name.empty() ? data.name + "_" + std::to_string(k + 1) : column.name;
+  return data.columns.size() == 1 ? data.name : title_of_column(data, k);
 }
 
 std::string_view word_of(DataKind kind) {
@@ -252,6 +252,7 @@ class DataBuilder {
     in_column_ = found != nullptr;
     if (!found) return;
     data.columns.push_back({from_word(rest), found->type, found->values, intent, {}});
+    data.properties.push_back(property);
   }
 
   const MeshFile& mesh_;
@@ -299,6 +300,13 @@ VertexData without_missing(VertexData data, std::vector<std::string>& losses) {
   }
   data.columns = std::move(kept);
   return data;
+}
+
+std::string structure_of(const MeshFile& surface, const std::string& path) {
+  constexpr std::string_view said = "gifti AnatomicalStructurePrimary ";
+  for (const std::string& comment : surface.comments)
+    if (comment.starts_with(said)) return comment.substr(said.size());
+  return structure_of_name(path);
 }
 
 std::vector<VertexData> attached_data(const MeshFile& mesh) {

@@ -1,10 +1,52 @@
 #include "sphparam/io/file_numbers.h"
 
 #include <algorithm>
+#include <charconv>
+#include <limits>
 
 // Renumbered meshes carry the old numbers as a vertex property; sorted, it answers both ways.
 
 namespace sphparam {
+
+namespace {
+
+constexpr std::string_view count_prefix = "source_vertices ";
+
+/// 0 where no comment says it.
+long said_count(const MeshFile& file) {
+  for (std::string_view comment : file.comments) {
+    if (!says_vertices_of_file(comment)) continue;
+    comment.remove_prefix(count_prefix.size());
+    long count = 0;
+    const char* const end = comment.data() + comment.size();
+    return std::from_chars(comment.data(), end, count).ptr == end ? count : 0;
+  }
+  return 0;
+}
+
+}  // namespace
+
+Eigen::Index vertices_of_file(const MeshFile& file) {
+  const Property* const numbers = file.find_vertex_property("source_vertex");
+  if (!numbers) return file.mesh.vertex_count();
+  const long count = said_count(file);
+  const bool can_be = count <= std::numeric_limits<Vertex>::max() &&
+                      std::ranges::all_of(numbers->values, [&](double number) {
+                        return number < static_cast<double>(count);
+                      });
+  return can_be ? std::max(count, 0L) : 0;
+}
+
+void keep_vertices_of_file(MeshFile& file, Eigen::Index count) {
+  forget_vertices_of_file(file);
+  file.comments.push_back(std::string(count_prefix) + std::to_string(count));
+}
+
+void forget_vertices_of_file(MeshFile& file) {
+  std::erase_if(file.comments, says_vertices_of_file);
+}
+
+bool says_vertices_of_file(std::string_view comment) { return comment.starts_with(count_prefix); }
 
 FileNumbers::FileNumbers(const MeshFile& file)
     : vertices_(static_cast<Vertex>(file.mesh.vertex_count())) {

@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "number_text.h"
+#include "sphparam/io/file_numbers.h"
 
 namespace sphparam {
 namespace {
@@ -88,8 +89,9 @@ std::vector<std::string> losses_of_writing(const MeshFile& written, const MeshFi
   if (!written.base_colours.empty() && read.base_colours.empty())
     add_loss(losses, "colours and textures of materials");
   const auto lines = [](const MeshFile& file) {
-    return std::count_if(file.comments.begin(), file.comments.end(),
-                         [](const std::string& line) { return !line.starts_with("sphparam "); });
+    return std::count_if(file.comments.begin(), file.comments.end(), [](const std::string& line) {
+      return !line.starts_with("sphparam ") && !says_vertices_of_file(line);
+    });
   };
   if (const long missing = lines(written) - lines(read); missing > 0)
     add_loss(losses, counted(missing, "comment"));

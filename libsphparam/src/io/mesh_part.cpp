@@ -4,6 +4,8 @@
 #include <optional>
 #include <utility>
 
+#include "sphparam/io/file_numbers.h"
+
 // Every table is gathered by the numbers of what stays.
 
 namespace sphparam {
@@ -78,6 +80,7 @@ MeshFile part_of(const MeshFile& file, const std::vector<Face>& faces) {
 MeshFile with_numbers(MeshFile file) {
   if (!file.find_vertex_property("source_vertex")) {
     file.set_vertex_property(numbers("source_vertex", file.mesh.vertex_count()));
+    keep_vertices_of_file(file, file.mesh.vertex_count());
   }
   if (!file.find_face_property("source_face")) {
     file.set_face_property(numbers("source_face", file.mesh.face_count()));

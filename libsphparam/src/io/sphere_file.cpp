@@ -4,6 +4,7 @@
 #include <array>
 #include <string_view>
 
+#include "io/formats/freesurfer_comments.h"
 #include "sphparam/sphere/spherical_coordinates.h"
 
 // sx, sy, sz are what is certified; theta and phi are derived from them for the convenience of
@@ -17,6 +18,13 @@ constexpr std::string_view verdict = "sphparam verdict ";
 constexpr double rounding_of_floats = 1e-6;  // relative, of a ray's length in numbers of 32 bits
 constexpr std::array radii = {1.0, 100.0};   // of bare spheres; GIFTI's are the larger ones
 constexpr std::array ray_names = {"sx", "sy", "sz"};
+
+/// What holds for the sphere too: which hemisphere it is, which brain viewers ask for, and of which
+/// volume.
+bool is_of_sphere(std::string_view comment) {
+  return comment.starts_with("gifti AnatomicalStructurePrimary") ||
+         comment.starts_with(freesurfer_geometry) || comment.starts_with(freesurfer_real_ras);
+}
 
 void replace_provenance(MeshFile& file, const Provenance& provenance) {
   std::erase_if(file.comments,
@@ -90,9 +98,8 @@ Provenance read_provenance(const MeshFile& file) {
 MeshFile sphere_mesh(const MeshFile& file, const SphereMap& map, const Provenance& provenance) {
   MeshFile sphere;
   sphere.mesh = {map.points, file.mesh.triangles};
-  for (const std::string& comment : file.comments) {  // which hemisphere: brain viewers ask for it
-    if (comment.starts_with("gifti AnatomicalStructurePrimary")) sphere.comments.push_back(comment);
-  }
+  for (const std::string& comment : file.comments)
+    if (is_of_sphere(comment)) sphere.comments.push_back(comment);
   replace_provenance(sphere, provenance);
   return sphere;
 }

@@ -198,6 +198,12 @@ VertexData read_vertex_data(const std::string& path, Eigen::Index vertices,
   return read_vertex_data(bytes.view(), bytes.name(), vertices, options);
 }
 
+std::string title_of_column(const VertexData& data, std::size_t column) {
+  const std::string& name = data.columns[column].name;
+  if (!name.empty()) return name;
+  return data.columns.size() == 1 ? data.name : data.name + "_" + std::to_string(column + 1);
+}
+
 bool is_written_data(const std::string& path) { return named_format(path).has_value(); }
 
 std::string written_data_names() {

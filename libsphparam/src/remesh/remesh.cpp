@@ -15,6 +15,7 @@
 #include "remesh/resampling.h"
 #include "remesh/seams.h"
 #include "remesh/wanted_values.h"
+#include "sphparam/io/file_numbers.h"
 #include "sphparam/io/fillers.h"
 #include "sphparam/parallel.h"
 #include "sphparam/remesh/adaptation.h"
@@ -358,6 +359,7 @@ Remeshed remesh(const MappedMesh& source, SphereGrid grid, const RemeshOptions& 
   const Stopwatch stopwatch;
   file.position_type = source.file().position_type;
   file.comments = source.file().comments;
+  forget_vertices_of_file(file);
   file.mesh.positions = transfer.positions();
   figures.transfer_seconds = stopwatch.seconds();
   const Triangulation cut = triangulate(file.mesh.positions, grid.faces);

@@ -8,6 +8,7 @@
 
 #include "io/attributes/weightiest_label.h"
 #include "remesh/flat_places.h"
+#include "remesh/float32_places.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/sphere_locator.h"
 
@@ -16,9 +17,6 @@ namespace sphparam {
 namespace {
 
 constexpr std::int64_t grain = 4096;
-
-/// Weights that coordinates of 32 bits cannot tell from none: as to whether a vertex is named.
-constexpr double nothing = 1e-5;
 
 /// The corners of a place that have weight, in the order of their numbers.
 class Corners {
@@ -34,9 +32,7 @@ class Corners {
   std::size_t size() const { return size_; }
   bool has(Vertex v) const {
     return std::any_of(all_.data(), all_.data() + size_,
-                       [v](const std::pair<Vertex, double>& corner) {
-                         return corner.first == v && corner.second > nothing;
-                       });
+                       [v](const std::pair<Vertex, double>& corner) { return corner.first == v; });
   }
 
  private:
@@ -84,8 +80,7 @@ Gather adapted(const std::vector<SurfacePoint>& places, const Topology& current,
     const auto first = static_cast<std::size_t>(given.starts[i]);
     const auto last = static_cast<std::size_t>(given.starts[i + 1]);
     bool has_others = false;
-    for (std::size_t e = first; e < last; ++e)
-      has_others |= given.weights[e] > nothing && !corners.has(given.vertices[e]);
+    for (std::size_t e = first; e < last; ++e) has_others |= !corners.has(given.vertices[e]);
     if (has_others) {
       for (std::size_t e = first; e < last; ++e)
         append(result, given.vertices[e], given.weights[e]);
@@ -174,11 +169,13 @@ Gather adap_bary_area_weights(const MappedMesh& current, const Topology& topolog
       new_areas.size() != topology.vertex_count())
     throw std::invalid_argument("adap_bary_area_weights: areas are one a vertex of each sphere");
   const SphereMap units = unit_rays(sphere);
+  const Float32Points on_current = at_radius_100(current.map().points);
+  const Float32Points on_new = at_radius_100(sphere.points);
   const std::vector<SurfacePoint> in_current =
-      nearest_on_facets(current.topology(), current.map(), units.points,
-                        current.locator().locate_all(units.points, threads), threads);
-  const std::vector<SurfacePoint> in_new = nearest_on_facets(
-      topology, units, current.map().points,
+      nearest_in_float32(current.topology(), on_current, on_new,
+                         current.locator().locate_all(units.points, threads), threads);
+  const std::vector<SurfacePoint> in_new = nearest_in_float32(
+      topology, on_new, on_current,
       SphereLocator(topology, units, threads).locate_all(current.map().points, threads), threads);
   Gather gather = adapted(in_current, current.topology(), scattered(in_new, topology));
   correct_areas(gather, current_areas, new_areas);

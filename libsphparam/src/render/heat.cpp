@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "elementary.h"
-#include "render/lettering.h"
 #include "number_text.h"
+#include "render/lettering.h"
 
 namespace sphparam {
 namespace {

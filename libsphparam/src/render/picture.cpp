@@ -13,6 +13,7 @@
 #include "render/heat.h"
 #include "render/own_paint.h"
 #include "render/render.h"
+#include "render/value_paint.h"
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/io/fillers.h"
 #include "sphparam/io/mapped_mesh.h"
@@ -86,18 +87,30 @@ class Drawing {
         up_(options.up.value_or(up_axis(file))) {}
 
   Image image() const {
-    const Paint paint = make_paint();
+    std::optional<HeatScale> scale = scale_of_colouring();
+    Paint paint;
+    if (options_.scalar.empty()) {
+      paint = make_paint();
+    } else {
+      ValuePaint values = value_paint(file_, options_.scalar);
+      paint = std::move(values.paint);
+      scale = std::move(values.scale);
+    }
     const auto drawn = [&](Shape shape) { return draw(shape, paint); };
     const View view = options_.view.value_or(map_ ? View::Both : View::Mesh);
     const Image image = view == View::Mesh ? drawn(Shape::Mesh)
                         : view == View::Sphere
                             ? drawn(Shape::Sphere)
                             : in_a_row({drawn(Shape::Mesh), drawn(Shape::Sphere)});
-    const std::optional<Heat> heat = heat_of(options_.colouring);
-    return heat && options_.legend ? with_legend(image, *heat) : image;
+    return scale && options_.legend ? with_legend(image, *scale) : image;
   }
 
  private:
+  std::optional<HeatScale> scale_of_colouring() const {
+    const std::optional<Heat> heat = heat_of(options_.colouring);
+    return heat ? std::optional(heat_scale(*heat)) : std::nullopt;
+  }
+
   Paint make_paint() const {
     switch (options_.colouring) {
       case Colouring::Own:
@@ -202,6 +215,8 @@ bool draws_without_map(const DrawingOptions& options) {
 std::string draw_png(const MeshFile& file, const std::optional<SphereMap>& map,
                      const DrawingOptions& options) {
   if (!map && !draws_without_map(options)) throw std::invalid_argument("this needs a map");
+  if (!options.scalar.empty() && !file.find_vertex_property(options.scalar))
+    throw std::invalid_argument("the mesh has no property '" + options.scalar + "'");
   const FillerMarks fillers = fillers_of(file);
   std::optional<Shown> shown;
   if (!fillers.empty()) shown = shown_surface(file, map, fillers);

@@ -26,9 +26,10 @@ struct Camera {
 struct UniformPaint {
   Rgb colour{0.80F, 0.80F, 0.82F};
 };
-/// A colour a vertex, interpolated.
+/// A colour a vertex, interpolated; or that of the nearest corner.
 struct VertexPaint {
   std::vector<Rgb> colours;
+  bool blends = true;
 };
 /// A colour a triangle.
 struct FacePaint {

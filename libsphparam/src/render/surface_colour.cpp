@@ -132,6 +132,12 @@ Rgb SurfaceColour::painted(const ShadedSample& sample) const {
       Overloaded{
           [](const UniformPaint& paint) { return to_linear(paint.colour); },
           [&](const VertexPaint& paint) -> Rgb {
+            Eigen::Index nearest = 0;
+            if (!paint.blends) {
+              sample.weights.maxCoeff(&nearest);
+              const Vertex corner = triangles(sample.face, nearest);
+              return to_linear(paint.colours[static_cast<size_t>(corner)]);
+            }
             return mean([&](int k) {
               return to_linear(paint.colours[static_cast<size_t>(triangles(sample.face, k))]);
             });

@@ -134,6 +134,18 @@ def check_several():
     assert all("Spherical" in obj.data.uv_layers for obj in (first, second))
 
 
+def check_selected_alone():
+    """The active mesh is mapped where it is selected, and nothing is where nothing is selected."""
+    start_anew()
+    active, other = load(work / "creature.ply"), load(work / "body.ply")
+    make_active(active)
+    active.select_set(False)
+    expect_refusal(bpy.ops.object.spherical_map, "No mesh is selected")
+    other.select_set(True)
+    bpy.ops.object.spherical_map()
+    assert "Spherical" in other.data.uv_layers and "Spherical" not in active.data.uv_layers
+
+
 install()
 creature = work / "creature.ply"
 check_routes(creature)

@@ -56,14 +56,20 @@ def footers(folder):
               "yras": [0.0, 0.0, -1.0], "zras": [0.0, 1.0, 0.0], "cras": [5.399, 18.0, 0.25]}
     points, faces = read_geometry(folder / "a.white")
     write_geometry(folder / "lh.made", points, faces, create_stamp="created by nobody", volume_info=volume)
-    for between in ("a.ply", "a.vtp", "a.vtk.gz", "a.pial"):
+    for between in ("a.ply", "a.vtp", "a.vtk.gz", "a.pial", "a.surf.gii"):
         run("repair", folder / "lh.made", "-o", folder / between)
         run("repair", folder / between, "-o", folder / "lh.orig")
         back, back_faces, info, stamp = read_geometry(folder / "lh.orig", read_metadata=True, read_stamp=True)
         check((back == points).all() and (back_faces == faces).all(), between + ": mesh")
-        check(stamp == "created by nobody", between + ": stamp " + stamp)
+        check(stamp == "created by nobody" or between.endswith(".gii"), between + ": stamp " + stamp)
         for key, value in volume.items():
             check(numpy.all(numpy.asarray(info[key]) == numpy.asarray(value)), between + ": " + key)
+    told = nibabel.load(folder / "a.surf.gii").get_arrays_from_intent("pointset")[0].metadata
+    check([float(told["VolGeomC_" + axis]) for axis in "RAS"] == volume["cras"], "GIFTI: c_ras")
+    check([int(told["VolGeom" + side]) for side in ("Width", "Height", "Depth")] == volume["volume"], "GIFTI: volume")
+    run("map", folder / "lh.made", "--write-sphere", folder / "rh.sphere")
+    info = read_geometry(folder / "rh.sphere", read_metadata=True)[2]
+    check(list(info["cras"]) == volume["cras"], "the footer of a sphere")
 
 
 def arrays(path):

@@ -13,10 +13,10 @@ struct MeshPart {
 };
 
 /// The connected parts of a mesh: what hangs together by vertices, once those of these repairs are
-/// done that come before components (`repairs` of each part tells them, of the whole mesh). The largest by area first; of equal ones that with more
-/// faces, then that with the lowest vertex. Ensures: each vertex and face that a face uses is in
-/// one part; a mesh that is one part comes back as it was. Cost: O((#V + #F) log #F), and an
-/// inspection of each.
+/// done that come before components (`repairs` of each part tells them, of the whole mesh). The
+/// largest by area first; of equal ones that with more faces, then that with the lowest vertex.
+/// Ensures: each vertex and face that a face uses is in one part; a mesh that is one part comes
+/// back as it was. Cost: O((#V + #F) log #F), and an inspection of each.
 std::vector<MeshPart> connected_parts(MeshSource source,
                                       const RepairOptions& repairs = RepairOptions::none());
 

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -31,6 +32,21 @@ class FileNumbers {
   std::vector<double> numbers_;  // by vertex; empty: vertices have their numbers
   std::vector<std::pair<double, Vertex>> by_number_;  // sorted; the first of equal ones counts
 };
+
+/// How many vertices the mesh's file had: those of the mesh, or, where they were renumbered
+/// (`source_vertex`), what the comment "source_vertices N" says; 0 where that is not there or
+/// cannot be, as in files of other programs. Cost: O(#V) where they were renumbered.
+Eigen::Index vertices_of_file(const MeshFile& file);
+
+/// Says so in a comment, which passes through welding, repair and files: whoever adds
+/// `source_vertex` to a mesh calls it. Replaces what was said before.
+void keep_vertices_of_file(MeshFile& file, Eigen::Index count);
+
+/// Whether a comment is that one.
+bool says_vertices_of_file(std::string_view comment);
+
+/// For a mesh whose vertices are no longer those of a file.
+void forget_vertices_of_file(MeshFile& file);
 
 /// A number that stands for no vertex of the mesh. Says whose, as `parameterize` calls it: "poles",
 /// "meridian".

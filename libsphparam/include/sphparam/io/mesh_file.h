@@ -40,9 +40,9 @@ struct BaseColour {
 ///
 /// Conventional names: normals nx ny nz, colours red green blue [alpha] (Uint8 0–255 or Float32
 /// 0–1), per-vertex texture coordinates s t, `source_vertex` (0-based id in the file; only where
-/// vertices were welded or dropped). Faces: `material` (index into `materials`, −1 for none),
-/// `source_face` (polygon of the file, 0-based; only where a polygon was split), `filler` (1:
-/// closes a hole and is no surface, see fillers.h).
+/// vertices were welded or dropped; a comment says how many there were: file_numbers.h). Faces:
+/// `material` (index into `materials`, −1 for none), `source_face` (polygon of the file, 0-based;
+/// only where a polygon was split), `filler` (1: closes a hole and is no surface, see fillers.h).
 struct MeshFile {
   TriangleMesh mesh;
   ScalarType position_type = ScalarType::Float64;  // what the file held; see `lossless_type`

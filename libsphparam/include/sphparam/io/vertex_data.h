@@ -55,11 +55,19 @@ struct VertexData {
   std::string format = {};              // "GIFTI", "FreeSurfer curv", …
   std::vector<std::string> notes = {};  // of the reader: what is not carried (losses.h)
   int attached_as = 0;                  // its number among the data of a mesh, from 1; 0: of none
+  std::vector<std::string> properties = {};  // of that mesh, one a column
 
   Eigen::Index vertex_count() const {
     return columns.empty() ? 0 : static_cast<Eigen::Index>(columns.front().values.size());
   }
 };
+
+/// What a column is called: by itself, else after its file.
+std::string title_of_column(const VertexData& data, std::size_t column);
+
+/// Of `read_vertex_data`: whatever the file says; a FreeSurfer .label then has values of the
+/// vertices in it alone.
+inline constexpr Eigen::Index any_vertices = -1;
 
 /// Reads a file of numbers a vertex, as it is or in gzip: .shape.gii, .func.gii, .label.gii;
 /// FreeSurfer's curv (lh.thickness, lh.sulc, lh.curv), .annot, .label; overlays in .mgh and .mgz.
@@ -121,6 +129,9 @@ std::vector<std::string> attach_data(MeshFile& mesh, const VertexData& data);
 
 /// The data without columns that have values that are no finite numbers; `losses` tells of them.
 VertexData without_missing(VertexData data, std::vector<std::string>& losses);
+
+/// Which part of a brain a surface says it is of, else its name: "CortexLeft"; empty: nobody says.
+std::string structure_of(const MeshFile& surface, const std::string& path);
 
 /// The data that a mesh carries so, as it is at its vertices; properties that are gone are left
 /// out.

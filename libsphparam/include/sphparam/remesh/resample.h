@@ -39,18 +39,18 @@ Gather barycentric_weights(const MappedMesh& current, const Points& directions, 
 VectorX vertex_areas(const TriangleMesh& mesh);
 
 /// ADAP_BARY_AREA, for data: nothing of the current sphere is left out where the new one is
-/// coarser, and integrals over the surface are nearly kept. Each new vertex takes from the current ones
-/// that lie in triangles about it, by their barycentric weights there; where these are none but
-/// those that `barycentric_weights` names, as where the new sphere is finer, it takes from the
-/// latter; weights that float32 cannot tell from none do not count for that. Then weights are
-/// multiplied by the area of the new vertex, those of each current vertex scaled to sum to its
-/// area, and those of each new vertex to 1. `current_areas`, `new_areas`: of vertices on the
-/// anatomical surfaces (`vertex_areas`).
+/// coarser, and integrals over the surface are nearly kept. Each new vertex takes from the current
+/// ones that lie in triangles about it, by their barycentric weights there; where these are none
+/// but those that `barycentric_weights` names, as where the new sphere is finer, it takes from the
+/// latter. Then weights are multiplied by the area of the new vertex, those of each current vertex
+/// scaled to sum to its area, and those of each new vertex to 1. `current_areas`, `new_areas`: of
+/// vertices on the anatomical surfaces (`vertex_areas`).
 ///
+/// Which vertices have a weight at all decides which set is taken, so places are found as the
+/// Workbench finds them, in numbers of 32 bits at the radius 100: weights are good to some 1e-5.
 /// Source: method ADAP_BARY_AREA of the Connectome Workbench, wb_command -metric-resample, whose
-/// weights these are up to its rounding, by which it takes the other set of vertices at some
-/// thousandths of them (Glasser et al., "The minimal preprocessing pipelines for the Human
-/// Connectome Project", 2013).
+/// weights these are (Glasser et al., "The minimal preprocessing pipelines for the Human Connectome
+/// Project", 2013).
 /// Requires: `topology` and `sphere` are those of the new sphere, one-to-one, of unit length or
 /// any; areas not negative, one a vertex. Throws: std::invalid_argument where sizes differ.
 /// Ensures: the same weights for any number of threads. Cost: that of locating the vertices of each

@@ -42,6 +42,7 @@ enum class Colouring {
 struct DrawingOptions {
   std::optional<View> view = std::nullopt;  // nothing: both where there is a map
   Colouring colouring = Colouring::Own;
+  std::string scalar = {};  // a number a vertex, shown instead of the colouring; empty: none
   std::optional<Vector3> from = std::nullopt;  // where the eye is; nothing: a little to the right,
                                                // and above
   std::optional<Up> up = std::nullopt;         // of the mesh; nothing: as its file says
@@ -50,7 +51,7 @@ struct DrawingOptions {
   bool repairs = false;    // outlines of what repair has closed, instead of the edges of triangles
   bool graticule = false;  // lines of longitude and latitude
   bool occlusion = false;  // darken what little light reaches
-  bool legend = true;      // below area and angle
+  bool legend = true;      // below area, angle and what is measured
   int size = 800;          // pixels, of each side of a picture; 16 to 16384
   int threads = 0;         // 0: all cores
 };
@@ -62,7 +63,8 @@ bool draws_without_map(const DrawingOptions& options);
 /// Requires: triangles; positions within doubles' powers (`at_drawing_size`); a ray a vertex.
 /// Ensures: the same bytes for any number of threads.
 /// Throws: std::invalid_argument where a map is needed and missing, and for `from` along the axis
-/// that is up; ImageError. Cost: some seconds at 800 pixels.
+/// that is up, and for a `scalar` that is no property of the vertices; ImageError. Cost: some
+/// seconds at 800 pixels.
 std::string draw_png(const MeshFile& file, const std::optional<SphereMap>& map,
                      const DrawingOptions& options = {});
 

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "io/polygons/distinct_rows.h"
+#include "sphparam/io/file_numbers.h"
 
 // Both operations give every vertex a new id and keep one old vertex for every new id. Attributes
 // of a kind (normals, texture coordinates) that differ between an old vertex and the one kept for
@@ -32,6 +33,7 @@ MeshFile renumbered(MeshFile file, const Renumbering& renumbering) {
     source.values.resize(renumbering.new_vertex.size());
     std::iota(source.values.begin(), source.values.end(), 0.0);
     file.vertex_properties.push_back(std::move(source));
+    keep_vertices_of_file(file, std::ssize(renumbering.new_vertex));
   }
   for (Property& property : file.vertex_properties) {
     std::vector<double> values;

@@ -111,12 +111,17 @@ class RunningOperator:
 
 
 def selected_meshes(context):
-    """Selected mesh objects, the active one first, each mesh once."""
-    objects = [context.object, *context.selected_objects]
+    """Selected mesh objects, the active one first where it is among them, each mesh once.
+
+    Raises Refusal where there is none: as for Blender's own operators, being active is not enough.
+    """
+    objects = sorted(context.selected_objects, key=lambda obj: obj != context.object)
     found = {}
     for obj in objects:
-        if obj is not None and obj.type == "MESH":
+        if obj.type == "MESH":
             found.setdefault(obj.data.name_full, obj)
+    if not found:
+        raise Refusal("No mesh is selected: click it in the viewport, or press A for all")
     return list(found.values())
 
 

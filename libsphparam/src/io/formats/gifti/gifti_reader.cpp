@@ -8,9 +8,11 @@
 #include <locale>
 #include <sstream>
 
+#include "io/formats/freesurfer_comments.h"
 #include "io/formats/gifti/gifti_data.h"
 #include "io/formats/gifti/gifti_labels.h"
 #include "io/formats/gifti/gifti_xml.h"
+#include "io/formats/volume_geometry.h"
 #include "sphparam/io/losses.h"
 
 // The XML is taken apart (gifti_xml), the two arrays of the surface are decoded (gifti_data), then
@@ -162,6 +164,7 @@ class GiftiReader {
       if (!value.empty() && value.size() <= longest_allowed)
         file_.comments.push_back(one_line("gifti " + std::string(key) + " " + value));
     }
+    add_geometry(points);
     note_metadata();
     for (const Label& label : document_.labels) file_.comments.push_back(comment_of(label));
     for (const auto& [from, to, matrix] : points.coordinate_systems)
@@ -170,11 +173,24 @@ class GiftiReader {
                                   ": coordinates stay as they are");
   }
 
+  /// Where all of it is there; else its keys are told with all others.
+  void add_geometry(const GiftiArray& points) {
+    const std::vector<std::string> geometry = freesurfer_geometry_of(points.metadata);
+    has_geometry_ = !geometry.empty();
+    if (!has_geometry_) return;
+    const bool is_scanner = std::ranges::any_of(points.coordinate_systems, [](const auto& system) {
+      return system.data_space == "NIFTI_XFORM_SCANNER_ANAT";
+    });
+    file_.comments.push_back(std::string(freesurfer_real_ras) + (is_scanner ? "1" : "0"));
+    file_.comments.insert(file_.comments.end(), geometry.begin(), geometry.end());
+  }
+
   void note_metadata() {
     std::vector<std::string> keys;
     const auto add = [&](const Metadata& metadata) {
       for (const auto& [key, value] : metadata) {
-        const bool known = key.empty() || key == "Name" || key.starts_with("sphparam ") ||
+        const bool known = key.empty() || (has_geometry_ && is_gifti_geometry(key)) ||
+                           key == "Name" || key.starts_with("sphparam ") ||
                            std::find(kept.begin(), kept.end(), key) != kept.end();
         if (!known && std::find(keys.begin(), keys.end(), quoted(key)) == keys.end() &&
             keys.size() < most_properties)
@@ -201,6 +217,7 @@ class GiftiReader {
   const std::string& name_;
   const ReadOptions& options_;
   MeshFile file_;
+  bool has_geometry_ = false;
 };
 
 }  // namespace

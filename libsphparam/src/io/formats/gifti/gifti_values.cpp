@@ -144,7 +144,14 @@ int intent_of(const VertexData& data, const DataColumn& column) {
   return gifti_intent_is_valid(intent) ? intent : NIFTI_INTENT_NONE;
 }
 
-void fill_column(giiDataArray& array, const VertexData& data, const DataColumn& column) {
+/// Programs show columns by their names; moments of a series have none but their number.
+std::string name_of(const VertexData& data, std::size_t column) {
+  const bool is_moment = data.kind == DataKind::TimeSeries;
+  return is_moment ? data.columns[column].name : title_of_column(data, column);
+}
+
+void fill_column(giiDataArray& array, const VertexData& data, std::size_t k) {
+  const DataColumn& column = data.columns[k];
   const std::span<const double> values(column.values);
   const bool has_keys = data.kind == DataKind::Labels;
   for (const double value : values) {
@@ -157,7 +164,7 @@ void fill_column(giiDataArray& array, const VertexData& data, const DataColumn& 
     fill_gifti<int>(array, NIFTI_INTENT_LABEL, NIFTI_TYPE_INT32, values, 1);
   else
     fill_gifti<float>(array, intent_of(data, column), NIFTI_TYPE_FLOAT32, values, 1);
-  add_gifti_metadata(array.meta, "Name", column.name);
+  add_gifti_metadata(array.meta, "Name", name_of(data, k));
   for (const auto& [key, value] : column.metadata) add_gifti_metadata(array.meta, key, value);
 }
 
@@ -180,7 +187,7 @@ std::string serialise_gifti_values(const VertexData& data) {
   const GiftiTurn turn;
   const GiftiImage image = make_gifti_image(static_cast<int>(data.columns.size()));
   for (std::size_t k = 0; k < data.columns.size(); ++k)
-    fill_column(*image->darray[k], data, data.columns[k]);
+    fill_column(*image->darray[k], data, k);
   add_gifti_metadata(image->meta, std::string(structure_key), data.structure);
   for (const auto& [key, value] : data.metadata) add_gifti_metadata(image->meta, key, value);
   if (data.kind == DataKind::Labels) add_gifti_labels(*image, table_of(data));

@@ -1,12 +1,15 @@
 #include "io/formats/gifti/gifti_writer.h"
 
+#include <algorithm>
 #include <cstring>
 #include <optional>
 #include <vector>
 
+#include "io/formats/freesurfer_comments.h"
 #include "io/formats/gifti/gifti_image.h"
 #include "io/formats/gifti/gifti_labels.h"
 #include "io/formats/lossless_type.h"
+#include "io/formats/volume_geometry.h"
 
 namespace sphparam {
 namespace {
@@ -37,14 +40,25 @@ std::vector<Label> labels_of(const MeshFile& file) {
   return labels;
 }
 
-/// The space of a sphere is its own: the identity, which the field's files have too.
-void add_identity(giiDataArray& points) {
+/// That the coordinates are of this space.
+void add_space(giiDataArray& points, const char* name) {
   if (gifti_add_empty_CS(&points) != 0) throw std::bad_alloc();
   giiCoordSystem& system = *points.coordsys[0];
   for (char** const space : {&system.dataspace, &system.xformspace})
-    if (!(*space = ::strdup("NIFTI_XFORM_UNKNOWN"))) throw std::bad_alloc();
+    if (!(*space = ::strdup(name))) throw std::bad_alloc();
   for (int i = 0; i < 4; ++i)
     for (int k = 0; k < 4; ++k) system.xform[i][k] = i == k ? 1 : 0;
+}
+
+/// The space of a sphere is its own: the identity, which the field's files have too. Surfaces of
+/// FreeSurfer say which volume they are of, and whether they are in the space of the scanner.
+void add_spaces(giiDataArray& points, const MeshFile& file, bool is_sphere) {
+  if (is_sphere) return add_space(points, "NIFTI_XFORM_UNKNOWN");
+  const Metadata geometry = gifti_geometry(file.comments);
+  for (const auto& [key, value] : geometry) add_gifti_metadata(points.meta, key, value);
+  const bool is_scanner = std::ranges::find(file.comments, std::string(freesurfer_real_ras) +
+                                                               "1") != file.comments.end();
+  if (!geometry.empty() && is_scanner) add_space(points, "NIFTI_XFORM_SCANNER_ANAT");
 }
 
 GiftiImage build_image(const MeshFile& file, const GiftiOptions& options) {
@@ -63,7 +77,7 @@ GiftiImage build_image(const MeshFile& file, const GiftiOptions& options) {
   add_gifti_metadata(image->darray[1]->meta, "TopologicalType", "Closed");
   add_comments(*image, file);
   add_gifti_labels(*image, labels_of(file));
-  if (options.geometric_type == "Spherical") add_identity(points);
+  add_spaces(points, file, options.geometric_type == "Spherical");
   add_gifti_metadata(points.meta, "AnatomicalStructurePrimary", options.anatomical_structure);
   add_gifti_metadata(points.meta, "AnatomicalStructureSecondary", options.secondary_structure);
   add_gifti_metadata(points.meta, "GeometricType", options.geometric_type);

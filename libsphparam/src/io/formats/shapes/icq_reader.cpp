@@ -9,6 +9,7 @@
 #include "io/formats/shapes/shape_tables.h"
 #include "io/polygons/distinct_rows.h"
 #include "number_text.h"
+#include "sphparam/io/file_numbers.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/polygons.h"
 
@@ -140,6 +141,7 @@ class IcqReader {
     if (!albedo_.empty()) file_.set_vertex_property(std::move(albedo));
     file_.set_vertex_property(
         {"source_vertex", ScalarType::Int32, {first_point_.begin(), first_point_.end()}});
+    keep_vertices_of_file(file_, points_.rows());
   }
 
   void add_quads() {

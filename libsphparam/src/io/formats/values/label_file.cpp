@@ -1,5 +1,6 @@
 #include "io/formats/values/label_file.h"
 
+#include <algorithm>
 #include <cstdint>
 
 #include "io/files/text_buffer.h"
@@ -45,34 +46,39 @@ VertexData read_label_file(std::string_view bytes, const std::string& name, Eige
                            const ReadOptions& options) {
   TextScanner scanner(bytes, name, options);
   scanner.require_text();
-  if (vertices <= 0)
+  if (vertices == 0)
     throw ReadError(name,
                     "a label does not say how many vertices its surface has, which is "
                     "needed: name the surface");
+  if (vertices > options.max_vertices)
+    throw ReadError(name, "is of " + std::to_string(vertices) + " vertices, over the limit of " +
+                              std::to_string(options.max_vertices));
   if (!scanner.next_filled_line()) scanner.fail("the file ends before its count");
   const long count = scanner.integer();
-  if (count < 0 || count > vertices)
-    scanner.fail(std::to_string(count) + " vertices in the label, of " + std::to_string(vertices));
+  const bool alone = vertices == any_vertices;
+  const long most = alone ? std::min<long>(options.max_vertices, std::ssize(bytes)) : vertices;
+  if (count < 0 || count > most)
+    scanner.fail(std::to_string(count) + " vertices in the label, of " + std::to_string(most));
   VertexData data;
   data.format = "FreeSurfer label";
   data.kind = DataKind::Labels;
   data.labels = {{0, {{1, 1, 1, 0}}, "???"}, {1, {{1, 0, 0, 1}}, name_of_label(name)}};
   DataColumn& column = data.columns.emplace_back();
   column.type = ScalarType::Int32;
-  column.values.assign(static_cast<std::size_t>(vertices), 0);
+  column.values.assign(static_cast<std::size_t>(alone ? count : vertices), alone ? 1 : 0);
   long with_number = 0;
   for (long i = 0; i < count; ++i) {
     if (!scanner.next_filled_line())
       scanner.fail("the file ends after " + std::to_string(i) + " of " + std::to_string(count) +
                    " vertices");
     const long v = scanner.integer();
-    if (v < 0 || v >= vertices)
+    if (v < 0 || (!alone && v >= vertices))
       scanner.fail("names vertex " + std::to_string(v) + " of " + std::to_string(vertices) +
                    " (counted from 0)");
     for (int axis = 0; axis < 3; ++axis) scanner.real();
     const double number = scanner.at_line_end() ? 0 : scanner.real();
     with_number += number != 0 && number != 1;
-    column.values[static_cast<std::size_t>(v)] = 1;
+    if (!alone) column.values[static_cast<std::size_t>(v)] = 1;
   }
   if (with_number > 0)
     add_loss(data.notes, "the numbers of " + std::to_string(with_number) + " of " +

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "render/heat.h"
+#include "render/render.h"
+#include "sphparam/io/mesh_file.h"
+
+namespace sphparam {
+
+/// A number a vertex as colours, and the scale of these where they are measured.
+struct ValuePaint {
+  VertexPaint paint;
+  std::optional<HeatScale> scale;
+};
+
+/// Labels have the colours of their table, whether it came with the property (`attach_data`) or
+/// with the surface ("gifti label"), never mixed between vertices; a label without a colour is
+/// grey. What is measured goes from dark to yellow between the 2nd and the 98th percentile, from
+/// blue by white to red where that range has 0 inside; a few vertices that stand out would leave
+/// one colour for all others. Numbers that are missing are grey. Without a table, whole numbers are
+/// measured.
+/// Requires: the property is there. Cost: O(#V), expected.
+ValuePaint value_paint(const MeshFile& file, const std::string& property);
+
+}  // namespace sphparam
