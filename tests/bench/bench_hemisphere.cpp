@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <ctime>
 #include <filesystem>
 #include <optional>
@@ -108,7 +109,7 @@ void measure(const std::string& surface, const std::string& sphere, int threads)
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   const Folder folder;
   const std::string surface = argc > 1 ? argv[1] : folder.path / "lh.white";
   if (argc < 2) write_cortex(folder.path, surface);
@@ -118,4 +119,7 @@ int main(int argc, char** argv) {
       "| threads | read, check, connect | map | round, certify, write, read back | all |\n");
   std::printf("|---|---|---|---|---|\n");
   for (const int threads : {1, 2}) measure(surface, folder.path / "lh.sphere", threads);
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
 }

@@ -7,8 +7,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import bpy
 import mathutils
 import numpy as np
-from support import (Glb, column, directions, drawn_triangles, install, load, loop_vertices, make_active, positions,
-                     ran, routes, said, start_anew, use, uv, work, write_mesh)  # fmt: skip
+from support import (Glb, column, directions, drawn_triangles, expect_refusal, install, load, loop_vertices, make_active,
+                     positions, ran, routes, said, start_anew, use, uv, work, write_mesh)  # fmt: skip
 
 
 def state(mesh):
@@ -162,4 +162,5 @@ check_again(obj)
 check_wrapped(creature, plain)
 check_undo(creature)
 check_several()
+check_selected_alone()
 said(f"map: both routes alike, the UV map is the program's, tangents {median:.2f}° apart (99 %: {most:.2f}°)")

@@ -44,6 +44,7 @@ def start_anew():
 
 
 def make_active(obj, *others):
+    bpy.context.view_layer.update()  # what is linked just now cannot be selected before
     for other in bpy.context.view_layer.objects:
         other.select_set(other == obj or other in others)
     bpy.context.view_layer.objects.active = obj
