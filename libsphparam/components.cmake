@@ -2,7 +2,7 @@
 #
 # SPHPARAM_COMPONENTS chooses them; what they stand on comes along. Who adds this folder to a project
 # of their own gets the map alone unless they ask for more.
-set(all_components io image measure render bake remesh gltf report batch)
+set(all_components io image measure render bake remesh correspondence gltf report batch)
 set(default_components)
 if(PROJECT_IS_TOP_LEVEL)
   set(default_components ${all_components})
@@ -17,9 +17,10 @@ set(needs_measure)
 set(needs_render io image)
 set(needs_bake io image measure render)
 set(needs_remesh io image measure)
+set(needs_correspondence io)
 set(needs_gltf io image measure render bake)
-set(needs_report io image measure render bake remesh gltf)
-set(needs_batch io image measure render bake remesh gltf report)
+set(needs_report io image measure render bake remesh correspondence gltf)
+set(needs_batch io image measure render bake remesh correspondence gltf report)
 set(SPHPARAM_BUILT)
 set(asked_for ${SPHPARAM_COMPONENTS})
 if(SPHPARAM_BUILD_TOOLS)  # the program is made of all
@@ -116,6 +117,9 @@ endif()
 if(remesh IN_LIST SPHPARAM_BUILT)
   find_package(OpenSubdiv REQUIRED MODULE)
   add_component(remesh ROOMS remesh displace LIBRARIES OpenSubdiv::osdCPU=osdCPU)
+endif()
+if(correspondence IN_LIST SPHPARAM_BUILT)
+  add_component(correspondence ROOMS correspondence)
 endif()
 if(gltf IN_LIST SPHPARAM_BUILT)
   add_component(gltf ROOMS gltf

@@ -51,6 +51,7 @@ Command declare_compare(CLI::App& program);
 Command declare_spharm(CLI::App& program);
 Command declare_remesh(CLI::App& program);
 Command declare_unimage(CLI::App& program);
+Command declare_match(CLI::App& program);
 Command declare_measure(CLI::App& program);
 Command declare_paint(CLI::App& program);
 Command declare_report(CLI::App& program);

@@ -177,8 +177,8 @@ struct Program {
     app.require_subcommand(0, 1);
     for (const auto declare :
          {declare_info, declare_map, declare_repair, declare_survey, declare_verify, declare_render,
-          declare_compare, declare_spharm, declare_remesh, declare_unimage, declare_measure,
-          declare_paint, declare_report, declare_export, declare_bake}) {
+          declare_compare, declare_spharm, declare_remesh, declare_unimage, declare_match,
+          declare_measure, declare_paint, declare_report, declare_export, declare_bake}) {
       commands.push_back(declare(app));
     }
     for (Command& command : declare_batch(app)) commands.push_back(std::move(command));

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "sphparam/correspondence/surface_map.h"
+#include "sphparam/io/mapped_mesh.h"
+#include "sphparam/io/mesh_file.h"
+
+namespace sphparam {
+
+/// `from` as it is written: with its map, and for every vertex its point on `to`: properties
+/// target_face and target_0, target_1, target_2, the barycentric weights of its corners.
+MappedMesh with_targets(const SurfaceMap& map, int threads = 0);
+
+/// The triangles of `from`, with what its vertices carry, in the shape of `to`; without normals,
+/// which would be those of the other shape.
+MeshFile in_other_shape(const SurfaceMap& map, int threads = 0);
+
+/// `from` with the vertex properties of `to`, linear in its triangles: those of the same names are
+/// replaced. Labels are those of the nearest corner. Normals, which belong to the shape, and what
+/// says where vertices come from are not carried.
+MeshFile with_other_values(const SurfaceMap& map, int threads = 0);
+
+/// The mesh reflected in the plane x = 0, its triangles turned round so that they look outward, and
+/// its map with it. What corners carry goes along.
+MappedMesh mirror_image(const MappedMesh& mapped, int threads = 0);
+
+}  // namespace sphparam

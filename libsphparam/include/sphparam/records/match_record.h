@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sphparam/correspondence/match.h"
+#include "sphparam/sphere/distortion.h"
+
+namespace sphparam {
+
+/// A map between two surfaces. References are to values that outlive the record.
+struct MatchRecord {
+  std::string first, second;  // the files
+  const Match& match;
+  const MatchOptions& options;
+  bool mirrored = false;         // the first is the mirror image of what its file has
+  DistortionSummary distortion;  // of the composition
+  std::vector<std::pair<std::string, std::string>> outputs = {};  // what, and its file
+  double seconds = 0;
+};
+
+/// As `sphparam match --json` tells it.
+std::string to_json(const MatchRecord& record);
+
+/// A line for people.
+std::string to_text(const MatchRecord& record);
+
+}  // namespace sphparam

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "correspondence/composed_energy.h"
+#include "correspondence/moving_surface.h"
+#include "correspondence/target_surface.h"
+#include "embedding/frame/landmarks.h"
+#include "mesh/mesh_hierarchy.h"
+#include "sphparam/mesh/topology.h"
+#include "sphparam/progress.h"
+
+namespace sphparam {
+
+struct ComposedOptions {
+  ComposedEnergy energy = {};
+  std::vector<Pin> landmarks = {};  // vertices of the source and the directions that they get
+  int threads = 0;
+  Progress progress = {};
+};
+
+/// A map of a source onto the sphere of a target, of least distortion of source → sphere → target:
+/// a coarse level first, then level by level up, landmarks held at their directions.
+///
+/// Every determinant is certain to be positive at every moment; same bits for any number of
+/// threads.
+class CoarseToFine {
+ public:
+  /// Borrows all that it is given. Requires: genus 0. Cost: that of the hierarchy.
+  CoarseToFine(const TriangleMesh& source, const Topology& topology, const TargetSurface& target,
+               const ComposedOptions& options);
+
+  /// Makes the map of a coarse level, the coarsest whose landmarks can be reached, and returns its
+  /// energy, of a unit of area; nothing where there is none.
+  std::optional<double> start();
+  /// Of the landmarks, after `start`: radians from their directions where it had to give up.
+  const std::vector<double>& residuals() const { return residuals_; }
+  /// The map of the source. Requires: `start` found a level. Cost: linear but for factorisations.
+  SphereMap finish();
+
+ private:
+  bool start_on(size_t level);
+  bool climb_to(size_t level);
+  bool insert(size_t level, std::vector<Place>& places) const;
+  void settle(size_t level, int most_steps);
+  std::vector<char> held_on(size_t level) const;
+
+  const TargetSurface& target_;
+  const ComposedOptions& options_;
+  MeshHierarchy hierarchy_;
+  std::vector<std::vector<Vertex>> names_;  // of the landmarks, on each level; -1: removed
+  std::vector<Place> places_;               // of the vertices of the level at hand
+  std::vector<double> residuals_;
+  size_t level_ = 0;      // at hand
+  int newton_level_ = 0;  // vertices of the level of the last Newton steps
+  double energy_ = 0;     // after these
+};
+
+/// The same from a map that is one-to-one and has the landmarks: Newton steps and sweeps as long as
+/// they pay. A map that the energy has no finite value at comes back as it was.
+SphereMap improve_composition(const TriangleMesh& source, const Topology& topology,
+                              const TargetSurface& target, const SphereMap& map,
+                              const ComposedOptions& options);
+
+/// Of source → sphere → target, of a unit of area.
+double energy_of_composition(const TriangleMesh& source, const Topology& topology,
+                             const TargetSurface& target, const SphereMap& map,
+                             const ComposedEnergy& energy, int threads = 0);
+
+}  // namespace sphparam

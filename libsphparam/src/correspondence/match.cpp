@@ -1,0 +1,136 @@
+#include "sphparam/correspondence/match.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <utility>
+
+#include "correspondence/coarse_to_fine.h"
+#include "embedding/frame/landmarks.h"
+#include "embedding/frame/nearest_rotation.h"
+#include "number_text.h"
+#include "option_domain.h"
+#include "sphparam/version.h"
+
+// Two starts. The map that `from` has, turned so that the landmarks fit, where they fit all but
+// exactly: two maps that mean the same. Else from coarse to fine, landmarks first.
+// Mirrored landmarks are known by the energy on the coarse level: that of the mirror image with the
+// same landmarks is far lower.
+
+namespace sphparam {
+namespace {
+
+constexpr double fitting = 1e-6;        // radians: landmarks of maps that mean the same
+constexpr double mirrored_share = 0.5;  // of the energy beyond isometry: less is the mirror image's
+constexpr double telling_energy = 0.25;  // what lies between the two must be more
+constexpr size_t telling_landmarks = 3;  // fewer have no sides
+
+void require_landmarks(const std::vector<LandmarkPair>& landmarks, const MappedMesh& from,
+                       const MappedMesh& to) {
+  std::set<Vertex> firsts, seconds;
+  for (const LandmarkPair& pair : landmarks) {
+    require_vertex("landmarks: from", pair.from, from.mesh().vertex_count());
+    require_vertex("landmarks: to", pair.to, to.mesh().vertex_count());
+    if (!firsts.insert(pair.from).second || !seconds.insert(pair.to).second)
+      throw std::invalid_argument("landmarks: a vertex is in two pairs");
+  }
+}
+
+std::vector<Pin> pins_of(const std::vector<LandmarkPair>& landmarks, const MappedMesh& to) {
+  std::vector<Pin> pins;
+  for (const LandmarkPair& pair : landmarks) pins.push_back({pair.from, to.map().point(pair.to)});
+  return pins;
+}
+
+/// The map of `from`, turned, with its landmarks exactly there, where that is hardly a change.
+std::optional<SphereMap> fitting_map(const MappedMesh& from, const std::vector<Pin>& pins) {
+  if (pins.empty()) return from.map();
+  SphereMap map = from.map();
+  if (pins.size() < telling_landmarks) return std::nullopt;
+  if (!all_exact(pin_residuals(map, pins))) map = turned(map, best_rotation(map, pins));
+  for (const double residual : pin_residuals(map, pins))
+    if (residual > fitting) return std::nullopt;
+  for (const Pin& pin : pins) map.points.row(pin.vertex) = pin.point;
+  if (!certify(from.topology(), map).bijective()) return std::nullopt;
+  return map;
+}
+
+TriangleMesh mirrored(TriangleMesh mesh) {
+  mesh.positions.col(0) *= -1;
+  mesh.triangles.col(1).swap(mesh.triangles.col(2));
+  return mesh;
+}
+
+/// Throws where the mirror image of `from` fits the landmarks far better. `direct`: the energy of
+/// `from` on its coarse level, if it has one.
+void require_sides(const MappedMesh& from, const TargetSurface& target,
+                   const ComposedOptions& options, std::optional<double> direct) {
+  if (options.landmarks.size() < telling_landmarks) return;
+  const TriangleMesh other = mirrored(from.mesh());
+  const Topology topology(other, options.threads);
+  const std::optional<double> image = CoarseToFine(other, topology, target, options).start();
+  const double least = differentiate(options.energy.energy, 1, 1).f;
+  if (!image) return;
+  const bool far = direct && *image - least < mirrored_share * (*direct - least) &&
+                   *direct - *image > telling_energy;
+  if (direct && !far) return;
+  throw MirroredLandmarks(
+      "the landmarks look mirrored: they fit the mirror image of " + from.name() +
+      " far better, energy " + short_number(*image) +
+      (direct ? " against " + short_number(*direct) : ", and cannot be reached without it") + " (" +
+      short_number(least) + " is isometry)");
+}
+
+std::string words_of(const std::vector<double>& residuals) {
+  const double worst = residuals.empty() ? 0 : *std::ranges::max_element(residuals);
+  return residuals.empty() ? "they fold a triangle"
+                           : "the worst stays " + short_number(worst * 180 / std::numbers::pi) +
+                                 "° from its partner";
+}
+
+/// From coarse to fine.
+SphereMap matched(const MappedMesh& from, const TargetSurface& target,
+                  const ComposedOptions& options) {
+  CoarseToFine way(from.mesh(), from.topology(), target, options);
+  const std::optional<double> energy = way.start();
+  require_sides(from, target, options, energy);
+  SphereMap map = energy ? way.finish() : SphereMap{};
+  if (map.points.rows() > 0) return map;
+  throw UnreachableLandmarks("no map of " + from.name() +
+                             " with these landmarks was found: " + words_of(way.residuals()));
+}
+
+ComposedOptions composed_options(const MatchOptions& options, const MappedMesh& to) {
+  ComposedEnergy energy;
+  energy.energy.kind = options.energy.kind;
+  energy.energy.lambda = options.energy.lambda;
+  return {energy, pins_of(options.landmarks, to), options.threads, options.progress};
+}
+
+}  // namespace
+
+Match match_surfaces(const MappedMesh& from, const MappedMesh& to, const MatchOptions& options) {
+  require_landmarks(options.landmarks, from, to);
+  const TargetSurface target(to);
+  const ComposedOptions composed = composed_options(options, to);
+  const std::optional<SphereMap> fits = fitting_map(from, composed.landmarks);
+  const auto energy_of = [&](const SphereMap& map, const DistortionEnergy& density) {
+    return energy_of_composition(from.mesh(), from.topology(), target, map, {density, 0},
+                                 options.threads);
+  };
+  const DistortionEnergy plain{options.energy.kind, options.energy.lambda};
+  SphereMap map = fits ? improve_composition(from.mesh(), from.topology(), target, *fits, composed)
+                       : matched(from, target, composed);
+  // What is minimised differs from the plain energy by its ε: an isometry is to stay one.
+  if (fits && energy_of(*fits, plain) < energy_of(map, plain)) map = *fits;
+  const double energy = energy_of(map, composed.energy.energy);
+  const std::string made_by = fits ? "own map" : "coarse to fine";
+  const Provenance lines = {
+      {"version", version}, {"method", "match"}, {"stage", made_by}, {"verdict", "one-to-one"}};
+  MappedMesh moved = from.with_map(std::move(map), lines);
+  std::vector<double> residuals = pin_residuals(moved.map(), composed.landmarks);
+  return {SurfaceMap(std::move(moved), to), energy, made_by, std::move(residuals)};
+}
+
+}  // namespace sphparam

@@ -1,0 +1,132 @@
+#include "sphparam/correspondence/matched_files.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "io/attributes/weightiest_label.h"
+#include "sphparam/io/sphere_file.h"
+
+namespace sphparam {
+namespace {
+
+using std::string_view_literals::operator""sv;
+
+constexpr std::array colours = {"red"sv, "green"sv, "blue"sv, "alpha"sv};
+/// Of the shape, of the map, or of the file: they mean nothing elsewhere.
+constexpr std::array not_carried = {"nx"sv, "ny"sv,    "nz"sv,  "sx"sv,           "sy"sv,
+                                    "sz"sv, "theta"sv, "phi"sv, "source_vertex"sv};
+const std::vector<std::string> normals = {"nx", "ny", "nz"};
+
+bool is_among(const auto& names, const std::string& name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+double label_at(const TriangleMesh& mesh, const std::vector<double>& labels,
+                const SurfacePoint& point) {
+  std::array<std::pair<double, double>, 3> labelled;
+  for (int k = 0; k < 3; ++k) {
+    labelled[static_cast<size_t>(k)] = {labels[static_cast<size_t>(mesh.triangles(point.face, k))],
+                                        point.barycentric[k]};
+  }
+  return weightiest_label(labelled);
+}
+
+Property carried(const TriangleMesh& mesh, const Property& property,
+                 const std::vector<SurfacePoint>& points) {
+  Property result{property.name, property.type, {}};
+  const bool is_colour = is_among(colours, property.name);
+  if (is_floating(property.type) || is_colour) {
+    result.values = values_at(mesh, property.values, points);
+    if (!is_floating(property.type))
+      for (double& value : result.values) value = std::round(value);
+    return result;
+  }
+  for (const SurfacePoint& point : points)
+    result.values.push_back(label_at(mesh, property.values, point));
+  return result;
+}
+
+/// Corners 0, 1, 2 of each triangle become 0, 2, 1.
+template <class Rows>
+void turn_round(Rows& corners) {
+  for (Eigen::Index row = 0; row < corners.rows(); row += 3)
+    corners.row(row + 1).swap(corners.row(row + 2));
+}
+
+void reflect(MeshFile& file) {
+  file.mesh.positions.col(0) *= -1;
+  file.mesh.triangles.col(1).swap(file.mesh.triangles.col(2));
+  for (Property& property : file.vertex_properties)
+    if (property.name == "nx")
+      for (double& value : property.values) value = -value;
+  if (file.corner_texcoords) turn_round(*file.corner_texcoords);
+  if (file.corner_normals) {
+    turn_round(*file.corner_normals);
+    file.corner_normals->col(0) *= -1;
+  }
+}
+
+}  // namespace
+
+MappedMesh with_targets(const SurfaceMap& map, int threads) {
+  const MappedMesh& from = map.from();
+  const std::vector<SurfacePoint> points = map.forth(threads);
+  MeshFile file = from.file();
+  Property face{"target_face", ScalarType::Int32, {}};
+  std::array<Property, 3> weights;
+  for (size_t k = 0; k < 3; ++k)
+    weights[k] = {"target_" + std::to_string(k), ScalarType::Float64, {}};
+  for (const SurfacePoint& point : points) {
+    face.values.push_back(point.face);
+    for (size_t k = 0; k < 3; ++k)
+      weights[k].values.push_back(point.barycentric[static_cast<Eigen::Index>(k)]);
+  }
+  file.set_vertex_property(std::move(face));
+  for (Property& weight : weights) file.set_vertex_property(std::move(weight));
+  return MappedMesh({.file = std::move(file),
+                     .map = from.map(),
+                     .provenance = from.provenance(),
+                     .topology = from.topology(),
+                     .polygons = from.polygons(),
+                     .notes = from.notes(),
+                     .mapped_here = from.mapped_here(),
+                     .name = from.name()},
+                    threads);
+}
+
+MeshFile in_other_shape(const SurfaceMap& map, int threads) {
+  MeshFile file = without_map(map.from().file());
+  file.mesh = map.from_on_to(threads);
+  remove_properties(file.vertex_properties, normals);
+  file.corner_normals.reset();
+  return file;
+}
+
+MeshFile with_other_values(const SurfaceMap& map, int threads) {
+  MeshFile file = without_map(map.from().file());
+  const std::vector<SurfacePoint> points = map.forth(threads);
+  for (const Property& property : map.to().file().vertex_properties) {
+    if (is_among(not_carried, property.name)) continue;
+    file.set_vertex_property(carried(map.to().mesh(), property, points));
+  }
+  return file;
+}
+
+MappedMesh mirror_image(const MappedMesh& mapped, int threads) {
+  MeshFile file = mapped.file();
+  reflect(file);
+  SphereMap map = mapped.map();
+  map.points.col(0) *= -1;
+  return MappedMesh({.file = std::move(file),
+                     .map = std::move(map),
+                     .provenance = mapped.provenance(),
+                     .notes = mapped.notes(),
+                     .mapped_here = mapped.mapped_here(),
+                     .name = mapped.name()},
+                    threads);
+}
+
+}  // namespace sphparam

@@ -1,0 +1,65 @@
+#include "sphparam/records/match_record.h"
+
+#include <nlohmann/json.hpp>
+
+#include "number_text.h"
+#include "records/json_parts.h"
+#include "sphparam/io/file_numbers.h"
+#include "sphparam/io/paths.h"
+#include "sphparam/version.h"
+
+namespace sphparam {
+namespace {
+
+Json side_json(const std::string& path, const MappedMesh& mapped) {
+  return {{"file", path},
+          {"vertices", mapped.mesh().vertex_count()},
+          {"triangles", mapped.mesh().face_count()},
+          {"mapped_now", mapped.mapped_here()},
+          {"certificate", certificate_json(mapped.certificate())}};
+}
+
+Json landmarks_json(const MatchRecord& record) {
+  const FileNumbers from(record.match.map.from().file()), to(record.match.map.to().file());
+  Json all = Json::array();
+  for (size_t i = 0; i < record.options.landmarks.size(); ++i) {
+    const LandmarkPair& pair = record.options.landmarks[i];
+    all.push_back({{"first", from.number(pair.from)},
+                   {"second", to.number(pair.to)},
+                   {"residual", record.match.residuals[i]}});
+  }
+  return all;
+}
+
+}  // namespace
+
+std::string to_json(const MatchRecord& record) {
+  const Match& match = record.match;
+  Json json = {{"sphparam", version},
+               {"command", "match"},
+               {"first", side_json(record.first, match.map.from())},
+               {"second", side_json(record.second, match.map.to())},
+               {"mirrored", record.mirrored},
+               {"one_to_one", true},
+               {"made_by", match.made_by},
+               {"energy", match.energy},
+               {"landmarks", landmarks_json(record)},
+               {"distortion", distortion_json(record.distortion)}};
+  json["outputs"] = pairs_json(record.outputs);
+  json["seconds"] = record.seconds;
+  return text_of(json);
+}
+
+std::string to_text(const MatchRecord& record) {
+  const DistortionSummary& d = record.distortion;
+  std::string line = display_name(record.first) + " → " + display_name(record.second) +
+                     ": one-to-one, both maps certified; mean |ln| of angles " +
+                     short_number(d.mean_abs_ln_angle) + ", of areas " +
+                     short_number(d.mean_abs_ln_area);
+  const size_t landmarks = record.options.landmarks.size();
+  if (landmarks > 0)
+    line += ", " + counted(static_cast<long>(landmarks), "landmark", "landmarks") + " exact";
+  return line + ", " + short_number(record.seconds) + " s";
+}
+
+}  // namespace sphparam

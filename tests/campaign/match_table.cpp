@@ -1,0 +1,332 @@
+// How far matches are from the truth on sets of shapes whose correspondences are known: geodesic
+// distance over √area of the target, a line a pair and a table of means. Landmarks are drawn from
+// the truth by farthest points. The shapes are in two public repositories, one folder each:
+//
+//     git clone https://github.com/llorz/SGA18_orientation_BCICP_dataset bcicp
+//     git clone https://github.com/patr-schm/surface-maps-via-adaptive-triangulations shrec
+//     match_table --bcicp bcicp/Dataset --shrec shrec/data/meshes/shrec --log pairs.tsv
+//
+// Distances are of paths along edges and across pairs of triangles, as Dijkstra finds them: some
+// per cent too long, never too short. A pair belongs to the third that was held out when its number
+// leaves 2 divided by 3. Landmarks are no points that errors are measured at.
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <queue>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "mesh/triangle_geometry.h"
+#include "sphparam/correspondence/match.h"
+#include "sphparam/io/mapped_mesh.h"
+#include "sphparam/stopwatch.h"
+
+using namespace sphparam;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr int held_out = 2;  // the remainder, by 3, of a held-out pair's number
+
+/// A shape, and which of its vertices are known to correspond to those of others of its set.
+struct Shape {
+  MappedMesh mapped;
+  std::vector<Vertex> truth;
+  double map_seconds;
+};
+
+struct Pair {
+  std::string first, second;
+};
+
+struct Set {
+  std::string name;
+  std::vector<Pair> pairs;
+  std::map<std::string, std::pair<std::string, std::string>> files;  // mesh and truth, of a shape
+  bool one_based = false;
+  int landmarks = 5;
+};
+
+struct Outcome {
+  bool certified = false;
+  double error = 0, most = 0, seconds = 0, energy = 0;
+  std::string complaint;
+};
+
+/// Paths along edges and straight across pairs of triangles.
+class Roads {
+ public:
+  explicit Roads(const MappedMesh& shape) : mesh_(shape.mesh()), start_{0} {
+    const Topology& topology = shape.topology();
+    for (Vertex v = 0; v < topology.vertex_count(); ++v) {
+      topology.for_each_outgoing(v, [&](Halfedge h) {
+        const Vertex w = topology.origin(topology.next(h));
+        ways_.push_back({w, (mesh_.position(w) - mesh_.position(v)).norm()});
+        add_crossing(topology, v, topology.next(h));
+      });
+      start_.push_back(ways_.size());
+    }
+  }
+
+  /// From `from` to each vertex until all of `until` are reached; all, where it is empty.
+  std::vector<double> distances(Vertex from, std::vector<Vertex> until) const {
+    std::vector<double> result(start_.size() - 1, infinity);
+    std::vector<char> done(result.size(), 0);
+    using Entry = std::pair<double, Vertex>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    result[at(from)] = 0;
+    queue.push({0, from});
+    const bool all = until.empty();
+    while (!queue.empty() && (all || !until.empty())) {
+      const auto [distance, v] = queue.top();
+      queue.pop();
+      if (std::exchange(done[at(v)], 1)) continue;
+      std::erase(until, v);
+      for (size_t i = start_[at(v)]; i < start_[at(v) + 1]; ++i) {
+        const double through = distance + ways_[i].length;
+        double& other = result[at(ways_[i].to)];
+        if (through < other) queue.push({other = through, ways_[i].to});
+      }
+    }
+    return result;
+  }
+
+  /// To a point of the surface.
+  double distance(Vertex from, const SurfacePoint& to) const {
+    std::vector<Vertex> corners;
+    Vector3 point = Vector3::Zero();
+    for (int k = 0; k < 3; ++k) {
+      corners.push_back(mesh_.triangles(to.face, k));
+      point += to.barycentric[k] * mesh_.position(corners.back());
+    }
+    const std::vector<double> reached = distances(from, corners);
+    double least = infinity;
+    for (const Vertex v : corners)
+      least = std::min(least, reached[at(v)] + (mesh_.position(v) - point).norm());
+    return least;
+  }
+
+ private:
+  struct Way {
+    Vertex to;
+    double length;
+  };
+  static size_t at(Vertex v) { return static_cast<size_t>(v); }
+
+  /// From v over the edge h opposite to it to the corner beyond, where the unfolded way crosses it.
+  void add_crossing(const Topology& topology, Vertex v, Halfedge h) {
+    const Vertex a = topology.origin(h), b = topology.origin(topology.next(h));
+    const Vertex beyond = topology.apex(topology.twin(h));
+    const Vector3 x = mesh_.position(v), p = mesh_.position(a), q = mesh_.position(b);
+    const Vector3 along = (q - p).normalized(), y = mesh_.position(beyond);
+    const double x0 = (x - p).dot(along), y0 = (y - p).dot(along);
+    const double x1 = ((x - p) - x0 * along).norm(), y1 = ((y - p) - y0 * along).norm();
+    const double crossing = x0 + (y0 - x0) * x1 / (x1 + y1);
+    if (!(crossing > 0 && crossing < (q - p).norm())) return;
+    ways_.push_back({beyond, std::hypot(y0 - x0, x1 + y1)});
+  }
+
+  const TriangleMesh& mesh_;
+  std::vector<size_t> start_;
+  std::vector<Way> ways_;
+};
+
+double area_of(const TriangleMesh& mesh) {
+  double area = 0;
+  for (Face f = 0; f < mesh.face_count(); ++f) {
+    const auto corner = [&](int k) { return mesh.position(mesh.triangles(f, k)); };
+    area += triangle_area(corner(0), corner(1), corner(2));
+  }
+  return area;
+}
+
+std::vector<std::string> lines_of(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error(path + ": cannot be read");
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(file, line);)
+    if (!line.empty()) lines.push_back(line);
+  return lines;
+}
+
+Shape load(const Set& set, const std::string& name, int threads) {
+  const auto& [mesh, truth] = set.files.at(name);
+  const Stopwatch watch;
+  MappedMesh mapped = load_mapped(mesh, {.map = {.threads = threads}});
+  mapped.locator();
+  Shape shape{std::move(mapped), {}, watch.seconds()};
+  for (const std::string& line : lines_of(truth))
+    shape.truth.push_back(std::stoi(line) - (set.one_based ? 1 : 0));
+  return shape;
+}
+
+/// Numbers in the truth, each as far as can be from those before.
+std::vector<size_t> farthest_points(const Shape& shape, const Roads& roads, int count) {
+  std::vector<double> near = roads.distances(shape.truth[0], {});
+  std::vector<size_t> chosen;
+  for (int n = 0; n < count; ++n) {
+    size_t best = 0;
+    for (size_t i = 0; i < shape.truth.size(); ++i) {
+      const auto distance = [&](size_t j) { return near[static_cast<size_t>(shape.truth[j])]; };
+      if (distance(i) > distance(best)) best = i;
+    }
+    chosen.push_back(best);
+    const std::vector<double> from = roads.distances(shape.truth[best], {});
+    for (size_t v = 0; v < near.size(); ++v)
+      near[v] = n == 0 ? from[v] : std::min(near[v], from[v]);
+  }
+  return chosen;
+}
+
+Outcome score(const Shape& from, const Shape& to, const Roads& from_roads, const Roads& to_roads,
+              const Set& set, int most_points, int threads) try {
+  const std::vector<size_t> landmarks = farthest_points(from, from_roads, set.landmarks);
+  MatchOptions options;
+  options.threads = threads;
+  for (const size_t i : landmarks) options.landmarks.push_back({from.truth[i], to.truth[i]});
+  const Stopwatch watch;
+  const Match match = match_surfaces(from.mapped, to.mapped, options);
+  Outcome outcome;
+  outcome.seconds = watch.seconds();
+  outcome.certified = match.map.from().certificate().bijective();
+  outcome.energy = match.energy;
+  const std::vector<SurfacePoint> forth = match.map.forth(threads);
+  const size_t count = std::min(from.truth.size(), to.truth.size());
+  const size_t stride = std::max<size_t>(1, count / static_cast<size_t>(most_points));
+  const double unit = std::sqrt(area_of(to.mapped.mesh()));
+  int measured = 0;
+  for (size_t i = 0; i < count; i += stride) {
+    if (std::ranges::count(landmarks, i) > 0) continue;
+    const double error =
+        to_roads.distance(to.truth[i], forth[static_cast<size_t>(from.truth[i])]) / unit;
+    outcome.error += error;
+    outcome.most = std::max(outcome.most, error);
+    ++measured;
+  }
+  outcome.error /= measured;
+  return outcome;
+} catch (const std::exception& error) {
+  Outcome outcome;
+  outcome.complaint = error.what();
+  return outcome;
+}
+
+void add_files(Set& set, const fs::path& meshes, const fs::path& truths) {
+  for (const auto& entry : fs::directory_iterator(meshes)) {
+    const std::string name = entry.path().stem().string();
+    const fs::path truth = truths / (name + ".vts");
+    if (entry.path().extension() == ".off" && fs::exists(truth))
+      set.files[name] = {entry.path().string(), truth.string()};
+  }
+}
+
+Set bcicp_set(const fs::path& folder, bool both_ways) {
+  Set set;
+  set.name = folder.filename().string();
+  set.one_based = true;
+  add_files(set, folder / "vtx_5k", folder / "vtx_5k" / "corres");
+  for (const std::string& line : lines_of(folder / "test_pairs.txt")) {
+    Pair pair;
+    std::istringstream(line) >> pair.first >> pair.second;
+    set.pairs.push_back(pair);
+    if (both_ways) set.pairs.push_back({pair.second, pair.first});
+  }
+  return set;
+}
+
+Set shrec_set(const fs::path& folder) {
+  Set set;
+  set.name = "SHREC07 four-legged";
+  set.landmarks = 6;
+  add_files(set, folder, folder);
+  for (const auto& [first, files] : set.files)
+    for (const auto& [second, others] : set.files)
+      if (first != second) set.pairs.push_back({first, second});
+  return set;
+}
+
+struct Tally {
+  int pairs = 0, certified = 0;
+  double error = 0, worst = 0, seconds = 0, slowest = 0;
+  std::vector<double> errors;
+};
+
+void tell(const std::string& name, const Tally& tally) {
+  if (tally.pairs == 0) return;
+  std::vector<double> errors = tally.errors;
+  std::ranges::sort(errors);
+  const double median = errors.empty() ? 0 : errors[errors.size() / 2];
+  std::printf(
+      "%-34s %4d pairs, %4d certified, error %.4f, median pair %.4f, worst %.4f, %.2f s a pair, "
+      "slowest %.2f s\n",
+      name.c_str(), tally.pairs, tally.certified,
+      tally.error / static_cast<double>(std::max<size_t>(1, errors.size())), median, tally.worst,
+      tally.seconds / tally.pairs, tally.slowest);
+}
+
+void run(const Set& set, int every, int offset, int most_points, int threads, std::ofstream& log) {
+  std::map<std::string, Shape> shapes;
+  std::map<std::string, Roads> roads;
+  const auto prepare = [&](const std::string& name) {
+    if (shapes.contains(name)) return;
+    const Shape& shape = shapes.emplace(name, load(set, name, threads)).first->second;
+    roads.emplace(name, Roads(shape.mapped));
+  };
+  Tally developed, held;
+  for (size_t i = static_cast<size_t>(offset); i < set.pairs.size();
+       i += static_cast<size_t>(every)) {
+    const auto& [first, second] = set.pairs[i];
+    prepare(first);
+    prepare(second);
+    const Outcome outcome = score(shapes.at(first), shapes.at(second), roads.at(first),
+                                  roads.at(second), set, most_points, threads);
+    Tally& tally = i % 3 == held_out ? held : developed;
+    ++tally.pairs;
+    tally.certified += outcome.certified;
+    tally.seconds += outcome.seconds;
+    tally.slowest = std::max(tally.slowest, outcome.seconds);
+    if (outcome.complaint.empty()) {
+      tally.errors.push_back(outcome.error);
+      tally.error += outcome.error;
+      tally.worst = std::max(tally.worst, outcome.error);
+    }
+    log << set.name << '\t' << i << '\t' << first << '\t' << second << '\t' << outcome.error << '\t'
+        << outcome.most << '\t' << outcome.energy << '\t' << outcome.seconds << '\t'
+        << outcome.complaint << std::endl;
+  }
+  tell(set.name + ", developed on", developed);
+  tell(set.name + ", held out", held);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Scores matches of surfaces against known correspondences.");
+  std::string bcicp, shrec, log_path = "match_table.tsv";
+  int every = 1, offset = 0, points = 500, threads = 0;
+  app.add_option("--bcicp", bcicp, "The folder Dataset of SGA18_orientation_BCICP_dataset");
+  app.add_option("--shrec", shrec, "data/meshes/shrec of surface-maps-via-adaptive-triangulations");
+  app.add_option("--log", log_path, "A line a pair");
+  app.add_option("--every", every, "Only every so many pairs")->check(CLI::PositiveNumber);
+  app.add_option("--offset", offset, "The first of these")->check(CLI::NonNegativeNumber);
+  app.add_option("--points", points, "At most, of the truth, that are measured a pair");
+  app.add_option("--threads", threads);
+  CLI11_PARSE(app, argc, argv);
+  std::ofstream log(log_path);
+  if (!bcicp.empty()) {
+    run(bcicp_set(fs::path(bcicp) / "FAUST", false), every, offset, points, threads, log);
+    run(bcicp_set(fs::path(bcicp) / "TOSCA_nonIsometric", true), every, offset, points, threads,
+        log);
+  }
+  if (!shrec.empty()) run(shrec_set(shrec), every, offset, points, threads, log);
+  return 0;
+}

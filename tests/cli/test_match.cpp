@@ -1,0 +1,135 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "program.h"
+#include "sphparam/io/mesh_reader.h"
+#include "support/test_meshes.h"
+
+/// `sphparam match`.
+namespace sphparam::tests {
+
+namespace {
+
+using Catch::Contains;
+using Json = nlohmann::json;
+
+/// A ball with a long nose and a short one: no two sides of it are alike.
+TriangleMesh creature(int level, double nose) {
+  TriangleMesh mesh = icosphere(level);
+  for (Vertex v = 0; v < mesh.vertex_count(); ++v) {
+    const Vector3 x = mesh.position(v);
+    const double one = std::exp(-8 * (x - Vector3(0.8, 0.6, 0)).squaredNorm());
+    const double two = std::exp(-8 * (x - Vector3(0, -0.6, 0.8)).squaredNorm());
+    const double three = std::exp(-8 * (x - Vector3(-1, 0, 0)).squaredNorm());
+    mesh.positions.row(v) = (1 + nose * one + 0.5 * two + 0.25 * three) * x;
+  }
+  return mesh;
+}
+
+/// Two creatures and their landmarks.
+struct Creatures {
+  Folder folder;
+  std::string first = folder / "first.obj", second = folder / "second.obj";
+  std::string pairs = folder / "pairs.txt", out = folder / "out.ply";
+
+  Creatures() {
+    write_bytes(first, obj_text(creature(3, 1)));
+    write_bytes(second, obj_text(creature(4, 1.4)));
+    write_bytes(pairs, "# of an icosahedron\n0 0\n3 3\n5 5\n8 8\n10 10\n");
+  }
+  Ended match(std::vector<std::string> more = {}) const {
+    std::vector<std::string> arguments{"match", first, second, "--landmarks", pairs, "-o", out};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return sphparam_program(arguments);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("match: the map is written, certified, with every vertex's point on the other") {
+  const Creatures creatures;
+  const Ended ended = creatures.match({"--json", "-"});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  const Json report = Json::parse(ended.out);
+  CHECK(report["one_to_one"] == true);
+  CHECK(report["first"]["certificate"]["one_to_one"] == true);
+  CHECK(report["second"]["certificate"]["one_to_one"] == true);
+  REQUIRE(report["landmarks"].size() == 5);
+  for (const Json& landmark : report["landmarks"]) CHECK(landmark["residual"] == 0.0);
+  CHECK(report["distortion"]["symmetric_dirichlet"] < 6);
+  CHECK(sphparam_program({"verify", creatures.out}).code == 0);
+  const MeshFile written = read_mesh(creatures.out);
+  const MeshFile other = read_mesh(creatures.second);
+  const Property* face = written.find_vertex_property("target_face");
+  REQUIRE(face);
+  for (const Vertex landmark : {0, 3, 5, 8, 10}) {
+    Vector3 place = Vector3::Zero();
+    const auto f = static_cast<Face>(face->values[static_cast<size_t>(landmark)]);
+    for (int k = 0; k < 3; ++k) {
+      const Property* weight = written.find_vertex_property("target_" + std::to_string(k));
+      REQUIRE(weight);
+      place += weight->values[static_cast<size_t>(landmark)] *
+               other.mesh.position(other.mesh.triangles(f, k));
+    }
+    CHECK((place - other.mesh.position(landmark)).norm() < 1e-12);
+  }
+}
+
+TEST_CASE("match: shapes and values of the other are carried over") {
+  const Creatures creatures;
+  const std::string shape = creatures.folder / "shape.obj", back = creatures.folder / "back.obj";
+  const Ended ended = creatures.match({"--write-shape", shape, "--write-back", back});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  const MeshFile first = read_mesh(creatures.first), second = read_mesh(creatures.second);
+  const MeshFile one = read_mesh(shape), other = read_mesh(back);
+  CHECK(one.mesh.triangles == first.mesh.triangles);
+  CHECK(other.mesh.triangles == second.mesh.triangles);
+  CHECK((one.mesh.position(3) - second.mesh.position(3)).norm() < 1e-12);
+  CHECK((other.mesh.position(3) - first.mesh.position(3)).norm() < 1e-12);
+  const Ended distance = sphparam_program(
+      {"measure", creatures.second, shape, "--samples", "20000", "--max-rms", "2%"});
+  INFO(distance.out);
+  CHECK(distance.code == 0);
+}
+
+TEST_CASE("match: what makes no sense is refused, and nothing is written") {
+  const Creatures creatures;
+  write_bytes(creatures.pairs, "0 0\n0 1\n");
+  const Ended twice = creatures.match();
+  CHECK(twice.code == 3);
+  CHECK_THAT(twice.err, Contains("pairs.txt:2:") && Contains("first in line 1"));
+  write_bytes(creatures.pairs, "0 0\n3 99999\n");
+  const Ended beyond = creatures.match();
+  CHECK(beyond.code == 3);
+  CHECK_THAT(beyond.err, Contains("pairs.txt:2:") && Contains("no vertex 99999"));
+  CHECK_FALSE(std::filesystem::exists(creatures.out));
+  const Ended name = sphparam_program({"match", creatures.first, creatures.second, "--landmarks",
+                                       creatures.pairs, "-o", creatures.folder / "out.obj"});
+  CHECK(name.code == 2);
+  CHECK_THAT(name.err, Contains(".ply"));
+}
+
+TEST_CASE("match: a mirrored shape is told, and --mirror matches it") {
+  const Creatures creatures;
+  TriangleMesh mirrored = creature(3, 1.4);
+  mirrored.positions.col(0) *= -1;
+  mirrored.triangles.col(1).swap(mirrored.triangles.col(2));
+  write_bytes(creatures.first, obj_text(mirrored));
+  const Ended refused = creatures.match();
+  CHECK(refused.code == 5);
+  CHECK_THAT(refused.err, Contains("look mirrored") && Contains("--mirror"));
+  CHECK_FALSE(std::filesystem::exists(creatures.out));
+  const Ended matched = creatures.match({"--mirror", "--json", "-"});
+  INFO(matched.err);
+  REQUIRE(matched.code == 0);
+  const Json report = Json::parse(matched.out);
+  CHECK(report["mirrored"] == true);
+  CHECK(report["distortion"]["symmetric_dirichlet"] < 4.3);
+}
+
+}  // namespace sphparam::tests

@@ -1,0 +1,42 @@
+#include <catch2/catch.hpp>
+
+#include "sphparam/correspondence/landmark_file.h"
+#include "sphparam/io/mesh_reader.h"
+#include "support/test_meshes.h"
+
+namespace sphparam::tests {
+
+namespace {
+
+using Catch::Contains;
+
+std::vector<LandmarkPair> parse(const std::string& text) {
+  MeshFile first, second;
+  first.mesh = icosahedron();
+  second.mesh = octahedron();
+  return parse_landmarks(text, "pairs.txt", FileNumbers(first), FileNumbers(second));
+}
+
+}  // namespace
+
+TEST_CASE("landmark files: a pair a line, with comments") {
+  const std::vector<LandmarkPair> pairs = parse("# nose and tail\n0 5\n\n11 2 # tail\n");
+  REQUIRE(pairs.size() == 2);
+  CHECK((pairs[0].from == 0 && pairs[0].to == 5));
+  CHECK((pairs[1].from == 11 && pairs[1].to == 2));
+}
+
+TEST_CASE("landmark files: what is wrong is said with its line") {
+  CHECK_THROWS_WITH(parse("0 1\n12 2\n"),
+                    Contains("pairs.txt:2:") && Contains("first mesh") && Contains("no vertex 12"));
+  CHECK_THROWS_WITH(parse("0 1\n\n1 6\n"),
+                    Contains("pairs.txt:3:") && Contains("second mesh") && Contains("no vertex 6"));
+  CHECK_THROWS_WITH(parse("0 1\n0 2\n"), Contains("pairs.txt:2:") && Contains("first in line 1"));
+  CHECK_THROWS_WITH(parse("0 1\n3 1\n"), Contains("second mesh") && Contains("first in line 1"));
+  CHECK_THROWS_WITH(parse("0 1 2\n"), Contains("pairs.txt:1:") && Contains("then nothing"));
+  CHECK_THROWS_WITH(parse("0\n"), Contains("pairs.txt:1:"));
+  CHECK_THROWS_WITH(parse("0 x\n"), Contains("pairs.txt:1:"));
+  CHECK_THROWS_WITH(parse("# nothing\n"), Contains("no pair"));
+}
+
+}  // namespace sphparam::tests

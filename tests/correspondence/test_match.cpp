@@ -1,0 +1,189 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+
+#include "mesh/triangle_geometry.h"
+#include "sphparam/correspondence/match.h"
+#include "sphparam/correspondence/matched_files.h"
+#include "sphparam/parameterize.h"
+#include "support/test_meshes.h"
+
+namespace sphparam::tests {
+
+namespace {
+
+MappedMesh mapped(TriangleMesh mesh) {
+  SphereMap map = parameterize(mesh).map;
+  MeshFile file;
+  file.mesh = std::move(mesh);
+  return MappedMesh({.file = std::move(file), .map = std::move(map)});
+}
+
+/// A ball with three bumps of different sizes: it has no symmetry.
+TriangleMesh bumpy(int level) {
+  TriangleMesh mesh = icosphere(level);
+  const Vector3 bumps[] = {{1, 0.2, 0.1}, {-0.3, 1, 0.2}, {0.1, -0.4, 1}};
+  for (Vertex v = 0; v < mesh.vertex_count(); ++v) {
+    const Vector3 x = mesh.position(v);
+    double radius = 1, height = 0.9;
+    for (const Vector3& bump : bumps) {
+      radius += height * std::exp(-6 * (x - bump.normalized()).squaredNorm());
+      height *= 0.6;
+    }
+    mesh.positions.row(v) = radius * x;
+  }
+  return mesh;
+}
+
+/// Evenly spread vertices of a mesh with themselves.
+std::vector<LandmarkPair> with_itself(const TriangleMesh& mesh, int count) {
+  std::vector<LandmarkPair> pairs;
+  for (int i = 0; i < count; ++i) {
+    const auto v = static_cast<Vertex>(i * mesh.vertex_count() / count);
+    pairs.push_back({v, v});
+  }
+  return pairs;
+}
+
+double rms_between(const TriangleMesh& a, const TriangleMesh& b) {
+  return std::sqrt((a.positions - b.positions).squaredNorm() /
+                   static_cast<double>(a.vertex_count()));
+}
+
+double dirichlet(const SurfaceMap& map) {
+  return summarise(measure_distortion(map)).symmetric_dirichlet;
+}
+
+TriangleMesh turned_copy(const TriangleMesh& mesh) {
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(1.1, Vector3(1, 2, -1).normalized()).toRotationMatrix();
+  return {mesh.positions * turn.transpose() * 3, mesh.triangles};
+}
+
+}  // namespace
+
+TEST_CASE("match: a shape matched with itself is the identity") {
+  const MappedMesh shape = mapped(bumpy(3));
+  const Match match = match_surfaces(shape, shape, {.landmarks = with_itself(shape.mesh(), 5)});
+  CHECK(dirichlet(match.map) == Approx(4).epsilon(1e-9));
+  CHECK(rms_between(match.map.from_on_to(), shape.mesh()) < 1e-12);
+}
+
+TEST_CASE("match: from coarse to fine, a shape finds its turned and scaled copy") {
+  const MappedMesh shape = mapped(bumpy(4));
+  // Another map of the copy: its own would fit at once.
+  const TriangleMesh copy = turned_copy(shape.mesh());
+  SphereMap map = parameterize(copy, {.energy = {.lambda = 10}}).map;
+  MeshFile file;
+  file.mesh = copy;
+  const MappedMesh other({.file = std::move(file), .map = std::move(map)});
+  const Match match = match_surfaces(shape, other, {.landmarks = with_itself(copy, 6)});
+  CHECK(match.made_by == "coarse to fine");
+  CHECK(dirichlet(match.map) < 4.04);
+  CHECK(rms_between(match.map.from_on_to(), copy) < 0.03 * 3);
+}
+
+TEST_CASE("match: landmarks are exactly at their partners, and both maps are proved") {
+  const MappedMesh a = mapped(bumpy(3)), b = mapped(random_sphere_mesh(700, 5));
+  std::vector<LandmarkPair> pairs;
+  for (Vertex v = 0; v < 4; ++v) {
+    const auto from = static_cast<Vertex>(v * 150);
+    Vertex nearest = 0;
+    for (Vertex w = 0; w < b.mesh().vertex_count(); ++w) {
+      const Vector3 x = a.mesh().position(from).normalized();
+      if (b.mesh().position(w).normalized().dot(x) > b.mesh().position(nearest).normalized().dot(x))
+        nearest = w;
+    }
+    pairs.push_back({from, nearest});
+  }
+  const Match match = match_surfaces(a, b, {.landmarks = pairs});
+  CHECK(match.map.from().certificate().bijective());
+  CHECK(match.map.to().map().points == b.map().points);
+  const std::vector<SurfacePoint> forth = match.map.forth();
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    CHECK(match.map.from().map().points.row(pairs[i].from) == b.map().points.row(pairs[i].to));
+    CHECK(match.residuals[i] == 0);
+    const Vector3 place = position(b.mesh(), forth[static_cast<size_t>(pairs[i].from)]);
+    CHECK((place - b.mesh().position(pairs[i].to)).norm() < 1e-12);
+  }
+}
+
+TEST_CASE("match: there and back is the identity to rounding") {
+  const MappedMesh a = mapped(bumpy(3)), b = mapped(random_sphere_mesh(900, 6));
+  const SurfaceMap map(a, b);
+  const std::vector<SurfacePoint> forth = map.forth();
+  Points directions(a.mesh().vertex_count(), 3);
+  for (Vertex v = 0; v < directions.rows(); ++v) {
+    const SurfacePoint& at = forth[static_cast<size_t>(v)];
+    Vector3 sum = Vector3::Zero();
+    for (int k = 0; k < 3; ++k)
+      sum += at.barycentric[k] * b.map().point(b.mesh().triangles(at.face, k));
+    directions.row(v) = sum;
+  }
+  const std::vector<SurfacePoint> back = a.locator().locate_all(directions);
+  double worst = 0;
+  for (Vertex v = 0; v < directions.rows(); ++v) {
+    const Vector3 place = position(a.mesh(), back[static_cast<size_t>(v)]);
+    worst = std::max(worst, (place - a.mesh().position(v)).norm());
+  }
+  CHECK(worst < 1e-11);
+}
+
+TEST_CASE("match: mirrored landmarks are refused, and are right for the mirror image") {
+  const MappedMesh shape = mapped(bumpy(3));
+  const MappedMesh mirrored = mirror_image(shape);
+  const MatchOptions options{.landmarks = with_itself(shape.mesh(), 6)};
+  CHECK_THROWS_AS(match_surfaces(mirrored, shape, options), MirroredLandmarks);
+  const Match match = match_surfaces(mirror_image(mirrored), shape, options);
+  CHECK(dirichlet(match.map) == Approx(4).epsilon(1e-9));
+}
+
+TEST_CASE("match: the same bits for one thread and two") {
+  const MappedMesh a = mapped(bumpy(4)), b = mapped(turned_copy(bumpy(3)));
+  std::vector<LandmarkPair> pairs;
+  for (Vertex v = 0; v < 12; v += 3) pairs.push_back({v, v});  // vertices of the icosahedron
+  const Match one = match_surfaces(a, b, {.landmarks = pairs, .threads = 1});
+  const Match two = match_surfaces(a, b, {.landmarks = pairs, .threads = 2});
+  CHECK(one.map.from().map().points == two.map.from().map().points);
+  CHECK(one.energy == two.energy);
+}
+
+TEST_CASE("match: random pairs of random spheres are certified whatever their landmarks") {
+  std::mt19937 random(7);
+  int matched = 0;
+  for (unsigned seed = 0; seed < 1000; ++seed) {
+    const MappedMesh a = mapped(random_sphere_mesh(8 + static_cast<int>(random() % 50), seed));
+    const MappedMesh b =
+        mapped(random_sphere_mesh(8 + static_cast<int>(random() % 50), seed + 5000));
+    std::vector<LandmarkPair> pairs;
+    for (Vertex v = 0; v < static_cast<Vertex>(random() % 5); ++v) pairs.push_back({v * 2, v * 2});
+    try {
+      const Match match = match_surfaces(a, b, {.landmarks = pairs});
+      CHECK(match.map.from().certificate().bijective());
+      for (const double residual : match.residuals) CHECK(residual == 0);
+      ++matched;
+    } catch (const MirroredLandmarks&) {
+    } catch (const UnreachableLandmarks&) {
+    }
+  }
+  CHECK(matched > 500);
+}
+
+TEST_CASE("match: the distortion of the identity is none") {
+  const MappedMesh shape = mapped(bumpy(3));
+  const DistortionSummary d = summarise(measure_distortion(SurfaceMap(shape, shape)));
+  CHECK(d.symmetric_dirichlet == Approx(4).epsilon(1e-9));
+  CHECK(d.mean_abs_ln_area < 1e-9);
+  CHECK(d.mean_abs_ln_angle < 1e-9);
+}
+
+TEST_CASE("match: landmarks that are no vertices, or one twice, are refused") {
+  const MappedMesh shape = mapped(icosphere(1));
+  CHECK_THROWS_AS(match_surfaces(shape, shape, {.landmarks = {{0, 99}}}), std::invalid_argument);
+  CHECK_THROWS_AS(match_surfaces(shape, shape, {.landmarks = {{0, 1}, {0, 2}}}),
+                  std::invalid_argument);
+  CHECK_THROWS_AS(match_surfaces(shape, shape, {.landmarks = {{0, 1}, {2, 1}}}),
+                  std::invalid_argument);
+}
+
+}  // namespace sphparam::tests
