@@ -219,6 +219,10 @@ TEST_CASE("data: the other hemisphere's is told in a line") {
   CHECK_THAT(told(brain.white, brain.thickness), !Contains("is of Cortex"));
   REQUIRE(sphparam_program({"repair", brain.white, "-o", gii}).code == 0);
   CHECK_THAT(told(gii, other), Contains(line) && Contains("a.gii is of CortexLeft"));
+  const std::string nobodys = brain.mapped.folder / "x.gii";  // written as "Other"
+  std::filesystem::copy_file(brain.white, brain.mapped.folder / "x.white");
+  REQUIRE(sphparam_program({"repair", brain.mapped.folder / "x.white", "-o", nobodys}).code == 0);
+  CHECK_THAT(told(nobodys, other), !Contains("is of Cortex"));
 }
 
 TEST_CASE("data: what makes no sense is refused before any work") {

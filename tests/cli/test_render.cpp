@@ -100,6 +100,10 @@ TEST_CASE("render: numbers a vertex are shown as colours, of their own files or 
       sphparam_program({"render", ball, "-o", "-", "--data", up, "--scalar", "depth"});
   CHECK(wrong.code == 2);
   CHECK_THAT(wrong.err, Contains("no 'depth'; there are up_1 and up_2"));
+  const Ended both =
+      sphparam_program({"render", ball, "-o", "-", "--data", up, "--colour", "normals"});
+  CHECK(both.code == 2);
+  CHECK_THAT(both.err, Contains("without --colour"));
 }
 
 TEST_CASE("render: what needs a map says so") {

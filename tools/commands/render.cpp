@@ -79,6 +79,10 @@ std::string names_of_numbers(const MeshFile& file) {
 
 /// The number a vertex that is shown: the one that is named, else the first of the data.
 std::string shown_number(DrawnMesh& mesh, const RenderArguments& arguments, Session& session) {
+  const bool shows_number = !arguments.data.empty() || !arguments.drawing.scalar.empty();
+  if (shows_number && (arguments.drawing.colouring != Colouring::Own || !arguments.texture.empty()))
+    throw UsageMistake(
+        "--data and --scalar are colours of their own: without --colour and --texture");
   const Words attached =
       attach_data_files(mesh.file, arguments.input, arguments.data, MissingValues::Kept, session);
   const std::string& wanted = arguments.drawing.scalar;

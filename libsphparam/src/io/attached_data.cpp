@@ -304,8 +304,9 @@ VertexData without_missing(VertexData data, std::vector<std::string>& losses) {
 
 std::string structure_of(const MeshFile& surface, const std::string& path) {
   constexpr std::string_view said = "gifti AnatomicalStructurePrimary ";
-  for (const std::string& comment : surface.comments)
-    if (comment.starts_with(said)) return comment.substr(said.size());
+  for (const std::string& comment : surface.comments)  // "Other" is written where nobody knows
+    if (comment.starts_with(said) && comment != std::string(said) + "Other")
+      return comment.substr(said.size());
   return structure_of_name(path);
 }
 

@@ -24,7 +24,7 @@ Float32Points at_radius_100(const Points& rays);
 /// least distance wins, the lowest face of several. Weights are areas seen from the rounded place,
 /// on a side the share along it.
 /// `located`: where rays meet the triangles, from where the place is a few triangles at most.
-/// Cost: some 1 µs a point.
+/// Cost: some 2 µs a point.
 std::vector<SurfacePoint> nearest_in_float32(const Topology& topology, const Float32Points& sphere,
                                              const Float32Points& points,
                                              std::vector<SurfacePoint> located, int threads = 0);

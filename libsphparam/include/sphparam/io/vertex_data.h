@@ -130,7 +130,8 @@ std::vector<std::string> attach_data(MeshFile& mesh, const VertexData& data);
 /// The data without columns that have values that are no finite numbers; `losses` tells of them.
 VertexData without_missing(VertexData data, std::vector<std::string>& losses);
 
-/// Which part of a brain a surface says it is of, else its name: "CortexLeft"; empty: nobody says.
+/// Which part of a brain a surface says it is of, else its name: "CortexLeft"; empty: nobody says,
+/// or "Other".
 std::string structure_of(const MeshFile& surface, const std::string& path);
 
 /// The data that a mesh carries so, as it is at its vertices; properties that are gone are left
