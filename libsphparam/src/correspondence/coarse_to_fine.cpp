@@ -28,6 +28,8 @@ constexpr int start_steps = 15, steps = 5;  // of Newton, at most, there and on 
 constexpr double least_gain = 3e-3;         // of a step, of the energy beyond isometry
 constexpr double growth = 1.8;              // of levels with Newton steps
 constexpr int removed_sweeps = 4, level_sweeps = 2;
+/// Levels of so many vertices are near what coarser ones have found.
+constexpr int fine_level = 10'000, fine_sweeps = 1, fine_steps = 1;
 constexpr std::int64_t insertion_grain = 16;
 
 size_t at(int i) { return static_cast<size_t>(i); }
@@ -221,11 +223,13 @@ bool CoarseToFine::climb_to(size_t l) {
                    put_into_ring(surface, level, level.removed[static_cast<size_t>(i)],
                                  options_.energy);
                });
-  for (int i = 0; i < removed_sweeps; ++i)
+  const bool fine = level.vertex_count() >= fine_level;
+  for (int i = 0; i < (fine ? fine_sweeps : removed_sweeps); ++i)
     surface.sweep(level.removed, options_.energy, options_.threads);
-  for (int i = 0; i < level_sweeps; ++i) surface.sweep(options_.energy, options_.threads);
+  for (int i = 0; i < (fine ? fine_sweeps : level_sweeps); ++i)
+    surface.sweep(options_.energy, options_.threads);
   if (l == 0 || level.vertex_count() >= growth * newton_level_) {
-    energy_ = lower(surface, steps, options_);
+    energy_ = lower(surface, fine ? fine_steps : steps, options_);
     newton_level_ = level.vertex_count();
   }
   places_ = surface.places();
