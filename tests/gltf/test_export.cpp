@@ -112,6 +112,18 @@ TEST_CASE("export: what is certified as 16-bit numbers is written so") {
   CHECK(json_of(bytes_of(place / "q.glb"))["extensionsUsed"][0] == "KHR_mesh_quantization");
 }
 
+TEST_CASE("export: a compressed file is read back as the asset, in an order that is smaller") {
+  const Place place;
+  ExportOptions options = small;
+  options.quantise = true;
+  const Asset asset = make_asset(mapped_egg(4), options);
+  const GltfOptions compressed{.quantise = true, .compress = true};
+  write_asset(place / "c.glb", asset, compressed);
+  CHECK(bytes_of(place / "c.glb").size() < glb_bytes(asset, compressed).size());
+  const MeshFile read = read_mesh(place / "c.glb");
+  CHECK(read.mesh.face_count() == static_cast<Face>(asset.levels[0].indices.size() / 3));
+}
+
 TEST_CASE("export: a kept topology is told, with the triangles that fold") {
   ExportOptions options = small;
   options.keep_topology = true;

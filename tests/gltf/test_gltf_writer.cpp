@@ -91,8 +91,8 @@ TEST_CASE("gltf_writer: every view begins at a multiple of four, the file ends a
   asset.materials[0].base_colour = 0;
   const std::string glb = glb_bytes(asset);
   CHECK(glb.size() % 4 == 0);
-  for (const json& view : json_of(glb)["bufferViews"])
-    CHECK(view["byteOffset"].get<int>() % 4 == 0);
+  const json gltf = json_of(glb);
+  for (const json& view : gltf["bufferViews"]) CHECK(view["byteOffset"].get<int>() % 4 == 0);
 }
 
 TEST_CASE("gltf_writer: textures wrap in u and are clamped in v") {

@@ -48,7 +48,8 @@ void declare_buffers(Declaration& command, ExportArguments& arguments) {
       .flag("--source-uv", options.source_uv, "The mesh's own texture coordinates as TEXCOORD_1")
       .flag("--embedded", arguments.embedded, ".gltf only: everything in the one file")
       .flag("--quantize", options.quantise, "16-bit numbers (KHR_mesh_quantization)")
-      .flag("--compress", arguments.compress, "EXT_meshopt_compression")
+      .flag("--compress", arguments.compress,
+            "EXT_meshopt_compression of 16-bit numbers, in another order")
       .number("--lods", arguments.lods, "N", {0, 8},
               "So many coarser meshes, each a quarter of the one before")
       .choice("--lod", arguments.lod_style, {{"files", LodStyle::Files}, {"msft", LodStyle::Msft}},

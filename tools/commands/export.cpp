@@ -51,6 +51,8 @@ ExportOptions export_options(const ExportArguments& arguments, Session& session)
   options.source = display_name(arguments.input);
   options.threads = session.threads();
   options.progress = session.progress();
+  // On a sphere 16 bits would fold triangles that float32 does not.
+  if (arguments.compress && options.shape != ShapeKind::Sphere) options.quantise = true;
   return options;
 }
 

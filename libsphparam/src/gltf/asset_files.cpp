@@ -2,8 +2,10 @@
 // the disk.
 
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 
+#include "gltf/compact_order.h"
 #include "gltf/export_names.h"
 #include "gltf/fillers_left_out.h"
 #include "gltf/image_kind.h"
@@ -83,9 +85,12 @@ std::vector<std::string> asset_files(const std::string& path, const Asset& asset
   return names;
 }
 
-WrittenFiles add_asset(PendingFiles& files, const std::string& path, const Asset& asset,
+WrittenFiles add_asset(PendingFiles& files, const std::string& path, const Asset& given_asset,
                        const GltfOptions& given) {
-  const GltfOptions options = resolved(given, path, asset);
+  const GltfOptions options = resolved(given, path, given_asset);
+  const std::optional<Asset> ordered =
+      options.compress ? std::optional(in_compact_order(given_asset)) : std::nullopt;
+  const Asset& asset = ordered ? *ordered : given_asset;
   const bool is_binary = options.container == GltfContainer::Binary;
   const auto check = [&](std::string_view glb) {
     check_written(glb, output_name(path), asset, options);

@@ -8,7 +8,13 @@
 namespace sphparam {
 
 /// Numbers of glTF 2.0.
-enum class ComponentType { Int16 = 5122, Uint16 = 5123, Uint32 = 5125, Float32 = 5126 };
+enum class ComponentType {
+  Int8 = 5120,
+  Int16 = 5122,
+  Uint16 = 5123,
+  Uint32 = 5125,
+  Float32 = 5126
+};
 
 enum class ViewUse { Vertices, Indices, Other };
 
@@ -19,6 +25,7 @@ struct PackedRows {
   std::size_t count = 0;
   std::size_t stride = 0;  // bytes from row to row, a multiple of 4 for vertices
   bool normalised = false;
+  bool octahedral = false;  // the bytes are for that filter, and only for compressed views
   std::vector<double> least, greatest;  // empty: not stored
   std::string bytes;
 };

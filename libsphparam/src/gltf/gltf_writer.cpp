@@ -133,6 +133,7 @@ class Builder {
         {"byteStride", packed_row},
         {"count", rows.count},
         {"mode", use_of_view == ViewUse::Vertices ? "ATTRIBUTES" : "TRIANGLES"}};
+    if (rows.octahedral) more["extensions"]["EXT_meshopt_compression"]["filter"] = "OCTAHEDRAL";
     more["buffer"] = 1;
     return add_view({placed.raw_offset, placed.raw_length}, std::move(more));
   }
@@ -154,7 +155,10 @@ class Builder {
   // --- geometry ---
 
   std::size_t add_vectors(const FloatRows& rows) {
-    return add_accessor(options_.quantise ? pack_signed(rows) : pack_floats(rows),
+    const bool octahedral = options_.quantise && options_.compress;
+    return add_accessor(octahedral          ? pack_octahedral(rows)
+                        : options_.quantise ? pack_signed(rows)
+                                            : pack_floats(rows),
                         ViewUse::Vertices);
   }
 

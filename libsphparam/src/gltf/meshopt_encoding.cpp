@@ -7,8 +7,9 @@
 #include <stdexcept>
 #include <vector>
 
-// The only file that knows meshoptimizer's encoders. Versions of its encoding that decoders of the extension
-// have: 0 for vertices, 1 for indices. Vertices are decoded again and compared, indices decoded.
+// The only file that knows meshoptimizer's encoders. Versions of its encoding that decoders of the
+// extension have: 0 for vertices, 1 for indices. Vertices are decoded again and compared, indices
+// decoded.
 
 namespace sphparam {
 namespace {
@@ -72,6 +73,21 @@ std::string encode_vertices(const std::string& bytes, std::size_t count, std::si
   require(meshopt_decodeVertexBuffer(decoded.data(), count, stride, data_of(out), size) == 0 &&
           decoded == bytes);
   return out;
+}
+
+std::string octahedral(const std::vector<float>& rows) {
+  constexpr int bits = 8;
+  const std::size_t count = rows.size() / 4;
+  std::string bytes(4 * count, '\0');
+  meshopt_encodeFilterOct(bytes.data(), count, 4, bits, rows.data());
+  return bytes;
+}
+
+std::vector<std::uint32_t> strip_order(const std::vector<std::uint32_t>& indices,
+                                       std::size_t vertex_count) {
+  std::vector<std::uint32_t> ordered(indices.size());
+  meshopt_optimizeVertexCacheStrip(ordered.data(), indices.data(), indices.size(), vertex_count);
+  return ordered;
 }
 
 std::string encode_triangles(const std::string& bytes, std::size_t count, std::size_t stride) {

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <vector>
+
+#include "gltf/meshopt_encoding.h"
 
 // glTF is little-endian, and so are all machines that this is built for.
 
@@ -69,6 +72,22 @@ PackedRows pack_signed(const FloatRows& rows) {
         return static_cast<std::int16_t>(std::round(value * most_signed));
       });
   packed.normalised = true;
+  return packed;
+}
+
+PackedRows pack_octahedral(const FloatRows& rows) {
+  std::vector<float> padded(4 * static_cast<std::size_t>(rows.rows()), 0.0F);
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    for (Eigen::Index k = 0; k < rows.cols(); ++k)
+      padded[static_cast<std::size_t>(4 * i + k)] = rows(i, k);
+  }
+  PackedRows packed;
+  packed.type = ComponentType::Int8;
+  packed.components = static_cast<int>(rows.cols());
+  packed.count = static_cast<std::size_t>(rows.rows());
+  packed.stride = 4;
+  packed.normalised = packed.octahedral = true;
+  packed.bytes = octahedral(padded);
   return packed;
 }
 

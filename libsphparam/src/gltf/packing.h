@@ -15,7 +15,10 @@ PackedRows pack_floats(const FloatRows& rows, Bounds bounds = Bounds::Omit);
 
 /// Numbers in [−1, 1] as normalised 16-bit integers, each row padded to a multiple of 4 bytes.
 PackedRows pack_signed(const FloatRows& rows);
-/// The same for [0, 1], unsigned.
+/// Unit vectors of 3 components, or of 4 with the last in [−1, 1], as normalised 8-bit integers for
+/// the filter OCTAHEDRAL.
+PackedRows pack_octahedral(const FloatRows& rows);
+/// As `pack_signed` for [0, 1], unsigned.
 PackedRows pack_unsigned(const FloatRows& rows);
 
 PackedRows pack_colours(std::span<const std::array<std::uint16_t, 4>> colours);

@@ -64,6 +64,8 @@ ExportRequest request_of(const py::dict& values) {
   options.up = up_of(up);
   for (const Mapped& level : coarser) options.coarser.push_back(level.mesh());
   if (embedded) request.gltf.container = GltfContainer::Embedded;
+  // As the program's --compress.
+  if (request.gltf.compress && options.shape != ShapeKind::Sphere) options.quantise = true;
   request.gltf.quantise = options.quantise;
   settings.require_all_known();
   return request;

@@ -117,7 +117,8 @@ class MapFiles(MapFacts):
         theta_phi, source_uv
             The angles as an attribute; the mesh's own texture coordinates as a second set.
         quantise, compress, embedded
-            16-bit numbers; meshopt compression; a ``.gltf`` in one file.
+            16-bit numbers; these in meshopt compression, normals in 8 bits, triangles and
+            vertices in another order; a ``.gltf`` in one file.
         levels
             Levels of detail on the same sphere, in the same file.
 

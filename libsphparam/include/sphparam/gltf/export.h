@@ -134,10 +134,11 @@ std::vector<std::string> asset_files(const std::string& path, const Asset& asset
 
 /// Adds the files of an asset: one .glb; a .gltf beside a .bin and images, or by
 /// GltfContainer::Embedded alone. The path decides: container and stem of the options do not count
-/// otherwise; "-" is a .glb on standard output. What is on the disk is read back and compared
-/// number by number.
-/// Throws: WriteError; std::length_error where a .glb would be beyond 4 GiB; std::runtime_error
-/// where what was read back differs; std::invalid_argument for other endings.
+/// otherwise; "-" is a .glb on standard output. Where it is compressed, triangles and vertices come
+/// in an order that makes it small, without vertices that no triangle has. What is on the disk is
+/// read back and compared number by number. Throws: WriteError; std::length_error where a .glb
+/// would be beyond 4 GiB; std::runtime_error where what was read back differs;
+/// std::invalid_argument for other endings.
 WrittenFiles add_asset(PendingFiles& files, const std::string& path, const Asset& asset,
                        const GltfOptions& options = {});
 
