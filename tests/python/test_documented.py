@@ -91,7 +91,7 @@ def test_every_parameter_is_explained(name):
             assert known or others or argument.arg in text, f"{name}.{method}: {argument.arg}"
 
 
-@pytest.mark.parametrize("name", ["map", "repair", "components", "measure"])
+@pytest.mark.parametrize("name", ["map", "match", "repair", "components", "measure"])
 def test_every_parameter_of_a_function_is_explained(name):
     text = ast.get_docstring(functions()[name])
     for argument in functions()[name].args.args + functions()[name].args.kwonlyargs:

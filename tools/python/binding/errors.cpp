@@ -5,6 +5,7 @@
 #include "binding.h"
 #include "sphparam/bake/bake_errors.h"
 #include "sphparam/bake/fields.h"
+#include "sphparam/correspondence/match.h"
 #include "sphparam/gltf/export.h"
 #include "sphparam/image/image_format.h"
 #include "sphparam/io/file_numbers.h"
@@ -82,6 +83,11 @@ void declare_errors(py::module_&) {
       raise_not_one_to_one(error);
     } catch (const NotCertifiedError& error) {
       raise("NotCertified", error);
+    } catch (const UnreachableLandmarks& error) {
+      raise("NotCertified", error);
+    } catch (const MirroredLandmarks& error) {
+      raise("NotCertified",
+            std::runtime_error(error.what() + std::string("; match(…, mirror=True) or False")));
     } catch (const Cancelled& error) {
       raise("Cancelled", error);
     } catch (const ReadError& error) {

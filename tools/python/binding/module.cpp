@@ -19,5 +19,6 @@ PYBIND11_MODULE(_core, module) {
   declare_grids(module);
   declare_exports(module);
   declare_figures(module);
+  declare_matches(module);
   py::module_::import("atexit").attr("register")(py::cpp_function(wait_for_left_calls));
 }

@@ -52,6 +52,7 @@ from ._figures import (
 )
 from ._map import load, map, remeshing_lambda, verify, with_sphere
 from ._map_images import fields
+from ._match import SurfaceMap, match
 from ._measure import measure
 from ._mesh import Mesh, inspect, read, write
 from ._repair import components, repair
@@ -92,12 +93,14 @@ __all__ = [
     "SphereMap",
     "Stage",
     "SubdivisionFit",
+    "SurfaceMap",
     "WriteError",
     "components",
     "fields",
     "inspect",
     "load",
     "map",
+    "match",
     "measure",
     "read",
     "remeshing_lambda",

@@ -1,0 +1,78 @@
+"""One surface onto another."""
+
+import numpy as np
+import pytest
+from shapes import potato
+
+import sphparam as sp
+
+
+@pytest.fixture(scope="module")
+def maps():
+    vertices, faces = potato(3)
+    longer = vertices * [1.0, 1.3, 0.8] + 0.1 * np.sin(2 * vertices[:, [1, 2, 0]])
+    return sp.map(vertices, faces, values={"height": vertices[:, 2]}), sp.map(longer, faces)
+
+
+def landmarks(maps):
+    """Of both, the vertices farthest along the axes: the meshes have the same ones."""
+    rows = maps[0].vertices
+    return [(int(v), int(v)) for axis in range(3) for v in (rows[:, axis].argmax(), rows[:, axis].argmin())]
+
+
+def test_a_surface_matched_with_itself_stays_where_it_is(maps):
+    s = sp.match(maps[0], maps[0], landmarks(maps))
+    assert np.abs(s.carry("vertices") - maps[0].vertices).max() < 1e-6
+    assert s.distortion().symmetric_dirichlet == pytest.approx(4)
+
+
+def test_landmarks_are_met_exactly_and_both_maps_are_proved(maps):
+    s = sp.match(*maps, landmarks(maps))
+    assert not s.residuals.any() and s.source.certificate.one_to_one
+    for a, b in landmarks(maps):
+        assert np.allclose(s.carry("vertices")[a], maps[1].vertices[b], atol=1e-9)
+    assert (s.target.points == maps[1].points).all() and (s.target.vertices == maps[1].vertices).all()
+
+
+def test_forth_and_back_are_what_carry_and_carry_back_read(maps):
+    s = sp.match(*maps, landmarks(maps))
+    face, weights = s.back()
+    mixed = (s.source.values["height"][s.source.faces[face]] * weights).sum(axis=1)
+    assert np.allclose(s.carry_back("height"), mixed)
+    face, weights = s.forth()
+    places = np.einsum("ik,ikd->id", weights, s.target.vertices[s.target.faces[face]])
+    assert np.allclose(s.carry("vertices"), places)
+
+
+def test_the_same_for_any_number_of_threads(maps):
+    one, two = (sp.match(*maps, landmarks(maps), threads=n) for n in (1, 2))
+    assert (one.source.points == two.source.points).all() and one.energy == two.energy
+
+
+def test_a_mirror_image_is_told_and_matched_on_request(maps):
+    mirrored = sp.map(maps[0].vertices * [-1, 1, 1], maps[0].faces[:, ::-1])
+    with pytest.raises(sp.NotCertified, match="mirror"):
+        sp.match(mirrored, maps[0], landmarks(maps))
+    s = sp.match(mirrored, maps[0], landmarks(maps), mirror=True)
+    assert s.distortion().symmetric_dirichlet == pytest.approx(4, abs=1e-4)  # an isometry was to be found
+    assert np.abs(s.carry("vertices") - maps[0].vertices).max() < 0.005
+
+
+@pytest.mark.parametrize("wrong, what, error", [
+    ([(0, 10**9)], "no vertex 1000000000", ValueError),
+    ([(-1, 0)], "no vertex -1", ValueError),
+    ([(0, 1), (0, 2)], "", ValueError),
+    ([(0.5, 1)], "whole numbers", TypeError),
+    ([0, 1, 2], "#×2", ValueError),
+    ([("a", "b")], "whole numbers", TypeError),
+])
+def test_wrong_landmarks_are_refused(maps, wrong, what, error):
+    with pytest.raises(error, match=what):
+        sp.match(*maps, wrong)
+
+
+def test_arrays_are_no_maps(maps):
+    with pytest.raises(TypeError, match="target: a sphparam.SphereMap is needed, not ndarray"):
+        sp.match(maps[0], maps[1].vertices)
+    with pytest.raises(ValueError, match="energy"):
+        sp.match(*maps, landmarks(maps), energy="least")

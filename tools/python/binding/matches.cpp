@@ -1,0 +1,76 @@
+// One surface onto another.
+
+#include <pybind11/stl.h>
+
+#include "arrays.h"
+#include "binding.h"
+#include "call.h"
+#include "sphparam/correspondence/match.h"
+#include "sphparam/correspondence/matched_files.h"
+#include "sphparam/correspondence/surface_map.h"
+#include "sphparam/io/file_numbers.h"
+#include "sphparam/names.h"
+
+namespace sphparam::python {
+namespace {
+
+using Pairs = std::vector<std::pair<long, long>>;
+
+Vertex vertex_of(const FileNumbers& numbers, long number, const char* whose) {
+  const Vertex vertex = numbers.vertex(number);
+  if (vertex < 0) throw NoSuchVertex(whose, numbers.absence(number));
+  return vertex;
+}
+
+std::vector<LandmarkPair> landmarks_of(const Pairs& pairs, const MappedMesh& from,
+                                       const MappedMesh& to) {
+  const FileNumbers of_from(from.file()), of_to(to.file());
+  std::vector<LandmarkPair> landmarks;
+  for (const auto& [a, b] : pairs)
+    landmarks.push_back(
+        {vertex_of(of_from, a, "landmarks, source"), vertex_of(of_to, b, "landmarks, target")});
+  return landmarks;
+}
+
+MatchOptions options_of(const py::dict& values) {
+  MatchOptions options;
+  Settings settings(values);
+  settings
+      .take("energy", options.energy.kind,
+            {EnergyKind::SymmetricDirichlet, EnergyKind::AngleAndArea},
+            [](EnergyKind kind) { return name_of(kind); })
+      .take("lambda", options.energy.lambda)
+      .take("threads", options.threads);
+  settings.require_all_known();
+  return options;
+}
+
+/// The first map as it was moved, the least energy, what it came from, radians of the landmarks.
+py::tuple match(const Mapped& from, const Mapped& to, const Pairs& pairs, bool mirror,
+                const py::dict& values, const py::object& progress) {
+  const MatchOptions wanted = options_of(values);
+  Match found = call(progress, [=, from = from, to = to](const Progress& report) {
+    MatchOptions options = wanted;
+    options.progress = report;
+    const MappedMesh first = mirror ? mirror_image(from.mesh(), options.threads) : from.mesh();
+    options.landmarks = landmarks_of(pairs, first, to.mesh());
+    return match_surfaces(first, to.mesh(), options);
+  });
+  return py::make_tuple(Mapped(found.map.from()), found.energy, found.made_by,
+                        owning(std::move(found.residuals)));
+}
+
+py::dict matched_distortion(const Mapped& from, const Mapped& to, int threads) {
+  return as_dict(call(py::none(), [=, from = from, to = to](const Progress&) {
+    return summarise(measure_distortion(SurfaceMap(from.mesh(), to.mesh()), threads), threads);
+  }));
+}
+
+}  // namespace
+
+void declare_matches(py::module_& module) {
+  module.def("match", match);
+  module.def("matched_distortion", matched_distortion);
+}
+
+}  // namespace sphparam::python

@@ -1,0 +1,120 @@
+"""One surface onto another, through the sphere."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, List, Sequence, Tuple, Union
+
+from . import _arrays, _core
+from ._figures import Distortion
+from ._map_facts import mapped_of
+from ._numpy import np
+from ._progress import Progress, told
+from ._sphere_map import SphereMap
+
+if TYPE_CHECKING:
+    from ._map_facts import Array, Floats, Ints
+
+
+class SurfaceMap:
+    """A map from one surface onto another that is proved one-to-one: both are, onto the same sphere.
+
+    :func:`match` makes it.
+    """
+
+    __slots__ = ("source", "target", "energy", "made_by", "residuals")
+
+    source: SphereMap
+    """The first surface, with its points moved; ``save`` keeps it."""
+    target: SphereMap
+    """The second surface and its map, as they were."""
+    energy: float
+    """Of the map between the surfaces, a unit of area, as it was minimised; of symmetric Dirichlet isometry has
+    1.96."""
+    made_by: str
+    """Where the least energy came from: ``"coarse to fine"`` or ``"own map"``."""
+    residuals: Floats
+    """Radians of the landmarks from their partners; 0 is exactly there."""
+
+    def __init__(self, source: SphereMap, target: SphereMap, energy: float, made_by: str, residuals: Floats) -> None:
+        self.source, self.target, self.energy = source, target, energy
+        self.made_by, self.residuals = made_by, residuals
+
+    def forth(self, *, threads: int = 0) -> Tuple[Ints, Floats]:
+        """For every vertex of the source its point on the target: (V,) faces, (V, 3) barycentric weights."""
+        return self.target.locate(self.source.points, threads=threads)
+
+    def back(self, *, threads: int = 0) -> Tuple[Ints, Floats]:
+        """For every vertex of the target its point on the source, as :meth:`forth`."""
+        return self.source.locate(self.target.points, threads=threads)
+
+    def carry(self, values: Any, *, threads: int = 0) -> Array:
+        """Values of the target's vertices at those of the source, as :meth:`SphereMap.resample` takes them.
+
+        ``values``: (V,) or (V, k), or a name; ``"vertices"`` gives the source's triangles the target's shape.
+        """
+        return self.target.resample(values, self.source.points, threads=threads)
+
+    def carry_back(self, values: Any, *, threads: int = 0) -> Array:
+        """Values of the source's vertices at those of the target, as :meth:`carry`: ``values`` of the source."""
+        return self.source.resample(values, self.target.points, threads=threads)
+
+    def distortion(self, *, threads: int = 0) -> Distortion:
+        """How the map distorts the source's triangles; their images are the flat triangles of their corners."""
+        found = _core.matched_distortion(self.source._mapped, self.target._mapped, _arrays.threads(threads))
+        return Distortion(**found)
+
+    def __repr__(self) -> str:
+        return f"<sphparam.SurfaceMap: {self.source.name} → {self.target.name}, {len(self.residuals)} landmarks>"
+
+
+def _pairs(landmarks: Any) -> List[Tuple[int, int]]:
+    rows = np.asarray(landmarks)
+    if rows.size == 0:
+        return []
+    if rows.dtype.kind not in "iu":
+        raise TypeError(f"landmarks: pairs of vertices are needed, whole numbers, not {rows.dtype}")
+    if rows.ndim != 2 or rows.shape[1] != 2:
+        shape = "×".join(str(n) for n in rows.shape)
+        raise ValueError(f"landmarks: two vertices a row are needed, source and target, #×2, not {shape}")
+    return [(int(a), int(b)) for a, b in rows.tolist()]
+
+
+def match(
+    source: SphereMap,
+    target: SphereMap,
+    landmarks: Union[Sequence[Tuple[int, int]], Any] = (),
+    *,
+    mirror: bool = False,
+    energy: str = "symmetric-dirichlet",
+    weight: float = 1.0,
+    threads: int = 0,
+    progress: Progress = None,
+) -> SurfaceMap:
+    """Maps one surface onto another, one-to-one, with the least distortion of the map between them.
+
+    Parameters
+    ----------
+    source, target
+        Maps: the points of the source on the sphere move, those of the target stay.
+    landmarks
+        (k, 2) vertices of the source and those of the target that they go to, exactly; none twice.
+    mirror
+        Match the mirror image of the source, which is ``SurfaceMap.source`` then.
+    energy
+        ``"symmetric-dirichlet"``: stretch both ways; ``"angle-and-area"``: as of maps.
+    weight
+        Of area against angle, for ``"angle-and-area"``.
+
+    Raises
+    ------
+    NotCertified
+        where no map has the landmarks, or where they fit the mirror image far better.
+    ValueError
+        for landmarks that are no vertices, or one twice.
+    """
+    first, second = mapped_of(source, "source"), mapped_of(target, "target")
+    options = {"energy": _arrays.text(energy, "energy"), "lambda": float(weight), "threads": _arrays.threads(threads)}
+    with told(progress) as report:
+        found = _core.match(first, second, _pairs(landmarks), bool(mirror), options, report)
+    moved, least, made_by, residuals = found
+    return SurfaceMap(SphereMap._of(moved), target, least, made_by, residuals)
