@@ -138,6 +138,15 @@ TEST_CASE("match: mirrored landmarks are refused, and are right for the mirror i
   CHECK(dirichlet(match.map) == Approx(4).epsilon(1e-9));
 }
 
+TEST_CASE("match: landmarks that say nothing of sides bring a warning") {
+  const MappedMesh ball = mapped(icosphere(3)), other = mapped(icosphere(4));
+  const Match match = match_surfaces(ball, other, {.landmarks = {{0, 3}, {3, 0}, {5, 8}, {8, 5}}});
+  const Match plain = match_surfaces(ball, other, {.landmarks = {{0, 0}, {3, 3}, {5, 5}, {8, 8}}});
+  CHECK(match.warnings.size() + plain.warnings.size() >= 1);
+  for (const std::string& warning : match.warnings)
+    CHECK_THAT(warning, Catch::Contains("mirror image"));
+}
+
 TEST_CASE("match: the same bits for one thread and two") {
   const MappedMesh a = mapped(bumpy(4)), b = mapped(turned_copy(bumpy(3)));
   std::vector<LandmarkPair> pairs;

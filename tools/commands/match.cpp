@@ -126,6 +126,7 @@ int run_match(MatchArguments& arguments) {
   const MappedMesh second = read_mapped(arguments.second, arguments.second_sphere, session);
   read_landmarks_of(arguments, first, second);
   const Match found = match(arguments, first, second, session);
+  session.warn(found.warnings);
   MatchRecord record{.first = arguments.first,
                      .second = arguments.second,
                      .match = found,

@@ -62,24 +62,29 @@ TriangleMesh mirrored(TriangleMesh mesh) {
   return mesh;
 }
 
-/// Throws where the mirror image of `from` fits the landmarks far better. `direct`: the energy of
-/// `from` on its coarse level, if it has one.
-void require_sides(const MappedMesh& from, const TargetSurface& target,
-                   const ComposedOptions& options, std::optional<double> direct) {
-  if (options.landmarks.size() < telling_landmarks) return;
+/// Throws where the mirror image of `from` fits the landmarks far better; warns where it fits no
+/// worse. `direct`: the energy of `from` on its coarse level, if it has one.
+std::optional<std::string> suspicion_of_sides(const MappedMesh& from, const TargetSurface& target,
+                                              const ComposedOptions& options,
+                                              std::optional<double> direct) {
+  if (options.landmarks.size() < telling_landmarks) return std::nullopt;
   const TriangleMesh other = mirrored(from.mesh());
   const Topology topology(other, options.threads);
   const std::optional<double> image = CoarseToFine(other, topology, target, options).start();
+  if (!image || (direct && *image > *direct)) return std::nullopt;
   const double least = differentiate(options.energy.energy, 1, 1).f;
-  if (!image) return;
-  const bool far = direct && *image - least < mirrored_share * (*direct - least) &&
-                   *direct - *image > telling_energy;
-  if (direct && !far) return;
-  throw MirroredLandmarks(
-      "the landmarks look mirrored: they fit the mirror image of " + from.name() +
-      " far better, energy " + short_number(*image) +
+  const std::string energies =
+      "energy " + short_number(*image) +
       (direct ? " against " + short_number(*direct) : ", and cannot be reached without it") + " (" +
-      short_number(least) + " is isometry)");
+      short_number(least) + " is isometry)";
+  const bool far = !direct || (*image - least < mirrored_share * (*direct - least) &&
+                               *direct - *image > telling_energy);
+  if (far) {
+    throw MirroredLandmarks("the landmarks look mirrored: they fit the mirror image of " +
+                            from.name() + " far better, " + energies);
+  }
+  return "the landmarks fit the mirror image of " + from.name() + " no worse, " + energies +
+         ": are left and right as they should be?";
 }
 
 std::string words_of(const std::vector<double>& residuals) {
@@ -91,10 +96,11 @@ std::string words_of(const std::vector<double>& residuals) {
 
 /// From coarse to fine.
 SphereMap matched(const MappedMesh& from, const TargetSurface& target,
-                  const ComposedOptions& options) {
+                  const ComposedOptions& options, std::vector<std::string>& warnings) {
   CoarseToFine way(from.mesh(), from.topology(), target, options);
   const std::optional<double> energy = way.start();
-  require_sides(from, target, options, energy);
+  if (const auto warning = suspicion_of_sides(from, target, options, energy))
+    warnings.push_back(*warning);
   SphereMap map = energy ? way.finish() : SphereMap{};
   if (map.points.rows() > 0) return map;
   throw UnreachableLandmarks("no map of " + from.name() +
@@ -120,8 +126,9 @@ Match match_surfaces(const MappedMesh& from, const MappedMesh& to, const MatchOp
                                  options.threads);
   };
   const DistortionEnergy plain{options.energy.kind, options.energy.lambda};
+  std::vector<std::string> warnings;
   SphereMap map = fits ? improve_composition(from.mesh(), from.topology(), target, *fits, composed)
-                       : matched(from, target, composed);
+                       : matched(from, target, composed, warnings);
   // What is minimised differs from the plain energy by its ε: an isometry is to stay one.
   if (fits && energy_of(*fits, plain) < energy_of(map, plain)) map = *fits;
   const double energy = energy_of(map, composed.energy.energy);
@@ -130,7 +137,8 @@ Match match_surfaces(const MappedMesh& from, const MappedMesh& to, const MatchOp
       {"version", version}, {"method", "match"}, {"stage", made_by}, {"verdict", "one-to-one"}};
   MappedMesh moved = from.with_map(std::move(map), lines);
   std::vector<double> residuals = pin_residuals(moved.map(), composed.landmarks);
-  return {SurfaceMap(std::move(moved), to), energy, made_by, std::move(residuals)};
+  return {SurfaceMap(std::move(moved), to), energy, made_by, std::move(residuals),
+          std::move(warnings)};
 }
 
 }  // namespace sphparam

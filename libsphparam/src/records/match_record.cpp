@@ -45,6 +45,7 @@ std::string to_json(const MatchRecord& record) {
                {"energy", match.energy},
                {"landmarks", landmarks_json(record)},
                {"distortion", distortion_json(record.distortion)}};
+  json["warnings"] = match.warnings;
   json["outputs"] = pairs_json(record.outputs);
   json["seconds"] = record.seconds;
   return text_of(json);

@@ -45,7 +45,8 @@ MatchOptions options_of(const py::dict& values) {
   return options;
 }
 
-/// The first map as it was moved, the least energy, what it came from, radians of the landmarks.
+/// The first map as it was moved, the least energy, what it came from, radians of the landmarks,
+/// warnings.
 py::tuple match(const Mapped& from, const Mapped& to, const Pairs& pairs, bool mirror,
                 const py::dict& values, const py::object& progress) {
   const MatchOptions wanted = options_of(values);
@@ -57,7 +58,7 @@ py::tuple match(const Mapped& from, const Mapped& to, const Pairs& pairs, bool m
     return match_surfaces(first, to.mesh(), options);
   });
   return py::make_tuple(Mapped(found.map.from()), found.energy, found.made_by,
-                        owning(std::move(found.residuals)));
+                        owning(std::move(found.residuals)), found.warnings);
 }
 
 py::dict matched_distortion(const Mapped& from, const Mapped& to, int threads) {

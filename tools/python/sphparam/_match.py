@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, List, Sequence, Tuple, Union
 
 from . import _arrays, _core
 from ._figures import Distortion
+from ._losses import tell
 from ._map_facts import mapped_of
 from ._numpy import np
 from ._progress import Progress, told
@@ -111,10 +112,13 @@ def match(
         where no map has the landmarks, or where they fit the mirror image far better.
     ValueError
         for landmarks that are no vertices, or one twice.
+
+    A warning tells where they fit the mirror image no worse: look at the result.
     """
     first, second = mapped_of(source, "source"), mapped_of(target, "target")
     options = {"energy": _arrays.text(energy, "energy"), "lambda": float(weight), "threads": _arrays.threads(threads)}
     with told(progress) as report:
         found = _core.match(first, second, _pairs(landmarks), bool(mirror), options, report)
-    moved, least, made_by, residuals = found
+    moved, least, made_by, residuals, warnings = found
+    tell(warnings)
     return SurfaceMap(SphereMap._of(moved), target, least, made_by, residuals)

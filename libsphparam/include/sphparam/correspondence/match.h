@@ -30,6 +30,7 @@ struct Match {
                    // docs/mathematics.md), a unit of area; of symmetric Dirichlet isometry has 1.96
   std::string made_by;            // "coarse to fine", "own map": where the least energy came from
   std::vector<double> residuals;  // radians of the landmarks from their partners; 0: exactly there
+  std::vector<std::string> warnings;  // for people: landmarks that a mirror image fits no worse
 };
 
 /// Landmarks that no match has. The program ends with exit code 5.
