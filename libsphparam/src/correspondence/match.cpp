@@ -24,6 +24,7 @@ namespace {
 constexpr double fitting = 1e-6;        // radians: landmarks of maps that mean the same
 constexpr double mirrored_share = 0.5;  // of the energy beyond isometry: less is the mirror image's
 constexpr double telling_energy = 0.25;  // what lies between the two must be more
+constexpr double alike = 1.05;           // of that energy: the mirror image fits no worse
 constexpr size_t telling_landmarks = 3;  // fewer have no sides
 
 void require_landmarks(const std::vector<LandmarkPair>& landmarks, const MappedMesh& from,
@@ -71,8 +72,8 @@ std::optional<std::string> suspicion_of_sides(const MappedMesh& from, const Targ
   const TriangleMesh other = mirrored(from.mesh());
   const Topology topology(other, options.threads);
   const std::optional<double> image = CoarseToFine(other, topology, target, options).start();
-  if (!image || (direct && *image > *direct)) return std::nullopt;
   const double least = differentiate(options.energy.energy, 1, 1).f;
+  if (!image || (direct && *image - least > alike * (*direct - least))) return std::nullopt;
   const std::string energies =
       "energy " + short_number(*image) +
       (direct ? " against " + short_number(*direct) : ", and cannot be reached without it") + " (" +
