@@ -46,10 +46,10 @@ std::vector<Pin> pins_of(const std::vector<LandmarkPair>& landmarks, const Mappe
 
 /// The map of `from`, turned, with its landmarks exactly there, where that is hardly a change.
 std::optional<SphereMap> fitting_map(const MappedMesh& from, const std::vector<Pin>& pins) {
-  if (pins.empty()) return from.map();
   SphereMap map = from.map();
-  if (pins.size() < telling_landmarks) return std::nullopt;
-  if (!all_exact(pin_residuals(map, pins))) map = turned(map, best_rotation(map, pins));
+  if (pins.empty() || all_exact(pin_residuals(map, pins))) return map;
+  if (pins.size() < telling_landmarks) return std::nullopt;  // a rotation always nearly fits these
+  map = turned(map, best_rotation(map, pins));
   for (const double residual : pin_residuals(map, pins))
     if (residual > fitting) return std::nullopt;
   for (const Pin& pin : pins) map.points.row(pin.vertex) = pin.point;
