@@ -82,6 +82,19 @@ TEST_CASE("composed energy: an isometry has the least there is") {
   CHECK(composed_terms(energy, rest, triangle.corners()).gradient.norm() < 1e-12);
 }
 
+TEST_CASE("composed energy: the more a triangle shrinks, the more it costs, with ε, too") {
+  const ComposedEnergy energy{ComposedEnergy{}.energy, 0};
+  Triangle triangle = isometric();
+  double before = composed_energy(energy, rest, triangle.corners());
+  CHECK(before == Approx(2 * rest.area).epsilon(1e-6));
+  for (int halving = 0; halving < 12; ++halving) {
+    for (Place& place : triangle.places) place.position /= 2;
+    const double after = composed_energy(energy, rest, triangle.corners());
+    CHECK(after > before);
+    before = after;
+  }
+}
+
 TEST_CASE(
     "composed energy: infinite where the sphere folds, finite where an image stands on edge") {
   const ComposedEnergy energy;

@@ -24,8 +24,8 @@ namespace {
 
 constexpr int start_vertices = 200;  // of the level that all begins on, at least
 constexpr int start_vertices_a_landmark = 20;
-constexpr int start_steps = 15, steps = 5;  // of Newton, at most, there and on finer levels
-constexpr double least_gain = 3e-3;         // of a step, of the energy beyond isometry
+constexpr int start_steps = 30, steps = 8;  // of Newton, at most, there and on finer levels
+constexpr double least_gain = 1e-3;         // of a step, of the energy beyond isometry
 constexpr double growth = 1.8;              // of levels with Newton steps
 constexpr int removed_sweeps = 4, level_sweeps = 2;
 /// Levels of so many vertices are near what coarser ones have found.

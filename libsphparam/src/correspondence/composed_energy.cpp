@@ -111,6 +111,18 @@ void add(ComposedTerms& terms, const EnergyDerivatives& f, const Measures& m, do
                              f.f_ss * m.of_s * m.of_s.transpose());
 }
 
+/// f(d + χ − s, s), with χ − s > 0 where ε > 0: see docs/mathematics.md.
+EnergyDerivatives regularised(const DistortionEnergy& energy, double d, double s) {
+  const double e2 = energy.epsilon * energy.epsilon, root = std::sqrt(s * s + e2);
+  if (e2 == 0) return differentiate(energy, d, s);
+  const double lift = e2 / (2 * (s + root)), lift_s = -lift / root;
+  const double lift_ss = e2 / (2 * root * root * root);
+  EnergyDerivatives f = differentiate(energy, d + lift, s);
+  f.f_ss += 2 * f.f_ds * lift_s + f.f_d * lift_ss;
+  f.f_s += f.f_d * lift_s;
+  return f;
+}
+
 /// d/s
 constexpr DistortionEnergy mips{.kind = EnergyKind::AngleAndArea, .lambda = 0};
 
@@ -127,7 +139,7 @@ double composed_energy(const ComposedEnergy& energy, const RestTriangle& rest,
     return (j.x.squaredNorm() + j.y.squaredNorm()) / 2;
   };
   const Jacobian j = jacobian(rest, positions(places));
-  double density = energy_density(energy.energy, squares(j), j.x.cross(j.y).norm());
+  double density = regularised(energy.energy, squares(j), j.x.cross(j.y).norm()).f;
   if (energy.barrier > 0) {
     const ImageTriangle p = directions(places);
     density +=
@@ -140,7 +152,7 @@ ComposedTerms composed_terms(const ComposedEnergy& energy, const RestTriangle& r
                              const Places3& places) {
   ComposedTerms terms{0, Vector6::Zero(), Matrix6::Zero()};
   const Measures space = in_space(rest, places);
-  add(terms, differentiate(energy.energy, space.d, space.s), space, rest.area);
+  add(terms, regularised(energy.energy, space.d, space.s), space, rest.area);
   if (energy.barrier > 0) {
     const Measures sphere = on_sphere(rest, places);
     add(terms, differentiate(mips, sphere.d, sphere.s), sphere, energy.barrier * rest.area);

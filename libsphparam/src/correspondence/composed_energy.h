@@ -20,9 +20,10 @@ Jacobian jacobian(const RestTriangle& rest, const ImageTriangle& image);
 /// What is minimised: a density of the map from flat triangle to flat triangle on the target, with
 /// s their ratio of areas, which has no sign; and, for the sign, `barrier` times MIPS, d/s, of the
 /// map to the sphere. The energy's ε keeps the first finite where the image in space has no area
-/// though that on the sphere has.
+/// though that on the sphere has; d grows by χ_ε(s) − s with it, so that d ≥ s stays d ≥ χ, and a
+/// triangle that shrinks to a point costs the more the smaller it is.
 struct ComposedEnergy {
-  DistortionEnergy energy = {.kind = EnergyKind::SymmetricDirichlet, .epsilon = 0.3};
+  DistortionEnergy energy = {.kind = EnergyKind::SymmetricDirichlet, .epsilon = 0.03};
   double barrier = 0.03;
 };
 

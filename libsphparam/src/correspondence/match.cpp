@@ -24,7 +24,9 @@ namespace {
 constexpr double fitting = 1e-6;        // radians: landmarks of maps that mean the same
 constexpr double mirrored_share = 0.5;  // of the energy beyond isometry: less is the mirror image's
 constexpr double telling_energy = 0.25;  // what lies between the two must be more
-constexpr double alike = 1.05;           // of that energy: the mirror image fits no worse
+constexpr double alike = 1.05;           // of that energy: the mirror image fits about as well
+constexpr double collapsed = 0.01;       // of its share of the area: a triangle that is lost
+constexpr double telling_area = 1e-3;    // share of the surface that is lost: worth a word
 constexpr size_t telling_landmarks = 3;  // fewer have no sides
 
 void require_landmarks(const std::vector<LandmarkPair>& landmarks, const MappedMesh& from,
@@ -84,7 +86,8 @@ std::optional<std::string> suspicion_of_sides(const MappedMesh& from, const Targ
     throw MirroredLandmarks("the landmarks look mirrored: they fit the mirror image of " +
                             from.name() + " far better, " + energies);
   }
-  return "the landmarks fit the mirror image of " + from.name() + " no worse, " + energies +
+  return "the landmarks fit the mirror image of " + from.name() +
+         (*image < *direct ? " better, " : " about as well, ") + energies +
          ": are left and right as they should be?";
 }
 
@@ -106,6 +109,18 @@ SphereMap matched(const MappedMesh& from, const TargetSurface& target,
   if (map.points.rows() > 0) return map;
   throw UnreachableLandmarks("no map of " + from.name() +
                              " with these landmarks was found: " + words_of(way.residuals()));
+}
+
+/// Warns of parts of one surface that hardly have a place on the other.
+void tell_collapse(const SurfaceMap& map, int threads, std::vector<std::string>& warnings) {
+  const Distortion distortion = measure_distortion(map, threads);
+  const double lost = (distortion.area_ratio.array() < collapsed)
+                          .select(distortion.source_area.array(), 0.0)
+                          .sum();
+  if (lost < telling_area) return;
+  warnings.push_back(short_number(100 * lost) + " % of the area of " + map.from().name() +
+                     " shrinks to less than 1/100 on " + map.to().name() +
+                     ": landmarks at the ends of what sticks out there may help");
 }
 
 ComposedOptions composed_options(const MatchOptions& options, const MappedMesh& to) {
@@ -130,7 +145,8 @@ Match match_surfaces(const MappedMesh& from, const MappedMesh& to, const MatchOp
   std::vector<std::string> warnings;
   SphereMap map = fits ? improve_composition(from.mesh(), from.topology(), target, *fits, composed)
                        : matched(from, target, composed, warnings);
-  // What is minimised differs from the plain energy by its ε: an isometry is to stay one.
+  // What is minimised differs from the plain energy by its ε and its barrier: an isometry is to
+  // stay one.
   if (fits && energy_of(*fits, plain) < energy_of(map, plain)) map = *fits;
   const double energy = energy_of(map, composed.energy.energy);
   const std::string made_by = fits ? "own map" : "coarse to fine";
@@ -138,8 +154,10 @@ Match match_surfaces(const MappedMesh& from, const MappedMesh& to, const MatchOp
       {"version", version}, {"method", "match"}, {"stage", made_by}, {"verdict", "one-to-one"}};
   MappedMesh moved = from.with_map(std::move(map), lines);
   std::vector<double> residuals = pin_residuals(moved.map(), composed.landmarks);
-  return {SurfaceMap(std::move(moved), to), energy, made_by, std::move(residuals),
-          std::move(warnings)};
+  SurfaceMap surface_map(std::move(moved), to);
+  tell_collapse(surface_map, options.threads, warnings);
+  tell_collapse(surface_map.inverse(), options.threads, warnings);
+  return {std::move(surface_map), energy, made_by, std::move(residuals), std::move(warnings)};
 }
 
 }  // namespace sphparam

@@ -30,7 +30,7 @@ class SurfaceMap:
     """The second surface and its map, as they were."""
     energy: float
     """Of the map between the surfaces, a unit of area, as it was minimised; of symmetric Dirichlet isometry has
-    1.96."""
+    2."""
     made_by: str
     """Where the least energy came from: ``"coarse to fine"`` or ``"own map"``."""
     residuals: Floats

@@ -27,10 +27,11 @@ struct MatchOptions {
 struct Match {
   SurfaceMap map;  // `from` with its map moved, `to` as it was
   double energy;   // of the composition as it was minimised, bounded where triangles collapse (see
-                   // docs/mathematics.md), a unit of area; of symmetric Dirichlet isometry has 1.96
+                   // docs/mathematics.md), a unit of area; of symmetric Dirichlet isometry has 2
   std::string made_by;            // "coarse to fine", "own map": where the least energy came from
   std::vector<double> residuals;  // radians of the landmarks from their partners; 0: exactly there
-  std::vector<std::string> warnings;  // for people: landmarks that a mirror image fits no worse
+  std::vector<std::string> warnings;  // for people: landmarks that a mirror image fits as well, area
+                                      // that shrinks to nothing on the other surface
 };
 
 /// Landmarks that no match has. The program ends with exit code 5.
