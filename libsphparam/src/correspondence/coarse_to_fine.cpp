@@ -14,7 +14,9 @@
 #include "sphparam/parallel.h"
 
 // A coarse level of the source gets a map of its own that has the landmarks where they belong; on
-// it the energy of the composition is minimised by Newton steps. Then level by level up: a removed
+// it the energy of the composition is minimised by Newton steps. How limbs are turned about their
+// axes is settled there, and differs from start to start: levels of several sizes are tried, and
+// what has the least energy when all have climbed to the same level goes on. Then level by level up: a removed
 // vertex goes into the kernel of its ring, from there to where it lies in the ring, makes local
 // steps, and all are swept; on levels that have grown enough, Newton steps follow. Where rounding
 // leaves no room in a ring, the finest level gets a map of its own instead.
@@ -24,6 +26,7 @@ namespace {
 
 constexpr int start_vertices = 200;  // of the level that all begins on, at least
 constexpr int start_vertices_a_landmark = 20;
+constexpr int last_growth = 4;  // of the level that all starts climb to
 constexpr int start_steps = 30, steps = 8;  // of Newton, at most, there and on finer levels
 constexpr double least_gain = 1e-3;         // of a step, of the energy beyond isometry
 constexpr double growth = 1.8;              // of levels with Newton steps
@@ -126,18 +129,44 @@ CoarseToFine::CoarseToFine(const TriangleMesh& source, const Topology& topology,
     complete_positions(hierarchy_[l], hierarchy_[l + 1], options.threads);
 }
 
-std::optional<double> CoarseToFine::start() {
-  const auto climb_beyond = [&](int vertices) {
-    while (level_ > 0 && hierarchy_[level_].vertex_count() < vertices) --level_;
-  };
-  level_ = hierarchy_.size() - 1;
-  climb_beyond(start_vertices);
+/// The coarsest level of so many vertices, or the finest.
+size_t CoarseToFine::level_of(int vertices) const {
+  size_t level = hierarchy_.size() - 1;
+  while (level > 0 && hierarchy_[level].vertex_count() < vertices) --level;
+  return level;
+}
+
+/// Begins on this level, or on a finer one where it cannot, and climbs to `last`.
+std::optional<double> CoarseToFine::try_from(size_t level, size_t last) {
+  level_ = level;
   while (!start_on(level_)) {
     if (level_ == 0) return std::nullopt;
-    climb_beyond(2 * hierarchy_[level_].vertex_count());
+    level_ = level_of(2 * hierarchy_[level_].vertex_count());
   }
   settle(level_, start_steps);
-  return energy_;
+  while (level_ > last && climb_to(level_ - 1)) --level_;
+  return level_ <= last ? std::optional(energy_) : std::nullopt;
+}
+
+std::optional<double> CoarseToFine::start(int most_starts) {
+  const size_t last = level_of(last_growth * start_vertices);
+  std::optional<double> least;
+  State best;
+  size_t tried = hierarchy_.size();
+  for (int i = 0; i < most_starts; ++i) {
+    const size_t level = level_of(start_vertices << i);
+    if (level == tried) continue;
+    tried = level;
+    const std::optional<double> energy = try_from(level, last);
+    if (!energy || (least && *energy >= *least)) continue;
+    least = energy;
+    best = {level_, newton_level_, places_};
+  }
+  if (!least) return least;
+  level_ = best.level;
+  newton_level_ = best.newton_level;
+  places_ = std::move(best.places);
+  return energy_ = *least;
 }
 
 SphereMap CoarseToFine::finish() {

@@ -21,6 +21,7 @@
 namespace sphparam {
 namespace {
 
+constexpr int all_starts = 3;           // of coarse levels, to take the best
 constexpr double fitting = 1e-6;        // radians: landmarks of maps that mean the same
 constexpr double mirrored_share = 0.5;  // of the energy beyond isometry: less is the mirror image's
 constexpr double telling_energy = 0.25;  // what lies between the two must be more
@@ -73,7 +74,7 @@ std::optional<std::string> suspicion_of_sides(const MappedMesh& from, const Targ
   if (options.landmarks.size() < telling_landmarks) return std::nullopt;
   const TriangleMesh other = mirrored(from.mesh());
   const Topology topology(other, options.threads);
-  const std::optional<double> image = CoarseToFine(other, topology, target, options).start();
+  const std::optional<double> image = CoarseToFine(other, topology, target, options).start(1);
   const double least = differentiate(options.energy.energy, 1, 1).f;
   if (!image || (direct && *image - least > alike * (*direct - least))) return std::nullopt;
   const std::string energies =
@@ -102,7 +103,7 @@ std::string words_of(const std::vector<double>& residuals) {
 SphereMap matched(const MappedMesh& from, const TargetSurface& target,
                   const ComposedOptions& options, std::vector<std::string>& warnings) {
   CoarseToFine way(from.mesh(), from.topology(), target, options);
-  const std::optional<double> energy = way.start();
+  const std::optional<double> energy = way.start(all_starts);
   if (const auto warning = suspicion_of_sides(from, target, options, energy))
     warnings.push_back(*warning);
   SphereMap map = energy ? way.finish() : SphereMap{};
