@@ -97,6 +97,13 @@ TEST_CASE("match: shapes and values of the other are carried over") {
   CHECK(distance.code == 0);
 }
 
+TEST_CASE("match: values that are asked for and are not there are told") {
+  const Creatures creatures;
+  const Ended ended = creatures.match({"--write-values", creatures.folder / "values.ply"});
+  CHECK(ended.code == 0);
+  CHECK_THAT(ended.err, Contains("carries a value or a colour") && Contains("second.obj"));
+}
+
 TEST_CASE("match: what makes no sense is refused, and nothing is written") {
   const Creatures creatures;
   write_bytes(creatures.pairs, "0 0\n0 1\n");

@@ -26,6 +26,12 @@ TEST_CASE("landmark files: a pair a line, with comments") {
   CHECK((pairs[1].from == 11 && pairs[1].to == 2));
 }
 
+TEST_CASE("landmark files: a byte order mark before the first number is no part of it") {
+  CHECK(parse("\xEF\xBB\xBF"
+              "0 5\n")
+            .size() == 1);
+}
+
 TEST_CASE("landmark files: what is wrong is said with its line") {
   CHECK_THROWS_WITH(parse("0 1\n12 2\n"),
                     Contains("pairs.txt:2:") && Contains("first mesh") && Contains("no vertex 12"));

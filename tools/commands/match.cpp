@@ -118,6 +118,17 @@ std::vector<std::pair<std::string, std::string>> add_outputs(const MatchArgument
   return outputs;
 }
 
+/// Tells of values that are asked for and are not there.
+void tell_absent_values(const MatchArguments& arguments, const MappedMesh& second,
+                        Session& session) {
+  if (arguments.values.empty() || !names_of_values(second.file()).empty()) return;
+  session.warn(
+      {"--write-values: no vertex of " + second.name() +
+       " carries a value or a colour, so nothing is carried over; a texture: sphparam bake " +
+       arguments.second + " --texture, then sphparam export " + arguments.output +
+       " --image with what it made"});
+}
+
 int run_match(MatchArguments& arguments) {
   require_sensible(arguments);
   Session session(arguments);
@@ -125,6 +136,7 @@ int run_match(MatchArguments& arguments) {
   if (arguments.mirror) first = mirror_image(first, session.threads());
   const MappedMesh second = read_mapped(arguments.second, arguments.second_sphere, session);
   read_landmarks_of(arguments, first, second);
+  tell_absent_values(arguments, second, session);
   const Match found = match(arguments, first, second, session);
   session.warn(found.warnings);
   MatchRecord record{.first = arguments.first,

@@ -16,17 +16,17 @@
 // A coarse level of the source gets a map of its own that has the landmarks where they belong; on
 // it the energy of the composition is minimised by Newton steps. How limbs are turned about their
 // axes is settled there, and differs from start to start: levels of several sizes are tried, and
-// what has the least energy when all have climbed to the same level goes on. Then level by level up: a removed
-// vertex goes into the kernel of its ring, from there to where it lies in the ring, makes local
-// steps, and all are swept; on levels that have grown enough, Newton steps follow. Where rounding
-// leaves no room in a ring, the finest level gets a map of its own instead.
+// what has the least energy when all have climbed to the same level goes on. Then level by level
+// up: a removed vertex goes into the kernel of its ring, from there to where it lies in the ring,
+// makes local steps, and all are swept; on levels that have grown enough, Newton steps follow.
+// Where rounding leaves no room in a ring, the finest level gets a map of its own instead.
 
 namespace sphparam {
 namespace {
 
 constexpr int start_vertices = 200;  // of the level that all begins on, at least
 constexpr int start_vertices_a_landmark = 20;
-constexpr int last_growth = 4;  // of the level that all starts climb to
+constexpr int last_growth = 4;              // of the level that all starts climb to
 constexpr int start_steps = 30, steps = 8;  // of Newton, at most, there and on finer levels
 constexpr double least_gain = 1e-3;         // of a step, of the energy beyond isometry
 constexpr double growth = 1.8;              // of levels with Newton steps

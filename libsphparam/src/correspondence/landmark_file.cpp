@@ -36,6 +36,8 @@ class Side {
 
 std::vector<LandmarkPair> parse_landmarks(std::string_view text, const std::string& name,
                                           const FileNumbers& from, const FileNumbers& to) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   const ReadOptions limits;
   TextScanner scanner(text, name, limits);
   scanner.require_text();

@@ -115,9 +115,8 @@ SphereMap matched(const MappedMesh& from, const TargetSurface& target,
 /// Warns of parts of one surface that hardly have a place on the other.
 void tell_collapse(const SurfaceMap& map, int threads, std::vector<std::string>& warnings) {
   const Distortion distortion = measure_distortion(map, threads);
-  const double lost = (distortion.area_ratio.array() < collapsed)
-                          .select(distortion.source_area.array(), 0.0)
-                          .sum();
+  const double lost =
+      (distortion.area_ratio.array() < collapsed).select(distortion.source_area.array(), 0.0).sum();
   if (lost < telling_area) return;
   warnings.push_back(short_number(100 * lost) + " % of the area of " + map.from().name() +
                      " shrinks to less than 1/100 on " + map.to().name() +

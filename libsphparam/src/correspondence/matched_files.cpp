@@ -105,6 +105,13 @@ MeshFile in_other_shape(const SurfaceMap& map, int threads) {
   return file;
 }
 
+std::vector<std::string> names_of_values(const MeshFile& file) {
+  std::vector<std::string> names;
+  for (const Property& property : file.vertex_properties)
+    if (!is_among(not_carried, property.name)) names.push_back(property.name);
+  return names;
+}
+
 MeshFile with_other_values(const SurfaceMap& map, int threads) {
   MeshFile file = without_map(map.from().file());
   const std::vector<SurfacePoint> points = map.forth(threads);

@@ -30,8 +30,9 @@ struct Match {
                    // docs/mathematics.md), a unit of area; of symmetric Dirichlet isometry has 2
   std::string made_by;            // "coarse to fine", "own map": where the least energy came from
   std::vector<double> residuals;  // radians of the landmarks from their partners; 0: exactly there
-  std::vector<std::string> warnings;  // for people: landmarks that a mirror image fits as well, area
-                                      // that shrinks to nothing on the other surface
+  /// For people: landmarks that a mirror image fits as well, area that shrinks to nothing on the
+  /// other surface.
+  std::vector<std::string> warnings;
 };
 
 /// Landmarks that no match has. The program ends with exit code 5.

@@ -14,6 +14,9 @@ MappedMesh with_targets(const SurfaceMap& map, int threads = 0);
 /// which would be those of the other shape.
 MeshFile in_other_shape(const SurfaceMap& map, int threads = 0);
 
+/// The names of what vertices of this file carry that has a meaning on another surface.
+std::vector<std::string> names_of_values(const MeshFile& file);
+
 /// `from` with the vertex properties of `to`, linear in its triangles: those of the same names are
 /// replaced. Labels are those of the nearest corner. Normals, which belong to the shape, and what
 /// says where vertices come from are not carried.
