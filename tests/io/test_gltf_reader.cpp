@@ -586,7 +586,7 @@ TEST_CASE("gltf_reader: a material brings its base colour: factor, image, wrap m
       R"("images":[{"bufferView":0,"mimeType":"image/png"}])";
   const MeshFile inside = read(gltf.bytes());
   REQUIRE(inside.base_colours.size() == 1);
-  const sphparam::BaseColour& colour = inside.base_colours[0];
+  const sphparam::MaterialTexture& colour = inside.base_colours[0];
   CHECK(colour.factor == std::array{0.5, 0.25, 1.0, 0.75});
   CHECK(colour.wrap_s == sphparam::Wrapping::Clamp);
   CHECK(colour.wrap_t == sphparam::Wrapping::Mirror);
@@ -604,6 +604,55 @@ TEST_CASE("gltf_reader: a material brings its base colour: factor, image, wrap m
   CHECK(contains(with_image(R"("uri":"../secret.png")").problem, "'..'"));
   CHECK(contains(with_image(R"("uri":"skin.png")").problem, "only a glTF read from a file"));
   CHECK(with_image(R"("uri":"skin.png")").path == "skin.png");
+}
+
+TEST_CASE(
+    "gltf_reader: a material brings its channels, each as it lies on the mesh's coordinates") {
+  Gltf gltf = tetrahedron_gltf();
+  gltf.add(floats({0, 0, 1, 0, 0, 1, 1, 1}), 5126, 4, "VEC2");
+  gltf.meshes = R"([{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":2},"indices":1,)"
+                R"("material":0}]}])";
+  gltf.rest +=
+      R"(,"materials":[{"doubleSided":true,"alphaMode":"MASK","alphaCutoff":0.25,)"
+      R"("pbrMetallicRoughness":{"metallicFactor":0.5,"roughnessFactor":0.75,)"
+      R"("baseColorTexture":{"index":0,"extensions":{"KHR_texture_transform":{"offset":[0.5,0]}}},)"
+      R"("metallicRoughnessTexture":{"index":1}},"normalTexture":{"index":0,"scale":2},)"
+      R"("occlusionTexture":{"index":0,"strength":0.5,"texCoord":1},"emissiveFactor":[1,0.5,0],)"
+      R"("emissiveTexture":{"index":1,"extensions":{"KHR_texture_transform":)"
+      R"({"scale":[2,3],"offset":[0.5,0.25],"rotation":1.5707963267948966}}},)"
+      R"("extensions":{"KHR_materials_unlit":{},)"
+      R"("KHR_materials_emissive_strength":{"emissiveStrength":4}}},{}],)"
+      R"("textures":[{"source":0},{"source":1}],"images":[{"uri":"a.png"},{"uri":"b.png"}])";
+  const MeshFile file = read(gltf.bytes());
+  REQUIRE(file.channels.size() == 1);
+  const sphparam::MaterialChannels& said = file.channels[0];
+  CHECK(said.double_sided);
+  CHECK(said.unlit);
+  CHECK(said.alpha_mode == sphparam::AlphaMode::Mask);
+  CHECK(said.alpha_cutoff == 0.25);
+  CHECK(said.roughness.factor[0] == 0.75);
+  CHECK(said.roughness.channel == 1);
+  CHECK(said.metallic.factor[0] == 0.5);
+  CHECK(said.metallic.channel == 2);
+  CHECK(said.metallic.image == "b.png");
+  CHECK(said.normal.factor[0] == 2);
+  CHECK(said.emission.factor == std::array{4.0, 2.0, 0.0, 1.0});
+  // Occlusion lies on other coordinates: its strength stays, its image is told.
+  CHECK(said.occlusion.image.empty());
+  CHECK(contains(sphparam::losses_among(file.notes).at(0), "occlusion textures on other"));
+  // The mesh's (s, t) of vertex 3 are (1.5, 0); where each image is looked up is as glTF says.
+  const std::size_t v = 3;
+  const double s = values_of(file.find_vertex_property("s"))[v],
+               t = values_of(file.find_vertex_property("t"))[v];
+  CHECK(std::pair{s, t} == std::pair{1.5, 0.0});
+  const auto placed = [&](const sphparam::MaterialTexture& texture, int row) {
+    const auto& p = texture.placement[static_cast<std::size_t>(row)];
+    return p[0] * s + p[1] * t + p[2];
+  };
+  CHECK(placed(said.roughness, 0) == Approx(1));
+  CHECK(placed(said.roughness, 1) == Approx(0).margin(1e-12));
+  CHECK(placed(said.emission, 0) == Approx(3 + 0.5));
+  CHECK(placed(said.emission, 1) == Approx(1 - (-2 + 0.25)));
 }
 
 namespace {
@@ -702,7 +751,7 @@ TEST_CASE("gltf_reader: numbers that are not aligned are read as they are, and n
   CHECK(contains(file.notes[0], "1 accessor not aligned"));
 }
 
-TEST_CASE("gltf_reader: what a file says beside shape and base colours is told, a line a kind") {
+TEST_CASE("gltf_reader: what a file says beside shape and materials is told, a line a kind") {
   Gltf gltf = tetrahedron_gltf();
   gltf.add(floats(std::vector<double>(16, 1)), 5126, 4, "VEC4")
       .add(floats(std::vector<double>(8, 0)), 5126, 4, "VEC2");
@@ -711,16 +760,17 @@ TEST_CASE("gltf_reader: what a file says beside shape and base colours is told, 
       R"("WEIGHTS_0":2},"indices":1,"material":0,"targets":[{"POSITION":0},{"POSITION":0}]},)"
       R"({"attributes":{"POSITION":0,"TANGENT":2,"TEXCOORD_1":3,"_PAIR":3,"WEIGHTS_0":2},)"
       R"("indices":1,"material":1,"targets":[{"POSITION":0},{"POSITION":0}]}]}])";
-  gltf.rest = R"("nodes":[{"mesh":0,"skin":0},{}],"scenes":[{"nodes":[0]}],"scene":0,)"
-              R"("skins":[{"joints":[1]}],)"
-              R"("cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":0.1}}],)"
-              R"("materials":[{"name":"plain","pbrMetallicRoughness":{"metallicFactor":1}},)"
-              R"({"name":"glow","emissiveFactor":[0,1,0],"doubleSided":true,"alphaMode":"MASK"}])";
+  gltf.rest =
+      R"("nodes":[{"mesh":0,"skin":0},{}],"scenes":[{"nodes":[0]}],"scene":0,)"
+      R"("skins":[{"joints":[1]}],)"
+      R"("cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":0.1}}],)"
+      R"("materials":[{"name":"plain","pbrMetallicRoughness":{"metallicFactor":1}},)"
+      R"({"name":"glow","emissiveFactor":[0,1,0],"doubleSided":true,"extensions":{"KHR_materials_sheen":{},)"
+      R"("KHR_materials_emissive_strength":{}}}])";
   const std::vector<std::string> losses = sphparam::losses_among(read(gltf.bytes()).notes);
   CHECK(losses ==
         std::vector<std::string>{
-            "not carried: emission, alpha mode and double sides of 1 of 2 materials, only base "
-            "colours are",
+            "not carried: 'KHR_materials_sheen' of 1 of 2 materials",
             "not carried: 1 skin: the mesh is read as it rests", "not carried: 2 morph targets",
             "not carried: of the vertices TANGENT, TEXCOORD_1 and _PAIR", "not carried: 1 camera"});
 }

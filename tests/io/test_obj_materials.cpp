@@ -49,7 +49,7 @@ TEST_CASE("obj_materials: base colours are those of the library") {
                                          "-s 1 1 1 -bm 0.5 maps\\my wood.png\n"
                                          "newmtl red\n\tKd 1 0.25 0\nd 0.5\nKs 0 0 0\nillum 2\n");
   REQUIRE(file.base_colours.size() == 2);
-  const BaseColour &red = file.base_colours[0], &wood = file.base_colours[1];
+  const MaterialTexture &red = file.base_colours[0], &wood = file.base_colours[1];
   CHECK(red.factor == std::array<double, 4>{1, 0.25, 0, 0.5});
   CHECK(red.image.empty());
   CHECK(wood.factor == std::array<double, 4>{1, 1, 1, 1});
@@ -68,9 +68,37 @@ TEST_CASE("obj_materials: what else they say is told once") {
       "mtllib a.mtl",
       "newmtl red\nKs 1 1 1\nmap_Bump b.png\nnewmtl wood\nmap_Ks k.png\nTr 0.25\nKd spectral x\n");
   CHECK(file.notes ==
-        std::vector<std::string>{
-            "not carried: bumps and highlights of 2 of 2 materials, only base colours are"});
+        std::vector<std::string>{"not carried: bumps and highlights of 2 of 2 materials"});
   CHECK(file.base_colours.at(1).factor == std::array<double, 4>{1, 1, 1, 0.75});
+}
+
+TEST_CASE("obj_materials: emission, roughness, metallic and normal maps are channels") {
+  const ObjFolder folder;
+  const MeshFile file = folder.read_with(
+      "mtllib a.mtl",
+      "newmtl red\nKe 2 0.5 0\nPr 0.25\nPm 0.75\nd 0.5\nnewmtl wood\nmap_Ke -clamp on e.png\n"
+      "map_Pr r.png\nmap_Pm m.png\nnorm n.png\nKe 0 0 0\n");
+  REQUIRE(file.channels.size() == 2);
+  const MaterialChannels &red = file.channels[0], &wood = file.channels[1];
+  CHECK(red.emission.factor == std::array<double, 4>{2, 0.5, 0, 1});
+  CHECK(red.roughness.factor[0] == 0.25);
+  CHECK(red.metallic.factor[0] == 0.75);
+  CHECK(red.alpha_mode == AlphaMode::Blend);
+  CHECK(wood.alpha_mode == AlphaMode::Opaque);
+  CHECK(wood.emission.factor == std::array<double, 4>{1, 1, 1, 1});
+  CHECK(wood.emission.image == "e.png");
+  CHECK(wood.emission.wrap_s == Wrapping::Clamp);
+  CHECK(wood.roughness.image == "r.png");
+  CHECK(wood.roughness.factor[0] == 1);
+  CHECK(wood.metallic.path == "m.png");
+  CHECK(wood.metallic.factor[0] == 1);
+  CHECK(wood.normal.image == "n.png");
+  CHECK(file.notes.empty());
+  // A material of which nothing is said is rough and no metal.
+  const MaterialChannels bare = folder.read_with("mtllib a.mtl", "newmtl red\n").channels.at(0);
+  CHECK(bare.roughness.factor[0] == 1);
+  CHECK(bare.metallic.factor[0] == 0);
+  CHECK(bare.emission.factor == std::array<double, 4>{0, 0, 0, 1});
 }
 
 TEST_CASE("obj_materials: names that lead elsewhere mean the file beside the library") {

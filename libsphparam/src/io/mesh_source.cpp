@@ -30,10 +30,13 @@ MeshInspection inspect_welded(const TriangleMesh& mesh, const MeshInspection& as
 }  // namespace
 
 void keep_textures(const MeshFile& file) {
-  for (const BaseColour& colour : file.base_colours) {
-    if (colour.path.empty()) continue;
-    keep_from_outputs({(std::filesystem::path(colour.folder) / colour.path).string()});
-  }
+  const auto keep = [](const MaterialTexture& texture) {
+    if (texture.path.empty()) return;
+    keep_from_outputs({(std::filesystem::path(texture.folder) / texture.path).string()});
+  };
+  for (const MaterialTexture& colour : file.base_colours) keep(colour);
+  for (const MaterialChannels& channels : file.channels)
+    for (const MaterialTexture* texture : channels.textures()) keep(*texture);
 }
 
 MeshSource read_source(const std::string& path, const ReadOptions& options) {

@@ -18,7 +18,7 @@ ShownTextures shown_without(const std::string& why, bool left_behind = false) {
   return {std::make_shared<const MeshTextures>(), why, left_behind};
 }
 
-bool has_image(const BaseColour& colour) { return !colour.image.empty(); }
+bool has_image(const MaterialTexture& colour) { return !colour.image.empty(); }
 
 /// What the glTF file said of its textures; empty where they are here, or never were.
 std::string left_behind(const MeshFile& file) {

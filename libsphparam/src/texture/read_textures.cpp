@@ -19,14 +19,14 @@ TextureWrap wrap_of(Wrapping wrapping) {
   return wrapping == Wrapping::Mirror ? TextureWrap::Mirror : TextureWrap::Repeat;
 }
 
-std::vector<char> bytes_of(const BaseColour& colour) {
+std::vector<char> bytes_of(const MaterialTexture& colour) {
   if (colour.bytes) return *colour.bytes;
   const std::vector<unsigned char> read = read_below(colour.folder, colour.path, most_image_bytes);
   return {read.begin(), read.end()};
 }
 
 /// Throws ImageError.
-std::shared_ptr<const TexturePyramid> decode(const BaseColour& colour, const std::string& what,
+std::shared_ptr<const TexturePyramid> decode(const MaterialTexture& colour, const std::string& what,
                                              int threads) {
   if (!colour.problem.empty()) throw ImageError(what + ": " + colour.problem);
   std::vector<char> bytes;
@@ -51,7 +51,7 @@ std::vector<SourceTexture> read_textures(const MeshFile& file, int threads) {
   std::vector<SourceTexture> textures;
   std::map<std::string, std::shared_ptr<const TexturePyramid>> decoded;
   for (size_t i = 0; i < file.base_colours.size(); ++i) {
-    const BaseColour& colour = file.base_colours[i];
+    const MaterialTexture& colour = file.base_colours[i];
     SourceTexture texture{
         .image = nullptr, .wrap_s = wrap_of(colour.wrap_s), .wrap_t = wrap_of(colour.wrap_t)};
     std::ranges::transform(colour.factor, texture.factor.begin(),

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <array>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "sphparam/io/materials.h"
 #include "sphparam/io/scalar_type.h"
 #include "sphparam/mesh/triangle_mesh.h"
 
@@ -22,19 +21,6 @@ struct Property {
 /// #F·3 rows, one per corner (row 3·face + corner).
 using CornerTexcoords = RowTable<double, 2>;
 using CornerNormals = RowTable<double, 3>;
-
-/// What a material says outside [0, 1] of its texture, in the direction of s or t.
-enum class Wrapping { Repeat, Mirror, Clamp };
-
-/// The base colour of a material, as glTF has it: factor · image. Images are not decoded here.
-struct BaseColour {
-  std::array<double, 4> factor = {1, 1, 1, 1};  // linear red, green, blue, alpha
-  std::string image = {};                       // its name, for people; empty: the factor alone
-  std::shared_ptr<const std::vector<char>> bytes = nullptr;  // of an image inside the mesh's file
-  std::string folder = {}, path = {};  // of one in a file of its own, below the folder
-  Wrapping wrap_s = Wrapping::Repeat, wrap_t = Wrapping::Repeat;
-  std::string problem = {};  // why the image cannot be used; empty: nothing is known against it
-};
 
 /// A triangle mesh with everything its file carried. Polygons are triangulated on reading.
 ///
@@ -52,12 +38,13 @@ struct MeshFile {
   ScalarType corner_texcoord_type = ScalarType::Float64;
   std::optional<CornerNormals> corner_normals;
   ScalarType corner_normal_type = ScalarType::Float64;
-  std::vector<std::string> materials;         // names, in order of first use
-  std::vector<BaseColour> base_colours = {};  // one a material, or none (glTF only)
-  std::vector<std::string> comments;          // of the header, without the keyword
-  std::vector<std::string> notes;             // what was odd about the file but harmless
-  std::string format;                         // "PLY binary little-endian", "OBJ", …
-  long polygons = 0;                          // faces of the file that were not triangles
+  std::vector<std::string> materials;              // names, in order of first use
+  std::vector<MaterialTexture> base_colours = {};  // one a material, or none
+  std::vector<MaterialChannels> channels = {};     // what they say besides; likewise
+  std::vector<std::string> comments;               // of the header, without the keyword
+  std::vector<std::string> notes;                  // what was odd about the file but harmless
+  std::string format;                              // "PLY binary little-endian", "OBJ", …
+  long polygons = 0;                               // faces of the file that were not triangles
 
   const Property* find_vertex_property(const std::string& name) const;
   const Property* find_face_property(const std::string& name) const;

@@ -21,8 +21,9 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Material {
-  BaseColour colour = {};
+  MaterialTexture colour = {};
   std::array<double, 3> diffuse = {1, 1, 1};
+  MaterialChannels channels = {.metallic = {.factor = {0, 1, 1, 1}}};
   std::set<std::string> others = {};
 };
 
@@ -75,16 +76,30 @@ class Library {
   }
 
   void read_statement(const std::string& keyword) {
-    if (keyword == "Kd") return set_diffuse();
+    MaterialChannels& channels = material_->channels;
+    if (keyword == "Kd") return set_colour(material_->diffuse, 1);
+    if (keyword == "Ke") return set_emission();
     if (keyword == "d" || keyword == "Tr") return set_alpha(keyword == "Tr");
-    if (keyword == "map_Kd") return set_image();
+    if (keyword == "Pr") return set_number(channels.roughness.factor[0]);
+    if (keyword == "Pm") return set_number(channels.metallic.factor[0]);
+    if (keyword == "map_Kd") return set_image(material_->colour);
+    if (keyword == "map_Ke") return set_image(channels.emission);
+    if (keyword == "map_Pr") return set_image(channels.roughness);
+    if (keyword == "map_Pm") return set_image(channels.metallic);
+    if (keyword == "norm" || keyword == "map_Kn") return set_image(channels.normal);
     static constexpr std::pair<std::string_view, const char*> said_beside[] = {
-        {"Ks", "highlights"},    {"map_Ks", "highlights"},      {"map_Ns", "highlights"},
-        {"Ke", "emission"},      {"map_Ke", "emission"},        {"map_d", "textures of alpha"},
-        {"bump", "bumps"},       {"map_bump", "bumps"},         {"map_Bump", "bumps"},
-        {"norm", "normal maps"}, {"map_Kn", "normal maps"},     {"disp", "displacement"},
-        {"Pr", "roughness"},     {"map_Pr", "roughness"},       {"Pm", "metallic"},
-        {"map_Pm", "metallic"},  {"map_Ka", "ambient textures"}};
+        {"Ks", "highlights"},
+        {"map_Ks", "highlights"},
+        {"map_Ns", "highlights"},
+        {"bump", "bumps"},
+        {"map_bump", "bumps"},
+        {"map_Bump", "bumps"},
+        {"disp", "displacement"},
+        {"Ps", "sheen"},
+        {"map_Ps", "sheen"},
+        {"Pc", "clear coat"},
+        {"map_d", "textures of alpha"},
+        {"map_Ka", "ambient textures"}};
     for (const auto& [word, what] : said_beside)
       if (keyword == word && !is_black()) material_->others.insert(what);
   }
@@ -95,14 +110,26 @@ class Library {
     return rest.find_first_not_of(" \t\r0.") == std::string::npos;
   }
 
-  void set_diffuse() {
+  template <std::size_t Size>
+  void set_colour(std::array<double, Size>& colour, double most) {
     std::array<double, 3> numbers{};
     for (double& channel : numbers) {
       const std::optional<double> written = number(scanner_.word());
       if (!written) return;  // spectral, xyz
-      channel = std::clamp(*written, 0.0, 1.0);
+      channel = std::clamp(*written, 0.0, most);
     }
-    material_->diffuse = numbers;
+    std::ranges::copy(numbers, colour.begin());
+  }
+
+  /// A lamp may be brighter than white.
+  void set_emission() {
+    constexpr double brightest = 1e6;
+    set_colour(material_->channels.emission.factor, brightest);
+  }
+
+  void set_number(double& value) {
+    if (const std::optional<double> written = number(scanner_.word()))
+      value = std::clamp(*written, 0.0, 1.0);
   }
 
   void set_alpha(bool transparency) {
@@ -110,10 +137,11 @@ class Library {
     if (!written) return;  // -halo
     const double alpha = std::clamp(*written, 0.0, 1.0);
     material_->colour.factor[3] = transparency ? 1 - alpha : alpha;
+    const bool opaque = material_->colour.factor[3] == 1;
+    material_->channels.alpha_mode = opaque ? AlphaMode::Opaque : AlphaMode::Blend;
   }
 
-  void set_image() {
-    BaseColour& colour = material_->colour;
+  void set_image(MaterialTexture& colour) {
     while (scanner_.peek_word().starts_with("-")) read_option(colour);
     const std::string written = one_line(scanner_.rest());
     if (written.empty()) return;
@@ -123,7 +151,7 @@ class Library {
     colour.folder = folder_.string();
   }
 
-  void read_option(BaseColour& colour) {
+  void read_option(MaterialTexture& colour) {
     const std::string option(scanner_.word());
     const bool moves = option == "-o" || option == "-s";
     for (int i = 0; i < words_after(option); ++i) {
@@ -175,10 +203,24 @@ void read_library(const std::string& statement, const fs::path& folder, const Re
   }
 }
 
-BaseColour finished(const Material& material) {
-  BaseColour colour = material.colour;
+MaterialTexture finished(const Material& material) {
+  MaterialTexture colour = material.colour;
   if (colour.image.empty()) std::ranges::copy(material.diffuse, colour.factor.begin());
   return colour;
+}
+
+/// Numbers that stand beside an image multiply it; what nobody wrote is 1 then.
+MaterialChannels finished_channels(const Material& material) {
+  MaterialChannels channels = material.channels;
+  const auto is_black = [](const MaterialTexture& texture) {
+    return std::all_of(texture.factor.begin(), texture.factor.begin() + 3,
+                       [](double x) { return x == 0; });
+  };
+  if (!channels.emission.image.empty() && is_black(channels.emission))
+    channels.emission.factor = {1, 1, 1, 1};
+  if (!channels.metallic.image.empty() && channels.metallic.factor[0] == 0)
+    channels.metallic.factor[0] = 1;
+  return channels;
 }
 
 }  // namespace
@@ -197,6 +239,7 @@ ObjMaterials read_obj_materials(const std::vector<std::string>& names,
     if (!is_known(name)) result.unknown.push_back(name);
     const Material& material = known[name];
     result.base_colours.push_back(finished(material));
+    result.channels.push_back(finished_channels(material));
     result.with_others += !material.others.empty();
     others.insert(material.others.begin(), material.others.end());
   }

@@ -373,6 +373,7 @@ class ObjReader {
     ObjMaterials read;
     if (folder_) read = read_obj_materials(file_.materials, libraries, *folder_, options_);
     file_.base_colours = std::move(read.base_colours);
+    file_.channels = std::move(read.channels);
     for (std::size_t m = 0; m < file_.base_colours.size(); ++m)
       if (const std::string& image = file_.base_colours[m].image; !image.empty())
         file_.comments.push_back("base colour of " + file_.materials[m] + ": texture " + image);
@@ -388,7 +389,7 @@ class ObjReader {
                                 enumerated(quoted_all(read.unknown)) + " are white");
     if (read.with_others > 0)
       add_loss(file_.notes, enumerated(read.others) + " of " + std::to_string(read.with_others) +
-                                " of " + materials + ", only base colours are");
+                                " of " + materials);
   }
 
   static std::vector<std::string> quoted_all(const std::vector<std::string>& names) {

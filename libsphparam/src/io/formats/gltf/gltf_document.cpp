@@ -188,13 +188,16 @@ GltfDocument load_gltf(std::string_view bytes, const std::string& name,
     throw ReadError(name, "a mesh has a primitive without attributes");
   copy_model(model, name, document);
   decompress(document, compression, name);
-  for (GltfDocument::Material& material : document.materials) {
-    BaseColour& colour = material.base_colour;
-    if (colour.path.empty()) continue;
+  const auto place = [&](MaterialTexture& texture) {
+    if (texture.path.empty()) return;
     if (folder)
-      colour.folder = folder->string();
+      texture.folder = folder->string();
     else
-      colour.problem = "only a glTF read from a file may name files";
+      texture.problem = "only a glTF read from a file may name files";
+  };
+  for (GltfDocument::Material& material : document.materials) {
+    place(material.base_colour);
+    for (MaterialTexture* texture : material.channels.textures()) place(*texture);
   }
   return document;
 }

@@ -59,8 +59,9 @@ struct GltfDocument {
   struct Material {
     std::string name;
     std::string words = {};  // texture and factor in words; empty when there is no texture
-    BaseColour base_colour = {};
-    TextureTransform transform = {};       // of the base colour's image
+    MaterialTexture base_colour = {};
+    MaterialChannels channels = {};
+    TextureTransform transform = {};  // of the base colour's image, else of the first one there is
     std::vector<std::string> others = {};  // what else it says, in words
   };
 

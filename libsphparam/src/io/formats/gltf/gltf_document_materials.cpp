@@ -1,16 +1,23 @@
 #include "io/formats/gltf/gltf_document_materials.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
 
+#include "elementary.h"
 #include "io/formats/gltf/gltf_files.h"
+#include "number_text.h"
 #include "sphparam/io/mesh_file.h"
+#include "sphparam/mesh/triangle_mesh.h"
 
 namespace sphparam {
 namespace {
+
+using Transform = GltfDocument::TextureTransform;
 
 /// "texture image.png, factor 1 1 1 1"; empty without a texture.
 std::string base_colour(const tinygltf::Model& model, const tinygltf::Material& material) {
@@ -88,11 +95,10 @@ class Images {
 };
 
 /// Where the image of a texture is. Nothing in the model is promised to be there.
-void find_image(const tinygltf::Model& model, const tinygltf::TextureInfo& info, Images& images,
-                BaseColour& colour) {
-  if (info.index < 0) return;
-  colour.image = "texture " + std::to_string(info.index);
-  const auto index = static_cast<std::size_t>(info.index);
+void find_image(const tinygltf::Model& model, int id, Images& images, MaterialTexture& colour) {
+  if (id < 0) return;
+  colour.image = "texture " + std::to_string(id);
+  const auto index = static_cast<std::size_t>(id);
   if (index >= model.textures.size()) {
     colour.problem = "the file has no such texture";
     return;
@@ -124,8 +130,9 @@ void find_image(const tinygltf::Model& model, const tinygltf::TextureInfo& info,
 }
 
 /// Members of the wrong type are as if they were not there.
-GltfDocument::TextureTransform transform_of(const tinygltf::TextureInfo& info) {
-  GltfDocument::TextureTransform transform{.texcoord = info.texCoord};
+template <class Info>
+Transform transform_of(const Info& info) {
+  Transform transform{.texcoord = info.texCoord};
   const auto found = info.extensions.find("KHR_texture_transform");
   if (found == info.extensions.end()) return transform;
   const tinygltf::Value& said = found->second;
@@ -144,38 +151,102 @@ GltfDocument::TextureTransform transform_of(const tinygltf::TextureInfo& info) {
   return transform;
 }
 
-BaseColour base_colour_of(const tinygltf::Model& model, const tinygltf::Material& material,
-                          Images& images) {
-  BaseColour colour;
-  const auto& pbr = material.pbrMetallicRoughness;
-  if (pbr.baseColorFactor.size() == 4)
-    std::copy(pbr.baseColorFactor.begin(), pbr.baseColorFactor.end(), colour.factor.begin());
-  find_image(model, pbr.baseColorTexture, images, colour);
-  return colour;
+/// (u, v, 1) of vertices → (u, v, 1) of the image.
+Eigen::Matrix3d matrix_of(const Transform& t) {
+  const double c = elementary::cos(t.rotation), s = elementary::sin(t.rotation);
+  Eigen::Matrix3d m;
+  m << c * t.scale[0], s * t.scale[1], t.offset[0],  //
+      -s * t.scale[0], c * t.scale[1], t.offset[1],  //
+      0, 0, 1;
+  return m;
 }
 
-/// What a material says beside its base colour.
-std::vector<std::string> others_of(const tinygltf::Material& material) {
-  const auto& pbr = material.pbrMetallicRoughness;
-  const auto& emission = material.emissiveFactor;
-  const bool shines =
-      std::any_of(emission.begin(), emission.end(), [](double x) { return x != 0; });
-  std::vector<std::string> words;
-  const auto add = [&](bool said, const std::string& word) {
-    if (said) words.push_back(word);
-  };
-  add(pbr.metallicRoughnessTexture.index >= 0 || pbr.metallicFactor != 1 ||
-          pbr.roughnessFactor != 1,
-      "metallic and roughness");
-  add(material.normalTexture.index >= 0, "normal texture");
-  add(material.occlusionTexture.index >= 0, "occlusion texture");
-  add(material.emissiveTexture.index >= 0 || shines, "emission");
-  add(!material.alphaMode.empty() && material.alphaMode != "OPAQUE", "alpha mode");
-  add(material.doubleSided, "double sides");
-  for (const auto& [extension, value] : material.extensions)
-    words.push_back(sphparam::quoted(extension));
-  return words;
+/// From where the mesh has its texture coordinates, t upwards, to where this image has them.
+TexturePlacement placement_from(const Transform& mesh, const Transform& image) {
+  if (mesh == image) return {{{1, 0, 0}, {0, 1, 0}}};
+  const Eigen::Matrix3d m = matrix_of(image) * matrix_of(mesh).inverse();
+  return {{{m(0, 0), -m(0, 1), m(0, 1) + m(0, 2)}, {-m(1, 0), m(1, 1), 1 - m(1, 1) - m(1, 2)}}};
 }
+
+/// What a material says, texture by texture. The mesh has one set of texture coordinates for all:
+/// that of the first texture.
+class MaterialReader {
+ public:
+  MaterialReader(const tinygltf::Model& model, const tinygltf::Material& material, Images& images)
+      : model_(model), said_(material), images_(images) {}
+
+  GltfDocument::Material read() {
+    const auto& pbr = said_.pbrMetallicRoughness;
+    MaterialChannels& channels = result_.channels;
+    result_.name = one_line(said_.name);
+    result_.words = base_colour(model_, said_);
+    if (pbr.baseColorFactor.size() == 4)
+      std::ranges::copy(pbr.baseColorFactor, result_.base_colour.factor.begin());
+    channels.roughness.factor[0] = pbr.roughnessFactor;
+    channels.metallic.factor[0] = pbr.metallicFactor;
+    channels.roughness.channel = 1;
+    channels.metallic.channel = 2;
+    channels.normal.factor[0] = said_.normalTexture.scale;
+    channels.occlusion.factor[0] = said_.occlusionTexture.strength;
+    read_emission();
+    add_texture(pbr.baseColorTexture, result_.base_colour, "base colour");
+    add_texture(pbr.metallicRoughnessTexture, channels.roughness, "roughness");
+    add_texture(pbr.metallicRoughnessTexture, channels.metallic, "metallic");
+    add_texture(said_.normalTexture, channels.normal, "normal");
+    add_texture(said_.occlusionTexture, channels.occlusion, "occlusion");
+    add_texture(said_.emissiveTexture, channels.emission, "emissive");
+    read_modes();
+    return std::move(result_);
+  }
+
+ private:
+  template <class Info>
+  void add_texture(const Info& info, MaterialTexture& texture, const std::string& what) {
+    if (info.index < 0) return;
+    const Transform transform = transform_of(info);
+    if (!placed_) placed_ = result_.transform = transform;
+    const TexturePlacement placement = placement_from(*placed_, transform);
+    const bool has_place =
+        std::ranges::all_of(placement[0], [](double x) { return std::isfinite(x); }) &&
+        std::ranges::all_of(placement[1], [](double x) { return std::isfinite(x); });
+    if (transform.texcoord != placed_->texcoord || !has_place) {
+      result_.others.push_back(what + " textures on other texture coordinates than the first");
+      return;
+    }
+    texture.placement = placement;
+    find_image(model_, info.index, images_, texture);
+  }
+
+  void read_emission() {
+    double strength = 1;
+    const auto found = said_.extensions.find("KHR_materials_emissive_strength");
+    if (found != said_.extensions.end() && found->second.Get("emissiveStrength").IsNumber())
+      strength = std::max(0.0, found->second.Get("emissiveStrength").GetNumberAsDouble());
+    for (std::size_t c = 0; c < 3 && said_.emissiveFactor.size() == 3; ++c)
+      result_.channels.emission.factor[c] = strength * said_.emissiveFactor[c];
+  }
+
+  void read_modes() {
+    MaterialChannels& channels = result_.channels;
+    channels.alpha_mode = said_.alphaMode == "MASK"    ? AlphaMode::Mask
+                          : said_.alphaMode == "BLEND" ? AlphaMode::Blend
+                                                       : AlphaMode::Opaque;
+    channels.alpha_cutoff = said_.alphaCutoff;
+    channels.double_sided = said_.doubleSided;
+    for (const auto& [extension, value] : said_.extensions) {
+      if (extension == "KHR_materials_unlit")
+        channels.unlit = true;
+      else if (extension != "KHR_materials_emissive_strength")
+        result_.others.push_back(sphparam::quoted(extension));
+    }
+  }
+
+  const tinygltf::Model& model_;
+  const tinygltf::Material& said_;
+  Images& images_;
+  GltfDocument::Material result_;
+  std::optional<Transform> placed_;  // of the first texture
+};
 
 }  // namespace
 
@@ -185,10 +256,7 @@ std::vector<GltfDocument::Material> materials_of(const tinygltf::Model& model,
   Images images(model, document, name);
   std::vector<GltfDocument::Material> materials;
   for (const tinygltf::Material& material : model.materials)
-    materials.push_back({one_line(material.name), base_colour(model, material),
-                         base_colour_of(model, material, images),
-                         transform_of(material.pbrMetallicRoughness.baseColorTexture),
-                         others_of(material)});
+    materials.push_back(MaterialReader(model, material, images).read());
   return materials;
 }
 

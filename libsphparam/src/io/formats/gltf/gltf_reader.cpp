@@ -331,12 +331,16 @@ class SceneReader {
   }
 
   void add_material(int id) {
-    const auto& [name, words, base_colour, unused, others] =
+    const auto& [name, words, base_colour, channels, unused, others] =
         document_.materials[static_cast<std::size_t>(id)];
     file_.materials.push_back(name.empty() ? "material " + std::to_string(id) : name);
     file_.base_colours.push_back(base_colour);
-    if (without_texcoords_.contains(id))
-      file_.base_colours.back().problem = "its texture coordinates are not there";
+    file_.channels.push_back(channels);
+    if (without_texcoords_.contains(id)) {
+      const std::string why = "its texture coordinates are not there";
+      file_.base_colours.back().problem = why;
+      for (MaterialTexture* texture : file_.channels.back().textures()) texture->problem = why;
+    }
     if (!words.empty())
       file_.comments.push_back("base colour of " + file_.materials.back() + ": " + words);
     materials_with_others_ += !others.empty();
@@ -351,8 +355,7 @@ class SceneReader {
     if (materials_with_others_ > 0)
       add_loss(file_.notes, enumerated(others_) + " of " + std::to_string(materials_with_others_) +
                                 " of " +
-                                counted(static_cast<long>(file_.materials.size()), "material") +
-                                ", only base colours are");
+                                counted(static_cast<long>(file_.materials.size()), "material"));
     if (without_area_ > 0)
       add_loss(file_.notes, counted(without_area_, "primitive") + " of points or lines");
     if (skinned_ > 0)
@@ -379,7 +382,7 @@ class SceneReader {
   std::vector<int> material_of_;  // of each triangle, as numbered in the file
   std::map<std::string, Column> columns_;
   std::vector<std::string> order_;   // of the columns, as first seen
-  std::vector<std::string> others_;  // what materials say beside base colours, each once
+  std::vector<std::string> others_;  // what of materials is not carried, each once
   std::set<std::string> others_seen_;
   long materials_with_others_ = 0;
   std::set<int> without_texcoords_;    // materials whose images some primitive has no place for

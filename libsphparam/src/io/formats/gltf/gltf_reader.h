@@ -18,17 +18,19 @@ bool looks_like_gltf(std::string_view bytes);
 ///
 /// Vertices are those of the file: where normals or texture coordinates split them,
 /// `prepare_for_mapping` welds them by position and keeps both at the corners. Kept: NORMAL,
-/// the texture coordinates of the base colour's image, transformed as its material says (t upwards,
-/// as in OBJ: 1 − v; TEXCOORD_0 where no material says another), COLOR_0 (its linear light as sRGB
-/// in [0, 1], Float32), scalars named _…, the angles of _THETA_PHI as theta and phi, the material
-/// of each face and its base colour; textures are named in comments too, and never decoded here;
-/// one says that y is up. Told as not carried: what else materials say, other attributes, skins,
-/// morph targets, animations, cameras, lights, other scenes, points and lines. Triangles, strips
-/// and fans, with or without indices; triangles that name a vertex twice are dropped and counted in
-/// a note. Refused by name: a file of points and lines alone, glTF 1.0, required extensions other
-/// than KHR_mesh_quantization, EXT_meshopt_compression, KHR_draco_mesh_compression and those of
-/// materials, textures and lights. `folder` is where buffers in files of their own may be; without
-/// it they are refused. Throws: ReadError that names the accessor, mesh or node.
+/// the texture coordinates of the base colour's image, or of the first that a material has,
+/// transformed as it says (t upwards, as in OBJ: 1 − v; TEXCOORD_0 where no material says another),
+/// COLOR_0 (its linear light as sRGB in [0, 1], Float32), scalars named _…, the angles of
+/// _THETA_PHI as theta and phi, the material of each face and what it says (materials.h); textures
+/// are named in comments too, and never decoded here; one says that y is up. Told as not carried:
+/// extensions of materials but unlit and emissive strength, textures on other coordinates than a
+/// material's first, other attributes, skins, morph targets, animations, cameras, lights, other
+/// scenes, points and lines. Triangles, strips and fans, with or without indices; triangles that
+/// name a vertex twice are dropped and counted in a note. Refused by name: a file of points and
+/// lines alone, glTF 1.0, required extensions other than KHR_mesh_quantization,
+/// EXT_meshopt_compression, KHR_draco_mesh_compression and those of materials, textures and lights.
+/// `folder` is where buffers in files of their own may be; without it they are refused. Throws:
+/// ReadError that names the accessor, mesh or node.
 MeshFile read_gltf(std::string_view bytes, const std::string& name,
                    const std::optional<std::filesystem::path>& folder,
                    const ReadOptions& options = {});

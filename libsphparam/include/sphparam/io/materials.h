@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace sphparam {
+
+/// What a material says outside [0, 1] of its texture, in the direction of s or t.
+enum class Wrapping { Repeat, Mirror, Clamp };
+
+/// (s, t) of a mesh → those of an image, t upwards: a row a coordinate, the last number is added.
+using TexturePlacement = std::array<std::array<double, 3>, 2>;
+
+/// Something that a material says, as glTF has it: factor · image, channel by channel, or the
+/// factor alone. Images are not decoded here.
+struct MaterialTexture {
+  std::array<double, 4> factor = {1, 1, 1, 1};  // of red, green, blue, alpha; of colours linear
+  std::string image = {};                       // its name, for people; empty: the factor alone
+  std::shared_ptr<const std::vector<char>> bytes = nullptr;  // of an image inside the mesh's file
+  std::string folder = {}, path = {};  // of one in a file of its own, below the folder
+  Wrapping wrap_s = Wrapping::Repeat, wrap_t = Wrapping::Repeat;
+  std::string problem = {};  // why the image cannot be used; empty: nothing is known against it
+  int channel = 0;           // of the image, where the material wants one number of it
+  TexturePlacement placement = {{{1, 0, 0}, {0, 1, 0}}};  // on the mesh's texture coordinates
+};
+
+/// What alpha means. Source: glTF 2.0, Section 3.9.4.
+enum class AlphaMode { Opaque, Mask, Blend };
+
+/// What a material says beside its base colour, in the model of glTF 2.0, Section 3.9. Numbers are
+/// factor[0] · the texture's channel.
+struct MaterialChannels {
+  MaterialTexture roughness = {};                       // perceptual, in [0, 1]
+  MaterialTexture metallic = {};                        // in [0, 1]
+  MaterialTexture occlusion = {};                       // 1 + factor[0]·(image − 1)
+  MaterialTexture normal = {};                          // red, green 2·x − 1 times factor[0]
+  MaterialTexture emission = {.factor = {0, 0, 0, 1}};  // sRGB image; its factor may be above 1
+  AlphaMode alpha_mode = AlphaMode::Opaque;
+  double alpha_cutoff = 0.5;  // of Mask: what is below is not there
+  bool double_sided = false;
+  bool unlit = false;  // the base colour is seen as it is
+
+  std::array<const MaterialTexture*, 5> textures() const {
+    return {&roughness, &metallic, &occlusion, &normal, &emission};
+  }
+  std::array<MaterialTexture*, 5> textures() {
+    return {&roughness, &metallic, &occlusion, &normal, &emission};
+  }
+};
+
+}  // namespace sphparam
