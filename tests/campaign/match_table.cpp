@@ -24,6 +24,7 @@
 #include <string>
 #include <vector>
 
+#include "correspondence/surface_roads.h"
 #include "mesh/triangle_geometry.h"
 #include "sphparam/correspondence/match.h"
 #include "sphparam/io/mapped_mesh.h"
@@ -62,84 +63,6 @@ struct Outcome {
   std::string complaint;
 };
 
-/// Paths along edges and straight across pairs of triangles.
-class Roads {
- public:
-  explicit Roads(const MappedMesh& shape) : mesh_(shape.mesh()), start_{0} {
-    const Topology& topology = shape.topology();
-    for (Vertex v = 0; v < topology.vertex_count(); ++v) {
-      topology.for_each_outgoing(v, [&](Halfedge h) {
-        const Vertex w = topology.origin(topology.next(h));
-        ways_.push_back({w, (mesh_.position(w) - mesh_.position(v)).norm()});
-        add_crossing(topology, v, topology.next(h));
-      });
-      start_.push_back(ways_.size());
-    }
-  }
-
-  /// From `from` to each vertex until all of `until` are reached; all, where it is empty.
-  std::vector<double> distances(Vertex from, std::vector<Vertex> until) const {
-    std::vector<double> result(start_.size() - 1, infinity);
-    std::vector<char> done(result.size(), 0);
-    using Entry = std::pair<double, Vertex>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-    result[at(from)] = 0;
-    queue.push({0, from});
-    const bool all = until.empty();
-    while (!queue.empty() && (all || !until.empty())) {
-      const auto [distance, v] = queue.top();
-      queue.pop();
-      if (std::exchange(done[at(v)], 1)) continue;
-      std::erase(until, v);
-      for (size_t i = start_[at(v)]; i < start_[at(v) + 1]; ++i) {
-        const double through = distance + ways_[i].length;
-        double& other = result[at(ways_[i].to)];
-        if (through < other) queue.push({other = through, ways_[i].to});
-      }
-    }
-    return result;
-  }
-
-  /// To a point of the surface.
-  double distance(Vertex from, const SurfacePoint& to) const {
-    std::vector<Vertex> corners;
-    Vector3 point = Vector3::Zero();
-    for (int k = 0; k < 3; ++k) {
-      corners.push_back(mesh_.triangles(to.face, k));
-      point += to.barycentric[k] * mesh_.position(corners.back());
-    }
-    const std::vector<double> reached = distances(from, corners);
-    double least = infinity;
-    for (const Vertex v : corners)
-      least = std::min(least, reached[at(v)] + (mesh_.position(v) - point).norm());
-    return least;
-  }
-
- private:
-  struct Way {
-    Vertex to;
-    double length;
-  };
-  static size_t at(Vertex v) { return static_cast<size_t>(v); }
-
-  /// From v over the edge h opposite to it to the corner beyond, where the unfolded way crosses it.
-  void add_crossing(const Topology& topology, Vertex v, Halfedge h) {
-    const Vertex a = topology.origin(h), b = topology.origin(topology.next(h));
-    const Vertex beyond = topology.apex(topology.twin(h));
-    const Vector3 x = mesh_.position(v), p = mesh_.position(a), q = mesh_.position(b);
-    const Vector3 along = (q - p).normalized(), y = mesh_.position(beyond);
-    const double x0 = (x - p).dot(along), y0 = (y - p).dot(along);
-    const double x1 = ((x - p) - x0 * along).norm(), y1 = ((y - p) - y0 * along).norm();
-    const double crossing = x0 + (y0 - x0) * x1 / (x1 + y1);
-    if (!(crossing > 0 && crossing < (q - p).norm())) return;
-    ways_.push_back({beyond, std::hypot(y0 - x0, x1 + y1)});
-  }
-
-  const TriangleMesh& mesh_;
-  std::vector<size_t> start_;
-  std::vector<Way> ways_;
-};
-
 double area_of(const TriangleMesh& mesh) {
   double area = 0;
   for (Face f = 0; f < mesh.face_count(); ++f) {
@@ -170,7 +93,7 @@ Shape load(const Set& set, const std::string& name, int threads) {
 }
 
 /// Numbers in the truth, each as far as can be from those before.
-std::vector<size_t> farthest_points(const Shape& shape, const Roads& roads, int count) {
+std::vector<size_t> farthest_points(const Shape& shape, const SurfaceRoads& roads, int count) {
   std::vector<double> near = roads.distances(shape.truth[0], {});
   std::vector<size_t> chosen;
   for (int n = 0; n < count; ++n) {
@@ -187,11 +110,12 @@ std::vector<size_t> farthest_points(const Shape& shape, const Roads& roads, int 
   return chosen;
 }
 
-Outcome score(const Shape& from, const Shape& to, const Roads& from_roads, const Roads& to_roads,
-              const Set& set, int most_points, int threads) try {
+Outcome score(const Shape& from, const Shape& to, const SurfaceRoads& from_roads,
+              const SurfaceRoads& to_roads, const Set& set, int most_points, int threads) try {
   const std::vector<size_t> landmarks = farthest_points(from, from_roads, set.landmarks);
   MatchOptions options;
   options.threads = threads;
+  if (set.landmarks == 0) options.search = true;
   for (const size_t i : landmarks) options.landmarks.push_back({from.truth[i], to.truth[i]});
   const Stopwatch watch;
   const Match match = match_surfaces(from.mapped, to.mapped, options);
@@ -275,11 +199,11 @@ void tell(const std::string& name, const Tally& tally) {
 
 void run(const Set& set, int every, int offset, int most_points, int threads, std::ofstream& log) {
   std::map<std::string, Shape> shapes;
-  std::map<std::string, Roads> roads;
+  std::map<std::string, SurfaceRoads> roads;
   const auto prepare = [&](const std::string& name) {
     if (shapes.contains(name)) return;
     const Shape& shape = shapes.emplace(name, load(set, name, threads)).first->second;
-    roads.emplace(name, Roads(shape.mapped));
+    roads.emplace(name, SurfaceRoads(shape.mapped.mesh(), shape.mapped.topology()));
   };
   Tally developed, held;
   for (size_t i = static_cast<size_t>(offset); i < set.pairs.size();
@@ -312,9 +236,11 @@ void run(const Set& set, int every, int offset, int most_points, int threads, st
 int main(int argc, char** argv) {
   CLI::App app("Scores matches of surfaces against known correspondences.");
   std::string bcicp, shrec, log_path = "match_table.tsv";
+  bool none = false;
   int every = 1, offset = 0, points = 500, threads = 0;
   app.add_option("--bcicp", bcicp, "The folder Dataset of SGA18_orientation_BCICP_dataset");
   app.add_option("--shrec", shrec, "data/meshes/shrec of surface-maps-via-adaptive-triangulations");
+  app.add_flag("--without-landmarks", none);
   app.add_option("--log", log_path, "A line a pair");
   app.add_option("--every", every, "Only every so many pairs")->check(CLI::PositiveNumber);
   app.add_option("--offset", offset, "The first of these")->check(CLI::NonNegativeNumber);
@@ -322,11 +248,15 @@ int main(int argc, char** argv) {
   app.add_option("--threads", threads);
   CLI11_PARSE(app, argc, argv);
   std::ofstream log(log_path);
+  const auto with = [&](Set set) {
+    if (none) set.landmarks = 0;
+    return set;
+  };
   if (!bcicp.empty()) {
-    run(bcicp_set(fs::path(bcicp) / "FAUST", false), every, offset, points, threads, log);
-    run(bcicp_set(fs::path(bcicp) / "TOSCA_nonIsometric", true), every, offset, points, threads,
-        log);
+    run(with(bcicp_set(fs::path(bcicp) / "FAUST", false)), every, offset, points, threads, log);
+    run(with(bcicp_set(fs::path(bcicp) / "TOSCA_nonIsometric", true)), every, offset, points,
+        threads, log);
   }
-  if (!shrec.empty()) run(shrec_set(shrec), every, offset, points, threads, log);
+  if (!shrec.empty()) run(with(shrec_set(shrec)), every, offset, points, threads, log);
   return 0;
 }

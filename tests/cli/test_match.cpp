@@ -29,6 +29,22 @@ TriangleMesh creature(int level, double nose) {
   return mesh;
 }
 
+/// A ball with four arms.
+TriangleMesh armed(int level, double longer) {
+  TriangleMesh mesh = icosphere(level);
+  const TriangleMesh ball = mesh;
+  for (Vertex v = 0; v < mesh.vertex_count(); ++v) {
+    double length = 1.5;
+    for (const Vertex tip : {0, 3, 5, 8}) {
+      const Vector3 axis = ball.position(tip);
+      mesh.positions.row(v) +=
+          length * std::exp(-25 * (ball.position(v) - axis).squaredNorm()) * axis;
+      length += longer;
+    }
+  }
+  return mesh;
+}
+
 /// Two creatures and their landmarks.
 struct Creatures {
   Folder folder;
@@ -39,6 +55,11 @@ struct Creatures {
     write_bytes(first, obj_text(creature(3, 1)));
     write_bytes(second, obj_text(creature(4, 1.4)));
     write_bytes(pairs, "# of an icosahedron\n0 0\n3 3\n5 5\n8 8\n10 10\n");
+  }
+  Ended match_without_landmarks() const {
+    const std::string ball = folder / "ball.obj";
+    write_bytes(ball, obj_text(icosphere(3)));
+    return sphparam_program({"match", ball, ball, "-o", out});
   }
   Ended match(std::vector<std::string> more = {}) const {
     std::vector<std::string> arguments{"match", first, second, "--landmarks", pairs, "-o", out};
@@ -102,6 +123,23 @@ TEST_CASE("match: values that are asked for and are not there are told") {
   const Ended ended = creatures.match({"--write-values", creatures.folder / "values.ply"});
   CHECK(ended.code == 0);
   CHECK_THAT(ended.err, Contains("carries a value or a colour") && Contains("second.obj"));
+}
+
+TEST_CASE("match: without landmarks the ends are paired, told, and listed") {
+  const Creatures creatures;
+  const std::string arms = creatures.folder / "arms.obj", other = creatures.folder / "other.obj";
+  write_bytes(arms, obj_text(armed(4, 0.5)));
+  write_bytes(other, obj_text(armed(4, 0.6)));
+  const Ended ended = sphparam_program({"match", arms, other, "-o", creatures.out, "--json", "-"});
+  REQUIRE(ended.code == 0);
+  const Json search = Json::parse(ended.out)["search"];
+  CHECK(search["confidence"] > 0);
+  REQUIRE(search["suggestions"].size() >= 1);
+  for (const Json& pair : search["suggestions"][0]["landmarks"])
+    CHECK(pair["first"] == pair["second"]);
+  const Ended ball = creatures.match_without_landmarks();
+  CHECK(ball.code == 5);
+  CHECK_THAT(ball.err, Contains("landmarks are needed") && Contains("--landmarks"));
 }
 
 TEST_CASE("match: what makes no sense is refused, and nothing is written") {

@@ -183,6 +183,48 @@ TEST_CASE("match: an arm whose end is a landmark does not collapse; where all mu
   CHECK_THAT(squeezed.warnings.back(), Catch::Contains("shrinks to less than 1/100"));
 }
 
+/// A ball with four arms, the last of them bent: it has ends and a front.
+TriangleMesh armed(int level, double longer) {
+  TriangleMesh mesh = icosphere(level);
+  const TriangleMesh ball = mesh;
+  for (Vertex v = 0; v < mesh.vertex_count(); ++v) {
+    double length = 1.5;
+    for (const Vertex tip : {0, 3, 5, 8}) {
+      const Vector3 axis = ball.position(tip);
+      const double near = std::exp(-25 * (ball.position(v) - axis).squaredNorm());
+      mesh.positions.row(v) += length * near * axis;
+      length += longer;
+    }
+  }
+  return mesh;
+}
+
+TEST_CASE("match: without landmarks ends find one another, and a turn does not matter") {
+  const MappedMesh a = mapped(armed(4, 0.5)), b = mapped(turned_copy(armed(4, 0.55)));
+  const Match match = match_surfaces(a, b, {.search = true});
+  REQUIRE_FALSE(match.suggestions.empty());
+  for (const LandmarkPair& pair : match.suggestions.front().landmarks) CHECK(pair.from == pair.to);
+  CHECK(match.suggestions.front().agreement > 0.8);
+  CHECK(match.confidence > 0.1);
+  CHECK(match.residuals.empty());
+  CHECK(match.map.from().certificate().bijective());
+  const TriangleMesh moved = match.map.from_on_to();
+  CHECK(rms_between(moved, b.mesh()) < 0.1);
+}
+
+TEST_CASE("match: without landmarks a shape matched with itself is the identity") {
+  const MappedMesh a = mapped(armed(4, 0.5));
+  const Match match = match_surfaces(a, a, {.search = true});
+  CHECK(rms_between(match.map.from_on_to(), a.mesh()) < 1e-12);
+}
+
+TEST_CASE("match: without landmarks and without ends there is none") {
+  const MappedMesh ball = mapped(icosphere(4));
+  CHECK_THROWS_AS(match_surfaces(ball, ball, {.search = true}), UnreachableLandmarks);
+  CHECK_THROWS_AS(match_surfaces(ball, ball, {.landmarks = {{0, 0}}, .search = true}),
+                  std::invalid_argument);
+}
+
 TEST_CASE("match: the same bits for one thread and two") {
   const MappedMesh a = mapped(bumpy(4)), b = mapped(turned_copy(bumpy(3)));
   std::vector<LandmarkPair> pairs;

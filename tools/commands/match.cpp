@@ -24,6 +24,7 @@ constexpr char summary[] =
     "  sphparam match horse.obj cow.obj --landmarks pairs.txt -o horse_to_cow.ply\n"
     "  sphparam match horse.obj cow.obj --landmarks pairs.txt -o h.ply --write-values "
     "horse_as_cow.ply\n"
+    "  sphparam match horse.obj cow.obj -o horse_to_cow.ply\n"
     "  sphparam match lh.surf.gii lh_template.sph.ply --landmarks pairs.txt -o "
     "lh.sphere.reg.surf.gii\n"
     "\n"
@@ -31,6 +32,8 @@ constexpr char summary[] =
     "sphere\n"
     "to B distorts least. Both maps are proved one-to-one, so what they make together is.\n"
     "Landmarks are pairs of vertices, a line each: that of A and that of B. They are met exactly.\n"
+    "Without them the ends of what sticks out of A and B are paired as distorts least and looks\n"
+    "most alike, and a start is made from there; the confidence in it is told.\n"
     "The exit status is 5 where no map has them.\n";
 
 struct MatchArguments : CommonArguments {
@@ -64,7 +67,8 @@ void require_sensible(const MatchArguments& arguments) {
 /// The landmarks' file names vertices by their numbers in the meshes' files.
 void read_landmarks_of(MatchArguments& arguments, const MappedMesh& first,
                        const MappedMesh& second) {
-  if (arguments.landmarks.empty()) return;
+  arguments.options.search = arguments.landmarks.empty();
+  if (arguments.options.search) return;
   arguments.options.landmarks =
       read_landmarks(arguments.landmarks, FileNumbers(first.file()), FileNumbers(second.file()));
 }
@@ -80,7 +84,9 @@ Match match(const MatchArguments& arguments, const MappedMesh& first, const Mapp
       std::string(error.what()) +
       (arguments.mirror ? "; leave --mirror out" : "; --mirror matches the mirror image of A"));
 } catch (const UnreachableLandmarks& error) {
-  throw NotCertifiedError(error.what());
+  throw NotCertifiedError(std::string(error.what()) + (arguments.landmarks.empty()
+                                                           ? "; --landmarks takes a file of them"
+                                                           : ""));
 }
 
 /// The match in the format of its name: the mesh with its map, or the bare sphere.
@@ -162,8 +168,8 @@ void declare_options(Declaration& command, MatchArguments& arguments) {
               "A with its map on B's sphere, target_face and target_0, target_1, target_2 (.ply, "
               ".vtk, .vtp); or that sphere alone (.gii, .mz3)")
       .text("--landmarks", arguments.landmarks, "FILE",
-            "Vertices that go to vertices, a pair a line: of A, of B")
-      .required()
+            "Vertices that go to vertices, a pair a line: of A, of B (default: ends of A and B are "
+            "paired)")
       .flag("--mirror", arguments.mirror, "Match the mirror image of A, which is what is written")
       .choice("--energy", arguments.options.energy.kind,
               {{"symmetric-dirichlet", EnergyKind::SymmetricDirichlet},

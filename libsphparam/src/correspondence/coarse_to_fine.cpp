@@ -170,6 +170,10 @@ std::optional<double> CoarseToFine::start(int most_starts) {
 }
 
 SphereMap CoarseToFine::finish() {
+  if (options_.release) {
+    for (std::vector<Vertex>& names : names_) names.clear();
+    settle(level_, start_steps);
+  }
   while (level_ > 0) {
     if (climb_to(level_ - 1)) {
       --level_;
@@ -269,9 +273,10 @@ SphereMap improve_composition(const TriangleMesh& source, const Topology& topolo
                               const TargetSurface& target, const SphereMap& map,
                               const ComposedOptions& options) {
   const RestTriangles rest = measure_source(source, options.threads);
-  MovingSurface surface(topology, rest, target,
-                        held_among(topology.vertex_count(), options.landmarks),
-                        places_of(map, target));
+  MovingSurface surface(
+      topology, rest, target,
+      held_among(topology.vertex_count(), options.release ? std::vector<Pin>{} : options.landmarks),
+      places_of(map, target));
   if (!std::isfinite(surface.energy(options.energy, surface.places(), options.threads))) return map;
   lower(surface, start_steps, options);
   return map_of(surface.places());

@@ -16,6 +16,7 @@ namespace sphparam {
 struct ComposedOptions {
   ComposedEnergy energy = {};
   std::vector<Pin> landmarks = {};  // vertices of the source and the directions that they get
+  bool release = false;             // landmarks hold the coarse level alone
   int threads = 0;
   Progress progress = {};
 };

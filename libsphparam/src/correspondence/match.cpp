@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "correspondence/coarse_to_fine.h"
+#include "correspondence/landmark_search.h"
 #include "embedding/frame/landmarks.h"
 #include "embedding/frame/nearest_rotation.h"
 #include "number_text.h"
@@ -24,16 +25,18 @@ namespace {
 constexpr int all_starts = 3;           // of coarse levels, to take the best
 constexpr double fitting = 1e-6;        // radians: landmarks of maps that mean the same
 constexpr double mirrored_share = 0.5;  // of the energy beyond isometry: less is the mirror image's
-constexpr double telling_energy = 0.25;  // what lies between the two must be more
-constexpr double alike = 1.05;           // of that energy: the mirror image fits about as well
-constexpr double collapsed = 0.01;       // of its share of the area: a triangle that is lost
-constexpr double telling_area = 1e-3;    // share of the surface that is lost: worth a word
-constexpr size_t telling_landmarks = 3;  // fewer have no sides
+constexpr double telling_energy = 0.25;     // what lies between the two must be more
+constexpr double alike = 1.05;              // of that energy: the mirror image fits about as well
+constexpr double collapsed = 0.01;          // of its share of the area: a triangle that is lost
+constexpr double telling_area = 1e-3;       // share of the surface that is lost: worth a word
+constexpr double telling_confidence = 0.1;  // less is worth a word
+constexpr size_t telling_landmarks = 3;     // fewer have no sides
 
-void require_landmarks(const std::vector<LandmarkPair>& landmarks, const MappedMesh& from,
-                       const MappedMesh& to) {
+void require_landmarks(const MatchOptions& options, const MappedMesh& from, const MappedMesh& to) {
+  if (options.search && !options.landmarks.empty())
+    throw std::invalid_argument("landmarks: given, and to be searched for");
   std::set<Vertex> firsts, seconds;
-  for (const LandmarkPair& pair : landmarks) {
+  for (const LandmarkPair& pair : options.landmarks) {
     require_vertex("landmarks: from", pair.from, from.mesh().vertex_count());
     require_vertex("landmarks: to", pair.to, to.mesh().vertex_count());
     if (!firsts.insert(pair.from).second || !seconds.insert(pair.to).second)
@@ -71,7 +74,7 @@ TriangleMesh mirrored(TriangleMesh mesh) {
 std::optional<std::string> suspicion_of_sides(const MappedMesh& from, const TargetSurface& target,
                                               const ComposedOptions& options,
                                               std::optional<double> direct) {
-  if (options.landmarks.size() < telling_landmarks) return std::nullopt;
+  if (options.release || options.landmarks.size() < telling_landmarks) return std::nullopt;
   const TriangleMesh other = mirrored(from.mesh());
   const Topology topology(other, options.threads);
   const std::optional<double> image = CoarseToFine(other, topology, target, options).start(1);
@@ -127,37 +130,78 @@ ComposedOptions composed_options(const MatchOptions& options, const MappedMesh& 
   ComposedEnergy energy;
   energy.energy.kind = options.energy.kind;
   energy.energy.lambda = options.energy.lambda;
-  return {energy, pins_of(options.landmarks, to), options.threads, options.progress};
+  return {.energy = energy,
+          .landmarks = pins_of(options.landmarks, to),
+          .threads = options.threads,
+          .progress = options.progress};
+}
+
+/// What is known of the landmarks that are searched for.
+struct Found {
+  std::vector<SuggestedLandmarks> suggestions = {};
+  double confidence = 1;
+};
+
+Found search_landmarks(const MappedMesh& from, const MappedMesh& to, const TargetSurface& target,
+                       ComposedOptions& composed, std::vector<std::string>& warnings) {
+  Found found{suggest_landmarks(from, to, target, composed)};
+  if (found.suggestions.empty()) {
+    throw UnreachableLandmarks("no three ends of " + from.name() + " and " + to.name() +
+                               " that might correspond were found: landmarks are needed");
+  }
+  found.confidence = confidence_of(found.suggestions);
+  composed.landmarks = pins_of(found.suggestions.front().landmarks, to);
+  composed.release = true;
+  if (found.confidence < telling_confidence) {
+    warnings.push_back("another pairing of the surfaces' ends fits about as well (confidence " +
+                       short_number(found.confidence) + "): look at the result, or give landmarks");
+  }
+  return found;
 }
 
 }  // namespace
 
 Match match_surfaces(const MappedMesh& from, const MappedMesh& to, const MatchOptions& options) {
-  require_landmarks(options.landmarks, from, to);
+  require_landmarks(options, from, to);
   const TargetSurface target(to);
-  const ComposedOptions composed = composed_options(options, to);
-  const std::optional<SphereMap> fits = fitting_map(from, composed.landmarks);
+  ComposedOptions composed = composed_options(options, to);
   const auto energy_of = [&](const SphereMap& map, const DistortionEnergy& density) {
     return energy_of_composition(from.mesh(), from.topology(), target, map, {density, 0},
                                  options.threads);
   };
-  const DistortionEnergy plain{options.energy.kind, options.energy.lambda};
   std::vector<std::string> warnings;
+  std::optional<SphereMap> fits = fitting_map(from, composed.landmarks), found_map;
+  Found found;
+  if (options.search) {
+    found = search_landmarks(from, to, target, composed, warnings);
+    found_map = matched(from, target, composed, warnings);
+    const DistortionEnergy& density = composed.energy.energy;
+    if (energy_of(*found_map, density) < energy_of(*fits, density)) fits.reset();
+  }
   SphereMap map = fits ? improve_composition(from.mesh(), from.topology(), target, *fits, composed)
-                       : matched(from, target, composed, warnings);
+                  : found_map ? std::move(*found_map)
+                              : matched(from, target, composed, warnings);
   // What is minimised differs from the plain energy by its ε and its barrier: an isometry is to
   // stay one.
+  const DistortionEnergy plain{options.energy.kind, options.energy.lambda};
   if (fits && energy_of(*fits, plain) < energy_of(map, plain)) map = *fits;
   const double energy = energy_of(map, composed.energy.energy);
   const std::string made_by = fits ? "own map" : "coarse to fine";
   const Provenance lines = {
       {"version", version}, {"method", "match"}, {"stage", made_by}, {"verdict", "one-to-one"}};
   MappedMesh moved = from.with_map(std::move(map), lines);
-  std::vector<double> residuals = pin_residuals(moved.map(), composed.landmarks);
+  std::vector<double> residuals =
+      options.search ? std::vector<double>{} : pin_residuals(moved.map(), composed.landmarks);
   SurfaceMap surface_map(std::move(moved), to);
   tell_collapse(surface_map, options.threads, warnings);
   tell_collapse(surface_map.inverse(), options.threads, warnings);
-  return {std::move(surface_map), energy, made_by, std::move(residuals), std::move(warnings)};
+  return {std::move(surface_map),
+          energy,
+          made_by,
+          std::move(residuals),
+          std::move(found.suggestions),
+          found.confidence,
+          std::move(warnings)};
 }
 
 }  // namespace sphparam

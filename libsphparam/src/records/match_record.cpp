@@ -31,6 +31,29 @@ Json landmarks_json(const MatchRecord& record) {
   return all;
 }
 
+/// What was searched for: the first suggestion was the start.
+Json search_json(const MatchRecord& record) {
+  if (record.match.suggestions.empty()) return nullptr;
+  const FileNumbers from(record.match.map.from().file()), to(record.match.map.to().file());
+  Json suggestions = Json::array();
+  for (const SuggestedLandmarks& suggestion : record.match.suggestions) {
+    Json pairs = Json::array();
+    for (const LandmarkPair& pair : suggestion.landmarks)
+      pairs.push_back({{"first", from.number(pair.from)}, {"second", to.number(pair.to)}});
+    suggestions.push_back({{"landmarks", pairs},
+                           {"energy", suggestion.energy},
+                           {"agreement", suggestion.agreement},
+                           {"score", suggestion.score}});
+  }
+  return {{"confidence", record.match.confidence}, {"suggestions", suggestions}};
+}
+
+std::string words_of_search(const Match& match) {
+  if (match.suggestions.empty()) return {};
+  return ", from " + counted(std::ssize(match.suggestions.front().landmarks), "end", "ends") +
+         " paired with confidence " + short_number(match.confidence);
+}
+
 }  // namespace
 
 std::string to_json(const MatchRecord& record) {
@@ -44,6 +67,7 @@ std::string to_json(const MatchRecord& record) {
                {"made_by", match.made_by},
                {"energy", match.energy},
                {"landmarks", landmarks_json(record)},
+               {"search", search_json(record)},
                {"distortion", distortion_json(record.distortion)}};
   json["warnings"] = match.warnings;
   json["outputs"] = pairs_json(record.outputs);
@@ -60,6 +84,7 @@ std::string to_text(const MatchRecord& record) {
   const size_t landmarks = record.options.landmarks.size();
   if (landmarks > 0)
     line += ", " + counted(static_cast<long>(landmarks), "landmark", "landmarks") + " exact";
+  line += words_of_search(record.match);
   return line + ", " + short_number(record.seconds) + " s";
 }
 

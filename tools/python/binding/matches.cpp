@@ -40,13 +40,14 @@ MatchOptions options_of(const py::dict& values) {
             {EnergyKind::SymmetricDirichlet, EnergyKind::AngleAndArea},
             [](EnergyKind kind) { return name_of(kind); })
       .take("lambda", options.energy.lambda)
+      .take("search", options.search)
       .take("threads", options.threads);
   settings.require_all_known();
   return options;
 }
 
 /// The first map as it was moved, the least energy, what it came from, radians of the landmarks,
-/// warnings.
+/// confidence in those that were found, warnings.
 py::tuple match(const Mapped& from, const Mapped& to, const Pairs& pairs, bool mirror,
                 const py::dict& values, const py::object& progress) {
   const MatchOptions wanted = options_of(values);
@@ -58,7 +59,7 @@ py::tuple match(const Mapped& from, const Mapped& to, const Pairs& pairs, bool m
     return match_surfaces(first, to.mesh(), options);
   });
   return py::make_tuple(Mapped(found.map.from()), found.energy, found.made_by,
-                        owning(std::move(found.residuals)), found.warnings);
+                        owning(std::move(found.residuals)), found.confidence, found.warnings);
 }
 
 py::dict matched_distortion(const Mapped& from, const Mapped& to, int threads) {

@@ -22,7 +22,7 @@ class SurfaceMap:
     :func:`match` makes it.
     """
 
-    __slots__ = ("source", "target", "energy", "made_by", "residuals")
+    __slots__ = ("source", "target", "energy", "made_by", "residuals", "confidence")
 
     source: SphereMap
     """The first surface, with its points moved; ``save`` keeps it."""
@@ -35,10 +35,20 @@ class SurfaceMap:
     """Where the least energy came from: ``"coarse to fine"`` or ``"own map"``."""
     residuals: Floats
     """Radians of the landmarks from their partners; 0 is exactly there."""
+    confidence: float
+    """In landmarks that were searched for: 0 where others fit as well, up to 1; 1 of those that were given."""
 
-    def __init__(self, source: SphereMap, target: SphereMap, energy: float, made_by: str, residuals: Floats) -> None:
+    def __init__(
+        self,
+        source: SphereMap,
+        target: SphereMap,
+        energy: float,
+        made_by: str,
+        residuals: Floats,
+        confidence: float = 1.0,
+    ) -> None:
         self.source, self.target, self.energy = source, target, energy
-        self.made_by, self.residuals = made_by, residuals
+        self.made_by, self.residuals, self.confidence = made_by, residuals, confidence
 
     def forth(self, *, threads: int = 0) -> Tuple[Ints, Floats]:
         """For every vertex of the source its point on the target: (V,) faces, (V, 3) barycentric weights."""
@@ -83,7 +93,7 @@ def _pairs(landmarks: Any) -> List[Tuple[int, int]]:
 def match(
     source: SphereMap,
     target: SphereMap,
-    landmarks: Union[Sequence[Tuple[int, int]], Any] = (),
+    landmarks: Union[Sequence[Tuple[int, int]], Any] = None,
     *,
     mirror: bool = False,
     energy: str = "symmetric-dirichlet",
@@ -98,7 +108,9 @@ def match(
     source, target
         Maps: the points of the source on the sphere move, those of the target stay.
     landmarks
-        (k, 2) vertices of the source and those of the target that they go to, exactly; none twice.
+        (k, 2) vertices of the source and those of the target that they go to, exactly; none twice. ``None``:
+        the ends of what sticks out of both are paired, and a start is made from there; ``()``: from the map
+        that the source has.
     mirror
         Match the mirror image of the source, which is ``SurfaceMap.source`` then.
     energy
@@ -113,12 +125,15 @@ def match(
     ValueError
         for landmarks that are no vertices, or one twice.
 
-    A warning tells where they fit the mirror image no worse: look at the result.
+    Warnings tell where they fit the mirror image about as well or better, where other ends would, and what
+    shrinks to nothing: look at the result.
     """
     first, second = mapped_of(source, "source"), mapped_of(target, "target")
     options = {"energy": _arrays.text(energy, "energy"), "lambda": float(weight), "threads": _arrays.threads(threads)}
+    options["search"] = landmarks is None
+    pairs = [] if landmarks is None else _pairs(landmarks)
     with told(progress) as report:
-        found = _core.match(first, second, _pairs(landmarks), bool(mirror), options, report)
-    moved, least, made_by, residuals, warnings = found
+        found = _core.match(first, second, pairs, bool(mirror), options, report)
+    moved, least, made_by, residuals, confidence, warnings = found
     tell(warnings)
-    return SurfaceMap(SphereMap._of(moved), target, least, made_by, residuals)
+    return SurfaceMap(SphereMap._of(moved), target, least, made_by, residuals, confidence)

@@ -17,11 +17,20 @@ struct LandmarkPair {
 
 struct MatchOptions {
   std::vector<LandmarkPair> landmarks = {};  // held exactly; no vertex twice on either side
+  bool search = false;  // for landmarks, to start from; none are held. Requires: none are given.
   /// Of the composition, flat triangle to flat triangle. Symmetric Dirichlet, or the default energy
   /// of maps with its λ; ε and pressure are not used.
   DistortionEnergy energy = {.kind = EnergyKind::SymmetricDirichlet};
   int threads = 0;  // 0: all cores. The result does not depend on it.
   Progress progress = {};
+};
+
+/// Vertices at the ends of what sticks out of two surfaces, which might correspond.
+struct SuggestedLandmarks {
+  std::vector<LandmarkPair> landmarks = {};
+  double energy = 0;     // of the map between coarse levels that they lead to, of a unit of area
+  double agreement = 0;  // correlation of the surfaces' mean curvatures by that map
+  double score = 0;      // the less, the better: energy · (1.2 − agreement)
 };
 
 struct Match {
@@ -30,8 +39,11 @@ struct Match {
                    // docs/mathematics.md), a unit of area; of symmetric Dirichlet isometry has 2
   std::string made_by;            // "coarse to fine", "own map": where the least energy came from
   std::vector<double> residuals;  // radians of the landmarks from their partners; 0: exactly there
+  std::vector<SuggestedLandmarks> suggestions;  // what was found, the best first
+  double confidence =
+      1;  // in the first of these: 0 where another is as good, 1 where there is none
   /// For people: landmarks that a mirror image fits as well, area that shrinks to nothing on the
-  /// other surface.
+  /// other surface, little confidence.
   std::vector<std::string> warnings;
 };
 
