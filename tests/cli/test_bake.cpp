@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -48,6 +49,44 @@ Image two_colours() {
 }
 
 }  // namespace
+
+TEST_CASE("bake: --map channels bakes the constants of two materials, and says where none are") {
+  const Folder folder;
+  const TriangleMesh mesh = icosphere(2);
+  std::string text = obj_text(mesh);
+  const auto first = text.find("\nf ");
+  text.insert(text.find("\nf ", first + text.size() / 4 - first / 4) + 1, "usemtl wood\n");
+  text.insert(first + 1, "mtllib a.mtl\nusemtl red\n");
+  write_bytes(folder / "a.obj", text);
+  write_bytes(folder / "a.mtl",
+              "newmtl red\nKd 1 0 0\nPr 0.2\nPm 0.6\nnewmtl wood\nKd 0 1 0\nPr 0.4\nKe 4 0 2\n");
+  REQUIRE(sphparam_program({"bake", folder / "a.obj", "--map", "channels", "--size", "64", "-o",
+                            folder / "a_{map}.png"})
+              .code == 0);
+  const Image colour = read_image(folder / "a_basecolor.png"),
+              orm = read_image(folder / "a_orm.png"), light = read_image(folder / "a_emissive.png");
+  CHECK_FALSE(std::filesystem::exists(folder / "a_normal-tangent.png"));
+  long red = 0, green = 0;
+  for (int y = 0; y < 32; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      const bool is_red = colour.pixel(x, y)[0] == 1 && colour.pixel(x, y)[1] == 0;
+      const bool is_green = colour.pixel(x, y)[0] == 0 && colour.pixel(x, y)[1] == 1;
+      red += is_red;
+      green += is_green;
+      if (!is_red && !is_green) continue;  // the mean of both, along their border
+      CHECK(orm.pixel(x, y)[0] == 1);
+      CHECK(orm.pixel(x, y)[1] == Approx(is_red ? 0.2 : 0.4));
+      CHECK(orm.pixel(x, y)[2] == Approx(is_red ? 0.6 : 0).margin(1e-6));
+      CHECK(light.pixel(x, y)[0] == (is_red ? 0 : 1));
+    }
+  }
+  CHECK(red > 100);
+  CHECK(green > 100);
+  const Ended bare = sphparam_program(
+      {"bake", "-", "--map", "channels", "-o", folder / "b_{map}.png"}, obj_text(mesh));
+  CHECK(bare.code == 2);
+  CHECK_THAT(bare.err, Contains("neither materials nor colours") && Contains("--sphere"));
+}
 
 TEST_CASE("bake: conventions show the same colours elsewhere") {
   const Folder folder;

@@ -122,12 +122,38 @@ void declare_images(Declaration& command, BakeSettings& settings) {
 
 }  // namespace
 
+namespace {
+
+constexpr char channels_word[] = "channels";
+
+bool contains(const Words& words, const std::string& word) {
+  return std::ranges::find(words, word) != words.end();
+}
+
+/// What is to be baked, with all channels where that word stands; nothing twice for it.
+Words fields_of(const BakeArguments& arguments) {
+  if (arguments.maps.empty()) return {"basecolor"};
+  Words fields;
+  for (const std::string& map : arguments.maps) {
+    if (map != channels_word) {
+      fields.push_back(map);
+      continue;
+    }
+    for (const std::string& channel : all_channels())
+      if (!contains(arguments.maps, channel)) fields.push_back(channel);
+  }
+  return fields;
+}
+
+}  // namespace
+
 std::string bake_summary() {
   std::string text =
       "Bake maps of a mesh into equirectangular images.\n"
       "\n"
       "Examples:\n"
       "  sphparam bake statue.glb -o statue.png\n"
+      "  sphparam bake helmet.glb --map channels -o helmet_{map}.png\n"
       "  sphparam bake statue.sph.ply --texture skin.png --size 4096 -o statue_{map}.png \\\n"
       "    --map basecolor,normal-object,ao\n"
       "  sphparam bake statue.sph.ply --for low.sph.ply --map basecolor,normal-tangent -o low/\n"
@@ -143,7 +169,8 @@ std::string bake_summary() {
             field.about + "\n";
   }
   return text +
-         "  axes, checker, graticule\n                  test images, to see how the sphere lies\n";
+         "  axes, checker, graticule\n                  test images, to see how the sphere lies\n"
+         "  channels        all that its materials say: basecolor, normal-tangent, orm, emissive\n";
 }
 
 void declare_bake_options(Declaration& command, BakeArguments& arguments) {
@@ -208,10 +235,25 @@ void settle_body(BakeArguments& arguments) {
   if (!arguments.given("--interp")) settings.interpolation = Interpolation::Sphere;
 }
 
+std::vector<BakeRequest> requests_of_mesh(std::vector<BakeRequest> images,
+                                          const BakeArguments& arguments, const MeshFile& file) {
+  if (!contains(arguments.maps, channels_word)) return images;
+  const Words there = channels_of(file);
+  std::erase_if(images, [&](const BakeRequest& image) {
+    return contains(all_channels(), image.field) && !contains(arguments.maps, image.field) &&
+           !contains(there, image.field);
+  });
+  if (!images.empty()) return images;
+  throw UsageMistake(arguments.input +
+                     ": has neither materials nor colours. A map carries no materials: bake the "
+                     "asset that it is of, `sphparam bake ASSET --sphere " +
+                     arguments.input + " --map channels`");
+}
+
 std::vector<BakeRequest> bake_requests(const BakeArguments& arguments) {
   const std::filesystem::path input(arguments.input);
   std::vector<BakeRequest> images =
-      requests_for(arguments.maps.empty() ? Words{"basecolor"} : arguments.maps, arguments.output,
+      requests_for(fields_of(arguments), arguments.output,
                    is_stream(arguments.input) ? "mesh" : input.stem().stem().string());
   std::set<std::string> paths;
   for (const BakeRequest& image : images) {

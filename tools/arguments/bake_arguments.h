@@ -38,6 +38,11 @@ void settle_body(BakeArguments& arguments);
 /// written twice or are read, formats that are not written, options that do not go together.
 std::vector<BakeRequest> bake_requests(const BakeArguments& arguments);
 
+/// Those of the requests that the mesh has something for: of `--map channels` some may be without.
+/// Throws: UsageMistake where there are none.
+std::vector<BakeRequest> requests_of_mesh(std::vector<BakeRequest> images,
+                                          const BakeArguments& arguments, const MeshFile& file);
+
 // The library's complaints about a bake, in the words of the command line: with the option that
 // sets it; of the mesh that was read; of the one that images are for.
 UsageMistake as_mistake(const BakeSettingError& error);

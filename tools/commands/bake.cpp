@@ -97,9 +97,10 @@ BakeArguments of_part(BakeArguments arguments, int part) {
 /// Bakes the images of one mesh; returns the report, and adds to the lines that are told at the
 /// end.
 std::string bake_one(const BakeArguments& arguments, Session& session, Words& lines) {
-  const std::vector<BakeRequest> images = bake_requests(arguments);
+  std::vector<BakeRequest> images = bake_requests(arguments);
   const MappedMesh source =
       read_mapped(arguments.input, arguments.sphere, session, 1, arguments.data);
+  images = requests_of_mesh(std::move(images), arguments, source.file());
   const BakeSettings settings = settings_of(arguments, session);
   tell_longitudes(source, settings.convention, session);
   const BakeReport baked = bake_for_user(source, images, settings, session.files);

@@ -69,7 +69,9 @@ class Batch {
       for (int i = 0; i < run.count; ++i) {
         samples_.push_back({{run.face, run.first + i * run.step},
                             sample_seed(texel_ + std::ssize(samples_), sample_),
-                            {}});
+                            {},
+                            run.step,
+                            run.below});
       }
     }
     size_t next = 0;

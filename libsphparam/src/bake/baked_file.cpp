@@ -50,6 +50,7 @@ ImageFileOptions file_options(const SurfaceField& field, const BakedFileOptions&
     add("sphparam:min", shortest(field.range->first));
     add("sphparam:max", shortest(field.range->second));
   }
+  for (const auto& [name, value] : field.texts) add(name.c_str(), value);
   const bool colour = field.kind == FieldKind::Colour;
   add("oiio:ColorSpace", !colour ? "raw" : is_integer(options.sample_type) ? "sRGB" : "Linear");
   if (options.format == ImageFormat::Exr && options.convention == Convention::Envmap) {

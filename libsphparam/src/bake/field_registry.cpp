@@ -10,6 +10,7 @@
 #include "bake/fields/curvature_field.h"
 #include "bake/fields/distortion_fields.h"
 #include "bake/fields/height_field.h"
+#include "bake/fields/material_fields.h"
 #include "bake/fields/normal_fields.h"
 #include "bake/fields/ray_fields.h"
 #include "texture/test_images.h"
@@ -20,8 +21,14 @@ const std::vector<FieldMaker>& field_makers() {
   static const std::vector<FieldMaker> kinds = {
       {"basecolor", "the texture of the mesh, or the colours of its vertices", make_base_colour},
       {"vcolor", "the colours of its vertices", make_vertex_colour},
-      {"normal-object", "unit normals in the axes of the mesh", make_object_normal},
-      {"normal-tangent", "unit normals in the tangent frame of the chart", make_tangent_normal},
+      {"orm", "occlusion, roughness, metallic of its materials, in red, green, blue", make_orm},
+      {"emissive", "the light that its materials give", make_emissive},
+      {"roughness", "of its materials, 0 to 1", make_roughness},
+      {"metallic", "of its materials, 0 to 1", make_metallic},
+      {"occlusion", "of its materials, 0 to 1; `ao` casts rays for it", make_material_occlusion},
+      {"normal-object", "unit normals in the axes of the mesh, normal maps in them",
+       make_object_normal},
+      {"normal-tangent", "the same in the tangent frame of the chart", make_tangent_normal},
       {"position", "x y z", make_position},
       {"height", "height over the mesh it is for, or (radial) distance from the origin",
        height_field, true},

@@ -14,13 +14,14 @@ namespace {
 
 /// As asked for; else what the format has and the values need: numbers are data and numbered
 /// labels.
-SampleType depth_of(const BakeSettings& settings, ImageFormat format, FieldKind kind,
-                    bool numbers) {
+SampleType depth_of(const BakeSettings& settings, ImageFormat format, FieldKind kind, bool numbers,
+                    bool eight_bits = false) {
   if (settings.depth) return *settings.depth;
   if (format == ImageFormat::Exr) {
     return numbers || kind == FieldKind::Label ? SampleType::Float : SampleType::Half;
   }
-  return numbers && format != ImageFormat::Jpeg ? SampleType::Uint16 : SampleType::Uint8;
+  return numbers && !eight_bits && format != ImageFormat::Jpeg ? SampleType::Uint16
+                                                               : SampleType::Uint8;
 }
 
 bool has_numbers(const SurfaceField& field) {
@@ -93,8 +94,8 @@ PlannedImage plan_image(const BakeRequest& request, BakeScene& scene,
   image.file.format = is_stream(request.path) ? ImageFormat::Png : *image_format_of(request.path);
   scene.ids_as_colours = is_integer(depth_of(settings, image.file.format, FieldKind::Label, false));
   if (!image.drawn) image.field = make_covered_field(request.field, scene);
-  image.file.sample_type =
-      depth_of(settings, image.file.format, image.field.kind, has_numbers(image.field));
+  image.file.sample_type = depth_of(settings, image.file.format, image.field.kind,
+                                    has_numbers(image.field), image.field.eight_bits);
   require_channels(image);
   require_exact_labels(image);
   return image;

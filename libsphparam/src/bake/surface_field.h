@@ -31,6 +31,8 @@ struct SurfaceSample {
   SurfacePoint point;       // in the source mesh
   std::uint64_t seed;       // of the texel and sample: the same for any number of threads and tiles
   SurfacePoint place = {};  // in the chart that the image is for (chart.triangles, chart.wedges)
+  // What the weights change by from a sample to the next one, and to the row below.
+  Vector3 step = Vector3::Zero(), below = Vector3::Zero();
 };
 
 /// Samples of neighbouring texels of a row on one face of the source: the i-th has the barycentric
@@ -50,8 +52,10 @@ struct SurfaceField {
   /// kind. Else a fourth one of colours is alpha.
   bool has_coverage = false;
   FieldKind kind = FieldKind::Data;
-  std::string about = {};  // one line for metadata: unit, space, convention
-  std::string unit = {};   // "m", "degree"; empty: none, or nobody knows
+  std::string about = {};   // one line for metadata: unit, space, convention
+  std::string unit = {};    // "m", "degree"; empty: none, or nobody knows
+  bool eight_bits = false;  // data that need no more, where integers may have them
+  std::vector<std::pair<std::string, std::string>> texts = {};  // more metadata of its own
   // Where values of integer images come from and go to; none: known only once all are baked.
   std::optional<std::pair<double, double>> range = std::nullopt;
   /// Fills values[channels·i …] for sample i. Called from many threads at once.

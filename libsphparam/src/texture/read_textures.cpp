@@ -1,7 +1,6 @@
 #include "texture/read_textures.h"
 
 #include <algorithm>
-#include <map>
 #include <stdexcept>
 
 #include "image/image_codec.h"
@@ -27,7 +26,7 @@ std::vector<char> bytes_of(const MaterialTexture& colour) {
 
 /// Throws ImageError.
 std::shared_ptr<const TexturePyramid> decode(const MaterialTexture& colour, const std::string& what,
-                                             int threads) {
+                                             bool linear, int threads) {
   if (!colour.problem.empty()) throw ImageError(what + ": " + colour.problem);
   std::vector<char> bytes;
   try {
@@ -35,7 +34,7 @@ std::shared_ptr<const TexturePyramid> decode(const MaterialTexture& colour, cons
   } catch (const std::runtime_error& error) {
     throw ImageError(what + " cannot be read: " + error.what());
   }
-  return std::make_shared<const TexturePyramid>(decode_image(bytes, what), false, threads);
+  return std::make_shared<const TexturePyramid>(decode_image(bytes, what), linear, threads);
 }
 
 }  // namespace
@@ -47,23 +46,33 @@ SourceTexture read_texture(const std::string& path, TextureWrap wrap, int thread
           .wrap_t = wrap};
 }
 
-std::vector<SourceTexture> read_textures(const MeshFile& file, int threads) {
+SourceTexture TextureReader::read(const MaterialTexture& said, const std::string& material) {
+  SourceTexture texture{.image = nullptr,
+                        .wrap_s = wrap_of(said.wrap_s),
+                        .wrap_t = wrap_of(said.wrap_t),
+                        .placement = said.placement};
+  std::ranges::transform(said.factor, texture.factor.begin(),
+                         [](double x) { return static_cast<float>(x); });
+  if (said.image.empty()) return texture;
+  auto& image = decoded_[said.image];
+  const std::string what = "material " + material + ", " + said.image;
+  if (!image) image = decode(said, what, kind_ == TexelKind::Number, threads_);
+  texture.image = image;
+  return texture;
+}
+
+std::vector<SourceTexture> TextureReader::read(MaterialTexture MaterialChannels::*channel) {
   std::vector<SourceTexture> textures;
-  std::map<std::string, std::shared_ptr<const TexturePyramid>> decoded;
-  for (size_t i = 0; i < file.base_colours.size(); ++i) {
-    const MaterialTexture& colour = file.base_colours[i];
-    SourceTexture texture{
-        .image = nullptr, .wrap_s = wrap_of(colour.wrap_s), .wrap_t = wrap_of(colour.wrap_t)};
-    std::ranges::transform(colour.factor, texture.factor.begin(),
-                           [](double x) { return static_cast<float>(x); });
-    if (!colour.image.empty()) {
-      auto& image = decoded[colour.image];
-      const std::string what = "material " + file.materials[i] + ", " + colour.image;
-      if (!image) image = decode(colour, what, threads);
-      texture.image = image;
-    }
-    textures.push_back(std::move(texture));
-  }
+  for (size_t i = 0; i < file_.channels.size(); ++i)
+    textures.push_back(read(file_.channels[i].*channel, file_.materials[i]));
+  return textures;
+}
+
+std::vector<SourceTexture> read_textures(const MeshFile& file, int threads) {
+  TextureReader reader(file, TexelKind::Colour, threads);
+  std::vector<SourceTexture> textures;
+  for (size_t i = 0; i < file.base_colours.size(); ++i)
+    textures.push_back(reader.read(file.base_colours[i], file.materials[i]));
   return textures;
 }
 

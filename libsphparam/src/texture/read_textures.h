@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,5 +18,26 @@ SourceTexture read_texture(const std::string& path, TextureWrap wrap, int thread
 /// materials use is decoded once.
 /// Throws: ImageError that names material and image, for one that is missing, broken or unusable.
 std::vector<SourceTexture> read_textures(const MeshFile& file, int threads);
+
+/// Whether images hold colours, which are sRGB, or numbers.
+enum class TexelKind { Colour, Number };
+
+/// Reads textures of one kind; an image that several share is decoded once.
+class TextureReader {
+ public:
+  TextureReader(const MeshFile& file, TexelKind kind, int threads)
+      : file_(file), kind_(kind), threads_(threads) {}
+
+  /// One of the channels, a material: its image, with the factor as the material has it.
+  /// Throws: ImageError as `read_textures`.
+  std::vector<SourceTexture> read(MaterialTexture MaterialChannels::*channel);
+  SourceTexture read(const MaterialTexture& texture, const std::string& material);
+
+ private:
+  const MeshFile& file_;
+  TexelKind kind_;
+  int threads_;
+  std::map<std::string, std::shared_ptr<const TexturePyramid>> decoded_;  // by names of images
+};
 
 }  // namespace sphparam

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sphparam/image/image.h"
+#include "sphparam/io/materials.h"
 #include "sphparam/texture/texture_options.h"
 
 namespace sphparam {
@@ -17,7 +18,8 @@ class TexturePyramid;
 struct SourceTexture {
   std::shared_ptr<const TexturePyramid> image = nullptr;  // none: the factor alone
   TextureWrap wrap_s = TextureWrap::Repeat, wrap_t = TextureWrap::Repeat;
-  std::array<float, 4> factor = {1, 1, 1, 1};  // linear red, green, blue, alpha
+  std::array<float, 4> factor = {1, 1, 1, 1};             // linear red, green, blue, alpha
+  TexturePlacement placement = {{{1, 0, 0}, {0, 1, 0}}};  // on the mesh's coordinates, t upwards
 };
 
 /// The textures of a mesh: one a material of its file, or the first for all faces; empty: none.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sphparam/bake/body.h"
+#include "sphparam/io/mesh_file.h"
 #include "sphparam/texture/texture_options.h"
 
 namespace sphparam {
@@ -36,6 +37,12 @@ struct FieldInfo {
 /// All kinds, in the order in which they are listed; test images, which are drawn, are not among
 /// them.
 std::vector<FieldInfo> all_fields();
+
+/// The channels that viewers take, as fields: base colour, normal-tangent, orm, emissive.
+const std::vector<std::string>& all_channels();
+
+/// Those of `all_channels` that a mesh has something to say of by its materials or colours.
+std::vector<std::string> channels_of(const MeshFile& file);
 
 /// "axes", "checker" and "graticule": images that show how the sphere lies on a mesh.
 std::vector<std::string> test_image_names();

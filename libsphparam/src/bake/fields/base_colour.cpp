@@ -6,6 +6,9 @@
 #include <algorithm>
 
 #include "bake/fields/attribute_fields.h"
+#include "bake/fields/linear_field.h"
+#include "bake/fields/material_fields.h"
+#include "bake/fields/texture_line.h"
 #include "io/attributes/source_attributes.h"
 #include "texture/texture_pyramid.h"
 
@@ -18,6 +21,8 @@ struct Painter {
   std::vector<int> texture_of;  // a face; −1: white; empty: the first texture for all
   CornerTexcoords corners;
   TextureFilter filter;
+  std::vector<bool> is_opaque;    // a texture: its alpha means nothing; empty: none is
+  std::optional<Points> colours;  // of the vertices, linear, that multiply the texture
 
   const SourceTexture& texture(Face f) const {
     static const SourceTexture white;
@@ -26,32 +31,62 @@ struct Painter {
     return texture < 0 ? white : textures[static_cast<size_t>(texture)];
   }
 
-  TextureLine line(const SurfaceRun& run) const {
-    TextureLine line{{0, 1}, {0, 0}, {0, 0}, run.count};
-    if (corners.rows() == 0) return line;
-    for (int k = 0; k < 3; ++k) {
-      const double s = corners(3 * run.face + k, 0), t = corners(3 * run.face + k, 1);
-      line.first[0] += run.first[k] * s;
-      line.first[1] -= run.first[k] * t;
-      line.step[0] += run.step[k] * s;
-      line.step[1] -= run.step[k] * t;
-      line.below[0] += run.below[k] * s;
-      line.below[1] -= run.below[k] * t;
-    }
-    return line;
-  }
-
   void paint(std::span<const SurfaceRun> runs, int channels, float* values) const {
     for (const SurfaceRun& run : runs) {
-      sample_texture(texture(run.face), filter, line(run), values, channels);
+      const SourceTexture& its = texture(run.face);
+      sample_texture(its, filter, texture_line(run, corners, its.placement), values, channels);
+      if (channels == 4 && opaque(run.face)) set_opaque(run.count, values);
+      if (colours) tint(run, channels, values);
       values += channels * run.count;
     }
   }
+
+ private:
+  bool opaque(Face f) const {
+    if (is_opaque.empty() || texture_of.empty()) return false;
+    const int texture = texture_of[static_cast<size_t>(f)];
+    return texture < 0 || is_opaque[static_cast<size_t>(texture)];
+  }
+
+  static void set_opaque(int count, float* values) {
+    for (int i = 0; i < count; ++i) values[4 * i + 3] = 1;
+  }
+
+  void tint(const SurfaceRun& run, int channels, float* values) const {
+    std::vector<float> colour(3 * static_cast<size_t>(run.count));
+    fill_linear<3>(std::span(&run, 1), colour.data(),
+                   [this](Face f, int k, std::array<double, 3>& value) {
+                     for (size_t c = 0; c < 3; ++c)
+                       value[c] = (*colours)((*triangles)(f, k), static_cast<int>(c));
+                   });
+    for (int i = 0; i < run.count; ++i)
+      for (int c = 0; c < 3; ++c)
+        values[channels * i + c] *= colour[static_cast<size_t>(3 * i + c)];
+  }
+
+ public:
+  const Triangles* triangles = nullptr;
 };
 
 bool any_image(const std::vector<SourceTexture>& textures) {
   return std::ranges::any_of(textures,
                              [](const auto& texture) { return texture.image != nullptr; });
+}
+
+/// Whether the materials say what alpha means, and their textures are the ones that are looked at.
+bool says_alpha(const BakeSource& source) {
+  return !source.one_texture_for_all && !source.textures.empty() &&
+         source.file().channels.size() == source.textures.size();
+}
+
+bool has_alpha(const Painter& painter) {
+  for (size_t i = 0; i < painter.textures.size(); ++i) {
+    const SourceTexture& texture = painter.textures[i];
+    const bool opaque = !painter.is_opaque.empty() && painter.is_opaque[i];
+    if (!opaque && (texture.factor[3] < 1 || (texture.image && texture.image->has_alpha())))
+      return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -79,12 +114,19 @@ SurfaceField make_base_colour(const BakeScene& scene, const std::string& argumen
       material && !scene.source.one_texture_for_all) {
     painter->texture_of.assign(material->values.begin(), material->values.end());
   }
-  const bool alpha = std::ranges::any_of(
-      textures, [](const auto& t) { return t.factor[3] < 1 || (t.image && t.image->has_alpha()); });
+  if (says_alpha(scene.source)) {
+    for (const MaterialChannels& channels : file.channels)
+      painter->is_opaque.push_back(channels.alpha_mode == AlphaMode::Opaque);
+  }
+  // In glTF colours of vertices multiply the texture; elsewhere they stand for it.
+  if (file.format.starts_with("glTF")) painter->colours = linear_colours(file);
+  painter->triangles = &file.mesh.triangles;
+  const bool alpha = has_alpha(*painter);
   SurfaceField field{.name = "basecolor",
                      .channels = alpha ? 4 : 3,
                      .kind = FieldKind::Colour,
                      .about = "the source's texture"};
+  field.texts = texts_of_material(file);
   field.evaluate_runs = [painter, channels = field.channels](std::span<const SurfaceRun> runs,
                                                              float* values) {
     painter->paint(runs, channels, values);

@@ -5,27 +5,11 @@
 
 #include <memory>
 
-#include "rays/flat_normal.h"
+#include "bake/fields/source_normal.h"
 #include "sphparam/chart/tangent_frame.h"
 
 namespace sphparam {
 namespace {
-
-Vector3 corner_normal(const BakeSource& source, Face f, int k) {
-  if (source.file().corner_normals) return source.file().corner_normals->row(3 * f + k);
-  return source.normals.row(source.mesh().triangles(f, k));
-}
-
-/// Where opposite normals cancel, that of the face.
-Vector3 normal_at(const BakeSource& source, Face f, const Vector3& weights) {
-  Vector3 normal = Vector3::Zero();
-  for (int k = 0; k < 3; ++k) normal += weights[k] * corner_normal(source, f, k);
-  const double length = normal.norm();
-  if (length > 0) return normal / length;
-  const auto corner = [&](int k) { return source.mesh().position(source.mesh().triangles(f, k)); };
-  const Vector3 flat = flat_normal(corner(0), corner(1), corner(2));
-  return flat.isZero(0) ? Vector3::UnitZ() : flat;
-}
 
 void put(const Vector3& n, float*& values) {
   for (int c = 0; c < 3; ++c) *values++ = static_cast<float>(n[c]);
@@ -34,15 +18,16 @@ void put(const Vector3& n, float*& values) {
 }  // namespace
 
 SurfaceField make_object_normal(const BakeScene& scene, const std::string&) {
-  const BakeSource& source = scene.source;
+  const auto source = std::make_shared<const SourceNormal>(scene);
   SurfaceField field{.name = "normal-object",
                      .channels = 3,
                      .kind = FieldKind::Direction,
                      .about = "unit normal in the axes of the mesh"};
-  field.evaluate_runs = [&source](std::span<const SurfaceRun> runs, float* values) {
+  field.evaluate_runs = [source](std::span<const SurfaceRun> runs, float* values) {
     for (const SurfaceRun& run : runs) {
       for (int i = 0; i < run.count; ++i) {
-        put(normal_at(source, run.face, run.first + i * run.step), values);
+        const SurfacePoint point{run.face, run.first + i * run.step};
+        put(source->at({.point = point, .seed = 0, .step = run.step, .below = run.below}), values);
       }
     }
   };
@@ -51,6 +36,7 @@ SurfaceField make_object_normal(const BakeScene& scene, const std::string&) {
 
 SurfaceField make_tangent_normal(const BakeScene& scene, const std::string&) {
   const BakeTarget& target = scene.target;
+  const auto source = std::make_shared<const SourceNormal>(scene);
   const auto frame = std::make_shared<const ShadingFrame>(
       tangent_frame(target.chart, target.positions,
                     target.wedge_normals ? *target.wedge_normals : target.normals, scene.threads));
@@ -60,8 +46,8 @@ SurfaceField make_tangent_normal(const BakeScene& scene, const std::string&) {
                      .kind = FieldKind::Direction,
                      .about = scene.options.normal_y_down ? "tangent space, +Y down (DirectX)"
                                                           : "tangent space, +Y up (OpenGL, glTF)"};
-  field.evaluate = [&scene, frame, x_sign, y_sign](std::span<const SurfaceSample> samples,
-                                                   float* values) {
+  field.evaluate = [&scene, source, frame, x_sign, y_sign](std::span<const SurfaceSample> samples,
+                                                           float* values) {
     const Triangles& wedges = scene.target.chart.wedges;
     for (const SurfaceSample& sample : samples) {
       Vector3 tangent = Vector3::Zero(), normal = Vector3::Zero();
@@ -75,7 +61,7 @@ SurfaceField make_tangent_normal(const BakeScene& scene, const std::string&) {
       }
       Eigen::Matrix3d axes;
       axes << tangent, (sign < 0 ? -1 : 1) * normal.cross(tangent), normal;
-      const Vector3 n = normal_at(scene.source, sample.point.face, sample.point.barycentric);
+      const Vector3 n = source->at(sample);
       Vector3 local = axes.inverse() * n;
       // Where a frame has no room (normals or tangents that cancel), nothing can be told of it.
       local = local.allFinite() && local.squaredNorm() > 0 ? local.normalized() : Vector3::UnitZ();

@@ -5,7 +5,7 @@
 namespace sphparam {
 
 /// The source's normal, unit, in the mesh's own axes: that of its corners or vertices, linear
-/// between them.
+/// between them, turned by the normal maps of its materials (`SourceNormal`).
 SurfaceField make_object_normal(const BakeScene& scene, const std::string&);
 
 /// The source's normal in the tangent frame of the target's chart: the coordinates (x, y, z) of

@@ -1,0 +1,291 @@
+#include <array>
+#include <catch2/catch.hpp>
+#include <memory>
+
+#include "bake/fields/material_fields.h"
+#include "bake/fields/normal_fields.h"
+#include "image/image_codec.h"
+#include "scenes.h"
+#include "sphparam/chart/tangent_frame.h"
+#include "srgb_curves.h"
+#include "support/test_meshes.h"
+#include "texture/texture_pyramid.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+
+namespace {
+
+/// An image of one texel, inside the file.
+MaterialTexture texel(const std::string& name, std::array<float, 3> rgb) {
+  Image image(1, 1, 3);
+  image.pixels.assign(rgb.begin(), rgb.end());
+  const std::vector<char> png = encode_image(image, ImageFormat::Png);
+  return {.image = name,
+          .bytes = std::make_shared<const std::vector<char>>(png.begin(), png.end())};
+}
+
+/// A cube whose faces have normals of their own, and (s, t) that lie on each in another way: turned
+/// by quarters, mirrored on every other face. Faces 2i and 2i + 1 are side i, of material i % 2.
+struct Cube {
+  MeshFile file;
+  std::array<Vector3, 6> normals, along_s, along_t;  // of the sides
+
+  Cube() {
+    file.mesh = cube();
+    const Eigen::Index faces = file.mesh.face_count();
+    file.corner_texcoords = CornerTexcoords(3 * faces, 2);
+    file.corner_normals = CornerNormals(3 * faces, 3);
+    file.materials = {"even", "odd"};
+    file.base_colours.resize(2);
+    file.channels.resize(2);
+    Property material{"material", ScalarType::Int32, {}};
+    for (Face f = 0; f < faces; ++f) {
+      material.values.push_back(f / 2 % 2);
+      lay(f);
+    }
+    file.set_face_property(std::move(material));
+  }
+
+  static TriangleMesh cube() {
+    TriangleMesh mesh;
+    mesh.positions.resize(8, 3);
+    for (int v = 0; v < 8; ++v)
+      mesh.positions.row(v) << (v & 1 ? 1 : -1), (v & 2 ? 1 : -1), (v & 4 ? 1 : -1);
+    mesh.triangles.resize(12, 3);
+    mesh.triangles << 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 4,
+        6, 0, 6, 2, 1, 3, 7, 1, 7, 5;
+    return mesh;
+  }
+
+  void lay(Face f) {
+    const auto side = static_cast<size_t>(f / 2);
+    const auto at = [&](int k) { return file.mesh.position(file.mesh.triangles(f, k)); };
+    if (f % 2 == 0) {
+      normals[side] = (at(1) - at(0)).cross(at(2) - at(0)).normalized();
+      along_s[side] = (at(1) - at(0)).normalized();
+      along_t[side] = normals[side].cross(along_s[side]);
+      if (side % 2 == 1) along_t[side] *= -1;
+    }
+    for (int k = 0; k < 3; ++k) {
+      file.corner_normals->row(3 * f + k) = normals[side];
+      file.corner_texcoords->row(3 * f + k) << 0.25 * at(k).dot(along_s[side]),
+          0.5 * at(k).dot(along_t[side]);
+    }
+  }
+
+  std::unique_ptr<BakeScene> scene() const {
+    return scene_of(file, normalised(file.mesh.positions));
+  }
+};
+
+/// Values of a field inside a face.
+std::vector<float> inside(const SurfaceField& field, Face f) {
+  std::vector<float> values(static_cast<size_t>(field.channels));
+  const SurfaceRun run{f, 1, {0.5, 0.3, 0.2}, Vector3::Zero(), Vector3::Zero()};
+  field.evaluate_runs(std::span(&run, 1), values.data());
+  return values;
+}
+
+Vector3 as_vector(const std::vector<float>& values) {
+  return {static_cast<double>(values[0]), static_cast<double>(values[1]),
+          static_cast<double>(values[2])};
+}
+
+}  // namespace
+
+TEST_CASE("material fields: the constants of two materials are baked as they are") {
+  Cube cube;
+  cube.file.channels[0].roughness.factor[0] = 0.25;
+  cube.file.channels[0].metallic.factor[0] = 0.75;
+  cube.file.channels[1].roughness.factor[0] = 0.5;
+  cube.file.channels[1].metallic.factor[0] = 0;
+  cube.file.channels[1].emission.factor = {4, 2, 0, 1};
+  const auto scene = cube.scene();
+  const SurfaceField orm = make_orm(*scene, ""), emissive = make_emissive(*scene, "");
+  CHECK(inside(orm, 0) == std::vector<float>{1, 0.25F, 0.75F});
+  CHECK(inside(orm, 3) == std::vector<float>{1, 0.5F, 0});
+  CHECK(inside(make_roughness(*scene, ""), 3) == std::vector<float>{0.5F});
+  CHECK(inside(make_metallic(*scene, ""), 1) == std::vector<float>{0.75F});
+  CHECK(inside(emissive, 0) == std::vector<float>{0, 0, 0});
+  CHECK(inside(emissive, 2) == std::vector<float>{1, 0.5F, 0});
+  CHECK(emissive.texts ==
+        std::vector<std::pair<std::string, std::string>>{{"sphparam:strength", "4"}});
+  CHECK(emissive.kind == FieldKind::Colour);
+  CHECK(orm.kind == FieldKind::Data);
+}
+
+TEST_CASE("material fields: a face without a material has what glTF says of it") {
+  Cube cube;
+  cube.file.channels[0].roughness.factor[0] = 0.25;
+  Property none{"material", ScalarType::Int32, std::vector<double>(12, -1)};
+  cube.file.set_face_property(none);
+  const auto scene = cube.scene();
+  CHECK(inside(make_orm(*scene, ""), 0) == std::vector<float>{1, 1, 1});
+  CHECK(inside(make_emissive(*scene, ""), 0) == std::vector<float>{0, 0, 0});
+}
+
+TEST_CASE("material fields: images of numbers are linear, of light sRGB, and factors multiply") {
+  Cube cube;
+  MaterialChannels& said = cube.file.channels[0];
+  said.roughness = texel("a", {0.2F, 0.4F, 0.6F});
+  said.roughness.channel = 1;
+  said.roughness.factor[0] = 0.5;
+  said.metallic = texel("a", {0.2F, 0.4F, 0.6F});
+  said.metallic.channel = 2;
+  said.occlusion = texel("a", {0.2F, 0.4F, 0.6F});
+  said.occlusion.factor[0] = 0.5;
+  said.emission = texel("a", {0.2F, 0.4F, 0.6F});
+  const auto scene = cube.scene();
+  const std::vector<float> orm = inside(make_orm(*scene, ""), 0);
+  CHECK(orm[0] == Approx(1 + 0.5 * (0.2 - 1)));
+  CHECK(orm[1] == Approx(0.5 * 0.4));
+  CHECK(orm[2] == Approx(0.6));
+  const std::vector<float> light = inside(make_emissive(*scene, ""), 0);
+  CHECK(light[1] == Approx(SrgbCurves::get().to_linear(0.4F)).margin(1e-5));
+  CHECK(inside(make_material_occlusion(*scene, ""), 2) == std::vector<float>{1});
+}
+
+TEST_CASE("material fields: each image is looked up where its placement puts it") {
+  Cube cube;
+  Image image(4, 4, 3);
+  for (int y = 0; y < 4; ++y)
+    for (int x = 0; x < 4; ++x) image.pixel(x, y)[1] = static_cast<float>(16 * y + x) / 255;
+  const std::vector<char> png = encode_image(image, ImageFormat::Png);
+  MaterialTexture& rough = cube.file.channels[0].roughness;
+  rough = {.image = "grid", .bytes = std::make_shared<const std::vector<char>>(png), .channel = 1};
+  // (s, t) of a corner → the middle of a texel; every side is one place of the image then.
+  rough.placement = {{{0, 0, 2.5 / 4}, {0, 0, 1 - 1.5 / 4}}};
+  const auto scene = cube.scene();
+  CHECK(inside(make_roughness(*scene, ""), 0)[0] == Approx((16 + 2) / 255.0));
+  rough.placement = {{{0, 1, 0}, {1, 0, 0}}};  // s and t change places
+  const auto turned = cube.scene();
+  rough.placement = {{{1, 0, 0}, {0, 1, 0}}};
+  for (Eigen::Index c = 0; c < cube.file.corner_texcoords->rows(); ++c)
+    cube.file.corner_texcoords->row(c) = cube.file.corner_texcoords->row(c).reverse().eval();
+  CHECK(inside(make_roughness(*turned, ""), 0)[0] ==
+        Approx(inside(make_roughness(*cube.scene(), ""), 0)[0]));
+}
+
+TEST_CASE("material fields: a normal map is turned from the source's own frame, on every side") {
+  Cube cube;
+  const Vector3 written(2 * 200 / 255.0 - 1, 2 * 90 / 255.0 - 1, 2 * 220 / 255.0 - 1);
+  for (MaterialChannels& said : cube.file.channels)
+    said.normal = texel("n", {200 / 255.F, 90 / 255.F, 220 / 255.F});
+  cube.file.channels[1].normal.factor[0] = 0.5;
+  const auto scene = cube.scene();
+  const SurfaceField object = make_object_normal(*scene, "");
+  for (Face f = 0; f < 12; ++f) {
+    const auto side = static_cast<size_t>(f / 2);
+    const double scale = side % 2 == 1 ? 0.5 : 1;
+    const Vector3 expected =
+        (scale * written[0] * cube.along_s[side] + scale * written[1] * cube.along_t[side] +
+         written[2] * cube.normals[side])
+            .normalized();
+    INFO("side " << side);
+    CHECK((as_vector(inside(object, f)) - expected).norm() < 1e-6);
+  }
+}
+
+TEST_CASE("material fields: what a viewer makes of normal-tangent is the turned normal") {
+  Cube cube;
+  cube.file.channels[0].normal = texel("n", {200 / 255.F, 90 / 255.F, 220 / 255.F});
+  const auto scene = cube.scene();
+  const SurfaceField object = make_object_normal(*scene, ""),
+                     tangent = make_tangent_normal(*scene, "");
+  const BakeTarget& target = scene->target;
+  const ShadingFrame frame = tangent_frame(target.chart, target.positions, *target.wedge_normals);
+  const Vector3 weights(0.5, 0.3, 0.2);
+  int turned = 0;
+  for (Face f = 0; f < target.chart.triangles.rows(); ++f) {
+    // Refined faces lie in those of the source: their middle is a point of it.
+    const SurfacePoint place{f, weights};
+    Vector3 at = Vector3::Zero(), n = Vector3::Zero(), t = Vector3::Zero();
+    for (int k = 0; k < 3; ++k) {
+      const int wedge = target.chart.wedges(f, k);
+      at += weights[k] * target.positions.row(target.chart.triangles(f, k));
+      n += weights[k] * frame.normals.row(wedge);
+      t += weights[k] * frame.tangents.row(wedge).head<3>();
+    }
+    for (Face source = 0; source < 12; ++source) {
+      Eigen::Matrix3d corners;
+      for (int k = 0; k < 3; ++k)
+        corners.col(k) = cube.file.mesh.position(cube.file.mesh.triangles(source, k));
+      const Vector3 inside_it = corners.inverse() * at;
+      if ((inside_it.array() < 1e-9).any() || std::abs(inside_it.sum() - 1) > 1e-9) continue;
+      const SurfaceSample sample{.point = {source, inside_it}, .seed = 0, .place = place};
+      std::array<float, 3> local;
+      tangent.evaluate(std::span(&sample, 1), local.data());
+      const Vector3 seen = static_cast<double>(local[0]) * t +
+                           static_cast<double>(local[1]) * n.cross(t) +
+                           static_cast<double>(local[2]) * n;
+      CHECK((seen.normalized() - as_vector(inside(object, source))).norm() < 1e-5);
+      turned += std::abs(local[2]) < 0.99F;
+    }
+  }
+  CHECK(turned >= 6);
+}
+
+TEST_CASE("material fields: alpha counts only where a material says so") {
+  Cube cube;
+  for (MaterialTexture& colour : cube.file.base_colours) colour.factor = {1, 1, 1, 0.5};
+  const auto alpha_of = [&](Face f) {
+    auto scene = cube.scene();
+    scene->source.textures = read_textures(cube.file, 1);
+    const std::vector<float> values = inside(make_field("basecolor", *scene), f);
+    return values.size() == 4 ? values[3] : -1;
+  };
+  CHECK(alpha_of(0) == -1);
+  cube.file.channels[1].alpha_mode = AlphaMode::Blend;
+  CHECK(alpha_of(0) == 1);
+  CHECK(alpha_of(2) == 0.5F);
+  CHECK(texts_of_material(cube.file).at(0) ==
+        std::pair<std::string, std::string>{alpha_text, "blend"});
+  cube.file.channels[1].alpha_mode = AlphaMode::Mask;
+  cube.file.channels[1].alpha_cutoff = 0.25;
+  cube.file.channels[0].double_sided = true;
+  CHECK(texts_of_material(cube.file) == std::vector<std::pair<std::string, std::string>>{
+                                            {alpha_text, "mask 0.25"}, {sides_text, "1"}});
+}
+
+TEST_CASE("material fields: colours of vertices multiply a glTF's texture, and stand for others'") {
+  Cube cube;
+  cube.file.base_colours[0].factor = {0.5, 1, 1, 1};
+  for (const char* name : {"red", "green", "blue"})
+    cube.file.set_vertex_property({name, ScalarType::Float32, std::vector<double>(8, 0.5)});
+  const auto red = [&] {
+    auto scene = cube.scene();
+    scene->source.textures = {{.factor = {0.5F, 1, 1, 1}}, {}};
+    scene->source.textures[1].image = std::make_shared<const TexturePyramid>([] {
+      Image white(1, 1, 3);
+      white.pixels.assign(3, 1.0F);
+      return white;
+    }());
+    return inside(make_field("basecolor", *scene), 0)[0];
+  };
+  CHECK(red() == Approx(0.5));
+  cube.file.format = "glTF binary";
+  CHECK(red() == Approx(0.5 * SrgbCurves::get().to_linear(0.5F)));
+}
+
+TEST_CASE("material fields: a mesh without materials, or without coordinates for them, is told") {
+  Cube cube;
+  cube.file.channels[0].roughness = texel("r", {1, 1, 1});
+  cube.file.corner_texcoords.reset();
+  const auto bare = cube.scene();
+  CHECK_THROWS_WITH(make_orm(*bare, ""), Catch::Contains("no texture coordinates"));
+  cube.file.channels.clear();
+  const auto none = cube.scene();
+  CHECK_THROWS_WITH(make_emissive(*none, ""), Catch::Contains("nothing of materials"));
+}
+
+TEST_CASE("channels_of: those that a mesh has something to say of") {
+  MeshFile plain;
+  plain.mesh = icosphere(1);
+  CHECK(channels_of(plain).empty());
+  Cube cube;
+  CHECK(channels_of(cube.file) == std::vector<std::string>{"basecolor", "orm"});
+  cube.file.channels[1].emission.factor[2] = 0.5;
+  cube.file.channels[1].normal = texel("n", {0.5F, 0.5F, 1});
+  CHECK(channels_of(cube.file) == all_channels());
+}
