@@ -117,8 +117,8 @@ class Carver {
     std::uint8_t& mark = marks_[static_cast<size_t>(i)];
     if (mark != Full || solid_neighbours(i) == all_neighbours) return;
     mark |= Waiting;
-    const auto bucket =
-        static_cast<std::ptrdiff_t>(std::max(0.0f, std::floor(64 * field_[static_cast<size_t>(i)])));
+    const auto bucket = static_cast<std::ptrdiff_t>(
+        std::max(0.0f, std::floor(64 * field_[static_cast<size_t>(i)])));
     if (bucket >= static_cast<std::ptrdiff_t>(buckets_.size()))
       buckets_.resize(static_cast<size_t>(bucket) + 1);
     buckets_[static_cast<size_t>(bucket)].push_back(i);

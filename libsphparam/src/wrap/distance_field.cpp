@@ -15,6 +15,7 @@ namespace {
 
 constexpr int block = 16;     // points a side
 constexpr int undivided = 2;  // whose points are asked for one by one
+constexpr double smooth = 4;  // how far from the soup, in half diagonals, a block is interpolated
 const double root3 = std::sqrt(3.0);
 
 struct Range {
@@ -32,7 +33,7 @@ class Filler {
   void fill(const Range& range) {
     const Vector3 middle = 0.5 * (at(range.first) + at(range.last));
     const double there = farther_by(middle), reach = (at(range.last) - middle).norm();
-    if (there - reach > root3) return interpolate(range, there - reach);
+    if (there > smooth * reach + root3) return interpolate(range, there - reach);
     if (there + reach < -root3) return set_all(range, there);
     if (range.side() <= undivided) return ask_each(range);
     halve(range, 0);
