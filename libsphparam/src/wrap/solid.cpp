@@ -70,10 +70,10 @@ std::array<std::int8_t, 256> euler_table() {
 }  // namespace
 
 Solid surrounded(const Lattice& lattice, const std::vector<float>& field, long& cavities) {
-  enum : std::uint8_t { Near = 1, Far = 2, Reached = 0, Face = 3 };
+  enum : std::uint8_t { Near = 1, Far = 2, Reached = 0, Margin = 3 };
   Solid marks(field.size());
   for_each_point(lattice, [&](int x, int y, int z, std::int64_t i) {
-    marks[static_cast<size_t>(i)] = depth(lattice, x, y, z) == 0        ? Face
+    marks[static_cast<size_t>(i)] = depth(lattice, x, y, z) == 0        ? Margin
                                     : field[static_cast<size_t>(i)] > 0 ? Far
                                                                         : Near;
   });

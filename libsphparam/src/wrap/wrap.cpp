@@ -93,19 +93,29 @@ void require_regular(const Box& box, double voxel) {
           : "this mesh has no extent: a surface about it would have no size of its own");
 }
 
-/// With room for the surface, a layer of points about it, and one more.
-Lattice lattice_about(const Box& box, double voxel, double distance) {
+/// Of the surface, a layer of points about it, and one more.
+double room(double voxel, double distance) { return std::ceil(distance / voxel) + 2; }
+
+Vector3 points_of_lattice(const Box& box, double voxel, double distance) {
   const Vector3 inside = (box.upper - box.lower) / voxel;
-  const double room = std::ceil(distance / voxel) + 2;
-  const Vector3 points = (inside.array().ceil() + 2 * room + 1).matrix();
-  if (const double all = points.prod(); !(all <= most_points)) {
-    const double least = voxel * std::cbrt(all / most_points);
-    refuse_option("voxel", voxel,
-                  "about " + short_number(least) + " or more here: the lattice would have " +
-                      short_number(all / 1e6) + " million points, more than " +
-                      short_number(most_points / 1e6) + " million");
-  }
-  Lattice lattice = {box.lower - Vector3::Constant(room * voxel), voxel, {}};
+  return (inside.array().ceil() + 2 * room(voxel, distance) + 1).matrix();
+}
+
+[[noreturn]] void refuse_voxel(const Box& box, double voxel, double distance) {
+  constexpr double step = 1.02;
+  double least = voxel;
+  while (points_of_lattice(box, least, std::max(distance, least)).prod() > most_points)
+    least *= step;
+  refuse_option("voxel", voxel,
+                "about " + short_number(least) + " or more here, for a lattice of at most " +
+                    short_number(most_points / 1e6) + " million points");
+}
+
+Lattice lattice_about(const Box& box, double voxel, double distance) {
+  const Vector3 points = points_of_lattice(box, voxel, distance);
+  if (points.prod() > most_points) refuse_voxel(box, voxel, distance);
+  const Vector3 first = Vector3::Constant(room(voxel, distance) * voxel);
+  Lattice lattice = {box.lower - first, voxel, {}};
   for (int axis = 0; axis < 3; ++axis) lattice.points[axis] = static_cast<int>(points[axis]);
   return lattice;
 }
