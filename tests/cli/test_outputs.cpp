@@ -53,6 +53,7 @@ const std::vector<Subcommand> subcommands = {
     {"survey", {}, {"-o", "--records", "--json"}},
     {"unimage", {"", "--normals", "--attribute q="}, {"-o"}},
     {"verify", {""}, {"--json"}, {}, 2},
+    {"wrap", {""}, {"-o", "--json"}},
 };
 
 bool contains(const Words& words, const std::string& word) {

@@ -121,7 +121,9 @@ TEST_CASE("program: numbers are decimal, and what is none is refused and named")
       {"report", "--size"},         {"export", "--image-size"},
       {"export", "--refine-poles"}, {"export", "--lods"},
       {"bake", "--size"},           {"bake", "--samples"},
-      {"bake", "--rays"},           {"bake", "--max-dist"}};
+      {"wrap", "--voxel"},          {"wrap", "--resolution"},
+      {"wrap", "--distance"},       {"bake", "--rays"},
+      {"bake", "--max-dist"}};
   for (const std::vector<std::string>& number : numbers) {
     for (const char* garbage : {"abc", "1z", "0x10", "nan", "1e999", "true"}) {
       const Ended ended = sphparam_program({number[0], number[1] + "=" + garbage});

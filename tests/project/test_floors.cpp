@@ -85,6 +85,7 @@ const std::map<std::string, std::set<std::string>> below{
     {"paint", {"texture", "image", "io", "chart", "sphere", "mesh"}},
     {"remesh", {"embedding", "rays", "measure", "image", "texture", "io", "sphere", "mesh"}},
     {"displace", {"remesh", "rays", "measure", "image", "io", "sphere", "mesh"}},
+    {"wrap", {"measure", "rays", "mesh"}},
     {"correspondence", {"io", "embedding", "sphere", "mesh"}},
     {"gltf", {"bake", "texture", "image", "io", "chart", "sphere", "mesh"}},
     {"report", {"gltf", "texture", "image", "io", "sphere"}},
@@ -93,8 +94,8 @@ const std::map<std::string, std::set<std::string>> below{
      {"compare", "gltf", "report", "bake", "render", "texture", "image", "io", "embedding",
       "sphere", "mesh"}},
     {"records",
-     {"compare", "correspondence", "gltf", "bake", "remesh", "measure", "io", "chart", "baselines",
-      "sphere", "mesh"}},
+     {"compare", "correspondence", "wrap", "gltf", "bake", "remesh", "measure", "io", "chart",
+      "baselines", "sphere", "mesh"}},
     {"batch", {"report", "render", "io", "mesh"}},
     {"survey", {"batch", "records", "report", "render", "io", "mesh"}}};
 

@@ -5,11 +5,10 @@
 #include <array>
 #include <cmath>
 
-#include "arguments/limits.h"
 #include "commands/command.h"
+#include "commands/surfaces.h"
 #include "console/places.h"
 #include "number_text.h"
-#include "sphparam/io/fillers.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/records/distance_record.h"
@@ -63,17 +62,6 @@ void require_sensible(const MeasureArguments& arguments) {
   check_places({{"--per-vertex", arguments.per_vertex}, {"--json", arguments.json}});
 }
 
-/// What is surface of a mesh.
-MeshFile read_surface(const std::string& path, Session& session) {
-  MeshFile file = read_mesh(path, input_limits());
-  const FillerMarks fillers = fillers_of(file);
-  if (fillers.empty()) return file;
-  const auto count = std::count(fillers.begin(), fillers.end(), 1);
-  session.console.say("  " + display_name(path) + ": " + counted(count, "filler", "fillers") +
-                      " left out");
-  return without_fillers(file);
-}
-
 SurfaceDistance measure(const MeasureArguments& arguments, const MeshFile& first,
                         const MeshFile& second, Session& session) try {
   DistanceOptions options = arguments.options;
@@ -117,9 +105,6 @@ int run_measure(MeasureArguments& arguments) {
   require_sensible(arguments);
   const MeshFile first = read_surface(arguments.first, session);
   const MeshFile second = read_surface(arguments.second, session);
-  for (const MeshFile* file : {&first, &second}) {
-    for (const std::string& note : file->notes) session.console.detail(note);
-  }
   session.hold_signals();
   const SurfaceDistance distance = measure(arguments, first, second, session);
   DistanceRecord record = {.first = arguments.first,

@@ -48,6 +48,7 @@ constexpr char summary[] =
     "  sphparam bake statue.sph.ply --map normal-object,ao -o statue_{map}.png\n"
     "  sphparam export statue.sph.ply --image statue_ao.png -o statue.glb   for game engines\n"
     "  sphparam repair scan.ply -o mended.ply         mend it, whatever it is for\n"
+    "  sphparam wrap asset.glb -o wrapped.ply         a closed surface about any triangles\n"
     "  sphparam survey scans/ -o survey.html          which of many map, which not and why\n"
     "  sphparam verify statue.sph.ply                 prove a written map again\n"
     "  sphparam render statue.sph.ply -o statue.png   look at it\n"
@@ -176,9 +177,10 @@ struct Program {
     app.set_version_flag("--version", std::string("sphparam ") + version);
     app.require_subcommand(0, 1);
     for (const auto declare :
-         {declare_info, declare_map, declare_repair, declare_survey, declare_verify, declare_render,
-          declare_compare, declare_spharm, declare_remesh, declare_unimage, declare_match,
-          declare_measure, declare_paint, declare_report, declare_export, declare_bake}) {
+         {declare_info, declare_map, declare_repair, declare_wrap, declare_survey, declare_verify,
+          declare_render, declare_compare, declare_spharm, declare_remesh, declare_unimage,
+          declare_match, declare_measure, declare_paint, declare_report, declare_export,
+          declare_bake}) {
       commands.push_back(declare(app));
     }
     for (Command& command : declare_batch(app)) commands.push_back(std::move(command));

@@ -1,0 +1,109 @@
+#include "sphparam/records/wrap_record.h"
+
+#include <nlohmann/json.hpp>
+
+#include "number_text.h"
+#include "records/json_parts.h"
+#include "sphparam/version.h"
+
+namespace sphparam {
+
+namespace {
+
+double outside_share(const Wrap& wrap) {
+  return static_cast<double>(wrap.outside) / static_cast<double>(wrap.soup_vertices);
+}
+
+/// "lattice of 131 × 97 × 85 points, voxel 0.0156, at distance 0.0312 from the soup".
+std::string lattice_line(const Wrap& wrap) {
+  std::string text = "lattice of " + std::to_string(wrap.lattice[0]);
+  for (int axis = 1; axis < 3; ++axis) text += " × " + std::to_string(wrap.lattice[axis]);
+  return text + " points, voxel " + short_number(wrap.voxel) + ", at distance " +
+         short_number(wrap.distance);
+}
+
+std::string parts_line(const Wrap& wrap) {
+  const std::string parts = std::to_string(wrap.parts) + " parts are apart at this distance: ";
+  if (wrap.kept_share == 1) return parts + "joined by bridges a voxel thick";
+  return parts + "the largest is kept, " + percent(wrap.kept_share) + " of their volume";
+}
+
+std::string handles_line(const Wrap& wrap) {
+  return counted(wrap.handles, "handle") + " filled by walls a voxel thick";
+}
+
+std::string distance_line(const Wrap& wrap) {
+  const OneSidedDistance& off = wrap.apart.forth;
+  return "the wrap is " + short_number(off.mean) + " from the soup in the mean, from " +
+         short_number(off.min) + " to " + short_number(off.max);
+}
+
+/// Empty: nothing.
+std::string left_behind(const MeshFile& soup) {
+  std::vector<std::string> kinds;
+  const auto add = [&kinds](size_t count, std::string_view one, std::string_view many) {
+    if (count > 0) kinds.push_back(counted(static_cast<long>(count), one, many));
+  };
+  add(soup.vertex_properties.size(), "property of vertices", "properties of vertices");
+  add(soup.face_properties.size(), "property of faces", "properties of faces");
+  if (soup.corner_texcoords) kinds.push_back("texture coordinates");
+  if (soup.corner_normals) kinds.push_back("normals of corners");
+  add(soup.materials.size(), "material", "materials");
+  return kinds.empty() ? "" : "stays with the soup: " + joined(kinds);
+}
+
+}  // namespace
+
+std::string to_json(const WrapRecord& record) {
+  const Wrap& wrap = record.wrap;
+  const OneSidedDistance& off = wrap.apart.forth;
+  return text_of({{"sphparam", version},
+                  {"command", "wrap"},
+                  {"input",
+                   {{"file", record.input},
+                    {"format", record.soup.format},
+                    {"vertices", record.soup.mesh.vertex_count()},
+                    {"triangles", record.soup.mesh.face_count()},
+                    {"notes", record.soup.notes}}},
+                  {"voxel", wrap.voxel},
+                  {"distance", wrap.distance},
+                  {"lattice", wrap.lattice},
+                  {"parts", wrap.parts},
+                  {"kept_share", wrap.kept_share},
+                  {"cavities", wrap.cavities},
+                  {"handles", wrap.handles},
+                  {"added_share", wrap.added_share},
+                  {"soup_vertices", wrap.soup_vertices},
+                  {"outside", wrap.outside},
+                  {"outside_share", outside_share(wrap)},
+                  {"vertices", wrap.mesh.vertex_count()},
+                  {"triangles", wrap.mesh.face_count()},
+                  {"from_soup",
+                   {{"mean", off.mean},
+                    {"RMS", off.rms},
+                    {"min", off.min},
+                    {"max", off.max},
+                    {"max_bound", off.max_bound},
+                    {"farthest", vector_json(off.farthest)}}},
+                  {"soup_to_wrap_max", wrap.apart.back.max},
+                  {"outputs", pairs_json(record.outputs)},
+                  {"seconds", record.seconds}});
+}
+
+std::vector<std::string> to_lines(const WrapRecord& record) {
+  const Wrap& wrap = record.wrap;
+  std::vector<std::string> lines = {lattice_line(wrap)};
+  if (wrap.parts > 1) lines.push_back(parts_line(wrap));
+  if (wrap.handles > 0) lines.push_back(handles_line(wrap));
+  if (wrap.added_share > 0)
+    lines.push_back("walls and bridges are " + percent(wrap.added_share) + " of its volume");
+  if (wrap.cavities > 0)
+    lines.push_back(counted(wrap.cavities, "cavity is", "cavities are") + " filled");
+  lines.push_back(std::to_string(wrap.outside) + " of " + std::to_string(wrap.soup_vertices) +
+                  " vertices are outside (" + percent(outside_share(wrap)) + ")");
+  lines.push_back(distance_line(wrap));
+  if (const std::string left = left_behind(record.soup); !left.empty()) lines.push_back(left);
+  return lines;
+}
+
+}  // namespace sphparam

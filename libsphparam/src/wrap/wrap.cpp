@@ -1,0 +1,194 @@
+#include "sphparam/wrap/wrap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "number_text.h"
+#include "option_domain.h"
+#include "rays/flat_normal.h"
+#include "rays/ray_scene.h"
+#include "sphparam/errors.h"
+#include "sphparam/mesh/mesh_defects.h"
+#include "sphparam/parallel.h"
+#include "wrap/carving.h"
+#include "wrap/distance_field.h"
+#include "wrap/level_surface.h"
+#include "wrap/solid.h"
+
+// Where the part of space near the soup is one ball already, its level set is the result; else the
+// ball that is carved about it.
+
+namespace sphparam {
+
+namespace {
+
+constexpr int usual_resolution = 128;
+constexpr double usual_distance = 2;  // voxels
+constexpr double most_points = 1e8;   // of a lattice: 0.5 to 0.9 GB
+constexpr double roundings_a_voxel =
+    1e6;  // of the largest coordinate, so that lattices are regular
+constexpr double largest_coordinate = 1e100, least_extent = 1e-60;
+constexpr std::int64_t samples = 100'000;  // of each surface, for their distance
+
+struct Box {
+  Vector3 lower = Vector3::Constant(std::numeric_limits<double>::infinity());
+  Vector3 upper = -lower;
+  double longest() const { return (upper - lower).maxCoeff(); }
+  double farthest() const { return std::max(-lower.minCoeff(), upper.maxCoeff()); }
+};
+
+std::vector<char> used_vertices(const TriangleMesh& soup) {
+  std::vector<char> used(static_cast<size_t>(soup.vertex_count()), 0);
+  for (Eigen::Index i = 0; i < soup.triangles.size(); ++i)
+    used[static_cast<size_t>(soup.triangles.data()[i])] = 1;
+  return used;
+}
+
+/// Throws: MeshError with what keeps distances from being taken.
+void require_places(const TriangleMesh& soup) {
+  const bool some = soup.face_count() > 0 && soup.vertex_count() > 0;
+  if (some && soup.triangles.minCoeff() >= 0 && soup.triangles.maxCoeff() < soup.vertex_count() &&
+      soup.positions.allFinite())
+    return;
+  std::vector<MeshDefect> defects = inspect_mesh(soup).defects;
+  std::erase_if(defects, [](const MeshDefect& defect) {
+    return defect.kind != DefectKind::Empty && defect.kind != DefectKind::IndexOutOfRange &&
+           defect.kind != DefectKind::NonFinitePosition;
+  });
+  throw MeshError(std::move(defects));
+}
+
+Box box_of(const TriangleMesh& soup, const std::vector<char>& used) {
+  Box box;
+  for (Vertex v = 0; v < soup.vertex_count(); ++v) {
+    if (!used[static_cast<size_t>(v)]) continue;
+    box.lower = box.lower.cwiseMin(soup.position(v));
+    box.upper = box.upper.cwiseMax(soup.position(v));
+  }
+  return box;
+}
+
+void require_domain(const WrapOptions& options) {
+  require_at_least("voxel", options.voxel, 0);
+  require_at_least("resolution", options.resolution, 0);
+  require_at_least("distance", options.distance, 0);
+}
+
+double chosen_voxel(const WrapOptions& options, const Box& box) {
+  if (options.voxel > 0) return options.voxel;
+  if (options.resolution > 0) return box.longest() / options.resolution;
+  const double usual = box.longest() / usual_resolution;
+  return options.distance > 0 ? std::min(usual, options.distance / usual_distance) : usual;
+}
+
+void require_regular(const Box& box, double voxel) {
+  const double finest = roundings_a_voxel * std::numeric_limits<double>::epsilon() * box.farthest();
+  if (box.farthest() < largest_coordinate && box.longest() > least_extent && voxel > finest) return;
+  throw UnmeasurableMesh(
+      box.longest() > least_extent
+          ? "a voxel of " + short_number(voxel) + " is too small for coordinates up to " +
+                short_number(box.farthest()) + ": make it larger, or move the mesh to the origin"
+          : "this mesh has no extent: a surface about it would have no size of its own");
+}
+
+/// Of the surface, a layer of points about it, and one more.
+double room(double voxel, double distance) { return std::ceil(distance / voxel) + 2; }
+
+Vector3 points_of_lattice(const Box& box, double voxel, double distance) {
+  const Vector3 inside = (box.upper - box.lower) / voxel;
+  return (inside.array().ceil() + 2 * room(voxel, distance) + 1).matrix();
+}
+
+[[noreturn]] void refuse_voxel(const Box& box, double voxel, double distance) {
+  constexpr double step = 1.02;
+  double least = voxel;
+  while (points_of_lattice(box, least, std::max(distance, least)).prod() > most_points)
+    least *= step;
+  refuse_option("voxel", voxel,
+                "about " + short_number(least) + " or more here, for a lattice of at most " +
+                    short_number(most_points / 1e6) + " million points");
+}
+
+Lattice lattice_about(const Box& box, double voxel, double distance) {
+  const Vector3 points = points_of_lattice(box, voxel, distance);
+  if (points.prod() > most_points) refuse_voxel(box, voxel, distance);
+  const Vector3 first = Vector3::Constant(room(voxel, distance) * voxel);
+  Lattice lattice = {box.lower - first, voxel, {}};
+  for (int axis = 0; axis < 3; ++axis) lattice.points[axis] = static_cast<int>(points[axis]);
+  return lattice;
+}
+
+std::int64_t volume(const Solid& solid) { return std::count(solid.begin(), solid.end(), 1); }
+
+/// The ball that encloses what is near; tells what stood in its way.
+Solid ball_about(const Lattice& lattice, const std::vector<float>& field,
+                 const WrapOptions& options, Wrap& wrap) {
+  Solid solid = surrounded(lattice, field, wrap.cavities);
+  const auto all = static_cast<double>(volume(solid));
+  wrap.parts = static_cast<long>(parts_of(lattice, solid).size());
+  if (options.largest && wrap.parts > 1) keep_largest(lattice, solid);
+  const auto kept = static_cast<double>(volume(solid));
+  wrap.kept_share = kept / all;
+  const long parts = options.largest ? 1 : wrap.parts;
+  wrap.handles = static_cast<long>(parts - euler_characteristic(lattice, solid));
+  if (parts == 1 && wrap.handles == 0) return solid;
+  Solid ball = carve_ball(lattice, field, solid, options.progress);
+  const auto carved = static_cast<double>(volume(ball));
+  wrap.added_share = (carved - kept) / carved;
+  return ball;
+}
+
+/// By the first face that a ray from the point meets: its normal goes with the ray out of the wrap.
+bool encloses(const TriangleMesh& wrap, const RayScene& scene, const Vector3& point) {
+  const Vector3 ray = Vector3(0.36, 0.48, 0.8);
+  const RayHit hit = scene.first_hit(point, ray, std::numeric_limits<double>::infinity());
+  if (hit.face < 0) return false;
+  const auto corner = [&](int k) { return wrap.position(wrap.triangles(hit.face, k)); };
+  return flat_normal(corner(0), corner(1), corner(2)).dot(ray) > 0;
+}
+
+void count_outside(const TriangleMesh& soup, const std::vector<char>& used, int threads,
+                   Wrap& wrap) {
+  wrap.soup_vertices = std::count(used.begin(), used.end(), 1);
+  const RayScene scene(wrap.mesh);
+  wrap.outside = std::lround(
+      parallel_sum(soup.vertex_count(), threads, [&](std::int64_t first, std::int64_t last) {
+        double outside = 0;
+        for (auto v = static_cast<Vertex>(first); v < last; ++v) {
+          if (used[static_cast<size_t>(v)] && !encloses(wrap.mesh, scene, soup.position(v)))
+            ++outside;
+        }
+        return outside;
+      }));
+}
+
+}  // namespace
+
+Wrap wrap_soup(const TriangleMesh& soup, const WrapOptions& options) {
+  require_domain(options);
+  require_places(soup);
+  const std::vector<char> used = used_vertices(soup);
+  const Box box = box_of(soup, used);
+  Wrap wrap;
+  wrap.voxel = chosen_voxel(options, box);
+  require_regular(box, wrap.voxel);
+  wrap.distance = options.distance > 0 ? options.distance : usual_distance * wrap.voxel;
+  require_at_least("distance", wrap.distance, wrap.voxel);
+  const Lattice lattice = lattice_about(box, wrap.voxel, wrap.distance);
+  wrap.lattice = lattice.points;
+  const std::vector<float> field =
+      distance_field(RayScene(soup), lattice, wrap.distance, options.threads, options.progress);
+  wrap.mesh = level_surface(lattice, field, ball_about(lattice, field, options, wrap));
+  require_sphere(wrap.mesh);
+  count_outside(soup, used, options.threads, wrap);
+  wrap.apart = measure_distance(wrap.mesh, soup,
+                                {.samples = samples,
+                                 .vertices = true,
+                                 .threads = options.threads,
+                                 .progress = options.progress});
+  return wrap;
+}
+
+}  // namespace sphparam

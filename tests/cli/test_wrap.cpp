@@ -1,0 +1,99 @@
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "program.h"
+#include "sphparam/io/mesh_reader.h"
+#include "sphparam/mesh/mesh_defects.h"
+#include "support/test_meshes.h"
+
+namespace sphparam::tests {
+
+namespace {
+
+using Catch::Contains;
+using Json = nlohmann::json;
+
+/// Two open boxes of which nothing fits: a sheet with a hole, and a ball without its top.
+std::string soup() {
+  TriangleMesh ball = icosphere(2);
+  ball.triangles.conservativeResize(ball.face_count() - 40, 3);
+  return obj_text(ball) +
+         "v 3 0 0\nv 5 0 0\nv 5 0 2\nv 3 0 2\nf -4 -3 -2\nf -4 -2 -1\nf -3 -2 -4\n";
+}
+
+}  // namespace
+
+TEST_CASE("wrap command: a soup becomes a surface that is mapped and certified") {
+  const Folder folder;
+  const std::string out = folder / "wrapped.ply", map = folder / "wrapped.sph.ply";
+  const Ended ended = sphparam_program({"wrap", "-", "-o", out, "--resolution", "40"}, soup());
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.err, Contains("voxel 0.15, at distance 0.3") &&
+                            Contains("2 parts are apart at this distance: joined by bridges") &&
+                            Contains("walls and bridges are") &&
+                            Contains("0 of 159 vertices are outside") &&
+                            Contains("it can be mapped → wrapped.ply"));
+  CHECK(inspect_mesh(read_mesh(out).mesh).defects.empty());
+  CHECK(sphparam_program({"map", out, "-o", map, "-q"}).code == 0);
+  CHECK(sphparam_program({"verify", map}).code == 0);
+}
+
+TEST_CASE("wrap command: the largest part alone, in the report too") {
+  const Folder folder;
+  const std::string out = folder / "wrapped.ply";
+  const Ended ended = sphparam_program(
+      {"wrap", "-", "-o", out, "--voxel", "0.15", "--largest", "--json", "-"}, soup());
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.err,
+             Contains("the largest is kept, ") && Contains("4 of 159 vertices are outside"));
+  const Json report = Json::parse(ended.out);
+  CHECK(report["parts"] == 2);
+  CHECK(report["outside"] == 4);
+  CHECK(report["kept_share"].get<double>() < 0.9);
+  CHECK(report["triangles"] == read_mesh(out).mesh.face_count());
+}
+
+TEST_CASE("wrap command: the same file for any number of threads") {
+  const Folder folder;
+  for (const char* threads : {"1", "2"}) {
+    REQUIRE(sphparam_program({"wrap", "-", "-o", folder / (std::string(threads) + ".ply"),
+                              "--threads", threads, "--resolution", "40"},
+                             soup())
+                .code == 0);
+  }
+  CHECK(bytes_of(folder / "1.ply") == bytes_of(folder / "2.ply"));
+}
+
+TEST_CASE("wrap command: what the soup carries is told to stay behind") {
+  const Ended ended =
+      sphparam_program({"wrap", "-", "-o", "-", "--resolution", "10"},
+                       "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nvt 0 0\nf 1/1 2/1 3/1\n");
+  CHECK(ended.code == 0);
+  CHECK_THAT(ended.err,
+             Contains("stays with the soup: 3 properties of vertices, texture coordinates"));
+}
+
+TEST_CASE("wrap command: what makes no sense is refused, and nothing is written") {
+  const Folder folder;
+  const std::string out = folder / "wrapped.ply";
+  const auto refused = [&](const std::vector<std::string>& more, const std::string& mesh) {
+    std::vector<std::string> line = {"wrap", "-", "-o", out};
+    line.insert(line.end(), more.begin(), more.end());
+    const Ended ended = sphparam_program(line, mesh);
+    CHECK(folder.names().empty());
+    return ended;
+  };
+  CHECK_THAT(refused({"--voxel", "1e-5"}, soup()).err,
+             Contains("--voxel is 1e-05: it must be about"));
+  CHECK(refused({"--voxel", "1e-5"}, soup()).code == 2);
+  CHECK_THAT(refused({"--voxel", "0.1", "--distance", "0.05"}, soup()).err,
+             Contains("--distance is 0.05: it must be a finite number, at least 0.1"));
+  CHECK(refused({"--voxel", "1", "--resolution", "9"}, soup()).code == 2);
+  CHECK(refused({}, "v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n").code == 3);
+  CHECK(refused({}, "v 0 0 0\n").code == 3);
+  CHECK(refused({}, "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n").code == 4);
+}
+
+}  // namespace sphparam::tests

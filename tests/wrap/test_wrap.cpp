@@ -1,0 +1,184 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+#include "sphparam/errors.h"
+#include "sphparam/mesh/mesh_defects.h"
+#include "sphparam/wrap/wrap.h"
+#include "support/test_meshes.h"
+
+namespace sphparam {
+
+namespace {
+
+using namespace sphparam::tests;
+
+TriangleMesh moved(TriangleMesh mesh, const Vector3& by) {
+  mesh.positions.rowwise() += by.transpose();
+  return mesh;
+}
+
+TriangleMesh together(const TriangleMesh& a, const TriangleMesh& b) {
+  TriangleMesh both{Points(a.vertex_count() + b.vertex_count(), 3),
+                    Triangles(a.face_count() + b.face_count(), 3)};
+  both.positions << a.positions, b.positions;
+  both.triangles << a.triangles,
+      (b.triangles.array() + static_cast<int>(a.vertex_count())).matrix();
+  return both;
+}
+
+TriangleMesh torus(double large, double small) {
+  constexpr int around = 48, across = 24;
+  TriangleMesh mesh{Points(around * across, 3), Triangles(2 * around * across, 3)};
+  const auto id = [](int i, int j) { return (i % around) * across + j % across; };
+  for (int i = 0, f = 0; i < around; ++i) {
+    for (int j = 0; j < across; ++j) {
+      const double s = 2 * std::numbers::pi * i / around, t = 2 * std::numbers::pi * j / across;
+      const double r = large + small * std::cos(t);
+      mesh.positions.row(id(i, j)) << r * std::cos(s), r * std::sin(s), small * std::sin(t);
+      mesh.triangles.row(f++) << id(i, j), id(i + 1, j), id(i + 1, j + 1);
+      mesh.triangles.row(f++) << id(i, j), id(i + 1, j + 1), id(i, j + 1);
+    }
+  }
+  return mesh;
+}
+
+TriangleMesh sheet() {
+  TriangleMesh mesh{Points(4, 3), Triangles(2, 3)};
+  mesh.positions << 0, 0, 0, 3, 0, 0, 3, 2, 1, 0, 2, 1;
+  mesh.triangles << 0, 1, 2, 0, 2, 3;
+  return mesh;
+}
+
+/// Laws of every wrap that was not carved.
+void check_shell(const Wrap& wrap) {
+  CHECK(inspect_mesh(wrap.mesh).defects.empty());
+  CHECK(wrap.outside == 0);
+  CHECK(wrap.apart.forth.max_bound < wrap.distance + wrap.voxel);
+  CHECK(wrap.apart.forth.min > wrap.distance - wrap.voxel);
+}
+
+}  // namespace
+
+TEST_CASE("wrap: a sphere lies within a voxel of the distance, outside and in one piece") {
+  for (const double distance : {0.1, 0.2, 0.5}) {
+    const Wrap wrap = wrap_soup(icosphere(4), {.voxel = 0.1, .distance = distance});
+    check_shell(wrap);
+    CHECK(wrap.parts == 1);
+    CHECK(wrap.handles == 0);
+    CHECK(wrap.cavities == 1);
+    CHECK(wrap.added_share == 0);
+    CHECK(wrap.soup_vertices == icosphere(4).vertex_count());
+    const double radius = 1 + distance;
+    CHECK(inspect_mesh(wrap.mesh).volume ==
+          Approx(4 * std::numbers::pi / 3 * radius * radius * radius).epsilon(0.01));
+  }
+}
+
+TEST_CASE("wrap: an open sheet is enclosed from both sides") {
+  const Wrap wrap = wrap_soup(sheet(), {.resolution = 40});
+  CHECK(wrap.voxel == Approx(3.0 / 40));
+  CHECK(wrap.distance == Approx(6.0 / 40));
+  CHECK(wrap.cavities == 0);
+  check_shell(wrap);
+}
+
+TEST_CASE("wrap: triangles that pass through one another, turned inside out, and needles") {
+  TriangleMesh soup = together(icosphere(2), moved(icosphere(2), {0.7, 0.1, 0}));
+  soup.triangles.row(0).reverseInPlace();
+  soup.triangles.row(5) = soup.triangles.row(7);
+  soup.triangles(9, 0) = soup.triangles(9, 1);
+  const Wrap wrap = wrap_soup(soup, {.resolution = 30});
+  check_shell(wrap);
+  CHECK(wrap.parts == 1);
+}
+
+TEST_CASE("wrap: the hole of a torus is closed by a wall, and told") {
+  const TriangleMesh soup = torus(1, 0.3);
+  const Wrap wrap = wrap_soup(soup, {.voxel = 0.05, .distance = 0.1});
+  CHECK(inspect_mesh(wrap.mesh).defects.empty());
+  CHECK(wrap.handles == 1);
+  CHECK(wrap.outside == 0);
+  CHECK(wrap.added_share > 0);
+  CHECK(wrap.apart.forth.min > wrap.distance - wrap.voxel);
+  // A disc through the middle of the hole, whose radius is 0.7.
+  CHECK(wrap.apart.forth.max == Approx(0.7).margin(0.05));
+  CHECK(std::abs(wrap.apart.forth.farthest.z()) < 1.5 * wrap.voxel);
+  const double disc = std::numbers::pi * 0.6 * 0.6 * wrap.voxel;
+  const double ring = 2 * std::numbers::pi * std::numbers::pi * 0.4 * 0.4;
+  CHECK(inspect_mesh(wrap.mesh).volume == Approx(ring + disc).epsilon(0.03));
+}
+
+TEST_CASE("wrap: at a distance that closes the hole there is none") {
+  const Wrap wrap = wrap_soup(torus(1, 0.3), {.voxel = 0.1, .distance = 0.75});
+  CHECK(wrap.handles == 0);
+  check_shell(wrap);
+}
+
+TEST_CASE("wrap: what is apart is joined by a bridge, or the largest is kept; both are told") {
+  const TriangleMesh soup = together(icosphere(2), moved(torus(0.3, 0.15), {3, 0, 0}));
+  const Wrap joined = wrap_soup(soup, {.voxel = 0.08});
+  CHECK(inspect_mesh(joined.mesh).defects.empty());
+  CHECK(joined.parts == 2);
+  CHECK(joined.handles == 0);  // the hole is narrower than both distances
+  CHECK(joined.outside == 0);
+  CHECK(joined.kept_share == 1);
+  CHECK(joined.added_share > 0);
+  CHECK(joined.added_share < 0.02);
+
+  const Wrap largest = wrap_soup(soup, {.voxel = 0.08, .largest = true});
+  check_shell({.mesh = largest.mesh,
+               .voxel = largest.voxel,
+               .distance = largest.distance,
+               .apart = largest.apart});
+  CHECK(largest.parts == 2);
+  CHECK(largest.outside == torus(0.3, 0.15).vertex_count());
+  CHECK(largest.kept_share > 0.85);
+  CHECK(largest.kept_share < 0.95);
+  CHECK(largest.added_share == 0);
+  CHECK(largest.mesh.positions.col(0).maxCoeff() < 1.5);
+}
+
+TEST_CASE("wrap: the same bytes for any number of threads") {
+  const TriangleMesh soup = together(torus(1, 0.3), moved(icosphere(1), {2.9, 0.3, 0.1}));
+  const Wrap one = wrap_soup(soup, {.resolution = 50, .threads = 1});
+  const Wrap two = wrap_soup(soup, {.resolution = 50, .threads = 2});
+  CHECK(one.mesh.positions == two.mesh.positions);
+  CHECK(one.mesh.triangles == two.mesh.triangles);
+  CHECK(one.outside == two.outside);
+  CHECK(one.apart.forth.mean == two.apart.forth.mean);
+}
+
+TEST_CASE("wrap: a soup moved by voxels is wrapped alike") {
+  const Wrap here = wrap_soup(torus(1, 0.3), {.voxel = 0.0625});
+  const Wrap there = wrap_soup(moved(torus(1, 0.3), {8, -4, 16}), {.voxel = 0.0625});
+  REQUIRE(here.mesh.triangles == there.mesh.triangles);
+  CHECK((moved(here.mesh, {8, -4, 16}).positions - there.mesh.positions).cwiseAbs().maxCoeff() <
+        1e-6);
+}
+
+TEST_CASE("wrap: what has no places, no extent, or too fine a lattice is refused") {
+  TriangleMesh soup = sheet();
+  soup.positions(2, 1) = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_AS(wrap_soup(soup), MeshError);
+  soup = sheet();
+  soup.triangles(0, 0) = 4;
+  CHECK_THROWS_AS(wrap_soup(soup), MeshError);
+  CHECK_THROWS_AS(wrap_soup({Points(0, 3), Triangles(0, 3)}), MeshError);
+  soup = sheet();
+  soup.positions.setConstant(2);
+  CHECK_THROWS_AS(wrap_soup(soup), UnmeasurableMesh);
+  CHECK_THROWS_AS(wrap_soup(moved(sheet(), {1e15, 0, 0})), UnmeasurableMesh);
+  CHECK_THROWS_AS(wrap_soup(sheet(), {.voxel = 1e-4}), std::invalid_argument);
+  CHECK_THROWS_AS(wrap_soup(sheet(), {.voxel = -1}), std::invalid_argument);
+  CHECK_THROWS_AS(wrap_soup(sheet(), {.voxel = 0.1, .distance = 0.09}), std::invalid_argument);
+}
+
+TEST_CASE("wrap: gives up when told to") {
+  CHECK_THROWS_AS(wrap_soup(sheet(), {.progress = [](std::string_view, double) { return false; }}),
+                  Cancelled);
+}
+
+}  // namespace sphparam

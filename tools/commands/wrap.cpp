@@ -1,0 +1,114 @@
+// `sphparam wrap`: one closed surface of genus 0 about any triangles.
+
+#include <stdexcept>
+
+#include "arguments/limits.h"
+#include "arguments/mesh_names.h"
+#include "commands/command.h"
+#include "commands/surfaces.h"
+#include "console/places.h"
+#include "number_text.h"
+#include "reports/told_losses.h"
+#include "sphparam/io/certified_files.h"
+#include "sphparam/io/mesh_reader.h"
+#include "sphparam/mesh/mesh_defects.h"
+#include "sphparam/records/wrap_record.h"
+
+namespace sphparam::cli {
+
+namespace {
+
+constexpr char summary[] =
+    "Enclose any triangles in one closed surface that can be mapped.\n"
+    "\n"
+    "Examples:\n"
+    "  sphparam wrap asset.glb -o wrapped.ply\n"
+    "  sphparam wrap asset.glb -o wrapped.ply --resolution 256\n"
+    "  sphparam wrap scan.stl -o wrapped.ply --voxel 0.5 --distance 2 --json wrap.json\n"
+    "  sphparam wrap parts.obj -o wrapped.ply --largest\n"
+    "\n"
+    "The triangles may be open, not manifold, in many parts, and pass through one another. The\n"
+    "surface lies at the distance asked for, give or take less than a voxel; holes through it are\n"
+    "closed by walls a voxel thick, parts that are apart joined by bridges. All of that is told.\n";
+
+struct WrapArguments : CommonArguments {
+  std::string input, output;
+  WrapOptions options;
+};
+
+void require_sensible(const WrapArguments& arguments) {
+  if (arguments.options.voxel > 0 && arguments.options.resolution > 0)
+    throw UsageMistake(
+        "--voxel and --resolution contradict each other: both say how large a voxel is");
+  require_mesh_name("-o", "the wrap", arguments.output);
+  check_places({{"-o", arguments.output}, {"--json", arguments.json}});
+}
+
+/// Throws: UsageMistake for what of the options does not suit the mesh, ReadError for a mesh
+/// without places.
+Wrap wrapped(const WrapArguments& arguments, const MeshFile& soup, Session& session) try {
+  WrapOptions options = arguments.options;
+  options.threads = session.threads();
+  options.progress = session.progress();
+  return wrap_soup(soup.mesh, options);
+} catch (const MeshError& error) {
+  throw ReadError(display_name(arguments.input), error.defects().front().message);
+} catch (const std::invalid_argument& error) {
+  throw UsageMistake(std::string("--") + error.what());
+}
+
+int run_wrap(WrapArguments& arguments) {
+  require_sensible(arguments);
+  Session session(arguments);
+  ReadOptions options = input_limits();
+  options.repeated_corners = true;  // needles are as good as any triangle
+  const MeshFile soup = read_surface(arguments.input, session, options);
+  session.hold_signals();
+  const Wrap wrap = wrapped(arguments, soup, session);
+  MeshFile file;
+  file.mesh = wrap.mesh;
+  file.comments = {"wrapped about " + display_name(arguments.input) + " at distance " +
+                   shortest(wrap.distance) + ", voxel " + shortest(wrap.voxel)};
+  tell_losses(arguments.output,
+              add_mesh(session.files, arguments.output, file, {.origin = arguments.input}),
+              session.console);
+  WrapRecord record = {arguments.input, soup, wrap, {{"mesh", arguments.output}}};
+  record.seconds = session.stopwatch.seconds();
+  session.add_report([&] { return to_json(record); });
+  session.publish();
+  for (const std::string& line : to_lines(record)) session.console.say("  " + line);
+  session.console.say(
+      display_name(arguments.input) + ": " + counted(wrap.mesh.face_count(), "triangle") +
+      ", a closed genus-0 mesh: it can be mapped → " + output_name(arguments.output));
+  return Ok;
+}
+
+void declare_options(Declaration& command, WrapArguments& arguments) {
+  WrapOptions& options = arguments.options;
+  const Range<double> length = {.words = "0 on"};
+  command.input("SOUP", arguments.input, readable_formats("or") + "; - for standard input")
+      .output(arguments.output, "FILE",
+              "The closed surface, in the format of its name; - for standard output")
+      .number("--voxel", options.voxel, "LENGTH", length,
+              "How fine: between the points of the lattice, in units of the mesh")
+      .preset("the longest side of the box / 128, at most half of --distance")
+      .number("--resolution", options.resolution, "N", {0, 100'000},
+              "How fine: voxels along the longest side of the box")
+      .preset("128")
+      .number("--distance", options.distance, "LENGTH", length,
+              "Of the surface from the soup, a voxel at least")
+      .preset("two voxels")
+      .flag("--largest", options.largest,
+            "Keep the largest of the parts that are apart, instead of joining all")
+      .json(arguments)
+      .threads(arguments)
+      .console(arguments);
+}
+
+}  // namespace
+
+Command declare_wrap(CLI::App& program) {
+  return make_command(program, "wrap", summary, declare_options, run_wrap);
+}
+
+}  // namespace sphparam::cli
