@@ -59,7 +59,7 @@ struct Set {
 
 struct Outcome {
   bool certified = false;
-  double error = 0, most = 0, seconds = 0, energy = 0;
+  double error = 0, most = 0, seconds = 0, energy = 0, confidence = 1;
   std::string complaint;
 };
 
@@ -123,6 +123,7 @@ Outcome score(const Shape& from, const Shape& to, const SurfaceRoads& from_roads
   outcome.seconds = watch.seconds();
   outcome.certified = match.map.from().certificate().bijective();
   outcome.energy = match.energy;
+  outcome.confidence = match.confidence;
   const std::vector<SurfacePoint> forth = match.map.forth(threads);
   const size_t count = std::min(from.truth.size(), to.truth.size());
   const size_t stride = std::max<size_t>(1, count / static_cast<size_t>(most_points));
@@ -225,7 +226,7 @@ void run(const Set& set, int every, int offset, int most_points, int threads, st
     }
     log << set.name << '\t' << i << '\t' << first << '\t' << second << '\t' << outcome.error << '\t'
         << outcome.most << '\t' << outcome.energy << '\t' << outcome.seconds << '\t'
-        << outcome.complaint << std::endl;
+        << outcome.confidence << '\t' << outcome.complaint << std::endl;
   }
   tell(set.name + ", developed on", developed);
   tell(set.name + ", held out", held);

@@ -23,7 +23,7 @@ constexpr int small_vertices = 2000;  // of the surfaces whose ends are sought
 constexpr int most_ends = 7;
 constexpr int tried = 24, finished = 6;  // pairings whose maps are begun, and made
 constexpr double scale = 0.16;           // of curvature, in radii of the sphere of the same area
-constexpr double full_agreement = 1.2;   // more than the correlation can be
+constexpr double sharp = 3;              // curvatures beyond these, in its units, are alike
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
@@ -32,7 +32,7 @@ struct SmallSurface {
   TriangleMesh mesh;
   Topology topology;
   std::vector<Vertex> names;
-  VectorX curvature;  // mean, of the whole surface
+  VectorX bend;  // of the whole surface
   VectorX area;
 };
 
@@ -55,9 +55,13 @@ std::vector<Vertex> names_on_finest(const MeshHierarchy& levels, size_t level) {
   return names;
 }
 
-VectorX mean_curvature(const MappedMesh& mapped, int threads) {
-  const double length = scale * equal_area_radius(mapped.mesh(), threads);
-  return measure_curvature(mapped.mesh(), mapped.topology(), length, threads).mean;
+/// Mean curvature, its size bounded: fingertips would else outweigh everything.
+VectorX bend(const MappedMesh& mapped, int threads) {
+  const double radius = equal_area_radius(mapped.mesh(), threads);
+  const Eigen::ArrayXd h =
+      radius / sharp *
+      measure_curvature(mapped.mesh(), mapped.topology(), scale * radius, threads).mean.array();
+  return h / (1 + h.square()).sqrt();
 }
 
 SmallSurface small_surface(const MappedMesh& mapped, int threads) {
@@ -67,7 +71,7 @@ SmallSurface small_surface(const MappedMesh& mapped, int threads) {
   Topology topology(mesh, threads);
   VectorX area = measure_curvature(mesh, topology, 0, threads).area;
   return {std::move(mesh), std::move(topology), names_on_finest(levels, level),
-          mean_curvature(mapped, threads), std::move(area)};
+          bend(mapped, threads), std::move(area)};
 }
 
 double mean_product(const VectorX& weight, const VectorX& a, const VectorX& b) {
@@ -150,21 +154,21 @@ class LandmarkSearch {
     if (map.points.rows() == 0) return std::nullopt;
     SuggestedLandmarks result{.agreement = agreement(map)};
     result.energy = energy_of_composition(a_.mesh, a_.topology, target_, map, options.energy, 1);
-    result.score = result.energy * (full_agreement - result.agreement);
+    result.score = result.energy * (1 - result.agreement);
     for (const auto& [x, y] : pairing.pairs)
       result.landmarks.push_back({a_.names[at(end(x))], partner(y)});
     return result;
   }
 
-  /// Correlation of the mean curvatures.
+  /// Correlation of how the surfaces bend.
   double agreement(const SphereMap& map) const {
     VectorX here(map.points.rows()), there(map.points.rows());
     for (Vertex v = 0; v < map.points.rows(); ++v) {
       const SurfacePoint point = target_.place(map.point(v)).at;
-      here[v] = a_.curvature[a_.names[at(v)]];
+      here[v] = a_.bend[a_.names[at(v)]];
       there[v] = 0;
       for (int k = 0; k < 3; ++k)
-        there[v] += point.barycentric[k] * b_.curvature[to_.mesh().triangles(point.face, k)];
+        there[v] += point.barycentric[k] * b_.bend[to_.mesh().triangles(point.face, k)];
     }
     return correlation(a_.area, std::move(here), std::move(there));
   }

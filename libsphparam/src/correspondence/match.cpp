@@ -25,12 +25,12 @@ namespace {
 constexpr int all_starts = 3;           // of coarse levels, to take the best
 constexpr double fitting = 1e-6;        // radians: landmarks of maps that mean the same
 constexpr double mirrored_share = 0.5;  // of the energy beyond isometry: less is the mirror image's
-constexpr double telling_energy = 0.25;     // what lies between the two must be more
-constexpr double alike = 1.05;              // of that energy: the mirror image fits about as well
-constexpr double collapsed = 0.01;          // of its share of the area: a triangle that is lost
-constexpr double telling_area = 1e-3;       // share of the surface that is lost: worth a word
-constexpr double telling_confidence = 0.1;  // less is worth a word
-constexpr size_t telling_landmarks = 3;     // fewer have no sides
+constexpr double telling_energy = 0.25;      // what lies between the two must be more
+constexpr double alike = 1.05;               // of that energy: the mirror image fits about as well
+constexpr double collapsed = 0.01;           // of its share of the area: a triangle that is lost
+constexpr double telling_area = 1e-3;        // share of the surface that is lost: worth a word
+constexpr double telling_confidence = 0.15;  // less is worth a word
+constexpr size_t telling_landmarks = 3;      // fewer have no sides
 
 void require_landmarks(const MatchOptions& options, const MappedMesh& from, const MappedMesh& to) {
   if (options.search && !options.landmarks.empty())

@@ -29,8 +29,8 @@ struct MatchOptions {
 struct SuggestedLandmarks {
   std::vector<LandmarkPair> landmarks = {};
   double energy = 0;     // of the map between coarse levels that they lead to, of a unit of area
-  double agreement = 0;  // correlation of the surfaces' mean curvatures by that map
-  double score = 0;      // the less, the better: energy · (1.2 − agreement)
+  double agreement = 0;  // correlation of the surfaces' bounded mean curvatures by it
+  double score = 0;      // the less, the better: energy · (1 − agreement)
 };
 
 struct Match {
