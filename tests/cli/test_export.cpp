@@ -218,6 +218,38 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("export: all channels of an asset arrive, as its materials have them") {
+  const Egg egg;
+  const std::string asset = egg.folder / "asset.obj";
+  write_bytes(asset, "mtllib asset.mtl\nusemtl glow\n" + bytes_of(egg.mesh));
+  write_bytes(egg.folder / "asset.mtl",
+              "newmtl glow\nKd 0.5 0.25 1\nKe 4 2 0\nPr 0.25\nPm 0.75\nd 0.5\n");
+  const std::string map = egg.folder / "asset.sph.ply", folder = egg.folder / "channels";
+  fs::create_directory(folder);
+  REQUIRE(sphparam_program({"map", asset, "-o", map}).code == 0);
+  const Ended baked = sphparam_program(
+      {"bake", asset, "--sphere", map, "--map", "channels", "--size", "64", "-o", folder + "/"});
+  INFO(baked.err);
+  REQUIRE(baked.code == 0);
+  const std::string out = egg.folder / "all.glb";
+  const Ended ended = sphparam_program({"export", map, "--images", folder, "-o", out});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  const Json material = json_of(bytes_of(out))["materials"][0];
+  const Json& pbr = material["pbrMetallicRoughness"];
+  CHECK(pbr["metallicFactor"] == 1);
+  CHECK(pbr["roughnessFactor"] == 1);
+  CHECK(material["occlusionTexture"]["index"] == pbr["metallicRoughnessTexture"]["index"]);
+  CHECK(pbr["baseColorTexture"]["index"] != pbr["metallicRoughnessTexture"]["index"]);
+  CHECK(material["emissiveFactor"] == Json({1, 1, 1}));
+  CHECK(material["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] == 4);
+  CHECK(material["alphaMode"] == "BLEND");
+  const MeshFile read = read_mesh(out);
+  REQUIRE(read.channels.size() == 1);
+  CHECK(read.channels[0].emission.factor[0] == Approx(4));
+  CHECK(read.channels[0].alpha_mode == AlphaMode::Blend);
+}
+
 TEST_CASE("export: names in Latin-1, and images in capitals") {
   Egg egg;
   fs::create_directory(egg.folder / "bake");

@@ -13,8 +13,11 @@ void declare_look(Declaration& command, LookOptions& look) {
   command.text("--image", look.texture, "IMAGE", "The equirectangular image, row 0 north")
       .text("--normal-map", look.normal, "IMAGE", "A tangent-space normal map as `bake` makes it")
       .text("--occlusion-map", look.occlusion, "IMAGE", "Ambient occlusion")
+      .text("--orm-map", look.orm, "IMAGE",
+            "Occlusion, roughness and metallic in red, green and blue")
+      .text("--emissive-map", look.emissive, "IMAGE", "The light that the surface gives")
       .text("--images", look.folder, "FOLDER",
-            "A folder of `bake`: its basecolor, normal-tangent and ao")
+            "A folder of `bake`: its basecolor, normal-tangent, ao, orm and emissive")
       .list("--variants", look.variants, "NAMES",
             "More materials to switch to, with commas between: " + joined(variant_names()))
       .number("--image-size", look.image_width, "N", {16, 16384},
@@ -101,8 +104,10 @@ void check_export_arguments(const ExportArguments& a) {
   refuse(a.embedded && extension != ".gltf", "--embedded is for .gltf; a .glb is one file anyway");
   refuse(a.lods > 0 && is_stream(a.output) && a.lod_style == LodStyle::Files,
          "--lods are files: give -o a name");
-  refuse(look.unlit && (look.tangents || !look.normal.empty() || !look.occlusion.empty()),
-         "--unlit shows no light: leave out --normal-map, --occlusion-map and --tangents");
+  refuse(look.unlit && (look.tangents || !look.normal.empty() || !look.occlusion.empty() ||
+                        !look.orm.empty() || !look.emissive.empty()),
+         "--unlit shows no light: leave out --normal-map, --occlusion-map, --orm-map, "
+         "--emissive-map and --tangents");
   if (is_gltf) return;
   const std::string only = " is for .glb and .gltf, not for " + extension;
   for (const auto& [given, option] : {std::pair{e.morph != Morph::None, "--morph"},
@@ -110,6 +115,8 @@ void check_export_arguments(const ExportArguments& a) {
                                       {!look.variants.empty(), "--variants"},
                                       {!look.normal.empty(), "--normal-map"},
                                       {!look.occlusion.empty(), "--occlusion-map"},
+                                      {!look.orm.empty(), "--orm-map"},
+                                      {!look.emissive.empty(), "--emissive-map"},
                                       {look.unlit, "--unlit"},
                                       {look.tangents, "--tangents"},
                                       {e.theta_phi, "--theta-phi"},

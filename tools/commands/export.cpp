@@ -178,7 +178,8 @@ ExportArguments of_part(ExportArguments arguments, int part) {
   arguments.input = path_of_part(arguments.input, part);
   arguments.output = path_of_part(arguments.output, part);
   LookOptions& look = arguments.exported.look;
-  for (std::string* image : {&look.texture, &look.normal, &look.occlusion})
+  for (std::string* image :
+       {&look.texture, &look.normal, &look.occlusion, &look.orm, &look.emissive})
     *image = file_for_part(*image, part);
   return arguments;
 }

@@ -21,7 +21,9 @@ std::string_view value_in(std::string_view lines, std::string_view key) {
   return {};
 }
 
-std::string_view text_named(const ImageTexts& texts, std::string_view key) {
+}  // namespace
+
+std::string_view baked_text(const ImageTexts& texts, std::string_view key) {
   for (const auto& [name, text] : texts) {
     if (name == key) return text;
     if (name != all_in_one) continue;
@@ -30,23 +32,21 @@ std::string_view text_named(const ImageTexts& texts, std::string_view key) {
   return {};
 }
 
-}  // namespace
-
 ImageTexts texts_of_chart(bool linear_in_uv, int pole_wedges) {
   return {{std::string(interpolation), linear_in_uv ? "uv" : "sphere"},
           {std::string(wedges), std::to_string(pole_wedges)}};
 }
 
 std::optional<int> pole_wedges_of(const ImageTexts& texts) {
-  if (text_named(texts, interpolation) != "uv") return std::nullopt;
-  const std::string_view text = text_named(texts, wedges);
+  if (baked_text(texts, interpolation) != "uv") return std::nullopt;
+  const std::string_view text = baked_text(texts, wedges);
   int number = 1;  // what was baked before this was told
   std::from_chars(text.data(), text.data() + text.size(), number);
   return number;
 }
 
 std::optional<Convention> baked_convention_of(const ImageTexts& texts) {
-  return convention_named(text_named(texts, "sphparam:convention"));
+  return convention_named(baked_text(texts, "sphparam:convention"));
 }
 
 }  // namespace sphparam

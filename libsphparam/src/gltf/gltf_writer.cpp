@@ -84,6 +84,10 @@ class Builder {
   void add_material(const Material& material) {
     Json pbr{{"metallicFactor", 0}, {"roughnessFactor", 1}};
     if (material.base_colour >= 0) pbr["baseColorTexture"] = {{"index", material.base_colour}};
+    if (material.metallic_roughness >= 0 && !material.unlit) {
+      pbr["metallicFactor"] = 1;
+      pbr["metallicRoughnessTexture"] = {{"index", material.metallic_roughness}};
+    }
     Json entry{{"name", material.name}, {"pbrMetallicRoughness", std::move(pbr)}};
     if (material.unlit) {
       entry["extensions"]["KHR_materials_unlit"] = Json::object();
@@ -91,8 +95,24 @@ class Builder {
     } else {
       if (material.normal >= 0) entry["normalTexture"] = {{"index", material.normal}};
       if (material.occlusion >= 0) entry["occlusionTexture"] = {{"index", material.occlusion}};
+      if (material.emissive >= 0) add_emission(material, entry);
     }
+    if (material.alpha_mode == AlphaMode::Blend) entry["alphaMode"] = "BLEND";
+    if (material.alpha_mode == AlphaMode::Mask) {
+      entry["alphaMode"] = "MASK";
+      entry["alphaCutoff"] = material.alpha_cutoff;
+    }
+    if (material.double_sided) entry["doubleSided"] = true;
     lists_.materials.push_back(std::move(entry));
+  }
+
+  void add_emission(const Material& material, Json& entry) {
+    entry["emissiveTexture"] = {{"index", material.emissive}};
+    entry["emissiveFactor"] = {1, 1, 1};
+    if (material.emissive_strength == 1) return;
+    entry["extensions"]["KHR_materials_emissive_strength"] = {
+        {"emissiveStrength", material.emissive_strength}};
+    use("KHR_materials_emissive_strength");
   }
 
   /// Those of the levels that follow.

@@ -2,10 +2,12 @@
 // baked comes in u = θ/2π and has its columns moved, by quarters of the width.
 
 #include <algorithm>
+#include <charconv>
 #include <optional>
 
 #include "bake/baked_chart.h"
 #include "bake/field_registry.h"
+#include "bake/fields/material_fields.h"
 #include "bake/make_scene.h"
 #include "gltf/export_names.h"
 #include "gltf/material_images.h"
@@ -28,6 +30,8 @@ BakedImages images_given(const LookOptions& options) {
   if (!options.texture.empty()) images.base_colour = options.texture;
   if (!options.normal.empty()) images.normal = options.normal;
   if (!options.occlusion.empty()) images.occlusion = options.occlusion;
+  if (!options.orm.empty()) images.orm = options.orm;
+  if (!options.emissive.empty()) images.emissive = options.emissive;
   return images;
 }
 
@@ -39,6 +43,23 @@ void require_known(const std::vector<std::string>& names) {
     for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
     throw LookError("no variant " + name + " among " + all);
   }
+}
+
+double number_in(std::string_view text, double otherwise) {
+  std::from_chars(text.data(), text.data() + text.size(), otherwise);
+  return otherwise;
+}
+
+/// How an image of the base colour says that its alpha and its surfaces are seen.
+void take_sides(Material& material, const ImageTexts& texts) {
+  constexpr std::string_view mask = "mask ";
+  const std::string_view alpha = baked_text(texts, alpha_text);
+  if (alpha == "blend") material.alpha_mode = AlphaMode::Blend;
+  if (alpha.starts_with(mask)) {
+    material.alpha_mode = AlphaMode::Mask;
+    material.alpha_cutoff = number_in(alpha.substr(mask.size()), material.alpha_cutoff);
+  }
+  material.double_sided = baked_text(texts, sides_text) == "1";
 }
 
 bool has_colours(const MeshFile& file) { return linear_colours(file).has_value(); }
@@ -55,7 +76,10 @@ class LookMaker {
     if (!wanted_.unlit) {
       material_.normal = add_file(given.normal, "normal");
       look_.normals_given = material_.normal >= 0;
-      material_.occlusion = add_file(given.occlusion, "occlusion");
+      material_.metallic_roughness = add_file(given.orm, "orm");
+      material_.occlusion = given.occlusion.empty() ? material_.metallic_roughness
+                                                    : add_file(given.occlusion, "occlusion");
+      add_emission(given.emissive);
       // Tangents that no material uses are taken for a mistake: these are used and change nothing.
       if (material_.normal < 0 && wanted_.tangents) material_.normal = add(flat_normals_image());
     }
@@ -70,9 +94,19 @@ class LookMaker {
     return static_cast<int>(look_.images.size()) - 1;
   }
 
-  int add_file(const std::string& path, const std::string& name) {
-    if (path.empty()) return -1;
+  void add_emission(const std::string& path) {
     ImageTexts texts;
+    material_.emissive = add_file(path, "emissive", texts);
+    material_.emissive_strength = number_in(baked_text(texts, strength_text), 1);
+  }
+
+  int add_file(const std::string& path, const std::string& name) {
+    ImageTexts texts;
+    return add_file(path, name, texts);
+  }
+
+  int add_file(const std::string& path, const std::string& name, ImageTexts& texts) {
+    if (path.empty()) return -1;
     AssetImage image = read_asset_image(path, name, &texts);
     const std::optional<int> baked = pole_wedges_of(texts);
     if (baked && *baked != options_.refine_poles) throw ImageOfOtherChart(path, *baked);
@@ -90,7 +124,9 @@ class LookMaker {
     material_.unlit = wanted_.unlit;
     material_.name = "baked";
     if (!given.base_colour.empty()) {
-      material_.base_colour = add_file(given.base_colour, "basecolor");
+      ImageTexts texts;
+      material_.base_colour = add_file(given.base_colour, "basecolor", texts);
+      take_sides(material_, texts);
       return;
     }
     textures_ = read_textures(file, options_.threads);
@@ -101,7 +137,7 @@ class LookMaker {
       material_.name = "colours";
       material_.base_colour = add(white_asset_image());
       look_.vertex_colours = true;
-    } else if (!given.normal.empty() || !given.occlusion.empty()) {
+    } else if (!given.none()) {
       // A relief is to be seen, and a mesh without colours has the one of glTF's own materials.
       material_.name = "plain";
       material_.base_colour = add(white_asset_image());
@@ -182,7 +218,7 @@ Look without_given_normals(Look look) {
   look.images.erase(look.images.begin() + dropped);
   for (Material& material : look.materials) {
     material.normal = -1;
-    for (int* image : {&material.base_colour, &material.occlusion}) {
+    for (int* image : material.frameless_images()) {
       if (*image > dropped) --*image;
     }
   }

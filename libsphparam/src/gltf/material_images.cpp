@@ -65,10 +65,13 @@ BakedImages find_baked_images(const std::string& folder) {
   if (error) throw ReadError(folder, error.message());
   std::sort(files.begin(), files.end());
   BakedImages images{find_one(files, folder, "basecolor"),
-                     find_one(files, folder, "normal-tangent"), find_one(files, folder, "ao")};
+                     find_one(files, folder, "normal-tangent"), find_one(files, folder, "ao"),
+                     find_one(files, folder, "orm"), find_one(files, folder, "emissive")};
   if (images.base_colour.empty()) images.base_colour = find_one(files, folder, "vcolor");
-  if (images.base_colour.empty() && images.normal.empty() && images.occlusion.empty())
-    throw ReadError(folder, "holds no basecolor, vcolor, normal-tangent or ao as .png or .jpg");
+  if (images.none()) {
+    throw ReadError(
+        folder, "holds no basecolor, vcolor, normal-tangent, ao, orm or emissive as .png or .jpg");
+  }
   return images;
 }
 

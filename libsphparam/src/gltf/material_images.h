@@ -15,7 +15,12 @@ AssetImage read_asset_image(const std::string& path, const std::string& name,
 
 /// Images of a folder by the names that `bake` gives them: NAME.png or anything-NAME, -_ before it.
 struct BakedImages {
-  std::string base_colour, normal, occlusion;  // paths; empty: not there
+  std::string base_colour, normal, occlusion, orm, emissive;  // paths; empty: not there
+
+  bool none() const {
+    return base_colour.empty() && normal.empty() && occlusion.empty() && orm.empty() &&
+           emissive.empty();
+  }
 };
 
 /// Throws: ReadError where the folder cannot be read, holds none of them, or two of one kind.

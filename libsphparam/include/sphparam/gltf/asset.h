@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sphparam/chart/chart_certificate.h"
+#include "sphparam/io/materials.h"
 #include "sphparam/mesh/triangle_mesh.h"
 
 namespace sphparam {
@@ -46,11 +47,23 @@ struct AssetImage {
   std::string bytes;
 };
 
-/// Numbers of images; −1: none.
+/// Numbers of images; −1: none. What glTF 2.0, Section 3.9 has.
 struct Material {
   std::string name;
-  int base_colour = -1, normal = -1, occlusion = -1;
+  int base_colour = -1, normal = -1;
+  int occlusion = -1;           // in red
+  int metallic_roughness = -1;  // roughness in green, metallic in blue; −1: rough, no metal
+  int emissive = -1;
+  double emissive_strength = 1;  // times the image
+  AlphaMode alpha_mode = AlphaMode::Opaque;
+  double alpha_cutoff = 0.5;  // of Mask
+  bool double_sided = false;
   bool unlit = false;
+
+  /// Those of its images that do not depend on the tangent frame of a mesh.
+  std::array<int*, 4> frameless_images() {
+    return {&base_colour, &occlusion, &metallic_roughness, &emissive};
+  }
 };
 
 /// What is proved of the (u, v) of a level.

@@ -31,8 +31,11 @@ enum class Morph { None, Sphere, Flat };
 struct LookOptions {
   std::string texture = {};    // an equirectangular image, row 0 north
   std::string normal = {};     // a normal map in the tangent frame of the asset, as `bake` makes it
-  std::string occlusion = {};  // ambient occlusion
-  std::string folder = {};  // of `bake`: its basecolor, normal-tangent and ao, but for those above
+  std::string occlusion = {};  // ambient occlusion, in red
+  std::string orm = {};        // occlusion, roughness and metallic in red, green and blue
+  std::string emissive = {};   // light that is given
+  /// Of `bake`: its basecolor, normal-tangent, ao, orm and emissive, but for those above.
+  std::string folder = {};
   std::vector<std::string> variants = {};  // more materials to switch to, of `variant_names`
   int image_width = 2048;  // of images that are made here; 16 to 16384, a multiple of 4
   bool unlit = false;      // the colours as they are, without light: no normal map, no occlusion
@@ -90,6 +93,9 @@ struct Look {
   bool has_normals() const { return !materials.empty() && materials.front().normal >= 0; }
 };
 
+/// Images that `bake` made say in their metadata how alpha is meant, whether surfaces are seen from
+/// both sides, and how strong emission is. Occlusion is that of `orm` where no other is given.
+///
 /// What is seen: the images that are named; else the mesh's own textures, baked; else the colours
 /// of its vertices; else white under a normal or occlusion map, a checker without. The variants
 /// follow. Of `options`: look, convention, refine_poles, source, threads, progress.
