@@ -118,6 +118,23 @@ TEST_CASE("match: shapes and values of the other are carried over") {
   CHECK(distance.code == 0);
 }
 
+TEST_CASE("match: a morph is written, what its triangles miss is told, and only .glb will do") {
+  const Creatures creatures;
+  const std::string morph = creatures.folder / "morph.glb";
+  const Ended ended = creatures.match({"--morph", morph, "--json", "-"});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.err, Contains("in the shape of") && Contains("of its diagonal"));
+  const Json report = Json::parse(ended.out);
+  CHECK(report["carried"]["area_share"] > 0.9);
+  CHECK(report["carried"]["farthest"] < 0.1);
+  CHECK(report["outputs"].contains("morph"));
+  CHECK(read_mesh(morph).mesh.face_count() >= read_mesh(creatures.first).mesh.face_count());
+  const Ended wrong = creatures.match({"--morph", creatures.folder / "morph.obj"});
+  CHECK(wrong.code == 2);
+  CHECK_THAT(wrong.err, Contains("--morph") && Contains(".glb"));
+}
+
 TEST_CASE("match: values that are asked for and are not there are told") {
   const Creatures creatures;
   const Ended ended = creatures.match({"--write-values", creatures.folder / "values.ply"});

@@ -2,15 +2,14 @@
 
 #include "sphparam/correspondence/match.h"
 
-#include "arguments/mesh_names.h"
+#include <optional>
+
+#include "arguments/match_arguments.h"
 #include "commands/command.h"
+#include "commands/match_outputs.h"
 #include "commands/sources.h"
-#include "console/places.h"
-#include "reports/told_losses.h"
 #include "sphparam/correspondence/landmark_file.h"
 #include "sphparam/correspondence/matched_files.h"
-#include "sphparam/io/certified_files.h"
-#include "sphparam/io/map_files.h"
 #include "sphparam/records/match_record.h"
 
 namespace sphparam::cli {
@@ -24,7 +23,7 @@ constexpr char summary[] =
     "  sphparam match horse.obj cow.obj --landmarks pairs.txt -o horse_to_cow.ply\n"
     "  sphparam match horse.obj cow.obj --landmarks pairs.txt -o h.ply --write-values "
     "horse_as_cow.ply\n"
-    "  sphparam match horse.obj cow.obj -o horse_to_cow.ply\n"
+    "  sphparam match horse.obj cow.obj -o horse_to_cow.ply --morph horse_to_cow.glb\n"
     "  sphparam match lh.surf.gii lh_template.sph.ply --landmarks pairs.txt -o "
     "lh.sphere.reg.surf.gii\n"
     "\n"
@@ -35,34 +34,6 @@ constexpr char summary[] =
     "Without them the ends of what sticks out of A and B are paired as distorts least and looks\n"
     "most alike, and a start is made from there; the confidence in it is told.\n"
     "The exit status is 5 where no map has them.\n";
-
-struct MatchArguments : CommonArguments {
-  std::string first, second;
-  std::string first_sphere, second_sphere;  // empty: the meshes' own maps; so are, not wanted:
-  std::string landmarks, output, shape, values, back;
-  bool mirror = false;
-  MatchOptions options;
-};
-
-void require_sensible(const MatchArguments& arguments) {
-  require_one_stream({arguments.first, arguments.second, arguments.landmarks},
-                     "the two meshes and --landmarks");
-  const std::string extension = inner_extension_of(arguments.output);
-  if (!keeps_map(arguments.output) && !has_float_spheres(arguments.output)) {
-    throw UsageMistake(
-        "-o: the map has a place in .ply, .vtk and .vtp, and its sphere alone in .gii and .mz3; "
-        "the name must end so, not in " +
-        extension);
-  }
-  require_mesh_name("--write-shape", "the triangles of A in the shape of B", arguments.shape);
-  require_mesh_name("--write-values", "A with what B carries", arguments.values);
-  require_mesh_name("--write-back", "the triangles of B in the shape of A", arguments.back);
-  check_places({{"-o", arguments.output},
-                {"--write-shape", arguments.shape},
-                {"--write-values", arguments.values},
-                {"--write-back", arguments.back},
-                {"--json", arguments.json}});
-}
 
 /// The landmarks' file names vertices by their numbers in the meshes' files.
 void read_landmarks_of(MatchArguments& arguments, const MappedMesh& first,
@@ -89,50 +60,11 @@ Match match(const MatchArguments& arguments, const MappedMesh& first, const Mapp
                                                            : ""));
 }
 
-/// The match in the format of its name: the mesh with its map, or the bare sphere.
-void add_output(const MatchArguments& arguments, const Match& match, Session& session) {
-  const MappedMesh& from = match.map.from();
-  if (!keeps_map(arguments.output)) {
-    const FinishedMap finished{from.file(), from.topology(), from.map(), from.certificate(),
-                               from.provenance()};
-    add_sphere(session.files, arguments.output, finished,
-               {.may_remap = false,
-                .origin = arguments.first,
-                .threads = session.threads(),
-                .progress = session.progress()});
-    return;
-  }
-  tell_losses(arguments.output,
-              add_mapped(session.files, arguments.output,
-                         with_targets(match.map, session.threads()), session.threads()),
-              session.console);
-}
-
-std::vector<std::pair<std::string, std::string>> add_outputs(const MatchArguments& arguments,
-                                                             const Match& match, Session& session) {
-  std::vector<std::pair<std::string, std::string>> outputs{{"map", arguments.output}};
-  add_output(arguments, match, session);
-  const auto add = [&](const char* key, const std::string& path, const auto& make) {
-    if (path.empty()) return;
-    outputs.emplace_back(key, path);
-    tell_losses(path, add_mesh(session.files, path, make()), session.console);
-  };
-  const int threads = session.threads();
-  add("shape", arguments.shape, [&] { return in_other_shape(match.map, threads); });
-  add("values", arguments.values, [&] { return with_other_values(match.map, threads); });
-  add("back", arguments.back, [&] { return in_other_shape(match.map.inverse(), threads); });
-  return outputs;
-}
-
-/// Tells of values that are asked for and are not there.
-void tell_absent_values(const MatchArguments& arguments, const MappedMesh& second,
-                        Session& session) {
-  if (arguments.values.empty() || !names_of_values(second.file()).empty()) return;
-  session.warn(
-      {"--write-values: no vertex of " + second.name() +
-       " carries a value or a colour, so nothing is carried over; a texture: sphparam bake " +
-       arguments.second + " --texture, then sphparam export " + arguments.output +
-       " --image with what it made"});
+/// What A's triangles show of B's shape, where it is asked for.
+std::optional<CarriedFidelity> fidelity(const MatchArguments& arguments, const Match& match,
+                                        Session& session) {
+  if (arguments.morph.empty() && arguments.shape.empty()) return std::nullopt;
+  return measure_carried(match.map, session.threads(), session.progress());
 }
 
 int run_match(MatchArguments& arguments) {
@@ -152,42 +84,13 @@ int run_match(MatchArguments& arguments) {
                      .mirrored = arguments.mirror,
                      .distortion = summarise(measure_distortion(found.map, session.threads()))};
   record.outputs = add_outputs(arguments, found, session);
+  record.carried = fidelity(arguments, found, session);
   record.seconds = session.stopwatch.seconds();
   session.add_report([&] { return to_json(record); });
   session.publish();
   session.console.say(to_text(record));
+  if (record.carried) session.console.say("  " + carried_line(record));
   return Ok;
-}
-
-void declare_options(Declaration& command, MatchArguments& arguments) {
-  command
-      .input("A", arguments.first,
-             "A .sph.ply, or any mesh: it is mapped first; - for standard input")
-      .input("B", arguments.second, "Another one")
-      .output(arguments.output, "FILE",
-              "A with its map on B's sphere, target_face and target_0, target_1, target_2 (.ply, "
-              ".vtk, .vtp); or that sphere alone (.gii, .mz3)")
-      .text("--landmarks", arguments.landmarks, "FILE",
-            "Vertices that go to vertices, a pair a line: of A, of B (default: ends of A and B are "
-            "paired)")
-      .flag("--mirror", arguments.mirror, "Match the mirror image of A, which is what is written")
-      .choice("--energy", arguments.options.energy.kind,
-              {{"symmetric-dirichlet", EnergyKind::SymmetricDirichlet},
-               {"angle-area", EnergyKind::AngleAndArea}},
-              "Of A → B, what is minimised: stretch both ways, or angles and areas as of maps "
-              "(default: symmetric-dirichlet)")
-      .sphere(arguments.first_sphere)
-      .text("--sphere-b", arguments.second_sphere, "FILE", "The same for B")
-      .text("--write-shape", arguments.shape, "FILE", "The triangles of A in the shape of B")
-      .written()
-      .text("--write-values", arguments.values, "FILE",
-            "A with the vertices' values and colours of B")
-      .written()
-      .text("--write-back", arguments.back, "FILE", "The triangles of B in the shape of A")
-      .written()
-      .json(arguments, "Certificates, distortion, landmarks")
-      .threads(arguments)
-      .console(arguments);
 }
 
 }  // namespace

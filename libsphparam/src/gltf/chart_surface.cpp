@@ -136,12 +136,18 @@ std::vector<std::array<std::uint16_t, 4>> vertex_colours(const SphericalChart& c
   return colours;
 }
 
+void require_float32(const FloatRows& positions) {
+  if (!positions.allFinite())
+    throw std::range_error("a position is beyond what glTF's float32 holds: scale the mesh down");
+}
+
 MorphTarget morph_target(const NamedShape& to, const Surface& from, const Numbering& numbering,
                          bool mirrored) {
   MorphTarget target{to.name,
                      gather(to.shape.positions, numbering) - from.positions,
                      gather(to.shape.frame.normals, numbering) - from.normals,
                      {}};
+  require_float32(target.positions);
   if (from.tangents.size() > 0) {
     target.tangents =
         gather_tangents(to.shape, numbering, mirrored).leftCols(3) - from.tangents.leftCols(3);
@@ -159,8 +165,7 @@ Surface chart_surface(const SphericalChart& chart, const Shape& shape,
   const bool mirrored = options.uv.mirrored;
   Surface surface;
   surface.positions = gather(shape.positions, numbering);
-  if (!surface.positions.allFinite())
-    throw std::range_error("a position is beyond what glTF's float32 holds: scale the mesh down");
+  require_float32(surface.positions);
   surface.normals = gather(shape.frame.normals, numbering);
   if (options.tangents) surface.tangents = gather_tangents(shape, numbering, mirrored);
   surface.texcoords.push_back(gather(stored_uv(chart, options.uv), numbering));

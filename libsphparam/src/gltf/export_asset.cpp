@@ -26,7 +26,8 @@ Shape shape_of(const ExportChart& chart, const MeshFile& source, const GeometryO
   return mesh_shape(chart.chart, source.mesh, shading_normals(source), options.up, options.threads);
 }
 
-std::vector<NamedShape> targets_of(const ExportChart& chart, const Shape& base,
+/// The sphere, and the rectangle where it is wanted.
+std::vector<NamedShape> map_shapes(const ExportChart& chart, const Shape& base,
                                    const GeometryOptions& options) {
   std::vector<NamedShape> targets;
   if (options.morph == Morph::None) return targets;
@@ -36,6 +37,17 @@ std::vector<NamedShape> targets_of(const ExportChart& chart, const Shape& base,
   targets.push_back({"sphere", placed(sphere_shape(chart.chart, options.threads), radius, middle)});
   if (options.morph == Morph::Flat)
     targets.push_back({"flat", placed(flat_shape(chart.chart), height, middle)});
+  return targets;
+}
+
+std::vector<NamedShape> targets_of(const ExportChart& chart, const Shape& base,
+                                   const MeshFile& source, const GeometryOptions& options) {
+  std::vector<NamedShape> targets = map_shapes(chart, base, options);
+  for (const OtherShape& other : options.others) {
+    const TriangleMesh mesh{other.positions, source.mesh.triangles};
+    targets.push_back(
+        {other.name, mesh_shape(chart.chart, mesh, other.normals, options.up, options.threads)});
+  }
   return targets;
 }
 
@@ -69,8 +81,8 @@ ExportGeometry export_geometry(const ExportChart& chart, const MeshFile& source,
   SurfaceOptions buffers = options.buffers;
   buffers.uv.mirrored = chart.mirrored;
   ExportGeometry geometry;
-  geometry.surface = chart_surface(chart.chart, shape, targets_of(chart, shape, options), source,
-                                   buffers, chart.theta_offset);
+  geometry.surface = chart_surface(chart.chart, shape, targets_of(chart, shape, source, options),
+                                   source, buffers, chart.theta_offset);
   geometry.stored =
       certify_stored(chart.chart, stored_uv(chart.chart, buffers.uv), buffers.uv, options.threads);
   if (options.shape == ShapeKind::Sphere)

@@ -14,7 +14,8 @@ namespace sphparam {
 /// What a mesh becomes in an asset, beside its chart and its materials.
 struct GeometryOptions {
   ShapeKind shape = ShapeKind::Mesh;
-  Morph morph = Morph::None;  // Flat: first to the sphere, then to the rectangle
+  Morph morph = Morph::None;            // Flat: first to the sphere, then to the rectangle
+  std::vector<OtherShape> others = {};  // then to these
   Up up = Up::Z;
   SurfaceOptions buffers = {};  // `uv.mirrored` is the chart's
   int threads = 0;

@@ -131,7 +131,8 @@ class LookMaker {
     }
     textures_ = read_textures(file, options_.threads);
     // Vertex colours would tint all variants: where there are some, they are baked too.
-    if (!textures_.empty() || (has_colours(file) && !wanted_.variants.empty())) {
+    if (!textures_.empty() ||
+        (has_colours(file) && (wanted_.bake_colours || !wanted_.variants.empty()))) {
       material_.base_colour = add(baked("baked"));
     } else if (has_colours(file)) {
       material_.name = "colours";

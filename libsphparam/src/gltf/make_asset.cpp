@@ -1,4 +1,5 @@
 #include <filesystem>
+#include <stdexcept>
 
 #include "gltf/export_asset.h"
 #include "gltf/export_names.h"
@@ -14,6 +15,7 @@ GeometryOptions geometry_options(const ExportOptions& options, const MappedMesh&
                                  const Look& look) {
   GeometryOptions geometry{.shape = options.shape,
                            .morph = options.morph,
+                           .others = options.others,
                            .up = options.up.value_or(up_axis(mapped.file())),
                            .threads = options.threads};
   // What wraps beyond 1 has no place in normalised integers.
@@ -29,6 +31,15 @@ GeometryOptions geometry_options(const ExportOptions& options, const MappedMesh&
 std::string name_of_asset(const MappedMesh& mapped, const ExportOptions& options) {
   if (!options.name.empty()) return options.name;
   return std::filesystem::path(mapped.name()).filename().stem().string();
+}
+
+void require_a_row_a_vertex(const std::vector<OtherShape>& shapes, const MappedMesh& mapped) {
+  const Eigen::Index count = mapped.mesh().vertex_count();
+  for (const OtherShape& shape : shapes) {
+    if (shape.positions.rows() == count && shape.normals.rows() == count) continue;
+    throw std::invalid_argument("the shape " + shape.name +
+                                " needs a position and a normal for each vertex of the mesh");
+  }
 }
 
 Asset without_levels(const MappedMesh& mapped, const Look& look, const ExportOptions& options) {
@@ -65,14 +76,17 @@ void add_level(Asset& asset, const MappedMesh& mapped, const std::string& name, 
 }  // namespace
 
 Asset make_asset(const MappedMesh& mapped, const Look& look, const ExportOptions& options) {
+  require_a_row_a_vertex(options.others, mapped);
   Asset asset = without_levels(mapped, look, options);
   const std::string name = source_name(mapped, options);
   add_level(asset, mapped, name, look, options);
   if (options.coarser.empty()) return asset;
   if (look.normals_given) asset.warnings.emplace_back(normals_left_out);
   const Look coarse_look = without_given_normals(look);
+  ExportOptions coarse_options = options;
+  coarse_options.others.clear();
   for (const MappedMesh& coarse : options.coarser)
-    add_level(asset, coarse, name, coarse_look, options);
+    add_level(asset, coarse, name, coarse_look, coarse_options);
   return asset;
 }
 

@@ -48,6 +48,12 @@ Json search_json(const MatchRecord& record) {
   return {{"confidence", record.match.confidence}, {"suggestions", suggestions}};
 }
 
+Json carried_json(const std::optional<CarriedFidelity>& carried) {
+  if (!carried) return nullptr;
+  return {
+      {"farthest", carried->farthest}, {"rms", carried->rms}, {"area_share", carried->area_share}};
+}
+
 std::string words_of_search(const Match& match) {
   if (match.suggestions.empty()) return {};
   return ", from " + counted(std::ssize(match.suggestions.front().landmarks), "end", "ends") +
@@ -68,7 +74,8 @@ std::string to_json(const MatchRecord& record) {
                {"energy", match.energy},
                {"landmarks", landmarks_json(record)},
                {"search", search_json(record)},
-               {"distortion", distortion_json(record.distortion)}};
+               {"distortion", distortion_json(record.distortion)},
+               {"carried", carried_json(record.carried)}};
   json["warnings"] = match.warnings;
   json["outputs"] = pairs_json(record.outputs);
   json["seconds"] = record.seconds;
@@ -86,6 +93,14 @@ std::string to_text(const MatchRecord& record) {
     line += ", " + counted(static_cast<long>(landmarks), "landmark", "landmarks") + " exact";
   line += words_of_search(record.match);
   return line + ", " + short_number(record.seconds) + " s";
+}
+
+std::string carried_line(const MatchRecord& record) {
+  const CarriedFidelity& carried = *record.carried;
+  const std::string second = display_name(record.second);
+  return "the triangles of " + display_name(record.first) + " in the shape of " + second +
+         " have " + percent(carried.area_share) + " of its area; its points are within " +
+         percent(carried.farthest) + " of its diagonal of them, " + percent(carried.rms) + " RMS";
 }
 
 }  // namespace sphparam

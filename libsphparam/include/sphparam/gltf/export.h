@@ -27,6 +27,12 @@ enum class ShapeKind { Mesh, Sphere, Flat };
 /// What an animation turns the mesh into; Flat: first into the sphere, then into the rectangle.
 enum class Morph { None, Sphere, Flat };
 
+/// Another shape that an animation turns the mesh into, in the axes of the mesh.
+struct OtherShape {
+  std::string name;
+  Points positions, normals;  // #V×3; normals unit
+};
+
 /// What an asset shows. Paths of images; empty: none. Of PNG, JPEG and TIFF.
 struct LookOptions {
   std::string texture = {};    // an equirectangular image, row 0 north
@@ -37,9 +43,10 @@ struct LookOptions {
   /// Of `bake`: its basecolor, normal-tangent, ao, orm and emissive, but for those above.
   std::string folder = {};
   std::vector<std::string> variants = {};  // more materials to switch to, of `variant_names`
-  int image_width = 2048;  // of images that are made here; 16 to 16384, a multiple of 4
-  bool unlit = false;      // the colours as they are, without light: no normal map, no occlusion
-  bool tangents = false;   // also without a normal map: a flat one is bound
+  int image_width = 2048;     // of images that are made here; 16 to 16384, a multiple of 4
+  bool unlit = false;         // the colours as they are, without light: no normal map, no occlusion
+  bool bake_colours = false;  // of vertices, so that they tint no other material
+  bool tangents = false;      // also without a normal map: a flat one is bound
 };
 
 struct ExportOptions {
@@ -51,6 +58,7 @@ struct ExportOptions {
   bool keep_topology = false;  // no vertex is added on the surface: triangles fold at the poles
   ShapeKind shape = ShapeKind::Mesh;
   Morph morph = Morph::None;             // from the mesh: with ShapeKind::Mesh
+  std::vector<OtherShape> others = {};   // after those of `morph`; of the mesh, not of `coarser`
   std::optional<Up> up = std::nullopt;   // the axis of the mesh that points up; nothing: its file's
   bool theta_phi = false;                // _THETA_PHI, radians; θ in [0, 2π), ϕ in [0, π]
   bool source_uv = false;                // TEXCOORD_1: the texture coordinates of the mesh itself
@@ -121,7 +129,8 @@ inline constexpr char normals_left_out[] =
 /// Coarser levels share the look, but for a normal map that was given. Ensures: the same asset for
 /// any number of threads. Throws: as `make_look`; NotCertifiedError, named by the mesh's name,
 /// where the (u, v) of a level are not one-to-one, unless the topology is kept; std::range_error
-/// where a position is beyond float32; std::invalid_argument where `keep_topology` and
+/// where a position is beyond float32; std::invalid_argument where another shape has not a row a
+/// vertex, `keep_topology` and
 /// `refine_poles` are both wanted, more `refine_poles` than a chart can hold, or the texture
 /// coordinates of a mesh that has none. Cost: some 2 µs a triangle; images that are baked, as
 /// `bake`.

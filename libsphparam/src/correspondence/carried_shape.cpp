@@ -1,0 +1,103 @@
+#include "sphparam/correspondence/carried_shape.h"
+
+#include <cmath>
+#include <cstdint>
+
+#include "embedding/frame/nearest_rotation.h"
+#include "io/attributes/shading_normals.h"
+#include "mesh/triangle_geometry.h"
+#include "sphparam/errors.h"
+#include "sphparam/measure/surface_distance.h"
+#include "sphparam/parallel.h"
+
+// Corners of the carried triangles lie on the other surface, so that their own points are near it;
+// what they miss is seen from that surface alone.
+
+namespace sphparam {
+namespace {
+
+constexpr std::int64_t vertex_grain = 4096, fidelity_samples = 200'000;
+
+double area_of(const TriangleMesh& mesh) {
+  double area = 0;
+  for (Face f = 0; f < mesh.face_count(); ++f) {
+    const auto corner = [&](int k) { return mesh.position(mesh.triangles(f, k)); };
+    area += triangle_area(corner(0), corner(1), corner(2));
+  }
+  return area;
+}
+
+/// A third of the area round each vertex.
+VectorX vertex_areas(const TriangleMesh& mesh) {
+  VectorX areas = VectorX::Zero(mesh.vertex_count());
+  for (Face f = 0; f < mesh.face_count(); ++f) {
+    const auto corner = [&](int k) { return mesh.position(mesh.triangles(f, k)); };
+    const double area = triangle_area(corner(0), corner(1), corner(2));
+    for (int k = 0; k < 3; ++k) areas[mesh.triangles(f, k)] += area / 3;
+  }
+  return areas;
+}
+
+Vector3 normal_at(const TriangleMesh& mesh, const Points& normals, const SurfacePoint& point) {
+  Vector3 sum = Vector3::Zero();
+  for (int k = 0; k < 3; ++k)
+    sum += point.barycentric[k] * normals.row(mesh.triangles(point.face, k)).transpose();
+  const double length = sum.norm();
+  return length > 0 ? Vector3(sum / length) : Vector3::UnitZ();
+}
+
+Vector3 mean(const Points& points, const VectorX& weights) {
+  return points.transpose() * weights / weights.sum();
+}
+
+void require_area(double area, const MappedMesh& mapped) {
+  if (area > 0 && std::isfinite(area)) return;
+  throw UnmeasurableMesh(mapped.name() + ": the surface has no area that can be measured");
+}
+
+}  // namespace
+
+CarriedShape carried_shape(const SurfaceMap& map, int threads) {
+  const std::vector<SurfacePoint> points = map.forth(threads);
+  const TriangleMesh& other = map.to().mesh();
+  const Points normals = shading_normals(map.to().file());
+  CarriedShape shape{map.from().mesh(), Points(std::ssize(points), 3)};
+  parallel_for(std::ssize(points), vertex_grain, threads,
+               [&](std::int64_t first, std::int64_t last) {
+                 for (auto v = static_cast<Vertex>(first); v < static_cast<Vertex>(last); ++v) {
+                   const SurfacePoint& point = points[static_cast<size_t>(v)];
+                   shape.mesh.positions.row(v) = position(other, point);
+                   shape.normals.row(v) = normal_at(other, normals, point);
+                 }
+               });
+  return shape;
+}
+
+Similarity placement_on(const SurfaceMap& map, Placement placement, int threads) {
+  Similarity result;
+  if (placement == Placement::AsItIs) return result;
+  const Points& here = map.from().mesh().positions;
+  const Points there = map.from_on_to(threads).positions;
+  const VectorX weights = vertex_areas(map.from().mesh());
+  const double area = weights.sum(), other = area_of(map.to().mesh());
+  require_area(area, map.from());
+  require_area(other, map.to());
+  const Vector3 middle = mean(here, weights), other_middle = mean(there, weights);
+  result.rotation = nearest_rotation(there.rowwise() - other_middle.transpose(),
+                                     here.rowwise() - middle.transpose(), weights / area);
+  if (placement == Placement::Scaled) result.scale = std::sqrt(area / other);
+  result.shift = middle - result.scale * (result.rotation * other_middle);
+  return result;
+}
+
+CarriedFidelity measure_carried(const SurfaceMap& map, int threads, const Progress& progress) {
+  const TriangleMesh carried = map.from_on_to(threads);
+  const SurfaceDistance distance =
+      measure_distance(map.to().mesh(), carried,
+                       {.samples = fidelity_samples, .threads = threads, .progress = progress});
+  return {.farthest = distance.forth.max / distance.diagonal_first,
+          .rms = distance.forth.rms / distance.diagonal_first,
+          .area_share = area_of(carried) / area_of(map.to().mesh())};
+}
+
+}  // namespace sphparam

@@ -1,0 +1,84 @@
+#include "arguments/match_arguments.h"
+
+#include "arguments/mesh_names.h"
+#include "console/exit_codes.h"
+#include "console/places.h"
+#include "sphparam/io/mesh_writer.h"
+#include "sphparam/io/paths.h"
+
+namespace sphparam::cli {
+namespace {
+
+void require_map_name(const std::string& path) {
+  if (keeps_map(path) || has_float_spheres(path)) return;
+  throw UsageMistake(
+      "-o: the map has a place in .ply, .vtk and .vtp, and its sphere alone in .gii and .mz3; "
+      "the name must end so, not in " +
+      inner_extension_of(path));
+}
+
+void require_morph_name(const std::string& path) {
+  if (path.empty() || is_stream(path) || extension_of(path) == ".glb") return;
+  throw UsageMistake("--morph: the morph is written as .glb, not as " + output_name(path));
+}
+
+}  // namespace
+
+void require_sensible(const MatchArguments& arguments) {
+  require_one_stream({arguments.first, arguments.second, arguments.landmarks},
+                     "the two meshes and --landmarks");
+  require_map_name(arguments.output);
+  require_mesh_name("--write-shape", "the triangles of A in the shape of B", arguments.shape);
+  require_mesh_name("--write-values", "A with what B carries", arguments.values);
+  require_mesh_name("--write-back", "the triangles of B in the shape of A", arguments.back);
+  require_morph_name(arguments.morph);
+  check_places({{"-o", arguments.output},
+                {"--write-shape", arguments.shape},
+                {"--write-values", arguments.values},
+                {"--write-back", arguments.back},
+                {"--morph", arguments.morph},
+                {"--json", arguments.json}});
+}
+
+void declare_options(Declaration& command, MatchArguments& arguments) {
+  command
+      .input("A", arguments.first,
+             "A .sph.ply, or any mesh: it is mapped first; - for standard input")
+      .input("B", arguments.second, "Another one")
+      .output(arguments.output, "FILE",
+              "A with its map on B's sphere, target_face and target_0, target_1, target_2 (.ply, "
+              ".vtk, .vtp); or that sphere alone (.gii, .mz3)")
+      .text("--landmarks", arguments.landmarks, "FILE",
+            "Vertices that go to vertices, a pair a line: of A, of B (default: ends of A and B are "
+            "paired)")
+      .flag("--mirror", arguments.mirror, "Match the mirror image of A, which is what is written")
+      .choice("--energy", arguments.options.energy.kind,
+              {{"symmetric-dirichlet", EnergyKind::SymmetricDirichlet},
+               {"angle-area", EnergyKind::AngleAndArea}},
+              "Of A → B, what is minimised: stretch both ways, or angles and areas as of maps "
+              "(default: symmetric-dirichlet)")
+      .sphere(arguments.first_sphere)
+      .text("--sphere-b", arguments.second_sphere, "FILE", "The same for B")
+      .text("--write-shape", arguments.shape, "FILE", "The triangles of A in the shape of B")
+      .written()
+      .text("--write-values", arguments.values, "FILE",
+            "A with the vertices' values and colours of B")
+      .written()
+      .text("--write-back", arguments.back, "FILE", "The triangles of B in the shape of A")
+      .written()
+      .text("--morph", arguments.morph, "FILE",
+            "A with an animation that turns it into B and back (.glb)")
+      .written()
+      .choice("--morph-place", arguments.placement,
+              {{"scaled", Placement::Scaled},
+               {"moved", Placement::Moved},
+               {"as-is", Placement::AsItIs}},
+              "How B comes to where A is: turned, moved and scaled to A's area; without scaling; "
+              "or as its file has it (default: scaled)")
+      .up(arguments.up)
+      .json(arguments, "Certificates, distortion, landmarks")
+      .threads(arguments)
+      .console(arguments);
+}
+
+}  // namespace sphparam::cli

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "arguments/declaration.h"
+#include "sphparam/correspondence/carried_shape.h"
+#include "sphparam/correspondence/match.h"
+
+namespace sphparam::cli {
+
+/// The command line of `sphparam match`. Files that are empty are not wanted; spheres: the meshes'
+/// own maps.
+struct MatchArguments : CommonArguments {
+  std::string first, second;
+  std::string first_sphere, second_sphere;
+  std::string landmarks, output, shape, values, back, morph;
+  Placement placement = Placement::Scaled;  // of B in the morph
+  std::optional<Up> up;                     // of A there
+  bool mirror = false;
+  MatchOptions options;
+};
+
+/// Looks at all names before any work. Throws: UsageMistake; WriteError.
+void require_sensible(const MatchArguments& arguments);
+
+void declare_options(Declaration& command, MatchArguments& arguments);
+
+}  // namespace sphparam::cli

@@ -1,0 +1,73 @@
+#include "commands/match_outputs.h"
+
+#include "commands/command.h"
+#include "reports/told_losses.h"
+#include "sphparam/correspondence/matched_files.h"
+#include "sphparam/gltf/morph.h"
+#include "sphparam/io/certified_files.h"
+#include "sphparam/io/map_files.h"
+
+namespace sphparam::cli {
+namespace {
+
+/// The match in the format of its name: the mesh with its map, or the bare sphere.
+void add_map(const MatchArguments& arguments, const Match& match, Session& session) {
+  const MappedMesh& from = match.map.from();
+  if (!keeps_map(arguments.output)) {
+    const FinishedMap finished{from.file(), from.topology(), from.map(), from.certificate(),
+                               from.provenance()};
+    add_sphere(session.files, arguments.output, finished,
+               {.may_remap = false,
+                .origin = arguments.first,
+                .threads = session.threads(),
+                .progress = session.progress()});
+    return;
+  }
+  tell_losses(arguments.output,
+              add_mapped(session.files, arguments.output,
+                         with_targets(match.map, session.threads()), session.threads()),
+              session.console);
+}
+
+void add_morph(const MatchArguments& arguments, const Match& match, Session& session) {
+  with_file_errors(arguments.first, arguments.morph, [&] {
+    const Asset asset = make_morph(
+        match.map, arguments.placement,
+        {.up = arguments.up, .threads = session.threads(), .progress = session.progress()});
+    session.warn(asset.warnings);
+    add_asset(session.files, arguments.morph, asset);
+  });
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> add_outputs(const MatchArguments& arguments,
+                                                             const Match& match, Session& session) {
+  std::vector<std::pair<std::string, std::string>> outputs{{"map", arguments.output}};
+  add_map(arguments, match, session);
+  const auto add = [&](const char* key, const std::string& path, const auto& make) {
+    if (path.empty()) return;
+    outputs.emplace_back(key, path);
+    tell_losses(path, add_mesh(session.files, path, make()), session.console);
+  };
+  const int threads = session.threads();
+  add("shape", arguments.shape, [&] { return in_other_shape(match.map, threads); });
+  add("values", arguments.values, [&] { return with_other_values(match.map, threads); });
+  add("back", arguments.back, [&] { return in_other_shape(match.map.inverse(), threads); });
+  if (arguments.morph.empty()) return outputs;
+  outputs.emplace_back("morph", arguments.morph);
+  add_morph(arguments, match, session);
+  return outputs;
+}
+
+void tell_absent_values(const MatchArguments& arguments, const MappedMesh& second,
+                        Session& session) {
+  if (arguments.values.empty() || !names_of_values(second.file()).empty()) return;
+  session.warn(
+      {"--write-values: no vertex of " + second.name() +
+       " carries a value or a colour, so nothing is carried over; a texture: sphparam bake " +
+       arguments.second + " --texture, then sphparam export " + arguments.output +
+       " --image with what it made"});
+}
+
+}  // namespace sphparam::cli
