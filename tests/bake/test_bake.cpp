@@ -149,7 +149,7 @@ TEST_CASE("bake: what is linear on a triangle is exact at the centres of its tex
 TEST_CASE("bake: with --interp sphere a texel shows what lies in its direction") {
   const TriangleMesh mesh = body();
   const auto scene = sphere_scene(mesh);
-  const SphereLocator locator(scene->source.topology(), scene->source.map());
+  const SphereLocator locator(scene->source.mapped->topology(), scene->source.mapped->map());
   const int width = 128;
   BakeOptions options = size(width);
   options.interpolation = Interpolation::Sphere;
@@ -178,7 +178,7 @@ TEST_CASE("bake: for another mesh on the same sphere, detail comes from the sour
   const int width = 128;
   const std::vector<float> image = baked(*scene, make_position(*scene, ""), size(width));
   const TexelOwners owners(scene->target.chart, width, width / 2);
-  const SphereLocator locator(scene->source.topology(), scene->source.map());
+  const SphereLocator locator(scene->source.mapped->topology(), scene->source.mapped->map());
   const OwnerBand band = owners.band(1);
   for (size_t i = 0; i < band.faces.size(); ++i) {
     Vector3 direction = Vector3::Zero();

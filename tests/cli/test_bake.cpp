@@ -234,6 +234,61 @@ TEST_CASE("bake: a low mesh must be on the sphere of the high one") {
   CHECK_FALSE(fs::exists(image));
 }
 
+TEST_CASE("bake: --from bakes another surface on the mesh, and tells how it was found") {
+  const Folder folder;
+  const std::string mesh = folder / "ball.sph.ply", skin = folder / "skin.png",
+                    soup = folder / "soup.obj", report = folder / "x.json",
+                    image = folder / "x_{map}.png";
+  REQUIRE(sphparam_program({"map", "-", "-o", mesh}, obj_text(icosphere(3))).code == 0);
+  write_image(skin, two_colours());
+  // Two balls, one in the other, of the same texture: the outer one is shown.
+  std::string text = textured_ball();
+  text.insert(0, "mtllib soup.mtl\n");
+  text.insert(text.find("\nf ") + 1, "usemtl skin\n");
+  write_bytes(folder / "soup.mtl", "newmtl skin\nmap_Kd skin.png\n");
+  write_bytes(soup, text);
+  const auto bake = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"bake", mesh, "--from", soup,     "--size",
+                                          "64",   "-o", image,    "--json", report};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return sphparam_program(arguments);
+  };
+  const Ended good = bake({"--map", "basecolor,found,height", "--threads", "2"});
+  INFO(good.err);
+  REQUIRE(good.code == 0);
+  CHECK_THAT(good.err, Contains("soup.obj: found along the normals; 0 % of the mesh"));
+  const Json from = Json::parse(bytes_of(report))["from"];
+  CHECK(from["triangles"] == 1280);
+  CHECK(from["nearest"] == 0);
+  CHECK(from["farthest"] < 1e-6);
+  // The same as by the map, where both are one mesh.
+  REQUIRE(
+      sphparam_program({"bake", soup, "--sphere", mesh, "--size", "64", "-o", folder / "own.png"})
+          .code == 0);
+  const Image colours = read_image(folder / "x_basecolor.png"),
+              own = read_image(folder / "own.png");
+  int apart = 0;
+  for (int i = 0; i < 64 * 32; ++i)
+    for (int c = 0; c < 3; ++c)
+      apart += std::abs(colours.pixel(i % 64, i / 64)[c] - own.pixel(i % 64, i / 64)[c]) > 0.02F;
+  CHECK(apart < 20);
+  CHECK(own.pixel(0, 16)[0] != own.pixel(32, 16)[0]);
+  const std::string bytes = bytes_of(folder / "x_basecolor.png");
+  REQUIRE(bake({"--map", "basecolor,found", "--threads", "1"}).code == 0);
+  CHECK(bytes_of(folder / "x_basecolor.png") == bytes);
+
+  const Ended both = bake({"--map", "basecolor,height", "--for", mesh});
+  CHECK(both.code == 2);
+  CHECK_THAT(both.err, Contains("--from and --for"));
+  const Ended area = bake({"--map", "area,height"});
+  CHECK(area.code == 2);
+  CHECK_THAT(area.err, Contains("area: is of a closed surface with a map"));
+  const Ended channels = sphparam_program(
+      {"bake", mesh, "--from", mesh, "--map", "channels", "-o", folder / "y_{map}.png"});
+  CHECK(channels.code == 2);
+  CHECK_THAT(channels.err, Contains("neither materials nor colours"));
+}
+
 TEST_CASE("bake: numbers of faces are exact or refused, and a misspelt property is found") {
   const Folder folder;
   const std::string exr = folder / "x.exr";

@@ -27,7 +27,7 @@ struct Subcommand {
 };
 
 const std::vector<Subcommand> subcommands = {
-    {"bake", {"", "--texture", "--sphere", "--for"}, {"-o", "--json"}},
+    {"bake", {"", "--texture", "--sphere", "--for", "--from"}, {"-o", "--json"}},
     {"compare", {"", "--add x="}, {"-o"}},
     {"export",
      {"", "--sphere", "--image", "--normal-map", "--occlusion-map", "--orm-map", "--emissive-map",

@@ -241,6 +241,8 @@ bad_uses = {
     "bake: no such value": (lambda m: m.bake("scalar:sulc", size=16), ValueError, "sulc"),
     "bake: a number": (lambda m: m.bake(3), TypeError, "field"),
     "bake: no such texture": (lambda m: m.bake("basecolor", texture="no.png"), FileNotFoundError, "no.png"),
+    "bake: a surface and a target": (
+        lambda m: m.bake("position", target=m, surface=m.mesh), ValueError, "surface"),
     "bake: a target that is none": (lambda m: m.bake("position", target=m.mesh), TypeError, "target"),
     "bake: no such convention": (lambda m: m.bake("position", convention="x"), ValueError, "gis"),
     "remesh: no such grid": (lambda m: m.remesh("cow:3"), ValueError, "cow"),

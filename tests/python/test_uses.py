@@ -194,6 +194,17 @@ def test_longitude_goes_where_the_convention_has_it(mapped):
     assert (np.roll(ours, 32, axis=1) == gis).all() or (np.roll(ours, -32, axis=1) == gis).all()
 
 
+def test_another_surface_is_baked_where_it_is_near(mapped):
+    vertices, faces = mapped.vertices, mapped.faces
+    other = sp.Mesh(1.02 * vertices, faces[::-1])
+    here, there = (mapped.bake("position", size=64, **options) for options in ({}, {"surface": other}))
+    assert np.abs(there - 1.02 * here).max() < 0.2 * np.ptp(vertices)
+    assert np.abs(there - 1.02 * here).mean() < 0.02 * np.ptp(vertices)
+    assert (mapped.bake("found", size=64, surface=other) <= 2).all()
+    with pytest.raises(ValueError, match="^area: "):
+        mapped.bake("area", size=64, surface=other)
+
+
 def test_files_are_those_that_the_program_bakes(mapped, tmp_path):
     mapped.save(tmp_path / "a.sph.ply")
     [file] = sp.load(tmp_path / "a.sph.ply").bake_files({"normal-object": tmp_path / "n.png"}, size=64)

@@ -301,7 +301,7 @@ TEST_CASE("bake_record: images, and what they are for") {
   settings.source_name = "ball.ply";
   BakeReport baked;
   baked.images = {{.field = "ao", .about = "share", .path = "out/ao.png", .range = {{0, 1}}}};
-  const BakeRecord record{"in/ball.ply", source, "", settings, baked, 3};
+  const BakeRecord record{"in/ball.ply", source, "", "", settings, baked, 3};
   const Json json = Json::parse(to_json(record));
   CHECK(keys_of(json) ==
         "version,source,for,for_distance,width,height,samples,convention,refine_poles,images,"

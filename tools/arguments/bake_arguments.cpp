@@ -63,7 +63,9 @@ void declare_inputs(Declaration& command, BakeArguments& arguments) {
       .data(arguments.data)
       .text("--for", arguments.target, "FILE",
             "Another mesh on the same sphere that the images are for: its chart, its frame of "
-            "normals, its surface as base of heights; one with a map of its own is refused");
+            "normals, its surface as base of heights; one with a map of its own is refused")
+      .text("--from", arguments.from, "FILE",
+            "Another surface about where the mesh is, any triangles: it is baked on the mesh");
 }
 
 void declare_body(Declaration& command, BakeArguments& arguments) {
@@ -157,6 +159,7 @@ std::string bake_summary() {
       "  sphparam bake statue.sph.ply --texture skin.png --size 4096 -o statue_{map}.png \\\n"
       "    --map basecolor,normal-object,ao\n"
       "  sphparam bake statue.sph.ply --for low.sph.ply --map basecolor,normal-tangent -o low/\n"
+      "  sphparam bake wrapped.sph.ply --from asset.glb --map channels -o asset_{map}.png\n"
       "  sphparam bake statue.sph.ply --map position --depth float --mip -o statue.exr\n"
       "  sphparam bake eros.sph.ply --body eros --unit km --map radius,slope -o eros_{map}.tif\n"
       "\n"
@@ -184,6 +187,7 @@ void declare_bake_options(Declaration& command, BakeArguments& arguments) {
 UsageMistake as_mistake(const BakeSettingError& error) {
   static const std::map<std::string, std::string> options = {
       {"path", "-o"},
+      {"from", "--from"},
       {"width", "--size"},
       {"samples", "--samples"},
       {"convention", "--size: --convention "},  // the message goes on with its name
@@ -244,6 +248,8 @@ std::vector<BakeRequest> requests_of_mesh(std::vector<BakeRequest> images,
            !contains(there, image.field);
   });
   if (!images.empty()) return images;
+  if (!arguments.from.empty())
+    throw UsageMistake(arguments.from + ": has neither materials nor colours");
   throw UsageMistake(arguments.input +
                      ": has neither materials nor colours. A map carries no materials: bake the "
                      "asset that it is of, `sphparam bake ASSET --sphere " +

@@ -17,6 +17,7 @@ struct BakeArguments : CommonArguments {
   std::string sphere;                             // the map in a file of its own; empty: none
   Words data;                                     // numbers a vertex in files of their own
   std::string target;                             // --for; empty: the source
+  std::string from;                               // another surface to bake from; empty: none
   std::string body;                               // a name, radii or WKT; empty: none
   bool all_components = false;                    // of the files that `map` made of parts
   double unit = 1;                                // metres that the mesh's unit has

@@ -8,7 +8,9 @@
 #include "arguments/bake_arguments.h"
 #include "arguments/part_files.h"
 #include "commands/command.h"
+#include "commands/data_files.h"
 #include "commands/sources.h"
+#include "commands/surfaces.h"
 #include "console/places.h"
 #include "number_text.h"
 #include "sphparam/io/paths.h"
@@ -58,9 +60,26 @@ MappedMesh read_target(const std::string& path, Session& session) {
                           "`sphparam remesh` makes meshes on the source's sphere");
 }
 
+/// A surface as it is, with all that its materials say.
+MeshFile read_from(const BakeArguments& arguments, Session& session) {
+  ReadOptions options = input_limits();
+  options.repeated_corners = true;  // needles are as good as any triangle
+  MeshFile surface = read_surface(arguments.from, session, options);
+  keep_textures(surface);
+  attach_data_files(surface, arguments.from, arguments.data, MissingValues::LeftOut, session);
+  return surface;
+}
+
+/// The mesh with its map; numbers are of the surface that is baked.
+MappedMesh read_mesh(const BakeArguments& arguments, Session& session) {
+  return read_mapped(arguments.input, arguments.sphere, session, 1,
+                     arguments.from.empty() ? arguments.data : Words{});
+}
+
 BakeSettings settings_of(const BakeArguments& arguments, Session& session) {
   BakeSettings settings = arguments.settings;
-  settings.source_name = display_name(arguments.input);
+  settings.source_name = display_name(arguments.from.empty() ? arguments.input : arguments.from);
+  if (!arguments.from.empty()) settings.from = read_from(arguments, session);
   if (!arguments.target.empty()) settings.target = read_target(arguments.target, session);
   settings.threads = session.threads();
   settings.progress = PacedProgress(session.console, settings.width);
@@ -98,18 +117,19 @@ BakeArguments of_part(BakeArguments arguments, int part) {
 /// end.
 std::string bake_one(const BakeArguments& arguments, Session& session, Words& lines) {
   std::vector<BakeRequest> images = bake_requests(arguments);
-  const MappedMesh source =
-      read_mapped(arguments.input, arguments.sphere, session, 1, arguments.data);
-  images = requests_of_mesh(std::move(images), arguments, source.file());
+  const MappedMesh source = read_mesh(arguments, session);
   const BakeSettings settings = settings_of(arguments, session);
+  images = requests_of_mesh(std::move(images), arguments,
+                            settings.from ? *settings.from : source.file());
   tell_longitudes(source, settings.convention, session);
   const BakeReport baked = bake_for_user(source, images, settings, session.files);
   session.warn(baked.warnings);
   if (!baked.coordinate_system.empty())
     lines.push_back("  longitude and latitude: " + baked.coordinate_system);
+  if (baked.projection) lines.push_back("  " + line_of(*baked.projection, settings));
   for (const BakedImage& image : baked.images) lines.push_back(line_of(image, settings));
-  return to_json(BakeRecord{arguments.input, source, arguments.target, settings, baked,
-                            session.stopwatch.seconds()});
+  return to_json(BakeRecord{arguments.input, source, arguments.target, arguments.from, settings,
+                            baked, session.stopwatch.seconds()});
 }
 
 int run_bake(BakeArguments& arguments) {
@@ -118,6 +138,8 @@ int run_bake(BakeArguments& arguments) {
     throw UsageMistake("-o: --all-components makes several images: give a name, not a stream");
   if (arguments.all_components && !arguments.sphere.empty())
     throw UsageMistake("--sphere is for one mesh, and --all-components bakes several");
+  if (!arguments.from.empty() && !arguments.target.empty())
+    throw UsageMistake("--from and --for: the images are for the mesh itself with --from");
   Session session(arguments);
   Words lines;
   report_each(arguments.all_components, arguments.input, session, [&](int part) {

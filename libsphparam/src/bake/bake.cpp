@@ -11,7 +11,9 @@
 #include "bake/georeference/georeference.h"
 #include "bake/image_plan.h"
 #include "bake/make_scene.h"
+#include "bake/projected_surface.h"
 #include "bake/write_images.h"
+#include "number_text.h"
 #include "sphparam/version.h"
 
 namespace sphparam {
@@ -29,10 +31,24 @@ void read_source_textures(const BakeSettings& settings, BakeSource& source) {
 
 BakeScene scene_for(const MappedMesh& source, BakeTarget target, bool with_textures,
                     const BakeSettings& settings) {
-  BakeScene scene{make_source(source), std::move(target), settings.fields, settings.threads};
+  BakeScene scene{settings.from ? make_source(*settings.from) : make_source(source),
+                  std::move(target), settings.fields, settings.threads};
   scene.mirrored = info_of(settings.convention).turns < 0;
   if (with_textures) read_source_textures(settings, scene.source);
   return scene;
+}
+
+/// Farther away on the whole, the two are hardly of one thing.
+constexpr double doubtful_distance = 0.05;  // of the diagonal
+
+/// Tells how the target finds the surface that is baked on it.
+void report_projection(const BakeScene& scene, const BakeSettings& settings, BakeReport& report) {
+  if (!settings.from) return;
+  report.projection = measure_projection(*scene.source.surface, scene.target, settings.threads);
+  if (report.projection->median <= doubtful_distance) return;
+  report.warnings.push_back("half of the mesh is more than " + percent(report.projection->median) +
+                            " of the diagonal away from the surface that is baked from: are they "
+                            "in the same place?");
 }
 
 bool needs_textures(const std::string& field) { return field == "basecolor"; }
@@ -45,6 +61,7 @@ ImageTexts texts_of_all(const MappedMesh& source, const BakeSettings& settings) 
     texts.push_back(std::move(text));
   }
   if (settings.target) texts.emplace_back("sphparam:for", settings.target->name());
+  if (settings.from) texts.emplace_back("sphparam:for", source.name());
   return texts;
 }
 
@@ -70,6 +87,7 @@ BakeReport bake(const MappedMesh& source, const std::vector<BakeRequest>& images
   const bool with_textures =
       std::ranges::any_of(images, [](const auto& image) { return needs_textures(image.field); });
   BakeScene scene = scene_for(source, std::move(chosen.target), with_textures, settings);
+  report_projection(scene, settings, report);
   std::vector<PlannedImage> plan;
   for (const BakeRequest& request : images) plan.push_back(plan_image(request, scene, settings));
   find_ranges(plan, scene, settings);

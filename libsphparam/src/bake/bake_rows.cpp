@@ -71,7 +71,8 @@ class Batch {
                             sample_seed(texel_ + std::ssize(samples_), sample_),
                             {},
                             run.step,
-                            run.below});
+                            run.below,
+                            run.found});
       }
     }
     size_t next = 0;

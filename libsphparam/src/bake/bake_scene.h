@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,18 +12,22 @@
 
 namespace sphparam {
 
-/// The mesh that images are baked of.
+class ProjectedSurface;
+
+/// The mesh that images are baked of: one with a map, or any surface about where the target is.
 struct BakeSource {
-  MappedMesh mapped;
-  Points normals;  // #V×3, unit: those of the file, or the mean of the faces'
+  std::optional<MappedMesh> mapped;  // none: `surface` is it
+  Points normals;                    // #V×3, unit: those of the file, or the mean of the faces'
   // One a material of the file, or the first for all faces; empty: no textures.
   std::vector<SourceTexture> textures;
   bool one_texture_for_all = false;  // whatever the materials; else faces without one are white
+  std::shared_ptr<const ProjectedSurface> surface = nullptr;
 
-  const TriangleMesh& mesh() const { return mapped.mesh(); }
-  const MeshFile& file() const { return mapped.file(); }
-  const SphereMap& map() const { return mapped.map(); }
-  const Topology& topology() const { return mapped.topology(); }
+  const MeshFile& file() const;
+  const TriangleMesh& mesh() const { return file().mesh; }
+  const FillerMarks& fillers() const;  // none of a surface without a map
+  /// Throws: FieldError where there is none, for a field that needs it.
+  const MappedMesh& map_for(const char* field) const;
 };
 
 /// The mesh that images are baked for, by its chart: the source itself, or another mesh on the same

@@ -84,6 +84,8 @@ bool has_sidecar(const std::string& image) {
 void require_bakeable(const std::vector<BakeRequest>& images, const BakeSettings& settings) {
   require_whole_texels(settings);
   require_domains(settings);
+  if (settings.from && settings.target)
+    throw BakeSettingError("from", "a surface to bake from and another mesh to bake for");
   require_body(settings);
   std::set<std::string> paths;
   for (const BakeRequest& image : images) {

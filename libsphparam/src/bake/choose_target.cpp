@@ -4,8 +4,8 @@
 
 #include "bake/make_scene.h"
 #include "bake/shared_sphere.h"
-#include "sphparam/chart/chart_failure.h"
 #include "number_text.h"
+#include "sphparam/chart/chart_failure.h"
 
 namespace sphparam {
 namespace {
@@ -46,7 +46,7 @@ ChosenTarget choose_target(const MappedMesh& source, const BakeSettings& setting
   ChosenTarget chosen;
   if (settings.target) require_one_sphere(source, settings, chosen);
   const MappedMesh& mesh = settings.target ? *settings.target : source;
-  chosen.target = target_on(mesh, !settings.target, settings);
+  chosen.target = target_on(mesh, !settings.target && !settings.from, settings);
   require_one_to_one(chosen.target.chart,
                      settings.target ? mesh.name() : source_name(source, settings));
   return chosen;

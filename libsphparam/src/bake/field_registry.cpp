@@ -47,6 +47,8 @@ const std::vector<FieldMaker>& field_makers() {
       {"stretch", "log2 of the stretch of lengths, mean of squares", stretch_field},
       {"id", "id:face, id:material or id:component", make_id, true},
       {"mask", "1 on the surface, 0 on what closes its holes", make_mask},
+      {"found", "0 where a mesh met the surface baked from, 1 its back, 2 only its nearest point",
+       make_found},
       {"uv", "the texture coordinates of the mesh", make_texcoords},
       {"scalar", "scalar:NAME, a property of vertices or faces", make_scalar, true},
   };

@@ -77,7 +77,7 @@ bool lacks_range(const PlannedImage& image) {
 
 SurfaceField make_covered_field(const std::string& name, const BakeScene& scene) {
   SurfaceField field = make_field(name, scene);
-  const FillerMarks& fillers = scene.source.mapped.fillers();
+  const FillerMarks& fillers = scene.source.fillers();
   if (fillers.empty() || field.name == surface_mask) return field;
   return with_coverage(std::move(field), fillers);
 }

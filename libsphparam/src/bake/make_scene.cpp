@@ -1,5 +1,6 @@
 #include "bake/make_scene.h"
 
+#include "bake/projected_surface.h"
 #include "io/attributes/hard_edges.h"
 #include "io/attributes/shading_normals.h"
 #include "number_text.h"
@@ -38,6 +39,27 @@ std::string unit_of_lengths(const FieldOptions& options) {
 
 BakeSource make_source(const MappedMesh& mapped) {
   return {.mapped = mapped, .normals = shading_normals(mapped.file()), .textures = {}};
+}
+
+BakeSource make_source(MeshFile surface) {
+  Points normals = shading_normals(surface);
+  return {.mapped = std::nullopt,
+          .normals = std::move(normals),
+          .textures = {},
+          .surface = std::make_shared<const ProjectedSurface>(std::move(surface))};
+}
+
+const MeshFile& BakeSource::file() const { return mapped ? mapped->file() : surface->file(); }
+
+const FillerMarks& BakeSource::fillers() const {
+  static const FillerMarks none;
+  return mapped ? mapped->fillers() : none;
+}
+
+const MappedMesh& BakeSource::map_for(const char* field) const {
+  if (mapped) return *mapped;
+  throw FieldError(std::string(field) +
+                   ": is of a closed surface with a map, which the surface baked from is not");
 }
 
 }  // namespace sphparam

@@ -24,4 +24,7 @@ BakeTarget make_target(const MappedMesh& mapped, bool is_source, int threads, in
 /// The mesh with its own normals and no textures, to bake of.
 BakeSource make_source(const MappedMesh& mapped);
 
+/// The same of a surface without a map. Throws: FieldError where it has no triangles.
+BakeSource make_source(MeshFile surface);
+
 }  // namespace sphparam

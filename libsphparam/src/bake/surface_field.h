@@ -26,6 +26,18 @@ inline bool has_means(FieldKind kind) {
   return kind != FieldKind::Label && kind != FieldKind::Place;
 }
 
+/// How a texel found its point of the source.
+enum class Found : std::uint8_t {
+  Here,         // by the map; or along the normal, on what faces the same way
+  Back,         // along the normal, on what faces the other way
+  Nearest,      // the normal's line met nothing near: the nearest point, …
+  NearestBack,  // … on what faces the other way
+};
+/// Whether it is no more than the nearest point.
+inline bool is_nearest(Found found) {
+  return found == Found::Nearest || found == Found::NearestBack;
+}
+
 /// A point of the source surface that a texel asks for.
 struct SurfaceSample {
   SurfacePoint point;       // in the source mesh
@@ -33,6 +45,7 @@ struct SurfaceSample {
   SurfacePoint place = {};  // in the chart that the image is for (chart.triangles, chart.wedges)
   // What the weights change by from a sample to the next one, and to the row below.
   Vector3 step = Vector3::Zero(), below = Vector3::Zero();
+  Found found = Found::Here;
 };
 
 /// Samples of neighbouring texels of a row on one face of the source: the i-th has the barycentric
@@ -42,7 +55,11 @@ struct SurfaceRun {
   int count;
   Vector3 first, step;
   Vector3 below;  // what the weights change by from a row to the next
+  Found found = Found::Here;
 };
+
+/// Whether it is the back of the source that is seen: its normals are turned round then.
+inline bool is_back(Found found) { return found == Found::Back || found == Found::NearestBack; }
 
 /// Something that has a value everywhere on the source mesh: a texture, a property, what rays see.
 struct SurfaceField {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "bake/projected_surface.h"
 #include "sphparam/io/planetocentric.h"
 #include "sphparam/sphere/spherical_coordinates.h"
 
@@ -64,9 +65,9 @@ TexelFinder::TexelFinder(const BakeScene& scene, const TexelOwners& owners,
     }
   }
   const bool sphere = interpolation == Interpolation::Sphere;
-  if (sphere || !scene.target.is_source) {
-    source_ = &scene.source.mapped.locator();
-    if (const auto radial = planetocentric(scene.source.mapped.provenance())) {
+  if (scene.source.mapped && (sphere || !scene.target.is_source)) {
+    source_ = &scene.source.mapped->locator();
+    if (const auto radial = planetocentric(scene.source.mapped->provenance())) {
       seen_from_centre_ = scene.source.mesh().positions.rowwise() - radial->centre.transpose();
     }
   }
@@ -115,11 +116,24 @@ SurfaceRun TexelFinder::located(const Vector3& q, const Vector3& east, const Vec
   SurfacePoint point = source_->locate(q);
   const BakeSource& source = scene_->source;
   const Eigen::Matrix3d corners =
-      rays(source.mesh().triangles, seen_from_centre_ ? *seen_from_centre_ : source.map().points,
-           point.face);
+      rays(source.mesh().triangles,
+           seen_from_centre_ ? *seen_from_centre_ : source.mapped->map().points, point.face);
   if (seen_from_centre_) move_to_surface(corners, point.barycentric);
   const auto [step, below] = derivatives(corners, point, q, east, south);
   return {point.face, 1, point.barycentric, step, below};
+}
+
+SurfaceRun TexelFinder::projected(const TexelRun& place, const Vector3& at, int n,
+                                  Face guess) const {
+  return scene_->source.surface->project(
+      scene_->target, {place.face, at, change(place.step) / n, change(place.below) / n}, guess);
+}
+
+/// The points of the other surface about where those of a run of the target are.
+void TexelFinder::project(const TexelRun& place, std::vector<SurfaceRun>& runs) const {
+  for (int i = 0; i < place.count; ++i)
+    runs.push_back(projected(place, three(place.weights) + i * change(place.step), 1,
+                             runs.empty() ? -1 : runs.back().face));
 }
 
 /// The points of the source below those of a run of the target.
@@ -132,6 +146,9 @@ void TexelFinder::locate(const TexelRun& place, std::vector<SurfaceRun>& runs) c
 }
 
 SurfaceRun TexelFinder::beside(const TexelRun& place, double x, double y, int n) const {
+  if (!source_)
+    return projected(place, three(place.weights) + x * change(place.step) + y * change(place.below),
+                     n);
   const SphericalChart& chart = scene_->target.chart;
   const Eigen::Matrix3d corners = rays(chart.triangles, chart.points, place.face);
   const Vector3 east = corners * change(place.step), south = corners * change(place.below);
@@ -160,7 +177,8 @@ TexelPoints TexelFinder::by_direction(int band, double x, double y) const {
       run.step = {step[0], step[1]};
       run.below = {below[0], below[1]};
       texels.places.push_back(run);
-      texels.runs.push_back(located(q, east, south));
+      texels.runs.push_back(source_ ? located(q, east, south)
+                                    : projected(run, place.barycentric, 1));
     }
   }
   return texels;
@@ -174,6 +192,8 @@ TexelPoints TexelFinder::points(int band, double x, double y) const {
   for (const TexelRun& place : texels.places) {
     if (scene_->target.is_source) {
       texels.runs.push_back(run_in_source(place));
+    } else if (!source_) {
+      project(place, texels.runs);
     } else {
       locate(place, texels.runs);
     }

@@ -22,7 +22,8 @@ struct TexelPoints {
 ///
 /// With `Uv`, the texel's owner in the target's chart gives a point of the target; where that is
 /// another mesh than the source, the direction that its map takes the point to leads to the point
-/// of the source. With `Sphere`, the direction of the texel's centre is located in the maps.
+/// of the source. With `Sphere`, the direction of the texel's centre is located in the maps. Where
+/// the source is a surface without a map, points of the target are projected on it.
 /// Source: our own. Source and target share the sphere: no ray is cast, no cage needed.
 class TexelFinder {
  public:
@@ -44,12 +45,15 @@ class TexelFinder {
   /// Requires: the source is not the target, or `Sphere`.
   SurfaceRun beside(const TexelRun& place, double x, double y, int n) const;
 
-  /// Whether texels find their points by direction; else the chart's triangles lead to them.
-  bool by_location() const { return source_ != nullptr; }
+  /// Whether each texel is located by itself, by direction or by projection; else the chart's
+  /// triangles lead to its point.
+  bool by_location() const { return source_ != nullptr || !scene_->source.mapped; }
   const TexelOwners& owners() const { return *owners_; }
 
  private:
   void locate(const TexelRun& place, std::vector<SurfaceRun>& runs) const;
+  void project(const TexelRun& place, std::vector<SurfaceRun>& runs) const;
+  SurfaceRun projected(const TexelRun& place, const Vector3& at, int n, Face guess = -1) const;
   SurfaceRun located(const Vector3& q, const Vector3& east, const Vector3& south) const;
   TexelPoints by_direction(int band, double x, double y) const;
 

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "number_text.h"
 #include "records/json_parts.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/version.h"
@@ -34,6 +35,16 @@ Json body_json(const Body& body, const BakeReport& baked) {
           {"coordinate_system", baked.coordinate_system}};
 }
 
+Json projection_json(const BakeRecord& record) {
+  const ProjectionShares& shares = *record.baked.projection;
+  return {{"file", record.from},
+          {"triangles", record.settings.from->mesh.face_count()},
+          {"back", shares.back},
+          {"nearest", shares.nearest},
+          {"median_distance", shares.median},
+          {"farthest", shares.farthest}};
+}
+
 }  // namespace
 
 std::string to_json(const BakeRecord& record) {
@@ -51,8 +62,16 @@ std::string to_json(const BakeRecord& record) {
       {"refine_poles", settings.refine_poles},
       {"images", images_json(record.baked.images)},
       {"seconds", record.seconds}};
+  if (record.baked.projection) json["from"] = projection_json(record);
   if (settings.fields.body) json["body"] = body_json(*settings.fields.body, record.baked);
   return text_of(json);
+}
+
+std::string line_of(const ProjectionShares& shares, const BakeSettings& settings) {
+  return settings.source_name + ": found along the normals; " + percent(shares.back) +
+         " of the mesh shows its back, " + percent(shares.nearest) +
+         " no more than the nearest point; half is within " + percent(shares.median) +
+         " of the diagonal, all within " + percent(shares.farthest);
 }
 
 std::string line_of(const BakedImage& image, const BakeSettings& settings) {

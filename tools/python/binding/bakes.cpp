@@ -88,6 +88,12 @@ BakeSettings bake_settings(const py::dict& values) {
   const Mapped* target = nullptr;
   settings.take("target", target);
   if (target) made.target = target->mesh();
+  const Source* surface = nullptr;
+  settings.take("surface", surface);
+  if (surface) {
+    made.from = surface->mesh.file;
+    made.source_name = surface->mesh.path;
+  }
   settings.require_all_known();
   return made;
 }

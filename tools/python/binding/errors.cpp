@@ -103,7 +103,9 @@ void declare_errors(py::module_&) {
     } catch (const FieldError& error) {
       raise_field_error(error);
     } catch (const BakeSettingError& error) {
-      const std::string name = error.setting() == "width" ? "size" : error.setting();
+      const std::string name = error.setting() == "width"  ? "size"
+                               : error.setting() == "from" ? "surface"
+                                                           : error.setting();
       PyErr_SetString(PyExc_ValueError, (name + ": " + error.what()).c_str());
     } catch (const LookError& error) {
       PyErr_SetString(PyExc_ValueError, error.what());

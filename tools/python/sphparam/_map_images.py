@@ -8,7 +8,7 @@ from . import _arrays, _core
 from ._figures import BakedFile
 from ._losses import tell
 from ._map_facts import MapFacts, mapped_of
-from ._mesh import Path, existing, path_of
+from ._mesh import Mesh, Path, any_mesh, existing, path_of
 from ._progress import Progress, told
 
 if TYPE_CHECKING:
@@ -43,6 +43,8 @@ def _baking(given: Dict[str, Any]) -> Dict[str, Any]:
         options["texture"] = existing(given["texture"])
     if given["target"] is not None:
         options["target"] = mapped_of(given["target"], "target")
+    if given["surface"] is not None:
+        options["surface"] = any_mesh(given["surface"], None)._source
     return options
 
 
@@ -89,6 +91,7 @@ class MapImages(MapFacts):
         rays: int = 64,
         max_ray_distance: float = 0.1,
         target: Optional[SphereMap] = None,
+        surface: Optional[Mesh] = None,
         refine_poles: int = 1,
         body: str = "",
         unit: str = "m",
@@ -135,6 +138,9 @@ class MapImages(MapFacts):
             Of ``"ao"`` and ``"bent"``, in diagonals of the bounding box.
         target
             The mesh that the image is for, on the same sphere: a map that :meth:`remesh` made.
+        surface
+            Another surface about where this one is, any triangles: it is baked on this one, along its
+            smooth normals, else by the nearest point (``"found"`` says where). Not with ``target``.
         refine_poles
             Triangles at a pole are cut into so many, as in :meth:`export`.
         body, unit
@@ -181,6 +187,7 @@ class MapImages(MapFacts):
         rays: int = 64,
         max_ray_distance: float = 0.1,
         target: Optional[SphereMap] = None,
+        surface: Optional[Mesh] = None,
         refine_poles: int = 1,
         body: str = "",
         unit: str = "m",

@@ -46,6 +46,10 @@ struct BakeSettings {
   // The mesh that the images are for, on the same sphere: its chart, its frame of normals, its
   // surface as base of heights; none: the source itself.
   std::optional<MappedMesh> target = {};
+  // Another surface, about where the mesh lies, closed or not: fields are of it, images for the
+  // mesh. Each point of the mesh shows what the line along its smooth normal meets near it, else
+  // the nearest point. Not together with `target`.
+  std::optional<MeshFile> from = {};
   int refine_poles = 1;          // the images are for that chart: see `refine_poles`; 1 to 1024
   std::string source_name = {};  // in metadata and messages; empty: the source's own
   int threads = 0;               // 0: all cores
@@ -63,10 +67,20 @@ struct BakedImage {
   std::string sidecar = {};  // the file beside it that says where it lies; empty: none
 };
 
+/// How a mesh finds the surface that is baked on it, by shares of its area; distances in diagonals
+/// of that surface.
+struct ProjectionShares {
+  double back = 0;     // shows what faces the other way, its normals turned round
+  double nearest = 0;  // the line along the normal met nothing near
+  double median = 0;   // half of the area is no farther away
+  double farthest = 0;
+};
+
 struct BakeReport {
-  std::vector<BakedImage> images;         // as they were asked for
-  std::optional<double> target_distance;  // from the source, median, in its diagonals
-  std::vector<std::string> warnings;      // what the user should look at
+  std::vector<BakedImage> images;                   // as they were asked for
+  std::optional<double> target_distance;            // from the source, median, in its diagonals
+  std::optional<ProjectionShares> projection = {};  // of the settings' `from`
+  std::vector<std::string> warnings;                // what the user should look at
   // What the sidecars call longitude and latitude: "Vesta (2015) - Sphere / Ocentric"; empty: none.
   std::string coordinate_system = {};
 };
@@ -81,11 +95,12 @@ struct BakeReport {
 ///
 /// Ensures: the same bytes for any number of threads. Each file is read back before it gets its
 /// name.
-/// Throws: BakeSettingError and FieldError before anything is baked; NotCertifiedError where the
-/// chart of a mesh is not one-to-one; OtherSphereError; ImageError for textures that cannot be read
-/// and for what a format cannot hold (HalfRangeError); WriteError; Cancelled.
-/// Cost: linear in texels and triangles; memory for some rows a field. 1 µs a texel and field, but
-/// for those that cast rays.
+/// With `from`, what needs a map of the surface itself (area, angle, stretch, curvature) is
+/// refused. Throws: BakeSettingError and FieldError before anything is baked; NotCertifiedError
+/// where the chart of a mesh is not one-to-one; OtherSphereError; ImageError for textures that
+/// cannot be read and for what a format cannot hold (HalfRangeError); WriteError; Cancelled. Cost:
+/// linear in texels and triangles; memory for some rows a field. 1 µs a texel and field, but for
+/// those that cast rays.
 BakeReport bake(const MappedMesh& source, const std::vector<BakeRequest>& images,
                 const BakeSettings& settings = {});
 

@@ -188,11 +188,28 @@ SurfaceField make_mask(const BakeScene& scene, const std::string&) {
   SurfaceField field{.name = surface_mask,
                      .about = "1 on the surface, 0 on what closes its holes",
                      .range = std::pair(0.0, 1.0)};
-  const FillerMarks& fillers = scene.source.mapped.fillers();
+  const FillerMarks& fillers = scene.source.fillers();
   field.evaluate_runs = [&fillers](std::span<const SurfaceRun> runs, float* values) {
     for (const SurfaceRun& run : runs) {
       const bool surface = fillers.empty() || !fillers[static_cast<size_t>(run.face)];
       values = std::fill_n(values, run.count, surface ? 1.0F : 0.0F);
+    }
+  };
+  return field;
+}
+
+SurfaceField make_found(const BakeScene& scene, const std::string&) {
+  if (!scene.source.surface) throw FieldError("found: is of a bake from another surface");
+  SurfaceField field{.name = "found",
+                     .kind = FieldKind::Label,
+                     .about =
+                         "0: along the normal; 1: on the back of the surface; 2: only the "
+                         "nearest point",
+                     .range = std::pair(0.0, 2.0)};
+  field.evaluate_runs = [](std::span<const SurfaceRun> runs, float* values) {
+    for (const SurfaceRun& run : runs) {
+      const float how = is_nearest(run.found) ? 2 : is_back(run.found) ? 1 : 0;
+      values = std::fill_n(values, run.count, how);
     }
   };
   return field;

@@ -13,6 +13,8 @@ SurfaceField make_vertex_colour(const BakeScene& scene, const std::string&);
 SurfaceField make_texcoords(const BakeScene& scene, const std::string&);
 /// A property of vertices or faces, by its name.
 SurfaceField make_scalar(const BakeScene& scene, const std::string& name);
+/// How the points of the target found the surface that is baked on it: see `Found`.
+SurfaceField make_found(const BakeScene& scene, const std::string&);
 /// 1 on the surface, 0 on fillers.
 SurfaceField make_mask(const BakeScene& scene, const std::string&);
 inline constexpr char surface_mask[] = "mask";

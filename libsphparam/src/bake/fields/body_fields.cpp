@@ -16,7 +16,8 @@ constexpr double degrees = 180 / std::numbers::pi;
 /// Where it is said; else that of a radial map; else the origin.
 Vector3 centre_of(const BakeScene& scene) {
   if (scene.options.centre) return *scene.options.centre;
-  const auto radial = planetocentric(scene.source.mapped.provenance());
+  if (!scene.source.mapped) return Vector3::Zero();
+  const auto radial = planetocentric(scene.source.mapped->provenance());
   return radial ? radial->centre : Vector3::Zero();
 }
 

@@ -54,10 +54,10 @@ SurfaceField curvature_field(const BakeScene& scene, const std::string& argument
     throw FieldError("curvature: there are curvature:mean and curvature:gauss, not " + argument);
   }
   const TriangleMesh& mesh = scene.source.mesh();
-  const double scale =
-      relative_scale * equal_area_radius(scene.source.mapped.surface(), scene.threads);
-  const Curvature curvature = measure_curvature(mesh, scene.source.topology(), scale, scene.threads,
-                                                scene.source.mapped.fillers());
+  const MappedMesh& mapped = scene.source.map_for("curvature");
+  const double scale = relative_scale * equal_area_radius(mapped.surface(), scene.threads);
+  const Curvature curvature =
+      measure_curvature(mesh, mapped.topology(), scale, scene.threads, mapped.fillers());
   const VectorX& values = gauss ? curvature.gauss : curvature.mean;
   const double reach = weighted_quantile(values, curvature.area, within);
   const double high = reach > 0 ? reach : 1;

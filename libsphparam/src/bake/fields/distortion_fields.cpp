@@ -26,9 +26,9 @@ void leave_out_areas(Distortion& distortion, const FillerMarks& fillers) {
 
 SurfaceField distortion_field(Heat heat, const char* name, const char* about,
                               const BakeScene& scene) {
-  Distortion distortion =
-      measure_distortion(scene.source.mesh(), scene.source.map(), scene.threads);
-  leave_out_areas(distortion, scene.source.mapped.fillers());
+  const MappedMesh& mapped = scene.source.map_for(name);
+  Distortion distortion = measure_distortion(mapped.mesh(), mapped.map(), scene.threads);
+  leave_out_areas(distortion, mapped.fillers());
   const VectorX values = heat_values(heat, distortion).cwiseMax(-extreme).cwiseMin(extreme);
   const HeatScale& scale = heat_scale(heat);
   SurfaceField field = linear_field<1>(

@@ -45,8 +45,8 @@ SurfaceField height_field(const BakeScene& scene, const std::string& argument) {
     throw FieldError("height: there are height and height:radial, not " + argument);
   }
   const bool radial = argument == "radial" || scene.options.height_radial || scene.target.is_source;
-  SurfaceField field = radial ? radial_height(scene.source.mesh())
-                              : height_above(scene.source.mesh(), scene.target);
+  SurfaceField field =
+      radial ? radial_height(scene.source.mesh()) : height_above(scene.source.mesh(), scene.target);
   field.unit = unit_of_lengths(scene.options);
   return field;
 }

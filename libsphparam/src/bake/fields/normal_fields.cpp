@@ -27,7 +27,12 @@ SurfaceField make_object_normal(const BakeScene& scene, const std::string&) {
     for (const SurfaceRun& run : runs) {
       for (int i = 0; i < run.count; ++i) {
         const SurfacePoint point{run.face, run.first + i * run.step};
-        put(source->at({.point = point, .seed = 0, .step = run.step, .below = run.below}), values);
+        put(source->at({.point = point,
+                        .seed = 0,
+                        .step = run.step,
+                        .below = run.below,
+                        .found = run.found}),
+            values);
       }
     }
   };

@@ -10,6 +10,7 @@
 
 #include "bake/bake_scene.h"
 #include "bake/field_registry.h"
+#include "bake/projected_surface.h"
 #include "rays/cosine_rays.h"
 #include "rays/flat_normal.h"
 
@@ -35,7 +36,8 @@ struct RayCaster {
   CosineRays rays;
   double reach;
 
-  Start start(const SurfacePoint& at, Side side) const {
+  Start start(const SurfaceSample& sample, Side side) const {
+    const SurfacePoint& at = sample.point;
     const auto corners = mesh.triangles.row(at.face);
     const Vector3 a = mesh.position(corners[0]), b = mesh.position(corners[1]),
                   c = mesh.position(corners[2]);
@@ -44,7 +46,7 @@ struct RayCaster {
                             w[2] * normals.row(corners[2]))
                                .transpose();
     const Vector3 flat = flat_normal(a, b, c);
-    const double sign = static_cast<double>(side);
+    const double sign = static_cast<double>(side) * (is_back(sample.found) ? -1 : 1);
     // Of a triangle without area only the smooth normal is known; of opposed normals only the flat.
     const Vector3 plane = sign * (flat.isZero(0) ? smooth.stableNormalized() : flat);
     const Vector3 axis = sign * (smooth.isZero(0) ? flat : smooth.stableNormalized());
@@ -83,7 +85,7 @@ void cast_outwards(const RayCaster& caster, std::span<const SurfaceSample> sampl
   Bundle bundle(caster);
   std::vector<std::uint8_t> blocked(bundle.cast.size());
   for (size_t i = 0; i < samples.size(); ++i) {
-    const Start start = caster.start(samples[i].point, Side::Outwards);
+    const Start start = caster.start(samples[i], Side::Outwards);
     bundle.aim(caster, start, samples[i].seed);
     caster.scene->find_blocked(start.origin, bundle.cast, caster.reach, blocked);
     visit(i, start, bundle, blocked);
@@ -150,7 +152,7 @@ SurfaceField thickness_field(std::shared_ptr<const RayScene> scene, const Triang
     Bundle bundle(caster);
     std::vector<float> distances(bundle.cast.size());
     for (size_t i = 0; i < samples.size(); ++i) {
-      const Start start = caster.start(samples[i].point, Side::Inwards);
+      const Start start = caster.start(samples[i], Side::Inwards);
       bundle.aim(caster, start, samples[i].seed);
       caster.scene->find_distances(start.origin, bundle.cast, caster.reach, distances);
       double sum = 0;
@@ -168,7 +170,9 @@ SurfaceField thickness_field(std::shared_ptr<const RayScene> scene, const Triang
 namespace {
 
 /// What rays meet: not what only closes holes.
-std::shared_ptr<const RayScene> rays_on_surface(const MappedMesh& mapped) {
+std::shared_ptr<const RayScene> rays_on(const BakeSource& source) {
+  if (source.surface) return {source.surface, &source.surface->rays()};
+  const MappedMesh& mapped = *source.mapped;
   if (mapped.fillers().empty()) return std::make_shared<const RayScene>(mapped.mesh());
   struct Kept {
     TriangleMesh mesh;
@@ -186,7 +190,7 @@ SurfaceField make_of_scene(MakeRayField* make, const BakeScene& scene, const std
                            double reach) {
   if (!argument.empty()) throw FieldError("no argument is known here: " + argument);
   const TriangleMesh& mesh = scene.source.mesh();
-  return make(rays_on_surface(scene.source.mapped), mesh, scene.source.normals,
+  return make(rays_on(scene.source), mesh, scene.source.normals,
               {.rays = scene.options.rays, .reach = reach});
 }
 

@@ -111,8 +111,10 @@ Vector3 SourceNormal::mapped(const SurfaceSample& sample) const {
 }
 
 Vector3 SourceNormal::at(const SurfaceSample& sample) const {
-  if (maps_) return mapped(sample);
-  return normal_at(scene_->source, sample.point.face, sample.point.barycentric);
+  const Vector3 normal =
+      maps_ ? mapped(sample)
+            : normal_at(scene_->source, sample.point.face, sample.point.barycentric);
+  return is_back(sample.found) ? Vector3(-normal) : normal;
 }
 
 }  // namespace sphparam

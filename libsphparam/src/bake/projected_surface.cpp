@@ -1,0 +1,179 @@
+// With p and the unit direction n of a line, and corners a, b, c as seen from p, the triple
+// products n·(b×c), n·(c×a), n·(a×b) are as the weights of the point where the line meets the
+// triangle's plane. They are linear in p, and their sum is n · (the normal, twice as long as the
+// area): it tells which way the triangle faces.
+
+#include "bake/projected_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rays/flat_normal.h"
+#include "rays/interpolation.h"
+#include "sphparam/io/fillers.h"
+#include "sphparam/parallel.h"
+
+namespace sphparam {
+namespace {
+
+constexpr double passing_by = 4;  // times the nearest distance: 1/cos of 75.5°
+
+struct Line {
+  Vector3 point, direction;
+};
+
+struct Triangle {
+  Vector3 a, b, c;
+  Triangle(const TriangleMesh& mesh, Face f)
+      : a(mesh.position(mesh.triangles(f, 0))),
+        b(mesh.position(mesh.triangles(f, 1))),
+        c(mesh.position(mesh.triangles(f, 2))) {}
+  Vector3 normal() const { return flat_normal(a, b, c); }
+  Vector3 at(const Vector3& w) const { return w[0] * a + w[1] * b + w[2] * c; }
+};
+
+/// As the weights of the point where a line along n through p meets the plane.
+Vector3 volumes(const Triangle& t, const Vector3& p, const Vector3& n) {
+  const Vector3 a = t.a - p, b = t.b - p, c = t.c - p;
+  return {n.dot(b.cross(c)), n.dot(c.cross(a)), n.dot(a.cross(b))};
+}
+
+/// What the weights change by as p moves by `step`; nothing where the line runs along the plane.
+Vector3 change_of_weights(const Triangle& t, const Vector3& n, const Vector3& step) {
+  const Vector3 change(n.dot((t.c - t.b).cross(step)), n.dot((t.a - t.c).cross(step)),
+                       n.dot((t.b - t.a).cross(step)));
+  const Vector3 weights = change / n.dot((t.b - t.a).cross(t.c - t.a));
+  return weights.allFinite() ? weights : Vector3::Zero();
+}
+
+/// A point of the surface, and how it was found.
+struct Met {
+  SurfacePoint on;
+  double distance;  // along the line
+  bool faces_away;
+};
+
+/// What the line first meets on one side; the ray found the face, the weights are of doubles.
+std::optional<Met> first_on(const ProjectedSurface& surface, const Line& line, double side,
+                            double reach) {
+  const Vector3 way = side * line.direction;
+  const double clearance = surface.rays().clearance();
+  const RayHit hit =
+      surface.rays().first_hit(line.point - clearance * way, way, reach + 2 * clearance);
+  if (hit.face < 0) return std::nullopt;
+  const Triangle triangle(surface.file().mesh, hit.face);
+  const Vector3 raw = volumes(triangle, line.point, line.direction);
+  const double sum = raw.sum();
+  const Vector3 inside = (raw / sum).cwiseMax(0);
+  if (!(std::isfinite(inside.sum()) && inside.sum() > 0)) return std::nullopt;
+  const Vector3 weights = inside / inside.sum();
+  return Met{{hit.face, weights}, (triangle.at(weights) - line.point).norm(), sum < 0};
+}
+
+bool is_better(const Met& a, const Met& b) {
+  if (a.faces_away != b.faces_away) return b.faces_away;
+  return a.distance < b.distance;
+}
+
+std::optional<Met> met_along(const ProjectedSurface& surface, const Line& line, double reach) {
+  if (line.direction.isZero(0)) return std::nullopt;
+  const auto outwards = first_on(surface, line, 1, reach),
+             inwards = first_on(surface, line, -1, reach);
+  if (!outwards || !inwards) return outwards ? outwards : inwards;
+  return is_better(*inwards, *outwards) ? inwards : outwards;
+}
+
+Line line_of(const BakeTarget& target, const PlaceOnTarget& place) {
+  const SurfacePoint point{place.face, place.at};
+  const Triangles& triangles = target.chart.triangles;
+  return {interpolate(target.positions, triangles, point),
+          interpolate(target.normals, triangles, point).stableNormalized()};
+}
+
+}  // namespace
+
+ProjectedSurface::ProjectedSurface(MeshFile file) : file_(std::move(file)) {
+  if (file_.mesh.face_count() == 0) throw FieldError("the surface to bake from has no triangles");
+  const FillerMarks fillers = fillers_of(file_);
+  surface_ = fillers.empty() ? file_.mesh : surface_in_place(file_.mesh, fillers);
+  rays_ = std::make_unique<const RayScene>(surface_);
+}
+
+SurfaceRun ProjectedSurface::project(const BakeTarget& target, const PlaceOnTarget& place,
+                                     Face guess) const {
+  const Line line = line_of(target, place);
+  const NearestPoint nearest = rays_->nearest(line.point, guess);
+  const auto met = met_along(*this, line, passing_by * std::sqrt(nearest.squared_distance));
+  const SurfacePoint& on = met ? met->on : nearest.on;
+  const Triangle triangle(file_.mesh, on.face);
+  const Vector3 normal = triangle.normal(), along = met ? line.direction : normal;
+  const bool away = met ? met->faces_away : normal.dot(line.direction) < 0;
+  const Triangles& triangles = target.chart.triangles;
+  const auto covered = [&](const Vector3& weights) {
+    return change_of_weights(triangle, along,
+                             interpolate(target.positions, triangles, {place.face, weights}));
+  };
+  return {.face = on.face,
+          .count = 1,
+          .first = on.barycentric,
+          .step = covered(place.step),
+          .below = covered(place.below),
+          .found = met ? (away ? Found::Back : Found::Here)
+                       : (away ? Found::NearestBack : Found::Nearest)};
+}
+
+namespace {
+
+/// What a triangle of the target says of its middle.
+struct Probe {
+  double area, distance;
+  Found found;
+};
+
+Probe probe(const ProjectedSurface& surface, const BakeTarget& target, Face f) {
+  const PlaceOnTarget middle{f, Vector3::Constant(1.0 / 3), Vector3::Zero(), Vector3::Zero()};
+  const SurfaceRun run = surface.project(target, middle);
+  const auto corner = [&](int k) -> Vector3 {
+    return target.positions.row(target.chart.triangles(f, k));
+  };
+  const Vector3 from = (corner(0) + corner(1) + corner(2)) / 3;
+  return {(corner(1) - corner(0)).cross(corner(2) - corner(0)).norm() / 2,
+          (Triangle(surface.file().mesh, run.face).at(run.first) - from).norm(), run.found};
+}
+
+/// The distance that half of the area is within.
+double median_distance(std::vector<Probe> probes, double area) {
+  std::ranges::stable_sort(probes, {}, &Probe::distance);
+  double within = 0;
+  for (const Probe& one : probes)
+    if ((within += one.area) >= area / 2) return one.distance;
+  return 0;
+}
+
+}  // namespace
+
+ProjectionShares measure_projection(const ProjectedSurface& surface, const BakeTarget& target,
+                                    int threads) {
+  std::vector<Probe> probes(static_cast<size_t>(target.chart.triangles.rows()));
+  parallel_for(std::ssize(probes), 256, threads, [&](std::int64_t from, std::int64_t to) {
+    for (auto f = from; f < to; ++f)
+      probes[static_cast<size_t>(f)] = probe(surface, target, static_cast<Face>(f));
+  });
+  ProjectionShares shares;
+  double area = 0;
+  for (const Probe& one : probes) {
+    area += one.area;
+    if (is_back(one.found)) shares.back += one.area;
+    if (is_nearest(one.found)) shares.nearest += one.area;
+    shares.farthest = std::max(shares.farthest, one.distance);
+  }
+  if (!(area > 0)) return shares;
+  shares.back /= area;
+  shares.nearest /= area;
+  const double diagonal = surface.rays().diagonal();
+  shares.median = median_distance(std::move(probes), area) / diagonal;
+  shares.farthest /= diagonal;
+  return shares;
+}
+
+}  // namespace sphparam

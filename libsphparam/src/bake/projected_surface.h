@@ -1,0 +1,49 @@
+#pragma once
+
+#include "bake/bake_scene.h"
+#include "bake/surface_field.h"
+#include "rays/ray_scene.h"
+#include "sphparam/bake/bake.h"
+
+namespace sphparam {
+
+/// A place on the target whose point of the other surface is wanted, and what a texel covers there.
+struct PlaceOnTarget {
+  Face face;                // of its chart
+  Vector3 at, step, below;  // weights of the corners, and what they change by a texel east, south
+};
+
+/// A surface that lies about where the target does, closed or not, in any number of parts, and
+/// which of its points a point of the target shows.
+///
+/// That is what a line along the target's smooth normal meets, outwards or inwards: of what faces
+/// the same way the nearer; else of what faces the other way. It counts while it is no more than
+/// four times as far as the nearest point of the surface, as it is where that is flat and tilted by
+/// 75°; beyond, the line passes the surface by, and the nearest point is taken. So there is no cage
+/// to draw and no distance to choose. Faces that only close holes are no surface. Source: our own.
+class ProjectedSurface {
+ public:
+  /// Throws: FieldError for a file without triangles.
+  explicit ProjectedSurface(MeshFile file);
+
+  const MeshFile& file() const { return file_; }
+  const RayScene& rays() const { return *rays_; }
+
+  /// The point, as a run of one texel. Weights may lie outside the face, in its plane; what a texel
+  /// covers is taken along the normal as if that did not turn. `guess`: a face of the surface that
+  /// may be near, which saves time and changes nothing. Cost: a nearest point and two short rays,
+  /// some µs. Threads may share it.
+  SurfaceRun project(const BakeTarget& target, const PlaceOnTarget& place, Face guess = -1) const;
+
+ private:
+  MeshFile file_;
+  TriangleMesh surface_;  // without fillers; faces keep their numbers
+  std::unique_ptr<const RayScene> rays_;
+};
+
+/// How the target finds the surface, by shares of the target's area, and how far away.
+/// Cost: one `project` a triangle of the target.
+ProjectionShares measure_projection(const ProjectedSurface& surface, const BakeTarget& target,
+                                    int threads);
+
+}  // namespace sphparam
