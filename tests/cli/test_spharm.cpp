@@ -156,12 +156,67 @@ TEST_CASE("spharm: the radius of a radial map, in geodesy's normalisation, and a
   CHECK(std::count(text.begin(), text.end(), '\n') == 1 + 28);
   const double mean = report["functions"][3]["coefficients"][0];
   CHECK(std::stod(text.substr(0, text.find(','))) == Approx(mean).epsilon(1e-15));
-  const Ended other = sphparam_program(
-      {"spharm", "-", "--degree", "4", "--radius", "--csv", folder / "x.csv"},
-      obj_text(ellipsoid(icosphere(3))));
+  const Ended other =
+      sphparam_program({"spharm", "-", "--degree", "4", "--radius", "--csv", folder / "x.csv"},
+                       obj_text(ellipsoid(icosphere(3))));
   CHECK(other.code == 0);
   CHECK_THAT(other.err, Contains("are the map's, not the body's"));
   CHECK(sphparam_program({"spharm", map, "--centre", "0,0,0", "--json", "-"}).code == 2);
+}
+
+TEST_CASE("spharm: --align gives a turned mesh the same coefficients, and writes the turned map") {
+  const Folder folder;
+  TriangleMesh body = icosphere(3);
+  for (Eigen::Index v = 0; v < body.vertex_count(); ++v) {
+    Eigen::RowVector3d p = body.positions.row(v);
+    const double bump = 0.3 * p.x() * p.x() + 0.2 * p.x() * p.y() * p.y();
+    body.positions.row(v) << 3 * p.x() + bump, 2 * p.y() + 0.4 * p.y() * p.y(), p.z() + bump;
+  }
+  const TriangleMesh ball = icosphere(3);
+  TriangleMesh turned = body;
+  turned.positions.col(0) = -body.positions.col(1);
+  turned.positions.col(1) = body.positions.col(0);
+  turned.positions.array() += 5;
+  write_bytes(folder / "body.obj", obj_text(body));
+  write_bytes(folder / "turned.obj", obj_text(turned));
+  write_bytes(folder / "ball.obj", obj_text(ball));
+  const auto coefficients = [&](const std::string& mesh, std::vector<std::string> more) {
+    more.insert(more.begin(),
+                {"spharm", folder / mesh, "--sphere", folder / "ball.obj", "--degree", "4"});
+    const Ended ended = sphparam_program(more);
+    INFO(ended.err);
+    REQUIRE(ended.code == 0);
+    return ended;
+  };
+  const Json one = Json::parse(coefficients("body.obj", {"--align", "--json", "-"}).out);
+  const Json two =
+      Json::parse(coefficients("turned.obj", {"--align", "--coef", folder / "t.coef",
+                                              "--reconstruct", folder / "t.ply", "--json", "-"})
+                      .out);
+  CHECK(one["alignment"]["turned"] == "sphere and surface");
+  for (size_t k = 0; k < 3; ++k)
+    for (size_t i = 0; i < 25; ++i)
+      CHECK(std::abs(one["functions"][k]["coefficients"][i].get<double>() -
+                     two["functions"][k]["coefficients"][i].get<double>()) < 1e-9);
+  CHECK(sphparam_program({"verify", folder / "t.ply"}).code == 0);
+  const Json again = Json::parse(
+      sphparam_program({"spharm", folder / "t.ply", "--degree", "4", "--json", "-"}).out);
+  for (size_t i = 0; i < 25; ++i)
+    CHECK(std::abs(one["functions"][0]["coefficients"][i].get<double>() -
+                   again["functions"][0]["coefficients"][i].get<double>()) < 1e-9);
+  CHECK_THAT(bytes_of(folder / "t.coef"), Catch::StartsWith("{ 25,{"));
+  coefficients("body.obj", {"--align", "--flip-template", folder / "t.coef"});
+  coefficients("body.obj", {"--align=sphere", "--coef", folder / "p.coef"});
+  const std::string path = folder / "body.obj";
+  coefficients("body.obj", {"--coef", folder / "raw.coef"});
+  const Ended crooked =
+      sphparam_program({"spharm", path, "--align", "--flip-template", folder / "ball.obj"});
+  CHECK(crooked.code == 3);
+  CHECK_THAT(crooked.err, Contains("ball.obj"));
+  CHECK(sphparam_program({"spharm", path, "--align=surface"}).code == 2);
+  CHECK(sphparam_program({"spharm", path, "--align", "--degree", "0"}).code == 2);
+  CHECK(sphparam_program({"spharm", path, "--align", "--shadr", folder / "x.sha"}).code == 2);
+  CHECK(sphparam_program({"spharm", path, "--flip-template", folder / "t.coef"}).code == 2);
 }
 
 TEST_CASE("spharm: what makes no sense is refused, and nothing is written") {

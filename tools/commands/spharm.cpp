@@ -7,6 +7,7 @@
 #include "console/places.h"
 #include "number_text.h"
 #include "reports/told_fillers.h"
+#include "sphparam/io/coef_file.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/planetocentric.h"
 #include "sphparam/measure/measurable.h"
@@ -24,6 +25,7 @@ constexpr char summary[] =
     "  sphparam spharm brain.ply --sphere brain.sphere.gii --degree 60 --reconstruct smooth.ply\n"
     "  sphparam spharm moon.sph.ply --degree 90 --scalar gravity --csv moon.csv\n"
     "  sphparam spharm eros.sph.ply --degree 24 --shadr eros.sha\n"
+    "  sphparam spharm hippocampus.sph.ply --degree 15 --align --coef h_SPHARM_ellalign.coef\n"
     "\n"
     "The coefficients are of x, y and z, of the scalars named, and of the radius where it is\n"
     "wanted, in a real orthonormal basis or in that of geodesy.\n"
@@ -38,6 +40,7 @@ struct SpharmArguments : CommonArguments {
   std::string shadr;
   bool radius = false;
   std::optional<Vector3> centre;  // none: that of a radial map, else the origin
+  std::string align, flips, coef;
   HarmonicNormalisation normalisation = HarmonicNormalisation::Orthonormal;
   Words scalars;
   int degree = 20;
@@ -81,14 +84,48 @@ HarmonicExpansion expand(const SpharmArguments& arguments, const MappedMesh& map
   return expansion;
 }
 
+HarmonicAlignment alignment_of(const SpharmArguments& arguments) {
+  if (arguments.align.empty()) return HarmonicAlignment::None;
+  return arguments.align == "sphere" ? HarmonicAlignment::Sphere
+                                     : HarmonicAlignment::SphereAndSurface;
+}
+
+void require_alignment(const SpharmArguments& arguments) {
+  if (!arguments.align.empty() && arguments.align != "true" && arguments.align != "sphere")
+    throw UsageMistake(
+        "--align: with sphere and surface, --align; of the sphere alone, --align=sphere");
+  if (arguments.align.empty() && !arguments.flips.empty())
+    throw UsageMistake("--flip-template is for --align only");
+  if (!arguments.align.empty() && arguments.degree < 1)
+    throw UsageMistake("--align: degree 0 has no first-order ellipsoid; --degree 1 at least");
+  if (!arguments.align.empty() && !arguments.shadr.empty())
+    throw UsageMistake(
+        "--shadr is of the body's own longitudes and latitudes, which --align would turn");
+}
+
+/// Throws: ReadError where the template's own sphere is not aligned.
+void align_as_asked(const SpharmArguments& arguments, const MappedMesh& mapped,
+                    HarmonicExpansion& expansion, Session& session) {
+  std::optional<Functions> flips;
+  if (!arguments.flips.empty()) flips = read_coef(arguments.flips);
+  try {
+    align(expansion, mapped, alignment_of(arguments), flips ? &*flips : nullptr, session.threads());
+  } catch (const std::invalid_argument& error) {
+    throw ReadError(display_name(arguments.flips), error.what());
+  }
+  if (expansion.alignment) session.warn(doubts_about(*expansion.alignment));
+}
+
 void require_sensible(const SpharmArguments& arguments) {
   if (arguments.centre && !arguments.radius && arguments.shadr.empty()) {
     throw UsageMistake("--centre is for --radius and --shadr only");
   }
+  require_alignment(arguments);
   require_mesh_name("--reconstruct", "the surface", arguments.reconstruction);
   check_places({{"--json", arguments.json},
                 {"--csv", arguments.csv},
                 {"--shadr", arguments.shadr},
+                {"--coef", arguments.coef},
                 {"--reconstruct", arguments.reconstruction}});
 }
 
@@ -107,10 +144,13 @@ int run_spharm(SpharmArguments& arguments) {
   Session session(arguments);
   const MappedMesh mapped = read_mapped(arguments.input, arguments.sphere, session);
   warn_of_few_vertices(arguments, mapped.file(), session.console);
-  const HarmonicExpansion expansion = expand(arguments, mapped, session);
+  HarmonicExpansion expansion = expand(arguments, mapped, session);
+  align_as_asked(arguments, mapped, expansion, session);
   session.add_report([&] { return to_json(expansion, arguments.input, mapped.provenance()); });
   if (!arguments.csv.empty()) session.files.add(arguments.csv, to_csv(expansion));
   if (!arguments.shadr.empty()) session.files.add(arguments.shadr, to_shadr(expansion));
+  if (!arguments.coef.empty())
+    session.files.add(arguments.coef, to_coef(expansion.fit.coefficients));
   if (!arguments.reconstruction.empty())
     add_reconstruction(session.files, arguments.reconstruction, mapped, expansion,
                        session.threads());
@@ -149,11 +189,19 @@ void declare_options(Declaration& command, SpharmArguments& arguments) {
                {"4pi", HarmonicNormalisation::FourPi}},
               "Of the functions that coefficients in --json and --csv belong to; 4pi: as in "
               "geodesy (default: orthonormal)")
+      .flag("--align", arguments.align,
+            "Turn sphere and surface onto the axes of the first-order ellipsoid, as SPHARM-PDM "
+            "does; --align=sphere: the sphere alone")
+      .text("--flip-template", arguments.flips, "FILE",
+            "With --align: half turns that bring coefficients nearest to those of this .coef "
+            "(default: by skewness)")
       .json(arguments, "Coefficients and figures")
       .text("--csv", arguments.csv, "FILE", "Coefficients, a line each; - for standard output")
       .written()
       .text("--shadr", arguments.shadr, "FILE",
             "4pi-normalised C and S of the radius as the PDS has them")
+      .written()
+      .text("--coef", arguments.coef, "FILE", "Coefficients of x, y, z as SPHARM-PDM has them")
       .written()
       .text("--reconstruct", arguments.reconstruction, "FILE",
             "The mesh as the harmonics have it, in the format of its name")

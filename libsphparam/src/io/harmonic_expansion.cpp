@@ -5,9 +5,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include "sphere/solid_angle.h"
 #include "sphparam/errors.h"
 #include "sphparam/io/certified_files.h"
 #include "sphparam/io/mesh_writer.h"
+#include "sphparam/io/planetocentric.h"
 
 namespace sphparam {
 
@@ -33,6 +35,29 @@ Functions functions_of(const MeshFile& file, const std::vector<std::string>& sca
         (file.mesh.positions.rowwise() - radius_about->transpose()).rowwise().norm();
   }
   return values;
+}
+
+/// The positions as they were turned.
+Points turned_positions(const MappedMesh& mapped, const HarmonicExpansion& expansion) {
+  const Points& positions = mapped.mesh().positions;
+  if (expansion.aligned != HarmonicAlignment::SphereAndSurface) return positions;
+  return (positions.rowwise() - expansion.alignment->centre.transpose()) *
+         expansion.alignment->object.transpose();
+}
+
+Provenance lines_of(const MappedMesh& mapped, const HarmonicExpansion& expansion) {
+  Provenance lines = mapped.provenance();
+  lines.emplace_back("harmonics", std::to_string(expansion.degree()));
+  if (expansion.aligned == HarmonicAlignment::None) return lines;
+  std::erase_if(lines, [](const auto& line) { return is_planetocentric(line.first); });
+  lines.emplace_back("aligned", "first-order ellipsoid");
+  return lines;
+}
+
+SphereMap turned_map(const MappedMesh& mapped, const HarmonicExpansion& expansion) {
+  if (expansion.aligned == HarmonicAlignment::None) return mapped.map();
+  const Points turned = mapped.map().points * expansion.alignment->sphere.transpose();
+  return {turned.rowwise().normalized()};
 }
 
 }  // namespace
@@ -66,6 +91,25 @@ HarmonicExpansion expand_in_harmonics(const MappedMesh& mapped,
   return result;
 }
 
+void align(HarmonicExpansion& expansion, const MappedMesh& mapped, HarmonicAlignment what,
+           const Functions* flips, int threads) {
+  if (what == HarmonicAlignment::None) return;
+  const bool surface = what == HarmonicAlignment::SphereAndSurface;
+  Functions& coefficients = expansion.fit.coefficients;
+  expansion.alignment = first_order_alignment(coefficients, flips, threads);
+  expansion.aligned = what;
+  coefficients = aligned(coefficients, *expansion.alignment, surface, threads);
+  if (!surface) return;
+  const Points shown = expansion.values.leftCols(axes);
+  expansion.values.leftCols(axes) = (shown.rowwise() - expansion.alignment->centre.transpose()) *
+                                    expansion.alignment->object.transpose();
+  const Points left = turned_positions(mapped, expansion) - expansion.values.leftCols(axes);
+  const VectorX shares = vertex_solid_angles(mapped.topology(), mapped.map());
+  expansion.plain_rms.head<axes>() = left.cwiseAbs2().colwise().mean().cwiseSqrt();
+  expansion.fit.rms.head<axes>() =
+      ((shares.asDiagonal() * left.cwiseAbs2()).colwise().sum() / shares.sum()).cwiseSqrt();
+}
+
 MeshFile reconstruction(const MappedMesh& mapped, const HarmonicExpansion& expansion) {
   MeshFile file = mapped.file();
   file.mesh.positions = expansion.values.leftCols(axes);
@@ -77,9 +121,7 @@ MeshFile reconstruction(const MappedMesh& mapped, const HarmonicExpansion& expan
     file.set_vertex_property({expansion.functions[static_cast<size_t>(k)], ScalarType::Float64,
                               std::vector<double>(column.begin(), column.end())});
   }
-  Provenance lines = mapped.provenance();
-  lines.emplace_back("harmonics", std::to_string(expansion.degree()));
-  return attach_map(std::move(file), mapped.map(), lines);
+  return attach_map(std::move(file), turned_map(mapped, expansion), lines_of(mapped, expansion));
 }
 
 void add_reconstruction(PendingFiles& files, const std::string& path, const MappedMesh& mapped,

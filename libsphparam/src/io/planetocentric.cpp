@@ -43,6 +43,8 @@ Provenance planetocentric_lines(const Parameterization& result) {
       {std::string(movement_key), shortest(result.radial->largest_movement)}};
 }
 
+bool is_planetocentric(const std::string& key) { return key == centre_key || key == movement_key; }
+
 std::optional<Planetocentric> planetocentric(const Provenance& provenance) {
   const std::string* const centre = value_of(provenance, centre_key);
   const std::string* const movement = value_of(provenance, movement_key);

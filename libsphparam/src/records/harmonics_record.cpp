@@ -47,6 +47,29 @@ std::string right_aligned(int number) {
   return std::string(5 - std::min<size_t>(text.size(), 5), ' ') + text;
 }
 
+Json rows_json(const Eigen::Matrix3d& matrix) {
+  Json rows = Json::array();
+  for (int k = 0; k < 3; ++k) rows.push_back(vector_json(matrix.row(k).transpose()));
+  return rows;
+}
+
+Json alignment_json(const HarmonicExpansion& expansion) {
+  const FirstOrderAlignment& alignment = *expansion.alignment;
+  const bool surface = expansion.aligned == HarmonicAlignment::SphereAndSurface;
+  Json json = {{"turned", surface ? "sphere and surface" : "sphere"},
+               {"first_order", "x = (-a u_x, -b u_y, c u_z), a >= b >= c; u on the turned sphere"},
+               {"semi_axes", vector_json(alignment.semi_axes)},
+               {"sphere_rotation", rows_json(alignment.sphere)}};
+  if (surface) {
+    json["surface_rotation"] = rows_json(alignment.object);
+    json["centre"] = vector_json(alignment.centre);
+  }
+  json["skewness"] = vector_json(alignment.skewness);
+  json["undecided"] = alignment.undecided;
+  json["reversed"] = alignment.reversed;
+  return json;
+}
+
 Json column(const Functions& values, Eigen::Index k) {
   Json result = Json::array();
   for (Eigen::Index i = 0; i < values.rows(); ++i) result.push_back(values(i, k));
@@ -83,6 +106,7 @@ std::string to_json(const HarmonicExpansion& expansion, const std::string& mesh,
     json["first_order_ellipsoid"] =
         vector_json(first_order_ellipsoid(expansion.fit.coefficients.leftCols(3)));
   }
+  if (expansion.alignment) json["alignment"] = alignment_json(expansion);
   json["functions"] = functions;
   return text_of(json, 1);
 }
@@ -141,6 +165,14 @@ std::vector<std::string> further_lines(const HarmonicExpansion& expansion) {
     const Vector3 axes = first_order_ellipsoid(expansion.fit.coefficients.leftCols(3));
     lines.push_back("first-order ellipsoid: semi-axes " + short_number(axes[0], 6) + ", " +
                     short_number(axes[1], 6) + ", " + short_number(axes[2], 6));
+  }
+  if (expansion.alignment) {
+    const Vector3& skewness = expansion.alignment->skewness;
+    lines.push_back(std::string(expansion.aligned == HarmonicAlignment::Sphere
+                                    ? "sphere"
+                                    : "sphere and surface") +
+                    " turned onto its axes; skewness along them " + short_number(skewness[0]) +
+                    ", " + short_number(skewness[1]) + ", " + short_number(skewness[2]));
   }
   for (size_t k = 3; k < expansion.functions.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);

@@ -2,9 +2,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include "elementary.h"
 #include "option_domain.h"
 #include "sphere/harmonic_degree.h"
+#include "sphere/solid_angle.h"
 #include "sphparam/sphere/sphere_locator.h"
 #include "sphparam/sphere/spherical_harmonics.h"
 
@@ -16,19 +16,6 @@
 
 namespace sphparam {
 namespace {
-
-/// Each vertex's share of the sphere: a third of its triangles' solid angles. Sums to 4π.
-VectorX solid_angles(const Topology& topology, const SphereMap& map) {
-  VectorX shares = VectorX::Zero(topology.vertex_count());
-  for (Face f = 0; f < topology.face_count(); ++f) {
-    const Vector3 a = map.point(topology.vertex(f, 0)), b = map.point(topology.vertex(f, 1)),
-                  c = map.point(topology.vertex(f, 2));
-    const double angle =
-        2 * elementary::atan2(a.dot(b.cross(c)), 1 + a.dot(b) + b.dot(c) + c.dot(a));
-    for (int k = 0; k < 3; ++k) shares[topology.vertex(f, k)] += angle / 3;
-  }
-  return shares;
-}
 
 /// Values at directions of the piecewise linear functions that a map carries to the sphere.
 Functions look_up(const Topology& topology, const SphereMap& map, const Functions& values,
@@ -107,7 +94,7 @@ HarmonicFit fit_harmonics(const Topology& topology, const SphereMap& map, const 
   fit.coefficients =
       analyse(options.degree, grid.directions, grid.weights,
               look_up(topology, map, values, grid.directions, options.threads), options.threads);
-  const VectorX shares = solid_angles(topology, map);
+  const VectorX shares = vertex_solid_angles(topology, map);
   if (options.least_squares) {
     fit.iterations = NormalEquations(map.points, shares, options).solve(values, fit.coefficients);
   }

@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "elementary.h"
+#include "sphparam/mesh/topology.h"
 #include "sphparam/mesh/triangle_mesh.h"
+#include "sphparam/sphere/sphere_map.h"
 
 namespace sphparam {
 
@@ -23,5 +25,9 @@ inline double solid_angle(const Vector3& a, const Vector3& b, const Vector3& c) 
   const HalfSolidAngle half = half_solid_angle_of(a, b, c);
   return 2 * elementary::atan2(half.sine, half.cosine);
 }
+
+/// Each vertex's share of the sphere: a third of its triangles' solid angles. Sums to 4π where the
+/// map is one-to-one. Requires: unit rays.
+VectorX vertex_solid_angles(const Topology& topology, const SphereMap& map);
 
 }  // namespace sphparam

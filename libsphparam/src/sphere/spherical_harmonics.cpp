@@ -349,6 +349,15 @@ QuadratureGrid quadrature_grid(int degree) {
   return grid;
 }
 
+Functions turn_harmonics(const Functions& coefficients, const Eigen::Matrix3d& rotation,
+                         int threads) {
+  const int degree = degree_of(coefficients.rows());
+  const QuadratureGrid grid = quadrature_grid(degree);
+  const Points turned_back = (grid.directions * rotation).rowwise().normalized();  // rows: (Rᵀu)ᵀ
+  return analyse(degree, grid.directions, grid.weights,
+                 synthesise(coefficients, turned_back, threads), threads);
+}
+
 Functions power_per_degree(const Functions& coefficients) {
   const int degree = degree_of(coefficients.rows());
   Functions power(degree + 1, coefficients.cols());

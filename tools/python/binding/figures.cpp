@@ -54,11 +54,13 @@ py::dict measure(const Source& first, const Source& second, std::int64_t samples
 }
 
 py::dict expand(const Mapped& mapped, int degree, const std::vector<std::string>& scalars,
-                bool least_squares, int threads, const py::object& progress) {
+                bool least_squares, bool turned, int threads, const py::object& progress) {
   HarmonicExpansion found = call(progress, [=, mesh = mapped.mesh()](const Progress& report) {
-    return expand_in_harmonics(
+    HarmonicExpansion expansion = expand_in_harmonics(
         mesh, scalars,
         {.degree = degree, .least_squares = least_squares, .threads = threads, .progress = report});
+    if (turned) align(expansion, mesh, HarmonicAlignment::SphereAndSurface, nullptr, threads);
+    return expansion;
   });
   const Vector3 axes = degree > 0 ? first_order_ellipsoid(found.fit.coefficients.leftCols<3>())
                                   : Vector3(Vector3::Zero());
@@ -68,6 +70,7 @@ py::dict expand(const Mapped& mapped, int degree, const std::vector<std::string>
   dict["plain_rms"] = found.plain_position_rms();
   dict["diagonal"] = found.diagonal;
   dict["ellipsoid"] = py::make_tuple(axes.x(), axes.y(), axes.z());
+  dict["doubts"] = found.alignment ? doubts_about(*found.alignment) : std::vector<std::string>();
   dict["power"] = owning_rows(power_per_degree(found.fit.coefficients));
   dict["values"] = owning_rows(std::move(found.values));
   dict["coefficients"] = owning_rows(std::move(found.fit.coefficients));

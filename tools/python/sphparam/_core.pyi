@@ -175,6 +175,12 @@ def measure(
     first: Source, second: Source, samples: int, seed: int, extremes: bool, threads: int, progress: _Report
 ) -> Dict[str, Any]: ...
 def expand(
-    mapped: Mapped, degree: int, scalars: Sequence[str], least_squares: bool, threads: int, progress: _Report
+    mapped: Mapped,
+    degree: int,
+    scalars: Sequence[str],
+    least_squares: bool,
+    turned: bool,
+    threads: int,
+    progress: _Report,
 ) -> Dict[str, Any]: ...
 def evaluate(coefficients: _Floats, directions: _Array, threads: int) -> _Floats: ...

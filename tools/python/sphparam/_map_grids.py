@@ -92,24 +92,27 @@ class MapGrids(MapFacts):
         *,
         values: Sequence[str] = (),
         least_squares: bool = True,
+        align: bool = False,
         threads: int = 0,
         progress: Progress = None,
     ) -> Harmonics:
         """The surface as a sum of spherical harmonics up to a degree, 0 to 1000.
 
         ``values``: names of what vertices carry, expanded too. ``least_squares``: at the vertices;
-        else by quadrature.
+        else by quadrature. ``align``: sphere and surface turned onto the axes of the first-order
+        ellipsoid, so that coefficients do not depend on how mesh and map lay.
         """
         from ._harmonics import Harmonics
 
         names = _names(values, "values")
-        degree = _arrays.whole(degree, "degree", 0, 1000)
+        degree = _arrays.whole(degree, "degree", 1 if align else 0, 1000)
         if self.fillers.any():
             tell([f"{self.name}: harmonics are of the whole sphere, with what closes the holes"])
         with told(progress) as report:
             found = _core.expand(
-                self._mapped, degree, names, bool(least_squares), _arrays.threads(threads), report
+                self._mapped, degree, names, bool(least_squares), bool(align), _arrays.threads(threads), report
             )
+        tell(found["doubts"])
         return Harmonics(found)
 
 

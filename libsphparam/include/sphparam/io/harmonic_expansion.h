@@ -6,6 +6,7 @@
 
 #include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/safe_file.h"
+#include "sphparam/sphere/first_order_alignment.h"
 #include "sphparam/sphere/spherical_harmonics.h"
 
 namespace sphparam {
@@ -14,6 +15,11 @@ namespace sphparam {
 /// sphere, or, as geodesy has them, of 4π. Nothing else differs: both are real and without the
 /// Condon–Shortley phase, so that rows m ≥ 0 and −m are geodesy's C̄_lm and S̄_lm.
 enum class HarmonicNormalisation { Orthonormal, FourPi };
+
+/// What was turned so that it lies along the axes of the first-order ellipsoid. Sphere and surface
+/// is what SPHARM-PDM calls ellipsoid alignment (files *_SPHARM_ellalign), the sphere alone what it
+/// always does (*_SPHARM).
+enum class HarmonicAlignment { None, Sphere, SphereAndSurface };
 
 /// A surface, and what it carries, as a sum of spherical harmonics: the shape description that a
 /// map to the sphere was first made for (Brechbühler, Gerig and Kübler 1995).
@@ -28,6 +34,10 @@ struct HarmonicExpansion {
 
   // Of the coefficients that are told: `told_coefficients`, and what `records` writes of them.
   HarmonicNormalisation normalisation = HarmonicNormalisation::Orthonormal;
+
+  // What `align` turned, and how. Coefficients and values are of the turned ones.
+  HarmonicAlignment aligned = HarmonicAlignment::None;
+  std::optional<FirstOrderAlignment> alignment = {};
 
   int degree() const;
   /// Those of `fit` in the normalisation that is told.
@@ -47,8 +57,15 @@ HarmonicExpansion expand_in_harmonics(const MappedMesh& mapped,
                                       const HarmonicFitOptions& options = {},
                                       const std::optional<Vector3>& radius_about = {});
 
+/// Turns what was asked for along the axes of the first-order ellipsoid (first_order_alignment.h);
+/// what is left at the vertices is told along the new axes. Requires: an expansion of this mesh,
+/// nothing turned yet. Throws: std::invalid_argument for degree 0, and as `first_order_alignment`.
+void align(HarmonicExpansion& expansion, const MappedMesh& mapped, HarmonicAlignment what,
+           const Functions* flips = nullptr, int threads = 0);
+
 /// The mesh with the positions and scalars that the harmonics have at its vertices, and its map,
-/// with one line of provenance more. Normals go: they were of the other surface.
+/// as it was turned, with a line of provenance more; what said that the map lies as a body does
+/// goes where it was turned. Normals go: they were of the other surface.
 MeshFile reconstruction(const MappedMesh& mapped, const HarmonicExpansion& expansion);
 
 /// Adds it, in the format that the name asks for; where that keeps the map, what was written is

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "sphparam/io/sphere_file.h"
 #include "sphparam/parameterize.h"
@@ -20,5 +21,8 @@ Provenance planetocentric_lines(const Parameterization& result);
 
 /// What such lines say; nothing where there are none, or other things than numbers in them.
 std::optional<Planetocentric> planetocentric(const Provenance& provenance);
+
+/// Whether a line with this key is one of them: it goes where such a map is turned.
+bool is_planetocentric(const std::string& key);
 
 }  // namespace sphparam

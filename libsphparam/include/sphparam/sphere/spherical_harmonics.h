@@ -73,6 +73,13 @@ struct HarmonicFit {
 HarmonicFit fit_harmonics(const Topology& topology, const SphereMap& map, const Functions& values,
                           const HarmonicFitOptions& options = {});
 
+/// Coefficients of the functions on the sphere as it is turned by R: g(u) = f(Rᵀu).
+/// Requires: RᵀR = 1 up to rounding, det R = 1. Ensures: exact up to rounding; power per degree
+/// stays. Throws: std::invalid_argument as `synthesise`. Cost: 2 (L + 1)² points of it, twice.
+/// Source: values on a grid of quadrature, turned back: it integrates them exactly.
+Functions turn_harmonics(const Functions& coefficients, const Eigen::Matrix3d& rotation,
+                         int threads = 0);
+
 /// Σ_m c_lm² per degree and function, (L + 1)×k.
 Functions power_per_degree(const Functions& coefficients);
 
