@@ -347,6 +347,14 @@ def test_harmonics_are_evaluated_where_the_vertices_are(mapped):
     assert list(shape.ellipsoid) == sorted(shape.ellipsoid, reverse=True)
 
 
+def test_aligned_harmonics_do_not_depend_on_how_the_mesh_lies(mapped):
+    quarter = np.array([[0, 1, 0], [-1, 0, 0], [0, 0, 1]])
+    turned = sp.with_sphere((7 + mapped.vertices @ quarter, F), mapped.points)
+    one, other = mapped.spharm(8, align=True), turned.spharm(8, align=True)
+    assert np.allclose(one.coefficients, other.coefficients, atol=1e-9)
+    assert not np.allclose(mapped.spharm(8).coefficients, turned.spharm(8).coefficients, atol=0.1)
+
+
 def test_distortion_is_told_face_by_face(mapped):
     faces = mapped.face_distortion
     assert faces.area_ratio.shape == (len(F),) and faces.angle_ratio.shape == (len(F), 3)
