@@ -2,7 +2,7 @@
 #
 # SPHPARAM_COMPONENTS chooses them; what they stand on comes along. Who adds this folder to a project
 # of their own gets the map alone unless they ask for more.
-set(all_components io image measure render bake remesh wrap correspondence gltf report batch)
+set(all_components io image measure render bake remesh wrap correspondence group gltf report batch)
 set(default_components)
 if(PROJECT_IS_TOP_LEVEL)
   set(default_components ${all_components})
@@ -19,9 +19,10 @@ set(needs_bake io image measure render)
 set(needs_remesh io image measure)
 set(needs_wrap measure)
 set(needs_correspondence io measure)
+set(needs_group io image measure remesh correspondence)
 set(needs_gltf io image measure render bake correspondence)
-set(needs_report io image measure render bake remesh wrap correspondence gltf)
-set(needs_batch io image measure render bake remesh wrap correspondence gltf report)
+set(needs_report io image measure render bake remesh wrap correspondence group gltf)
+set(needs_batch io image measure render bake remesh wrap correspondence group gltf report)
 set(SPHPARAM_BUILT)
 set(asked_for ${SPHPARAM_COMPONENTS})
 if(SPHPARAM_BUILD_TOOLS)  # the program is made of all
@@ -124,6 +125,9 @@ if(wrap IN_LIST SPHPARAM_BUILT)
 endif()
 if(correspondence IN_LIST SPHPARAM_BUILT)
   add_component(correspondence ROOMS correspondence)
+endif()
+if(group IN_LIST SPHPARAM_BUILT)
+  add_component(group ROOMS group)
 endif()
 if(gltf IN_LIST SPHPARAM_BUILT)
   add_component(gltf ROOMS gltf

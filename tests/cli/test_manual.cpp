@@ -14,11 +14,11 @@ using Catch::Contains;
 using Catch::StartsWith;
 
 const std::vector<std::string> subcommands = {
-    "info",        "map",         "repair",       "wrap",      "survey",
-    "verify",      "render",      "compare",      "bake",      "paint",
-    "remesh",      "unimage",     "measure",      "export",    "report",
-    "spharm",      "batch",       "batch plan",   "batch run", "batch status",
-    "batch retry", "batch table", "batch report", "manual",    "completion"};
+    "info",         "map",        "match",     "group",        "repair",      "wrap",
+    "survey",       "verify",     "render",    "compare",      "bake",        "paint",
+    "remesh",       "unimage",    "measure",   "export",       "report",      "spharm",
+    "batch",        "batch plan", "batch run", "batch status", "batch retry", "batch table",
+    "batch report", "manual",     "completion"};
 
 /// Every "--name" in a text.
 std::set<std::string> long_options(const std::string& text) {

@@ -14,11 +14,10 @@ namespace sphparam::cli {
 struct MatchArguments : CommonArguments {
   std::string first, second;
   std::string first_sphere, second_sphere;
-  std::string landmarks, output, shape, values, back, morph, page;
+  std::string landmarks, output, shape, values, back, morph;
   Placement placement = Placement::Scaled;  // of B in the morph
-  std::optional<Up> up;                     // of A there and on the page
+  std::optional<Up> up;                     // of A there
   bool mirror = false;
-  bool viewer = true;
   MatchOptions options;
 };
 

@@ -53,6 +53,7 @@ Command declare_spharm(CLI::App& program);
 Command declare_remesh(CLI::App& program);
 Command declare_unimage(CLI::App& program);
 Command declare_match(CLI::App& program);
+Command declare_group(CLI::App& program);
 Command declare_measure(CLI::App& program);
 Command declare_paint(CLI::App& program);
 Command declare_report(CLI::App& program);

@@ -179,8 +179,8 @@ struct Program {
     for (const auto declare :
          {declare_info, declare_map, declare_repair, declare_wrap, declare_survey, declare_verify,
           declare_render, declare_compare, declare_spharm, declare_remesh, declare_unimage,
-          declare_match, declare_measure, declare_paint, declare_report, declare_export,
-          declare_bake}) {
+          declare_match, declare_group, declare_measure, declare_paint, declare_report,
+          declare_export, declare_bake}) {
       commands.push_back(declare(app));
     }
     for (Command& command : declare_batch(app)) commands.push_back(std::move(command));

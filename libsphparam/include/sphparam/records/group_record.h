@@ -1,0 +1,59 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sphparam/group/group.h"
+#include "sphparam/group/template_landmarks.h"
+
+namespace sphparam {
+
+/// A group as it is told. References are to values that outlive the record.
+struct GroupRecord {
+  const Group& group;
+  const GroupOptions& options;
+  std::vector<std::string> files;  // of the shapes
+  std::vector<std::string> names;  // of the shapes, each its own; see `names_of_shapes`
+  std::string reference;           // the template's file
+  std::vector<TemplateLandmark> landmarks = {};
+  std::vector<std::string> outputs = {};  // names in the folder
+  double seconds = 0;
+};
+
+/// What shapes are called: their files' names without folders and endings; where several have one
+/// name, "name_2" and so on.
+std::vector<std::string> names_of_shapes(const std::vector<std::string>& files);
+
+/// As `sphparam group` writes it to group.json.
+std::string to_json(const GroupRecord& record);
+
+// Tables, with tabs between; numbers come back exactly.
+
+/// A row a shape: how it was brought, its size, its distance from the mean, scores of the modes.
+std::string shapes_table(const GroupRecord& record);
+/// Distances of each two shapes.
+std::string distances_table(const GroupRecord& record);
+/// A row a vertex of the mean: where it is, how much shapes differ there, what the modes do there
+/// along the normal.
+std::string vertices_table(const GroupRecord& record);
+/// A row a shape and landmark: where it is on the shape, in its file's coordinates, its triangle
+/// and weights, and the nearest corner of it by its number in the file.
+std::string landmarks_table(const GroupRecord& record);
+
+/// "ico:5", or "template".
+std::string grid_name(const GroupOptions& options);
+
+/// RMS distance of a member's aligned shape from the mean, weighted; the mesh's unit.
+double distance_from_mean(const Group& group, size_t member);
+/// RMS distance of the mean from its centre: what distances are held against.
+double size_of_mean(const Group& group);
+
+/// For people.
+std::string to_text(const GroupRecord& record);
+std::vector<std::string> mode_lines(const GroupRecord& record);
+/// What is to be looked at, each with the shape's name: what was told of each, and shapes whose
+/// energy is far above the others'.
+std::vector<std::string> group_warnings(const GroupRecord& record);
+
+}  // namespace sphparam

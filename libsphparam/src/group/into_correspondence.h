@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sphparam/correspondence/match.h"
+#include "sphparam/group/group.h"
+#include "sphparam/sphere/spherical_harmonics.h"
+
+namespace sphparam {
+
+/// What shapes are brought to: the template, or their mean.
+struct GroupTarget {
+  MappedMesh mapped;
+  Functions aligned = {};       // its harmonics on its axes, where ellipsoids are asked for
+  Eigen::Matrix3d sphere = {};  // and how its sphere was turned for them
+};
+
+/// Cost: a fit of harmonics, where `start` begins with ellipsoids.
+GroupTarget group_target(const MappedMesh& mapped, GroupStart start, int threads);
+
+/// A shape in correspondence.
+struct Brought {
+  MappedMesh mapped;
+  std::string start;
+  double energy = 0, confidence = 1;
+  std::vector<std::string> doubts = {}, warnings = {};  // of the start, of the last minimisation
+};
+
+/// Moves the map of a shape to that of the target: from `start` on, then, unless that is to be
+/// held, to the least energy of shape → target. Throws: NotCertifiedError where the turned map
+/// folds by rounding; as `match_surfaces`.
+Brought bring_to(const GroupTarget& target, const MappedMesh& shape, GroupStart start, bool hold,
+                 const MatchOptions& options);
+
+}  // namespace sphparam

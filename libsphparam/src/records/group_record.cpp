@@ -1,0 +1,266 @@
+#include "sphparam/records/group_record.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "mesh/vertex_normals.h"
+#include "number_text.h"
+#include "records/json_parts.h"
+#include "sphparam/correspondence/surface_map.h"
+#include "sphparam/io/file_numbers.h"
+#include "sphparam/io/paths.h"
+#include "sphparam/version.h"
+
+namespace sphparam {
+namespace {
+
+constexpr double far_energy = 1.5;   // of the median beyond isometry: a shape to look at
+constexpr double isometry = 2;       // of symmetric Dirichlet as it is minimised
+constexpr size_t telling_count = 5;  // shapes: of fewer no median says anything
+
+double rms(const Points& points, const VectorX& weights) {
+  return std::sqrt(points.rowwise().squaredNorm().dot(weights));
+}
+
+/// A row of a table.
+std::string row(const std::vector<std::string>& cells) { return joined(cells, "\t") + "\n"; }
+
+std::vector<std::string> mode_names(const Group& group, const std::string& word) {
+  std::vector<std::string> names;
+  for (size_t k = 0; k < group.modes.modes.size(); ++k)
+    names.push_back(word + std::to_string(k + 1));
+  return names;
+}
+
+double size_of(const GroupMember& member, const VectorX& weights) {
+  const Points& points = member.resampled.mesh().positions;
+  const Vector3 centre = points.transpose() * weights;
+  return rms(points.rowwise() - centre.transpose(), weights);
+}
+
+Json member_json(const GroupRecord& record, size_t i) {
+  const GroupMember& member = record.group.members[i];
+  Json scores = Json::array();
+  for (Eigen::Index k = 0; k < record.group.modes.scores.cols(); ++k)
+    scores.push_back(record.group.modes.scores(static_cast<Eigen::Index>(i), k));
+  return {{"name", record.names[i]},
+          {"file", record.files[i]},
+          {"vertices", member.mapped.mesh().vertex_count()},
+          {"triangles", member.mapped.mesh().face_count()},
+          {"mapped_now", member.mapped.mapped_here()},
+          {"start", member.start},
+          {"confidence", member.confidence},
+          {"energy", member.energy > 0 ? Json(member.energy) : Json(nullptr)},
+          {"certificate", certificate_json(member.mapped.certificate())},
+          {"resampled_certificate", certificate_json(member.resampled.certificate())},
+          {"resampling_rms", member.resampling_rms},
+          {"resampling_max", member.resampling_max},
+          {"size", size_of(member, record.group.weights)},
+          {"scale", member.motion.scale},
+          {"distance_from_mean", distance_from_mean(record.group, i)},
+          {"scores", scores},
+          {"warnings", member.warnings}};
+}
+
+Json modes_json(const ShapeModes& modes) {
+  Json all = Json::array();
+  for (Eigen::Index k = 0; k < modes.deviations.size(); ++k)
+    all.push_back({{"standard_deviation", modes.deviations[k]}, {"share", modes.shares[k]}});
+  return all;
+}
+
+std::string name_of(GroupStart start) {
+  switch (start) {
+    case GroupStart::Ends:
+      return "ends";
+    case GroupStart::Maps:
+      return "maps";
+    default:
+      return "ellipsoid";
+  }
+}
+
+/// Shapes whose energy is far above the others', of so many that this says something.
+std::vector<size_t> outliers(const Group& group) {
+  std::vector<double> energies;
+  for (const GroupMember& member : group.members)
+    if (member.energy > 0) energies.push_back(member.energy - isometry);
+  if (energies.size() < telling_count) return {};
+  std::ranges::sort(energies);
+  const double median = energies[energies.size() / 2];
+  std::vector<size_t> result;
+  for (size_t i = 0; i < group.members.size(); ++i)
+    if (group.members[i].energy - isometry > (1 + far_energy) * median) result.push_back(i);
+  return result;
+}
+
+}  // namespace
+
+std::vector<std::string> names_of_shapes(const std::vector<std::string>& files) {
+  std::set<std::string> taken;
+  std::vector<std::string> names;
+  for (const std::string& file : files) {
+    const std::string stem = is_stream(file) ? "stdin" : stem_of(file);
+    std::string name = stem;
+    for (int k = 2; !taken.insert(name).second; ++k) name = stem + "_" + std::to_string(k);
+    names.push_back(name);
+  }
+  return names;
+}
+
+std::string grid_name(const GroupOptions& options) {
+  return options.grid ? sphparam::name_of(*options.grid) : "template";
+}
+
+double distance_from_mean(const Group& group, size_t member) {
+  return rms(group.members[member].aligned - group.mean.mesh().positions, group.weights);
+}
+
+double size_of_mean(const Group& group) {
+  const Points& points = group.mean.mesh().positions;
+  const Vector3 centre = points.transpose() * group.weights;
+  return rms(points.rowwise() - centre.transpose(), group.weights);
+}
+
+std::string to_json(const GroupRecord& record) {
+  const Group& group = record.group;
+  Json members = Json::array(), landmarks = Json::array();
+  for (size_t i = 0; i < group.members.size(); ++i) members.push_back(member_json(record, i));
+  const FileNumbers numbers(group.reference.file());
+  for (const TemplateLandmark& landmark : record.landmarks)
+    landmarks.push_back({{"name", landmark.name}, {"vertex", numbers.number(landmark.vertex)}});
+  const Json json = {{"sphparam", version},
+                     {"command", "group"},
+                     {"template", record.reference},
+                     {"start", name_of(record.options.start)},
+                     {"hold", record.options.hold},
+                     {"rounds", record.options.hold ? 0 : record.options.rounds},
+                     {"grid", grid_name(record.options)},
+                     {"scale", record.options.scale},
+                     {"one_to_one", true},
+                     {"mean_size", size_of_mean(group)},
+                     {"variance", group.modes.variance},
+                     {"modes", modes_json(group.modes)},
+                     {"procrustes_iterations", group.iterations},
+                     {"shapes", members},
+                     {"landmarks", landmarks},
+                     {"warnings", group_warnings(record)},
+                     {"outputs", record.outputs},
+                     {"seconds", record.seconds}};
+  return text_of(json);
+}
+
+std::string shapes_table(const GroupRecord& record) {
+  std::vector<std::string> header{"shape", "start", "energy", "size", "distance_from_mean"};
+  for (std::string& name : mode_names(record.group, "mode")) header.push_back(std::move(name));
+  std::string text = row(header);
+  for (size_t i = 0; i < record.names.size(); ++i) {
+    const GroupMember& member = record.group.members[i];
+    std::vector<std::string> cells{record.names[i], member.start, shortest(member.energy),
+                                   shortest(size_of(member, record.group.weights)),
+                                   shortest(distance_from_mean(record.group, i))};
+    for (Eigen::Index k = 0; k < record.group.modes.scores.cols(); ++k)
+      cells.push_back(shortest(record.group.modes.scores(static_cast<Eigen::Index>(i), k)));
+    text += row(cells);
+  }
+  return text;
+}
+
+std::string distances_table(const GroupRecord& record) {
+  std::vector<std::string> header{"shape"};
+  header.insert(header.end(), record.names.begin(), record.names.end());
+  std::string text = row(header);
+  for (size_t i = 0; i < record.names.size(); ++i) {
+    std::vector<std::string> cells{record.names[i]};
+    for (Eigen::Index j = 0; j < record.group.distances.cols(); ++j)
+      cells.push_back(shortest(record.group.distances(static_cast<Eigen::Index>(i), j)));
+    text += row(cells);
+  }
+  return text;
+}
+
+std::string vertices_table(const GroupRecord& record) {
+  const Group& group = record.group;
+  const Points normals = vertex_normals(group.mean.mesh());
+  std::vector<std::string> header{"vertex",          "x", "y", "z", "weight", "deviation",
+                                  "normal_deviation"};
+  for (std::string& name : mode_names(group, "normal_mode")) header.push_back(std::move(name));
+  std::string text = row(header);
+  for (Vertex v = 0; v < group.mean.mesh().vertex_count(); ++v) {
+    const Vector3 x = group.mean.mesh().position(v);
+    std::vector<std::string> cells{std::to_string(v)};
+    for (const double value :
+         {x.x(), x.y(), x.z(), group.weights[v], group.deviation[v], group.normal_deviation[v]})
+      cells.push_back(shortest(value));
+    for (const Points& mode : group.modes.modes)
+      cells.push_back(shortest(mode.row(v).dot(normals.row(v))));
+    text += row(cells);
+  }
+  return text;
+}
+
+std::string landmarks_table(const GroupRecord& record) {
+  std::vector<Vertex> vertices;
+  for (const TemplateLandmark& landmark : record.landmarks) vertices.push_back(landmark.vertex);
+  std::string text =
+      row({"shape", "landmark", "x", "y", "z", "face", "w0", "w1", "w2", "nearest_vertex"});
+  for (size_t i = 0; i < record.names.size(); ++i) {
+    const MappedMesh& mapped = record.group.members[i].mapped;
+    const FileNumbers numbers(mapped.file());
+    const std::vector<SurfacePoint> points = carried_to(record.group, i, vertices);
+    for (size_t k = 0; k < points.size(); ++k) {
+      const SurfacePoint& point = points[k];
+      const Vector3 x = position(mapped.mesh(), point);
+      int nearest = 0;
+      point.barycentric.maxCoeff(&nearest);
+      std::vector<std::string> cells{record.names[i], record.landmarks[k].name};
+      for (int axis = 0; axis < 3; ++axis) cells.push_back(shortest(x[axis]));
+      cells.push_back(std::to_string(point.face));
+      for (int corner = 0; corner < 3; ++corner)
+        cells.push_back(shortest(point.barycentric[corner]));
+      cells.push_back(std::to_string(numbers.number(mapped.mesh().triangles(point.face, nearest))));
+      text += row(cells);
+    }
+  }
+  return text;
+}
+
+std::string to_text(const GroupRecord& record) {
+  const Group& group = record.group;
+  const double size = size_of_mean(group);
+  const std::string grid =
+      record.options.grid ? grid_name(record.options) : "the template's triangles";
+  return counted(static_cast<long>(record.names.size()), "shape") + " on " + grid +
+         ", all maps certified; RMS distance from the mean " +
+         short_number(std::sqrt(group.modes.variance)) + " (" +
+         percent(size > 0 ? std::sqrt(group.modes.variance) / size : 0) + " of its size " +
+         short_number(size) + "), " + short_number(record.seconds) + " s";
+}
+
+std::vector<std::string> mode_lines(const GroupRecord& record) {
+  const ShapeModes& modes = record.group.modes;
+  std::vector<std::string> lines;
+  for (Eigen::Index k = 0; k < modes.deviations.size(); ++k)
+    lines.push_back("mode " + std::to_string(k + 1) + ": standard deviation " +
+                    short_number(modes.deviations[k]) + ", " + percent(modes.shares[k]) +
+                    " of the variance");
+  return lines;
+}
+
+std::vector<std::string> group_warnings(const GroupRecord& record) {
+  std::vector<std::string> warnings;
+  for (size_t i = 0; i < record.names.size(); ++i)
+    for (const std::string& warning : record.group.members[i].warnings)
+      warnings.push_back(record.names[i] + ": " + warning);
+  for (const size_t i : outliers(record.group))
+    warnings.push_back(record.names[i] +
+                       ": its map to the mean distorts far more than the others' "
+                       "(energy " +
+                       short_number(record.group.members[i].energy) +
+                       "): look at its correspondence");
+  return warnings;
+}
+
+}  // namespace sphparam

@@ -1,0 +1,195 @@
+// The mean and its deviations, the modes from end to end, all shapes in the colours of the
+// correspondence, tables.
+
+#include <cmath>
+#include <utility>
+
+#include "io/uri.h"
+#include "number_text.h"
+#include "report/page.h"
+#include "sphparam/io/paths.h"
+#include "sphparam/render/coloured_values.h"
+#include "sphparam/render/picture.h"
+#include "sphparam/records/group_files.h"
+
+namespace sphparam {
+namespace {
+
+constexpr int panel_width = 220;             // least, on the page, in pixels
+constexpr size_t most_pictures = 100;        // of shapes
+constexpr Eigen::Index most_distances = 24;  // columns of a table that is read
+constexpr double shown_deviations = 2;
+
+constexpr char style[] =
+    "h1,h3,p,li{overflow-wrap:anywhere}"
+    "tbody tr>:first-child{white-space:normal;overflow-wrap:anywhere;min-width:7rem}";
+
+class GroupPage {
+ public:
+  GroupPage(const GroupRecord& record, const GroupFileOptions& options)
+      : record_(record),
+        group_(record.group),
+        options_(options),
+        page_("A group of " + counted(static_cast<long>(record.names.size()), "shape")) {
+    page_.add_style(style);
+  }
+
+  std::string html() {
+    add_summary();
+    if (options_.size > 0) add_mean();
+    add_modes();
+    if (options_.size > 0) add_shapes();
+    add_tables();
+    add_facts();
+    return page_.html();
+  }
+
+ private:
+  PageFigure picture(const MappedMesh& mesh, DrawingOptions drawing, const std::string& caption) {
+    drawing.view = View::Mesh;
+    drawing.up = options_.up;
+    drawing.size = options_.size;
+    drawing.threads = options_.threads;
+    report(options_.progress, "pictures", 0);
+    return {data_uri("image/png", draw_png(mesh.file(), mesh.map(), drawing)), caption, caption};
+  }
+
+  /// In the colours of directions: the same place has the same one on all shapes.
+  PageFigure in_correspondence(const MappedMesh& mesh, const std::string& caption) {
+    return picture(mesh, {.graticule = true}, caption);
+  }
+
+  void add_summary() {
+    const std::vector<std::string> warnings = group_warnings(record_);
+    page_.verdict(to_text(record_), warnings.empty());
+    const double size = size_of_mean(group_);
+    page_.key_figures(
+        {{"shapes", std::to_string(record_.names.size())},
+         {"vertices in correspondence", std::to_string(group_.mean.mesh().vertex_count())},
+         {"of the mean's size, RMS distance from it",
+          percent(size > 0 ? std::sqrt(group_.modes.variance) / size : 0)}});
+    if (!warnings.empty()) {
+      page_.paragraph("To be looked at:");
+      page_.list(warnings);
+    }
+  }
+
+  void add_mean() {
+    page_.heading("Mean");
+    std::vector<PageFigure> figures{
+        in_correspondence(group_.mean, "The mean; colours and lines are those of the sphere")};
+    if (record_.names.size() > 1) {
+      const auto deviation = [&](const VectorX& values, const char* name, const char* caption) {
+        MeshFile file = with_coloured_values(group_.mean.file(), name, values);
+        figures.push_back(picture(with_file(std::move(file)), {.scalar = name}, caption));
+      };
+      deviation(group_.deviation, "deviation", "Standard deviation of the shapes");
+      deviation(group_.normal_deviation, "normal deviation", "Along the normal");
+    }
+    page_.figures(figures, panel_width);
+  }
+
+  MappedMesh with_file(MeshFile file) const {
+    return MappedMesh(
+        {.file = std::move(file), .map = group_.mean.map(), .topology = group_.mean.topology()}, 1);
+  }
+
+  void add_modes() {
+    const std::vector<std::string> lines = mode_lines(record_);
+    if (lines.empty()) return;
+    page_.heading("Modes");
+    for (size_t k = 0; k < lines.size(); ++k) {
+      page_.subheading(lines[k]);
+      if (options_.size == 0) continue;
+      std::vector<PageFigure> figures;
+      for (const double d : {-shown_deviations, 0.0, shown_deviations})
+        figures.push_back(in_correspondence(
+            group_shape(group_, static_cast<int>(k), d),
+            d == 0 ? "mean" : (d < 0 ? "− " : "+ ") + short_number(std::abs(d)) + " deviations"));
+      page_.figures(figures, panel_width);
+    }
+  }
+
+  void add_shapes() {
+    page_.heading("Shapes");
+    page_.paragraph(
+        "Each as it lies on the mean. The same colour, and the same line, is the same place on "
+        "all.");
+    std::vector<PageFigure> figures;
+    for (size_t i = 0; i < std::min(record_.names.size(), most_pictures); ++i)
+      figures.push_back(in_correspondence(aligned_shape(group_, i), record_.names[i]));
+    page_.figures(figures, panel_width);
+    if (record_.names.size() > most_pictures)
+      page_.paragraph("The first " + std::to_string(most_pictures) + " of " +
+                      std::to_string(record_.names.size()) + "; the others are in the table.");
+  }
+
+  void add_tables() {
+    page_.heading("Figures");
+    PageTable shapes{"Shapes",
+                     {"shape", "begun with", "energy", "size", "from the mean",
+                      "off by resampling, RMS", "most"},
+                     {},
+                     {}};
+    const Eigen::Index modes = group_.modes.scores.cols();
+    for (Eigen::Index k = 0; k < modes; ++k)
+      shapes.header.push_back("mode " + std::to_string(k + 1));
+    for (size_t i = 0; i < record_.names.size(); ++i) {
+      const GroupMember& member = group_.members[i];
+      shapes.rows.push_back(
+          {record_.names[i], member.start, member.energy > 0 ? short_number(member.energy, 4) : "–",
+           short_number(size_of_member(member)), short_number(distance_from_mean(group_, i)),
+           short_number(member.resampling_rms), short_number(member.resampling_max)});
+      for (Eigen::Index k = 0; k < modes; ++k)
+        shapes.rows.back().push_back(
+            short_number(group_.modes.scores(static_cast<Eigen::Index>(i), k)));
+    }
+    page_.table(shapes);
+    if (group_.distances.cols() <= most_distances)
+      page_.table(distances());
+    else
+      page_.paragraph("Distances of each two are in distances.tsv.");
+  }
+
+  double size_of_member(const GroupMember& member) const {
+    const Points& points = member.resampled.mesh().positions;
+    const Vector3 centre = points.transpose() * group_.weights;
+    const Points about = points.rowwise() - centre.transpose();
+    return std::sqrt(about.rowwise().squaredNorm().dot(group_.weights));
+  }
+
+  PageTable distances() const {
+    PageTable table{
+        "Distances of each two, RMS, moved and turned onto each other", {"shape"}, {}, {}};
+    for (const std::string& name : record_.names) table.header.push_back(name);
+    for (Eigen::Index i = 0; i < group_.distances.rows(); ++i) {
+      table.rows.push_back({record_.names[static_cast<size_t>(i)]});
+      for (Eigen::Index j = 0; j < group_.distances.cols(); ++j)
+        table.rows.back().push_back(i == j ? "–" : short_number(group_.distances(i, j)));
+    }
+    return table;
+  }
+
+  void add_facts() {
+    page_.facts(
+        {{"template", display_name(record_.reference)},
+         {"brought to their mean",
+          record_.options.hold ? "not: maps were held" : counted(record_.options.rounds, "time")},
+         {"grid", grid_name(record_.options)},
+         {"brought to one size", record_.options.scale ? "yes" : "no"},
+         {"maps", "of all shapes certified one-to-one, as they are written"}});
+  }
+
+  const GroupRecord& record_;
+  const Group& group_;
+  const GroupFileOptions& options_;
+  Page page_;
+};
+
+}  // namespace
+
+std::string group_page(const GroupRecord& record, const GroupFileOptions& options) {
+  return GroupPage(record, options).html();
+}
+
+}  // namespace sphparam

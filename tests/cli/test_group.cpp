@@ -1,0 +1,194 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+#include "program.h"
+#include "sphparam/io/mesh_reader.h"
+#include "support/test_meshes.h"
+
+/// `sphparam group`.
+namespace sphparam::tests {
+
+namespace {
+
+using Catch::Contains;
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+/// Ellipsoids with a bump, of three lengths, each lying elsewhere.
+struct Eggs {
+  Folder folder;
+  std::vector<std::string> paths;
+  std::string out = folder / "out/";
+
+  Eggs() {
+    for (const double length : {2.6, 3.0, 3.4}) {
+      TriangleMesh mesh = icosphere(3);
+      const double turn = length * 2;
+      Eigen::Matrix3d rotation;
+      rotation << std::cos(turn), -std::sin(turn), 0, std::sin(turn), std::cos(turn), 0, 0, 0, 1;
+      for (Vertex v = 0; v < mesh.vertex_count(); ++v) {
+        const Vector3 x = mesh.position(v);
+        const double bump = std::exp(-4 * (x - Vector3(1, 1, 1).normalized()).squaredNorm());
+        mesh.positions.row(v) =
+            rotation * ((1 + 0.5 * bump) * x.cwiseProduct(Vector3(length, 2, 1.2)));
+      }
+      mesh.positions.array() += length;
+      paths.push_back(folder / ("egg" + std::to_string(paths.size()) + ".obj"));
+      write_bytes(paths.back(), obj_text(mesh));
+    }
+  }
+  Ended group(std::vector<std::string> more) const {
+    std::vector<std::string> arguments{"group"};
+    arguments.insert(arguments.end(), paths.begin(), paths.end());
+    arguments.insert(arguments.end(), {"-o", out});
+    if (std::ranges::find(more, "--grid") == more.end())
+      more.insert(more.end(), {"--grid", "ico:3"});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return sphparam_program(arguments);
+  }
+  std::string in_out(const std::string& name) const { return (fs::path(out) / name).string(); }
+};
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+long columns(const std::string& line) { return 1 + std::ranges::count(line, '\t'); }
+
+}  // namespace
+
+TEST_CASE("group: everything is written, every map proved, and the length is the first mode") {
+  const Eggs eggs;
+  write_bytes(eggs.folder / "marks.txt", "# on the template\n0 tip\n17\n");
+  const Ended ended =
+      eggs.group({"--landmarks", eggs.folder / "marks.txt", "--modes", "2", "--size", "64"});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  for (const char* file :
+       {"mean.sph.ply", "map_egg0.sph.ply", "map_egg2.sph.ply", "shape_egg1.sph.ply"}) {
+    INFO(file);
+    CHECK(sphparam_program({"verify", eggs.in_out(file)}).code == 0);
+  }
+  for (const char* file :
+       {"mean.glb", "mode1.glb", "mode1_minus.glb", "mode1_plus.glb", "mode2.glb"})
+    CHECK(fs::exists(eggs.in_out(file)));
+  CHECK_FALSE(fs::exists(eggs.in_out("mode3.glb")));
+  const Json report = Json::parse(bytes_of(eggs.in_out("group.json")));
+  CHECK(report["command"] == "group");
+  CHECK(report["modes"][0]["share"] > 0.98);
+  REQUIRE(report["shapes"].size() == 3);
+  for (const Json& shape : report["shapes"]) {
+    CHECK(shape["certificate"]["one_to_one"] == true);
+    CHECK(shape["resampled_certificate"]["one_to_one"] == true);
+    CHECK(shape["scores"].size() == 2);
+  }
+  const double first = report["shapes"][0]["scores"][0], middle = report["shapes"][1]["scores"][0],
+               last = report["shapes"][2]["scores"][0];
+  CHECK(std::abs(middle) < 0.2);
+  CHECK(first * last < -0.5);
+  for (const std::string name : report["outputs"]) CHECK(fs::exists(eggs.in_out(name)));
+  CHECK_THAT(bytes_of(eggs.in_out("index.html")), Contains("egg1") && Contains("image/png"));
+}
+
+TEST_CASE("group: tables have a row a shape, a vertex, a landmark, and a header") {
+  const Eggs eggs;
+  write_bytes(eggs.folder / "marks.txt", "0 tip of it\n17\n");
+  const Ended ended =
+      eggs.group({"--landmarks", eggs.folder / "marks.txt", "--size", "0", "--rounds", "0"});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  const auto table = [&](const char* name) { return lines_of(bytes_of(eggs.in_out(name))); };
+  const auto distances = table("distances.tsv");
+  REQUIRE(distances.size() == 4);
+  CHECK(distances[0] == "shape\tegg0\tegg1\tegg2");
+  for (const std::string& line : distances) CHECK(columns(line) == 4);
+  CHECK(table("shapes.tsv").size() == 4);
+  CHECK(table("vertices.tsv").size() == 643);
+  const auto landmarks = table("landmarks.tsv");
+  REQUIRE(landmarks.size() == 7);
+  CHECK_THAT(landmarks[1], Catch::StartsWith("egg0\ttip of it\t"));
+  CHECK_THAT(landmarks[1], Catch::EndsWith("\t0"));  // the template's own vertex 0
+  CHECK_THAT(landmarks[2], Catch::StartsWith("egg0\t17\t") && Catch::EndsWith("\t17"));
+  // The eggs' vertices are one another's: so are their landmarks, nearly.
+  const TriangleMesh last = read_mesh(fs::path(eggs.paths[2])).mesh;
+  std::istringstream row(landmarks[5]);
+  std::string shape, name;
+  Vector3 found;
+  std::getline(row, shape, '\t');
+  std::getline(row, name, '\t');
+  row >> found.x() >> found.y() >> found.z();
+  CHECK((found - last.position(0)).norm() < 0.8);  // of a length of 6.8
+  CHECK_THAT(bytes_of(eggs.in_out("index.html")), !Contains("image/png"));
+}
+
+TEST_CASE("group: the same bytes for 1 and 3 threads") {
+  const Eggs eggs;
+  std::vector<std::string> bytes;
+  for (const char* threads : {"1", "3"}) {
+    const Ended ended = eggs.group({"--size", "0", "--threads", threads});
+    INFO(ended.err);
+    REQUIRE(ended.code == 0);
+    bytes.push_back(bytes_of(eggs.in_out("mean.sph.ply")) + bytes_of(eggs.in_out("shapes.tsv")) +
+                    bytes_of(eggs.in_out("map_egg2.sph.ply")) + bytes_of(eggs.in_out("mode1.glb")));
+  }
+  CHECK(bytes[0] == bytes[1]);
+}
+
+TEST_CASE("group: a template that is no shape does not count, and held maps stay as they are") {
+  const Eggs eggs;
+  const std::string other = eggs.folder / "other.sph.ply";
+  REQUIRE(sphparam_program({"map", eggs.paths[1], "-o", other}).code == 0);
+  const Ended ended =
+      sphparam_program({"group", eggs.paths[0], eggs.paths[2], "--template", other, "--hold",
+                        "--grid", "template", "--size", "0", "-o", eggs.out});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  const Json report = Json::parse(bytes_of(eggs.in_out("group.json")));
+  CHECK(report["shapes"].size() == 2);
+  CHECK(report["grid"] == "template");
+  CHECK(report["shapes"][0]["energy"].is_null());
+  CHECK(report["template"] == other);
+  const auto count = [](const std::string& path) {
+    return read_mesh(fs::path(path)).mesh.vertex_count();
+  };
+  CHECK(count(eggs.in_out("mean.sph.ply")) == count(other));
+}
+
+TEST_CASE("group: what makes no sense is refused, and nothing is written") {
+  const Eggs eggs;
+  const auto refused = [&](std::vector<std::string> more, int code, const std::string& word) {
+    const Ended ended = eggs.group(std::move(more));
+    INFO(ended.err);
+    CHECK(ended.code == code);
+    CHECK_THAT(ended.err, Contains(word));
+    CHECK_FALSE(fs::exists(eggs.out));
+  };
+  refused({"--grid", "cube:8"}, 2, "quads");
+  refused({"--grid", "ball"}, 2, "template, or");
+  refused({"--size", "10"}, 2, "--size");
+  refused({"--start", "luck"}, 2, "ellipsoid");
+  write_bytes(eggs.folder / "marks.txt", "0 a\n5 a\n");
+  refused({"--landmarks", eggs.folder / "marks.txt", "--size", "0"}, 3, "second landmark");
+  write_bytes(eggs.folder / "marks.txt", "100000\n");
+  refused({"--landmarks", eggs.folder / "marks.txt", "--size", "0"}, 3, "no vertex 100000");
+  CHECK(sphparam_program({"group", "-o", eggs.out}).code == 2);
+  CHECK(sphparam_program({"group", eggs.folder / "none.obj", "-o", eggs.out}).code == 3);
+  CHECK(sphparam_program({"group", eggs.paths[0], "-o", eggs.folder / "no/where/"}).code == 3);
+  write_bytes(eggs.folder / "file", "x");
+  CHECK(sphparam_program({"group", eggs.paths[0], "-o", eggs.folder / "file"}).code == 3);
+  // What is made of a shape does not replace one.
+  const std::string taken = eggs.folder / "shape_egg0.sph.ply";
+  REQUIRE(sphparam_program({"map", eggs.paths[0], "-o", taken}).code == 0);
+  const Ended ended = sphparam_program({"group", eggs.paths[0], taken, "-o", eggs.folder / ""});
+  CHECK(ended.code == 2);
+  CHECK_THAT(ended.err, Contains("it would be replaced"));
+}
+
+}  // namespace sphparam::tests

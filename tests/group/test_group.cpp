@@ -1,0 +1,196 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "sphparam/correspondence/surface_map.h"
+#include "sphparam/errors.h"
+#include "sphparam/group/group.h"
+#include "sphparam/parameterize.h"
+#include "sphparam/sphere/certificate.h"
+#include "support/mapped.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+
+namespace {
+
+constexpr GridSpec small_grid{GridKind::Icosahedron, 3};
+constexpr GridSpec middle_grid{GridKind::Icosahedron, 4};
+
+Eigen::Matrix3d rotation(double angle, const Vector3& axis) {
+  return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
+}
+
+/// The unit sphere as the grid has it: its vertices are found exactly.
+TriangleMesh grid_sphere(const GridSpec& spec) {
+  const SphereGrid grid = make_grid(spec);
+  TriangleMesh mesh{grid.directions, Triangles(grid.faces.count(), 3)};
+  for (Eigen::Index f = 0; f < mesh.face_count(); ++f)
+    for (int k = 0; k < 3; ++k) mesh.triangles(f, k) = grid.faces.polygon(f)[size_t(k)];
+  return mesh;
+}
+
+/// An ellipsoid with a bump: no half turn leaves it as it is.
+TriangleMesh bumpy(const GridSpec& grid, double length = 3) {
+  TriangleMesh mesh = grid_sphere(grid);
+  for (Vertex v = 0; v < mesh.vertex_count(); ++v) {
+    const Vector3 x = mesh.position(v);
+    const double radius =
+        1 + 0.5 * std::exp(-4 * (x - Vector3(1, 1, 1).normalized()).squaredNorm());
+    mesh.positions.row(v) = radius * x.cwiseProduct(Vector3(length, 2, 1.2));
+  }
+  return mesh;
+}
+
+Points displaced(const Points& points, double angle) {
+  const Points turned = points * rotation(angle, Vector3(1, 2, -angle)).transpose();
+  return turned.rowwise() + Eigen::RowVector3d(5 * angle, -3, 1);
+}
+
+/// Copies of a shape that are moved and turned, each with its vertices numbered anew and a map of
+/// its own.
+std::vector<MappedMesh> copies(const TriangleMesh& mesh) {
+  std::vector<MappedMesh> result;
+  for (const unsigned i : {1u, 2u, 3u}) {
+    TriangleMesh copy = relabelled(mesh, i);
+    copy.positions = displaced(copy.positions, i);
+    SphereMap map = parameterize(copy).map;
+    result.push_back(mapped(copy, std::move(map)));
+  }
+  return result;
+}
+
+double rms(const Points& a, const Points& b) {
+  return std::sqrt((a - b).squaredNorm() / static_cast<double>(a.rows()));
+}
+
+}  // namespace
+
+TEST_CASE("group: registered copies of a shape, moved and turned, have it for their mean") {
+  const TriangleMesh shape = bumpy(small_grid);
+  const SphereMap sphere{grid_sphere(small_grid).positions};
+  const MappedMesh pattern = mapped(shape, sphere);
+  std::vector<MappedMesh> shapes;
+  for (const double angle : {0.5, 1.0, 2.0})
+    shapes.push_back(
+        mapped(TriangleMesh{displaced(shape.positions, angle), shape.triangles}, sphere));
+  const Group group =
+      make_group(shapes, pattern, {.start = GroupStart::Maps, .hold = true, .grid = small_grid});
+  // The grid has the very directions of the shape's vertices.
+  CHECK((group.mean.mesh().positions - shape.positions).cwiseAbs().maxCoeff() < 1e-12);
+  CHECK(group.distances.maxCoeff() < 1e-12);
+  CHECK(group.deviation.maxCoeff() < 1e-12);
+  CHECK(group.modes.modes.empty());
+  for (size_t i = 0; i < shapes.size(); ++i) {
+    CHECK(group.members[i].mapped.map().points == sphere.points);
+    CHECK(group.members[i].start == "its map");
+    CHECK(group.members[i].resampling_max < 1e-12);
+    CHECK(rms(group.members[i].resampled.mesh().positions, shapes[i].mesh().positions) < 1e-12);
+    CHECK(rms(aligned_shape(group, i).mesh().positions, shape.positions) < 1e-12);
+  }
+}
+
+TEST_CASE("group: copies with maps of their own come into correspondence, and have it for a mean") {
+  const TriangleMesh shape = bumpy(middle_grid);
+  const std::vector<MappedMesh> shapes = copies(shape);
+  for (const int rounds : {0, 1}) {
+    const Group group =
+        make_group(shapes, shapes[0], {.rounds = rounds, .grid = middle_grid, .threads = 2});
+    CHECK(group.members[0].start == "template");
+    CHECK(group.members[1].start == "ellipsoid");
+    CHECK(group.distances.maxCoeff() < 5e-3);  // of a length of 6
+    for (const GroupMember& member : group.members) {
+      CHECK(certify(member.mapped.topology(), member.mapped.map()).bijective());
+      CHECK(certify(member.resampled.topology(), member.resampled.map()).bijective());
+      CHECK(member.resampling_rms < 0.02);
+      CHECK(member.warnings.empty());
+    }
+    CHECK(rms(group.mean.mesh().positions, group.members[0].resampled.mesh().positions) < 5e-3);
+  }
+}
+
+TEST_CASE("group: ellipsoids of many lengths vary in one mode, whose scores are the length") {
+  std::vector<MappedMesh> shapes;
+  const std::vector<double> lengths{3, 3.4, 3.8, 4.2, 4.6};
+  for (const double length : lengths) {
+    TriangleMesh mesh = bumpy(middle_grid, length);
+    mesh.positions = displaced(mesh.positions, length);
+    SphereMap map = parameterize(mesh).map;
+    shapes.push_back(mapped(mesh, std::move(map)));
+  }
+  const Group group = make_group(shapes, shapes[2], {.grid = middle_grid, .threads = 2});
+  REQUIRE(group.modes.modes.size() == 3);
+  CHECK(group.modes.shares[0] > 0.99);
+  const double sign = group.modes.scores(4, 0) > 0 ? 1 : -1;
+  for (int i = 0; i < 5; ++i)
+    CHECK(sign * group.modes.scores(i, 0) ==
+          Approx((lengths[size_t(i)] - 3.8) / (0.4 * std::sqrt(2.5))).margin(0.06));
+  // Two deviations along it are an ellipsoid of another length.
+  const Points longer = group_shape(group, 0, 2 * sign).mesh().positions;
+  const Vector3 centre = longer.transpose() * group.weights;
+  const Points about = longer.rowwise() - centre.transpose();
+  CHECK(about.rowwise().norm().maxCoeff() > 4.8);
+}
+
+TEST_CASE("group: vertices of the template are carried to the same vertices of its copies") {
+  const TriangleMesh shape = bumpy(small_grid);
+  const SphereMap sphere{grid_sphere(small_grid).positions};
+  const std::vector<MappedMesh> shapes{
+      mapped(TriangleMesh{displaced(shape.positions, 1), shape.triangles}, sphere)};
+  const Group group = make_group(shapes, mapped(shape, sphere),
+                                 {.start = GroupStart::Maps, .rounds = 1, .grid = small_grid});
+  const std::vector<Vertex> vertices{0, 17, 300};
+  const std::vector<SurfacePoint> points = carried_to(group, 0, vertices);
+  for (size_t i = 0; i < vertices.size(); ++i)
+    CHECK((position(shapes[0].mesh(), points[i]) - shapes[0].mesh().position(vertices[i])).norm() <
+          1e-6);
+}
+
+TEST_CASE("group: without a grid the mean has the triangles of the template") {
+  const std::vector<MappedMesh> shapes = copies(bumpy(small_grid));
+  const Group group = make_group(shapes, shapes[1], {.grid = std::nullopt});
+  CHECK(group.mean.mesh().triangles == shapes[1].mesh().triangles);
+  CHECK(rms(group.mean.mesh().positions, shapes[1].mesh().positions) < 2e-2);
+}
+
+TEST_CASE("group: deviations are those of the aligned shapes") {
+  TriangleMesh shape = bumpy(small_grid);
+  const SphereMap sphere{grid_sphere(small_grid).positions};
+  const MappedMesh one = mapped(shape, sphere);
+  shape.positions *= 1.1;
+  const MappedMesh other = mapped(shape, sphere);
+  const GroupOptions options{.start = GroupStart::Maps, .hold = true, .grid = small_grid};
+  const Group group = make_group({one, other}, one, options);
+  const Points apart = group.members[1].aligned - group.members[0].aligned;
+  CHECK((group.deviation - apart.rowwise().norm() / std::sqrt(2)).cwiseAbs().maxCoeff() < 1e-12);
+  CHECK((group.deviation - group.normal_deviation).minCoeff() > -1e-12);
+  CHECK(group.modes.modes.size() == 1);
+  GroupOptions scaled = options;
+  scaled.scale = true;
+  CHECK(make_group({one, other}, one, scaled).deviation.maxCoeff() < 1e-12);
+}
+
+TEST_CASE("group: the same bits for any number of threads") {
+  const std::vector<MappedMesh> shapes = copies(bumpy(small_grid));
+  const auto made = [&](int threads) {
+    return make_group(shapes, shapes[1], {.grid = small_grid, .threads = threads});
+  };
+  const Group one = made(1), three = made(3);
+  CHECK(one.mean.mesh().positions == three.mean.mesh().positions);
+  CHECK(one.distances == three.distances);
+  for (size_t i = 0; i < shapes.size(); ++i)
+    CHECK(one.members[i].mapped.map().points == three.members[i].mapped.map().points);
+}
+
+TEST_CASE("group: what makes no sense is refused, and work can be cancelled") {
+  const MappedMesh shape = mapped(bumpy({GridKind::Icosahedron, 2}),
+                                  SphereMap{grid_sphere({GridKind::Icosahedron, 2}).positions});
+  CHECK_THROWS_AS(make_group({}, shape), std::invalid_argument);
+  CHECK_THROWS_AS(make_group({shape}, shape, {.rounds = -1}), std::invalid_argument);
+  CHECK_THROWS_WITH(make_group({shape}, shape, {.grid = GridSpec{GridKind::Cube, 8}}),
+                    Catch::Contains("triangles"));
+  CHECK_THROWS_AS(
+      make_group({shape, shape}, shape,
+                 {.grid = small_grid, .progress = [](std::string_view, double) { return false; }}),
+      Cancelled);
+}

@@ -1,0 +1,182 @@
+// `sphparam group`: shapes in correspondence: their mean, how they vary, how far they are apart.
+
+#include "sphparam/group/group.h"
+
+#include <filesystem>
+
+#include "commands/command.h"
+#include "commands/sources.h"
+#include "console/places.h"
+#include "sphparam/group/template_landmarks.h"
+#include "sphparam/records/group_files.h"
+
+namespace sphparam::cli {
+
+namespace {
+
+constexpr char summary[] =
+    "Bring shapes into correspondence: their mean, modes, distances, and a page.\n"
+    "\n"
+    "Examples:\n"
+    "  sphparam group maps/*.sph.ply -o group/\n"
+    "  sphparam group people/*.off --start ends --template people/rest.off -o people_group/\n"
+    "  sphparam group hippocampi/*.sph.ply --hold --scale -o h/\n"
+    "  sphparam group maps/*.sph.ply --landmarks template.txt -o group/\n"
+    "\n"
+    "Each shape's map is moved until the way from it to the template, and then to the mean of "
+    "all,\n"
+    "distorts least. All are resampled on one grid, moved and turned onto their mean "
+    "(Procrustes),\n"
+    "and their principal modes found. Every map is proved one-to-one.\n";
+
+struct GroupArguments : CommonArguments {
+  Words inputs;
+  std::string folder, reference, landmarks;
+  std::string grid = "ico:5";
+  std::optional<Up> up;
+  int size = GroupFileOptions{}.size;
+  GroupOptions options;
+};
+
+void read_grid(GroupArguments& arguments) try {
+  arguments.options.grid.reset();
+  if (arguments.grid == "template") return;
+  arguments.options.grid = parse_grid(arguments.grid);
+  if (has_quads(*arguments.options.grid))
+    throw UsageMistake("--grid: " + arguments.grid +
+                       " has quads; a group is of triangles: ico:5, ico:f=20, octa:65");
+} catch (const std::invalid_argument& error) {
+  throw UsageMistake(std::string("--grid: template, or ") + error.what());
+}
+
+void require_sensible(GroupArguments& arguments) {
+  read_grid(arguments);
+  if (arguments.size > 0 && arguments.size < 64)
+    throw UsageMistake("--size: 0, or 64 to 4096 pixels");
+  std::vector<std::string> read = arguments.inputs;
+  read.insert(read.end(), {arguments.reference, arguments.landmarks});
+  require_one_stream(read, "the shapes, --template and --landmarks");
+}
+
+/// The folder that is there, or whose parent is.
+void require_folder(const std::string& folder) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::path path =
+      fs::path(folder).filename().empty() ? fs::path(folder).parent_path() : fs::path(folder);
+  if (is_stream(folder)) throw UsageMistake("-o: a group is many files, in a folder");
+  if (fs::is_directory(path, error)) return require_writable((path / "group.json").string());
+  if (fs::exists(path, error)) throw WriteError(folder, "is no folder");
+  require_writable(path.string());
+}
+
+/// No shape may be replaced by what is made of it.
+void require_other_files(const GroupArguments& arguments) {
+  Outputs outputs;
+  std::vector<std::string> files{"index.html", "group.json", "mean.sph.ply"};
+  for (const std::string& name : names_of_shapes(arguments.inputs))
+    for (const char* kind : {"map_", "shape_"}) files.push_back(kind + name + ".sph.ply");
+  for (const std::string& file : files)
+    outputs.emplace_back("-o", (std::filesystem::path(arguments.folder) / file).string());
+  check_places(outputs, arguments.folder);
+}
+
+void make_folder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw WriteError(folder, error.message());
+}
+
+std::vector<MappedMesh> read_shapes(const GroupArguments& arguments, Session& session) {
+  std::vector<MappedMesh> shapes;
+  for (const std::string& path : arguments.inputs) shapes.push_back(read_mapped(path, "", session));
+  return shapes;
+}
+
+/// The template: a file of its own, or one of the shapes.
+MappedMesh read_reference(const GroupArguments& arguments, const std::vector<MappedMesh>& shapes,
+                          Session& session) {
+  for (size_t i = 0; i < shapes.size(); ++i)
+    if (arguments.reference.empty() || is_same_place(arguments.reference, arguments.inputs[i]))
+      return shapes[i];
+  return read_mapped(arguments.reference, "", session);
+}
+
+int run_group(GroupArguments& arguments) {
+  require_sensible(arguments);
+  require_folder(arguments.folder);
+  require_other_files(arguments);
+  Session session(arguments);
+  const std::vector<MappedMesh> shapes = read_shapes(arguments, session);
+  const MappedMesh reference = read_reference(arguments, shapes, session);
+  std::vector<TemplateLandmark> landmarks;
+  if (!arguments.landmarks.empty())
+    landmarks = read_template_landmarks(arguments.landmarks, FileNumbers(reference.file()));
+  GroupOptions options = arguments.options;
+  options.threads = session.threads();
+  options.progress = session.progress();
+  const Group group = make_group(shapes, reference, options);
+  GroupRecord record{
+      .group = group,
+      .options = options,
+      .files = arguments.inputs,
+      .names = names_of_shapes(arguments.inputs),
+      .reference = arguments.reference.empty() ? arguments.inputs.front() : arguments.reference,
+      .landmarks = landmarks};
+  session.warn(group_warnings(record));
+  record.seconds = session.stopwatch.seconds();
+  make_folder(arguments.folder);
+  record.outputs = add_group(session.files, arguments.folder, record,
+                             {.up = arguments.up,
+                              .size = arguments.size,
+                              .threads = session.threads(),
+                              .progress = session.progress()});
+  session.files.add((std::filesystem::path(arguments.folder) / "group.json").string(),
+                    to_json(record));
+  session.publish();
+  session.console.say(to_text(record));
+  for (const std::string& line : mode_lines(record)) session.console.say("  " + line);
+  session.console.say("→ " + (std::filesystem::path(arguments.folder) / "index.html").string());
+  return Ok;
+}
+
+void declare_options(Declaration& command, GroupArguments& arguments) {
+  command.texts("SHAPES", arguments.inputs, " ", "A .sph.ply each, or any meshes: mapped first")
+      .required()
+      .output(arguments.folder, "FOLDER", "Where all files go; it is made where it is not there")
+      .text("--template", arguments.reference, "FILE",
+            "What all shapes are brought to first; it may be one of them (default: the first)")
+      .choice("--start", arguments.options.start,
+              {{"ellipsoid", GroupStart::Ellipsoid},
+               {"ends", GroupStart::Ends},
+               {"maps", GroupStart::Maps}},
+              "Where the way to the template begins: first-order ellipsoids turned alike, ends "
+              "paired, or maps as they lie (default: ellipsoid)")
+      .flag("--hold", arguments.options.hold,
+            "Maps are only turned, or stay: no distortion is minimised")
+      .number("--rounds", arguments.options.rounds, "N", {0, 20},
+              "So often all are brought to their mean after the template")
+      .text("--grid", arguments.grid, "GRID",
+            "Of triangles, on which shapes are resampled; template: its own triangles")
+      .flag("--scale", arguments.options.scale, "Bring all shapes to one size")
+      .number("--modes", arguments.options.modes, "N", {0, 100}, "At most so many are kept")
+      .text("--landmarks", arguments.landmarks, "FILE",
+            "Vertices of the template, one a line and a name after it, to be found on all shapes")
+      .choice("--energy", arguments.options.energy.kind,
+              {{"symmetric-dirichlet", EnergyKind::SymmetricDirichlet},
+               {"angle-area", EnergyKind::AngleAndArea}},
+              "What is minimised, as of match (default: symmetric-dirichlet)")
+      .up(arguments.up)
+      .number("--size", arguments.size, "N", {0, 4096},
+              "Pixels of a picture, 64 to 4096; 0: no pictures")
+      .threads(arguments)
+      .console(arguments);
+}
+
+}  // namespace
+
+Command declare_group(CLI::App& program) {
+  return make_command(program, "group", summary, declare_options, run_group);
+}
+
+}  // namespace sphparam::cli
