@@ -135,6 +135,22 @@ TEST_CASE("match: a morph is written, what its triangles miss is told, and only 
   CHECK_THAT(wrong.err, Contains("--morph") && Contains(".glb"));
 }
 
+TEST_CASE("match: a page shows the match, without folders in its command line") {
+  const Creatures creatures;
+  const std::string page = creatures.folder / "page.html";
+  const Ended ended = creatures.match({"--page", page, "--no-viewer", "--json", "-"});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  const std::string html = bytes_of(page);
+  CHECK_THAT(html, Contains("first → second") && Contains("What corresponds") &&
+                       Contains("sphparam match first.obj second.obj --landmarks pairs.txt") &&
+                       !Contains("<model-viewer"));
+  CHECK(html.find(creatures.folder / "") == std::string::npos);
+  const Ended wrong = creatures.match({"--page", creatures.folder / "page.png"});
+  CHECK(wrong.code == 2);
+  CHECK_THAT(wrong.err, Contains("--page") && Contains(".html"));
+}
+
 TEST_CASE("match: values that are asked for and are not there are told") {
   const Creatures creatures;
   const Ended ended = creatures.match({"--write-values", creatures.folder / "values.ply"});

@@ -37,7 +37,7 @@ const std::vector<Subcommand> subcommands = {
     {"map", {"", "--pin"}, {"-o", "--write-sphere", "--json", "--plots", "--loops"}},
     {"match",
      {"", "--landmarks", "--sphere", "--sphere-b"},
-     {"-o", "--write-shape", "--write-values", "--write-back", "--morph", "--json"},
+     {"-o", "--write-shape", "--write-values", "--write-back", "--morph", "--page", "--json"},
      {"--landmarks"},
      2},
     {"group", {"", "--template", "--landmarks"}, {"-o"}},

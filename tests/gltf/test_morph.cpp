@@ -142,14 +142,14 @@ TEST_CASE("morph: the looks of both surfaces are there, that of a bare one only 
   using Names = std::vector<std::string>;
   CHECK(names(make_morph(bare, Placement::Scaled, small)) == Names{"checker"});
   const Asset one = make_morph({red, bare.to()}, Placement::Scaled, small);
-  CHECK(names(one) == Names{"colours"});
+  CHECK(names(one) == Names{"one"});
   CHECK(one.levels[0].colours.size() == one.levels[0].vertex_count());
   const Asset both = make_morph({red, blue}, Placement::Scaled, small);
   CHECK(names(both) == Names{"one", "other"});
   CHECK(both.levels[0].colours.empty());  // they would tint the other's
   CHECK(both.images[0].bytes != both.images[1].bytes);
   const Asset other = make_morph({bare.from(), blue}, Placement::Scaled, small);
-  CHECK(names(other) == Names{"other", "one"});
+  CHECK(names(other) == Names{"other", "checker"});
   CHECK(other.levels[0].colours.empty());
   CHECK(other.materials[1].base_colour == 1);
 }

@@ -73,7 +73,7 @@ addEventListener('load', async () => {
   morph.dispatchEvent(new Event('input'));
   const sphere = await look();
   tell('slider', changed(mesh, sphere) > 0.02, changed(mesh, sphere));
-  tell('slider in words', morph.getAttribute('aria-valuetext') === 'sphere', '');
+  tell('slider in words', morph.getAttribute('aria-valuetext') === 'Sphere', '');
   let before = sphere;
   for (const name of ['area', 'angle', 'axes', 'checker']) {
     choose(name);

@@ -242,14 +242,12 @@ void settle_body(BakeArguments& arguments) {
 std::vector<BakeRequest> requests_of_mesh(std::vector<BakeRequest> images,
                                           const BakeArguments& arguments, const MeshFile& file) {
   if (!contains(arguments.maps, channels_word)) return images;
-  const Words there = channels_of(file);
+  const Words there = channels_of(file, !arguments.from.empty());
   std::erase_if(images, [&](const BakeRequest& image) {
     return contains(all_channels(), image.field) && !contains(arguments.maps, image.field) &&
            !contains(there, image.field);
   });
   if (!images.empty()) return images;
-  if (!arguments.from.empty())
-    throw UsageMistake(arguments.from + ": has neither materials nor colours");
   throw UsageMistake(arguments.input +
                      ": has neither materials nor colours. A map carries no materials: bake the "
                      "asset that it is of, `sphparam bake ASSET --sphere " +

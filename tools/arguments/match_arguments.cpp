@@ -22,6 +22,12 @@ void require_morph_name(const std::string& path) {
   throw UsageMistake("--morph: the morph is written as .glb, not as " + output_name(path));
 }
 
+void require_page_name(const std::string& path) {
+  const std::string extension = extension_of(path);
+  if (path.empty() || is_stream(path) || extension == ".html" || extension == ".htm") return;
+  throw UsageMistake("--page: the page is written as .html, not as " + output_name(path));
+}
+
 }  // namespace
 
 void require_sensible(const MatchArguments& arguments) {
@@ -32,11 +38,13 @@ void require_sensible(const MatchArguments& arguments) {
   require_mesh_name("--write-values", "A with what B carries", arguments.values);
   require_mesh_name("--write-back", "the triangles of B in the shape of A", arguments.back);
   require_morph_name(arguments.morph);
+  require_page_name(arguments.page);
   check_places({{"-o", arguments.output},
                 {"--write-shape", arguments.shape},
                 {"--write-values", arguments.values},
                 {"--write-back", arguments.back},
                 {"--morph", arguments.morph},
+                {"--page", arguments.page},
                 {"--json", arguments.json}});
 }
 
@@ -75,6 +83,10 @@ void declare_options(Declaration& command, MatchArguments& arguments) {
                {"as-is", Placement::AsItIs}},
               "How B comes to where A is: turned, moved and scaled to A's area; without scaling; "
               "or as its file has it (default: scaled)")
+      .text("--page", arguments.page, "FILE",
+            "A page that shows the match: both in one colouring, a 3D morph, distortion, figures")
+      .written()
+      .flag_off("--no-viewer", arguments.viewer, "Pages with pictures alone, without scripts")
       .up(arguments.up)
       .json(arguments, "Certificates, distortion, landmarks")
       .threads(arguments)

@@ -14,10 +14,11 @@ namespace sphparam::cli {
 struct MatchArguments : CommonArguments {
   std::string first, second;
   std::string first_sphere, second_sphere;
-  std::string landmarks, output, shape, values, back, morph;
+  std::string landmarks, output, shape, values, back, morph, page;
   Placement placement = Placement::Scaled;  // of B in the morph
-  std::optional<Up> up;                     // of A there
+  std::optional<Up> up;                     // of A there and on the page
   bool mirror = false;
+  bool viewer = true;
   MatchOptions options;
 };
 

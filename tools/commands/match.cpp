@@ -63,7 +63,8 @@ Match match(const MatchArguments& arguments, const MappedMesh& first, const Mapp
 /// What A's triangles show of B's shape, where it is asked for.
 std::optional<CarriedFidelity> fidelity(const MatchArguments& arguments, const Match& match,
                                         Session& session) {
-  if (arguments.morph.empty() && arguments.shape.empty()) return std::nullopt;
+  if (arguments.morph.empty() && arguments.shape.empty() && arguments.page.empty())
+    return std::nullopt;
   return measure_carried(match.map, session.threads(), session.progress());
 }
 

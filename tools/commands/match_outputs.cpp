@@ -1,11 +1,15 @@
 #include "commands/match_outputs.h"
 
+#include <filesystem>
+
 #include "commands/command.h"
 #include "reports/told_losses.h"
 #include "sphparam/correspondence/matched_files.h"
 #include "sphparam/gltf/morph.h"
 #include "sphparam/io/certified_files.h"
 #include "sphparam/io/map_files.h"
+#include "sphparam/report/match_page.h"
+#include "sphparam/version.h"
 
 namespace sphparam::cli {
 namespace {
@@ -39,6 +43,31 @@ void add_morph(const MatchArguments& arguments, const Match& match, Session& ses
   });
 }
 
+/// The command as it may be shown to others: files without their folders.
+std::string command_line(const MatchArguments& arguments) {
+  std::string line = "sphparam match";
+  const auto add = [&](const std::string& option, const std::string& path) {
+    if (!path.empty()) line += option + " " + std::filesystem::path(path).filename().string();
+  };
+  add("", arguments.first);
+  add("", arguments.second);
+  add(" --landmarks", arguments.landmarks);
+  add(" -o", arguments.output);
+  return line + (arguments.mirror ? " --mirror" : "");
+}
+
+void add_page(const MatchArguments& arguments, const Match& match, Session& session) {
+  MatchPageOptions page{.landmarks = arguments.options.landmarks,
+                        .viewer = arguments.viewer,
+                        .up = arguments.up,
+                        .threads = session.threads(),
+                        .progress = session.progress()};
+  page.facts = {{"command", command_line(arguments)},
+                {"program", std::string("sphparam ") + version}};
+  with_file_errors(arguments.first, arguments.page,
+                   [&] { session.files.add(arguments.page, make_match_page(match, page)); });
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> add_outputs(const MatchArguments& arguments,
@@ -54,9 +83,13 @@ std::vector<std::pair<std::string, std::string>> add_outputs(const MatchArgument
   add("shape", arguments.shape, [&] { return in_other_shape(match.map, threads); });
   add("values", arguments.values, [&] { return with_other_values(match.map, threads); });
   add("back", arguments.back, [&] { return in_other_shape(match.map.inverse(), threads); });
-  if (arguments.morph.empty()) return outputs;
-  outputs.emplace_back("morph", arguments.morph);
-  add_morph(arguments, match, session);
+  const auto show = [&](const char* key, const std::string& path, const auto& add_it) {
+    if (path.empty()) return;
+    outputs.emplace_back(key, path);
+    add_it(arguments, match, session);
+  };
+  show("morph", arguments.morph, add_morph);
+  show("page", arguments.page, add_page);
   return outputs;
 }
 

@@ -26,6 +26,7 @@ constexpr char summary[] =
     "  sphparam wrap asset.glb -o wrapped.ply --resolution 256\n"
     "  sphparam wrap scan.stl -o wrapped.ply --voxel 0.5 --distance 2 --json wrap.json\n"
     "  sphparam wrap parts.obj -o wrapped.ply --largest\n"
+    "  sphparam wrap asset.glb -o proxy.ply --resolution 256 --faces 50000\n"
     "\n"
     "The triangles may be open, not manifold, in many parts, and pass through one another. The\n"
     "surface lies at the distance asked for, give or take less than a voxel; holes through it are\n"
@@ -100,6 +101,9 @@ void declare_options(Declaration& command, WrapArguments& arguments) {
       .preset("two voxels")
       .flag("--largest", options.largest,
             "Keep the largest of the parts that are apart, instead of joining all")
+      .number("--faces", options.faces, "N", {0, 100'000'000},
+              "Leave about so many triangles; it may cut into the soup and itself then")
+      .preset("all")
       .json(arguments)
       .threads(arguments)
       .console(arguments);

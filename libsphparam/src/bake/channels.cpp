@@ -18,11 +18,12 @@ const std::vector<std::string>& all_channels() {
   return names;
 }
 
-std::vector<std::string> channels_of(const MeshFile& file) {
+std::vector<std::string> channels_of(const MeshFile& file, bool on_another_mesh) {
   const auto any = [&](auto&& says) { return std::ranges::any_of(file.channels, says); };
   std::vector<std::string> names;
   if (!file.base_colours.empty() || linear_colours(file)) names.emplace_back("basecolor");
-  if (any([](const MaterialChannels& said) { return !said.normal.image.empty(); }))
+  if (on_another_mesh ||
+      any([](const MaterialChannels& said) { return !said.normal.image.empty(); }))
     names.emplace_back("normal-tangent");
   if (!file.channels.empty()) names.emplace_back("orm");
   if (any(shines)) names.emplace_back("emissive");

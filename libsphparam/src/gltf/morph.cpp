@@ -29,20 +29,21 @@ void append(Look& look, Look other) {
 
 Look named(Look look, const std::string& name) {
   look.materials.front().name = name;
-  for (AssetImage& image : look.images) image.name = name + "_" + image.name;
+  look.images.front().name = name;
   return look;
 }
 
 /// Of both surfaces, on the one sphere.
 Look both_looks(const SurfaceMap& map, ExportOptions options) {
   const bool both = is_dressed(map.to().file());
-  options.look.bake_colours = both;
+  options.look.bake_colours |= both;
   Look look = make_look(map.from(), options);
-  if (!both) return look;
   const std::string name = stem_of(map.from().name()), other = stem_of(map.to().name());
+  if (is_dressed(map.from().file())) look = named(std::move(look), name);
+  if (!both) return look;
   options.source.clear();
+  options.look.variants.clear();
   Look of_other = named(make_look(map.to(), options), other == name ? other + " (2)" : other);
-  look = named(std::move(look), name);
   if (!is_dressed(map.from().file())) std::swap(look, of_other);
   append(look, std::move(of_other));
   return look;

@@ -73,6 +73,7 @@ std::string to_json(const WrapRecord& record) {
                   {"cavities", wrap.cavities},
                   {"handles", wrap.handles},
                   {"added_share", wrap.added_share},
+                  {"lattice_triangles", wrap.lattice_faces},
                   {"soup_vertices", wrap.soup_vertices},
                   {"outside", wrap.outside},
                   {"outside_share", outside_share(wrap)},
@@ -99,6 +100,9 @@ std::vector<std::string> to_lines(const WrapRecord& record) {
     lines.push_back("walls and bridges are " + percent(wrap.added_share) + " of its volume");
   if (wrap.cavities > 0)
     lines.push_back(counted(wrap.cavities, "cavity is", "cavities are") + " filled");
+  if (wrap.lattice_faces > wrap.mesh.face_count())
+    lines.push_back(counted(wrap.lattice_faces, "triangle") + " of the lattice became " +
+                    std::to_string(wrap.mesh.face_count()));
   lines.push_back(std::to_string(wrap.outside) + " of " + std::to_string(wrap.soup_vertices) +
                   " vertices are outside (" + percent(outside_share(wrap)) + ")");
   lines.push_back(distance_line(wrap));

@@ -20,33 +20,6 @@ namespace {
 constexpr double long_lens = 18;  // degrees: a long lens
 constexpr double margin = 1.08;   // of the picture around what is drawn
 
-struct SphereView {
-  Vector3 direction;
-  Vector3 up;
-};
-
-SphereView corresponding_view(const TriangleMesh& mesh, const SphereMap& map,
-                              const FigureOptions& options) {
-  const Vector3 view = options.view.normalized();
-  Vector3 rays = Vector3::Zero(), rising = Vector3::Zero();
-  double weights = 0, heights = 0;
-  for (Eigen::Index f = 0; f < mesh.face_count(); ++f) {
-    const Vector3 a = mesh.position(mesh.triangles(f, 0)), b = mesh.position(mesh.triangles(f, 1)),
-                  c = mesh.position(mesh.triangles(f, 2));
-    const double weight = std::max(0.0, (b - a).cross(c - a).dot(view));
-    const double height = (a + b + c).dot(options.up) / 3;
-    const Vector3 ray = map.point(mesh.triangles(f, 0)) + map.point(mesh.triangles(f, 1)) +
-                        map.point(mesh.triangles(f, 2));
-    weights += weight, heights += weight * height;
-    rays += weight * ray, rising += weight * height * ray;
-  }
-  // Σ w (height − mean height) ray
-  rising -= heights / std::max(weights, 1e-300) * rays;
-  if (!(rays.norm() > 0)) rays = view;
-  if (!(rays.cross(rising).norm() > 0)) rising = rays.unitOrthogonal();
-  return {rays.normalized(), rising};
-}
-
 RenderScene scene_of(RenderObject object, const Vector3& direction, const Vector3& up,
                      const FigureOptions& options) {
   const Vector3 low = object.mesh.positions.colwise().minCoeff();
@@ -91,6 +64,28 @@ void fit_camera_to_sphere(RenderScene& scene) {
 
 }  // namespace
 
+SphereView corresponding_view(const TriangleMesh& mesh, const SphereMap& map, const Vector3& from,
+                              const Vector3& up) {
+  const Vector3 view = from.normalized();
+  Vector3 rays = Vector3::Zero(), rising = Vector3::Zero();
+  double weights = 0, heights = 0;
+  for (Eigen::Index f = 0; f < mesh.face_count(); ++f) {
+    const Vector3 a = mesh.position(mesh.triangles(f, 0)), b = mesh.position(mesh.triangles(f, 1)),
+                  c = mesh.position(mesh.triangles(f, 2));
+    const double weight = std::max(0.0, (b - a).cross(c - a).dot(view));
+    const double height = (a + b + c).dot(up) / 3;
+    const Vector3 ray = map.point(mesh.triangles(f, 0)) + map.point(mesh.triangles(f, 1)) +
+                        map.point(mesh.triangles(f, 2));
+    weights += weight, heights += weight * height;
+    rays += weight * ray, rising += weight * height * ray;
+  }
+  // Σ w (height − mean height) ray
+  rising -= heights / std::max(weights, 1e-300) * rays;
+  if (!(rays.norm() > 0)) rays = view;
+  if (!(rays.cross(rising).norm() > 0)) rising = rays.unitOrthogonal();
+  return {rays.normalized(), rising};
+}
+
 Image in_a_row(const std::vector<Image>& images) {
   int width = 0;
   for (const Image& image : images) width += image.width;
@@ -119,7 +114,7 @@ Image map_figure(const MeshFile& file, const SphereMap& map, const FigureOptions
   }
   if (options.with_sphere) {
     const RenderObject sphere = on_sphere(object, map.points);
-    const SphereView side = corresponding_view(object.mesh, map, options);
+    const SphereView side = corresponding_view(object.mesh, map, options.view, options.up);
     scenes.push_back(scene_of(sphere, side.direction, side.up, options));
     fit_camera_to_sphere(scenes.back());
     if (options.both_sides) {

@@ -27,6 +27,14 @@ struct FigureOptions {
 Image map_figure(const MeshFile& file, const SphereMap& map, const FigureOptions& options = {},
                  int threads = 0);
 
+/// From where the sphere of a map shows what a mesh shows that is seen from `view`.
+struct SphereView {
+  Vector3 direction;  // the mean ray of the triangles that face the eye on the mesh
+  Vector3 up;         // the way that this mean moves with height
+};
+SphereView corresponding_view(const TriangleMesh& mesh, const SphereMap& map, const Vector3& view,
+                              const Vector3& up);
+
 /// Pictures of the same height, side by side.
 Image in_a_row(const std::vector<Image>& images);
 

@@ -65,17 +65,19 @@ std::string surface_choice(const std::vector<ViewedSurface>& surfaces) {
 }
 
 /// Hidden until a model is there to be controlled.
-std::string controls_markup(const std::vector<ViewedSurface>& surfaces) {
+std::string controls_markup(const std::vector<ViewedSurface>& surfaces, const MorphEnds& ends) {
+  const std::string from = escaped(ends.from), to = escaped(ends.to);
   return "<form class=\"controls\" hidden autocomplete=\"off\">\n"
          "<div class=\"morph\"><button type=\"button\" id=\"play\">Play</button>"
-         "<label for=\"morph\">Mesh</label>"
+         "<label for=\"morph\">" +
+         from +
+         "</label>"
          "<input type=\"range\" id=\"morph\" min=\"0\" max=\"100\" step=\"any\" value=\"0\" "
          "data-rest=\"" +
          decimal(morph_rest_seconds, 3) + "\" data-change=\"" + decimal(morph_change_seconds, 3) +
-         "\" "
-         "aria-label=\"From the mesh to the sphere\" aria-valuetext=\"mesh\">"
-         "<span aria-hidden=\"true\">Sphere</span></div>\n" +
-         surface_choice(surfaces) +
+         "\" data-from=\"" + from + "\" data-to=\"" + to + "\" aria-label=\"From " + from + " to " +
+         to + "\" aria-valuetext=\"" + from + "\"><span aria-hidden=\"true\">" + to +
+         "</span></div>\n" + surface_choice(surfaces) +
          "</form>\n<p class=\"hint\" id=\"viewer-message\" role=\"status\">"
          "Drag to turn, or use the arrow keys; pinch or scroll to come closer.</p>\n";
 }
@@ -96,9 +98,17 @@ std::optional<ViewerScript> installed_viewer() {
   return script;
 }
 
+std::string words_without_viewer(bool is_missing) {
+  if (!is_missing) return "This page was made without the 3D viewer.";
+  return std::string(
+             "This page was made without the 3D viewer: the program that made it was built "
+             "without it. CMake's ") +
+         viewer_option + " brings it.";
+}
+
 void add_viewer(Page& page, const std::vector<ViewedModel>& models,
                 const std::vector<ViewedSurface>& surfaces,
-                const std::optional<ViewerScript>& script) {
+                const std::optional<ViewerScript>& script, const MorphEnds& ends) {
   const bool many = models.size() > 1;
   page.add_style(embedded::viewer_css);
   std::string html = "<div class=\"views" + std::string(many ? " many" : "") +
@@ -112,7 +122,7 @@ void add_viewer(Page& page, const std::vector<ViewedModel>& models,
   }
   page.insert(html + "</div>\n");
   if (!any_moves) return;
-  page.insert(controls_markup(surfaces));
+  page.insert(controls_markup(surfaces, ends));
   page.insert(
       "<noscript><p class=\"hint\">The 3D view needs scripts: this is a picture of it.</p>"
       "</noscript>\n");

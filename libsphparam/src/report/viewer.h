@@ -27,6 +27,9 @@ std::string viewer_folder();
 /// Nothing where it is not there.
 std::optional<ViewerScript> installed_viewer();
 
+/// What a page without it says; `is_missing`: it was wanted.
+std::string words_without_viewer(bool is_missing);
+
 /// A model to be looked at.
 struct ViewedModel {
   std::string name;     // below it; may be empty
@@ -41,12 +44,17 @@ struct ViewedSurface {
   std::string label;
 };
 
-/// Models side by side that turn and morph together: a slider from the mesh to the sphere, which
+/// What a model is before it morphs and after, in words for people.
+struct MorphEnds {
+  std::string from = "Mesh", to = "Sphere";
+};
+
+/// Models side by side that turn and morph together: a slider from one end to the other, which
 /// sets the time of the animation that `write_gltf` makes of the first morph target, and a choice
 /// of surfaces, all by keyboard too. Nothing moves before it is asked to.
 /// Without `script`, or in a browser without scripts or WebGL, their pictures are shown.
 void add_viewer(Page& page, const std::vector<ViewedModel>& models,
                 const std::vector<ViewedSurface>& surfaces,
-                const std::optional<ViewerScript>& script);
+                const std::optional<ViewerScript>& script, const MorphEnds& ends = {});
 
 }  // namespace sphparam

@@ -14,7 +14,7 @@ function show() {
   }
   const percent = Math.round(morph.value);
   morph.setAttribute('aria-valuetext',
-      percent === 0 ? 'mesh' : percent === 100 ? 'sphere' : percent + ' % of the way');
+      percent === 0 ? morph.dataset.from : percent === 100 ? morph.dataset.to : percent + ' % of the way');
 }
 
 function paint() {

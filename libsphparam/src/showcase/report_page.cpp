@@ -203,7 +203,9 @@ class Reporter {
           {.name = "The mesh", .alt = "The mesh " + name_, .glb = "", .picture = mesh_png()});
     }
     add_viewer(page, models, surfaces, options_.viewer);
-    if (!options_.viewer) page.insert("<p class=\"hint\">" + escaped(without_viewer()) + "</p>\n");
+    if (!options_.viewer)
+      page.insert("<p class=\"hint\">" + escaped(words_without_viewer(options_.viewer_is_missing)) +
+                  "</p>\n");
     if (heat_maps.empty()) return;
     page.heading("Distortion over the sphere");
     page.paragraph(
@@ -213,14 +215,6 @@ class Reporter {
     page.insert("<div class=\"heat-keys\">\n" + heat_key(Heat::Area) + heat_key(Heat::Angle) +
                 "</div>\n");
     page.figures(heat_maps, heat_width);
-  }
-
-  std::string without_viewer() const {
-    if (!options_.viewer_is_missing) return "This page was made without the 3D viewer.";
-    return std::string(
-               "This page was made without the 3D viewer: the program that made it was "
-               "built without it. CMake's ") +
-           viewer_option + " brings it.";
   }
 
   // --- charts ---

@@ -15,6 +15,7 @@
 #include "wrap/carving.h"
 #include "wrap/distance_field.h"
 #include "wrap/level_surface.h"
+#include "wrap/simplification.h"
 #include "wrap/solid.h"
 
 // Where the part of space near the soup is one ball already, its level set is the result; else the
@@ -74,6 +75,7 @@ void require_domain(const WrapOptions& options) {
   require_at_least("voxel", options.voxel, 0);
   require_at_least("resolution", options.resolution, 0);
   require_at_least("distance", options.distance, 0);
+  require_at_least("faces", options.faces, 0);
 }
 
 double chosen_voxel(const WrapOptions& options, const Box& box) {
@@ -182,6 +184,8 @@ Wrap wrap_soup(const TriangleMesh& soup, const WrapOptions& options) {
       distance_field(RayScene(soup), lattice, wrap.distance, options.threads, options.progress);
   wrap.mesh = level_surface(lattice, field, ball_about(lattice, field, options, wrap));
   require_sphere(wrap.mesh);
+  wrap.lattice_faces = wrap.mesh.face_count();
+  if (options.faces > 0) wrap.mesh = simplified(wrap.mesh, options.faces, options.progress);
   count_outside(soup, used, options.threads, wrap);
   wrap.apart = measure_distance(wrap.mesh, soup,
                                 {.samples = samples,

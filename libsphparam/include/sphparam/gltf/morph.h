@@ -9,8 +9,9 @@ namespace sphparam {
 /// the second one and back. The triangles are those of the first, split for its chart, so that any
 /// equirectangular image of either map sits right; the normals of the second shape are its own.
 ///
-/// Materials are named by the meshes: the look of the first, and, where it has textures or colours,
-/// that of the second, which comes first where the first one has none. Extras tell where the second
+/// Looks that come of a mesh's own textures or colours are materials named by it: that of the first
+/// (or a checker, where it has none) and that of the second, which comes first where the first one
+/// has none. Extras tell where the second
 /// was put: position there = scale · rotation · position in its file + shift.
 /// Of `options`: as `make_asset` for the first; what it says of `morph`, `others` and `coarser`
 /// does not count. Throws: as `make_asset`; UnmeasurableMesh where a surface has no area.

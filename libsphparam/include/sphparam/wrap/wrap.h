@@ -19,6 +19,9 @@ struct WrapOptions {
   double distance = 0;
   /// Of shells that are apart the one with the largest volume is kept; else all are joined.
   bool largest = false;
+  /// About so many triangles are left of the surface, the least visible vertices go first; 4 at
+  /// least. It is then only about as far from the soup, and may cut into it and itself. 0: all.
+  long faces = 0;
   int threads = 0;  // 0: all cores
   Progress progress = {};
 };
@@ -28,6 +31,7 @@ struct Wrap {
   TriangleMesh mesh;                       // closed, manifold, of genus 0, outward
   double voxel = 0, distance = 0;          // as used
   std::array<int, 3> lattice = {0, 0, 0};  // points each way
+  long lattice_faces = 0;                  // triangles, before it got fewer
 
   long parts = 0;     // shells that were apart at this distance
   long cavities = 0;  // that nothing reaches from outside: solid now
