@@ -2,7 +2,7 @@
 #
 # SPHPARAM_COMPONENTS chooses them; what they stand on comes along. Who adds this folder to a project
 # of their own gets the map alone unless they ask for more.
-set(all_components io image measure render bake remesh wrap correspondence group gltf report batch)
+set(all_components io image measure render bake remesh wrap correspondence group gltf report asset batch)
 set(default_components)
 if(PROJECT_IS_TOP_LEVEL)
   set(default_components ${all_components})
@@ -22,6 +22,7 @@ set(needs_correspondence io measure)
 set(needs_group io image measure remesh correspondence)
 set(needs_gltf io image measure render bake correspondence)
 set(needs_report io image measure render bake remesh wrap correspondence group gltf)
+set(needs_asset io image measure render bake remesh wrap correspondence group gltf report)
 set(needs_batch io image measure render bake remesh wrap correspondence group gltf report)
 set(SPHPARAM_BUILT)
 set(asked_for ${SPHPARAM_COMPONENTS})
@@ -140,6 +141,9 @@ if(report IN_LIST SPHPARAM_BUILT)
   embed_texts(sphparam_report src/report/page.css src/report/plot.css src/report/viewer.css
     src/report/viewer.js src/showcase/report_page.css)
   include(src/report/viewer.cmake)
+endif()
+if(asset IN_LIST SPHPARAM_BUILT)
+  add_component(asset ROOMS asset LIBRARIES nlohmann_json::nlohmann_json)
 endif()
 if(batch IN_LIST SPHPARAM_BUILT)
   find_path(XXHASH_INCLUDE_DIR xxhash.h REQUIRED)  # a header: nothing is linked

@@ -27,6 +27,7 @@ struct Subcommand {
 };
 
 const std::vector<Subcommand> subcommands = {
+    {"asset", {""}, {"-o", "--json"}},
     {"bake", {"", "--texture", "--sphere", "--for", "--from"}, {"-o", "--json"}},
     {"compare", {"", "--add x="}, {"-o"}},
     {"export",

@@ -43,6 +43,7 @@ void with_file_errors(const std::string& input, const std::string& output, const
 
 Command declare_info(CLI::App& program);
 Command declare_map(CLI::App& program);
+Command declare_asset(CLI::App& program);
 Command declare_repair(CLI::App& program);
 Command declare_wrap(CLI::App& program);
 Command declare_survey(CLI::App& program);

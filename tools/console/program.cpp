@@ -43,6 +43,7 @@ constexpr char summary[] =
     "Maps closed genus-0 triangle meshes one-to-one onto the sphere, and proves it.\n"
     "\n"
     "Examples:\n"
+    "  sphparam helmet.glb                            an asset, whole: one chart, all its images\n"
     "  sphparam info statue.obj                       what it is, what is wrong with it\n"
     "  sphparam map statue.obj -o statue.sph.ply      map it, prove it, write it\n"
     "  sphparam bake statue.sph.ply --map normal-object,ao -o statue_{map}.png\n"
@@ -177,10 +178,10 @@ struct Program {
     app.set_version_flag("--version", std::string("sphparam ") + version);
     app.require_subcommand(0, 1);
     for (const auto declare :
-         {declare_info, declare_map, declare_repair, declare_wrap, declare_survey, declare_verify,
-          declare_render, declare_compare, declare_spharm, declare_remesh, declare_unimage,
-          declare_match, declare_group, declare_measure, declare_paint, declare_report,
-          declare_export, declare_bake}) {
+         {declare_asset, declare_info, declare_map, declare_repair, declare_wrap, declare_survey,
+          declare_verify, declare_render, declare_compare, declare_spharm, declare_remesh,
+          declare_unimage, declare_match, declare_group, declare_measure, declare_paint,
+          declare_report, declare_export, declare_bake}) {
       commands.push_back(declare(app));
     }
     for (Command& command : declare_batch(app)) commands.push_back(std::move(command));
@@ -203,10 +204,24 @@ const CLI::App* subcommand_named(const CLI::App& program, const std::string& nam
   return nullptr;
 }
 
+/// `sphparam FILE` is `sphparam asset FILE`.
+std::vector<char*> with_subcommand(const CLI::App& program, int argc, char** argv) {
+  static char asset[] = "asset";
+  std::vector<char*> words(argv, argv + argc);
+  const bool is_file = argc > 1 && argv[1][0] != '-' && !subcommand_named(program, argv[1]) &&
+                       (is_mesh_name(argv[1]) || ::access(argv[1], F_OK) == 0);
+  if (is_file) words.insert(words.begin() + 1, asset);
+  words.push_back(nullptr);
+  return words;
+}
+
 int run_program(int argc, char** argv) {
   Program program;
   try {
     put_subcommand_first(argc, argv);
+    std::vector<char*> words = with_subcommand(program.app, argc, argv);
+    argc = static_cast<int>(words.size()) - 1;
+    argv = words.data();
     take_steps(argc, argv);
     program.app.parse(argc, argv);
     if (const Command* const command = program.asked_for()) {

@@ -32,14 +32,16 @@ std::string picture_of(const ViewedModel& model, const std::string& attributes) 
          escaped(model.alt) + "\">";
 }
 
-std::string view_markup(const ViewedModel& model, size_t index, bool moves) {
+std::string view_markup(const ViewedModel& model, size_t index, bool moves,
+                        const ViewerOptions& options) {
   const std::string id = "model" + std::to_string(index);
   std::string html = "<figure class=\"view\">";
   if (moves) {
     html += "<model-viewer data-model=\"" + id + "\" alt=\"" + escaped(model.alt) +
             "\" camera-controls touch-action=\"pan-y\" interaction-prompt=\"none\" "
             "environment-image=\"neutral\" tone-mapping=\"neutral\" shadow-intensity=\"0\" "
-            "animation-crossfade-duration=\"0\">" +
+            "animation-crossfade-duration=\"0\"" +
+            (options.turns ? " auto-rotate auto-rotate-delay=\"0\"" : "") + ">" +
             picture_of(model, " slot=\"poster\"") + "</model-viewer>";
   } else {
     html += "<div class=\"still\">" + picture_of(model, "") + "</div>";
@@ -64,9 +66,14 @@ std::string surface_choice(const std::vector<ViewedSurface>& surfaces) {
   return html + "</fieldset>\n";
 }
 
+constexpr char picture_choice[] =
+    "<label class=\"own\">Your own image of the sphere: drop it on the model, or "
+    "<input type=\"file\" id=\"own\" accept=\"image/png,image/jpeg,image/webp\"></label>\n";
+
 /// Hidden until a model is there to be controlled.
-std::string controls_markup(const std::vector<ViewedSurface>& surfaces, const MorphEnds& ends) {
-  const std::string from = escaped(ends.from), to = escaped(ends.to);
+std::string controls_markup(const std::vector<ViewedSurface>& surfaces,
+                            const ViewerOptions& options) {
+  const std::string from = escaped(options.ends.from), to = escaped(options.ends.to);
   return "<form class=\"controls\" hidden autocomplete=\"off\">\n"
          "<div class=\"morph\"><button type=\"button\" id=\"play\">Play</button>"
          "<label for=\"morph\">" +
@@ -78,6 +85,7 @@ std::string controls_markup(const std::vector<ViewedSurface>& surfaces, const Mo
          "\" data-from=\"" + from + "\" data-to=\"" + to + "\" aria-label=\"From " + from + " to " +
          to + "\" aria-valuetext=\"" + from + "\"><span aria-hidden=\"true\">" + to +
          "</span></div>\n" + surface_choice(surfaces) +
+         (options.takes_pictures ? picture_choice : "") +
          "</form>\n<p class=\"hint\" id=\"viewer-message\" role=\"status\">"
          "Drag to turn, or use the arrow keys; pinch or scroll to come closer.</p>\n";
 }
@@ -108,7 +116,7 @@ std::string words_without_viewer(bool is_missing) {
 
 void add_viewer(Page& page, const std::vector<ViewedModel>& models,
                 const std::vector<ViewedSurface>& surfaces,
-                const std::optional<ViewerScript>& script, const MorphEnds& ends) {
+                const std::optional<ViewerScript>& script, const ViewerOptions& options) {
   const bool many = models.size() > 1;
   page.add_style(embedded::viewer_css);
   std::string html = "<div class=\"views" + std::string(many ? " many" : "") +
@@ -118,11 +126,11 @@ void add_viewer(Page& page, const std::vector<ViewedModel>& models,
   for (size_t i = 0; i < models.size(); ++i) {
     const bool moves = script && !models[i].glb.empty();
     any_moves |= moves;
-    html += view_markup(models[i], i, moves);
+    html += view_markup(models[i], i, moves, options);
   }
   page.insert(html + "</div>\n");
   if (!any_moves) return;
-  page.insert(controls_markup(surfaces, ends));
+  page.insert(controls_markup(surfaces, options));
   page.insert(
       "<noscript><p class=\"hint\">The 3D view needs scripts: this is a picture of it.</p>"
       "</noscript>\n");

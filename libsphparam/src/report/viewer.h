@@ -49,12 +49,19 @@ struct MorphEnds {
   std::string from = "Mesh", to = "Sphere";
 };
 
+struct ViewerOptions {
+  MorphEnds ends = {};
+  bool turns = false;  // slowly, until it is touched, unless the user wants less motion
+  /// A picture that is dropped on a model, or chosen, is shown on it as its base colour.
+  bool takes_pictures = false;
+};
+
 /// Models side by side that turn and morph together: a slider from one end to the other, which
 /// sets the time of the animation that `write_gltf` makes of the first morph target, and a choice
-/// of surfaces, all by keyboard too. Nothing moves before it is asked to.
+/// of surfaces, all by keyboard too. Nothing moves before it is asked to, but what `turns`.
 /// Without `script`, or in a browser without scripts or WebGL, their pictures are shown.
 void add_viewer(Page& page, const std::vector<ViewedModel>& models,
                 const std::vector<ViewedSurface>& surfaces,
-                const std::optional<ViewerScript>& script, const MorphEnds& ends = {});
+                const std::optional<ViewerScript>& script, const ViewerOptions& options = {});
 
 }  // namespace sphparam

@@ -38,6 +38,40 @@ function setPlaying(on) {
   requestAnimationFrame(step);
 }
 
+// A picture of the user's own, 2:1 with the north pole above, in place of the base colour that is seen.
+async function showPicture(file) {
+  if (!file) return;
+  const url = URL.createObjectURL(file);
+  try {
+    for (const view of views) {
+      const texture = await view.createTexture(url);
+      for (const material of view.model.materials) {
+        if (material.isActive) material.pbrMetallicRoughness.baseColorTexture.setTexture(texture);
+      }
+    }
+    message.textContent = file.name + ' is shown.';
+  } catch (error) {
+    message.textContent = file.name + ' cannot be shown: a PNG, JPEG or WebP image is needed.';
+  } finally {
+    URL.revokeObjectURL(url);
+  }
+}
+
+const own = document.getElementById('own');
+if (own) {
+  own.addEventListener('change', () => showPicture(own.files[0]));
+  for (const view of views) {
+    view.addEventListener('dragover', event => event.preventDefault());
+    view.addEventListener('drop', event => {
+      event.preventDefault();
+      showPicture(event.dataTransfer.files[0]);
+    });
+  }
+}
+if (matchMedia('(prefers-reduced-motion: reduce)').matches) {
+  for (const view of views) view.autoRotate = false;
+}
+
 for (const view of views) {
   view.addEventListener('load', () => {
     view.animationName = view.availableAnimations[0];
@@ -61,6 +95,6 @@ for (const view of views) {
 }
 morph.addEventListener('input', () => { setPlaying(false); show(); });
 play.addEventListener('click', () => setPlaying(!playing));
-controls.addEventListener('change', paint);
+controls.addEventListener('change', event => { if (event.target.name === 'surface') paint(); });
 controls.addEventListener('submit', event => event.preventDefault());
 })();

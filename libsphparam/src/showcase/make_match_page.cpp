@@ -114,7 +114,7 @@ class MatchReporter {
                             .alt = "Model of " + first_ + " that turns into " + second_,
                             .glb = made.glb,
                             .picture = surfaces_png_};
-    add_viewer(page, {model}, made.surfaces, viewer_, {first_, second_});
+    add_viewer(page, {model}, made.surfaces, viewer_, {.ends = {first_, second_}});
     if (!made.warnings.empty()) page.list(made.warnings);
   }
 

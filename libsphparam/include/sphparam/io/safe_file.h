@@ -58,11 +58,15 @@ class PendingFiles {
   };
   Pieces open(const std::string& path);
 
+  /// Where the bytes of a file that was added are until it is published: for who reads them again.
+  /// Empty: none of them goes there, or it is a stream.
+  std::string place_of(const std::string& path) const;
+
   /// Throws: WriteError; then no file has its name.
   void publish();
 
  private:
-  bool is_pending(const std::string& path) const;
+  const TemporaryFile* pending(const std::string& path) const;
 
   struct Stream {
     std::string path;

@@ -125,7 +125,7 @@ void PendingFiles::add(const std::string& path, std::string bytes, const BytesCh
     streams_.push_back(std::make_unique<Stream>(Stream{path, std::move(bytes)}));
     return;
   }
-  if (is_pending(path)) throw WriteError(path, "two outputs go to this file");
+  if (pending(path)) throw WriteError(path, "two outputs go to this file");
   auto file = make_temporary(path, bytes);
   check_on_disk(*file, bytes, check);
   files_.push_back(std::move(file));
@@ -144,7 +144,7 @@ PendingFiles::Pieces PendingFiles::open(const std::string& path) {
               return at < stream->bytes.size() ? stream->bytes.copy(bytes, size, at) : 0;
             }};
   }
-  if (is_pending(path)) throw WriteError(path, "two outputs go to this file");
+  if (pending(path)) throw WriteError(path, "two outputs go to this file");
   TemporaryFile* file = files_.emplace_back(make_temporary(path, std::nullopt)).get();
   return {[file](std::int64_t offset, std::string_view bytes) { file->write_at(offset, bytes); },
           [file](std::int64_t offset, char* bytes, std::size_t size) {
@@ -152,14 +152,20 @@ PendingFiles::Pieces PendingFiles::open(const std::string& path) {
           }};
 }
 
-bool PendingFiles::is_pending(const std::string& path) const {
+const TemporaryFile* PendingFiles::pending(const std::string& path) const {
   const auto one_spelling = [](const fs::path& file) {
     std::error_code hidden;  // relative names that are not there yet would stay relative
     return fs::weakly_canonical(fs::absolute(file, hidden), hidden);
   };
   const fs::path wanted = one_spelling(followed(path));
-  return std::any_of(files_.begin(), files_.end(),
-                     [&](const auto& file) { return one_spelling(file->target()) == wanted; });
+  const auto found = std::ranges::find_if(
+      files_, [&](const auto& file) { return one_spelling(file->target()) == wanted; });
+  return found == files_.end() ? nullptr : found->get();
+}
+
+std::string PendingFiles::place_of(const std::string& path) const {
+  const TemporaryFile* const file = is_stream(path) ? nullptr : pending(path);
+  return file ? file->place() : "";
 }
 
 void PendingFiles::publish() {

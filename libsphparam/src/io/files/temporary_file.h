@@ -34,6 +34,8 @@ class TemporaryFile {
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
   const std::filesystem::path& target() const { return target_; }
+  /// Where the bytes are until then.
+  const std::string& place() const { return path_; }
   /// Reads the file, whatever its permissions and its name.
   int descriptor() const { return held_; }
 

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sphparam/asset/whole_surface.h"
+#include "sphparam/bake/bake.h"
+#include "sphparam/gltf/export.h"
+#include "sphparam/io/safe_file.h"
+#include "sphparam/io/up_axis.h"
+
+namespace sphparam {
+
+struct RemakeOptions {
+  WholeOptions whole = {};              // its threads and progress serve all
+  int width = 2048;                     // texels a row of images
+  int samples = 1;                      // N × N a texel
+  bool occlusion = false;               // ambient occlusion too, by rays
+  bool compress = false;                // the .glb: see `GltfOptions::compress`
+  std::optional<Up> up = std::nullopt;  // nothing: as the asset's file says
+  bool page = true;
+  std::vector<std::pair<std::string, std::string>> facts = {};  // for the foot of the page
+};
+
+/// What became of an asset.
+struct RemadeAsset {
+  WholeSurface whole;
+  BakeReport baked;
+  ChartFigures chart = {};  // as the .glb has it
+  WrittenFiles files = {};  // names in the folder, and sizes where they are known
+  std::vector<std::string> warnings = {};
+  bool viewer_is_missing = false;                            // the page has pictures only
+  std::vector<std::pair<std::string, double>> seconds = {};  // of each stage
+};
+
+/// An asset with all that it shows, in one chart: its surface made whole (`whole_surface`), mapped,
+/// all channels of its materials baked (`bake`; on another surface than itself along normals),
+/// exported. Adds to `files`, in `folder`: NAME.sph.ply, the mesh with its map; NAME_basecolor.png
+/// and so on, the images; NAME.glb, which has them all; NAME.html, a page that shows it beside what
+/// it was. NAME is that of the asset's file.
+/// Requires: the folder is there. Throws: as `whole_surface`, `bake`, `make_asset`; WriteError.
+RemadeAsset remake_asset(const MeshSource& asset, const std::string& folder,
+                         const RemakeOptions& options, PendingFiles& files);
+
+/// "One closed surface as it was, certified one-to-one", in words for people.
+std::string verdict_of(const RemadeAsset& remade);
+
+/// As `sphparam asset --json` tells it.
+std::string to_json(const MeshSource& asset, const RemadeAsset& remade);
+
+}  // namespace sphparam

@@ -1,0 +1,66 @@
+// What became of an asset, as JSON and in words.
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "number_text.h"
+#include "records/json_parts.h"
+#include "sphparam/asset/remake_asset.h"
+#include "sphparam/version.h"
+
+namespace sphparam {
+namespace {
+
+Json images_json(const std::vector<BakedImage>& images) {
+  Json all = Json::array();
+  for (const BakedImage& image : images)
+    all.push_back({{"map", image.field}, {"about", image.about}, {"file", image.path}});
+  return all;
+}
+
+Json projection_json(const std::optional<ProjectionShares>& shares) {
+  if (!shares) return {};
+  return {{"back", shares->back},
+          {"nearest", shares->nearest},
+          {"median_distance", shares->median},
+          {"farthest", shares->farthest}};
+}
+
+Json stages(const std::vector<std::pair<std::string, double>>& seconds) {
+  Json all = Json::object();
+  for (const auto& [stage, time] : seconds) all[stage] = time;
+  return all;
+}
+
+}  // namespace
+
+std::string verdict_of(const RemadeAsset& remade) {
+  const WholeSurface& whole = remade.whole;
+  const std::string certified = ", certified one-to-one with the sphere";
+  if (whole.by == WholeBy::Itself) return "One closed surface as it is" + certified;
+  if (whole.by == WholeBy::Wrap) return "Wrapped in one closed surface" + certified;
+  return "Mended to one closed surface with " + percent(whole.area_kept) + " of the area" +
+         certified;
+}
+
+std::string to_json(const MeshSource& asset, const RemadeAsset& remade) {
+  Json files = Json::array();
+  for (const auto& [name, size] : remade.files) files.push_back(name);
+  return text_of({{"sphparam", version},
+                  {"command", "asset"},
+                  {"input", input_json(asset)},
+                  {"surface", word_of(remade.whole.by)},
+                  {"area_kept", remade.whole.area_kept},
+                  {"found", remade.whole.found},
+                  {"done", remade.whole.done},
+                  {"certificate", certificate_json(remade.whole.mapped.certificate())},
+                  {"triangles", remade.whole.mapped.mesh().face_count()},
+                  {"images", images_json(remade.baked.images)},
+                  {"from", projection_json(remade.baked.projection)},
+                  {"folds_as_stored", remade.chart.stored.inverted.size()},
+                  {"warnings", remade.warnings},
+                  {"files", files},
+                  {"seconds", stages(remade.seconds)}});
+}
+
+}  // namespace sphparam

@@ -1,0 +1,175 @@
+// One stage after the other; all files wait in one `PendingFiles`, and stages read those before
+// them there.
+
+#include "sphparam/asset/remake_asset.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "asset/asset_page.h"
+#include "sphparam/io/certified_files.h"
+#include "sphparam/io/paths.h"
+#include "sphparam/stopwatch.h"
+
+namespace sphparam {
+namespace {
+
+class Remaker {
+ public:
+  Remaker(const MeshSource& asset, const std::string& folder, const RemakeOptions& options,
+          PendingFiles& files)
+      : asset_(asset),
+        options_(options),
+        files_(files),
+        stem_((std::filesystem::path(folder) / name()).string()),
+        remade_{.whole = whole_surface(asset, options.whole), .baked = {}} {}
+
+  RemadeAsset remake() {
+    lap("surface");
+    bake_channels();
+    lap("images");
+    const Look look = made_look();
+    export_asset(look);
+    lap("export");
+    add_mapped(files_, note(".sph.ply"), remade_.whole.mapped, options_.whole.threads);
+    lap("map");
+    if (options_.page) add_page(look);
+    return std::move(remade_);
+  }
+
+ private:
+  std::string name() const { return is_stream(asset_.path) ? "mesh" : stem_of(asset_.path); }
+
+  void lap(const char* stage) { remade_.seconds.emplace_back(stage, stopwatch_.lap()); }
+
+  /// The path of a file that is made, which is told.
+  std::string note(const std::string& ending) {
+    remade_.files.emplace_back(stem_ + ending, 0);
+    return remade_.files.back().first;
+  }
+
+  bool is_itself() const { return remade_.whole.by == WholeBy::Itself; }
+
+  /// Of a shape without any colour its occlusion, so that there is something to see.
+  std::vector<std::string> fields() const {
+    std::vector<std::string> names = channels_of(asset_.file, !is_itself());
+    const bool bare =
+        std::ranges::count(names, "basecolor") + std::ranges::count(names, "orm") == 0;
+    if (options_.occlusion || bare) names.emplace_back("ao");
+    return names;
+  }
+
+  BakeSettings bake_settings() const {
+    BakeSettings settings{.width = options_.width,
+                          .samples = options_.samples,
+                          .source_name = display_name(asset_.path),
+                          .threads = options_.whole.threads,
+                          .progress = options_.whole.progress};
+    if (!is_itself()) settings.from = asset_.file;
+    return settings;
+  }
+
+  void bake_channels() try {
+    bake_all(fields());
+  } catch (const ImageError&) {  // of the asset's: before any file was begun
+    bake_all(readable(fields()));
+  }
+
+  void bake_all(const std::vector<std::string>& fields) {
+    std::vector<BakeRequest> requests;
+    for (const std::string& field : fields)
+      requests.push_back({field, stem_ + "_" + field + ".png"});
+    remade_.baked = bake(remade_.whole.mapped, requests, bake_settings(), files_);
+    append(remade_.baked.warnings);
+    for (const BakeRequest& request : requests) remade_.files.emplace_back(request.path, 0);
+  }
+
+  /// Those whose images can be read; of the others it is told that they are not carried.
+  std::vector<std::string> readable(std::vector<std::string> fields) {
+    BakeSettings few = bake_settings();
+    few.width = 4;
+    std::erase_if(fields, [&](const std::string& field) {
+      try {
+        bake_values(remade_.whole.mapped, {field}, few,
+                    [](size_t, const BakedField&, int, int, const float*) {});
+        return false;
+      } catch (const ImageError& error) {
+        remade_.warnings.push_back("not carried: " + field + ", as " + error.what());
+        return true;
+      }
+    });
+    return fields;
+  }
+
+  /// Where the image of a field lies now; empty: it was not baked.
+  std::string image_of(const std::string& field) const {
+    for (const BakedImage& image : remade_.baked.images)
+      if (image.field == field) return files_.place_of(image.path);
+    return "";
+  }
+
+  bool all_unlit() const {
+    const auto& channels = asset_.file.channels;
+    return !channels.empty() &&
+           std::ranges::all_of(channels, [](const MaterialChannels& said) { return said.unlit; });
+  }
+
+  ExportOptions export_options() const {
+    ExportOptions options;
+    options.name = name();
+    options.source = display_name(asset_.path);
+    options.look = {.texture = image_of("basecolor"),
+                    .normal = image_of("normal-tangent"),
+                    .occlusion = image_of("ao"),
+                    .orm = image_of("orm"),
+                    .emissive = image_of("emissive"),
+                    .unlit = all_unlit()};
+    options.up = options_.up;
+    options.quantise = options_.compress;
+    options.threads = options_.whole.threads;
+    options.progress = options_.whole.progress;
+    return options;
+  }
+
+  Look made_look() const { return make_look(remade_.whole.mapped, export_options()); }
+
+  void export_asset(const Look& look) {
+    const Asset made = make_asset(remade_.whole.mapped, look, export_options());
+    remade_.chart = made.charts.front();
+    append(made.warnings);
+    const WrittenFiles written =
+        add_asset(files_, stem_ + ".glb", made,
+                  {.container = GltfContainer::Binary, .compress = options_.compress});
+    std::ranges::copy(written, std::back_inserter(remade_.files));
+  }
+
+  void add_page(const Look& look) {
+    ExportOptions shown = export_options();
+    shown.quantise = false;
+    shown.morph = Morph::Sphere;
+    files_.add(note(".html"),
+               asset_page(asset_, remade_, look, shown, image_of("basecolor"), options_.facts));
+    remade_.viewer_is_missing = !has_viewer();
+    lap("page");
+  }
+
+  void append(const std::vector<std::string>& warnings) {
+    std::ranges::copy(warnings, std::back_inserter(remade_.warnings));
+  }
+
+  const MeshSource& asset_;
+  const RemakeOptions& options_;
+  PendingFiles& files_;
+  Stopwatch stopwatch_;
+  std::string stem_;
+  RemadeAsset remade_;
+};
+
+}  // namespace
+
+RemadeAsset remake_asset(const MeshSource& asset, const std::string& folder,
+                         const RemakeOptions& options, PendingFiles& files) {
+  return Remaker(asset, folder, options, files).remake();
+}
+
+}  // namespace sphparam

@@ -1,0 +1,139 @@
+#include "sphparam/asset/whole_surface.h"
+
+#include <optional>
+
+#include "number_text.h"
+#include "option_domain.h"
+#include "sphparam/chart/spherical_chart.h"
+#include "sphparam/errors.h"
+#include "sphparam/io/paths.h"
+#include "sphparam/io/up_axis.h"
+#include "sphparam/mesh/mesh_defects.h"
+#include "sphparam/records/wrap_record.h"
+#include "sphparam/words.h"
+
+namespace sphparam {
+namespace {
+
+constexpr char wrap_comment[] = "wrapped about ";
+
+/// Maps closed surfaces, each way with what it tells.
+class Chooser {
+ public:
+  Chooser(const MeshSource& asset, const WholeOptions& options)
+      : asset_(asset), options_(options) {}
+
+  WholeSurface choose() {
+    if (asset_.inspection.is_sphere()) {
+      if (auto mapped = mapped_with_chart(asset_))
+        return whole(*std::move(mapped), WholeBy::Itself);
+    } else {
+      tell_defects();
+      if (auto mended = mended_whole()) return *std::move(mended);
+    }
+    return wrapped();
+  }
+
+ private:
+  WholeSurface whole(MappedMesh mapped, WholeBy by, double area_kept = 1) {
+    return {std::move(mapped), by, area_kept, std::move(found_), std::move(done_)};
+  }
+
+  void tell_defects() {
+    for (const MeshDefect& defect : asset_.inspection.defects)
+      if (defect.fatal) found_.push_back(defect.message);
+  }
+
+  /// Nothing where a texture could not lie on it.
+  std::optional<MappedMesh> mapped_with_chart(MeshSource source) {
+    LoadOptions load;
+    load.map.threads = options_.threads;
+    load.map.progress = options_.progress;
+    MappedMesh mapped = mapped_mesh(std::move(source), load);
+    const SphericalChart chart = spherical_chart(mapped.mesh(), mapped.topology(), mapped.map(),
+                                                 options_.threads, options_.progress);
+    if (chart.certificate.one_to_one()) return mapped;
+    found_.emplace_back("its map is thinner in (u, v) than doubles can tell");
+    return std::nullopt;
+  }
+
+  std::optional<WholeSurface> mended_whole() {
+    const RepairTrial trial = try_repair(asset_);
+    if (!trial.mends_unasked()) return std::nullopt;
+    if (trial.parts.area_share < options_.least_kept) {
+      found_.push_back("repair would keep " + percent(trial.parts.area_share) + " of the area");
+      return std::nullopt;
+    }
+    MeshSource mended = repaired(asset_, trial.options);
+    std::vector<std::string> losses;
+    mended.file = written_as_mended(mended, losses);
+    std::optional<MappedMesh> mapped = mapped_with_chart(std::move(mended));
+    if (!mapped) return std::nullopt;
+    for (const RepairAction& action : trial.actions) done_.push_back(action.message);
+    return whole(*std::move(mapped), WholeBy::Repair, trial.parts.area_share);
+  }
+
+  /// Vertices without a place go; the rest is a soup.
+  MeshFile soup() const {
+    if (asset_.file.mesh.positions.allFinite()) return asset_.file;
+    RepairOptions finite = RepairOptions::none();
+    finite.non_finite = true;
+    return mended(asset_, finite).file;
+  }
+
+  WholeSurface wrapped() {
+    const MeshFile file = soup();
+    const Wrap wrap = wrap_soup(file.mesh, wrap_options(file.mesh));
+    MeshFile bare;  // all that it carries is baked
+    bare.mesh = file.mesh;
+    done_ = to_lines(WrapRecord{asset_.path, bare, wrap});
+    MeshSource source;
+    source.path = asset_.path;
+    source.file.mesh = wrap.mesh;
+    source.file.comments = {wrap_comment + display_name(asset_.path)};
+    if (up_axis(file) == Up::Y) source.file.comments.push_back(comment_of_y_up());
+    source.inspection = inspect_mesh(wrap.mesh);
+    source.topology.emplace(wrap.mesh);
+    std::optional<MappedMesh> mapped = mapped_with_chart(std::move(source));
+    if (!mapped) throw NotCertifiedError(asset_.path + ": the chart of its wrap is not one-to-one");
+    return whole(*std::move(mapped), WholeBy::Wrap);
+  }
+
+  WrapOptions wrap_options(const TriangleMesh& mesh) const {
+    WrapOptions wrap{.resolution = options_.resolution,
+                     .faces = options_.faces,
+                     .threads = options_.threads,
+                     .progress = options_.progress};
+    const double side =
+        mesh.vertex_count() > 0
+            ? (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).maxCoeff()
+            : 0;
+    wrap.voxel = wrap.distance = side / options_.resolution;
+    return wrap;
+  }
+
+  const MeshSource& asset_;
+  const WholeOptions& options_;
+  std::vector<std::string> found_, done_;
+};
+
+}  // namespace
+
+const char* word_of(WholeBy by) {
+  switch (by) {
+    case WholeBy::Itself:
+      return "itself";
+    case WholeBy::Repair:
+      return "repair";
+    default:
+      return "wrap";
+  }
+}
+
+WholeSurface whole_surface(const MeshSource& asset, const WholeOptions& options) {
+  require_at_least("resolution", options.resolution, 8);
+  require_at_least("faces", options.faces, 0);
+  return Chooser(asset, options).choose();
+}
+
+}  // namespace sphparam

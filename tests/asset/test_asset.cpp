@@ -1,0 +1,186 @@
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "../io/folder.h"
+#include "image/image_codec.h"
+#include "sphparam/asset/remake_asset.h"
+#include "sphparam/errors.h"
+#include "sphparam/io/certified_files.h"
+#include "sphparam/mesh/mesh_defects.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+MeshSource source_of(TriangleMesh mesh, const std::string& path = "shape.obj") {
+  MeshSource source;
+  source.path = path;
+  source.inspection = inspect_mesh(mesh);
+  if (source.inspection.is_sphere()) source.topology.emplace(mesh);
+  source.file.mesh = std::move(mesh);
+  return source;
+}
+
+/// All but every n-th face.
+TriangleMesh with_holes(TriangleMesh mesh, int n) {
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
+    if (f % n != 0) kept.push_back(f);
+  mesh.triangles = Triangles(mesh.triangles(kept, Eigen::all));
+  return mesh;
+}
+
+/// Two balls that pass through one another.
+TriangleMesh two_balls() {
+  const TriangleMesh ball = icosphere(3);
+  TriangleMesh both{Points(2 * ball.vertex_count(), 3), Triangles(2 * ball.face_count(), 3)};
+  both.positions << ball.positions, ball.positions.rowwise() + Eigen::RowVector3d(1, 0, 0);
+  both.triangles << ball.triangles, (ball.triangles.array() + ball.vertex_count()).matrix();
+  return both;
+}
+
+/// Red, metallic and glowing.
+MeshSource painted(MeshSource source) {
+  MeshFile& file = source.file;
+  file.materials = {"paint"};
+  file.base_colours = {{.factor = {1, 0, 0, 1}}};
+  MaterialChannels said;
+  said.roughness.factor[0] = 0.25;
+  said.metallic.factor[0] = 1;
+  said.emission.factor = {0, 0.5, 0, 1};
+  file.channels = {said};
+  file.set_face_property(
+      {.name = "material",
+       .type = ScalarType::Int32,
+       .values = std::vector<double>(static_cast<size_t>(file.mesh.face_count()))});
+  return source;
+}
+
+WholeOptions coarse() { return {.resolution = 32, .faces = 2000, .threads = 1}; }
+
+}  // namespace
+
+TEST_CASE("whole surface: a sphere is itself, one with holes is mended, a soup is wrapped") {
+  const WholeSurface itself = whole_surface(source_of(icosphere(3)), coarse());
+  CHECK(itself.by == WholeBy::Itself);
+  CHECK(itself.mapped.mesh().triangles == icosphere(3).triangles);
+  CHECK(itself.found.empty());
+
+  const WholeSurface mended = whole_surface(source_of(with_holes(icosphere(3), 100)), coarse());
+  CHECK(mended.by == WholeBy::Repair);
+  CHECK(mended.area_kept == 1);
+  CHECK_FALSE(mended.found.empty());
+  CHECK_FALSE(mended.done.empty());
+
+  const WholeSurface wrapped = whole_surface(source_of(two_balls()), coarse());
+  CHECK(wrapped.by == WholeBy::Wrap);
+  CHECK(wrapped.mapped.mesh().face_count() <= 2000);
+  CHECK(wrapped.mapped.certificate().bijective());
+  CHECK(wrapped.mapped.mesh().positions.col(0).maxCoeff() > 2);
+}
+
+TEST_CASE("whole surface: a repair that keeps too little is not taken") {
+  WholeOptions options = coarse();
+  options.least_kept = 0.4;  // one of two balls is half
+  TriangleMesh apart = two_balls();
+  apart.positions.bottomRows(icosphere(3).vertex_count()).col(0).array() += 5;
+  CHECK(whole_surface(source_of(apart), options).by == WholeBy::Wrap);
+}
+
+TEST_CASE(
+    "whole surface: vertices without a place are left out of a wrap; no triangles, no surface") {
+  TriangleMesh balls = two_balls();
+  balls.positions(0, 0) = std::numeric_limits<double>::quiet_NaN();
+  CHECK(whole_surface(source_of(balls), coarse()).by == WholeBy::Wrap);
+  CHECK_THROWS_AS(whole_surface(source_of({Points(0, 3), Triangles(0, 3)}), coarse()), MeshError);
+  WholeOptions wrong = coarse();
+  wrong.resolution = 1;
+  CHECK_THROWS_AS(whole_surface(source_of(icosphere(1)), wrong), std::invalid_argument);
+}
+
+TEST_CASE(
+    "remake asset: a wrap shows what the materials of the asset say, and all files are there") {
+  const Folder folder;
+  RemakeOptions options{.whole = coarse(), .width = 64};
+  const MeshSource asset = painted(source_of(two_balls(), "two.obj"));
+  options.page = false;
+  PendingFiles files;
+  const RemadeAsset made = remake_asset(asset, folder.path.string(), options, files);
+  CHECK(fs::is_empty(folder.path.string()) == false);  // temporaries
+  files.publish();
+  for (const char* name : {"two.glb", "two.sph.ply", "two_basecolor.png", "two_orm.png",
+                           "two_emissive.png", "two_normal-tangent.png"})
+    CHECK(fs::exists(fs::path(folder.path.string()) / name));
+  const Image colour = read_image(folder.path.string() + "/two_basecolor.png");
+  for (int x = 0; x < 64; x += 7) {
+    CHECK(colour.pixel(x, 16)[0] == Approx(1).margin(0.01));
+    CHECK(colour.pixel(x, 16)[1] == Approx(0).margin(0.01));
+  }
+  const Image orm = read_image(folder.path.string() + "/two_orm.png");
+  CHECK(orm.pixel(5, 9)[1] == Approx(0.25).margin(0.01));
+  CHECK(orm.pixel(5, 9)[2] == Approx(1).margin(0.01));
+  const auto json = nlohmann::json::parse(to_json(asset, made));
+  CHECK(json["surface"] == "wrap");
+  CHECK(json["from"]["nearest"].get<double>() < 0.1);
+  CHECK(json["images"].size() == 4);
+  CHECK(verdict_of(made) == "Wrapped in one closed surface, certified one-to-one with the sphere");
+}
+
+TEST_CASE("remake asset: the same bytes for any number of threads") {
+  std::vector<std::string> made;
+  for (const int threads : {1, 3}) {
+    const Folder folder;
+    RemakeOptions options{.whole = coarse(), .width = 64};
+    options.whole.threads = threads;
+    options.page = false;
+    PendingFiles files;
+    remake_asset(painted(source_of(two_balls(), "two.obj")), folder.path.string(), options, files);
+    files.publish();
+    std::string all;
+    for (const char* name : {"two.glb", "two.sph.ply", "two_normal-tangent.png"})
+      all += bytes_of(folder.path.string() + "/" + name);
+    made.push_back(std::move(all));
+  }
+  CHECK(made[0] == made[1]);
+}
+
+TEST_CASE("remake asset: a channel whose image cannot be read is told, the others are carried") {
+  const Folder folder;
+  MeshSource asset = painted(source_of(icosphere(3), "ball.obj"));
+  asset.file.corner_texcoords = CornerTexcoords::Zero(3 * asset.file.mesh.face_count(), 2);
+  asset.file.channels[0].emission.image = "glow.ktx2";
+  asset.file.channels[0].emission.bytes =
+      std::make_shared<const std::vector<char>>(std::vector<char>{'?', '?', '?', '?'});
+  RemakeOptions options{.whole = coarse(), .width = 64};
+  options.page = false;
+  PendingFiles files;
+  const RemadeAsset made = remake_asset(asset, folder.path.string(), options, files);
+  REQUIRE(made.warnings.size() == 1);
+  CHECK_THAT(made.warnings[0], Catch::StartsWith("not carried: emissive, as material paint"));
+  CHECK(made.baked.images.size() == 2);
+}
+
+TEST_CASE("remake asset: the page has the pictures, the words and the channels") {
+  const Folder folder;
+  PendingFiles files;
+  const MeshSource asset = painted(source_of(two_balls(), "-"));
+  remake_asset(asset, folder.path.string(), {.whole = coarse(), .width = 64}, files);
+  files.publish();
+  const std::string page = bytes_of(folder.path.string() + "/mesh.html");
+  for (const char* text :
+       {"Wrapped in one closed surface", "What stood in the way", "2 separate components",
+        "Before and after", "mesh_orm.png", "All figures"})
+    CHECK_THAT(page, Catch::Contains(text));
+}

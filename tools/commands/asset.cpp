@@ -1,0 +1,145 @@
+// `sphparam asset FILE`, also `sphparam FILE`: an asset → one closed surface, its map, all its
+// images, a .glb that has them, a page. All files appear together or none.
+
+#include <filesystem>
+#include <stdexcept>
+
+#include "arguments/limits.h"
+#include "commands/command.h"
+#include "console/places.h"
+#include "console/session.h"
+#include "number_text.h"
+#include "sphparam/asset/remake_asset.h"
+#include "sphparam/io/mesh_reader.h"
+#include "sphparam/version.h"
+
+namespace sphparam::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char summary[] =
+    "Make of an asset one closed surface with one chart, with all that the asset shows.\n"
+    "\n"
+    "Examples:\n"
+    "  sphparam helmet.glb                          into the folder helmet_sphere/\n"
+    "  sphparam asset helmet.glb -o out/ --size 4096 --compress\n"
+    "  sphparam asset truck.obj -o out/ --faces 20000 --json out/truck.json\n"
+    "\n"
+    "What is a closed surface of genus 0 stays as it is; what repair mends, keeping 98 % of the\n"
+    "area, is mended; all else is wrapped. Base colour, normals, occlusion, roughness, metallic "
+    "and\n"
+    "emission of all its materials are baked. Into the folder go NAME.glb with all of them,\n"
+    "NAME.sph.ply with the map, the images, and NAME.html to look at it. What becomes of the "
+    "asset\n"
+    "is told; `sphparam FILE` is the same.\n";
+
+struct AssetArguments : CommonArguments {
+  std::string input, output;
+  RemakeOptions options;
+};
+
+/// The folder that files go to. One that was made here goes again unless it is used.
+class Folder {
+ public:
+  explicit Folder(const AssetArguments& arguments)
+      : path_(arguments.output.empty() ? stem_or(arguments.input, "mesh") + "_sphere"
+                                       : arguments.output) {
+    std::error_code error;
+    is_made_ = fs::create_directory(path_, error);
+    if (!fs::is_directory(path_))
+      throw WriteError(path_, error ? error.message() : "is a file, and a folder is needed");
+  }
+  ~Folder() {
+    std::error_code error;
+    if (is_made_) fs::remove(path_, error);  // only an empty one
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+  bool is_made_ = false;
+};
+
+MeshSource read_asset(const std::string& path) {
+  ReadOptions options = input_limits();
+  options.repeated_corners = options.non_finite = true;
+  MeshSource asset = sphparam::read_source(path, options);
+  keep_textures(asset.file);
+  return asset;
+}
+
+RemadeAsset remade(const MeshSource& asset, const std::string& folder,
+                   const AssetArguments& arguments, Session& session) try {
+  RemakeOptions options = arguments.options;
+  options.whole.threads = session.threads();
+  options.whole.progress = session.progress();
+  options.facts = {{"program", std::string("sphparam ") + version}};
+  return remake_asset(asset, folder, options, session.files);
+} catch (const BakeSettingError& error) {
+  throw UsageMistake(std::string("--size: ") + error.what());
+} catch (const MeshError& error) {
+  throw ReadError(display_name(asset.path), error.defects().front().message);
+}
+
+void tell(const RemadeAsset& made, const std::string& folder, Session& session) {
+  for (const Words* lines : {&made.whole.found, &made.whole.done})
+    for (const std::string& line : *lines) session.console.say("  " + line);
+  session.warn(made.warnings);
+  if (made.viewer_is_missing)
+    session.console.warning("this build has no 3D viewer: the page has pictures instead");
+  for (const auto& [stage, seconds] : made.seconds)
+    session.console.detail("  " + stage + ": " + short_number(seconds) + " s");
+  session.console.say(
+      verdict_of(made) + ": " + counted(made.whole.mapped.mesh().face_count(), "triangle") + ", " +
+      counted(static_cast<long>(made.baked.images.size()), "image") + ", " +
+      short_number(session.stopwatch.seconds()) + " s → " + fs::path(folder).append("").string());
+}
+
+int run_asset(AssetArguments& arguments) {
+  check_places({{"-o", arguments.output}, {"--json", arguments.json}});
+  Session session(arguments);
+  session.hold_signals();
+  const MeshSource asset = read_asset(arguments.input);
+  const Folder folder(arguments);
+  const RemadeAsset made = remade(asset, folder.path(), arguments, session);
+  session.add_report([&] { return to_json(asset, made); });
+  session.publish();
+  tell(made, folder.path(), session);
+  return Ok;
+}
+
+void declare_options(Declaration& command, AssetArguments& arguments) {
+  RemakeOptions& options = arguments.options;
+  command.input("FILE", arguments.input, readable_formats("or") + "; - for standard input")
+      .text("-o,--output", arguments.output, "FOLDER", "Where files go; it is made if need be")
+      .written()
+      .preset("NAME_sphere")
+      .number("--size", options.width, "N", {2, 65536}, "Texels a row of images; half as many rows")
+      .number("--samples", options.samples, "N", {1, 32}, "N × N samples a texel")
+      .flag("--occlusion", options.occlusion, "Ambient occlusion too, by rays")
+      .number("--faces", options.whole.faces, "N", {0, 100'000'000},
+              "About so many triangles of a wrap; 0: all")
+      .number("--resolution", options.whole.resolution, "N", {8, 2000},
+              "Voxels of a wrap along the longest side of the box")
+      .number("--keep", options.whole.least_kept, "SHARE", {0, 1},
+              "Of the area, that a repair must keep; else it is wrapped")
+      .flag("--compress", options.compress, "A smaller .glb: EXT_meshopt_compression")
+      .up(options.up)
+      .flag_off("--no-page", options.page, "Without the page")
+      .json(arguments)
+      .threads(arguments)
+      .console(arguments);
+}
+
+}  // namespace
+
+Command declare_asset(CLI::App& program) {
+  return make_command(program, "asset", summary, declare_options, run_asset);
+}
+
+}  // namespace sphparam::cli
