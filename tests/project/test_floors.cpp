@@ -186,7 +186,7 @@ TEST_CASE("floors: third-party headers stay in their rooms") {
        {"libsphparam/src/records/", "libsphparam/src/batch/",
         "libsphparam/src/io/formats/gltf/gltf_json",
         "libsphparam/src/io/formats/gltf/gltf_compression", "libsphparam/src/gltf/gltf_writer",
-        "libsphparam/src/survey/survey_record"}},
+        "libsphparam/src/survey/survey_record", "libsphparam/src/asset/asset_record"}},
       {"tiny_gltf", {"libsphparam/src/io/formats/gltf/gltf_document"}},
       {"meshoptimizer",
        {"libsphparam/src/gltf/meshopt_encoding",
