@@ -94,10 +94,11 @@ TEST_CASE("group: copies with maps of their own come into correspondence, and ha
   const TriangleMesh shape = bumpy(middle_grid);
   const std::vector<MappedMesh> shapes = copies(shape);
   for (const int rounds : {0, 1}) {
-    const Group group =
-        make_group(shapes, shapes[0], {.rounds = rounds, .grid = middle_grid, .threads = 2});
+    const GroupStart start = rounds == 0 ? GroupStart::Ellipsoid : GroupStart::Rotation;
+    const Group group = make_group(
+        shapes, shapes[0], {.start = start, .rounds = rounds, .grid = middle_grid, .threads = 2});
     CHECK(group.members[0].start == "template");
-    CHECK(group.members[1].start == "ellipsoid");
+    CHECK(group.members[1].start == (rounds == 0 ? "ellipsoid" : "rotation"));
     CHECK(group.distances.maxCoeff() < 5e-3);  // of a length of 6
     for (const GroupMember& member : group.members) {
       CHECK(certify(member.mapped.topology(), member.mapped.map()).bijective());

@@ -19,8 +19,8 @@ constexpr char summary[] =
     "\n"
     "Examples:\n"
     "  sphparam group maps/*.sph.ply -o group/\n"
-    "  sphparam group people/*.off --start ends --template people/rest.off -o people_group/\n"
-    "  sphparam group hippocampi/*.sph.ply --hold --scale -o h/\n"
+    "  sphparam group people/*.off --template people/rest.off -o people_group/\n"
+    "  sphparam group hippocampi/*.sph.ply --start ellipsoid --hold --scale -o h/\n"
     "  sphparam group maps/*.sph.ply --landmarks template.txt -o group/\n"
     "\n"
     "Each shape's map is moved until the way from it to the template, and then to the mean of "
@@ -146,12 +146,15 @@ void declare_options(Declaration& command, GroupArguments& arguments) {
       .output(arguments.folder, "FOLDER", "Where all files go; it is made where it is not there")
       .text("--template", arguments.reference, "FILE",
             "What all shapes are brought to first; it may be one of them (default: the first)")
-      .choice("--start", arguments.options.start,
-              {{"ellipsoid", GroupStart::Ellipsoid},
-               {"ends", GroupStart::Ends},
-               {"maps", GroupStart::Maps}},
-              "Where the way to the template begins: first-order ellipsoids turned alike, ends "
-              "paired, or maps as they lie (default: ellipsoid)")
+      .choice(
+          "--start", arguments.options.start,
+          {{"rotation", GroupStart::Rotation},
+           {"ellipsoid", GroupStart::Ellipsoid},
+           {"ends", GroupStart::Ends},
+           {"maps", GroupStart::Maps}},
+          "Where the way to the template begins: ends paired, else as rotation; maps turned until "
+          "they look alike; first-order ellipsoids turned alike; maps as they lie (default: "
+          "ends)")
       .flag("--hold", arguments.options.hold,
             "Maps are only turned, or stay: no distortion is minimised")
       .number("--rounds", arguments.options.rounds, "N", {0, 20},

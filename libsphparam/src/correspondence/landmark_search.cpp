@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "correspondence/bounded_curvature.h"
 #include "correspondence/end_pairings.h"
 #include "correspondence/extremities.h"
 #include "mesh/mesh_hierarchy.h"
@@ -22,8 +23,6 @@ namespace {
 constexpr int small_vertices = 2000;  // of the surfaces whose ends are sought
 constexpr int most_ends = 7;
 constexpr int tried = 24, finished = 6;  // pairings whose maps are begun, and made
-constexpr double scale = 0.16;           // of curvature, in radii of the sphere of the same area
-constexpr double sharp = 3;              // curvatures beyond these, in its units, are alike
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
@@ -55,15 +54,6 @@ std::vector<Vertex> names_on_finest(const MeshHierarchy& levels, size_t level) {
   return names;
 }
 
-/// Mean curvature, its size bounded: fingertips would else outweigh everything.
-VectorX bend(const MappedMesh& mapped, int threads) {
-  const double radius = equal_area_radius(mapped.mesh(), threads);
-  const Eigen::ArrayXd h =
-      radius / sharp *
-      measure_curvature(mapped.mesh(), mapped.topology(), scale * radius, threads).mean.array();
-  return h / (1 + h.square()).sqrt();
-}
-
 SmallSurface small_surface(const MappedMesh& mapped, int threads) {
   MeshHierarchy levels = build_hierarchy(mapped.mesh(), mapped.topology(), threads);
   const size_t level = complete_down_to(levels, small_vertices, threads);
@@ -71,7 +61,7 @@ SmallSurface small_surface(const MappedMesh& mapped, int threads) {
   Topology topology(mesh, threads);
   VectorX area = measure_curvature(mesh, topology, 0, threads).area;
   return {std::move(mesh), std::move(topology), names_on_finest(levels, level),
-          bend(mapped, threads), std::move(area)};
+          bounded_curvature(mapped, threads), std::move(area)};
 }
 
 double mean_product(const VectorX& weight, const VectorX& a, const VectorX& b) {

@@ -3,28 +3,22 @@
 #include <optional>
 #include <utility>
 
-#include "embedding/frame/nearest_rotation.h"
+#include "number_text.h"
+#include "sphparam/correspondence/map_alignment.h"
 #include "sphparam/sphere/first_order_alignment.h"
 #include "sphparam/sphere/spherical_harmonics.h"
-#include "sphparam/version.h"
 
 namespace sphparam {
 namespace {
 
 constexpr int degree = 12;  // of the harmonics that tell how a shape lies
+constexpr int tried_turns = 4;
+constexpr double clear_correlation = 0.3, clear_difference = 0.05;
 
 Functions harmonics_of(const MappedMesh& mapped, int threads) {
   return fit_harmonics(mapped.topology(), mapped.map(), mapped.mesh().positions,
                        {.degree = degree, .threads = threads})
       .coefficients;
-}
-
-bool uses_ellipsoids(GroupStart start) { return start != GroupStart::Maps; }
-
-MappedMesh turned_map(const MappedMesh& shape, const Eigen::Matrix3d& rotation) {
-  return shape.with_map(
-      turned(shape.map(), rotation),
-      {{"version", version}, {"method", "group"}, {"stage", "turned"}, {"verdict", "one-to-one"}});
 }
 
 /// The shape's sphere lies as the target's does, by their first-order ellipsoids.
@@ -34,6 +28,26 @@ Brought by_ellipsoid(const GroupTarget& target, const MappedMesh& shape, int thr
   return {.mapped = turned_map(shape, target.sphere.transpose() * alignment.sphere),
           .start = "ellipsoid",
           .doubts = doubts_about(alignment)};
+}
+
+/// The shape's sphere lies as the target's does, by what the maps look like.
+Brought by_rotation(const GroupTarget& target, const MappedMesh& shape, int threads) {
+  const Functions signals = map_signals(shape, {.threads = threads});
+  const std::vector<TurnOfFunctions> turns =
+      turns_by_correlation(signals, target.signals, tried_turns, threads);
+  Brought result{.mapped = turned_map(shape, turns.front().rotation), .start = "rotation"};
+  if (turns.front().correlation < clear_correlation)
+    result.doubts.push_back(
+        "its map looks little like that of the template, however it is turned "
+        "(correlation " +
+        short_number(turns.front().correlation) + "): look at its correspondence");
+  else if (turns.size() > 1 && turns.front().correlation - turns[1].correlation < clear_difference)
+    result.doubts.push_back(
+        "its map looks like that of the template in two positions "
+        "(correlations " +
+        short_number(turns[0].correlation) + " and " + short_number(turns[1].correlation) +
+        "): look at its correspondence");
+  return result;
 }
 
 Brought from_match(Match match, std::string start) {
@@ -58,7 +72,9 @@ std::optional<Brought> by_ends(const GroupTarget& target, const MappedMesh& shap
 
 GroupTarget group_target(const MappedMesh& mapped, GroupStart start, int threads) {
   GroupTarget target{.mapped = mapped};
-  if (!uses_ellipsoids(start)) return target;
+  if (start == GroupStart::Rotation || start == GroupStart::Ends)
+    target.signals = map_signals(mapped, {.threads = threads});
+  if (start != GroupStart::Ellipsoid) return target;
   const Functions harmonics = harmonics_of(mapped, threads);
   const FirstOrderAlignment alignment = first_order_alignment(harmonics, nullptr, threads);
   target.aligned = aligned(harmonics, alignment, true, threads);
@@ -68,10 +84,11 @@ GroupTarget group_target(const MappedMesh& mapped, GroupStart start, int threads
 
 Brought bring_to(const GroupTarget& target, const MappedMesh& shape, GroupStart start, bool hold,
                  const MatchOptions& options) {
-  if (start == GroupStart::Ends)
+  if (start == GroupStart::Ends && !hold)
     if (std::optional<Brought> found = by_ends(target, shape, options)) return *std::move(found);
-  Brought begun = start == GroupStart::Maps ? Brought{.mapped = shape, .start = "its map"}
-                                            : by_ellipsoid(target, shape, options.threads);
+  Brought begun = start == GroupStart::Maps        ? Brought{.mapped = shape, .start = "its map"}
+                  : start == GroupStart::Ellipsoid ? by_ellipsoid(target, shape, options.threads)
+                                                   : by_rotation(target, shape, options.threads);
   if (hold) return begun;
   Brought result =
       from_match(match_surfaces(begun.mapped, target.mapped, options), std::move(begun.start));

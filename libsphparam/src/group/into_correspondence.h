@@ -12,11 +12,12 @@ namespace sphparam {
 /// What shapes are brought to: the template, or their mean.
 struct GroupTarget {
   MappedMesh mapped;
-  Functions aligned = {};       // its harmonics on its axes, where ellipsoids are asked for
+  Functions signals = {};       // `map_signals`, where rotations are looked for
+  Functions aligned = {};       // its harmonics on its axes, where ellipsoids are,
   Eigen::Matrix3d sphere = {};  // and how its sphere was turned for them
 };
 
-/// Cost: a fit of harmonics, where `start` begins with ellipsoids.
+/// Cost: a fit of harmonics, unless `start` is Maps.
 GroupTarget group_target(const MappedMesh& mapped, GroupStart start, int threads);
 
 /// A shape in correspondence.

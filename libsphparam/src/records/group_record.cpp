@@ -77,8 +77,10 @@ std::string name_of(GroupStart start) {
       return "ends";
     case GroupStart::Maps:
       return "maps";
-    default:
+    case GroupStart::Ellipsoid:
       return "ellipsoid";
+    default:
+      return "rotation";
   }
 }
 

@@ -16,19 +16,20 @@ namespace sphparam {
 
 /// Where the way of a shape to the template begins.
 enum class GroupStart {
+  Ends,      // ends of what sticks out, paired; where there are none, or maps are held, as Rotation
+  Rotation,  // spheres turned so that curvatures and area ratios agree most (map_alignment.h)
   Ellipsoid,  // spheres turned so that first-order ellipsoids lie alike, as SPHARM-PDM does
-  Ends,       // ends of what sticks out, paired; where there are none as Ellipsoid
   Maps,       // as the maps lie: they are registered already
 };
 
 struct GroupOptions {
-  GroupStart start = GroupStart::Ellipsoid;
+  GroupStart start = GroupStart::Ends;
   bool hold = false;  // maps are only turned; else the distortion of shape → template is minimised
   int rounds = 1;     // ≥ 0: how often all are then brought to their mean
   /// Of the mean, of triangles; nothing: the template's own vertices and triangles.
   std::optional<GridSpec> grid = GridSpec{.kind = GridKind::Icosahedron, .size = 5};
-  bool scale = false;                                          // shapes are brought to one size
-  int modes = 3;                                               // ≥ 0: at most so many are kept
+  bool scale = false;  // shapes are brought to one size
+  int modes = 3;       // ≥ 0: at most so many are kept
   DistortionEnergy energy = {.kind = EnergyKind::SymmetricDirichlet};  // as in MatchOptions
   int threads = 0;  // 0: all cores. The result does not depend on it.
   Progress progress = {};
@@ -40,7 +41,7 @@ struct GroupMember {
   MappedMesh resampled;   // on the grid, where it was
   Points aligned;         // the resampled one's vertices, on the mean
   Similarity motion;      // that brought them there
-  std::string start;      // what its way began with: "ellipsoid", "ends", "its map"
+  std::string start;      // what its way began with: "rotation", "ellipsoid", "ends", "its map"
   double energy = 0;      // of the last minimisation, a unit of area (`Match::energy`); 0: none
   double confidence = 1;  // in the ends that were paired (`Match::confidence`)
   /// How far its own vertices are from the resampled shape, in their own directions: the mesh's
@@ -63,7 +64,8 @@ struct Group {
 };
 
 /// Brings shapes into correspondence, each to the template and then, so often as asked for, to the
-/// mean of all, on the template's own triangles; resamples them on one grid; aligns them; and finds what they have in common.
+/// mean of all, on the template's own triangles; resamples them on one grid; aligns them; and finds
+/// what they have in common.
 ///
 /// Every map is proved one-to-one, so every correspondence is, too: shape → sphere → mean. A shape
 /// that is the template, or has a map that fits exactly, stays as it is.
