@@ -60,13 +60,28 @@ TEST_CASE("image codec: what is not an image is refused by its first bytes") {
   const auto refuse = [](const std::string& text) {
     const std::vector<char> bytes(text.begin(), text.end());
     CHECK_THROWS_WITH(decode_image(bytes, "x.png"),
-                      Contains("x.png") && Contains("not a PNG, JPEG, TIFF or EXR"));
+                      Contains("x.png") && Contains("not a PNG, JPEG, WebP, TIFF or EXR"));
   };
   refuse("");
   refuse("GIF89a..........");
   refuse("BM6.............");
   refuse("DICM");
   refuse("\x89PNG\r\n");
+}
+
+TEST_CASE("image codec: WebP is read, told by its first bytes") {
+  // 64 × 32 of one colour, lossless.
+  constexpr unsigned char webp[] = {
+      0x52, 0x49, 0x46, 0x46, 0x24, 0x00, 0x00, 0x00, 0x57, 0x45, 0x42, 0x50, 0x56, 0x50, 0x38,
+      0x4c, 0x17, 0x00, 0x00, 0x00, 0x2f, 0x3f, 0xc0, 0x07, 0x00, 0x07, 0x50, 0x8f, 0x22, 0x17,
+      0xa5, 0xff, 0x01, 0x20, 0x21, 0xfc, 0x3f, 0xaf, 0x46, 0xf4, 0x3f, 0xf5, 0x01, 0x00};
+  const Image image = decode_image({std::begin(webp), std::end(webp)}, "x.png");
+  CHECK(image.width == 64);
+  CHECK(image.height == 32);
+  const float* last = image.pixel(63, 31);
+  CHECK(last[0] * 255 == Approx(200));
+  CHECK(last[1] * 255 == Approx(30));
+  CHECK(last[2] * 255 == Approx(40));
 }
 
 TEST_CASE("image codec: PNG keeps every 8-bit and 16-bit value, alpha not multiplied in") {

@@ -751,6 +751,22 @@ TEST_CASE("gltf_reader: numbers that are not aligned are read as they are, and n
   CHECK(contains(file.notes[0], "1 accessor not aligned"));
 }
 
+TEST_CASE("gltf_reader: WebP is the image of a texture that has no other") {
+  const auto image_of = [](const std::string& texture) {
+    Gltf gltf = tetrahedron_gltf();
+    gltf.meshes = replaced(gltf.meshes, R"("indices":1)", R"("indices":1,"material":0)");
+    gltf.rest +=
+        R"(,"materials":[{"name":"m","pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],)"
+        R"("images":[{"uri":"a.png"},{"uri":"b.webp"}],"textures":[)" +
+        texture + "]";
+    return read(gltf.bytes()).base_colours.at(0).image;
+  };
+  CHECK(image_of(R"({"extensions":{"EXT_texture_webp":{"source":1}}})") == "b.webp");
+  CHECK(image_of(R"({"source":0,"extensions":{"EXT_texture_webp":{"source":1}}})") == "a.png");
+  CHECK(image_of(R"({"extensions":{"EXT_texture_webp":{"source":9}}})") == "texture 0");
+  CHECK(image_of(R"({"extensions":{"EXT_texture_webp":{}}})") == "texture 0");
+}
+
 TEST_CASE("gltf_reader: what a file says beside shape and materials is told, a line a kind") {
   Gltf gltf = tetrahedron_gltf();
   gltf.add(floats(std::vector<double>(16, 1)), 5126, 4, "VEC4")

@@ -71,8 +71,10 @@ class Remaker {
 
   void bake_channels() try {
     bake_all(fields());
-  } catch (const ImageError&) {  // of the asset's: before any file was begun
-    bake_all(readable(fields()));
+  } catch (const ImageError&) {
+    const std::vector<std::string> left = readable(fields());
+    if (left == fields()) throw;  // it is none of the asset's
+    bake_all(left);               // no file was begun
   }
 
   void bake_all(const std::vector<std::string>& fields) {

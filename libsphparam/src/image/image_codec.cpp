@@ -41,12 +41,13 @@ float* make_room(void* context, int width, int height, int channels) {
 /// OpenImageIO's name of the format, told by the first bytes; null for what is not allowed.
 const char* format_of(const std::vector<char>& bytes) {
   using namespace std::string_view_literals;
-  const std::string_view head(bytes.data(), std::min<size_t>(bytes.size(), 8));
+  const std::string_view head(bytes.data(), std::min<size_t>(bytes.size(), 12));
   if (head.starts_with("\x89PNG\r\n\x1a\n"sv)) return "png";
   if (head.starts_with("\xff\xd8\xff"sv)) return "jpeg";
   if (head.starts_with("II*\0"sv) || head.starts_with("MM\0*"sv)) return "tiff";
   if (head.starts_with("II+\0"sv) || head.starts_with("MM\0+"sv)) return "tiff";  // BigTIFF
   if (head.starts_with("\x76\x2f\x31\x01"sv)) return "openexr";
+  if (head.starts_with("RIFF"sv) && head.ends_with("WEBP"sv)) return "webp";
   return nullptr;
 }
 
@@ -83,7 +84,7 @@ Image decode_image(const std::vector<char>& bytes, std::string_view name, const 
                    ImageTexts* texts) {
   const std::string prefix = std::string(name) + ": ";
   const char* format = format_of(bytes);
-  if (!format) throw ImageError(prefix + "not a PNG, JPEG, TIFF or EXR image");
+  if (!format) throw ImageError(prefix + "not a PNG, JPEG, WebP, TIFF or EXR image");
   Image image;
   std::string error;
   if (image_codecs().decode(format, bytes.data(), bytes.size(), limits.decoded_megabytes,

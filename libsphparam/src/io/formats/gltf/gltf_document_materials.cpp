@@ -19,12 +19,24 @@ namespace {
 
 using Transform = GltfDocument::TextureTransform;
 
+constexpr auto npos = static_cast<std::size_t>(-1);
+
+/// The number of a texture's image: the one that all programs read, or else that of
+/// EXT_texture_webp; beyond those of the file where there is none.
+std::size_t image_of(const tinygltf::Texture& texture) {
+  if (texture.source >= 0) return static_cast<std::size_t>(texture.source);
+  const auto webp = texture.extensions.find("EXT_texture_webp");
+  if (webp == texture.extensions.end() || !webp->second.Has("source")) return npos;
+  const tinygltf::Value& source = webp->second.Get("source");
+  return source.IsInt() ? static_cast<std::size_t>(source.Get<int>()) : npos;
+}
+
 /// "texture image.png, factor 1 1 1 1"; empty without a texture.
 std::string base_colour(const tinygltf::Model& model, const tinygltf::Material& material) {
   const auto& pbr = material.pbrMetallicRoughness;
   const auto texture = static_cast<std::size_t>(pbr.baseColorTexture.index);
   if (texture >= model.textures.size()) return {};
-  const auto source = static_cast<std::size_t>(model.textures[texture].source);
+  const std::size_t source = image_of(model.textures[texture]);
   if (source >= model.images.size()) return {};
   const tinygltf::Image& image = model.images[source];
   std::string text = "texture ";
@@ -109,7 +121,7 @@ void find_image(const tinygltf::Model& model, int id, Images& images, MaterialTe
     colour.wrap_s = wrapping(model.samplers[sampler].wrapS);
     colour.wrap_t = wrapping(model.samplers[sampler].wrapT);
   }
-  const auto source = static_cast<std::size_t>(texture.source);
+  const std::size_t source = image_of(texture);
   if (source >= model.images.size()) {
     colour.problem = "the texture has no image of a kind that is supported";
     return;
