@@ -192,6 +192,21 @@ TEST_CASE("match: what makes no sense is refused, and nothing is written") {
   CHECK_THAT(name.err, Contains(".ply"));
 }
 
+TEST_CASE(
+    "match: a mesh that cannot be mapped is told with its side, one without area with its name") {
+  const Creatures creatures;
+  write_bytes(creatures.second, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n");
+  const Ended open = creatures.match();
+  CHECK(open.code == 4);
+  CHECK_THAT(open.err, Contains("B (second.obj) cannot be mapped") && Contains("not closed"));
+  write_bytes(creatures.second,
+              "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nf 1 2 3\nf 1 3 4\nf 1 4 2\nf 2 4 3\n");
+  write_bytes(creatures.pairs, "0 0\n3 3\n");
+  const Ended flat = creatures.match();
+  CHECK(flat.code == 4);
+  CHECK_THAT(flat.err, Contains("second.obj: the surface has no area"));
+}
+
 TEST_CASE("match: a mirrored shape is told, and --mirror matches it") {
   const Creatures creatures;
   TriangleMesh mirrored = creature(3, 1.4);

@@ -8,6 +8,7 @@
 #include "commands/command.h"
 #include "commands/match_outputs.h"
 #include "commands/sources.h"
+#include "console/console.h"
 #include "sphparam/correspondence/landmark_file.h"
 #include "sphparam/correspondence/matched_files.h"
 #include "sphparam/records/match_record.h"
@@ -44,6 +45,15 @@ void read_landmarks_of(MatchArguments& arguments, const MappedMesh& first,
       read_landmarks(arguments.landmarks, FileNumbers(first.file()), FileNumbers(second.file()));
 }
 
+/// Which of the two a refusal is about, which tells what is wrong with a mesh.
+MappedMesh read_side(const char* side, const std::string& path, const std::string& sphere,
+                     Session& session) try {
+  return read_mapped(path, sphere, session);
+} catch (const MeshRefusal&) {
+  print_error(side + (" (" + display_name(path)) + ") cannot be mapped:");
+  throw;
+}
+
 Match match(const MatchArguments& arguments, const MappedMesh& first, const MappedMesh& second,
             Session& session) try {
   MatchOptions options = arguments.options;
@@ -71,9 +81,9 @@ std::optional<CarriedFidelity> fidelity(const MatchArguments& arguments, const M
 int run_match(MatchArguments& arguments) {
   require_sensible(arguments);
   Session session(arguments);
-  MappedMesh first = read_mapped(arguments.first, arguments.first_sphere, session);
+  MappedMesh first = read_side("A", arguments.first, arguments.first_sphere, session);
   if (arguments.mirror) first = mirror_image(first, session.threads());
-  const MappedMesh second = read_mapped(arguments.second, arguments.second_sphere, session);
+  const MappedMesh second = read_side("B", arguments.second, arguments.second_sphere, session);
   read_landmarks_of(arguments, first, second);
   tell_absent_values(arguments, second, session);
   const Match found = match(arguments, first, second, session);

@@ -3,10 +3,9 @@
 #include <cmath>
 #include <cstdint>
 
+#include "correspondence/surface_area.h"
 #include "embedding/frame/nearest_rotation.h"
 #include "io/attributes/shading_normals.h"
-#include "mesh/triangle_geometry.h"
-#include "sphparam/errors.h"
 #include "sphparam/measure/surface_distance.h"
 #include "sphparam/parallel.h"
 
@@ -18,26 +17,6 @@ namespace {
 
 constexpr std::int64_t vertex_grain = 4096, fidelity_samples = 200'000;
 
-double area_of(const TriangleMesh& mesh) {
-  double area = 0;
-  for (Face f = 0; f < mesh.face_count(); ++f) {
-    const auto corner = [&](int k) { return mesh.position(mesh.triangles(f, k)); };
-    area += triangle_area(corner(0), corner(1), corner(2));
-  }
-  return area;
-}
-
-/// A third of the area round each vertex.
-VectorX vertex_areas(const TriangleMesh& mesh) {
-  VectorX areas = VectorX::Zero(mesh.vertex_count());
-  for (Face f = 0; f < mesh.face_count(); ++f) {
-    const auto corner = [&](int k) { return mesh.position(mesh.triangles(f, k)); };
-    const double area = triangle_area(corner(0), corner(1), corner(2));
-    for (int k = 0; k < 3; ++k) areas[mesh.triangles(f, k)] += area / 3;
-  }
-  return areas;
-}
-
 Vector3 normal_at(const TriangleMesh& mesh, const Points& normals, const SurfacePoint& point) {
   Vector3 sum = Vector3::Zero();
   for (int k = 0; k < 3; ++k)
@@ -48,11 +27,6 @@ Vector3 normal_at(const TriangleMesh& mesh, const Points& normals, const Surface
 
 Vector3 mean(const Points& points, const VectorX& weights) {
   return points.transpose() * weights / weights.sum();
-}
-
-void require_area(double area, const MappedMesh& mapped) {
-  if (area > 0 && std::isfinite(area)) return;
-  throw UnmeasurableMesh(mapped.name() + ": the surface has no area that can be measured");
 }
 
 }  // namespace
@@ -76,12 +50,12 @@ CarriedShape carried_shape(const SurfaceMap& map, int threads) {
 Similarity placement_on(const SurfaceMap& map, Placement placement, int threads) {
   Similarity result;
   if (placement == Placement::AsItIs) return result;
+  require_area(map.from());
+  require_area(map.to());
   const Points& here = map.from().mesh().positions;
   const Points there = map.from_on_to(threads).positions;
-  const VectorX weights = vertex_areas(map.from().mesh());
-  const double area = weights.sum(), other = area_of(map.to().mesh());
-  require_area(area, map.from());
-  require_area(other, map.to());
+  const VectorX weights = areas_round_vertices(map.from().mesh());
+  const double area = surface_area(map.from().mesh()), other = surface_area(map.to().mesh());
   const Vector3 middle = mean(here, weights), other_middle = mean(there, weights);
   result.rotation = nearest_rotation(there.rowwise() - other_middle.transpose(),
                                      here.rowwise() - middle.transpose(), weights / area);
@@ -97,7 +71,7 @@ CarriedFidelity measure_carried(const SurfaceMap& map, int threads, const Progre
                        {.samples = fidelity_samples, .threads = threads, .progress = progress});
   return {.farthest = distance.forth.max / distance.diagonal_first,
           .rms = distance.forth.rms / distance.diagonal_first,
-          .area_share = area_of(carried) / area_of(map.to().mesh())};
+          .area_share = surface_area(carried) / surface_area(map.to().mesh())};
 }
 
 }  // namespace sphparam

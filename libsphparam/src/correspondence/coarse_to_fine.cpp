@@ -8,9 +8,9 @@
 
 #include "correspondence/composition_newton.h"
 #include "correspondence/ring_insertion.h"
+#include "correspondence/surface_area.h"
 #include "embedding/constructions/progressive.h"
 #include "embedding/sweeps/kernel_placement.h"
-#include "mesh/triangle_geometry.h"
 #include "sphparam/parallel.h"
 
 // A coarse level of the source gets a map of its own that has the landmarks where they belong; on
@@ -37,19 +37,10 @@ constexpr std::int64_t insertion_grain = 16;
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
-double area_of(const TriangleMesh& mesh) {
-  double area = 0;
-  for (Face f = 0; f < mesh.face_count(); ++f) {
-    const auto corner = [&](int k) { return mesh.position(mesh.triangles(f, k)); };
-    area += triangle_area(corner(0), corner(1), corner(2));
-  }
-  return area;
-}
-
 /// As parts of a source of the area 4π, which a coarse level has less of.
 RestTriangles rest_of(const TriangleMesh& level, int threads) {
   RestTriangles rest = measure_source(level, threads);
-  const double part = area_of(level) / (4 * std::numbers::pi);
+  const double part = surface_area(level) / (4 * std::numbers::pi);
   for (RestTriangle& triangle : rest) triangle = scaled(triangle, part);
   return rest;
 }
@@ -171,7 +162,7 @@ std::optional<double> CoarseToFine::start(int most_starts) {
 
 SphereMap CoarseToFine::finish() {
   if (options_.release) {
-    for (std::vector<Vertex>& names : names_) names.clear();
+    released_ = true;
     settle(level_, start_steps);
   }
   while (level_ > 0) {
@@ -210,6 +201,7 @@ bool CoarseToFine::start_on(size_t level) {
 
 std::vector<char> CoarseToFine::held_on(size_t level) const {
   std::vector<char> held(at(hierarchy_[level].vertex_count()), 0);
+  if (released_) return held;
   for (const Vertex v : names_[level])
     if (v >= 0) held[at(v)] = 1;
   return held;

@@ -61,9 +61,10 @@ class CoarseToFine {
   std::vector<std::vector<Vertex>> names_;  // of the landmarks, on each level; -1: removed
   std::vector<Place> places_;               // of the vertices of the level at hand
   std::vector<double> residuals_;
-  size_t level_ = 0;      // at hand
-  int newton_level_ = 0;  // vertices of the level of the last Newton steps
-  double energy_ = 0;     // after these
+  size_t level_ = 0;       // at hand
+  int newton_level_ = 0;   // vertices of the level of the last Newton steps
+  double energy_ = 0;      // after these
+  bool released_ = false;  // landmarks are no longer held; a map of its own still has them
 };
 
 /// The same from a map that is one-to-one and has the landmarks: Newton steps and sweeps as long as

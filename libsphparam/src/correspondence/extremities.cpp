@@ -6,8 +6,8 @@
 #include <limits>
 #include <numeric>
 
+#include "correspondence/surface_area.h"
 #include "correspondence/surface_roads.h"
-#include "mesh/triangle_geometry.h"
 #include "sphparam/parallel.h"
 
 // Sources spread by farthest points, each with the area nearest to it, stand for the surface's
@@ -23,20 +23,10 @@ constexpr double least_prominence = 0.08;  // of √area
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
-Eigen::VectorXd vertex_areas(const TriangleMesh& mesh) {
-  Eigen::VectorXd areas = Eigen::VectorXd::Zero(mesh.vertex_count());
-  for (Face f = 0; f < mesh.face_count(); ++f) {
-    const auto corner = [&](int k) { return mesh.position(mesh.triangles(f, k)); };
-    const double area = triangle_area(corner(0), corner(1), corner(2));
-    for (int k = 0; k < 3; ++k) areas[mesh.triangles(f, k)] += area / 3;
-  }
-  return areas;
-}
-
 /// Mean distance of each vertex from the surface's points, of √area.
 Eigen::VectorXd mean_distances(const TriangleMesh& mesh, const Topology& topology,
                                const SurfaceRoads& roads) {
-  const Eigen::VectorXd areas = vertex_areas(mesh);
+  const Eigen::VectorXd areas = areas_round_vertices(mesh);
   const int count = std::min(sources, topology.vertex_count());
   std::vector<std::vector<double>> from;
   std::vector<double> least(at(topology.vertex_count()), std::numeric_limits<double>::infinity());
@@ -120,7 +110,7 @@ Extremities find_extremities(const TriangleMesh& mesh, const Topology& topology,
   ends.farness = height(ends.vertices);
   ends.prominence = prominence(ends.vertices);
   ends.distances.resize(count, count);
-  const double unit = std::sqrt(vertex_areas(mesh).sum());
+  const double unit = std::sqrt(areas_round_vertices(mesh).sum());
   parallel_for(count, 1, threads, [&](std::int64_t first, std::int64_t last) {
     for (auto i = first; i < last; ++i) {
       const std::vector<double> from = roads.distances(ends.vertices[static_cast<size_t>(i)]);

@@ -197,7 +197,8 @@ std::vector<SuggestedLandmarks> suggest_landmarks(const MappedMesh& from, const 
 double confidence_of(const std::vector<SuggestedLandmarks>& suggestions) {
   const SuggestedLandmarks& best = suggestions.front();
   for (const SuggestedLandmarks& other : suggestions)
-    if (!says_the_same(best, other)) return 1 - best.score / other.score;
+    if (!says_the_same(best, other))
+      return other.score > 0 ? std::clamp(1 - best.score / other.score, 0.0, 1.0) : 0;
   return 1;
 }
 

@@ -1,36 +1,30 @@
 #include "sphparam/correspondence/match.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <set>
 #include <utility>
 
 #include "correspondence/coarse_to_fine.h"
 #include "correspondence/landmark_search.h"
-#include "embedding/frame/landmarks.h"
-#include "embedding/frame/nearest_rotation.h"
+#include "correspondence/landmark_sides.h"
+#include "correspondence/own_map.h"
+#include "correspondence/surface_area.h"
 #include "number_text.h"
 #include "option_domain.h"
 #include "sphparam/version.h"
 
 // Two starts. The map that `from` has, turned so that the landmarks fit, where they fit all but
-// exactly: two maps that mean the same. Else from coarse to fine, landmarks first.
-// Mirrored landmarks are known by the energy on the coarse level: that of the mirror image with the
-// same landmarks is far lower.
+// exactly; else from coarse to fine, landmarks first. Where landmarks are searched for, both are
+// made, and the one of less energy goes on.
 
 namespace sphparam {
 namespace {
 
-constexpr int all_starts = 3;           // of coarse levels, to take the best
-constexpr double fitting = 1e-6;        // radians: landmarks of maps that mean the same
-constexpr double mirrored_share = 0.5;  // of the energy beyond isometry: less is the mirror image's
-constexpr double telling_energy = 0.25;      // what lies between the two must be more
-constexpr double alike = 1.05;               // of that energy: the mirror image fits about as well
+constexpr int all_starts = 3;                // of coarse levels, to take the best
 constexpr double collapsed = 0.01;           // of its share of the area: a triangle that is lost
 constexpr double telling_area = 1e-3;        // share of the surface that is lost: worth a word
 constexpr double telling_confidence = 0.15;  // less is worth a word
-constexpr size_t telling_landmarks = 3;      // fewer have no sides
 
 void require_landmarks(const MatchOptions& options, const MappedMesh& from, const MappedMesh& to) {
   if (options.search && !options.landmarks.empty())
@@ -50,82 +44,6 @@ std::vector<Pin> pins_of(const std::vector<LandmarkPair>& landmarks, const Mappe
   return pins;
 }
 
-/// The map of `from`, turned, with its landmarks exactly there, where that is hardly a change.
-std::optional<SphereMap> fitting_map(const MappedMesh& from, const std::vector<Pin>& pins) {
-  SphereMap map = from.map();
-  if (pins.empty() || all_exact(pin_residuals(map, pins))) return map;
-  if (pins.size() < telling_landmarks) return std::nullopt;  // a rotation always nearly fits these
-  map = turned(map, best_rotation(map, pins));
-  for (const double residual : pin_residuals(map, pins))
-    if (residual > fitting) return std::nullopt;
-  for (const Pin& pin : pins) map.points.row(pin.vertex) = pin.point;
-  if (!certify(from.topology(), map).bijective()) return std::nullopt;
-  return map;
-}
-
-TriangleMesh mirrored(TriangleMesh mesh) {
-  mesh.positions.col(0) *= -1;
-  mesh.triangles.col(1).swap(mesh.triangles.col(2));
-  return mesh;
-}
-
-/// Throws where the mirror image of `from` fits the landmarks far better; warns where it fits no
-/// worse. `direct`: the energy of `from` on its coarse level, if it has one.
-std::optional<std::string> suspicion_of_sides(const MappedMesh& from, const TargetSurface& target,
-                                              const ComposedOptions& options,
-                                              std::optional<double> direct) {
-  if (options.release || options.landmarks.size() < telling_landmarks) return std::nullopt;
-  const TriangleMesh other = mirrored(from.mesh());
-  const Topology topology(other, options.threads);
-  const std::optional<double> image = CoarseToFine(other, topology, target, options).start(1);
-  const double least = differentiate(options.energy.energy, 1, 1).f;
-  if (!image || (direct && *image - least > alike * (*direct - least))) return std::nullopt;
-  const std::string energies =
-      "energy " + short_number(*image) +
-      (direct ? " against " + short_number(*direct) : ", and cannot be reached without it") + " (" +
-      short_number(least) + " is isometry)";
-  const bool far = !direct || (*image - least < mirrored_share * (*direct - least) &&
-                               *direct - *image > telling_energy);
-  if (far) {
-    throw MirroredLandmarks("the landmarks look mirrored: they fit the mirror image of " +
-                            from.name() + " far better, " + energies);
-  }
-  return "the landmarks fit the mirror image of " + from.name() +
-         (*image < *direct ? " better, " : " about as well, ") + energies +
-         ": are left and right as they should be?";
-}
-
-std::string words_of(const std::vector<double>& residuals) {
-  const double worst = residuals.empty() ? 0 : *std::ranges::max_element(residuals);
-  return residuals.empty() ? "they fold a triangle"
-                           : "the worst stays " + short_number(worst * 180 / std::numbers::pi) +
-                                 "° from its partner";
-}
-
-/// From coarse to fine.
-SphereMap matched(const MappedMesh& from, const TargetSurface& target,
-                  const ComposedOptions& options, std::vector<std::string>& warnings) {
-  CoarseToFine way(from.mesh(), from.topology(), target, options);
-  const std::optional<double> energy = way.start(all_starts);
-  if (const auto warning = suspicion_of_sides(from, target, options, energy))
-    warnings.push_back(*warning);
-  SphereMap map = energy ? way.finish() : SphereMap{};
-  if (map.points.rows() > 0) return map;
-  throw UnreachableLandmarks("no map of " + from.name() +
-                             " with these landmarks was found: " + words_of(way.residuals()));
-}
-
-/// Warns of parts of one surface that hardly have a place on the other.
-void tell_collapse(const SurfaceMap& map, int threads, std::vector<std::string>& warnings) {
-  const Distortion distortion = measure_distortion(map, threads);
-  const double lost =
-      (distortion.area_ratio.array() < collapsed).select(distortion.source_area.array(), 0.0).sum();
-  if (lost < telling_area) return;
-  warnings.push_back(short_number(100 * lost) + " % of the area of " + map.from().name() +
-                     " shrinks to less than 1/100 on " + map.to().name() +
-                     ": landmarks at the ends of what sticks out there may help");
-}
-
 ComposedOptions composed_options(const MatchOptions& options, const MappedMesh& to) {
   ComposedEnergy energy;
   energy.energy.kind = options.energy.kind;
@@ -136,72 +54,128 @@ ComposedOptions composed_options(const MatchOptions& options, const MappedMesh& 
           .progress = options.progress};
 }
 
-/// What is known of the landmarks that are searched for.
-struct Found {
-  std::vector<SuggestedLandmarks> suggestions = {};
-  double confidence = 1;
-};
-
-Found search_landmarks(const MappedMesh& from, const MappedMesh& to, const TargetSurface& target,
-                       ComposedOptions& composed, std::vector<std::string>& warnings) {
-  Found found{suggest_landmarks(from, to, target, composed)};
-  if (found.suggestions.empty()) {
-    throw UnreachableLandmarks("no three ends of " + from.name() + " and " + to.name() +
-                               " that might correspond were found: landmarks are needed");
-  }
-  found.confidence = confidence_of(found.suggestions);
-  composed.landmarks = pins_of(found.suggestions.front().landmarks, to);
-  composed.release = true;
-  if (found.confidence < telling_confidence) {
-    warnings.push_back("another pairing of the surfaces' ends fits about as well (confidence " +
-                       short_number(found.confidence) + "): look at the result, or give landmarks");
-  }
-  return found;
+std::string words_of(const std::vector<double>& residuals) {
+  if (residuals.empty()) return "they fold a triangle";
+  const double worst = *std::ranges::max_element(residuals);
+  return "the worst stays " + short_number(worst * 180 / std::numbers::pi) + "° from its partner";
 }
+
+/// Parts of one surface that hardly have a place on the other.
+std::optional<std::string> collapse_of(const SurfaceMap& map, int threads) {
+  const Distortion distortion = measure_distortion(map, threads);
+  const double lost =
+      (distortion.area_ratio.array() < collapsed).select(distortion.source_area.array(), 0.0).sum();
+  if (lost < telling_area) return std::nullopt;
+  return short_number(100 * lost) + " % of the area of " + map.from().name() +
+         " shrinks to less than 1/100 on " + map.to().name() +
+         ": landmarks at the ends of what sticks out there may help";
+}
+
+/// One match on its way.
+class Matcher {
+ public:
+  Matcher(const MappedMesh& from, const MappedMesh& to, const MatchOptions& options)
+      : from_(from),
+        to_(to),
+        options_(options),
+        target_(to),
+        composed_(composed_options(options, to)) {}
+
+  Match run() {
+    const std::optional<SphereMap> own = fitting_map(from_, composed_.landmarks);
+    if (options_.search) search_landmarks();
+    SphereMap map = options_.search ? less_of(*own, coarse_to_fine())
+                    : own           ? improved(*own)
+                                    : coarse_to_fine();
+    return finished(std::move(map));
+  }
+
+ private:
+  /// From coarse to fine. Throws: UnreachableLandmarks; MirroredLandmarks.
+  SphereMap coarse_to_fine() {
+    CoarseToFine way(from_.mesh(), from_.topology(), target_, composed_);
+    const std::optional<double> energy = way.start(all_starts);
+    warn(suspicion_of_sides(from_, target_, composed_, energy));
+    SphereMap map = energy ? way.finish() : SphereMap{};
+    if (map.points.rows() > 0) return map;
+    throw UnreachableLandmarks("no map of " + from_.name() +
+                               " with these landmarks was found: " + words_of(way.residuals()));
+  }
+
+  /// What is minimised differs from the plain energy by its ε and its barrier: an isometry is to
+  /// stay one.
+  SphereMap improved(const SphereMap& own) {
+    made_by_ = "own map";
+    SphereMap map = improve_composition(from_.mesh(), from_.topology(), target_, own, composed_);
+    const DistortionEnergy plain{options_.energy.kind, options_.energy.lambda};
+    return energy_of(own, plain) < energy_of(map, plain) ? own : std::move(map);
+  }
+
+  SphereMap less_of(const SphereMap& own, SphereMap found) {
+    const DistortionEnergy& density = composed_.energy.energy;
+    return energy_of(found, density) < energy_of(own, density) ? std::move(found) : improved(own);
+  }
+
+  void search_landmarks() {
+    suggestions_ = suggest_landmarks(from_, to_, target_, composed_);
+    if (suggestions_.empty()) {
+      throw UnreachableLandmarks("no three ends of " + from_.name() + " and " + to_.name() +
+                                 " that might correspond were found: landmarks are needed");
+    }
+    composed_.landmarks = pins_of(suggestions_.front().landmarks, to_);
+    composed_.release = true;
+    confidence_ = confidence_of(suggestions_);
+    if (confidence_ >= telling_confidence) return;
+    warn("another pairing of the surfaces' ends fits about as well (confidence " +
+         short_number(confidence_) + "): look at the result, or give landmarks");
+  }
+
+  Match finished(SphereMap map) {
+    const double energy = energy_of(map, composed_.energy.energy);
+    MappedMesh moved = from_.with_map(std::move(map), {{"version", version},
+                                                       {"method", "match"},
+                                                       {"stage", made_by_},
+                                                       {"verdict", "one-to-one"}});
+    std::vector<double> residuals =
+        options_.search ? std::vector<double>{} : pin_residuals(moved.map(), composed_.landmarks);
+    SurfaceMap both(std::move(moved), to_);
+    warn(collapse_of(both, options_.threads));
+    warn(collapse_of(both.inverse(), options_.threads));
+    return {std::move(both),
+            energy,
+            made_by_,
+            std::move(residuals),
+            std::move(suggestions_),
+            confidence_,
+            std::move(warnings_)};
+  }
+
+  double energy_of(const SphereMap& map, const DistortionEnergy& density) const {
+    return energy_of_composition(from_.mesh(), from_.topology(), target_, map, {density, 0},
+                                 options_.threads);
+  }
+
+  void warn(std::optional<std::string> warning) {
+    if (warning) warnings_.push_back(std::move(*warning));
+  }
+
+  const MappedMesh &from_, &to_;
+  const MatchOptions& options_;
+  TargetSurface target_;
+  ComposedOptions composed_;
+  std::string made_by_ = "coarse to fine";
+  std::vector<SuggestedLandmarks> suggestions_;
+  double confidence_ = 1;  // in the first of them
+  std::vector<std::string> warnings_;
+};
 
 }  // namespace
 
 Match match_surfaces(const MappedMesh& from, const MappedMesh& to, const MatchOptions& options) {
   require_landmarks(options, from, to);
-  const TargetSurface target(to);
-  ComposedOptions composed = composed_options(options, to);
-  const auto energy_of = [&](const SphereMap& map, const DistortionEnergy& density) {
-    return energy_of_composition(from.mesh(), from.topology(), target, map, {density, 0},
-                                 options.threads);
-  };
-  std::vector<std::string> warnings;
-  std::optional<SphereMap> fits = fitting_map(from, composed.landmarks), found_map;
-  Found found;
-  if (options.search) {
-    found = search_landmarks(from, to, target, composed, warnings);
-    found_map = matched(from, target, composed, warnings);
-    const DistortionEnergy& density = composed.energy.energy;
-    if (energy_of(*found_map, density) < energy_of(*fits, density)) fits.reset();
-  }
-  SphereMap map = fits ? improve_composition(from.mesh(), from.topology(), target, *fits, composed)
-                  : found_map ? std::move(*found_map)
-                              : matched(from, target, composed, warnings);
-  // What is minimised differs from the plain energy by its ε and its barrier: an isometry is to
-  // stay one.
-  const DistortionEnergy plain{options.energy.kind, options.energy.lambda};
-  if (fits && energy_of(*fits, plain) < energy_of(map, plain)) map = *fits;
-  const double energy = energy_of(map, composed.energy.energy);
-  const std::string made_by = fits ? "own map" : "coarse to fine";
-  const Provenance lines = {
-      {"version", version}, {"method", "match"}, {"stage", made_by}, {"verdict", "one-to-one"}};
-  MappedMesh moved = from.with_map(std::move(map), lines);
-  std::vector<double> residuals =
-      options.search ? std::vector<double>{} : pin_residuals(moved.map(), composed.landmarks);
-  SurfaceMap surface_map(std::move(moved), to);
-  tell_collapse(surface_map, options.threads, warnings);
-  tell_collapse(surface_map.inverse(), options.threads, warnings);
-  return {std::move(surface_map),
-          energy,
-          made_by,
-          std::move(residuals),
-          std::move(found.suggestions),
-          found.confidence,
-          std::move(warnings)};
+  require_area(from);
+  require_area(to);
+  return Matcher(from, to, options).run();
 }
 
 }  // namespace sphparam

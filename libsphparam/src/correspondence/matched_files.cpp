@@ -8,6 +8,7 @@
 
 #include "io/attributes/weightiest_label.h"
 #include "sphparam/io/sphere_file.h"
+#include "sphparam/io/up_axis.h"
 
 namespace sphparam {
 namespace {
@@ -15,9 +16,13 @@ namespace {
 using std::string_view_literals::operator""sv;
 
 constexpr std::array colours = {"red"sv, "green"sv, "blue"sv, "alpha"sv};
-/// Of the shape, of the map, or of the file: they mean nothing elsewhere.
-constexpr std::array not_carried = {"nx"sv, "ny"sv,    "nz"sv,  "sx"sv,           "sy"sv,
-                                    "sz"sv, "theta"sv, "phi"sv, "source_vertex"sv};
+/// Of the shape, of the map, of the file, or of another match: they mean nothing elsewhere.
+constexpr std::array not_carried = {"nx"sv,          "ny"sv,       "nz"sv,
+                                    "sx"sv,          "sy"sv,       "sz"sv,
+                                    "theta"sv,       "phi"sv,      "source_vertex"sv,
+                                    "target_face"sv, "target_0"sv, "target_1"sv,
+                                    "target_2"sv};
+const std::vector<std::string> targets = {"target_face", "target_0", "target_1", "target_2"};
 const std::vector<std::string> normals = {"nx", "ny", "nz"};
 
 bool is_among(const auto& names, const std::string& name) {
@@ -47,6 +52,19 @@ Property carried(const TriangleMesh& mesh, const Property& property,
   for (const SurfacePoint& point : points)
     result.values.push_back(label_at(mesh, property.values, point));
   return result;
+}
+
+/// Without its map and what an earlier match says of it.
+MeshFile without_correspondence(const MeshFile& mapped) {
+  MeshFile file = without_map(mapped);
+  remove_properties(file.vertex_properties, targets);
+  return file;
+}
+
+/// In the coordinates of another file, whose axis that points up is another.
+void take_up_axis(MeshFile& file, const MeshFile& other) {
+  std::erase(file.comments, comment_of_y_up());
+  if (up_axis(other) == Up::Y) file.comments.push_back(comment_of_y_up());
 }
 
 /// Corners 0, 1, 2 of each triangle become 0, 2, 1.
@@ -98,8 +116,9 @@ MappedMesh with_targets(const SurfaceMap& map, int threads) {
 }
 
 MeshFile in_other_shape(const SurfaceMap& map, int threads) {
-  MeshFile file = without_map(map.from().file());
+  MeshFile file = without_correspondence(map.from().file());
   file.mesh = map.from_on_to(threads);
+  take_up_axis(file, map.to().file());
   remove_properties(file.vertex_properties, normals);
   file.corner_normals.reset();
   return file;
@@ -113,7 +132,7 @@ std::vector<std::string> names_of_values(const MeshFile& file) {
 }
 
 MeshFile with_other_values(const SurfaceMap& map, int threads) {
-  MeshFile file = without_map(map.from().file());
+  MeshFile file = without_correspondence(map.from().file());
   const std::vector<SurfacePoint> points = map.forth(threads);
   for (const Property& property : map.to().file().vertex_properties) {
     if (is_among(not_carried, property.name)) continue;

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "correspondence/surface_area.h"
 #include "mesh/flat_face.h"
-#include "mesh/triangle_geometry.h"
 #include "mesh/vertex_normals.h"
 #include "sphparam/errors.h"
 
@@ -42,11 +42,7 @@ Vector3 clamped(const Vector3& weights) {
 }  // namespace
 
 Points scaled_to_sphere(const TriangleMesh& mesh) {
-  double area = 0;
-  for (Eigen::Index f = 0; f < mesh.face_count(); ++f) {
-    const auto corner = [&](int k) { return mesh.position(mesh.triangles(f, k)); };
-    area += triangle_area(corner(0), corner(1), corner(2));
-  }
+  const double area = surface_area(mesh);
   if (!(area > 0) || !std::isfinite(area)) {
     throw UnmeasurableMesh("the surface has no area that can be measured");
   }

@@ -65,7 +65,8 @@ class MirroredLandmarks : public std::runtime_error {
 /// Ensures: both maps are proved one-to-one; each landmark of `from` has exactly the direction of
 /// its partner. Same bits for any number of threads.
 /// Throws: std::invalid_argument for landmarks that are no vertices, or one twice;
-/// UnreachableLandmarks; MirroredLandmarks; UnmeasurableMesh; Cancelled.
+/// UnreachableLandmarks; MirroredLandmarks; UnmeasurableMesh, with the name, for a surface without
+/// area; Cancelled.
 /// Cost: 0.1 ms a triangle. Source: our own; the energy is that of Schmidt et al., "Surface maps
 /// via adaptive triangulations" (2023), where it is that of a common refinement.
 Match match_surfaces(const MappedMesh& from, const MappedMesh& to,

@@ -11,7 +11,8 @@ namespace sphparam {
 MappedMesh with_targets(const SurfaceMap& map, int threads = 0);
 
 /// The triangles of `from`, with what its vertices carry, in the shape of `to`; without normals,
-/// which would be those of the other shape.
+/// which would be those of the other shape; the axis that points up is that of `to`, whose
+/// coordinates these are.
 MeshFile in_other_shape(const SurfaceMap& map, int threads = 0);
 
 /// The names of what vertices of this file carry that has a meaning on another surface.
@@ -19,7 +20,7 @@ std::vector<std::string> names_of_values(const MeshFile& file);
 
 /// `from` with the vertex properties of `to`, linear in its triangles: those of the same names are
 /// replaced. Labels are those of the nearest corner. Normals, which belong to the shape, and what
-/// says where vertices come from are not carried.
+/// says where vertices come from, or lie by another match, are not carried.
 MeshFile with_other_values(const SurfaceMap& map, int threads = 0);
 
 /// The mesh reflected in the plane x = 0, its triangles turned round so that they look outward, and

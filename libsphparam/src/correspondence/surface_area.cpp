@@ -1,0 +1,39 @@
+#include "correspondence/surface_area.h"
+
+#include <cmath>
+
+#include "mesh/triangle_geometry.h"
+#include "sphparam/errors.h"
+
+namespace sphparam {
+namespace {
+
+double face_area(const TriangleMesh& mesh, Face f) {
+  const auto corner = [&](int k) { return mesh.position(mesh.triangles(f, k)); };
+  return triangle_area(corner(0), corner(1), corner(2));
+}
+
+}  // namespace
+
+double surface_area(const TriangleMesh& mesh) {
+  double area = 0;
+  for (Face f = 0; f < mesh.face_count(); ++f) area += face_area(mesh, f);
+  return area;
+}
+
+VectorX areas_round_vertices(const TriangleMesh& mesh) {
+  VectorX areas = VectorX::Zero(mesh.vertex_count());
+  for (Face f = 0; f < mesh.face_count(); ++f) {
+    const double third = face_area(mesh, f) / 3;
+    for (int k = 0; k < 3; ++k) areas[mesh.triangles(f, k)] += third;
+  }
+  return areas;
+}
+
+void require_area(const MappedMesh& mapped) {
+  const double area = surface_area(mapped.mesh());
+  if (area > 0 && std::isfinite(area)) return;
+  throw UnmeasurableMesh(mapped.name() + ": the surface has no area that can be measured");
+}
+
+}  // namespace sphparam

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "sphparam/io/mapped_mesh.h"
+
+namespace sphparam {
+
+/// Of all triangles; sums in the order of the faces.
+double surface_area(const TriangleMesh& mesh);
+
+/// A third of the area of the triangles round each vertex.
+VectorX areas_round_vertices(const TriangleMesh& mesh);
+
+/// Throws: UnmeasurableMesh, with the mesh's name, where there is no area, or more than doubles
+/// hold.
+void require_area(const MappedMesh& mapped);
+
+}  // namespace sphparam

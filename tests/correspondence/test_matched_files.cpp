@@ -1,0 +1,86 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "sphparam/correspondence/matched_files.h"
+#include "sphparam/io/up_axis.h"
+#include "support/test_meshes.h"
+
+namespace sphparam::tests {
+
+namespace {
+
+MappedMesh ball(int level) {
+  MeshFile file;
+  file.mesh = icosphere(level);
+  SphereMap map{file.mesh.positions};
+  return MappedMesh({.file = std::move(file), .map = std::move(map)});
+}
+
+MappedMesh with_file(const MappedMesh& mapped, MeshFile file) {
+  return MappedMesh({.file = std::move(file), .map = mapped.map()});
+}
+
+bool has(const MeshFile& file, const std::string& name) {
+  return file.find_vertex_property(name) != nullptr;
+}
+
+}  // namespace
+
+TEST_CASE("matched files: what another match says is neither kept nor carried over") {
+  const MappedMesh a = ball(2), b = ball(3);
+  const MappedMesh once = with_targets(SurfaceMap(a, b));
+  REQUIRE(has(once.file(), "target_face"));
+  CHECK_FALSE(has(in_other_shape(SurfaceMap(once, b)), "target_face"));
+  CHECK_FALSE(has(with_other_values(SurfaceMap(once, b)), "target_0"));
+  CHECK_FALSE(has(with_other_values(SurfaceMap(b, once)), "target_face"));
+  CHECK(names_of_values(once.file()).empty());
+}
+
+TEST_CASE("matched files: colours are rounded means, labels those of the nearest corner") {
+  const MappedMesh a = ball(3), b = ball(1);
+  MeshFile file = b.file();
+  std::vector<double> grey, label;
+  for (Vertex v = 0; v < b.mesh().vertex_count(); ++v) {
+    grey.push_back(v % 2 == 0 ? 0 : 201);
+    label.push_back(v % 2 == 0 ? 7 : 1000);
+  }
+  file.set_vertex_property({"red", ScalarType::Uint8, grey});
+  file.set_vertex_property({"region", ScalarType::Int32, label});
+  const MeshFile carried = with_other_values(SurfaceMap(a, with_file(b, file)));
+  bool mixed = false;
+  for (const double red : carried.find_vertex_property("red")->values) {
+    CHECK(red == std::round(red));
+    mixed |= red > 0 && red < 201;
+  }
+  CHECK(mixed);
+  for (const double region : carried.find_vertex_property("region")->values)
+    CHECK((region == 7 || region == 1000));
+}
+
+TEST_CASE("matched files: in the other shape, up is what the other file says") {
+  const MappedMesh plain = ball(2);
+  MeshFile file = plain.file();
+  file.comments.push_back(comment_of_y_up());
+  const MappedMesh upright = with_file(plain, file);
+  CHECK(up_axis(in_other_shape(SurfaceMap(upright, plain))) == Up::Z);
+  CHECK(up_axis(in_other_shape(SurfaceMap(plain, upright))) == Up::Y);
+  CHECK(in_other_shape(SurfaceMap(upright, upright)).comments == file.comments);
+}
+
+TEST_CASE(
+    "matched files: a mirror image twice is the surface itself, its normals looking outward") {
+  MeshFile file = ball(2).file();
+  std::vector<double> nx;
+  for (Vertex v = 0; v < file.mesh.vertex_count(); ++v) nx.push_back(file.mesh.positions(v, 0));
+  file.set_vertex_property({"nx", ScalarType::Float64, nx});
+  const MappedMesh shape = with_file(ball(2), file), image = mirror_image(shape);
+  CHECK(image.mesh().positions.col(0) == -shape.mesh().positions.col(0));
+  CHECK(image.file().find_vertex_property("nx")->values[5] == -nx[5]);
+  CHECK(image.certificate().bijective());
+  const MappedMesh again = mirror_image(image);
+  CHECK(again.mesh().positions == shape.mesh().positions);
+  CHECK(again.mesh().triangles == shape.mesh().triangles);
+  CHECK(again.map().points == shape.map().points);
+}
+
+}  // namespace sphparam::tests
