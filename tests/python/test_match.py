@@ -1,5 +1,7 @@
 """One surface onto another."""
 
+import json
+
 import numpy as np
 import pytest
 from shapes import potato
@@ -42,6 +44,25 @@ def test_forth_and_back_are_what_carry_and_carry_back_read(maps):
     face, weights = s.forth()
     places = np.einsum("ik,ikd->id", weights, s.target.vertices[s.target.faces[face]])
     assert np.allclose(s.carry("vertices"), places)
+
+
+def test_a_morph_has_both_shapes_and_other_names_and_places_are_refused(maps, tmp_path):
+    s = sp.match(*maps, landmarks(maps))
+    path = tmp_path / "morph.glb"
+    with pytest.warns(sp.LossWarning, match="height"):
+        s.morph(path, place="as-is", up="y", image_size=64)
+    data = path.read_bytes()
+    gltf = json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")])
+    primitive = gltf["meshes"][0]["primitives"][0]
+    base = gltf["accessors"][primitive["attributes"]["POSITION"]]
+    change = gltf["accessors"][primitive["targets"][0]["POSITION"]]
+    assert base["count"] == change["count"] >= len(maps[0].vertices)
+    moved = s.carry("vertices") - maps[0].vertices
+    assert np.allclose(change["max"], moved.max(axis=0), atol=1e-5)
+    with pytest.raises(ValueError, match="glb"):
+        s.morph(tmp_path / "morph.obj")
+    with pytest.raises(ValueError, match="place"):
+        s.morph(path, place="here")
 
 
 def test_the_same_for_any_number_of_threads(maps):

@@ -8,6 +8,7 @@
 #include "sphparam/correspondence/match.h"
 #include "sphparam/correspondence/matched_files.h"
 #include "sphparam/correspondence/surface_map.h"
+#include "sphparam/gltf/morph.h"
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/names.h"
 
@@ -68,11 +69,35 @@ py::dict matched_distortion(const Mapped& from, const Mapped& to, int threads) {
   }));
 }
 
+Placement placement_of(const std::string& word) {
+  if (word == "scaled") return Placement::Scaled;
+  if (word == "moved") return Placement::Moved;
+  if (word == "as-is") return Placement::AsItIs;
+  throw py::value_error("place: \"scaled\", \"moved\" or \"as-is\" is needed, not \"" + word +
+                        "\"");
+}
+
+/// Writes a .glb; returns warnings.
+std::vector<std::string> write_morph(const Mapped& from, const Mapped& to, const std::string& path,
+                                     const std::string& place, const std::string& up,
+                                     int image_size, int threads, const py::object& progress) {
+  const Placement placement = placement_of(place);
+  ExportOptions options{.up = up_of(up), .threads = threads};
+  options.look.image_width = image_size;
+  return writing_call(progress, [=, from = from, to = to](const Progress& report) mutable {
+    options.progress = report;
+    const Asset asset = make_morph(SurfaceMap(from.mesh(), to.mesh()), placement, options);
+    write_asset(path, asset);
+    return asset.warnings;
+  });
+}
+
 }  // namespace
 
 void declare_matches(py::module_& module) {
   module.def("match", match);
   module.def("matched_distortion", matched_distortion);
+  module.def("write_morph", write_morph);
 }
 
 }  // namespace sphparam::python

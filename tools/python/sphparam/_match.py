@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, List, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Any, List, Optional, Sequence, Tuple, Union
 
 from . import _arrays, _core
 from ._figures import Distortion
 from ._losses import tell
 from ._map_facts import mapped_of
+from ._mesh import Path, path_of
 from ._numpy import np
 from ._progress import Progress, told
 from ._sphere_map import SphereMap
@@ -73,6 +74,39 @@ class SurfaceMap:
         """How the map distorts the source's triangles; their images are the flat triangles of their corners."""
         found = _core.matched_distortion(self.source._mapped, self.target._mapped, _arrays.threads(threads))
         return Distortion(**found)
+
+    def morph(
+        self,
+        path: Path,
+        *,
+        place: str = "scaled",
+        up: Optional[str] = None,
+        image_size: int = 2048,
+        threads: int = 0,
+        progress: Progress = None,
+    ) -> None:
+        """Writes a ``.glb`` of the source with an animation that turns it into the target and back.
+
+        Parameters
+        ----------
+        place
+            How the target comes to where the source is: ``"scaled"``: turned, moved and scaled to its area;
+            ``"moved"``: without scaling; ``"as-is"``.
+        up
+            The axis of the source that points up, ``"y"`` or ``"z"``; ``None``: as its file says, else z.
+        image_size
+            Of images that are made here, as the checker of surfaces without colours.
+        """
+        name = path_of(path)
+        if not name.lower().endswith(".glb"):
+            raise ValueError(f"path: a morph ends in .glb, not {name!r}")
+        source, target = self.source._mapped, self.target._mapped
+        with told(progress) as report:
+            warned = _core.write_morph(
+                source, target, name, place, up or "", image_size, _arrays.threads(threads), report
+            )
+        tell(self.source._not_exported(name, False))
+        tell(warned)
 
     def __repr__(self) -> str:
         return f"<sphparam.SurfaceMap: {self.source.name} → {self.target.name}, {len(self.residuals)} landmarks>"
