@@ -16,9 +16,10 @@
 namespace sphparam {
 namespace {
 
-constexpr double far_energy = 1.5;   // of the median beyond isometry: a shape to look at
-constexpr double isometry = 2;       // of symmetric Dirichlet as it is minimised
-constexpr size_t telling_count = 5;  // shapes: of fewer no median says anything
+constexpr double far_energy = 1.5;       // of the median beyond isometry: a shape to look at,
+constexpr double telling_energy = 0.25;  // if it is this much beyond the median, too
+constexpr double isometry = 2;           // of symmetric Dirichlet as it is minimised
+constexpr size_t telling_count = 5;      // shapes: of fewer no median says anything
 
 double rms(const Points& points, const VectorX& weights) {
   return std::sqrt(points.rowwise().squaredNorm().dot(weights));
@@ -94,7 +95,8 @@ std::vector<size_t> outliers(const Group& group) {
   const double median = energies[energies.size() / 2];
   std::vector<size_t> result;
   for (size_t i = 0; i < group.members.size(); ++i)
-    if (group.members[i].energy - isometry > (1 + far_energy) * median) result.push_back(i);
+    if (group.members[i].energy - isometry > median + std::max(far_energy * median, telling_energy))
+      result.push_back(i);
   return result;
 }
 
