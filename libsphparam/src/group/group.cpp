@@ -261,6 +261,19 @@ class GroupWork {
 
 }  // namespace
 
+std::string name_of(GroupStart start) {
+  switch (start) {
+    case GroupStart::Ends:
+      return "ends";
+    case GroupStart::Maps:
+      return "maps";
+    case GroupStart::Ellipsoid:
+      return "ellipsoid";
+    default:
+      return "rotation";
+  }
+}
+
 Group make_group(const std::vector<MappedMesh>& shapes, const MappedMesh& reference,
                  const GroupOptions& options) {
   require_sensible(shapes, options);

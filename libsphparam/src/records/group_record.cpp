@@ -72,19 +72,6 @@ Json modes_json(const ShapeModes& modes) {
   return all;
 }
 
-std::string name_of(GroupStart start) {
-  switch (start) {
-    case GroupStart::Ends:
-      return "ends";
-    case GroupStart::Maps:
-      return "maps";
-    case GroupStart::Ellipsoid:
-      return "ellipsoid";
-    default:
-      return "rotation";
-  }
-}
-
 /// Shapes whose energy is far above the others', of so many that this says something.
 std::vector<size_t> outliers(const Group& group) {
   std::vector<double> energies;
@@ -115,7 +102,7 @@ std::vector<std::string> names_of_shapes(const std::vector<std::string>& files) 
 }
 
 std::string grid_name(const GroupOptions& options) {
-  return options.grid ? sphparam::name_of(*options.grid) : "template";
+  return options.grid ? name_of(*options.grid) : "template";
 }
 
 double distance_from_mean(const Group& group, size_t member) {

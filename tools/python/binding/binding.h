@@ -35,6 +35,7 @@ void declare_grids(py::module_& module);
 void declare_exports(py::module_& module);
 void declare_figures(py::module_& module);
 void declare_matches(py::module_& module);
+void declare_groups(py::module_& module);
 
 /// A mesh on its way to a map. Python holds it alone until it is mapped.
 struct Source {

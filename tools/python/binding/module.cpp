@@ -20,5 +20,6 @@ PYBIND11_MODULE(_core, module) {
   declare_exports(module);
   declare_figures(module);
   declare_matches(module);
+  declare_groups(module);
   py::module_::import("atexit").attr("register")(py::cpp_function(wait_for_left_calls));
 }

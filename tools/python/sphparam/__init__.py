@@ -50,6 +50,7 @@ from ._figures import (
     Radial,
     Stage,
 )
+from ._group import Group, group
 from ._map import load, map, remeshing_lambda, verify, with_sphere
 from ._map_images import fields
 from ._match import SurfaceMap, match
@@ -78,6 +79,7 @@ __all__ = [
     "Distance",
     "Distortion",
     "FaceDistortion",
+    "Group",
     "HandleLoop",
     "Harmonics",
     "ImageError",
@@ -97,6 +99,7 @@ __all__ = [
     "WriteError",
     "components",
     "fields",
+    "group",
     "inspect",
     "load",
     "map",

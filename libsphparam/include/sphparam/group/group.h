@@ -22,6 +22,9 @@ enum class GroupStart {
   Maps,       // as the maps lie: they are registered already
 };
 
+/// "ends", "rotation", "ellipsoid", "maps".
+std::string name_of(GroupStart start);
+
 struct GroupOptions {
   GroupStart start = GroupStart::Ends;
   bool hold = false;  // maps are only turned; else the distortion of shape → template is minimised

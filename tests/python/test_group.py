@@ -1,0 +1,55 @@
+"""Shapes beside shapes."""
+
+import numpy as np
+import pytest
+from shapes import potato
+
+import sphparam as sp
+
+LENGTHS = (0.8, 1.0, 1.3)
+
+
+@pytest.fixture(scope="module")
+def shapes():
+    vertices, faces = potato(3)
+    turn = np.array([[0, 1, 0], [-1, 0, 0], [0, 0, 1]])
+    return [sp.map((vertices * [2 * t, 1, 0.7]) @ (turn if t > 1 else np.eye(3)) + t, faces) for t in LENGTHS]
+
+
+@pytest.fixture(scope="module")
+def group(shapes):
+    return sp.group(shapes, start="rotation", grid="ico:4")
+
+
+def test_the_length_is_the_first_mode_and_shapes_are_the_mean_and_their_modes(group):
+    assert group.shares[0] > 0.95
+    order = group.scores[:, 0] * np.sign(group.scores[2, 0])
+    assert (np.diff(order) > 0.3).all()
+    rebuilt = group.mean.vertices + np.einsum("nk,kvd->nvd", group.scores, group.modes)
+    assert np.allclose(rebuilt, group.aligned, atol=1e-9)
+    assert np.allclose(group.along(0, 1.0), group.mean.vertices + group.modes[0])
+
+
+def test_every_map_is_proved_and_figures_are_those_of_the_shapes(group, shapes):
+    assert all(shape.certificate.one_to_one for shape in [*group.shapes, group.mean, group.template])
+    assert all((a.vertices == b.vertices).all() for a, b in zip(group.shapes, shapes))
+    away = np.linalg.norm(group.aligned - group.mean.vertices, axis=2)
+    assert np.allclose(group.deviation, np.sqrt((away**2).sum(0) / 2))
+    assert group.weights.sum() == pytest.approx(1)
+    assert (group.distances == group.distances.T).all() and group.starts == ["template", "rotation", "rotation"]
+
+
+def test_the_same_for_any_number_of_threads(shapes, group):
+    one = sp.group(shapes, start="rotation", grid="ico:4", threads=1)
+    assert (one.aligned == group.aligned).all()
+
+
+def test_what_makes_no_sense_is_refused(shapes):
+    with pytest.raises(ValueError, match="shapes"):
+        sp.group([])
+    with pytest.raises(ValueError, match="start"):
+        sp.group(shapes, start="luck")
+    with pytest.raises(ValueError, match="ico"):
+        sp.group(shapes, grid="ball")
+    with pytest.raises(TypeError, match=r"shapes\[0\]"):
+        sp.group([(shapes[0].vertices, shapes[0].faces)])

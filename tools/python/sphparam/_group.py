@@ -1,0 +1,116 @@
+"""Shapes beside shapes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence
+
+from . import _arrays, _core
+from ._losses import tell
+from ._map_facts import mapped_of
+from ._progress import Progress, told
+from ._sphere_map import SphereMap
+
+if TYPE_CHECKING:
+    from ._map_facts import Floats
+
+
+class Group:
+    """Shapes in correspondence: vertex v of the mean is the same place on all. :func:`group` makes it."""
+
+    def __init__(self, found: Dict[str, Any]) -> None:
+        self.shapes: List[SphereMap] = [SphereMap._of(shape["map"]) for shape in found["shapes"]]
+        """Each with its own triangles and its map moved into correspondence; all are proved."""
+        self.template: SphereMap = SphereMap._of(found["reference"])
+        """What all were brought to first, with its map in correspondence."""
+        self.mean: SphereMap = SphereMap._of(found["mean"])
+        """On the grid, as the template lies."""
+        self.aligned: Floats = found["aligned"]
+        """(n, V, 3) the shapes on the grid, moved and turned onto the mean."""
+        self.weights: Floats = found["weights"]
+        """(V,) mean shares of the area, whose sum is 1."""
+        self.deviation: Floats = found["deviation"]
+        """(V,) standard deviation of the shapes, a length."""
+        self.normal_deviation: Floats = found["normal_deviation"]
+        """(V,) the same along the mean's normals."""
+        self.distances: Floats = found["distances"]
+        """(n, n) RMS distance of each two, one moved and turned onto the other."""
+        self.modes: Floats = found["modes"]
+        """(k, V, 3) what one standard deviation of each principal mode adds, most variance first."""
+        self.deviations: Floats = found["deviations"]
+        """(k,) RMS displacement by one standard deviation."""
+        self.shares: Floats = found["shares"]
+        """(k,) of the variance."""
+        self.scores: Floats = found["scores"]
+        """(n, k) of each shape, in standard deviations: shape = mean + scores · modes."""
+        self.variance: float = found["variance"]
+        """Of all modes, also those that are not kept."""
+        self.starts: List[str] = [shape["start"] for shape in found["shapes"]]
+        """What each way to the template began with."""
+        self.energies: List[float] = [shape["energy"] for shape in found["shapes"]]
+        """Of the last minimisation, where isometry has 2; 0 where there was none."""
+        self.resampling_rms: List[float] = [shape["resampling_rms"] for shape in found["shapes"]]
+        """How far each shape's own vertices are from it on the grid."""
+
+    def along(self, mode: int, deviations: float) -> Floats:
+        """(V, 3) the mean and so many standard deviations of a mode."""
+        return self.mean.vertices + deviations * self.modes[mode]
+
+    def __repr__(self) -> str:
+        return f"<sphparam.Group: {len(self.shapes)} shapes, {len(self.mean.vertices)} vertices, {len(self.modes)} modes>"
+
+
+def group(
+    shapes: Sequence[SphereMap],
+    template: Optional[SphereMap] = None,
+    *,
+    start: str = "ends",
+    hold: bool = False,
+    rounds: int = 1,
+    grid: str = "ico:5",
+    scale: bool = False,
+    modes: int = 3,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Group:
+    """Brings shapes into correspondence: their mean, how they vary, how far they are apart.
+
+    Parameters
+    ----------
+    shapes
+        Maps, which are moved.
+    template
+        What all are brought to first; ``None``: the first of them.
+    start
+        Where the way to it begins: ``"ends"`` paired, else as ``"rotation"``: maps turned until they look
+        alike; ``"ellipsoid"``: first-order ellipsoids turned alike; ``"maps"``: as they lie.
+    hold
+        Maps are only turned, or stay; else the distortion of shape → template is minimised.
+    rounds
+        So often all are then brought to their mean.
+    grid
+        Of triangles, or ``"template"``: its own.
+    scale
+        Bring all to one size.
+    modes
+        At most so many are kept.
+
+    Warnings tell what is to be looked at, with the number of the shape.
+    """
+    maps = [mapped_of(shape, f"shapes[{i}]") for i, shape in enumerate(shapes)]
+    if not maps:
+        raise ValueError("shapes: there is none")
+    reference = maps[0] if template is None else mapped_of(template, "template")
+    options = {
+        "start": _arrays.text(start, "start"),
+        "hold": bool(hold),
+        "rounds": _arrays.whole(rounds, "rounds", 0, 20),
+        "grid": _arrays.text(grid, "grid"),
+        "scale": bool(scale),
+        "modes": _arrays.whole(modes, "modes", 0, 100),
+        "threads": _arrays.threads(threads),
+    }
+    with told(progress) as report:
+        found = _core.group(maps, reference, options, report)
+    for i, shape in enumerate(found["shapes"]):
+        tell([f"shapes[{i}]: {warning}" for warning in shape["warnings"]])
+    return Group(found)
