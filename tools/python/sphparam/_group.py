@@ -53,7 +53,8 @@ class Group:
 
     def along(self, mode: int, deviations: float) -> Floats:
         """(V, 3) the mean and so many standard deviations of a mode."""
-        return self.mean.vertices + deviations * self.modes[mode]
+        shape: Floats = self.mean.vertices + deviations * self.modes[mode]
+        return shape
 
     def __repr__(self) -> str:
         return f"<sphparam.Group: {len(self.shapes)} shapes, {len(self.mean.vertices)} vertices, {len(self.modes)} modes>"
