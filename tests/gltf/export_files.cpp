@@ -15,6 +15,7 @@
 #include "io/attributes/hard_edges.h"
 #include "io/polygons/welding.h"
 #include "sphparam/gltf/gltf_writer.h"
+#include "sphparam/gltf/morph.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/sphere_file.h"
 #include "sphparam/parameterize.h"
@@ -169,6 +170,25 @@ void run_all(const Named& mesh, const fs::path& folder, const std::vector<AssetI
     run(trial, mesh.file, *map, topology, mesh.name, folder, images);
 }
 
+/// Each of these meshes turning into each other, in its own coordinates and put to one place.
+void run_morphs(const std::vector<Named>& meshes, const fs::path& folder) {
+  std::vector<MappedMesh> mapped;
+  for (const Named& mesh : meshes)
+    mapped.push_back(MappedMesh(
+        {.file = mesh.file, .map = parameterize(mesh.file.mesh).map, .name = mesh.name + ".obj"}));
+  ExportOptions options;
+  options.look.image_width = 64;
+  for (const MappedMesh& from : mapped) {
+    for (const MappedMesh& to : mapped) {
+      const std::string stem = from.name() + "_" + to.name();
+      for (const Placement placement : {Placement::AsItIs, Placement::Scaled}) {
+        const std::string kind = placement == Placement::AsItIs ? "_there.glb" : "_here.glb";
+        write(folder / (stem + kind), glb_bytes(make_morph({from, to}, placement, options)));
+      }
+    }
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -177,6 +197,7 @@ int main(int argc, char** argv) {
   const std::vector<AssetImage> images = make_images();
   if (argc == 2) {
     for (const Named& mesh : own_meshes()) run_all(mesh, argv[1], images);
+    run_morphs(own_meshes(), argv[1]);
   }
   for (int i = 2; i < argc; ++i)
     run_all({fs::path(argv[i]).stem().string(), prepare_for_mapping(read_mesh(argv[i]))}, argv[1],
