@@ -110,6 +110,20 @@ TEST_CASE("group: copies with maps of their own come into correspondence, and ha
   }
 }
 
+TEST_CASE("group: positions that a symmetry makes alike are no doubt") {
+  std::vector<MappedMesh> shapes;
+  for (const double length : {3.0, 3.3}) {
+    TriangleMesh mesh = grid_sphere(small_grid);
+    mesh.positions = (mesh.positions * Eigen::Vector3d(length, 2, 1.2).asDiagonal()).eval();
+    SphereMap map = parameterize(mesh).map;
+    shapes.push_back(mapped(mesh, std::move(map)));
+  }
+  const Group group =
+      make_group(shapes, shapes[0], {.start = GroupStart::Rotation, .grid = small_grid});
+  CHECK(group.members[1].start == "rotation");
+  CHECK(group.members[1].warnings.empty());
+}
+
 TEST_CASE("group: ellipsoids of many lengths vary in one mode, whose scores are the length") {
   std::vector<MappedMesh> shapes;
   const std::vector<double> lengths{3, 3.4, 3.8, 4.2, 4.6};

@@ -30,6 +30,12 @@ Brought by_ellipsoid(const GroupTarget& target, const MappedMesh& shape, int thr
           .doubts = doubts_about(alignment)};
 }
 
+/// Whether functions on the sphere are as good as themselves, turned.
+bool is_symmetric(const Functions& signals, int threads) {
+  const auto turns = turns_by_correlation(signals, signals, tried_turns, threads);
+  return turns.size() > 1 && turns[1].correlation > 1 - clear_difference;
+}
+
 /// The shape's sphere lies as the target's does, by what the maps look like.
 Brought by_rotation(const GroupTarget& target, const MappedMesh& shape, int threads) {
   const Functions signals = map_signals(shape, {.threads = threads});
@@ -41,7 +47,8 @@ Brought by_rotation(const GroupTarget& target, const MappedMesh& shape, int thre
         "its map looks little like that of the template, however it is turned "
         "(correlation " +
         short_number(turns.front().correlation) + "): look at its correspondence");
-  else if (turns.size() > 1 && turns.front().correlation - turns[1].correlation < clear_difference)
+  else if (turns.size() > 1 && !target.symmetric &&
+           turns.front().correlation - turns[1].correlation < clear_difference)
     result.doubts.push_back(
         "its map looks like that of the template in two positions "
         "(correlations " +
@@ -72,8 +79,10 @@ std::optional<Brought> by_ends(const GroupTarget& target, const MappedMesh& shap
 
 GroupTarget group_target(const MappedMesh& mapped, GroupStart start, int threads) {
   GroupTarget target{.mapped = mapped};
-  if (start == GroupStart::Rotation || start == GroupStart::Ends)
+  if (start == GroupStart::Rotation || start == GroupStart::Ends) {
     target.signals = map_signals(mapped, {.threads = threads});
+    target.symmetric = is_symmetric(target.signals, threads);
+  }
   if (start != GroupStart::Ellipsoid) return target;
   const Functions harmonics = harmonics_of(mapped, threads);
   const FirstOrderAlignment alignment = first_order_alignment(harmonics, nullptr, threads);

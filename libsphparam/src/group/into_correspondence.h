@@ -13,6 +13,7 @@ namespace sphparam {
 struct GroupTarget {
   MappedMesh mapped;
   Functions signals = {};       // `map_signals`, where rotations are looked for
+  bool symmetric = false;       // these look the same in several positions: any of them is right
   Functions aligned = {};       // its harmonics on its axes, where ellipsoids are,
   Eigen::Matrix3d sphere = {};  // and how its sphere was turned for them
 };
