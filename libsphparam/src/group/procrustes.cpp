@@ -51,23 +51,23 @@ Points mean_of(const std::vector<Points>& shapes) {
 }
 
 /// Centres and sizes, once and for all.
-std::vector<Similarity> placed(const std::vector<Points>& shapes, const VectorX& weights,
-                               bool scale) {
-  std::vector<Similarity> motions(shapes.size());
+std::vector<ProcrustesMotion> placed(const std::vector<Points>& shapes, const VectorX& weights,
+                                     bool scale) {
+  std::vector<ProcrustesMotion> motions(shapes.size());
   double mean_size = 0;
   for (size_t i = 0; i < shapes.size(); ++i) {
     motions[i].centre = centre_of(shapes[i], weights);
     motions[i].scale = size_of(centred(shapes[i], motions[i].centre), weights);
     mean_size += motions[i].scale / static_cast<double>(shapes.size());
   }
-  for (Similarity& motion : motions)
+  for (ProcrustesMotion& motion : motions)
     motion.scale = scale && motion.scale > 0 ? mean_size / motion.scale : 1;
   return motions;
 }
 
 }  // namespace
 
-Points moved(const Points& points, const Similarity& motion) {
+Points moved(const Points& points, const ProcrustesMotion& motion) {
   const Matrix3 turn = motion.scale * motion.rotation;
   Points result(points.rows(), 3);
   for (Eigen::Index v = 0; v < points.rows(); ++v)
@@ -89,7 +89,7 @@ Procrustes align_by_procrustes(const std::vector<Points>& shapes, const Points& 
   const double size = size_of(wanted, weights);
   for (double change = 1; change > options.tolerance * size;) {
     for_each(shapes, options.threads, [&](size_t i) {
-      Similarity& motion = result.motions[i];
+      ProcrustesMotion& motion = result.motions[i];
       motion.rotation = nearest_rotation(centred(shapes[i], motion.centre), result.mean, weights);
       result.shapes[i] = moved(shapes[i], motion);
     });

@@ -40,13 +40,13 @@ struct GroupOptions {
 
 /// One shape of a group.
 struct GroupMember {
-  MappedMesh mapped;      // with its map moved into correspondence
-  MappedMesh resampled;   // on the grid, where it was
-  Points aligned;         // the resampled one's vertices, on the mean
-  Similarity motion;      // that brought them there
-  std::string start;      // what its way began with: "rotation", "ellipsoid", "ends", "its map"
-  double energy = 0;      // of the last minimisation, a unit of area (`Match::energy`); 0: none
-  double confidence = 1;  // in the ends that were paired (`Match::confidence`)
+  MappedMesh mapped;        // with its map moved into correspondence
+  MappedMesh resampled;     // on the grid, where it was
+  Points aligned;           // the resampled one's vertices, on the mean
+  ProcrustesMotion motion;  // that brought them there
+  std::string start;        // what its way began with: "rotation", "ellipsoid", "ends", "its map"
+  double energy = 0;        // of the last minimisation, a unit of area (`Match::energy`); 0: none
+  double confidence = 1;    // in the ends that were paired (`Match::confidence`)
   /// How far its own vertices are from the resampled shape, in their own directions: the mesh's
   /// unit; RMS weighted by area.
   double resampling_rms = 0, resampling_max = 0;

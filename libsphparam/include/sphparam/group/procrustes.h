@@ -7,14 +7,14 @@
 namespace sphparam {
 
 /// x becomes scale · rotation · (x − centre) + place.
-struct Similarity {
+struct ProcrustesMotion {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   double scale = 1;
   Vector3 centre = Vector3::Zero(), place = Vector3::Zero();
 };
 
 /// Requires: nothing. Cost: one pass.
-Points moved(const Points& points, const Similarity& motion);
+Points moved(const Points& points, const ProcrustesMotion& motion);
 
 struct ProcrustesOptions {
   bool scale = false;         // each to the mean size: RMS distance from its centre
@@ -25,9 +25,9 @@ struct ProcrustesOptions {
 
 /// Shapes of corresponding points, moved, turned and, where wanted, scaled onto their mean.
 struct Procrustes {
-  std::vector<Points> shapes;       // moved
-  std::vector<Similarity> motions;  // of each
-  Points mean;                      // of the moved shapes
+  std::vector<Points> shapes;             // moved
+  std::vector<ProcrustesMotion> motions;  // of each
+  Points mean;                            // of the moved shapes
   int iterations = 0;
 };
 
