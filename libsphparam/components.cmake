@@ -53,7 +53,7 @@ function(add_component component)
     file(GLOB_RECURSE room_sources CONFIGURE_DEPENDS src/${room}/*.cpp)
     list(APPEND sources ${room_sources})
   endforeach()
-  list(FILTER sources EXCLUDE REGEX "/(oiio|draco)/")
+  list(FILTER sources EXCLUDE REGEX "/(oiio|draco|assimp)/")
   set(target sphparam_${component})
   add_library(${target} ${sources})
   add_library(sphparam::${component} ALIAS ${target})
@@ -83,6 +83,11 @@ function(add_component component)
   endif()
 endfunction()
 
+# Debian's packages keep what is compiled by architecture.
+set(module_of_packages lib/${CMAKE_LIBRARY_ARCHITECTURE}/sphparam)
+set_source_files_properties(src/io/files/modules.cpp PROPERTIES
+  COMPILE_DEFINITIONS SPHPARAM_MODULE_OF_PACKAGES="${module_of_packages}")
+
 set(CMAKE_FIND_PACKAGE_TARGETS_GLOBAL ON)  # tests and benchmarks use them too
 list(PREPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_SOURCE_DIR}/cmake/modules)
 if(io IN_LIST SPHPARAM_BUILT)
@@ -98,10 +103,11 @@ if(io IN_LIST SPHPARAM_BUILT)
   add_component(io ROOMS io
     LIBRARIES TinyGLTF::TinyGLTF=tinygltf nlohmann_json::nlohmann_json ${GIFTIIO_LIBRARY}=giftiio
       meshoptimizer::meshoptimizer=meshoptimizer EXPAT::EXPAT=expat
-      ZLIB::ZLIB=z)
+      ZLIB::ZLIB=z ${CMAKE_DL_LIBS}=${CMAKE_DL_LIBS})
   target_include_directories(sphparam_io SYSTEM PRIVATE ${GIFTIIO_INCLUDE_DIR}
     ${NIFTIIO_INCLUDE_DIR})
   include(draco_inside.cmake)
+  include(scene_module.cmake)
 endif()
 if(image IN_LIST SPHPARAM_BUILT)
   add_component(image ROOMS image texture LIBRARIES ${CMAKE_DL_LIBS}=${CMAKE_DL_LIBS})

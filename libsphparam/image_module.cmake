@@ -21,11 +21,7 @@ if(NOT PROJECT_IS_TOP_LEVEL)  # programs of another project lie elsewhere: the l
 endif()
 
 install(TARGETS sphparam_image_oiio LIBRARY DESTINATION lib/sphparam COMPONENT image)
-# Debian's packages keep what is compiled by architecture.
-set(module_of_packages lib/${CMAKE_LIBRARY_ARCHITECTURE}/sphparam)
 if(CMAKE_LIBRARY_ARCHITECTURE)
   install(TARGETS sphparam_image_oiio LIBRARY DESTINATION ${module_of_packages}
     COMPONENT debian_image EXCLUDE_FROM_ALL)
 endif()
-set_source_files_properties(src/image/open_module.cpp PROPERTIES
-  COMPILE_DEFINITIONS SPHPARAM_MODULE_OF_PACKAGES="${module_of_packages}")

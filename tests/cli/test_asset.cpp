@@ -22,6 +22,7 @@ TEST_CASE("asset: `sphparam FILE` fills a folder beside, all files together") {
     CHECK(fs::exists(fs::path(out) / name));
   CHECK(nlohmann::json::parse(bytes_of(json))["surface"] == "itself");
   CHECK(sphparam_program({"verify", out + "/ball.sph.ply"}).code == 0);
+  CHECK(sphparam_program({mesh, "-o", out, "--size", "64", "--no-page"}).code == 0);  // once more
 }
 
 TEST_CASE("asset: what cannot be done is said, and leaves no folder") {

@@ -29,7 +29,7 @@ TEST_CASE("mesh_reader: other formats are refused by name") {
   refused("MZ\x03", "a.mz3", "the file ends within its header");
   refused("MZ\x03", "a.exe", "not recognised");
   refused("\x1f\x8b\x08", "a.mz3", "gzip data is cut short");
-  refused("<?xml version", "a.dae", "XML other than GIFTI and VTP");
+  refused("<?xml version", "a.xml", "XML other than GIFTI and VTP");
   refused("\xff\xff\xff\x01", "lh.curv", "a FreeSurfer file of values");
   refused("hello", "a.txt", "not recognised");
   refused("hello", "a.ply", "a.ply:1: expected the magic word");

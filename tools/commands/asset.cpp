@@ -101,7 +101,8 @@ void tell(const RemadeAsset& made, const std::string& folder, Session& session) 
 }
 
 int run_asset(AssetArguments& arguments) {
-  check_places({{"-o", arguments.output}, {"--json", arguments.json}});
+  const bool is_folder = fs::is_directory(arguments.output);
+  check_places({{"-o", is_folder ? "" : arguments.output}, {"--json", arguments.json}});
   Session session(arguments);
   session.hold_signals();
   const MeshSource asset = read_asset(arguments.input);

@@ -10,6 +10,7 @@
 #include "sphparam/io/certified_files.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/stopwatch.h"
+#include "texture/read_textures.h"
 
 namespace sphparam {
 namespace {
@@ -24,7 +25,9 @@ class Remaker {
         stem_((std::filesystem::path(folder) / name()).string()),
         remade_{.whole = whole_surface(asset, options.whole), .baked = {}} {}
 
-  RemadeAsset remake() {
+  /// `warnings`: what is known before.
+  RemadeAsset remake(const std::vector<std::string>& warnings) {
+    append(warnings);
     lap("surface");
     bake_channels();
     lap("images");
@@ -69,38 +72,13 @@ class Remaker {
     return settings;
   }
 
-  void bake_channels() try {
-    bake_all(fields());
-  } catch (const ImageError&) {
-    const std::vector<std::string> left = readable(fields());
-    if (left == fields()) throw;  // it is none of the asset's
-    bake_all(left);               // no file was begun
-  }
-
-  void bake_all(const std::vector<std::string>& fields) {
+  void bake_channels() {
     std::vector<BakeRequest> requests;
-    for (const std::string& field : fields)
+    for (const std::string& field : fields())
       requests.push_back({field, stem_ + "_" + field + ".png"});
     remade_.baked = bake(remade_.whole.mapped, requests, bake_settings(), files_);
     append(remade_.baked.warnings);
     for (const BakeRequest& request : requests) remade_.files.emplace_back(request.path, 0);
-  }
-
-  /// Those whose images can be read; of the others it is told that they are not carried.
-  std::vector<std::string> readable(std::vector<std::string> fields) {
-    BakeSettings few = bake_settings();
-    few.width = 4;
-    std::erase_if(fields, [&](const std::string& field) {
-      try {
-        bake_values(remade_.whole.mapped, {field}, few,
-                    [](size_t, const BakedField&, int, int, const float*) {});
-        return false;
-      } catch (const ImageError& error) {
-        remade_.warnings.push_back("not carried: " + field + ", as " + error.what());
-        return true;
-      }
-    });
-    return fields;
   }
 
   /// Where the image of a field lies now; empty: it was not baked.
@@ -169,9 +147,33 @@ class Remaker {
 
 }  // namespace
 
+namespace {
+
+/// Takes images that cannot be used from the materials, which keep their factors; tells of each.
+std::vector<std::string> drop_unusable_images(MeshFile& file) {
+  std::vector<std::string> told;
+  const auto check = [&](MaterialTexture& texture, size_t material) {
+    const std::string why = why_unusable(texture);
+    if (why.empty()) return;
+    told.push_back("not carried: " + texture.image + " of material " + file.materials[material] +
+                   ": " + why);
+    texture.image.clear();
+  };
+  for (size_t i = 0; i < file.base_colours.size(); ++i) check(file.base_colours[i], i);
+  for (size_t i = 0; i < file.channels.size(); ++i)
+    for (MaterialTexture* texture : file.channels[i].textures()) check(*texture, i);
+  std::ranges::sort(told);
+  told.erase(std::ranges::unique(told).begin(), told.end());
+  return told;
+}
+
+}  // namespace
+
 RemadeAsset remake_asset(const MeshSource& asset, const std::string& folder,
                          const RemakeOptions& options, PendingFiles& files) {
-  return Remaker(asset, folder, options, files).remake();
+  MeshSource usable = asset;
+  const std::vector<std::string> told = drop_unusable_images(usable.file);
+  return Remaker(usable, folder, options, files).remake(told);
 }
 
 }  // namespace sphparam

@@ -80,6 +80,8 @@ std::vector<char> read_bytes(const std::string& path, const ImageLimits& limits)
 
 }  // namespace
 
+bool is_image(const std::vector<char>& bytes) { return format_of(bytes) != nullptr; }
+
 Image decode_image(const std::vector<char>& bytes, std::string_view name, const ImageLimits& limits,
                    ImageTexts* texts) {
   const std::string prefix = std::string(name) + ": ";

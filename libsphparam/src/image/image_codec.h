@@ -32,7 +32,7 @@ struct ImageWriteOptions {
 /// The decoders are OpenImageIO's, in a module opened on first use: a program that touches no
 /// image never loads them.
 /// `texts`, where given, gets the texts of the file's metadata.
-/// Throws: ImageError with the file's name, for what is no PNG, JPEG, TIFF or EXR file, for broken
+/// Throws: ImageError with the file's name, for what is no PNG, JPEG, WebP, TIFF or EXR file, for broken
 /// ones and for what is beyond the limits.
 Image read_image(const std::string& path, const ImageLimits& limits = {},
                  ImageTexts* texts = nullptr);
@@ -40,6 +40,9 @@ Image read_image(const std::string& path, const ImageLimits& limits = {},
 /// The same from memory; `name` is for error messages.
 Image decode_image(const std::vector<char>& bytes, std::string_view name,
                    const ImageLimits& limits = {}, ImageTexts* texts = nullptr);
+
+/// Whether bytes begin as those of an image that is read.
+bool is_image(const std::vector<char>& bytes);
 
 /// The bytes of an image file, read back as `ImageWriter` does; in integers clamped to [0, 1].
 /// Ensures: same bytes for the same input (EXR carries the time SOURCE_DATE_EPOCH, or 1970).

@@ -1,107 +1,26 @@
 #include "image/open_module.h"
 
-#include <dlfcn.h>
-
-#include <algorithm>
-#include <cstdlib>
-#include <filesystem>
-#include <string>
-#include <system_error>
-
-#include "image/program_path.h"
+#include "io/files/modules.h"
 #include "sphparam/image/image_format.h"
-
-// A program linked to OpenImageIO takes 0.19 s and 262 shared objects to start. So the codecs live
-// in a module that is opened when the first image is touched. Our own program has it beside it
-// (build tree), in ../lib/sphparam (installed) or below ../lib by architecture (Debian packages):
-// it moves with the program. A user's program may be anywhere; there the library leads to it, a
-// shared one by its own place, a static one by the rpath that its CMake targets and pkg-config
-// files add.
 
 namespace sphparam {
 namespace {
 
-using Path = std::filesystem::path;
+constexpr ModuleWords words = {
+    "sphparam_image_oiio.so", "image module",
+    "the Debian package libopenimageio2.4 has OpenImageIO, which it opens"};
 
-constexpr char module_name[] = "sphparam_image_oiio.so";
-
-void add(std::vector<Path>& folders, const Path& folder) {
-  if (std::ranges::find(folders, folder) == folders.end()) folders.push_back(folder);
-}
-
-/// Of an installation that has this file in bin/ or lib/.
-void add_about(std::vector<Path>& folders, const Path& file) {
-  const Path folder = file.parent_path(), prefix = folder.parent_path();
-  add(folders, folder);
-  add(folders, prefix / "lib" / "sphparam");
-  add(folders, prefix / SPHPARAM_MODULE_OF_PACKAGES);
-}
-
-/// The file that this code was loaded from: the program, or a shared library. Empty: unknown.
-Path own_file() {
-  Dl_info info{};
-  if (dladdr(reinterpret_cast<const void*>(&module_folders), &info) == 0 || !info.dli_fname) {
-    return {};
-  }
-  std::error_code error;
-  return std::filesystem::canonical(info.dli_fname, error);
-}
-
-/// The bare name where no folder has it: what a program was linked with may lead the loader to it.
-Path find_module() {
-  std::error_code error;
-  for (const Path& folder : module_folders()) {
-    Path module = folder / module_name;
-    if (std::filesystem::exists(module, error)) return module;
-  }
-  return module_name;
-}
-
-/// Every place that was looked at, the last with what the loader said.
-std::string all_places(const std::string& said) {
-  std::string places;
-  for (const Path& folder : module_folders()) places += "\n  " + folder.string();
-  return places + "\n  where the loader looks: " + said +
-         "\nthe Debian package sphparam-image has it; the environment variable SPHPARAM_MODULES "
-         "may "
-         "name the folder where it lies";
-}
-
-const SphparamImageTable& open_module() {
-  const Path path = find_module();
-  // Never closed: OpenImageIO's threads run in it.
-  void* module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (!module) {
-    const std::string said = dlerror();
-    if (path.has_parent_path())
-      throw ImageError("cannot open the image module: " + said +
-                       "; the Debian package libopenimageio2.4 has OpenImageIO, which it opens");
-    throw ImageError(std::string("the image module ") + module_name + " is in none of" +
-                     all_places(said));
-  }
-  const auto table =
-      reinterpret_cast<SphparamImageTableFunction>(dlsym(module, sphparam_image_table_name));
-  if (!table || table()->version != sphparam_image_table_version) {
-    throw ImageError(path.string() + " belongs to another version of this program");
-  }
+const SphparamImageTable& open_module() try {
+  const auto table = reinterpret_cast<SphparamImageTableFunction>(
+      function_of_module(words, sphparam_image_table_name));
+  if (!table || table()->version != sphparam_image_table_version)
+    throw ImageError(std::string(words.file) + " belongs to another version of this program");
   return *table();
+} catch (const ModuleError& error) {
+  throw ImageError(error.what());
 }
 
 }  // namespace
-
-std::vector<Path> module_folders() {
-  std::vector<Path> folders;
-  if (const char* const named = secure_getenv("SPHPARAM_MODULES"); named && *named) {
-    add(folders, named);
-  }
-  const Path program = program_path(), own = own_file();
-  if (!own.empty() && own != program) {  // first: that of the same version
-    add(folders, own.parent_path() / "sphparam");
-    add_about(folders, own);
-  }
-  if (!program.empty()) add_about(folders, program);
-  return folders;
-}
 
 const SphparamImageTable& image_codecs() {
   static const SphparamImageTable& table = open_module();

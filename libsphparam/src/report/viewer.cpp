@@ -6,7 +6,7 @@
 
 #include "embedded/viewer.css.h"
 #include "embedded/viewer.js.h"
-#include "image/program_path.h"
+#include "io/files/program_path.h"
 #include "io/uri.h"
 #include "report/svg.h"
 #include "sphparam/gltf/gltf_writer.h"

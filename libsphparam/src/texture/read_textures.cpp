@@ -39,6 +39,14 @@ std::shared_ptr<const TexturePyramid> decode(const MaterialTexture& colour, cons
 
 }  // namespace
 
+std::string why_unusable(const MaterialTexture& texture) try {
+  if (texture.image.empty()) return "";
+  if (!texture.problem.empty()) return texture.problem;
+  return is_image(bytes_of(texture)) ? "" : "its format is not read";
+} catch (const std::runtime_error& error) {
+  return error.what();
+}
+
 SourceTexture read_texture(const std::string& path, TextureWrap wrap, int threads) {
   const bool linear = extension_of(path) == ".exr";
   return {.image = std::make_shared<const TexturePyramid>(read_image(path), linear, threads),

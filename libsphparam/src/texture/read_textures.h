@@ -19,6 +19,10 @@ SourceTexture read_texture(const std::string& path, TextureWrap wrap, int thread
 /// Throws: ImageError that names material and image, for one that is missing, broken or unusable.
 std::vector<SourceTexture> read_textures(const MeshFile& file, int threads);
 
+/// Why a material's image cannot be used, as far as is known before it is decoded: it is not there,
+/// or of no kind that is read; empty where there is none, or nothing against it.
+std::string why_unusable(const MaterialTexture& texture);
+
 /// Whether images hold colours, which are sRGB, or numbers.
 enum class TexelKind { Colour, Number };
 

@@ -252,7 +252,7 @@ def _with_values(mesh: Mesh, values: Optional[Mapping[str, Any]]) -> Mesh:
 
 
 def read(path: Path, *, repeated_corners: bool = False, non_finite: bool = False) -> Mesh:
-    """Reads a mesh: OBJ, PLY, OFF, STL, glTF, VTK, GIFTI, FreeSurfer, MZ3, ICQ or plate table, in gzip or not, by content.
+    """Reads a mesh: OBJ, PLY, OFF, STL, glTF, FBX, COLLADA, VTK, GIFTI, FreeSurfer, MZ3, ICQ or plate table, in gzip or not, by content.
 
     Copies of vertices are welded where the faces have open edges otherwise, vertices that no face uses
     are dropped; ``notes`` says so and ``vertex_origin`` has the numbers of the file. Faces that name a

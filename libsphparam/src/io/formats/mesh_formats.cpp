@@ -19,6 +19,7 @@
 #include "io/formats/ply_reader.h"
 #include "io/formats/ply_writer.h"
 #include "io/formats/polygon_ply.h"
+#include "io/formats/scene_reader.h"
 #include "io/formats/shapes/icq_reader.h"
 #include "io/formats/shapes/plate_reader.h"
 #include "io/formats/stl_reader.h"
@@ -45,6 +46,15 @@ MeshFile read_gltf_files(const MeshBytes& bytes, const ReadOptions& options) {
 
 MeshFile read_obj_files(const MeshBytes& bytes, const ReadOptions& options) {
   return read_obj(bytes.bytes, bytes.name, bytes.folder, options);
+}
+
+using SceneReader = MeshFile(std::string_view, const std::string&,
+                             const std::optional<std::filesystem::path>&, const ReadOptions&);
+
+/// For formats that may have pictures beside them.
+template <SceneReader& reader>
+MeshFile read_scene_files(const MeshBytes& bytes, const ReadOptions& options) {
+  return reader(bytes.bytes, bytes.name, bytes.folder, options);
 }
 
 /// For formats that are told nothing but the mesh.
@@ -138,6 +148,22 @@ constexpr MeshFormat formats[] = {
      magic,
      looks_like_gltf,
      read_gltf_files,
+     nullptr,
+     without_map,
+     spheres_in_doubles},
+    {"FBX",
+     {".fbx"},
+     magic,
+     looks_like_fbx,
+     read_scene_files<read_fbx>,
+     nullptr,
+     without_map,
+     spheres_in_doubles},
+    {"COLLADA",
+     {".dae"},
+     magic,
+     looks_like_collada,
+     read_scene_files<read_collada>,
      nullptr,
      without_map,
      spheres_in_doubles},

@@ -1,4 +1,4 @@
-#include "image/program_path.h"
+#include "io/files/program_path.h"
 
 #include <sys/auxv.h>
 

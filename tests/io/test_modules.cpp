@@ -3,8 +3,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "image/open_module.h"
-#include "image/program_path.h"
+#include "io/files/modules.h"
+#include "io/files/program_path.h"
 
 using namespace sphparam;
 

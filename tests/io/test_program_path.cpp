@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
-#include "image/program_path.h"
+#include "io/files/program_path.h"
 
 using sphparam::program_path;
 

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+
+// The door between our programs and the module that reads scenes by assimp: plain C, so that
+// nothing of assimp is linked into them. Both sides are built together; the version guards against
+// a stale module.
+
+extern "C" {
+
+/// Receives bytes; `context` is the caller's own.
+typedef void (*SphparamSceneSink)(void* context, const char* bytes, size_t size);
+
+struct SphparamSceneTable {
+  int version;
+  /// A scene in memory as the bytes of a GLB: `kind` is "fbx" or "dae". Opens no other file.
+  /// Returns 0, or 1 after telling `error` why.
+  int (*to_glb)(const char* kind, const char* bytes, size_t size, SphparamSceneSink glb,
+                void* glb_context, SphparamSceneSink error, void* error_context);
+};
+
+/// The module's one exported name.
+typedef const SphparamSceneTable* (*SphparamSceneTableFunction)();
+}
+
+constexpr int sphparam_scene_table_version = 1;
+constexpr char sphparam_scene_table_name[] = "sphparam_scene_table";

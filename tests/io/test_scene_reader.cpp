@@ -1,0 +1,111 @@
+#include <catch2/catch.hpp>
+
+#include "io/polygons/welding.h"
+#include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/read_options.h"
+#include "sphparam/io/up_axis.h"
+#include "sphparam/mesh/mesh_defects.h"
+
+using namespace sphparam;
+
+namespace {
+
+/// A tetrahedron of red, twice as large by its node.
+std::string collada(const std::string& triangles = "0 2 1 0 1 3 1 2 3 0 3 2") {
+  return R"(<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><up_axis>Y_UP</up_axis></asset>
+<library_effects><effect id="e"><profile_COMMON><technique sid="t"><lambert>
+<diffuse><color>1 0 0 1</color></diffuse></lambert></technique></profile_COMMON></effect></library_effects>
+<library_materials><material id="m" name="paint"><instance_effect url="#e"/></material></library_materials>
+<library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="a" count="12">0 0 0 1 0 0 0 1 0 0 0 1</float_array>
+<technique_common><accessor source="#a" count="4" stride="3">
+<param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/>
+</accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles material="m" count="4"><input semantic="VERTEX" source="#v" offset="0"/>
+<p>)" + triangles +
+         R"(</p></triangles></mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s"><node id="n"><scale>2 2 2</scale>
+<instance_geometry url="#g"><bind_material><technique_common>
+<instance_material symbol="m" target="#m"/></technique_common></bind_material></instance_geometry>
+</node></visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
+}
+
+/// A square pyramid; `up`: 1 is y, 2 is z.
+std::string fbx(int up) {
+  return R"(; FBX 7.4.0 project file
+FBXHeaderExtension:  {
+	FBXHeaderVersion: 1003
+	FBXVersion: 7400
+}
+GlobalSettings:  {
+	Version: 1000
+	Properties70:  {
+		P: "UpAxis", "int", "Integer", "",)" +
+         std::to_string(up) + R"(
+		P: "UpAxisSign", "int", "Integer", "",1
+	}
+}
+Objects:  {
+	Geometry: 1001, "Geometry::pyramid", "Mesh" {
+		Vertices: *15 {
+			a: -1,-1,0,1,-1,0,1,1,0,-1,1,0,0,0,3
+		}
+		PolygonVertexIndex: *16 {
+			a: 3,2,1,-1,0,1,-5,1,2,-5,2,3,-5,3,0,-5
+		}
+	}
+	Model: 1002, "Model::pyramid", "Mesh" {
+		Version: 232
+	}
+}
+Connections:  {
+	C: "OO",1002,0
+	C: "OO",1001,1002
+}
+)";
+}
+
+double height_along(const MeshFile& file, int axis) {
+  return file.mesh.positions.col(axis).maxCoeff() - file.mesh.positions.col(axis).minCoeff();
+}
+
+}  // namespace
+
+TEST_CASE("scene_reader: COLLADA brings its meshes where their nodes put them, and materials") {
+  const MeshFile file = read_mesh(collada(), "a.bin", {});
+  CHECK(file.format == "COLLADA");
+  CHECK(file.mesh.face_count() == 4);
+  CHECK(inspect_mesh(prepare_for_mapping(file).mesh).is_sphere());
+  CHECK(height_along(file, 0) == Approx(2));
+  REQUIRE(file.base_colours.size() == 1);
+  CHECK(file.base_colours[0].factor[0] == Approx(1));
+  CHECK(file.base_colours[0].factor[1] == Approx(0));
+  CHECK(up_axis(file) == Up::Y);
+}
+
+TEST_CASE("scene_reader: FBX is read, polygons cut, and turned so that y is up") {
+  for (const int up : {1, 2}) {
+    const MeshFile file = read_mesh(fbx(up), "a.bin", {});
+    CHECK(file.format == "FBX");
+    CHECK(file.mesh.face_count() == 6);
+    CHECK(inspect_mesh(prepare_for_mapping(file).mesh).is_sphere());
+    CHECK(height_along(file, up == 1 ? 2 : 1) == Approx(3));
+    CHECK(up_axis(file) == Up::Y);
+  }
+}
+
+TEST_CASE("scene_reader: what is broken is refused, and says what it was taken for") {
+  const auto refused = [](const std::string& bytes, const std::string& name) {
+    CHECK_THROWS_WITH(read_mesh(bytes, name, {}), Catch::StartsWith(name + ": "));
+  };
+  refused("; FBX 7.4.0 project file\nObjects:  {", "a.fbx");
+  refused("Kaydara FBX Binary  \x1a", "a.bin");
+  refused("nothing of the kind", "a.fbx");
+  refused(collada().substr(0, 900), "a.dae");
+  refused("<COLLADA/>", "a.dae");
+  refused("", "a.fbx");
+}
