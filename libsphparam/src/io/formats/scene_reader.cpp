@@ -1,6 +1,7 @@
 #include "io/formats/scene_reader.h"
 
 #include "io/assimp/scene_module.h"
+#include "io/files/child_process.h"
 #include "io/files/modules.h"
 #include "io/formats/gltf/gltf_reader.h"
 
@@ -25,17 +26,38 @@ void append(void* context, const char* bytes, size_t size) {
   static_cast<std::string*>(context)->append(bytes, size);
 }
 
+/// What assimp complains of.
+class SceneError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// In a process of its own: broken files make assimp crash.
+std::string glb_of(const char* kind, std::string_view bytes) {
+  const SphparamSceneTable& scenes = scene_table();
+  const std::string answer = result_of_child([&] {
+    std::string glb(1, ' '), complaint(1, '!');
+    const int code =
+        scenes.to_glb(kind, bytes.data(), bytes.size(), append, &glb, append, &complaint);
+    return code == 0 ? glb : complaint;
+  });
+  if (answer.starts_with('!'))
+    throw SceneError(answer.size() > 1 ? answer.substr(1) : "cannot be read");
+  return answer.substr(1);
+}
+
 MeshFile read_scene(const char* kind, const char* format, std::string_view bytes,
                     const std::string& name, const std::optional<std::filesystem::path>& folder,
                     const ReadOptions& options) try {
-  std::string glb, error;
-  if (scene_table().to_glb(kind, bytes.data(), bytes.size(), append, &glb, append, &error) != 0)
-    throw ReadError(name, one_line(error.empty() ? "cannot be read" : error));
-  MeshFile file = read_gltf(glb, name, folder, options);
+  MeshFile file = read_gltf(glb_of(kind, bytes), name, folder, options);
   file.format = format;
   return file;
 } catch (const ModuleError& error) {
   throw ReadError(name, error.what());
+} catch (const ChildEnded& error) {
+  throw ReadError(name, std::string("assimp cannot read it: it ") + error.what());
+} catch (const SceneError& error) {
+  throw ReadError(name, one_line(error.what()));
 }
 
 }  // namespace

@@ -1,0 +1,33 @@
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <csignal>
+#include <stdexcept>
+
+#include "io/files/child_process.h"
+
+using namespace sphparam;
+
+TEST_CASE("child process: what it makes comes back, also much of it") {
+  CHECK(result_of_child([] { return std::string("made"); }) == "made");
+  CHECK(result_of_child([] { return std::string(); }).empty());
+  CHECK(result_of_child([] { return std::string(5'000'000, 'x'); }) == std::string(5'000'000, 'x'));
+}
+
+TEST_CASE("child process: errors keep their words, a crash is an error, and nothing here changes") {
+  int here = 1;
+  CHECK_THROWS_WITH(result_of_child([]() -> std::string { throw std::runtime_error("why"); }),
+                    "why");
+  CHECK_THROWS_AS(result_of_child([]() -> std::string {
+                    std::raise(SIGSEGV);
+                    return "";
+                  }),
+                  ChildEnded);
+  CHECK_THROWS_AS(result_of_child([]() -> std::string { _exit(0); }), ChildEnded);
+  CHECK_THROWS_AS(result_of_child([]() -> std::string { throw 1; }), ChildEnded);
+  CHECK(result_of_child([&] {
+          here = 2;
+          return std::string("x");
+        }) == "x");
+  CHECK(here == 1);
+}
