@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What becomes of artists' assets: `sphparam FILE` on every glTF, GLB and OBJ below some folders.
+"""What becomes of artists' assets: `sphparam FILE` on every glTF, GLB, OBJ, FBX and COLLADA below some folders.
 
     asset_table.py --program build/release/bin/sphparam --out made/ --log assets.tsv FOLDER ...
 
@@ -17,7 +17,7 @@ import pathlib
 import subprocess
 import time
 
-ENDINGS = {".glb", ".gltf", ".obj"}
+ENDINGS = {".glb", ".gltf", ".obj", ".fbx", ".dae"}
 
 
 def arguments():

@@ -132,7 +132,7 @@ const char* word_of(WholeBy by) {
 
 WholeSurface whole_surface(const MeshSource& asset, const WholeOptions& options) {
   require_at_least("resolution", options.resolution, 8);
-  require_at_least("faces", options.faces, 0);
+  require_at_least("faces", static_cast<double>(options.faces), 0);
   return Chooser(asset, options).choose();
 }
 

@@ -75,7 +75,7 @@ void require_domain(const WrapOptions& options) {
   require_at_least("voxel", options.voxel, 0);
   require_at_least("resolution", options.resolution, 0);
   require_at_least("distance", options.distance, 0);
-  require_at_least("faces", options.faces, 0);
+  require_at_least("faces", static_cast<double>(options.faces), 0);
 }
 
 double chosen_voxel(const WrapOptions& options, const Box& box) {
