@@ -172,6 +172,43 @@ TEST_CASE("remake asset: a channel whose image cannot be read is told, the other
   CHECK(made.baked.images.size() == 3);  // the emission has its factor
 }
 
+TEST_CASE("whole surface: a sheet, whose two sides would lie in one another, is wrapped") {
+  TriangleMesh sheet{Points(4, 3), Triangles(2, 3)};
+  sheet.positions << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0;
+  sheet.triangles << 0, 1, 2, 0, 2, 3;
+  const WholeSurface whole = whole_surface(source_of(sheet), coarse());
+  CHECK(whole.by == WholeBy::Wrap);
+  CHECK_THAT(whole.found.back(), Catch::Contains("enclose nothing"));
+}
+
+TEST_CASE("remake asset: a glTF mesh without normals is flat, others are smooth") {
+  for (const char* format : {"glTF binary", "OBJ"}) {
+    const Folder folder;
+    MeshSource asset = source_of(icosphere(1));
+    asset.file.format = format;
+    RemakeOptions options{.whole = coarse(), .width = 32};
+    options.page = false;
+    PendingFiles files;
+    const RemadeAsset made = remake_asset(asset, folder.path.string(), options, files);
+    CHECK((made.chart.vertices >= 3 * 80) == (std::string(format) != "OBJ"));
+  }
+}
+
+TEST_CASE("remake asset: materials of several alpha modes become one, which is told") {
+  const Folder folder;
+  MeshSource asset = painted(source_of(icosphere(2)));
+  asset.file.materials.emplace_back("glass");
+  asset.file.base_colours.push_back(asset.file.base_colours[0]);
+  asset.file.channels.push_back(asset.file.channels[0]);
+  asset.file.channels[1].alpha_mode = AlphaMode::Blend;
+  RemakeOptions options{.whole = coarse(), .width = 32};
+  options.page = false;
+  PendingFiles files;
+  const RemadeAsset made = remake_asset(asset, folder.path.string(), options, files);
+  REQUIRE(made.warnings.size() == 1);
+  CHECK_THAT(made.warnings[0], Catch::Contains("blended where one is"));
+}
+
 TEST_CASE("remake asset: the page has the pictures, the words and the channels") {
   const Folder folder;
   PendingFiles files;

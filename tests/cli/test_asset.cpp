@@ -25,6 +25,19 @@ TEST_CASE("asset: `sphparam FILE` fills a folder beside, all files together") {
   CHECK(sphparam_program({mesh, "-o", out, "--size", "64", "--no-page"}).code == 0);  // once more
 }
 
+TEST_CASE("asset: a stream, a folder with a slash at its end, a report in it") {
+  const Folder folder;
+  const std::string out = folder / "made";
+  const Ended ended = sphparam_program(
+      {"-", "-o", out + "/", "--size", "64", "--no-page", "--json", out + "/r.json"},
+      obj_text(icosphere(2)));
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  CHECK(fs::exists(out + "/mesh.glb"));
+  CHECK(fs::exists(out + "/r.json"));
+  CHECK_THAT(ended.err, Contains("--up y where it lies on its side"));
+}
+
 TEST_CASE("asset: what cannot be done is said, and leaves no folder") {
   const Folder folder;
   const std::string mesh = folder / "a.obj", out = folder / "made";
@@ -50,6 +63,7 @@ TEST_CASE("asset: what cannot be done is said, and leaves no folder") {
   CHECK(file.code == 3);
   CHECK(bytes_of(out) == "a file");
   CHECK(sphparam_program({"nonsense"}).code == 2);
+  CHECK(sphparam_program({"asset", mesh, "-o", folder / "x.glb"}).code == 2);
 }
 
 }  // namespace sphparam::tests

@@ -242,7 +242,8 @@ void settle_body(BakeArguments& arguments) {
 std::vector<BakeRequest> requests_of_mesh(std::vector<BakeRequest> images,
                                           const BakeArguments& arguments, const MeshFile& file) {
   if (!contains(arguments.maps, channels_word)) return images;
-  const Words there = channels_of(file, !arguments.from.empty());
+  Words there = channels_of(file, !arguments.from.empty());
+  if (!arguments.settings.texture.empty()) there.emplace_back("basecolor");
   std::erase_if(images, [&](const BakeRequest& image) {
     return contains(all_channels(), image.field) && !contains(arguments.maps, image.field) &&
            !contains(there, image.field);

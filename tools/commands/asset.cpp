@@ -9,8 +9,11 @@
 #include "console/places.h"
 #include "console/session.h"
 #include "number_text.h"
+#include "reports/told_losses.h"
 #include "sphparam/asset/remake_asset.h"
 #include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/up_axis.h"
+#include "sphparam/records/bake_record.h"
 #include "sphparam/version.h"
 
 namespace sphparam::cli {
@@ -46,10 +49,12 @@ class Folder {
   explicit Folder(const AssetArguments& arguments)
       : path_(arguments.output.empty() ? stem_or(arguments.input, "mesh") + "_sphere"
                                        : arguments.output) {
+    while (path_.size() > 1 && path_.ends_with('/')) path_.pop_back();
+    if (fs::exists(path_) && !fs::is_directory(path_))
+      throw WriteError(path_, "is a file, and a folder is needed: -o names one");
     std::error_code error;
     is_made_ = fs::create_directory(path_, error);
-    if (!fs::is_directory(path_))
-      throw WriteError(path_, error ? error.message() : "is a file, and a folder is needed");
+    if (error) throw WriteError(path_, error.message());
   }
   ~Folder() {
     std::error_code error;
@@ -90,6 +95,10 @@ void tell(const RemadeAsset& made, const std::string& folder, Session& session) 
   for (const Words* lines : {&made.whole.found, &made.whole.done})
     for (const std::string& line : *lines) session.console.say("  " + line);
   session.warn(made.warnings);
+  if (made.baked.projection)
+    session.console.say("  " + line_of(*made.baked.projection, {.source_name = "the asset"}));
+  if (made.whole.by == WholeBy::Wrap)
+    session.console.detail("  a larger --resolution wraps closer, --faces has more of it");
   if (made.viewer_is_missing)
     session.console.warning("this build has no 3D viewer: the page has pictures instead");
   for (const auto& [stage, seconds] : made.seconds)
@@ -100,17 +109,29 @@ void tell(const RemadeAsset& made, const std::string& folder, Session& session) 
       short_number(session.stopwatch.seconds()) + " s → " + fs::path(folder).append("").string());
 }
 
+/// Before any work. A folder is no file that could be replaced.
+void require_sense(const AssetArguments& arguments) {
+  if (is_mesh_name(arguments.output) && !fs::is_directory(arguments.output))
+    check_places({{"-o", arguments.output}});
+  if (is_mesh_name(arguments.output) && !fs::exists(arguments.output))
+    throw UsageMistake("-o: the folder that files go to, not " + arguments.output +
+                       ": `export` writes one file");
+}
+
 int run_asset(AssetArguments& arguments) {
-  const bool is_folder = fs::is_directory(arguments.output);
-  check_places({{"-o", is_folder ? "" : arguments.output}, {"--json", arguments.json}});
+  require_sense(arguments);
   Session session(arguments);
   session.hold_signals();
-  const MeshSource asset = read_asset(arguments.input);
   const Folder folder(arguments);
+  check_places({{"--json", arguments.json}});
+  const MeshSource asset = read_asset(arguments.input);
+  tell_losses(asset, session.console);
   const RemadeAsset made = remade(asset, folder.path(), arguments, session);
   session.add_report([&] { return to_json(asset, made); });
   session.publish();
   tell(made, folder.path(), session);
+  if (!arguments.options.up && up_axis(asset.file) == Up::Z)
+    session.console.say("  z is taken to point up; --up y where it lies on its side");
   return Ok;
 }
 

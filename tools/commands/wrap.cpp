@@ -11,6 +11,7 @@
 #include "reports/told_losses.h"
 #include "sphparam/io/certified_files.h"
 #include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/up_axis.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/records/wrap_record.h"
 
@@ -70,6 +71,7 @@ int run_wrap(WrapArguments& arguments) {
   file.mesh = wrap.mesh;
   file.comments = {"wrapped about " + display_name(arguments.input) + " at distance " +
                    shortest(wrap.distance) + ", voxel " + shortest(wrap.voxel)};
+  if (up_axis(soup) == Up::Y) file.comments.push_back(comment_of_y_up());
   tell_losses(arguments.output,
               add_mesh(session.files, arguments.output, file, {.origin = arguments.input}),
               session.console);

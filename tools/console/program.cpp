@@ -208,8 +208,10 @@ const CLI::App* subcommand_named(const CLI::App& program, const std::string& nam
 std::vector<char*> with_subcommand(const CLI::App& program, int argc, char** argv) {
   static char asset[] = "asset";
   std::vector<char*> words(argv, argv + argc);
-  const bool is_file = argc > 1 && argv[1][0] != '-' && !subcommand_named(program, argv[1]) &&
-                       (is_mesh_name(argv[1]) || ::access(argv[1], F_OK) == 0);
+  const bool is_word = argc > 1 && argv[1][0] != '-' && !subcommand_named(program, argv[1]);
+  const bool is_file =
+      argc > 1 &&
+      (is_stream(argv[1]) || (is_word && (is_mesh_name(argv[1]) || ::access(argv[1], F_OK) == 0)));
   if (is_file) words.insert(words.begin() + 1, asset);
   words.push_back(nullptr);
   return words;

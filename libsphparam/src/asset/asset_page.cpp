@@ -11,6 +11,7 @@
 #include "report/svg.h"
 #include "report/viewer.h"
 #include "sphparam/gltf/gltf_writer.h"
+#include "sphparam/io/losses.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/records/bake_record.h"
 #include "sphparam/render/picture.h"
@@ -147,6 +148,8 @@ class AssetPage {
     if (remade_.baked.projection)
       lines.push_back(line_of(*remade_.baked.projection, {.source_name = "the asset"}));
     lines.insert(lines.end(), remade_.warnings.begin(), remade_.warnings.end());
+    const std::vector<std::string> losses = losses_among(asset_.file.notes);
+    lines.insert(lines.end(), losses.begin(), losses.end());
     if (lines.empty()) return;
     page.heading("What was done");
     page.list(lines);

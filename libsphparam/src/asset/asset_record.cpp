@@ -6,6 +6,7 @@
 #include "number_text.h"
 #include "records/json_parts.h"
 #include "sphparam/asset/remake_asset.h"
+#include "sphparam/io/losses.h"
 #include "sphparam/version.h"
 
 namespace sphparam {
@@ -59,6 +60,7 @@ std::string to_json(const MeshSource& asset, const RemadeAsset& remade) {
                   {"from", projection_json(remade.baked.projection)},
                   {"folds_as_stored", remade.chart.stored.inverted.size()},
                   {"warnings", remade.warnings},
+                  {"losses", losses_among(asset.file.notes)},
                   {"files", files},
                   {"seconds", stages(remade.seconds)}});
 }

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "asset/asset_page.h"
+#include "rays/flat_normal.h"
 #include "sphparam/io/certified_files.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/stopwatch.h"
@@ -167,12 +168,39 @@ std::vector<std::string> drop_unusable_images(MeshFile& file) {
   return told;
 }
 
+/// What has no normals is flat: so glTF says, and so it looks where it comes from.
+void add_flat_normals(MeshFile& file) {
+  const bool has_normals = file.corner_normals || file.find_vertex_property("nx");
+  if (has_normals || !file.format.starts_with("glTF")) return;
+  CornerNormals normals(3 * file.mesh.face_count(), 3);
+  for (Face f = 0; f < file.mesh.face_count(); ++f) {
+    const auto corner = [&](int k) { return file.mesh.position(file.mesh.triangles(f, k)); };
+    const Vector3 normal = flat_normal(corner(0), corner(1), corner(2));
+    for (int k = 0; k < 3; ++k)
+      normals.row(3 * f + k) = normal.isZero(0) ? Vector3::UnitZ() : normal;
+  }
+  file.corner_normals = std::move(normals);
+}
+
+/// Materials become one, which has one way to be seen through.
+void tell_alpha_modes(const MeshFile& file, std::vector<std::string>& told) {
+  const auto differs = [&](const MaterialChannels& said) {
+    return said.alpha_mode != file.channels.front().alpha_mode;
+  };
+  if (std::ranges::any_of(file.channels, differs))
+    told.emplace_back(
+        "materials that are opaque, masked or blended become one: blended where one is, else "
+        "masked");
+}
+
 }  // namespace
 
 RemadeAsset remake_asset(const MeshSource& asset, const std::string& folder,
                          const RemakeOptions& options, PendingFiles& files) {
   MeshSource usable = asset;
-  const std::vector<std::string> told = drop_unusable_images(usable.file);
+  std::vector<std::string> told = drop_unusable_images(usable.file);
+  tell_alpha_modes(usable.file, told);
+  add_flat_normals(usable.file);
   return Remaker(usable, folder, options, files).remake(told);
 }
 

@@ -1,5 +1,6 @@
 #include "sphparam/asset/whole_surface.h"
 
+#include <cmath>
 #include <optional>
 
 #include "number_text.h"
@@ -16,6 +17,20 @@ namespace sphparam {
 namespace {
 
 constexpr char wrap_comment[] = "wrapped about ";
+
+/// Whether a closed surface encloses hardly anything: its two sides would lie in one another.
+bool is_flat(const TriangleMesh& mesh) {
+  constexpr double hardly = 1e-4;
+  const Vector3 centre = mesh.positions.colwise().mean();
+  double volume = 0, area = 0;
+  for (const auto& f : mesh.triangles.rowwise()) {
+    const Vector3 a = mesh.position(f[0]) - centre, b = mesh.position(f[1]) - centre,
+                  c = mesh.position(f[2]) - centre;
+    volume += a.dot(b.cross(c)) / 6;
+    area += (b - a).cross(c - a).norm() / 2;
+  }
+  return std::abs(volume) <= hardly * area * std::sqrt(area);
+}
 
 /// Maps closed surfaces, each way with what it tells.
 class Chooser {
@@ -65,6 +80,10 @@ class Chooser {
       return std::nullopt;
     }
     MeshSource mended = repaired(asset_, trial.options);
+    if (is_flat(mended.file.mesh)) {
+      found_.emplace_back("mended, it would enclose nothing");
+      return std::nullopt;
+    }
     std::vector<std::string> losses;
     mended.file = written_as_mended(mended, losses);
     std::optional<MappedMesh> mapped = mapped_with_chart(std::move(mended));

@@ -41,14 +41,24 @@ BakeScene scene_for(const MappedMesh& source, BakeTarget target, bool with_textu
 /// Farther away on the whole, the two are hardly of one thing.
 constexpr double doubtful_distance = 0.05;  // of the diagonal
 
+double longest_side(const Points& positions) {
+  return (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).maxCoeff();
+}
+
+/// Of the surface baked from, over the mesh's.
+double relative_size(const BakeScene& scene) {
+  return longest_side(scene.source.mesh().positions) / longest_side(scene.target.positions);
+}
+
 /// Tells how the target finds the surface that is baked on it.
 void report_projection(const BakeScene& scene, const BakeSettings& settings, BakeReport& report) {
   if (!settings.from) return;
   report.projection = measure_projection(*scene.source.surface, scene.target, settings.threads);
   if (report.projection->median <= doubtful_distance) return;
-  report.warnings.push_back("half of the mesh is more than " + percent(report.projection->median) +
-                            " of the diagonal away from the surface that is baked from: are they "
-                            "in the same place?");
+  report.warnings.push_back(
+      "half of the mesh is more than " + percent(report.projection->median) +
+      " of the diagonal away from the surface that is baked from, whose box is " +
+      short_number(relative_size(scene)) + " times as long: are they in the same place?");
 }
 
 bool needs_textures(const std::string& field) { return field == "basecolor"; }
