@@ -3,6 +3,7 @@
 
 #include "program.h"
 #include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/up_axis.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "support/test_meshes.h"
 
@@ -37,6 +38,22 @@ TEST_CASE("wrap command: a soup becomes a surface that is mapped and certified")
   CHECK(inspect_mesh(read_mesh(out).mesh).defects.empty());
   CHECK(sphparam_program({"map", out, "-o", map, "-q"}).code == 0);
   CHECK(sphparam_program({"verify", map}).code == 0);
+}
+
+TEST_CASE("wrap command: --faces leaves so many, and which axis is up goes along") {
+  const Folder folder;
+  const std::string glb = folder / "a.glb", out = folder / "w.ply";
+  REQUIRE(sphparam_program({"export", "-", "-o", glb}, obj_text(icosphere(3))).code == 0);
+  const Ended ended =
+      sphparam_program({"wrap", glb, "-o", out, "--resolution", "40", "--faces", "500"});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.err, Contains("of the lattice became 500"));
+  const MeshFile file = read_mesh(out);
+  CHECK(file.mesh.face_count() == 500);
+  CHECK(inspect_mesh(file.mesh).is_sphere());
+  CHECK(up_axis(file) == Up::Y);
+  CHECK(sphparam_program({"wrap", glb, "-o", out, "--faces", "-1"}).code == 2);
 }
 
 TEST_CASE("wrap command: the largest part alone, in the report too") {

@@ -118,6 +118,22 @@ std::string content(const std::string& path) {
 
 }  // namespace
 
+TEST_CASE("pending files: what waits can be read again where it is") {
+  const Folder folder;
+  const std::string path = folder.file("a.txt");
+  PendingFiles files;
+  CHECK(files.place_of(path).empty());
+  files.add(path, "waiting");
+  const std::string place = files.place_of(path);
+  CHECK(place != path);
+  std::ifstream waiting(place);
+  std::string text;
+  waiting >> text;
+  CHECK(text == "waiting");
+  CHECK(files.place_of(folder.file("./a.txt")) == place);
+  CHECK(files.place_of("-").empty());
+}
+
 TEST_CASE("safe_file: a file holds what was written, and the check saw it on disk") {
   const Folder folder;
   const std::string bytes("a\0b\n", 4);
