@@ -68,10 +68,12 @@ std::string to_json(const BakeRecord& record) {
 }
 
 std::string line_of(const ProjectionShares& shares, const BakeSettings& settings) {
-  return settings.source_name + ": found along the normals; " + percent(shares.back) +
-         " of the mesh shows its back, " + percent(shares.nearest) +
-         " no more than the nearest point; half is within " + percent(shares.median) +
-         " of the diagonal, all within " + percent(shares.farthest);
+  constexpr double rounding = 1e-9;
+  const auto told = [](double share) { return percent(share > rounding ? share : 0); };
+  return settings.source_name + ": found along the normals; " + told(shares.back) +
+         " of the mesh shows its back, " + told(shares.nearest) +
+         " no more than the nearest point; half is within " + told(shares.median) +
+         " of the diagonal, all within " + told(shares.farthest);
 }
 
 std::string line_of(const BakedImage& image, const BakeSettings& settings) {
