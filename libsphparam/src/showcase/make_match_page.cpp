@@ -76,7 +76,10 @@ class MatchReporter {
 
   void lead(Page& page) {
     const DistortionSummary d = summarise(pictures_.distortion(), options_.threads);
-    page.verdict("One-to-one: both maps are certified", true);
+    const bool doubtful = !match_.warnings.empty();
+    page.verdict(doubtful ? "One-to-one and certified, but doubtful: see below"
+                          : "One-to-one: both maps are certified",
+                 !doubtful);
     std::vector<std::pair<std::string, std::string>> key = {
         {"mean |ln area|", significant(d.mean_abs_ln_area)},
         {"mean |ln angle|", significant(d.mean_abs_ln_angle)},
