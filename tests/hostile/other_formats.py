@@ -439,7 +439,7 @@ def make_gifti():
     bad("data_twice", changed(t, "</Data>", "</Data><Data>1</Data>"), "second <Data>")
     bad("array_in_array", changed(t, "<Data>", "<DataArray/><Data>"))
     bad("html", "<html><body>404</body></html>")
-    bad("other_xml", '<?xml version="1.0"?><COLLADA/>', "XML")
+    bad("other_xml", '<?xml version="1.0"?><svg/>', "XML")
     case("gifti_open.gii", triangles("INT32", 3, numbers(F4[1:])), NO_SPHERE, "boundary edge")
 
 
