@@ -97,6 +97,22 @@ TEST_CASE("projected surface: spheres within and without show the point in the s
   }
 }
 
+TEST_CASE("projected surface: it is sought outwards, whatever normals the target is lit with") {
+  MeshFile lit = file_of(icosphere(3));
+  for (const char* name : {"nx", "ny", "nz"}) {
+    const double all = name[1] == 'x' ? 1 : 0;
+    lit.vertex_properties.push_back(
+        {name, ScalarType::Float64,
+         std::vector<double>(static_cast<size_t>(lit.mesh.vertex_count()), all)});
+  }
+  const MappedMesh mapped({.file = lit, .map = normalised(lit.mesh.positions)}, 1);
+  const BakeScene scene{make_source(file_of(scaled(icosphere(4), 0.8))),
+                        make_target(mapped, false, 1), FieldOptions{}, 1};
+  for_each_texel(baked(scene, "position"), [&](const Vector3& direction, const Vector3& value) {
+    CHECK(value.normalized().dot(direction) > 1 - 3e-4);
+  });
+}
+
 TEST_CASE("projected surface: of two layers the nearer that faces the same way is shown") {
   const auto scene =
       on_sphere(both(turned_inside_out(scaled(icosphere(3), 1.02)), scaled(icosphere(3), 0.95)));

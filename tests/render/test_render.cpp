@@ -221,6 +221,25 @@ TEST_CASE("vertex_normals: of a sphere are its points") {
   CHECK((vertex_normals(mesh) - mesh.positions).cwiseAbs().maxCoeff() < 0.02);
 }
 
+TEST_CASE("angle_weighted_normals: of a box's corner the same however its sides are cut in two") {
+  TriangleMesh box;
+  box.positions.resize(8, 3);
+  for (int v = 0; v < 8; ++v) box.positions.row(v) << (v & 1), (v >> 1 & 1), (v >> 2 & 1);
+  const int quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                           {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  for (unsigned cuts = 0; cuts < 64; ++cuts) {
+    box.triangles.resize(12, 3);
+    for (int q = 0; q < 6; ++q) {
+      const int turn = cuts >> q & 1;
+      const auto at = [&](int k) { return quads[q][(k + turn) % 4]; };
+      box.triangles.row(2 * q) << at(0), at(1), at(2);
+      box.triangles.row(2 * q + 1) << at(0), at(2), at(3);
+    }
+    const Points outward = (box.positions.array() - 0.5).matrix() * (2 / std::sqrt(3.0));
+    CHECK((angle_weighted_normals(box) - outward).cwiseAbs().maxCoeff() < 1e-15);
+  }
+}
+
 TEST_CASE("sky_visibility: a convex shape sees all of its sky, a pit only a part") {
   TriangleMesh mesh = tests::icosphere(4);
   CHECK(sky_visibility(mesh, vertex_normals(mesh)).minCoeff() > 0.97F);
@@ -238,13 +257,14 @@ TEST_CASE("sky_visibility: a convex shape sees all of its sky, a pit only a part
 
 TEST_CASE("vertex_normals, sky_visibility: the same at every size that doubles have") {
   const TriangleMesh ball = tests::icosphere(2);
-  const Points normals = vertex_normals(ball);
+  const Points normals = vertex_normals(ball), by_angle = angle_weighted_normals(ball);
   const Eigen::VectorXf light = sky_visibility(ball, normals, 32);
   for (const int exponent : {-1000, -500, 500, 1000, 1023}) {
     INFO("2^" << exponent);
     TriangleMesh sized = ball;
     for (double& x : sized.positions.reshaped()) x = std::ldexp(x, exponent);
     CHECK(vertex_normals(sized) == normals);
+    CHECK((angle_weighted_normals(sized) - by_angle).cwiseAbs().maxCoeff() < 1e-14);
     CHECK(sky_visibility(sized, normals, 32) == light);
   }
 }

@@ -38,6 +38,9 @@ struct BakeTarget {
   // Unit, #W×3, where the mesh has hard edges; else `normals` light it.
   std::optional<Points> wedge_normals = std::nullopt;
   bool is_source = true;
+  // Where it is not: which way another surface is sought, as `normals`, but weighted by angle,
+  // whatever normals the file has.
+  Points outward = {};
 };
 
 /// All that fields are made of. They refer to it: it must outlive them.

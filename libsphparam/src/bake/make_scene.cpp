@@ -3,6 +3,7 @@
 #include "bake/projected_surface.h"
 #include "io/attributes/hard_edges.h"
 #include "io/attributes/shading_normals.h"
+#include "mesh/vertex_normals.h"
 #include "number_text.h"
 #include "sphparam/chart/carry_attributes.h"
 #include "sphparam/chart/refine_poles.h"
@@ -22,6 +23,9 @@ BakeTarget make_target(const MeshFile& file, const Topology& topology, const Sph
   target.wedge_normals = split_at_hard_edges(target.chart, file, threads);
   target.positions = carry_vertex_attribute(target.chart, triangles, file.mesh.positions, threads);
   target.normals = carry_normals(target.chart, triangles, shading_normals(file), threads);
+  if (!is_source)
+    target.outward =
+        carry_normals(target.chart, triangles, angle_weighted_normals(file.mesh), threads);
   return target;
 }
 

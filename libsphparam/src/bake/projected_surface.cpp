@@ -87,7 +87,7 @@ Line line_of(const BakeTarget& target, const PlaceOnTarget& place) {
   const SurfacePoint point{place.face, place.at};
   const Triangles& triangles = target.chart.triangles;
   return {interpolate(target.positions, triangles, point),
-          interpolate(target.normals, triangles, point).stableNormalized()};
+          interpolate(target.outward, triangles, point).stableNormalized()};
 }
 
 }  // namespace

@@ -16,11 +16,12 @@ struct PlaceOnTarget {
 /// A surface that lies about where the target does, closed or not, in any number of parts, and
 /// which of its points a point of the target shows.
 ///
-/// That is what a line along the target's smooth normal meets, outwards or inwards: of what faces
-/// the same way the nearer; else of what faces the other way. It counts while it is no more than
-/// four times as far as the nearest point of the surface, as it is where that is flat and tilted by
-/// 75°; beyond, the line passes the surface by, and the nearest point is taken. So there is no cage
-/// to draw and no distance to choose. Faces that only close holes are no surface. Source: our own.
+/// That is what a line along the target's smooth normal (of faces weighted by angle: by area,
+/// bevels along edges would show stripes) meets, outwards or inwards: of what faces the same way
+/// the nearer; else of what faces the other way. It counts while it is no more than four times as
+/// far as the nearest point of the surface, as it is where that is flat and tilted by 75°; beyond,
+/// the line passes the surface by, and the nearest point is taken. So there is no cage to draw and
+/// no distance to choose. Faces that only close holes are no surface. Source: our own.
 class ProjectedSurface {
  public:
   /// Throws: FieldError for a file without triangles.
@@ -30,9 +31,9 @@ class ProjectedSurface {
   const RayScene& rays() const { return *rays_; }
 
   /// The point, as a run of one texel. Weights may lie outside the face, in its plane; what a texel
-  /// covers is taken along the normal as if that did not turn. `guess`: a face of the surface that
-  /// may be near, which saves time and changes nothing. Cost: a nearest point and two short rays,
-  /// some µs. Threads may share it.
+  /// covers is taken along the normal as if that did not turn. Requires: a target that has
+  /// `outward`. `guess`: a face of the surface that may be near, which saves time and changes
+  /// nothing. Cost: a nearest point and two short rays, some µs. Threads may share it.
   SurfaceRun project(const BakeTarget& target, const PlaceOnTarget& place, Face guess = -1) const;
 
  private:

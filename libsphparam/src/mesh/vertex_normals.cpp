@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elementary.h"
 #include "sphparam/parallel.h"
 
 namespace sphparam {
@@ -20,18 +21,8 @@ double harmless_scale(const TriangleMesh& mesh) {
   return size < least ? std::ldexp(1.0, std::min(1023, -size)) : 1;
 }
 
-}  // namespace
-
-Points vertex_normals(const TriangleMesh& mesh) {
-  Points normals = Points::Zero(mesh.vertex_count(), 3);
-  const double scale = harmless_scale(mesh);
-  for (Eigen::Index f = 0; f < mesh.face_count(); ++f) {
-    const auto corner = [&](int k) -> Vector3 {
-      return scale * mesh.position(mesh.triangles(f, k));
-    };
-    const Vector3 a = corner(0), n = (corner(1) - a).cross(corner(2) - a);
-    for (int k = 0; k < 3; ++k) normals.row(mesh.triangles(f, k)) += n;
-  }
+/// Sums at the vertices to unit vectors.
+void normalize(Points& normals) {
   constexpr std::int64_t chunk_size = 8192;
   parallel_for(normals.rows(), chunk_size, 0, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t v = first; v < last; ++v) {
@@ -43,7 +34,38 @@ Points vertex_normals(const TriangleMesh& mesh) {
       }
     }
   });
+}
+
+/// Unit sums of the faces' normals, as long as twice the area, times `weight_of`(that normal, the
+/// two edges at the corner).
+template <class WeightOf>
+Points mean_of_faces(const TriangleMesh& mesh, const WeightOf& weight_of) {
+  Points normals = Points::Zero(mesh.vertex_count(), 3);
+  const double scale = harmless_scale(mesh);
+  for (Eigen::Index f = 0; f < mesh.face_count(); ++f) {
+    const auto corner = [&](int k) -> Vector3 {
+      return scale * mesh.position(mesh.triangles(f, k % 3));
+    };
+    const Vector3 a = corner(0), n = (corner(1) - a).cross(corner(2) - a);
+    for (int k = 0; k < 3; ++k)
+      normals.row(mesh.triangles(f, k)) +=
+          weight_of(n, corner(k + 1) - corner(k), corner(k + 2) - corner(k)) * n;
+  }
+  normalize(normals);
   return normals;
+}
+
+}  // namespace
+
+Points vertex_normals(const TriangleMesh& mesh) {
+  return mean_of_faces(mesh, [](const Vector3&, const Vector3&, const Vector3&) { return 1.0; });
+}
+
+Points angle_weighted_normals(const TriangleMesh& mesh) {
+  return mean_of_faces(mesh, [](const Vector3& n, const Vector3& one, const Vector3& other) {
+    const double length = n.stableNorm();
+    return length > 0 ? elementary::atan2(length, one.dot(other)) / length : 0;
+  });
 }
 
 }  // namespace sphparam

@@ -189,7 +189,7 @@ if __name__ == "__main__":
         wrapped(asset)
         (a, ta), (b, tb) = compare(asset, "basecolor")
         said(f"{asset.stem}: colours from it on a wrap, {a:.1f} dB to the truth in {ta:.1f} s; Cycles {b:.1f} dB in {tb:.1f} s")
-        assert named or a >= b - 0.3, "colours"
+        assert named or round(a, 1) >= round(b, 1), "colours"
         (a, ta), (b, tb) = compare(asset, "normals")
         said(f"{asset.stem}: normals {a:.2f}° from the truth in {ta:.1f} s; Cycles {b:.2f}° in {tb:.1f} s")
-        assert named or a <= 1.05 * b, "normals"
+        assert named or round(a, 2) <= round(b, 2), "normals"
