@@ -123,8 +123,8 @@ int main(int argc, char** argv) {
   row(
       "normals, tangents, buffers",
       [&] {
-        const Shape shape =
-            mesh_shape(chart.chart, mapped.file.mesh, shading_normals(mapped.file), Up::Z);
+        const Shape shape = mesh_shape(chart.chart, mapped.file.mesh, shading_normals(mapped.file),
+                                       upright_axes({}));
         chart_surface(chart.chart, shape, {}, mapped.file, options.buffers);
       },
       true);

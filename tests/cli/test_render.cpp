@@ -157,6 +157,42 @@ TEST_CASE("up: y where a mesh comes from glTF, also by way of a map or a new mes
   CHECK(compared("y") != compared("z"));
 }
 
+TEST_CASE("up and front: by name or by numbers; what is none, and a front that is up, is refused") {
+  const Folder folder;
+  const std::string egg = folder / "egg.obj", map = folder / "map.sph.ply";
+  write_bytes(egg, obj_text(icosphere(2)));
+  REQUIRE(sphparam_program({"map", egg, "-o", map}).code == 0);
+  const auto drawn = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"render", map, "-o", "-", "--size", "32"};
+    words.insert(words.end(), more.begin(), more.end());
+    return sphparam_program(words);
+  };
+  CHECK(drawn({"--up", "-x", "--front", "-z"}).out ==
+        drawn({"--front", "0,0,-3", "--up", "-2,0,0"}).out);
+  CHECK(drawn({"--up", "-x"}).out != drawn({"--up", "x"}).out);
+  CHECK(drawn({"--up", "x", "--front", "z"}).out != drawn({"--up", "x", "--front", "-z"}).out);
+  for (const char* option : {"--up", "--front"}) {
+    const Ended ended = drawn({option, "w"});
+    CHECK(ended.code == 2);
+    CHECK_THAT(ended.err,
+               Contains(std::string(option) + ": expected x, -x, y, -y, z, -z, auto or"));
+  }
+  for (const auto& clash : {std::vector<std::string>{"--up", "y", "--front", "-y"},
+                            std::vector<std::string>{"--front", "-y", "--up", "y"},
+                            std::vector<std::string>{"--front", "z"}}) {
+    const Ended ended = drawn(clash);
+    CHECK(ended.code == 2);
+    CHECK_THAT(ended.err,
+               Contains("--front: the front, " + std::string(clash[1] == "y"     ? "-y"
+                                                             : clash.size() == 2 ? "z"
+                                                                                 : "-y")));
+    CHECK_THAT(ended.err, Contains("lies along what points up"));
+  }
+  const Ended page = sphparam_program(
+      {"report", map, "-o", "-", "--no-viewer", "--size", "64", "--up", "-x", "--front", "z"});
+  CHECK_THAT(page.out, Contains("--up -x --front z"));
+}
+
 TEST_CASE("render: north is up on the sphere, whatever axis of the mesh is") {
   const Folder folder;
   const std::string map = folder / "map.sph.ply";

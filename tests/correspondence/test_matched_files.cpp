@@ -60,10 +60,10 @@ TEST_CASE("matched files: colours are rounded means, labels those of the nearest
 TEST_CASE("matched files: in the other shape, up is what the other file says") {
   const MappedMesh plain = ball(2);
   MeshFile file = plain.file();
-  file.comments.push_back(comment_of_y_up());
+  note_up(file, {.direction = Vector3::UnitY()});
   const MappedMesh upright = with_file(plain, file);
-  CHECK(up_axis(in_other_shape(SurfaceMap(upright, plain))) == Up::Z);
-  CHECK(up_axis(in_other_shape(SurfaceMap(plain, upright))) == Up::Y);
+  CHECK(noted_up(in_other_shape(SurfaceMap(upright, plain))) == Up{});
+  CHECK(noted_up(in_other_shape(SurfaceMap(plain, upright))).direction == Vector3::UnitY());
   CHECK(in_other_shape(SurfaceMap(upright, upright)).comments == file.comments);
 }
 

@@ -62,7 +62,7 @@ std::vector<Trial> trials() {
   });
   add("flat", [](Trial& t) { t.geometry.shape = ShapeKind::Flat; });
   add("theta", [](Trial& t) { t.geometry.buffers.theta_phi = true; });
-  add("up", [](Trial& t) { t.geometry.up = Up::Y; });
+  add("up", [](Trial& t) { t.geometry.up = {Vector3::UnitY(), Vector3::UnitZ()}; });
   add("own", [](Trial& t) { t.source_uv = true; });
   add("levels", [](Trial& t) { t.two_levels = true; });
   for (const bool quantised : {false, true}) {

@@ -18,7 +18,9 @@ Property constant(const std::string& name, ScalarType type, double value, Eigen:
 
 TEST_CASE("chart_surface: z up becomes y up, and y stays") {
   const Charted egg;
-  const Surface z = egg.geometry().surface, y = egg.geometry({.up = Up::Y}).surface;
+  const Surface z = egg.geometry().surface,
+                y = egg.geometry({.up = {.up = Vector3::UnitY(), .front = Vector3::UnitZ()}})
+                        .surface;
   for (Eigen::Index v = 0; v < egg.file.mesh.vertex_count(); ++v) {
     const Eigen::RowVector3f p = egg.file.mesh.positions.row(v).cast<float>();
     CHECK(y.positions.row(v) == p);

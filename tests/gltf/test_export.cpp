@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
@@ -69,6 +70,42 @@ TEST_CASE("export: an asset has a look, a proof of its coordinates and the mesh'
   CHECK(asset.materials.front().name == "checker");
   CHECK(asset.extras.front() == std::pair<std::string, std::string>("source", "egg.obj"));
   CHECK(asset.warnings.empty());
+}
+
+TEST_CASE("export: a mesh that lies on its side stands up, and the file says what was up") {
+  const MappedMesh egg = mapped_egg(2);
+  const Asset upright = make_asset(egg, small);
+  for (const char* extra : {"up", "front"})
+    for (const auto& [key, value] : upright.extras) CHECK(key != extra);
+  MeshFile lying = egg.file();  // z goes to −x, −y to z
+  const Points p = lying.mesh.positions;
+  lying.mesh.positions << -p.col(2), p.col(0), -p.col(1);
+  ExportOptions options = small;
+  options.up = {.direction = -Vector3::UnitX(), .front = Vector3::UnitZ()};
+  const MappedMesh turned({.file = lying, .map = egg.map(), .name = "egg.obj"});
+  const Asset made = make_asset(turned, options);
+  CHECK(made.levels[0].positions == upright.levels[0].positions);
+  CHECK(made.levels[0].indices == upright.levels[0].indices);
+  CHECK(made.levels[0].normals.isApprox(upright.levels[0].normals, 1e-6F));
+  using Extra = std::pair<std::string, std::string>;
+  CHECK(std::ranges::count(made.extras, Extra("up", "-x")) == 1);
+  CHECK(std::ranges::count(made.extras, Extra("front", "z")) == 1);
+  CHECK(make_asset(turned, small).levels[0].positions != upright.levels[0].positions);
+  note_up(lying, options.up);  // now its file says so
+  CHECK(make_asset(MappedMesh({.file = lying, .map = egg.map()}), small).levels[0].positions ==
+        upright.levels[0].positions);
+}
+
+TEST_CASE("export: an .obj and a .ply stay in their axes and say which are asked for") {
+  const Place place;
+  ExportOptions options = small;
+  options.up = {.direction = Vector3::UnitX(), .front = -Vector3::UnitZ()};
+  for (const char* name : {"a.obj", "a.ply"}) {
+    write_textured_mesh(place / name, mapped_egg(2), options);
+    const MeshFile file = read_mesh(place / name);
+    CHECK(noted_up(file) == options.up);
+    CHECK(file.mesh.positions.col(2).maxCoeff() > 1.29);
+  }
 }
 
 TEST_CASE("export: the path decides what is written, and names of files are known before") {

@@ -71,7 +71,8 @@ TEST_CASE(
                                             {.refine_poles = 4},
                                             {.keep_topology = true}}) {
     Faceted egg(options);
-    const GeometryOptions lit{.up = Up::Y, .buffers = {.tangents = true}};
+    const GeometryOptions lit{.up = {.up = Vector3::UnitY(), .front = Vector3::UnitZ()},
+                              .buffers = {.tangents = true}};
     const ExportGeometry hard = egg.geometry(lit);
     CHECK(hard.stored.one_to_one() == !options.keep_topology);
     CHECK(mean_angle(egg, hard.surface) < 1e-4);

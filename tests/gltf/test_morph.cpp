@@ -49,7 +49,7 @@ SurfaceMap two_pears() {
   return {from, MappedMesh({.file = std::move(file), .map = from.map(), .name = "other.obj"})};
 }
 
-const ExportOptions small{.look = {.image_width = 64}, .up = Up::Y};
+const ExportOptions small{.look = {.image_width = 64}, .up = {.direction = Vector3::UnitY()}};
 
 /// #N×3 float32 of an accessor of a .glb.
 FloatRows rows_of(const std::string& glb, const json& gltf, int accessor) {

@@ -58,6 +58,23 @@ TEST_CASE("picture: nothing to draw, and a vertex in no direction, are refused w
                     "flat.ply: vertex 4 is at the centre, in no direction");
 }
 
+TEST_CASE("picture: any axis may be up, any in front, as is asked for or as the file says") {
+  TriangleMesh egg = icosphere(2);
+  egg.positions.col(2) *= 2;
+  egg.positions.col(0).array() *= 1 + 0.3 * egg.positions.col(2).array();
+  const DrawingOptions look{.view = View::Mesh, .colouring = Colouring::Plain, .size = 48};
+  const std::string upright = draw_png(file_of(egg), std::nullopt, look);
+  const Points p = egg.positions;
+  egg.positions << p.col(1), p.col(0), -p.col(2);  // z goes to −z, −y to −x
+  MeshFile lying = file_of(egg);
+  CHECK(draw_png(lying, std::nullopt, look) != upright);
+  DrawingOptions turned = look;
+  turned.up = {.direction = -Vector3::UnitZ(), .front = -Vector3::UnitX()};
+  CHECK(draw_png(lying, std::nullopt, turned) == upright);
+  note_up(lying, turned.up);
+  CHECK(draw_png(lying, std::nullopt, look) == upright);
+}
+
 TEST_CASE("coloured values: a property, colours, and a comment where one says what they are") {
   const MeshFile ball = file_of(icosphere(0));
   const VectorX values = VectorX::LinSpaced(ball.mesh.vertex_count(), 0, 2.5);

@@ -7,6 +7,21 @@
 #include "console/places.h"
 
 namespace sphparam::cli {
+namespace {
+
+std::string no_such_direction(const std::string& text) {
+  return "expected x, -x, y, -y, z, -z, auto or a direction as in 0,-0.6,0.8, not " + text;
+}
+
+/// Why what is up and what is in front do not go together; empty: they do.
+std::string clash_of(const Up& up) try {
+  upright_axes({}, up);
+  return "";
+} catch (const FrontError& error) {
+  return error.what();
+}
+
+}  // namespace
 
 Declaration::Declaration(CLI::App& program, const std::string& name, const std::string& summary)
     : app_(program.add_subcommand(name, summary)) {}
@@ -113,10 +128,24 @@ Declaration& Declaration::data(Words& files) {
                ".label.gii, .annot, .label, .mgh, .mgz, lh.thickness …; may be given again");
 }
 
-Declaration& Declaration::up(std::optional<Up>& up) {
-  return choice(
-      "--up", up, {{"auto", std::nullopt}, {"z", Up::Z}, {"y", Up::Y}},
-      "The axis of the mesh that points up (default: y where it comes from glTF, else z)");
+Declaration& Declaration::up(Up& up) {
+  const auto direction = [this](const std::string& name, std::optional<Vector3>& value,
+                                const Up& both, const std::string& about) {
+    const auto take = [=, &value, &both](const std::string& text) {
+      value = direction_named(text);
+      if (!value && text != "auto") throw CLI::ValidationError(name, no_such_direction(text));
+      const std::string clash = both.direction ? clash_of(both) : "";
+      if (!clash.empty()) throw CLI::ValidationError("--front", clash);
+    };
+    keep(app_->add_option_function<std::string>(name, take, about), "auto|x|-x|y|-y|z|-z|X,Y,Z");
+  };
+  direction("--up", up.direction, up,
+            "What points up in the mesh's file (default: what the file says: y where it "
+            "comes from glTF; else z)");
+  direction("--front", up.front, up,
+            "What looks at who sees it (default: what the file says; else -y, z with y "
+            "up)");
+  return *this;
 }
 
 Declaration& Declaration::convention(Convention& convention) {

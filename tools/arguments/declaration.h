@@ -75,7 +75,8 @@ class Declaration {
   // Options that several subcommands have, with one meaning in all of them:
   Declaration& sphere(std::string& path);
   Declaration& data(Words& files);
-  Declaration& up(std::optional<Up>& up);
+  /// --up and --front.
+  Declaration& up(Up& up);
   Declaration& convention(Convention& convention);
   Declaration& refine_poles(int& wedges, const std::string& about);
   /// --json: what is in it.

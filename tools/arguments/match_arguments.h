@@ -16,7 +16,7 @@ struct MatchArguments : CommonArguments {
   std::string first_sphere, second_sphere;
   std::string landmarks, output, shape, values, back, morph, page;
   Placement placement = Placement::Scaled;  // of B in the morph
-  std::optional<Up> up;                     // of A there and on the page
+  Up up;                                    // of A there and on the page
   bool mirror = false;
   bool viewer = true;
   MatchOptions options;

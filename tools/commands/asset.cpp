@@ -130,7 +130,7 @@ int run_asset(AssetArguments& arguments) {
   session.add_report([&] { return to_json(asset, made); });
   session.publish();
   tell(made, folder.path(), session);
-  if (!arguments.options.up && up_axis(asset.file) == Up::Z)
+  if (!arguments.options.up.direction && !noted_up(asset.file).direction)
     session.console.say("  z is taken to point up; --up y where it lies on its side");
   return Ok;
 }

@@ -33,7 +33,7 @@ struct GroupArguments : CommonArguments {
   Words inputs;
   std::string folder, reference, landmarks;
   std::string grid = "ico:5";
-  std::optional<Up> up;
+  Up up;
   int size = GroupFileOptions{}.size;
   GroupOptions options;
 };

@@ -73,8 +73,9 @@ std::string command_line(const ReportArguments& arguments) {
   for (const std::string& file : split_all(arguments.data)) add(" --data", file);
   add(" --texture", arguments.texture);
   add(" -o", arguments.output);
-  if (arguments.options.up == Up::Y) line += " --up y";
-  if (arguments.options.up == Up::Z) line += " --up z";
+  const auto& [up, front] = arguments.options.up;
+  if (up) line += " --up " + name_of_direction(*up);
+  if (front) line += " --front " + name_of_direction(*front);
   if (arguments.options.size != PageOptions{}.size) {
     line += " --size " + std::to_string(arguments.options.size);
   }

@@ -71,7 +71,7 @@ int run_wrap(WrapArguments& arguments) {
   file.mesh = wrap.mesh;
   file.comments = {"wrapped about " + display_name(arguments.input) + " at distance " +
                    shortest(wrap.distance) + ", voxel " + shortest(wrap.voxel)};
-  if (up_axis(soup) == Up::Y) file.comments.push_back(comment_of_y_up());
+  take_up(file, soup);
   tell_losses(arguments.output,
               add_mesh(session.files, arguments.output, file, {.origin = arguments.input}),
               session.console);

@@ -236,6 +236,9 @@ int run_program(int argc, char** argv) {
     return usage_error(program.app, explain(program.app, error));
   } catch (const UsageMistake& mistake) {
     return usage_error(program.app, mistake.what());
+  } catch (const FrontError& error) {  // of what the file says is up
+    return usage_error(program.app,
+                       std::string("--front: ") + error.what() + "; choose another one, or --up");
   }
   std::fprintf(stderr, "%s\nMore: sphparam --help\n", summary);
   return UsageError;

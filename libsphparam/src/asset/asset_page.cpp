@@ -107,13 +107,15 @@ class AssetPage {
     return {.view = View::Mesh, .up = up(), .size = picture_size, .threads = shown_.threads};
   }
 
-  Up up() const { return shown_.up.value_or(up_axis(asset_.file)); }
+  /// As asked for, else as the asset's own file says.
+  Up up() const { return noted_up(asset_.file); }
 
   /// Drawn as the .glb is, with its texture coordinates and its base colour.
   std::string picture_after() const {
     ExportChart chart = export_chart(mapped().mesh(), mapped().topology(), mapped().map(),
                                      {.threads = shown_.threads});
-    const MeshFile mesh = textured_mesh(chart, mapped().file(), ShapeKind::Mesh, shown_.threads);
+    const MeshFile mesh =
+        textured_mesh(chart, mapped().file(), ShapeKind::Mesh, up(), shown_.threads);
     DrawingOptions options = drawing();
     if (!base_colour_.empty()) {
       MeshTextures textures;

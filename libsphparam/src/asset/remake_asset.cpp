@@ -201,6 +201,7 @@ RemadeAsset remake_asset(const MeshSource& asset, const std::string& folder,
   std::vector<std::string> told = drop_unusable_images(usable.file);
   tell_alpha_modes(usable.file, told);
   add_flat_normals(usable.file);
+  note_up(usable.file, options.up);
   return Remaker(usable, folder, options, files).remake(told);
 }
 

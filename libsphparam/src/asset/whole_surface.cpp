@@ -110,7 +110,7 @@ class Chooser {
     source.path = asset_.path;
     source.file.mesh = wrap.mesh;
     source.file.comments = {wrap_comment + display_name(asset_.path)};
-    if (up_axis(file) == Up::Y) source.file.comments.push_back(comment_of_y_up());
+    take_up(source.file, file);
     source.inspection = inspect_mesh(wrap.mesh);
     source.topology.emplace(wrap.mesh);
     std::optional<MappedMesh> mapped = mapped_with_chart(std::move(source));

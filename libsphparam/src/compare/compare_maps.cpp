@@ -44,7 +44,7 @@ std::vector<Entry> make_entries(const MeshFile& file, const std::vector<std::str
 }
 
 ComparisonOptions comparison_options(const MeshFile& file, const CompareOptions& options) {
-  PictureOptions look = seen_with_up(direction_of(options.up.value_or(up_axis(file))));
+  PictureOptions look = seen_upright(upright_axes(file, options.up));
   look.size = options.size;
   look.threads = options.threads;
   return {.pictures = options.pictures,

@@ -51,10 +51,10 @@ FigureOptions figure_options(const Paint& paint, const PictureOptions& options) 
 
 }  // namespace
 
-PictureOptions seen_with_up(const Vector3& up) {
+PictureOptions seen_upright(const UprightAxes& axes) {
   PictureOptions options;
-  options.up = up;
-  if (up == Vector3::UnitY()) options.view = Vector3(1, 0.5, 1.6);
+  options.up = axes.up;
+  options.view = axes.right() + 0.5 * axes.up + 1.6 * axes.front;
   return options;
 }
 

@@ -6,6 +6,7 @@
 #include "render/render.h"
 #include "sphparam/image/image.h"
 #include "sphparam/io/mesh_file.h"
+#include "sphparam/io/up_axis.h"
 #include "sphparam/sphere/sphere_map.h"
 
 namespace sphparam {
@@ -19,8 +20,8 @@ struct PictureOptions {
   int threads = 0;
 };
 
-/// Looks at a mesh of that up direction from in front, a little from the right and from above.
-PictureOptions seen_with_up(const Vector3& up);
+/// Looks at a mesh that stands so from in front, a little from the right and from above.
+PictureOptions seen_upright(const UprightAxes& axes);
 
 /// Colours that say where a part of the shape went: `own_paint`, with `red` faces in red.
 Paint shape_paint(const MeshFile& file, const std::vector<Face>& red,

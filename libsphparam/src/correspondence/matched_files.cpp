@@ -61,12 +61,6 @@ MeshFile without_correspondence(const MeshFile& mapped) {
   return file;
 }
 
-/// In the coordinates of another file, whose axis that points up is another.
-void take_up_axis(MeshFile& file, const MeshFile& other) {
-  std::erase(file.comments, comment_of_y_up());
-  if (up_axis(other) == Up::Y) file.comments.push_back(comment_of_y_up());
-}
-
 /// Corners 0, 1, 2 of each triangle become 0, 2, 1.
 template <class Rows>
 void turn_round(Rows& corners) {
@@ -118,7 +112,7 @@ MappedMesh with_targets(const SurfaceMap& map, int threads) {
 MeshFile in_other_shape(const SurfaceMap& map, int threads) {
   MeshFile file = without_correspondence(map.from().file());
   file.mesh = map.from_on_to(threads);
-  take_up_axis(file, map.to().file());
+  take_up(file, map.to().file());
   remove_properties(file.vertex_properties, normals);
   file.corner_normals.reset();
   return file;

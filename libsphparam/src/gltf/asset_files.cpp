@@ -125,8 +125,8 @@ TexturedFiles add_textured_mesh(PendingFiles& files, const std::string& path,
   const bool obj = is_obj(path);
   const ExportChart chart = chart_of_level(mapped, options);
   const FillerMarks fillers = fillers_of_chart(chart.chart, mapped.fillers());
-  MeshFile textured =
-      without_fillers(textured_mesh(chart, mapped.file(), options.shape, options.threads));
+  MeshFile textured = without_fillers(
+      textured_mesh(chart, mapped.file(), options.shape, options.up, options.threads));
   require_numbers(textured, path);
   TexturedFiles result{.chart = figures_of(chart), .warnings = {}, .files = {}};
   const BytesCheck check = [&](std::string_view on_disk) {

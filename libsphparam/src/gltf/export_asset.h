@@ -16,7 +16,7 @@ struct GeometryOptions {
   ShapeKind shape = ShapeKind::Mesh;
   Morph morph = Morph::None;            // Flat: first to the sphere, then to the rectangle
   std::vector<OtherShape> others = {};  // then to these
-  Up up = Up::Z;
+  UprightAxes up = upright_axes({});
   SurfaceOptions buffers = {};  // `uv.mirrored` is the chart's
   int threads = 0;
 };

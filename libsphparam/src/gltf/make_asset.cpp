@@ -16,7 +16,7 @@ GeometryOptions geometry_options(const ExportOptions& options, const MappedMesh&
   GeometryOptions geometry{.shape = options.shape,
                            .morph = options.morph,
                            .others = options.others,
-                           .up = options.up.value_or(up_axis(mapped.file())),
+                           .up = upright_axes(mapped.file(), options.up),
                            .threads = options.threads};
   // What wraps beyond 1 has no place in normalised integers.
   geometry.buffers = {.uv = {.sixteen_bits = options.quantise && !options.keep_topology},
@@ -42,6 +42,12 @@ void require_a_row_a_vertex(const std::vector<OtherShape>& shapes, const MappedM
   }
 }
 
+/// How the mesh stood in its own file.
+void add_axes(Asset& asset, const UprightAxes& axes) {
+  asset.extras.emplace_back("up", name_of_direction(axes.up));
+  asset.extras.emplace_back("front", name_of_direction(axes.front));
+}
+
 Asset without_levels(const MappedMesh& mapped, const Look& look, const ExportOptions& options) {
   Asset asset{.name = name_of_asset(mapped, options),
               .levels = {},
@@ -52,6 +58,8 @@ Asset without_levels(const MappedMesh& mapped, const Look& look, const ExportOpt
               .quantised = options.quantise};
   for (const auto& [key, value] : mapped.provenance())
     asset.extras.emplace_back("map_" + key, value);
+  if (options.up != Up{} || noted_up(mapped.file()) != Up{})
+    add_axes(asset, upright_axes(mapped.file(), options.up));
   return asset;
 }
 

@@ -8,14 +8,22 @@ namespace {
 
 constexpr std::int64_t chunk_size = 16384;
 
-/// (x, y, z) → (x, z, −y); a fourth column stays.
+/// How far along a direction; a coordinate of its own as it is, to the sign of a zero.
+double along(const Vector3& direction, const Vector3& p) {
+  for (int k = 0; k < 3; ++k) {
+    if (direction[k] == 1) return p[k];
+    if (direction[k] == -1) return -p[k];
+  }
+  return direction.dot(p);
+}
+
+/// With z up (x, y, z) → (x, z, −y); a fourth column stays.
 template <class Rows>
-void turn_up(Rows& rows, int threads) {
+void turn_up(Rows& rows, const Eigen::Matrix3d& rotation, int threads) {
   parallel_for(rows.rows(), chunk_size, threads, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i) {
-      const double y = rows(i, 1);
-      rows(i, 1) = rows(i, 2);
-      rows(i, 2) = -y;
+      const Vector3 p = rows.row(i).template head<3>();
+      for (int k = 0; k < 3; ++k) rows(i, k) = along(rotation.row(k), p);
     }
   });
 }
@@ -30,33 +38,33 @@ Points spread(const SphericalChart& chart, const Points& of_vertices, int thread
   return rows;
 }
 
-Shape shape_of(const SphericalChart& chart, const Points& positions, const Points& normals, Up up,
-               int threads) {
+Shape shape_of(const SphericalChart& chart, const Points& positions, const Points& normals,
+               const UprightAxes& up, int threads) {
   Shape shape{spread(chart, positions, threads), tangent_frame(chart, positions, normals, threads)};
-  if (up == Up::Z) {
-    turn_up(shape.positions, threads);
-    turn_up(shape.frame.normals, threads);
-    turn_up(shape.frame.tangents, threads);
-  }
+  const Eigen::Matrix3d rotation = upright_rotation(up);
+  if (rotation.isIdentity(0)) return shape;
+  turn_up(shape.positions, rotation, threads);
+  turn_up(shape.frame.normals, rotation, threads);
+  turn_up(shape.frame.tangents, rotation, threads);
   return shape;
 }
 
 }  // namespace
 
 Shape mesh_shape(const SphericalChart& chart, const TriangleMesh& mesh, const Points& mesh_normals,
-                 Up up, int threads) {
+                 const UprightAxes& up, int threads) {
   return lit_shape(chart, mesh, carry_normals(chart, mesh.triangles, mesh_normals, threads), up,
                    threads);
 }
 
-Shape lit_shape(const SphericalChart& chart, const TriangleMesh& mesh, const Points& normals, Up up,
-                int threads) {
+Shape lit_shape(const SphericalChart& chart, const TriangleMesh& mesh, const Points& normals,
+                const UprightAxes& up, int threads) {
   return shape_of(chart, carry_vertex_attribute(chart, mesh.triangles, mesh.positions, threads),
                   normals, up, threads);
 }
 
 Shape sphere_shape(const SphericalChart& chart, int threads) {
-  return shape_of(chart, chart.points, chart.points, Up::Z, threads);
+  return shape_of(chart, chart.points, chart.points, upright_axes({}), threads);
 }
 
 Shape flat_shape(const SphericalChart& chart) {

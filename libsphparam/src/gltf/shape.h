@@ -12,14 +12,15 @@ struct Shape {
   ShadingFrame frame;
 };
 
-/// The mesh itself; with z up, (x, y, z) becomes (x, z, −y). `mesh_normals` #V×3, unit
+/// The mesh itself, turned upright; with z up, (x, y, z) becomes (x, z, −y). `mesh_normals` #V×3,
+/// unit
 /// (`shading_normals`).
 Shape mesh_shape(const SphericalChart& chart, const TriangleMesh& mesh, const Points& mesh_normals,
-                 Up up, int threads = 0);
+                 const UprightAxes& up, int threads = 0);
 
 /// The same with unit normals of the chart, as `tangent_frame` takes them.
-Shape lit_shape(const SphericalChart& chart, const TriangleMesh& mesh, const Points& normals, Up up,
-                int threads = 0);
+Shape lit_shape(const SphericalChart& chart, const TriangleMesh& mesh, const Points& normals,
+                const UprightAxes& up, int threads = 0);
 
 /// Its image on the unit sphere, north up whatever the mesh's up is.
 Shape sphere_shape(const SphericalChart& chart, int threads = 0);

@@ -54,7 +54,7 @@ void add_normals(MeshFile& file, const Points& normals) {
 }  // namespace
 
 MeshFile textured_mesh(const ExportChart& exported, const MeshFile& source, ShapeKind shape,
-                       int threads) {
+                       const Up& up, int threads) {
   const SphericalChart& chart = exported.chart;
   const Triangles& triangles = source.mesh.triangles;
   const auto of_vertices = [&](const Attributes& values) {
@@ -80,7 +80,7 @@ MeshFile textured_mesh(const ExportChart& exported, const MeshFile& source, Shap
     texcoords.row(corner) << (exported.mirrored ? 1 - uv[0] : uv[0]), 1 - uv[1];
   }
   file.corner_texcoords = std::move(texcoords);
-  if (!is_sphere && up_axis(source) == Up::Y) file.comments.push_back(comment_of_y_up());
+  if (!is_sphere) take_up(file, source), note_up(file, up);
   file.materials = {material_name};
   file.set_face_property({"material", ScalarType::Int32,
                           std::vector<double>(static_cast<size_t>(chart.triangles.rows()), 0)});
@@ -88,7 +88,10 @@ MeshFile textured_mesh(const ExportChart& exported, const MeshFile& source, Shap
 }
 
 std::string obj_with_library(const MeshFile& mesh, const std::string& library) {
-  return "mtllib " + library + "\n" + serialise_obj(mesh);
+  std::string obj = serialise_obj(mesh);
+  std::size_t comments = 0;  // readers take those that come first
+  while (comments < obj.size() && obj[comments] == '#') comments = obj.find('\n', comments) + 1;
+  return obj.insert(comments, "mtllib " + library + "\n");
 }
 
 std::string material_library(const std::string& image) {

@@ -10,9 +10,10 @@ namespace sphparam {
 /// (u, 1 − v) of its wedges at the corners, v upwards as these formats have it; vertex and face
 /// properties of the source, colours rounded to their type, normals interpolated, those of corners
 /// at corners too; one material.
-/// `shape`: the mesh or its sphere. Axes stay as they are.
+/// `shape`: the mesh or its sphere. Axes stay as they are; comments of the mesh say which are up
+/// and in front, those of `up` where it says so.
 MeshFile textured_mesh(const ExportChart& chart, const MeshFile& source, ShapeKind shape,
-                       int threads = 0);
+                       const Up& up = {}, int threads = 0);
 
 /// An OBJ that names its material library, and that library: one material with an image.
 std::string obj_with_library(const MeshFile& mesh, const std::string& library);

@@ -37,9 +37,8 @@ std::optional<Heat> heat_of(Colouring colouring) {
 }
 
 /// Where the eye is: as asked for, or in front, to the right and above, whatever axis is up.
-Vector3 eye(const DrawingOptions& options, Up up) {
-  if (options.from) return *options.from;
-  return up == Up::Y ? Vector3(1, 0.45, 0.6) : Vector3(1, -0.6, 0.45);
+Vector3 eye(const DrawingOptions& options, const UprightAxes& axes) {
+  return options.from.value_or(axes.right() + 0.45 * axes.up + 0.6 * axes.front);
 }
 
 /// Of a sphere with any radius.
@@ -84,7 +83,7 @@ class Drawing {
         map_(map),
         options_(options),
         fillers_(fillers),
-        up_(options.up.value_or(up_axis(file))) {}
+        axes_(upright_axes(file, options.up)) {}
 
   Image image() const {
     std::optional<HeatScale> scale = scale_of_colouring();
@@ -160,11 +159,12 @@ class Drawing {
   /// sphere: it is seen from where the mesh is once its axis has been turned to z.
   Camera framing(Shape shape, const Points& points) const {
     Camera camera;
-    camera.direction = eye(options_, up_).normalized();
-    camera.up = direction_of(up_);
-    if (shape == Shape::Sphere && up_ == Up::Y) {
-      camera.direction = Vector3(camera.direction.x(), -camera.direction.z(), camera.direction.y());
-      camera.up = direction_of(Up::Z);
+    camera.direction = eye(options_, axes_).normalized();
+    camera.up = axes_.up;
+    if (shape == Shape::Sphere) {
+      const Vector3 seen = upright_rotation(axes_) * camera.direction;
+      camera.direction = Vector3(seen.x(), -seen.z(), seen.y());
+      camera.up = Vector3::UnitZ();
     }
     if (camera.up.cross(camera.direction).isZero())
       throw std::invalid_argument("this is the direction that is up");
@@ -183,7 +183,7 @@ class Drawing {
   const std::optional<SphereMap>& map_;
   const DrawingOptions& options_;
   const TriangleMesh* const fillers_;  // on the sphere; null: there are none
-  const Up up_;
+  const UprightAxes axes_;
 };
 
 }  // namespace

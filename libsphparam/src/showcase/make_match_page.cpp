@@ -23,8 +23,7 @@ namespace {
 constexpr int picture_width = 420, panel_width = 300;  // least, on the page, in pixels
 
 PairLook pair_look(const SurfaceMap& map, const MatchPageOptions& options) {
-  const Up up = options.up.value_or(up_axis(map.from().file()));
-  const PictureOptions look = seen_with_up(direction_of(up));
+  const PictureOptions look = seen_upright(upright_axes(map.from().file(), options.up));
   return {.view = look.view,
           .up = look.up,
           .size = options.size / 2,

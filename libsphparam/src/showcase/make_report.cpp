@@ -15,7 +15,8 @@ ReportOptions report_options(const MeshFile& file, const PageOptions& options) {
   if (options.viewer) report.viewer = installed_viewer();
   report.viewer_is_missing = options.viewer && !report.viewer;
   const int size = report.look.size;
-  report.look = seen_with_up(direction_of(options.up.value_or(up_axis(file))));
+  report.up = upright_axes(file, options.up);
+  report.look = seen_upright(report.up);
   report.look.size = std::min(size, options.size);
   report.image_width = options.size;
   if (options.textures)

@@ -37,7 +37,8 @@ Shape turned_like(const Shape& mesh, const Vector3& middle, Shape sphere) {
 
 std::string showcase_model(const std::string& name, const MeshFile& file,
                            const SphericalChart& chart, const Points& normals,
-                           const std::vector<PaintedSurface>& surfaces, Up up, int threads) {
+                           const std::vector<PaintedSurface>& surfaces, const UprightAxes& up,
+                           int threads) {
   const Shape mesh = mesh_shape(chart, at_drawing_size(file.mesh), normals, up, threads);
   const Vector3 middle = middle_of(mesh);
   const double radius = std::sqrt(area_of(mesh, chart) / (4 * std::numbers::pi));

@@ -15,6 +15,7 @@ namespace sphparam {
 /// Requires: a certified chart. Throws: std::range_error where a position is beyond float32.
 std::string showcase_model(const std::string& name, const MeshFile& file,
                            const SphericalChart& chart, const Points& normals,
-                           const std::vector<PaintedSurface>& surfaces, Up up, int threads = 0);
+                           const std::vector<PaintedSurface>& surfaces, const UprightAxes& up,
+                           int threads = 0);
 
 }  // namespace sphparam

@@ -122,15 +122,14 @@ class Reporter {
     page.heading("What repair has closed");
     page.paragraph(
         "Loops along which handles were cut, and rims of holes that were filled, in red.");
-    const std::string picture =
-        draw_png(surface, std::nullopt,
-                 {.view = View::Mesh,
-                  .colouring = Colouring::Plain,
-                  .from = options_.look.view,
-                  .up = options_.look.up == Vector3::UnitY() ? Up::Y : Up::Z,
-                  .repairs = true,
-                  .size = options_.look.size,
-                  .threads = options_.threads});
+    const std::string picture = draw_png(surface, std::nullopt,
+                                         {.view = View::Mesh,
+                                          .colouring = Colouring::Plain,
+                                          .from = options_.look.view,
+                                          .up = {options_.up.up, options_.up.front},
+                                          .repairs = true,
+                                          .size = options_.look.size,
+                                          .threads = options_.threads});
     page.figures({{data_uri("image/png", picture), "The mesh with what repair has closed outlined",
                    "The mesh"}},
                  panel_width);
@@ -172,11 +171,10 @@ class Reporter {
       }
     }
     if (options_.viewer) {
-      const Up up = options_.look.up == Vector3::UnitY() ? Up::Y : Up::Z;
       shown.model = {.name = many() ? about(page_entry) : "",
                      .alt = "Model of " + name_ + " that changes from the mesh to its sphere",
                      .glb = showcase_model(name_, file_, *page_entry.chart(), scene.source.normals,
-                                           surfaces, up, options_.threads),
+                                           surfaces, options_.up, options_.threads),
                      .picture = mesh_png()};
     }
     return shown;

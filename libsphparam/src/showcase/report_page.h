@@ -18,7 +18,8 @@ namespace sphparam {
 struct ReportOptions {
   std::optional<ViewerScript> viewer = std::nullopt;  // none: pictures only
   bool viewer_is_missing = false;                     // the program has none; the page says so
-  PictureOptions look = {.size = 640};                // of pictures, and what is up
+  PictureOptions look = {.size = 640};                // of pictures
+  UprightAxes up = upright_axes({});                  // as models stand
   int image_width = 1024;                             // of textures and heat maps
   MeshTextures textures = {};                         // of the mesh
   std::vector<std::pair<std::string, std::string>> facts = {};  // program, command line, …

@@ -116,8 +116,9 @@ bool is_sound(const MeshInspection& found);
 
 /// "sphparam", "gis" and so on. Throws: py::value_error.
 Convention convention_of(const std::string& name);
-/// "y" or "z"; nothing where it is empty.
-std::optional<Up> up_of(const std::string& name);
+/// What points up, and what is in front, in words of `direction_named`; nothing where they are
+/// empty. Throws: py::value_error.
+Up up_of(const std::string& up, const std::string& front);
 
 /// Sets what a dictionary names; every name must be known.
 class Settings {

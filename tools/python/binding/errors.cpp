@@ -107,6 +107,8 @@ void declare_errors(py::module_&) {
                                : error.setting() == "from" ? "surface"
                                                            : error.setting();
       PyErr_SetString(PyExc_ValueError, (name + ": " + error.what()).c_str());
+    } catch (const FrontError& error) {
+      PyErr_SetString(PyExc_ValueError, (std::string("front: ") + error.what()).c_str());
     } catch (const LookError& error) {
       PyErr_SetString(PyExc_ValueError, error.what());
     } catch (const ImageOfOtherChart& error) {

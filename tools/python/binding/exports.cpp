@@ -53,15 +53,16 @@ ExportRequest request_of(const py::dict& values) {
             [](ShapeKind shape) { return word_of(shape); })
       .take("morph", options.morph, {Morph::None, Morph::Sphere, Morph::Flat},
             [](Morph morph) { return word_of(morph); });
-  std::string convention = info_of(options.convention).name, up;
+  std::string convention = info_of(options.convention).name, up, front;
   std::vector<Mapped> coarser;
   bool embedded = false;
   settings.take("convention", convention)
       .take("up", up)
+      .take("front", front)
       .take("levels", coarser)
       .take("embedded", embedded);
   options.convention = convention_of(convention);
-  options.up = up_of(up);
+  options.up = up_of(up, front);
   for (const Mapped& level : coarser) options.coarser.push_back(level.mesh());
   if (embedded) request.gltf.container = GltfContainer::Embedded;
   // As the program's --compress.
@@ -103,10 +104,10 @@ py::tuple write_export(const Mapped& mapped, const std::string& path, const py::
 }
 
 void write_page(const Mapped& mapped, const std::string& path, int size, const std::string& up,
-                int threads, const py::object& progress) {
+                const std::string& front, int threads, const py::object& progress) {
   writing_call(progress, [=, mesh = mapped.mesh()](const Progress& report) {
     PageOptions options{.size = size, .threads = threads, .progress = report};
-    options.up = up_of(up);
+    options.up = up_of(up, front);
     write_report(path, mesh, options);
     return true;
   });

@@ -98,10 +98,10 @@ DrawingOptions drawing_options(const py::dict& values) {
       .take("legend", made.legend)
       .take("threads", made.threads);
   std::optional<std::array<double, 3>> from;
-  std::string up;
-  settings.take("eye", from).take("up", up);
+  std::string up, front;
+  settings.take("eye", from).take("up", up).take("front", front);
   if (from) made.from = Vector3((*from)[0], (*from)[1], (*from)[2]);
-  made.up = up_of(up);
+  made.up = up_of(up, front);
   settings.require_all_known();
   return made;
 }
@@ -124,9 +124,17 @@ Convention convention_of(const std::string& name) {
   throw py::value_error("convention: no '" + name + "' among " + known);
 }
 
-std::optional<Up> up_of(const std::string& name) {
-  if (name.empty()) return std::nullopt;
-  return name == "y" ? Up::Y : Up::Z;
+Up up_of(const std::string& up, const std::string& front) {
+  const Up wanted{direction_named(up), direction_named(front)};
+  if ((!up.empty() && !wanted.direction) || (!front.empty() && !wanted.front))
+    throw py::value_error("up, front: " + up + " " + front + " are no directions");
+  if (!wanted.direction) return wanted;
+  try {
+    upright_axes({}, wanted);
+  } catch (const FrontError& error) {
+    throw py::value_error(error.what());
+  }
+  return wanted;
 }
 
 void declare_images(py::module_& module) {

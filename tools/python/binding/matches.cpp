@@ -80,9 +80,10 @@ Placement placement_of(const std::string& word) {
 /// Writes a .glb; returns warnings.
 std::vector<std::string> write_morph(const Mapped& from, const Mapped& to, const std::string& path,
                                      const std::string& place, const std::string& up,
-                                     int image_size, int threads, const py::object& progress) {
+                                     const std::string& front, int image_size, int threads,
+                                     const py::object& progress) {
   const Placement placement = placement_of(place);
-  ExportOptions options{.up = up_of(up), .threads = threads};
+  ExportOptions options{.up = up_of(up, front), .threads = threads};
   options.look.image_width = image_size;
   return writing_call(progress, [=, from = from, to = to](const Progress& report) mutable {
     options.progress = report;

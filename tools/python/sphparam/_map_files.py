@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, List, Optional, Sequence
 from . import _arrays, _core
 from ._losses import tell
 from ._map_facts import MapFacts, mapped_of
-from ._map_images import require_up
+from ._map_images import Direction, as_direction
 from ._mesh import Path, path_of, require_mesh_format
 from ._numpy import np
 from ._progress import Progress, told
@@ -74,7 +74,8 @@ class MapFiles(MapFacts):
         keep_topology: bool = False,
         shape: str = "mesh",
         morph: str = "none",
-        up: Optional[str] = None,
+        up: Optional[Direction] = None,
+        front: Optional[Direction] = None,
         theta_phi: bool = False,
         source_uv: bool = False,
         quantise: bool = False,
@@ -113,7 +114,10 @@ class MapFiles(MapFacts):
         morph
             What an animation turns the mesh into: ``"none"``, ``"sphere"``, ``"flat"``.
         up
-            ``"z"`` or ``"y"``; None: as its file says, else z.
+            What points up in the mesh: ``"x"``, ``"-x"`` … ``"-z"`` or three numbers; None: as its file
+            says, else z.
+        front
+            What looks at who sees it, as ``up``; None: as its file says, else -y, z with y up.
         theta_phi, source_uv
             The angles as an attribute; the mesh's own texture coordinates as a second set.
         quantise, compress, embedded
@@ -134,7 +138,8 @@ class MapFiles(MapFacts):
         given = dict(locals())
         options = {name: given[name] for name in _export_options}
         options.update(
-            up=require_up(up),
+            up=as_direction(up, "up"),
+            front=as_direction(front, "front"),
             images=path_of(images) if images is not None else "",
             variants=[_arrays.text(v, "variants") for v in ([variants] if isinstance(variants, str) else variants)],
             levels=[mapped_of(level, "levels") for level in levels],
@@ -169,14 +174,14 @@ class MapFiles(MapFacts):
         path: Path,
         *,
         size: int = 1024,
-        up: Optional[str] = None,
+        up: Optional[Direction] = None,
+        front: Optional[Direction] = None,
         threads: int = 0,
         progress: Progress = None,
     ) -> None:
         """Writes one page of HTML that shows the map: models or pictures, heat maps, charts, tables.
 
-        ``size``: pixels of textures and pictures, 64 to 8192; ``up``: ``"z"`` or ``"y"``, else as the
-        file says.
+        ``size``: pixels of textures and pictures, 64 to 8192; ``up``, ``front``: as of :meth:`export`.
         """
         with told(progress) as report:
-            _core.report(self._mapped, path_of(path), _arrays.whole(size, "size", 64, 8192), require_up(up), _arrays.threads(threads), report)
+            _core.report(self._mapped, path_of(path), _arrays.whole(size, "size", 64, 8192), as_direction(up, "up"), as_direction(front, "front"), _arrays.threads(threads), report)

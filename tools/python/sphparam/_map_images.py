@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Dict, Mapping, Optional, Tuple
+import math
+from typing import TYPE_CHECKING, Any, Dict, Mapping, Optional, Sequence, Tuple, Union
 
 from . import _arrays, _core
 from ._figures import BakedFile
@@ -62,11 +63,22 @@ def _require_field(name: str) -> None:
         raise ValueError(f"there is no field {name}; there are {', '.join(known)}; is {near[0]!r} meant?")
 
 
-def require_up(up: Optional[str]) -> str:
-    """The axis that points up, or an empty text."""
-    if up not in (None, "y", "z"):
-        raise ValueError(f"up: 'y', 'z' or None, not {up!r}")
-    return up or ""
+Direction = Union[str, Sequence[float]]
+
+
+def as_direction(direction: Optional[Direction], what: str) -> str:
+    """As the program reads it: an axis, or three numbers; an empty text for None."""
+    if direction is None:
+        return ""
+    if isinstance(direction, str) and direction in ("x", "-x", "y", "-y", "z", "-z"):
+        return direction
+    try:
+        numbers = [float(number) for number in direction if not isinstance(direction, str)]
+    except (TypeError, ValueError):
+        numbers = []
+    if len(numbers) != 3 or not any(numbers) or not all(math.isfinite(number) for number in numbers):
+        raise ValueError(f"{what}: 'x', '-x', 'y', '-y', 'z', '-z', three numbers or None, not {direction!r}")
+    return ",".join(repr(number) for number in numbers)
 
 
 class MapImages(MapFacts):
@@ -255,7 +267,8 @@ class MapImages(MapFacts):
         colours: str = "own",
         size: int = 800,
         eye: Optional[Tuple[float, float, float]] = None,
-        up: Optional[str] = None,
+        up: Optional[Direction] = None,
+        front: Optional[Direction] = None,
         wireframe: bool = False,
         graticule: bool = False,
         occlusion: bool = False,
@@ -266,12 +279,13 @@ class MapImages(MapFacts):
 
         ``view``: ``"mesh"``, ``"sphere"``, ``"both"``. ``colours``: ``"own"``, ``"plain"``,
         ``"normals"``, ``"checker"``, ``"area"``, ``"angle"``. ``size``: pixels, 16 to 16384. ``eye``:
-        the direction to look from; ``up``: ``"z"`` or ``"y"``, else as the file says. ``wireframe``,
-        ``graticule``: lines; ``occlusion``: darker where little light comes; ``legend``: below colours
+        the direction to look from; ``up``, ``front``: as of :meth:`export`. ``wireframe``, ``graticule``:
+        lines; ``occlusion``: darker where little light comes; ``legend``: below colours
         that are numbers.
         """
         options: Dict[str, Any] = dict(
-            view=view, colours=colours, size=size, up=require_up(up), wireframe=wireframe, graticule=graticule,
+            view=view, colours=colours, size=size, up=as_direction(up, "up"), front=as_direction(front, "front"),
+            wireframe=wireframe, graticule=graticule,
             occlusion=occlusion, legend=legend, threads=_arrays.threads(threads),
         )  # fmt: skip
         if eye is not None:

@@ -8,6 +8,7 @@ from . import _arrays, _core
 from ._figures import Distortion
 from ._losses import tell
 from ._map_facts import mapped_of
+from ._map_images import Direction, as_direction
 from ._mesh import Path, path_of
 from ._numpy import np
 from ._progress import Progress, told
@@ -80,7 +81,8 @@ class SurfaceMap:
         path: Path,
         *,
         place: str = "scaled",
-        up: Optional[str] = None,
+        up: Optional[Direction] = None,
+        front: Optional[Direction] = None,
         image_size: int = 2048,
         threads: int = 0,
         progress: Progress = None,
@@ -92,8 +94,8 @@ class SurfaceMap:
         place
             How the target comes to where the source is: ``"scaled"``: turned, moved and scaled to its area;
             ``"moved"``: without scaling; ``"as-is"``.
-        up
-            The axis of the source that points up, ``"y"`` or ``"z"``; ``None``: as its file says, else z.
+        up, front
+            What points up and what looks at us in the source, as of :meth:`SphereMap.export`.
         image_size
             Of images that are made here, as the checker of surfaces without colours.
         """
@@ -103,7 +105,8 @@ class SurfaceMap:
         source, target = self.source._mapped, self.target._mapped
         with told(progress) as report:
             warned = _core.write_morph(
-                source, target, name, place, up or "", image_size, _arrays.threads(threads), report
+                source, target, name, place, as_direction(up, "up"), as_direction(front, "front"), image_size,
+                _arrays.threads(threads), report,  # fmt: skip
             )
         tell(self.source._not_exported(name, False))
         tell(warned)

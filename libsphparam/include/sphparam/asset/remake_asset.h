@@ -14,12 +14,12 @@
 namespace sphparam {
 
 struct RemakeOptions {
-  WholeOptions whole = {};              // its threads and progress serve all
-  int width = 2048;                     // texels a row of images
-  int samples = 1;                      // N × N a texel
-  bool occlusion = false;               // ambient occlusion too, by rays
-  bool compress = false;                // the .glb: see `GltfOptions::compress`
-  std::optional<Up> up = std::nullopt;  // nothing: as the asset's file says
+  WholeOptions whole = {};  // its threads and progress serve all
+  int width = 2048;         // texels a row of images
+  int samples = 1;          // N × N a texel
+  bool occlusion = false;   // ambient occlusion too, by rays
+  bool compress = false;    // the .glb: see `GltfOptions::compress`
+  Up up = {};               // nothing: as the asset's file says
   bool page = true;
   std::vector<std::pair<std::string, std::string>> facts = {};  // for the foot of the page
 };

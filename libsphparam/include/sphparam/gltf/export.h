@@ -57,12 +57,12 @@ struct ExportOptions {
   int refine_poles = 1;        // each triangle at a pole is cut into so many, 1 to 1024
   bool keep_topology = false;  // no vertex is added on the surface: triangles fold at the poles
   ShapeKind shape = ShapeKind::Mesh;
-  Morph morph = Morph::None;             // from the mesh: with ShapeKind::Mesh
-  std::vector<OtherShape> others = {};   // after those of `morph`; of the mesh, not of `coarser`
-  std::optional<Up> up = std::nullopt;   // the axis of the mesh that points up; nothing: its file's
-  bool theta_phi = false;                // _THETA_PHI, radians; θ in [0, 2π), ϕ in [0, π]
-  bool source_uv = false;                // TEXCOORD_1: the texture coordinates of the mesh itself
-  bool quantise = false;                 // (u, v) and all else as 16-bit numbers: certified so
+  Morph morph = Morph::None;            // from the mesh: with ShapeKind::Mesh
+  std::vector<OtherShape> others = {};  // after those of `morph`; of the mesh, not of `coarser`
+  Up up = {};              // how the mesh stands; what is made says it, but for z up unasked
+  bool theta_phi = false;  // _THETA_PHI, radians; θ in [0, 2π), ϕ in [0, π]
+  bool source_uv = false;  // TEXCOORD_1: the texture coordinates of the mesh itself
+  bool quantise = false;   // (u, v) and all else as 16-bit numbers: certified so
   std::vector<MappedMesh> coarser = {};  // levels of detail on the same sphere, in the same file
   int threads = 0;                       // 0: all cores
   Progress progress = {};
@@ -161,7 +161,8 @@ WrittenFiles add_asset(PendingFiles& files, const std::string& path, const Asset
 void write_asset(const std::string& path, const Asset& asset, const GltfOptions& options = {});
 
 // The same for programs that read texts: numbers are doubles, properties of vertices and faces come
-// along, axes stay as they are. One material with the first image of the look.
+// along, axes stay as they are, and comments say
+// which were asked for. One material with the first image of the look.
 
 struct TexturedFiles {
   ChartFigures chart;                 // `stored`: of the texture coordinates read back

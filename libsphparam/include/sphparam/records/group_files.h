@@ -12,8 +12,8 @@
 namespace sphparam {
 
 struct GroupFileOptions {
-  std::optional<Up> up = std::nullopt;  // of the shapes; nothing: as the template's file says
-  int size = 320;                       // pixels of a picture, 64 to 4096; 0: a page without any
+  Up up = {};      // of the shapes; nothing: as the template's file says
+  int size = 320;  // pixels of a picture, 64 to 4096; 0: a page without any
   int threads = 0;
   Progress progress = {};
 };

@@ -45,7 +45,7 @@ struct DrawingOptions {
   std::string scalar = {};  // a number a vertex, shown instead of the colouring; empty: none
   std::optional<Vector3> from = std::nullopt;  // where the eye is; nothing: a little to the right,
                                                // and above
-  std::optional<Up> up = std::nullopt;         // of the mesh; nothing: as its file says
+  Up up = {};                                  // of the mesh; nothing: as its file says
   std::shared_ptr<const MeshTextures> textures = nullptr;  // see `shown_textures`; null: none
   bool wireframe = false;                                  // the edges of the triangles
   bool repairs = false;    // outlines of what repair has closed, instead of the edges of triangles

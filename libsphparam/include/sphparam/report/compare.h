@@ -15,9 +15,9 @@
 namespace sphparam {
 
 struct CompareOptions {
-  bool pictures = true;                 // of the spheres
-  std::optional<Up> up = std::nullopt;  // of the mesh; nothing: as its file says
-  int size = 360;                       // pixels, of each side of a picture; 16 to 4096
+  bool pictures = true;  // of the spheres
+  Up up = {};            // of the mesh; nothing: as its file says
+  int size = 360;        // pixels, of each side of a picture; 16 to 4096
   std::shared_ptr<const MeshTextures> textures = nullptr;  // see `shown_textures`; null: none
   int threads = 0;                                         // 0: all cores
   Progress progress = {};

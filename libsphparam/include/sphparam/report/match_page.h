@@ -14,7 +14,7 @@ namespace sphparam {
 struct MatchPageOptions {
   std::vector<LandmarkPair> landmarks = {};  // that the match was given
   bool viewer = true;                        // as `PageOptions::viewer`
-  std::optional<Up> up = std::nullopt;       // of the first surface; nothing: as its file says
+  Up up = {};                                // of the first surface; nothing: as its file says
   int size = 1024;  // pixels, the width of textures; pictures have half of it as their height; a
                     // multiple of 4, 64 to 8192
   std::vector<std::pair<std::string, std::string>> facts = {};  // for the foot of the page

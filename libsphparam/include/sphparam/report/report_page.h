@@ -18,7 +18,7 @@ namespace sphparam {
 struct PageOptions {
   bool viewer = true;  // models that change into their spheres, where the viewer is installed
                        // beside the program; else pictures
-  std::optional<Up> up = std::nullopt;  // of the mesh; nothing: as its file says
+  Up up = {};          // of the mesh; nothing: as its file says
   int size = 1024;  // pixels, the width of textures and heat maps, and the most of pictures; 64 to
                     // 8192
   /// Of the mesh, see `shown_textures`; null: those of its file.

@@ -409,7 +409,7 @@ MeshFile read_gltf(std::string_view bytes, const std::string& name,
   MeshFile file = SceneReader(document, name, options).read();
   file.format = bytes.starts_with("glTF") ? "glTF binary" : "glTF";
   file.position_type = ScalarType::Float32;
-  file.comments.push_back(comment_of_y_up());
+  note_up(file, {.direction = Vector3::UnitY()});
   return file;
 }
 
