@@ -381,7 +381,7 @@ void export_mesh(Maker& make) {
   } else {
     make.maybe(words, 0.3, {"--shape", "sphere"});
   }
-  make.maybe(words, 0.3, {"--up", make.one_of({"y", "z"})});
+  make.maybe(words, 0.3, {"--up", make.one_of({"x", "-x", "y", "-y", "z", "-z", "1,2,3"})});
   make.maybe(words, 0.3, {"--json", "out.json"});
   make.errand.commands.push_back(words);
 }
