@@ -76,6 +76,23 @@ TEST_CASE("ray scene: the nearest point is that of brute force to the bit, with 
   }
 }
 
+TEST_CASE("ray scene: what is within a distance is what the nearest point says, with any guess") {
+  Random random;
+  const TriangleMesh soup = triangle_soup(400, 0.1);
+  const RayScene scene(soup);
+  for (int i = 0; i < 500; ++i) {
+    const double away = i % 5 == 0 ? 1e5 : 1.5;
+    const Vector3 p = away * random.point();
+    const double nearest = std::sqrt(by_brute_force(soup, p).squared_distance);
+    for (const Face guess : {-1, i % 400}) {
+      CHECK(scene.is_within(nearest * (1 + 1e-12), p, guess));
+      CHECK(scene.is_within(4 * nearest, p, guess));
+      CHECK_FALSE(scene.is_within(nearest * (1 - 1e-12), p, guess));
+      CHECK_FALSE(scene.is_within(nearest / 4, p, guess));
+    }
+  }
+}
+
 TEST_CASE("ray scene: where many triangles are equally near, the first of them is told") {
   const TriangleMesh ball = icosphere(3);
   const RayScene scene(ball);

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "rays/flat_normal.h"
 #include "rays/interpolation.h"
@@ -54,12 +56,10 @@ struct Met {
 };
 
 /// What the line first meets on one side; the ray found the face, the weights are of doubles.
-std::optional<Met> first_on(const ProjectedSurface& surface, const Line& line, double side,
-                            double reach) {
+std::optional<Met> first_on(const ProjectedSurface& surface, const Line& line, double side) {
   const Vector3 way = side * line.direction;
-  const double clearance = surface.rays().clearance();
-  const RayHit hit =
-      surface.rays().first_hit(line.point - clearance * way, way, reach + 2 * clearance);
+  const RayHit hit = surface.rays().first_hit(line.point - surface.rays().clearance() * way, way,
+                                              std::numeric_limits<double>::infinity());
   if (hit.face < 0) return std::nullopt;
   const Triangle triangle(surface.file().mesh, hit.face);
   const Vector3 raw = volumes(triangle, line.point, line.direction);
@@ -75,12 +75,19 @@ bool is_better(const Met& a, const Met& b) {
   return a.distance < b.distance;
 }
 
-std::optional<Met> met_along(const ProjectedSurface& surface, const Line& line, double reach) {
+/// Whether nothing is so much nearer that the line passes the surface by.
+bool is_here(const ProjectedSurface& surface, const Line& line, const Met& met, Face guess) {
+  const double beyond = met.distance - 2 * surface.rays().clearance();
+  return beyond <= 0 || !surface.rays().is_within(beyond / passing_by, line.point, guess);
+}
+
+std::optional<Met> met_along(const ProjectedSurface& surface, const Line& line, Face guess) {
   if (line.direction.isZero(0)) return std::nullopt;
-  const auto outwards = first_on(surface, line, 1, reach),
-             inwards = first_on(surface, line, -1, reach);
-  if (!outwards || !inwards) return outwards ? outwards : inwards;
-  return is_better(*inwards, *outwards) ? inwards : outwards;
+  auto one = first_on(surface, line, 1), other = first_on(surface, line, -1);
+  if (!one || (other && is_better(*other, *one))) std::swap(one, other);
+  for (const auto& met : {one, other})
+    if (met && is_here(surface, line, *met, guess)) return met;
+  return std::nullopt;
 }
 
 Line line_of(const BakeTarget& target, const PlaceOnTarget& place) {
@@ -102,9 +109,8 @@ ProjectedSurface::ProjectedSurface(MeshFile file) : file_(std::move(file)) {
 SurfaceRun ProjectedSurface::project(const BakeTarget& target, const PlaceOnTarget& place,
                                      Face guess) const {
   const Line line = line_of(target, place);
-  const NearestPoint nearest = rays_->nearest(line.point, guess);
-  const auto met = met_along(*this, line, passing_by * std::sqrt(nearest.squared_distance));
-  const SurfacePoint& on = met ? met->on : nearest.on;
+  const auto met = met_along(*this, line, guess);
+  const SurfacePoint on = met ? met->on : rays_->nearest(line.point, guess).on;
   const Triangle triangle(file_.mesh, on.face);
   const Vector3 normal = triangle.normal(), along = met ? line.direction : normal;
   const bool away = met ? met->faces_away : normal.dot(line.direction) < 0;

@@ -33,7 +33,7 @@ class ProjectedSurface {
   /// The point, as a run of one texel. Weights may lie outside the face, in its plane; what a texel
   /// covers is taken along the normal as if that did not turn. Requires: a target that has
   /// `outward`. `guess`: a face of the surface that may be near, which saves time and changes
-  /// nothing. Cost: a nearest point and two short rays, some µs. Threads may share it.
+  /// nothing. Cost: two rays and a look about, a µs or two. Threads may share it.
   SurfaceRun project(const BakeTarget& target, const PlaceOnTarget& place, Face guess = -1) const;
 
  private:

@@ -343,12 +343,21 @@ class Search {
   /// Beyond it from `centre` nothing can be the nearest.
   float radius() const {
     if (best_.on.face < 0) return std::numeric_limits<float>::infinity();
-    const double known = std::sqrt((centre_ - foot_).squaredNorm() + widening_);
+    return widened(std::sqrt((centre_ - foot_).squaredNorm() + widening_));
+  }
+
+  /// Beyond it nothing is near enough.
+  float radius_of_near_enough() const {
+    if (widening_ > 0) return std::numeric_limits<float>::infinity();
+    return widened(std::sqrt(near_enough_) * frame_.scale);
+  }
+
+ private:
+  float widened(double known) const {
     const double size = 1 + centre_.cwiseAbs().maxCoeff();
     return static_cast<float>(known * (1 + radius_slack) + position_slack * size);
   }
 
- private:
   const TriangleMesh& mesh_;
   const std::vector<Face>& faces_;
   const Frame& frame_;
@@ -371,22 +380,32 @@ bool come_to_triangle(RTCPointQueryFunctionArguments* arguments) {
   return true;
 }
 
-}  // namespace
-
-NearestPoint RayScene::nearest(const Vector3& point, Face guess, double near_enough) const {
-  Search search(tree_->mesh, tree_->faces, tree_->frame, point, near_enough);
-  if (guess >= 0) search.consider(guess);
-  if (search.ends()) return search.best();
+void go_through(RTCScene scene, Search& search, float radius) {
   RTCPointQuery query;
   query.x = static_cast<float>(search.centre().x());
   query.y = static_cast<float>(search.centre().y());
   query.z = static_cast<float>(search.centre().z());
   query.time = 0;
-  query.radius = search.radius();
+  query.radius = radius;
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
-  rtcPointQuery(tree_->scene.handle, &query, &context, come_to_triangle, &search);
+  rtcPointQuery(scene, &query, &context, come_to_triangle, &search);
+}
+
+}  // namespace
+
+NearestPoint RayScene::nearest(const Vector3& point, Face guess, double near_enough) const {
+  Search search(tree_->mesh, tree_->faces, tree_->frame, point, near_enough);
+  if (guess >= 0) search.consider(guess);
+  if (!search.ends()) go_through(tree_->scene.handle, search, search.radius());
   return search.best();
+}
+
+bool RayScene::is_within(double distance, const Vector3& point, Face guess) const {
+  Search search(tree_->mesh, tree_->faces, tree_->frame, point, distance * distance);
+  if (guess >= 0) search.consider(guess);
+  if (!search.ends()) go_through(tree_->scene.handle, search, search.radius_of_near_enough());
+  return search.ends();
 }
 
 }  // namespace sphparam

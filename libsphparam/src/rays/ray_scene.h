@@ -61,6 +61,10 @@ class RayScene {
   /// surface is not equally far everywhere.
   NearestPoint nearest(const Vector3& point, Face guess = -1, double near_enough = -1) const;
 
+  /// Whether some point of the mesh is within `distance` of the point. Much cheaper than `nearest`
+  /// where there is none, or many. `guess` and requires: as `nearest`.
+  bool is_within(double distance, const Vector3& point, Face guess = -1) const;
+
  private:
   struct Tree;
   std::unique_ptr<Tree> tree_;
