@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "program.h"
+#include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/upright_frame.h"
 #include "support/test_meshes.h"
 
 /// Poles, meridian and pins of `sphparam map`, and what they cost.
@@ -61,6 +63,95 @@ TEST_CASE("map: given poles are reached, and their cost in energy told") {
   CHECK(report["energy_cost"].get<double>() > 0.01);
   const Ended ended = sphparam_program({"map", "-", "-o", "-", "--poles", "9,26"}, mesh);
   CHECK_THAT(ended.err, Contains("vertices 9 and 26 at ±z") && Contains("energy than before"));
+}
+
+namespace {
+
+/// An animal: longer than high, y up, a head with a nose at −z, a tail at +z; vertices in no order
+/// of place.
+TriangleMesh animal() {
+  TriangleMesh mesh = icosphere(4);
+  for (Vertex v = 0; v < mesh.vertex_count(); ++v) {
+    const Vector3 p = mesh.position(v);
+    const double head = std::exp(-6 * (p - Vector3(0, 0.5, -0.8)).squaredNorm());
+    mesh.positions.row(v) =
+        Vector3(0.6 * p.x(), 0.7 * p.y() + 0.6 * head, 1.3 * p.z() - 0.5 * head);
+  }
+  return mesh;
+}
+
+Vertex farthest(const TriangleMesh& mesh, const Vector3& direction) {
+  Eigen::Index found = 0;
+  (mesh.positions * direction).maxCoeff(&found);
+  return static_cast<Vertex>(found);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "map: --up and --front put top and bottom at the poles, the front at theta 0, and say so") {
+  const Folder folder;
+  const TriangleMesh mesh = animal();
+  const Json report = report_of(folder, {"--up", "y", "--front", "-z"}, obj_text(mesh));
+  const Vertex top = farthest(mesh, Vector3::UnitY()), bottom = farthest(mesh, -Vector3::UnitY()),
+               nose = farthest(mesh, -Vector3::UnitZ());
+  CHECK(report["poles"]["north"] == top);
+  CHECK(report["poles"]["south"] == bottom);
+  CHECK(report["meridian"] == nose);
+  CHECK(report["upright"] == "y, front -z");
+  CHECK(std::abs(report["energy_cost"].get<double>()) < 0.2);
+  const MeshFile written = read_mesh(folder / "map.sph.ply");
+  const SphereMap map = read_sphere(written).value();
+  CHECK(map.point(top) == Vector3(0, 0, 1));
+  CHECK(map.point(bottom) == Vector3(0, 0, -1));
+  CHECK(map.point(nose).y() == 0);
+  CHECK(map.point(nose).x() > 0);
+  // What is right of who looks at the face is east of it.
+  CHECK(map.point(farthest(mesh, -Vector3::UnitX())).y() > 0.5);
+  CHECK(noted_up(written) == Up{Vector3::UnitY(), -Vector3::UnitZ()});
+  CHECK(map_is_upright(written, upright_axes(written)));
+  CHECK_FALSE(map_is_upright(written, upright_axes({})));
+}
+
+TEST_CASE("map: nothing is said of up where nobody asks, and what is given goes before it") {
+  const Folder folder;
+  const std::string mesh = obj_text(animal());
+  const auto header = [&] { return bytes_of(folder / "map.sph.ply").substr(0, 1200); };
+  CHECK_FALSE(report_of(folder, {}, mesh).contains("upright"));
+  CHECK_THAT(header(), !Contains("up axis") && !Contains("upright"));
+  const Json chosen = report_of(folder, {"--up", "y", "--poles", "auto"}, mesh);
+  CHECK_FALSE(chosen.contains("upright"));
+  CHECK_THAT(header(), Contains("comment up axis y\n") && Contains("comment front axis z\n"));
+  const Json meridian = report_of(folder, {"--up", "y", "--meridian", "7"}, mesh);
+  CHECK(meridian["meridian"] == 7);
+  CHECK(meridian["poles"]["north"] == farthest(animal(), Vector3::UnitY()));
+  const Json poles = report_of(folder, {"--up", "y", "--front", "-z", "--poles", "3,40"}, mesh);
+  CHECK(poles["poles"]["north"] == 3);
+  CHECK(poles["meridian"] == farthest(animal(), -Vector3::UnitZ()));
+}
+
+TEST_CASE("map: --poles up stands as the file says, and so do meshes made of the map") {
+  const Folder folder;
+  write_bytes(folder / "animal.obj", obj_text(animal()));
+  const auto run = [&](std::vector<std::string> arguments) {
+    const Ended ended = sphparam_program(arguments);
+    INFO(ended.err);
+    REQUIRE(ended.code == 0);
+    return ended.out;
+  };
+  const std::string map = folder / "map.sph.ply", low = folder / "low.sph.ply";
+  run({"map", folder / "animal.obj", "-o", map, "--up", "y", "--front", "-z"});
+  run({"map", map, "-o", folder / "again.sph.ply", "--poles", "up"});
+  CHECK(map_is_upright(read_mesh(folder / "again.sph.ply"), {Vector3::UnitY(), -Vector3::UnitZ()}));
+  run({"remesh", map, "--grid", "ico:4", "-o", low});
+  CHECK(map_is_upright(read_mesh(low), {Vector3::UnitY(), -Vector3::UnitZ()}));
+  const auto drawn = [&](const std::string& file, const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"render", file, "-o", "-", "--size", "32", "--view", "mesh"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words);
+  };
+  for (const std::string& file : {map, low})
+    CHECK(drawn(file, {}) == drawn(file, {"--up", "y", "--front", "-z"}));
 }
 
 TEST_CASE("map: --meridian gives a vertex theta 0, with and without poles") {
@@ -237,6 +328,10 @@ TEST_CASE("map: what poles, meridian, pins and balance may not say together ends
       {"--pin", pins, "--method", "paper"},
       {"--pin", pins, "--poles", "5,40"},
       {"--pin", "-"},
+      {"--pin", pins, "--poles", "up"},
+      {"--up", "y", "--front", "-y"},
+      {"--poles", "upwards"},
+      {"--poles", "up", "--method", "radial"},
       {"--pin", pins, "--json", pins},
       {"--balance", "conformal", "--lambda", "2"},
       {"--balance", "2", "--lambda", "2"},

@@ -182,3 +182,36 @@ TEST_CASE("poles: of a small mesh every pair is tried") {
   CHECK(usable_meshes > 0);
   CHECK(unusable_meshes > 0);
 }
+
+TEST_CASE("poles along a direction: the farthest vertices, on flat tops the middle one") {
+  TriangleMesh ball = icosphere(3);
+  ball.positions *= 1e200;  // squares are beyond doubles
+  const Topology topology(ball);
+  for (const Vector3& up : {Vector3(0, 0, 1), Vector3(-1, 0, 0), Vector3(0.3, -2, 0.7)}) {
+    const Poles poles = poles_along(ball, topology, up);
+    for (Vertex v = 0; v < ball.vertex_count(); ++v) {
+      CHECK(ball.position(v).dot(up) <= ball.position(poles.north).dot(up) * (1 + 3e-4));
+      CHECK(ball.position(v).dot(up) >= ball.position(poles.south).dot(up) * (1 + 3e-4));
+    }
+    CHECK(vertex_along(ball, up, {poles.north}) != poles.north);
+  }
+  TriangleMesh can = icosphere(3);  // cut off flat above and below
+  can.positions.col(2) = can.positions.col(2).cwiseMax(-0.8).cwiseMin(0.8);
+  const Poles poles = poles_along(can, Topology(can), Vector3::UnitZ());
+  CHECK(can.position(poles.north).head<2>().norm() < 0.01);
+  CHECK(can.position(poles.north).z() == 0.8);
+  CHECK(can.position(poles.south).head<2>().norm() < 0.01);
+  CHECK(can.position(poles.south).z() == -0.8);
+}
+
+TEST_CASE("poles along a direction: never one vertex, and no edge where the mesh has room") {
+  TriangleMesh flat = icosphere(2);
+  flat.positions.col(2).setZero();
+  const Topology topology(flat);
+  const Poles poles = poles_along(flat, topology, Vector3::UnitZ());
+  CHECK(poles.north != poles.south);
+  CHECK(topology.find_halfedge(poles.north, poles.south) < 0);
+  const TriangleMesh solid = icosphere(0);
+  const Poles few = poles_along(solid, Topology(solid), Vector3(1, 2, 3));
+  CHECK(few.north != few.south);
+}

@@ -75,6 +75,24 @@ TEST_CASE("picture: any axis may be up, any in front, as is asked for or as the 
   CHECK(draw_png(lying, std::nullopt, look) == upright);
 }
 
+TEST_CASE(
+    "picture: where the map stands as the mesh, its sphere shows the front as the mesh does") {
+  const TriangleMesh ball = icosphere(2);
+  const SphereMap map{ball.positions};
+  const auto sphere_from = [&](const MeshFile& file, const Vector3& eye) {
+    return draw_png(
+        file, map,
+        {.view = View::Sphere, .colouring = Colouring::Checker, .from = eye, .size = 48});
+  };
+  MeshFile file = file_of(ball);
+  const std::string prime = sphere_from(file, Vector3(1, 0, 0.3));  // z is up, −y in front
+  CHECK(sphere_from(file, Vector3(0, -1, 0.3)) != prime);
+  file.comments = {"sphparam upright z, front -y"};
+  CHECK(sphere_from(file, Vector3(0, -1, 0.3)) == prime);
+  file.comments = {"sphparam upright y, front z"};  // not as the file stands
+  CHECK(sphere_from(file, Vector3(0, -1, 0.3)) != prime);
+}
+
 TEST_CASE("coloured values: a property, colours, and a comment where one says what they are") {
   const MeshFile ball = file_of(icosphere(0));
   const VectorX values = VectorX::LinSpaced(ball.mesh.vertex_count(), 0, 2.5);

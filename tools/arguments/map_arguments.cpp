@@ -16,12 +16,12 @@ const Range<double> lambdas = {1e-8, 1e3, "1e-8 to 1000"};
 
 void settle_poles(const std::string& text, ParameterizeOptions& options) {
   options.automatic_poles = text != "none";
-  if (text == "auto" || text == "none") return;
+  if (text == "auto" || text == "none" || text == "up") return;
   const auto poles = two_numbers(text, ',');
   const bool make_sense =
       poles && poles->first >= 0 && poles->second >= 0 && poles->first != poles->second;
   if (!make_sense)
-    throw UsageMistake("--poles: expected auto, none or two different vertices, as in 17,23");
+    throw UsageMistake("--poles: expected auto, none, up or two different vertices, as in 17,23");
   options.poles = Poles{poles->first, poles->second};
 }
 
@@ -106,6 +106,23 @@ void require_sensible_frame(const MapArguments& arguments) {
     throw UsageMistake("--meridian: vertex " + std::to_string(*options.meridian) +
                        " is a pole, which has no longitude");
   }
+}
+
+/// What --up and --front say of where the map lies; poles, pins and the like that are given say
+/// more.
+void settle_upright(MapArguments& arguments) {
+  const ParameterizeOptions& options = arguments.options;
+  const bool wanted = arguments.given("--up") || arguments.given("--front");
+  const bool free = arguments.pins.empty() && arguments.align.empty() &&
+                    std::holds_alternative<Method>(arguments.method) &&
+                    options.method != Method::Radial;
+  if (arguments.poles == "up" && !arguments.pins.empty())
+    throw UsageMistake("--poles up and --pin contradict each other: pins fix every direction");
+  arguments.upright_poles =
+      arguments.poles == "up" || (wanted && free && !arguments.given("--poles"));
+  arguments.front_meridian =
+      free && !options.meridian && options.method != Method::Paper &&
+      (arguments.upright_poles || (arguments.given("--front") && options.poles));
 }
 
 /// Files of their own, and vertices of no one part.
@@ -198,11 +215,13 @@ void declare_method(Declaration& command, MapArguments& arguments) {
 
 void declare_frame(Declaration& command, MapArguments& arguments) {
   command.group("Vertices, by their numbers in the file, from 0")
-      .text("--poles", arguments.poles, "auto|none|V1,V2",
-            "The vertices that go to +z and -z, or none")
+      .text("--poles", arguments.poles, "auto|none|up|V1,V2",
+            "The vertices that go to +z and -z; up: the mesh's top and bottom")
       .number("--meridian", arguments.options.meridian, "V", {0}, "The vertex that gets theta = 0")
       .text("--pin", arguments.pins, "FILE",
             "Vertices to be exactly at given points; a line is: vertex theta phi (radians)")
+      .group("As the mesh stands: top and bottom at the poles, the front at theta = 0")
+      .up(arguments.up)
       .group("The axes of a body")
       .text("--align", arguments.align, "body|FILE",
             "Turn the map to the directions from the centre, or to another map of the mesh")
@@ -281,6 +300,7 @@ void settle(MapArguments& arguments) {
   }
   require_one_frame(arguments);
   require_sensible_frame(arguments);
+  settle_upright(arguments);
   settle_sphere(arguments);
   require_sensible(arguments);
   options.threads = arguments.threads;

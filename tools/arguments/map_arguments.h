@@ -22,6 +22,9 @@ struct MapArguments : CommonArguments {
   Naming naming;      // of the sphere
   std::string align;  // body, or another map of the mesh
   std::string poles = "auto";
+  Up up;                             // as the command line says
+  bool upright_poles = false;        // top and bottom
+  bool front_meridian = false;       // what is in front
   std::string balance = "balanced";  // a word, or the λ it stands for
   RepairArguments repair;
   bool all_components = false;

@@ -14,6 +14,7 @@
 #include "sphparam/io/fillers.h"
 #include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/pin_file.h"
+#include "sphparam/io/upright_frame.h"
 #include "sphparam/io/written_map.h"
 #include "sphparam/sphere/radial_directions.h"
 
@@ -73,6 +74,23 @@ void settle_directions(const MapArguments& arguments, const MeshSource& source,
                      " lies at the centre: it has no direction from there");
 }
 
+/// Is anything said of how the mesh stands?
+bool is_to_stand(const MapArguments& arguments) {
+  return arguments.upright_poles || arguments.given("--up") || arguments.given("--front");
+}
+
+/// Poles and meridian as the mesh stands, which its file says then.
+void settle_upright(const MapArguments& arguments, MapOutcome& outcome) {
+  if (!is_to_stand(arguments)) return;
+  MeshFile& file = outcome.source.file;
+  const UprightAxes axes = upright_axes(file, arguments.up);
+  note_up(file, {axes.up, axes.front});
+  const ParameterizeOptions upright =
+      with_upright_frame(outcome.options, file.mesh, outcome.topology(), axes);
+  if (arguments.upright_poles) outcome.options.poles = upright.poles;
+  if (arguments.front_meridian) outcome.options.meridian = upright.meridian;
+}
+
 MapOutcome compute(MeshSource source, const MapArguments& arguments, Session& session) {
   require_mappable(source);
   MapOutcome outcome = {
@@ -82,11 +100,15 @@ MapOutcome compute(MeshSource source, const MapArguments& arguments, Session& se
   options.progress = session.progress();
   options.fillers = fillers_of(outcome.source.file);
   settle_vertices(arguments.pins, outcome.source.file, options);
+  settle_upright(arguments, outcome);
   settle_directions(arguments, outcome.source, options);
   MethodRun run = run_method(arguments.method, mesh, outcome.topology(), options);
   outcome.result = std::move(run.result);
   outcome.account = std::move(run.account);
   outcome.frame = check_frame(outcome.result, options);
+  if (is_to_stand(arguments))
+    outcome.upright =
+        upright_words(outcome.result, mesh, outcome.topology(), upright_axes(outcome.source.file));
   if (outcome.has_map()) {
     outcome.distortion =
         measure_distortion(surface_of(mesh, options.fillers), outcome.result.map, options.threads);

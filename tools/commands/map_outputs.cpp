@@ -32,6 +32,7 @@ Provenance provenance(const MapOutcome& outcome) {
                         .options = options_line(outcome),
                         .citation = outcome.account ? outcome.account->citation : "",
                         .pins = outcome.options.pins.size(),
+                        .upright = outcome.upright,
                         .verdict = outcome.verdict()},
                        FileNumbers(outcome.source.file));
 }
@@ -109,6 +110,7 @@ std::string report_on(const MapArguments& arguments, MapOutcome& outcome, const 
                       .account = outcome.account,
                       .pins = outcome.options.pins,
                       .pole_residuals = outcome.frame.pole_residuals,
+                      .upright = outcome.upright,
                       .distortion = outcome.figures,
                       .chart = figures_of_chart(outcome, session),
                       .outputs = outputs};

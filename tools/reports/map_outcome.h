@@ -20,6 +20,7 @@ struct MapOutcome {
   Parameterization result = {};
   std::optional<BaselineAccount> account = std::nullopt;  // of a method of others
   FrameCheck frame = {};
+  std::string upright = {};  // `upright_words`
   std::optional<Distortion> distortion = std::nullopt;
   std::optional<DistortionSummary> figures = std::nullopt;
 

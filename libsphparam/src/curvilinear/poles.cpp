@@ -1,6 +1,7 @@
 #include "sphparam/curvilinear/poles.h"
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "edge_graph.h"
@@ -70,7 +71,60 @@ class ChordFreeVertices {
   size_t next_ = 0;
 };
 
+constexpr double plateau = 1e-4;  // of the mesh's extent: how far apart heights are one
+
+/// The middle of the surface, by area; coordinates are scaled first, so that no sum overflows.
+Vector3 middle_of(const TriangleMesh& mesh, double scale) {
+  Vector3 sum = Vector3::Zero(), corners = Vector3::Zero();
+  double area = 0;
+  for (Face f = 0; f < mesh.face_count(); ++f) {
+    const auto corner = [&](int k) -> Vector3 {
+      return scale * mesh.position(mesh.triangles(f, k));
+    };
+    const Vector3 a = corner(0), b = corner(1), c = corner(2);
+    const double weight = (b - a).cross(c - a).norm();
+    sum += weight * (a + b + c) / 3;
+    area += weight;
+    corners += (a + b + c) / 3;
+  }
+  return area > 0 ? Vector3(sum / area)
+                  : Vector3(corners / std::max<double>(1, static_cast<double>(mesh.face_count())));
+}
+
 }  // namespace
+
+Vertex vertex_along(const TriangleMesh& mesh, const Vector3& direction,
+                    const std::vector<Vertex>& left_out) {
+  const double largest = mesh.positions.cwiseAbs().maxCoeff();
+  const double scale = largest > 0 ? 1 / largest : 1;
+  const Vector3 along = (direction / direction.cwiseAbs().maxCoeff()).normalized();
+  const Vector3 middle = middle_of(mesh, scale);
+  const auto arm = [&](Vertex v) -> Vector3 { return scale * mesh.position(v) - middle; };
+  const auto counts = [&](Vertex v) { return std::ranges::find(left_out, v) == left_out.end(); };
+  double lowest = 0, highest = -std::numeric_limits<double>::infinity();
+  for (Vertex v = 0; v < mesh.vertex_count(); ++v) {
+    const double height = arm(v).dot(along);
+    lowest = std::min(lowest, height);
+    if (counts(v)) highest = std::max(highest, height);
+  }
+  const double least = highest - plateau * (highest - lowest);
+  Vertex found = -1;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (Vertex v = 0; v < mesh.vertex_count(); ++v) {
+    const double height = arm(v).dot(along);
+    if (height < least || !counts(v)) continue;
+    const double off = (arm(v) - height * along).squaredNorm();
+    if (off < nearest) nearest = off, found = v;
+  }
+  return found;
+}
+
+Poles poles_along(const TriangleMesh& mesh, const Topology& topology, const Vector3& up) {
+  const Vertex top = vertex_along(mesh, up);
+  const Poles poles{top, vertex_along(mesh, -up, {top})};
+  if (topology.find_halfedge(poles.north, poles.south) < 0) return poles;
+  return nearest_usable_poles(topology, poles).value_or(poles);
+}
 
 Poles farthest_poles(const TriangleMesh& mesh, const Topology& topology) {
   const EdgeGraph graph(mesh, topology);

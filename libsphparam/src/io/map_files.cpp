@@ -68,8 +68,9 @@ Provenance provenance_of(const HeldMap& held, Provenance lines) {
   for (auto& [key, value] : lines)
     if (key == "verdict") value = held.verdict;
   if (held.least_area > 0) {
-    std::erase_if(
-        lines, [](const auto& line) { return line.first == "poles" || line.first == "meridian"; });
+    std::erase_if(lines, [](const auto& line) {
+      return line.first == "poles" || line.first == "meridian" || line.first == "upright";
+    });
   }
   return lines;
 }
@@ -87,6 +88,7 @@ Provenance provenance_of(const Parameterization& result, const MapOrigin& origin
   if (result.meridian) {
     lines.emplace_back("meridian", std::to_string(numbers.number(*result.meridian)));
   }
+  if (!origin.upright.empty()) lines.emplace_back("upright", origin.upright);
   for (auto& line : planetocentric_lines(result)) lines.push_back(std::move(line));
   if (result.alignment) lines.emplace_back("alignment", shortest(*result.alignment));
   if (result.filler_share) {

@@ -317,6 +317,7 @@ Provenance provenance_of(const MappedMesh& source, const std::string& grid, Samp
                       {"sample", name_of(sample)}};
   for (const auto& [key, value] : source.provenance()) {
     if (key == "method") lines.emplace_back("source", value);
+    if (key == "upright") lines.emplace_back(key, value);
   }
   if (is_adapted(source)) lines.emplace_back("options", "--adaptive");
   lines.emplace_back("verdict", "one-to-one");

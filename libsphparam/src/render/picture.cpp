@@ -19,6 +19,7 @@
 #include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/paths.h"
+#include "sphparam/io/upright_frame.h"
 #include "sphparam/io/written_map.h"
 #include "sphparam/sphere/distortion.h"
 #include "texture/source_texture.h"
@@ -156,14 +157,16 @@ class Drawing {
   }
 
   /// Looks at the middle of what is seen from there, all of it in the picture. North is up on the
-  /// sphere: it is seen from where the mesh is once its axis has been turned to z.
+  /// sphere: it is seen from where the mesh is once its axis has been turned to z, and what is in
+  /// front of it to θ = 0 where the map says so.
   Camera framing(Shape shape, const Points& points) const {
     Camera camera;
     camera.direction = eye(options_, axes_).normalized();
     camera.up = axes_.up;
     if (shape == Shape::Sphere) {
-      const Vector3 seen = upright_rotation(axes_) * camera.direction;
-      camera.direction = Vector3(seen.x(), -seen.z(), seen.y());
+      const Vector3 seen = upright_rotation(axes_) * camera.direction;  // right, up, front
+      camera.direction = map_is_upright(file_, axes_) ? Vector3(seen.z(), seen.x(), seen.y())
+                                                      : Vector3(seen.x(), -seen.z(), seen.y());
       camera.up = Vector3::UnitZ();
     }
     if (camera.up.cross(camera.direction).isZero())

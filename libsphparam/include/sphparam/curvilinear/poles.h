@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "sphparam/mesh/topology.h"
 
@@ -17,6 +18,19 @@ struct Poles {
 /// Paper: Section 6, "the poles should have sufficient distance"; the choice is our own.
 /// Cost: three Dijkstra sweeps, O(#F log #F).
 Poles farthest_poles(const TriangleMesh& mesh, const Topology& topology);
+
+/// The vertex that is farthest along a direction. Of those that are as far but for 1e-4 of the
+/// mesh's extent along it, as on a flat top, the one nearest to the line through the middle of the
+/// surface; then the lowest index. Not one of those to leave out.
+/// Requires: a direction of finite numbers that is not 0; a vertex that is not left out. Our own.
+/// Cost: two passes over the vertices, one over the triangles.
+Vertex vertex_along(const TriangleMesh& mesh, const Vector3& direction,
+                    const std::vector<Vertex>& left_out = {});
+
+/// The top and the bottom of a mesh: the vertices that are farthest along a direction and against
+/// it; where they share an edge, as in meshes of a few vertices, others near them, if there are
+/// such. Cost: that of `vertex_along` twice.
+Poles poles_along(const TriangleMesh& mesh, const Topology& topology, const Vector3& up);
 
 /// False when an edge joins two vertices of v's link that are not neighbours there: a separating
 /// triangle at v. Everything behind that edge would collapse onto the boundary of the chart.

@@ -24,6 +24,7 @@ struct MapOrigin {
   std::string options;        // that shaped it
   std::string citation = {};  // of a method of others; empty: ours
   std::size_t pins = 0;       // how many were asked for
+  std::string upright = {};   // `upright_words`; empty: it lies otherwise
   std::string verdict;        // on the map, or "no map"
 };
 

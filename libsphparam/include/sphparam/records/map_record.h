@@ -24,6 +24,7 @@ struct MapRecord {
   std::vector<Landmark> pins = {};                // that were wanted, of vertices of the mesh
   std::vector<double> pole_residuals = {};        // of poles that were wanted, in radians: north,
                                                   // south; empty: none were
+  std::string upright = {};                       // `upright_words`; empty: not asked for
   std::optional<DistortionSummary> distortion = {};
   std::optional<ChartReport> chart = {};
   std::vector<std::pair<std::string, std::string>> outputs = {};  // what it is, where it is

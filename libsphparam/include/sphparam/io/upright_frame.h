@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "sphparam/io/sphere_file.h"
+#include "sphparam/io/up_axis.h"
+#include "sphparam/parameterize.h"
+
+namespace sphparam {
+
+/// The options of a map that stands as its mesh does: its poles are the top and the bottom
+/// (`poles_along`), θ = 0 is its front (`vertex_along`). Poles and a meridian that the options have
+/// already stay. Requires: `topology` is of the mesh. Cost: some passes over the mesh.
+ParameterizeOptions with_upright_frame(ParameterizeOptions options, const TriangleMesh& mesh,
+                                       const Topology& topology, const UprightAxes& axes);
+
+/// Where a map has such a frame, poles and meridian: "y, front z", the value of "upright" among the
+/// lines of its provenance; else empty. Cost: as above.
+std::string upright_words(const Parameterization& result, const TriangleMesh& mesh,
+                          const Topology& topology, const UprightAxes& axes);
+
+/// Whether the file's map says that it stands as these axes do.
+bool map_is_upright(const MeshFile& file, const UprightAxes& axes);
+
+}  // namespace sphparam
