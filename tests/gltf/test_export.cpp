@@ -96,6 +96,26 @@ TEST_CASE("export: a mesh that lies on its side stands up, and the file says wha
         upright.levels[0].positions);
 }
 
+TEST_CASE("export: the sphere of a map that stands as the mesh has its front in front") {
+  for (const Convention convention : {Convention::Sphparam, Convention::Gis}) {
+    MeshFile file = mapped_egg(2).file();
+    ExportOptions options = small;
+    options.shape = ShapeKind::Sphere;
+    options.convention = convention;
+    const SphereMap map{icosphere(2).positions};
+    const auto front_of = [&] {  // where the vertex nearest to θ = 0 on the equator is
+      const Asset asset = make_asset(MappedMesh({.file = file, .map = map}), options);
+      Eigen::Index v = 0;
+      map.points.col(0).maxCoeff(&v);
+      return Vector3(asset.levels[0].positions.row(v).cast<double>());
+    };
+    const Vector3 unasked = front_of();
+    file.comments = {"sphparam upright z, front -y"};
+    CHECK(front_of().z() > 0.99);
+    CHECK(unasked.z() < 0.9);
+  }
+}
+
 TEST_CASE("export: an .obj and a .ply stay in their axes and say which are asked for") {
   const Place place;
   ExportOptions options = small;

@@ -146,6 +146,23 @@ def test_the_program_writes_the_same_bytes(name, tmp_path):
     assert ours.read_bytes() == theirs.read_bytes()
 
 
+def test_a_map_that_stands_is_that_of_the_program_and_says_so(tmp_path):
+    sp.write(tmp_path / "a.ply", V, F)
+    ours, theirs = tmp_path / "ours.sph.ply", tmp_path / "theirs.sph.ply"
+    m = sp.map(sp.read(tmp_path / "a.ply"), up="y", front=(0, 0, -2))
+    m.save(ours)
+    way = ["--up", "y", "--front", "-z"]
+    subprocess.run([program(), "map", tmp_path / "a.ply", "-o", theirs, "--quiet", *way], check=True)
+    assert ours.read_bytes() == theirs.read_bytes()
+    assert m.provenance["upright"] == "y, front -z"
+    assert m.vertices[m.poles[0], 1] == V[:, 1].max() and m.points[m.poles[0], 2] == 1
+    again = sp.map(sp.read(ours), poles="up")
+    assert again.poles == m.poles and again.meridian == m.meridian
+    assert m.picture(size=32) == m.picture(size=32, up="y", front="-z")
+    assert m.picture(size=32) != m.picture(size=32, up="z")
+    assert "upright" not in sp.map(V, F).provenance
+
+
 def test_points_of_arrays_are_those_of_the_program(mapped, tmp_path):
     sp.write(tmp_path / "a.ply", V, F)
     subprocess.run([program(), "map", tmp_path / "a.ply", "-o", tmp_path / "a.sph.ply", "--quiet"], check=True)

@@ -63,8 +63,8 @@ Shape lit_shape(const SphericalChart& chart, const TriangleMesh& mesh, const Poi
                   normals, up, threads);
 }
 
-Shape sphere_shape(const SphericalChart& chart, int threads) {
-  return shape_of(chart, chart.points, chart.points, upright_axes({}), threads);
+Shape sphere_shape(const SphericalChart& chart, const Vector3& front, int threads) {
+  return shape_of(chart, chart.points, chart.points, {Vector3::UnitZ(), front}, threads);
 }
 
 Shape flat_shape(const SphericalChart& chart) {

@@ -22,8 +22,8 @@ Shape mesh_shape(const SphericalChart& chart, const TriangleMesh& mesh, const Po
 Shape lit_shape(const SphericalChart& chart, const TriangleMesh& mesh, const Points& normals,
                 const UprightAxes& up, int threads = 0);
 
-/// Its image on the unit sphere, north up whatever the mesh's up is.
-Shape sphere_shape(const SphericalChart& chart, int threads = 0);
+/// Its image on the unit sphere, north up whatever the mesh's up is, and what is in front there.
+Shape sphere_shape(const SphericalChart& chart, const Vector3& front = {0, -1, 0}, int threads = 0);
 
 /// The (u, v) rectangle, 2 wide and 1 high about the origin, facing +z: north up, u to the right.
 Shape flat_shape(const SphericalChart& chart);

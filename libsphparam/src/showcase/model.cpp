@@ -43,7 +43,7 @@ std::string showcase_model(const std::string& name, const MeshFile& file,
   const Vector3 middle = middle_of(mesh);
   const double radius = std::sqrt(area_of(mesh, chart) / (4 * std::numbers::pi));
   const Shape sphere =
-      placed(turned_like(mesh, middle, sphere_shape(chart, threads)), radius, middle);
+      placed(turned_like(mesh, middle, sphere_shape(chart, {0, -1, 0}, threads)), radius, middle);
   Surface surface = chart_surface(chart, mesh, {{"sphere", sphere}}, file, {});
   leave_out(surface, fillers_of_chart(chart, fillers_of(file)));
   Asset asset{

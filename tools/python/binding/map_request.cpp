@@ -6,6 +6,7 @@
 
 #include "arrays.h"
 #include "sphparam/io/file_numbers.h"
+#include "sphparam/io/upright_frame.h"
 #include "sphparam/names.h"
 #include "sphparam/sphere/radial_directions.h"
 
@@ -44,13 +45,19 @@ void take_frame(Settings& settings, Request& request) {
   std::optional<std::pair<int, int>> poles;
   std::optional<std::array<double, 3>> centre;
   std::optional<py::array> rays;
+  std::string up, front;
   settings.take("automatic_poles", options.automatic_poles)
       .take("pins", request.pins)
       .take("poles", poles)
       .take("meridian", options.meridian)
       .take("centre", centre)
       .take("to_body", request.to_body)
-      .take("align_to", rays);
+      .take("align_to", rays)
+      .take("up", up)
+      .take("front", front)
+      .take("stands", request.stands)
+      .take("upright_poles", request.upright_poles);
+  request.up = up_of(up, front);
   if (poles) options.poles = Poles{poles->first, poles->second};
   if (centre) options.centre = Vector3(centre->data());
   bool finite = true;
@@ -74,9 +81,21 @@ Request map_request_of(const py::dict& values) {
   return request;
 }
 
-void settle(Request& request, const MeshFile& file) {
+namespace {
+
+void stand(Request& request, MeshFile& file, const Topology& topology) {
   ParameterizeOptions& options = request.options;
-  if (request.to_body) options.align_to = radial_directions(file.mesh, options.centre);
+  const UprightAxes axes = upright_axes(file, request.up);
+  note_up(file, {axes.up, axes.front});
+  if (!request.upright_poles && !options.poles) return;
+  const bool has_date_line = options.method == Method::Paper;  // where θ is 0
+  const std::optional<Vertex> meridian = options.meridian;
+  options = with_upright_frame(std::move(options), file.mesh, topology, axes);
+  if (has_date_line) options.meridian = meridian;
+}
+
+void settle_vertices(Request& request, const MeshFile& file) {
+  ParameterizeOptions& options = request.options;
   if (!options.poles && !options.meridian && request.pins.empty()) return;
   const FileNumbers numbers(file);
   options = with_vertices_of_mesh(std::move(options), numbers);
@@ -85,6 +104,15 @@ void settle(Request& request, const MeshFile& file) {
     if (vertex < 0) throw NoSuchVertex("pins", numbers.absence(static_cast<long>(number)));
     options.pins.push_back({vertex, {theta, phi}});
   }
+}
+
+}  // namespace
+
+void settle(Request& request, MeshFile& file, const Topology& topology) {
+  ParameterizeOptions& options = request.options;
+  if (request.to_body) options.align_to = radial_directions(file.mesh, options.centre);
+  settle_vertices(request, file);
+  if (request.stands) stand(request, file, topology);
 }
 
 }  // namespace sphparam::python

@@ -5,6 +5,7 @@
 
 #include "binding.h"
 #include "sphparam/io/mesh_file.h"
+#include "sphparam/mesh/topology.h"
 
 namespace sphparam::python {
 
@@ -14,13 +15,16 @@ struct Request {
   ParameterizeOptions options;
   std::vector<std::array<double, 3>> pins;  // vertex, theta, phi
   bool to_body = false;                     // turned to the directions from the centre
+  Up up;                                    // how the mesh stands
+  bool stands = false;                      // something was said of it
+  bool upright_poles = false;               // top and bottom
 };
 
 /// Reads the options of `sphparam.map`. Throws: py::value_error, py::type_error.
 Request map_request_of(const py::dict& values);
 
-/// Poles, meridian and pins as vertices of the mesh; the directions of a body. Throws:
-/// NoSuchVertex; VertexAtCentre.
-void settle(Request& request, const MeshFile& file);
+/// Poles, meridian and pins as vertices of the mesh; the directions of a body; how the mesh stands,
+/// which its file says then. Throws: NoSuchVertex; VertexAtCentre; FrontError.
+void settle(Request& request, MeshFile& file, const Topology& topology);
 
 }  // namespace sphparam::python

@@ -14,6 +14,7 @@
 #include "sphparam/io/fillers.h"
 #include "sphparam/io/map_files.h"
 #include "sphparam/io/mapped_mesh.h"
+#include "sphparam/io/upright_frame.h"
 #include "sphparam/io/verify_map.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/names.h"
@@ -71,20 +72,24 @@ void by_file_numbers(Parameterization& result, const FileNumbers& numbers) {
 
 Mapped map_mesh(MeshSource source, Request request) {
   ParameterizeOptions& options = request.options;
-  settle(request, source.file);
+  Topology topology = topology_of(source);
+  settle(request, source.file, topology);
   const Stopwatch stopwatch;
   const std::clock_t begin = std::clock();
-  Topology topology = topology_of(source);
   options.fillers = fillers_of(source.file);
   Parameterization result = parameterize(source.file.mesh, topology, options);
   const Spent spent{stopwatch.seconds(),
                     static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC};
   require_wanted(result, options);
   const FileNumbers numbers(source.file);
+  std::string upright;
+  if (request.stands)
+    upright = upright_words(result, source.file.mesh, topology, upright_axes(source.file));
   Provenance provenance = provenance_of(result,
                                         {.method = name_of(options.method),
                                          .options = options_line(options),
                                          .pins = options.pins.size(),
+                                         .upright = upright,
                                          .verdict = verdict(result.certificate)},
                                         numbers);
   by_file_numbers(result, numbers);

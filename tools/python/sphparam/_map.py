@@ -14,6 +14,7 @@ from ._mesh import Path, any_mesh, existing, path_of
 from ._progress import Progress, told
 from ._repair import mended, repair_option_names, repair_options
 from ._sphere_map import SphereMap
+from ._up import Direction
 from ._welding import require_welded
 
 _F = TypeVar("_F", bound=Callable[..., Any])
@@ -49,6 +50,8 @@ def map(
     energy: str = "angle-and-area",
     poles: Union[str, Tuple[int, int]] = "auto",
     meridian: Optional[int] = None,
+    up: Optional[Direction] = None,
+    front: Optional[Direction] = None,
     pins: Optional[Mapping[int, Tuple[float, float]]] = None,
     centre: Optional[Tuple[float, float, float]] = None,
     align: Any = None,
@@ -81,9 +84,13 @@ def map(
     energy
         ``"angle-and-area"`` or ``"symmetric-dirichlet"``.
     poles
-        ``"auto"``, ``"none"``, or the vertices that go to +z and −z.
+        ``"auto"``, ``"none"``, ``"up"``: the top and the bottom of the mesh, or the vertices that go to +z and −z.
     meridian
         The vertex that gets θ = 0.
+    up, front
+        What points up in the mesh and what looks at who sees it: ``"x"``, ``"-x"`` … ``"-z"`` or three
+        numbers. Top and bottom go to the poles then, unless ``poles`` says otherwise, and the front to θ = 0;
+        what is made of the map, or draws it, stands so. None: as its file says; else z, and -y, z with y up.
     pins
         Vertex to (θ, φ) in radians: to be exactly there.
     centre
@@ -118,6 +125,7 @@ def map(
     """
     options = requested(
         method=method, balance=balance, weight=weight, quality=quality, energy=energy, poles=poles, meridian=meridian,
+        up=up, front=front,
         pins=pins, centre=centre, align=align, filler_share=filler_share, paper=paper, repair_map=repair_map,
         measure_stages=measure_stages, threads=threads,
     )  # fmt: skip

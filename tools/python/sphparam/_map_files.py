@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, List, Optional, Sequence
 from . import _arrays, _core
 from ._losses import tell
 from ._map_facts import MapFacts, mapped_of
-from ._map_images import Direction, as_direction
 from ._mesh import Path, path_of, require_mesh_format
 from ._numpy import np
 from ._progress import Progress, told
+from ._up import Direction, as_direction
 
 if TYPE_CHECKING:
     from ._images import Image

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from typing import TYPE_CHECKING, Any, Dict, Mapping, Optional, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Any, Dict, Mapping, Optional, Tuple
 
 from . import _arrays, _core
 from ._figures import BakedFile
@@ -11,6 +10,7 @@ from ._losses import tell
 from ._map_facts import MapFacts, mapped_of
 from ._mesh import Mesh, Path, any_mesh, existing, path_of
 from ._progress import Progress, told
+from ._up import Direction, as_direction
 
 if TYPE_CHECKING:
     from ._baked import BakedImage, Bytes
@@ -61,24 +61,6 @@ def _require_field(name: str) -> None:
     near += get_close_matches(first, known, 1, 0.75)
     if near:
         raise ValueError(f"there is no field {name}; there are {', '.join(known)}; is {near[0]!r} meant?")
-
-
-Direction = Union[str, Sequence[float]]
-
-
-def as_direction(direction: Optional[Direction], what: str) -> str:
-    """As the program reads it: an axis, or three numbers; an empty text for None."""
-    if direction is None:
-        return ""
-    if isinstance(direction, str) and direction in ("x", "-x", "y", "-y", "z", "-z"):
-        return direction
-    try:
-        numbers = [float(number) for number in direction if not isinstance(direction, str)]
-    except (TypeError, ValueError):
-        numbers = []
-    if len(numbers) != 3 or not any(numbers) or not all(math.isfinite(number) for number in numbers):
-        raise ValueError(f"{what}: 'x', '-x', 'y', '-y', 'z', '-z', three numbers or None, not {direction!r}")
-    return ",".join(repr(number) for number in numbers)
 
 
 class MapImages(MapFacts):

@@ -7,6 +7,7 @@ from typing import Any, Dict, List, Mapping, Optional, Tuple, Union
 from . import _arrays
 from ._map_facts import MapFacts
 from ._numpy import np
+from ._up import as_direction
 
 _of_the_paper = ("weights", "epsilon", "iterations", "rings", "sweeps")
 
@@ -44,9 +45,19 @@ def _poles(poles: Any) -> Dict[str, Any]:
     if not isinstance(poles, str):
         north, south = poles
         return {"poles": (_vertex_number(north, "poles"), _vertex_number(south, "poles"))}
-    if poles not in ("auto", "none"):
-        raise ValueError(f"poles: 'auto', 'none' or two vertices, not {poles!r}")
-    return {"automatic_poles": poles == "auto"}
+    if poles not in ("auto", "none", "up"):
+        raise ValueError(f"poles: 'auto', 'none', 'up' or two vertices, not {poles!r}")
+    return {"automatic_poles": poles != "none"}
+
+
+def _stance(up: Any, front: Any, poles: Any, pins: Any, align: Any) -> Dict[str, Any]:
+    """How the mesh stands, where that is to be how the map lies."""
+    if up is None and front is None and not (isinstance(poles, str) and poles == "up"):
+        return {}
+    if pins or align is not None:
+        raise ValueError("up, front, poles='up': not with pins or align, which say where the map lies")
+    upright = isinstance(poles, str) and poles != "none"
+    return {"up": as_direction(up, "up"), "front": as_direction(front, "front"), "stands": True, "upright_poles": upright}
 
 
 def _alignment(align: Any) -> Dict[str, Any]:
@@ -75,6 +86,8 @@ def requested(
     energy: str = "angle-and-area",
     poles: Any = "auto",
     meridian: Optional[int] = None,
+    up: Any = None,
+    front: Any = None,
     pins: Any = None,
     centre: Optional[Tuple[float, float, float]] = None,
     align: Any = None,
@@ -90,7 +103,7 @@ def requested(
         energy=_arrays.text(energy, "energy"), filler_share=filler_share, repair_map=repair_map,
         measure_stages=measure_stages, threads=_arrays.threads(threads),
     )  # fmt: skip
-    options.update(_weight(balance, weight), **_poles(poles))
+    options.update(_weight(balance, weight), **_poles(poles), **_stance(up, front, poles, pins, align))
     if meridian is not None:
         options["meridian"] = _vertex_number(meridian, "meridian")
     if pins:

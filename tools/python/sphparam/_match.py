@@ -8,11 +8,11 @@ from . import _arrays, _core
 from ._figures import Distortion
 from ._losses import tell
 from ._map_facts import mapped_of
-from ._map_images import Direction, as_direction
 from ._mesh import Path, path_of
 from ._numpy import np
 from ._progress import Progress, told
 from ._sphere_map import SphereMap
+from ._up import Direction, as_direction
 
 if TYPE_CHECKING:
     from ._map_facts import Array, Floats, Ints
