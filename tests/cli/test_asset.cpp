@@ -38,6 +38,28 @@ TEST_CASE("asset: a stream, a folder with a slash at its end, a report in it") {
   CHECK_THAT(ended.err, Contains("--up y where it lies on its side"));
 }
 
+TEST_CASE("asset: with --up and --front the map stands as the asset does, a wrap's too") {
+  const Folder folder;
+  TriangleMesh egg = icosphere(3);
+  egg.positions.col(1) *= 1.5;
+  const TriangleMesh open{egg.positions, egg.triangles.topRows(egg.face_count() / 2)};
+  for (const TriangleMesh& mesh : {egg, open}) {
+    const Ended ended =
+        sphparam_program({"asset", "-", "-o", folder / "made", "--size", "64", "--up", "y",
+                          "--front", "-x", "--resolution", "24", "--no-page"},
+                         obj_text(mesh));
+    INFO(ended.err);
+    REQUIRE(ended.code == 0);
+    const std::string map = bytes_of(folder / "made/mesh.sph.ply").substr(0, 1200);
+    CHECK_THAT(map, Contains("comment up axis y\n") && Contains("comment front axis -x\n"));
+    CHECK_THAT(map, Contains("comment sphparam upright y, front -x\n"));
+  }
+  const Ended clash = sphparam_program(
+      {"asset", "-", "-o", folder / "none", "--size", "64", "--front", "z"}, obj_text(egg));
+  CHECK(clash.code == 2);
+  CHECK_THAT(clash.err, Contains("--front: the front, z"));
+}
+
 TEST_CASE("asset: what cannot be done is said, and leaves no folder") {
   const Folder folder;
   const std::string mesh = folder / "a.obj", out = folder / "made";

@@ -98,19 +98,21 @@ TEST_CASE("export: a mesh that lies on its side stands up, and the file says wha
 
 TEST_CASE("export: the sphere of a map that stands as the mesh has its front in front") {
   for (const Convention convention : {Convention::Sphparam, Convention::Gis}) {
-    MeshFile file = mapped_egg(2).file();
+    const MeshFile file = mapped_egg(2).file();
+    Provenance lines;
     ExportOptions options = small;
     options.shape = ShapeKind::Sphere;
     options.convention = convention;
     const SphereMap map{icosphere(2).positions};
     const auto front_of = [&] {  // where the vertex nearest to θ = 0 on the equator is
-      const Asset asset = make_asset(MappedMesh({.file = file, .map = map}), options);
+      const Asset asset =
+          make_asset(MappedMesh({.file = file, .map = map, .provenance = lines}), options);
       Eigen::Index v = 0;
       map.points.col(0).maxCoeff(&v);
       return Vector3(asset.levels[0].positions.row(v).cast<double>());
     };
     const Vector3 unasked = front_of();
-    file.comments = {"sphparam upright z, front -y"};
+    lines = {{"upright", "z, front -y"}};
     CHECK(front_of().z() > 0.99);
     CHECK(unasked.z() < 0.9);
   }

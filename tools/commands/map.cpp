@@ -106,9 +106,9 @@ MapOutcome compute(MeshSource source, const MapArguments& arguments, Session& se
   outcome.result = std::move(run.result);
   outcome.account = std::move(run.account);
   outcome.frame = check_frame(outcome.result, options);
-  if (is_to_stand(arguments))
-    outcome.upright =
-        upright_words(outcome.result, mesh, outcome.topology(), upright_axes(outcome.source.file));
+  if (outcome.has_map() && is_to_stand(arguments))
+    outcome.upright = upright_words(outcome.result.map, mesh, outcome.topology(),
+                                    upright_axes(outcome.source.file));
   if (outcome.has_map()) {
     outcome.distortion =
         measure_distortion(surface_of(mesh, options.fillers), outcome.result.map, options.threads);

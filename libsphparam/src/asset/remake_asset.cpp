@@ -16,6 +16,13 @@
 namespace sphparam {
 namespace {
 
+/// What is asked for of up or front is how the map is to lie too.
+WholeOptions whole_options(const RemakeOptions& options) {
+  WholeOptions whole = options.whole;
+  whole.upright |= options.up != Up{};
+  return whole;
+}
+
 class Remaker {
  public:
   Remaker(const MeshSource& asset, const std::string& folder, const RemakeOptions& options,
@@ -24,7 +31,7 @@ class Remaker {
         options_(options),
         files_(files),
         stem_((std::filesystem::path(folder) / name()).string()),
-        remade_{.whole = whole_surface(asset, options.whole), .baked = {}} {}
+        remade_{.whole = whole_surface(asset, whole_options(options)), .baked = {}} {}
 
   /// `warnings`: what is known before.
   RemadeAsset remake(const std::vector<std::string>& warnings) {
@@ -201,6 +208,7 @@ RemadeAsset remake_asset(const MeshSource& asset, const std::string& folder,
   std::vector<std::string> told = drop_unusable_images(usable.file);
   tell_alpha_modes(usable.file, told);
   add_flat_normals(usable.file);
+  upright_axes(usable.file, options.up);  // a front that cannot be is told before any work
   note_up(usable.file, options.up);
   return Remaker(usable, folder, options, files).remake(told);
 }

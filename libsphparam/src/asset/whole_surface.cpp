@@ -9,6 +9,7 @@
 #include "sphparam/errors.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/up_axis.h"
+#include "sphparam/io/upright_frame.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/records/wrap_record.h"
 #include "sphparam/words.h"
@@ -64,12 +65,26 @@ class Chooser {
     LoadOptions load;
     load.map.threads = options_.threads;
     load.map.progress = options_.progress;
+    if (options_.upright && source.topology && !read_sphere(source.file))
+      load.map = with_upright_frame(load.map, source.file.mesh, *source.topology,
+                                    upright_axes(source.file));
     MappedMesh mapped = mapped_mesh(std::move(source), load);
+    if (options_.upright) mapped = told_upright(mapped);
     const SphericalChart chart = spherical_chart(mapped.mesh(), mapped.topology(), mapped.map(),
                                                  options_.threads, options_.progress);
     if (chart.certificate.one_to_one()) return mapped;
     found_.emplace_back("its map is thinner in (u, v) than doubles can tell");
     return std::nullopt;
+  }
+
+  /// Says among the lines on the map that it stands as the mesh does, where it does.
+  static MappedMesh told_upright(const MappedMesh& mapped) {
+    const std::string words =
+        upright_words(mapped.map(), mapped.mesh(), mapped.topology(), upright_axes(mapped.file()));
+    Provenance lines = mapped.provenance();
+    if (words.empty() || map_is_upright(lines, upright_axes(mapped.file()))) return mapped;
+    lines.insert(lines.empty() ? lines.end() : lines.end() - 1, {"upright", words});
+    return mapped.with_map(mapped.map(), std::move(lines));
   }
 
   std::optional<WholeSurface> mended_whole() {

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "io/attributes/shading_normals.h"
-#include "sphparam/io/upright_frame.h"
 #include "sphparam/sphere/orientation.h"
 
 // The sphere that a mesh is morphed into has its area and its middle, and so has the rectangle.
@@ -15,9 +14,8 @@ namespace {
 
 /// What is in front on the sphere: the mesh's front, where the map has it at θ = 0; the chart's
 /// points are turned by quarters.
-Vector3 sphere_front(const ExportChart& chart, const MeshFile& source,
-                     const GeometryOptions& options) {
-  if (!map_is_upright(source, options.up)) return {0, -1, 0};
+Vector3 sphere_front(const ExportChart& chart, const GeometryOptions& options) {
+  if (!options.front_at_zero) return {0, -1, 0};
   const auto quarters = std::lround(-chart.theta_offset / (std::numbers::pi / 2));
   const std::array<Vector3, 4> fronts = {Vector3(1, 0, 0), Vector3(0, 1, 0), Vector3(-1, 0, 0),
                                          Vector3(0, -1, 0)};
@@ -27,7 +25,7 @@ Vector3 sphere_front(const ExportChart& chart, const MeshFile& source,
 Shape shape_of(const ExportChart& chart, const MeshFile& source, const GeometryOptions& options) {
   switch (options.shape) {
     case ShapeKind::Sphere:
-      return sphere_shape(chart.chart, sphere_front(chart, source, options), options.threads);
+      return sphere_shape(chart.chart, sphere_front(chart, options), options.threads);
     case ShapeKind::Flat:
       return flat_shape(chart.chart);
     case ShapeKind::Mesh:
@@ -41,16 +39,15 @@ Shape shape_of(const ExportChart& chart, const MeshFile& source, const GeometryO
 
 /// The sphere, and the rectangle where it is wanted.
 std::vector<NamedShape> map_shapes(const ExportChart& chart, const Shape& base,
-                                   const MeshFile& source, const GeometryOptions& options) {
+                                   const GeometryOptions& options) {
   std::vector<NamedShape> targets;
   if (options.morph == Morph::None) return targets;
   const double area = area_of(base, chart.chart);
   const Vector3 middle = middle_of(base);
   const double radius = std::sqrt(area / (4 * std::numbers::pi)), height = std::sqrt(area / 2);
   targets.push_back(
-      {"sphere",
-       placed(sphere_shape(chart.chart, sphere_front(chart, source, options), options.threads),
-              radius, middle)});
+      {"sphere", placed(sphere_shape(chart.chart, sphere_front(chart, options), options.threads),
+                        radius, middle)});
   if (options.morph == Morph::Flat)
     targets.push_back({"flat", placed(flat_shape(chart.chart), height, middle)});
   return targets;
@@ -58,7 +55,7 @@ std::vector<NamedShape> map_shapes(const ExportChart& chart, const Shape& base,
 
 std::vector<NamedShape> targets_of(const ExportChart& chart, const Shape& base,
                                    const MeshFile& source, const GeometryOptions& options) {
-  std::vector<NamedShape> targets = map_shapes(chart, base, source, options);
+  std::vector<NamedShape> targets = map_shapes(chart, base, options);
   for (const OtherShape& other : options.others) {
     const TriangleMesh mesh{other.positions, source.mesh.triangles};
     targets.push_back(

@@ -17,6 +17,7 @@ struct GeometryOptions {
   Morph morph = Morph::None;            // Flat: first to the sphere, then to the rectangle
   std::vector<OtherShape> others = {};  // then to these
   UprightAxes up = upright_axes({});
+  bool front_at_zero = false;   // the map has the front of the mesh at θ = 0
   SurfaceOptions buffers = {};  // `uv.mirrored` is the chart's
   int threads = 0;
 };

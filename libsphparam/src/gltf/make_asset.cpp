@@ -6,6 +6,7 @@
 #include "gltf/fillers_left_out.h"
 #include "gltf/level.h"
 #include "sphparam/gltf/export.h"
+#include "sphparam/io/upright_frame.h"
 
 namespace sphparam {
 
@@ -18,6 +19,7 @@ GeometryOptions geometry_options(const ExportOptions& options, const MappedMesh&
                            .others = options.others,
                            .up = upright_axes(mapped.file(), options.up),
                            .threads = options.threads};
+  geometry.front_at_zero = map_is_upright(mapped.provenance(), geometry.up);
   // What wraps beyond 1 has no place in normalised integers.
   geometry.buffers = {.uv = {.sixteen_bits = options.quantise && !options.keep_topology},
                       .tangents = look.has_normals(),

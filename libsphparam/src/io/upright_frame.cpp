@@ -19,20 +19,23 @@ ParameterizeOptions with_upright_frame(ParameterizeOptions options, const Triang
   return options;
 }
 
-std::string upright_words(const Parameterization& result, const TriangleMesh& mesh,
-                          const Topology& topology, const UprightAxes& axes) {
-  if (!result.poles || !result.meridian) return "";
+std::string upright_words(const SphereMap& map, const TriangleMesh& mesh, const Topology& topology,
+                          const UprightAxes& axes) {
   const ParameterizeOptions upright = with_upright_frame({}, mesh, topology, axes);
-  const bool stands = result.poles->north == upright.poles->north &&
-                      result.poles->south == upright.poles->south &&
-                      *result.meridian == *upright.meridian;
+  const Vector3 front = map.point(*upright.meridian);
+  const bool stands = map.point(upright.poles->north) == Vector3(0, 0, 1) &&
+                      map.point(upright.poles->south) == Vector3(0, 0, -1) && front.y() == 0 &&
+                      front.x() > 0;
   return stands ? words(axes) : "";
 }
 
-bool map_is_upright(const MeshFile& file, const UprightAxes& axes) {
-  const Provenance lines = read_provenance(file);
+bool map_is_upright(const Provenance& lines, const UprightAxes& axes) {
   return std::ranges::find(lines, std::pair<std::string, std::string>("upright", words(axes))) !=
          lines.end();
+}
+
+bool map_is_upright(const MeshFile& file, const UprightAxes& axes) {
+  return map_is_upright(read_provenance(file), axes);
 }
 
 }  // namespace sphparam

@@ -84,7 +84,7 @@ Mapped map_mesh(MeshSource source, Request request) {
   const FileNumbers numbers(source.file);
   std::string upright;
   if (request.stands)
-    upright = upright_words(result, source.file.mesh, topology, upright_axes(source.file));
+    upright = upright_words(result.map, source.file.mesh, topology, upright_axes(source.file));
   Provenance provenance = provenance_of(result,
                                         {.method = name_of(options.method),
                                          .options = options_line(options),

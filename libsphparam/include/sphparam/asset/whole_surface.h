@@ -23,6 +23,7 @@ struct WholeOptions {
   double least_kept = 0.98;  // of the area, for a repair to be preferred to a wrap
   int resolution = 192;      // of a wrap: voxels along the longest side of the box
   long faces = 50'000;       // of a wrap, about; 0: all
+  bool upright = false;      // `with_upright_frame`, as the asset's file says what is up
   int threads = 0;           // 0: all cores
   Progress progress = {};
 };

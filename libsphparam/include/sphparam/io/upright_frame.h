@@ -14,12 +14,13 @@ namespace sphparam {
 ParameterizeOptions with_upright_frame(ParameterizeOptions options, const TriangleMesh& mesh,
                                        const Topology& topology, const UprightAxes& axes);
 
-/// Where a map has such a frame, poles and meridian: "y, front z", the value of "upright" among the
-/// lines of its provenance; else empty. Cost: as above.
-std::string upright_words(const Parameterization& result, const TriangleMesh& mesh,
-                          const Topology& topology, const UprightAxes& axes);
+/// Where a map has such a frame, exactly: "y, front z", the value of "upright" among the lines of
+/// its provenance; else empty. Requires: unit rays. Cost: as above.
+std::string upright_words(const SphereMap& map, const TriangleMesh& mesh, const Topology& topology,
+                          const UprightAxes& axes);
 
-/// Whether the file's map says that it stands as these axes do.
+/// Whether the lines on a map, which a file has too, say that it stands as these axes do.
+bool map_is_upright(const Provenance& lines, const UprightAxes& axes);
 bool map_is_upright(const MeshFile& file, const UprightAxes& axes);
 
 }  // namespace sphparam
