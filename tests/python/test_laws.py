@@ -160,6 +160,7 @@ def test_a_map_that_stands_is_that_of_the_program_and_says_so(tmp_path):
     assert again.poles == m.poles and again.meridian == m.meridian
     assert m.picture(size=32) == m.picture(size=32, up="y", front="-z")
     assert m.picture(size=32) != m.picture(size=32, up="z")
+    assert m.picture(size=32, view="sphere") == sp.load(theirs).picture(size=32, view="sphere")
     assert "upright" not in sp.map(V, F).provenance
 
 

@@ -10,6 +10,7 @@
 #include "arrays.h"
 #include "binding.h"
 #include "call.h"
+#include "sphparam/io/upright_frame.h"
 #include "sphparam/paint/paint.h"
 #include "sphparam/render/picture.h"
 #include "sphparam/texture/equirectangular_image.h"
@@ -110,7 +111,10 @@ DrawingOptions drawing_options(const py::dict& values) {
 py::bytes draw(const Mapped& mapped, const py::dict& values) {
   const DrawingOptions options = drawing_options(values);
   return call(py::none(), [=, mesh = mapped.mesh()](const Progress&) {
-    return draw_png(mesh.file(), mesh.map(), options);
+    const UprightAxes axes = upright_axes(mesh.file(), options.up);
+    if (!map_is_upright(mesh.provenance(), axes)) return draw_png(mesh.file(), mesh.map(), options);
+    // As from a file, which says so.
+    return draw_png(attach_map(mesh.file(), mesh.map(), mesh.provenance()), mesh.map(), options);
   });
 }
 
