@@ -12,6 +12,7 @@
 #include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/mesh_source.h"
 #include "sphparam/io/up_axis.h"
+#include "sphparam/measure/surface_distance.h"
 #include "sphparam/parameterize.h"
 #include "sphparam/sphere/certificate.h"
 #include "sphparam/texture/convention.h"
@@ -36,6 +37,7 @@ void declare_exports(py::module_& module);
 void declare_figures(py::module_& module);
 void declare_matches(py::module_& module);
 void declare_groups(py::module_& module);
+void declare_wraps(py::module_& module);
 
 /// A mesh on its way to a map. Python holds it alone until it is mapped.
 struct Source {
@@ -95,6 +97,7 @@ class NotOneToOne : public NotCertifiedError {
 
 py::dict as_dict(const Certificate& certificate);
 py::dict as_dict(const DistortionSummary& summary);
+py::dict as_dict(const SurfaceDistance& distance);
 py::list as_list(const std::vector<MeshDefect>& defects);
 py::list as_list(const std::vector<RepairAction>& actions);
 py::list as_list(const std::vector<HandleLoop>& loops);

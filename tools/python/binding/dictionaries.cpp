@@ -7,6 +7,22 @@
 #include "sphparam/names.h"
 
 namespace sphparam::python {
+namespace {
+
+py::dict as_dict(const OneSidedDistance& distance) {
+  py::dict dict;
+  dict["rms"] = distance.rms;
+  dict["mean"] = distance.mean;
+  dict["max"] = distance.max;
+  dict["max_bound"] = distance.max_bound;
+  dict["min"] = distance.min;
+  dict["samples"] = distance.samples;
+  dict["farthest"] =
+      py::make_tuple(distance.farthest.x(), distance.farthest.y(), distance.farthest.z());
+  return dict;
+}
+
+}  // namespace
 
 py::dict as_dict(const Certificate& certificate) {
   py::dict dict;
@@ -20,6 +36,18 @@ py::dict as_dict(const Certificate& certificate) {
   dict["unusable_points"] = owning(std::vector<int>(certificate.unusable_points));
   dict["branch_vertices"] = owning(std::vector<int>(certificate.branch_vertices));
   dict["max_length_error"] = certificate.max_length_error;
+  return dict;
+}
+
+py::dict as_dict(const SurfaceDistance& distance) {
+  py::dict dict;
+  dict["rms"] = distance.rms();
+  dict["mean"] = distance.mean();
+  dict["max"] = distance.max();
+  dict["max_bound"] = distance.max_bound();
+  dict["diagonal"] = distance.diagonal_first;
+  dict["forth"] = as_dict(distance.forth);
+  dict["back"] = as_dict(distance.back);
   return dict;
 }
 

@@ -13,19 +13,6 @@
 namespace sphparam::python {
 namespace {
 
-py::dict as_dict(const OneSidedDistance& distance) {
-  py::dict dict;
-  dict["rms"] = distance.rms;
-  dict["mean"] = distance.mean;
-  dict["max"] = distance.max;
-  dict["max_bound"] = distance.max_bound;
-  dict["min"] = distance.min;
-  dict["samples"] = distance.samples;
-  dict["farthest"] =
-      py::make_tuple(distance.farthest.x(), distance.farthest.y(), distance.farthest.z());
-  return dict;
-}
-
 py::dict measure(const Source& first, const Source& second, std::int64_t samples,
                  std::uint64_t seed, bool extremes, int threads, const py::object& progress) {
   using Mesh = std::shared_ptr<const TriangleMesh>;
@@ -42,15 +29,7 @@ py::dict measure(const Source& first, const Source& second, std::int64_t samples
                              .threads = threads,
                              .progress = report});
   });
-  py::dict dict;
-  dict["rms"] = found.rms();
-  dict["mean"] = found.mean();
-  dict["max"] = found.max();
-  dict["max_bound"] = found.max_bound();
-  dict["diagonal"] = found.diagonal_first;
-  dict["forth"] = as_dict(found.forth);
-  dict["back"] = as_dict(found.back);
-  return dict;
+  return as_dict(found);
 }
 
 py::dict expand(const Mapped& mapped, int degree, const std::vector<std::string>& scalars,

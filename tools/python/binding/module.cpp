@@ -21,5 +21,6 @@ PYBIND11_MODULE(_core, module) {
   declare_figures(module);
   declare_matches(module);
   declare_groups(module);
+  declare_wraps(module);
   py::module_::import("atexit").attr("register")(py::cpp_function(wait_for_left_calls));
 }

@@ -58,6 +58,7 @@ from ._measure import measure
 from ._mesh import Mesh, inspect, read, write
 from ._repair import components, repair
 from ._sphere_map import SphereMap
+from ._wrap import Wrap, wrap
 
 if TYPE_CHECKING:
     from ._baked import BakedImage
@@ -96,6 +97,7 @@ __all__ = [
     "Stage",
     "SubdivisionFit",
     "SurfaceMap",
+    "Wrap",
     "WriteError",
     "components",
     "fields",
@@ -110,6 +112,7 @@ __all__ = [
     "repair",
     "verify",
     "with_sphere",
+    "wrap",
     "write",
 ]
 
