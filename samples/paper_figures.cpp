@@ -29,7 +29,8 @@ struct Album {
 PictureOptions look_at(const Trial& trial, const Album& album) {
   const bool model = std::any_of(paper_models().begin(), paper_models().end(),
                                  [&](const PaperModel& m) { return m.name == trial.name; });
-  PictureOptions look = seen_with_up(model ? Vector3::UnitY() : Vector3::UnitZ());
+  const Up up = {.direction = model ? Vector3::UnitY() : Vector3::UnitZ()};
+  PictureOptions look = seen_upright(upright_axes({}, up));
   look.size = album.size;
   return look;
 }
