@@ -121,7 +121,7 @@ TEST_CASE("completion: bash completes subcommands, options and words") {
   CHECK(completed("sphparam ver") == "verify\n");
   CHECK(completed("sphparam map --pol") == "--poles\n");
   CHECK(completed("sphparam map a.obj --method cur") == "curvilinear\n");
-  CHECK(completed("sphparam map a.obj --poles ") == "auto none\n");
+  CHECK(completed("sphparam map a.obj --poles ") == "auto none up\n");
   CHECK(completed("sphparam render m --view ") == "mesh sphere both\n");
   CHECK(completed("sphparam batch st") == "status\n");
   CHECK(completed("sphparam batch run --rehash --any") == "--any-program\n");
