@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "number_text.h"
 #include "program.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/upright_frame.h"
@@ -362,6 +363,15 @@ TEST_CASE("map: a number as --balance is the lambda, and a mistyped word is answ
   CHECK(bytes_of(folder / "map.sph.ply") == balanced);
   const Ended ended = sphparam_program({"map", "-", "-o", "-", "--balance", "conformel"}, limb);
   CHECK_THAT(ended.err, Contains("did you mean conformal?"));
+}
+
+TEST_CASE("map: the lambda that a balance found is in the report and in the file's header") {
+  const Folder folder;
+  const Json report = report_of(folder, {"--balance", "equal-area"}, obj_text(tube(12, 8)));
+  CHECK(report["balance"]["lambda"] > 1);
+  CHECK(report["balance"]["mean_abs_log2_area"] <= 0.1);
+  CHECK_THAT(bytes_of(folder / "map.sph.ply"),
+             Contains("comment sphparam lambda " + shortest(report["balance"]["lambda"]) + "\n"));
 }
 
 TEST_CASE("map: a mesh inside out is told unasked") {

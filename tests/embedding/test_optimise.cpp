@@ -3,10 +3,13 @@
 #include <limits>
 
 #include "embedding/constructions/progressive.h"
+#include "embedding/energy/map_image.h"
+#include "embedding/energy/solid_angle_aim.h"
 #include "embedding/newton/global_newton.h"
 #include "embedding/newton/optimise.h"
 #include "sphparam/sphere/certificate.h"
 #include "sphparam/sphere/distortion.h"
+#include "support/hard_shapes.h"
 #include "support/reference_newton.h"
 #include "support/test_meshes.h"
 
@@ -121,6 +124,33 @@ TEST_CASE("optimise_balance: towards conformal the angles win, towards equal are
   CHECK(equal.weighted_abs_log2_area <= 0.1);
   CHECK(areas.area_error == Approx(equal.weighted_abs_log2_area).epsilon(1e-6));
   CHECK(certify(topology, areas.map).bijective());
+}
+
+TEST_CASE("optimise_balance: equal areas are solid angles, also of triangles that are large") {
+  const TriangleMesh mesh = brush(1, 3, 20, 30);
+  const Topology topology(mesh);
+  const BalancedMap even =
+      optimise_balance(topology, measure_source(mesh), embedded(mesh, Quality::Normal),
+                       {.balance = Balance::EqualArea});
+  CHECK(even.area_error <= 0.1);
+  CHECK(certify(topology, even.map).bijective());
+}
+
+TEST_CASE("aimed_at_solid_angles: an icosahedron that is its own map aims at its determinants") {
+  const TriangleMesh mesh = icosahedron();
+  const Topology topology(mesh);
+  const RestTriangles source = measure_source(mesh);
+  const std::vector<ImagePoint> image = image_of({mesh.positions.rowwise().normalized()});
+  CHECK(area_error(topology, source, image, 1) == Approx(0).margin(1e-12));
+  CHECK(determinant_error(topology, source, image, 1) > 0.5);
+  const RestTriangles aimed = aimed_at_solid_angles(topology, source, image, 1);
+  for (Face f = 0; f < topology.face_count(); ++f) {
+    const auto corner = [&](int k) {
+      return image[static_cast<size_t>(topology.vertex(f, k))].vector();
+    };
+    const double det = corner(0).dot(corner(1).cross(corner(2)));
+    CHECK(aimed[static_cast<size_t>(f)].area == Approx(det / 2));
+  }
 }
 
 TEST_CASE("optimise_balance: reaches a given lambda and is optimal there") {

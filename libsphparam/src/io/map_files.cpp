@@ -90,6 +90,7 @@ Provenance provenance_of(const Parameterization& result, const MapOrigin& origin
   }
   if (!origin.upright.empty()) lines.emplace_back("upright", origin.upright);
   for (auto& line : planetocentric_lines(result)) lines.push_back(std::move(line));
+  if (result.balance) lines.emplace_back("lambda", shortest(result.balance->lambda));
   if (result.alignment) lines.emplace_back("alignment", shortest(*result.alignment));
   if (result.filler_share) {
     lines.emplace_back("fillers", percent(*result.filler_share) + " of the sphere");

@@ -1,6 +1,7 @@
 #include "pipeline/balanced_embedding.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <sstream>
 #include <string>
@@ -100,6 +101,9 @@ void warn_of_balance(MapInProgress& work) {
                                                    work.result.map, work.options.threads);
   const DistortionSummary summary = summarise(distortion, work.options.threads);
   balance->area_error = summary.weighted_abs_log2_area;
+  if (!std::isfinite(balance->area_error)) {
+    return work.warn(name + ": a mesh without area has no ratios of areas");
+  }
   const bool even = balance->area_error <= BalanceOptions{}.area_error;
   if (wanted == Balance::EqualArea ? even : balance->moved) return;
   work.warn(name +

@@ -14,6 +14,7 @@
 #include "embedding/constructions/narrow_rings.h"
 #include "embedding/constructions/pressed_levels.h"
 #include "embedding/energy/energy_domain.h"
+#include "embedding/energy/map_image.h"
 #include "embedding/frame/pin_domain.h"
 #include "embedding/newton/freed_memory.h"
 #include "embedding/newton/newton_refinement.h"
@@ -59,23 +60,6 @@ constexpr double far_from_energy = 0.1, down = 0.3;
 size_t at(int i) { return static_cast<size_t>(i); }
 
 using Image = std::vector<ImagePoint>;
-
-SphereMap map_of(const Image& image) {
-  SphereMap map;
-  map.points.resize(static_cast<Eigen::Index>(image.size()), 3);
-  for (size_t v = 0; v < image.size(); ++v) {
-    map.points.row(static_cast<Eigen::Index>(v)) = image[v].vector();
-  }
-  return map;
-}
-
-Image image_of(const SphereMap& map) {
-  Image image(static_cast<size_t>(map.points.rows()));
-  for (size_t v = 0; v < image.size(); ++v) {
-    image[v] = image_point(map.point(static_cast<Vertex>(v)));
-  }
-  return image;
-}
 
 RefinementOptions refinement_options(const ProgressiveOptions& options) {
   return {.quality = options.quality,

@@ -65,10 +65,12 @@ struct BalancedMap {
 };
 
 /// Minimises E for a λ far from 1, by continuation: from λ to λ in factors of ten or four, each
-/// time from the map before. Straight from λ = 1 the steps would be many and short.
+/// time from the map before. Straight from λ = 1 the steps would be many and short. Equal areas are
+/// solid angles: where triangles are large, E's areas are corrected (see solid_angle_aim.h), and
+/// energies are of these. Where they are missed the climb is made again, in factors of two.
 /// Requires: EnergyKind::AngleAndArea. Ensures: as `optimise`, but for E itself.
 /// Throws: std::invalid_argument naming an option outside of its domain; Cancelled.
-/// Cost: 3 to 5 steps a factor. Source: our own.
+/// Cost: 3 to 5 steps a factor, of a second climb up to 60. Source: our own.
 BalancedMap optimise_balance(const Topology& topology, const RestTriangles& source,
                              const SphereMap& map, const BalanceOptions& options);
 
