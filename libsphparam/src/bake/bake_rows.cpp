@@ -91,8 +91,8 @@ class Batch {
 
 /// Calls visit(batch, its first texel in the band, its size) for all texels of a band.
 template <class Visit>
-void for_each_batch(const Work& work, int band, double x, double y, int sample, Visit&& visit) {
-  const TexelPoints points = work.finder.points(band, x, y);
+void for_each_batch(const Work& work, int band, const TexelPoints& points, int sample,
+                    Visit&& visit) {
   const std::int64_t start =
       static_cast<std::int64_t>(work.finder.owners().first_row(band)) * work.options.width;
   const std::span<const SurfaceRun> runs = points.runs;
@@ -115,10 +115,10 @@ void for_each_batch(const Work& work, int band, double x, double y, int sample, 
 }
 
 /// Adds weight · value of every texel at one point of it; for a single sample writes it.
-void add_samples(const Work& work, int band, double x, double y, int sample, float weight,
+void add_samples(const Work& work, int band, const TexelPoints& points, int sample, float weight,
                  bool labels, BandValues& values) {
   std::vector<float> buffer;
-  for_each_batch(work, band, x, y, sample, [&](Batch& batch, size_t texel, size_t count) {
+  for_each_batch(work, band, points, sample, [&](Batch& batch, size_t texel, size_t count) {
     for (size_t f = 0; f < work.fields.size(); ++f) {
       const SurfaceField& field = work.fields[f];
       if (has_means(field.kind) == labels) continue;
@@ -137,8 +137,8 @@ void add_samples(const Work& work, int band, double x, double y, int sample, flo
 }
 
 /// Replaces the texels that hold many triangles by their means.
-void average_crowded(const Work& work, int band, BandValues& values) {
-  const CrowdedTexels crowded(work.scene, work.finder, band);
+void average_crowded(const Work& work, int band, const TexelPoints& centres, BandValues& values) {
+  const CrowdedTexels crowded(work.scene, work.finder, band, centres);
   if (crowded.texels.empty()) return;
   const std::int64_t start =
       static_cast<std::int64_t>(work.finder.owners().first_row(band)) * work.options.width;
@@ -180,15 +180,17 @@ BandValues bake_band(const Work& work, int band) {
     values.emplace_back(texels * static_cast<size_t>(field.channels), 0.0F);
   }
   const int n = work.options.samples;
+  const TexelPoints centres = work.finder.points(band, 0.5, 0.5);
   if (!std::ranges::all_of(work.fields, is_label)) {
     for (int s = 0; s < n * n; ++s) {
-      add_samples(work, band, (s % n + 0.5) / n, (s / n + 0.5) / n, s,
+      const double x = (s % n + 0.5) / n, y = (s / n + 0.5) / n;
+      add_samples(work, band, n == 1 ? centres : work.finder.points(band, x, y), s,
                   1.0F / static_cast<float>(n * n), false, values);
     }
-    average_crowded(work, band, values);
+    average_crowded(work, band, centres, values);
   }
   if (std::ranges::any_of(work.fields, is_label)) {
-    add_samples(work, band, 0.5, 0.5, 0, 1, true, values);
+    add_samples(work, band, centres, 0, 1, true, values);
   }
   for (size_t f = 0; f < work.fields.size(); ++f) {
     if (work.fields[f].kind == FieldKind::Direction) make_unit(values[f], work.fields[f].channels);

@@ -191,11 +191,11 @@ double extent(const SurfaceRun& run) {
   return std::max(run.step.cwiseAbs().maxCoeff(), run.below.cwiseAbs().maxCoeff());
 }
 
-/// Grids of points in texels that span more than a triangle, or have neighbours that do.
-std::vector<Deposit> grids(const BakeScene& scene, const TexelFinder& finder, int band) {
+/// How many points a side the grid of each texel has: more than 1 in texels that span more than a
+/// triangle, or have neighbours that do.
+std::vector<char> fineness_of(const TexelFinder& finder, int band, const TexelPoints& centres) {
   const int width = finder.owners().width(), rows = finder.owners().rows(band);
-  const TexelPoints centres = finder.points(band, 0.5, 0.5);
-  std::vector<char> fineness(centres.runs.size(), 1);  // points along a side of the texel's grid
+  std::vector<char> fineness(centres.runs.size(), 1);
   const auto texel = [&](int row, int column) {
     return static_cast<size_t>(row) * static_cast<size_t>(width) +
            static_cast<size_t>((column + width) % width);
@@ -212,7 +212,15 @@ std::vector<Deposit> grids(const BakeScene& scene, const TexelFinder& finder, in
       }
     }
   }
-  std::vector<Deposit> deposits;
+  return fineness;
+}
+
+/// Calls visit(the points of a texel) for each texel that gets a grid.
+template <class Visit>
+void for_each_grid(const BakeScene& scene, const TexelFinder& finder, int band,
+                   const TexelPoints& centres, Visit&& visit) {
+  const std::vector<char> fineness = fineness_of(finder, band, centres);
+  std::vector<Deposit> grid;
   size_t i = 0;
   for (const TexelRun& run : centres.places) {
     for (int k = 0; k < run.count; ++k, ++i) {
@@ -221,37 +229,49 @@ std::vector<Deposit> grids(const BakeScene& scene, const TexelFinder& finder, in
       TexelRun place = run;
       place.count = 1;
       for (size_t c = 0; c < 2; ++c) place.weights[c] += k * run.step[c];
+      grid.clear();
+      Face near = centres.runs[i].face;
       for (int s = 0; s < n * n; ++s) {
         const SurfaceRun point =
-            finder.beside(place, (s % n + 0.5) / n - 0.5, (s / n + 0.5) / n - 0.5, n);
-        deposits.push_back({i, place, point, area_of_step(scene.source.mesh(), point)});
+            finder.beside(place, (s % n + 0.5) / n - 0.5, (s / n + 0.5) / n - 0.5, n, near);
+        near = point.face;
+        grid.push_back({i, place, point, area_of_step(scene.source.mesh(), point)});
       }
+      visit(grid);
     }
   }
-  return deposits;
+}
+
+/// Calls visit(the points of a texel). Requires: in the order of the texels.
+template <class Visit>
+void for_each_crowd(const std::vector<Deposit>& deposits, Visit&& visit) {
+  for (auto first = deposits.begin(); first != deposits.end();) {
+    const auto last = std::find_if(first, deposits.end(),
+                                   [&](const Deposit& one) { return one.texel != first->texel; });
+    visit(std::span(first, last));
+    first = last;
+  }
 }
 
 }  // namespace
 
-CrowdedTexels::CrowdedTexels(const BakeScene& scene, const TexelFinder& finder, int band) {
-  const std::vector<Deposit> deposits =
-      finder.by_location() ? grids(scene, finder, band) : Collector(scene, finder, band).collect();
-  for (size_t i = 0; i < deposits.size();) {
-    size_t end = i;
+CrowdedTexels::CrowdedTexels(const BakeScene& scene, const TexelFinder& finder, int band,
+                             const TexelPoints& centres) {
+  const auto add = [&](std::span<const Deposit> deposits) {
     double total = 0;
-    while (end < deposits.size() && deposits[end].texel == deposits[i].texel) {
-      total += deposits[end++].weight;
+    for (const Deposit& one : deposits) total += one.weight;
+    if (!(total > 0)) return;  // nothing there has an area, and the centre's value stays
+    texels.push_back({deposits.front().texel, weights.size(), weights.size() + deposits.size()});
+    for (const Deposit& one : deposits) {
+      weights.push_back(static_cast<float>(one.weight / total));
+      points.places.push_back(one.place);
+      points.runs.push_back(one.run);
     }
-    if (total > 0) {  // else nothing there has an area, and the centre's value stays
-      texels.push_back({deposits[i].texel, weights.size(), weights.size() + end - i});
-      for (; i < end; ++i) {
-        weights.push_back(static_cast<float>(deposits[i].weight / total));
-        points.places.push_back(deposits[i].place);
-        points.runs.push_back(deposits[i].run);
-      }
-    }
-    i = end;
-  }
+  };
+  if (finder.by_location())
+    for_each_grid(scene, finder, band, centres, add);
+  else
+    for_each_crowd(Collector(scene, finder, band).collect(), add);
 }
 
 }  // namespace sphparam

@@ -19,9 +19,10 @@ inline constexpr std::int64_t crowded_seeds = 1 << 10;
 /// out of it in (u, v): no triangle is missed. Where points are found by direction, texels that
 /// cover more than a triangle, and their neighbours in the band, get a grid of up to 8 × 8 points.
 struct CrowdedTexels {
-  /// Cost: one clipped polygon for each triangle and crowded texel that meet; or, by direction, the
-  /// points of the band once more.
-  CrowdedTexels(const BakeScene& scene, const TexelFinder& finder, int band);
+  /// `centres`: `finder.points(band, 0.5, 0.5)`. Cost: one clipped polygon for each triangle and
+  /// crowded texel that meet; or, by direction, a location for each point of the grids.
+  CrowdedTexels(const BakeScene& scene, const TexelFinder& finder, int band,
+                const TexelPoints& centres);
 
   struct Texel {
     size_t index;        // in the band

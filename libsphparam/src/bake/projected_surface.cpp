@@ -55,11 +55,15 @@ struct Met {
   bool faces_away;
 };
 
-/// What the line first meets on one side; the ray found the face, the weights are of doubles.
-std::optional<Met> first_on(const ProjectedSurface& surface, const Line& line, double side) {
+constexpr double everywhere = std::numeric_limits<double>::infinity();
+
+/// What the line first meets on one side, up to this distance; the ray found the face, the weights
+/// are of doubles.
+std::optional<Met> first_on(const ProjectedSurface& surface, const Line& line, double side,
+                            double reach) {
   const Vector3 way = side * line.direction;
-  const RayHit hit = surface.rays().first_hit(line.point - surface.rays().clearance() * way, way,
-                                              std::numeric_limits<double>::infinity());
+  const RayHit hit =
+      surface.rays().first_hit(line.point - surface.rays().clearance() * way, way, reach);
   if (hit.face < 0) return std::nullopt;
   const Triangle triangle(surface.file().mesh, hit.face);
   const Vector3 raw = volumes(triangle, line.point, line.direction);
@@ -81,9 +85,19 @@ bool is_here(const ProjectedSurface& surface, const Line& line, const Met& met, 
   return beyond <= 0 || !surface.rays().is_within(beyond / passing_by, line.point, guess);
 }
 
+/// How far what is met outwards may be from the point to be better than this inwards. A ray from a
+/// clearance behind the point; both distances are rounded.
+double worth_looking(const ProjectedSurface& surface, const std::optional<Met>& inwards) {
+  if (!inwards || inwards->faces_away) return everywhere;
+  return inwards->distance + 4 * surface.rays().clearance();
+}
+
+/// Inwards first: a target mostly lies about what is projected on it, and what is met there bounds
+/// the way outwards.
 std::optional<Met> met_along(const ProjectedSurface& surface, const Line& line, Face guess) {
   if (line.direction.isZero(0)) return std::nullopt;
-  auto one = first_on(surface, line, 1), other = first_on(surface, line, -1);
+  auto other = first_on(surface, line, -1, everywhere);
+  auto one = first_on(surface, line, 1, worth_looking(surface, other));
   if (!one || (other && is_better(*other, *one))) std::swap(one, other);
   for (const auto& met : {one, other})
     if (met && is_here(surface, line, *met, guess)) return met;

@@ -145,10 +145,10 @@ void TexelFinder::locate(const TexelRun& place, std::vector<SurfaceRun>& runs) c
   for (int i = 0; i < place.count; ++i) runs.push_back(located(first + i * east, east, south));
 }
 
-SurfaceRun TexelFinder::beside(const TexelRun& place, double x, double y, int n) const {
+SurfaceRun TexelFinder::beside(const TexelRun& place, double x, double y, int n, Face near) const {
   if (!source_)
     return projected(place, three(place.weights) + x * change(place.step) + y * change(place.below),
-                     n);
+                     n, near);
   const SphericalChart& chart = scene_->target.chart;
   const Eigen::Matrix3d corners = rays(chart.triangles, chart.points, place.face);
   const Vector3 east = corners * change(place.step), south = corners * change(place.below);

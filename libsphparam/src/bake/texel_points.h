@@ -41,9 +41,10 @@ class TexelFinder {
   SurfaceRun run_in_source(const TexelRun& place) const;
 
   /// The point of the source that lies (x, y) texels east and south of one that has its own run of
-  /// the chart, beyond its face too, and what an n-th of a texel covers there.
-  /// Requires: the source is not the target, or `Sphere`.
-  SurfaceRun beside(const TexelRun& place, double x, double y, int n) const;
+  /// the chart, beyond its face too, and what an n-th of a texel covers there. `near`: a face of
+  /// the source that may be near, which changes nothing. Requires: the source is not the target, or
+  /// `Sphere`.
+  SurfaceRun beside(const TexelRun& place, double x, double y, int n, Face near) const;
 
   /// Whether each texel is located by itself, by direction or by projection; else the chart's
   /// triangles lead to its point.

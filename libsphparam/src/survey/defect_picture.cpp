@@ -76,7 +76,11 @@ std::set<Edge> places_of(const MeshSource& source) {
       }
     }
   }
-  const std::vector<FaceSide> sides = sorted_sides(mesh.triangles, [](Face) { return true; });
+  const auto names_vertices = [&](Face f) {
+    const auto corners = mesh.triangles.row(f);
+    return corners.minCoeff() >= 0 && corners.maxCoeff() < mesh.vertex_count();
+  };
+  const std::vector<FaceSide> sides = sorted_sides(mesh.triangles, names_vertices);
   for_each_edge(sides, [&](std::size_t i, std::size_t j) {
     if (j - i == 2 && sides[i].forward != sides[i + 1].forward) return;
     add(sides[i].low, sides[i].high);
