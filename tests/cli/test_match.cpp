@@ -6,6 +6,7 @@
 
 #include "program.h"
 #include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/vertex_data.h"
 #include "support/test_meshes.h"
 
 /// `sphparam match`.
@@ -173,6 +174,49 @@ TEST_CASE("match: without landmarks the ends are paired, told, and listed") {
   const Ended ball = creatures.match_without_landmarks();
   CHECK(ball.code == 5);
   CHECK_THAT(ball.err, Contains("landmarks are needed") && Contains("--landmarks"));
+}
+
+TEST_CASE("match: features come to lie on each other, from files and from properties") {
+  const Creatures creatures;
+  const std::string one = creatures.folder / "one.shape.gii", two = creatures.folder / "lh.two";
+  const auto write_heights = [](const std::string& path, const TriangleMesh& mesh) {
+    VertexData data;
+    data.columns.push_back({.name = "height", .values = {}});
+    for (Vertex v = 0; v < mesh.vertex_count(); ++v)
+      data.columns[0].values.push_back(mesh.position(v).norm());
+    write_vertex_data(path, data);
+  };
+  write_heights(one, creature(3, 1));
+  write_heights(two, creature(4, 1.4));
+  const std::string sphere = creatures.folder / "first.sphere.reg.surf.gii";
+  const auto match = [&](const std::string& features, const std::string& second) {
+    return sphparam_program(
+        {"match", creatures.first, second, "--features", features, "-o", sphere, "--json", "-"});
+  };
+  const Ended ended = match(one + "," + two, creatures.second);
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  const Json report = Json::parse(ended.out);
+  CHECK(report["made_by"] == "features");
+  CHECK(report["features"]["columns"] == 1);
+  CHECK(report["features"]["weight"] == 2);
+  CHECK(report["features"]["correlation"] > 0.9);
+  CHECK_THAT(ended.err, Contains("correlation of features"));
+  CHECK(sphparam_program({"verify", creatures.first, sphere}).code == 0);
+
+  const std::string carried = creatures.folder / "second.ply";
+  REQUIRE(sphparam_program({"repair", creatures.second, "--data", two, "-o", carried}).code == 0);
+  const Ended by_property = match(one + ",two", carried);
+  INFO(by_property.err);
+  CHECK(by_property.code == 0);
+  CHECK(Json::parse(by_property.out)["features"] == report["features"]);
+
+  const Ended odd = match(one, creatures.second);
+  CHECK(odd.code == 2);
+  CHECK_THAT(odd.err, Contains("--features") && Contains("pairs"));
+  const Ended swapped = match(two + "," + one, creatures.second);
+  CHECK(swapped.code == 3);
+  CHECK_THAT(swapped.err, Contains("lh.two"));
 }
 
 TEST_CASE("match: what makes no sense is refused, and nothing is written") {

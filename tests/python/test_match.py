@@ -97,3 +97,19 @@ def test_arrays_are_no_maps(maps):
         sp.match(maps[0], maps[1].vertices)
     with pytest.raises(ValueError, match="energy"):
         sp.match(*maps, landmarks(maps), energy="least")
+
+
+def test_features_come_to_lie_on_each_other(maps):
+    heights = maps[1].vertices[:, 2]
+    s = sp.match(*maps, features=("height", heights))
+    assert s.made_by == "features" and s.source.certificate.one_to_one
+    assert np.corrcoef(s.carry(heights), maps[0].values["height"])[0, 1] > 0.95
+    assert s.agreement > 0.95 and 0 <= s.confidence <= 1
+    both = sp.match(*maps, landmarks(maps), features=("height", heights), feature_weight=1)
+    assert not both.residuals.any()
+    with pytest.raises(ValueError, match=r"features\[1\]"):
+        sp.match(*maps, features=("height", heights[:5]))
+    with pytest.raises(ValueError, match="same everywhere"):
+        sp.match(*maps, features=("height", np.ones(len(heights))))
+    with pytest.raises(ValueError, match="weight"):
+        sp.match(*maps, features=("height", heights), feature_weight=0)

@@ -31,6 +31,10 @@ void require_page_name(const std::string& path) {
 }  // namespace
 
 void require_sensible(const MatchArguments& arguments) {
+  if (arguments.features.size() % 2 != 0) {
+    throw UsageMistake("--features: pairs are needed, of A and of B, and there are " +
+                       std::to_string(arguments.features.size()) + " names");
+  }
   require_one_stream({arguments.first, arguments.second, arguments.landmarks},
                      "the two meshes and --landmarks");
   require_map_name(arguments.output);
@@ -59,6 +63,13 @@ void declare_options(Declaration& command, MatchArguments& arguments) {
       .text("--landmarks", arguments.landmarks, "FILE",
             "Vertices that go to vertices, a pair a line: of A, of B (default: ends of A and B are "
             "paired)")
+      .list(
+          "--features", arguments.features, "OF_A,OF_B,…",
+          "Numbers a vertex that are to agree, such as sulcal depth: files (.shape.gii, .func.gii, "
+          "lh.sulc, .mgh …) or properties of the meshes (default: none)")
+      .number("--feature-weight", arguments.feature_weight, "W", {1e-9, 1e9, "1e-9 to 1e9"},
+              "Of their mean square difference, in spreads, against the energy, of which isometry "
+              "has 2 (default: 2)")
       .flag("--mirror", arguments.mirror, "Match the mirror image of A, which is what is written")
       .choice("--energy", arguments.options.energy.kind,
               {{"symmetric-dirichlet", EnergyKind::SymmetricDirichlet},

@@ -14,6 +14,8 @@ namespace sphparam::cli {
 struct MatchArguments : CommonArguments {
   std::string first, second;
   std::string first_sphere, second_sphere;
+  Words features;  // files or properties: of A, of B, of A …
+  double feature_weight = 2;
   std::string landmarks, output, shape, values, back, morph, page;
   Placement placement = Placement::Scaled;  // of B in the morph
   Up up;                                    // of A there and on the page

@@ -4,13 +4,16 @@
 
 #include <optional>
 
+#include "arguments/limits.h"
 #include "arguments/match_arguments.h"
 #include "commands/command.h"
 #include "commands/match_outputs.h"
 #include "commands/sources.h"
 #include "console/console.h"
+#include "sphparam/correspondence/feature_file.h"
 #include "sphparam/correspondence/landmark_file.h"
 #include "sphparam/correspondence/matched_files.h"
+#include "sphparam/io/safe_file.h"
 #include "sphparam/records/match_record.h"
 
 namespace sphparam::cli {
@@ -25,7 +28,7 @@ constexpr char summary[] =
     "  sphparam match horse.obj cow.obj --landmarks pairs.txt -o h.ply --write-values "
     "horse_as_cow.ply\n"
     "  sphparam match horse.obj cow.obj -o horse_to_cow.ply --morph horse_to_cow.glb\n"
-    "  sphparam match lh.surf.gii lh_template.sph.ply --landmarks pairs.txt -o "
+    "  sphparam match lh.surf.gii template.surf.gii --features lh.sulc.shape.gii,sulc.shape.gii -o "
     "lh.sphere.reg.surf.gii\n"
     "\n"
     "B's map onto the sphere stays; the points of A on it move until the map from A over the "
@@ -34,15 +37,25 @@ constexpr char summary[] =
     "Landmarks are pairs of vertices, a line each: that of A and that of B. They are met exactly.\n"
     "Without them the ends of what sticks out of A and B are paired as distorts least and looks\n"
     "most alike, and a start is made from there; the confidence in it is told.\n"
+    "With --features, as for cortices, numbers at the vertices of A come to lie on those of B.\n"
     "The exit status is 5 where no map has them.\n";
 
 /// The landmarks' file names vertices by their numbers in the meshes' files.
 void read_landmarks_of(MatchArguments& arguments, const MappedMesh& first,
                        const MappedMesh& second) {
-  arguments.options.search = arguments.landmarks.empty();
-  if (arguments.options.search) return;
+  arguments.options.search = arguments.landmarks.empty() && arguments.features.empty();
+  if (arguments.landmarks.empty()) return;
   arguments.options.landmarks =
       read_landmarks(arguments.landmarks, FileNumbers(first.file()), FileNumbers(second.file()));
+}
+
+void read_features_of(MatchArguments& arguments, const MappedMesh& first,
+                      const MappedMesh& second) {
+  if (arguments.features.empty()) return;
+  keep_from_outputs(arguments.features);
+  arguments.options.features =
+      read_features(arguments.features, first.file(), second.file(), input_limits());
+  arguments.options.features->weight = arguments.feature_weight;
 }
 
 /// Which of the two a refusal is about, which tells what is wrong with a mesh.
@@ -85,6 +98,7 @@ int run_match(MatchArguments& arguments) {
   if (arguments.mirror) first = mirror_image(first, session.threads());
   const MappedMesh second = read_side("B", arguments.second, arguments.second_sphere, session);
   read_landmarks_of(arguments, first, second);
+  read_features_of(arguments, first, second);
   tell_absent_values(arguments, second, session);
   const Match found = match(arguments, first, second, session);
   session.warn(found.warnings);

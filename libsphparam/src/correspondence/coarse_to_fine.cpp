@@ -4,12 +4,14 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "correspondence/composition_newton.h"
 #include "correspondence/ring_insertion.h"
 #include "correspondence/surface_area.h"
 #include "embedding/constructions/progressive.h"
+#include "embedding/frame/nearest_rotation.h"
 #include "embedding/sweeps/kernel_placement.h"
 #include "sphparam/parallel.h"
 
@@ -26,10 +28,12 @@ namespace {
 
 constexpr int start_vertices = 200;  // of the level that all begins on, at least
 constexpr int start_vertices_a_landmark = 20;
+constexpr int turned_start_vertices = 300;  // of the level that starts at a map that is there
 constexpr int last_growth = 4;              // of the level that all starts climb to
 constexpr int start_steps = 30, steps = 8;  // of Newton, at most, there and on finer levels
 constexpr double least_gain = 1e-3;         // of a step, of the energy beyond isometry
 constexpr double growth = 1.8;              // of levels with Newton steps
+constexpr double feature_distance = 3;  // that features are averaged over, in spacings of vertices
 constexpr int removed_sweeps = 4, level_sweeps = 2;
 /// Levels of so many vertices are near what coarser ones have found.
 constexpr int fine_level = 10'000, fine_sweeps = 1, fine_steps = 1;
@@ -43,6 +47,23 @@ RestTriangles rest_of(const TriangleMesh& level, int threads) {
   const double part = surface_area(level) / (4 * std::numbers::pi);
   for (RestTriangle& triangle : rest) triangle = scaled(triangle, part);
   return rest;
+}
+
+/// Of vertices with these names among those that the features know, as averages over distances
+/// that such vertices can tell.
+FeatureTerm feature_term(const FeatureScales* features, const std::vector<Vertex>& names,
+                         const TriangleMesh& mesh, const RestTriangles& rest) {
+  if (features == nullptr) return {};
+  const double spacing = std::sqrt(4 * std::numbers::pi / static_cast<double>(names.size()));
+  const FeatureField& field = features->at(feature_distance * spacing);
+  FeatureTerm term{.here = Functions(std::ssize(names), field.from.cols()),
+                   .weight = VectorX::Zero(std::ssize(names)),
+                   .there = &field.to};
+  for (Vertex v = 0; v < std::ssize(names); ++v) term.here.row(v) = field.from.row(names[at(v)]);
+  for (Face f = 0; f < mesh.face_count(); ++f)
+    for (int k = 0; k < 3; ++k)
+      term.weight[mesh.triangles(f, k)] += features->weight() * rest[at(f)].area / 3;
+  return term;
 }
 
 double total_area(const RestTriangles& rest) {
@@ -88,6 +109,12 @@ std::vector<Place> places_of(const SphereMap& map, const TargetSurface& target) 
   std::vector<Place> places;
   for (Vertex v = 0; v < map.points.rows(); ++v) places.push_back(target.place(map.point(v)));
   return places;
+}
+
+std::vector<Vertex> all_names(int vertices) {
+  std::vector<Vertex> names(at(vertices));
+  std::iota(names.begin(), names.end(), 0);
+  return names;
 }
 
 std::vector<char> held_among(int vertices, const std::vector<Pin>& landmarks) {
@@ -177,6 +204,30 @@ SphereMap CoarseToFine::finish() {
   return map_of(places_);
 }
 
+double CoarseToFine::start_at(const SphereMap& map) {
+  level_ = level_of(turned_start_vertices);
+  std::optional<SphereMap> own = embedded(level_, {});
+  if (!own) level_ = 0;
+  const std::vector<Vertex> names = names_on_finest(level_);
+  Points wanted(std::ssize(names), 3);
+  for (Vertex v = 0; v < wanted.rows(); ++v) wanted.row(v) = map.points.row(names[at(v)]);
+  places_ = places_of(
+      own ? turned(*own, nearest_rotation(own->points, wanted, VectorX::Ones(wanted.rows()))) : map,
+      target_);
+  settle(level_, start_steps);
+  return energy_;
+}
+
+/// The names that a level's vertices have on the finest.
+std::vector<Vertex> CoarseToFine::names_on_finest(size_t level) const {
+  std::vector<Vertex> names(at(hierarchy_[level].vertex_count()));
+  for (Vertex v = 0; v < std::ssize(names); ++v) {
+    names[at(v)] = v;
+    for (size_t l = level; l > 0; --l) names[at(v)] = hierarchy_[l].finer[at(names[at(v)])];
+  }
+  return names;
+}
+
 /// A map of the level that has the landmarks; false: they could not be reached.
 bool CoarseToFine::start_on(size_t level) {
   std::vector<Pin> pins = options_.landmarks;
@@ -184,19 +235,25 @@ bool CoarseToFine::start_on(size_t level) {
     pins[i].vertex = names_[level][i];
     if (pins[i].vertex < 0) return false;
   }
+  const std::optional<SphereMap> map = embedded(level, pins);
+  if (!map) return false;
+  residuals_ = pin_residuals(*map, pins);
+  if (!pins.empty() && !all_exact(residuals_)) return false;
+  places_ = places_of(*map, target_);
+  return true;
+}
+
+/// A map of a level by itself, with these pins as far as they can be reached.
+std::optional<SphereMap> CoarseToFine::embedded(size_t level, const std::vector<Pin>& pins) const {
   const TriangleMesh mesh = triangle_mesh(hierarchy_[level]);
   const Topology topology(mesh, options_.threads);
-  if (face_folded_by(topology, pins)) return false;
-  const ProgressiveEmbedding embedding = embed_progressively(mesh, topology,
-                                                             {.quality = Quality::Draft,
-                                                              .pins = pins,
-                                                              .threads = options_.threads,
-                                                              .progress = options_.progress});
-  if (!embedding.map) return false;
-  residuals_ = pin_residuals(*embedding.map, pins);
-  if (!pins.empty() && !all_exact(residuals_)) return false;
-  places_ = places_of(*embedding.map, target_);
-  return true;
+  if (face_folded_by(topology, pins)) return std::nullopt;
+  return embed_progressively(mesh, topology,
+                             {.quality = Quality::Draft,
+                              .pins = pins,
+                              .threads = options_.threads,
+                              .progress = options_.progress})
+      .map;
 }
 
 std::vector<char> CoarseToFine::held_on(size_t level) const {
@@ -211,7 +268,8 @@ void CoarseToFine::settle(size_t level, int most_steps) {
   const TriangleMesh mesh = triangle_mesh(hierarchy_[level]);
   const Topology topology(mesh, options_.threads);
   const RestTriangles rest = rest_of(mesh, options_.threads);
-  MovingSurface surface(topology, rest, target_, held_on(level), std::move(places_));
+  MovingSurface surface(topology, rest, target_, held_on(level), std::move(places_),
+                        feature_term(options_.features, names_on_finest(level), mesh, rest));
   energy_ = lower(surface, most_steps, options_);
   newton_level_ = hierarchy_[level].vertex_count();
   places_ = surface.places();
@@ -241,7 +299,8 @@ bool CoarseToFine::climb_to(size_t l) {
   const TriangleMesh mesh = triangle_mesh(level);
   const Topology topology(mesh, options_.threads);
   const RestTriangles rest = rest_of(mesh, options_.threads);
-  MovingSurface surface(topology, rest, target_, held_on(l), std::move(places));
+  MovingSurface surface(topology, rest, target_, held_on(l), std::move(places),
+                        feature_term(options_.features, names_on_finest(l), mesh, rest));
   parallel_for(std::ssize(level.removed), insertion_grain, options_.threads,
                [&](std::int64_t first, std::int64_t last) {
                  for (auto i = first; i < last; ++i)
@@ -263,14 +322,15 @@ bool CoarseToFine::climb_to(size_t l) {
 
 SphereMap improve_composition(const TriangleMesh& source, const Topology& topology,
                               const TargetSurface& target, const SphereMap& map,
-                              const ComposedOptions& options) {
+                              const ComposedOptions& options, int most_steps) {
   const RestTriangles rest = measure_source(source, options.threads);
   MovingSurface surface(
       topology, rest, target,
       held_among(topology.vertex_count(), options.release ? std::vector<Pin>{} : options.landmarks),
-      places_of(map, target));
+      places_of(map, target),
+      feature_term(options.features, all_names(topology.vertex_count()), source, rest));
   if (!std::isfinite(surface.energy(options.energy, surface.places(), options.threads))) return map;
-  lower(surface, start_steps, options);
+  lower(surface, most_steps, options);
   return map_of(surface.places());
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "correspondence/composed_energy.h"
+#include "correspondence/feature_scales.h"
 #include "correspondence/moving_surface.h"
 #include "correspondence/target_surface.h"
 #include "embedding/frame/landmarks.h"
@@ -17,6 +18,7 @@ struct ComposedOptions {
   ComposedEnergy energy = {};
   std::vector<Pin> landmarks = {};  // vertices of the source and the directions that they get
   bool release = false;             // landmarks hold the coarse level alone
+  const FeatureScales* features = nullptr;  // that are to agree; null: none
   int threads = 0;
   Progress progress = {};
 };
@@ -35,6 +37,11 @@ class CoarseToFine {
   /// Makes the map of a coarse level, the best that so many starts lead to, and returns its energy,
   /// of a unit of area; nothing where there is none. Cost: 0.2 s a start.
   std::optional<double> start(int most_starts);
+  /// The same from where this one-to-one map of the source has the vertices, as near as a map of
+  /// the coarse level comes. Requires: no landmarks.
+  double start_at(const SphereMap& map);
+  /// Of the vertices of the level at hand, which is the same after every `start_at`.
+  const std::vector<Place>& places() const { return places_; }
   /// Of the landmarks, after `start`: radians from their directions where it had to give up.
   const std::vector<double>& residuals() const { return residuals_; }
   /// The map of the source. Requires: `start` found a level. Cost: linear but for factorisations.
@@ -50,6 +57,8 @@ class CoarseToFine {
   size_t level_of(int vertices) const;
   std::optional<double> try_from(size_t level, size_t last);
   bool start_on(size_t level);
+  std::optional<SphereMap> embedded(size_t level, const std::vector<Pin>& pins) const;
+  std::vector<Vertex> names_on_finest(size_t level) const;
   bool climb_to(size_t level);
   bool insert(size_t level, std::vector<Place>& places) const;
   void settle(size_t level, int most_steps);
@@ -71,7 +80,7 @@ class CoarseToFine {
 /// they pay. A map that the energy has no finite value at comes back as it was.
 SphereMap improve_composition(const TriangleMesh& source, const Topology& topology,
                               const TargetSurface& target, const SphereMap& map,
-                              const ComposedOptions& options);
+                              const ComposedOptions& options, int most_steps = 30);
 
 /// Of source → sphere → target, of a unit of area.
 double energy_of_composition(const TriangleMesh& source, const Topology& topology,

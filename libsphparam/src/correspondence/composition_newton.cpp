@@ -75,7 +75,10 @@ void CompositionNewton::gather(Vertex v, const std::vector<FaceTerms>& terms) {
   double* values = hessian_.valuePtr();
   const std::array<int, 2> first{outer[2 * i], outer[2 * i + 1]};
   std::fill(values + first[0], values + outer[2 * i + 2], 0.0);
-  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
+  auto [gradient, own] = surface_.feature_terms(v);
+  values[first[0]] = own(0, 0);
+  values[first[0] + 1] = own(1, 0);
+  values[first[1]] = own(1, 1);
   topology.for_each_outgoing(v, [&](Halfedge h) {
     const FaceTerms& t = terms[at(h / 3)];
     const int k = h % 3;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "correspondence/coarse_to_fine.h"
+#include "correspondence/feature_match.h"
 #include "correspondence/landmark_search.h"
 #include "correspondence/landmark_sides.h"
 #include "correspondence/own_map.h"
@@ -16,7 +17,7 @@
 
 // Two starts. The map that `from` has, turned so that the landmarks fit, where they fit all but
 // exactly; else from coarse to fine, landmarks first. Where landmarks are searched for, both are
-// made, and the one of less energy goes on.
+// made, and the one of less energy goes on. Features have a way of their own.
 
 namespace sphparam {
 namespace {
@@ -29,6 +30,8 @@ constexpr double telling_confidence = 0.15;  // less is worth a word
 void require_landmarks(const MatchOptions& options, const MappedMesh& from, const MappedMesh& to) {
   if (options.search && !options.landmarks.empty())
     throw std::invalid_argument("landmarks: given, and to be searched for");
+  if (options.search && options.features)
+    throw std::invalid_argument("search: landmarks are searched for without features only");
   std::set<Vertex> firsts, seconds;
   for (const LandmarkPair& pair : options.landmarks) {
     require_vertex("landmarks: from", pair.from, from.mesh().vertex_count());
@@ -36,6 +39,22 @@ void require_landmarks(const MatchOptions& options, const MappedMesh& from, cons
     if (!firsts.insert(pair.from).second || !seconds.insert(pair.to).second)
       throw std::invalid_argument("landmarks: a vertex is in two pairs");
   }
+}
+
+void require_features(const MatchFeatures& features, const MappedMesh& from, const MappedMesh& to) {
+  require_more_than("features: weight", features.weight, 0);
+  const auto columns = features.from.cols();
+  if (columns == 0 || features.to.cols() != columns)
+    throw std::invalid_argument("features: as many columns are needed of both, at least one");
+  if (features.from.rows() != from.mesh().vertex_count() ||
+      features.to.rows() != to.mesh().vertex_count())
+    throw std::invalid_argument("features: a row a vertex is needed");
+  for (const auto& [side, name] :
+       {std::pair(&features.from, from.name()), {&features.to, to.name()}})
+    for (Eigen::Index c = 0; c < columns; ++c)
+      if (!varies(side->col(c)))
+        throw std::invalid_argument("features: column " + std::to_string(c + 1) + " of " + name +
+                                    " is the same everywhere");
 }
 
 std::vector<Pin> pins_of(const std::vector<LandmarkPair>& landmarks, const MappedMesh& to) {
@@ -82,6 +101,7 @@ class Matcher {
         composed_(composed_options(options, to)) {}
 
   Match run() {
+    if (options_.features) return finished(by_features());
     const std::optional<SphereMap> own = fitting_map(from_, composed_.landmarks);
     if (options_.search) search_landmarks();
     SphereMap map = options_.search ? less_of(*own, coarse_to_fine())
@@ -95,11 +115,10 @@ class Matcher {
   SphereMap coarse_to_fine() {
     CoarseToFine way(from_.mesh(), from_.topology(), target_, composed_);
     const std::optional<double> energy = way.start(all_starts);
-    warn(suspicion_of_sides(from_, target_, composed_, energy));
+    warn(sphparam::suspicion_of_sides(from_, target_, composed_, energy));
     SphereMap map = energy ? way.finish() : SphereMap{};
     if (map.points.rows() > 0) return map;
-    throw UnreachableLandmarks("no map of " + from_.name() +
-                               " with these landmarks was found: " + words_of(way.residuals()));
+    throw unreachable(way.residuals());
   }
 
   /// What is minimised differs from the plain energy by its ε and its barrier: an isometry is to
@@ -114,6 +133,32 @@ class Matcher {
   SphereMap less_of(const SphereMap& own, SphereMap found) {
     const DistortionEnergy& density = composed_.energy.energy;
     return energy_of(found, density) < energy_of(own, density) ? std::move(found) : improved(own);
+  }
+
+  /// Throws: UnreachableLandmarks; MirroredLandmarks.
+  SphereMap by_features() {
+    made_by_ = "features";
+    if (!composed_.landmarks.empty()) warn(suspicion_of_sides());
+    FeatureMatch found = match_by_features(from_, to_, target_, composed_, *options_.features);
+    if (!found.map) throw unreachable(found.residuals);
+    agreement_ = found.agreement;
+    confidence_ = found.confidence;
+    if (confidence_ < telling_confidence) {
+      warn("the features agree about as well after another turn (confidence " +
+           short_number(confidence_) + "): look at the result, or give landmarks");
+    }
+    return std::move(*found.map);
+  }
+
+  std::optional<std::string> suspicion_of_sides() const {
+    return sphparam::suspicion_of_sides(
+        from_, target_, composed_,
+        CoarseToFine(from_.mesh(), from_.topology(), target_, composed_).start(1));
+  }
+
+  UnreachableLandmarks unreachable(const std::vector<double>& residuals) const {
+    return UnreachableLandmarks("no map of " + from_.name() +
+                                " with these landmarks was found: " + words_of(residuals));
   }
 
   void search_landmarks() {
@@ -141,13 +186,8 @@ class Matcher {
     SurfaceMap both(std::move(moved), to_);
     warn(collapse_of(both, options_.threads));
     warn(collapse_of(both.inverse(), options_.threads));
-    return {std::move(both),
-            energy,
-            made_by_,
-            std::move(residuals),
-            std::move(suggestions_),
-            confidence_,
-            std::move(warnings_)};
+    return {std::move(both),         energy,      made_by_,   std::move(residuals),
+            std::move(suggestions_), confidence_, agreement_, std::move(warnings_)};
   }
 
   double energy_of(const SphereMap& map, const DistortionEnergy& density) const {
@@ -166,6 +206,7 @@ class Matcher {
   std::string made_by_ = "coarse to fine";
   std::vector<SuggestedLandmarks> suggestions_;
   double confidence_ = 1;  // in the first of them
+  double agreement_ = 0;   // of features
   std::vector<std::string> warnings_;
 };
 
@@ -175,6 +216,7 @@ Match match_surfaces(const MappedMesh& from, const MappedMesh& to, const MatchOp
   require_landmarks(options, from, to);
   require_area(from);
   require_area(to);
+  if (options.features) require_features(*options.features, from, to);
   return Matcher(from, to, options).run();
 }
 

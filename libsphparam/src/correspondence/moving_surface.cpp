@@ -48,12 +48,13 @@ Eigen::Vector2d descent(const Eigen::Matrix2d& h, const Eigen::Vector2d& g) {
 
 MovingSurface::MovingSurface(const Topology& topology, const RestTriangles& rest,
                              const TargetSurface& target, std::vector<char> held,
-                             std::vector<Place> places)
+                             std::vector<Place> places, FeatureTerm features)
     : topology_(topology),
       rest_(rest),
       target_(target),
       held_(std::move(held)),
-      places_(std::move(places)) {}
+      places_(std::move(places)),
+      features_(std::move(features)) {}
 
 Places3 MovingSurface::corners(Face face, const std::vector<Place>& places) const {
   const auto corner = [&](int k) {
@@ -76,17 +77,57 @@ double MovingSurface::energy_of(Face face, const ComposedEnergy& energy,
 
 double MovingSurface::energy(const ComposedEnergy& energy, const std::vector<Place>& places,
                              int threads) const {
-  return parallel_sum(topology_.face_count(), threads, [&](std::int64_t first, std::int64_t last) {
-    double sum = 0;
-    for (auto f = static_cast<Face>(first); f < static_cast<Face>(last); ++f) {
-      sum += certain(f, places) ? energy_of(f, energy, places) : infinity;
-    }
-    return sum;
-  });
+  const double distortion =
+      parallel_sum(topology_.face_count(), threads, [&](std::int64_t first, std::int64_t last) {
+        double sum = 0;
+        for (auto f = static_cast<Face>(first); f < static_cast<Face>(last); ++f) {
+          sum += certain(f, places) ? energy_of(f, energy, places) : infinity;
+        }
+        return sum;
+      });
+  if (!features_.is_there()) return distortion;
+  return distortion +
+         parallel_sum(
+             topology_.vertex_count(), threads, [&](std::int64_t first, std::int64_t last) {
+               double sum = 0;
+               for (auto v = static_cast<Vertex>(first); v < static_cast<Vertex>(last); ++v)
+                 sum += feature_energy(v, places[static_cast<size_t>(v)]);
+               return sum;
+             });
+}
+
+double MovingSurface::feature_energy(Vertex v, const Place& at) const {
+  if (!features_.is_there()) return 0;
+  const Functions& there = *features_.there;
+  double sum = 0;
+  for (Eigen::Index c = 0; c < there.cols(); ++c) {
+    double value = 0;
+    for (int k = 0; k < 3; ++k) value += at.at.barycentric[k] * there(target_.corner(at, k), c);
+    const double difference = features_.here(v, c) - value;
+    sum += difference * difference;
+  }
+  return features_.weight[v] / static_cast<double>(there.cols()) * sum;
+}
+
+MovingSurface::FeatureTerms MovingSurface::feature_terms(Vertex v) const {
+  FeatureTerms terms{Eigen::Vector2d::Zero(), Eigen::Matrix2d::Zero()};
+  if (!features_.is_there()) return terms;
+  const Functions& there = *features_.there;
+  const Vector3& weights = place(v).at.barycentric;
+  const Eigen::Matrix<double, 3, 2> changes = target_.changes_of_weights(place(v));
+  for (Eigen::Index c = 0; c < there.cols(); ++c) {
+    Vector3 corners;
+    for (int k = 0; k < 3; ++k) corners[k] = there(target_.corner(place(v), k), c);
+    const Eigen::Vector2d slope = changes.transpose() * corners;
+    terms.gradient -= (features_.here(v, c) - weights.dot(corners)) * slope;
+    terms.hessian += slope * slope.transpose();
+  }
+  const double factor = 2 * features_.weight[v] / static_cast<double>(there.cols());
+  return {factor * terms.gradient, factor * terms.hessian};
 }
 
 double MovingSurface::ring_energy(Vertex v, const Place& at, const ComposedEnergy& energy) const {
-  double sum = 0;
+  double sum = feature_energy(v, at);
   topology_.for_each_outgoing(v, [&](Halfedge h) {
     if (sum == infinity) return;
     const Place &p = place(topology_.origin(topology_.next(h))), &q = place(topology_.apex(h));
@@ -104,8 +145,7 @@ bool MovingSurface::step(Vertex v, const ComposedEnergy& energy) {
   const Place& from = place(v);
   const double before = ring_energy(v, from, energy);
   if (!std::isfinite(before)) return false;
-  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d hessian = Eigen::Matrix2d::Zero();
+  auto [gradient, hessian] = feature_terms(v);
   topology_.for_each_outgoing(v, [&](Halfedge h) {
     const ComposedTerms of_face = terms(h / 3, energy);
     gradient += of_face.gradient.segment<2>(2 * (h % 3));

@@ -51,10 +51,13 @@ Points scaled_to_sphere(const TriangleMesh& mesh) {
 }
 
 TargetSurface::TargetSurface(const MappedMesh& mapped)
+    : TargetSurface(mapped, mapped.mesh().positions) {}
+
+TargetSurface::TargetSurface(const MappedMesh& mapped, const Points& positions)
     : topology_(mapped.topology()),
       map_(mapped.map()),
       locator_(mapped.locator()),
-      positions_(scaled_to_sphere(mapped.mesh())),
+      positions_(scaled_to_sphere({positions, mapped.mesh().triangles})),
       normals_(vertex_normals({positions_, mapped.mesh().triangles})) {}
 
 TargetSurface::Corners TargetSurface::corners(Face face) const {
@@ -117,6 +120,19 @@ void TargetSurface::measure(Place& place) const {
   frame.v = tangents.v;
   change(frame.u, frame.of_u, frame.turn_u);
   change(frame.v, frame.of_v, frame.turn_v);
+}
+
+Eigen::Matrix<double, 3, 2> TargetSurface::changes_of_weights(const Place& place) const {
+  Eigen::Matrix<double, 3, 2> changes = Eigen::Matrix<double, 3, 2>::Zero();
+  const Corners x = corners(place.at.face);
+  if (is_flat(x[0], x[1], x[2])) return changes;
+  const Vector3 normal = (x[1] - x[0]).cross(x[2] - x[0]);
+  for (int k = 0; k < 3; ++k) {
+    const auto i = static_cast<size_t>(k);
+    const Vector3 slope = normal.cross(x[(i + 2) % 3] - x[(i + 1) % 3]) / normal.squaredNorm();
+    changes.row(k) << place.frame.u.dot(slope), place.frame.v.dot(slope);
+  }
+  return changes;
 }
 
 Place TargetSurface::walk(const Place& from, const Vector3& way) const {

@@ -27,6 +27,8 @@ class TargetSurface {
  public:
   /// Borrows the mesh and the topology; the locator of the mesh is made.
   explicit TargetSurface(const MappedMesh& mapped);
+  /// The same where the mesh has other positions.
+  TargetSurface(const MappedMesh& mapped, const Points& positions);
 
   /// Where the map has this direction; the place keeps its bits.
   Place place(const Vector3& direction) const;
@@ -34,6 +36,12 @@ class TargetSurface {
   /// is as long: over edges it goes on as if both faces lay in one plane. It ends early at what has
   /// no area. Cost: a face each 30 ns.
   Place walk(const Place& from, const Vector3& way) const;
+
+  /// A corner of the face that a place is in.
+  Vertex corner(const Place& place, int k) const { return topology_.vertex(place.at.face, k); }
+  /// How fast the weights of these corners change along the two ways of the place's frame: what is
+  /// linear in faces changes with them.
+  Eigen::Matrix<double, 3, 2> changes_of_weights(const Place& place) const;
 
  private:
   using Corners = std::array<Vector3, 3>;

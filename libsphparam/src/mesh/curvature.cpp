@@ -1,8 +1,5 @@
 #include "sphparam/mesh/curvature.h"
 
-#include <Eigen/IterativeLinearSolvers>
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +7,7 @@
 #include <vector>
 
 #include "elementary.h"
+#include "mesh/surface_average.h"
 #include "mesh/triangle_geometry.h"
 #include "mesh/unit_size.h"
 #include "option_domain.h"
@@ -19,10 +17,7 @@
 // One pass for the normals and areas of faces, one over the rings of vertices:
 //   M_v = ¼ Σ_{e∋v} β_e |e|     β the angle by which the surface bends at the edge, > 0 convex
 //   G_v = 2π − Σ angles at v
-// Densities h of a measure m averaged over a scale s:  (A + ½s² L) h = m, A the areas of vertices,
-// L the Laplacian with weights 2 A_e/|e|², A_e a third of the two triangles: cotangents where
-// triangles are equilateral, positive always. Columns of L sum to 0, so Σ A h = Σ m; the matrix is
-// an M-matrix, so h stays between the extremes of m/A.
+// Their densities are averaged over a scale (mesh/surface_average).
 
 namespace sphparam {
 namespace {
@@ -30,12 +25,6 @@ namespace {
 constexpr std::int64_t grain = 4096;
 constexpr double area_floor = 1e-9;  // of the mean area of a vertex
 constexpr double least_area = std::numeric_limits<double>::min();
-constexpr int least_exponent = -1000;
-constexpr double glue_share = 1e6;   // ½s²·weight of an edge without length, in mean areas
-constexpr double tolerance = 1e-10;  // of the residual of the average
-constexpr int max_iterations = 20'000;
-
-using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 struct Faces {
   Points normals;  // unit; zero where there is none
@@ -168,41 +157,6 @@ double total_area(const TriangleMesh& mesh, int threads) {
   });
 }
 
-/// A + ½s² L.
-SparseMatrix averaging_matrix(const TriangleMesh& mesh, const Topology& topology,
-                              const Faces& faces, const VectorX& area, double scale) {
-  const Eigen::Index count = area.size();
-  const double time = scale * scale / 2, glue = glue_share * area.mean();
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(static_cast<size_t>(count + topology.halfedge_count()));
-  for (Vertex v = 0; v < count; ++v) {
-    double diagonal = area[v];
-    topology.for_each_outgoing(v, [&](Halfedge h) {
-      const double shared =
-          (faces.area[Topology::face(h)] + faces.area[Topology::face(topology.twin(h))]) / 3;
-      const double squared = edge_vector(mesh, topology, h).squaredNorm();
-      const double weight = time * 2 * shared;
-      const double w = weight < glue * squared ? weight / squared : glue;
-      entries.emplace_back(v, topology.target(h), -w);
-      diagonal += w;
-    });
-    entries.emplace_back(v, v, diagonal);
-  }
-  SparseMatrix matrix(count, count);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
-}
-
-/// For sizes that differ too much for iterations. Throws: SolveError.
-Eigen::VectorXd solved_directly(const SparseMatrix& matrix, const Eigen::VectorXd& measure) {
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(matrix);
-  Eigen::VectorXd density = factor.solve(measure);
-  if (factor.info() != Eigen::Success || !density.allFinite()) {
-    throw SolveError("the average of the curvature over its scale was not found");
-  }
-  return density;
-}
-
 /// Of the mesh 2^exponent times as large; what is too large for a double is the largest.
 void enlarge(Curvature& curvature, int exponent) {
   const auto times = [](int power) {
@@ -230,20 +184,8 @@ Curvature measure_harmless(const TriangleMesh& mesh, const Topology& topology, d
                       scale};
   if (!(scale > 0) || !(mean_area > 0)) return curvature;
 
-  // 2. The system that averages them over the scale; by a power of two: the areas at about 1.
-  const double unit = std::ldexp(1.0, -std::max(std::ilogb(mean_area), least_exponent));
-  const SparseMatrix matrix = unit * averaging_matrix(mesh, topology, faces, area, scale);
-  Eigen::ConjugateGradient<SparseMatrix, Eigen::Lower | Eigen::Upper> solver;
-  solver.setTolerance(tolerance);
-  solver.setMaxIterations(max_iterations);
-  solver.compute(matrix);
-  // 3. Its solutions, from the densities as they are.
-  const auto average = [&](const VectorX& measure) -> VectorX {
-    const VectorX raw = measure.cwiseQuotient(area) / unit;
-    const VectorX density = solver.solveWithGuess(measure, raw);
-    if (solver.info() == Eigen::Success && density.allFinite()) return unit * density;
-    return unit * solved_directly(matrix, measure);
-  };
+  // 2. Averages over the scale.
+  const SurfaceAverage average(mesh, topology, faces.area, area, scale);
   curvature.mean = average(measures.mean);
   curvature.gauss = average(measures.gauss);
   return curvature;

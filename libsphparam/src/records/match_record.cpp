@@ -48,6 +48,16 @@ Json search_json(const MatchRecord& record) {
   return {{"confidence", record.match.confidence}, {"suggestions", suggestions}};
 }
 
+/// What was to agree besides.
+Json features_json(const MatchRecord& record) {
+  const std::optional<MatchFeatures>& features = record.options.features;
+  if (!features) return nullptr;
+  return {{"columns", features->from.cols()},
+          {"weight", features->weight},
+          {"correlation", record.match.agreement},
+          {"confidence", record.match.confidence}};
+}
+
 Json carried_json(const std::optional<CarriedFidelity>& carried) {
   if (!carried) return nullptr;
   return {
@@ -74,6 +84,7 @@ std::string to_json(const MatchRecord& record) {
                {"energy", match.energy},
                {"landmarks", landmarks_json(record)},
                {"search", search_json(record)},
+               {"features", features_json(record)},
                {"distortion", distortion_json(record.distortion)},
                {"carried", carried_json(record.carried)}};
   json["warnings"] = match.warnings;
@@ -91,6 +102,8 @@ std::string to_text(const MatchRecord& record) {
   const size_t landmarks = record.options.landmarks.size();
   if (landmarks > 0)
     line += ", " + counted(static_cast<long>(landmarks), "landmark", "landmarks") + " exact";
+  if (record.options.features)
+    line += ", correlation of features " + short_number(record.match.agreement);
   line += words_of_search(record.match);
   return line + ", " + short_number(record.seconds) + " s";
 }

@@ -2,6 +2,8 @@
 
 #include <pybind11/stl.h>
 
+#include <algorithm>
+
 #include "arrays.h"
 #include "binding.h"
 #include "call.h"
@@ -47,11 +49,24 @@ MatchOptions options_of(const py::dict& values) {
   return options;
 }
 
+std::optional<MatchFeatures> features_of(const std::optional<py::tuple>& features) {
+  if (!features) return std::nullopt;
+  const auto table = [](const py::object& rows) {
+    const auto values = py::cast<py::array_t<double, py::array::c_style>>(rows);
+    Functions result(values.shape(0), values.shape(1));
+    std::copy(values.data(), values.data() + values.size(), result.data());
+    return result;
+  };
+  return MatchFeatures{table((*features)[0]), table((*features)[1]), (*features)[2].cast<double>()};
+}
+
 /// The first map as it was moved, the least energy, what it came from, radians of the landmarks,
-/// confidence in those that were found, warnings.
-py::tuple match(const Mapped& from, const Mapped& to, const Pairs& pairs, bool mirror,
-                const py::dict& values, const py::object& progress) {
-  const MatchOptions wanted = options_of(values);
+/// confidence, correlation of features, warnings. `features`: of both, and their weight.
+py::tuple match(const Mapped& from, const Mapped& to, const Pairs& pairs,
+                const std::optional<py::tuple>& features, bool mirror, const py::dict& values,
+                const py::object& progress) {
+  MatchOptions wanted = options_of(values);
+  wanted.features = features_of(features);
   Match found = call(progress, [=, from = from, to = to](const Progress& report) {
     MatchOptions options = wanted;
     options.progress = report;
@@ -60,7 +75,8 @@ py::tuple match(const Mapped& from, const Mapped& to, const Pairs& pairs, bool m
     return match_surfaces(first, to.mesh(), options);
   });
   return py::make_tuple(Mapped(found.map.from()), found.energy, found.made_by,
-                        owning(std::move(found.residuals)), found.confidence, found.warnings);
+                        owning(std::move(found.residuals)), found.confidence, found.agreement,
+                        found.warnings);
 }
 
 py::dict matched_distortion(const Mapped& from, const Mapped& to, int threads) {

@@ -24,7 +24,7 @@ class SurfaceMap:
     :func:`match` makes it.
     """
 
-    __slots__ = ("source", "target", "energy", "made_by", "residuals", "confidence")
+    __slots__ = ("source", "target", "energy", "made_by", "residuals", "confidence", "agreement")
 
     source: SphereMap
     """The first surface, with its points moved; ``save`` keeps it."""
@@ -34,11 +34,14 @@ class SurfaceMap:
     """Of the map between the surfaces, a unit of area, as it was minimised; of symmetric Dirichlet isometry has
     2."""
     made_by: str
-    """Where the least energy came from: ``"coarse to fine"`` or ``"own map"``."""
+    """Where the least energy came from: ``"coarse to fine"``, ``"own map"`` or ``"features"``."""
     residuals: Floats
     """Radians of the landmarks from their partners; 0 is exactly there."""
     confidence: float
-    """In landmarks that were searched for: 0 where others fit as well, up to 1; 1 of those that were given."""
+    """In landmarks that were searched for, or the turn that features begin with: 0 where others fit as well, up
+    to 1; 1 of landmarks that were given."""
+    agreement: float
+    """Correlation of the features by the map, the mean over columns; 0 without features."""
 
     def __init__(
         self,
@@ -48,9 +51,11 @@ class SurfaceMap:
         made_by: str,
         residuals: Floats,
         confidence: float = 1.0,
+        agreement: float = 0.0,
     ) -> None:
         self.source, self.target, self.energy = source, target, energy
         self.made_by, self.residuals, self.confidence = made_by, residuals, confidence
+        self.agreement = agreement
 
     def forth(self, *, threads: int = 0) -> Tuple[Ints, Floats]:
         """For every vertex of the source its point on the target: (V,) faces, (V, 3) barycentric weights."""
@@ -127,11 +132,24 @@ def _pairs(landmarks: Any) -> List[Tuple[int, int]]:
     return [(int(a), int(b)) for a, b in rows.tolist()]
 
 
+def _feature(values: Any, of: SphereMap, name: str) -> Floats:
+    """Rows of numbers, one a vertex, from an array or the name of values."""
+    rows = _arrays.numbers(of._named(values) if isinstance(values, str) else values, name).astype(float)
+    if rows.ndim == 1:
+        rows = rows[:, None]
+    if rows.ndim != 2 or len(rows) != len(of.vertices):
+        shape = "×".join(str(n) for n in rows.shape) or "a single number"
+        raise ValueError(f"{name}: {len(of.vertices)} rows are needed, one a vertex, not {shape}")
+    return rows
+
+
 def match(
     source: SphereMap,
     target: SphereMap,
     landmarks: Union[Sequence[Tuple[int, int]], Any] = None,
     *,
+    features: Optional[Tuple[Any, Any]] = None,
+    feature_weight: float = 2.0,
     mirror: bool = False,
     energy: str = "symmetric-dirichlet",
     weight: float = 1.0,
@@ -148,6 +166,12 @@ def match(
         (k, 2) vertices of the source and those of the target that they go to, exactly; none twice. ``None``:
         the ends of what sticks out of both are paired, and a start is made from there; ``()``: from the map
         that the source has.
+    features
+        Numbers a vertex that are to agree, such as sulcal depth: of the source and of the target, each an array,
+        (V,) or (V, k), or the name of values; NaN says nothing. Without landmarks the source's map is turned so
+        that they agree, to begin with.
+    feature_weight
+        Of their mean square difference, in spreads, against the energy, of which isometry has 2.
     mirror
         Match the mirror image of the source, which is ``SurfaceMap.source`` then.
     energy
@@ -167,10 +191,14 @@ def match(
     """
     first, second = mapped_of(source, "source"), mapped_of(target, "target")
     options = {"energy": _arrays.text(energy, "energy"), "lambda": float(weight), "threads": _arrays.threads(threads)}
-    options["search"] = landmarks is None
+    options["search"] = landmarks is None and features is None
     pairs = [] if landmarks is None else _pairs(landmarks)
+    agreeing = None
+    if features is not None:
+        one, other = features
+        agreeing = (_feature(one, source, "features[0]"), _feature(other, target, "features[1]"), float(feature_weight))
     with told(progress) as report:
-        found = _core.match(first, second, pairs, bool(mirror), options, report)
-    moved, least, made_by, residuals, confidence, warnings = found
+        found = _core.match(first, second, pairs, agreeing, bool(mirror), options, report)
+    moved, least, made_by, residuals, confidence, agreement, warnings = found
     tell(warnings)
-    return SurfaceMap(SphereMap._of(moved), target, least, made_by, residuals, confidence)
+    return SurfaceMap(SphereMap._of(moved), target, least, made_by, residuals, confidence, agreement)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "sphparam/correspondence/surface_map.h"
 #include "sphparam/embedding/distortion_energy.h"
 #include "sphparam/progress.h"
+#include "sphparam/sphere/spherical_harmonics.h"
 
 namespace sphparam {
 
@@ -15,9 +17,19 @@ struct LandmarkPair {
   Vertex from, to;
 };
 
+/// Values at the vertices of two surfaces that are to agree where they come to lie: sulcal depth,
+/// curvature. A column a feature, in whatever unit; what is not finite says nothing.
+struct MatchFeatures {
+  Functions from, to;  // #V×k each
+  double weight = 2;   // > 0: of their mean square difference, in spreads, against the energy
+};
+
 struct MatchOptions {
   std::vector<LandmarkPair> landmarks = {};  // held exactly; no vertex twice on either side
   bool search = false;  // for landmarks, to start from; none are held. Requires: none are given.
+  /// What is to agree besides. Without landmarks the first map is turned so that it does, to begin
+  /// with. Requires: no search.
+  std::optional<MatchFeatures> features = {};
   /// Of the composition, flat triangle to flat triangle. Symmetric Dirichlet, or the default energy
   /// of maps with its λ; ε and pressure are not used.
   DistortionEnergy energy = {.kind = EnergyKind::SymmetricDirichlet};
@@ -37,11 +49,13 @@ struct Match {
   SurfaceMap map;  // `from` with its map moved, `to` as it was
   double energy;   // of the composition as it was minimised, bounded where triangles collapse (see
                    // docs/mathematics.md), a unit of area; of symmetric Dirichlet isometry has 2
-  std::string made_by;            // "coarse to fine", "own map": where the least energy came from
+  std::string made_by;  // "coarse to fine", "own map", "features": where the least energy came from
   std::vector<double> residuals;  // radians of the landmarks from their partners; 0: exactly there
   std::vector<SuggestedLandmarks> suggestions;  // what was found, the best first
-  double confidence =
-      1;  // in the first of these: 0 where another is as good, 1 where there is none
+  /// In the first of these, or in the turn that features begin with: 0 where another is as good, 1
+  /// where there is none.
+  double confidence = 1;
+  double agreement = 0;  // of features: their correlation by the map, the mean over columns
   /// For people: landmarks that a mirror image fits as well, area that shrinks to nothing on the
   /// other surface, little confidence.
   std::vector<std::string> warnings;

@@ -1,0 +1,69 @@
+#include "sphparam/correspondence/feature_file.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+
+#include "number_text.h"
+#include "sphparam/io/file_numbers.h"
+#include "sphparam/io/vertex_data.h"
+
+namespace sphparam {
+namespace {
+
+const Property* property_of(const MeshFile& mesh, const std::string& name) {
+  const auto found = std::ranges::find(mesh.vertex_properties, name, &Property::name);
+  return found == mesh.vertex_properties.end() ? nullptr : &*found;
+}
+
+Functions columns_of(const MeshFile& mesh, const std::vector<std::string>& names) {
+  Functions columns(mesh.mesh.vertex_count(), std::ssize(names));
+  for (Eigen::Index c = 0; c < columns.cols(); ++c) {
+    const std::vector<double>& values = property_of(mesh, names[static_cast<size_t>(c)])->values;
+    columns.col(c) = Eigen::Map<const VectorX>(values.data(), std::ssize(values));
+  }
+  return columns;
+}
+
+Functions beside(const Functions& left, const Functions& right) {
+  if (left.size() == 0) return right;
+  Functions both(left.rows(), left.cols() + right.cols());
+  both << left, right;
+  return both;
+}
+
+}  // namespace
+
+Functions read_features(const std::string& file_or_property, const MeshFile& mesh,
+                        const ReadOptions& options) {
+  if (!std::filesystem::exists(file_or_property) && property_of(mesh, file_or_property))
+    return columns_of(mesh, {file_or_property});
+  const VertexData data = read_vertex_data(file_or_property, vertices_of_file(mesh), options);
+  if (data.kind == DataKind::Labels)
+    throw ReadError(file_or_property, "labels are no measure that could agree: numbers are needed");
+  MeshFile with_data = mesh;
+  try {
+    return columns_of(with_data, attach_data(with_data, data));
+  } catch (const std::invalid_argument& error) {
+    throw ReadError(file_or_property, error.what());
+  }
+}
+
+MatchFeatures read_features(const std::vector<std::string>& pairs, const MeshFile& from,
+                            const MeshFile& to, const ReadOptions& options) {
+  if (pairs.size() % 2 != 0)
+    throw std::invalid_argument("features: pairs of names are needed, of one mesh and the other");
+  MatchFeatures features;
+  for (size_t i = 0; i < pairs.size(); i += 2) {
+    const Functions one = read_features(pairs[i], from, options);
+    const Functions other = read_features(pairs[i + 1], to, options);
+    if (one.cols() != other.cols())
+      throw ReadError(pairs[i + 1], "has " + counted(other.cols(), "column", "columns") + ", and " +
+                                        pairs[i] + " has " + std::to_string(one.cols()));
+    features.from = beside(features.from, one);
+    features.to = beside(features.to, other);
+  }
+  return features;
+}
+
+}  // namespace sphparam

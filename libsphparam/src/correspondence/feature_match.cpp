@@ -1,0 +1,73 @@
+#include "correspondence/feature_match.h"
+
+#include "correspondence/surface_area.h"
+#include "correspondence/turned_starts.h"
+#include "sphparam/correspondence/map_alignment.h"
+
+// Flat triangles of a coarse level say nothing of a cortex, whose folds they cut across; both maps
+// to the sphere distort little, so between the spheres is a good first place. There, features are
+// looked at from afar first; steps between the folded surfaces come last.
+
+namespace sphparam {
+namespace {
+
+constexpr int most_turns = 4;
+constexpr int last_steps = 6;  // of Newton, at most, between the surfaces
+constexpr int starts = 3;      // with landmarks
+
+TriangleMesh sphere_of(const MappedMesh& mapped) {
+  const TriangleMesh& mesh = mapped.mesh();
+  return {scaled_to_sphere({mapped.map().points, mesh.triangles}), mesh.triangles};
+}
+
+std::vector<TurnOfFunctions> turns_by_features(const MappedMesh& from, const MappedMesh& to,
+                                               const FeatureField& field, int threads) {
+  const MapSignalOptions options{.threads = threads};
+  return turns_by_correlation(map_signals(from, field.from, options),
+                              map_signals(to, field.to, options), most_turns, threads);
+}
+
+/// Correlation of the features by a map.
+double agreement_of(const MappedMesh& from, const TargetSurface& target, const FeatureField& field,
+                    const SphereMap& map) {
+  Functions there = Functions::Zero(field.from.rows(), field.from.cols());
+  for (Vertex v = 0; v < there.rows(); ++v) {
+    const Place place = target.place(map.point(v));
+    for (int k = 0; k < 3; ++k)
+      there.row(v) += place.at.barycentric[k] * field.to.row(target.corner(place, k));
+  }
+  return correlation_of(field.from, there, areas_round_vertices(from.mesh()));
+}
+
+}  // namespace
+
+FeatureMatch match_by_features(const MappedMesh& from, const MappedMesh& to,
+                               const TargetSurface& target, const ComposedOptions& options,
+                               const MatchFeatures& features) {
+  const TriangleMesh from_sphere = sphere_of(from), to_sphere = sphere_of(to);
+  const FeatureScales scales(from_sphere, from.topology(), to_sphere, to.topology(), features);
+  const FeatureField field = scales.raw();
+  ComposedOptions with_features = options;
+  with_features.features = &scales;
+
+  // 1. A coarse level.
+  const TargetSurface sphere(to, to_sphere.positions);
+  CoarseToFine way(from_sphere, from.topology(), sphere, with_features);
+  FeatureMatch result;
+  if (options.landmarks.empty()) {
+    const auto turns = turns_by_features(from, to, field, options.threads);
+    result.confidence = start_at_best(way, from.map(), turns, options.energy);
+  } else if (!way.start(starts)) {
+    return {std::nullopt, way.residuals()};
+  }
+
+  // 2. Up to the whole sphere, then between the surfaces.
+  SphereMap map = way.finish();
+  if (map.points.rows() == 0) return {std::nullopt, way.residuals()};
+  result.map =
+      improve_composition(from.mesh(), from.topology(), target, map, with_features, last_steps);
+  result.agreement = agreement_of(from, target, field, *result.map);
+  return result;
+}
+
+}  // namespace sphparam

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "correspondence/coarse_to_fine.h"
+#include "sphparam/correspondence/match.h"
+
+namespace sphparam {
+
+/// A map by features, and what is said of it.
+struct FeatureMatch {
+  std::optional<SphereMap> map;   // nothing: landmarks could not be reached
+  std::vector<double> residuals;  // of these, where the attempt had to give up
+  double agreement = 0;           // correlation of the features by the map, the mean over columns
+  double confidence = 1;          // in the turn that all begins with; 1 with landmarks
+};
+
+/// From coarse to fine between the spheres of both surfaces, which have no folds that coarse levels
+/// could not have, by how features agree; then between the surfaces themselves. Begins with
+/// landmarks, or with the rotation after which features agree best: some are tried.
+/// Same bits for any number of threads. Throws: Cancelled; SolveError.
+FeatureMatch match_by_features(const MappedMesh& from, const MappedMesh& to,
+                               const TargetSurface& target, const ComposedOptions& options,
+                               const MatchFeatures& features);
+
+}  // namespace sphparam

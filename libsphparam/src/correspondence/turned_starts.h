@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "correspondence/coarse_to_fine.h"
+#include "sphparam/sphere/spherical_correlation.h"
+
+namespace sphparam {
+
+/// Starts `way` at the map after each of these turns, and leaves it at the one of least energy.
+/// Returns the confidence in it: 0 where a start that leads elsewhere has as little energy beyond
+/// isometry's, towards 1 where none comes near. Requires: at least one turn.
+double start_at_best(CoarseToFine& way, const SphereMap& map,
+                     const std::vector<TurnOfFunctions>& turns, const ComposedEnergy& energy);
+
+}  // namespace sphparam

@@ -1,0 +1,220 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
+#include <string>
+
+#include "correspondence/feature_scales.h"
+#include "embedding/frame/nearest_rotation.h"
+#include "sphparam/correspondence/feature_file.h"
+#include "sphparam/correspondence/map_alignment.h"
+#include "sphparam/correspondence/match.h"
+#include "sphparam/io/vertex_data.h"
+#include "sphparam/parameterize.h"
+#include "support/mapped.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+
+namespace {
+
+/// A folder that goes with its owner.
+struct Folder {
+  std::filesystem::path path;
+  Folder() {
+    std::string name =
+        (std::filesystem::temp_directory_path() / "sphparam_features_XXXXXX").string();
+    REQUIRE(mkdtemp(name.data()));
+    path = name;
+  }
+  ~Folder() { std::filesystem::remove_all(path); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  std::string operator/(const std::string& name) const { return (path / name).string(); }
+};
+
+/// A pattern without symmetry, of places as wide as a fifth of the sphere.
+double pattern(const Vector3& x) {
+  return std::sin(4 * x.x() + 1) * std::cos(3 * x.y() - 2 * x.z()) + 0.7 * std::sin(5 * x.z()) +
+         0.5 * x.x() + 0.3 * std::cos(6 * x.y() + 2 * x.x());
+}
+
+/// What is round z is turned by up to 0.5, less towards the poles: one-to-one, and of equal area.
+Vector3 twisted(const Vector3& x) {
+  const double angle = 0.5 * (1 - x.z() * x.z()) * (1 + x.z());
+  return Eigen::AngleAxisd(angle, Vector3::UnitZ()) * x;
+}
+
+Functions values_at(const Points& points, Vector3 (*moved)(const Vector3&)) {
+  Functions values(points.rows(), 1);
+  for (Vertex v = 0; v < points.rows(); ++v)
+    values(v, 0) = pattern(moved(Vector3(points.row(v)).normalized()));
+  return values;
+}
+
+Vector3 as_it_is(const Vector3& x) { return x; }
+
+MappedMesh ball(int level) {
+  const TriangleMesh mesh = icosphere(level);
+  return mapped(mesh, {mesh.positions});
+}
+
+MatchFeatures twisted_features(const MappedMesh& from, const MappedMesh& to, double weight) {
+  return {values_at(from.mesh().positions, twisted), values_at(to.mesh().positions, as_it_is),
+          weight};
+}
+
+/// Root of the mean square of distances from where the twist has the vertices.
+double error_of(const Match& match, Vector3 (*truth)(const Vector3&)) {
+  const Points& points = match.map.from().map().points;
+  double sum = 0;
+  for (Vertex v = 0; v < points.rows(); ++v)
+    sum += (Vector3(points.row(v)) -
+            truth(Vector3(match.map.from().mesh().positions.row(v)).normalized()))
+               .squaredNorm();
+  return std::sqrt(sum / static_cast<double>(points.rows()));
+}
+
+}  // namespace
+
+TEST_CASE("match by features: a known warp of a ball is found, one-to-one") {
+  const MappedMesh from = ball(4), to = ball(4);
+  const Match match = match_surfaces(from, to, {.features = twisted_features(from, to, 20)});
+  CHECK(match.made_by == "features");
+  CHECK(match.map.from().certificate().bijective());
+  CHECK(match.map.to().map().points == to.map().points);
+  CHECK(match.agreement > 0.99);
+  CHECK(match.confidence > 0.5);
+  CHECK(error_of(match, as_it_is) > 0.3);
+  CHECK(error_of(match, twisted) < 0.2 * error_of(match, as_it_is));
+}
+
+TEST_CASE(
+    "match by features: the greater their weight, the better they agree and the less the "
+    "map is an isometry") {
+  const MappedMesh from = ball(3), to = ball(3);
+  double agreement = 0, energy = 0;
+  for (const double weight : {0.1, 2.0, 20.0}) {
+    const Match match = match_surfaces(from, to, {.features = twisted_features(from, to, weight)});
+    CHECK(match.agreement > agreement);
+    CHECK(match.energy > energy);
+    agreement = match.agreement;
+    energy = match.energy;
+  }
+}
+
+TEST_CASE(
+    "match by features: a map that is only turned is turned back, whatever the unit of "
+    "what is to agree") {
+  const MappedMesh to = ball(4);
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(2.5, Vector3(1, -2, 0.5).normalized()).toRotationMatrix();
+  const MappedMesh from = turned_map(to, turn);
+  const Functions values = values_at(to.mesh().positions, as_it_is);
+  const Functions other_unit = (100 + 7 * values.array()).matrix();
+  const Match match = match_surfaces(from, to, {.features = MatchFeatures{values, other_unit}});
+  CHECK(error_of(match, as_it_is) < 0.01);
+  CHECK(match.agreement > 0.999);
+}
+
+TEST_CASE("match by features: the same bytes for any number of threads") {
+  const MappedMesh from = ball(3), to = ball(4);
+  const auto points = [&](int threads) {
+    return match_surfaces(from, to, {.features = twisted_features(from, to, 2), .threads = threads})
+        .map.from()
+        .map()
+        .points;
+  };
+  CHECK(points(1) == points(3));
+}
+
+TEST_CASE("match by features: landmarks beside them are met exactly") {
+  const MappedMesh from = ball(3), to = ball(4);
+  MatchOptions options{.features = twisted_features(from, to, 5)};
+  for (const Vertex v : {0, 3, 5, 8}) options.landmarks.push_back({v, v + 20});
+  const Match match = match_surfaces(from, to, options);
+  CHECK(match.made_by == "features");
+  for (size_t i = 0; i < 4; ++i) CHECK(match.residuals[i] == 0);
+}
+
+TEST_CASE("match by features: values that are not finite and wild ones say little") {
+  const MappedMesh from = ball(4), to = ball(4);
+  MatchFeatures features = twisted_features(from, to, 20);
+  for (Vertex v = 0; v < 40; ++v) {
+    features.from(7 * v, 0) = std::numeric_limits<double>::quiet_NaN();
+    features.to(5 * v + 3, 0) = 1e6;
+  }
+  const Match match = match_surfaces(from, to, {.features = features});
+  CHECK(error_of(match, twisted) < 0.15);
+}
+
+TEST_CASE("match by features: what says nothing is refused") {
+  const MappedMesh from = ball(1), to = ball(1);
+  const auto attempt = [&](MatchFeatures features, bool search = false) {
+    return match_surfaces(from, to, {.search = search, .features = std::move(features)});
+  };
+  const Functions some = values_at(from.mesh().positions, as_it_is);
+  const Functions constant = Functions::Ones(some.rows(), 1);
+  using Catch::Contains;
+  CHECK_THROWS_WITH(attempt({some, constant}), Contains("the same everywhere"));
+  CHECK_THROWS_WITH(attempt({constant, some}), Contains("column 1"));
+  CHECK_THROWS_WITH(attempt({some, some.topRows(3)}), Contains("a row a vertex"));
+  CHECK_THROWS_WITH(attempt({Functions(some.rows(), 0), Functions(some.rows(), 0)}),
+                    Contains("columns"));
+  CHECK_THROWS_WITH(attempt({some, some, 0}), Contains("weight"));
+  CHECK_THROWS_WITH(attempt({some, some}, true), Contains("search"));
+}
+
+TEST_CASE(
+    "feature scales: averages have the mean 0 and the mean square 1, and forget what is "
+    "small") {
+  const TriangleMesh mesh = icosphere(4);
+  const Topology topology(mesh);
+  Functions values(mesh.vertex_count(), 1);
+  for (Vertex v = 0; v < mesh.vertex_count(); ++v)
+    values(v, 0) = mesh.position(v).z() + (v % 2 == 0 ? 0.3 : -0.3);
+  const FeatureScales scales(mesh, topology, mesh, topology, {values, values});
+  const Functions near = scales.at(0.01).from, far = scales.at(0.5).from;
+  const VectorX ones = VectorX::Ones(mesh.vertex_count());
+  for (const Functions& field : {near, far}) {
+    CHECK(field.mean() == Approx(0).margin(1e-2));
+    CHECK(field.squaredNorm() / static_cast<double>(field.rows()) == Approx(1).epsilon(1e-2));
+  }
+  CHECK(correlation_of(far, mesh.positions.col(2), ones) > 0.999);
+  CHECK(correlation_of(near, mesh.positions.col(2), ones) < 0.95);
+}
+
+TEST_CASE("feature files: columns of a file, or a property of the mesh") {
+  const Folder folder;
+  MeshFile mesh;
+  mesh.mesh = icosahedron();
+  VertexData data;
+  data.columns = {{.name = "a", .values = {}}, {.name = "b", .values = {}}};
+  for (int v = 0; v < 12; ++v) {
+    data.columns[0].values.push_back(v);
+    data.columns[1].values.push_back(-v);
+  }
+  const std::string path = folder / "two.shape.gii";
+  write_vertex_data(path, data);
+  const Functions columns = read_features(path, mesh);
+  REQUIRE(columns.cols() == 2);
+  CHECK(columns(5, 0) == 5);
+  CHECK(columns(5, 1) == -5);
+  mesh.vertex_properties.push_back({.name = "sulc", .values = data.columns[0].values});
+  CHECK(read_features("sulc", mesh).col(0) == columns.col(0));
+  CHECK_THROWS_AS(read_features("curv", mesh), ReadError);
+  MeshFile other;
+  other.mesh = octahedron();
+  CHECK_THROWS_AS(read_features(path, other), ReadError);
+  data.kind = DataKind::Labels;
+  data.columns.pop_back();
+  const std::string labels = folder / "some.label.gii";
+  write_vertex_data(labels, data);
+  CHECK_THROWS_WITH(read_features(labels, mesh), Catch::Contains("labels"));
+  CHECK(read_features({path, path, "sulc", "sulc"}, mesh, mesh).from.cols() == 3);
+  CHECK_THROWS_WITH(read_features({path, "sulc"}, mesh, mesh),
+                    Catch::Contains("2 columns") || Catch::Contains("1 column"));
+  CHECK_THROWS_AS(read_features({path}, mesh, mesh), std::invalid_argument);
+}
