@@ -1,7 +1,11 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
 
 #include "io/repaired_file.h"
 #include "support/test_meshes.h"
+#include "support/volume_surface.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;
@@ -91,4 +95,213 @@ TEST_CASE("repaired_file: nothing done, nothing added") {
   const MeshFile result = repaired_file(file, repair_mesh(file.mesh));
   CHECK_FALSE(result.find_vertex_property("source_vertex"));
   CHECK_FALSE(result.find_face_property("source_face"));
+}
+
+namespace {
+
+/// A ball in a four-piece atlas, one a quarter of its longitudes, each of a material of its own and
+/// somewhere else in the image: (s, t) are linear in what `place` says of a point, so that the
+/// texture of any point of a piece can be told.
+struct Atlas {
+  MeshFile file;
+
+  explicit Atlas(const TriangleMesh& mesh) {
+    file.mesh = mesh;
+    file.materials = {"a", "b", "c", "d"};
+    file.corner_texcoords.emplace(mesh.triangles.size(), 2);
+    Property material{"material", ScalarType::Int32, {}};
+    for (Face f = 0; f < mesh.face_count(); ++f) {
+      const int piece = piece_of(mesh, f);
+      material.values.push_back(piece);
+      for (int k = 0; k < 3; ++k)
+        file.corner_texcoords->row(3 * f + k) = place(piece, mesh.position(mesh.triangles(f, k)));
+    }
+    file.set_face_property(std::move(material));
+  }
+
+  static int piece_of(const TriangleMesh& mesh, Face f) {
+    Vector3 middle = Vector3::Zero();
+    for (int k = 0; k < 3; ++k) middle += mesh.position(mesh.triangles(f, k));
+    return (middle.x() > 0 ? 1 : 0) + (middle.y() > 0 ? 2 : 0);
+  }
+
+  static Eigen::RowVector2d place(int piece, const Vector3& p) {
+    return {10.0 * piece + p.x() + 0.5 * p.z(), 7.0 * piece + p.y() - 0.25 * p.z()};
+  }
+};
+
+/// How far the texture of a mended mesh is, at the worst corner of the faces that are asked for,
+/// from what its own piece has at the corner's vertex.
+template <class Asked>
+double worst_corner(const MeshFile& mended, Asked&& asked) {
+  double worst = 0;
+  const std::vector<double>& material = mended.find_face_property("material")->values;
+  for (Face f = 0; f < mended.mesh.face_count(); ++f) {
+    if (!asked(f)) continue;
+    for (int k = 0; k < 3; ++k) {
+      const Vector3 p = mended.mesh.position(mended.mesh.triangles(f, k));
+      const auto expected = Atlas::place(static_cast<int>(material[f]), p);
+      worst = std::max(worst, (mended.corner_texcoords->row(3 * f + k) - expected).norm());
+    }
+  }
+  return worst;
+}
+
+bool is_new(const RepairedMesh& repaired, Face f) { return repaired.face_origin[f] < 0; }
+
+TriangleMesh without_faces(TriangleMesh mesh, const std::vector<Face>& dropped) {
+  Triangles kept(mesh.face_count() - std::ssize(dropped), 3);
+  Eigen::Index row = 0;
+  for (Face f = 0; f < mesh.face_count(); ++f)
+    if (std::find(dropped.begin(), dropped.end(), f) == dropped.end())
+      kept.row(row++) = mesh.triangles.row(f);
+  mesh.triangles = kept;
+  return mesh;
+}
+
+/// The faces at a vertex.
+std::vector<Face> faces_at(const TriangleMesh& mesh, Vertex v) {
+  std::vector<Face> faces;
+  for (Face f = 0; f < mesh.face_count(); ++f)
+    if ((mesh.triangles.row(f).array() == v).any()) faces.push_back(f);
+  return faces;
+}
+
+/// The vertex nearest to a direction.
+Vertex vertex_at(const TriangleMesh& mesh, const Vector3& direction) {
+  Eigen::Index v = 0;
+  (mesh.positions * direction.normalized()).maxCoeff(&v);
+  return static_cast<Vertex>(v);
+}
+
+/// The face is given a vertex more on its first side, which its neighbour has not: a T-junction.
+TriangleMesh with_junction(TriangleMesh mesh, Face f, double share) {
+  const Vertex a = mesh.triangles(f, 0), b = mesh.triangles(f, 1), c = mesh.triangles(f, 2);
+  const Vertex middle = static_cast<Vertex>(mesh.vertex_count());
+  mesh.positions.conservativeResize(middle + 1, 3);
+  mesh.positions.row(middle) = (1 - share) * mesh.positions.row(a) + share * mesh.positions.row(b);
+  mesh.triangles.conservativeResize(mesh.face_count() + 1, 3);
+  mesh.triangles.row(f) << a, middle, c;
+  mesh.triangles.bottomRows(1) << middle, b, c;
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("repaired_file: an atlas texture follows the cut of a side at a T-junction") {
+  const TriangleMesh mesh = with_junction(with_junction(icosphere(2), 10, 0.3), 200, 0.8);
+  const Atlas atlas(mesh);
+  const RepairedMesh repaired = repair_mesh(mesh);
+  REQUIRE(repaired.inspection.is_sphere());
+  REQUIRE(repaired.blended.size() == 4);
+  const MeshFile mended = repaired_file(atlas.file, repaired);
+  CHECK(worst_corner(mended, [](Face) { return true; }) < 1e-12);
+}
+
+TEST_CASE("repaired_file: a hole within one piece of an atlas is filled as the piece goes on") {
+  const TriangleMesh whole = icosphere(3);
+  const Vertex v = vertex_at(whole, {1, 1, 0.3});
+  const TriangleMesh mesh = without_faces(whole, faces_at(whole, v));
+  const RepairedMesh repaired = repair_mesh(mesh);
+  REQUIRE(repaired.inspection.is_sphere());
+  const MeshFile mended = repaired_file(Atlas(mesh).file, repaired);
+  CHECK(worst_corner(mended, [](Face) { return true; }) < 1e-12);
+}
+
+TEST_CASE("repaired_file: a hole across a seam of an atlas has the texture of its rim") {
+  const TriangleMesh whole = icosphere(3);
+  for (const Vector3& direction : {Vector3(1, 0, 0.2), Vector3(0, 1, 0.1), Vector3(0, 0, 1)}) {
+    const TriangleMesh mesh = without_faces(whole, faces_at(whole, vertex_at(whole, direction)));
+    const RepairedMesh repaired = repair_mesh(mesh);
+    REQUIRE(repaired.inspection.is_sphere());
+    const MeshFile mended = repaired_file(Atlas(mesh).file, repaired);
+    CHECK(worst_corner(mended, [&](Face f) { return !is_new(repaired, f); }) < 1e-12);
+    // A piece of the atlas is 7 from the next; across the hole it is 0.3.
+    CHECK(worst_corner(mended, [&](Face f) { return is_new(repaired, f); }) < 0.4);
+  }
+}
+
+TEST_CASE("repaired_file: caps of a handle that is cut have the texture of their rims") {
+  const TriangleMesh mesh = bumped_torus(12, 30, 0.3, 0, 1);
+  const RepairedMesh repaired = repair_mesh(mesh, {.longest_handle = 1});
+  REQUIRE(repaired.handles.size() == 1);
+  const MeshFile mended = repaired_file(Atlas(mesh).file, repaired);
+  CHECK(worst_corner(mended, [&](Face f) { return !is_new(repaired, f); }) < 1e-12);
+  CHECK(worst_corner(mended, [&](Face f) { return is_new(repaired, f); }) < 1);
+}
+
+TEST_CASE("repaired_file: a texture that goes once around is not swept through where it ends") {
+  // s is the longitude: it meets itself at a seam, which a hole at the top and one at the side
+  // touch.
+  const TriangleMesh whole = icosphere(3);
+  for (const Vector3& direction : {Vector3(-1, 0, 0.1), Vector3(0, 0, 1)}) {
+    const TriangleMesh mesh = without_faces(whole, faces_at(whole, vertex_at(whole, direction)));
+    MeshFile file;
+    file.mesh = mesh;
+    file.corner_texcoords.emplace(mesh.triangles.size(), 2);
+    for (Face f = 0; f < mesh.face_count(); ++f) {
+      Vector3 middle = Vector3::Zero();
+      for (int k = 0; k < 3; ++k) middle += mesh.position(mesh.triangles(f, k));
+      const double around = std::atan2(middle.y(), middle.x());
+      for (int k = 0; k < 3; ++k) {
+        const Vector3 p = mesh.position(mesh.triangles(f, k));
+        const double turn = std::remainder(std::atan2(p.y(), p.x()) - around, 2 * std::numbers::pi);
+        file.corner_texcoords->row(3 * f + k) << (around + turn) / (2 * std::numbers::pi), p.z();
+      }
+    }
+    const RepairedMesh repaired = repair_mesh(mesh);
+    const MeshFile mended = repaired_file(file, repaired);
+    double widest = 0;
+    for (Face f = 0; f < mended.mesh.face_count(); ++f) {
+      if (!is_new(repaired, f)) continue;
+      const auto s = mended.corner_texcoords->col(0).segment<3>(3 * f);
+      widest = std::max(widest, s.maxCoeff() - s.minCoeff());
+    }
+    CHECK(widest < 0.4);
+  }
+}
+
+TEST_CASE("repaired_file: halves of a face that a flat one cuts in two keep its texture") {
+  // The flat face is of another piece of the atlas.
+  TriangleMesh mesh = with_junction(icosphere(2), 10, 0.5);
+  const Vertex a = mesh.triangles(10, 0), middle = mesh.triangles(10, 1);
+  const Vertex b = mesh.triangles(mesh.face_count() - 1, 1);
+  mesh.triangles.conservativeResize(mesh.face_count() + 1, 3);
+  mesh.triangles.bottomRows(1) << a, b, middle;
+  Atlas atlas(mesh);
+  const Face flat = static_cast<Face>(mesh.face_count() - 1);
+  for (int k = 0; k < 3; ++k) atlas.file.corner_texcoords->row(3 * flat + k) << 500, 500;
+  const RepairedMesh repaired = repair_mesh(mesh);
+  REQUIRE(repaired.inspection.is_sphere());
+  REQUIRE(repaired.actions.size() == 1);
+  CHECK(repaired.actions[0].kind == RepairKind::FlatFaceTurned);
+  const MeshFile mended = repaired_file(atlas.file, repaired);
+  CHECK(worst_corner(mended, [](Face) { return true; }) < 1e-12);
+}
+
+TEST_CASE("repaired_file: texture coordinates of vertices stay there where they can") {
+  const TriangleMesh whole = icosphere(2);
+  const TriangleMesh mesh = without_faces(whole, faces_at(whole, 5));
+  MeshFile file;
+  file.mesh = mesh;
+  Property s{"s", ScalarType::Float32, {}}, t{"t", ScalarType::Float32, {}};
+  for (Vertex v = 0; v < mesh.vertex_count(); ++v) {
+    s.values.push_back(mesh.positions(v, 0));
+    t.values.push_back(mesh.positions(v, 1));
+  }
+  file.set_vertex_property(s);
+  file.set_vertex_property(t);
+  const MeshFile mended = repaired_file(file, repair_mesh(mesh));
+  CHECK_FALSE(mended.corner_texcoords);
+  REQUIRE(mended.find_vertex_property("s"));
+  CHECK(mended.find_vertex_property("t")->values[7] == mended.mesh.positions(7, 1));
+
+  // A side that is cut at a vertex from elsewhere in the image: the vertex has two places there.
+  MeshFile cut = file;
+  cut.mesh = with_junction(whole, 10, 0.5);
+  for (Property& property : cut.vertex_properties) property.values.push_back(9);
+  const MeshFile closed = repaired_file(cut, repair_mesh(cut.mesh));
+  REQUIRE(closed.corner_texcoords);
+  CHECK(closed.corner_texcoord_type == ScalarType::Float32);
+  CHECK_FALSE(closed.find_vertex_property("s"));
 }

@@ -181,6 +181,7 @@ void declare_bake_options(Declaration& command, BakeArguments& arguments) {
   arguments.given = command.given();
   declare_images(command, arguments.settings);
   declare_body(command, arguments);
+  declare_repair_options(command, arguments.repair);
   command.group("Options").json(arguments).threads(arguments).console(arguments);
 }
 

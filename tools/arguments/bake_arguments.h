@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "arguments/declaration.h"
+#include "arguments/repair_arguments.h"
 #include "console/exit_codes.h"
 #include "sphparam/bake/bake.h"
 
@@ -20,6 +20,7 @@ struct BakeArguments : CommonArguments {
   std::string from;                               // another surface to bake from; empty: none
   std::string body;                               // a name, radii or WKT; empty: none
   bool all_components = false;                    // of the files that `map` made of parts
+  RepairArguments repair;                         // of the mesh
   double unit = 1;                                // metres that the mesh's unit has
   std::function<bool(const std::string&)> given;  // was this option on the command line?
   BakeSettings settings;  // what has an option; names, target, progress are the command's

@@ -76,6 +76,7 @@ void declare_export_options(Declaration& command, ExportArguments& arguments) {
   declare_look(command, arguments.exported.look);
   declare_chart(command, arguments.exported);
   declare_buffers(command, arguments);
+  declare_repair_options(command, arguments.repair);
   command.threads(arguments).console(arguments);
 }
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "arguments/declaration.h"
+#include "arguments/repair_arguments.h"
 #include "sphparam/gltf/export.h"
 
 namespace sphparam::cli {
@@ -19,6 +19,7 @@ struct ExportArguments : CommonArguments {
   bool embedded = false, compress = false;
   int lods = 0;
   LodStyle lod_style = LodStyle::Files;
+  RepairArguments repair;
 };
 
 void declare_export_options(Declaration& command, ExportArguments& arguments);

@@ -279,7 +279,7 @@ void declare_map_options(Declaration& command, MapArguments& arguments) {
   declare_frame(command, arguments);
   declare_progressive(command, arguments);
   declare_paper(command, arguments.options.paper);
-  declare_repair_options(command, arguments.repair);
+  declare_repair_and_loops(command, arguments.repair);
   command.console(arguments);
 }
 

@@ -99,9 +99,9 @@ void declare_options(Declaration& command, MatchArguments& arguments) {
       .written()
       .flag_off("--no-viewer", arguments.viewer, "Pages with pictures alone, without scripts")
       .up(arguments.up)
-      .json(arguments, "Certificates, distortion, landmarks")
-      .threads(arguments)
-      .console(arguments);
+      .json(arguments, "Certificates, distortion, landmarks");
+  declare_repair_options(command, arguments.repair);
+  command.threads(arguments).console(arguments);
 }
 
 }  // namespace sphparam::cli

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "arguments/declaration.h"
+#include "arguments/repair_arguments.h"
 #include "sphparam/correspondence/carried_shape.h"
 #include "sphparam/correspondence/match.h"
 
@@ -22,6 +22,7 @@ struct MatchArguments : CommonArguments {
   bool mirror = false;
   bool viewer = true;
   MatchOptions options;
+  RepairArguments repair;  // of both
 };
 
 /// Looks at all names before any work. Throws: UsageMistake; WriteError.

@@ -107,6 +107,7 @@ void declare_remesh_options(Declaration& command, RemeshArguments& arguments) {
                  "N - 1 and cube:N with N a power of two), with the error of each: files of their "
                  "own, NAME_lod1 …, or levels (MSFT_lod) of one .glb");
   declare_outputs(command, arguments);
+  declare_repair_options(command, arguments.repair);
   command.threads(arguments).console(arguments);
 }
 

@@ -6,6 +6,7 @@
 
 #include "arguments/declaration.h"
 #include "arguments/naming.h"
+#include "arguments/repair_arguments.h"
 #include "sphparam/io/certified_files.h"
 #include "sphparam/remesh/displacement.h"
 #include "sphparam/remesh/sphere_grid.h"
@@ -43,6 +44,7 @@ struct RemeshArguments : CommonArguments {
   std::string csv;
   bool degrees = false;  // in it
   FillersInFile holes = FillersInFile::Marked;
+  RepairArguments repair;
 };
 
 void declare_remesh_options(Declaration& command, RemeshArguments& arguments);

@@ -107,6 +107,12 @@ void declare_repair_options(Declaration& command, RepairArguments& arguments) {
               "Remove handles along loops of at most this length; % is of the bounding box's "
               "diagonal (--repair: " +
                   short_number(100 * RepairOptions{}.longest_handle) + "%)")
+      .group("Options");
+}
+
+void declare_repair_and_loops(Declaration& command, RepairArguments& arguments) {
+  declare_repair_options(command, arguments);
+  command.group("Repairs")
       .text("--loops", arguments.loops, "FILE", "These loops as polylines, an .obj or .ply")
       .written()
       .group("Options");

@@ -72,7 +72,7 @@ MeshFile read_from(const BakeArguments& arguments, Session& session) {
 
 /// The mesh with its map; numbers are of the surface that is baked.
 MappedMesh read_mesh(const BakeArguments& arguments, Session& session) {
-  return read_mapped(arguments.input, arguments.sphere, session, 1,
+  return read_mapped(arguments.input, arguments.sphere, session, arguments.repair, 1,
                      arguments.from.empty() ? arguments.data : Words{});
 }
 

@@ -31,7 +31,7 @@ constexpr char summary[] =
     "each other one, and compare.json. A sphere that is added must have the vertices and "
     "triangles\n"
     "of the mesh, in its order; it comes after the methods.\n"
-    "Methods of others run as their authors published them, and nothing is repaired. The exit\n"
+    "Methods of others run as their authors published them, and no map is repaired. The exit\n"
     "status is 0 also where they fold.\n";
 
 struct CompareArguments : CommonArguments {
@@ -40,6 +40,7 @@ struct CompareArguments : CommonArguments {
   std::string methods = "all";
   Words added;
   CompareOptions options;
+  RepairArguments repair;
 };
 
 Words words_for_methods() {
@@ -107,7 +108,7 @@ int run_compare(CompareArguments& arguments) {
   Session session(arguments);
   const Words methods = parse_methods(arguments.methods);
   const auto added = parse_added(arguments);
-  const MeshSource source = read_source(arguments.input);
+  const MeshSource source = read_mended(arguments.input, arguments.repair, session);
   require_mappable(source);
   session.hold_signals();
   CompareOptions options = arguments.options;
@@ -140,9 +141,9 @@ void declare_options(Declaration& command, CompareArguments& arguments) {
       .flag_off("--no-pictures", arguments.options.pictures, "Without the spheres: much quicker")
       .up(arguments.options.up)
       .number("--size", arguments.options.size, "N", {16, 4096},
-              "Pixels, of each side of a picture")
-      .threads(arguments)
-      .console(arguments);
+              "Pixels, of each side of a picture");
+  declare_repair_options(command, arguments.repair);
+  command.threads(arguments).console(arguments);
 }
 
 }  // namespace

@@ -186,7 +186,8 @@ ExportArguments of_part(ExportArguments arguments, int part) {
 
 std::string export_one(const ExportArguments& arguments, Session& session, Words& lines) {
   check_first_places(arguments);
-  const MappedMesh mapped = read_mapped(arguments.input, arguments.sphere, session);
+  const MappedMesh mapped =
+      read_mapped(arguments.input, arguments.sphere, session, arguments.repair);
   Exporter exporter(arguments, session);
   with_file_errors(arguments.input, arguments.output, [&] { exporter.add(mapped); });
   lines.push_back(display_name(arguments.input) + ": " + short_number(session.stopwatch.seconds()) +

@@ -34,6 +34,7 @@ struct GroupArguments : CommonArguments {
   std::string folder, reference, landmarks;
   std::string grid = "ico:5";
   Up up;
+  RepairArguments repair;  // of all
   int size = GroupFileOptions{}.size;
   GroupOptions options;
 };
@@ -89,7 +90,8 @@ void make_folder(const std::string& folder) {
 
 std::vector<MappedMesh> read_shapes(const GroupArguments& arguments, Session& session) {
   std::vector<MappedMesh> shapes;
-  for (const std::string& path : arguments.inputs) shapes.push_back(read_mapped(path, "", session));
+  for (const std::string& path : arguments.inputs)
+    shapes.push_back(read_mapped(path, "", session, arguments.repair));
   return shapes;
 }
 
@@ -99,7 +101,7 @@ MappedMesh read_reference(const GroupArguments& arguments, const std::vector<Map
   for (size_t i = 0; i < shapes.size(); ++i)
     if (arguments.reference.empty() || is_same_place(arguments.reference, arguments.inputs[i]))
       return shapes[i];
-  return read_mapped(arguments.reference, "", session);
+  return read_mapped(arguments.reference, "", session, arguments.repair);
 }
 
 int run_group(GroupArguments& arguments) {
@@ -171,9 +173,9 @@ void declare_options(Declaration& command, GroupArguments& arguments) {
               "What is minimised, as of match (default: symmetric-dirichlet)")
       .up(arguments.up)
       .number("--size", arguments.size, "N", {0, 4096},
-              "Pixels of a picture, 64 to 4096; 0: no pictures")
-      .threads(arguments)
-      .console(arguments);
+              "Pixels of a picture, 64 to 4096; 0: no pictures");
+  declare_repair_options(command, arguments.repair);
+  command.threads(arguments).console(arguments);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "commands/data_files.h"
 #include "commands/map_outputs.h"
 #include "commands/map_parts.h"
+#include "commands/sources.h"
 #include "reports/map_wording.h"
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/io/fillers.h"
@@ -126,11 +127,7 @@ MeshSource mended(MeshSource source, const MapArguments& arguments) try {
 }
 
 MeshSource read_mended(const MapArguments& arguments, Session& session) {
-  const std::optional<RepairOptions> repairs = wanted_repairs(arguments.repair);
-  ReadOptions options = input_limits();
-  options.repeated_corners = repairs && repairs->duplicates;
-  options.non_finite = repairs && repairs->non_finite;
-  MeshSource source = sphparam::read_source(arguments.input, options);
+  MeshSource source = sphparam::read_source(arguments.input, limits_for(arguments.repair));
   attach_data_files(source.file, source.path, arguments.data, MissingValues::LeftOut, session);
   return mended(std::move(source), arguments);
 }

@@ -6,10 +6,10 @@
 #include <exception>
 #include <utility>
 
-#include "arguments/limits.h"
 #include "arguments/part_files.h"
 #include "commands/data_files.h"
 #include "commands/map_outputs.h"
+#include "commands/sources.h"
 #include "console/exit_codes.h"
 #include "number_text.h"
 #include "reports/map_wording.h"
@@ -40,7 +40,7 @@ class PartsRun {
       : arguments_(arguments), session_(session), map_(map) {}
 
   int run() {
-    MeshSource source = sphparam::read_source(arguments_.input, limits());
+    MeshSource source = sphparam::read_source(arguments_.input, limits_for(arguments_.repair));
     attach_data_files(source.file, source.path, arguments_.data, MissingValues::LeftOut, session_);
     mark_ = mark_of(source.file.mesh);
     std::vector<MeshPart> parts = connected_parts(
@@ -63,14 +63,6 @@ class PartsRun {
   }
 
  private:
-  ReadOptions limits() const {
-    const std::optional<RepairOptions> repairs = wanted_repairs(arguments_.repair);
-    ReadOptions options = input_limits();
-    options.repeated_corners = repairs && repairs->duplicates;
-    options.non_finite = repairs && repairs->non_finite;
-    return options;
-  }
-
   std::string name_of(size_t number, const MeshPart& part) const {
     return "component " + std::to_string(number) + " of " + std::to_string(count_) + " (" +
            percent(part.area_share) + " of the area, " +

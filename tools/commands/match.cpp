@@ -60,8 +60,8 @@ void read_features_of(MatchArguments& arguments, const MappedMesh& first,
 
 /// Which of the two a refusal is about, which tells what is wrong with a mesh.
 MappedMesh read_side(const char* side, const std::string& path, const std::string& sphere,
-                     Session& session) try {
-  return read_mapped(path, sphere, session);
+                     const RepairArguments& repair, Session& session) try {
+  return read_mapped(path, sphere, session, repair);
 } catch (const MeshRefusal&) {
   print_error(side + (" (" + display_name(path)) + ") cannot be mapped:");
   throw;
@@ -94,9 +94,11 @@ std::optional<CarriedFidelity> fidelity(const MatchArguments& arguments, const M
 int run_match(MatchArguments& arguments) {
   require_sensible(arguments);
   Session session(arguments);
-  MappedMesh first = read_side("A", arguments.first, arguments.first_sphere, session);
+  MappedMesh first =
+      read_side("A", arguments.first, arguments.first_sphere, arguments.repair, session);
   if (arguments.mirror) first = mirror_image(first, session.threads());
-  const MappedMesh second = read_side("B", arguments.second, arguments.second_sphere, session);
+  const MappedMesh second =
+      read_side("B", arguments.second, arguments.second_sphere, arguments.repair, session);
   read_landmarks_of(arguments, first, second);
   read_features_of(arguments, first, second);
   tell_absent_values(arguments, second, session);

@@ -39,6 +39,7 @@ struct MeasureArguments : CommonArguments {
   DistanceOptions options;
   std::string sampled = "faces";
   std::string per_vertex;
+  RepairArguments repair;                       // of both
   std::optional<Amount> max_rms, max_distance;  // % of the diagonal of the first's bounding box
 };
 
@@ -103,8 +104,8 @@ int run_measure(MeasureArguments& arguments) {
   Session session(arguments);
   settle_sampled(arguments.sampled, arguments.options);
   require_sensible(arguments);
-  const MeshFile first = read_surface(arguments.first, session);
-  const MeshFile second = read_surface(arguments.second, session);
+  const MeshFile first = read_surface(arguments.first, arguments.repair, session);
+  const MeshFile second = read_surface(arguments.second, arguments.repair, session);
   session.hold_signals();
   const SurfaceDistance distance = measure(arguments, first, second, session);
   DistanceRecord record = {.first = arguments.first,
@@ -154,6 +155,7 @@ void declare_options(Declaration& command, MeasureArguments& arguments) {
                  "Exit with status 6 if the larger RMS is more; % of A's diagonal");
   declare_length(command, "--max-distance", arguments.max_distance,
                  "Exit with status 6 if the larger maximum is more; % likewise");
+  declare_repair_options(command, arguments.repair);
   command.threads(arguments).console(arguments);
 }
 

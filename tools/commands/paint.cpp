@@ -38,6 +38,7 @@ struct PaintArguments : CommonArguments {
   Convention convention = Convention::Sphparam;
   int atlas = 0;  // texels; 0: vertex colours
   int padding = AtlasOptions{}.padding;
+  RepairArguments repair;
 };
 
 void require_coloured_format(const std::string& path) {
@@ -94,7 +95,8 @@ std::string coloured_mesh(const std::string& path, const MappedMesh& source,
 int run_paint(PaintArguments& arguments) {
   require_sensible(arguments);
   Session session(arguments);
-  const MappedMesh source = read_mapped(arguments.input, arguments.sphere, session);
+  const MappedMesh source =
+      read_mapped(arguments.input, arguments.sphere, session, arguments.repair);
   tell_longitudes(source, arguments.convention, session);
   if (arguments.atlas > 0 && !has_texcoords(source.file()))
     throw UsageMistake("--atlas: the mesh has no texture coordinates of its own");
@@ -120,9 +122,9 @@ void declare_options(Declaration& command, PaintArguments& arguments) {
       .number("--atlas", arguments.atlas, "SIZE", {1, 32768},
               "Paint an image of SIZE × SIZE texels for the mesh's texture coordinates")
       .number("--padding", arguments.padding, "N", {0, 254},
-              "How many texels colours run on over the borders of charts")
-      .threads(arguments)
-      .console(arguments);
+              "How many texels colours run on over the borders of charts");
+  declare_repair_options(command, arguments.repair);
+  command.threads(arguments).console(arguments);
 }
 
 }  // namespace

@@ -260,8 +260,8 @@ MissingValues missing_values(const RemeshRequests& requests) {
 int run_remesh(RemeshArguments& arguments) {
   Session session(arguments);
   const RemeshRequests requests = check_remesh_arguments(arguments);
-  MappedMesh mapped = read_mapped(arguments.input, arguments.sphere, session, remeshing_lambda,
-                                  arguments.data, missing_values(requests));
+  MappedMesh mapped = read_mapped(arguments.input, arguments.sphere, session, arguments.repair,
+                                  remeshing_lambda, arguments.data, missing_values(requests));
   const int last_data = last_attached(mapped.file());
   if (arguments.subdivision || arguments.lods > 0) require_measurable(mapped.mesh());
   if (arguments.subdivision) tell_counted_fillers(mapped, "what is fitted", session.console);

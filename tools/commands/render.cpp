@@ -43,6 +43,7 @@ struct RenderArguments : CommonArguments {
   std::string from;     // empty: in front, to the right, above
   Words data;           // numbers a vertex in files of their own
   DrawingOptions drawing = {};
+  RepairArguments repair;
 };
 
 Vector3 parse_direction(const std::string& text) {
@@ -105,13 +106,20 @@ std::string drawn(DrawnMesh& mesh, const RenderArguments& arguments, Session& se
   throw UsageMistake("--from: " + std::string(error.what()) + "; choose another --up");
 }
 
+DrawnMesh read_drawn(const RenderArguments& arguments, Session& session) {
+  if (!wanted_repairs(arguments.repair))
+    return load_drawn(arguments.input, arguments.sphere, input_limits());
+  return drawn_mesh(read_mended_as_far(arguments.input, arguments.repair, session),
+                    arguments.sphere, input_limits());
+}
+
 int run_render(RenderArguments& arguments) {
   require_png(arguments.output);
   require_one_stream({arguments.input, arguments.sphere}, "the mesh and --sphere");
   check_places({{"-o", arguments.output}});
   Session session(arguments);
   session.console.progress("picture", 0);
-  DrawnMesh mesh = load_drawn(arguments.input, arguments.sphere, input_limits());
+  DrawnMesh mesh = read_drawn(arguments, session);
   session.files.add(arguments.output, drawn(mesh, arguments, session));
   session.publish();
   session.console.say(display_name(arguments.input) + " → " + output_name(arguments.output));
@@ -154,9 +162,9 @@ void declare_options(Declaration& command, RenderArguments& arguments) {
       .text("--from", arguments.from, "X,Y,Z", "Where the eye is (default: 1,-0.6,0.45 with z up)")
       .up(arguments.drawing.up)
       .number("--size", arguments.drawing.size, "N", {16, 16384},
-              "Pixels, of each side of a picture")
-      .threads(arguments)
-      .console(arguments);
+              "Pixels, of each side of a picture");
+  declare_repair_options(command, arguments.repair);
+  command.threads(arguments).console(arguments);
 }
 
 }  // namespace

@@ -115,7 +115,7 @@ void declare_options(Declaration& command, RepairCommandArguments& arguments) {
               "The mended mesh, in the format of its name; - for standard output")
       .data(arguments.data)
       .json(arguments);
-  declare_repair_options(command, arguments.repair);
+  declare_repair_and_loops(command, arguments.repair);
   command.console(arguments);
 }
 

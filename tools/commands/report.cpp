@@ -47,6 +47,7 @@ struct ReportArguments : CommonArguments {
   Words inputs, data;
   std::string sphere, texture, output;
   PageOptions options;
+  RepairArguments repair;
 };
 
 void require_sense(const ReportArguments& arguments) {
@@ -133,9 +134,8 @@ std::vector<PageEntry> load_entries(const ReportArguments& arguments, const Mesh
 int run_report(ReportArguments& arguments) {
   Session session(arguments);
   require_sense(arguments);
-  MeshSource source = read_source(arguments.inputs.front());
-  tell_losses(source, session.console);
-  attach_data_files(source.file, source.path, arguments.data, MissingValues::LeftOut, session);
+  const MeshSource source =
+      read_mended(arguments.inputs.front(), arguments.repair, session, arguments.data);
   require_mappable(source);
   session.hold_signals();
   const std::vector<PageEntry> entries = load_entries(arguments, source, session);
@@ -163,9 +163,9 @@ void declare_options(Declaration& command, ReportArguments& arguments) {
               "Pixels, the width of textures and heat maps, and the most of pictures")
       .flag_off("--no-viewer", arguments.options.viewer,
                 "Pictures instead of 3D models: a smaller page without scripts")
-      .json(arguments, "All figures")
-      .threads(arguments)
-      .console(arguments);
+      .json(arguments, "All figures");
+  declare_repair_options(command, arguments.repair);
+  command.threads(arguments).console(arguments);
 }
 
 }  // namespace

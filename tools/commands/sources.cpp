@@ -8,8 +8,10 @@
 #include "embedding/frame/nearest_rotation.h"
 #include "number_text.h"
 #include "reports/told_losses.h"
+#include "reports/told_repairs.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/planetocentric.h"
+#include "sphparam/io/sphere_file.h"
 #include "sphparam/sphere/radial_directions.h"
 
 namespace sphparam::cli {
@@ -18,17 +20,58 @@ MeshSource read_source(const std::string& path) {
   return sphparam::read_source(path, input_limits());
 }
 
+namespace {
+
+/// The repairs that are wanted, done by one of the library's two ways, and told.
+template <class Mend>
+MeshSource told_mended(MeshSource source, const RepairArguments& repair, Session& session,
+                       Mend&& mend) try {
+  const std::optional<RepairOptions> wanted = wanted_repairs(repair);
+  if (!wanted) return source;
+  source = mend(std::move(source), *wanted);
+  tell_repairs(source, session.console);
+  if (source.repairs.empty() || !read_sphere(source.file)) return source;
+  source.file = without_map(std::move(source.file));
+  session.console.say("  " + display_name(source.path) +
+                      ": its map is of the mesh before the repair, and left out");
+  return source;
+} catch (const NoSuchComponent& error) {
+  throw UsageMistake(std::string("--component: ") + error.what());
+}
+
+}  // namespace
+
+ReadOptions limits_for(const RepairArguments& repair) {
+  const std::optional<RepairOptions> wanted = wanted_repairs(repair);
+  ReadOptions options = input_limits();
+  options.repeated_corners = wanted && wanted->duplicates;
+  options.non_finite = wanted && wanted->non_finite;
+  return options;
+}
+
+MeshSource read_mended(const std::string& path, const RepairArguments& repair, Session& session,
+                       const Words& data, MissingValues missing) {
+  MeshSource source = sphparam::read_source(path, limits_for(repair));
+  tell_losses(source, session.console);
+  attach_data_files(source.file, source.path, data, missing, session);
+  return told_mended(std::move(source), repair, session, repaired);
+}
+
+MeshSource read_mended_as_far(const std::string& path, const RepairArguments& repair,
+                              Session& session) {
+  return told_mended(sphparam::read_source(path, limits_for(repair)), repair, session, mended);
+}
+
 MappedMesh read_mapped(const std::string& path, const std::string& sphere, Session& session,
-                       double lambda, const Words& data, MissingValues missing) {
+                       const RepairArguments& repair, double lambda, const Words& data,
+                       MissingValues missing) {
   session.hold_signals();
   LoadOptions options{.sphere = sphere, .read = input_limits()};
   options.map.energy.lambda = lambda;
+  options.map.filler_share = wanted_filler_share(repair);
   options.map.threads = session.threads();
   options.map.progress = session.progress();
-  MeshSource source = read_source(path);
-  tell_losses(source, session.console);
-  attach_data_files(source.file, source.path, data, missing, session);
-  const MappedMesh mapped = mapped_mesh(std::move(source), options);
+  const MappedMesh mapped = mapped_mesh(read_mended(path, repair, session, data, missing), options);
   if (mapped.mapped_here())
     session.console.say(mapped.name() + ": carries no map; mapped now (progressive)");
   return mapped;

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "arguments/repair_arguments.h"
 #include "commands/data_files.h"
 #include "console/session.h"
 #include "sphparam/io/mapped_mesh.h"
@@ -15,11 +16,25 @@ namespace sphparam::cli {
 /// A mesh within the limits of the command line.
 MeshSource read_source(const std::string& path);
 
+/// The limits of the command line, and what of a file the repairs that are wanted can take away.
+ReadOptions limits_for(const RepairArguments& repair);
+
+/// A mesh within the limits of the command line, with the numbers of --data, after the repairs that
+/// are wanted: what the file loses and what is done is told, and that a map is left behind which is
+/// of the mesh before. Throws: as `repaired`; UsageMistake.
+MeshSource read_mended(const std::string& path, const RepairArguments& repair, Session& session,
+                       const Words& data = {}, MissingValues missing = MissingValues::LeftOut);
+
+/// The same, mended as far as these repairs go, whether it can be mapped then or not.
+MeshSource read_mended_as_far(const std::string& path, const RepairArguments& repair,
+                              Session& session);
+
 /// `load_mapped` within the limits of the command line, from where on signals are held; what the
-/// file loses is told, and so is a map that had to be made, with the λ given. `data`: of --data.
+/// file loses is told, what repairs do, and so is a map that had to be made, with the λ given.
+/// `data`: of --data.
 MappedMesh read_mapped(const std::string& path, const std::string& sphere, Session& session,
-                       double lambda = 1, const Words& data = {},
-                       MissingValues missing = MissingValues::LeftOut);
+                       const RepairArguments& repair = {}, double lambda = 1,
+                       const Words& data = {}, MissingValues missing = MissingValues::LeftOut);
 
 /// Of images for geographers: how far the map's longitudes and latitudes are from those of the body
 /// that the mesh is, seen from the centre of a radial map or the origin; nothing where they are the

@@ -45,6 +45,7 @@ struct SpharmArguments : CommonArguments {
   Words scalars;
   int degree = 20;
   bool least_squares = true;
+  RepairArguments repair;
 };
 
 void require_scalars(const MeshFile& file, const Words& scalars) {
@@ -142,7 +143,8 @@ void warn_of_few_vertices(const SpharmArguments& arguments, const MeshFile& file
 int run_spharm(SpharmArguments& arguments) {
   require_sensible(arguments);
   Session session(arguments);
-  const MappedMesh mapped = read_mapped(arguments.input, arguments.sphere, session);
+  const MappedMesh mapped =
+      read_mapped(arguments.input, arguments.sphere, session, arguments.repair);
   warn_of_few_vertices(arguments, mapped.file(), session.console);
   HarmonicExpansion expansion = expand(arguments, mapped, session);
   align_as_asked(arguments, mapped, expansion, session);
@@ -205,9 +207,9 @@ void declare_options(Declaration& command, SpharmArguments& arguments) {
       .written()
       .text("--reconstruct", arguments.reconstruction, "FILE",
             "The mesh as the harmonics have it, in the format of its name")
-      .written()
-      .threads(arguments)
-      .console(arguments);
+      .written();
+  declare_repair_options(command, arguments.repair);
+  command.threads(arguments).console(arguments);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "arguments/limits.h"
+#include "arguments/repair_arguments.h"
 #include "console/session.h"
 #include "sphparam/io/mesh_file.h"
 
@@ -11,5 +12,8 @@ namespace sphparam::cli {
 /// What is surface of a mesh, any triangles: fillers are left out, which is told.
 MeshFile read_surface(const std::string& path, Session& session,
                       const ReadOptions& options = input_limits());
+
+/// The same after the repairs that are wanted, as far as they go; as it is where none are.
+MeshFile read_surface(const std::string& path, const RepairArguments& repair, Session& session);
 
 }  // namespace sphparam::cli

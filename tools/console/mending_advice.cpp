@@ -52,13 +52,24 @@ std::string advice_for_component(const Words& words, const Words& rest,
   return repair_advice(refusal, typed(rest, options_line(refusal.trial()->options)));
 }
 
+bool takes_repair(const std::string& subcommand) {
+  static const Words all = {"map",   "bake",    "export", "remesh", "report",
+                            "paint", "compare", "spharm", "match",  "group"};
+  return std::ranges::find(all, subcommand) != all.end();
+}
+
+bool has(const Words& words, const std::string& word) {
+  return std::ranges::find(words, word) != words.end();
+}
+
 }  // namespace
 
 std::string advice_for(const Words& words, const MeshRefusal& refusal) {
-  if (words.empty() || words.front() != "map") return repair_advice(refusal);
+  if (words.empty() || !takes_repair(words.front())) return repair_advice(refusal);
+  // What other subcommands take of --all-components are maps.
+  if (words.front() != "map" && has(words, "--all-components")) return repair_advice(refusal);
   const Words rest = without_repairs(words);
-  if (std::ranges::find(rest, "--all-components") != rest.end())
-    return advice_for_component(words, rest, refusal);
+  if (has(rest, "--all-components")) return advice_for_component(words, rest, refusal);
   if (!refusal.trial()) return repair_advice(refusal);
   return repair_advice(refusal, typed(rest, options_line(refusal.trial()->options)));
 }

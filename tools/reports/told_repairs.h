@@ -5,7 +5,8 @@
 
 namespace sphparam::cli {
 
-/// Says what was done to a mesh: each kind of repair, the handles, what choosing a component kept.
+/// Says what was done to a mesh: each kind of repair, the handles, what choosing a component
+/// kept, what was put in.
 void tell_repairs(const MeshSource& source, Console& console);
 
 }  // namespace sphparam::cli

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "io/repaired_file.h"
+#include "mesh/triangle_geometry.h"
 #include "number_text.h"
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/io/losses.h"
@@ -91,7 +92,23 @@ RepairOptions all_as(const RepairOptions& wanted) {
           .weld_length = wanted.weld_length};
 }
 
+/// Of the surface, what was not there before.
+double added_share(const RepairedMesh& mended) {
+  double area = 0, added = 0;
+  const TriangleMesh& mesh = mended.mesh;
+  for (Face f = 0; f < static_cast<Face>(mesh.face_count()); ++f) {
+    if (!mended.fillers.empty() && mended.fillers[f]) continue;
+    const Triangles& faces = mesh.triangles;
+    const double of_face = triangle_area(mesh.position(faces(f, 0)), mesh.position(faces(f, 1)),
+                                         mesh.position(faces(f, 2)));
+    area += of_face;
+    if (mended.face_origin[f] < 0) added += of_face;
+  }
+  return added > 0 ? added / area : 0;
+}
+
 MeshSource with_repairs(MeshSource source, RepairedMesh mended) {
+  if (!mended.actions.empty()) source.added_share = added_share(mended);
   source.repairs = by_file_numbers(mended.actions, source);
   source.parts = by_file_numbers(mended.parts, source);
   source.handles = by_file_numbers(std::move(mended.handles), source);

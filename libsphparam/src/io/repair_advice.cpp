@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/attributes/appearance.h"
 #include "io/shell_word.h"
 #include "number_text.h"
 #include "sphparam/names.h"
@@ -70,6 +71,15 @@ std::string repair_advice(const RepairTrial& trial, const std::string& path,
          "`:\n" + share_line(trial) + message_lines(trial.actions) +
          handle_lines(trial.handles, "      ") + (kept.empty() ? "" : "    " + kept + "\n") +
          (fills ? "  With --keep-holes holes stay holes.\n" : "");
+}
+
+std::string added_line(const MeshSource& source) {
+  if (!(source.added_share > 0)) return "";
+  const bool textured = has_texcoords(source.file),
+             coloured = vertex_colours(source.file).has_value();
+  const std::string what = textured ? "texture" : "colours";
+  return "what was put in is " + percent(source.added_share) + " of the area" +
+         (textured || coloured ? ", and has the " + what + " of what is beside it" : "");
 }
 
 std::string repair_advice(const MeshRefusal& refusal, const std::string& command) {

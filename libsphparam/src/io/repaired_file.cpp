@@ -3,6 +3,7 @@
 #include <cmath>
 #include <set>
 
+#include "io/attributes/patched_texture.h"
 #include "io/attributes/weightiest_label.h"
 #include "io/mesh_part.h"
 #include "sphparam/io/fillers.h"
@@ -54,13 +55,75 @@ void gather_faces(Property& property, const RepairedMesh& repaired) {
 }
 
 template <class Table>
-void gather_corners(std::optional<Table>& table, const std::vector<int>& corner_origin) {
+void gather_corners(std::optional<Table>& table, const RepairedMesh& repaired) {
   if (!table) return;
-  Table gathered(static_cast<Eigen::Index>(corner_origin.size()), table->cols());
-  for (std::size_t i = 0; i < corner_origin.size(); ++i) {
-    gathered.row(static_cast<Eigen::Index>(i)) = table->row(corner_origin[i]);
+  const std::vector<int>& origin = repaired.corner_origin;
+  Table gathered(static_cast<Eigen::Index>(origin.size()), table->cols());
+  for (std::size_t i = 0; i < origin.size(); ++i) {
+    gathered.row(static_cast<Eigen::Index>(i)) = table->row(origin[i]);
   }
+  for (const auto& [corner, between] : repaired.blended)
+    gathered.row(corner) =
+        between.barycentric.transpose() * table->template middleRows<3>(3 * between.face);
   table = std::move(gathered);
+}
+
+/// What lies between unit normals is one.
+void make_unit(std::optional<CornerNormals>& normals, const RepairedMesh& repaired) {
+  if (!normals) return;
+  for (const BlendedCorner& corner : repaired.blended) normals->row(corner.corner).normalize();
+}
+
+const std::vector<std::string> of_vertices = {"s", "t"};
+
+/// Back to the vertices where all corners of each agree.
+void return_to_vertices(MeshFile& file) {
+  Property s = *file.find_vertex_property("s"), t = *file.find_vertex_property("t");
+  const Triangles& triangles = file.mesh.triangles;
+  const CornerTexcoords& uv = *file.corner_texcoords;
+  const auto is_there = [&](Vertex v) { return v >= 0 && v < file.mesh.vertex_count(); };
+  for (Eigen::Index i = 0; i < triangles.size(); ++i) {
+    const Vertex v = triangles.data()[i];
+    if (!is_there(v)) continue;
+    s.values[v] = uv(i, 0);
+    t.values[v] = uv(i, 1);
+  }
+  for (Eigen::Index i = 0; i < triangles.size(); ++i) {
+    const Vertex v = triangles.data()[i];
+    if (!is_there(v)) continue;
+    if (s.values[v] == uv(i, 0) && t.values[v] == uv(i, 1)) continue;
+    remove_properties(file.vertex_properties, of_vertices);
+    return;
+  }
+  file.corner_texcoords.reset();
+  file.set_vertex_property(std::move(s));
+  file.set_vertex_property(std::move(t));
+}
+
+/// Of the corners; 0 where a face names a vertex that is not there, which no repair keeps.
+std::optional<CornerTexcoords> input_texcoords(const MeshFile& file) {
+  if (file.corner_texcoords) return file.corner_texcoords;
+  const Property *s = file.find_vertex_property("s"), *t = file.find_vertex_property("t");
+  if (!s || !t) return std::nullopt;
+  const Triangles& triangles = file.mesh.triangles;
+  CornerTexcoords corners = CornerTexcoords::Zero(triangles.size(), 2);
+  for (Eigen::Index i = 0; i < triangles.size(); ++i) {
+    const Vertex v = triangles.data()[i];
+    if (v >= 0 && v < file.mesh.vertex_count()) corners.row(i) << s->values[v], t->values[v];
+  }
+  return corners;
+}
+
+/// Texture coordinates go corner by corner, for a vertex may have several now.
+void gather_texcoords(MeshFile& result, const MeshFile& file, const RepairedMesh& repaired) {
+  std::optional<CornerTexcoords> input = input_texcoords(file);
+  if (!input) return;
+  const bool by_vertex = !file.corner_texcoords;
+  result.corner_texcoords = *input;
+  if (by_vertex) result.corner_texcoord_type = file.find_vertex_property("s")->type;
+  gather_corners(result.corner_texcoords, repaired);
+  texture_patches(result, file, *input, repaired);
+  if (by_vertex) return_to_vertices(result);
 }
 
 /// Those of before, and those of this repair. What closes a handle is surface.
@@ -88,9 +151,10 @@ MeshFile repaired_file(const MeshFile& file, const RepairedMesh& repaired) {
   }
   for (Property& property : result.vertex_properties) gather_vertices(property, repaired);
   for (Property& property : result.face_properties) gather_faces(property, repaired);
-  gather_corners(result.corner_texcoords, repaired.corner_origin);
-  gather_corners(result.corner_normals, repaired.corner_origin);
+  gather_corners(result.corner_normals, repaired);
+  make_unit(result.corner_normals, repaired);
   result.mesh = repaired.mesh;
+  gather_texcoords(result, file, repaired);
   if (!repaired.fillers.empty()) mark_fillers(result, all_fillers(result, repaired));
   return result;
 }

@@ -7,8 +7,9 @@ namespace sphparam {
 
 /// The mesh file with its mesh mended, and everything it carried taken along.
 ///
-/// Created vertices get the mean of the attributes of those they lie between, new faces and corners
-/// those of a neighbour. `source_vertex` and `source_face` name the ids of the file, −1 where there
+/// Created vertices get the mean of the attributes of those they lie between, corners on a side
+/// that was split the mean of its ends, new faces and corners those of a neighbour; of texture see
+/// `texture_patches`. `source_vertex` and `source_face` name the ids of the file, −1 where there
 /// is none; vertices and faces that were as they are now keep theirs. The same file when nothing
 /// was done.
 /// Requires: `repaired` was made from `file.mesh`. Cost: O(#V + #F) a property.

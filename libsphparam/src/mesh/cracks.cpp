@@ -176,6 +176,12 @@ class CrackCloser {
     all.insert(all.end(), faces.begin(), faces.end());
   }
 
+  /// How far along a side a vertex lies, from 0 to 1.
+  double share_along(Vertex a, Vertex b, Vertex v) const {
+    const Vector3 edge = state_.shape[b] - state_.shape[a], to = state_.shape[v] - state_.shape[a];
+    return std::clamp(to.dot(edge) / edge.squaredNorm(), 0.0, 1.0);
+  }
+
   /// Where on a side a vertex lies, from 0 to 1 the way its face runs; nothing where it does not.
   std::optional<double> place_on(Vertex a, Vertex b, Vertex v) const {
     const Vector3 edge = state_.shape[b] - state_.shape[a], to = state_.shape[v] - state_.shape[a];
@@ -215,9 +221,7 @@ class CrackCloser {
     const std::array<int, 3> like = state_.corner_origin[f];
     const Vertex a = face[k], b = face[(k + 1) % 3], c = face[(k + 2) % 3];
     const auto corner_like = [&](Vertex v) {
-      const bool nearer_a = (state_.shape[v] - state_.shape[a]).squaredNorm() <=
-                            (state_.shape[v] - state_.shape[b]).squaredNorm();
-      return like[nearer_a ? k : (k + 1) % 3];
+      return state_.blend(like[k], like[(k + 1) % 3], share_along(a, b, v));
     };
     for (std::size_t i = 0; i < stops.size(); ++i) {
       state_.log(RepairKind::EdgeSplitAtVertex, {state_.vertex_origin[stops[i]]});

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <optional>
 
 #include "mesh/flat_face.h"
@@ -67,8 +68,23 @@ class FlatFaceMender {
     const int flat_after = is_flat(a, d, c) + is_flat(d, b, c);
     if (folds || flat_after >= flat_before) return false;
     state_.log(RepairKind::FlatFaceTurned, {state_.face_origin[f]});
-    faces_.turn(longest);
+    split_other(longest);
     return true;
+  }
+
+  /// What lies beside a flat face is cut at the face's vertex: both halves are pieces of it.
+  void split_other(Halfedge h) {
+    const Halfedge t = faces_.twin(h);
+    const Vector3 edge = origin(t) - origin(h), to = point(faces_.apex(h)) - origin(h);
+    const int like_a = state_.corner_like(PairedFaces::next(t)), like_b = state_.corner_like(t),
+              like_d = state_.corner_like(PairedFaces::previous(t));
+    const double length = edge.squaredNorm();
+    const double share = length > 0 ? std::clamp(to.dot(edge) / length, 0.0, 1.0) : 0;
+    const int like_c = state_.blend(like_a, like_b, share);
+    faces_.turn(h);
+    state_.corner_origin[h / 3] = {like_a, like_d, like_c};
+    state_.corner_origin[t / 3] = {like_d, like_b, like_c};
+    state_.face_origin[h / 3] = state_.face_origin[t / 3];
   }
 
   double length(Halfedge h) const {

@@ -122,7 +122,11 @@ RepairedMesh as_result(RepairState&& state, MeshInspection inspection) {
   if (state.has_fillers()) result.fillers = std::move(state.fillers);
   result.inspection = std::move(inspection);
   for (const auto& corners : state.corner_origin) {
-    result.corner_origin.insert(result.corner_origin.end(), corners.begin(), corners.end());
+    for (const int like : corners) {
+      const int corner = static_cast<int>(result.corner_origin.size());
+      if (like < 0) result.blended.push_back({corner, state.blend_at(like).between});
+      result.corner_origin.push_back(like < 0 ? state.blend_at(like).like : like);
+    }
   }
   for (Vertex v = 0; v < static_cast<Vertex>(result.vertex_origin.size()); ++v) {
     if (result.vertex_origin[v] < 0) result.created.push_back({v, std::move(state.mean_of[v])});

@@ -4,7 +4,7 @@
 
 // Turning rewrites the two faces in place, splitting and collapsing rewrite what is there and add
 // or drop two faces. Corners keep the attributes of the corner that was at the same vertex of the
-// same face; a middle vertex's corners take those of the side's two ends.
+// same face; a middle vertex's corners take the mean of the side's two ends.
 
 namespace sphparam {
 
@@ -62,10 +62,11 @@ Halfedge PairedFaces::split_side(Halfedge h, Vertex middle) {
   const Halfedge along = next(h), beyond = previous(h);
   const Vertex y = origin(along), z = origin(beyond);
   const int like_y = state_.corner_like(along);
-  state_.add_face({middle, y, z}, {like_y, like_y, state_.corner_like(beyond)});
+  const int like_middle = state_.blend(state_.corner_like(h), like_y, 0.5);
+  state_.add_face({middle, y, z}, {like_middle, like_y, state_.corner_like(beyond)});
   state_.face_origin[added] = state_.face_origin[f];
   state_.faces[f][along % 3] = middle;
-  state_.corner_origin[f][along % 3] = state_.corner_like(h);
+  state_.corner_origin[f][along % 3] = like_middle;
   twin_.resize(twin_.size() + 3, -1);
   alive_.push_back(1);
   ++alive_count_;

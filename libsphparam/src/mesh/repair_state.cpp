@@ -38,6 +38,12 @@ void keep(std::vector<Value>& values, const std::vector<char>& kept) {
   values.erase(values.begin() + static_cast<std::ptrdiff_t>(to), values.end());
 }
 
+/// Where a corner lies in its face of the input.
+SurfacePoint place_of(const RepairState& state, int corner_like) {
+  if (corner_like < 0) return state.blend_at(corner_like).between;
+  return {corner_like / 3, Vector3::Unit(corner_like % 3)};
+}
+
 }  // namespace
 
 RepairState::RepairState(const TriangleMesh& mesh) {
@@ -102,6 +108,15 @@ void RepairState::add_face(const std::array<Vertex, 3>& vertices,
   face_origin.push_back(-1);
   corner_origin.push_back(corners_like);
   fillers.push_back(0);
+}
+
+int RepairState::blend(int first, int second, double share) {
+  const SurfacePoint a = place_of(*this, first), b = place_of(*this, second);
+  const int nearer = share <= 0.5 ? first : second;
+  if (a.face != b.face) return nearer;
+  const int like = nearer < 0 ? blend_at(nearer).like : nearer;
+  blends.push_back({like, {a.face, (1 - share) * a.barycentric + share * b.barycentric}});
+  return -static_cast<int>(blends.size());
 }
 
 void RepairState::turn_over(Face f) {

@@ -17,7 +17,13 @@ struct RepairState {
   std::vector<std::array<Vertex, 3>> faces;
   std::vector<Vertex> vertex_origin;
   std::vector<Face> face_origin;
+  /// Corners of the input that these are like; negative ones are of `blends`, see `blend`.
   std::vector<std::array<int, 3>> corner_origin;
+  struct Blend {
+    int like;
+    SurfacePoint between;
+  };
+  std::vector<Blend> blends;
   FillerMarks fillers;                       // #F: of holes that are kept
   std::vector<std::vector<Vertex>> mean_of;  // #V: of created vertices, else empty
   std::vector<RepairAction> actions;         // one a kind
@@ -32,6 +38,9 @@ struct RepairState {
   int face_count() const { return static_cast<int>(faces.size()); }
   Vertex corner(int i) const { return faces[i / 3][i % 3]; }
   int corner_like(int i) const { return corner_origin[i / 3][i % 3]; }
+  const Blend& blend_at(int corner_like) const {
+    return blends[static_cast<size_t>(-1 - corner_like)];
+  }
 
   /// Counts an action at an element: a face or vertex by its id in the input, an edge by two.
   void log(RepairKind kind, std::initializer_list<int> input_ids);
@@ -40,6 +49,9 @@ struct RepairState {
   Vertex copy_vertex(Vertex v);
   Vertex create_mean(const std::vector<Vertex>& parents);
   void add_face(const std::array<Vertex, 3>& vertices, const std::array<int, 3>& corners_like);
+  /// Between two corners that are like these, `share` of the way to the second; like the nearer one
+  /// where they are of different faces of the input.
+  int blend(int first, int second, double share);
   void turn_over(Face f);
   void keep_faces(const std::vector<char>& kept);
   void keep_vertices(const std::vector<char>& kept);  // no face names the others

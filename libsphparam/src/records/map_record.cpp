@@ -137,6 +137,7 @@ std::string to_json(const MapRecord& record) {
                {"inspection", inspection_json(record.source.inspection)},
                {"repairs", repairs_json(record.source.repairs)},
                {"handles", handles_json(record.source.handles)},
+               {"added", record.source.added_share},
                {"components", parts_json(record.source.parts)},
                {"options", options_json(record)},
                {"account", account_json(record.account)},

@@ -18,6 +18,7 @@ std::string to_json(const RepairRecord& record) {
                   {"welded", source.welded},
                   {"repairs", repairs_json(source.repairs)},
                   {"handles", handles_json(source.handles)},
+                  {"added", source.added_share},
                   {"components", parts_json(source.parts)},
                   {"inspection", inspection_json(source.inspection)},
                   {"losses", record.losses},

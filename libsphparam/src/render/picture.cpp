@@ -193,17 +193,18 @@ class Drawing {
 
 DrawnMesh load_drawn(const std::string& path, const std::string& sphere,
                      const ReadOptions& options) {
-  DrawnMesh drawn;
+  if (!sphere.empty()) return drawn_mesh(read_source(path, options), sphere, options);
   MeshSource source;
   source.path = path;
-  if (sphere.empty()) {
-    source.file = read_mesh(path, options);
-    keep_textures(source.file);
-  } else {
-    source = read_source(path, options);
-  }
+  source.file = read_mesh(path, options);
+  keep_textures(source.file);
+  return drawn_mesh(std::move(source));
+}
+
+DrawnMesh drawn_mesh(MeshSource source, const std::string& sphere, const ReadOptions& options) {
   if (source.file.mesh.face_count() == 0)
-    throw ReadError(display_name(path), "there are no triangles to draw");
+    throw ReadError(display_name(source.path), "there are no triangles to draw");
+  DrawnMesh drawn;
   drawn.map = sphere.empty() ? read_sphere(source.file) : directions_of(source, sphere, options);
   drawn.file = std::move(source.file);
   drawn.file.mesh = at_drawing_size(std::move(drawn.file.mesh));

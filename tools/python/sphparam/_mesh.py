@@ -183,6 +183,11 @@ class Mesh:
         return tuple(HandleLoop(*row) for row in self._source.handles)
 
     @property
+    def added_share(self) -> float:
+        """Of the area, what :func:`repair` put in to close holes and handles."""
+        return float(self._source.added_share)
+
+    @property
     def vertex_origin(self) -> npt.NDArray[numpy.int32]:
         """(V,) numbers of the vertices in the mesh or file this was made of; −1: created."""
         found = dict(self._source.vertex_values()).get("source_vertex")

@@ -23,6 +23,7 @@ struct MeshSource {
   std::vector<RepairAction> repairs;  // with the numbers of the file; see `repaired`
   KeptParts parts;                    // what they kept of the surface, so numbered too
   std::vector<HandleLoop> handles;    // that they removed; so numbered too
+  double added_share = 0;  // of the area of the mended surface: what closes its holes and handles
 };
 
 /// Throws: ReadError. A mesh that is no sphere is returned all the same: see `inspection`.

@@ -18,4 +18,8 @@ std::string repair_advice(const RepairTrial& trial, const std::string& path,
 /// The same of a mesh that was refused, and what had been done to it before.
 std::string repair_advice(const MeshRefusal& refusal, const std::string& command = "");
 
+/// "what was put in is 0.4 % of the area, and has the texture of what is beside it"; empty where
+/// repairs put in nothing.
+std::string added_line(const MeshSource& source);
+
 }  // namespace sphparam

@@ -6,6 +6,7 @@
 
 #include "sphparam/mesh/fillers.h"
 #include "sphparam/mesh/mesh_defects.h"
+#include "sphparam/mesh/surface_point.h"
 #include "sphparam/mesh/triangle_mesh.h"
 
 namespace sphparam {
@@ -115,6 +116,13 @@ struct CreatedVertex {
   std::vector<Vertex> mean_of;  // ids in the input; repeated ones weigh more
 };
 
+/// A corner that the input does not have: on a side of a face that was split. What corners carry is
+/// there the mean of that face's.
+struct BlendedCorner {
+  int corner;            // of the mended mesh, 3·face + k
+  SurfacePoint between;  // in the input; its weights are of corners
+};
+
 /// A component, as it was when one of them was to be kept. Shares are of all of them; of a mesh
 /// without area, those of the faces stand for it.
 struct SurfacePart {
@@ -151,6 +159,7 @@ struct RepairedMesh {
   std::vector<Vertex> vertex_origin;   // #V: id in the input, −1 for created ones
   std::vector<Face> face_origin;       // #F: id in the input, −1 for faces that fill holes
   std::vector<int> corner_origin;      // #F·3: corner 3·face + k of the input that it is like
+  std::vector<BlendedCorner> blended;  // by corner
   std::vector<CreatedVertex> created;  // by vertex
   FillerMarks fillers;                 // that close holes that are kept
   std::vector<RepairAction> actions;   // in the order of RepairKind; empty: nothing was done
@@ -184,10 +193,10 @@ struct RepairedMesh {
 /// tree and cotree, Eppstein 2003; each shorter one crosses one of these, so searches begin there;
 /// which loops separate is told by random cohomology classes), each tightened until no vertex of it
 /// has a shorter one of its class; the faces beside it get copies of its vertices, and both rims
-/// get caps, bent apart and out of the surface's way. No position changes, and no face but its names.
-/// Components are ranked by area; of equal ones the one with more faces comes first, then the one
-/// with the lowest vertex.
-/// Throws: NoSuchComponent; std::invalid_argument unless component ≥ 0, least_kept from 0 to 1,
+/// get caps, bent apart and out of the surface's way. No position changes, and no face but its
+/// names. Components are ranked by area; of equal ones the one with more faces comes first, then
+/// the one with the lowest vertex. Throws: NoSuchComponent; std::invalid_argument unless component
+/// ≥ 0, least_kept from 0 to 1,
 ///         largest_hole ≥ 3, and longest_handle, longest_handle_length ≥ 0, or
 ///         where a weld is NaN.
 /// Ensures: deterministic. Cost: O((#V + #F) log #F), for any valence and any hole; about

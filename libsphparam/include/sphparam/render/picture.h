@@ -5,6 +5,7 @@
 #include <string>
 
 #include "sphparam/io/mesh_file.h"
+#include "sphparam/io/mesh_source.h"
 #include "sphparam/io/read_options.h"
 #include "sphparam/io/up_axis.h"
 #include "sphparam/sphere/sphere_map.h"
@@ -24,6 +25,10 @@ struct DrawnMesh {
 /// Throws: ReadError, also for a mesh without triangles, and for a sphere of other connectivity or
 /// with a vertex at its centre.
 DrawnMesh load_drawn(const std::string& path, const std::string& sphere = "",
+                     const ReadOptions& options = {});
+
+/// The same of a mesh that was read already, or mended. Throws: likewise.
+DrawnMesh drawn_mesh(MeshSource source, const std::string& sphere = "",
                      const ReadOptions& options = {});
 
 /// What a picture shows: the mesh, its sphere, or both in a row.
