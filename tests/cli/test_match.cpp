@@ -269,4 +269,40 @@ TEST_CASE("match: a mirrored shape is told, and --mirror matches it") {
   CHECK(report["distortion"]["symmetric_dirichlet"] < 4.3);
 }
 
+TEST_CASE("map --like gives a low mesh the sphere of the one that it lies about") {
+  const Folder folder;
+  const std::string low = folder / "low.obj", fine = folder / "fine.obj",
+                    high = folder / "high.sph.ply", out = folder / "low.sph.ply";
+  write_bytes(low, obj_text(creature(3, 1)));
+  write_bytes(fine, obj_text(creature(4, 1)));
+  REQUIRE(sphparam_program({"map", fine, "-o", high}).code == 0);
+  const std::vector<std::string> like{"map", low, "--like", high, "-o", out};
+  const auto with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> all = like;
+    all.insert(all.end(), more.begin(), more.end());
+    return sphparam_program(all);
+  };
+  const Ended ended = with({"--json", "-"});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.err, Contains("of the area goes to where it is nearest"));
+  const Json record = Json::parse(ended.out);
+  CHECK(record["like"]["other"] == "high.sph.ply");
+  CHECK(record["like"]["in_place"].get<double>() > 0.95);
+  CHECK(record["like"]["farthest"].get<double>() < 0.05);
+  CHECK(record["options"]["method"] == "like");
+  CHECK(sphparam_program({"verify", out}).code == 0);
+  CHECK_THAT(bytes_of(out), Contains("like high.sph.ply"));
+
+  const Ended both = with({"--poles", "1,2"});
+  CHECK(both.code == 2);
+  CHECK_THAT(both.err, Contains("--poles and --like contradict each other"));
+  TriangleMesh away = creature(3, 1);
+  away.positions.array() += 9;
+  write_bytes(low, obj_text(away));
+  const Ended elsewhere = with({});
+  CHECK(elsewhere.code == 2);
+  CHECK_THAT(elsewhere.err, Contains("has one been moved or scaled?"));
+}
+
 }  // namespace sphparam::tests

@@ -113,3 +113,14 @@ def test_features_come_to_lie_on_each_other(maps):
         sp.match(*maps, features=("height", np.ones(len(heights))))
     with pytest.raises(ValueError, match="weight"):
         sp.match(*maps, features=("height", heights), feature_weight=0)
+def test_a_coarse_mesh_is_mapped_like_a_fine_one_that_lies_where_it_does(maps):
+    vertices, faces = potato(4)
+    fine = sp.map(vertices, faces, align=None)
+    low = maps[0].like(fine)
+    assert low.certificate.one_to_one and (low.faces == maps[0].faces).all()
+    face, weights = fine.locate(low.points)
+    there = np.einsum("ik,ikd->id", weights, fine.vertices[fine.faces[face]])
+    assert np.abs(there - low.vertices).max() < 0.02
+    away, _ = potato(3)
+    with pytest.raises(ValueError, match="moved or scaled"):
+        sp.map(away + 10.0, faces if len(away) == len(vertices) else potato(3)[1]).like(fine)

@@ -125,6 +125,19 @@ void settle_upright(MapArguments& arguments) {
       (arguments.upright_poles || (arguments.given("--front") && options.poles));
 }
 
+/// The other mesh's map says where everything lies and what is made.
+void require_only_like(const MapArguments& arguments) {
+  if (arguments.like.empty()) return;
+  for (const std::string name :
+       {"--method", "--lambda", "--repair-map", "--keep-folded", "--poles", "--meridian", "--pin",
+        "--up", "--front", "--align", "--centre", "--balance", "--quality", "--energy",
+        "--all-components", "--keep-holes"}) {
+    if (!arguments.given(name)) continue;
+    throw UsageMistake(name + " and --like contradict each other: the map follows from that of " +
+                       display_name(arguments.like));
+  }
+}
+
 /// Files of their own, and vertices of no one part.
 void require_sensible_parts(const MapArguments& arguments) {
   if (!arguments.all_components) return;
@@ -156,8 +169,8 @@ void settle_sphere(MapArguments& arguments) {
 void require_sensible(const MapArguments& arguments) {
   if (arguments.output.empty() && arguments.sphere.empty())
     throw UsageMistake("nothing to write: give -o, the map, or --write-sphere, the bare sphere");
-  require_one_stream({arguments.input, arguments.pins, arguments.align},
-                     "the mesh, --pin and --align");
+  require_one_stream({arguments.input, arguments.pins, arguments.align, arguments.like},
+                     "the mesh, --pin, --align and --like");
   const std::string extension = inner_extension_of(arguments.output);
   if (!extension.empty() && !keeps_map(arguments.output)) {
     throw UsageMistake("-o: the map is a PLY, .ply, or a polydata of VTK, .vtk or .vtp; for " +
@@ -222,6 +235,10 @@ void declare_frame(Declaration& command, MapArguments& arguments) {
             "Vertices to be exactly at given points; a line is: vertex theta phi (radians)")
       .group("As the mesh stands: top and bottom at the poles, the front at theta = 0")
       .up(arguments.up)
+      .group("The sphere of another mesh")
+      .text("--like", arguments.like, "FILE",
+            "Map this mesh, which lies where that one does, so that both mean the same in every "
+            "direction")
       .group("The axes of a body")
       .text("--align", arguments.align, "body|FILE",
             "Turn the map to the directions from the centre, or to another map of the mesh")
@@ -285,11 +302,13 @@ void declare_map_options(Declaration& command, MapArguments& arguments) {
 
 void settle(MapArguments& arguments) {
   ParameterizeOptions& options = arguments.options;
+  require_only_like(arguments);
   require_method(arguments, Method::Progressive, progressive_only);
   require_method(arguments, Method::Paper, paper_only);
   require_no_settings(arguments);
   if (const auto* own = std::get_if<Method>(&arguments.method)) options.method = *own;
   settle_poles(arguments.poles, options);
+  if (!arguments.like.empty()) options.automatic_poles = false;
   options.filler_share = wanted_filler_share(arguments.repair);
   settle_balance(arguments.balance, arguments.given("--lambda"), options);
   const bool weighted = arguments.given("--lambda") || arguments.given("--balance");

@@ -21,6 +21,7 @@ struct MapArguments : CommonArguments {
   Words data;
   Naming naming;      // of the sphere
   std::string align;  // body, or another map of the mesh
+  std::string like;   // another mesh that lies where this one does, with its map
   std::string poles = "auto";
   Up up;                             // as the command line says
   bool upright_poles = false;        // top and bottom

@@ -37,6 +37,7 @@ constexpr char summary[] =
     "  sphparam map scan.ply -o scan.sph.ply --repair\n"
     "  sphparam map eros.obj -o eros.sph.ply --method radial\n"
     "  sphparam map face.ply -o face.sph.ply --repair --keep-holes\n"
+    "  sphparam map low.obj -o low.sph.ply --like sculpture.sph.ply\n"
     "  sphparam map hemispheres.ply -o hemispheres.sph.ply --all-components\n"
     "  sphparam map statue.obj -o folded.sph.ply --method paper --keep-folded\n"
     "  sphparam map statue.obj -o mended.sph.ply --method tangential --repair-map\n";
@@ -92,8 +93,37 @@ void settle_upright(const MapArguments& arguments, MapOutcome& outcome) {
   if (arguments.front_meridian) outcome.options.meridian = upright.meridian;
 }
 
+/// The map of the mesh that is to be followed; nothing: none is.
+std::optional<MappedMesh> read_other(const MapArguments& arguments, Session& session) {
+  if (arguments.like.empty()) return std::nullopt;
+  return read_mapped(arguments.like, "", session);
+}
+
+/// Instead of the map that the mesh has by itself, one that means what the other's does.
+void follow(const MappedMesh& other, MapOutcome& outcome, Session& session) try {
+  const Stopwatch stopwatch;
+  const MappedMesh own({.file = outcome.source.file,
+                        .map = outcome.result.map,
+                        .topology = outcome.topology(),
+                        .name = display_name(outcome.source.path)},
+                       session.threads());
+  outcome.likeness =
+      map_like(own, other, {.threads = session.threads(), .progress = session.progress()});
+  outcome.other = other.name();
+  Parameterization& result = outcome.result;
+  result.map = outcome.likeness->mapped.map();
+  result.certificate = outcome.likeness->mapped.certificate();
+  result.made_by = "like";
+  result.energy_gap.reset();
+  result.stages.push_back({.name = "like", .seconds = stopwatch.seconds()});
+  take_up(outcome.source.file, other.file());
+} catch (const UnlikeSurfaces& error) {
+  throw UsageMistake(std::string("--like: ") + error.what());
+}
+
 MapOutcome compute(MeshSource source, const MapArguments& arguments, Session& session) {
   require_mappable(source);
+  const std::optional<MappedMesh> other = read_other(arguments, session);
   MapOutcome outcome = {
       .source = std::move(source), .method = arguments.method, .options = arguments.options};
   const TriangleMesh& mesh = outcome.source.file.mesh;
@@ -106,6 +136,7 @@ MapOutcome compute(MeshSource source, const MapArguments& arguments, Session& se
   MethodRun run = run_method(arguments.method, mesh, outcome.topology(), options);
   outcome.result = std::move(run.result);
   outcome.account = std::move(run.account);
+  if (other) follow(*other, outcome, session);
   outcome.frame = check_frame(outcome.result, options);
   if (outcome.has_map() && is_to_stand(arguments))
     outcome.upright = upright_words(outcome.result.map, mesh, outcome.topology(),

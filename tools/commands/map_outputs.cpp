@@ -21,6 +21,7 @@ namespace {
 
 /// What the map depends on, as options.
 std::string options_line(const MapOutcome& outcome) {
+  if (outcome.likeness) return "--like " + outcome.other;
   if (std::holds_alternative<Method>(outcome.method))
     return sphparam::options_line(outcome.options);
   return outcome.options.repair_paper ? "--repair-map" : "none";
@@ -28,7 +29,7 @@ std::string options_line(const MapOutcome& outcome) {
 
 Provenance provenance(const MapOutcome& outcome) {
   return provenance_of(outcome.result,
-                       {.method = info_of(outcome.method).name,
+                       {.method = outcome.likeness ? "like" : info_of(outcome.method).name,
                         .options = options_line(outcome),
                         .citation = outcome.account ? outcome.account->citation : "",
                         .pins = outcome.options.pins.size(),
@@ -57,7 +58,7 @@ void add_sphere(const std::string& path, const MapArguments& arguments, const Ma
        provenance(outcome)},
       {.energy = options.energy,
        .may_remap = options.pins.empty() && !options.poles && !options.meridian &&
-                    !options.align_to && options.method != Method::Radial,
+                    !options.align_to && !outcome.likeness && options.method != Method::Radial,
        .origin = arguments.input,
        .threads = session.threads(),
        .progress = session.progress()});
@@ -105,12 +106,14 @@ std::string report_on(const MapArguments& arguments, MapOutcome& outcome, const 
   MapRecord record = {.source = outcome.source,
                       .options = arguments.options,
                       .result = outcome.result,
-                      .method = info_of(arguments.method).name,
+                      .method = outcome.likeness ? "like" : info_of(arguments.method).name,
                       .repairs = wanted_repairs(arguments.repair).value_or(RepairOptions::none()),
                       .account = outcome.account,
                       .pins = outcome.options.pins,
                       .pole_residuals = outcome.frame.pole_residuals,
                       .upright = outcome.upright,
+                      .likeness = outcome.likeness,
+                      .other = outcome.other,
                       .distortion = outcome.figures,
                       .chart = figures_of_chart(outcome, session),
                       .outputs = outputs};

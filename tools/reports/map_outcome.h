@@ -4,6 +4,7 @@
 #include <string>
 
 #include "compare/methods.h"
+#include "sphparam/correspondence/likeness.h"
 #include "sphparam/frame_check.h"
 #include "sphparam/io/mesh_source.h"
 #include "sphparam/names.h"
@@ -20,7 +21,9 @@ struct MapOutcome {
   Parameterization result = {};
   std::optional<BaselineAccount> account = std::nullopt;  // of a method of others
   FrameCheck frame = {};
-  std::string upright = {};  // `upright_words`
+  std::string upright = {};                         // `upright_words`
+  std::optional<Likeness> likeness = std::nullopt;  // of a map that follows another mesh's, …
+  std::string other = {};                           // … which has this name
   std::optional<Distortion> distortion = std::nullopt;
   std::optional<DistortionSummary> figures = std::nullopt;
 

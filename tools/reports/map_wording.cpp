@@ -121,6 +121,7 @@ void tell_frame(const MapOutcome& outcome, Console& console) {
 
 void tell_directions(const MapOutcome& outcome, Console& console) {
   if (!outcome.has_map()) return;
+  if (outcome.likeness) console.say("  like " + outcome.other + ": " + to_text(*outcome.likeness));
   if (const auto& radial = outcome.result.radial) console.say("  " + radial_line(*radial));
   if (const auto& angle = outcome.result.alignment) {
     console.say("  turned to the directions it is aligned to: " +

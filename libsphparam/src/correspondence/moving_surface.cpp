@@ -191,8 +191,17 @@ void MovingSurface::sweep(const std::vector<Vertex>& independent, const Composed
 }
 
 void MovingSurface::sweep(const ComposedEnergy& energy, int threads) {
+  for_each_in_turn(threads, [&](Vertex v) { step(v, energy); });
+}
+
+void MovingSurface::for_each_in_turn(int threads, const std::function<void(Vertex)>& visit) {
   if (colours_.empty()) make_colours();
-  for (const std::vector<Vertex>& colour : colours_) sweep(colour, energy, threads);
+  for (const std::vector<Vertex>& colour : colours_) {
+    parallel_for(std::ssize(colour), vertex_grain, threads,
+                 [&](std::int64_t first, std::int64_t last) {
+                   for (auto i = first; i < last; ++i) visit(colour[static_cast<size_t>(i)]);
+                 });
+  }
 }
 
 }  // namespace sphparam

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -63,6 +64,9 @@ class MovingSurface {
   /// One step of every vertex that may move, in the order of colours: the same for any number of
   /// threads.
   void sweep(const ComposedEnergy& energy, int threads);
+  /// Calls visit(v) for every vertex that may move, never for two neighbours at once, in the order
+  /// of colours: the same for any number of threads.
+  void for_each_in_turn(int threads, const std::function<void(Vertex)>& visit);
   /// Of these vertices, no two of which are neighbours.
   void sweep(const std::vector<Vertex>& independent, const ComposedEnergy& energy, int threads);
 

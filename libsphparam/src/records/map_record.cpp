@@ -118,6 +118,17 @@ const char* name_of(BaselineEnd end) {
   return "";
 }
 
+/// Of a map that follows another mesh's; null for others.
+Json likeness_json(const MapRecord& record) {
+  if (!record.likeness) return nullptr;
+  const Likeness& likeness = *record.likeness;
+  return {{"other", record.other},
+          {"in_place", likeness.in_place},
+          {"nowhere", likeness.nowhere},
+          {"median_distance", likeness.median},
+          {"farthest", likeness.farthest}};
+}
+
 /// Of a method of others; null for ours.
 Json account_json(const std::optional<BaselineAccount>& account) {
   if (!account) return nullptr;
@@ -141,6 +152,7 @@ std::string to_json(const MapRecord& record) {
                {"components", parts_json(record.source.parts)},
                {"options", options_json(record)},
                {"account", account_json(record.account)},
+               {"like", likeness_json(record)},
                {"stages", stages_json(record.result.stages)},
                {"made_by", record.result.made_by},
                {"poles", poles_json(record.result.poles, numbers)},

@@ -5,6 +5,7 @@
 #include "binding.h"
 #include "sphparam/bake/bake_errors.h"
 #include "sphparam/bake/fields.h"
+#include "sphparam/correspondence/likeness.h"
 #include "sphparam/correspondence/match.h"
 #include "sphparam/gltf/export.h"
 #include "sphparam/image/image_format.h"
@@ -112,6 +113,8 @@ void declare_errors(py::module_&) {
     } catch (const LookError& error) {
       PyErr_SetString(PyExc_ValueError, error.what());
     } catch (const ImageOfOtherChart& error) {
+      PyErr_SetString(PyExc_ValueError, error.what());
+    } catch (const UnlikeSurfaces& error) {
       PyErr_SetString(PyExc_ValueError, error.what());
     } catch (const OtherSphereError& error) {
       PyErr_SetString(PyExc_ValueError, error.what());

@@ -7,6 +7,7 @@
 #include "arrays.h"
 #include "binding.h"
 #include "call.h"
+#include "sphparam/correspondence/likeness.h"
 #include "sphparam/correspondence/match.h"
 #include "sphparam/correspondence/matched_files.h"
 #include "sphparam/correspondence/surface_map.h"
@@ -79,6 +80,17 @@ py::tuple match(const Mapped& from, const Mapped& to, const Pairs& pairs,
                         found.warnings);
 }
 
+/// The first one's mesh on the second one's sphere, and what is worth a warning of it.
+py::tuple like(const Mapped& mesh, const Mapped& other, int threads, const py::object& progress) {
+  constexpr double nearly_all = 0.99;
+  const Likeness found = call(progress, [=, mesh = mesh, other = other](const Progress& report) {
+    return map_like(mesh.mesh(), other.mesh(), {.threads = threads, .progress = report});
+  });
+  std::vector<std::string> warnings;
+  if (found.in_place < nearly_all) warnings.push_back(to_text(found));
+  return py::make_tuple(Mapped(found.mapped), warnings);
+}
+
 py::dict matched_distortion(const Mapped& from, const Mapped& to, int threads) {
   return as_dict(call(py::none(), [=, from = from, to = to](const Progress&) {
     return summarise(measure_distortion(SurfaceMap(from.mesh(), to.mesh()), threads), threads);
@@ -113,6 +125,7 @@ std::vector<std::string> write_morph(const Mapped& from, const Mapped& to, const
 
 void declare_matches(py::module_& module) {
   module.def("match", match);
+  module.def("map_like", like);
   module.def("matched_distortion", matched_distortion);
   module.def("write_morph", write_morph);
 }

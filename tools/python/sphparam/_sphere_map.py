@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from . import _arrays, _core
+from ._losses import tell
 from ._map_directions import MapDirections
+from ._map_facts import mapped_of
 from ._map_files import MapFiles
 from ._map_grids import MapGrids
 from ._map_images import MapImages
+from ._progress import Progress, told
 
 
 class SphereMap(MapDirections, MapImages, MapGrids, MapFiles):
@@ -16,6 +20,19 @@ class SphereMap(MapDirections, MapImages, MapGrids, MapFiles):
     """
 
     __slots__ = ()
+
+    def like(self, other: SphereMap, *, threads: int = 0, progress: Progress = None) -> SphereMap:
+        """The same mesh, mapped so that in each direction it is where ``other`` is: an artist's low mesh of a sculpture.
+
+        Each vertex goes towards where it is nearest to the other surface; a warning tells what share does not get
+        there. Raises ``ValueError`` where the two do not lie about the same place.
+        """
+        with told(progress) as report:
+            mapped, warnings = _core.map_like(
+                self._mapped, mapped_of(other, "other"), _arrays.threads(threads), report
+            )
+        tell(warnings)
+        return SphereMap._of(mapped)
 
     def show(self, *, size: int = 1024) -> str:
         """Opens the page of :meth:`report`, of that ``size``, in a browser; returns where it is."""

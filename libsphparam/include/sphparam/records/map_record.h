@@ -7,6 +7,7 @@
 
 #include "sphparam/baselines/baseline_result.h"
 #include "sphparam/chart/chart_report.h"
+#include "sphparam/correspondence/likeness.h"
 #include "sphparam/io/mesh_source.h"
 #include "sphparam/parameterize.h"
 
@@ -25,6 +26,8 @@ struct MapRecord {
   std::vector<double> pole_residuals = {};        // of poles that were wanted, in radians: north,
                                                   // south; empty: none were
   std::string upright = {};                       // `upright_words`; empty: not asked for
+  std::optional<Likeness> likeness = {};          // of a map that follows another mesh's, …
+  std::string other = {};                         // … which has this name
   std::optional<DistortionSummary> distortion = {};
   std::optional<ChartReport> chart = {};
   std::vector<std::pair<std::string, std::string>> outputs = {};  // what it is, where it is
