@@ -113,6 +113,8 @@ def test_features_come_to_lie_on_each_other(maps):
         sp.match(*maps, features=("height", np.ones(len(heights))))
     with pytest.raises(ValueError, match="weight"):
         sp.match(*maps, features=("height", heights), feature_weight=0)
+
+
 def test_a_coarse_mesh_is_mapped_like_a_fine_one_that_lies_where_it_does(maps):
     vertices, faces = potato(4)
     fine = sp.map(vertices, faces, align=None)
