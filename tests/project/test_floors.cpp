@@ -86,7 +86,7 @@ const std::map<std::string, std::set<std::string>> below{
     {"remesh", {"embedding", "rays", "measure", "image", "texture", "io", "sphere", "mesh"}},
     {"displace", {"remesh", "rays", "measure", "image", "io", "sphere", "mesh"}},
     {"wrap", {"measure", "rays", "mesh"}},
-    {"correspondence", {"io", "measure", "embedding", "sphere", "mesh"}},
+    {"correspondence", {"io", "measure", "rays", "embedding", "sphere", "mesh"}},
     {"group", {"correspondence", "remesh", "io", "embedding", "sphere", "mesh"}},
     {"gltf", {"correspondence", "bake", "texture", "image", "io", "chart", "sphere", "mesh"}},
     {"report", {"correspondence", "gltf", "texture", "image", "io", "sphere"}},
