@@ -46,6 +46,18 @@ TriangleMesh armed(int level, double longer) {
   return mesh;
 }
 
+/// An ellipsoid with a swelling: it has no ends.
+TriangleMesh pebble(int level) {
+  TriangleMesh mesh = icosphere(level);
+  for (Vertex v = 0; v < mesh.vertex_count(); ++v) {
+    const Vector3 x = mesh.position(v);
+    const double swell = 0.25 * std::exp(-4 * (x - Vector3(0.8, 0.6, 0)).squaredNorm()) +
+                         0.15 * std::exp(-4 * (x - Vector3(0, -0.6, 0.8)).squaredNorm());
+    mesh.positions.row(v) = (1 + swell) * Vector3(1.3, 1, 0.8).cwiseProduct(x);
+  }
+  return mesh;
+}
+
 /// Two creatures and their landmarks.
 struct Creatures {
   Folder folder;
@@ -171,9 +183,24 @@ TEST_CASE("match: without landmarks the ends are paired, told, and listed") {
   REQUIRE(search["suggestions"].size() >= 1);
   for (const Json& pair : search["suggestions"][0]["landmarks"])
     CHECK(pair["first"] == pair["second"]);
+}
+
+TEST_CASE("match: where there are no ends a turn is found, with a confidence") {
+  const Creatures creatures;
+  write_bytes(creatures.first, obj_text(pebble(4)));
+  write_bytes(creatures.second, obj_text(pebble(3)));
+  const Ended ended = sphparam_program(
+      {"match", creatures.first, creatures.second, "-o", creatures.out, "--json", "-"});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  const Json search = Json::parse(ended.out)["search"];
+  CHECK(search["suggestions"].empty());
+  CHECK(search["confidence"] > 0);
+  CHECK_THAT(ended.err, Contains("from a turn with confidence"));
   const Ended ball = creatures.match_without_landmarks();
-  CHECK(ball.code == 5);
-  CHECK_THAT(ball.err, Contains("landmarks are needed") && Contains("--landmarks"));
+  INFO(ball.err);
+  CHECK(ball.code == 0);
+  CHECK_THAT(ball.err, Contains("after another turn") && Contains("give landmarks"));
 }
 
 TEST_CASE("match: features come to lie on each other, from files and from properties") {

@@ -218,3 +218,42 @@ TEST_CASE("feature files: columns of a file, or a property of the mesh") {
                     Catch::Contains("2 columns") || Catch::Contains("1 column"));
   CHECK_THROWS_AS(read_features({path}, mesh, mesh), std::invalid_argument);
 }
+
+namespace {
+
+/// A pebble that is like no turned or mirrored image of itself, and has no ends.
+MappedMesh pebble(int level, double bump, const Eigen::Matrix3d& turn) {
+  TriangleMesh mesh = icosphere(level);
+  for (Vertex v = 0; v < mesh.vertex_count(); ++v) {
+    const Vector3 x = mesh.position(v);
+    const double swell = 0.25 * std::exp(-4 * (x - Vector3(0.8, 0.6, 0)).squaredNorm()) +
+                         bump * std::exp(-4 * (x - Vector3(0, -0.6, 0.8)).squaredNorm());
+    mesh.positions.row(v) = turn * (Vector3(1.3, 1, 0.8).cwiseProduct(x) * (1 + swell));
+  }
+  return mapped(mesh, parameterize(mesh).map);
+}
+
+}  // namespace
+
+TEST_CASE("match by a turn: a shape without ends finds its turned copy of other triangles") {
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(2, Vector3(1, 2, -1).normalized()).toRotationMatrix();
+  const MappedMesh from = pebble(4, 0.15, Eigen::Matrix3d::Identity());
+  const MappedMesh to = pebble(3, 0.15, turn);
+  const Match match = match_surfaces(from, to, {.search = true});
+  CHECK(match.suggestions.empty());
+  CHECK(match.confidence > 0.3);
+  CHECK(summarise(measure_distortion(match.map)).symmetric_dirichlet < 4.1);
+  const TriangleMesh there = match.map.from_on_to();
+  CHECK((there.positions - from.mesh().positions * turn.transpose()).rowwise().norm().mean() <
+        0.05);
+}
+
+TEST_CASE("match by a turn: of a ball every turn is as good, which is told") {
+  const MappedMesh from = ball(3), to = ball(2);
+  const Match match = match_surfaces(from, to, {.search = true});
+  CHECK(match.map.from().certificate().bijective());
+  CHECK(match.confidence < 0.15);
+  REQUIRE(match.warnings.size() == 1);
+  CHECK_THAT(match.warnings[0], Catch::Contains("after another turn"));
+}

@@ -269,7 +269,7 @@ void CoarseToFine::settle(size_t level, int most_steps) {
   const Topology topology(mesh, options_.threads);
   const RestTriangles rest = rest_of(mesh, options_.threads);
   MovingSurface surface(topology, rest, target_, held_on(level), std::move(places_),
-                        feature_term(options_.features, names_on_finest(level), mesh, rest));
+                        feature_term(features(), names_on_finest(level), mesh, rest));
   energy_ = lower(surface, most_steps, options_);
   newton_level_ = hierarchy_[level].vertex_count();
   places_ = surface.places();
@@ -300,7 +300,7 @@ bool CoarseToFine::climb_to(size_t l) {
   const Topology topology(mesh, options_.threads);
   const RestTriangles rest = rest_of(mesh, options_.threads);
   MovingSurface surface(topology, rest, target_, held_on(l), std::move(places),
-                        feature_term(options_.features, names_on_finest(l), mesh, rest));
+                        feature_term(features(), names_on_finest(l), mesh, rest));
   parallel_for(std::ssize(level.removed), insertion_grain, options_.threads,
                [&](std::int64_t first, std::int64_t last) {
                  for (auto i = first; i < last; ++i)

@@ -17,7 +17,7 @@ namespace sphparam {
 struct ComposedOptions {
   ComposedEnergy energy = {};
   std::vector<Pin> landmarks = {};  // vertices of the source and the directions that they get
-  bool release = false;             // landmarks hold the coarse level alone
+  bool release = false;             // landmarks and features count on the coarse level alone
   const FeatureScales* features = nullptr;  // that are to agree; null: none
   int threads = 0;
   Progress progress = {};
@@ -63,6 +63,7 @@ class CoarseToFine {
   bool insert(size_t level, std::vector<Place>& places) const;
   void settle(size_t level, int most_steps);
   std::vector<char> held_on(size_t level) const;
+  const FeatureScales* features() const { return released_ ? nullptr : options_.features; }
 
   const TargetSurface& target_;
   const ComposedOptions& options_;
@@ -73,7 +74,8 @@ class CoarseToFine {
   size_t level_ = 0;       // at hand
   int newton_level_ = 0;   // vertices of the level of the last Newton steps
   double energy_ = 0;      // after these
-  bool released_ = false;  // landmarks are no longer held; a map of its own still has them
+  bool released_ = false;  // landmarks and features no longer count; a map of its own still has
+                           // these landmarks
 };
 
 /// The same from a map that is one-to-one and has the landmarks: Newton steps and sweeps as long as

@@ -1,5 +1,9 @@
 #include "correspondence/feature_match.h"
 
+#include <stdexcept>
+#include <utility>
+
+#include "correspondence/bounded_curvature.h"
 #include "correspondence/surface_area.h"
 #include "correspondence/turned_starts.h"
 #include "sphparam/correspondence/map_alignment.h"
@@ -11,7 +15,7 @@
 namespace sphparam {
 namespace {
 
-constexpr int most_turns = 4;
+constexpr int most_turns = 4, most_shape_turns = 8;
 constexpr int last_steps = 6;  // of Newton, at most, between the surfaces
 constexpr int starts = 3;      // with landmarks
 
@@ -25,6 +29,18 @@ std::vector<TurnOfFunctions> turns_by_features(const MappedMesh& from, const Map
   const MapSignalOptions options{.threads = threads};
   return turns_by_correlation(map_signals(from, field.from, options),
                               map_signals(to, field.to, options), most_turns, threads);
+}
+
+/// None where curvature or area is the same everywhere: no turn is better than another.
+std::vector<TurnOfFunctions> turns_by_shape(const MappedMesh& from, const MappedMesh& to,
+                                            int threads) try {
+  return align_maps(from, to, most_shape_turns, {.threads = threads});
+} catch (const std::invalid_argument&) {
+  return {{Eigen::Matrix3d::Identity(), 0}};
+}
+
+TriangleMesh unit_surface(const MappedMesh& mapped) {
+  return {scaled_to_sphere(mapped.mesh()), mapped.mesh().triangles};
 }
 
 /// Correlation of the features by a map.
@@ -68,6 +84,22 @@ FeatureMatch match_by_features(const MappedMesh& from, const MappedMesh& to,
       improve_composition(from.mesh(), from.topology(), target, map, with_features, last_steps);
   result.agreement = agreement_of(from, target, field, *result.map);
   return result;
+}
+
+TurnedMatch match_by_turn(const MappedMesh& from, const MappedMesh& to, const TargetSurface& target,
+                          const ComposedOptions& options) {
+  const TriangleMesh from_unit = unit_surface(from), to_unit = unit_surface(to);
+  const FeatureScales bends(
+      from_unit, from.topology(), to_unit, to.topology(),
+      {bounded_curvature(from, options.threads), bounded_curvature(to, options.threads)});
+  ComposedOptions first = options;
+  first.features = &bends;
+  first.release = true;
+  CoarseToFine way(from.mesh(), from.topology(), target, first);
+  const double confidence =
+      start_at_best(way, from.map(), turns_by_shape(from, to, options.threads), options.energy);
+  SphereMap map = way.finish();
+  return {map.points.rows() > 0 ? std::move(map) : from.map(), confidence};
 }
 
 }  // namespace sphparam

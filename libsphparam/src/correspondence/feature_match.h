@@ -24,4 +24,17 @@ FeatureMatch match_by_features(const MappedMesh& from, const MappedMesh& to,
                                const TargetSurface& target, const ComposedOptions& options,
                                const MatchFeatures& features);
 
+/// A map from a turn, and the confidence in it.
+struct TurnedMatch {
+  SphereMap map;
+  double confidence;
+};
+
+/// From the rotation after which the maps look most alike: of those at which curvature and area
+/// correlate most, the one of a coarse level that distorts least and lets curvatures agree; from
+/// there on distortion alone counts. Same bits for any number of threads. Throws: Cancelled;
+/// SolveError.
+TurnedMatch match_by_turn(const MappedMesh& from, const MappedMesh& to, const TargetSurface& target,
+                          const ComposedOptions& options);
+
 }  // namespace sphparam

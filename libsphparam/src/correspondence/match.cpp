@@ -11,6 +11,7 @@
 #include "correspondence/landmark_sides.h"
 #include "correspondence/own_map.h"
 #include "correspondence/surface_area.h"
+#include "correspondence/turned_starts.h"
 #include "number_text.h"
 #include "option_domain.h"
 #include "sphparam/version.h"
@@ -103,11 +104,8 @@ class Matcher {
   Match run() {
     if (options_.features) return finished(by_features());
     const std::optional<SphereMap> own = fitting_map(from_, composed_.landmarks);
-    if (options_.search) search_landmarks();
-    SphereMap map = options_.search ? less_of(*own, coarse_to_fine())
-                    : own           ? improved(*own)
-                                    : coarse_to_fine();
-    return finished(std::move(map));
+    if (options_.search) return finished(less_of(*own, searched()));
+    return finished(own ? improved(*own) : coarse_to_fine());
   }
 
  private:
@@ -142,11 +140,7 @@ class Matcher {
     FeatureMatch found = match_by_features(from_, to_, target_, composed_, *options_.features);
     if (!found.map) throw unreachable(found.residuals);
     agreement_ = found.agreement;
-    confidence_ = found.confidence;
-    if (confidence_ < telling_confidence) {
-      warn("the features agree about as well after another turn (confidence " +
-           short_number(confidence_) + "): look at the result, or give landmarks");
-    }
+    tell_confidence(found.confidence, "the features agree after another turn");
     return std::move(*found.map);
   }
 
@@ -161,18 +155,29 @@ class Matcher {
                                 " with these landmarks was found: " + words_of(residuals));
   }
 
-  void search_landmarks() {
+  /// From ends that are paired, or, where there are none, from a turn.
+  SphereMap searched() {
     suggestions_ = suggest_landmarks(from_, to_, target_, composed_);
-    if (suggestions_.empty()) {
-      throw UnreachableLandmarks("no three ends of " + from_.name() + " and " + to_.name() +
-                                 " that might correspond were found: landmarks are needed");
-    }
+    if (suggestions_.empty()) return by_turn();
     composed_.landmarks = pins_of(suggestions_.front().landmarks, to_);
     composed_.release = true;
-    confidence_ = confidence_of(suggestions_);
+    tell_confidence(confidence_of(suggestions_), "another pairing of the surfaces' ends fits");
+    return coarse_to_fine();
+  }
+
+  SphereMap by_turn() {
+    made_by_ = "turn";
+    TurnedMatch found = match_by_turn(from_, to_, target_, composed_);
+    tell_confidence(found.confidence,
+                    "neither has three ends, and their maps fit after another turn");
+    return std::move(found.map);
+  }
+
+  void tell_confidence(double confidence, const std::string& other) {
+    confidence_ = confidence;
     if (confidence_ >= telling_confidence) return;
-    warn("another pairing of the surfaces' ends fits about as well (confidence " +
-         short_number(confidence_) + "): look at the result, or give landmarks");
+    warn(other + " about as well (confidence " + short_number(confidence_) +
+         "): look at the result, or give landmarks");
   }
 
   Match finished(SphereMap map) {

@@ -31,9 +31,9 @@ Json landmarks_json(const MatchRecord& record) {
   return all;
 }
 
-/// What was searched for: the first suggestion was the start.
+/// What was searched for: the first suggestion was the start; a turn, where there is none.
 Json search_json(const MatchRecord& record) {
-  if (record.match.suggestions.empty()) return nullptr;
+  if (!record.options.search) return nullptr;
   const FileNumbers from(record.match.map.from().file()), to(record.match.map.to().file());
   Json suggestions = Json::array();
   for (const SuggestedLandmarks& suggestion : record.match.suggestions) {
@@ -64,8 +64,10 @@ Json carried_json(const std::optional<CarriedFidelity>& carried) {
       {"farthest", carried->farthest}, {"rms", carried->rms}, {"area_share", carried->area_share}};
 }
 
-std::string words_of_search(const Match& match) {
-  if (match.suggestions.empty()) return {};
+std::string words_of_search(const Match& match, bool searched) {
+  if (!searched) return {};
+  if (match.suggestions.empty())
+    return ", from a turn with confidence " + short_number(match.confidence);
   return ", from " + counted(std::ssize(match.suggestions.front().landmarks), "end", "ends") +
          " paired with confidence " + short_number(match.confidence);
 }
@@ -104,7 +106,7 @@ std::string to_text(const MatchRecord& record) {
     line += ", " + counted(static_cast<long>(landmarks), "landmark", "landmarks") + " exact";
   if (record.options.features)
     line += ", correlation of features " + short_number(record.match.agreement);
-  line += words_of_search(record.match);
+  line += words_of_search(record.match, record.options.search);
   return line + ", " + short_number(record.seconds) + " s";
 }
 

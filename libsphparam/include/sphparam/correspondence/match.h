@@ -26,7 +26,9 @@ struct MatchFeatures {
 
 struct MatchOptions {
   std::vector<LandmarkPair> landmarks = {};  // held exactly; no vertex twice on either side
-  bool search = false;  // for landmarks, to start from; none are held. Requires: none are given.
+  /// For landmarks, to start from, and where there are none for a turn; none are held. Requires:
+  /// none are given.
+  bool search = false;
   /// What is to agree besides. Without landmarks the first map is turned so that it does, to begin
   /// with. Requires: no search.
   std::optional<MatchFeatures> features = {};
@@ -49,11 +51,11 @@ struct Match {
   SurfaceMap map;  // `from` with its map moved, `to` as it was
   double energy;   // of the composition as it was minimised, bounded where triangles collapse (see
                    // docs/mathematics.md), a unit of area; of symmetric Dirichlet isometry has 2
-  std::string made_by;  // "coarse to fine", "own map", "features": where the least energy came from
+  std::string made_by;  // "coarse to fine", "own map", "turn", "features": what it came from
   std::vector<double> residuals;  // radians of the landmarks from their partners; 0: exactly there
   std::vector<SuggestedLandmarks> suggestions;  // what was found, the best first
-  /// In the first of these, or in the turn that features begin with: 0 where another is as good, 1
-  /// where there is none.
+  /// In the first of these, or in the turn that surfaces without ends or features begin with: 0
+  /// where another is as good, 1 where there is none.
   double confidence = 1;
   double agreement = 0;  // of features: their correlation by the map, the mean over columns
   /// For people: landmarks that a mirror image fits as well, area that shrinks to nothing on the
