@@ -45,8 +45,9 @@ GltfOptions resolved(GltfOptions options, const std::string& path, const Asset& 
   return options;
 }
 
-std::string image_file(const std::string& path, const AssetImage& image) {
-  return beside(path, stem_of_path(path) + "_" + image.name + image_kind(image.bytes).extension);
+std::string image_file(const std::string& path, const std::string& name,
+                       const std::string& bytes) {
+  return beside(path, stem_of_path(path) + "_" + name + image_kind(bytes).extension);
 }
 
 bool is_obj(const std::string& path) {
@@ -81,7 +82,10 @@ std::vector<std::string> asset_files(const std::string& path, const Asset& asset
   if (options.container != GltfContainer::Separate) return names;
   names.push_back(beside(path, options.stem + ".bin"));
   if (options.compress) return names;  // images are in the buffer then
-  for (const AssetImage& image : asset.images) names.push_back(image_file(path, image));
+  for (const AssetImage& image : asset.images) {
+    names.push_back(image_file(path, image.name, image.bytes));
+    if (!image.fallback.empty()) names.push_back(image_file(path, image.name, image.fallback));
+  }
   return names;
 }
 
@@ -115,7 +119,7 @@ void write_asset(const std::string& path, const Asset& asset, const GltfOptions&
 std::vector<std::string> textured_files(const std::string& path, const Look& look) {
   std::vector<std::string> names = {path};
   if (is_obj(path)) names.push_back(beside(path, stem_of_path(path) + ".mtl"));
-  names.push_back(image_file(path, look.images.front()));
+  names.push_back(image_file(path, look.images.front().name, look.images.front().bytes));
   return names;
 }
 
@@ -133,7 +137,7 @@ TexturedFiles add_textured_mesh(PendingFiles& files, const std::string& path,
     result.chart.stored = certify_written(on_disk, path, chart, fillers, options.threads);
   };
   const AssetImage& image = look.images.front();
-  const std::string image_path = image_file(path, image);
+  const std::string image_path = image_file(path, image.name, image.bytes);
   const std::string image_name = fs::path(image_path).filename().string();
   Adder adder(files);
   if (obj) {

@@ -64,21 +64,34 @@ class Builder {
   // --- images and materials ---
 
   void add_image(const AssetImage& image) {
-    const ImageKind kind = image_kind(image.bytes);
-    Json entry{{"name", image.name}};
+    Json texture{{"sampler", 0}};
+    if (!image.fallback.empty()) texture["source"] = add_image_file(image.name, image.fallback);
+    const std::size_t source = add_image_file(image.name, image.bytes);
+    if (image_kind(image.bytes).is_webp()) {
+      texture["extensions"]["EXT_texture_webp"]["source"] = source;
+      use("EXT_texture_webp", image.fallback.empty());
+    } else {
+      texture["source"] = source;
+    }
+    lists_.textures.push_back(std::move(texture));
+  }
+
+  std::size_t add_image_file(const std::string& image_name, const std::string& bytes) {
+    const ImageKind kind = image_kind(bytes);
+    Json entry{{"name", image_name}};
     // Beside compressed views nothing else may use the buffer, and validators call it unused.
     if (options_.container == GltfContainer::Binary || options_.compress) {
       entry["mimeType"] = kind.mime;
-      entry["bufferView"] = add_view(buffer_.place(image.bytes));
+      entry["bufferView"] = add_view(buffer_.place(bytes));
     } else if (options_.container == GltfContainer::Embedded) {
-      entry["uri"] = data_uri(kind.mime, image.bytes);
+      entry["uri"] = data_uri(kind.mime, bytes);
     } else {
-      const std::string name = options_.stem + "_" + image.name + kind.extension;
+      const std::string name = options_.stem + "_" + image_name + kind.extension;
       entry["uri"] = uri_of_file(name);
-      files_.emplace_back(name, image.bytes);
+      files_.emplace_back(name, bytes);
     }
-    lists_.textures.push_back({{"sampler", 0}, {"source", lists_.images.size()}});
     lists_.images.push_back(std::move(entry));
+    return lists_.images.size() - 1;
   }
 
   void add_material(const Material& material) {

@@ -41,10 +41,11 @@ struct Surface {
   std::size_t vertex_count() const { return static_cast<std::size_t>(positions.rows()); }
 };
 
-/// An image file, PNG or JPEG; its first bytes say which.
+/// An image file, PNG, JPEG or WebP; its first bytes say which.
 struct AssetImage {
   std::string name;
   std::string bytes;
+  std::string fallback = {};  // of WebP: PNG or JPEG, for who does not read that
 };
 
 /// Numbers of images; −1: none. What glTF 2.0, Section 3.9 has.

@@ -1,5 +1,7 @@
 #include "image/oiio_module.h"
 
+#include "image/oiio/webp_encoder.h"
+
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
@@ -323,7 +325,8 @@ constexpr SphparamImageTable table{sphparam_image_table_version,
                                    open_written,
                                    level_written,
                                    read_rows,
-                                   close_written};
+                                   close_written,
+                                   encode_webp};
 
 }  // namespace
 
