@@ -37,9 +37,10 @@ double weighted_median(const std::vector<double>& values, const VectorX& weights
   std::vector<size_t> order(values.size());
   for (size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::ranges::stable_sort(order, {}, [&](size_t i) { return values[i]; });
+  const double half = weights.sum() / 2;
   double below = 0;
   for (const size_t i : order)
-    if ((below += weights[static_cast<Eigen::Index>(i)]) >= weights.sum() / 2) return values[i];
+    if ((below += weights[static_cast<Eigen::Index>(i)]) >= half) return values[i];
   return 0;
 }
 
