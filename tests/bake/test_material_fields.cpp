@@ -268,6 +268,20 @@ TEST_CASE("material fields: colours of vertices multiply a glTF's texture, and s
   CHECK(red() == Approx(0.5 * SrgbCurves::get().to_linear(0.5F)));
 }
 
+TEST_CASE("material fields: colours of vertices multiply a glTF's factors where no image is") {
+  Cube cube;
+  for (const char* name : {"red", "green", "blue"})
+    cube.file.set_vertex_property({name, ScalarType::Float32, std::vector<double>(8, 1)});
+  const auto blue = [&] {
+    auto scene = cube.scene();
+    scene->source.textures = {{.factor = {1, 1, 0.25F, 1}}, {}};
+    return inside(make_field("basecolor", *scene), 0)[2];
+  };
+  CHECK(blue() == Approx(1));
+  cube.file.format = "glTF";
+  CHECK(blue() == Approx(0.25));
+}
+
 TEST_CASE("material fields: a mesh without materials, or without coordinates for them, is told") {
   Cube cube;
   cube.file.channels[0].roughness = texel("r", {1, 1, 1});

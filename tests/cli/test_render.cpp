@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "image/image_codec.h"
 #include "program.h"
 #include "sphparam/io/vertex_data.h"
 #include "support/test_meshes.h"
@@ -68,6 +69,20 @@ TEST_CASE("render: the legend of a distortion can be left out") {
     return sphparam_program(arguments).out;
   };
   CHECK(picture("") != picture("--no-legend"));
+}
+
+TEST_CASE("render: without a background there is alpha, and no scale") {
+  const Folder folder;
+  const std::string map = folder / "map.sph.ply";
+  REQUIRE(sphparam_program({"map", "-", "-o", map}, obj_text(tube(6, 8))).code == 0);
+  const std::string png = sphparam_program({"render", map, "-o", "-", "--view", "mesh", "--size",
+                                            "64", "--colour", "area", "--transparent"})
+                              .out;
+  const Image image = decode_image({png.begin(), png.end()}, "picture");
+  REQUIRE(image.channels == 4);
+  CHECK(image.height == 64);
+  CHECK(image.pixel(0, 0)[3] == 0);
+  CHECK(image.pixel(32, 32)[3] == 1);
 }
 
 TEST_CASE("render: numbers a vertex are shown as colours, of their own files or of the mesh") {

@@ -151,3 +151,76 @@ TEST_CASE("hard edges: in its own tangent frame a faceted mesh is flat") {
       baked(*scene, make_field("normal-tangent", *scene), {.width = 64, .height = 32});
   for (size_t i = 0; i < normals.size(); i += 3) CHECK(normals[i + 2] > 0.9999F);
 }
+
+TEST_CASE("hard edges: object normals are baked facet by facet") {
+  const Faceted egg;
+  const auto scene = scene_of(egg.file, egg.map);
+  const std::vector<float> normals =
+      baked(*scene, make_field("normal-object", *scene), {.width = 128, .height = 64});
+  long of_facets = 0;
+  for (size_t i = 0; i < normals.size(); i += 3) {
+    const Eigen::RowVector3d normal =
+        Eigen::Map<const Eigen::RowVector3f>(normals.data() + i).cast<double>();
+    of_facets += (egg.file.corner_normals->rowwise() - normal).rowwise().norm().minCoeff() < 1e-5;
+  }
+  // But for texels at the poles that hold several facets, and show their mean.
+  CHECK(100 * of_facets > 97 * std::ssize(normals) / 3);
+}
+
+TEST_CASE(
+    "tangents: a low mesh lit by its normal map in glTF's way has the normals of the source") {
+  Charted egg({}, 4);
+  for (auto row : egg.file.mesh.positions.rowwise())
+    row *= 1 + 0.1 * std::sin(5 * row[0] + 3 * row[1]);
+  const Charted low({}, 1);
+  const MappedMesh source({.file = egg.file, .map = egg.map}, 1);
+  const MappedMesh coarse({.file = low.file, .map = low.map}, 1);
+  const BakeScene scene{
+      {source, shading_normals(egg.file), {}}, make_target(coarse, false, 1), {}, 1};
+  constexpr int width = 1024, height = 512;
+  const std::vector<float> texels =
+      baked(scene, make_field("normal-tangent", scene), {.width = width, .height = height});
+  const GeometryOptions lit{.up = {.up = Vector3::UnitY(), .front = Vector3::UnitZ()},
+                            .buffers = {.tangents = true}};
+  const Surface surface = low.geometry(lit).surface;
+  const SphericalChart& chart = low.chart.chart;
+  double sum = 0, flat = 0;
+  int count = 0;
+  for (size_t f = 0; f < surface.indices.size(); f += 3) {
+    for (const Vector3& weights :
+         {Vector3(0.6, 0.2, 0.2), Vector3(0.2, 0.5, 0.3), Vector3(0.1, 0.1, 0.8)}) {
+      Vector3 normal = Vector3::Zero(), tangent = Vector3::Zero();
+      Eigen::Vector2d uv = Eigen::Vector2d::Zero();
+      double sign = 0;
+      for (int k = 0; k < 3; ++k) {
+        const auto v = static_cast<Eigen::Index>(surface.indices[f + static_cast<size_t>(k)]);
+        normal += weights[k] * surface.normals.row(v).cast<double>().transpose();
+        tangent += weights[k] * surface.tangents.row(v).head<3>().cast<double>().transpose();
+        uv += weights[k] * surface.texcoords[0].row(v).cast<double>().transpose();
+        sign = static_cast<double>(surface.tangents(v, 3));
+      }
+      const auto texel =
+          3 * (static_cast<size_t>(uv[1] * height) * width + static_cast<size_t>(uv[0] * width));
+      const Vector3 seen =
+          (texels[texel] * tangent + texels[texel + 1] * sign * normal.cross(tangent) +
+           texels[texel + 2] * normal)
+              .normalized();
+      Vector3 direction = Vector3::Zero();
+      for (int k = 0; k < 3; ++k)
+        direction += weights[k] * chart.points.row(chart.triangles(static_cast<Face>(f / 3), k));
+      const SurfacePoint there = source.locator().locate(direction.normalized());
+      Vector3 truth = Vector3::Zero();
+      for (int k = 0; k < 3; ++k)
+        truth += there.barycentric[k] *
+                 scene.source.normals.row(egg.file.mesh.triangles(there.face, k)).transpose();
+      const auto degrees = [&](const Vector3& n) {
+        return std::atan2(n.cross(truth).norm(), n.dot(truth)) * 180 / std::numbers::pi;
+      };
+      sum += degrees(seen);
+      flat += degrees(normal);
+      ++count;
+    }
+  }
+  CHECK(sum / count < 0.5);
+  CHECK(flat / count > 8);
+}

@@ -271,6 +271,26 @@ TEST_CASE("gltf_reader: attributes survive, and welding moves them to the corner
   CHECK(values_of(welded.find_vertex_property("nz"))[0] == 1);  // the same in all copies
 }
 
+TEST_CASE("gltf_reader: a primitive without colours beside one with colours is white") {
+  Gltf gltf;
+  gltf.add(floats({0, 0, 0, 1, 0, 0, 0, 1, 0}), 5126, 3, "VEC3")
+      .add(integers({51, 0, 0, 51, 51, 0, 0, 51, 51, 0, 0, 51}, 1), 5121, 3, "VEC4",
+           R"(,"normalized":true)");
+  for (const bool first : {true, false}) {
+    const std::string plain = R"({"attributes":{"POSITION":0}})",
+                      coloured = R"({"attributes":{"POSITION":0,"COLOR_0":1}})";
+    gltf.meshes =
+        R"([{"primitives":[)" + (first ? plain + "," + coloured : coloured + "," + plain) + "]}]";
+    const MeshFile file = read(gltf.bytes());
+    const std::size_t white = first ? 0 : 3, own = 3 - white;
+    for (const char* name : {"red", "green", "blue", "alpha"})
+      CHECK(values_of(file.find_vertex_property(name))[white] == 1);
+    CHECK(values_of(file.find_vertex_property("green"))[own] == 0);
+    CHECK(values_of(file.find_vertex_property("alpha"))[own] == Approx(0.2));
+    CHECK(file.notes.empty());
+  }
+}
+
 TEST_CASE("gltf_reader: quantised and sparse accessors are decoded") {
   Gltf gltf;
   gltf.asset = R"({"version":"2.0"},"extensionsRequired":["KHR_mesh_quantization"])";

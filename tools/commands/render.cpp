@@ -150,7 +150,8 @@ void declare_look(Declaration& command, RenderArguments& arguments) {
             "Outline what repair has closed: loops of handles, rims of filled holes")
       .flag("--graticule", drawing.graticule, "Lines of longitude and latitude")
       .flag("--occlusion", drawing.occlusion, "Darken what little light reaches")
-      .flag_off("--no-legend", drawing.legend, "Without the scale of area, angle or numbers");
+      .flag_off("--no-legend", drawing.legend, "Without the scale of area, angle or numbers")
+      .flag("--transparent", drawing.transparent, "No white background, and no scale");
 }
 
 void declare_options(Declaration& command, RenderArguments& arguments) {

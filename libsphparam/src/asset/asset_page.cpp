@@ -104,7 +104,13 @@ class AssetPage {
   }
 
   DrawingOptions drawing() const {
-    return {.view = View::Mesh, .up = up(), .size = picture_size, .threads = shown_.threads};
+    DrawingOptions options;
+    options.view = View::Mesh;
+    options.up = up();
+    options.transparent = true;  // it lies on the viewer's own background until that has loaded
+    options.size = picture_size;
+    options.threads = shown_.threads;
+    return options;
   }
 
   /// As asked for, else as the asset's own file says.

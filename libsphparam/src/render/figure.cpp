@@ -104,6 +104,7 @@ Image map_figure(const MeshFile& file, const SphereMap& map, const FigureOptions
   RenderObject object = {.mesh = at_drawing_size(file.mesh),
                          .normals = shading_normals(file),
                          .paint = options.paint ? *options.paint : own_paint(file)};
+  object.corner_normals = corner_shading_normals(file, *object.normals);
   if (options.graticule) object.graticule = Graticule{.rays = map.points};
   if (options.wireframe) object.wireframe = Wireframe{};
   std::vector<RenderScene> scenes;

@@ -180,6 +180,7 @@ RenderObject on_sphere(const RenderObject& object, const Points& rays) {
     }
   }
   sphere.normals = sphere.mesh.positions;
+  sphere.corner_normals.reset();
   sphere.paint = refined_paint(object.paint, refinement, sphere.mesh.positions);
   if (sphere.graticule) sphere.graticule->rays = sphere.mesh.positions;
   if (sphere.wireframe) {

@@ -102,7 +102,7 @@ class Drawing {
                         : view == View::Sphere
                             ? drawn(Shape::Sphere)
                             : in_a_row({drawn(Shape::Mesh), drawn(Shape::Sphere)});
-    return scale && options_.legend ? with_legend(image, *scale) : image;
+    return scale && options_.legend && !options_.transparent ? with_legend(image, *scale) : image;
   }
 
  private:
@@ -136,7 +136,8 @@ class Drawing {
     return render({.objects = std::move(objects),
                    .camera = camera,
                    .width = options_.size,
-                   .height = options_.size},
+                   .height = options_.size,
+                   .background = options_.transparent ? std::nullopt : RenderScene{}.background},
                   options_.threads);
   }
 
@@ -148,6 +149,7 @@ class Drawing {
 
   RenderObject drawn(Shape shape, const Paint& paint) const {
     RenderObject object = {.mesh = file_.mesh, .normals = shading_normals(file_), .paint = paint};
+    object.corner_normals = corner_shading_normals(file_, *object.normals);
     object.occlusion = options_.occlusion;
     if (options_.wireframe) object.wireframe = Wireframe{};
     if (options_.repairs) object.wireframe = added_outline(file_);

@@ -76,6 +76,8 @@ enum class Shading { Smooth, Flat };
 struct RenderObject {
   TriangleMesh mesh;
   std::optional<Points> normals = std::nullopt;  // unit, one a vertex; else the mesh's own
+  /// Unit, 3·#F rows: what it is lit by where the shading is smooth and edges may be hard.
+  std::optional<CornerNormals> corner_normals = std::nullopt;
   Paint paint = UniformPaint{};
   Shading shading = Shading::Smooth;
   bool occlusion = false;  // darken what little light reaches; costs a second or so

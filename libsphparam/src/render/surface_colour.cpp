@@ -179,16 +179,23 @@ Rgb SurfaceColour::with_wireframe(const ShadedSample& sample, const Rgb& below) 
          wireframe.opacity * static_cast<float>(fade) * (to_linear(wireframe.colour) - below);
 }
 
+/// In camera directions, of any length.
+Vector3 SurfaceColour::normal_at(const ShadedSample& sample) const {
+  const Triangles& triangles = object_->mesh.triangles;
+  if (object_->shading == Shading::Flat) {
+    const auto corner = [&](int k) { return object_->mesh.position(triangles(sample.face, k)); };
+    return view_ * (corner(1) - corner(0)).cross(corner(2) - corner(0));
+  }
+  if (object_->corner_normals)
+    return view_ *
+           object_->corner_normals->middleRows<3>(3 * Eigen::Index{sample.face}).transpose() *
+           sample.weights;
+  return interpolate(normals_, triangles, sample.face, sample.weights);
+}
+
 Rgb SurfaceColour::lit(const ShadedSample& sample, const Rgb& colour) const {
   const Triangles& triangles = object_->mesh.triangles;
-  Vector3 normal;
-  if (object_->shading == Shading::Smooth) {
-    normal = interpolate(normals_, triangles, sample.face, sample.weights);
-  } else {
-    const auto corner = [&](int k) { return object_->mesh.position(triangles(sample.face, k)); };
-    normal = view_ * (corner(1) - corner(0)).cross(corner(2) - corner(0));
-  }
-  normal.normalize();
+  Vector3 normal = normal_at(sample).normalized();
   if (!sample.front) normal = -normal;
   float sky = 1;
   if (light_.size() > 0) {

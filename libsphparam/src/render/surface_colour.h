@@ -30,6 +30,7 @@ class SurfaceColour {
   Rgb with_graticule(const ShadedSample& sample, const Rgb& below) const;
   Rgb with_wireframe(const ShadedSample& sample, const Rgb& below) const;
   Rgb lit(const ShadedSample& sample, const Rgb& colour) const;
+  Vector3 normal_at(const ShadedSample& sample) const;
 
   const RenderObject* object_;
   Eigen::Matrix3d view_;

@@ -49,7 +49,7 @@ export async function runPage({ chromium, roots, page, job, output, seconds = 30
   });
   await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
   const browser = spawn(chromium, [
-    '--headless=new', '--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
+    '--headless=new', '--no-sandbox', '--disable-background-networking', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
     '--disable-dev-shm-usage', '--no-first-run', `--user-data-dir=${profile}`,
     `http://127.0.0.1:${server.address().port}/page/${page}`,
   ], { stdio: 'ignore' });

@@ -97,6 +97,7 @@ DrawingOptions drawing_options(const py::dict& values) {
       .take("graticule", made.graticule)
       .take("occlusion", made.occlusion)
       .take("legend", made.legend)
+      .take("transparent", made.transparent)
       .take("threads", made.threads);
   std::optional<std::array<double, 3>> from;
   std::string up, front;

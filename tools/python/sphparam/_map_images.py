@@ -255,6 +255,7 @@ class MapImages(MapFacts):
         graticule: bool = False,
         occlusion: bool = False,
         legend: bool = True,
+        transparent: bool = False,
         threads: int = 0,
     ) -> bytes:
         """A picture of the mesh and its sphere, as the bytes of a PNG.
@@ -263,12 +264,12 @@ class MapImages(MapFacts):
         ``"normals"``, ``"checker"``, ``"area"``, ``"angle"``. ``size``: pixels, 16 to 16384. ``eye``:
         the direction to look from; ``up``, ``front``: as of :meth:`export`. ``wireframe``, ``graticule``:
         lines; ``occlusion``: darker where little light comes; ``legend``: below colours
-        that are numbers.
+        that are numbers. ``transparent``: no white background, and no legend.
         """
         options: Dict[str, Any] = dict(
             view=view, colours=colours, size=size, up=as_direction(up, "up"), front=as_direction(front, "front"),
             wireframe=wireframe, graticule=graticule,
-            occlusion=occlusion, legend=legend, threads=_arrays.threads(threads),
+            occlusion=occlusion, legend=legend, transparent=transparent, threads=_arrays.threads(threads),
         )  # fmt: skip
         if eye is not None:
             options["eye"] = tuple(float(x) for x in eye)

@@ -57,8 +57,9 @@ struct DrawingOptions {
   bool graticule = false;  // lines of longitude and latitude
   bool occlusion = false;  // darken what little light reaches
   bool legend = true;      // below area, angle and what is measured
-  int size = 800;          // pixels, of each side of a picture; 16 to 16384
-  int threads = 0;         // 0: all cores
+  bool transparent = false;  // where nothing is drawn; else white. There is no legend then
+  int size = 800;            // pixels, of each side of a picture; 16 to 16384
+  int threads = 0;           // 0: all cores
 };
 
 /// Does nothing of it need a map? Views of the sphere, some colourings and the graticule do.

@@ -94,7 +94,9 @@ bool has_alpha(const Painter& painter) {
 SurfaceField make_base_colour(const BakeScene& scene, const std::string& argument) {
   const MeshFile& file = scene.source.file();
   const std::vector<SourceTexture>& textures = scene.source.textures;
-  if (!any_image(textures) && linear_colours(file)) {
+  // In glTF colours of vertices multiply what the material says; elsewhere they stand for it.
+  const bool tints = file.format.starts_with("glTF") && !textures.empty();
+  if (!any_image(textures) && !tints && linear_colours(file)) {
     SurfaceField field = make_vertex_colour(scene, argument);
     field.name = "basecolor";
     return field;
@@ -118,8 +120,7 @@ SurfaceField make_base_colour(const BakeScene& scene, const std::string& argumen
     for (const MaterialChannels& channels : file.channels)
       painter->is_opaque.push_back(channels.alpha_mode == AlphaMode::Opaque);
   }
-  // In glTF colours of vertices multiply the texture; elsewhere they stand for it.
-  if (file.format.starts_with("glTF")) painter->colours = linear_colours(file);
+  if (tints) painter->colours = linear_colours(file);
   painter->triangles = &file.mesh.triangles;
   const bool alpha = has_alpha(*painter);
   SurfaceField field{.name = "basecolor",

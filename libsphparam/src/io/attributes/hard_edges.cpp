@@ -20,17 +20,6 @@ Vector3 unit_or_zero(const Vector3& v) {
   return length > 0 && std::isfinite(length) ? Vector3(v / length) : Vector3(Vector3::Zero());
 }
 
-/// Unit normals of the corners of the source, those of the vertices where a corner has none.
-Attributes source_normals(const MeshFile& file, const Points& of_vertices) {
-  Attributes corners(file.mesh.triangles.size(), 3);
-  for (Eigen::Index corner = 0; corner < corners.rows(); ++corner) {
-    const Vector3 own = unit_or_zero(file.corner_normals->row(corner));
-    corners.row(corner) = own;
-    if (own.isZero(0)) corners.row(corner) = of_vertices.row(file.mesh.triangles.data()[corner]);
-  }
-  return corners;
-}
-
 class HardEdges {
  public:
   HardEdges(SphericalChart& chart, const Points& vertex_normals)
@@ -96,7 +85,7 @@ std::optional<Points> split_at_hard_edges(SphericalChart& chart, const MeshFile&
   const Points of_vertices = shading_normals(file);
   const Points refined = carry_normals(chart, source, of_vertices, threads);
   const Attributes corners =
-      carry_corner_attribute(chart, source, source_normals(file, of_vertices), threads);
+      carry_corner_attribute(chart, source, *corner_shading_normals(file, of_vertices), threads);
   HardEdges edges(chart, refined);
   for (Eigen::Index corner = 0; corner < corners.rows(); ++corner) {
     const Vector3 unit = unit_or_zero(corners.row(corner));

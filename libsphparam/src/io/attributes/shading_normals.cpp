@@ -57,4 +57,19 @@ Points shading_normals(const MeshFile& file) {
   return normals;
 }
 
+std::optional<CornerNormals> corner_shading_normals(const MeshFile& file,
+                                                    const Points& of_vertices) {
+  if (!file.corner_normals) return std::nullopt;
+  CornerNormals corners = *file.corner_normals;
+  for (Eigen::Index corner = 0; corner < corners.rows(); ++corner) {
+    const double length = corners.row(corner).stableNorm();
+    if (length > 0 && std::isfinite(length)) {
+      corners.row(corner) /= length;
+    } else {
+      corners.row(corner) = of_vertices.row(file.mesh.triangles.data()[corner]);
+    }
+  }
+  return corners;
+}
+
 }  // namespace sphparam

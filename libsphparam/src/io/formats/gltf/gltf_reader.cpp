@@ -40,6 +40,11 @@ struct Column {
   std::size_t written = 0;
 };
 
+/// What has no COLOR_0 is white and opaque: its material is not tinted.
+bool is_colour(const std::string& property) {
+  return property == "red" || property == "green" || property == "blue" || property == "alpha";
+}
+
 /// COLOR_0 is linear light; colours of all other formats, and so those of `MeshFile`, are sRGB.
 /// Source: IEC 61966-2-1.
 double srgb(double linear) {
@@ -208,7 +213,7 @@ class SceneReader {
     Column& column = found->second;
     if (is_new) {
       order_.push_back(property);
-      column = {type, property == "alpha" ? 1.0 : 0.0, {}};
+      column = {type, is_colour(property) ? 1.0 : 0.0, {}};
     } else if (column.type != type) {
       column.type = ScalarType::Float64;
     }
@@ -307,7 +312,7 @@ class SceneReader {
     const auto count = static_cast<std::size_t>(vertex_count());
     for (const std::string& name : order_) {
       Column& column = columns_.at(name);
-      if (column.written < count && name != "alpha")
+      if (column.written < count && !is_colour(name))
         file_.notes.push_back(std::to_string(count - column.written) + " vertices have no '" +
                               name + "': set to zero");
       column.values.resize(count, column.gap);
