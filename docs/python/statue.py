@@ -37,10 +37,10 @@ m = sp.map(sp.read("creature.ply"), balance=sp.remeshing_lambda)
 fit = m.fit("cube:16", scheme="catmark")
 diagonal = sp.measure(m, m, samples=1000).diagonal
 print(f"{fit}: {100 * fit.two_sided_rms / diagonal:.2f} % of the diagonal, flat {100 * fit.flat_rms / diagonal:.2f} %")
-fit.control.save("control.obj")  # the quads, for any modelling program
+fit.textured_control(size=(1024, 512)).save("control.obj")  # the quads, for any modelling program
 
 # What the surface lacks, along its normals, and a proof: surface and image together, measured.
-written = fit.displace("lack.exr", size=(1024, 512), rebuilt="rebuilt.ply")
+written = fit.displace("lack.exr", size=(1024, 512), layout="grid", rebuilt="rebuilt.ply")
 print(f"displacement {written.least:.3f} to {written.greatest:.3f}, RMS {written.base_rms:.4f} → {written.rebuilt_rms:.4f}")
 assert written.rebuilt_rms < written.base_rms
 

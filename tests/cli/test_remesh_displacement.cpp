@@ -29,22 +29,12 @@ std::string wavy_ball() {
 }
 
 std::vector<std::string> displacing(const Folder& folder) {
-  return {"remesh",
-          folder / "m.obj",
-          "--grid",
-          "ico:3",
-          "--subdiv-fit",
-          "loop",
-          "--displace",
-          folder / "d.exr",
-          "--displace-size",
-          "1024x512",
-          "--rebuild",
-          folder / "r.ply",
-          "-o",
-          folder / "b.ply",
-          "--json",
-          folder / "j.json"};
+  return {"remesh",         folder / "m.obj", "--grid",
+          "ico:3",          "--subdiv-fit",   "loop",
+          "--displace",     folder / "d.exr", "--displace-size",
+          "1024x512",       "--rebuild",      folder / "r.ply",
+          "--uv",           "mesh",           "-o",
+          folder / "b.ply", "--json",         folder / "j.json"};
 }
 
 }  // namespace
@@ -73,6 +63,96 @@ TEST_CASE("remesh --displace: surface and image rebuild the mesh, and the report
   const Json outputs = Json::parse(bytes_of(folder / "j.json"))["outputs"];
   CHECK(outputs["displacement"] == folder / "d.exr");
   CHECK(outputs["rebuilt"] == folder / "r.ply");
+}
+
+TEST_CASE(
+    "remesh --displace: a control mesh of quads has the texture coordinates that the image is in") {
+  const Folder folder;
+  write_bytes(folder / "m.obj", wavy_ball());
+  const Ended ended =
+      sphparam_program({"remesh", folder / "m.obj", "--grid", "cube:8", "--subdiv-fit", "catmark",
+                        "--displace", folder / "d.png", "--displace-size", "512x256", "--rebuild",
+                        folder / "r.ply", "-o", folder / "b.obj", "--json", "-"});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  const Json report = Json::parse(ended.out);
+  const Json& texture = report["texture"];
+  CHECK(texture["tiles"] == Json({3, 2}));
+  CHECK(texture["levels"] == 4);
+  const Json& displacement = report["displacement"];
+  CHECK(displacement["layout"] == "grid");
+  CHECK(displacement["width"] == 3 * (8 * 16 + 9));
+  CHECK(displacement["width"] == texture["width"]);
+  CHECK(displacement["height"] == texture["height"]);
+  CHECK(displacement["rebuilt"]["error"]["rms"].get<double>() <
+        displacement["rebuilt"]["base_error"]["rms"].get<double>() / 10);
+  CHECK_THAT(ended.err, Contains("texture coordinates in the layout of cube:8: 3 × 2 tiles, 411 × "
+                                 "274 texels, one a vertex of 4 levels of subdivision"));
+  const std::string control = bytes_of(folder / "b.obj");
+  CHECK_THAT(control,
+             Contains("# texture coordinates: the layout of cube:8, 3x2 tiles in 411x274"));
+  const std::string recipe =
+      "# displacement: d.png: subdivide by Catmull-Clark, 4 levels, to the "
+      "limit surface; along normals by (value - ";
+  REQUIRE_THAT(control, Contains(recipe));
+  const double midlevel = std::stod(control.substr(control.find(recipe) + recipe.size()));
+  CHECK(midlevel == displacement["midlevel"].get<double>());
+  const sphparam::MeshFile mesh = sphparam::read_mesh(folder / "b.obj");
+  CHECK(mesh.polygons == 6 * 64);
+  REQUIRE(mesh.corner_texcoords);
+  CHECK(mesh.corner_texcoords->minCoeff() > 0);
+  CHECK(mesh.corner_texcoords->maxCoeff() < 1);
+}
+
+TEST_CASE("remesh --uv: the grid's layout or what the mesh has, and never both") {
+  const Folder folder;
+  write_bytes(folder / "m.obj",
+              "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0.25 0.25\nvt 0.75 0.25\nvt 0.25 0.75\n"
+              "f 1/1 3/2 2/3\nf 1/1 2/2 4/3\nf 1/1 4/2 3/3\nf 2/1 3/2 4/3\n");
+  const auto range = [&](std::vector<std::string> more, const char* told) {
+    std::vector<std::string> arguments = {"remesh", folder / "m.obj", "--grid", "octa:9",
+                                          "-o",     folder / "x.ply"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Ended ended = sphparam_program(arguments);
+    INFO(ended.err);
+    REQUIRE(ended.code == 0);
+    CHECK_THAT(ended.err, Contains(told));
+    const sphparam::MeshFile mesh = sphparam::read_mesh(folder / "x.ply");
+    REQUIRE(mesh.corner_texcoords);
+    return mesh.corner_texcoords->maxCoeff();
+  };
+  const char* const left_out = "texture coordinates of the mesh are left out; --uv mesh";
+  CHECK(range({}, "certified") <= 0.75);
+  CHECK(range({"--uv", "grid"}, left_out) > 0.9);
+  CHECK(range({"--subdiv-fit", "loop"}, left_out) > 0.9);
+  CHECK(range({"--subdiv-fit", "loop", "--uv", "mesh"}, "certified") <= 0.75);
+  CHECK(range({"--subdiv-fit", "loop", "--transfer", "uv"}, "certified") <= 0.75);
+  const auto refused = [&](std::vector<std::string> more, const char* why) {
+    std::vector<std::string> arguments = {"remesh", folder / "m.obj", "--uv", "grid"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Ended ended = sphparam_program(arguments);
+    INFO(ended.err);
+    CHECK(ended.code == 2);
+    CHECK_THAT(ended.err, Contains(why));
+  };
+  refused({"--grid", "healpix:4", "-o", folder / "y.ply"}, "no layout of its own");
+  refused({"--grid", "like:" + (folder / "m.obj"), "-o", folder / "y.ply"}, "no layout of its own");
+  refused({"--grid", "octa:9", "-o", folder / "y.glb"}, "keep quads");
+  refused({"--grid", "octa:9", "-o", folder / "y.ply", "--transfer", "uv"}, "makes others");
+}
+
+TEST_CASE(
+    "remesh --lods: with a fit each level has the coordinates of its own grid, all in one layout") {
+  const Folder folder;
+  write_bytes(folder / "m.obj", wavy_ball());
+  const Ended ended = sphparam_program({"remesh", folder / "m.obj", "--grid", "cube:8", "--lods",
+                                        "1", "--subdiv-fit", "catmark", "-o", folder / "x.ply"});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  const auto last = [&](const char* name) {
+    return sphparam::read_mesh(folder / name).corner_texcoords.value().maxCoeff();
+  };
+  CHECK(last("x.ply") == last("x_lod1.ply"));
 }
 
 TEST_CASE("remesh --displace: an image so coarse that it does harm is told") {

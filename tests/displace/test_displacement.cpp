@@ -32,6 +32,10 @@ struct Landscape {
     return make_displacement(base, mesh, topology, SphereLocator(topology, map),
                              {.width = width, .height = width / 2, .threads = threads});
   }
+  Displacement displacement(const TextureLattice& lattice, int threads = 0) const {
+    return make_displacement(base, lattice, mesh, topology, SphereLocator(topology, map),
+                             {.threads = threads});
+  }
 
  private:
   template <class Height>
@@ -58,6 +62,11 @@ struct Landscape {
     return rebuild(base, Image(2, 1, 1), cuts).map;
   }
 };
+
+TextureLattice lattice_of(const std::string& name, std::int64_t texels) {
+  const GridSpec spec = parse_grid(name);
+  return {spec, make_grid(spec), texture_layout(spec, texels)};
+}
 
 Vector3 centre(const Image& image, int column, int row) {
   return to_cartesian({2 * std::numbers::pi * (column + 0.5) / image.width,
@@ -102,6 +111,116 @@ TEST_CASE("displacement: of the base itself it is zero, of a parallel surface it
 TEST_CASE("displacement: the same bytes for any number of threads") {
   const Landscape land("cube:4", Scheme::CatmullClark, 8, bumps);
   CHECK(land.displacement(96, 1).image.pixels == land.displacement(96, 3).image.pixels);
+  const TextureLattice lattice = lattice_of("cube:4", 20000);
+  CHECK(land.displacement(lattice, 1).image.pixels == land.displacement(lattice, 3).image.pixels);
+}
+
+TEST_CASE(
+    "displacement: in the layout of a grid, rims too, it is the height at what a texel shows") {
+  for (const auto& [name, scheme] : {std::pair("ico:2", Scheme::Loop),
+                                     {"octa:9", Scheme::Loop},
+                                     {"cube:6", Scheme::CatmullClark},
+                                     {"uv:16x9", Scheme::CatmullClark}}) {
+    INFO(name);
+    const Landscape land(name, scheme, 24, bumps);
+    const TextureLattice lattice = lattice_of(name, 20000);
+    const Displacement made = land.displacement(lattice);
+    CHECK(made.figures.missed == 0);
+    CHECK(made.figures.walked + made.figures.cast ==
+          std::int64_t{made.image.width} * made.image.height);
+    double worst = 0, worst_rim = 0;
+    for (int row = 0; row < made.image.height; ++row) {
+      for (int column = 0; column < made.image.width; ++column) {
+        const LimitPlace place = land.base.on_patches(lattice.place(column, row));
+        const Vector3 direction = land.base.directions().evaluate(place).position.normalized();
+        const double off =
+            std::abs(static_cast<double>(*made.image.pixel(column, row)) - bumps(direction));
+        worst = std::max(worst, off);
+        if (!lattice.closed() && column < lattice.layout().gutter)
+          worst_rim = std::max(
+              worst_rim,
+              std::abs(static_cast<double>(*made.image.pixel(column, row) -
+                                           *made.image.pixel(lattice.layout().gutter, row))));
+      }
+    }
+    CHECK(worst < 1e-3);
+    CHECK((lattice.closed() || worst_rim > 1e-4));  // the rim goes on rather than repeats
+  }
+}
+
+TEST_CASE("displacement: looked up by the coordinates of faces, both sides of a cut get the same") {
+  for (const auto& [name, scheme] : {std::pair("ico:1", Scheme::Loop),
+                                     {"octa:5", Scheme::Loop},
+                                     {"cube:3", Scheme::CatmullClark}}) {
+    INFO(name);
+    const Landscape land(name, scheme, 12, bumps);
+    const TextureLattice lattice = lattice_of(name, 20000);
+    const Displacement made = land.displacement(lattice);
+    const PatchNet& net = land.base.net();
+    const int degree = net.degree();
+    double worst = 0;
+    for (int patch = 0; patch < net.patch_count(); ++patch) {
+      for (int step = 0; step <= 16; ++step) {
+        const LimitPlace here{patch, step / 16.0, 0};
+        LimitPlace beyond = net.cross({patch, here.s, -1e-13});
+        beyond = clamped(beyond, degree);
+        worst =
+            std::max(worst, std::abs(displacement_at(made.image, lattice, lattice.point(here)) -
+                                     displacement_at(made.image, lattice, lattice.point(beyond))));
+      }
+    }
+    CHECK(worst < 1e-6);
+  }
+}
+
+TEST_CASE("displacement: a place on a face is found on the patches and back, at poles too") {
+  for (const auto& [name, scheme] : {std::pair("uv:8x5", Scheme::CatmullClark),
+                                     {"cube:2", Scheme::CatmullClark},
+                                     {"ico:1", Scheme::Loop}}) {
+    INFO(name);
+    const SphereGrid grid = make_grid(parse_grid(name));
+    const DirectedBase base(grid, grid.directions, scheme);
+    for (int f = 0; f < grid.faces.count(); ++f) {
+      for (const double s : {0.05, 0.3, 0.45, 0.6, 0.9}) {
+        for (const double t : {0.05, 0.35, 0.55}) {
+          if (grid.faces.degree(f) == 3 && s + t > 1) continue;
+          const LimitPlace there = base.on_patches({f, s, t}), back = base.on_face(there);
+          REQUIRE(base.net().beyond(there) < 1e-12);
+          REQUIRE(back.patch == f);
+          REQUIRE(back.s == Approx(s));
+          REQUIRE(back.t == Approx(t));
+          // What is smooth is near what is straight.
+          const Vector3 direction = base.directions().evaluate(there).position.normalized();
+          const auto corners = grid.faces.polygon(f);
+          const auto corner = [&](size_t k) -> Vector3 { return grid.directions.row(corners[k]); };
+          const Vector3 flat =
+              corners.size() == 3 ? Vector3((1 - s - t) * corner(0) + s * corner(1) + t * corner(2))
+                                  : Vector3((1 - t) * ((1 - s) * corner(0) + s * corner(1)) +
+                                            t * ((1 - s) * corner(3) + s * corner(2)));
+          REQUIRE((direction - flat.normalized()).norm() < 0.25);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("rebuild: base and displacement in the layout of the grid give the mesh") {
+  for (const auto& [name, scheme] : {std::pair("ico:2", Scheme::Loop),
+                                     {"cube:6", Scheme::CatmullClark},
+                                     {"uv:16x9", Scheme::CatmullClark}}) {
+    INFO(name);
+    const Landscape land(name, scheme, 24, bumps);
+    const TextureLattice lattice = lattice_of(name, 100000);
+    const Displacement made = land.displacement(lattice);
+    const Rebuilt rebuilt = rebuild(
+        land.base,
+        [&](const LimitPlace& place, const Vector3&) {
+          return displacement_at(made.image, lattice, lattice.point(land.base.on_face(place)));
+        },
+        24);
+    CHECK(measure_distance(land.mesh, rebuilt.mesh, {.samples = 20000}).rms() < 3e-4);
+    CHECK(measure_distance(land.mesh, rebuilt.base, {.samples = 20000}).rms() > 3e-3);
+  }
 }
 
 TEST_CASE("displacement: cancelling ends it") {

@@ -281,6 +281,31 @@ def test_a_fitted_surface_is_near_the_mesh(mapped, scheme, grid, tmp_path):
     lack = fit.displace(tmp_path / "d.png", size=(64, 32), rebuilt=tmp_path / "r.ply")
     assert lack.least < 0 < lack.greatest and lack.rebuilt_rms < lack.base_rms
     assert sp.verify(tmp_path / "r.ply").one_to_one
+    assert lack.size == (64, 32) and lack.levels is None and lack.midlevel > 0
+
+
+def test_a_control_mesh_and_its_image_are_in_the_layout_of_the_grid(mapped, tmp_path):
+    fit = mapped.fit("cube:4", scheme="catmark")
+    lack = fit.displace(tmp_path / "d.exr", size=(256, 128), layout="grid", rebuilt=tmp_path / "r.ply")
+    assert lack.size == (3 * (4 * 16 + 9), 2 * (4 * 16 + 9)) and lack.levels == 4
+    assert (lack.scale, lack.midlevel) == (1, 0) and lack.rebuilt_rms < lack.base_rms
+    control = fit.textured_control(size=(256, 128))
+    assert (control.vertices == fit.control.vertices).all()
+    control.save(tmp_path / "control.obj")
+    text = (tmp_path / "control.obj").read_text()
+    assert "# texture coordinates: the layout of cube:4, 3x2 tiles in 219x146 texels" in text
+    assert sum(line.startswith("f ") and line.count("/") == 8 for line in text.splitlines()) == 6 * 16
+    with pytest.raises(ValueError, match="layout"):
+        mapped.fit("healpix:2").displace(tmp_path / "e.exr", layout="grid")
+    with pytest.raises(ValueError, match="expected"):
+        fit.displace(tmp_path / "e.exr", layout="sideways")
+
+
+def test_a_mesh_on_a_grid_has_the_texture_coordinates_of_the_grid(mapped, tmp_path):
+    mapped.remesh("octa:9", uv="grid").save(tmp_path / "a.obj")
+    assert "vt " in (tmp_path / "a.obj").read_text()
+    with pytest.raises(ValueError, match="uv"):
+        mapped.remesh("healpix:2", uv="grid")
 
 
 # Files.

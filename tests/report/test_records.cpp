@@ -378,7 +378,7 @@ TEST_CASE("remesh_record: a displacement that does harm says so") {
                             .displacement = written,
                             .outputs = {.displacement = "d.exr", .rebuilt = "r.ply"}};
   const Json json = Json::parse(to_json(record))["displacement"];
-  CHECK(keys_of(json) == "file,width,height,min,max,texels,seconds,rebuilt");
+  CHECK(keys_of(json) == "file,width,height,layout,scale,midlevel,min,max,texels,seconds,rebuilt");
   CHECK(json["width"] == 64);
   CHECK(json["texels"]["missed"] == 1);
   CHECK(json["rebuilt"]["error"] == Json({{"rms", 0.3}, {"max", 0.4}}));

@@ -26,15 +26,18 @@ void declare_subdivision(Declaration& command, RemeshArguments& arguments) {
             "name")
       .written()
       .text("--displace", arguments.displacement, "FILE",
-            "With --subdiv-fit: an equirectangular image of how far the mesh is from the fitted "
-            "surface along its normal: .exr, or .png in 16 bits")
+            "With --subdiv-fit: an image of how far the mesh is from the fitted surface along its "
+            "normal: .exr, or .png in 16 bits; in the layout of the new mesh's texture coordinates "
+            "where these are the grid's, else equirectangular")
       .written()
       .parsed(
           "--displace-size", "WxH",
           [&](const std::string& text) { return read_size(text, arguments.displacement_size); },
           "expected columns and rows, as in 4096x2048, columns even, at most " +
               std::to_string(most_texels) + " texels, not ",
-          "Columns and rows of that image")
+          "Columns and rows of that image; in the layout of a grid it has no more texels in all, "
+          "and "
+          "a power of two of them along a face")
       .preset("4096x2048")
       .text("--rebuild", arguments.rebuilt, "FILE",
             "With --displace: the mesh that surface and image give, as fine as the image, and how "
@@ -87,6 +90,10 @@ void declare_remesh_options(Declaration& command, RemeshArguments& arguments) {
       .text("--transfer", arguments.transfer, "NAMES",
             "What to carry, with commas between: all, none, color, normal, uv, material, or names "
             "of properties")
+      .choice("--uv", arguments.uv, {{"grid", TextureOf::Grid}, {"mesh", TextureOf::Mesh}},
+              "Texture coordinates of the new mesh: in the grid's own layout (cube:N six squares, "
+              "octa:N one, ico ten diamonds, uv:WxH the equirectangular chart), or those of the "
+              "mesh, carried (default: grid for control meshes in .obj and .ply, else mesh)")
       .choice("--sample", arguments.sample,
               {{"point", SampleMode::Point},
                {"cell", SampleMode::Cell},

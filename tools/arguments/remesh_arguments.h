@@ -10,6 +10,7 @@
 #include "sphparam/io/certified_files.h"
 #include "sphparam/remesh/displacement.h"
 #include "sphparam/remesh/sphere_grid.h"
+#include "sphparam/remesh/texture_layout.h"
 
 namespace sphparam::cli {
 
@@ -17,6 +18,9 @@ namespace sphparam::cli {
 struct DisplacementSize {
   int width = 4096, height = 2048;
 };
+
+/// Which texture coordinates the new mesh has.
+enum class TextureOf { Grid, Mesh };
 
 /// The command line of `sphparam remesh`.
 struct RemeshArguments : CommonArguments {
@@ -29,6 +33,7 @@ struct RemeshArguments : CommonArguments {
   Words data_outputs;  // a file for each of `data`
   Naming naming;       // of `output` and what lies beside it
   std::string transfer = "all";
+  std::optional<TextureOf> uv;
   SampleMode sample = SampleMode::Point;
   std::optional<Scheme> subdivision;  // fitted to the source
   std::string limit_output;           // its points at the grid's vertices
@@ -62,8 +67,10 @@ struct RemeshRequests {
   std::vector<GridSpec> coarser;     // grids of --lods
   std::vector<std::string> outputs;  // of -o and --lods: one a level, or one .glb
   std::vector<ImageRequest> images;
-  bool one_file = false;  // a .glb
-  Words areas;            // none, or two files
+  bool one_file = false;                       // a .glb
+  std::optional<TextureLayout> layout;         // texture coordinates in that of the grid …
+  std::vector<TextureLayout> coarser_layouts;  // … and of those of --lods
+  Words areas;                                 // none, or two files
   Words data_outputs;
   bool missing_values = false;  // may be in data: it goes into files of its own alone
 };

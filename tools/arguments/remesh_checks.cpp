@@ -187,6 +187,43 @@ std::vector<GridSpec> check_levels(const RemeshArguments& arguments,
   return coarser;
 }
 
+bool takes_texture_of_grid(const RemeshArguments& arguments) {
+  const std::string kind =
+      is_stream(arguments.output) ? ".ply" : inner_extension_of(arguments.output);
+  return kind == ".obj" || kind == ".ply";
+}
+
+/// Whether texture coordinates are the grid's, where that was not said.
+bool has_texture_of_grid_unasked(const RemeshArguments& arguments,
+                                 const std::optional<GridSpec>& grid) {
+  const Words carried = split(arguments.transfer);
+  return arguments.subdivision && takes_texture_of_grid(arguments) && grid &&
+         has_texture_layout(*grid) && std::ranges::find(carried, "uv") == carried.end();
+}
+
+/// Settles `uv`.
+void check_texture(RemeshArguments& arguments, const std::optional<GridSpec>& grid) {
+  if (!arguments.uv)
+    arguments.uv = has_texture_of_grid_unasked(arguments, grid) ? TextureOf::Grid : TextureOf::Mesh;
+  if (arguments.uv == TextureOf::Mesh) return;
+  if (!grid || !has_texture_layout(*grid))
+    throw UsageMistake("--uv grid: " + arguments.grid +
+                       " has no layout of its own: cube:N, octa:N, ico:L, ico:f=N and uv:WxH have");
+  const Words carried = split(arguments.transfer);
+  if (std::ranges::find(carried, "uv") != carried.end())
+    throw UsageMistake(
+        "--transfer uv carries the mesh's texture coordinates, and --uv grid makes others");
+  if (!takes_texture_of_grid(arguments))
+    throw UsageMistake(
+        "--uv grid is of -o in .obj or .ply, which keep quads; a .glb has the chart of its "
+        "directions");
+}
+
+TextureLayout layout_for(const RemeshArguments& arguments, const GridSpec& grid) {
+  const DisplacementSize& size = arguments.displacement_size;
+  return texture_layout(grid, std::int64_t{size.width} * size.height);
+}
+
 std::vector<std::string> outputs_of(const RemeshArguments& arguments, bool one_file) {
   if (arguments.lods == 0 || one_file) return {arguments.output};
   std::vector<std::string> paths;
@@ -226,6 +263,12 @@ RemeshRequests check_remesh_arguments(RemeshArguments& arguments) {
   check_subdivision(arguments, requests.grid);
   check_displacement(arguments);
   requests.coarser = check_levels(arguments, requests.grid);
+  check_texture(arguments, requests.grid);
+  if (arguments.uv == TextureOf::Grid) {
+    requests.layout = layout_for(arguments, *requests.grid);
+    for (const GridSpec& grid : requests.coarser)
+      requests.coarser_layouts.push_back(layout_for(arguments, grid));
+  }
   requests.one_file = extension_of(arguments.output) == ".glb";
   requests.outputs = outputs_of(arguments, requests.one_file);
   check_all_places(arguments, requests);

@@ -22,6 +22,7 @@
 #include "sphparam/measure/measurable.h"
 #include "sphparam/remesh/geometry_image.h"
 #include "sphparam/remesh/resample.h"
+#include "sphparam/remesh/texture_layout.h"
 
 namespace sphparam::cli {
 
@@ -38,7 +39,8 @@ constexpr char summary[] =
     "\\\n"
     "    --data lh.thickness,lh.aparc.annot --sample adap-bary-area -o L.midthickness.surf.gii\n"
     "  sphparam remesh bennu.sph.ply --grid healpix:128 --csv bennu.csv\n"
-    "  sphparam remesh statue.sph.ply --grid cube:32 --subdiv-fit catmark -o base.obj\n"
+    "  sphparam remesh statue.sph.ply --grid cube:32 --subdiv-fit catmark -o base.obj --displace "
+    "lack.exr\n"
     "  sphparam remesh statue.sph.ply --grid ico:5 --subdiv-fit loop --displace disp.exr -o "
     "base.glb\n"
     "  sphparam remesh statue.sph.ply --grid ico:7 --lods 4 -o statue.glb\n"
@@ -211,20 +213,49 @@ void add_meshes(const RemeshArguments& arguments, const RemeshRequests& requests
 }
 
 std::optional<WrittenDisplacement> displace(const RemeshArguments& arguments,
+                                            const RemeshRequests& requests,
                                             const MappedMesh& mapped, const LevelOfDetail& level,
                                             Session& session) try {
   if (arguments.displacement.empty()) return std::nullopt;
-  WrittenDisplacement written =
-      add_displacement(session.files, {arguments.displacement, arguments.depth, arguments.rebuilt},
-                       mapped, level.mesh, level.fit.value(),
-                       {.width = arguments.displacement_size.width,
-                        .height = arguments.displacement_size.height,
-                        .threads = session.threads(),
-                        .progress = session.progress()});
+  WrittenDisplacement written = add_displacement(
+      session.files, {arguments.displacement, arguments.depth, arguments.rebuilt}, mapped,
+      level.mesh, level.fit.value(),
+      {.width = arguments.displacement_size.width,
+       .height = arguments.displacement_size.height,
+       .layout = requests.layout ? DisplacementLayout::Grid : DisplacementLayout::Equirectangular,
+       .threads = session.threads(),
+       .progress = session.progress()});
   if (written.proof && written.proof->farther_than_base()) session.console.warning(farther_warning);
   return written;
 } catch (const std::range_error& error) {
   throw UsageMistake("--depth: displacement: " + std::string(error.what()));
+}
+
+/// What a program that displaces must be told, as a comment.
+std::string recipe_of(const std::string& image, Scheme scheme, const WrittenDisplacement& written) {
+  const std::string name = scheme == Scheme::Loop ? "Loop" : "Catmull-Clark";
+  return "displacement: " + output_name(image) + ": subdivide by " + name + ", " +
+         std::to_string(written.layout.value().levels) +
+         " levels, to the limit surface; along normals by (value - " + shortest(written.midlevel) +
+         ") * " + shortest(written.scale) + ", in units of the mesh";
+}
+
+/// Gives the levels the texture coordinates of their grids.
+void lay_textures(std::vector<LevelOfDetail>& levels, const RemeshArguments& arguments,
+                  const RemeshRequests& requests, const MappedMesh& mapped,
+                  const std::optional<WrittenDisplacement>& displacement, Session& session) {
+  if (!requests.layout) return;
+  if (mapped.file().corner_texcoords || mapped.file().find_vertex_property("s"))
+    session.console.warning("texture coordinates of the mesh are left out; --uv mesh carries them");
+  std::vector<std::string> recipe;
+  if (displacement)
+    recipe.push_back(
+        recipe_of(arguments.displacement, arguments.subdivision.value(), *displacement));
+  for (size_t i = 0; i < levels.size(); ++i) {
+    const TextureLayout& layout = i == 0 ? *requests.layout : requests.coarser_layouts[i - 1];
+    levels[i].mesh = with_grid_texture(levels[i].mesh, layout, session.threads(),
+                                       i == 0 ? recipe : std::vector<std::string>{});
+  }
 }
 
 void add_images(PendingFiles& files, const RemeshArguments& arguments,
@@ -275,22 +306,26 @@ int run_remesh(RemeshArguments& arguments) {
     adaptation = adapt(mapped, grid.directions.rows(), arguments.input, session);
     mapped = adaptation->mapped;
   }
-  const std::vector<LevelOfDetail> levels =
+  std::vector<LevelOfDetail> levels =
       make_levels(mapped, std::move(grid), arguments, requests, session);
   for (const LevelOfDetail& level : levels) tell_changed_holes(mapped, level.mesh, session.console);
+  session.console.progress("write", 0);
+  const std::optional<WrittenDisplacement> displacement =
+      displace(arguments, requests, mapped, levels.front(), session);
+  lay_textures(levels, arguments, requests, mapped, displacement, session);
   RemeshRecord record{.input = arguments.input,
                       .grid = arguments.grid,
                       .source = mapped,
                       .levels = levels,
                       .sample = arguments.sample,
                       .adaptation = adaptation,
+                      .layout = requests.layout,
+                      .displacement = displacement,
                       .outputs = outputs_of(arguments, requests),
                       .grid_seconds = grid_seconds};
-  session.console.progress("write", 0);
   const LevelOfDetail& finest = levels.front();
   add_meshes(arguments, requests, mapped, levels, session);
   add_data(requests, last_data, finest.mesh, session);
-  record.displacement = displace(arguments, mapped, finest, session);
   add_images(session.files, arguments, requests, finest.mesh);
   if (!arguments.csv.empty())
     session.files.add(

@@ -26,7 +26,13 @@ class DirectedBase {
   DirectedBase(const DirectedBase&) = delete;
   DirectedBase& operator=(const DirectedBase&) = delete;
 
-  const Polygons& faces() const { return faces_; }
+  const Polygons& faces() const { return faces_; }  // the patches
+  const Polygons& grid_faces() const { return grid_faces_; }
+  /// A place on a face of the grid (corner 0 at (0, 0), corner 1 at (1, 0), the last one at (0, 1))
+  /// as one on the patches, where programs put it that subdivide what is straight over a face.
+  /// Beyond the end of its face it is on the next one. And the way back.
+  LimitPlace on_patches(const LimitPlace& on_face) const;
+  LimitPlace on_face(const LimitPlace& on_patches) const;
   const LimitSurface& surface() const { return *surface_; }
   const LimitSurface& directions() const { return *directions_; }
   const PatchNet& net() const { return *net_; }

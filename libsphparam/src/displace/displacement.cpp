@@ -3,40 +3,16 @@
 
 #include "displace/displacement.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numbers>
 #include <span>
 #include <vector>
 
-#include "displace/normal_line.h"
+#include "displace/filled_rows.h"
 #include "elementary.h"
-#include "sphparam/parallel.h"
 
 namespace sphparam {
 
 namespace {
-
-constexpr std::int64_t rows_at_once = 16;   // of a thread
-constexpr std::int64_t rows_between = 256;  // looks whether to go on
-
-/// What became of some rows.
-struct Tally {
-  double least = std::numeric_limits<double>::infinity(), greatest = -least;
-  std::int64_t hits[3] = {}, inexact = 0;
-
-  void add(double value) {
-    least = std::min(least, value);
-    greatest = std::max(greatest, value);
-  }
-  void add(const Tally& other) {
-    least = std::min(least, other.least);
-    greatest = std::max(greatest, other.greatest);
-    for (int i = 0; i < 3; ++i) hits[i] += other.hits[i];
-    inexact += other.inexact;
-  }
-};
 
 class Rows {
  public:
@@ -62,13 +38,9 @@ class Rows {
       locator_.locate_all(directions, std::span(on_mesh), 1);
       finder.start_anew();
       float* pixel = image.pixel(0, static_cast<int>(row));
-      constexpr double most = std::numeric_limits<float>::max();
-      for (int c = 0; c < options_.width; ++c) {
-        const double height =
-            measure(finder.find(directions.row(c)), on_mesh[static_cast<size_t>(c)], tally);
-        tally.add(height);
-        *pixel++ = static_cast<float>(std::clamp(height, -most, most));  // `greatest` tells of it
-      }
+      for (int c = 0; c < options_.width; ++c)
+        *pixel++ =
+            stored(measure(finder.find(directions.row(c)), on_mesh[static_cast<size_t>(c)], tally));
     }
     return tally;
   }
@@ -76,10 +48,8 @@ class Rows {
  private:
   double measure(const PlaceFinder::Found& found, const SurfacePoint& on_mesh, Tally& tally) const {
     tally.inexact += !found.exact;
-    const LimitPoint point = found.patch->surface.evaluate(found.place.s, found.place.t);
-    const NormalLines::Crossing crossing = lines_.find(point.position, point.normal(), on_mesh);
-    ++tally.hits[static_cast<int>(crossing.hit)];
-    return crossing.height;
+    return tally.height(lines_, found.patch->surface.evaluate(found.place.s, found.place.t),
+                        on_mesh);
   }
 
   const DirectedBase& base_;
@@ -94,27 +64,11 @@ class Rows {
 Displacement make_displacement(const DirectedBase& base, const TriangleMesh& mesh,
                                const Topology& topology, const SphereLocator& locator,
                                const DisplacementOptions& options) {
-  Displacement result;
-  result.image = Image(options.width, options.height, 1);
   const Rows rows(base, mesh, topology, locator, options);
-  Tally all;
-  for (std::int64_t first = 0; first < options.height; first += rows_between) {
-    report(options.progress, "displacement", static_cast<double>(first) / options.height);
-    const std::int64_t count = std::min<std::int64_t>(rows_between, options.height - first);
-    std::vector<Tally> tallies(static_cast<size_t>((count + rows_at_once - 1) / rows_at_once));
-    parallel_for(count, rows_at_once, options.threads, [&](std::int64_t from, std::int64_t to) {
-      tallies[static_cast<size_t>(from / rows_at_once)] =
-          rows.fill(first + from, first + to, result.image);
-    });
-    for (const Tally& tally : tallies) all.add(tally);
-  }
-  result.figures.least = all.least;
-  result.figures.greatest = all.greatest;
-  result.figures.walked = all.hits[static_cast<int>(LineHit::Walk)];
-  result.figures.cast = all.hits[static_cast<int>(LineHit::Ray)];
-  result.figures.missed = all.hits[static_cast<int>(LineHit::Near)];
-  result.figures.inexact = all.inexact;
-  return result;
+  return filled_rows(options.width, options.height, options,
+                     [&](std::int64_t first, std::int64_t last, Image& image) {
+                       return rows.fill(first, last, image);
+                     });
 }
 
 }  // namespace sphparam

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "displace/directed_base.h"
+#include "remesh/texture_lattice.h"
 #include "sphparam/image/image.h"
 #include "sphparam/mesh/topology.h"
 #include "sphparam/remesh/displacement.h"
@@ -25,6 +26,13 @@ struct Displacement {
 /// Throws: Cancelled. Ensures: the same bytes for any number of threads. Cost: some 0.3 µs a texel.
 Displacement make_displacement(const DirectedBase& base, const TriangleMesh& mesh,
                                const Topology& topology, const SphereLocator& locator,
+                               const DisplacementOptions& options = {});
+
+/// The same in the layout of the base's own grid: each texel has the place of the base that it
+/// shows, and the mesh's point in the direction of that.
+Displacement make_displacement(const DirectedBase& base, const TextureLattice& lattice,
+                               const TriangleMesh& mesh, const Topology& topology,
+                               const SphereLocator& locator,
                                const DisplacementOptions& options = {});
 
 }  // namespace sphparam

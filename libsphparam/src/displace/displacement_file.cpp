@@ -20,18 +20,9 @@ constexpr double most_half = 65504, least_half = 0x1p-17;  // 128 steps are left
 constexpr char about[] =
     "signed distance from the limit surface's point with the direction to the mesh, along the "
     "limit surface's unit normal";
-
-/// Height = (value − midlevel)·scale.
-struct Coding {
-  double scale = 1, midlevel = 0;
-};
-
-Coding coding_of(const Displacement& displacement, ImageDepth depth) {
-  const double width = displacement.figures.greatest - displacement.figures.least;
-  if (depth != ImageDepth::Uint16 || !(width > 0))
-    return {1, depth == ImageDepth::Uint16 ? -displacement.figures.least : 0};
-  return {width, -displacement.figures.least / width};
-}
+constexpr char recipe[] =
+    "subdivide the control mesh by its scheme to the limit surface, its texture coordinates "
+    "straight over each face (not smoothed); displace along normals by (value - midlevel) * scale";
 
 const char* name_of(ImageDepth depth) {
   return depth == ImageDepth::Half ? "half" : depth == ImageDepth::Float ? "float" : "u16";
@@ -64,37 +55,54 @@ void require_representable(double largest, ImageDepth depth) {
   }
 }
 
+ImageTexts layout_texts(const std::optional<TextureLayout>& layout) {
+  if (!layout)
+    return {{"sphparam:convention", "sphparam"}, {"sphparam:u0", "0"}, {"sphparam:turns", "1"}};
+  return {{"sphparam:layout", "grid"},
+          {"sphparam:tiles", std::to_string(layout->columns) + "x" + std::to_string(layout->rows)},
+          {"sphparam:gutter", std::to_string(layout->gutter)},
+          {"sphparam:levels", std::to_string(layout->levels)},
+          {"sphparam:recipe", recipe}};
+}
+
 }  // namespace
 
+DisplacementCoding coding_of(const Displacement& displacement, ImageDepth depth) {
+  const double width = displacement.figures.greatest - displacement.figures.least;
+  if (depth != ImageDepth::Uint16 || !(width > 0))
+    return {1, depth == ImageDepth::Uint16 ? -displacement.figures.least : 0};
+  return {width, -displacement.figures.least / width};
+}
+
 std::vector<char> encode_displacement(const Displacement& displacement, ImageDepth depth,
-                                      const std::string& grid, const std::string& scheme) {
+                                      const std::string& grid, const std::string& scheme,
+                                      const std::optional<TextureLayout>& layout) {
   const double largest = std::max(-displacement.figures.least, displacement.figures.greatest);
   require_representable(largest, depth);
-  const Coding coding = coding_of(displacement, depth);
+  const DisplacementCoding coding = coding_of(displacement, depth);
   Image coded = displacement.image;
   if (depth == ImageDepth::Uint16) {
     for (float& value : coded.pixels) {
       value = static_cast<float>(static_cast<double>(value) / coding.scale + coding.midlevel);
     }
   }
-  const ImageWriteOptions options{
-      .sample_type = depth == ImageDepth::Uint16 ? SampleType::Uint16
-                     : depth == ImageDepth::Half ? SampleType::Half
-                                                 : SampleType::Float,
-      .metadata = {{"sphparam:map", "displacement"},
-                   {"sphparam:about", about},
-                   {"sphparam:units", "of the mesh"},
-                   {"sphparam:direction", "outwards"},
-                   {"sphparam:scale", shortest(coding.scale)},
-                   {"sphparam:midlevel", shortest(coding.midlevel)},
-                   {"sphparam:convention", "sphparam"},
-                   {"sphparam:u0", "0"},
-                   {"sphparam:turns", "1"},
-                   {"sphparam:grid", grid},
-                   {"sphparam:scheme", scheme},
-                   {"sphparam:depth", name_of(depth)},
-                   {"sphparam:min", shortest(displacement.figures.least)},
-                   {"sphparam:max", shortest(displacement.figures.greatest)}}};
+  ImageWriteOptions options{.sample_type = depth == ImageDepth::Uint16 ? SampleType::Uint16
+                                           : depth == ImageDepth::Half ? SampleType::Half
+                                                                       : SampleType::Float,
+                            .metadata = {{"sphparam:map", "displacement"},
+                                         {"sphparam:about", about},
+                                         {"sphparam:units", "of the mesh"},
+                                         {"sphparam:direction", "outwards"},
+                                         {"sphparam:scale", shortest(coding.scale)},
+                                         {"sphparam:midlevel", shortest(coding.midlevel)}}};
+  const ImageTexts of_layout = layout_texts(layout),
+                   of_base = {{"sphparam:grid", grid},
+                              {"sphparam:scheme", scheme},
+                              {"sphparam:depth", name_of(depth)},
+                              {"sphparam:min", shortest(displacement.figures.least)},
+                              {"sphparam:max", shortest(displacement.figures.greatest)}};
+  for (const ImageTexts& texts : {of_layout, of_base})
+    options.metadata.insert(options.metadata.end(), texts.begin(), texts.end());
   return encode_image(coded, depth == ImageDepth::Uint16 ? ImageFormat::Png : ImageFormat::Exr,
                       options);
 }

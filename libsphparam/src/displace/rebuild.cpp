@@ -55,7 +55,30 @@ double displacement_in(const Image& image, const Vector3& direction) {
   return (1 - lower_share) * mean(row) + lower_share * mean(row + 1);
 }
 
+double displacement_at(const Image& image, const TextureLattice& lattice, const TexelPoint& point) {
+  const TexelPoint low = point.array().floor(), share = point - low;
+  const auto at = [&](double x, double y) {
+    const double last = image.width - 1, around = x < 0 ? last : x > last ? 0 : x;
+    const double column = lattice.closed() ? around : std::clamp(x, 0.0, last),
+                 row = std::clamp<double>(y, 0, image.height - 1);
+    return static_cast<double>(*image.pixel(static_cast<int>(column), static_cast<int>(row)));
+  };
+  const auto mean = [&](double y) {
+    return (1 - share.x()) * at(low.x(), y) + share.x() * at(low.x() + 1, y);
+  };
+  return (1 - share.y()) * mean(low.y()) + share.y() * mean(low.y() + 1);
+}
+
 Rebuilt rebuild(const DirectedBase& base, const Image& displacement, int cuts, int threads) {
+  return rebuild(
+      base,
+      [&](const LimitPlace&, const Vector3& direction) {
+        return displacement_in(displacement, direction);
+      },
+      cuts, threads);
+}
+
+Rebuilt rebuild(const DirectedBase& base, const HeightAt& heights, int cuts, int threads) {
   const auto control = static_cast<int>(base.surface().control().rows());
   Tessellation fine = tessellate(base.faces(), control, cuts);
   const std::vector<LimitPoint> points = base.surface().evaluate_all(fine.vertices, threads),
@@ -72,7 +95,8 @@ Rebuilt rebuild(const DirectedBase& base, const Image& displacement, int cuts, i
       result.map.points.row(v) = direction;
       result.base.positions.row(v) = point.position;
       result.mesh.positions.row(v) =
-          point.position + displacement_in(displacement, direction) * point.normal();
+          point.position +
+          heights(fine.vertices[static_cast<size_t>(v)], direction) * point.normal();
     }
   });
   result.mesh.triangles = triangulate(result.mesh.positions, result.faces).triangles;

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include "displace/directed_base.h"
+#include "remesh/texture_lattice.h"
 #include "sphparam/image/image.h"
 #include "sphparam/sphere/sphere_map.h"
 
@@ -22,6 +24,9 @@ std::int64_t vertices_to_rebuild(const Image& displacement, std::int64_t mesh_ve
 /// Cuts of a patch's edges so that the rebuilt mesh has `vertices` vertices or more; at least 2.
 int cuts_for(const DirectedBase& base, std::int64_t vertices);
 
+/// How far to move a point of the base, by its place and its direction.
+using HeightAt = std::function<double(const LimitPlace& place, const Vector3& direction)>;
+
 /// Cuts every patch into `cuts`² pieces and moves their corners along the limit normal by what the
 /// image has in their direction: bilinear between the middles of texels, periodic in longitude,
 /// and on beyond a pole half a turn away.
@@ -29,7 +34,13 @@ int cuts_for(const DirectedBase& base, std::int64_t vertices);
 /// faces than can be numbered. Ensures: the same bytes for any number of threads.
 Rebuilt rebuild(const DirectedBase& base, const Image& displacement, int cuts, int threads = 0);
 
+Rebuilt rebuild(const DirectedBase& base, const HeightAt& heights, int cuts, int threads = 0);
+
 /// What the image has in a direction of any length but 0.
 double displacement_in(const Image& image, const Vector3& direction);
+
+/// What an image in the layout of a grid has at a point of it: bilinear between the middles of
+/// texels, as programs look it up.
+double displacement_at(const Image& image, const TextureLattice& lattice, const TexelPoint& point);
 
 }  // namespace sphparam

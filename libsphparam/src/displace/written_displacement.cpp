@@ -1,7 +1,10 @@
 // The image is read back while it is checked, before it has its name; the proof is made of what was
 // read.
 
+#include <algorithm>
+#include <optional>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -32,6 +35,37 @@ Provenance provenance_of(const Remeshed& control, Scheme scheme) {
           {"verdict", "one-to-one"}};
 }
 
+/// An image as it was read back, and how it lies.
+struct Heights {
+  Image image;
+  std::optional<TextureLattice> lattice;  // nothing: equirectangular
+
+  /// So many cuts of a patch or more; in the layout of a grid vertices then meet middles of texels.
+  int settled_cuts(const DirectedBase& base, int least) const {
+    if (!lattice) return least;
+    const bool halves = base.net().patch_count() != base.grid_faces().count();
+    int cuts = std::max(1, lattice->layout().steps / (halves ? 2 : 1));
+    while (cuts % 2 == 0 && cuts / 2 >= least) cuts /= 2;
+    return (least + cuts - 1) / cuts * cuts;
+  }
+
+  Rebuilt rebuild(const DirectedBase& base, int cuts, int threads) const {
+    if (!lattice) return sphparam::rebuild(base, image, cuts, threads);
+    const auto looked_up = [&](const LimitPlace& place, const Vector3&) {
+      return displacement_at(image, *lattice, lattice->point(base.on_face(place)));
+    };
+    return sphparam::rebuild(base, looked_up, cuts, threads);
+  }
+};
+
+std::optional<TextureLattice> lattice_for(const Remeshed& control,
+                                          const DisplacementOptions& options) {
+  if (options.layout == DisplacementLayout::Equirectangular) return std::nullopt;
+  const GridSpec spec = control.spec().value();
+  return TextureLattice(spec, control.grid(),
+                        texture_layout(spec, std::int64_t{options.width} * options.height));
+}
+
 /// Adds the rebuilt mesh, with the directions of its vertices where they are a map of it.
 bool add_rebuilt(PendingFiles& files, const std::string& path, const Rebuilt& rebuilt,
                  const Provenance& provenance, int threads) {
@@ -52,12 +86,13 @@ bool add_rebuilt(PendingFiles& files, const std::string& path, const Rebuilt& re
 }
 
 RebuildProof prove(PendingFiles& files, const std::string& path, const MappedMesh& source,
-                   const Remeshed& control, const DirectedBase& base, const Image& displacement,
+                   const Remeshed& control, const DirectedBase& base, const Heights& heights,
                    const DisplacementOptions& options) {
   const Stopwatch stopwatch;
   report(options.progress, "rebuild", 0);
-  const int cuts = cuts_for(base, vertices_to_rebuild(displacement, source.mesh().vertex_count()));
-  const Rebuilt rebuilt = rebuild(base, displacement, cuts, options.threads);
+  const int least =
+      cuts_for(base, vertices_to_rebuild(heights.image, source.mesh().vertex_count()));
+  const Rebuilt rebuilt = heights.rebuild(base, heights.settled_cuts(base, least), options.threads);
   const auto error_of = [&](const TriangleMesh& mesh) {
     const SurfaceDistance distance = distance_on_grid(source.mesh(), mesh, control.name(),
                                                       {.samples = distance_samples(control.faces()),
@@ -86,20 +121,26 @@ WrittenDisplacement add_displacement(PendingFiles& files, const DisplacementFile
   const Stopwatch stopwatch;
   const Scheme scheme = fit.topology->scheme();
   const DirectedBase base(control.grid(), fit.control, scheme, options.threads);
+  Heights heights{.lattice = lattice_for(control, options)};
   const Displacement made =
-      make_displacement(base, source.mesh(), source.topology(), source.locator(), options);
-  const std::vector<char> bytes =
-      encode_displacement(made, paths.depth.value_or(usual_depth(paths.image)),
-                          display_name(control.name()), name_of(scheme));
-  Image read;
-  files.add(paths.image, {bytes.begin(), bytes.end()},
-            [&](std::string_view written) { read = decode_displacement(written, paths.image); });
-  WrittenDisplacement result{.width = options.width,
-                             .height = options.height,
-                             .figures = made.figures,
-                             .seconds = stopwatch.seconds()};
+      heights.lattice
+          ? make_displacement(base, *heights.lattice, source.mesh(), source.topology(),
+                              source.locator(), options)
+          : make_displacement(base, source.mesh(), source.topology(), source.locator(), options);
+  const ImageDepth depth = paths.depth.value_or(usual_depth(paths.image));
+  WrittenDisplacement result{
+      .width = made.image.width, .height = made.image.height, .figures = made.figures};
+  if (heights.lattice) result.layout = heights.lattice->layout();
+  const DisplacementCoding coding = coding_of(made, depth);
+  std::tie(result.scale, result.midlevel) = std::tie(coding.scale, coding.midlevel);
+  const std::vector<char> bytes = encode_displacement(made, depth, display_name(control.name()),
+                                                      name_of(scheme), result.layout);
+  files.add(paths.image, {bytes.begin(), bytes.end()}, [&](std::string_view written) {
+    heights.image = decode_displacement(written, paths.image);
+  });
+  result.seconds = stopwatch.seconds();
   if (!paths.rebuilt.empty())
-    result.proof = prove(files, paths.rebuilt, source, control, base, read, options);
+    result.proof = prove(files, paths.rebuilt, source, control, base, heights, options);
   return result;
 }
 

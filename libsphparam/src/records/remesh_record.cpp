@@ -97,6 +97,9 @@ Json displacement_json(const WrittenDisplacement& written, const RemeshOutputs& 
   json["file"] = outputs.displacement;
   json["width"] = written.width;
   json["height"] = written.height;
+  json["layout"] = written.layout ? "grid" : "equirectangular";
+  json["scale"] = written.scale;
+  json["midlevel"] = written.midlevel;
   json["min"] = made.least;
   json["max"] = made.greatest;
   json["texels"]["walked"] = made.walked;
@@ -106,6 +109,21 @@ Json displacement_json(const WrittenDisplacement& written, const RemeshOutputs& 
   json["seconds"] = written.seconds;
   if (written.proof) json["rebuilt"] = proof_json(*written.proof, outputs.rebuilt);
   return json;
+}
+
+std::string layout_line(const std::string& grid, const TextureLayout& layout) {
+  const auto times = [](int a, int b) { return std::to_string(a) + " × " + std::to_string(b); };
+  return "  texture coordinates in the layout of " + grid + ": " +
+         (layout.columns > 1 ? times(layout.columns, layout.rows) + " tiles, " : "") +
+         times(layout.width, layout.height) + " texels, one a vertex of " +
+         counted(layout.levels, "level", "levels") + " of subdivision\n";
+}
+
+Json layout_json(const TextureLayout& layout) {
+  return {{"layout", "grid"},        {"width", layout.width},
+          {"height", layout.height}, {"tiles", {layout.columns, layout.rows}},
+          {"steps", layout.steps},   {"gutter", layout.gutter},
+          {"levels", layout.levels}};
 }
 
 std::string level_lines(const RemeshRecord& record, double diagonal) {
@@ -190,6 +208,7 @@ std::string to_json(const RemeshRecord& record) {
   json["carried"] = carried_by(finest.mesh.file());
   json["certified"] = true;
   if (finest.fit) json["subdivision"] = fit_json(*finest.fit, source_diagonal(record));
+  if (record.layout) json["texture"] = layout_json(*record.layout);
   if (record.displacement)
     json["displacement"] = displacement_json(*record.displacement, record.outputs);
   if (record.levels.size() > 1) json["lods"] = levels_json(record);
@@ -206,6 +225,7 @@ std::string to_text(const RemeshRecord& record) {
   const double diagonal = source_diagonal(record);
   std::string lines;
   if (finest.fit) lines += fit_line(*finest.fit, diagonal);
+  if (record.layout) lines += layout_line(record.grid, *record.layout);
   if (record.displacement) lines += displacement_lines(*record.displacement, diagonal);
   if (record.levels.size() > 1) lines += level_lines(record, diagonal);
   lines += display_name(record.input) + ": " + record.grid + ", " +

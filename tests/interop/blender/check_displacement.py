@@ -28,8 +28,8 @@ def ours(plain, edges, levels):
     out = work / "ours.json"
     width = 2 * 4 * edges * 2**levels
     ran("map", plain, "-o", work / "own.sph.ply")
-    ran("remesh", work / "own.sph.ply", "--grid", f"cube:{edges}", "--subdiv-fit", "catmark", "-o",
-        work / "control.ply", "--displace", work / "lack.exr", "--displace-size", f"{width}x{width // 2}", "--rebuild",
+    ran("remesh", work / "own.sph.ply", "--grid", f"cube:{edges}", "--subdiv-fit", "catmark", "--uv", "mesh",
+        "-o", work / "control.ply", "--displace", work / "lack.exr", "--displace-size", f"{width}x{width // 2}", "--rebuild",
         work / "rebuilt.ply", "--json", out)  # fmt: skip
     return rms(plain, work / "rebuilt.ply")
 

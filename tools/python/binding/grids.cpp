@@ -11,6 +11,7 @@
 #include "sphparam/remesh/remesh.h"
 #include "sphparam/remesh/sphere_grid.h"
 #include "sphparam/remesh/subdivision.h"
+#include "sphparam/remesh/texture_layout.h"
 
 namespace sphparam::python {
 namespace {
@@ -58,20 +59,37 @@ SampleMode mode_named(const std::string& word) {
       [](SampleMode mode) { return name_of(mode); }, "sample");
 }
 
+/// How large an image in the layout of a grid is, if nobody says.
+constexpr std::int64_t usual_texels = std::int64_t{4096} * 2048;
+
+/// Whether "grid" rather than "mesh" is asked for. Refuses it of a grid that has no layout.
+bool is_of_grid(const std::string& word, const GridRequest& request, const char* argument) {
+  if (word == "mesh") return false;
+  const std::string name = argument;
+  if (word != "grid") throw py::value_error(name + ": expected mesh or grid, not '" + word + "'");
+  if (request.like || !has_texture_layout(parse_grid(request.name)))
+    throw py::value_error(name + ": this grid has no layout of its own");
+  return true;
+}
+
 Mapped remesh_on(const Mapped& mapped, const py::object& grid, const std::string& sample,
-                 const std::vector<std::string>& transfer, bool adaptive, int threads,
-                 const py::object& progress) {
+                 const std::vector<std::string>& transfer, bool adaptive, const std::string& uv,
+                 int threads, const py::object& progress) {
   const GridRequest request = request_of(grid);
   const SampleMode mode = mode_named(sample);
+  const bool own_texture = is_of_grid(uv, request, "uv");
   return call(progress, [=, source = mapped.mesh()](const Progress& report) mutable {
     SphereGrid made = grid_of(request, threads);
     if (adaptive) {
       source = adapt_map(source, made.directions.rows(), {.threads = threads, .progress = report})
                    .mapped;
     }
-    return Mapped(
+    Remeshed found =
         remesh(source, std::move(made),
-               {.sample = mode, .transfer = transfer, .threads = threads, .progress = report}));
+               {.sample = mode, .transfer = transfer, .threads = threads, .progress = report});
+    if (own_texture)
+      found = with_grid_texture(found, texture_layout(found.spec().value(), usual_texels), threads);
+    return Mapped(found);
   });
 }
 
@@ -124,6 +142,11 @@ py::dict as_dict(const WrittenDisplacement& written) {
   dict["least"] = written.figures.least;
   dict["greatest"] = written.figures.greatest;
   dict["missed"] = written.figures.missed;
+  dict["size"] = py::make_tuple(written.width, written.height);
+  dict["scale"] = written.scale;
+  dict["midlevel"] = written.midlevel;
+  dict["levels"] = py::none();
+  if (written.layout) dict["levels"] = written.layout->levels;
   dict["rebuilt_rms"] = py::none();
   dict["base_rms"] = py::none();
   if (written.proof) {
@@ -133,16 +156,38 @@ py::dict as_dict(const WrittenDisplacement& written) {
   return dict;
 }
 
+void require_layout(const Fitted& fitted) {
+  if (!fitted.control.spec() || !has_texture_layout(*fitted.control.spec()))
+    throw py::value_error("layout: the grid of this fit has no layout of its own");
+}
+
+Mapped textured_control(const Fitted& fitted, int width, int height, int threads) {
+  require_layout(fitted);
+  const auto held = std::make_shared<const Fitted>(fitted);
+  return call(py::none(), [=](const Progress&) {
+    const TextureLayout layout =
+        texture_layout(held->control.spec().value(), std::int64_t{width} * height);
+    return Mapped(with_grid_texture(held->control, layout, threads));
+  });
+}
+
 py::dict displace(const Fitted& fitted, const std::string& path, const std::string& rebuilt,
-                  int width, int height, const std::string& depth, int threads,
-                  const py::object& progress) {
+                  int width, int height, const std::string& layout, const std::string& depth,
+                  int threads, const py::object& progress) {
   const DisplacementFiles files{path, depth_named(depth), rebuilt};
+  const DisplacementLayout lies = named(
+      layout, {DisplacementLayout::Equirectangular, DisplacementLayout::Grid},
+      [](DisplacementLayout each) {
+        return each == DisplacementLayout::Grid ? "grid" : "equirectangular";
+      },
+      "layout");
+  if (lies == DisplacementLayout::Grid) require_layout(fitted);
   const auto held = std::make_shared<const Fitted>(fitted);
   return as_dict(writing_call(progress, [=](const Progress& report) {
     PendingFiles pending;
     const WrittenDisplacement written = add_displacement(
         pending, files, held->source, held->control, held->fit,
-        {.width = width, .height = height, .threads = threads, .progress = report});
+        {.width = width, .height = height, .layout = lies, .threads = threads, .progress = report});
     pending.publish();
     return written;
   }));
@@ -180,6 +225,7 @@ void declare_grids(py::module_& module) {
   module.def("levels", levels);
   module.def("fit", fit);
   module.def("displace", displace);
+  module.def("textured_control", textured_control);
   module.def("limit_vertices", limit_vertices);
   module.def("fine_mesh", fine_mesh);
   module.def("grid_patterns", &grid_patterns);

@@ -149,6 +149,7 @@ def remesh(
     sample: str,
     transfer: List[str],
     adaptive: bool,
+    uv: str,
     threads: int,
     progress: _Report,
 ) -> Mapped: ...
@@ -167,10 +168,12 @@ def displace(
     rebuilt: str,
     width: int,
     height: int,
+    layout: str,
     depth: str,
     threads: int,
     progress: _Report,
 ) -> Dict[str, Any]: ...
+def textured_control(fitted: Fitted, width: int, height: int, threads: int) -> Mapped: ...
 def limit_vertices(fitted: Fitted, threads: int) -> _Floats: ...
 def fine_mesh(fitted: Fitted, pieces: int, threads: int) -> Tuple[_Floats, _Ints]: ...
 def grid_patterns() -> str: ...

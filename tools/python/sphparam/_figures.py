@@ -244,6 +244,14 @@ class Displacement(NamedTuple):
     """The greatest."""
     missed: int
     """Texels whose normal meets no surface near by."""
+    size: Tuple[int, int]
+    """Width and height of the image."""
+    scale: float
+    """Height is (value in the file - midlevel) * scale; of integers the value is from 0 to 1 …"""
+    midlevel: float
+    """… and this is the value where it is 0."""
+    levels: Optional[int]
+    """In the layout of a grid: of how many levels of subdivision each vertex has its own texel."""
     base_rms: Optional[float]
     """RMS distance of the fitted surface alone from the mesh, where a mesh was rebuilt."""
     rebuilt_rms: Optional[float]

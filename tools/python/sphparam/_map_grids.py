@@ -27,6 +27,7 @@ class MapGrids(MapFacts):
         sample: str = "point",
         transfer: Union[str, Iterable[str]] = "all",
         adaptive: bool = False,
+        uv: str = "mesh",
         threads: int = 0,
         progress: Progress = None,
     ) -> SphereMap:
@@ -46,13 +47,16 @@ class MapGrids(MapFacts):
             What to carry: ``"all"``, or names of values; ``[]``: positions alone.
         adaptive
             More vertices where the surface bends.
+        uv
+            Texture coordinates of the result: ``"mesh"``, what the surface has; ``"grid"``, the grid's own
+            layout, six squares for a cube and so on.
         """
         from ._sphere_map import SphereMap
 
         names = _names(transfer, "transfer")
         with told(progress) as report:
             made = _core.remesh(
-                self._mapped, _grid(grid), sample, names, bool(adaptive), _arrays.threads(threads), report
+                self._mapped, _grid(grid), sample, names, bool(adaptive), uv, _arrays.threads(threads), report
             )
         return SphereMap._of(made)
 

@@ -72,24 +72,36 @@ class SubdivisionFit:
         least = _arrays.whole(triangles, "triangles", 1)
         return _core.fine_mesh(self._fitted, least, _arrays.threads(threads))
 
+    def textured_control(self, *, size: Tuple[int, int] = (4096, 2048), threads: int = 0) -> SphereMap:
+        """The control mesh with texture coordinates in the layout of its grid, in which
+        ``displace(layout="grid")`` of the same ``size`` puts its image: saved as an ``.obj``, what other
+        programs subdivide and displace."""
+        from ._sphere_map import SphereMap
+
+        width, height = (_arrays.whole(number, "size", 1) for number in size)
+        return SphereMap._of(_core.textured_control(self._fitted, width, height, _arrays.threads(threads)))
+
     def displace(
         self,
         path: Path,
         *,
         size: Tuple[int, int] = (4096, 2048),
+        layout: str = "equirectangular",
         depth: str = "",
         rebuilt: Path = "",
         threads: int = 0,
         progress: Progress = None,
     ) -> Displacement:
-        """Writes what the surface lacks, along its normals, as an equirectangular image.
+        """Writes what the surface lacks, along its normals, as an image.
 
         Parameters
         ----------
         path
             An ``.exr`` (half or float) or ``.png`` (16 bits).
         size
-            Width and height in texels.
+            Width and height in texels; in the layout of a grid no more texels than that.
+        layout
+            ``"equirectangular"``, or ``"grid"``: for the coordinates of :meth:`textured_control`.
         depth
             ``"half"``, ``"float"``, ``"uint16"``; empty: as the format has it.
         rebuilt
@@ -100,7 +112,7 @@ class SubdivisionFit:
         other = path_of(rebuilt) if rebuilt else ""
         count = _arrays.threads(threads)
         with told(progress) as report:
-            found = _core.displace(self._fitted, path_of(path), other, width, height, depth, count, report)
+            found = _core.displace(self._fitted, path_of(path), other, width, height, layout, depth, count, report)
         return Displacement(**found)
 
     def __repr__(self) -> str:

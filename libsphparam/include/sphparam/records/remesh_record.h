@@ -28,6 +28,7 @@ struct RemeshRecord {
                                              // there are several
   SampleMode sample = SampleMode::Point;
   std::optional<Adaptation> adaptation = {};
+  std::optional<TextureLayout> layout = {};  // of the finest level's texture coordinates
   std::optional<WrittenDisplacement> displacement = {};
   RemeshOutputs outputs = {};
   double grid_seconds = 0, seconds = 0;  // of making the grid; of all

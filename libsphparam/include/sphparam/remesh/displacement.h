@@ -10,14 +10,22 @@
 #include "sphparam/remesh/image_depth.h"
 #include "sphparam/remesh/remesh.h"
 #include "sphparam/remesh/subdivision.h"
+#include "sphparam/remesh/texture_layout.h"
 
 namespace sphparam {
 
 constexpr std::int64_t most_texels = std::int64_t{1} << 28;
 
+enum class DisplacementLayout {
+  Equirectangular,
+  Grid,  // of the control mesh's own grid: `texture_layout`
+};
+
 struct DisplacementOptions {
   int width = 4096, height = 2048;  // from 1; at most `most_texels` in all
-  int threads = 0;                  // 0: all cores
+  /// In that of a grid there are at most width·height texels, or one a vertex.
+  DisplacementLayout layout = DisplacementLayout::Equirectangular;
+  int threads = 0;  // 0: all cores
   Progress progress = {};
 };
 
@@ -56,7 +64,9 @@ inline constexpr char farther_warning[] =
     "surface alone";
 
 struct WrittenDisplacement {
-  int width = 0, height = 0;  // of the image
+  int width = 0, height = 0;                 // of the image
+  std::optional<TextureLayout> layout = {};  // nothing: equirectangular
+  double scale = 1, midlevel = 0;            // height = (value in the file − midlevel)·scale
   DisplacementFigures figures = {};
   double seconds = 0;  // of the image
   std::optional<RebuildProof> proof = {};
@@ -65,23 +75,28 @@ struct WrittenDisplacement {
 /// Adds the image of what a fitted surface leaves of a mesh, and the mesh that is rebuilt from
 /// surface and image as they were read back from the disk.
 ///
-/// The image is equirectangular: column c and row r are the direction θ = 2π(c + ½)/width,
+/// An equirectangular image: column c and row r are the direction θ = 2π(c + ½)/width,
 /// ϕ = π(r + ½)/height. It holds the signed distance, in units of the mesh, from the surface's
 /// point with that direction along its unit normal, outwards, to the mesh. The direction of a point
 /// of the surface is that of the limit point which the grid's directions, as control points, have
 /// there: smooth like the surface. Texts in the image say what it holds, of which base, and how.
 ///
-/// To use it elsewhere: subdivide the control mesh by its scheme, smooth the texture coordinates
-/// u = θ/2π, v = ϕ/π (row 0 north) with it, displace along the normal by the value with scale 1 and
-/// midlevel 0. Coordinates that are interpolated in straight lines over faces are off by about an
-/// eighth of the square of a face's size in radians; near the poles by more.
+/// In it coordinates u = θ/2π, v = ϕ/π (row 0 north) that are interpolated in straight lines over
+/// faces are off by about an eighth of the square of a face's size in radians; near the poles by
+/// more.
+///
+/// An image in the layout of the grid is what other programs take: subdivide a control mesh that
+/// has the coordinates of `with_grid_texture` by its scheme to the limit surface, leave the
+/// coordinates straight over its faces, and displace along the normal by (value − midlevel)·scale.
+/// A vertex of up to `levels` subdivisions finds its own texel.
+///
 /// The rebuilt mesh is as fine as the image; its directions are its map, where that is one-to-one.
 ///
-/// Requires: a fit on `control`'s grid; sizes as DisplacementOptions says.
-/// Throws: std::range_error where the depth cannot hold the distances; ImageError; WriteError;
-/// UnmeasurableMesh where nothing of the mesh's area is left on the grid; Cancelled.
-/// Ensures: the same bytes for any number of threads.
-/// Cost: some 0.3 µs a texel, and half a second for the proof.
+/// Requires: a fit on `control`'s grid; sizes as DisplacementOptions says; for the layout of the
+/// grid one that has it. Throws: std::range_error where the depth cannot hold the distances;
+/// ImageError; WriteError; UnmeasurableMesh where nothing of the mesh's area is left on the grid;
+/// Cancelled. Ensures: the same bytes for any number of threads. Cost: some 0.3 µs a texel, and
+/// half a second for the proof.
 WrittenDisplacement add_displacement(PendingFiles& files, const DisplacementFiles& paths,
                                      const MappedMesh& source, const Remeshed& control,
                                      const SubdivisionFit& fit,

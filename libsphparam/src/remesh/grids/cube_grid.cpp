@@ -1,5 +1,6 @@
 // cube:N: quads, N an edge, at equal angles; cut open, six square images below one another.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -48,13 +49,16 @@ std::array<Side, 6> sides() {
   return {{{x, y, z}, {-x, -y, z}, {y, -x, z}, {-y, x, z}, {z, y, -x}, {-z, y, x}}};
 }
 
+/// Of a tangent from −1 to 1, how many of n equal angles it is from −1.
+long steps_to(double tangent, int n) {
+  return std::lround((elementary::atan(tangent) / (std::numbers::pi / 4) + 1) / 2 * n);
+}
+
 /// Six sides of (N + 1)×(N + 1) samples below one another, +x −x +y −y +z −z, each seen from
 /// outside. The directions are lattice points of the flat cube, to which they are turned back.
 ImageLayout image(const GridSpec& spec, const Points& directions) {
   const int n = spec.size;
-  const auto place = [&](double tangent) {
-    return std::lround((elementary::atan(tangent) / (std::numbers::pi / 4) + 1) / 2 * n);
-  };
+  const auto place = [&](double tangent) { return steps_to(tangent, n); };
   const std::array<Side, 6> all = sides();
   ImageLayout layout(image_size(spec));
   for (Eigen::Index v = 0; v < directions.rows(); ++v) {
@@ -70,6 +74,32 @@ ImageLayout image(const GridSpec& spec, const Points& directions) {
   return layout;
 }
 
+ChartCells chart_cells(const GridSpec& spec) { return {3, 2, spec.size, spec.size}; }
+
+/// A tile for each side, in the order of `sides`.
+std::vector<ChartCorner> chart(const GridSpec& spec, const SphereGrid& grid) {
+  const std::array<Side, 6> all = sides();
+  std::vector<ChartCorner> corners;
+  corners.reserve(grid.faces.corners.size());
+  for (std::int64_t f = 0; f < grid.faces.count(); ++f) {
+    Vector3 middle = Vector3::Zero();
+    for (const int v : grid.faces.polygon(f)) middle += grid.directions.row(v);
+    const auto faces = [&](const Side& a, const Side& b) {
+      return a.normal.dot(middle) < b.normal.dot(middle);
+    };
+    const auto side = std::max_element(all.begin(), all.end(), faces);
+    for (const int v : grid.faces.polygon(f)) {
+      const Vector3 q = grid.directions.row(v);
+      const double depth = q.dot(side->normal);
+      const long right = steps_to(q.dot(side->right) / depth, spec.size),
+                 up = steps_to(q.dot(side->up) / depth, spec.size);
+      corners.push_back({static_cast<int>(side - all.begin()), static_cast<double>(right),
+                         static_cast<double>(spec.size - up)});
+    }
+  }
+  return corners;
+}
+
 }  // namespace
 
 const GridFamily cube_family = {.kind = GridKind::Cube,
@@ -82,6 +112,8 @@ const GridFamily cube_family = {.kind = GridKind::Cube,
                                 .make = make,
                                 .coarser = coarser,
                                 .image = image,
-                                .image_size = image_size};
+                                .image_size = image_size,
+                                .chart_cells = chart_cells,
+                                .chart = chart};
 
 }  // namespace sphparam

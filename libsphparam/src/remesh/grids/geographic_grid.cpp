@@ -46,6 +46,30 @@ SphereGrid make(const GridSpec& spec, const GridOptions& /*options*/) {
   return grid;
 }
 
+ChartCells chart_cells(const GridSpec& spec) {
+  return {.columns = 1, .rows = 1, .width = spec.size, .height = spec.height, .closed = true};
+}
+
+/// The corners of `make`, in its order; a pole is in the middle of each of its triangles.
+std::vector<ChartCorner> chart(const GridSpec& spec, const SphereGrid& /*grid*/) {
+  std::vector<ChartCorner> corners;
+  for (int row = 0; row < spec.height; ++row) {
+    for (int column = 0; column < spec.size; ++column) {
+      const double left = column, right = column + 1, top = row, bottom = row + 1,
+                   middle = column + 0.5;
+      if (row == 0) {
+        corners.insert(corners.end(), {{0, middle, top}, {0, left, bottom}, {0, right, bottom}});
+      } else if (row == spec.height - 1) {
+        corners.insert(corners.end(), {{0, left, top}, {0, middle, bottom}, {0, right, top}});
+      } else {
+        corners.insert(corners.end(),
+                       {{0, left, top}, {0, left, bottom}, {0, right, bottom}, {0, right, top}});
+      }
+    }
+  }
+  return corners;
+}
+
 }  // namespace
 
 const GridFamily geographic_family = {
@@ -57,6 +81,8 @@ const GridFamily geographic_family = {
     .has_quads = true,
     .is_size = [](const GridSpec& spec) { return spec.size >= 3 && spec.height >= 2; },
     .vertex_count = vertices,
-    .make = make};
+    .make = make,
+    .chart_cells = chart_cells,
+    .chart = chart};
 
 }  // namespace sphparam

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "remesh/grids/grid_chart.h"
 #include "sphparam/remesh/sphere_grid.h"
 
 namespace sphparam {
@@ -46,6 +47,10 @@ struct GridFamily {
   /// own.
   ImageLayout (*image)(const GridSpec& spec, const Points& directions) = nullptr;
   ImageSize (*image_size)(const GridSpec& spec) = nullptr;
+  /// The layout of the faces in an image, and where each of their corners is in it; null where a
+  /// family has none. `grid`: its own, without ancestry.
+  ChartCells (*chart_cells)(const GridSpec& spec) = nullptr;
+  std::vector<ChartCorner> (*chart)(const GridSpec& spec, const SphereGrid& grid) = nullptr;
 };
 
 extern const GridFamily icosahedron_family, cut_icosahedron_family, octahedron_family, cube_family,

@@ -34,6 +34,21 @@ SphereGrid make_cut(const GridSpec& spec, const GridOptions& options) {
   return grid;
 }
 
+ChartCells chart_cells(const GridSpec& spec) {
+  const int n = spec.kind == GridKind::Icosahedron ? 1 << spec.size : spec.size;
+  return {5, 2, n, n};
+}
+
+/// By the same grid as it lies on the flat icosahedron.
+std::vector<ChartCorner> chart_halved(const GridSpec& spec, const SphereGrid& grid) {
+  const SphereGrid flat = subdivide(icosahedron(), spec.size, Placement::Flat, {});
+  return corners_on_diamonds(1 << spec.size, flat.directions, grid.faces);
+}
+
+std::vector<ChartCorner> chart_cut(const GridSpec& spec, const SphereGrid& grid) {
+  return corners_on_diamonds(spec.size, grid.directions, grid.faces);
+}
+
 }  // namespace
 
 const GridFamily icosahedron_family = {
@@ -44,7 +59,9 @@ const GridFamily icosahedron_family = {
     .is_size = [](const GridSpec& spec) { return spec.size >= 0; },
     .vertex_count = halved_vertices,
     .make = make_halved,
-    .coarser = coarser_halved};
+    .coarser = coarser_halved,
+    .chart_cells = chart_cells,
+    .chart = chart_halved};
 
 const GridFamily cut_icosahedron_family = {
     .kind = GridKind::IcosahedronCut,
@@ -53,6 +70,8 @@ const GridFamily cut_icosahedron_family = {
     .sizes = "N from 1, as in ico:f=37",
     .is_size = [](const GridSpec& spec) { return spec.size >= 1; },
     .vertex_count = cut_vertices,
-    .make = make_cut};
+    .make = make_cut,
+    .chart_cells = chart_cells,
+    .chart = chart_cut};
 
 }  // namespace sphparam

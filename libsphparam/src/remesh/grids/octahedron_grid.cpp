@@ -61,6 +61,31 @@ ImageLayout image(const GridSpec& spec, const Points& directions) {
   return layout;
 }
 
+ChartCells chart_cells(const GridSpec& spec) { return {1, 1, spec.size - 1, spec.size - 1}; }
+
+/// The same square; a corner in the southern half is unfolded to the side that its face lies on.
+std::vector<ChartCorner> chart(const GridSpec& spec, const SphereGrid& grid) {
+  const double m = pieces(spec);
+  const auto flat = [&](int v) -> Vector3 {
+    const Vector3 q = grid.directions.row(v);
+    return (q / q.lpNorm<1>() * m).array().round();
+  };
+  std::vector<ChartCorner> corners;
+  corners.reserve(grid.faces.corners.size());
+  for (std::int64_t f = 0; f < grid.faces.count(); ++f) {
+    Vector3 middle = Vector3::Zero();
+    for (const int v : grid.faces.polygon(f)) middle += flat(v);
+    for (const int v : grid.faces.polygon(f)) {
+      Vector3 at = flat(v);
+      if (middle.z() < 0)
+        at.head(2) = Eigen::Vector2d(std::copysign(m - std::abs(at.y()), middle.x()),
+                                     std::copysign(m - std::abs(at.x()), middle.y()));
+      corners.push_back({0, m + at.x(), m - at.y()});
+    }
+  }
+  return corners;
+}
+
 }  // namespace
 
 const GridFamily octahedron_family = {
@@ -73,6 +98,8 @@ const GridFamily octahedron_family = {
     .make = make,
     .coarser = coarser,
     .image = image,
-    .image_size = image_size};
+    .image_size = image_size,
+    .chart_cells = chart_cells,
+    .chart = chart};
 
 }  // namespace sphparam

@@ -59,7 +59,7 @@ class ProgramRoute:
 
     def fit(self, mapped: str, grid: str, out: str, image: str, size) -> Fit:
         width, height = size
-        words = ["--subdiv-fit", "catmark", "--displace", image, "--displace-size", f"{width}x{height}"]
+        words = ["--subdiv-fit", "catmark", "--uv", "mesh", "--displace", image, "--displace-size", f"{width}x{height}"]
         found = self._reported("remesh", mapped, "--grid", grid, "-o", out, *words)
         displacement = found["displacement"]
         return Fit(found["subdivision"]["two_sided_rms"], displacement["min"], displacement["max"])
