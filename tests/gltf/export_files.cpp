@@ -34,6 +34,8 @@ struct Trial {
   GltfOptions file = {};
   bool source_uv = false;  // where the mesh has them
   bool normal_map = false, variants = false, unlit = false, two_levels = false;
+  MaterialFinish finish = {};
+  bool double_sided = false;
 };
 
 /// One option at a time, and what most often goes together.
@@ -55,6 +57,29 @@ std::vector<Trial> trials() {
   });
   add("poles", [](Trial& t) { t.chart.refine_poles = 7; });
   add("unlit", [](Trial& t) { t.unlit = true; });
+  add("finish", [](Trial& t) {
+    t.finish = {.clearcoat = 1,
+                .clearcoat_roughness = 0.5,
+                .sheen = {1, 0.5, 0},
+                .sheen_roughness = 0.25,
+                .transmission = 0.5,
+                .ior = 1.33,
+                .specular = 0.5,
+                .specular_colour = {2, 1, 0.5},
+                .iridescence = 1,
+                .iridescence_ior = 1.8,
+                .iridescence_thickness = 300,
+                .thickness = 0.5,
+                .attenuation_distance = 2,
+                .attenuation_colour = {1, 0.5, 0.25},
+                .dispersion = 0.1};
+    t.normal_map = t.double_sided = true;
+  });
+  add("effectless", [](Trial& t) {
+    t.finish.clearcoat_roughness = t.finish.thickness = t.finish.dispersion = 1;
+    t.finish.iridescence_thickness = 3;
+    t.double_sided = true;
+  });
   add("variants", [](Trial& t) { t.variants = true; });
   add("sphere", [](Trial& t) {
     t.geometry.shape = ShapeKind::Sphere;
@@ -100,7 +125,11 @@ void run(const Trial& trial, const MeshFile& file, const SphereMap& map, const T
   if (geometry.shape == ShapeKind::Mesh)
     chart.wedge_normals = split_at_hard_edges(chart.chart, file);
   ExportGeometry made = export_geometry(chart, file, geometry);
-  Material material{.name = "checker", .base_colour = 0, .unlit = trial.unlit};
+  Material material{.name = "checker",
+                    .base_colour = 0,
+                    .double_sided = trial.double_sided,
+                    .unlit = trial.unlit,
+                    .finish = trial.finish};
   if (trial.normal_map) material.normal = 1;
   Asset asset{.name = stem,
               .levels = {},

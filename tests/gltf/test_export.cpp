@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "../chart/maps.h"
+#include "sphparam/bake/bake.h"
 #include "sphparam/gltf/export.h"
 #include "sphparam/io/mesh_reader.h"
 #include "support/glb_json.h"
@@ -59,6 +60,45 @@ TEST_CASE("export: a mesh made of another shows that one's colours where it carr
   REQUIRE(look.images.size() == own.images.size());
   CHECK(look.images[0].bytes == own.images[0].bytes);
   CHECK(look.materials[0].name == "checker");
+}
+
+TEST_CASE(
+    "export: finish and unlit of the source's materials are carried, also by way of an image") {
+  const Place place;
+  const auto egg_of = [](const MaterialChannels& said) {
+    MeshFile file = mapped_egg(3).file();
+    file.materials = {"m"};
+    file.base_colours = {MaterialTexture{.factor = {1, 0.5, 0.25, 1}}};
+    file.channels = {said};
+    file.set_face_property(
+        {"material", ScalarType::Int32, std::vector<double>(file.mesh.face_count(), 0)});
+    return MappedMesh({.file = std::move(file), .map = mapped_egg(3).map(), .name = "egg.obj"});
+  };
+  MaterialFinish glass;
+  glass.transmission = 1;
+  glass.thickness = 0.5;
+  glass.attenuation_distance = 2;
+  glass.attenuation_colour = {1, 0.5, 0};
+  glass.sheen = {0.25, 0, 0};
+  for (const bool unlit : {false, true}) {
+    const MappedMesh egg = egg_of({.double_sided = true, .unlit = unlit, .finish = glass});
+    const MaterialFinish seen = unlit ? MaterialFinish() : glass;
+    bake(egg, {{"basecolor", place / "a.png"}}, {.width = 64});
+    ExportOptions by_image = small;
+    by_image.look.texture = place / "a.png";
+    for (const Look& look : {make_look(egg, small), make_look(mapped_egg(3), by_image)}) {
+      CHECK(look.materials[0].finish == seen);
+      CHECK(look.materials[0].unlit == unlit);
+      CHECK(look.warnings.empty());
+      write_asset(place / "a.glb", make_asset(egg, look, small));
+      const MaterialChannels back = read_mesh(place / "a.glb").channels.at(0);
+      CHECK(back.finish == seen);
+      CHECK(back.unlit == unlit);
+    }
+    // Who names an image that light falls on wants light.
+    by_image.look.occlusion = place / "a.png";
+    CHECK_FALSE(make_look(mapped_egg(3), by_image).materials[0].unlit);
+  }
 }
 
 TEST_CASE("export: an asset has a look, a proof of its coordinates and the mesh's name") {

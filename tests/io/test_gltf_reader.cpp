@@ -675,6 +675,63 @@ TEST_CASE(
   CHECK(placed(said.emission, 1) == Approx(1 - (-2 + 0.25)));
 }
 
+TEST_CASE("gltf_reader: factors of a material's finish are carried, what makes no sense is not") {
+  const auto finish_of = [](const std::string& extensions, const std::string& node = "") {
+    Gltf gltf = tetrahedron_gltf();
+    gltf.meshes = R"([{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0}]}])";
+    if (!node.empty())
+      gltf.rest = R"("nodes":[{"mesh":0,)" + node + R"(}],"scenes":[{"nodes":[0]}],"scene":0)";
+    gltf.rest += R"(,"materials":[{"extensions":{)" + extensions + "}}]";
+    const MeshFile file = read(gltf.bytes());
+    return std::pair{file.channels.at(0).finish, sphparam::losses_among(file.notes)};
+  };
+  const auto [all, losses] = finish_of(
+      R"("KHR_materials_clearcoat":{"clearcoatFactor":0.5,"clearcoatRoughnessFactor":0.25},)"
+      R"("KHR_materials_sheen":{"sheenColorFactor":[0.5,0.25,1],"sheenRoughnessFactor":0.75},)"
+      R"("KHR_materials_transmission":{"transmissionFactor":1},"KHR_materials_ior":{"ior":2},)"
+      R"("KHR_materials_specular":{"specularFactor":0.5,"specularColorFactor":[2,1,0]},)"
+      R"("KHR_materials_iridescence":{"iridescenceFactor":1,"iridescenceIor":1.5,)"
+      R"("iridescenceThicknessMinimum":10,"iridescenceThicknessMaximum":500},)"
+      R"("KHR_materials_volume":{"thicknessFactor":0.5,"attenuationDistance":3,)"
+      R"("attenuationColor":[1,0.5,0]},"KHR_materials_dispersion":{"dispersion":0.1})",
+      R"("scale":[2,2,2])");
+  CHECK(losses.empty());
+  sphparam::MaterialFinish expected;
+  expected.clearcoat = 0.5;
+  expected.clearcoat_roughness = 0.25;
+  expected.sheen = {0.5, 0.25, 1};
+  expected.sheen_roughness = 0.75;
+  expected.transmission = 1;
+  expected.ior = 2;
+  expected.specular = 0.5;
+  expected.specular_colour = {2, 1, 0};
+  expected.iridescence = 1;
+  expected.iridescence_ior = 1.5;
+  expected.iridescence_thickness = 500;
+  expected.thickness = 1;  // as large as the node makes it
+  expected.attenuation_distance = 3;
+  expected.attenuation_colour = {1, 0.5, 0};
+  expected.dispersion = 0.1;
+  CHECK(all == expected);
+
+  for (const char* nonsense :
+       {R"("KHR_materials_clearcoat":{"clearcoatFactor":2})", R"("KHR_materials_ior":{"ior":0.5})",
+        R"("KHR_materials_ior":{"ior":"glass"})", R"("KHR_materials_sheen":[1])",
+        R"("KHR_materials_sheen":{"sheenColorFactor":[1,0]})",
+        R"("KHR_materials_sheen":{"sheenColorFactor":[1,0,"x"]})",
+        R"("KHR_materials_volume":{"thicknessFactor":-1,"attenuationDistance":1e300})"})
+    CHECK(finish_of(nonsense).first == sphparam::MaterialFinish());
+
+  // The image says where it is glass: without it all would be.
+  const auto [glass, told] = finish_of(
+      R"("KHR_materials_transmission":{"transmissionFactor":1,"transmissionTexture":{"index":0}},)"
+      R"("KHR_materials_clearcoat":{"clearcoatFactor":1,"clearcoatRoughnessTexture":{"index":0}})");
+  CHECK(glass.transmission == 0);
+  CHECK(glass.clearcoat == 1);
+  CHECK(told == std::vector<std::string>{"not carried: clearcoatRoughnessTexture and "
+                                         "transmissionTexture of 1 of 1 material"});
+}
+
 namespace {
 
 /// A tetrahedron with `count` materials, each with an image of its own, all of the view `view`.
@@ -801,12 +858,12 @@ TEST_CASE("gltf_reader: what a file says beside shape and materials is told, a l
       R"("skins":[{"joints":[1]}],)"
       R"("cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":0.1}}],)"
       R"("materials":[{"name":"plain","pbrMetallicRoughness":{"metallicFactor":1}},)"
-      R"({"name":"glow","emissiveFactor":[0,1,0],"doubleSided":true,"extensions":{"KHR_materials_sheen":{},)"
+      R"({"name":"glow","emissiveFactor":[0,1,0],"doubleSided":true,"extensions":{"KHR_materials_anisotropy":{},)"
       R"("KHR_materials_emissive_strength":{}}}])";
   const std::vector<std::string> losses = sphparam::losses_among(read(gltf.bytes()).notes);
   CHECK(losses ==
         std::vector<std::string>{
-            "not carried: 'KHR_materials_sheen' of 1 of 2 materials",
+            "not carried: 'KHR_materials_anisotropy' of 1 of 2 materials",
             "not carried: 1 skin: the mesh is read as it rests", "not carried: 2 morph targets",
             "not carried: of the vertices TANGENT, TEXCOORD_1 and _PAIR", "not carried: 1 camera"});
 }

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "asset/asset_page.h"
+#include "io/attributes/one_material.h"
 #include "rays/flat_normal.h"
 #include "sphparam/io/certified_files.h"
 #include "sphparam/io/paths.h"
@@ -96,12 +97,6 @@ class Remaker {
     return "";
   }
 
-  bool all_unlit() const {
-    const auto& channels = asset_.file.channels;
-    return !channels.empty() &&
-           std::ranges::all_of(channels, [](const MaterialChannels& said) { return said.unlit; });
-  }
-
   ExportOptions export_options() const {
     ExportOptions options;
     options.name = name();
@@ -111,7 +106,7 @@ class Remaker {
                     .occlusion = image_of("ao"),
                     .orm = image_of("orm"),
                     .emissive = image_of("emissive"),
-                    .unlit = all_unlit()};
+                    .unlit = one_material(asset_.file).unlit};
     options.up = options_.up;
     options.quantise = options_.compress;
     options.threads = options_.whole.threads;

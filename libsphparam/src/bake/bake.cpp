@@ -13,6 +13,7 @@
 #include "bake/make_scene.h"
 #include "bake/projected_surface.h"
 #include "bake/write_images.h"
+#include "io/attributes/one_material.h"
 #include "number_text.h"
 #include "sphparam/version.h"
 
@@ -98,6 +99,9 @@ BakeReport bake(const MappedMesh& source, const std::vector<BakeRequest>& images
       std::ranges::any_of(images, [](const auto& image) { return needs_textures(image.field); });
   BakeScene scene = scene_for(source, std::move(chosen.target), with_textures, settings);
   report_projection(scene, settings, report);
+  if (with_textures && settings.texture.empty())
+    for (std::string& warning : one_material(scene.source.file()).warnings)
+      report.warnings.push_back(std::move(warning));
   std::vector<PlannedImage> plan;
   for (const BakeRequest& request : images) plan.push_back(plan_image(request, scene, settings));
   find_ranges(plan, scene, settings);

@@ -9,6 +9,7 @@
 
 #include "gltf/image_kind.h"
 #include "gltf/packing.h"
+#include "io/attributes/finish_terms.h"
 #include "io/uri.h"
 #include "sphparam/version.h"
 
@@ -96,13 +97,17 @@ class Builder {
       if (material.normal >= 0) entry["normalTexture"] = {{"index", material.normal}};
       if (material.occlusion >= 0) entry["occlusionTexture"] = {{"index", material.occlusion}};
       if (material.emissive >= 0) add_emission(material, entry);
+      add_finish(material.finish, entry);
     }
     if (material.alpha_mode == AlphaMode::Blend) entry["alphaMode"] = "BLEND";
     if (material.alpha_mode == AlphaMode::Mask) {
       entry["alphaMode"] = "MASK";
       entry["alphaCutoff"] = material.alpha_cutoff;
     }
-    if (material.double_sided) entry["doubleSided"] = true;
+    // A volume has an inside, which nobody looks at from there.
+    if (material.double_sided && !entry["extensions"].contains("KHR_materials_volume"))
+      entry["doubleSided"] = true;
+    if (entry["extensions"].empty()) entry.erase("extensions");
     lists_.materials.push_back(std::move(entry));
   }
 
@@ -113,6 +118,21 @@ class Builder {
     entry["extensions"]["KHR_materials_emissive_strength"] = {
         {"emissiveStrength", material.emissive_strength}};
     use("KHR_materials_emissive_strength");
+  }
+
+  void add_finish(const MaterialFinish& finish, Json& entry) {
+    const MaterialFinish seen = finish_in(to_text(finish));
+    for (const std::string& name : extensions_of(seen)) {
+      Json& extension = entry["extensions"][name] = Json::object();
+      for (const FinishTerm& term : finish_terms()) {
+        const std::vector<double> numbers = numbers_of(term, seen);
+        if (name != std::string("KHR_materials_") + term.extension ||
+            numbers == numbers_of(term, MaterialFinish()))
+          continue;
+        extension[term.key] = term.number ? Json(numbers[0]) : Json(numbers);
+      }
+      use(name);
+    }
   }
 
   /// Those of the levels that follow.

@@ -14,6 +14,8 @@
 #include "gltf/painted_surfaces.h"
 #include "gltf/variant_images.h"
 #include "io/attributes/appearance.h"
+#include "io/attributes/finish_terms.h"
+#include "io/attributes/one_material.h"
 #include "io/attributes/shading_normals.h"
 #include "io/attributes/source_attributes.h"
 #include "sphparam/chart/chart_failure.h"
@@ -60,6 +62,7 @@ void take_sides(Material& material, const ImageTexts& texts) {
     material.alpha_cutoff = number_in(alpha.substr(mask.size()), material.alpha_cutoff);
   }
   material.double_sided = baked_text(texts, sides_text) == "1";
+  material.finish = finish_in(baked_text(texts, finish_text));
 }
 
 bool has_colours(const MeshFile& file) { return linear_colours(file).has_value(); }
@@ -73,7 +76,7 @@ class LookMaker {
     require_known(wanted_.variants);
     const BakedImages given = images_given(wanted_);
     choose_base_colour(given);
-    if (!wanted_.unlit) {
+    if (!material_.unlit) {
       material_.normal = add_file(given.normal, "normal");
       look_.normals_given = material_.normal >= 0;
       material_.metallic_roughness = add_file(given.orm, "orm");
@@ -127,9 +130,14 @@ class LookMaker {
       ImageTexts texts;
       material_.base_colour = add_file(given.base_colour, "basecolor", texts);
       take_sides(material_, texts);
+      // Who names an image that light falls on wants light.
+      const bool lit = !wanted_.normal.empty() || !wanted_.occlusion.empty() ||
+                       !wanted_.orm.empty() || !wanted_.emissive.empty() || wanted_.tangents;
+      material_.unlit = material_.unlit || (!lit && baked_text(texts, unlit_text) == "1");
       return;
     }
     textures_ = read_textures(file, options_.threads);
+    if (!textures_.empty()) take_one_material(given);
     // Vertex colours would tint all variants: where there are some, they are baked too.
     if (!textures_.empty() ||
         (has_colours(file) && (wanted_.bake_colours || !wanted_.variants.empty()))) {
@@ -146,6 +154,14 @@ class LookMaker {
       material_.name = "checker";
       material_.base_colour = add(drawn(TestImage::Checker));
     }
+  }
+
+  /// Of the mesh's own materials what is no image.
+  void take_one_material(const BakedImages& given) {
+    OneMaterial one = one_material(mapped_.file());
+    material_.finish = one.finish;
+    material_.unlit = material_.unlit || (one.unlit && given.none() && !wanted_.tangents);
+    look_.warnings = std::move(one.warnings);
   }
 
   void add_variant(const std::string& name) {

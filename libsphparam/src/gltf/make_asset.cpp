@@ -57,7 +57,8 @@ Asset without_levels(const MappedMesh& mapped, const Look& look, const ExportOpt
               .coarse_levels_have_normal_maps = !look.normals_given,
               .materials = look.materials,
               .extras = {{"source", source_name(mapped, options)}},
-              .quantised = options.quantise};
+              .quantised = options.quantise,
+              .warnings = look.warnings};
   for (const auto& [key, value] : mapped.provenance())
     asset.extras.emplace_back("map_" + key, value);
   if (options.up != Up{} || noted_up(mapped.file()) != Up{})

@@ -59,6 +59,7 @@ struct Material {
   double alpha_cutoff = 0.5;  // of Mask
   bool double_sided = false;
   bool unlit = false;
+  MaterialFinish finish = {};
 
   /// Those of its images that do not depend on the tangent frame of a mesh.
   std::array<int*, 4> frameless_images() {

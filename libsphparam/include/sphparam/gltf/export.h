@@ -95,14 +95,16 @@ class ImageOfOtherChart : public std::runtime_error {
 struct Look {
   std::vector<AssetImage> images;
   std::vector<Material> materials;
-  bool normals_given = false;   // by a map for the tangent frame of one mesh
-  bool vertex_colours = false;  // what is seen are the colours of the vertices
+  bool normals_given = false;              // by a map for the tangent frame of one mesh
+  bool vertex_colours = false;             // what is seen are the colours of the vertices
+  std::vector<std::string> warnings = {};  // for people: materials that disagree
 
   bool has_normals() const { return !materials.empty() && materials.front().normal >= 0; }
 };
 
 /// Images that `bake` made say in their metadata how alpha is meant, whether surfaces are seen from
-/// both sides, and how strong emission is. Occlusion is that of `orm` where no other is given.
+/// both sides, without light, with which finish, and how strong emission is. Occlusion is that of
+/// `orm` where no other is given.
 ///
 /// What is seen: the images that are named; else the mesh's own textures, baked; else the colours
 /// of its vertices; else white under a normal or occlusion map, a checker without. The variants

@@ -29,6 +29,28 @@ struct MaterialTexture {
 /// What alpha means. Source: glTF 2.0, Section 3.9.4.
 enum class AlphaMode { Opaque, Mask, Blend };
 
+/// What a surface is like beyond the model of glTF 2.0: factors of its KHR_materials_* extensions,
+/// by the same names. What is here at first says nothing.
+struct MaterialFinish {
+  using Colour = std::array<double, 3>;  // linear
+
+  double clearcoat = 0, clearcoat_roughness = 0;
+  Colour sheen = {0, 0, 0};
+  double sheen_roughness = 0;
+  double transmission = 0;
+  double ior = 1.5;  // 0: as specular workflows have it
+  double specular = 1;
+  Colour specular_colour = {1, 1, 1};
+  double iridescence = 0, iridescence_ior = 1.3;
+  double iridescence_thickness = 400;  // nanometres
+  double thickness = 0;                // of the volume, in units of the mesh; 0: none
+  double attenuation_distance = 0;     // in units of the world; 0: nothing is absorbed
+  Colour attenuation_colour = {1, 1, 1};
+  double dispersion = 0;
+
+  bool operator==(const MaterialFinish&) const = default;
+};
+
 /// What a material says beside its base colour, in the model of glTF 2.0, Section 3.9. Numbers are
 /// factor[0] · the texture's channel.
 struct MaterialChannels {
@@ -41,6 +63,7 @@ struct MaterialChannels {
   double alpha_cutoff = 0.5;  // of Mask: what is below is not there
   bool double_sided = false;
   bool unlit = false;  // the base colour is seen as it is
+  MaterialFinish finish = {};
 
   std::array<const MaterialTexture*, 5> textures() const {
     return {&roughness, &metallic, &occlusion, &normal, &emission};

@@ -9,6 +9,8 @@
 
 #include "bake/fields/texture_line.h"
 #include "io/attributes/appearance.h"
+#include "io/attributes/finish_terms.h"
+#include "io/attributes/one_material.h"
 #include "number_text.h"
 #include "texture/read_textures.h"
 
@@ -189,6 +191,10 @@ std::vector<std::pair<std::string, std::string>> texts_of_material(const MeshFil
   else if (first_mask != file.channels.end())
     texts.emplace_back(alpha_text, "mask " + shortest(first_mask->alpha_cutoff));
   if (any([](const auto& said) { return said.double_sided; })) texts.emplace_back(sides_text, "1");
+  const OneMaterial one = one_material(file);
+  if (one.unlit) texts.emplace_back(unlit_text, "1");
+  if (const std::string finish = to_text(one.finish); !finish.empty())
+    texts.emplace_back(finish_text, finish);
   return texts;
 }
 

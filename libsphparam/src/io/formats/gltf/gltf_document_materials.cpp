@@ -4,11 +4,13 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
 
 #include "elementary.h"
+#include "io/attributes/finish_terms.h"
 #include "io/formats/gltf/gltf_files.h"
 #include "number_text.h"
 #include "sphparam/io/mesh_file.h"
@@ -248,9 +250,42 @@ class MaterialReader {
     for (const auto& [extension, value] : said_.extensions) {
       if (extension == "KHR_materials_unlit")
         channels.unlit = true;
-      else if (extension != "KHR_materials_emissive_strength")
+      else if (extension != "KHR_materials_emissive_strength" && !read_finish(extension, value))
         result_.others.push_back(sphparam::quoted(extension));
     }
+  }
+
+  /// Whether it is one whose factors are carried. What an image says of its first factors is not
+  /// carried, and without it they would be said of all of the surface.
+  bool read_finish(const std::string& extension, const tinygltf::Value& said) {
+    static const std::set<std::string> of_first_factors = {
+        "clearcoatTexture",     "sheenColorTexture",  "transmissionTexture", "specularTexture",
+        "specularColorTexture", "iridescenceTexture", "thicknessTexture"};
+    bool known = false, by_image = false;
+    for (const FinishTerm& term : finish_terms())
+      known = known || extension == std::string("KHR_materials_") + term.extension;
+    if (!known || !said.IsObject()) return known;
+    for (const std::string& key : said.Keys()) {
+      if (!key.ends_with("Texture")) continue;
+      result_.others.push_back(key);
+      by_image = by_image || of_first_factors.contains(key);
+    }
+    if (by_image) return true;
+    for (const FinishTerm& term : finish_terms())
+      if (extension == std::string("KHR_materials_") + term.extension && said.Has(term.key))
+        set_numbers(term, numbers_in(said.Get(term.key)), result_.channels.finish);
+    return true;
+  }
+
+  static std::vector<double> numbers_in(const tinygltf::Value& value) {
+    std::vector<double> numbers;
+    const int count = value.IsArray() ? static_cast<int>(value.ArrayLen()) : 1;
+    for (int i = 0; i < count; ++i) {
+      const tinygltf::Value& one = value.IsArray() ? value.Get(i) : value;
+      if (!one.IsNumber()) return {};
+      numbers.push_back(one.GetNumberAsDouble());
+    }
+    return numbers;
   }
 
   const tinygltf::Model& model_;

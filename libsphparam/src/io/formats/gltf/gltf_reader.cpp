@@ -88,6 +88,8 @@ class SceneReader {
       const GltfDocument::Primitive& primitive = primitives[p];
       where_ = "mesh " + std::to_string(placed.mesh) + " primitive " + std::to_string(p);
       if (leave_out(primitive)) continue;
+      scale_of_.try_emplace(primitive.material,
+                            std::cbrt(std::abs(transform.linear.determinant())));
       const int position = check_primitive(primitive);
       transform_of_uv_ = transform_of(primitive);
       const bool plain = transform_of_uv_ == GltfDocument::TextureTransform();
@@ -341,6 +343,7 @@ class SceneReader {
     file_.materials.push_back(name.empty() ? "material " + std::to_string(id) : name);
     file_.base_colours.push_back(base_colour);
     file_.channels.push_back(channels);
+    file_.channels.back().finish.thickness *= scale_of_.at(id);
     if (without_texcoords_.contains(id)) {
       const std::string why = "its texture coordinates are not there";
       file_.base_colours.back().problem = why;
@@ -390,6 +393,7 @@ class SceneReader {
   std::vector<std::string> others_;  // what of materials is not carried, each once
   std::set<std::string> others_seen_;
   long materials_with_others_ = 0;
+  std::map<int, double> scale_of_;     // of materials, where they are first used
   std::set<int> without_texcoords_;    // materials whose images some primitive has no place for
   std::set<std::string> not_carried_;  // attributes
   long skinned_ = 0;                   // meshes placed with a skin

@@ -1,0 +1,86 @@
+#include "io/attributes/one_material.h"
+
+#include <algorithm>
+#include <set>
+
+#include "io/attributes/finish_terms.h"
+#include "mesh/triangle_geometry.h"
+#include "number_text.h"
+#include "sphparam/io/fillers.h"
+#include "sphparam/io/losses.h"
+
+namespace sphparam {
+namespace {
+
+/// Of each material, and last of none.
+std::vector<double> areas_of(const MeshFile& file) {
+  std::vector<double> areas(file.channels.size() + 1, 0);
+  const Property* const material = file.find_face_property("material");
+  const FillerMarks fillers = fillers_of(file);
+  for (Face f = 0; f < file.mesh.face_count(); ++f) {
+    const auto at = static_cast<std::size_t>(f);
+    if (!fillers.empty() && fillers[at]) continue;
+    const double id = material ? material->values[at] : -1;
+    const bool known = id >= 0 && id < static_cast<double>(file.channels.size());
+    const auto corner = [&](int k) { return file.mesh.position(file.mesh.triangles(f, k)); };
+    areas[known ? static_cast<std::size_t>(id) : file.channels.size()] +=
+        triangle_area(corner(0), corner(1), corner(2));
+  }
+  return areas;
+}
+
+/// What most of the area says, where `said` has one for each of the areas; and the share of it.
+template <class Said>
+std::pair<Said, double> most_of(const std::vector<Said>& said, const std::vector<double>& areas) {
+  double all = 0, most = -1;
+  Said found{};
+  for (std::size_t i = 0; i < said.size(); ++i) {
+    all += areas[i];
+    double alike = 0;
+    for (std::size_t k = 0; k < said.size(); ++k) alike += said[k] == said[i] ? areas[k] : 0;
+    if (alike > most) {
+      most = alike;
+      found = said[i];
+    }
+  }
+  return {found, all > 0 ? most / all : 1};
+}
+
+/// Those that some have and not all alike.
+std::vector<std::string> disputed(const std::vector<MaterialFinish>& finishes) {
+  std::set<std::string> names;
+  for (const MaterialFinish& finish : finishes)
+    for (const std::string& name : extensions_of(finish)) names.insert(name);
+  return {names.begin(), names.end()};
+}
+
+std::string told(const std::string& what, double share) {
+  return "materials become one: " + what + " as most of the area has it; " + percent(1 - share) +
+         " of the area has it otherwise";
+}
+
+}  // namespace
+
+OneMaterial one_material(const MeshFile& file) {
+  OneMaterial one;
+  if (file.channels.empty()) return one;
+  const std::vector<double> areas = areas_of(file);
+  std::vector<MaterialFinish> finishes;
+  std::vector<char> unlit;
+  for (const MaterialChannels& said : file.channels) {
+    // What no viewer can tell apart is alike.
+    finishes.push_back(said.unlit ? MaterialFinish() : finish_in(to_text(said.finish)));
+    unlit.push_back(said.unlit);
+  }
+  finishes.emplace_back();
+  unlit.push_back(false);
+  const auto [finish, alike] = most_of(finishes, areas);
+  const auto [is_unlit, alike_lit] = most_of(unlit, areas);
+  one.finish = finish;
+  one.unlit = is_unlit;
+  if (alike_lit < 1) one.warnings.push_back(told("KHR_materials_unlit", alike_lit));
+  if (alike < 1 && !one.unlit) one.warnings.push_back(told(enumerated(disputed(finishes)), alike));
+  return one;
+}
+
+}  // namespace sphparam
