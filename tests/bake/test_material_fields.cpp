@@ -226,6 +226,94 @@ TEST_CASE("material fields: what a viewer makes of normal-tangent is the turned 
   CHECK(turned >= 6);
 }
 
+TEST_CASE("material fields: where the file says its tangents, normal maps are turned from these") {
+  Cube cube;
+  const Vector3 written(2 * 200 / 255.0 - 1, 2 * 90 / 255.0 - 1, 2 * 220 / 255.0 - 1);
+  for (MaterialChannels& said : cube.file.channels)
+    said.normal = texel("n", {200 / 255.F, 90 / 255.F, 220 / 255.F});
+  cube.file.corner_tangents = CornerTangents::Zero(36, 4);
+  // Of the first three sides; half turned, and of the other hand than (s, t) are.
+  for (Eigen::Index corner = 0; corner < 18; ++corner) {
+    const auto side = static_cast<size_t>(corner / 6);
+    const Vector3 tangent = (cube.along_s[side] + cube.along_t[side]).normalized();
+    cube.file.corner_tangents->row(corner) << tangent.transpose(), side == 1 ? 1 : -1;
+  }
+  const auto scene = cube.scene();
+  const SurfaceField object = make_object_normal(*scene, "");
+  for (Face f = 0; f < 12; ++f) {
+    const auto side = static_cast<size_t>(f / 2);
+    const Vector3& n = cube.normals[side];
+    Vector3 t = cube.along_s[side], b = cube.along_t[side];
+    if (side < 3) {
+      t = (t + b).normalized();
+      b = (side == 1 ? 1 : -1) * n.cross(t);
+    }
+    const Vector3 expected = (written[0] * t + written[1] * b + written[2] * n).normalized();
+    CHECK((as_vector(inside(object, f)) - expected).norm() < 1e-6);
+  }
+}
+
+TEST_CASE("material fields: an image on the second coordinates is looked up there") {
+  Cube cube;
+  Image image(4, 4, 3);
+  for (int y = 0; y < 4; ++y)
+    for (int x = 0; x < 4; ++x) image.pixel(x, y)[0] = static_cast<float>(16 * y + x) / 255;
+  const std::vector<char> png = encode_image(image, ImageFormat::Png);
+  MaterialTexture& occlusion = cube.file.channels[0].occlusion;
+  occlusion = {
+      .image = "lightmap", .bytes = std::make_shared<const std::vector<char>>(png), .second = true};
+  cube.file.second_texcoords = CornerTexcoords(36, 2);
+  for (Eigen::Index corner = 0; corner < 36; ++corner)
+    cube.file.second_texcoords->row(corner) << 2.5 / 4, 1 - 1.5 / 4;
+  const auto scene = cube.scene();
+  CHECK(inside(make_material_occlusion(*scene, ""), 0)[0] == Approx((16 + 2) / 255.0));
+  CHECK(inside(make_orm(*scene, ""), 0)[0] == Approx((16 + 2) / 255.0));
+}
+
+TEST_CASE("material fields: bumps are slopes of their heights, unless they are normals already") {
+  Cube cube;
+  Image heights(8, 8, 3);
+  for (int y = 0; y < 8; ++y)
+    for (int x = 0; x < 8; ++x)
+      for (int c = 0; c < 3; ++c)
+        heights.pixel(x, y)[c] = static_cast<float>(16 * x + 8 * (7 - y)) / 255;
+  const std::vector<char> png = encode_image(heights, ImageFormat::Png);
+  MaterialTexture& bump = cube.file.channels[0].normal;
+  bump = {.image = "heights", .bytes = std::make_shared<const std::vector<char>>(png)};
+  bump.placement = {{{0.01, 0, 0.45}, {0, 0.01, 0.45}}};  // inside the image, as small as can be
+  bump.bump = 255.0 / 16 / 2;  // half a texel higher a texel, and a quarter
+  const auto scene = cube.scene();
+  const SurfaceField object = make_object_normal(*scene, "");
+  for (const Face f : {0, 4, 8}) {
+    const auto side = static_cast<size_t>(f / 2);
+    const Vector3 expected =
+        (cube.normals[side] - 0.5 * cube.along_s[side] - 0.25 * cube.along_t[side]).normalized();
+    CHECK((as_vector(inside(object, f)) - expected).norm() < 1e-3);
+  }
+
+  // What is coloured is a normal map, whose x and y are so many times as large.
+  cube.file.channels[0].normal = texel("n", {200 / 255.F, 90 / 255.F, 220 / 255.F});
+  cube.file.channels[0].normal.bump = 0.5;
+  const auto coloured = cube.scene();
+  const Vector3 expected =
+      (0.5 * (2 * 200 / 255.0 - 1) * cube.along_s[0] +
+       0.5 * (2 * 90 / 255.0 - 1) * cube.along_t[0] + (2 * 220 / 255.0 - 1) * cube.normals[0])
+          .normalized();
+  CHECK((as_vector(inside(make_object_normal(*coloured, ""), 0)) - expected).norm() < 1e-6);
+}
+
+TEST_CASE("material fields: an image of alpha is times that of the base colour") {
+  Cube cube;
+  cube.file.base_colours[0].factor = {1, 1, 1, 0.5};
+  cube.file.channels[0].opacity = texel("a", {51 / 255.F, 51 / 255.F, 51 / 255.F});
+  cube.file.channels[0].alpha_mode = AlphaMode::Blend;
+  auto scene = cube.scene();
+  scene->source.textures = read_textures(cube.file, 1);
+  const SurfaceField field = make_field("basecolor", *scene);
+  CHECK(inside(field, 0).at(3) == Approx(0.5 * 0.2).margin(1e-4));
+  CHECK(inside(field, 2).at(3) == 1);
+}
+
 TEST_CASE("material fields: alpha counts only where a material says so") {
   Cube cube;
   for (MaterialTexture& colour : cube.file.base_colours) colour.factor = {1, 1, 1, 0.5};

@@ -657,9 +657,10 @@ TEST_CASE(
   CHECK(said.metallic.image == "b.png");
   CHECK(said.normal.factor[0] == 2);
   CHECK(said.emission.factor == std::array{4.0, 2.0, 0.0, 1.0});
-  // Occlusion lies on other coordinates: its strength stays, its image is told.
+  // Occlusion lies on other coordinates, which are not there: its strength stays.
   CHECK(said.occlusion.image.empty());
-  CHECK(contains(sphparam::losses_among(file.notes).at(0), "occlusion textures on other"));
+  CHECK(contains(sphparam::losses_among(file.notes).at(0),
+                 "textures whose texture coordinates are not there of 1 of 1 material"));
   // The mesh's (s, t) of vertex 3 are (1.5, 0); where each image is looked up is as glTF says.
   const std::size_t v = 3;
   const double s = values_of(file.find_vertex_property("s"))[v],
@@ -673,6 +674,43 @@ TEST_CASE(
   CHECK(placed(said.roughness, 1) == Approx(0).margin(1e-12));
   CHECK(placed(said.emission, 0) == Approx(3 + 0.5));
   CHECK(placed(said.emission, 1) == Approx(1 - (-2 + 0.25)));
+}
+
+TEST_CASE(
+    "gltf_reader: second texture coordinates and tangents come along where images need them") {
+  // The tangents lie along x, the node turns x to y and mirrors z.
+  Gltf gltf = tetrahedron_gltf();
+  gltf.add(floats({0, 0, 1, 0, 0, 1, 1, 1}), 5126, 4, "VEC2")
+      .add(floats({0.5, 0, 0.5, 1, 0, 0.25, 0, 0}), 5126, 4, "VEC2")
+      .add(floats({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, -1}), 5126, 4, "VEC4");
+  gltf.meshes = R"([{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":2,"TEXCOORD_1":3,)"
+                R"("TANGENT":4},"indices":1,"material":0}]}])";
+  gltf.rest =
+      R"("nodes":[{"mesh":0,"matrix":[0,2,0,0,-2,0,0,0,0,0,-2,0,0,0,0,1]}],)"
+      R"("scenes":[{"nodes":[0]}],"scene":0,)"
+      R"("materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}},)"
+      R"("normalTexture":{"index":0},"occlusionTexture":{"index":1,"texCoord":1,"extensions":)"
+      R"({"KHR_texture_transform":{"offset":[0.5,0]}}},"emissiveTexture":{"index":1,"texCoord":2}}],)"
+      R"("textures":[{"source":0},{"source":1}],"images":[{"uri":"a.png"},{"uri":"b.png"}])";
+  const MeshFile file = read(gltf.bytes());
+  REQUIRE(file.second_texcoords);
+  REQUIRE(file.corner_tangents);
+  CHECK_FALSE(file.find_vertex_property("second s"));
+  CHECK(file.channels.at(0).occlusion.second);
+  CHECK_FALSE(file.channels.at(0).normal.second);
+  CHECK(file.channels.at(0).occlusion.placement[0] == std::array<double, 3>{1, 0, 0.5});
+  const std::array<double, 4> u = {0.5, 0.5, 0, 0}, v = {0, 1, 0.25, 0};
+  for (Eigen::Index i = 0; i < file.mesh.triangles.size(); ++i) {
+    const auto vertex = static_cast<std::size_t>(file.mesh.triangles.data()[i]);
+    CHECK((*file.second_texcoords)(i, 0) == u[vertex]);
+    CHECK((*file.second_texcoords)(i, 1) == 1 - v[vertex]);
+    const double hand = vertex == 3 ? 1 : -1;
+    CHECK(file.corner_tangents->row(i).isApprox(Eigen::RowVector4d(0, 1, 0, hand)));
+  }
+  CHECK(sphparam::losses_among(file.notes) ==
+        std::vector<std::string>{
+            "not carried: emissive textures on a third set of texture coordinates of 1 of 1 "
+            "material"});
 }
 
 TEST_CASE("gltf_reader: factors of a material's finish are carried, what makes no sense is not") {

@@ -66,9 +66,9 @@ TEST_CASE("obj_materials: what else they say is told once") {
   const ObjFolder folder;
   const MeshFile file = folder.read_with(
       "mtllib a.mtl",
-      "newmtl red\nKs 1 1 1\nmap_Bump b.png\nnewmtl wood\nmap_Ks k.png\nTr 0.25\nKd spectral x\n");
+      "newmtl red\nKs 1 1 1\ndisp b.png\nnewmtl wood\nmap_Ks k.png\nTr 0.25\nKd spectral x\n");
   CHECK(file.notes ==
-        std::vector<std::string>{"not carried: bumps and highlights of 2 of 2 materials"});
+        std::vector<std::string>{"not carried: displacement and highlights of 2 of 2 materials"});
   CHECK(file.base_colours.at(1).factor == std::array<double, 4>{1, 1, 1, 0.75});
 }
 
@@ -99,6 +99,34 @@ TEST_CASE("obj_materials: emission, roughness, metallic and normal maps are chan
   CHECK(bare.roughness.factor[0] == 1);
   CHECK(bare.metallic.factor[0] == 0);
   CHECK(bare.emission.factor == std::array<double, 4>{0, 0, 0, 1});
+}
+
+TEST_CASE(
+    "obj_materials: bumps are normal maps, an image of alpha is one, coats and sheen a finish") {
+  const ObjFolder folder;
+  const MeshFile file = folder.read_with(
+      "mtllib a.mtl",
+      "newmtl red\nbump -bm 0.5 h.png\nmap_d -clamp on a.png\nPc 0.5\nPcr 0.25\nPs 0.75\n"
+      "newmtl wood\nmap_Kd -s 2 3 1 -o 0.25 0.5 w.png\nmap_d w.png\nnorm n.png\nmap_Bump b.png\n");
+  const MaterialChannels &red = file.channels.at(0), &wood = file.channels.at(1);
+  CHECK(red.normal.image == "h.png");
+  CHECK(red.normal.bump == 0.5);
+  CHECK(red.opacity.image == "a.png");
+  CHECK(red.opacity.wrap_s == Wrapping::Clamp);
+  CHECK(red.alpha_mode == AlphaMode::Blend);
+  CHECK(red.finish.clearcoat == 0.5);
+  CHECK(red.finish.clearcoat_roughness == 0.25);
+  CHECK(red.finish.sheen == std::array<double, 3>{0.75, 0.75, 0.75});
+  // Its colours have alpha of their own; a normal map wins over bumps.
+  CHECK(wood.opacity.image.empty());
+  CHECK(wood.alpha_mode == AlphaMode::Blend);
+  CHECK(wood.normal.image == "n.png");
+  CHECK(wood.normal.bump == 0);
+  CHECK(file.base_colours.at(1).placement == TexturePlacement{{{2, 0, 0.25}, {0, 3, 0.5}}});
+  CHECK(file.base_colours.at(1).problem.empty());
+  CHECK(file.notes.empty());
+  const MeshFile flat = folder.read_with("mtllib a.mtl", "newmtl red\nbump -bm 0 h.png\n");
+  CHECK(flat.channels.at(0).normal.image.empty());
 }
 
 TEST_CASE("obj_materials: names that lead elsewhere mean the file beside the library") {
@@ -132,8 +160,8 @@ TEST_CASE("obj_materials: a library that cannot be read leaves the mesh, and is 
   REQUIRE(binary.notes.size() == 1);
   CHECK(contains(binary.notes[0], "'a.mtl' ("));
   CHECK(folder.read_with("mtllib a.mtl", "Kd 1 0 0\nnewmtl other\n").base_colours.empty());
-  const MeshFile moved = folder.read_with("mtllib a.mtl", "newmtl wood\nmap_Kd -o 0.5 0 0 x.png\n");
-  CHECK(contains(moved.base_colours.at(1).problem, "transformed"));
+  const MeshFile moved = folder.read_with("mtllib a.mtl", "newmtl wood\nmap_Kd -o 1e9 0 0 x.png\n");
+  CHECK(contains(moved.base_colours.at(1).problem, "beyond what can be looked up"));
   REQUIRE(moved.notes.size() == 1);
   CHECK(contains(moved.notes[0], "materials 'red' are white"));
 }

@@ -279,6 +279,27 @@ TEST_CASE("repaired_file: halves of a face that a flat one cuts in two keep its 
   CHECK(worst_corner(mended, [](Face) { return true; }) < 1e-12);
 }
 
+TEST_CASE("repaired_file: second coordinates and tangents go where their corners go") {
+  const TriangleMesh whole = icosphere(3);
+  TriangleMesh mesh = without_faces(whole, faces_at(whole, vertex_at(whole, {1, 1, 0.3})));
+  mesh = with_junction(mesh, 10, 0.25);
+  Atlas atlas(mesh);
+  MeshFile file = atlas.file;
+  file.second_texcoords = file.corner_texcoords;
+  file.corner_texcoords->setZero();
+  file.corner_tangents = CornerTangents::Zero(mesh.triangles.size(), 4);
+  file.corner_tangents->col(1).setOnes();
+  file.corner_tangents->col(3).setConstant(-1);
+  MeshFile mended = repaired_file(file, repair_mesh(mesh));
+  CHECK(mended.corner_texcoords->isZero(0));
+  REQUIRE(mended.corner_tangents);
+  CHECK(mended.corner_tangents->rows() == mended.mesh.triangles.size());
+  CHECK(mended.corner_tangents->col(1).isOnes());
+  CHECK((mended.corner_tangents->col(3).array() == -1).all());
+  mended.corner_texcoords = mended.second_texcoords;
+  CHECK(worst_corner(mended, [](Face) { return true; }) < 1e-12);
+}
+
 TEST_CASE("repaired_file: texture coordinates of vertices stay there where they can") {
   const TriangleMesh whole = icosphere(2);
   const TriangleMesh mesh = without_faces(whole, faces_at(whole, 5));

@@ -79,6 +79,12 @@ void reflect(MeshFile& file) {
     turn_round(*file.corner_normals);
     file.corner_normals->col(0) *= -1;
   }
+  if (file.second_texcoords) turn_round(*file.second_texcoords);
+  if (file.corner_tangents) {
+    turn_round(*file.corner_tangents);
+    file.corner_tangents->col(0) *= -1;
+    file.corner_tangents->col(3) *= -1;  // the bitangent is w · N × T
+  }
 }
 
 }  // namespace

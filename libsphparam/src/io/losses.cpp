@@ -84,6 +84,9 @@ std::vector<std::string> losses_of_writing(const MeshFile& written, const MeshFi
     add_loss(losses, "texture coordinates of corners");
   if (written.corner_normals && !read.corner_normals && !has_any(read, "nx"))
     add_loss(losses, "normals of corners");
+  if (written.second_texcoords && !read.second_texcoords)
+    add_loss(losses, "second texture coordinates");
+  if (written.corner_tangents && !read.corner_tangents) add_loss(losses, "tangents");
   if (written.materials.size() > read.materials.size())
     add_loss(losses, counted(static_cast<long>(written.materials.size()), "material"));
   if (!written.base_colours.empty() && read.base_colours.empty())

@@ -74,6 +74,8 @@ MeshFile part_of(const MeshFile& file, const std::vector<Face>& faces) {
   gather(part.face_properties, faces);
   gather_corners(part.corner_texcoords, faces);
   gather_corners(part.corner_normals, faces);
+  gather_corners(part.second_texcoords, faces);
+  gather_corners(part.corner_tangents, faces);
   return part;
 }
 

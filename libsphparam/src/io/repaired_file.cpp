@@ -68,10 +68,12 @@ void gather_corners(std::optional<Table>& table, const RepairedMesh& repaired) {
   table = std::move(gathered);
 }
 
-/// What lies between unit normals is one.
-void make_unit(std::optional<CornerNormals>& normals, const RepairedMesh& repaired) {
-  if (!normals) return;
-  for (const BlendedCorner& corner : repaired.blended) normals->row(corner.corner).normalize();
+/// What lies between unit vectors is one.
+template <class Table>
+void make_unit(std::optional<Table>& vectors, const RepairedMesh& repaired) {
+  if (!vectors) return;
+  for (const BlendedCorner& corner : repaired.blended)
+    vectors->row(corner.corner).template head<3>().normalize();
 }
 
 const std::vector<std::string> of_vertices = {"s", "t"};
@@ -126,6 +128,15 @@ void gather_texcoords(MeshFile& result, const MeshFile& file, const RepairedMesh
   if (by_vertex) return_to_vertices(result);
 }
 
+/// The second ones, by the same rules.
+void gather_second_texcoords(MeshFile& result, const MeshFile& file, const RepairedMesh& repaired) {
+  if (!file.second_texcoords) return;
+  gather_corners(result.second_texcoords, repaired);
+  result.corner_texcoords.swap(result.second_texcoords);
+  texture_patches(result, file, *file.second_texcoords, repaired);
+  result.corner_texcoords.swap(result.second_texcoords);
+}
+
 /// Those of before, and those of this repair. What closes a handle is surface.
 FillerMarks all_fillers(const MeshFile& gathered, const RepairedMesh& repaired) {
   FillerMarks fillers = fillers_of(gathered);
@@ -155,6 +166,9 @@ MeshFile repaired_file(const MeshFile& file, const RepairedMesh& repaired) {
   make_unit(result.corner_normals, repaired);
   result.mesh = repaired.mesh;
   gather_texcoords(result, file, repaired);
+  gather_second_texcoords(result, file, repaired);
+  gather_corners(result.corner_tangents, repaired);
+  make_unit(result.corner_tangents, repaired);
   if (!repaired.fillers.empty()) mark_fillers(result, all_fillers(result, repaired));
   return result;
 }

@@ -27,6 +27,8 @@ std::string attributes(const MeshFile& file) {
     words.push_back(property.name + " per face");
   if (file.corner_texcoords) words.push_back("texture coordinates per corner");
   if (file.corner_normals) words.push_back("normals per corner");
+  if (file.second_texcoords) words.push_back("second texture coordinates");
+  if (file.corner_tangents) words.push_back("tangents");
   if (!file.materials.empty()) {
     words.push_back(std::to_string(file.materials.size()) + " materials");
   }

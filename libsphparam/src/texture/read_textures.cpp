@@ -24,9 +24,47 @@ std::vector<char> bytes_of(const MaterialTexture& colour) {
   return {read.begin(), read.end()};
 }
 
+bool is_grey(const Image& image) {
+  if (image.channels < 3) return true;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const float* texel = image.pixel(x, y);
+      if (texel[0] != texel[1] || texel[0] != texel[2]) return false;
+    }
+  }
+  return true;
+}
+
+/// A texel beyond the border, where the image goes on.
+int wrapped(int i, int size, Wrapping wrapping) {
+  if (wrapping == Wrapping::Repeat) return (i + size) % size;
+  return std::clamp(i, 0, size - 1);  // of a mirror, the texel beside the border is that at it
+}
+
+/// Normals of the surface (x, y, bump · height), x to the right, y up the image, by central
+/// differences.
+Image normals_of_heights(const Image& heights, const MaterialTexture& said) {
+  Image normals(heights.width, heights.height, 3);
+  const auto height = [&](int x, int y) {
+    return said.bump *
+           static_cast<double>(heights.pixel(wrapped(x, heights.width, said.wrap_s),
+                                             wrapped(y, heights.height, said.wrap_t))[0]);
+  };
+  for (int y = 0; y < heights.height; ++y) {
+    for (int x = 0; x < heights.width; ++x) {
+      const Vector3 normal = Vector3((height(x - 1, y) - height(x + 1, y)) / 2,
+                                     (height(x, y + 1) - height(x, y - 1)) / 2, 1)
+                                 .normalized();
+      for (int c = 0; c < 3; ++c)
+        normals.pixel(x, y)[c] = static_cast<float>(0.5 + 0.5 * normal[c]);
+    }
+  }
+  return normals;
+}
+
 /// Throws ImageError.
-std::shared_ptr<const TexturePyramid> decode(const MaterialTexture& colour, const std::string& what,
-                                             bool linear, int threads) {
+DecodedTexture decode(const MaterialTexture& colour, const std::string& what, bool linear,
+                      int threads) {
   if (!colour.problem.empty()) throw ImageError(what + ": " + colour.problem);
   std::vector<char> bytes;
   try {
@@ -34,7 +72,10 @@ std::shared_ptr<const TexturePyramid> decode(const MaterialTexture& colour, cons
   } catch (const std::runtime_error& error) {
     throw ImageError(what + " cannot be read: " + error.what());
   }
-  return std::make_shared<const TexturePyramid>(decode_image(bytes, what), linear, threads);
+  Image image = decode_image(bytes, what);
+  const bool heights = colour.bump != 0 && is_grey(image);
+  if (heights) image = normals_of_heights(image, colour);
+  return {std::make_shared<const TexturePyramid>(image, linear, threads), heights};
 }
 
 }  // namespace
@@ -58,14 +99,16 @@ SourceTexture TextureReader::read(const MaterialTexture& said, const std::string
   SourceTexture texture{.image = nullptr,
                         .wrap_s = wrap_of(said.wrap_s),
                         .wrap_t = wrap_of(said.wrap_t),
-                        .placement = said.placement};
+                        .placement = said.placement,
+                        .second = said.second};
   std::ranges::transform(said.factor, texture.factor.begin(),
                          [](double x) { return static_cast<float>(x); });
   if (said.image.empty()) return texture;
-  auto& image = decoded_[said.image];
+  DecodedTexture& decoded = decoded_[{said.image, said.bump}];
   const std::string what = "material " + material + ", " + said.image;
-  if (!image) image = decode(said, what, kind_ == TexelKind::Number, threads_);
-  texture.image = image;
+  if (!decoded.image) decoded = decode(said, what, kind_ == TexelKind::Number, threads_);
+  texture.image = decoded.image;
+  if (said.bump != 0 && !decoded.heights) texture.factor[0] = static_cast<float>(said.bump);
   return texture;
 }
 

@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sphparam/io/mesh_file.h"
@@ -26,6 +27,12 @@ std::string why_unusable(const MaterialTexture& texture);
 /// Whether images hold colours, which are sRGB, or numbers.
 enum class TexelKind { Colour, Number };
 
+/// An image in memory, and whether it was one of heights, of which normals were made.
+struct DecodedTexture {
+  std::shared_ptr<const TexturePyramid> image = nullptr;
+  bool heights = false;
+};
+
 /// Reads textures of one kind; an image that several share is decoded once.
 class TextureReader {
  public:
@@ -41,7 +48,7 @@ class TextureReader {
   const MeshFile& file_;
   TexelKind kind_;
   int threads_;
-  std::map<std::string, std::shared_ptr<const TexturePyramid>> decoded_;  // by names of images
+  std::map<std::pair<std::string, double>, DecodedTexture> decoded_;  // by names and heights
 };
 
 }  // namespace sphparam

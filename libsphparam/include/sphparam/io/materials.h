@@ -24,6 +24,10 @@ struct MaterialTexture {
   std::string problem = {};  // why the image cannot be used; empty: nothing is known against it
   int channel = 0;           // of the image, where the material wants one number of it
   TexturePlacement placement = {{{1, 0, 0}, {0, 1, 0}}};  // on the mesh's texture coordinates
+  bool second = false;                                    // on the second ones that its file has
+  /// Of a normal map that may be one of heights, which are grey: how high white is, in texels; of
+  /// colours, what x and y are times. 0: normals, whatever their colours.
+  double bump = 0;
 };
 
 /// What alpha means. Source: glTF 2.0, Section 3.9.4.
@@ -59,17 +63,18 @@ struct MaterialChannels {
   MaterialTexture occlusion = {};                       // 1 + factor[0]·(image − 1)
   MaterialTexture normal = {};                          // red, green 2·x − 1 times factor[0]
   MaterialTexture emission = {.factor = {0, 0, 0, 1}};  // sRGB image; its factor may be above 1
+  MaterialTexture opacity = {};                         // times the alpha of the base colour
   AlphaMode alpha_mode = AlphaMode::Opaque;
   double alpha_cutoff = 0.5;  // of Mask: what is below is not there
   bool double_sided = false;
   bool unlit = false;  // the base colour is seen as it is
   MaterialFinish finish = {};
 
-  std::array<const MaterialTexture*, 5> textures() const {
-    return {&roughness, &metallic, &occlusion, &normal, &emission};
+  std::array<const MaterialTexture*, 6> textures() const {
+    return {&roughness, &metallic, &occlusion, &normal, &emission, &opacity};
   }
-  std::array<MaterialTexture*, 5> textures() {
-    return {&roughness, &metallic, &occlusion, &normal, &emission};
+  std::array<MaterialTexture*, 6> textures() {
+    return {&roughness, &metallic, &occlusion, &normal, &emission, &opacity};
   }
 };
 

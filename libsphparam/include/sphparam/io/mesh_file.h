@@ -21,6 +21,7 @@ struct Property {
 /// #F·3 rows, one per corner (row 3·face + corner).
 using CornerTexcoords = RowTable<double, 2>;
 using CornerNormals = RowTable<double, 3>;
+using CornerTangents = RowTable<double, 4>;
 
 /// A triangle mesh with everything its file carried. Polygons are triangulated on reading.
 ///
@@ -38,6 +39,11 @@ struct MeshFile {
   ScalarType corner_texcoord_type = ScalarType::Float64;
   std::optional<CornerNormals> corner_normals;
   ScalarType corner_normal_type = ScalarType::Float64;
+  /// (s, t) of images that lie on other coordinates than the first: `MaterialTexture::second`.
+  std::optional<CornerTexcoords> second_texcoords = {};
+  /// The frame of normal maps, where the file says it: unit x y z along growing s, and 1, or −1
+  /// where (s, t) are mirrored; a row of zeros where it does not.
+  std::optional<CornerTangents> corner_tangents = {};
   std::vector<std::string> materials;              // names, in order of first use
   std::vector<MaterialTexture> base_colours = {};  // one a material, or none
   std::vector<MaterialChannels> channels = {};     // what they say besides; likewise

@@ -10,6 +10,7 @@
 #include "bake/fields/material_fields.h"
 #include "bake/fields/texture_line.h"
 #include "io/attributes/source_attributes.h"
+#include "texture/read_textures.h"
 #include "texture/texture_pyramid.h"
 
 namespace sphparam {
@@ -21,8 +22,9 @@ struct Painter {
   std::vector<int> texture_of;  // a face; −1: white; empty: the first texture for all
   CornerTexcoords corners;
   TextureFilter filter;
-  std::vector<bool> is_opaque;    // a texture: its alpha means nothing; empty: none is
-  std::optional<Points> colours;  // of the vertices, linear, that multiply the texture
+  std::vector<bool> is_opaque;           // a texture: its alpha means nothing; empty: none is
+  std::optional<Points> colours;         // of the vertices, linear, that multiply the texture
+  std::vector<SourceTexture> opacities;  // a texture: what its alpha is times; empty: 1
 
   const SourceTexture& texture(Face f) const {
     static const SourceTexture white;
@@ -36,6 +38,7 @@ struct Painter {
       const SourceTexture& its = texture(run.face);
       sample_texture(its, filter, texture_line(run, corners, its.placement), values, channels);
       if (channels == 4 && opaque(run.face)) set_opaque(run.count, values);
+      if (channels == 4 && !opaque(run.face)) fade(run, values);
       if (colours) tint(run, channels, values);
       values += channels * run.count;
     }
@@ -50,6 +53,16 @@ struct Painter {
 
   static void set_opaque(int count, float* values) {
     for (int i = 0; i < count; ++i) values[4 * i + 3] = 1;
+  }
+
+  void fade(const SurfaceRun& run, float* values) const {
+    if (opacities.empty() || texture_of.empty()) return;
+    const int texture = texture_of[static_cast<size_t>(run.face)];
+    if (texture < 0 || !opacities[static_cast<size_t>(texture)].image) return;
+    const SourceTexture& opacity = opacities[static_cast<size_t>(texture)];
+    std::vector<float> texels(4 * static_cast<size_t>(run.count));
+    sample_texture(opacity, filter, texture_line(run, corners, opacity.placement), texels.data());
+    for (int i = 0; i < run.count; ++i) values[4 * i + 3] *= texels[4 * static_cast<size_t>(i)];
   }
 
   void tint(const SurfaceRun& run, int channels, float* values) const {
@@ -83,7 +96,9 @@ bool has_alpha(const Painter& painter) {
   for (size_t i = 0; i < painter.textures.size(); ++i) {
     const SourceTexture& texture = painter.textures[i];
     const bool opaque = !painter.is_opaque.empty() && painter.is_opaque[i];
-    if (!opaque && (texture.factor[3] < 1 || (texture.image && texture.image->has_alpha())))
+    const bool fades = i < painter.opacities.size() && painter.opacities[i].image;
+    if (!opaque &&
+        (texture.factor[3] < 1 || fades || (texture.image && texture.image->has_alpha())))
       return true;
   }
   return false;
@@ -119,6 +134,8 @@ SurfaceField make_base_colour(const BakeScene& scene, const std::string& argumen
   if (says_alpha(scene.source)) {
     for (const MaterialChannels& channels : file.channels)
       painter->is_opaque.push_back(channels.alpha_mode == AlphaMode::Opaque);
+    painter->opacities =
+        TextureReader(file, TexelKind::Number, scene.threads).read(&MaterialChannels::opacity);
   }
   if (tints) painter->colours = linear_colours(file);
   painter->triangles = &file.mesh.triangles;

@@ -20,8 +20,12 @@ namespace {
 /// What a lookup needs of a mesh: which material and which coordinates a face has.
 struct MaterialPlaces {
   std::vector<int> material_of;  // a face; −1: none
-  CornerTexcoords corners;
+  CornerTexcoords corners, second_corners;
   TextureFilter filter;
+
+  const CornerTexcoords& corners_of(const SourceTexture& texture) const {
+    return texture.second ? second_corners : corners;
+  }
 };
 
 std::shared_ptr<const MaterialPlaces> places_of(const BakeScene& scene) {
@@ -32,6 +36,7 @@ std::shared_ptr<const MaterialPlaces> places_of(const BakeScene& scene) {
     std::ranges::transform(material->values, places->material_of.begin(),
                            [](double id) { return static_cast<int>(id); });
   if (auto corners = texcoords_of(file)) places->corners = std::move(*corners);
+  if (file.second_texcoords) places->second_corners = *file.second_texcoords;
   places->filter = scene.options.filter;
   return places;
 }
@@ -80,7 +85,8 @@ class NumberTextures {
       const size_t m = id < 0 ? textures_.size() - 1 : static_cast<size_t>(id);
       texels.resize(4 * static_cast<size_t>(run.count));
       sample_texture(textures_[m], places.filter,
-                     texture_line(run, places.corners, textures_[m].placement), texels.data());
+                     texture_line(run, places.corners_of(textures_[m]), textures_[m].placement),
+                     texels.data());
       for (int i = 0; i < run.count; ++i, values += stride)
         *values = offsets_[m] + scales_[m] * texels[static_cast<size_t>(4 * i + channels_[m])];
     }
@@ -173,8 +179,8 @@ SurfaceField make_emissive(const BakeScene& scene, const std::string&) {
     for (const SurfaceRun& run : runs) {
       const int id = places->material_of[static_cast<size_t>(run.face)];
       const SourceTexture& texture = id < 0 ? textures.back() : textures[static_cast<size_t>(id)];
-      sample_texture(texture, places->filter, texture_line(run, places->corners, texture.placement),
-                     values, 3);
+      sample_texture(texture, places->filter,
+                     texture_line(run, places->corners_of(texture), texture.placement), values, 3);
       values += 3 * run.count;
     }
   };

@@ -37,18 +37,30 @@ bool has_normal_map(const MeshFile& file) {
 }
 
 /// Tangents follow the texture coordinates of the normal map, so each placement has its own.
-CornerTexcoords placed(const MeshFile& file, const CornerTexcoords& corners) {
-  CornerTexcoords result = corners;
+CornerTexcoords placed(const MeshFile& file, const CornerTexcoords& first,
+                       const CornerTexcoords& second) {
+  CornerTexcoords result = first;
   const Property* material = file.find_face_property("material");
-  for (Eigen::Index corner = 0; material && corner < corners.rows(); ++corner) {
+  for (Eigen::Index corner = 0; material && corner < first.rows(); ++corner) {
     const auto id = static_cast<int>(material->values[static_cast<size_t>(corner / 3)]);
     if (id < 0) continue;
-    const TexturePlacement& p = file.channels[static_cast<size_t>(id)].normal.placement;
+    const MaterialTexture& normal = file.channels[static_cast<size_t>(id)].normal;
+    const TexturePlacement& p = normal.placement;
+    const CornerTexcoords& corners = normal.second ? second : first;
     for (size_t c = 0; c < 2; ++c)
       result(corner, static_cast<int>(c)) =
           p[c][0] * corners(corner, 0) + p[c][1] * corners(corner, 1) + p[c][2];
   }
   return result;
+}
+
+/// What the file says of its tangents counts, however they are to be had: its normal maps were made
+/// for them.
+void take_own_tangents(const MeshFile& file, SourceTangents& frame) {
+  if (!file.corner_tangents) return;
+  for (Eigen::Index corner = 0; corner < frame.tangents.rows(); ++corner)
+    if (const auto own = file.corner_tangents->row(corner); own[3] != 0)
+      frame.tangents.row(corner) = own;
 }
 
 }  // namespace
@@ -57,7 +69,7 @@ struct SourceNormal::Maps {
   std::vector<SourceTexture> textures;  // a material
   std::vector<double> scales;
   std::vector<int> material_of;  // a face
-  CornerTexcoords corners;
+  CornerTexcoords corners, second_corners;
   SourceTangents frame;
 };
 
@@ -79,7 +91,10 @@ SourceNormal::SourceNormal(const BakeScene& scene) : scene_(&scene) {
     texture.factor = {1, 1, 1, 1};
   }
   maps->material_of.assign(material->values.begin(), material->values.end());
-  maps->frame = source_tangents(file, scene.source.normals, placed(file, maps->corners));
+  if (file.second_texcoords) maps->second_corners = *file.second_texcoords;
+  maps->frame = source_tangents(file, scene.source.normals,
+                                placed(file, maps->corners, maps->second_corners));
+  take_own_tangents(file, maps->frame);
   maps_ = std::move(maps);
 }
 
@@ -93,7 +108,8 @@ Vector3 SourceNormal::mapped(const SurfaceSample& sample) const {
   std::array<float, 4> texel;
   sample_texture(
       texture, scene_->options.filter,
-      texture_line({f, 1, weights, sample.step, sample.below}, maps_->corners, texture.placement),
+      texture_line({f, 1, weights, sample.step, sample.below},
+                   texture.second ? maps_->second_corners : maps_->corners, texture.placement),
       texel.data());
   Vector3 normal = Vector3::Zero(), tangent = Vector3::Zero();
   for (int k = 0; k < 3; ++k) {

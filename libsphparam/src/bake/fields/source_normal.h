@@ -8,8 +8,8 @@
 namespace sphparam {
 
 /// The normal that the source is lit with: that of its corners or vertices, linear between them;
-/// where a material has a normal map, what that says in the frame of the source's own texture
-/// coordinates (`source_tangents`).
+/// where a material has a normal map, what that says in the frame that the file says, else in that
+/// of the source's own texture coordinates (`source_tangents`).
 class SourceNormal {
  public:
   /// Reads the normal maps. `scene` outlives it. Throws: ImageError for one that cannot be read;

@@ -86,19 +86,22 @@ class Library {
     if (keyword == "map_Ke") return set_image(channels.emission);
     if (keyword == "map_Pr") return set_image(channels.roughness);
     if (keyword == "map_Pm") return set_image(channels.metallic);
-    if (keyword == "norm" || keyword == "map_Kn") return set_image(channels.normal);
+    if (keyword == "norm" || keyword == "map_Kn") return set_normals();
+    if (keyword == "bump" || keyword == "map_bump" || keyword == "map_Bump") return set_bump();
+    if (keyword == "map_d") return set_image(channels.opacity);
+    if (keyword == "Pc") return set_number(channels.finish.clearcoat);
+    if (keyword == "Pcr") return set_number(channels.finish.clearcoat_roughness);
+    if (keyword == "Ps") return set_sheen();
     static constexpr std::pair<std::string_view, const char*> said_beside[] = {
         {"Ks", "highlights"},
         {"map_Ks", "highlights"},
         {"map_Ns", "highlights"},
-        {"bump", "bumps"},
-        {"map_bump", "bumps"},
-        {"map_Bump", "bumps"},
         {"disp", "displacement"},
-        {"Ps", "sheen"},
-        {"map_Ps", "sheen"},
-        {"Pc", "clear coat"},
-        {"map_d", "textures of alpha"},
+        {"map_disp", "displacement"},
+        {"map_Ps", "textures of sheen"},
+        {"map_Pc", "textures of clear coat"},
+        {"map_Pcr", "textures of clear coat"},
+        {"aniso", "anisotropy"},
         {"map_Ka", "ambient textures"}};
     for (const auto& [word, what] : said_beside)
       if (keyword == word && !is_black()) material_->others.insert(what);
@@ -141,6 +144,28 @@ class Library {
     material_->channels.alpha_mode = opaque ? AlphaMode::Opaque : AlphaMode::Blend;
   }
 
+  /// A normal map that is called so wins over one of bumps, whichever stands first.
+  void set_normals() {
+    MaterialTexture& normal = material_->channels.normal;
+    normal = {};
+    set_image(normal);
+  }
+
+  /// Heights; many write normal maps there.
+  void set_bump() {
+    MaterialTexture bump{.bump = 1};
+    set_image(bump);
+    MaterialTexture& normal = material_->channels.normal;
+    if (bump.image.empty() || bump.bump == 0) return;
+    if (normal.image.empty() || normal.bump != 0) normal = bump;
+  }
+
+  void set_sheen() {
+    double grey = 0;
+    set_number(grey);
+    material_->channels.finish.sheen.fill(grey);
+  }
+
   void set_image(MaterialTexture& colour) {
     while (scanner_.peek_word().starts_with("-")) read_option(colour);
     const std::string written = one_line(scanner_.rest());
@@ -151,20 +176,26 @@ class Library {
     colour.folder = folder_.string();
   }
 
+  /// -s is how often the image is there along s and t, -o is added.
   void read_option(MaterialTexture& colour) {
     const std::string option(scanner_.word());
-    const bool moves = option == "-o" || option == "-s";
     for (int i = 0; i < words_after(option); ++i) {
       const std::string word(scanner_.peek_word());
       const std::optional<double> written = number(word);
       if (words_after(option) == 3 && !written) break;
       scanner_.word();
-      const double neutral = option == "-s" ? 1 : 0;
-      if (moves && *written != neutral)
-        colour.problem = "its texture coordinates are transformed, which is not supported";
+      const auto axis = static_cast<std::size_t>(i);
+      const bool moves = (option == "-o" || option == "-s") && i < 2;
+      if (moves && std::abs(*written) > farthest)
+        colour.problem = "its texture coordinates are moved beyond what can be looked up";
+      else if (moves)
+        colour.placement[axis][option == "-s" ? axis : 2] = *written;
+      if (option == "-bm" && written && colour.bump != 0) colour.bump = *written;
       if (option == "-clamp" && word == "on") colour.wrap_s = colour.wrap_t = Wrapping::Clamp;
     }
   }
+
+  static constexpr double farthest = 1e6;
 
   TextScanner scanner_;
   const fs::path &folder_, &images_;
@@ -218,6 +249,12 @@ MaterialChannels finished_channels(const Material& material) {
   };
   if (!channels.emission.image.empty() && is_black(channels.emission))
     channels.emission.factor = {1, 1, 1, 1};
+  // Where an image of alpha is the colours' own, their alpha is meant; else its brightness.
+  if (!channels.opacity.image.empty()) {
+    if (channels.alpha_mode == AlphaMode::Opaque) channels.alpha_mode = AlphaMode::Blend;
+    if (channels.opacity.image == material.colour.image) channels.opacity = {};
+  }
+  if (channels.normal.bump != 0) channels.normal.factor = {1, 1, 1, 1};
   if (!channels.metallic.image.empty() && channels.metallic.factor[0] == 0)
     channels.metallic.factor[0] = 1;
   return channels;

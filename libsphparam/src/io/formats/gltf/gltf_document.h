@@ -62,6 +62,7 @@ struct GltfDocument {
     MaterialTexture base_colour = {};
     MaterialChannels channels = {};
     TextureTransform transform = {};  // of the base colour's image, else of the first one there is
+    int second_texcoord = -1;         // the vertices' set of images on another one; −1: none
     std::vector<std::string> others = {};  // what else it says, in words
   };
 

@@ -182,8 +182,8 @@ TexturePlacement placement_from(const Transform& mesh, const Transform& image) {
   return {{{m(0, 0), -m(0, 1), m(0, 1) + m(0, 2)}, {-m(1, 0), m(1, 1), 1 - m(1, 1) - m(1, 2)}}};
 }
 
-/// What a material says, texture by texture. The mesh has one set of texture coordinates for all:
-/// that of the first texture.
+/// What a material says, texture by texture. The mesh has two sets of texture coordinates for all:
+/// that of the first texture, and the first other one.
 class MaterialReader {
  public:
   MaterialReader(const tinygltf::Model& model, const tinygltf::Material& material, Images& images)
@@ -219,15 +219,19 @@ class MaterialReader {
     if (info.index < 0) return;
     const Transform transform = transform_of(info);
     if (!placed_) placed_ = result_.transform = transform;
-    const TexturePlacement placement = placement_from(*placed_, transform);
+    const bool second = transform.texcoord != placed_->texcoord;
+    if (second && result_.second_texcoord < 0) result_.second_texcoord = transform.texcoord;
+    const TexturePlacement placement =
+        placement_from(second ? Transform{.texcoord = transform.texcoord} : *placed_, transform);
     const bool has_place =
         std::ranges::all_of(placement[0], [](double x) { return std::isfinite(x); }) &&
         std::ranges::all_of(placement[1], [](double x) { return std::isfinite(x); });
-    if (transform.texcoord != placed_->texcoord || !has_place) {
-      result_.others.push_back(what + " textures on other texture coordinates than the first");
+    if ((second && transform.texcoord != result_.second_texcoord) || !has_place) {
+      result_.others.push_back(what + " textures on a third set of texture coordinates");
       return;
     }
     texture.placement = placement;
+    texture.second = second;
     find_image(model_, info.index, images_, texture);
   }
 

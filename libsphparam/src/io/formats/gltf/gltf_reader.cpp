@@ -29,6 +29,11 @@ constexpr std::string_view theta_phi = "_THETA_PHI";
 
 enum Mode { ModePoints = 0, ModeTriangles = 4, ModeStrip = 5, ModeFan = 6 };
 
+/// Second texture coordinates and tangents on their way to the corners. No attribute of a file has
+/// a name with a blank.
+const std::string corner_columns[] = {"second s",  "second t",  "tangent x",
+                                      "tangent y", "tangent z", "tangent w"};
+
 /// One file may name the same bytes over and over: what is made of them is bounded by their number.
 constexpr std::uint64_t most_triangles_per_byte = 2;
 
@@ -66,6 +71,7 @@ class SceneReader {
     file_.mesh.positions = Eigen::Map<const Points>(positions_.data(), vertex_count(), 3);
     file_.mesh.triangles = Eigen::Map<const Triangles>(triangles_.data(), triangle_count(), 3);
     finish_columns();
+    finish_corner_tables();
     finish_materials();
     add_notes();
     return std::move(file_);
@@ -92,7 +98,8 @@ class SceneReader {
                             std::cbrt(std::abs(transform.linear.determinant())));
       const int position = check_primitive(primitive);
       transform_of_uv_ = transform_of(primitive);
-      const bool plain = transform_of_uv_ == GltfDocument::TextureTransform();
+      second_ = second_texcoords_of(primitive);
+      const bool plain = transform_of_uv_ == GltfDocument::TextureTransform() && second_.empty();
       const auto [first, is_new] =
           first_vertex.try_emplace({primitive.attributes, plain ? -1 : primitive.material},
                                    static_cast<int>(vertex_count()));
@@ -108,6 +115,24 @@ class SceneReader {
     if (primitive.attributes.contains(texcoords_of(transform))) return transform;
     if (transform.texcoord != 0) without_texcoords_.insert(primitive.material);
     return {};
+  }
+
+  /// The attribute of its images on other coordinates than the first; empty: there are none.
+  std::string second_texcoords_of(const GltfDocument::Primitive& primitive) {
+    const auto material = static_cast<std::size_t>(primitive.material);
+    if (material >= document_.materials.size()) return "";
+    const int set = document_.materials[material].second_texcoord;
+    if (set < 0) return "";
+    const std::string attribute = texcoords_of({.texcoord = set});
+    if (primitive.attributes.contains(attribute)) return attribute;
+    without_second_.insert(primitive.material);
+    return "";
+  }
+
+  bool has_normal_maps() const {
+    return std::ranges::any_of(document_.materials, [](const GltfDocument::Material& material) {
+      return !material.channels.normal.image.empty();
+    });
   }
 
   static std::string texcoords_of(const GltfDocument::TextureTransform& transform) {
@@ -179,6 +204,10 @@ class SceneReader {
       add_normals(accessor, transform, before);
     } else if (attribute == texcoords_of(transform_of_uv_)) {
       add_texcoords(accessor, before);
+    } else if (attribute == second_) {
+      add_second_texcoords(accessor, before);
+    } else if (attribute == "TANGENT") {
+      add_tangents(accessor, transform, before);
     } else if (attribute == "COLOR_0") {
       add_colours(accessor, before);
     } else if (attribute == theta_phi) {
@@ -193,7 +222,8 @@ class SceneReader {
 
   bool has_place(const std::string& attribute, int accessor) const {
     if (attribute == "NORMAL" || attribute == "COLOR_0") return true;
-    if (attribute == texcoords_of(transform_of_uv_)) return true;
+    if (attribute == texcoords_of(transform_of_uv_) || attribute == second_) return true;
+    if (attribute == "TANGENT") return has_normal_maps_;
     const int components = accessors_.accessor(accessor).components;
     return attribute.starts_with("_") && components == (attribute == theta_phi ? 2 : 1);
   }
@@ -259,6 +289,31 @@ class SceneReader {
     append("t", type, before, columns[1]);
   }
 
+  void add_second_texcoords(int accessor, std::size_t before) {
+    require_components(accessor, {2});
+    add_column(corner_columns[0], ScalarType::Float64, accessor, 0, before);
+    add_column(corner_columns[1], ScalarType::Float64, accessor, 1, before,
+               [](double v) { return 1 - v; });
+  }
+
+  /// A tangent lies in the surface, and goes where that goes; where space is mirrored, w · N × T is
+  /// not, but for w.
+  void add_tangents(int accessor, const Transform& transform, std::size_t before) {
+    require_components(accessor, {4});
+    const std::vector<double>& xyzw = accessors_.numbers(accessor);
+    const double turned = transform.linear.determinant() < 0 ? -1 : 1;
+    std::vector<double> columns[4];
+    for (std::size_t i = 0; i < xyzw.size(); i += 4) {
+      const Vector3 along =
+          (transform.linear * Eigen::Map<const Vector3>(xyzw.data() + i)).stableNormalized();
+      const bool is_one = along.allFinite() && !along.isZero(0);
+      for (int axis = 0; axis < 3; ++axis) columns[axis].push_back(is_one ? along[axis] : 0);
+      columns[3].push_back(is_one ? (xyzw[i + 3] < 0 ? -turned : turned) : 0);
+    }
+    for (std::size_t k = 0; k < 4; ++k)
+      append(corner_columns[2 + k], ScalarType::Float64, before, columns[k]);
+  }
+
   void add_colours(int accessor, std::size_t before) {
     require_components(accessor, {3, 4});
     const char* const names[] = {"red", "green", "blue"};
@@ -314,12 +369,32 @@ class SceneReader {
     const auto count = static_cast<std::size_t>(vertex_count());
     for (const std::string& name : order_) {
       Column& column = columns_.at(name);
+      if (std::ranges::count(corner_columns, name) > 0) {
+        column.values.resize(count, 0);
+        continue;
+      }
       if (column.written < count && !is_colour(name))
         file_.notes.push_back(std::to_string(count - column.written) + " vertices have no '" +
                               name + "': set to zero");
       column.values.resize(count, column.gap);
       file_.vertex_properties.push_back({name, column.type, std::move(column.values)});
     }
+  }
+
+  /// What no vertex property is: it would take part in welding, and be written.
+  void finish_corner_tables() {
+    const auto fill = [&](auto& table, std::size_t first) {
+      if (!columns_.contains(corner_columns[first])) return;
+      auto& rows = table.emplace();
+      rows.resize(3 * triangle_count(), rows.cols());
+      for (Eigen::Index i = 0; i < rows.rows(); ++i)
+        for (Eigen::Index k = 0; k < rows.cols(); ++k)
+          rows(i, k) =
+              columns_.at(corner_columns[first + static_cast<std::size_t>(k)])
+                  .values[static_cast<std::size_t>(triangles_[static_cast<std::size_t>(i)])];
+    };
+    fill(file_.second_texcoords, 0);
+    fill(file_.corner_tangents, 2);
   }
 
   void finish_materials() {
@@ -338,8 +413,9 @@ class SceneReader {
   }
 
   void add_material(int id) {
-    const auto& [name, words, base_colour, channels, unused, others] =
+    const auto& [name, words, base_colour, channels, unused, second, said_besides] =
         document_.materials[static_cast<std::size_t>(id)];
+    std::vector<std::string> others = said_besides;
     file_.materials.push_back(name.empty() ? "material " + std::to_string(id) : name);
     file_.base_colours.push_back(base_colour);
     file_.channels.push_back(channels);
@@ -348,6 +424,13 @@ class SceneReader {
       const std::string why = "its texture coordinates are not there";
       file_.base_colours.back().problem = why;
       for (MaterialTexture* texture : file_.channels.back().textures()) texture->problem = why;
+    }
+    if (without_second_.contains(id)) {
+      for (MaterialTexture* texture : file_.channels.back().textures()) {
+        if (!texture->second || texture->image.empty()) continue;
+        texture->image.clear();
+        others.push_back("textures whose texture coordinates are not there");
+      }
     }
     if (!words.empty())
       file_.comments.push_back("base colour of " + file_.materials.back() + ": " + words);
@@ -383,7 +466,9 @@ class SceneReader {
   const ReadOptions& options_;
   GltfAccessors accessors_;
   GltfDocument::TextureTransform transform_of_uv_;  // of the primitive being read
-  std::string where_;                               // "mesh 0 primitive 1", for messages
+  std::string second_;  // the attribute of its other texture coordinates; empty: none
+  bool has_normal_maps_ = has_normal_maps();
+  std::string where_;  // "mesh 0 primitive 1", for messages
 
   std::vector<double> positions_;
   std::vector<int> triangles_;
@@ -394,6 +479,7 @@ class SceneReader {
   std::set<std::string> others_seen_;
   long materials_with_others_ = 0;
   std::map<int, double> scale_of_;     // of materials, where they are first used
+  std::set<int> without_second_;       // materials whose other coordinates some primitive lacks
   std::set<int> without_texcoords_;    // materials whose images some primitive has no place for
   std::set<std::string> not_carried_;  // attributes
   long skinned_ = 0;                   // meshes placed with a skin
