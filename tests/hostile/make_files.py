@@ -25,6 +25,7 @@ def make_obj():
     ok("cr", t.replace("\n", "\r"))
     ok("byte_order_mark", "\xef\xbb\xbf" + t)
     ok("no_last_newline", t[:-1])
+    ok("signed_by_dollars", "$ exported by hand\n\n$$$\n" + t + "$\n")
     ok("blank_lines_tabs", t.replace(" ", "\t").replace("\n", "\n\n \n"))
     ok("comments", "# a\n" + t.replace("\n", " # b\n"))
     ok("relative", obj(P4, []) + "f -4 -2 -3\nf -4 -3 -1\nf -4 -1 -2\nf -3 -2 -1\n")

@@ -38,6 +38,7 @@ void declare_figures(py::module_& module);
 void declare_matches(py::module_& module);
 void declare_groups(py::module_& module);
 void declare_wraps(py::module_& module);
+void declare_assets(py::module_& module);
 
 /// A mesh on its way to a map. Python holds it alone until it is mapped.
 struct Source {

@@ -22,5 +22,6 @@ PYBIND11_MODULE(_core, module) {
   declare_matches(module);
   declare_groups(module);
   declare_wraps(module);
+  declare_assets(module);
   py::module_::import("atexit").attr("register")(py::cpp_function(wait_for_left_calls));
 }

@@ -25,6 +25,7 @@ except ImportError as error:
         f"{error}\nsphparam needs libraries of Debian: apt-get install libosdcpu3.5.0 libmeshoptimizer2d "
         "libtinygltf2d libgiftiio0 libembree3-3 libopenimageio2.4"
     ) from None
+from ._asset import Asset, Projection, asset
 from ._errors import (
     Cancelled,
     Defect,
@@ -70,6 +71,7 @@ __version__: str = _core.version
 
 __all__ = [
     "Action",
+    "Asset",
     "BakedFile",
     "BakedImage",
     "Cancelled",
@@ -90,6 +92,7 @@ __all__ = [
     "MeshError",
     "NotCertified",
     "OneSided",
+    "Projection",
     "Radial",
     "ReadError",
     "SolveError",
@@ -99,6 +102,7 @@ __all__ = [
     "SurfaceMap",
     "Wrap",
     "WriteError",
+    "asset",
     "components",
     "fields",
     "group",

@@ -453,7 +453,7 @@ bool looks_like_obj(std::string_view bytes) {
     const std::size_t start = bytes.find_first_not_of(blanks);
     if (start == std::string_view::npos) return false;
     bytes.remove_prefix(start);
-    if (bytes.front() != '#') break;
+    if (bytes.front() != '#' && bytes.front() != '$') break;  // some exporters sign by $
     bytes.remove_prefix(std::min(bytes.find_first_of("\r\n"), bytes.size()));
   }
   const std::string_view word = bytes.substr(0, bytes.find_first_of(blanks));
