@@ -391,6 +391,11 @@ void add_repair_options(Maker& make, Words& words) {
              {"--handles", make.one_of({"shortest", "cut", "fill", "area"}), "--max-handle",
               make.one_of({"1e-9", "5%", "1e300%"})});
   make.maybe(words, 0.2, {"--weld", make.one_of({"0", "1e-300", "1%", "1e300"})});
+}
+
+/// Where the mended mesh is what is written.
+void add_repair_and_loops(Maker& make, Words& words) {
+  add_repair_options(make, words);
   make.maybe(words, 0.2, {"--loops", make.one_of({"loops.obj", "loops.ply"})});
 }
 
@@ -400,7 +405,7 @@ void repair(Maker& make) {
       "mended" + make.one_of({".ply", ".obj", ".off", ".vtk", ".vtp", ".mz3", ".surf.gii", ".white",
                               ".ply.gz", ".vtk.gz", ".obj.gz"});
   Words words = {"repair", make.broken_mesh("mesh", 3), "-o", mended};
-  add_repair_options(make, words);
+  add_repair_and_loops(make, words);
   make.maybe(words, 0.2, {"--keep-holes"});
   make.maybe(words, 0.3, {"--component", "1"});
   make.maybe(words, 0.3, {"--json", "repair.json"});
@@ -413,7 +418,7 @@ void holes(Maker& make) {
   Words words = {"map",      make.broken_mesh("mesh", 1),
                  "-o",       "map.sph.ply",
                  "--repair", make.one_of({"--keep-holes", "--keep-holes=20%"})};
-  add_repair_options(make, words);
+  add_repair_and_loops(make, words);
   make.errand.commands.push_back(words);
   const std::vector<Words> uses = {
       {"verify", "map.sph.ply"},
@@ -434,11 +439,72 @@ void parts(Maker& make) {
   make.maybe(words, 0.8, {"--repair"});
   if (words.back() == "--repair") {
     make.maybe(words, 0.3, {"--keep-holes"});
-    add_repair_options(make, words);
+    add_repair_and_loops(make, words);
   }
   make.maybe(words, 0.3, {"--json", "map.json"});
   make.errand.commands.push_back(words);
   make.errand.commands.push_back({"verify", "map_0001.sph.ply"});
+}
+
+/// Any subcommand that takes a mesh, of one that is none before it is mended.
+void mended(Maker& make) {
+  const std::string mesh = make.broken_mesh("mesh", 2);
+  const std::vector<Words> uses = {
+      {"bake", mesh, "--map", make.some_of({"normal-object", "ao", "curvature", "area"}), "-o",
+       "map_{map}.png", "--size", "32"},
+      {"remesh", mesh, "--grid", make.any_grid(), "-o", "low.ply"},
+      {"export", mesh, "-o", make.one_of({"map.glb", "map.obj"}), "--image-size", "64"},
+      {"report", mesh, "-o", "page.html", "--size", "64", "--no-viewer"},
+      {"measure", mesh, mesh, "--samples", "500"},
+      {"spharm", mesh, "--degree", "4", "--json", "harmonics.json"},
+      {"paint", mesh, "--image", make.picture(), "-o", "painted.ply"},
+      {"compare", mesh, "-o", "pages", "--methods", "progressive", "--no-pictures"},
+      {"group", mesh, "-o", "group", "--start", "maps", "--hold", "--size", "0", "--grid", "ico:2"},
+      {"render", mesh, "-o", "map.png", "--size", "32"}};
+  Words words =
+      uses[static_cast<std::size_t>(std::stoi(make.number(0, static_cast<int>(uses.size()) - 1)))];
+  words.push_back(make.one_of({"--repair", "--repair", "--repair=holes,unused"}));
+  add_repair_options(make, words);
+  make.maybe(words, 0.2, {"--keep-holes"});
+  make.maybe(words, 0.3, {"--component", "1"});
+  make.errand.commands.push_back(words);
+}
+
+/// A surface about what is none.
+void wrap(Maker& make) {
+  const std::string wrapped =
+      "wrapped" + make.one_of({".ply", ".obj", ".off", ".vtp", ".surf.gii"});
+  Words words = {"wrap", make.broken_mesh("mesh", 4), "-o", wrapped};
+  if (make.chance(0.7))
+    words.insert(words.end(), {"--resolution", make.number(4, 40)});
+  else
+    words.insert(words.end(), {"--voxel", make.one_of({"1e-300", "0.01", "0.1", "1", "1e300"})});
+  make.maybe(words, 0.3, {"--distance", make.one_of({"1e-9", "0.2", "1", "1e200"})});
+  make.maybe(words, 0.3, {"--largest"});
+  make.maybe(words, 0.4, {"--faces", make.one_of({"1", "4", "100", "1000"})});
+  make.maybe(words, 0.3, {"--json", "wrap.json"});
+  make.errand.commands.push_back(words);
+  make.errand.commands.push_back({"map", wrapped, "-o", "map.sph.ply"});
+}
+
+/// The whole way of what may be whole or not.
+void asset(Maker& make) {
+  const std::string mesh =
+      make.chance(0.5) ? make.mesh("mesh", false) : make.broken_mesh("mesh", 3);
+  Words words = {"asset",        mesh,
+                 "-o",           "made",
+                 "--size",       std::to_string(4 * std::stoi(make.number(8, 16))),
+                 "--resolution", make.number(8, 32)};
+  make.maybe(words, 0.4, {"--faces", make.one_of({"0", "4", "200"})});
+  make.maybe(words, 0.2, {"--keep", make.one_of({"0", "0.5", "1"})});
+  make.maybe(words, 0.2, {"--samples", "2"});
+  make.maybe(words, 0.3, {"--compress"});
+  make.maybe(words, 0.3, {"--occlusion"});
+  make.maybe(words, 0.3, {"--up", make.one_of({"x", "-y", "z", "1,2,3"})});
+  make.maybe(words, 0.5, {"--no-page"});
+  make.maybe(words, 0.3, {"--json", "asset.json"});
+  make.errand.commands.push_back(words);
+  make.errand.commands.push_back({"verify", "made/mesh.sph.ply"});
 }
 
 /// Of the folder with all its files.
@@ -463,7 +529,8 @@ const std::vector<Kind> kinds = {
     {"render", render},      {"report", report},   {"bake", bake},       {"remesh", remesh},
     {"export", export_mesh}, {"spharm", spharm},   {"measure", measure}, {"paint", paint},
     {"unimage", unimage},    {"compare", compare}, {"map", map},         {"info", info},
-    {"repair", repair},      {"holes", holes},     {"parts", parts},     {"survey", survey}};
+    {"repair", repair},      {"holes", holes},     {"parts", parts},     {"survey", survey},
+    {"mended", mended},      {"wrap", wrap},       {"asset", asset}};
 
 }  // namespace
 

@@ -9,6 +9,7 @@ import shutil
 import struct
 
 import other_formats
+import scene_formats
 import science_formats
 import shape_models
 import value_files
@@ -496,6 +497,7 @@ def main():
     make_gzip()
     other_formats.make_all()
     science_formats.make_all()
+    scene_formats.make_all()
     shape_models.make_all()
     value_files.make_all()
     with open(HERE / "expected.tsv", "w") as table:

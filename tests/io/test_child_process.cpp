@@ -14,6 +14,18 @@ TEST_CASE("child process: what it makes comes back, also much of it") {
   CHECK(result_of_child([] { return std::string(5'000'000, 'x'); }) == std::string(5'000'000, 'x'));
 }
 
+TEST_CASE("child process: one that takes more time or memory than it may is an error") {
+  const auto runs_on = []() -> std::string {
+    for (volatile int i = 0;;) i = i + 1;
+  };
+  CHECK_THROWS_WITH(result_of_child(runs_on, {.seconds = 1}), "takes more than 1 s");
+#ifndef __SANITIZE_ADDRESS__
+  const auto fills = [] { return std::string(std::size_t{256} << 20, 'x'); };
+  CHECK_THROWS(result_of_child(fills, {.bytes = 16 << 20}));
+  CHECK(result_of_child([] { return std::string(1000, 'x'); }, {.bytes = 64 << 20}).size() == 1000);
+#endif
+}
+
 TEST_CASE("child process: errors keep their words, a crash is an error, and nothing here changes") {
   int here = 1;
   CHECK_THROWS_WITH(result_of_child([]() -> std::string { throw std::runtime_error("why"); }),

@@ -3,6 +3,7 @@
 
 #include "io/assimp/scene_module.h"
 
+#include <assimp/config.h>
 #include <assimp/material.h>
 #include <assimp/matrix4x4.h>
 #include <assimp/postprocess.h>
@@ -12,6 +13,7 @@
 #include <assimp/Exporter.hpp>
 #include <assimp/Importer.hpp>
 #include <exception>
+#include <new>
 #include <string>
 #include <string_view>
 
@@ -56,6 +58,8 @@ void tell(SphparamSceneSink sink, void* context, std::string_view text) {
 int to_glb(const char* kind, const char* bytes, size_t size, SphparamSceneSink glb,
            void* glb_context, SphparamSceneSink error, void* error_context) try {
   Assimp::Importer importer;
+  // A scene without meshes is not to show its nodes in their stead.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   const aiScene* const scene = importer.ReadFileFromMemory(bytes, size, steps, kind);
   if (!scene || !scene->mRootNode) {
     tell(error, error_context, importer.GetErrorString());
@@ -71,6 +75,9 @@ int to_glb(const char* kind, const char* bytes, size_t size, SphparamSceneSink g
   }
   glb(glb_context, static_cast<const char*>(blob->data), blob->size);
   return 0;
+} catch (const std::bad_alloc&) {
+  tell(error, error_context, "it asks for more memory than it may take");
+  return 1;
 } catch (const std::exception& problem) {
   tell(error, error_context, problem.what());
   return 1;

@@ -1,12 +1,15 @@
 #include "io/files/child_process.h"
 
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
 #include <exception>
 #include <string_view>
@@ -32,11 +35,41 @@ void send(int pipe, std::string_view bytes) {
   }
 }
 
-[[noreturn]] void work_as_child(int pipe, pid_t parent, const std::function<std::string()>& work) {
+/// Bytes of private memory that the process has, as RLIMIT_DATA counts them.
+std::uint64_t data_of_this_process() {
+  std::uint64_t pages = 0;
+  if (std::FILE* const file = std::fopen("/proc/self/statm", "r")) {
+    unsigned long long data = 0;
+    if (std::fscanf(file, "%*s %*s %*s %*s %*s %llu", &data) == 1) pages = data;
+    std::fclose(file);
+  }
+  return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+void lower(decltype(RLIMIT_CPU) resource, std::uint64_t most, std::uint64_t more_at_the_end) {
+  rlimit limit{};
+  if (::getrlimit(resource, &limit) != 0) return;
+  limit.rlim_max = std::min<rlim_t>(limit.rlim_max, most + more_at_the_end);
+  limit.rlim_cur = std::min<rlim_t>(limit.rlim_cur, most);
+  ::setrlimit(resource, &limit);
+}
+
+void apply(const ChildLimits& limits) {
+  // Beyond the first limit comes a signal, a second later the end.
+  if (limits.seconds > 0) lower(RLIMIT_CPU, limits.seconds, 1);
+#ifndef __SANITIZE_ADDRESS__  // which reserves terabytes
+  if (limits.bytes > 0) lower(RLIMIT_DATA, data_of_this_process() + limits.bytes, 0);
+#endif
+}
+
+[[noreturn]] void work_as_child(int pipe, pid_t parent, const std::function<std::string()>& work,
+                                const ChildLimits& limits) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(1);  // it was gone before
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGSEGV, SIGBUS, SIGABRT, SIGFPE})
+  for (const int signal :
+       {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGXCPU})
     ::signal(signal, SIG_DFL);
+  apply(limits);
   try {
     const std::string made = work();
     send(pipe, {&done, 1});
@@ -70,7 +103,7 @@ int status_of(pid_t child) {
 
 }  // namespace
 
-std::string result_of_child(const std::function<std::string()>& work) {
+std::string result_of_child(const std::function<std::string()>& work, const ChildLimits& limits) {
   int ends[2];
   if (::pipe(ends) != 0) throw_error("pipe");
   const pid_t parent = ::getpid(), child = ::fork();
@@ -81,7 +114,7 @@ std::string result_of_child(const std::function<std::string()>& work) {
   }
   if (child == 0) {
     ::close(ends[0]);
-    work_as_child(ends[1], parent, work);
+    work_as_child(ends[1], parent, work, limits);
   }
   ::close(ends[1]);
   std::string bytes;
@@ -95,7 +128,9 @@ std::string result_of_child(const std::function<std::string()>& work) {
   ::close(ends[0]);
   const int status = status_of(child);
   if (WIFSIGNALED(status))
-    throw ChildEnded(std::string("ended by ") + ::strsignal(WTERMSIG(status)));
+    throw ChildEnded(WTERMSIG(status) == SIGXCPU
+                         ? "takes more than " + std::to_string(limits.seconds) + " s"
+                         : std::string("ended by ") + ::strsignal(WTERMSIG(status)));
   if (status != 0 || bytes.empty()) throw ChildEnded("ended, perhaps for lack of memory");
   const bool is_done = bytes.front() == done;
   bytes.erase(0, 1);

@@ -32,15 +32,25 @@ class SceneError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Broken files make assimp go round and round. What is packed in a file may be some times as much.
+ChildLimits limits_for(std::string_view bytes) {
+  constexpr std::uint64_t seconds = 5, seconds_per_megabyte = 10;
+  constexpr std::uint64_t memory = std::uint64_t{256} << 20, memory_per_byte = 200;
+  return {.seconds = seconds + seconds_per_megabyte * (bytes.size() >> 20),
+          .bytes = memory + memory_per_byte * bytes.size()};
+}
+
 /// In a process of its own: broken files make assimp crash.
 std::string glb_of(const char* kind, std::string_view bytes) {
   const SphparamSceneTable& scenes = scene_table();
-  const std::string answer = result_of_child([&] {
-    std::string glb(1, ' '), complaint(1, '!');
-    const int code =
-        scenes.to_glb(kind, bytes.data(), bytes.size(), append, &glb, append, &complaint);
-    return code == 0 ? glb : complaint;
-  });
+  const std::string answer = result_of_child(
+      [&] {
+        std::string glb(1, ' '), complaint(1, '!');
+        const int code =
+            scenes.to_glb(kind, bytes.data(), bytes.size(), append, &glb, append, &complaint);
+        return code == 0 ? glb : complaint;
+      },
+      limits_for(bytes));
   if (answer.starts_with('!'))
     throw SceneError(answer.size() > 1 ? answer.substr(1) : "cannot be read");
   return answer.substr(1);
