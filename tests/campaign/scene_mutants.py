@@ -71,7 +71,7 @@ def main():
     parser.add_argument("--count", type=int, default=1000)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--keep", type=pathlib.Path, help="where files go that fail")
-    arguments = parser.parse_args()
+    arguments = parser.parse_intermixed_args()
     hostile = HERE.parent / "hostile" / "files"
     files = arguments.files or sorted([*hostile.glob("fbx_ok_*"), *hostile.glob("collada_ok_*")])
     seeds = [(path.suffix, path.read_bytes()) for path in files]
