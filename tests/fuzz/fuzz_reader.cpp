@@ -33,6 +33,10 @@ void expect_promises(const MeshFile& file) {
     expect(file.corner_texcoords->rows() == 3 * mesh.face_count(), "texture coordinates a corner");
   if (file.corner_normals)
     expect(file.corner_normals->rows() == 3 * mesh.face_count(), "normals a corner");
+  if (file.second_texcoords)
+    expect(file.second_texcoords->rows() == 3 * mesh.face_count(), "second coordinates a corner");
+  if (file.corner_tangents)
+    expect(file.corner_tangents->rows() == 3 * mesh.face_count(), "tangents a corner");
 }
 
 /// STL and glTF have corners without numbers; where two are at one place, welding makes a face that
