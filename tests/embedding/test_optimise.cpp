@@ -193,3 +193,16 @@ TEST_CASE("quality: each is at least as good as the one before, on a shape with 
   CHECK(best <= normal);
   CHECK(normal < 1.01 * best);
 }
+
+TEST_CASE("quality: the best is stationary, and above no other quality") {
+  for (const TriangleMesh& mesh :
+       {brush(1, 3, 20, 30), dumbbell(30, 0.02, 8), with_slivers(tube(40, 12), 0.2, 1e-3, 1)}) {
+    const SphereMap map = embedded(mesh, Quality::Best);
+    const double best = energy_of(mesh, map);
+    CHECK(best <= energy_of(mesh, embedded(mesh, Quality::Draft)));
+    CHECK(best <= energy_of(mesh, embedded(mesh, Quality::Normal)));
+    const Optimisation further =
+        optimise(Topology(mesh), measure_source(mesh), map, {.least_gain = 1e-6});
+    CHECK(further.report.energy_after > (1 - 1e-4) * best);
+  }
+}

@@ -101,7 +101,8 @@ struct RadialRecord {
   double largest_movement = 0;  // of a vertex, in radians
 };
 
-constexpr double greatest_energy_gap = 0.01;  // that nobody is told of
+// That nobody is told of, and with Quality::Best.
+constexpr double greatest_energy_gap = 0.01, greatest_gap_of_best = 1e-3;
 
 struct Parameterization {
   SphereMap map;
@@ -113,7 +114,8 @@ struct Parameterization {
   double pole_cost = 0;
   /// Of a map that the progressive embedding made for a λ near 1, but with Quality::Draft: an
   /// estimate of the share of its energy that more steps would take, made on the mesh itself; 0 is
-  /// converged. A warning tells of more than `greatest_energy_gap`. It knows of no other minimum.
+  /// converged. A warning tells of more than `greatest_energy_gap`, with
+  /// Quality::Best of more than `greatest_gap_of_best`. It knows of no other minimum.
   std::optional<double> energy_gap;
   /// Of Method::Progressive with a `balance` to find, or a λ far from 1; empty where none was made.
   std::optional<BalanceRecord> balance;

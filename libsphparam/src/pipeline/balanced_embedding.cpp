@@ -117,10 +117,12 @@ void warn_of_balance(MapInProgress& work) {
 
 void warn_of_gap(MapInProgress& work) {
   const std::optional<double>& gap = work.result.energy_gap;
-  if (!gap || *gap <= greatest_energy_gap) return;
+  const bool best = work.options.quality == Quality::Best;
+  if (!gap || *gap <= (best ? greatest_gap_of_best : greatest_energy_gap)) return;
   const std::string share = figure(100 * *gap) + " %";
   work.warn(*gap < 0.5 ? "the map is not at its least energy: about " + share + " of it is left" +
-                             (work.options.quality == Quality::Best ? "" : "; quality best goes on")
+                             (best ? ": quality best stopped before it converged"
+                                   : "; quality best goes on")
                        : "the map is far from its least energy: distortions are much greater than "
                          "they need be");
 }

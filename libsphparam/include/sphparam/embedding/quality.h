@@ -7,7 +7,7 @@ enum class Quality {
   Draft,   // relaxed sweeps, Newton steps on coarse levels only: within 1 % of the least energy on
            // ordinary shapes, 20 % on long protrusions
   Normal,  // within 1 %, on tubes of 100:1 within 15 %: Newton steps where their gain pays
-  Best,    // converged, from two starts on shapes with protrusions
+  Best,    // converged; on shapes with protrusions the lowest of up to five starts, until two agree
 };
 
 /// What a map gives up for what.

@@ -18,6 +18,7 @@
 #include "embedding/frame/pin_domain.h"
 #include "embedding/newton/freed_memory.h"
 #include "embedding/newton/newton_refinement.h"
+#include "embedding/newton/optimise.h"
 #include "embedding/newton/sampled_decrement.h"
 #include "embedding/sweeps/lane_sweep.h"
 #include "embedding/sweeps/relaxation.h"
@@ -56,6 +57,13 @@ constexpr size_t large_levels = 3;  // on which memory is at its peak
 constexpr double roomier_lambdas[] = {10, 100, 1000};
 // A second start, where the first ended so far from its energy: how much more areas weigh.
 constexpr double far_from_energy = 0.1, down = 0.3;
+// How much more areas weigh where the starts of Quality::Best begin. They come down in factors of
+// four, with so many steps at each λ.
+constexpr double other_lambdas[] = {10, 1, 100, 1000};
+constexpr double step_down = 4;
+constexpr int steps_down = 6;
+constexpr double agreement = 5e-4;  // of two minima's energies: they are one
+constexpr double unforeseen = 2;    // times as much as is estimated may be left of an energy
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
@@ -385,15 +393,10 @@ ProgressiveEmbedding embed_from_above(const TriangleMesh& mesh, const Topology& 
   return embedding;
 }
 
-/// The better of two embeddings where the first is far from its energy, or the best is wanted of a
-/// shape that is not plain.
-ProgressiveEmbedding embed_better(const TriangleMesh& mesh, const Topology& topology,
-                                  const ProgressiveOptions& options, const KeptVertices& keep) {
-  ProgressiveEmbedding first = embed_with_room(mesh, topology, options, keep);
-  if (!first.map || options.quality == Quality::Draft || !options.pins.empty()) return first;
-  const bool far = !(first.report.energy_left.value_or(0) < far_from_energy);
-  const bool wanted = options.quality == Quality::Best && !first.report.sweeps_sufficed;
-  if (!far && !wanted) return first;
+/// Where the first embedding is far from its energy: the better of it and of others from above.
+ProgressiveEmbedding embed_nearer(const TriangleMesh& mesh, const Topology& topology,
+                                  const ProgressiveOptions& options, const KeptVertices& keep,
+                                  ProgressiveEmbedding first) {
   double least = energy_of(mesh, topology, *first.map, options);
   for (const double lambda : roomier_lambdas) {
     ProgressiveEmbedding second = embed_from_above(mesh, topology, options, keep, lambda);
@@ -407,6 +410,86 @@ ProgressiveEmbedding embed_better(const TriangleMesh& mesh, const Topology& topo
     if (first.report.energy_left.value_or(0) < far_from_energy) break;
   }
   return first;
+}
+
+/// A map that may lead to another minimum.
+struct Start {
+  SphereMap map;
+  double energy = 0, left = 1;  // of `energy`, the share that steps to come would take
+};
+
+Start start_from(const TriangleMesh& mesh, const Topology& topology,
+                 const ProgressiveOptions& options, const KeptVertices& keep, SphereMap map) {
+  Start start{std::move(map)};
+  start.left = refine_map(mesh, topology, options, keep, start.map).value_or(1);
+  start.energy = energy_of(mesh, topology, start.map, options);
+  return start;
+}
+
+/// Down from a map in which areas weigh more, a few steps at each λ.
+SphereMap descended(const TriangleMesh& mesh, const Topology& topology,
+                    const ProgressiveOptions& options, SphereMap map, double lambda) {
+  const RestTriangles source = measure_source(mesh, options.threads);
+  OptimiseOptions how{.energy = {},
+                      .least_gain = 1e-2,
+                      .max_steps = steps_down,
+                      .threads = options.threads,
+                      .progress = options.progress};
+  while ((lambda /= step_down) > options.energy.lambda) {
+    how.energy.lambda = lambda;
+    map = optimise(topology, source, map, how).map;
+  }
+  return map;
+}
+
+/// A start of Quality::Best besides its first: a map in which areas weigh `more`, or with 1 its
+/// draft. Nothing: no vertex found room.
+std::optional<Start> other_start(const TriangleMesh& mesh, const Topology& topology,
+                                 const ProgressiveOptions& options, const KeptVertices& keep,
+                                 double more) {
+  ProgressiveOptions normal = options, above = options;
+  normal.quality = Quality::Normal;
+  above.quality = more > 1 ? Quality::Normal : Quality::Draft;
+  if (more > 1) above.energy = {.lambda = more * std::max(1.0, options.energy.lambda)};
+  std::optional<SphereMap> map = embed_with_room(mesh, topology, above, keep).map;
+  if (!map) return std::nullopt;
+  *map = descended(mesh, topology, options, std::move(*map), above.energy.lambda);
+  return start_from(mesh, topology, normal, keep, std::move(*map));
+}
+
+/// The lowest of the minima that several starts lead to, until two agree. Those that cannot get
+/// below what is found already, by twice what is estimated, are left as they are.
+ProgressiveEmbedding embed_lowest(const TriangleMesh& mesh, const Topology& topology,
+                                  const ProgressiveOptions& options, const KeptVertices& keep,
+                                  ProgressiveEmbedding first) {
+  double least = energy_of(mesh, topology, *first.map, options);
+  for (const double more : other_lambdas) {
+    std::optional<Start> start = other_start(mesh, topology, options, keep, more);
+    if (!start || !(start->energy * (1 - unforeseen * start->left) < least)) continue;
+    *start = start_from(mesh, topology, options, keep, std::move(start->map));
+    const bool agree = std::abs(start->energy - least) <= agreement * least;
+    if (start->energy < least) {
+      least = start->energy;
+      first.map = std::move(start->map);
+      first.report.energy_left = start->left;
+    }
+    if (agree) break;
+  }
+  return first;
+}
+
+/// One embedding, or the lowest of several where the first is far from its energy, or the best is
+/// wanted of a shape that is not plain.
+ProgressiveEmbedding embed_better(const TriangleMesh& mesh, const Topology& topology,
+                                  const ProgressiveOptions& options, const KeptVertices& keep) {
+  ProgressiveEmbedding first = embed_with_room(mesh, topology, options, keep);
+  if (!first.map || options.quality == Quality::Draft || !options.pins.empty()) return first;
+  const bool plain = first.report.sweeps_sufficed;
+  if (!(first.report.energy_left.value_or(0) < far_from_energy)) {
+    first = embed_nearer(mesh, topology, options, keep, std::move(first));
+  }
+  if (options.quality != Quality::Best || plain) return first;
+  return embed_lowest(mesh, topology, options, keep, std::move(first));
 }
 
 /// As if all triangles were equilateral, then relaxed and refined for the shape they have. No

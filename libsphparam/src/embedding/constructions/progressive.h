@@ -65,8 +65,8 @@ struct ProgressiveEmbedding {
 ///           an option outside of its domain.
 /// Cost: O(#F). Sweeps solve no linear system; where they stall, on long protrusions, around
 /// slivers and with Quality::Best, a bounded number of Newton steps does, each O(#F) by multigrid.
-/// A map that ends far from its energy, and with Quality::Best one of a shape with protrusions, is
-/// made again up to three times; the one of least energy is returned. Paper: Praun and Hoppe,
+/// A map that ends far from its energy is made again up to three times, with Quality::Best one of a
+/// shape with protrusions up to four times, until two agree; the one of least energy is returned. Paper: Praun and Hoppe,
 /// "Spherical parametrization and remeshing" (2003); whole levels instead of single vertices, the
 /// energy, the guard and the over-relaxed sweeps are our own.
 ProgressiveEmbedding embed_progressively(const TriangleMesh& mesh, const Topology& topology,

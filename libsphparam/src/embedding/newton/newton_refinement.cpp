@@ -22,7 +22,8 @@ namespace {
 constexpr int least_vertices = 100;
 constexpr int growth = 4;  // from one level that is due to the next
 constexpr double worthwhile = 2e-3;
-constexpr int coarse_steps = 20, finest_steps = 60, best_steps = 300;
+constexpr int coarse_steps = 20, finest_steps = 60, best_steps = 300, most_best_steps = 3000;
+constexpr double best_work = 2e6;  // steps × vertices that the best may take where it has few
 // What may be left, relative to the energy. Small meshes cost little: less is left of theirs.
 constexpr double coarse_rest = 6e-3, finest_rest = 5e-3, best_rest = 1e-5;
 constexpr double small_mesh = 5000;                        // vertices
@@ -36,6 +37,10 @@ constexpr double least_share = 0.5;  // of a system's iterations: twice as many 
 
 /// Levels up to this size cost hardly anything.
 int cheap(int finest) { return std::max(1000, finest / 16); }
+
+int most_steps_of_best(int vertices) {
+  return static_cast<int>(std::clamp<double>(best_work / vertices, best_steps, most_best_steps));
+}
 
 /// What steps to come will gain, from the gains so far. In long valleys good steps and poor ones
 /// take turns: pairs are compared, where there are two.
@@ -87,7 +92,7 @@ void NewtonRefinement::improve(const TriangleMesh& mesh, const Topology& topolog
   const bool finest = n == finest_;
   while (next_ <= n && next_ < finest_) next_ = std::min(finest_, growth * next_);
   const bool best = options_.quality == Quality::Best && finest;
-  const int most_steps = best ? best_steps : finest ? finest_steps : coarse_steps;
+  const int most_steps = best ? most_steps_of_best(n) : finest ? finest_steps : coarse_steps;
   const double rest = best     ? best_rest
                       : finest ? finest_rest * std::min(1.0, n / small_mesh)
                                : coarse_rest;
