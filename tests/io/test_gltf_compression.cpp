@@ -5,7 +5,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "io/draco_encoder.h"
+#include "support/draco_encoder.h"
 #include "reading.h"
 #include "sphparam/io/losses.h"
 #include "support/test_meshes.h"

@@ -94,8 +94,7 @@ class SceneReader {
       const GltfDocument::Primitive& primitive = primitives[p];
       where_ = "mesh " + std::to_string(placed.mesh) + " primitive " + std::to_string(p);
       if (leave_out(primitive)) continue;
-      scale_of_.try_emplace(primitive.material,
-                            std::cbrt(std::abs(transform.linear.determinant())));
+      scale_of_.try_emplace(primitive.material, std::sqrt(transform.linear.squaredNorm() / 3));
       const int position = check_primitive(primitive);
       transform_of_uv_ = transform_of(primitive);
       second_ = second_texcoords_of(primitive);

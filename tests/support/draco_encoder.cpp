@@ -1,4 +1,4 @@
-#include "io/draco_encoder.h"
+#include "support/draco_encoder.h"
 
 #include <stdexcept>
 
