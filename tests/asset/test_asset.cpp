@@ -10,6 +10,7 @@
 #include "sphparam/asset/remake_asset.h"
 #include "sphparam/errors.h"
 #include "sphparam/io/certified_files.h"
+#include "sphparam/io/mesh_reader.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "support/test_meshes.h"
 
@@ -194,19 +195,36 @@ TEST_CASE("remake asset: a glTF mesh without normals is flat, others are smooth"
   }
 }
 
-TEST_CASE("remake asset: materials of several alpha modes become one, which is told") {
-  const Folder folder;
+TEST_CASE("remake asset: a window does not make all of it glass, which is told with its share") {
   MeshSource asset = painted(source_of(icosphere(2)));
   asset.file.materials.emplace_back("glass");
-  asset.file.base_colours.push_back(asset.file.base_colours[0]);
+  asset.file.base_colours.push_back({.factor = {0, 0, 1, 0.25}});
   asset.file.channels.push_back(asset.file.channels[0]);
   asset.file.channels[1].alpha_mode = AlphaMode::Blend;
-  RemakeOptions options{.whole = coarse(), .width = 32};
-  options.page = false;
-  PendingFiles files;
-  const RemadeAsset made = remake_asset(asset, folder.path.string(), options, files);
-  REQUIRE(made.warnings.size() == 1);
-  CHECK_THAT(made.warnings[0], Catch::Contains("blended where one is"));
+  Property material = *asset.file.find_face_property("material");
+  const auto remade = [&](size_t glass) {
+    std::fill_n(material.values.begin(), glass, 1);
+    asset.file.set_face_property(material);
+    const Folder folder;
+    RemakeOptions options{.whole = coarse(), .width = 32};
+    options.page = false;
+    PendingFiles files;
+    const RemadeAsset made = remake_asset(asset, folder.path.string(), options, files);
+    files.publish();
+    const MeshFile written = read_mesh(folder.path.string() + "/shape.glb");
+    return std::tuple(written.channels.at(0).alpha_mode, made.baked.images.at(0).channels,
+                      made.warnings);
+  };
+  const auto [mode, channels, warnings] = remade(80);  // a quarter of 320
+  CHECK(mode == AlphaMode::Opaque);
+  CHECK(channels == 3);
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0], Catch::Matches("materials become one, which is not blended: "
+                                         "2[456](\\.[0-9]+)? % of the area is, .*"));
+  const auto [all, seen_through, nothing] = remade(320);
+  CHECK(all == AlphaMode::Blend);
+  CHECK(seen_through == 4);
+  CHECK(nothing.empty());
 }
 
 TEST_CASE("remake asset: the page has the pictures, the words and the channels") {

@@ -306,7 +306,7 @@ TEST_CASE("material fields: an image of alpha is times that of the base colour")
   Cube cube;
   cube.file.base_colours[0].factor = {1, 1, 1, 0.5};
   cube.file.channels[0].opacity = texel("a", {51 / 255.F, 51 / 255.F, 51 / 255.F});
-  cube.file.channels[0].alpha_mode = AlphaMode::Blend;
+  for (MaterialChannels& channels : cube.file.channels) channels.alpha_mode = AlphaMode::Blend;
   auto scene = cube.scene();
   scene->source.textures = read_textures(cube.file, 1);
   const SurfaceField field = make_field("basecolor", *scene);
@@ -325,11 +325,16 @@ TEST_CASE("material fields: alpha counts only where a material says so") {
   };
   CHECK(alpha_of(0) == -1);
   cube.file.channels[1].alpha_mode = AlphaMode::Blend;
-  CHECK(alpha_of(0) == 1);
+  CHECK(alpha_of(2) == -1);  // beside what is opaque
+  CHECK(texts_of_material(cube.file).empty());
+  cube.file.channels[0].alpha_mode = AlphaMode::Blend;
+  CHECK(alpha_of(0) == 0.5F);
   CHECK(alpha_of(2) == 0.5F);
   CHECK(texts_of_material(cube.file).at(0) ==
         std::pair<std::string, std::string>{alpha_text, "blend"});
   cube.file.channels[1].alpha_mode = AlphaMode::Mask;
+  CHECK(alpha_of(0) == 1);
+  CHECK(alpha_of(2) == 0.5F);
   cube.file.channels[1].alpha_cutoff = 0.25;
   cube.file.channels[0].double_sided = true;
   CHECK(texts_of_material(cube.file) == std::vector<std::pair<std::string, std::string>>{

@@ -78,3 +78,33 @@ TEST_CASE("one_material: what most of the area has, and the share of what has it
   CHECK(one_material(file).finish == MaterialFinish());
   CHECK(one_material(file).warnings.size() == 1);
 }
+
+TEST_CASE("one_material: blended where all of the area is, masked where some of it is") {
+  const auto one = [](int first, AlphaMode of_first, AlphaMode of_others) {
+    MeshFile file = two_materials(first);
+    file.channels[0].alpha_mode = of_first;
+    file.channels[1].alpha_mode = of_others;
+    file.channels[1].alpha_cutoff = 0.25;
+    return one_material(file);
+  };
+  using enum AlphaMode;
+  CHECK(one(20, Blend, Opaque).alpha_mode == Blend);  // no face has the other
+  CHECK(one(20, Blend, Opaque).warnings.empty());
+  CHECK(one(5, Blend, Blend).alpha_mode == Blend);
+  CHECK(one(19, Opaque, Mask).alpha_mode == Mask);
+  CHECK(one(19, Opaque, Mask).alpha_cutoff == 0.25);
+  CHECK(one(19, Opaque, Mask).warnings.empty());
+  CHECK(one(15, Blend, Mask).alpha_mode == Mask);
+  const OneMaterial glazed = one(5, Blend, Opaque);
+  CHECK(glazed.alpha_mode == Opaque);
+  REQUIRE(glazed.warnings.size() == 1);
+  CHECK(glazed.warnings[0] ==
+        "materials become one, which is not blended: 25 % of the area is, and gets its colour "
+        "without alpha");
+  MeshFile bare = two_materials(5);
+  bare.channels[0].alpha_mode = bare.channels[1].alpha_mode = Blend;
+  Property none = *bare.find_face_property("material");
+  none.values[0] = -1;  // glTF has it opaque
+  bare.set_face_property(none);
+  CHECK(one_material(bare).alpha_mode == Opaque);
+}

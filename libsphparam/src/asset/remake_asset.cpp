@@ -184,24 +184,12 @@ void add_flat_normals(MeshFile& file) {
   file.corner_normals = std::move(normals);
 }
 
-/// Materials become one, which has one way to be seen through.
-void tell_alpha_modes(const MeshFile& file, std::vector<std::string>& told) {
-  const auto differs = [&](const MaterialChannels& said) {
-    return said.alpha_mode != file.channels.front().alpha_mode;
-  };
-  if (std::ranges::any_of(file.channels, differs))
-    told.emplace_back(
-        "materials that are opaque, masked or blended become one: blended where one is, else "
-        "masked");
-}
-
 }  // namespace
 
 RemadeAsset remake_asset(const MeshSource& asset, const std::string& folder,
                          const RemakeOptions& options, PendingFiles& files) {
   MeshSource usable = asset;
   std::vector<std::string> told = drop_unusable_images(usable.file);
-  tell_alpha_modes(usable.file, told);
   add_flat_normals(usable.file);
   upright_axes(usable.file, options.up);  // a front that cannot be is told before any work
   note_up(usable.file, options.up);

@@ -9,6 +9,7 @@
 #include "bake/fields/linear_field.h"
 #include "bake/fields/material_fields.h"
 #include "bake/fields/texture_line.h"
+#include "io/attributes/one_material.h"
 #include "io/attributes/source_attributes.h"
 #include "texture/read_textures.h"
 #include "texture/texture_pyramid.h"
@@ -132,8 +133,10 @@ SurfaceField make_base_colour(const BakeScene& scene, const std::string& argumen
     painter->texture_of.assign(material->values.begin(), material->values.end());
   }
   if (says_alpha(scene.source)) {
+    const bool blends = one_material(file).alpha_mode == AlphaMode::Blend;
     for (const MaterialChannels& channels : file.channels)
-      painter->is_opaque.push_back(channels.alpha_mode == AlphaMode::Opaque);
+      painter->is_opaque.push_back(channels.alpha_mode == AlphaMode::Opaque ||
+                                   (channels.alpha_mode == AlphaMode::Blend && !blends));
     painter->opacities =
         TextureReader(file, TexelKind::Number, scene.threads).read(&MaterialChannels::opacity);
   }

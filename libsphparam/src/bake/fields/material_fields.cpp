@@ -189,15 +189,12 @@ SurfaceField make_emissive(const BakeScene& scene, const std::string&) {
 
 std::vector<std::pair<std::string, std::string>> texts_of_material(const MeshFile& file) {
   const auto any = [&](auto&& says) { return std::ranges::any_of(file.channels, says); };
-  const auto first_mask =
-      std::ranges::find(file.channels, AlphaMode::Mask, &MaterialChannels::alpha_mode);
-  std::vector<std::pair<std::string, std::string>> texts;
-  if (any([](const auto& said) { return said.alpha_mode == AlphaMode::Blend; }))
-    texts.emplace_back(alpha_text, "blend");
-  else if (first_mask != file.channels.end())
-    texts.emplace_back(alpha_text, "mask " + shortest(first_mask->alpha_cutoff));
-  if (any([](const auto& said) { return said.double_sided; })) texts.emplace_back(sides_text, "1");
   const OneMaterial one = one_material(file);
+  std::vector<std::pair<std::string, std::string>> texts;
+  if (one.alpha_mode == AlphaMode::Blend) texts.emplace_back(alpha_text, "blend");
+  if (one.alpha_mode == AlphaMode::Mask)
+    texts.emplace_back(alpha_text, "mask " + shortest(one.alpha_cutoff));
+  if (any([](const auto& said) { return said.double_sided; })) texts.emplace_back(sides_text, "1");
   if (one.unlit) texts.emplace_back(unlit_text, "1");
   if (const std::string finish = to_text(one.finish); !finish.empty())
     texts.emplace_back(finish_text, finish);

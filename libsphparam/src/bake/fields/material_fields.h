@@ -26,7 +26,7 @@ inline constexpr char strength_text[] = "sphparam:strength";
 
 /// What images of the base colour say of alpha and sides, as metadata: "mask 0.5" or "blend" below
 /// sphparam:alpha, "1" below sphparam:double_sided; nothing of what is opaque and one-sided. Of
-/// finish and light what `one_material` has: factors below sphparam:finish, "1" below
+/// alpha, finish and light what `one_material` has: factors below sphparam:finish, "1" below
 /// sphparam:unlit.
 std::vector<std::pair<std::string, std::string>> texts_of_material(const MeshFile& file);
 inline constexpr char alpha_text[] = "sphparam:alpha", sides_text[] = "sphparam:double_sided";

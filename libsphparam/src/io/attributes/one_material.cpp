@@ -59,6 +59,35 @@ std::string told(const std::string& what, double share) {
          " of the area has it otherwise";
 }
 
+/// Faces without a material are opaque.
+double area_of(AlphaMode mode, const MeshFile& file, const std::vector<double>& areas) {
+  double area = mode == AlphaMode::Opaque ? areas.back() : 0;
+  for (std::size_t i = 0; i < file.channels.size(); ++i)
+    if (file.channels[i].alpha_mode == mode) area += areas[i];
+  return area;
+}
+
+double first_cutoff(const MeshFile& file, const std::vector<double>& areas) {
+  for (std::size_t i = 0; i < file.channels.size(); ++i)
+    if (file.channels[i].alpha_mode == AlphaMode::Mask && areas[i] > 0)
+      return file.channels[i].alpha_cutoff;
+  return OneMaterial().alpha_cutoff;
+}
+
+void take_alpha(const MeshFile& file, const std::vector<double>& areas, OneMaterial& one) {
+  const double opaque = area_of(AlphaMode::Opaque, file, areas),
+               masked = area_of(AlphaMode::Mask, file, areas),
+               blended = area_of(AlphaMode::Blend, file, areas);
+  one.alpha_cutoff = first_cutoff(file, areas);
+  one.alpha_mode = masked > 0                   ? AlphaMode::Mask
+                   : blended > 0 && opaque == 0 ? AlphaMode::Blend
+                                                : AlphaMode::Opaque;
+  if (blended > 0 && opaque + masked > 0)
+    one.warnings.push_back("materials become one, which is not blended: " +
+                           percent(blended / (opaque + masked + blended)) +
+                           " of the area is, and gets its colour without alpha");
+}
+
 }  // namespace
 
 OneMaterial one_material(const MeshFile& file) {
@@ -78,6 +107,7 @@ OneMaterial one_material(const MeshFile& file) {
   const auto [is_unlit, alike_lit] = most_of(unlit, areas);
   one.finish = finish;
   one.unlit = is_unlit;
+  take_alpha(file, areas, one);
   if (alike_lit < 1) one.warnings.push_back(told("KHR_materials_unlit", alike_lit));
   if (alike < 1 && !one.unlit) one.warnings.push_back(told(enumerated(disputed(finishes)), alike));
   return one;
