@@ -82,11 +82,16 @@ TEST_CASE("whole surface: a sphere is itself, one with holes is mended, a soup i
   const WholeSurface mended = whole_surface(source_of(with_holes(icosphere(3), 100)), coarse());
   CHECK(mended.by == WholeBy::Repair);
   CHECK(mended.area_kept == 1);
-  CHECK_FALSE(mended.found.empty());
-  CHECK_FALSE(mended.done.empty());
+  CHECK(mended.found == std::vector<std::string>{"it is open: 13 holes or borders"});
+  CHECK(mended.done == std::vector<std::string>{"13 holes filled"});
+  REQUIRE(mended.details.size() == 2);
+  CHECK_THAT(mended.details[0], Catch::Contains("boundary edges"));
 
   const WholeSurface wrapped = whole_surface(source_of(two_balls()), coarse());
   CHECK(wrapped.by == WholeBy::Wrap);
+  CHECK(wrapped.found.front() == "it is in 2 parts");
+  CHECK(wrapped.done.front() == "a skin is drawn around it, 3.12 % of its size away");
+  CHECK(wrapped.details.size() > wrapped.done.size() + wrapped.found.size());
   CHECK(wrapped.mapped.mesh().face_count() <= 2000);
   CHECK(wrapped.mapped.certificate().bijective());
   CHECK(wrapped.mapped.mesh().positions.col(0).maxCoeff() > 2);

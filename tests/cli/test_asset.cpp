@@ -38,6 +38,20 @@ TEST_CASE("asset: a stream, a folder with a slash at its end, a report in it") {
   CHECK_THAT(ended.err, Contains("--up y where it lies on its side"));
 }
 
+TEST_CASE("asset: what stood in the way is told in plain words, with figures by -v") {
+  const Folder folder;
+  const TriangleMesh ball = icosphere(3);
+  const TriangleMesh open{ball.positions, ball.triangles.bottomRows(ball.face_count() - 1)};
+  const std::vector<std::string> line = {"asset", "-", "-o", folder / "made", "--size", "64", "--no-page"};
+  const Ended brief = sphparam_program(line, obj_text(open));
+  REQUIRE(brief.code == 0);
+  CHECK_THAT(brief.err, Contains("  it is open: 1 hole or border\n") && Contains("  1 hole filled"));
+  CHECK_THAT(brief.err, !Contains("boundary edges"));
+  std::vector<std::string> wordy = line;
+  wordy.emplace_back("-v");
+  CHECK_THAT(sphparam_program(wordy, obj_text(open)).err, Contains("3 boundary edges"));
+}
+
 TEST_CASE("asset: with --up and --front the map stands as the asset does, a wrap's too") {
   const Folder folder;
   TriangleMesh egg = icosphere(3);

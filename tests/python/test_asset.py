@@ -48,7 +48,7 @@ def test_an_open_one_is_wrapped_and_stands_up(tmp_path):
     made = sp.asset(path, tmp_path / "out", size=64, resolution=24, triangles=500, up="y", front="-x", page=False)
     assert made.surface == "wrap" and made.found and made.done
     assert made.projection.farthest > 0 and len(made.map.faces) == pytest.approx(500, abs=60)
-    assert ("upright", "y, front -x") in made.map.provenance
+    assert made.map.provenance["upright"] == "y, front -x"
     assert not any(name.endswith(".html") for name in made.files)
 
 
@@ -83,8 +83,9 @@ def test_what_cannot_be_done_leaves_nothing(tmp_path):
         sp.asset(path, out, size=63)
     with pytest.raises(ValueError):
         sp.asset(path, out, up="nowhere")
+    large = write_obj(tmp_path / "large.obj", *potato(5))
     with pytest.raises(sp.Cancelled):
-        sp.asset(path, out, size=64, progress=lambda stage, fraction: False)
+        sp.asset(large, out, size=2048, samples=4, progress=lambda stage, fraction: False)
     assert not out.exists()
     with pytest.raises(FileNotFoundError):
         sp.asset(path, tmp_path / "no" / "such" / "folder", size=64)

@@ -94,6 +94,7 @@ RemadeAsset remade(const MeshSource& asset, const std::string& folder,
 void tell(const RemadeAsset& made, const std::string& folder, Session& session) {
   for (const Words* lines : {&made.whole.found, &made.whole.done})
     for (const std::string& line : *lines) session.console.say("  " + line);
+  for (const std::string& line : made.whole.details) session.console.detail("  " + line);
   session.warn(made.warnings);
   if (made.baked.projection)
     session.console.say("  " + line_of(*made.baked.projection, {.source_name = "the asset"}));

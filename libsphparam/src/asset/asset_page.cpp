@@ -201,6 +201,7 @@ class AssetPage {
                             grouped(remade_.chart.vertices) + " vertices"}};
     all.insert(all.end(), facts.begin(), facts.end());
     page.facts(all);
+    if (!remade_.whole.details.empty()) page.list(remade_.whole.details);
     page.insert("</details>\n");
     if (const auto script = installed_viewer())
       page.folded_text("Licence of the 3D viewer, <model-viewer>", script->licence);

@@ -54,6 +54,7 @@ std::string to_json(const MeshSource& asset, const RemadeAsset& remade) {
                   {"area_kept", remade.whole.area_kept},
                   {"found", remade.whole.found},
                   {"done", remade.whole.done},
+                  {"details", remade.whole.details},
                   {"certificate", certificate_json(remade.whole.mapped.certificate())},
                   {"triangles", remade.whole.mapped.mesh().face_count()},
                   {"images", images_json(remade.baked.images)},

@@ -17,10 +17,10 @@
 namespace sphparam {
 namespace {
 
-/// What is asked for of up or front is how the map is to lie too.
-WholeOptions whole_options(const RemakeOptions& options) {
+/// The map stands as the asset does, where its file says how, or `note_up` wrote what is asked for.
+WholeOptions whole_options(const MeshSource& asset, const RemakeOptions& options) {
   WholeOptions whole = options.whole;
-  whole.upright |= options.up != Up{};
+  whole.upright |= noted_up(asset.file) != Up{};
   return whole;
 }
 
@@ -32,7 +32,7 @@ class Remaker {
         options_(options),
         files_(files),
         stem_((std::filesystem::path(folder) / name()).string()),
-        remade_{.whole = whole_surface(asset, whole_options(options)), .baked = {}} {}
+        remade_{.whole = whole_surface(asset, whole_options(asset, options)), .baked = {}} {}
 
   /// `warnings`: what is known before.
   RemadeAsset remake(const std::vector<std::string>& warnings) {

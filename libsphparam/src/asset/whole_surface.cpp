@@ -1,8 +1,11 @@
 #include "sphparam/asset/whole_surface.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
+#include "asset/asset_words.h"
 #include "number_text.h"
 #include "option_domain.h"
 #include "sphparam/chart/spherical_chart.h"
@@ -33,6 +36,12 @@ bool is_flat(const TriangleMesh& mesh) {
   return std::abs(volume) <= hardly * area * std::sqrt(area);
 }
 
+/// Of its box.
+double longest_side(const TriangleMesh& mesh) {
+  if (mesh.vertex_count() == 0) return 0;
+  return (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).maxCoeff();
+}
+
 /// Maps closed surfaces, each way with what it tells.
 class Chooser {
  public:
@@ -52,29 +61,41 @@ class Chooser {
 
  private:
   WholeSurface whole(MappedMesh mapped, WholeBy by, double area_kept = 1) {
-    return {std::move(mapped), by, area_kept, std::move(found_), std::move(done_)};
+    return {std::move(mapped), by, area_kept, std::move(found_), std::move(done_),
+            std::move(details_)};
   }
 
   void tell_defects() {
-    for (const MeshDefect& defect : asset_.inspection.defects)
-      if (defect.fatal) found_.push_back(defect.message);
+    for (const MeshDefect& defect : asset_.inspection.defects) {
+      if (!defect.fatal) continue;
+      found_.push_back(plain_words(defect, asset_.inspection));
+      details_.push_back(defect.message);
+    }
   }
 
-  /// Nothing where a texture could not lie on it.
+  /// Nothing where a texture could not lie on it, however it stands.
   std::optional<MappedMesh> mapped_with_chart(MeshSource source) {
     LoadOptions load;
     load.map.threads = options_.threads;
     load.map.progress = options_.progress;
-    if (options_.upright && source.topology && !read_sphere(source.file))
-      load.map = with_upright_frame(load.map, source.file.mesh, *source.topology,
-                                    upright_axes(source.file));
+    if (options_.upright && source.topology && !read_sphere(source.file)) {
+      LoadOptions upright = load;
+      upright.map = with_upright_frame(load.map, source.file.mesh, *source.topology,
+                                       upright_axes(source.file));
+      MappedMesh mapped = told_upright(mapped_mesh(source, upright));
+      if (has_chart(mapped)) return mapped;
+      details_.emplace_back("top and bottom are not at the poles: the map would be too thin there");
+    }
     MappedMesh mapped = mapped_mesh(std::move(source), load);
-    if (options_.upright) mapped = told_upright(mapped);
-    const SphericalChart chart = spherical_chart(mapped.mesh(), mapped.topology(), mapped.map(),
-                                                 options_.threads, options_.progress);
-    if (chart.certificate.one_to_one()) return mapped;
+    if (has_chart(mapped)) return options_.upright ? told_upright(mapped) : mapped;
     found_.emplace_back("its map is thinner in (u, v) than doubles can tell");
     return std::nullopt;
+  }
+
+  bool has_chart(const MappedMesh& mapped) const {
+    return spherical_chart(mapped.mesh(), mapped.topology(), mapped.map(), options_.threads,
+                           options_.progress)
+        .certificate.one_to_one();
   }
 
   /// Says among the lines on the map that it stands as the mesh does, where it does.
@@ -103,7 +124,10 @@ class Chooser {
     mended.file = written_as_mended(mended, losses);
     std::optional<MappedMesh> mapped = mapped_with_chart(std::move(mended));
     if (!mapped) return std::nullopt;
-    for (const RepairAction& action : trial.actions) done_.push_back(action.message);
+    for (const RepairAction& action : trial.actions) {
+      done_.push_back(plain_words(action));
+      details_.push_back(action.message);
+    }
     return whole(*std::move(mapped), WholeBy::Repair, trial.parts.area_share);
   }
 
@@ -120,7 +144,8 @@ class Chooser {
     const Wrap wrap = wrap_soup(file.mesh, wrap_options(file.mesh));
     MeshFile bare;  // all that it carries is baked
     bare.mesh = file.mesh;
-    done_ = to_lines(WrapRecord{asset_.path, bare, wrap});
+    done_ = plain_words(wrap, longest_side(file.mesh));
+    std::ranges::copy(to_lines(WrapRecord{asset_.path, bare, wrap}), std::back_inserter(details_));
     MeshSource source;
     source.path = asset_.path;
     source.file.mesh = wrap.mesh;
@@ -138,17 +163,13 @@ class Chooser {
                      .faces = options_.faces,
                      .threads = options_.threads,
                      .progress = options_.progress};
-    const double side =
-        mesh.vertex_count() > 0
-            ? (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).maxCoeff()
-            : 0;
-    wrap.voxel = wrap.distance = side / options_.resolution;
+    wrap.voxel = wrap.distance = longest_side(mesh) / options_.resolution;
     return wrap;
   }
 
   const MeshSource& asset_;
   const WholeOptions& options_;
-  std::vector<std::string> found_, done_;
+  std::vector<std::string> found_, done_, details_;
 };
 
 }  // namespace

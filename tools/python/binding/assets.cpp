@@ -71,6 +71,7 @@ py::dict as_dict(const Made& made) {
   dict["area_kept"] = remade.whole.area_kept;
   dict["found"] = remade.whole.found;
   dict["done"] = remade.whole.done;
+  dict["details"] = remade.whole.details;
   dict["images"] = images;
   dict["projection"] = projection_of(remade.baked.projection);
   dict["files"] = files;

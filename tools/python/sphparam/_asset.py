@@ -43,6 +43,8 @@ class Asset(NamedTuple):
     """What stood in the way, a line each."""
     done: List[str]
     """What repair did, or how it was wrapped."""
+    details: List[str]
+    """Both again with all figures, and where."""
     images: Dict[str, str]
     """The file of each image by what it shows: ``"basecolor"``, ``"normal-tangent"``, ``"orm"`` …"""
     projection: Optional[Projection]

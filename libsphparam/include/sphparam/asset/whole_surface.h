@@ -33,8 +33,9 @@ struct WholeSurface {
   MappedMesh mapped;
   WholeBy by = WholeBy::Itself;
   double area_kept = 1;                 // of the asset's; a wrap keeps all of it inside
-  std::vector<std::string> found = {};  // what stood in the way, a line each
-  std::vector<std::string> done = {};   // what repair did, or how it was wrapped
+  std::vector<std::string> found = {};    // what stood in the way, in an artist's words, a line each
+  std::vector<std::string> done = {};     // what repair did, or how it was wrapped; so too
+  std::vector<std::string> details = {};  // both again with all figures, and where
 };
 
 /// The surface of an asset: itself, where it can be mapped as it is; mended by what repair does
