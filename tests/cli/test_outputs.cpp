@@ -35,7 +35,7 @@ const std::vector<Subcommand> subcommands = {
       "--images"},
      {"-o", "--json"}},
     {"info", {""}, {"--json"}},
-    {"map", {"", "--pin"}, {"-o", "--write-sphere", "--json", "--plots", "--loops"}},
+    {"map", {"", "--pin", "--like"}, {"-o", "--write-sphere", "--json", "--plots", "--loops"}},
     {"match",
      {"", "--landmarks", "--sphere", "--sphere-b"},
      {"-o", "--write-shape", "--write-values", "--write-back", "--morph", "--page", "--json"},

@@ -77,8 +77,8 @@ TEST_CASE("map_record: what was asked for, what came out, by the numbers of the 
                         .seconds = 1.5}));
   CHECK(
       keys_of(json) ==
-      "sphparam,command,input,inspection,repairs,handles,components,options,account,stages,made_by,"
-      "poles,meridian,radial,alignment,pole_residuals,pins,lambda,"
+      "sphparam,command,input,inspection,repairs,handles,added,components,options,account,like,stages,"
+      "made_by,poles,meridian,radial,alignment,pole_residuals,pins,lambda,"
       "filler_share,balance,energy_gap,energy_cost,certificate,"
       "distortion,chart,outputs,warnings,notes,seconds");
   REQUIRE(result.energy_gap);
@@ -91,6 +91,8 @@ TEST_CASE("map_record: what was asked for, what came out, by the numbers of the 
         Json({"non-finite", "duplicates", "cracks", "orientation", "non-manifold", "components",
               "handles", "flat-faces", "unused"}));
   CHECK(json["account"].is_null());
+  CHECK(json["like"].is_null());
+  CHECK(json["added"] == 0);
   CHECK(json["stages"].size() == result.stages.size());
   REQUIRE(result.poles);
   CHECK(json["poles"]["north"] == result.poles->north + 1000);
