@@ -341,6 +341,27 @@ TEST_CASE("material fields: alpha counts only where a material says so") {
                                             {alpha_text, "mask 0.25"}, {sides_text, "1"}});
 }
 
+TEST_CASE("material fields: what is blended beside what is not is drawn over what lies behind") {
+  // Of the cube's sides 1, 3 and 5 are half of red glass; opposite ones are green.
+  Cube cube;
+  cube.file.base_colours[0].factor = {0, 1, 0, 1};
+  cube.file.base_colours[1].factor = {1, 0, 0, 0.5};
+  cube.file.channels[1].alpha_mode = AlphaMode::Blend;
+  const auto colour_of = [&](Face f) {
+    auto scene = cube.scene();
+    scene->source.textures = read_textures(cube.file, 1);
+    return inside(make_field("basecolor", *scene), f);
+  };
+  CHECK(colour_of(0) == std::vector<float>{0, 1, 0});
+  CHECK(colour_of(2) == std::vector<float>{1, 0, 0});  // nobody draws the back of the other side
+  cube.file.channels[0].double_sided = true;
+  CHECK(colour_of(2) == std::vector<float>{0.5F, 0.5F, 0});
+  cube.file.channels[0].alpha_mode = AlphaMode::Mask;  // it is there
+  CHECK(colour_of(2) == std::vector<float>{0.5F, 0.5F, 0});
+  cube.file.base_colours[0].factor[3] = 0.25;  // it is not
+  CHECK(colour_of(2) == std::vector<float>{1, 0, 0, 1});
+}
+
 TEST_CASE("material fields: colours of vertices multiply a glTF's texture, and stand for others'") {
   Cube cube;
   cube.file.base_colours[0].factor = {0.5, 1, 1, 1};

@@ -99,8 +99,8 @@ TEST_CASE("one_material: blended where all of the area is, masked where some of 
   CHECK(glazed.alpha_mode == Opaque);
   REQUIRE(glazed.warnings.size() == 1);
   CHECK(glazed.warnings[0] ==
-        "materials become one, which is not blended: 25 % of the area is, and gets its colour "
-        "without alpha");
+        "materials become one, which is not blended: 25 % of the area is, and is drawn over what "
+        "lies behind it");
   MeshFile bare = two_materials(5);
   bare.channels[0].alpha_mode = bare.channels[1].alpha_mode = Blend;
   Property none = *bare.find_face_property("material");

@@ -9,6 +9,7 @@
 #include "bake/fields/linear_field.h"
 #include "bake/fields/material_fields.h"
 #include "bake/fields/texture_line.h"
+#include "bake/fields/what_is_behind.h"
 #include "io/attributes/one_material.h"
 #include "io/attributes/source_attributes.h"
 #include "texture/read_textures.h"
@@ -16,6 +17,9 @@
 
 namespace sphparam {
 namespace {
+
+constexpr float hardly_any = 1 / 512.0F;  // light that no image of 8 bits shows
+constexpr int most_layers = 16;           // behind one another
 
 /// Everything a texture needs, a face.
 struct Painter {
@@ -26,6 +30,9 @@ struct Painter {
   std::vector<bool> is_opaque;           // a texture: its alpha means nothing; empty: none is
   std::optional<Points> colours;         // of the vertices, linear, that multiply the texture
   std::vector<SourceTexture> opacities;  // a texture: what its alpha is times; empty: 1
+  std::vector<AlphaMode> modes;          // a texture; empty: what its alpha means is not said
+  std::vector<float> cutoffs;            // a texture, of Mask
+  std::shared_ptr<const WhatIsBehind> behind;  // what blended faces are drawn over; none: nothing
 
   const SourceTexture& texture(Face f) const {
     static const SourceTexture white;
@@ -36,16 +43,62 @@ struct Painter {
 
   void paint(std::span<const SurfaceRun> runs, int channels, float* values) const {
     for (const SurfaceRun& run : runs) {
-      const SourceTexture& its = texture(run.face);
-      sample_texture(its, filter, texture_line(run, corners, its.placement), values, channels);
-      if (channels == 4 && opaque(run.face)) set_opaque(run.count, values);
-      if (channels == 4 && !opaque(run.face)) fade(run, values);
-      if (colours) tint(run, channels, values);
+      paint(run, channels, values);
+      if (behind && mode(run.face) == AlphaMode::Blend) cover(run, channels, values);
       values += channels * run.count;
     }
   }
 
  private:
+  void paint(const SurfaceRun& run, int channels, float* values) const {
+    const SourceTexture& its = texture(run.face);
+    sample_texture(its, filter, texture_line(run, corners, its.placement), values, channels);
+    if (channels == 4 && opaque(run.face)) set_opaque(run.count, values);
+    if (channels == 4 && !opaque(run.face)) fade(run, values);
+    if (colours) tint(run, channels, values);
+  }
+
+  AlphaMode mode(Face f) const {
+    const int texture = texture_of.empty() ? -1 : texture_of[static_cast<size_t>(f)];
+    return texture < 0 || modes.empty() ? AlphaMode::Opaque : modes[static_cast<size_t>(texture)];
+  }
+
+  /// The colour of one place, and how much it hides.
+  std::array<float, 4> seen(const SurfaceRun& place) const {
+    std::array<float, 4> colour{};
+    const SourceTexture& its = texture(place.face);
+    sample_texture(its, filter, texture_line(place, corners, its.placement), colour.data());
+    fade(place, colour.data());
+    if (colours) tint(place, 4, colour.data());
+    const AlphaMode means = mode(place.face);
+    if (means == AlphaMode::Opaque) colour[3] = 1;
+    if (means == AlphaMode::Mask)
+      colour[3] =
+          colour[3] < cutoffs[static_cast<size_t>(texture_of[static_cast<size_t>(place.face)])] ? 0
+                                                                                                : 1;
+    return colour;
+  }
+
+  /// Draws blended places over what lies behind them, their own colour where that is nothing.
+  void cover(const SurfaceRun& run, int channels, float* values) const {
+    for (int i = 0; i < run.count; ++i, values += channels) {
+      const std::array<float, 4> own =
+          seen({run.face, 1, run.first + i * run.step, run.step, run.below, run.found});
+      std::array<float, 3> sum = {own[3] * own[0], own[3] * own[1], own[3] * own[2]};
+      float left = 1 - own[3];
+      Sight sight = behind->through(run, i);
+      for (int layer = 0; left > hardly_any && layer < most_layers; ++layer) {
+        const auto next = behind->next(sight);
+        if (!next) break;
+        const std::array<float, 4> colour = seen(*next);
+        for (size_t c = 0; c < 3; ++c) sum[c] += left * colour[3] * colour[c];
+        left *= 1 - colour[3];
+      }
+      if (left >= 1) continue;
+      for (size_t c = 0; c < 3; ++c) values[c] = sum[c] / (1 - left);
+    }
+  }
+
   bool opaque(Face f) const {
     if (is_opaque.empty() || texture_of.empty()) return false;
     const int texture = texture_of[static_cast<size_t>(f)];
@@ -134,9 +187,15 @@ SurfaceField make_base_colour(const BakeScene& scene, const std::string& argumen
   }
   if (says_alpha(scene.source)) {
     const bool blends = one_material(file).alpha_mode == AlphaMode::Blend;
-    for (const MaterialChannels& channels : file.channels)
-      painter->is_opaque.push_back(channels.alpha_mode == AlphaMode::Opaque ||
-                                   (channels.alpha_mode == AlphaMode::Blend && !blends));
+    for (const MaterialChannels& channels : file.channels) {
+      const AlphaMode mode = channels.alpha_mode;
+      painter->is_opaque.push_back(mode == AlphaMode::Opaque ||
+                                   (mode == AlphaMode::Blend && !blends));
+      painter->modes.push_back(mode);
+      painter->cutoffs.push_back(static_cast<float>(channels.alpha_cutoff));
+    }
+    if (!blends && std::ranges::count(painter->modes, AlphaMode::Blend) > 0)
+      painter->behind = std::make_shared<const WhatIsBehind>(scene);
     painter->opacities =
         TextureReader(file, TexelKind::Number, scene.threads).read(&MaterialChannels::opacity);
   }

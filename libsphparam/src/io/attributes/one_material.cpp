@@ -85,7 +85,7 @@ void take_alpha(const MeshFile& file, const std::vector<double>& areas, OneMater
   if (blended > 0 && opaque + masked > 0)
     one.warnings.push_back("materials become one, which is not blended: " +
                            percent(blended / (opaque + masked + blended)) +
-                           " of the area is, and gets its colour without alpha");
+                           " of the area is, and is drawn over what lies behind it");
 }
 
 }  // namespace
