@@ -210,6 +210,29 @@ TEST_CASE("ray scene: bundles say what single rays say, for any number of rays")
   }
 }
 
+TEST_CASE("ray scene: rays side by side meet what they meet alone, each within its own reach") {
+  const TriangleMesh ball = random_sphere_mesh(300, 5);  // crumpled
+  const RayScene scene(ball);
+  Random random;
+  for (const size_t count : {1u, 7u, 64u, 100u}) {
+    const Vector3 origin = random.point(), way = random.point().normalized();
+    std::vector<Ray> rays;
+    for (size_t i = 0; i < count; ++i)
+      rays.push_back({origin + 0.1 * random.point(), (way + 0.1 * random.point()).normalized(),
+                      i % 5 == 4 ? -1 : 0.02 * static_cast<double>(i % 50)});
+    std::vector<RayHit> hits(count);
+    scene.first_hits(rays, hits);
+    for (size_t i = 0; i < count; ++i) {
+      const RayHit alone =
+          rays[i].reach < 0
+              ? RayHit{}
+              : scene.first_hit(rays[i].origin, rays[i].unit_direction, rays[i].reach);
+      CHECK((hits[i].face < 0) == (alone.face < 0));
+      CHECK(hits[i].distance == Approx(alone.distance).margin(1e-6));
+    }
+  }
+}
+
 TEST_CASE("ray scene: the clearance frees rays from their own surface, at any place and scale") {
   for (const double scale : {1e-8, 1.0, 1e8}) {
     for (const double offset : {0.0, 1e4}) {

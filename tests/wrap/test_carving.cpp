@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <random>
 
@@ -31,7 +32,39 @@ Solid random_solid(unsigned seed, std::vector<float>& field) {
   return solid;
 }
 
+/// How many points hang together with this one, which are taken away.
+std::int64_t taken_away(Solid& solid, std::int64_t start) {
+  std::vector<std::int64_t> waiting = {start};
+  solid[static_cast<size_t>(start)] = 0;
+  std::int64_t count = 0;
+  for (; !waiting.empty(); ++count) {
+    const std::int64_t p = waiting.back();
+    waiting.pop_back();
+    for (const std::int64_t stride : lattice().strides()) {
+      if (!solid[static_cast<size_t>(p + stride)]) continue;
+      solid[static_cast<size_t>(p + stride)] = 0;
+      waiting.push_back(p + stride);
+    }
+  }
+  return count;
+}
+
 }  // namespace
+
+TEST_CASE("solid: its parts are the points that hang together by neighbours") {
+  for (unsigned seed = 1; seed <= 50; ++seed) {
+    std::vector<float> field;
+    const Solid solid = random_solid(seed, field);
+    Solid left = solid;
+    std::vector<std::int64_t> sizes;
+    for (std::int64_t i = 0; i < std::ssize(left); ++i)
+      if (left[static_cast<size_t>(i)]) sizes.push_back(taken_away(left, i));
+    CHECK(parts_of(lattice(), solid) == sizes);
+    Solid largest = solid;
+    keep_largest(lattice(), largest);
+    CHECK(std::ranges::count(largest, 1) == std::ranges::max(sizes));
+  }
+}
 
 TEST_CASE("level surface: closed and manifold about any solid, and of its Euler characteristic") {
   for (unsigned seed = 1; seed <= 20; ++seed) {

@@ -176,6 +176,17 @@ TEST_CASE("wrap: what has no places, no extent, or too fine a lattice is refused
   CHECK_THROWS_AS(wrap_soup(sheet(), {.voxel = 0.1, .distance = 0.09}), std::invalid_argument);
 }
 
+TEST_CASE("wrap: a voxel or distance beyond what doubles measure is refused, what is less is not") {
+  CHECK_THROWS_WITH(wrap_soup(sheet(), {.voxel = 1e300}), Catch::StartsWith("voxel is 1e+300"));
+  CHECK_THROWS_WITH(wrap_soup(sheet(), {.voxel = 1, .distance = 1e200}),
+                    Catch::StartsWith("distance is 1e+200"));
+  for (const double voxel : {1e10, 1e70}) {
+    const Wrap wrap = wrap_soup(sheet(), {.voxel = voxel, .faces = 4});
+    CHECK(wrap.handles == 0);
+    CHECK(wrap.outside == 0);
+  }
+}
+
 TEST_CASE("wrap: gives up when told to") {
   CHECK_THROWS_AS(wrap_soup(sheet(), {.progress = [](std::string_view, double) { return false; }}),
                   Cancelled);

@@ -136,20 +136,16 @@ void add_samples(const Work& work, int band, const TexelPoints& points, int samp
   });
 }
 
-/// Replaces the texels that hold many triangles by their means.
-void average_crowded(const Work& work, int band, const TexelPoints& centres, BandValues& values) {
-  const CrowdedTexels crowded(work.scene, work.finder, band, centres);
-  if (crowded.texels.empty()) return;
-  const std::int64_t start =
-      static_cast<std::int64_t>(work.finder.owners().first_row(band)) * work.options.width;
-  std::vector<float> buffer;
+/// Replaces these texels by their means. `seed`: of their first point.
+void average(const Work& work, const CrowdedTexels& crowded, std::int64_t seed,
+             std::vector<float>& buffer, BandValues& values) {
+  Batch batch(crowded.points.runs, crowded.points.places, seed, 0, work.progress);
   for (size_t f = 0; f < work.fields.size(); ++f) {
     const SurfaceField& field = work.fields[f];
     if (!has_means(field.kind)) continue;
     const auto channels = static_cast<size_t>(field.channels);
     buffer.resize(crowded.points.runs.size() * channels);
-    Batch(crowded.points.runs, crowded.points.places, start * crowded_seeds, 0, work.progress)
-        .evaluate(field, buffer.data());
+    batch.evaluate(field, buffer.data());
     for (const CrowdedTexels::Texel& texel : crowded.texels) {
       float* out = &values[f][texel.index * channels];
       std::fill_n(out, channels, 0.0F);
@@ -160,6 +156,16 @@ void average_crowded(const Work& work, int band, const TexelPoints& centres, Ban
       }
     }
   }
+}
+
+/// Replaces the texels of a band that hold many triangles by their means.
+void average_crowded(const Work& work, int band, const TexelPoints& centres, BandValues& values) {
+  const std::int64_t start =
+      static_cast<std::int64_t>(work.finder.owners().first_row(band)) * work.options.width;
+  std::vector<float> buffer;
+  for_crowded_texels(work.scene, work.finder, band, centres, [&](const CrowdedTexels& crowded) {
+    average(work, crowded, start * crowded_seeds + crowded.before, buffer, values);
+  });
 }
 
 bool is_label(const SurfaceField& field) { return !has_means(field.kind); }

@@ -215,63 +215,100 @@ std::vector<char> fineness_of(const TexelFinder& finder, int band, const TexelPo
   return fineness;
 }
 
-/// Calls visit(the points of a texel) for each texel that gets a grid.
-template <class Visit>
-void for_each_grid(const BakeScene& scene, const TexelFinder& finder, int band,
-                   const TexelPoints& centres, Visit&& visit) {
+/// Texels that have come together until there are enough to be worked on.
+class Gatherer {
+ public:
+  explicit Gatherer(const std::function<void(const CrowdedTexels&)>& visit) : visit_(visit) {}
+
+  /// A texel whose points are the last of `gathered.points.runs`, each with its area.
+  void add(size_t texel, std::span<const double> areas) {
+    std::vector<SurfaceRun>& runs = gathered.points.runs;
+    double total = 0;
+    for (const double area : areas) total += area;
+    if (!(total > 0)) {  // nothing there has an area, and the centre's value stays
+      runs.resize(runs.size() - areas.size());
+      gathered.points.places.resize(places_);
+      return;
+    }
+    const size_t first = gathered.weights.size();
+    gathered.texels.push_back({texel, first, first + areas.size()});
+    for (const double area : areas) gathered.weights.push_back(static_cast<float>(area / total));
+    places_ = gathered.points.places.size();
+    if (runs.size() >= points_together) hand_on();
+  }
+
+  void hand_on() {
+    if (gathered.texels.empty()) return;
+    visit_(gathered);
+    gathered.before += std::ssize(gathered.points.runs);
+    gathered.texels.clear();
+    gathered.points.runs.clear();
+    gathered.points.places.clear();
+    gathered.weights.clear();
+    places_ = 0;
+  }
+
+  CrowdedTexels gathered;
+
+ private:
+  static constexpr size_t points_together = 4096;  // some more: texels are whole
+
+  const std::function<void(const CrowdedTexels&)>& visit_;
+  size_t places_ = 0;  // of the texels that are kept
+};
+
+/// Of each texel that gets a grid.
+void gather_grids(const BakeScene& scene, const TexelFinder& finder, int band,
+                  const TexelPoints& centres, Gatherer& gatherer) {
   const std::vector<char> fineness = fineness_of(finder, band, centres);
-  std::vector<Deposit> grid;
+  std::vector<SurfaceRun>& runs = gatherer.gathered.points.runs;
+  std::vector<double> areas;
   size_t i = 0;
   for (const TexelRun& run : centres.places) {
     for (int k = 0; k < run.count; ++k, ++i) {
       const int n = fineness[i];
       if (n == 1) continue;
       TexelRun place = run;
-      place.count = 1;
       for (size_t c = 0; c < 2; ++c) place.weights[c] += k * run.step[c];
-      grid.clear();
-      Face near = centres.runs[i].face;
-      for (int s = 0; s < n * n; ++s) {
-        const SurfaceRun point =
-            finder.beside(place, (s % n + 0.5) / n - 0.5, (s / n + 0.5) / n - 0.5, n, near);
-        near = point.face;
-        grid.push_back({i, place, point, area_of_step(scene.source.mesh(), point)});
-      }
-      visit(grid);
+      const size_t first = runs.size();
+      finder.grid(place, n, centres.runs[i].face, runs);
+      areas.clear();
+      for (size_t s = first; s < runs.size(); ++s)
+        areas.push_back(area_of_step(scene.source.mesh(), runs[s]));
+      place.count = n * n;
+      place.step = {0, 0};  // all of them show what the texel's middle is to be lit by
+      gatherer.gathered.points.places.push_back(place);
+      gatherer.add(i, areas);
     }
   }
 }
 
-/// Calls visit(the points of a texel). Requires: in the order of the texels.
-template <class Visit>
-void for_each_crowd(const std::vector<Deposit>& deposits, Visit&& visit) {
+/// Of the texels that have deposits. Requires: in the order of the texels.
+void gather_crowds(const std::vector<Deposit>& deposits, Gatherer& gatherer) {
+  std::vector<double> areas;
   for (auto first = deposits.begin(); first != deposits.end();) {
-    const auto last = std::find_if(first, deposits.end(),
-                                   [&](const Deposit& one) { return one.texel != first->texel; });
-    visit(std::span(first, last));
-    first = last;
+    const size_t texel = first->texel;
+    areas.clear();
+    for (; first != deposits.end() && first->texel == texel; ++first) {
+      gatherer.gathered.points.places.push_back(first->place);
+      gatherer.gathered.points.runs.push_back(first->run);
+      areas.push_back(first->weight);
+    }
+    gatherer.add(texel, areas);
   }
 }
 
 }  // namespace
 
-CrowdedTexels::CrowdedTexels(const BakeScene& scene, const TexelFinder& finder, int band,
-                             const TexelPoints& centres) {
-  const auto add = [&](std::span<const Deposit> deposits) {
-    double total = 0;
-    for (const Deposit& one : deposits) total += one.weight;
-    if (!(total > 0)) return;  // nothing there has an area, and the centre's value stays
-    texels.push_back({deposits.front().texel, weights.size(), weights.size() + deposits.size()});
-    for (const Deposit& one : deposits) {
-      weights.push_back(static_cast<float>(one.weight / total));
-      points.places.push_back(one.place);
-      points.runs.push_back(one.run);
-    }
-  };
+void for_crowded_texels(const BakeScene& scene, const TexelFinder& finder, int band,
+                        const TexelPoints& centres,
+                        const std::function<void(const CrowdedTexels&)>& visit) {
+  Gatherer gatherer(visit);
   if (finder.by_location())
-    for_each_grid(scene, finder, band, centres, add);
+    gather_grids(scene, finder, band, centres, gatherer);
   else
-    for_each_crowd(Collector(scene, finder, band).collect(), add);
+    gather_crowds(Collector(scene, finder, band).collect(), gatherer);
+  gatherer.hand_on();
 }
 
 }  // namespace sphparam

@@ -6,6 +6,7 @@
 #include "bake/projected_surface.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -57,21 +58,46 @@ struct Met {
 
 constexpr double everywhere = std::numeric_limits<double>::infinity();
 
-/// What the line first meets on one side, up to this distance; the ray found the face, the weights
-/// are of doubles.
-std::optional<Met> first_on(const ProjectedSurface& surface, const Line& line, double side,
-                            double reach) {
-  const Vector3 way = side * line.direction;
-  const RayHit hit =
-      surface.rays().first_hit(line.point - surface.rays().clearance() * way, way, reach);
-  if (hit.face < 0) return std::nullopt;
-  const Triangle triangle(surface.file().mesh, hit.face);
+/// Places whose rays are cast together, at most.
+constexpr size_t bundle = 64;
+
+template <class Item>
+using Bundle = std::array<Item, bundle>;
+
+/// Of some lines, which a bundle holds.
+struct Lines {
+  Bundle<Line> each;
+  size_t count = 0;
+};
+
+/// Where a line meets a face that a ray along it found; the weights are of doubles.
+std::optional<Met> met_on(const ProjectedSurface& surface, const Line& line, Face face) {
+  if (face < 0) return std::nullopt;
+  const Triangle triangle(surface.file().mesh, face);
   const Vector3 raw = volumes(triangle, line.point, line.direction);
   const double sum = raw.sum();
   const Vector3 inside = (raw / sum).cwiseMax(0);
   if (!(std::isfinite(inside.sum()) && inside.sum() > 0)) return std::nullopt;
   const Vector3 weights = inside / inside.sum();
-  return Met{{hit.face, weights}, (triangle.at(weights) - line.point).norm(), sum < 0};
+  return Met{{face, weights}, (triangle.at(weights) - line.point).norm(), sum < 0};
+}
+
+/// What the lines first meet on one side, each up to its own distance. A line without a direction
+/// meets nothing.
+Bundle<std::optional<Met>> first_on(const ProjectedSurface& surface, const Lines& lines,
+                                    double side, const Bundle<double>& reaches) {
+  Bundle<Ray> rays;
+  Bundle<RayHit> hits;
+  for (size_t i = 0; i < lines.count; ++i) {
+    const Line& line = lines.each[i];
+    const Vector3 way = side * line.direction;
+    rays[i] = {line.point - surface.rays().clearance() * way, way, reaches[i]};
+    if (line.direction.isZero(0)) rays[i] = {line.point, Vector3::UnitZ(), -1};
+  }
+  surface.rays().first_hits(std::span(rays).first(lines.count), std::span(hits).first(lines.count));
+  Bundle<std::optional<Met>> met;
+  for (size_t i = 0; i < lines.count; ++i) met[i] = met_on(surface, lines.each[i], hits[i].face);
+  return met;
 }
 
 bool is_better(const Met& a, const Met& b) {
@@ -92,14 +118,30 @@ double worth_looking(const ProjectedSurface& surface, const std::optional<Met>& 
   return inwards->distance + 4 * surface.rays().clearance();
 }
 
+/// What a line meets of both sides, the better first.
+using BothSides = std::array<std::optional<Met>, 2>;
+
 /// Inwards first: a target mostly lies about what is projected on it, and what is met there bounds
 /// the way outwards.
-std::optional<Met> met_along(const ProjectedSurface& surface, const Line& line, Face guess) {
-  if (line.direction.isZero(0)) return std::nullopt;
-  auto other = first_on(surface, line, -1, everywhere);
-  auto one = first_on(surface, line, 1, worth_looking(surface, other));
-  if (!one || (other && is_better(*other, *one))) std::swap(one, other);
-  for (const auto& met : {one, other})
+Bundle<BothSides> met_along(const ProjectedSurface& surface, const Lines& lines) {
+  Bundle<double> reaches;
+  reaches.fill(everywhere);
+  const auto inwards = first_on(surface, lines, -1, reaches);
+  for (size_t i = 0; i < lines.count; ++i) reaches[i] = worth_looking(surface, inwards[i]);
+  const auto outwards = first_on(surface, lines, 1, reaches);
+  Bundle<BothSides> met;
+  for (size_t i = 0; i < lines.count; ++i) {
+    met[i] = {outwards[i], inwards[i]};
+    if (!outwards[i] || (inwards[i] && is_better(*inwards[i], *outwards[i])))
+      std::swap(met[i][0], met[i][1]);
+  }
+  return met;
+}
+
+/// The better one that the line does not pass by.
+std::optional<Met> shown(const ProjectedSurface& surface, const Line& line, const BothSides& sides,
+                         Face guess) {
+  for (const auto& met : sides)
     if (met && is_here(surface, line, *met, guess)) return met;
   return std::nullopt;
 }
@@ -111,21 +153,12 @@ Line line_of(const BakeTarget& target, const PlaceOnTarget& place) {
           interpolate(target.outward, triangles, point).stableNormalized()};
 }
 
-}  // namespace
-
-ProjectedSurface::ProjectedSurface(MeshFile file) : file_(std::move(file)) {
-  if (file_.mesh.face_count() == 0) throw FieldError("the surface to bake from has no triangles");
-  const FillerMarks fillers = fillers_of(file_);
-  surface_ = fillers.empty() ? file_.mesh : surface_in_place(file_.mesh, fillers);
-  rays_ = std::make_unique<const RayScene>(surface_);
-}
-
-SurfaceRun ProjectedSurface::project(const BakeTarget& target, const PlaceOnTarget& place,
-                                     Face guess) const {
-  const Line line = line_of(target, place);
-  const auto met = met_along(*this, line, guess);
-  const SurfacePoint on = met ? met->on : rays_->nearest(line.point, guess).on;
-  const Triangle triangle(file_.mesh, on.face);
+/// What a place shows, from what its line met; else of the nearest point.
+SurfaceRun run_at(const ProjectedSurface& surface, const BakeTarget& target,
+                  const PlaceOnTarget& place, const Line& line, const std::optional<Met>& met,
+                  Face guess) {
+  const SurfacePoint on = met ? met->on : surface.rays().nearest(line.point, guess).on;
+  const Triangle triangle(surface.file().mesh, on.face);
   const Vector3 normal = triangle.normal(), along = met ? line.direction : normal;
   const bool away = met ? met->faces_away : normal.dot(line.direction) < 0;
   const Triangles& triangles = target.chart.triangles;
@@ -142,6 +175,35 @@ SurfaceRun ProjectedSurface::project(const BakeTarget& target, const PlaceOnTarg
                        : (away ? Found::NearestBack : Found::Nearest)};
 }
 
+}  // namespace
+
+ProjectedSurface::ProjectedSurface(MeshFile file) : file_(std::move(file)) {
+  if (file_.mesh.face_count() == 0) throw FieldError("the surface to bake from has no triangles");
+  const FillerMarks fillers = fillers_of(file_);
+  surface_ = fillers.empty() ? file_.mesh : surface_in_place(file_.mesh, fillers);
+  rays_ = std::make_unique<const RayScene>(surface_);
+}
+
+void ProjectedSurface::project(const BakeTarget& target, std::span<const PlaceOnTarget> places,
+                               Face guess, std::vector<SurfaceRun>& runs) const {
+  for (; !places.empty(); places = places.subspan(std::min(bundle, places.size()))) {
+    project_some(target, places.first(std::min(bundle, places.size())), guess, runs);
+    guess = runs.back().face;
+  }
+}
+
+void ProjectedSurface::project_some(const BakeTarget& target, std::span<const PlaceOnTarget> places,
+                                    Face guess, std::vector<SurfaceRun>& runs) const {
+  Lines lines;
+  for (const PlaceOnTarget& place : places) lines.each[lines.count++] = line_of(target, place);
+  const Bundle<BothSides> met = met_along(*this, lines);
+  for (size_t i = 0; i < places.size(); ++i) {
+    runs.push_back(run_at(*this, target, places[i], lines.each[i],
+                          shown(*this, lines.each[i], met[i], guess), guess));
+    guess = runs.back().face;
+  }
+}
+
 namespace {
 
 /// What a triangle of the target says of its middle.
@@ -150,9 +212,8 @@ struct Probe {
   Found found;
 };
 
-Probe probe(const ProjectedSurface& surface, const BakeTarget& target, Face f) {
-  const PlaceOnTarget middle{f, Vector3::Constant(1.0 / 3), Vector3::Zero(), Vector3::Zero()};
-  const SurfaceRun run = surface.project(target, middle);
+Probe probe(const ProjectedSurface& surface, const BakeTarget& target, Face f,
+            const SurfaceRun& run) {
   const auto corner = [&](int k) -> Vector3 {
     return target.positions.row(target.chart.triangles(f, k));
   };
@@ -176,8 +237,15 @@ ProjectionShares measure_projection(const ProjectedSurface& surface, const BakeT
                                     int threads) {
   std::vector<Probe> probes(static_cast<size_t>(target.chart.triangles.rows()));
   parallel_for(std::ssize(probes), 256, threads, [&](std::int64_t from, std::int64_t to) {
-    for (auto f = from; f < to; ++f)
-      probes[static_cast<size_t>(f)] = probe(surface, target, static_cast<Face>(f));
+    const auto first = static_cast<Face>(from), last = static_cast<Face>(to);
+    std::vector<PlaceOnTarget> middles;
+    for (Face f = first; f < last; ++f)
+      middles.push_back({f, Vector3::Constant(1.0 / 3), Vector3::Zero(), Vector3::Zero()});
+    std::vector<SurfaceRun> runs;
+    surface.project(target, middles, -1, runs);
+    for (Face f = first; f < last; ++f)
+      probes[static_cast<size_t>(f)] =
+          probe(surface, target, f, runs[static_cast<size_t>(f - first)]);
   });
   ProjectionShares shares;
   double area = 0;

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <memory>
+#include <span>
+#include <vector>
+
 #include "bake/bake_scene.h"
 #include "bake/surface_field.h"
 #include "rays/ray_scene.h"
@@ -30,13 +34,25 @@ class ProjectedSurface {
   const MeshFile& file() const { return file_; }
   const RayScene& rays() const { return *rays_; }
 
-  /// The point, as a run of one texel. Weights may lie outside the face, in its plane; what a texel
-  /// covers is taken along the normal as if that did not turn. Requires: a target that has
-  /// `outward`. `guess`: a face of the surface that may be near, which saves time and changes
-  /// nothing. Cost: two rays and a look about, a µs or two. Threads may share it.
-  SurfaceRun project(const BakeTarget& target, const PlaceOnTarget& place, Face guess = -1) const;
+  /// Appends the points, each as a run of one texel. Weights may lie outside the face, in its
+  /// plane; what a texel covers is taken along the normal as if that did not turn. Requires: a
+  /// target that has `outward`. `guess`: a face of the surface that may be near, which saves time
+  /// and changes nothing. Cost: two rays and a look about each, a µs or two; less for places side
+  /// by side, whose rays go together. Threads may share it.
+  void project(const BakeTarget& target, std::span<const PlaceOnTarget> places, Face guess,
+               std::vector<SurfaceRun>& runs) const;
+
+  /// Of one place.
+  SurfaceRun project(const BakeTarget& target, const PlaceOnTarget& place, Face guess = -1) const {
+    std::vector<SurfaceRun> runs;
+    project(target, std::span(&place, 1), guess, runs);
+    return runs.front();
+  }
 
  private:
+  void project_some(const BakeTarget& target, std::span<const PlaceOnTarget> places, Face guess,
+                    std::vector<SurfaceRun>& runs) const;
+
   MeshFile file_;
   TriangleMesh surface_;  // without fillers; faces keep their numbers
   std::unique_ptr<const RayScene> rays_;

@@ -123,17 +123,19 @@ SurfaceRun TexelFinder::located(const Vector3& q, const Vector3& east, const Vec
   return {point.face, 1, point.barycentric, step, below};
 }
 
-SurfaceRun TexelFinder::projected(const TexelRun& place, const Vector3& at, int n,
-                                  Face guess) const {
-  return scene_->source.surface->project(
-      scene_->target, {place.face, at, change(place.step) / n, change(place.below) / n}, guess);
+SurfaceRun TexelFinder::projected(const TexelRun& place, const Vector3& at) const {
+  return scene_->source.surface->project(scene_->target,
+                                         {place.face, at, change(place.step), change(place.below)});
 }
 
 /// The points of the other surface about where those of a run of the target are.
 void TexelFinder::project(const TexelRun& place, std::vector<SurfaceRun>& runs) const {
+  std::vector<PlaceOnTarget> places;
   for (int i = 0; i < place.count; ++i)
-    runs.push_back(projected(place, three(place.weights) + i * change(place.step), 1,
-                             runs.empty() ? -1 : runs.back().face));
+    places.push_back({place.face, three(place.weights) + i * change(place.step), change(place.step),
+                      change(place.below)});
+  scene_->source.surface->project(scene_->target, places, runs.empty() ? -1 : runs.back().face,
+                                  runs);
 }
 
 /// The points of the source below those of a run of the target.
@@ -145,14 +147,25 @@ void TexelFinder::locate(const TexelRun& place, std::vector<SurfaceRun>& runs) c
   for (int i = 0; i < place.count; ++i) runs.push_back(located(first + i * east, east, south));
 }
 
-SurfaceRun TexelFinder::beside(const TexelRun& place, double x, double y, int n, Face near) const {
-  if (!source_)
-    return projected(place, three(place.weights) + x * change(place.step) + y * change(place.below),
-                     n, near);
+void TexelFinder::grid(const TexelRun& place, int n, Face near,
+                       std::vector<SurfaceRun>& runs) const {
+  const Vector3 middle = three(place.weights), step = change(place.step),
+                below = change(place.below);
+  const auto at = [n](int k) { return (k + 0.5) / n - 0.5; };
+  if (!source_) {
+    std::vector<PlaceOnTarget> places;
+    for (int s = 0; s < n * n; ++s)
+      places.push_back(
+          {place.face, middle + at(s % n) * step + at(s / n) * below, step / n, below / n});
+    scene_->source.surface->project(scene_->target, places, near, runs);
+    return;
+  }
   const SphericalChart& chart = scene_->target.chart;
   const Eigen::Matrix3d corners = rays(chart.triangles, chart.points, place.face);
-  const Vector3 east = corners * change(place.step), south = corners * change(place.below);
-  return located(corners * three(place.weights) + x * east + y * south, east / n, south / n);
+  const Vector3 east = corners * step, south = corners * below;
+  for (int s = 0; s < n * n; ++s)
+    runs.push_back(
+        located(corners * middle + at(s % n) * east + at(s / n) * south, east / n, south / n));
 }
 
 TexelPoints TexelFinder::by_direction(int band, double x, double y) const {
@@ -177,8 +190,7 @@ TexelPoints TexelFinder::by_direction(int band, double x, double y) const {
       run.step = {step[0], step[1]};
       run.below = {below[0], below[1]};
       texels.places.push_back(run);
-      texels.runs.push_back(source_ ? located(q, east, south)
-                                    : projected(run, place.barycentric, 1));
+      texels.runs.push_back(source_ ? located(q, east, south) : projected(run, place.barycentric));
     }
   }
   return texels;

@@ -40,11 +40,11 @@ class TexelFinder {
   /// The source run of a run of the chart. Requires: the source is the target.
   SurfaceRun run_in_source(const TexelRun& place) const;
 
-  /// The point of the source that lies (x, y) texels east and south of one that has its own run of
-  /// the chart, beyond its face too, and what an n-th of a texel covers there. `near`: a face of
-  /// the source that may be near, which changes nothing. Requires: the source is not the target, or
-  /// `Sphere`.
-  SurfaceRun beside(const TexelRun& place, double x, double y, int n, Face near) const;
+  /// Appends n × n points of the source in a texel, row by row: those of the middles of its parts,
+  /// beyond the texel's face too, and what a part covers. `place`: the run of the chart at the
+  /// texel's centre. `near`: a face of the source that may be near, which changes nothing.
+  /// Requires: the source is not the target, or `Sphere`.
+  void grid(const TexelRun& place, int n, Face near, std::vector<SurfaceRun>& runs) const;
 
   /// Whether each texel is located by itself, by direction or by projection; else the chart's
   /// triangles lead to its point.
@@ -54,7 +54,7 @@ class TexelFinder {
  private:
   void locate(const TexelRun& place, std::vector<SurfaceRun>& runs) const;
   void project(const TexelRun& place, std::vector<SurfaceRun>& runs) const;
-  SurfaceRun projected(const TexelRun& place, const Vector3& at, int n, Face guess = -1) const;
+  SurfaceRun projected(const TexelRun& place, const Vector3& at) const;
   SurfaceRun located(const Vector3& q, const Vector3& east, const Vector3& south) const;
   TexelPoints by_direction(int band, double x, double y) const;
 

@@ -189,11 +189,19 @@ void set_ray(Ray& ray, const Eigen::Vector3f& origin, const Eigen::Vector3f& dir
   ray.flags = 0;
 }
 
-RTCIntersectContext scattered_rays() {
+RTCIntersectContext context_of_rays(RTCIntersectContextFlags flags) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  context.flags = flags;
   return context;
+}
+
+RTCIntersectContext scattered_rays() {
+  return context_of_rays(RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
+}
+
+RTCIntersectContext rays_side_by_side() {
+  return context_of_rays(RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
 }
 
 }  // namespace
@@ -229,6 +237,11 @@ struct RayScene::Tree {
     for (size_t i = 0; i < faces.size(); ++i) {
       std::copy_n(mesh.triangles.row(faces[i]).data(), 3, indices + 3 * i);
     }
+  }
+
+  RayHit hit_of(const RTCRayHit& ray) const {
+    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+    return {faces[ray.hit.primID], ray.ray.tfar / frame.scale};
   }
 
   const TriangleMesh& mesh;
@@ -291,13 +304,36 @@ RayHit RayScene::first_hit(const Vector3& origin, const Vector3& unit_direction,
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   RTCIntersectContext context = scattered_rays();
   rtcIntersect1(tree_->scene.handle, &context, &ray);
-  if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-  return {tree_->faces[ray.hit.primID], ray.ray.tfar / tree_->frame.scale};
+  return tree_->hit_of(ray);
+}
+
+void RayScene::first_hits(std::span<const Ray> rays, std::span<RayHit> hits) const {
+  std::array<RTCRayHit, bundle> cast;
+  for (size_t first = 0; first < rays.size(); first += bundle) {
+    const size_t count = std::min(bundle, rays.size() - first);
+    for (size_t i = 0; i < count; ++i) {
+      const Ray& ray = rays[first + i];
+      set_ray(cast[i].ray, tree_->frame.local_origin(ray.origin),
+              tree_->frame.local_direction(ray.unit_direction.cast<float>()),
+              tree_->frame.local_length(ray.reach));
+      cast[i].hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    }
+    RTCIntersectContext context = rays_side_by_side();
+    rtcIntersect1M(tree_->scene.handle, &context, cast.data(), static_cast<unsigned>(count),
+                   sizeof(RTCRayHit));
+    for (size_t i = 0; i < count; ++i) hits[first + i] = tree_->hit_of(cast[i]);
+  }
 }
 
 namespace {
 
 /// A search for the nearest point, as it goes on.
+///
+/// Most triangles that the tree comes to are farther away than the best so far already by their
+/// boxes, and are passed over. That is told from squared distances, whose rounding must not decide:
+/// a point of a triangle is computed to within 8√3 roundings of the longest vector that goes in,
+/// e = 2⁻⁴⁸ L, so that one found at distance d has a box at d + e at most, and
+/// (d + e)² ≤ (1 + 2⁻³⁰) d² + (1 + 2³⁰) e².
 class Search {
  public:
   Search(const TriangleMesh& mesh, const std::vector<Face>& faces, const Frame& frame,
@@ -307,6 +343,7 @@ class Search {
         frame_(frame),
         point_(point),
         near_enough_(near_enough),
+        slack_(0x1p-65 * squared_longest(frame, point)),
         centre_(frame.local(point)) {
     if (centre_.squaredNorm() <= far_away * far_away) return;
     const Vector3 away = (point - frame.centre).stableNormalized();
@@ -327,6 +364,7 @@ class Search {
     const auto corners = mesh_.triangles.row(face);
     const Vector3 a = mesh_.position(corners[0]), b = mesh_.position(corners[1]),
                   c = mesh_.position(corners[2]);
+    if (is_beyond_best(a, b, c)) return false;
     const TrianglePoint found = nearest_on_triangle(point_, a, b, c);
     const double squared = found.squared_distance;
     const bool first = best_.on.face < 0;
@@ -335,6 +373,7 @@ class Search {
         (squared == best_.squared_distance && face < best_.on.face);  // whoever came first
     if (!wins) return false;
     best_ = {{face, found.barycentric}, squared};
+    beyond_ = (1 + 0x1p-30) * squared + slack_;
     const Vector3& w = found.barycentric;
     foot_ = w[0] * frame_.local(a) + w[1] * frame_.local(b) + w[2] * frame_.local(c);
     return true;
@@ -353,6 +392,17 @@ class Search {
   }
 
  private:
+  /// L²: from the point to any other of the mesh, and of two sides of a triangle.
+  static double squared_longest(const Frame& frame, const Vector3& point) {
+    const double longest = (point - frame.centre).stableNorm() + 2.5 * frame.diagonal;
+    return longest * longest;
+  }
+
+  bool is_beyond_best(const Vector3& a, const Vector3& b, const Vector3& c) const {
+    const Vector3 lower = a.cwiseMin(b).cwiseMin(c), upper = a.cwiseMax(b).cwiseMax(c);
+    return (lower - point_).cwiseMax(point_ - upper).cwiseMax(0).squaredNorm() > beyond_;
+  }
+
   float widened(double known) const {
     const double size = 1 + centre_.cwiseAbs().maxCoeff();
     return static_cast<float>(known * (1 + radius_slack) + position_slack * size);
@@ -363,8 +413,10 @@ class Search {
   const Frame& frame_;
   const Vector3& point_;
   const double near_enough_;  // squared; where triangles are piled up, all of them are near
-  Vector3 centre_;            // p, or p' where p is far away; local
-  double widening_ = 0;       // of the squared radius
+  const double slack_;        // of squared distances of boxes
+  double beyond_ = std::numeric_limits<double>::infinity();
+  Vector3 centre_;       // p, or p' where p is far away; local
+  double widening_ = 0;  // of the squared radius
   NearestPoint best_ = {{-1, Vector3::Zero()}, std::numeric_limits<double>::infinity()};
   Vector3 foot_ = Vector3::Zero();  // of the best; local
 };

@@ -8,6 +8,11 @@
 
 namespace sphparam {
 
+struct Ray {
+  Vector3 origin, unit_direction;
+  double reach;  // less than 0: it meets nothing
+};
+
 /// What a ray meets first.
 struct RayHit {
   Face face = -1;  // none
@@ -52,6 +57,11 @@ class RayScene {
                       double reach, std::span<float> distances) const;
 
   RayHit first_hit(const Vector3& origin, const Vector3& unit_direction, double reach) const;
+
+  /// The same of many rays, eight at a time: some times as fast where those side by side start near
+  /// one another and go about the same way. Where one meets an edge, the face may be the other one
+  /// of it than alone. Requires: hits.size() == rays.size().
+  void first_hits(std::span<const Ray> rays, std::span<RayHit> hits) const;
 
   /// The nearest point, by `nearest_on_triangle`; of triangles equally near, the first. Farther
   /// away than 10⁹ times the mesh's size, any of those that no double can tell apart. `guess`: a

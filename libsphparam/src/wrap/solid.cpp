@@ -7,27 +7,62 @@ namespace sphparam {
 
 namespace {
 
-/// Visits what hangs together with a point by points of this mark, and gives them another.
-/// Requires: no point of the mark on the lattice's faces, but where it is the start. Returns how
-/// many.
-std::int64_t flood(const Lattice& lattice, Solid& marks, std::int64_t start, std::uint8_t to) {
-  const std::uint8_t from = marks[static_cast<size_t>(start)];
-  const auto strides = lattice.strides();
-  std::vector<std::int64_t> waiting = {start};
-  marks[static_cast<size_t>(start)] = to;
-  std::int64_t count = 0;
-  while (!waiting.empty()) {
-    const std::int64_t p = waiting.back();
-    waiting.pop_back();
-    ++count;
-    for (const std::int64_t stride : strides) {
-      const std::int64_t q = p + stride;
-      if (marks[static_cast<size_t>(q)] != from) continue;
-      marks[static_cast<size_t>(q)] = to;
-      waiting.push_back(q);
-    }
+/// Gives what hangs together with a point by points of its mark another mark, run by run along x:
+/// what waits are runs, of which there are far fewer than points.
+class Flood {
+ public:
+  Flood(const Lattice& lattice, Solid& marks, std::uint8_t from, std::uint8_t to)
+      : marks_(marks), from_(from), to_(to) {
+    for (size_t k = 0; k < rows_.size(); ++k)
+      rows_[k] = lattice.stride(2 * static_cast<int>(k) + 2);
   }
-  return count;
+
+  /// Requires: no point of the mark on the lattice's faces. Returns how many there were.
+  std::int64_t run(std::int64_t start) {
+    take(start);
+    while (!waiting_.empty()) {
+      const Run run = waiting_.back();
+      waiting_.pop_back();
+      for (const std::int64_t row : rows_) {  // x of neighbours there: by 0 or 1 more, or less
+        look(run.first + row, run.last + row + 1);
+        look(run.first - row - 1, run.last - row);
+      }
+    }
+    return count_;
+  }
+
+ private:
+  struct Run {
+    std::int64_t first, last;  // both of it
+  };
+
+  bool is_open(std::int64_t p) const { return marks_[static_cast<size_t>(p)] == from_; }
+
+  void look(std::int64_t first, std::int64_t last) {
+    for (std::int64_t p = first; p <= last; ++p)
+      if (is_open(p)) p = take(p);
+  }
+
+  /// The whole run that a point is in; returns its last.
+  std::int64_t take(std::int64_t p) {
+    Run run{p, p};
+    while (is_open(run.first - 1)) --run.first;
+    while (is_open(run.last + 1)) ++run.last;
+    std::fill(marks_.begin() + run.first, marks_.begin() + run.last + 1, to_);
+    waiting_.push_back(run);
+    count_ += run.last - run.first + 1;
+    return run.last;
+  }
+
+  Solid& marks_;
+  const std::uint8_t from_, to_;
+  std::array<std::int64_t, 3> rows_{};  // to the next rows along y, z, and both
+  std::vector<Run> waiting_;
+  std::int64_t count_ = 0;
+};
+
+std::int64_t flood(const Lattice& lattice, Solid& marks, std::int64_t start, std::uint8_t to) {
+  return Flood(lattice, marks, marks[static_cast<size_t>(start)], to).run(start);
 }
 
 template <class Visit>

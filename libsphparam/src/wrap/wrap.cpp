@@ -30,7 +30,7 @@ constexpr double usual_distance = 2;  // voxels
 constexpr double most_points = 1e8;   // of a lattice: 0.5 to 0.9 GB
 constexpr double roundings_a_voxel =
     1e6;  // of the largest coordinate, so that lattices are regular
-constexpr double largest_coordinate = 1e100, least_extent = 1e-60;
+constexpr double largest_coordinate = 1e70, least_extent = 1e-60;  // fourth powers are doubles
 constexpr std::int64_t samples = 100'000;  // of each surface, for their distance
 
 struct Box {
@@ -72,9 +72,9 @@ Box box_of(const TriangleMesh& soup, const std::vector<char>& used) {
 }
 
 void require_domain(const WrapOptions& options) {
-  require_at_least("voxel", options.voxel, 0);
+  require_between("voxel", options.voxel, 0, largest_coordinate);
   require_at_least("resolution", options.resolution, 0);
-  require_at_least("distance", options.distance, 0);
+  require_between("distance", options.distance, 0, largest_coordinate);
   require_at_least("faces", static_cast<double>(options.faces), 0);
 }
 
