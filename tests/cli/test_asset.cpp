@@ -25,6 +25,22 @@ TEST_CASE("asset: `sphparam FILE` fills a folder beside, all files together") {
   CHECK(sphparam_program({mesh, "-o", out, "--size", "64", "--no-page"}).code == 0);  // once more
 }
 
+TEST_CASE("asset: --textures webp is of the .glb, whose size is told; images beside it are PNG") {
+  const Folder folder;
+  const std::string out = folder / "made", json = out + "/r.json";
+  const Ended ended = sphparam_program(
+      {"asset", "-", "-o", out, "--size", "64", "--textures", "webp", "--json", json},
+      obj_text(icosphere(3)));
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.err, Contains("  mesh.glb 0.0") && Contains(" % of it images\n") &&
+                            Contains(" as given: 2 webp"));
+  CHECK(fs::exists(out + "/mesh_ao.png"));
+  const nlohmann::json textures = nlohmann::json::parse(bytes_of(json))["textures"];
+  REQUIRE(textures.size() == 2);
+  for (const auto& texture : textures) CHECK(texture["kind"] == "webp");
+}
+
 TEST_CASE("asset: a stream, a folder with a slash at its end, a report in it") {
   const Folder folder;
   const std::string out = folder / "made";
@@ -42,10 +58,12 @@ TEST_CASE("asset: what stood in the way is told in plain words, with figures by 
   const Folder folder;
   const TriangleMesh ball = icosphere(3);
   const TriangleMesh open{ball.positions, ball.triangles.bottomRows(ball.face_count() - 1)};
-  const std::vector<std::string> line = {"asset", "-", "-o", folder / "made", "--size", "64", "--no-page"};
+  const std::vector<std::string> line = {"asset",  "-",  "-o",       folder / "made",
+                                         "--size", "64", "--no-page"};
   const Ended brief = sphparam_program(line, obj_text(open));
   REQUIRE(brief.code == 0);
-  CHECK_THAT(brief.err, Contains("  it is open: 1 hole or border\n") && Contains("  1 hole filled"));
+  CHECK_THAT(brief.err,
+             Contains("  it is open: 1 hole or border\n") && Contains("  1 hole filled"));
   CHECK_THAT(brief.err, !Contains("boundary edges"));
   std::vector<std::string> wordy = line;
   wordy.emplace_back("-v");

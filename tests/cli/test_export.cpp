@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "io/polygons/welding.h"
@@ -338,6 +339,30 @@ TEST_CASE("export: the hard edges of a cube stay hard, in .obj and .glb") {
   }
 }
 
+TEST_CASE("export: --textures says what images are, sizes are told, and .obj takes them too") {
+  const Egg egg;
+  const Ended plain = egg.run("egg.glb");
+  REQUIRE(plain.code == 0);
+  CHECK_THAT(plain.err, Contains("  egg.glb 0.0") && Contains(" % of it images\n"));
+  CHECK_THAT(plain.err, !Contains("as given"));
+  const Ended webp =
+      egg.run("webp.glb", {"--textures", "webp", "--json", egg.folder / "egg.json", "--compress"});
+  INFO(webp.err);
+  REQUIRE(webp.code == 0);
+  CHECK_THAT(webp.err, Contains("  1 image of ") && Contains(" as given: 1 webp"));
+  const Json gltf = json_of(bytes_of(egg.folder / "webp.glb"));
+  CHECK(gltf["extensionsRequired"] ==
+        Json({"EXT_meshopt_compression", "EXT_texture_webp", "KHR_mesh_quantization"}));
+  const Json textures = Json::parse(bytes_of(egg.folder / "egg.json"))["textures"];
+  REQUIRE(textures.size() == 1);
+  CHECK(textures[0]["kind"] == "webp");
+  CHECK(textures[0]["bytes"] < textures[0]["bytes_as_given"]);
+  REQUIRE(egg.run("egg.gltf", {"--textures", "webp-lossless"}).code == 0);
+  CHECK(std::filesystem::exists(egg.folder / "egg_checker.webp"));
+  REQUIRE(egg.run("two.obj", {"--textures", "webp"}).code == 0);
+  CHECK_THAT(bytes_of(egg.folder / "two.mtl"), Contains("two_checker.webp"));
+}
+
 TEST_CASE("export: the same bytes for any number of threads") {
   const Egg egg;
   REQUIRE(egg.run("one.glb", {"--threads", "1", "--variants", "area"}).code == 0);
@@ -355,6 +380,8 @@ TEST_CASE("export: what makes no sense is refused with a reason, and nothing is 
       {"x.obj", {"--lods", "2"}, 2, "--lods"},
       {"x.glb", {"--image-size", "30"}, 2, "multiple of 4"},
       {"x.glb", {"--unlit", "--tangents"}, 2, "--unlit"},
+      {"x.glb", {"--textures", "wepb"}, 2, "did you mean webp?"},
+      {"x.glb", {"--webp-quality", "0"}, 2, "--webp-quality"},
       {"x.glb", {"--source-uv"}, 2, "texture coordinates"},
       {"x.glb", {"--image", egg.mesh}, 3, "egg.obj"},
       {"x.glb", {"--image", egg.folder / "none.png"}, 3, "none.png"},

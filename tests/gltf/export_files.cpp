@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gltf/export_asset.h"
+#include "gltf/texture_format.h"
 #include "gltf/variant_images.h"
 #include "gltf/written_check.h"
 #include "image/image_codec.h"
@@ -34,6 +35,7 @@ struct Trial {
   GltfOptions file = {};
   bool source_uv = false;  // where the mesh has them
   bool normal_map = false, variants = false, unlit = false, two_levels = false;
+  TextureFormat textures = TextureFormat::Given;
   MaterialFinish finish = {};
   bool double_sided = false;
 };
@@ -81,6 +83,18 @@ std::vector<Trial> trials() {
     t.double_sided = true;
   });
   add("variants", [](Trial& t) { t.variants = true; });
+  for (const bool compressed : {false, true}) {
+    for (const auto container :
+         {GltfContainer::Binary, GltfContainer::Embedded, GltfContainer::Separate}) {
+      const std::string name =
+          std::string(compressed ? "webpc" : "webp") + std::to_string(static_cast<int>(container));
+      add(name, [&](Trial& t) {
+        t.textures = TextureFormat::Webp;
+        t.normal_map = t.variants = true;
+        t.file = {.container = container, .compress = compressed};
+      });
+    }
+  }
   add("sphere", [](Trial& t) {
     t.geometry.shape = ShapeKind::Sphere;
     t.geometry.buffers.position_lo = true;
@@ -139,8 +153,13 @@ void run(const Trial& trial, const MeshFile& file, const SphereMap& map, const T
   if (trial.normal_map) asset.images.push_back(images[1]);
   if (trial.variants) {
     asset.images.push_back(images[2]);
-    asset.materials.push_back({.name = "graticule", .base_colour = 1});
+    asset.materials.push_back(
+        {.name = "graticule", .base_colour = static_cast<int>(asset.images.size()) - 1});
   }
+  Look look{.images = std::move(asset.images), .materials = std::move(asset.materials)};
+  encode_textures(look, {.textures = trial.textures}, 1);
+  asset.images = std::move(look.images);
+  asset.materials = std::move(look.materials);
   if (trial.two_levels) asset.levels.push_back(made.surface);
   asset.levels.push_back(std::move(made.surface));
   GltfOptions options = trial.file;

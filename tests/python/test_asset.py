@@ -55,15 +55,17 @@ def test_an_open_one_is_wrapped_and_stands_up(tmp_path):
 def test_the_same_as_the_program(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     write_obj(tmp_path / "ball.obj", *potato(2))
-    made = sp.asset("ball.obj", size=64, page=False, compress=True)
+    made = sp.asset("ball.obj", size=64, page=False, compress=True, textures="webp", webp_quality=80)
     assert os.path.dirname(made.files[0]) == "ball_sphere"
     subprocess.run(
-        [os.environ["SPHPARAM_PROGRAM"], "ball.obj", "-o", "by_program", "--size", "64", "--no-page", "--compress"],
+        [os.environ["SPHPARAM_PROGRAM"], "ball.obj", "-o", "by_program", "--size", "64", "--no-page", "--compress"]
+        + ["--textures", "webp", "--webp-quality", "80"],
         check=True,
         capture_output=True,
     )
     for name in os.listdir("by_program"):
         assert open(f"by_program/{name}", "rb").read() == open(f"ball_sphere/{name}", "rb").read(), name
+    assert "EXT_texture_webp" in json_of("by_program/ball.glb")["extensionsRequired"]
 
 
 def test_what_cannot_be_done_leaves_nothing(tmp_path):

@@ -355,6 +355,16 @@ def test_the_asset_is_the_programs(mapped, tmp_path):
     assert (tmp_path / "ours.glb").read_bytes() == (tmp_path / "a.glb").read_bytes()
 
 
+def test_images_of_an_asset_are_what_was_asked_for(mapped, tmp_path):
+    image = mapped.bake("normal-object", size=64)
+    files = mapped.export(tmp_path / "a.gltf", texture=image, textures="webp-lossless")
+    assert [os.path.basename(f) for f in files] == ["a.gltf", "a.bin", "a_basecolor.webp"]
+    with pytest.raises(ValueError, match="webp_quality"):
+        mapped.export(tmp_path / "b.glb", textures="webp", webp_quality=0)
+    with pytest.raises(ValueError, match="webp-lossless"):
+        mapped.export(tmp_path / "b.glb", textures="wepb")
+
+
 # Figures.
 
 

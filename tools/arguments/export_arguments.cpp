@@ -2,6 +2,7 @@
 
 #include "arguments/export_arguments.h"
 
+#include "arguments/texture_arguments.h"
 #include "console/exit_codes.h"
 #include "console/places.h"
 
@@ -24,6 +25,7 @@ void declare_look(Declaration& command, LookOptions& look) {
               "Width of images that are made here")
       .multiple_of(4)
       .flag("--unlit", look.unlit, "Show the colours as they are, without light");
+  declare_textures(command, look.textures, look.webp_quality);
 }
 
 void declare_chart(Declaration& command, ExportOptions& options) {

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "arguments/limits.h"
+#include "arguments/texture_arguments.h"
 #include "commands/command.h"
 #include "console/places.h"
 #include "console/session.h"
@@ -27,7 +28,7 @@ constexpr char summary[] =
     "\n"
     "Examples:\n"
     "  sphparam helmet.glb                          into the folder helmet_sphere/\n"
-    "  sphparam asset helmet.glb -o out/ --size 4096 --compress\n"
+    "  sphparam asset helmet.glb -o out/ --size 4096 --compress --textures webp\n"
     "  sphparam asset truck.obj -o out/ --faces 20000 --json out/truck.json\n"
     "\n"
     "What is a closed surface of genus 0 stays as it is; what repair mends, keeping 98 % of the\n"
@@ -91,7 +92,8 @@ RemadeAsset remade(const MeshSource& asset, const std::string& folder,
   throw ReadError(display_name(asset.path), error.defects().front().message);
 }
 
-void tell(const RemadeAsset& made, const std::string& folder, Session& session) {
+void tell(const RemadeAsset& made, const std::string& folder, TextureFormat textures,
+          Session& session) {
   for (const Words* lines : {&made.whole.found, &made.whole.done})
     for (const std::string& line : *lines) session.console.say("  " + line);
   for (const std::string& line : made.whole.details) session.console.detail("  " + line);
@@ -108,6 +110,8 @@ void tell(const RemadeAsset& made, const std::string& folder, Session& session) 
       verdict_of(made) + ": " + counted(made.whole.mapped.mesh().face_count(), "triangle") + ", " +
       counted(static_cast<long>(made.baked.images.size()), "image") + ", " +
       short_number(session.stopwatch.seconds()) + " s → " + fs::path(folder).append("").string());
+  session.console.say("  " + made.sizes);
+  if (textures != TextureFormat::Given) session.console.say("  " + words_of(made.textures));
 }
 
 /// Before any work. A folder is no file that could be replaced.
@@ -130,7 +134,7 @@ int run_asset(AssetArguments& arguments) {
   const RemadeAsset made = remade(asset, folder.path(), arguments, session);
   session.add_report([&] { return to_json(asset, made); });
   session.publish();
-  tell(made, folder.path(), session);
+  tell(made, folder.path(), arguments.options.textures, session);
   if (!arguments.options.up.direction && !noted_up(asset.file).direction)
     session.console.say("  z is taken to point up; --up y where it lies on its side");
   return Ok;
@@ -151,8 +155,9 @@ void declare_options(Declaration& command, AssetArguments& arguments) {
               "Voxels of a wrap along the longest side of the box")
       .number("--keep", options.whole.least_kept, "SHARE", {0, 1},
               "Of the area, that a repair must keep; else it is wrapped")
-      .flag("--compress", options.compress, "A smaller .glb: EXT_meshopt_compression")
-      .up(options.up)
+      .flag("--compress", options.compress, "A smaller .glb: EXT_meshopt_compression");
+  declare_textures(command, options.textures, options.webp_quality);
+  command.up(options.up)
       .flag_off("--no-page", options.page, "Without the page")
       .json(arguments)
       .threads(arguments)

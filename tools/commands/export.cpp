@@ -3,7 +3,9 @@
 
 #include "sphparam/gltf/export.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -97,11 +99,20 @@ class Exporter {
     if (options_.source_uv && !has_texcoords(mapped.file()))
       throw UsageMistake("--source-uv: the mesh has no texture coordinates of its own");
     const Look look = look_of(mapped, options_);
+    record_.textures = look.textures;
     const std::string kind = extension_of(arguments_.output);
     kind == ".obj" || kind == ".ply" ? add_text(mapped, look) : add_gltf(mapped, look);
   } catch (const std::invalid_argument& error) {
     if (options_.refine_poles <= 1) throw;
     throw UsageMistake(std::string("--refine-poles: ") + error.what());
+  }
+
+  /// "  statue.glb 3.4 MB, 62 % of it images", and what became of these.
+  Words sizes() const {
+    Words told = {"  " + words_of(record_.outputs, image_bytes_)};
+    if (options_.look.textures != TextureFormat::Given)
+      told.push_back("  " + words_of(record_.textures));
+    return told;
   }
 
   const ExportRecord& record() {
@@ -143,7 +154,7 @@ class Exporter {
         .container = arguments_.embedded ? GltfContainer::Embedded : GltfContainer::Separate,
         .compress = arguments_.compress};
     take_places(asset_files(path, asset, options));
-    note(add_asset(session_.files, path, asset, options));
+    note(add_asset(session_.files, path, asset, options), bytes_of(asset.images));
   }
 
   void add_text(const MappedMesh& mapped, const Look& look) {
@@ -152,7 +163,7 @@ class Exporter {
         add_textured_mesh(session_.files, arguments_.output, mapped, look, options_);
     session_.warn(written.warnings);
     record_.charts.push_back(std::move(written.chart));
-    note(written.files);
+    note(written.files, look.images.front().bytes.size());
   }
 
   void tell(const ChartFigures& chart, std::size_t vertices) {
@@ -162,7 +173,8 @@ class Exporter {
     record_.charts.push_back(chart);
   }
 
-  void note(const WrittenFiles& written) {
+  void note(const WrittenFiles& written, std::size_t image_bytes) {
+    image_bytes_ += image_bytes;
     record_.outputs.insert(record_.outputs.end(), written.begin(), written.end());
   }
 
@@ -171,6 +183,7 @@ class Exporter {
   ExportOptions options_;
   Outputs places_ = {{"--json", arguments_.json}};
   ExportRecord record_;
+  std::size_t image_bytes_ = 0;  // in all files
 };
 
 /// The arguments for one part: its files, where it has its own.
@@ -192,6 +205,7 @@ std::string export_one(const ExportArguments& arguments, Session& session, Words
   with_file_errors(arguments.input, arguments.output, [&] { exporter.add(mapped); });
   lines.push_back(display_name(arguments.input) + ": " + short_number(session.stopwatch.seconds()) +
                   " s → " + output_name(arguments.output));
+  std::ranges::move(exporter.sizes(), std::back_inserter(lines));
   return to_json(exporter.record());
 }
 

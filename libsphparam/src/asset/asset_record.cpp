@@ -58,6 +58,7 @@ std::string to_json(const MeshSource& asset, const RemadeAsset& remade) {
                   {"certificate", certificate_json(remade.whole.mapped.certificate())},
                   {"triangles", remade.whole.mapped.mesh().face_count()},
                   {"images", images_json(remade.baked.images)},
+                  {"textures", textures_json(remade.textures)},
                   {"from", projection_json(remade.baked.projection)},
                   {"folds_as_stored", remade.chart.stored.inverted.size()},
                   {"warnings", remade.warnings},

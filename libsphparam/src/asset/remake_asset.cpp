@@ -106,7 +106,9 @@ class Remaker {
                     .occlusion = image_of("ao"),
                     .orm = image_of("orm"),
                     .emissive = image_of("emissive"),
-                    .unlit = one_material(asset_.file).unlit};
+                    .unlit = one_material(asset_.file).unlit,
+                    .textures = options_.textures,
+                    .webp_quality = options_.webp_quality};
     options.up = options_.up;
     options.quantise = options_.compress;
     options.threads = options_.whole.threads;
@@ -124,12 +126,15 @@ class Remaker {
         add_asset(files_, stem_ + ".glb", made,
                   {.container = GltfContainer::Binary, .compress = options_.compress});
     std::ranges::copy(written, std::back_inserter(remade_.files));
+    remade_.sizes = words_of(written, bytes_of(made.images));
+    remade_.textures = look.textures;
   }
 
   void add_page(const Look& look) {
     ExportOptions shown = export_options();
     shown.quantise = false;
     shown.morph = Morph::Sphere;
+    shown.look.textures = TextureFormat::Given;  // of what is made for the page alone
     files_.add(note(".html"),
                asset_page(asset_, remade_, look, shown, image_of("basecolor"), options_.facts));
     remade_.viewer_is_missing = !has_viewer();

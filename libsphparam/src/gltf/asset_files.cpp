@@ -12,6 +12,7 @@
 #include "gltf/level.h"
 #include "gltf/textured_mesh.h"
 #include "gltf/written_check.h"
+#include "number_text.h"
 #include "sphparam/gltf/export.h"
 #include "sphparam/io/certified_files.h"
 #include "sphparam/io/fillers.h"
@@ -56,6 +57,8 @@ bool is_obj(const std::string& path) {
   return extension == ".obj";
 }
 
+std::string megabytes(double bytes) { return short_number(bytes / 1e6) + " MB"; }
+
 /// Files added one after the other, with their sizes.
 class Adder {
  public:
@@ -73,6 +76,25 @@ class Adder {
 };
 
 }  // namespace
+
+std::size_t bytes_of(const std::vector<AssetImage>& images) {
+  std::size_t all = 0;
+  for (const AssetImage& image : images) all += image.bytes.size();
+  return all;
+}
+
+std::string words_of(const WrittenFiles& files, std::size_t image_bytes) {
+  std::vector<std::string> parts;
+  double all = 0, textures = static_cast<double>(image_bytes);
+  for (const auto& [path, bytes] : files) {
+    const auto size = static_cast<double>(bytes);
+    parts.push_back(fs::path(output_name(path)).filename().string() + " " + megabytes(size));
+    all += size;
+  }
+  // In a file of text three bytes are four characters.
+  if (files.size() == 1 && extension_of(files.front().first) == ".gltf") textures *= 4.0 / 3;
+  return joined(parts) + ", " + percent(textures / all, 2) + " of it images";
+}
 
 std::vector<std::string> asset_files(const std::string& path, const Asset& asset,
                                      const GltfOptions& given) {

@@ -78,8 +78,14 @@ class Builder {
       entry["uri"] = uri_of_file(name);
       files_.emplace_back(name, image.bytes);
     }
-    lists_.textures.push_back({{"sampler", 0}, {"source", lists_.images.size()}});
+    lists_.textures.push_back(texture_of(kind, lists_.images.size()));
     lists_.images.push_back(std::move(entry));
+  }
+
+  Json texture_of(const ImageKind& kind, std::size_t image) {
+    if (!kind.is_webp()) return {{"sampler", 0}, {"source", image}};
+    use("EXT_texture_webp", true);  // there is no other image
+    return {{"sampler", 0}, {"extensions", {{"EXT_texture_webp", {{"source", image}}}}}};
   }
 
   void add_material(const Material& material) {

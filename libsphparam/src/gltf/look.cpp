@@ -12,6 +12,7 @@
 #include "gltf/export_names.h"
 #include "gltf/material_images.h"
 #include "gltf/painted_surfaces.h"
+#include "gltf/texture_format.h"
 #include "gltf/variant_images.h"
 #include "io/attributes/appearance.h"
 #include "io/attributes/finish_terms.h"
@@ -88,6 +89,7 @@ class LookMaker {
     }
     look_.materials.push_back(material_);
     for (const std::string& name : wanted_.variants) add_variant(name);
+    encode_textures(look_, wanted_, options_.threads);
     return std::move(look_);
   }
 
@@ -233,6 +235,7 @@ Look without_given_normals(Look look) {
   if (!look.normals_given) return look;
   const int dropped = look.materials.front().normal;
   look.images.erase(look.images.begin() + dropped);
+  if (!look.textures.empty()) look.textures.erase(look.textures.begin() + dropped);
   for (Material& material : look.materials) {
     material.normal = -1;
     for (int* image : material.frameless_images()) {

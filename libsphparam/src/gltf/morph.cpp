@@ -1,5 +1,7 @@
 #include "sphparam/gltf/morph.h"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "gltf/export_names.h"
@@ -25,6 +27,7 @@ void append(Look& look, Look other) {
     look.materials.push_back(std::move(material));
   }
   for (AssetImage& image : other.images) look.images.push_back(std::move(image));
+  std::ranges::move(other.textures, std::back_inserter(look.textures));
 }
 
 Look named(Look look, const std::string& name) {

@@ -3,8 +3,9 @@
 #include <cstddef>
 #include <cstdint>
 
-// The door between our programs and the image module: plain C, so that nothing of OpenImageIO is
-// linked into them. Both sides are built together; the version guards against a stale module.
+// The door between our programs and the image module: plain C, so that nothing of OpenImageIO and
+// libwebp is linked into them. Both sides are built together; the version guards against a stale
+// module.
 
 extern "C" {
 
@@ -44,6 +45,14 @@ struct SphparamImageLevel {
   int tile;  // 0: scanlines
 };
 
+/// An image that becomes a WebP file.
+struct SphparamWebp {
+  int width, height, channels;
+  const unsigned char* samples;
+  int lossless;  // 1: every sample is kept, what is transparent too
+  int quality;   // else: 0 to 100; alpha is kept
+};
+
 struct SphparamImageTable {
   int version;
 
@@ -76,11 +85,15 @@ struct SphparamImageTable {
   int (*read_rows)(void* file, int level, int first_row, int rows, void* samples,
                    SphparamBytesSink error, void* error_context);
   void (*close_written)(void* file);
+
+  /// Encodes rows of 3 or 4 bytes a texel, alpha not multiplied in, as WebP. Returns as `decode`.
+  int (*encode_webp)(const struct SphparamWebp* image, SphparamBytesSink bytes, void* context,
+                     SphparamBytesSink error, void* error_context);
 };
 
 /// The module's one exported name.
 typedef const SphparamImageTable* (*SphparamImageTableFunction)();
 }
 
-constexpr int sphparam_image_table_version = 4;
+constexpr int sphparam_image_table_version = 5;
 constexpr char sphparam_image_table_name[] = "sphparam_image_table";

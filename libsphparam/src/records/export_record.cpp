@@ -26,6 +26,7 @@ std::string to_json(const ExportRecord& record) {
                   {"input", record.input},
                   {"levels", levels},
                   {"outputs", outputs},
+                  {"textures", textures_json(record.textures)},
                   {"seconds", record.seconds}});
 }
 

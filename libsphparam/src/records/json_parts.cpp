@@ -156,6 +156,17 @@ Json certificate_json(const Certificate& c) {
           {"branch_vertices", c.branch_vertices}};
 }
 
+Json textures_json(const std::vector<TextureFigures>& textures) {
+  Json all = Json::array();
+  for (const TextureFigures& texture : textures)
+    all.push_back({{"name", texture.name},
+                   {"kind", texture.kind},
+                   {"bytes", texture.bytes},
+                   {"bytes_as_given", texture.given_bytes},
+                   {"exact", texture.exact}});
+  return all;
+}
+
 Json chart_json(const std::optional<ChartReport>& chart) {
   if (!chart) return nullptr;
   if (!chart->not_made.empty()) return {{"certified", false}, {"not_made", chart->not_made}};

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sphparam/chart/chart_report.h"
+#include "sphparam/gltf/texture_format.h"
 #include "sphparam/io/mesh_source.h"
 #include "sphparam/parameterize.h"
 
@@ -31,6 +32,8 @@ Json parts_json(const KeptParts& parts);
 Json stages_json(const std::vector<StageRecord>& stages);
 Json certificate_json(const Certificate& certificate);
 Json distortion_json(const std::optional<DistortionSummary>& distortion);
+/// What became of the images of a glTF file.
+Json textures_json(const std::vector<TextureFigures>& textures);
 Json chart_json(const std::optional<ChartReport>& chart);
 
 /// The record as it is written. Bytes of a file name that are not UTF-8 must not stop it.

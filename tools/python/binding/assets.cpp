@@ -28,6 +28,7 @@ RemakeOptions options_of(const py::dict& values) {
       .take("front", front)
       .take("page", options.page)
       .take("threads", options.whole.threads);
+  take_textures(settings, options.textures, options.webp_quality);
   settings.require_all_known();
   options.up = up_of(up, front);
   options.facts = {{"program", std::string("sphparam ") + version}};

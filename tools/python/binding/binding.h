@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "sphparam/gltf/texture_format.h"
 #include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/mesh_source.h"
 #include "sphparam/io/up_axis.h"
@@ -166,5 +167,8 @@ class Settings {
   const py::dict& values_;
   py::set known_;
 };
+
+/// What images of glTF files are made.
+void take_textures(Settings& settings, TextureFormat& format, int& quality);
 
 }  // namespace sphparam::python

@@ -34,6 +34,7 @@ void take_look(Settings& settings, LookOptions& look) {
       .take("image_size", look.image_width)
       .take("unlit", look.unlit)
       .take("tangents", look.tangents);
+  take_textures(settings, look.textures, look.webp_quality);
 }
 
 ExportRequest request_of(const py::dict& values) {
@@ -114,6 +115,13 @@ void write_page(const Mapped& mapped, const std::string& path, int size, const s
 }
 
 }  // namespace
+
+void take_textures(Settings& settings, TextureFormat& format, int& quality) {
+  using enum TextureFormat;
+  settings.take("webp_quality", quality)
+      .take("textures", format, {Given, Png, Jpeg, Webp, WebpLossless},
+            [](TextureFormat choice) { return word_of(choice); });
+}
 
 void declare_exports(py::module_& module) {
   module.def("export", write_export);

@@ -87,6 +87,8 @@ def asset(
     resolution: int = 192,
     least_kept: float = 0.98,
     compress: bool = False,
+    textures: str = "given",
+    webp_quality: int = 90,
     up: Optional[Direction] = None,
     front: Optional[Direction] = None,
     page: bool = True,
@@ -116,6 +118,8 @@ def asset(
         Of the area, that a repair must keep; else the asset is wrapped.
     compress
         A smaller .glb, by EXT_meshopt_compression.
+    textures, webp_quality
+        What the images in the .glb are, as of :meth:`SphereMap.export`; those beside it are PNG.
     up, front
         As of :func:`map`; the map stands so too then.
     page
@@ -139,6 +143,8 @@ def asset(
         "resolution": _arrays.whole(resolution, "resolution", 8, 2000),
         "least_kept": float(least_kept),
         "compress": bool(compress),
+        "textures": _arrays.text(textures, "textures"),
+        "webp_quality": _arrays.whole(webp_quality, "webp_quality", 1, 100),
         "up": as_direction(up, "up"),
         "front": as_direction(front, "front"),
         "page": bool(page),

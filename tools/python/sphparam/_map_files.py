@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from ._sphere_map import SphereMap
 
 _export_options = (
-    "variants", "image_size", "unlit", "tangents", "name", "convention", "refine_poles", "keep_topology",
+    "variants", "image_size", "unlit", "tangents", "textures", "name", "convention", "refine_poles", "keep_topology",
     "shape", "morph", "theta_phi", "source_uv", "quantise", "compress", "embedded",
 )  # fmt: skip
 _export_endings = (".glb", ".gltf", ".obj", ".ply")
@@ -68,6 +68,8 @@ class MapFiles(MapFacts):
         image_size: int = 2048,
         unlit: bool = False,
         tangents: bool = False,
+        textures: str = "given",
+        webp_quality: int = 90,
         name: str = "",
         convention: str = "sphparam",
         refine_poles: int = 1,
@@ -103,6 +105,10 @@ class MapFiles(MapFacts):
             Of images that are made here; 16 to 16384, a multiple of 4.
         unlit, tangents
             The colours without light; tangents also without a normal map.
+        textures
+            What all images are made: ``"given"``, PNG and JPEG as they are; ``"png"``; ``"jpeg"``, colours
+            without alpha; ``"webp"``, which loses of colours what ``webp_quality`` (1 to 100) says and nothing of
+            other images; ``"webp-lossless"``. What would be no smaller stays as it is.
         name
             Of the asset; empty: that of the mesh.
         convention
@@ -143,6 +149,7 @@ class MapFiles(MapFacts):
             images=path_of(images) if images is not None else "",
             variants=[_arrays.text(v, "variants") for v in ([variants] if isinstance(variants, str) else variants)],
             levels=[mapped_of(level, "levels") for level in levels],
+            webp_quality=_arrays.whole(webp_quality, "webp_quality", 1, 100),
             threads=_arrays.threads(threads),
         )
         require_kind(normal_map, "normal_map", "normal-tangent", self._fingerprint)

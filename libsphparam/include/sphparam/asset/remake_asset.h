@@ -14,12 +14,14 @@
 namespace sphparam {
 
 struct RemakeOptions {
-  WholeOptions whole = {};  // its threads and progress serve all
-  int width = 2048;         // texels a row of images
-  int samples = 1;          // N × N a texel
-  bool occlusion = false;   // ambient occlusion too, by rays
-  bool compress = false;    // the .glb: see `GltfOptions::compress`
-  Up up = {};               // nothing: as the asset's file says
+  WholeOptions whole = {};                        // its threads and progress serve all
+  int width = 2048;                               // texels a row of images
+  int samples = 1;                                // N × N a texel
+  bool occlusion = false;                         // ambient occlusion too, by rays
+  bool compress = false;                          // the .glb: see `GltfOptions::compress`
+  TextureFormat textures = TextureFormat::Given;  // its images; those beside it are PNG
+  int webp_quality = 90;                          // see `LookOptions`
+  Up up = {};                                     // nothing: as the asset's file says
   bool page = true;
   std::vector<std::pair<std::string, std::string>> facts = {};  // for the foot of the page
 };
@@ -28,8 +30,10 @@ struct RemakeOptions {
 struct RemadeAsset {
   WholeSurface whole;
   BakeReport baked;
-  ChartFigures chart = {};  // as the .glb has it
-  WrittenFiles files = {};  // names in the folder, and sizes where they are known
+  ChartFigures chart = {};                    // as the .glb has it
+  WrittenFiles files = {};                    // names in the folder, and sizes where they are known
+  std::string sizes = {};                     // of the .glb and its images, in words for people
+  std::vector<TextureFigures> textures = {};  // what became of these
   std::vector<std::string> warnings = {};
   bool viewer_is_missing = false;                            // the page has pictures only
   std::vector<std::pair<std::string, double>> seconds = {};  // of each stage

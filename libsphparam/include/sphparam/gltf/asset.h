@@ -41,7 +41,7 @@ struct Surface {
   std::size_t vertex_count() const { return static_cast<std::size_t>(positions.rows()); }
 };
 
-/// An image file, PNG or JPEG; its first bytes say which.
+/// An image file, PNG, JPEG or WebP; its first bytes say which.
 struct AssetImage {
   std::string name;
   std::string bytes;

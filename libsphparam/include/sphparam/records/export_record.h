@@ -12,6 +12,7 @@ struct ExportRecord {
   std::string input = {};                 // the file of the mesh
   std::vector<ChartFigures> charts = {};  // of the levels, finest first
   WrittenFiles outputs = {};
+  std::vector<TextureFigures> textures = {};  // of what is seen, and of the variants
   double seconds = 0;
 };
 

@@ -6,9 +6,13 @@
 #include <algorithm>
 #include <cstdlib>
 #include <ctime>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "image/oiio/webp_codec.h"
 
 // The only code that knows OpenImageIO. Files are decoded from memory by the decoder that the
 // caller named after looking at the first bytes: Debian's build has 29 of them, some of which have
@@ -48,6 +52,13 @@ std::string refusal(const OIIO::ImageSpec& spec, size_t file_size, int64_t max_m
   return "";
 }
 
+/// WebP needs next to no bytes for one colour, however large: it may grow as much as it likes.
+std::string refusal(const WebpHead& head, int64_t max_megabytes, int max_channels) {
+  constexpr size_t any_size = std::numeric_limits<int64_t>::max();
+  const OIIO::ImageSpec spec(head.width, head.height, head.channels, OIIO::TypeDesc::UINT8);
+  return refusal(spec, any_size, max_megabytes, max_channels);
+}
+
 void tell_texts(const OIIO::ImageSpec& spec, SphparamTextSink text, void* context) {
   for (const OIIO::ParamValue& value : spec.extra_attribs) {
     const bool is_text = value.type() == OIIO::TypeDesc::STRING;
@@ -64,6 +75,11 @@ int decode(const char* format, const char* bytes, size_t size, int64_t max_megab
     tell(error, error_context, why);
     return 1;
   };
+  if (const std::optional<WebpHead> head = webp_head(bytes, size)) {
+    const std::string refused = refusal(*head, max_megabytes, max_channels);
+    if (!refused.empty()) return fail(refused);
+    return decode_webp(*head, bytes, size, room, room_context, error, error_context);
+  }
   // From memory only, whatever the decoder would like to open.
   OIIO::Filesystem::IOMemReader memory(const_cast<char*>(bytes), size);
   const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format, false);
@@ -323,7 +339,8 @@ constexpr SphparamImageTable table{sphparam_image_table_version,
                                    open_written,
                                    level_written,
                                    read_rows,
-                                   close_written};
+                                   close_written,
+                                   encode_webp};
 
 }  // namespace
 
