@@ -237,6 +237,21 @@ TEST_CASE("match: the same bits for one thread and two") {
   CHECK(one.energy == two.energy);
 }
 
+TEST_CASE("match: too many vertices for a factor find their turned copy too, on any threads") {
+  const MappedMesh shape = mapped(bumpy(5));  // 10,242 of them
+  const TriangleMesh copy = turned_copy(shape.mesh());
+  SphereMap map = parameterize(copy, {.energy = {.lambda = 10}}).map;
+  MeshFile file;
+  file.mesh = copy;
+  const MappedMesh other({.file = std::move(file), .map = std::move(map)});
+  const std::vector<LandmarkPair> pairs = with_itself(copy, 6);
+  const Match one = match_surfaces(shape, other, {.landmarks = pairs, .threads = 1});
+  const Match two = match_surfaces(shape, other, {.landmarks = pairs, .threads = 2});
+  CHECK(one.map.from().map().points == two.map.from().map().points);
+  CHECK(dirichlet(one.map) < 4.04);
+  CHECK(rms_between(one.map.from_on_to(), copy) < 0.03 * 3);
+}
+
 TEST_CASE("match: random pairs of random spheres are certified whatever their landmarks") {
   std::mt19937 random(7);
   int matched = 0;

@@ -9,8 +9,8 @@
 
 namespace sphparam {
 
-// What stood in an asset's way and what was done about it, for who made it: no ids, no lattices. The
-// lines with all figures are among the details.
+// What stood in an asset's way and what was done about it, for who made it: no ids, no lattices.
+// The lines with all figures are among the details.
 
 /// "it is open: 83 holes or borders". `found`: of the mesh that has the defect.
 std::string plain_words(const MeshDefect& defect, const MeshInspection& found);

@@ -61,7 +61,7 @@ class Chooser {
 
  private:
   WholeSurface whole(MappedMesh mapped, WholeBy by, double area_kept = 1) {
-    return {std::move(mapped), by, area_kept, std::move(found_), std::move(done_),
+    return {std::move(mapped),  by, area_kept, std::move(found_), std::move(done_),
             std::move(details_)};
   }
 

@@ -36,7 +36,7 @@ constexpr double growth = 1.8;              // of levels with Newton steps
 constexpr double feature_distance = 3;  // that features are averaged over, in spacings of vertices
 constexpr int removed_sweeps = 4, level_sweeps = 2;
 /// Levels of so many vertices are near what coarser ones have found.
-constexpr int fine_level = 10'000, fine_sweeps = 1, fine_steps = 1;
+constexpr int fine_level = 10'000, fine_sweeps = 1, fine_steps = 2;
 constexpr std::int64_t insertion_grain = 16;
 
 size_t at(int i) { return static_cast<size_t>(i); }

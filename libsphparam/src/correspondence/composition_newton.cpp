@@ -19,6 +19,11 @@ constexpr std::int64_t face_grain = 256, vertex_grain = 256;
 constexpr int halvings = 8, local_halvings = 12;
 constexpr double longest_way = 0.3;      // of a vertex; the surface has the area 4π
 constexpr double regularisation = 1e-9;  // of the diagonal's mean
+/// More free vertices are solved for by iterations: what is left there is short-waved, and filling
+/// a factor costs more than linear.
+constexpr int direct_vertices = 4000;
+constexpr int most_iterations = 60;
+constexpr double least_residual = 0.02;  // of the gradient
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
@@ -56,7 +61,26 @@ void CompositionNewton::make_pattern() {
   hessian_ = Eigen::Map<const Eigen::SparseMatrix<double>>(
       size, size, std::ssize(inner), outer.data(), inner.data(), zeros.data());
   gradient_.resize(size);
-  factor_.analyzePattern(hessian_);
+  if (is_direct()) factor_.analyzePattern(hessian_);
+}
+
+bool CompositionNewton::is_direct() const { return std::ssize(free_) <= direct_vertices; }
+
+/// False: the way is no number.
+bool CompositionNewton::solve() {
+  if (is_direct()) {
+    factor_.factorize(hessian_);
+    if (factor_.info() != Eigen::Success) return false;
+    way_ = -factor_.solve(gradient_);
+  } else {
+    ConjugateGradients iterations;
+    iterations.setTolerance(least_residual);
+    iterations.setMaxIterations(most_iterations);
+    iterations.compute(hessian_);
+    if (iterations.info() != Eigen::Success) return false;
+    way_ = -iterations.solve(gradient_);
+  }
+  return way_.allFinite();
 }
 
 CompositionNewton::FaceTerms CompositionNewton::face_terms(Face face,
@@ -156,10 +180,7 @@ bool CompositionNewton::lengths_that_keep(std::vector<double>& lengths,
 CompositionNewton::Step CompositionNewton::step(const ComposedEnergy& energy, double before) {
   if (free_.empty()) return {before, false};
   assemble(energy);
-  factor_.factorize(hessian_);
-  if (factor_.info() != Eigen::Success) return {before, false};
-  way_ = -factor_.solve(gradient_);
-  if (!way_.allFinite()) return {before, false};
+  if (!solve()) return {before, false};
   std::vector<double> lengths(free_.size(), 1.0);
   std::vector<Place> places = surface_.places();
   for (int i = 0; i < halvings; ++i) {

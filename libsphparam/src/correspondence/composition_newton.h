@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCholesky>
 #include <vector>
 
@@ -10,7 +11,7 @@ namespace sphparam {
 /// Projected Newton steps of all vertices at once on the energy of the composition.
 class CompositionNewton {
  public:
-  /// Borrows the surface. Cost: a symbolic factorisation.
+  /// Borrows the surface. Cost: a symbolic factorisation where there are few vertices, else linear.
   CompositionNewton(MovingSurface& surface, int threads);
 
   struct Step {
@@ -19,7 +20,8 @@ class CompositionNewton {
   };
 
   /// One step with line search: vertices whose triangles would lose their orientation go a shorter
-  /// part of their way. Requires: a finite energy. Cost: a sparse factorisation.
+  /// part of their way. Requires: a finite energy. Cost: a sparse factorisation, or at most
+  /// 60 iterations.
   Step step(const ComposedEnergy& energy, double before);
 
  private:
@@ -29,7 +31,13 @@ class CompositionNewton {
     Matrix6 hessian;  // positive semidefinite
   };
 
+  using ConjugateGradients = Eigen::ConjugateGradient<
+      Eigen::SparseMatrix<double>, Eigen::Lower,
+      Eigen::IncompleteCholesky<double, Eigen::Lower, Eigen::NaturalOrdering<int>>>;
+
   void make_pattern();
+  bool is_direct() const;
+  bool solve();
   FaceTerms face_terms(Face face, const ComposedEnergy& energy) const;
   void assemble(const ComposedEnergy& energy);
   void gather(Vertex v, const std::vector<FaceTerms>& terms);
