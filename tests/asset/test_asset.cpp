@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -12,6 +13,8 @@
 #include "sphparam/io/certified_files.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/mesh/mesh_defects.h"
+#include "sphparam/sphere/sphere_locator.h"
+#include "sphparam/sphere/spherical_coordinates.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -142,6 +145,53 @@ TEST_CASE(
   CHECK(json["from"]["nearest"].get<double>() < 0.1);
   CHECK(json["images"].size() == 4);
   CHECK(verdict_of(made) == "Wrapped in one closed surface, certified one-to-one with the sphere");
+}
+
+TEST_CASE("remake asset: a wall across a hole shows what stands about it, smoothly") {
+  // Twelve beads in a ring, red and blue in turn: the wall across it is neither.
+  const TriangleMesh bead = icosphere(2);
+  TriangleMesh ring{Points(12 * bead.vertex_count(), 3), Triangles(12 * bead.face_count(), 3)};
+  MeshSource asset = painted(source_of(bead, "ring.obj"));
+  Property material{"material", ScalarType::Int32, {}};
+  for (int i = 0; i < 12; ++i) {
+    const double angle = i * 3.14159265358979 / 6;
+    ring.positions.middleRows(i * bead.vertex_count(), bead.vertex_count()) =
+        bead.positions.rowwise() + Eigen::RowVector3d(3 * std::cos(angle), 3 * std::sin(angle), 0);
+    ring.triangles.middleRows(i * bead.face_count(), bead.face_count()) =
+        bead.triangles.array() + i * static_cast<int>(bead.vertex_count());
+    material.values.insert(material.values.end(), static_cast<size_t>(bead.face_count()), i % 2);
+  }
+  asset.file.materials.emplace_back("blue");
+  asset.file.base_colours.push_back({.factor = {0, 0, 1, 1}});
+  asset.file.channels.push_back(asset.file.channels[0]);
+  asset.file.mesh = ring;
+  asset.file.set_face_property(material);
+  asset.inspection = inspect_mesh(ring);
+  asset.topology.reset();
+  const Folder folder;
+  RemakeOptions options{.whole = coarse(), .width = 128};
+  options.page = false;
+  PendingFiles files;
+  const RemadeAsset made = remake_asset(asset, folder.path.string(), options, files);
+  files.publish();
+  const Image colour = read_image(folder.path.string() + "/ring_basecolor.png");
+  const SphereLocator& map = made.whole.mapped.locator();
+  int on_wall = 0;
+  for (int y = 2; y < 62; ++y)
+    for (int x = 0; x < 128; ++x) {
+      const double theta = 2 * 3.14159265358979 * (x + 0.5) / 128,
+                   phi = 3.14159265358979 * (y + 0.5) / 64;
+      const SurfacePoint at = map.locate(to_cartesian({theta, phi}));
+      Vector3 place = Vector3::Zero();
+      for (int k = 0; k < 3; ++k)
+        place += at.barycentric[k] *
+                 made.whole.mapped.mesh().position(made.whole.mapped.mesh().triangles(at.face, k));
+      if (place.norm() > 0.5) continue;
+      ++on_wall;
+      CHECK(colour.pixel(x, y)[0] == Approx(0.73).margin(0.1));  // half, in sRGB
+      CHECK(colour.pixel(x, y)[2] == Approx(0.73).margin(0.1));
+    }
+  CHECK(on_wall > 10);
 }
 
 TEST_CASE("remake asset: the same bytes for any number of threads") {

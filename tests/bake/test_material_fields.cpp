@@ -270,6 +270,16 @@ TEST_CASE("material fields: an image on the second coordinates is looked up ther
   CHECK(inside(make_orm(*scene, ""), 0)[0] == Approx((16 + 2) / 255.0));
 }
 
+TEST_CASE("material fields: where texture coordinates stand still, a normal map turns no normal") {
+  Cube cube;
+  cube.file.channels[0].normal = texel("n", {1, 0.5F, 0.6F});
+  cube.file.corner_texcoords->topRows(6).setConstant(0.25);
+  const auto scene = cube.scene();
+  const SurfaceField object = make_object_normal(*scene, "");
+  for (const Face f : {0, 1}) CHECK((as_vector(inside(object, f)) - cube.normals[0]).norm() < 1e-6);
+  CHECK((as_vector(inside(object, 4)) - cube.normals[2]).norm() > 0.5);
+}
+
 TEST_CASE("material fields: bumps are slopes of their heights, unless they are normals already") {
   Cube cube;
   Image heights(8, 8, 3);

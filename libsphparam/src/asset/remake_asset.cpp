@@ -24,6 +24,8 @@ WholeOptions whole_options(const MeshSource& asset, const RemakeOptions& options
   return whole;
 }
 
+constexpr double walls_beyond = 2.5;  // voxels from the asset, which a wrap is one away from
+
 class Remaker {
  public:
   Remaker(const MeshSource& asset, const std::string& folder, const RemakeOptions& options,
@@ -71,6 +73,13 @@ class Remaker {
     return names;
   }
 
+  /// Of a wrap, about.
+  double voxel() const {
+    const Points& places = remade_.whole.mapped.mesh().positions;
+    return (places.colwise().maxCoeff() - places.colwise().minCoeff()).maxCoeff() /
+           options_.whole.resolution;
+  }
+
   BakeSettings bake_settings() const {
     BakeSettings settings{.width = options_.width,
                           .samples = options_.samples,
@@ -78,6 +87,7 @@ class Remaker {
                           .threads = options_.whole.threads,
                           .progress = options_.whole.progress};
     if (!is_itself()) settings.from = asset_.file;
+    if (remade_.whole.by == WholeBy::Wrap) settings.calm_beyond = walls_beyond * voxel();
     return settings;
   }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "bake/baked_chart.h"
+#include "bake/calm_walls.h"
 #include "bake/choose_target.h"
 #include "bake/field_registry.h"
 #include "bake/georeference/georeference.h"
@@ -85,6 +86,12 @@ BakedImage told(const PlannedImage& image) {
           .range = image.field.range};
 }
 
+/// None: none are wanted, or there are none.
+std::shared_ptr<const CalmWalls> walls_of(const BakeScene& scene, const BakeSettings& settings) {
+  if (!settings.from || !(settings.calm_beyond > 0)) return nullptr;
+  return CalmWalls::find(scene, settings.calm_beyond);
+}
+
 BakedField told(const SurfaceField& field) { return {field.name, field.about, field.channels}; }
 
 }  // namespace
@@ -104,6 +111,8 @@ BakeReport bake(const MappedMesh& source, const std::vector<BakeRequest>& images
       report.warnings.push_back(std::move(warning));
   std::vector<PlannedImage> plan;
   for (const BakeRequest& request : images) plan.push_back(plan_image(request, scene, settings));
+  const auto walls = walls_of(scene, settings);
+  for (PlannedImage& image : plan) CalmWalls::calm(walls, image.field);
   find_ranges(plan, scene, settings);
   write_images(plan, scene, settings, texts_of_all(source, settings), files);
   for (const PlannedImage& image : plan) report.images.push_back(told(image));
@@ -127,8 +136,10 @@ std::vector<BakedField> bake_values(const MappedMesh& source, const std::vector<
                                     std::ranges::any_of(names, needs_textures), settings);
   std::vector<SurfaceField> fields;
   std::vector<BakedField> baked;
+  const auto walls = walls_of(scene, settings);
   for (const std::string& name : names) {
     fields.push_back(make_covered_field(name, scene));
+    CalmWalls::calm(walls, fields.back());
     baked.push_back(told(fields.back()));
   }
   if (fields.empty()) return baked;

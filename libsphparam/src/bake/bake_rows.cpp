@@ -45,6 +45,12 @@ class Batch {
 
   /// The values of a field, colours linear.
   void evaluate(const SurfaceField& field, float* values) {
+    find(field, values);
+    if (field.amend) field.amend(runs_, places_, values);
+  }
+
+ private:
+  void find(const SurfaceField& field, float* values) {
     progress_.look();
     if (field.evaluate_runs) return field.evaluate_runs(runs_, values);
     expand();
@@ -62,7 +68,6 @@ class Batch {
     }
   }
 
- private:
   void expand() {
     if (!samples_.empty()) return;
     for (const SurfaceRun& run : runs_) {

@@ -57,7 +57,7 @@ class TangentSums {
       const auto row = static_cast<Eigen::Index>(i);
       const Vector3 normal = result.normals.row(row);
       const Vector3 sum = flattened(sums_[static_cast<size_t>(sum_of[i])], normal);
-      result.tangents.row(row).head<3>() = sum.isZero(0) ? normal.unitOrthogonal() : sum;
+      result.tangents.row(row).head<3>() = sum;
     }
     return result;
   }

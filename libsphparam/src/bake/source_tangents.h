@@ -6,7 +6,8 @@ namespace sphparam {
 
 /// The frame in which a mesh's own normal map is written: at every corner the tangent along growing
 /// s, unit and orthogonal to the normal, and whether (s, t) are mirrored there: the bitangent is
-/// w · N × T and points to growing t.
+/// w · N × T and points to growing t. Zero where (s, t) grow in no direction: an image has no
+/// slopes there.
 struct SourceTangents {
   Points normals;                // #F·3 rows, unit
   RowTable<double, 4> tangents;  // #F·3 rows: T, w

@@ -12,6 +12,8 @@
 
 namespace sphparam {
 
+struct TexelRun;
+
 /// What the values of a field are, and so how they may be filtered and stored.
 enum class FieldKind : std::uint8_t {
   Colour,     // sRGB in [0, 1] as stored; averaged in linear light
@@ -81,6 +83,10 @@ struct SurfaceField {
   /// whole sample a texel, and for those that want to know how large a texel is on the surface;
   /// `evaluate` is not called then. Colours are linear here: to be averaged they would be made so.
   std::function<void(std::span<const SurfaceRun> runs, float* values)> evaluate_runs = {};
+  /// Changes values once they are there, by where the texels lie in the chart; colours are linear.
+  std::function<void(std::span<const SurfaceRun> runs, std::span<const TexelRun> places,
+                     float* values)>
+      amend = {};
 
   /// Of the values proper: those of the kind.
   int proper_channels() const { return has_coverage ? channels - 1 : channels; }

@@ -50,6 +50,9 @@ struct BakeSettings {
   // mesh. Each point of the mesh shows what the line along its smooth normal meets near it, else
   // the nearest point. Not together with `target`.
   std::optional<MeshFile> from = {};
+  // Walls, which are farther than this from `from`, show a smooth mean of what stands about them,
+  // not streaks of what is nearest: colours, what materials say, tangent normals. 0: they do not.
+  double calm_beyond = 0;
   int refine_poles = 1;          // the images are for that chart: see `refine_poles`; 1 to 1024
   std::string source_name = {};  // in metadata and messages; empty: the source's own
   int threads = 0;               // 0: all cores

@@ -116,6 +116,7 @@ Vector3 SourceNormal::mapped(const SurfaceSample& sample) const {
     normal += weights[k] * maps_->frame.normals.row(3 * f + k);
     tangent += weights[k] * maps_->frame.tangents.row(3 * f + k).head<3>();
   }
+  if (tangent.isZero(0)) return normal_at(scene_->source, f, weights);
   const double scale = maps_->scales[static_cast<size_t>(material)];
   const double x = scale * (2 * static_cast<double>(texel[0]) - 1),
                y = scale * (2 * static_cast<double>(texel[1]) - 1),

@@ -1,0 +1,170 @@
+#include "bake/calm_walls.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "bake/projected_surface.h"
+#include "rays/interpolation.h"
+#include "sphparam/parallel.h"
+
+// Triangles of a target are probed at some points each, by their area; points beside walls are
+// those on triangles that share a vertex with one that has a point on a wall.
+
+namespace sphparam {
+namespace {
+
+constexpr int most_probes = 64;  // a triangle
+constexpr size_t most_beside = 512;
+
+/// A point of the target, and what of the surface it shows.
+struct Probe {
+  SurfacePoint at;
+  double area;
+  Vector3 step, below;
+  SurfaceRun run = {};
+};
+
+/// The i-th of n points spread over a triangle: a row of the two-dimensional sequence of the
+/// plastic number, folded into it.
+Vector3 spread(int i, int n) {
+  if (n == 1) return Vector3::Constant(1.0 / 3);
+  double a = std::fmod(0.5 + i * 0.7548776662466927, 1),
+         b = std::fmod(0.5 + i * 0.5698402909980532, 1);
+  if (a + b > 1) a = 1 - a, b = 1 - b;
+  return {1 - a - b, a, b};
+}
+
+std::vector<double> areas_of(const BakeTarget& target) {
+  std::vector<double> areas;
+  for (const auto& f : target.chart.triangles.rowwise()) {
+    const Vector3 a = target.positions.row(f[0]), b = target.positions.row(f[1]),
+                  c = target.positions.row(f[2]);
+    areas.push_back((b - a).cross(c - a).norm() / 2);
+  }
+  return areas;
+}
+
+std::vector<Probe> probes_of(const BakeTarget& target) {
+  const std::vector<double> areas = areas_of(target);
+  double all = 0;
+  for (const double area : areas) all += area;
+  const double mean = all / static_cast<double>(std::max<size_t>(areas.size(), 1));
+  std::vector<Probe> probes;
+  for (size_t f = 0; f < areas.size(); ++f) {
+    const double wanted = mean > 0 ? std::ceil(areas[f] / mean) : 1;
+    const int n = static_cast<int>(std::clamp<double>(wanted, 1, most_probes));
+    const double side = 1 / std::sqrt(n);
+    for (int i = 0; i < n; ++i)
+      probes.push_back(
+          {{static_cast<Face>(f), spread(i, n)}, areas[f] / n, {-side, side, 0}, {-side, 0, side}});
+  }
+  return probes;
+}
+
+bool is_appearance(const SurfaceField& field) {
+  return field.kind == FieldKind::Colour || field.eight_bits;
+}
+
+}  // namespace
+
+Vector3 CalmWalls::on_target(Face f, const Vector3& weights) const {
+  return interpolate(scene_->target.positions, scene_->target.chart.triangles, {f, weights});
+}
+
+/// How much of a texel is wall: nothing up to `beyond`, all of it from twice as far.
+double CalmWalls::share(const Vector3& place, const SurfaceRun& run, int i) const {
+  const TriangleMesh& mesh = scene_->source.mesh();
+  const Vector3 shown =
+      interpolate(mesh.positions, mesh.triangles, {run.face, run.first + i * run.step});
+  double away = (shown - place).norm();
+  // What a line met may be far and something else near.
+  if (away > beyond_ && !is_nearest(run.found))
+    away = std::sqrt(scene_->source.surface->rays().nearest(place, run.face).squared_distance);
+  const double t = std::clamp(away / beyond_ - 1, 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+std::shared_ptr<const CalmWalls> CalmWalls::find(const BakeScene& scene, double beyond) {
+  auto walls = std::shared_ptr<CalmWalls>(new CalmWalls(scene, beyond));
+  const BakeTarget& target = scene.target;
+  std::vector<Probe> probes = probes_of(target);
+  std::vector<char> is_wall(probes.size());
+  parallel_for(std::ssize(probes), 256, scene.threads, [&](std::int64_t from, std::int64_t to) {
+    for (auto i = static_cast<size_t>(from); i < static_cast<size_t>(to); ++i) {
+      Probe& probe = probes[i];
+      probe.run = scene.source.surface->project(
+          target, {probe.at.face, probe.at.barycentric, probe.step, probe.below});
+      const Vector3 place = walls->on_target(probe.at.face, probe.at.barycentric);
+      is_wall[i] = walls->share(place, probe.run, 0) > 0;
+    }
+  });
+  std::vector<char> touched(static_cast<size_t>(target.positions.rows()));
+  for (size_t i = 0; i < probes.size(); ++i)
+    if (is_wall[i])
+      for (const Vertex v : target.chart.triangles.row(probes[i].at.face))
+        touched[static_cast<size_t>(v)] = 1;
+  std::vector<size_t> beside;
+  for (size_t i = 0; i < probes.size(); ++i)
+    if (!is_wall[i] &&
+        std::ranges::any_of(target.chart.triangles.row(probes[i].at.face),
+                            [&](Vertex v) { return touched[static_cast<size_t>(v)] != 0; }))
+      beside.push_back(i);
+  if (beside.empty()) return nullptr;
+  const size_t stride = (beside.size() + most_beside - 1) / most_beside;
+  for (size_t i = 0; i < beside.size(); i += stride) {
+    const Probe& probe = probes[beside[i]];
+    walls->rim_.push_back(probe.run);
+    walls->rim_points_.push_back(walls->on_target(probe.at.face, probe.at.barycentric));
+    walls->rim_areas_.push_back(probe.area);
+  }
+  return walls;
+}
+
+std::vector<float> CalmWalls::rim_values(const SurfaceField& field) const {
+  std::vector<float> values(rim_.size() * static_cast<size_t>(field.channels));
+  if (field.evaluate_runs) field.evaluate_runs(rim_, values.data());
+  return values;
+}
+
+void CalmWalls::mean(const Vector3& place, const std::vector<float>& values,
+                     std::span<float> mean) const {
+  std::array<double, 4> sums{};
+  double all = 0;
+  for (size_t i = 0; i < rim_points_.size(); ++i) {
+    const double away = (rim_points_[i] - place).squaredNorm() + beyond_ * beyond_;
+    const double weight = rim_areas_[i] / (away * away);
+    all += weight;
+    for (size_t c = 0; c < mean.size(); ++c) sums[c] += weight * values[i * mean.size() + c];
+  }
+  for (size_t c = 0; c < mean.size(); ++c) mean[c] = static_cast<float>(sums[c] / all);
+}
+
+void CalmWalls::calm(const std::shared_ptr<const CalmWalls>& walls, SurfaceField& field) {
+  const bool stands = field.name == "normal-tangent";
+  if (!walls || !(stands || (field.evaluate_runs && is_appearance(field)))) return;
+  const auto channels = static_cast<size_t>(field.channels);
+  std::vector<float> about;
+  if (!stands) about = walls->rim_values(field);
+  field.amend = [walls, about = std::move(about), channels, stands](
+                    std::span<const SurfaceRun> runs, std::span<const TexelRun> places,
+                    float* values) {
+    size_t run = 0;
+    int in_run = 0;
+    std::array<float, 4> calm = {0, 0, 1, 0};
+    for (const TexelRun& place : places) {
+      for (int i = 0; i < place.count; ++i, values += channels) {
+        const double a = place.weights[0] + i * place.step[0],
+                     b = place.weights[1] + i * place.step[1];
+        const Vector3 at = walls->on_target(place.face, {a, b, 1 - a - b});
+        const auto share = static_cast<float>(walls->share(at, runs[run], in_run));
+        if (++in_run == runs[run].count) ++run, in_run = 0;
+        if (share == 0) continue;
+        if (!stands) walls->mean(at, about, std::span(calm).first(channels));
+        for (size_t c = 0; c < channels; ++c) values[c] += share * (calm[c] - values[c]);
+      }
+    }
+  };
+}
+
+}  // namespace sphparam

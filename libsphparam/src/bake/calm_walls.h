@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "bake/bake_scene.h"
+#include "bake/surface_field.h"
+#include "bake/texel_owners.h"
+
+namespace sphparam {
+
+/// Walls of a target: what is far from the surface that is baked on it, as where a wrap closes a
+/// way through. The nearest points make streaks there, and so do those that lines along its normals
+/// meet somewhere; what stands about the wall, carried across as smoothly as can be, does not.
+///
+/// Ensures: the same for any number of threads. Source: our own; the means are those of D. Shepard,
+/// A two-dimensional interpolation function for irregularly-spaced data, 1968, of fourth power.
+class CalmWalls {
+ public:
+  /// None: no walls, or nothing beside them. Requires: a source with a `surface`, which with the
+  /// scene outlives it; beyond > 0. Cost: some projections a triangle of the target.
+  static std::shared_ptr<const CalmWalls> find(const BakeScene& scene, double beyond);
+
+  /// Lets a field be calm on walls: colours and what materials say; tangent normals stand on the
+  /// target there. Labels, places and measures stay as they are found. Cost: some hundred products
+  /// a texel on walls.
+  static void calm(const std::shared_ptr<const CalmWalls>& walls, SurfaceField& field);
+
+ private:
+  explicit CalmWalls(const BakeScene& scene, double beyond) : scene_(&scene), beyond_(beyond) {}
+  Vector3 on_target(Face f, const Vector3& weights) const;
+  double share(const Vector3& place, const SurfaceRun& run, int i) const;
+  std::vector<float> rim_values(const SurfaceField& field) const;
+  void mean(const Vector3& place, const std::vector<float>& values, std::span<float> mean) const;
+
+  const BakeScene* scene_;
+  double beyond_;
+  // Of points beside walls.
+  std::vector<SurfaceRun> rim_;
+  std::vector<Vector3> rim_points_;
+  std::vector<double> rim_areas_;
+};
+
+}  // namespace sphparam

@@ -1,0 +1,88 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "sphparam/bake/bake.h"
+#include "support/test_meshes.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+
+namespace {
+
+constexpr int width = 64;
+
+/// A ball without its top, of stripes that are red or blue.
+MeshFile bowl() {
+  MeshFile file;
+  file.mesh = icosphere(4);
+  file.mesh.positions *= 0.99;
+  std::vector<Eigen::Index> kept;
+  for (Face f = 0; f < file.mesh.face_count(); ++f)
+    if (file.mesh.position(file.mesh.triangles(f, 0)).z() < 0.6) kept.push_back(f);
+  file.mesh.triangles = Triangles(file.mesh.triangles(kept, Eigen::all));
+  Property red{"red", ScalarType::Float32, {}}, green = red, blue = red;
+  green.name = "green", blue.name = "blue";
+  for (const auto& p : file.mesh.positions.rowwise()) {
+    const bool is_red = std::sin(8 * std::atan2(p[1], p[0])) > 0;
+    red.values.push_back(is_red);
+    green.values.push_back(0);
+    blue.values.push_back(!is_red);
+  }
+  for (const Property& colour : {red, green, blue}) file.set_vertex_property(colour);
+  return file;
+}
+
+/// Three linear numbers a texel, of the bowl on a ball that closes it.
+std::vector<float> baked(const std::string& field, double calm_beyond, int threads = 1) {
+  MeshFile ball;
+  ball.mesh = icosphere(3);
+  SphereMap map{ball.mesh.positions};
+  const MappedMesh mapped({.file = std::move(ball), .map = std::move(map)});
+  BakeSettings settings{
+      .width = width, .from = bowl(), .calm_beyond = calm_beyond, .threads = threads};
+  std::vector<float> values;
+  bake_values(mapped, {field}, settings,
+              [&](size_t, const BakedField&, int, int rows, const float* row) {
+                values.insert(values.end(), row, row + 3 * rows * width);
+              });
+  return values;
+}
+
+/// How far the reds of some rows are apart.
+float spread_of_red(const std::vector<float>& values, int first_row, int rows) {
+  float least = 1, most = 0;
+  for (int i = first_row * width; i < (first_row + rows) * width; ++i) {
+    least = std::min(least, values[static_cast<size_t>(3 * i)]);
+    most = std::max(most, values[static_cast<size_t>(3 * i)]);
+  }
+  return most - least;
+}
+
+}  // namespace
+
+TEST_CASE("calm walls: a wall shows a smooth mean of what stands about it, all else is as it was") {
+  const std::vector<float> streaks = baked("vcolor", 0), calm = baked("vcolor", 0.1);
+  CHECK(spread_of_red(streaks, 0, 4) > 0.9);
+  CHECK(spread_of_red(calm, 0, 4) < 0.2);
+  CHECK(spread_of_red(calm, 0, 1) < 0.02);
+  CHECK(calm[0] == Approx(0.5).margin(0.05));
+  CHECK(calm[1] == 0);
+  // The rim is at 53°: below it nothing changes.
+  const auto below = static_cast<std::ptrdiff_t>(3 * width * (width / 2) * 56 / 180);
+  CHECK(std::equal(calm.begin() + below, calm.end(), streaks.begin() + below));
+}
+
+TEST_CASE("calm walls: tangent normals stand on a wall") {
+  const std::vector<float> calm = baked("normal-tangent", 0.1);
+  for (size_t i = 0; i < 3 * width * 4; i += 3) {
+    CHECK(calm[i] == Approx(0).margin(1e-6));
+    CHECK(calm[i + 2] == Approx(1));
+  }
+}
+
+TEST_CASE("calm walls: the same for any number of threads; places stay as they are found") {
+  CHECK(baked("vcolor", 0.1, 1) == baked("vcolor", 0.1, 3));
+  CHECK(baked("position", 0.1) == baked("position", 0));
+  CHECK(baked("vcolor", 10) == baked("vcolor", 0));  // nothing is so far
+}
