@@ -250,6 +250,31 @@ TEST_CASE("remake asset: a glTF mesh without normals is flat, others are smooth"
   }
 }
 
+TEST_CASE("remake asset: a glTF mesh without materials looks as glTF has it, others are shaded") {
+  for (const char* format : {"glTF binary", "OBJ"}) {
+    const Folder folder;
+    MeshSource asset = source_of(icosphere(1));
+    asset.file.format = format;
+    RemakeOptions options{.whole = coarse(), .width = 32};
+    options.page = false;
+    PendingFiles files;
+    const RemadeAsset made = remake_asset(asset, folder.path.string(), options, files);
+    files.publish();
+    std::vector<std::string> fields;
+    for (const BakedImage& image : made.baked.images) fields.push_back(image.field);
+    const bool is_gltf = std::string(format) != "OBJ";
+    CHECK(fields == (is_gltf ? std::vector<std::string>{"basecolor", "orm"}
+                             : std::vector<std::string>{"ao"}));
+    if (!is_gltf) continue;
+    const std::string stem = folder.path.string() + "/shape_";
+    for (int x = 0; x < 32; ++x) {
+      CHECK(read_image(stem + "basecolor.png").pixel(x, 5)[1] == 1);
+      CHECK(read_image(stem + "orm.png").pixel(x, 5)[0] == 1);
+      CHECK(read_image(stem + "orm.png").pixel(x, 5)[2] == 1);
+    }
+  }
+}
+
 TEST_CASE("remake asset: a window does not make all of it glass, which is told with its share") {
   MeshSource asset = painted(source_of(icosphere(2)));
   asset.file.materials.emplace_back("glass");

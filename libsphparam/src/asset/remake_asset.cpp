@@ -185,6 +185,16 @@ std::vector<std::string> drop_unusable_images(MeshFile& file) {
   return told;
 }
 
+/// glTF says what meshes without materials look like; others get their occlusion to be seen by.
+void add_default_material(MeshFile& file) {
+  if (!file.format.starts_with("glTF") || !file.channels.empty()) return;
+  file.materials = {"default"};
+  file.base_colours.resize(1);
+  file.channels.resize(1);
+  const auto faces = static_cast<size_t>(file.mesh.face_count());
+  file.set_face_property({"material", ScalarType::Int32, std::vector<double>(faces, 0)});
+}
+
 /// What has no normals is flat: so glTF says, and so it looks where it comes from.
 void add_flat_normals(MeshFile& file) {
   const bool has_normals = file.corner_normals || file.find_vertex_property("nx");
@@ -205,6 +215,7 @@ RemadeAsset remake_asset(const MeshSource& asset, const std::string& folder,
                          const RemakeOptions& options, PendingFiles& files) {
   MeshSource usable = asset;
   std::vector<std::string> told = drop_unusable_images(usable.file);
+  add_default_material(usable.file);
   add_flat_normals(usable.file);
   upright_axes(usable.file, options.up);  // a front that cannot be is told before any work
   note_up(usable.file, options.up);
