@@ -1,3 +1,4 @@
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -71,6 +72,43 @@ TEST_CASE("calm walls: a wall shows a smooth mean of what stands about it, all e
   // The rim is at 53°: below it nothing changes.
   const auto below = static_cast<std::ptrdiff_t>(3 * width * (width / 2) * 56 / 180);
   CHECK(std::equal(calm.begin() + below, calm.end(), streaks.begin() + below));
+}
+
+TEST_CASE("calm walls: what is masked out shows what lies close behind it, not what is far") {
+  // A green ball in one that is masked out, on a ball about both.
+  MeshFile file;
+  const TriangleMesh ball = icosphere(3);
+  const Eigen::Index n = ball.vertex_count(), faces = ball.face_count();
+  file.mesh = {Points(2 * n, 3), Triangles(2 * faces, 3)};
+  file.mesh.positions << 0.98 * ball.positions, 0.9 * ball.positions;
+  file.mesh.triangles << ball.triangles, (ball.triangles.array() + static_cast<int>(n)).matrix();
+  file.materials = {"leaves", "wall"};
+  file.base_colours = {{.factor = {1, 0, 0, 0.25}}, {.factor = {0, 1, 0, 1}}};
+  file.channels.resize(2);
+  file.channels[0].alpha_mode = AlphaMode::Mask;
+  Property material{"material", ScalarType::Int32,
+                    std::vector<double>(static_cast<size_t>(2 * faces), 1)};
+  std::fill_n(material.values.begin(), faces, 0);
+  file.set_face_property(material);
+  MeshFile about;
+  about.mesh = ball;
+  const MappedMesh mapped({.file = std::move(about), .map = SphereMap{ball.positions}});
+  const auto first = [&](double calm_beyond) {
+    std::vector<float> texel;
+    bake_values(mapped, {"basecolor"},
+                {.width = 16, .from = file, .calm_beyond = calm_beyond, .threads = 1},
+                [&](size_t, const BakedField& field, int row, int, const float* values) {
+                  CHECK(field.channels == 4);
+                  if (row == 0) texel.assign(values, values + 4);
+                });
+    return texel;
+  };
+  const auto is = [](const std::vector<float>& texel, std::array<float, 4> expected) {
+    for (size_t c = 0; c < 4; ++c) CHECK(texel.at(c) == Approx(expected[c]).margin(1e-5));
+  };
+  is(first(0.1), {0, 1, 0, 1});
+  is(first(0.03), {1, 0, 0, 0.25F});
+  is(first(0), {1, 0, 0, 0.25F});
 }
 
 TEST_CASE("calm walls: tangent normals stand on a wall") {

@@ -50,6 +50,7 @@ struct BakeScene {
   FieldOptions options;
   int threads = 0;
   bool mirrored = false;        // u of the image runs against longitude: see `Convention`
+  double calm_beyond = 0;       // as in `BakeSettings`
   bool ids_as_colours = false;  // in integer images, which cannot hold large numbers
 };
 

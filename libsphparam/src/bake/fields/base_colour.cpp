@@ -32,6 +32,7 @@ struct Painter {
   std::vector<SourceTexture> opacities;  // a texture: what its alpha is times; empty: 1
   std::vector<AlphaMode> modes;          // a texture; empty: what its alpha means is not said
   std::vector<float> cutoffs;            // a texture, of Mask
+  double close_behind = 0;               // how far what is masked out shows it; 0: a hole is one
   std::shared_ptr<const WhatIsBehind> behind;  // what blended faces are drawn over; none: nothing
 
   const SourceTexture& texture(Face f) const {
@@ -45,6 +46,7 @@ struct Painter {
     for (const SurfaceRun& run : runs) {
       paint(run, channels, values);
       if (behind && mode(run.face) == AlphaMode::Blend) cover(run, channels, values);
+      if (close_behind > 0 && mode(run.face) == AlphaMode::Mask) close(run, channels, values);
       values += channels * run.count;
     }
   }
@@ -103,6 +105,25 @@ struct Painter {
     if (is_opaque.empty() || texture_of.empty()) return false;
     const int texture = texture_of[static_cast<size_t>(f)];
     return texture < 0 || is_opaque[static_cast<size_t>(texture)];
+  }
+
+  /// Lets what is masked out show what lies close behind it.
+  void close(const SurfaceRun& run, int channels, float* values) const {
+    const float cutoff = cutoffs[static_cast<size_t>(texture_of[static_cast<size_t>(run.face)])];
+    for (int i = 0; channels == 4 && i < run.count; ++i, values += channels) {
+      if (values[3] >= cutoff) continue;
+      Sight sight = behind->through(run, i);
+      const Vector3 from = sight.from;
+      for (int layer = 0; layer < most_layers; ++layer) {
+        const auto next = behind->next(sight);
+        if (!next || (sight.from - from).norm() > close_behind) break;
+        const std::array<float, 4> colour = seen(*next);
+        if (colour[3] < 0.5F) continue;
+        std::copy_n(colour.data(), 3, values);
+        values[3] = 1;
+        break;
+      }
+    }
   }
 
   static void set_opaque(int count, float* values) {
@@ -194,7 +215,9 @@ SurfaceField make_base_colour(const BakeScene& scene, const std::string& argumen
       painter->modes.push_back(mode);
       painter->cutoffs.push_back(static_cast<float>(channels.alpha_cutoff));
     }
-    if (!blends && std::ranges::count(painter->modes, AlphaMode::Blend) > 0)
+    const auto any = [&](AlphaMode mode) { return std::ranges::count(painter->modes, mode) > 0; };
+    if (any(AlphaMode::Mask)) painter->close_behind = 2 * scene.calm_beyond;
+    if (!blends && (any(AlphaMode::Blend) || painter->close_behind > 0))
       painter->behind = std::make_shared<const WhatIsBehind>(scene);
     painter->opacities =
         TextureReader(file, TexelKind::Number, scene.threads).read(&MaterialChannels::opacity);
