@@ -68,6 +68,9 @@ function prepare(mesh) {
   const envmap = export_('envmap', 'envmap_axes', '--convention', 'envmap');
   add('envmap', envmap, 'uv', true);
   comparisons.push({ a: `${name}_envmap`, b: `${name}_axes_rays`, region: `${name}_region` });
+  const webp = export_('webp', 'graticule', '--textures', 'webp');
+  add('webp', webp, 'uv', true);
+  comparisons.push({ a: `${name}_webp`, b: `${name}_graticule_rays`, region: `${name}_region` });
   return { models, comparisons };
 }
 
