@@ -114,8 +114,9 @@ TEST_CASE("calm walls: what is masked out shows what lies close behind it, not w
 TEST_CASE("calm walls: tangent normals stand on a wall") {
   const std::vector<float> calm = baked("normal-tangent", 0.1);
   for (size_t i = 0; i < 3 * width * 4; i += 3) {
-    CHECK(calm[i] == Approx(0).margin(1e-6));
-    CHECK(calm[i + 2] == Approx(1));
+    CHECK(calm[i] == Approx(0).margin(0.1));
+    CHECK(calm[i + 1] == Approx(0).margin(0.1));
+    CHECK(calm[i + 2] > 0.99);
   }
 }
 

@@ -110,10 +110,10 @@ BakeReport bake(const MappedMesh& source, const std::vector<BakeRequest>& images
   if (with_textures && settings.texture.empty())
     for (std::string& warning : one_material(scene.source.file()).warnings)
       report.warnings.push_back(std::move(warning));
+  scene.walls = walls_of(scene, settings);
   std::vector<PlannedImage> plan;
   for (const BakeRequest& request : images) plan.push_back(plan_image(request, scene, settings));
-  const auto walls = walls_of(scene, settings);
-  for (PlannedImage& image : plan) CalmWalls::calm(walls, image.field);
+  for (PlannedImage& image : plan) CalmWalls::calm(scene.walls, image.field);
   find_ranges(plan, scene, settings);
   write_images(plan, scene, settings, texts_of_all(source, settings), files);
   for (const PlannedImage& image : plan) report.images.push_back(told(image));
@@ -133,14 +133,14 @@ std::vector<BakedField> bake_values(const MappedMesh& source, const std::vector<
                                     const BakeSettings& settings, const BakedRows& rows) {
   std::vector<BakeRequest> none;
   require_bakeable(none, settings);
-  const BakeScene scene = scene_for(source, choose_target(source, settings).target,
-                                    std::ranges::any_of(names, needs_textures), settings);
+  BakeScene scene = scene_for(source, choose_target(source, settings).target,
+                              std::ranges::any_of(names, needs_textures), settings);
   std::vector<SurfaceField> fields;
   std::vector<BakedField> baked;
-  const auto walls = walls_of(scene, settings);
+  scene.walls = walls_of(scene, settings);
   for (const std::string& name : names) {
     fields.push_back(make_covered_field(name, scene));
-    CalmWalls::calm(walls, fields.back());
+    CalmWalls::calm(scene.walls, fields.back());
     baked.push_back(told(fields.back()));
   }
   if (fields.empty()) return baked;

@@ -12,6 +12,7 @@
 
 namespace sphparam {
 
+class CalmWalls;
 class ProjectedSurface;
 
 /// The mesh that images are baked of: one with a map, or any surface about where the target is.
@@ -51,6 +52,7 @@ struct BakeScene {
   int threads = 0;
   bool mirrored = false;        // u of the image runs against longitude: see `Convention`
   double calm_beyond = 0;       // as in `BakeSettings`
+  std::shared_ptr<const CalmWalls> walls = nullptr;  // none: nothing is calm
   bool ids_as_colours = false;  // in integer images, which cannot hold large numbers
 };
 

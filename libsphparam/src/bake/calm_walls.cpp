@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "bake/projected_surface.h"
+#include "rays/flat_normal.h"
 #include "rays/interpolation.h"
 #include "sphparam/parallel.h"
 
@@ -15,15 +16,7 @@ namespace sphparam {
 namespace {
 
 constexpr int most_probes = 64;  // a triangle
-constexpr size_t most_beside = 512;
-
-/// A point of the target, and what of the surface it shows.
-struct Probe {
-  SurfacePoint at;
-  double area;
-  Vector3 step, below;
-  SurfaceRun run = {};
-};
+constexpr size_t most_beside = 512, most_on_walls = 1024;
 
 /// The i-th of n points spread over a triangle: a row of the two-dimensional sequence of the
 /// plastic number, folded into it.
@@ -45,7 +38,21 @@ std::vector<double> areas_of(const BakeTarget& target) {
   return areas;
 }
 
-std::vector<Probe> probes_of(const BakeTarget& target) {
+bool is_appearance(const SurfaceField& field) {
+  return field.kind == FieldKind::Colour || field.eight_bits;
+}
+
+}  // namespace
+
+/// A point of the target, and what of the surface it shows.
+struct CalmWalls::Probe {
+  SurfacePoint at;
+  double area;
+  Vector3 step, below;
+  SurfaceRun run = {};
+};
+
+std::vector<CalmWalls::Probe> CalmWalls::probes_of(const BakeTarget& target) {
   const std::vector<double> areas = areas_of(target);
   double all = 0;
   for (const double area : areas) all += area;
@@ -62,12 +69,6 @@ std::vector<Probe> probes_of(const BakeTarget& target) {
   return probes;
 }
 
-bool is_appearance(const SurfaceField& field) {
-  return field.kind == FieldKind::Colour || field.eight_bits;
-}
-
-}  // namespace
-
 Vector3 CalmWalls::on_target(Face f, const Vector3& weights) const {
   return interpolate(scene_->target.positions, scene_->target.chart.triangles, {f, weights});
 }
@@ -83,6 +84,41 @@ double CalmWalls::share(const Vector3& place, const SurfaceRun& run, int i) cons
     away = std::sqrt(scene_->source.surface->rays().nearest(place, run.face).squared_distance);
   const double t = std::clamp(away / beyond_ - 1, 0.0, 1.0);
   return t * t * (3 - 2 * t);
+}
+
+void CalmWalls::keep_normals(const std::vector<Probe>& probes, const std::vector<char>& is_wall) {
+  const auto count = static_cast<size_t>(std::ranges::count(is_wall, 1));
+  const size_t stride = (count + most_on_walls - 1) / std::max<size_t>(most_on_walls, 1);
+  size_t seen = 0;
+  for (size_t i = 0; i < probes.size(); ++i) {
+    if (!is_wall[i] || seen++ % stride != 0) continue;
+    const Probe& probe = probes[i];
+    const auto corner = [&](int k) -> Vector3 {
+      return scene_->target.positions.row(scene_->target.chart.triangles(probe.at.face, k));
+    };
+    wall_points_.push_back(on_target(probe.at.face, probe.at.barycentric));
+    wall_normals_.push_back(probe.area * flat_normal(corner(0), corner(1), corner(2)));
+  }
+}
+
+Vector3 CalmWalls::normal(const SurfaceSample& sample, const Vector3& own) const {
+  const Vector3 at = on_target(sample.place.face, sample.place.barycentric);
+  const double share = this->share(
+      at, {sample.point.face, 1, sample.point.barycentric, sample.step, sample.below, sample.found},
+      0);
+  if (share == 0) return own;
+  const SurfacePoint& place = sample.place;
+  const Vector3 faces = interpolate(scene_->target.outward, scene_->target.chart.triangles, place);
+  Vector3 mean = Vector3::Zero();
+  for (size_t i = 0; i < wall_points_.size(); ++i) {
+    const double alike = wall_normals_[i].dot(faces);  // not of the wall's other side
+    if (alike <= 0) continue;
+    const double away = (wall_points_[i] - at).squaredNorm() + 4 * beyond_ * beyond_;
+    mean += wall_normals_[i] / (away * away);
+  }
+  mean = mean.stableNormalized();
+  const Vector3 mixed = (1 - share) * own + share * mean;
+  return mean.isZero(0) || mixed.isZero(0) ? own : Vector3(mixed.stableNormalized());
 }
 
 std::shared_ptr<const CalmWalls> CalmWalls::find(const BakeScene& scene, double beyond) {
@@ -111,6 +147,7 @@ std::shared_ptr<const CalmWalls> CalmWalls::find(const BakeScene& scene, double 
                             [&](Vertex v) { return touched[static_cast<size_t>(v)] != 0; }))
       beside.push_back(i);
   if (beside.empty()) return nullptr;
+  walls->keep_normals(probes, is_wall);
   const size_t stride = (beside.size() + most_beside - 1) / most_beside;
   for (size_t i = 0; i < beside.size(); i += stride) {
     const Probe& probe = probes[beside[i]];
@@ -123,7 +160,7 @@ std::shared_ptr<const CalmWalls> CalmWalls::find(const BakeScene& scene, double 
 
 std::vector<float> CalmWalls::rim_values(const SurfaceField& field) const {
   std::vector<float> values(rim_.size() * static_cast<size_t>(field.channels));
-  if (field.evaluate_runs) field.evaluate_runs(rim_, values.data());
+  field.evaluate_runs(rim_, values.data());
   return values;
 }
 
@@ -141,17 +178,15 @@ void CalmWalls::mean(const Vector3& place, const std::vector<float>& values,
 }
 
 void CalmWalls::calm(const std::shared_ptr<const CalmWalls>& walls, SurfaceField& field) {
-  const bool stands = field.name == "normal-tangent";
-  if (!walls || !(stands || (field.evaluate_runs && is_appearance(field)))) return;
+  if (!walls || !field.evaluate_runs || !is_appearance(field)) return;
   const auto channels = static_cast<size_t>(field.channels);
-  std::vector<float> about;
-  if (!stands) about = walls->rim_values(field);
-  field.amend = [walls, about = std::move(about), channels, stands](
-                    std::span<const SurfaceRun> runs, std::span<const TexelRun> places,
-                    float* values) {
+  std::vector<float> about = walls->rim_values(field);
+  field.amend = [walls, about = std::move(about), channels](std::span<const SurfaceRun> runs,
+                                                            std::span<const TexelRun> places,
+                                                            float* values) {
     size_t run = 0;
     int in_run = 0;
-    std::array<float, 4> calm = {0, 0, 1, 0};
+    std::array<float, 4> calm{};
     for (const TexelRun& place : places) {
       for (int i = 0; i < place.count; ++i, values += channels) {
         const double a = place.weights[0] + i * place.step[0],
@@ -160,7 +195,7 @@ void CalmWalls::calm(const std::shared_ptr<const CalmWalls>& walls, SurfaceField
         const auto share = static_cast<float>(walls->share(at, runs[run], in_run));
         if (++in_run == runs[run].count) ++run, in_run = 0;
         if (share == 0) continue;
-        if (!stands) walls->mean(at, about, std::span(calm).first(channels));
+        walls->mean(at, about, std::span(calm).first(channels));
         for (size_t c = 0; c < channels; ++c) values[c] += share * (calm[c] - values[c]);
       }
     }

@@ -22,13 +22,19 @@ class CalmWalls {
   /// scene outlives it; beyond > 0. Cost: some projections a triangle of the target.
   static std::shared_ptr<const CalmWalls> find(const BakeScene& scene, double beyond);
 
-  /// Lets a field be calm on walls: colours and what materials say; tangent normals stand on the
-  /// target there. Labels, places and measures stay as they are found. Cost: some hundred products
-  /// a texel on walls.
+  /// The normal to be seen at a place that has this one: on walls a mean of the target's own about
+  /// it, for walls have the steps of a lattice. Unit. Cost: as `calm`.
+  Vector3 normal(const SurfaceSample& sample, const Vector3& own) const;
+
+  /// Lets a field be calm on walls: colours and what materials say. Labels, places and measures
+  /// stay as they are found. Cost: some hundred products a texel on walls.
   static void calm(const std::shared_ptr<const CalmWalls>& walls, SurfaceField& field);
 
  private:
   explicit CalmWalls(const BakeScene& scene, double beyond) : scene_(&scene), beyond_(beyond) {}
+  struct Probe;
+  static std::vector<Probe> probes_of(const BakeTarget& target);
+  void keep_normals(const std::vector<Probe>& probes, const std::vector<char>& is_wall);
   Vector3 on_target(Face f, const Vector3& weights) const;
   double share(const Vector3& place, const SurfaceRun& run, int i) const;
   std::vector<float> rim_values(const SurfaceField& field) const;
@@ -40,6 +46,8 @@ class CalmWalls {
   std::vector<SurfaceRun> rim_;
   std::vector<Vector3> rim_points_;
   std::vector<double> rim_areas_;
+  // Of points on walls.
+  std::vector<Vector3> wall_points_, wall_normals_;  // times area
 };
 
 }  // namespace sphparam

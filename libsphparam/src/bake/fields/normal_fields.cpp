@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "bake/calm_walls.h"
 #include "bake/fields/source_normal.h"
 #include "sphparam/chart/tangent_frame.h"
 
@@ -66,7 +67,8 @@ SurfaceField make_tangent_normal(const BakeScene& scene, const std::string&) {
       }
       Eigen::Matrix3d axes;
       axes << tangent, (sign < 0 ? -1 : 1) * normal.cross(tangent), normal;
-      const Vector3 n = source->at(sample);
+      const Vector3 found = source->at(sample);
+      const Vector3 n = scene.walls ? scene.walls->normal(sample, found) : found;
       Vector3 local = axes.inverse() * n;
       // Where a frame has no room (normals or tangents that cancel), nothing can be told of it.
       local = local.allFinite() && local.squaredNorm() > 0 ? local.normalized() : Vector3::UnitZ();
