@@ -1,13 +1,14 @@
 // A queue of all edges by what their collapse costs. Entries are not taken back: one that is older
-// than its ends is passed over when it comes up.
+// than its ends is passed over when it comes up, and when most are, all of them go. Corners at a
+// vertex are a list through all corners, so that those of two vertices are joined at once.
 
 #include "wrap/simplification.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <queue>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "wrap/quadric.h"
@@ -29,31 +30,91 @@ struct Collapse {
   double cost;
   Vertex from, to;  // `from` goes
   int age;          // of both ends, added up
-  Vector3 place;
 
   bool operator<(const Collapse& other) const {  // the cheapest comes first
     return std::tie(other.cost, other.from, other.to) < std::tie(cost, from, to);
   }
 };
 
+/// The corners of a mesh by their vertices, 3 f + k; faces may go and vertices become one.
+class Corners {
+ public:
+  explicit Corners(Triangles triangles, Eigen::Index vertices)
+      : vertices_(std::move(triangles)),
+        next_(static_cast<size_t>(vertices_.size()), none),
+        first_(static_cast<size_t>(vertices), none),
+        last_(first_) {
+    for (int c = 0; c < static_cast<int>(next_.size()); ++c) {
+      const auto v = static_cast<size_t>(vertices_.data()[c]);
+      (first_[v] == none ? first_[v] : next_[static_cast<size_t>(last_[v])]) = c;
+      last_[v] = c;
+    }
+  }
+
+  Vertex at(Face f, int k) const { return vertices_(f, k); }
+  bool is_gone(Face f) const { return vertices_(f, 0) < 0; }
+  bool is_empty(Vertex v) const { return first_[static_cast<size_t>(v)] == none; }
+  bool has(Face f, Vertex v) const { return at(f, 0) == v || at(f, 1) == v || at(f, 2) == v; }
+  const Triangles& triangles() const { return vertices_; }
+
+  void remove(Face f) { vertices_.row(f).setConstant(-1); }
+
+  /// Corners of `from` become those of `to`.
+  void join(Vertex from, Vertex to) {
+    for_each_face(from, [&](Face f, int k) { vertices_(f, k) = to; });
+    const auto a = static_cast<size_t>(from), b = static_cast<size_t>(to);
+    if (first_[a] == none) return;
+    (first_[b] == none ? first_[b] : next_[static_cast<size_t>(last_[b])]) = first_[a];
+    last_[b] = last_[a];
+    first_[a] = last_[a] = none;
+  }
+
+  /// visit(face, which of its corners); what is gone leaves the list.
+  template <class Visit>
+  void for_each_face(Vertex v, const Visit& visit) {
+    int before = none;
+    for (int c = first_[static_cast<size_t>(v)]; c != none;) {
+      const int next = next_[static_cast<size_t>(c)];
+      const Face f = c / 3;
+      if (is_gone(f)) {
+        (before == none ? first_[static_cast<size_t>(v)] : next_[static_cast<size_t>(before)]) =
+            next;
+        if (next == none) last_[static_cast<size_t>(v)] = before;
+      } else {
+        visit(f, c % 3);
+        before = c;
+      }
+      c = next;
+    }
+  }
+
+ private:
+  static constexpr int none = -1;
+  Triangles vertices_;  // −1: gone
+  std::vector<int> next_, first_, last_;
+};
+
 class Simplifier {
  public:
-  explicit Simplifier(const TriangleMesh& mesh)
+  explicit Simplifier(TriangleMesh mesh)
       : centre_((mesh.positions.colwise().minCoeff() + mesh.positions.colwise().maxCoeff()) / 2),
-        places_(mesh.positions.rowwise() - centre_),
-        corners_(mesh.triangles),
-        faces_(static_cast<size_t>(mesh.vertex_count())),
-        quadrics_(faces_.size()),
-        ages_(faces_.size(), 0),
-        left_(mesh.face_count()) {
-    for (Face f = 0; f < mesh.face_count(); ++f) {
+        places_(std::move(mesh.positions)),
+        corners_(std::move(mesh.triangles), places_.rows()),
+        quadrics_(static_cast<size_t>(places_.rows())),
+        ages_(quadrics_.size(), 0),
+        stamps_(quadrics_.size(), 0),
+        left_(corners_.triangles().rows()) {
+    places_.rowwise() -= centre_;
+    for (Face f = 0; f < left_; ++f) {
       const Quadric plane = Quadric::of_triangle(place(f, 0), place(f, 1), place(f, 2));
-      for (const Vertex v : corners_.row(f)) {
-        faces_[static_cast<size_t>(v)].push_back(f);
-        quadrics_[static_cast<size_t>(v)] += plane;
-      }
+      for (int k = 0; k < 3; ++k) quadrics_[static_cast<size_t>(corners_.at(f, k))] += plane;
     }
-    for (Vertex v = 0; v < mesh.vertex_count(); ++v) push_edges(v, true);
+    queue_.reserve(static_cast<size_t>(most_entries()));
+    for (Vertex v = 0; v < places_.rows(); ++v)
+      for_each_neighbour(v, [&](Vertex w) {
+        if (w > v) queue_.push_back(collapse_of(v, w));
+      });
+    std::make_heap(queue_.begin(), queue_.end());
   }
 
   void run(long triangles, const Progress& progress) {
@@ -62,29 +123,31 @@ class Simplifier {
       if (step % steps_a_look == 0)
         report(progress, "simplify",
                static_cast<double>(all - left_) / static_cast<double>(all - triangles));
-      const Collapse next = queue_.top();
-      queue_.pop();
-      if (is_current(next) && keeps_topology(next) && keeps_shape(next)) collapse(next);
+      std::pop_heap(queue_.begin(), queue_.end());
+      const Collapse next = queue_.back();
+      queue_.pop_back();
+      if (!is_current(next) || !keeps_topology(next)) continue;
+      const Vector3 to = best_place(next.from, next.to);
+      if (keeps_shape(next, to)) collapse(next, to);
     }
   }
 
-  TriangleMesh result() const {
-    std::vector<Vertex> number(faces_.size(), -1);
+  TriangleMesh result() {
+    std::vector<Vertex> number(quadrics_.size(), -1);
     TriangleMesh mesh;
-    mesh.positions.resize(places_.rows(), 3);
     mesh.triangles.resize(left_, 3);
     Vertex vertices = 0;
-    for (size_t v = 0; v < faces_.size(); ++v) {
-      if (faces_[v].empty()) continue;
-      mesh.positions.row(vertices) = places_.row(static_cast<Eigen::Index>(v)) + centre_;
-      number[v] = vertices++;
+    for (Vertex v = 0; v < places_.rows(); ++v) {
+      if (corners_.is_empty(v)) continue;
+      places_.row(vertices) = places_.row(v);
+      number[static_cast<size_t>(v)] = vertices++;
     }
-    mesh.positions.conservativeResize(vertices, 3);
+    mesh.positions = places_.topRows(vertices).rowwise() + centre_;
     Face count = 0;
-    for (Eigen::Index f = 0; f < corners_.rows(); ++f) {
-      if (corners_(f, 0) < 0) continue;
+    for (Face f = 0; f < corners_.triangles().rows(); ++f) {
+      if (corners_.is_gone(f)) continue;
       for (int k = 0; k < 3; ++k)
-        mesh.triangles(count, k) = number[static_cast<size_t>(corners_(f, k))];
+        mesh.triangles(count, k) = number[static_cast<size_t>(corners_.at(f, k))];
       ++count;
     }
     return mesh;
@@ -92,112 +155,119 @@ class Simplifier {
 
  private:
   Vector3 place(Vertex v) const { return places_.row(v); }
-  Vector3 place(Face f, int k) const { return places_.row(corners_(f, k)); }
-  const std::vector<Face>& faces(Vertex v) const { return faces_[static_cast<size_t>(v)]; }
+  Vector3 place(Face f, int k) const { return places_.row(corners_.at(f, k)); }
   int& age(Vertex v) { return ages_[static_cast<size_t>(v)]; }
-  bool has(Face f, Vertex v) const {
-    return corners_(f, 0) == v || corners_(f, 1) == v || corners_(f, 2) == v;
+
+  /// Twice as many as there are edges, so that old entries are half of them at most.
+  long most_entries() const { return 3 * left_; }
+
+  /// Each once.
+  template <class Visit>
+  void for_each_neighbour(Vertex v, const Visit& visit) {
+    const int stamp = ++last_stamp_;
+    corners_.for_each_face(v, [&](Face f, int k) {
+      for (const int other : {1, 2}) {
+        const Vertex w = corners_.at(f, (k + other) % 3);
+        if (std::exchange(stamps_[static_cast<size_t>(w)], stamp) != stamp) visit(w);
+      }
+    });
   }
 
-  std::vector<Vertex> neighbours(Vertex v) const {
-    std::vector<Vertex> found;
-    for (const Face f : faces(v))
-      for (const Vertex w : corners_.row(f))
-        if (w != v) found.push_back(w);
-    std::ranges::sort(found);
-    found.erase(std::ranges::unique(found).begin(), found.end());
-    return found;
+  Quadric quadric_of(Vertex a, Vertex b) const {
+    return quadrics_[static_cast<size_t>(a)] + quadrics_[static_cast<size_t>(b)];
   }
 
-  void push(Vertex a, Vertex b) {
-    const Quadric both = quadrics_[static_cast<size_t>(a)] + quadrics_[static_cast<size_t>(b)];
-    const Vector3 best = both.lowest((place(a) + place(b)) / 2);
-    queue_.push({both.at(best), std::max(a, b), std::min(a, b), age(a) + age(b), best});
+  Vector3 best_place(Vertex a, Vertex b) const {
+    return quadric_of(a, b).lowest((place(a) + place(b)) / 2);
   }
 
-  void push_edges(Vertex v, bool only_greater = false) {
-    for (const Vertex w : neighbours(v))
-      if (!only_greater || w > v) push(v, w);
+  Collapse collapse_of(Vertex a, Vertex b) {
+    const Quadric both = quadric_of(a, b);
+    return {both.at(both.lowest((place(a) + place(b)) / 2)), std::max(a, b), std::min(a, b),
+            age(a) + age(b)};
+  }
+
+  void push_edges(Vertex v) {
+    for_each_neighbour(v, [&](Vertex w) {
+      queue_.push_back(collapse_of(v, w));
+      std::push_heap(queue_.begin(), queue_.end());
+    });
+    if (std::ssize(queue_) <= most_entries()) return;
+    std::erase_if(queue_, [&](const Collapse& edge) { return !is_current(edge); });
+    std::make_heap(queue_.begin(), queue_.end());
   }
 
   bool is_current(const Collapse& edge) {
-    return !faces(edge.from).empty() && !faces(edge.to).empty() &&
+    return !corners_.is_empty(edge.from) && !corners_.is_empty(edge.to) &&
            age(edge.from) + age(edge.to) == edge.age;
   }
 
   /// The link condition; a tetrahedron stays.
-  bool keeps_topology(const Collapse& edge) const {
+  bool keeps_topology(const Collapse& edge) {
     if (left_ <= 4) return false;
-    const std::vector<Vertex> a = neighbours(edge.from), b = neighbours(edge.to);
-    std::vector<Vertex> both;
-    std::ranges::set_intersection(a, b, std::back_inserter(both));
-    return both.size() == 2;
+    for_each_neighbour(edge.from, [](Vertex) {});
+    const int of_from = last_stamp_;
+    int common = 0;
+    corners_.for_each_face(edge.to, [&](Face f, int k) {
+      // Each neighbour of a vertex of a closed surface is once the next corner of a face.
+      common += stamps_[static_cast<size_t>(corners_.at(f, (k + 1) % 3))] == of_from;
+    });
+    return common == 2;
   }
 
-  bool keeps_shape(const Collapse& edge) const {
-    return keeps_faces(edge.from, edge.to, edge.place) &&
-           keeps_faces(edge.to, edge.from, edge.place);
+  bool keeps_shape(const Collapse& edge, const Vector3& to) {
+    return keeps_faces(edge.from, edge.to, to) && keeps_faces(edge.to, edge.from, to);
   }
 
   /// Whether the triangles that stay may have their corner v moved.
-  bool keeps_faces(Vertex v, Vertex other, const Vector3& to) const {
-    return std::ranges::all_of(faces(v), [&](Face f) {
-      if (has(f, other)) return true;
-      std::array<Vector3, 3> old, now;
-      for (int k = 0; k < 3; ++k) {
-        const auto i = static_cast<size_t>(k);
-        old[i] = place(f, k);
-        now[i] = corners_(f, k) == v ? to : old[i];
-      }
-      const Vector3 before = (old[1] - old[0]).cross(old[2] - old[0]),
-                    after = (now[1] - now[0]).cross(now[2] - now[0]);
-      const double good = quality(now[0], now[1], now[2]);
-      return before.dot(after) >= least_cosine * before.norm() * after.norm() &&
-             (good >= least_quality || good >= quality(old[0], old[1], old[2]));
+  bool keeps_faces(Vertex v, Vertex other, const Vector3& to) {
+    bool keeps = true;
+    corners_.for_each_face(v, [&](Face f, int k) {
+      if (keeps && !corners_.has(f, other)) keeps = keeps_face(f, k, to);
     });
+    return keeps;
   }
 
-  void collapse(const Collapse& edge) {
-    places_.row(edge.to) = edge.place;
+  bool keeps_face(Face f, int moved, const Vector3& to) const {
+    const std::array<Vector3, 3> old = {place(f, 0), place(f, 1), place(f, 2)};
+    std::array<Vector3, 3> now = old;
+    now[static_cast<size_t>(moved)] = to;
+    const Vector3 before = (old[1] - old[0]).cross(old[2] - old[0]),
+                  after = (now[1] - now[0]).cross(now[2] - now[0]);
+    const double good = quality(now[0], now[1], now[2]);
+    return before.dot(after) >= least_cosine * before.norm() * after.norm() &&
+           (good >= least_quality || good >= quality(old[0], old[1], old[2]));
+  }
+
+  void collapse(const Collapse& edge, const Vector3& to) {
+    places_.row(edge.to) = to;
     quadrics_[static_cast<size_t>(edge.to)] += quadrics_[static_cast<size_t>(edge.from)];
-    std::vector<Face>& gone = faces_[static_cast<size_t>(edge.from)];
-    for (const Face f : gone) {
-      if (has(f, edge.to)) {
-        remove(f, edge.from);
-        continue;
-      }
-      for (int k = 0; k < 3; ++k)
-        if (corners_(f, k) == edge.from) corners_(f, k) = edge.to;
-      faces_[static_cast<size_t>(edge.to)].push_back(f);
-    }
-    gone.clear();
+    corners_.for_each_face(edge.from, [&](Face f, int) {
+      if (!corners_.has(f, edge.to)) return;
+      corners_.remove(f);
+      --left_;
+    });
+    corners_.join(edge.from, edge.to);
     ++age(edge.to);
     push_edges(edge.to);
   }
 
-  /// From the lists of its corners too, but for one.
-  void remove(Face f, Vertex but) {
-    for (const Vertex v : corners_.row(f))
-      if (v != but) std::erase(faces_[static_cast<size_t>(v)], f);
-    corners_.row(f).setConstant(-1);
-    --left_;
-  }
-
   Eigen::RowVector3d centre_;
-  Points places_;      // about the centre, so that quadrics lose no digits
-  Triangles corners_;  // −1: gone
-  std::vector<std::vector<Face>> faces_;
+  Points places_;  // about the centre, so that quadrics lose no digits
+  Corners corners_;
   std::vector<Quadric> quadrics_;
-  std::vector<int> ages_;  // how often a vertex has moved
+  std::vector<int> ages_;    // how often a vertex has moved
+  std::vector<int> stamps_;  // of the visit of neighbours that came to a vertex last
+  int last_stamp_ = 0;
   long left_;
-  std::priority_queue<Collapse> queue_;
+  std::vector<Collapse> queue_;  // a heap
 };
 
 }  // namespace
 
-TriangleMesh simplified(const TriangleMesh& sphere, long triangles, const Progress& progress) {
+TriangleMesh simplified(TriangleMesh sphere, long triangles, const Progress& progress) {
   if (sphere.face_count() <= triangles) return sphere;
-  Simplifier simplifier(sphere);
+  Simplifier simplifier(std::move(sphere));
   simplifier.run(triangles, progress);
   return simplifier.result();
 }

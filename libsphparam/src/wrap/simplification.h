@@ -17,6 +17,6 @@ namespace sphparam {
 /// where the surface is flat.
 /// Requires: a closed manifold of genus 0. Ensures: `require_sphere` takes it.
 /// Throws: Cancelled. Cost: O(#F log #F), about 3 µs a triangle, one thread.
-TriangleMesh simplified(const TriangleMesh& sphere, long triangles, const Progress& progress = {});
+TriangleMesh simplified(TriangleMesh sphere, long triangles, const Progress& progress = {});
 
 }  // namespace sphparam

@@ -142,6 +142,13 @@ Solid ball_about(const Lattice& lattice, const std::vector<float>& field,
   return ball;
 }
 
+TriangleMesh surface_about(const TriangleMesh& soup, const Lattice& lattice,
+                           const WrapOptions& options, Wrap& wrap) {
+  const std::vector<float> field =
+      distance_field(RayScene(soup), lattice, wrap.distance, options.threads, options.progress);
+  return level_surface(lattice, field, ball_about(lattice, field, options, wrap));
+}
+
 /// By the first face that a ray from the point meets: its normal goes with the ray out of the wrap.
 bool encloses(const TriangleMesh& wrap, const RayScene& scene, const Vector3& point) {
   const Vector3 ray = Vector3(0.36, 0.48, 0.8);
@@ -180,12 +187,11 @@ Wrap wrap_soup(const TriangleMesh& soup, const WrapOptions& options) {
   require_at_least("distance", wrap.distance, wrap.voxel);
   const Lattice lattice = lattice_about(box, wrap.voxel, wrap.distance);
   wrap.lattice = lattice.points;
-  const std::vector<float> field =
-      distance_field(RayScene(soup), lattice, wrap.distance, options.threads, options.progress);
-  wrap.mesh = level_surface(lattice, field, ball_about(lattice, field, options, wrap));
+  wrap.mesh = surface_about(soup, lattice, options, wrap);
   require_sphere(wrap.mesh);
   wrap.lattice_faces = wrap.mesh.face_count();
-  if (options.faces > 0) wrap.mesh = simplified(wrap.mesh, options.faces, options.progress);
+  if (options.faces > 0)
+    wrap.mesh = simplified(std::move(wrap.mesh), options.faces, options.progress);
   count_outside(soup, used, options.threads, wrap);
   wrap.apart = measure_distance(wrap.mesh, soup,
                                 {.samples = samples,
