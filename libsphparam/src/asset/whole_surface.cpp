@@ -11,6 +11,7 @@
 #include "sphparam/chart/spherical_chart.h"
 #include "sphparam/errors.h"
 #include "sphparam/io/paths.h"
+#include "sphparam/io/repair_advice.h"
 #include "sphparam/io/up_axis.h"
 #include "sphparam/io/upright_frame.h"
 #include "sphparam/mesh/mesh_defects.h"
@@ -109,7 +110,7 @@ class Chooser {
   }
 
   std::optional<WholeSurface> mended_whole() {
-    const RepairTrial trial = try_repair(asset_);
+    const RepairTrial trial = try_repair_unasked(asset_);
     if (!trial.mends_unasked()) return std::nullopt;
     if (trial.parts.area_share < options_.least_kept) {
       found_.push_back("repair would keep " + percent(trial.parts.area_share) + " of the area");

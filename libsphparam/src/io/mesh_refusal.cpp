@@ -119,6 +119,13 @@ MeshSource with_repairs(MeshSource source, RepairedMesh mended) {
   return source;
 }
 
+RepairTrial trial_of(const MeshSource& source, const RepairOptions& options, RepairedMesh mended,
+                     KeptParts parts) {
+  return {options, by_file_numbers(std::move(mended.actions), source),
+          fatal_ones(mended.inspection), by_file_numbers(std::move(parts), source),
+          by_file_numbers(std::move(mended.handles), source)};
+}
+
 }  // namespace
 
 bool RepairTrial::mends_unasked() const {
@@ -184,10 +191,15 @@ RepairTrial try_repair_beyond(const MeshSource& source, const RepairOptions& wan
       }
     }
     options.longest_handle = limit_for(mended.handles);
-    return {options, by_file_numbers(mended.actions, source), fatal_ones(mended.inspection),
-            by_file_numbers(std::move(parts), source),
-            by_file_numbers(std::move(mended.handles), source)};
+    return trial_of(source, options, std::move(mended), std::move(parts));
   }
+}
+
+RepairTrial try_repair_unasked(const MeshSource& source) {
+  const RepairOptions unasked;
+  RepairedMesh mended = repair_mesh(source.file.mesh, unasked);
+  KeptParts parts = mended.parts;
+  return trial_of(source, unasked, std::move(mended), std::move(parts));
 }
 
 void require_mappable(const MeshSource& source) {

@@ -145,7 +145,7 @@ Solid ball_about(const Lattice& lattice, const std::vector<float>& field,
 TriangleMesh surface_about(const TriangleMesh& soup, const Lattice& lattice,
                            const WrapOptions& options, Wrap& wrap) {
   const std::vector<float> field =
-      distance_field(RayScene(soup), lattice, wrap.distance, options.threads, options.progress);
+      distance_field(soup, lattice, wrap.distance, options.threads, options.progress);
   return level_surface(lattice, field, ball_about(lattice, field, options, wrap));
 }
 

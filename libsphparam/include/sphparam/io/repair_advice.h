@@ -10,6 +10,9 @@ namespace sphparam {
 /// weld and the kind of handle that were chosen stay so. Throws: NoSuchComponent.
 RepairTrial try_repair_beyond(const MeshSource& source, const RepairOptions& wanted);
 
+/// No more than what repair does unasked, once: whether that is enough.
+RepairTrial try_repair_unasked(const MeshSource& source);
+
 /// Several lines for people: what repair would do to the mesh of this file and what to type, or
 /// that it cannot help and why. `command`: what to type; empty: a plain `sphparam map`.
 std::string repair_advice(const RepairTrial& trial, const std::string& path,
