@@ -81,9 +81,11 @@ int decode_webp(const WebpHead& head, const char* bytes, size_t size, SphparamPi
   const Complaint complain{error, error_context};
   const auto* const data = reinterpret_cast<const std::uint8_t*>(bytes);
   const auto decode = head.channels == 4 ? WebPDecodeRGBA : WebPDecodeRGB;
-  const std::unique_ptr<std::uint8_t, void (*)(void*)> samples(decode(data, size, nullptr, nullptr),
+  int width = 0, height = 0;
+  const std::unique_ptr<std::uint8_t, void (*)(void*)> samples(decode(data, size, &width, &height),
                                                                WebPFree);
-  if (!samples) return complain("a WebP image that is broken or cut short");
+  if (!samples || width != head.width || height != head.height)
+    return complain("a WebP image that is broken or cut short");
   float* const pixels = room(room_context, head.width, head.height, head.channels);
   if (!pixels) return complain("not enough memory");
   const int row = head.width * head.channels;
