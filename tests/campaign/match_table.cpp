@@ -8,7 +8,8 @@
 //
 // Distances are of paths along edges and across pairs of triangles, as Dijkstra finds them: some
 // per cent too long, never too short. A pair belongs to the third that was held out when its number
-// leaves 2 divided by 3. Landmarks are no points that errors are measured at.
+// leaves 2 divided by 3. Landmarks are no points that errors are measured at. With --pictures the
+// worst pair of each line of the table is drawn, both surfaces coloured by places on the second.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -18,14 +19,17 @@
 #include <fstream>
 #include <limits>
 #include <map>
+#include <optional>
 #include <queue>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "compare/pictures.h"
 #include "correspondence/surface_roads.h"
 #include "mesh/triangle_geometry.h"
+#include "showcase/match_pictures.h"
 #include "sphparam/correspondence/match.h"
 #include "sphparam/io/mapped_mesh.h"
 #include "sphparam/stopwatch.h"
@@ -58,6 +62,7 @@ struct Set {
 };
 
 struct Outcome {
+  std::optional<SurfaceMap> map = {};
   bool certified = false;
   double error = 0, most = 0, seconds = 0, energy = 0, confidence = 1;
   std::string complaint;
@@ -124,6 +129,7 @@ Outcome score(const Shape& from, const Shape& to, const SurfaceRoads& from_roads
   outcome.certified = match.map.from().certificate().bijective();
   outcome.energy = match.energy;
   outcome.confidence = match.confidence;
+  outcome.map = match.map;
   const std::vector<SurfacePoint> forth = match.map.forth(threads);
   const size_t count = std::min(from.truth.size(), to.truth.size());
   const size_t stride = std::max<size_t>(1, count / static_cast<size_t>(most_points));
@@ -183,7 +189,17 @@ struct Tally {
   int pairs = 0, certified = 0;
   double error = 0, worst = 0, seconds = 0, slowest = 0;
   std::vector<double> errors;
+  std::optional<SurfaceMap> worst_map = {};
 };
+
+void draw_worst(const std::string& folder, const std::string& name, const Tally& tally,
+                int threads) {
+  if (folder.empty() || !tally.worst_map) return;
+  fs::create_directories(folder);
+  const MatchPictures pictures(*tally.worst_map, {}, {.up = Vector3::UnitY(), .threads = threads});
+  std::ofstream(fs::path(folder) / (name + ".png"), std::ios::binary)
+      << png(pictures.places(false));
+}
 
 void tell(const std::string& name, const Tally& tally) {
   if (tally.pairs == 0) return;
@@ -198,7 +214,8 @@ void tell(const std::string& name, const Tally& tally) {
       tally.seconds / tally.pairs, tally.slowest);
 }
 
-void run(const Set& set, int every, int offset, int most_points, int threads, std::ofstream& log) {
+void run(const Set& set, int every, int offset, int most_points, int threads,
+         const std::string& pictures, std::ofstream& log) {
   std::map<std::string, Shape> shapes;
   std::map<std::string, SurfaceRoads> roads;
   const auto prepare = [&](const std::string& name) {
@@ -222,7 +239,10 @@ void run(const Set& set, int every, int offset, int most_points, int threads, st
     if (outcome.complaint.empty()) {
       tally.errors.push_back(outcome.error);
       tally.error += outcome.error;
-      tally.worst = std::max(tally.worst, outcome.error);
+      if (outcome.error >= tally.worst) {
+        tally.worst = outcome.error;
+        tally.worst_map = outcome.map;
+      }
     }
     log << set.name << '\t' << i << '\t' << first << '\t' << second << '\t' << outcome.error << '\t'
         << outcome.most << '\t' << outcome.energy << '\t' << outcome.seconds << '\t'
@@ -230,6 +250,9 @@ void run(const Set& set, int every, int offset, int most_points, int threads, st
   }
   tell(set.name + ", developed on", developed);
   tell(set.name + ", held out", held);
+  const std::string name = set.name + (set.landmarks == 0 ? " without landmarks" : "");
+  draw_worst(pictures, name, developed, threads);
+  draw_worst(pictures, name + ", held out", held, threads);
 }
 
 // Pairs of the program of Schmidt et al., "Surface maps via adaptive triangulations" (2023), with
@@ -294,7 +317,7 @@ void run_example(const fs::path& data, const Example& example, int threads) try 
 
 int main(int argc, char** argv) {
   CLI::App app("Scores matches of surfaces against known correspondences.");
-  std::string bcicp, shrec, schmidt, log_path = "match_table.tsv";
+  std::string bcicp, shrec, schmidt, pictures, log_path = "match_table.tsv";
   bool none = false;
   int every = 1, offset = 0, points = 500, threads = 0;
   app.add_option("--bcicp", bcicp, "The folder Dataset of SGA18_orientation_BCICP_dataset");
@@ -302,6 +325,7 @@ int main(int argc, char** argv) {
   app.add_option("--schmidt", schmidt, "data of surface-maps-via-adaptive-triangulations");
   app.add_flag("--without-landmarks", none);
   app.add_option("--log", log_path, "A line a pair");
+  app.add_option("--pictures", pictures, "A folder for pictures of the worst pairs");
   app.add_option("--every", every, "Only every so many pairs")->check(CLI::PositiveNumber);
   app.add_option("--offset", offset, "The first of these")->check(CLI::NonNegativeNumber);
   app.add_option("--points", points, "At most, of the truth, that are measured a pair");
@@ -313,12 +337,13 @@ int main(int argc, char** argv) {
     return set;
   };
   if (!bcicp.empty()) {
-    run(with(bcicp_set(fs::path(bcicp) / "FAUST", false)), every, offset, points, threads, log);
+    run(with(bcicp_set(fs::path(bcicp) / "FAUST", false)), every, offset, points, threads, pictures,
+        log);
     run(with(bcicp_set(fs::path(bcicp) / "TOSCA_nonIsometric", true)), every, offset, points,
-        threads, log);
+        threads, pictures, log);
   }
   if (!schmidt.empty())
     for (const Example& example : examples()) run_example(schmidt, example, threads);
-  if (!shrec.empty()) run(with(shrec_set(shrec)), every, offset, points, threads, log);
+  if (!shrec.empty()) run(with(shrec_set(shrec)), every, offset, points, threads, pictures, log);
   return 0;
 }
