@@ -75,12 +75,12 @@ TEST_CASE("map_record: what was asked for, what came out, by the numbers of the 
                         .chart = report_chart(source.file.mesh, result.map, 0),
                         .outputs = {{"map", "ball.sph.ply"}},
                         .seconds = 1.5}));
-  CHECK(
-      keys_of(json) ==
-      "sphparam,command,input,inspection,repairs,handles,added,components,options,account,like,stages,"
-      "made_by,poles,meridian,radial,alignment,pole_residuals,pins,lambda,"
-      "filler_share,balance,energy_gap,energy_cost,certificate,"
-      "distortion,chart,outputs,warnings,notes,seconds");
+  CHECK(keys_of(json) ==
+        "sphparam,command,input,inspection,repairs,handles,added,components,options,account,like,"
+        "stages,"
+        "made_by,poles,meridian,radial,alignment,pole_residuals,pins,lambda,"
+        "filler_share,balance,energy_gap,energy_cost,certificate,"
+        "distortion,chart,outputs,warnings,notes,seconds");
   REQUIRE(result.energy_gap);
   CHECK(json["energy_gap"] == *result.energy_gap);
   CHECK(json["input"]["file"] == "folder/ball.ply");
@@ -327,13 +327,21 @@ TEST_CASE("export_record: what is proved of each level, and the files") {
   chart.splits = 3;
   ExportRecord record{.input = "ball.ply", .charts = {chart}, .outputs = {{"ball.glb", 1234}}};
   Json json = Json::parse(to_json(record));
-  CHECK(keys_of(json) == "sphparam,command,input,levels,outputs,seconds");
+  CHECK(keys_of(json) == "sphparam,command,input,levels,outputs,textures,seconds");
+  CHECK(json["textures"].empty());
   CHECK(json["levels"][0]["splits"] == 3);
   CHECK(json["levels"][0]["chart_certified"] == false);
   CHECK_FALSE(json["levels"][0].contains("sphere_folds_as_stored"));
   CHECK(json["outputs"] == Json::array({{{"file", "ball.glb"}, {"bytes", 1234}}}));
   record.charts[0].sphere_folds = 0;
+  record.textures = {
+      {.name = "skin", .kind = "webp", .given_bytes = 100, .bytes = 80, .exact = true}};
   json = Json::parse(to_json(record));
+  CHECK(json["textures"][0] == Json({{"name", "skin"},
+                                     {"kind", "webp"},
+                                     {"bytes", 80},
+                                     {"bytes_as_given", 100},
+                                     {"exact", true}}));
   CHECK(json["levels"][0]["sphere_folds_as_stored"] == 0);
 }
 
