@@ -132,6 +132,14 @@ std::string hint_of_json(const CLI::App& command, const CLI::ParseError& error) 
   return missing || swallowed ? "; --json takes a file, `--json -` is standard output" : "";
 }
 
+/// Where an option complains whose name stood for another one once.
+std::string hint_of_rename(const CLI::App& command, const CLI::ParseError& error) {
+  const std::string message = error.what();
+  const std::string now =
+      present_spelling(command.get_name(), message.substr(0, message.find(':')));
+  return now.empty() ? "" : "; " + now;
+}
+
 /// The subcommand that was asked for, of a subcommand where that has some; else the program.
 const CLI::App& chosen_command(const CLI::App& program) {
   const std::vector<CLI::App*> chosen = program.get_subcommands();
@@ -153,7 +161,7 @@ std::string explain(const CLI::App& program, const CLI::ParseError& error) {
     if (wants_subcommand)
       return "unknown subcommand " + word + did_you_mean(word, command_names(app));
   }
-  return error.what() + hint_of_json(app, error);
+  return error.what() + hint_of_json(app, error) + hint_of_rename(app, error);
 }
 
 int usage_error(const CLI::App& program, const std::string& message) {
