@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -68,6 +69,30 @@ TEST_CASE("asset: what stood in the way is told in plain words, with figures by 
   std::vector<std::string> wordy = line;
   wordy.emplace_back("-v");
   CHECK_THAT(sphparam_program(wordy, obj_text(open)).err, Contains("3 boundary edges"));
+}
+
+TEST_CASE("asset: a vertex without a place is left out, and what no number holds is refused") {
+  const Folder folder;
+  TriangleMesh open = icosphere(2);
+  open.triangles.conservativeResize(open.face_count() / 2, 3);
+  const auto made = [&](const TriangleMesh& mesh) {
+    return sphparam_program(
+        {"asset", "-", "-o", folder / "made", "--size", "64", "--resolution", "16", "--no-page"},
+        obj_text(mesh));
+  };
+  TriangleMesh without = open, huge = icosphere(2);
+  without.positions.row(without.triangles(0, 0)).setConstant(std::nan(""));
+  const Ended wrapped = made(without);
+  INFO(wrapped.err);
+  CHECK(wrapped.code == 0);
+  huge.positions *= 1e60;
+  const Ended beyond_floats = made(huge);
+  CHECK(beyond_floats.code == 4);
+  CHECK_THAT(beyond_floats.err, Contains("float32") && !Contains("internal"));
+  open.positions *= 1e150;
+  const Ended beyond_doubles = made(open);
+  CHECK(beyond_doubles.code == 4);
+  CHECK_THAT(beyond_doubles.err, Contains("scale the mesh down") && !Contains("internal"));
 }
 
 TEST_CASE("asset: with --up and --front the map stands as the asset does, a wrap's too") {

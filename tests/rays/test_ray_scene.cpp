@@ -210,6 +210,20 @@ TEST_CASE("ray scene: bundles say what single rays say, for any number of rays")
   }
 }
 
+TEST_CASE("ray scene: what is no ray meets nothing, and does not disturb those beside it") {
+  const RayScene scene(icosphere(2));
+  const double none = std::nan("");
+  const Vector3 origin(3, 0, 0), way(-1, 0, 0);
+  const std::vector<Ray> rays = {{origin, Vector3::Constant(none), 9},
+                                 {Vector3(none, 0, 0), way, 9},
+                                 {origin, way, 9},
+                                 {origin, way, none}};
+  std::vector<RayHit> hits(rays.size());
+  scene.first_hits(rays, hits);
+  for (const size_t i : {0u, 1u, 3u}) CHECK(hits[i].face < 0);
+  CHECK(hits[2].distance == Approx(2).margin(0.1));
+}
+
 TEST_CASE("ray scene: rays side by side meet what they meet alone, each within its own reach") {
   const TriangleMesh ball = random_sphere_mesh(300, 5);  // crumpled
   const RayScene scene(ball);

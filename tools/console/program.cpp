@@ -295,6 +295,8 @@ int guarded_main(int argc, char** argv) {
     return mesh_error(error, "");
   } catch (const UnmeasurableMesh& error) {
     return told(error, MeshUnusable);
+  } catch (const std::range_error& error) {  // what numbers of the file that is wanted cannot hold
+    return told(error, MeshUnusable);
   } catch (const NotCertifiedError& error) {
     return told(error, NotCertified);
   } catch (const ReadError& error) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "asset/asset_page.h"
+#include "asset/with_places.h"
 #include "io/attributes/one_material.h"
 #include "rays/flat_normal.h"
 #include "sphparam/io/certified_files.h"
@@ -86,7 +87,7 @@ class Remaker {
                           .source_name = display_name(asset_.path),
                           .threads = options_.whole.threads,
                           .progress = options_.whole.progress};
-    if (!is_itself()) settings.from = asset_.file;
+    if (!is_itself()) settings.from = with_places(asset_);
     if (remade_.whole.by == WholeBy::Wrap) settings.calm_beyond = walls_beyond * voxel();
     return settings;
   }

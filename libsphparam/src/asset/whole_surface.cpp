@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "asset/asset_words.h"
+#include "asset/with_places.h"
 #include "number_text.h"
 #include "option_domain.h"
 #include "sphparam/chart/spherical_chart.h"
@@ -132,16 +133,8 @@ class Chooser {
     return whole(*std::move(mapped), WholeBy::Repair, trial.parts.area_share);
   }
 
-  /// Vertices without a place go; the rest is a soup.
-  MeshFile soup() const {
-    if (asset_.file.mesh.positions.allFinite()) return asset_.file;
-    RepairOptions finite = RepairOptions::none();
-    finite.non_finite = true;
-    return mended(asset_, finite).file;
-  }
-
   WholeSurface wrapped() {
-    const MeshFile file = soup();
+    const MeshFile file = with_places(asset_);
     const Wrap wrap = wrap_soup(file.mesh, wrap_options(file.mesh));
     MeshFile bare;  // all that it carries is baked
     bare.mesh = file.mesh;
@@ -164,7 +157,9 @@ class Chooser {
                      .faces = options_.faces,
                      .threads = options_.threads,
                      .progress = options_.progress};
-    wrap.voxel = wrap.distance = longest_side(mesh) / options_.resolution;
+    constexpr double largest =
+        1e70;  // a mesh that wants more is refused as too large, by `wrap_soup`
+    wrap.voxel = wrap.distance = std::min(longest_side(mesh) / options_.resolution, largest);
     return wrap;
   }
 
@@ -174,6 +169,13 @@ class Chooser {
 };
 
 }  // namespace
+
+MeshFile with_places(const MeshSource& asset) {
+  if (asset.file.mesh.positions.allFinite()) return asset.file;
+  RepairOptions finite = RepairOptions::none();
+  finite.non_finite = true;
+  return mended(asset, finite).file;
+}
 
 const char* word_of(WholeBy by) {
   switch (by) {

@@ -173,8 +173,14 @@ Frame turned(const TriangleMesh& mesh, Frame frame) {
 }
 
 template <class Ray>
-void set_ray(Ray& ray, const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
-             float reach) {
+/// A ray that is no number anywhere meets nothing.
+void set_ray(Ray& ray, const Eigen::Vector3f& wanted_origin,
+             const Eigen::Vector3f& wanted_direction, float wanted_reach) {
+  const bool is_ray =
+      wanted_origin.allFinite() && wanted_direction.allFinite() && !std::isnan(wanted_reach);
+  const Eigen::Vector3f origin = is_ray ? wanted_origin : Eigen::Vector3f::Zero();
+  const Eigen::Vector3f direction = is_ray ? wanted_direction : Eigen::Vector3f::UnitZ();
+  const float reach = is_ray ? wanted_reach : -1;
   ray.org_x = origin.x();
   ray.org_y = origin.y();
   ray.org_z = origin.z();

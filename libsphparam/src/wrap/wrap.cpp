@@ -87,7 +87,10 @@ double chosen_voxel(const WrapOptions& options, const Box& box) {
 
 void require_regular(const Box& box, double voxel) {
   const double finest = roundings_a_voxel * std::numeric_limits<double>::epsilon() * box.farthest();
-  if (box.farthest() < largest_coordinate && box.longest() > least_extent && voxel > finest) return;
+  if (box.farthest() >= largest_coordinate)
+    throw UnmeasurableMesh("coordinates up to " + short_number(box.farthest()) +
+                           " are too large to be wrapped: scale the mesh down");
+  if (box.longest() > least_extent && voxel > finest) return;
   throw UnmeasurableMesh(
       box.longest() > least_extent
           ? "a voxel of " + short_number(voxel) + " is too small for coordinates up to " +
@@ -173,6 +176,18 @@ void count_outside(const TriangleMesh& soup, const std::vector<char>& used, int 
       }));
 }
 
+SurfaceDistance distance_between(const TriangleMesh& wrap, const TriangleMesh& soup,
+                                 const WrapOptions& options) try {
+  return measure_distance(wrap, soup,
+                          {.samples = samples,
+                           .vertices = true,
+                           .threads = options.threads,
+                           .progress = options.progress});
+} catch (const UnmeasurableSurface& error) {
+  throw UnmeasurableMesh(std::string("how far the wrap is from this mesh cannot be told: ") +
+                         error.what());
+}
+
 }  // namespace
 
 Wrap wrap_soup(const TriangleMesh& soup, const WrapOptions& options) {
@@ -193,11 +208,7 @@ Wrap wrap_soup(const TriangleMesh& soup, const WrapOptions& options) {
   if (options.faces > 0)
     wrap.mesh = simplified(std::move(wrap.mesh), options.faces, options.progress);
   count_outside(soup, used, options.threads, wrap);
-  wrap.apart = measure_distance(wrap.mesh, soup,
-                                {.samples = samples,
-                                 .vertices = true,
-                                 .threads = options.threads,
-                                 .progress = options.progress});
+  wrap.apart = distance_between(wrap.mesh, soup, options);
   return wrap;
 }
 
