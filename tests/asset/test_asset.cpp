@@ -74,6 +74,18 @@ MeshSource painted(MeshSource source) {
 
 WholeOptions coarse() { return {.resolution = 32, .faces = 2000, .threads = 1}; }
 
+/// What becomes of a ball from a file of this format, in a folder.
+RemadeAsset remade_ball(const char* format, const std::string& folder) {
+  MeshSource asset = source_of(icosphere(1));
+  asset.file.format = format;
+  RemakeOptions options{.whole = coarse(), .width = 32};
+  options.page = false;
+  PendingFiles files;
+  RemadeAsset made = remake_asset(asset, folder, options, files);
+  files.publish();
+  return made;
+}
+
 }  // namespace
 
 TEST_CASE("whole surface: a sphere is itself, one with holes is mended, a soup is wrapped") {
@@ -240,12 +252,7 @@ TEST_CASE("whole surface: a sheet, whose two sides would lie in one another, is 
 TEST_CASE("remake asset: a glTF mesh without normals is flat, others are smooth") {
   for (const char* format : {"glTF binary", "OBJ"}) {
     const Folder folder;
-    MeshSource asset = source_of(icosphere(1));
-    asset.file.format = format;
-    RemakeOptions options{.whole = coarse(), .width = 32};
-    options.page = false;
-    PendingFiles files;
-    const RemadeAsset made = remake_asset(asset, folder.path.string(), options, files);
+    const RemadeAsset made = remade_ball(format, folder.path.string());
     CHECK((made.chart.vertices >= 3 * 80) == (std::string(format) != "OBJ"));
   }
 }
@@ -253,13 +260,7 @@ TEST_CASE("remake asset: a glTF mesh without normals is flat, others are smooth"
 TEST_CASE("remake asset: a glTF mesh without materials looks as glTF has it, others are shaded") {
   for (const char* format : {"glTF binary", "OBJ"}) {
     const Folder folder;
-    MeshSource asset = source_of(icosphere(1));
-    asset.file.format = format;
-    RemakeOptions options{.whole = coarse(), .width = 32};
-    options.page = false;
-    PendingFiles files;
-    const RemadeAsset made = remake_asset(asset, folder.path.string(), options, files);
-    files.publish();
+    const RemadeAsset made = remade_ball(format, folder.path.string());
     std::vector<std::string> fields;
     for (const BakedImage& image : made.baked.images) fields.push_back(image.field);
     const bool is_gltf = std::string(format) != "OBJ";

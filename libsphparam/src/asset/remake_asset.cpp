@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "asset/asset_page.h"
-#include "asset/with_places.h"
+#include "asset/soup.h"
 #include "io/attributes/one_material.h"
 #include "rays/flat_normal.h"
 #include "sphparam/io/certified_files.h"
@@ -76,9 +76,7 @@ class Remaker {
 
   /// Of a wrap, about.
   double voxel() const {
-    const Points& places = remade_.whole.mapped.mesh().positions;
-    return (places.colwise().maxCoeff() - places.colwise().minCoeff()).maxCoeff() /
-           options_.whole.resolution;
+    return longest_side(remade_.whole.mapped.mesh()) / options_.whole.resolution;
   }
 
   BakeSettings bake_settings() const {

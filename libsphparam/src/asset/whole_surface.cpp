@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "asset/asset_words.h"
-#include "asset/with_places.h"
+#include "asset/soup.h"
 #include "number_text.h"
 #include "option_domain.h"
 #include "sphparam/chart/spherical_chart.h"
@@ -36,12 +36,6 @@ bool is_flat(const TriangleMesh& mesh) {
     area += (b - a).cross(c - a).norm() / 2;
   }
   return std::abs(volume) <= hardly * area * std::sqrt(area);
-}
-
-/// Of its box.
-double longest_side(const TriangleMesh& mesh) {
-  if (mesh.vertex_count() == 0) return 0;
-  return (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).maxCoeff();
 }
 
 /// Maps closed surfaces, each way with what it tells.
@@ -157,8 +151,8 @@ class Chooser {
                      .faces = options_.faces,
                      .threads = options_.threads,
                      .progress = options_.progress};
-    constexpr double largest =
-        1e70;  // a mesh that wants more is refused as too large, by `wrap_soup`
+    // Beyond it the mesh is too large, which `wrap_soup` says of it rather than of a voxel.
+    constexpr double largest = 1e70;
     wrap.voxel = wrap.distance = std::min(longest_side(mesh) / options_.resolution, largest);
     return wrap;
   }
@@ -169,13 +163,6 @@ class Chooser {
 };
 
 }  // namespace
-
-MeshFile with_places(const MeshSource& asset) {
-  if (asset.file.mesh.positions.allFinite()) return asset.file;
-  RepairOptions finite = RepairOptions::none();
-  finite.non_finite = true;
-  return mended(asset, finite).file;
-}
 
 const char* word_of(WholeBy by) {
   switch (by) {
