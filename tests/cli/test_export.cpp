@@ -363,6 +363,18 @@ TEST_CASE("export: --textures says what images are, sizes are told, and .obj tak
   CHECK_THAT(bytes_of(egg.folder / "two.mtl"), Contains("two_checker.webp"));
 }
 
+TEST_CASE("export: images that an .obj has no place for are told, and not counted") {
+  const Egg egg;
+  REQUIRE(egg.run("egg.obj.obj").code == 0);
+  for (const char* image : {"a_basecolor.png", "a_orm.png"})
+    std::filesystem::copy_file(egg.folder / "egg.obj_checker.png", egg.folder / image);
+  const Ended left = egg.run("left.obj", {"--images", egg.folder / "", "--textures", "png"});
+  INFO(left.err);
+  REQUIRE(left.code == 0);
+  CHECK_THAT(left.err,
+             Contains("warning: not carried: the image orm") && Contains("  1 image of "));
+}
+
 TEST_CASE("export: the same bytes for any number of threads") {
   const Egg egg;
   REQUIRE(egg.run("one.glb", {"--threads", "1", "--variants", "area"}).code == 0);

@@ -223,6 +223,19 @@ TEST_CASE("export: a compressed file is read back as the asset, in an order that
   CHECK(read.mesh.face_count() == static_cast<Face>(asset.levels[0].indices.size() / 3));
 }
 
+TEST_CASE("export: glass is as thick in a file of 16-bit numbers, whose node scales them") {
+  Asset asset = make_asset(mapped_egg(2), small);
+  asset.materials.front().finish.transmission = 1;
+  asset.materials.front().finish.thickness = 0.25;
+  const Place place;
+  for (const bool quantise : {false, true}) {
+    write_asset(place / "a.glb", asset, {.quantise = quantise});
+    const MeshFile read = read_mesh(place / "a.glb");
+    REQUIRE(read.channels.size() == 1);
+    CHECK(read.channels.front().finish.thickness == Approx(0.25));
+  }
+}
+
 TEST_CASE("export: a kept topology is told, with the triangles that fold") {
   ExportOptions options = small;
   options.keep_topology = true;
@@ -245,6 +258,23 @@ TEST_CASE("export: textured meshes are certified as read back, with the files th
   CHECK(read_mesh(place / "b.ply").corner_texcoords.has_value());
   CHECK_THROWS_AS(write_textured_mesh(place / "c.stl", mapped_egg(1), small),
                   std::invalid_argument);
+}
+
+TEST_CASE("export: what of a look an .obj has no words for is told") {
+  const Place place;
+  const MappedMesh egg = mapped_egg(2);
+  CHECK(write_textured_mesh(place / "plain.obj", egg, small).warnings.empty());
+  Look look = make_look(egg, small);
+  look.warnings = {"said before"};
+  look.images.push_back({"normal", look.images.front().bytes});
+  look.materials.front().normal = 1;
+  look.materials.front().alpha_mode = AlphaMode::Mask;
+  look.materials.front().finish.clearcoat = 1;
+  PendingFiles files;
+  CHECK(add_textured_mesh(files, place / "a.obj", egg, look, small).warnings ==
+        Names{"said before",
+              "not carried: the image normal, how alpha is meant and KHR_materials_clearcoat: .glb "
+              "and .gltf have room for that"});
 }
 
 TEST_CASE("export: a look that cannot be is an error that says why") {

@@ -53,8 +53,8 @@ TEST_CASE("one_material: what most of the area has, and the share of what has it
   CHECK(one.finish.clearcoat == 1);
   REQUIRE(one.warnings.size() == 1);
   CHECK(one.warnings[0] ==
-        "materials become one: KHR_materials_clearcoat as most of the area has it; 25 % of the "
-        "area has it otherwise");
+        "materials become one: KHR_materials_clearcoat as the largest part of the area has it; "
+        "25 % of the area has it otherwise");
 
   file = two_materials(15);
   file.channels[1].finish.clearcoat = 1;

@@ -162,6 +162,7 @@ class Exporter {
     TexturedFiles written =
         add_textured_mesh(session_.files, arguments_.output, mapped, look, options_);
     session_.warn(written.warnings);
+    record_.textures.resize(1);  // the others are in no file
     record_.charts.push_back(std::move(written.chart));
     note(written.files, look.images.front().bytes.size());
   }

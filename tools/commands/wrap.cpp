@@ -46,6 +46,12 @@ void require_sensible(const WrapArguments& arguments) {
   check_places({{"-o", arguments.output}, {"--json", arguments.json}});
 }
 
+/// A message of the library behind the option that was given: a voxel follows from others too.
+std::string under_option(const WrapOptions& options, const std::string& message) {
+  if (!message.starts_with("voxel") || options.voxel > 0) return "--" + message;
+  return (options.resolution > 0 ? "--resolution: " : "--distance: ") + message;
+}
+
 /// Throws: UsageMistake for what of the options does not suit the mesh, ReadError for a mesh
 /// without places.
 Wrap wrapped(const WrapArguments& arguments, const MeshFile& soup, Session& session) try {
@@ -56,7 +62,7 @@ Wrap wrapped(const WrapArguments& arguments, const MeshFile& soup, Session& sess
 } catch (const MeshError& error) {
   throw ReadError(display_name(arguments.input), error.defects().front().message);
 } catch (const std::invalid_argument& error) {
-  throw UsageMistake(std::string("--") + error.what());
+  throw UsageMistake(under_option(arguments.options, error.what()));
 }
 
 int run_wrap(WrapArguments& arguments) {

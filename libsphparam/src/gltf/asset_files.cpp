@@ -1,7 +1,9 @@
 // Files of an asset and of a textured mesh: what they are called, what is checked once they are on
 // the disk.
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 #include <stdexcept>
 
@@ -12,10 +14,12 @@
 #include "gltf/level.h"
 #include "gltf/textured_mesh.h"
 #include "gltf/written_check.h"
+#include "io/attributes/finish_terms.h"
 #include "number_text.h"
 #include "sphparam/gltf/export.h"
 #include "sphparam/io/certified_files.h"
 #include "sphparam/io/fillers.h"
+#include "sphparam/io/losses.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/paths.h"
 
@@ -55,6 +59,24 @@ bool is_obj(const std::string& path) {
   if (extension != ".obj" && extension != ".ply")
     throw std::invalid_argument("a textured mesh is written as .obj or .ply, not as " + extension);
   return extension == ".obj";
+}
+
+/// What a look has besides the image of its colours: texts have no words for it.
+std::vector<std::string> beyond_texts(const Look& look) {
+  const Material& seen = look.materials.front();
+  std::vector<std::string> words;
+  for (std::size_t i = 1; i < look.images.size(); ++i)
+    words.push_back("the image " + look.images[i].name);
+  if (seen.alpha_mode != AlphaMode::Opaque) words.emplace_back("how alpha is meant");
+  std::ranges::copy(extensions_of(seen.finish), std::back_inserter(words));
+  return words;
+}
+
+std::vector<std::string> warnings_of(const Look& look) {
+  std::vector<std::string> warnings = look.warnings;
+  const std::vector<std::string> words = beyond_texts(look);
+  if (!words.empty()) add_loss(warnings, enumerated(words) + ": .glb and .gltf have room for that");
+  return warnings;
 }
 
 std::string megabytes(double bytes) { return short_number(bytes / 1e6) + " MB"; }
@@ -150,7 +172,7 @@ TexturedFiles add_textured_mesh(PendingFiles& files, const std::string& path,
   MeshFile textured = without_fillers(
       textured_mesh(chart, mapped.file(), options.shape, options.up, options.threads));
   require_numbers(textured, path);
-  TexturedFiles result{.chart = figures_of(chart), .warnings = {}, .files = {}};
+  TexturedFiles result{.chart = figures_of(chart), .warnings = warnings_of(look), .files = {}};
   const BytesCheck check = [&](std::string_view on_disk) {
     result.chart.stored = certify_written(on_disk, path, chart, fillers, options.threads);
   };

@@ -33,7 +33,9 @@ const char* type_name(int components) {
 class Builder {
  public:
   Builder(const Asset& asset, const GltfOptions& options)
-      : asset_(asset), options_(options), buffer_(options.compress) {}
+      : asset_(asset), options_(options), buffer_(options.compress) {
+    finest_ = numbers_of_positions(asset.levels.front());
+  }
 
   GltfFiles build() {
     start();
@@ -127,7 +129,9 @@ class Builder {
   }
 
   void add_finish(const MaterialFinish& finish, Json& entry) {
-    const MaterialFinish seen = finish_in(to_text(finish));
+    MaterialFinish seen = finish_in(to_text(finish));
+    seen.thickness /=
+        finest_.scale;  // lengths are in the mesh's own numbers, which its node scales
     for (const std::string& name : extensions_of(seen)) {
       Json& extension = entry["extensions"][name] = Json::object();
       for (const FinishTerm& term : finish_terms()) {
@@ -244,9 +248,12 @@ class Builder {
     return targets;
   }
 
+  Quantisation numbers_of_positions(const Surface& surface) const {
+    return options_.quantise ? quantisation_of(surface.positions) : Quantisation{};
+  }
+
   void add_node(const Surface& surface) {
-    const Quantisation quantisation =
-        options_.quantise ? quantisation_of(surface.positions) : Quantisation{};
+    const Quantisation quantisation = numbers_of_positions(surface);
     Json primitive{{"attributes", attributes_of(surface, quantisation)},
                    {"indices", add_accessor(pack_indices(surface.indices, surface.vertex_count()),
                                             ViewUse::Indices)},
@@ -404,6 +411,7 @@ class Builder {
   std::size_t first_material_ = 0;  // of the level that is added
   const Asset& asset_;
   const GltfOptions& options_;
+  Quantisation finest_;  // of the level that materials are for; the others have its size
   BufferBytes buffer_;
   Json root_;
   /// The lists of the root, apart: a new key there moves all others.

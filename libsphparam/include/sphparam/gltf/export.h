@@ -172,8 +172,8 @@ WrittenFiles add_asset(PendingFiles& files, const std::string& path, const Asset
 void write_asset(const std::string& path, const Asset& asset, const GltfOptions& options = {});
 
 // The same for programs that read texts: numbers are doubles, properties of vertices and faces come
-// along, axes stay as they are, and comments say which
-// were asked for. One material with the first image of the look.
+// along, axes stay as they are, and comments say which were asked for. One material with the first
+// image of the look; what else the look has is among the warnings.
 
 struct TexturedFiles {
   ChartFigures chart;                 // `stored`: of the texture coordinates read back

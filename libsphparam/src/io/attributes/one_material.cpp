@@ -55,8 +55,8 @@ std::vector<std::string> disputed(const std::vector<MaterialFinish>& finishes) {
 }
 
 std::string told(const std::string& what, double share) {
-  return "materials become one: " + what + " as most of the area has it; " + percent(1 - share) +
-         " of the area has it otherwise";
+  return "materials become one: " + what + " as the largest part of the area has it; " +
+         percent(1 - share) + " of the area has it otherwise";
 }
 
 /// Faces without a material are opaque.
