@@ -346,6 +346,11 @@ TEST_CASE("material fields: alpha counts only where a material says so") {
   CHECK(alpha_of(0) == 1);
   CHECK(alpha_of(2) == 0.5F);
   cube.file.channels[1].alpha_cutoff = 0.25;
+  CHECK(alpha_of(2) == 0.5F);
+  cube.file.channels[0].alpha_mode = AlphaMode::Mask;  // by 0.5, where its alpha is
+  CHECK(alpha_of(0) == 0.25F);
+  cube.file.channels[0].alpha_cutoff = 0;
+  CHECK(alpha_of(0) == 1);
   cube.file.channels[0].double_sided = true;
   CHECK(texts_of_material(cube.file) == std::vector<std::pair<std::string, std::string>>{
                                             {alpha_text, "mask 0.25"}, {sides_text, "1"}});

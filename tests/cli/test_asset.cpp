@@ -146,6 +146,9 @@ TEST_CASE("asset: what cannot be done is said, and leaves no folder") {
   const Ended file = asset({});
   CHECK(file.code == 3);
   CHECK(bytes_of(out) == "a file");
+  CHECK_THAT(sphparam_program({"asset", mesh, "-o", folder / "no/such"}).err,
+             Contains("such: the folder that it is to be made in is not there"));
+  CHECK_THAT(asset({"--keep", "2"}).err, Contains("--keep: expected a number from 0 to 1\n"));
   CHECK(sphparam_program({"nonsense"}).code == 2);
   CHECK(sphparam_program({"asset", mesh, "-o", folder / "x.glb"}).code == 2);
 }

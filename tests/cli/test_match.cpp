@@ -332,4 +332,21 @@ TEST_CASE("map --like gives a low mesh the sphere of the one that it lies about"
   CHECK_THAT(elsewhere.err, Contains("has one been moved or scaled?"));
 }
 
+TEST_CASE("map --like doubts that two meshes are of one thing where they lie far apart") {
+  const Folder folder;
+  const std::string inner = folder / "inner.obj", outer = folder / "outer.obj";
+  write_bytes(outer, obj_text(icosphere(3)));
+  for (const double size : {0.7, 0.95}) {
+    TriangleMesh ball = icosphere(2);
+    ball.positions *= size;
+    write_bytes(inner, obj_text(ball));
+    const Ended ended =
+        sphparam_program({"map", inner, "--like", outer, "-o", folder / "inner.sph.ply"});
+    INFO(ended.err);
+    REQUIRE(ended.code == 0);
+    const bool doubts = ended.err.find("outer.obj: are they of one thing") != std::string::npos;
+    CHECK(doubts == (size < 0.9));
+  }
+}
+
 }  // namespace sphparam::tests

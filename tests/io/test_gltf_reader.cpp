@@ -906,6 +906,15 @@ TEST_CASE("gltf_reader: what a file says beside shape and materials is told, a l
             "not carried: of the vertices TANGENT, TEXCOORD_1 and _PAIR", "not carried: 1 camera"});
 }
 
+TEST_CASE("gltf_reader: instances and variants, of which the first are read, are told") {
+  Gltf gltf = tetrahedron_gltf();
+  gltf.rest = R"("nodes":[{"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{}}}}],)"
+              R"("scenes":[{"nodes":[0]}],"extensions":{"KHR_materials_variants":)"
+              R"({"variants":[{"name":"a"},{"name":"b"}]}})";
+  CHECK(sphparam::losses_among(read(gltf.bytes()).notes) ==
+        std::vector<std::string>{"not carried: 2 variants and the instances of 1 mesh, read once"});
+}
+
 TEST_CASE("gltf_reader: the angles of _THETA_PHI are a map") {
   Gltf gltf = tetrahedron_gltf();
   std::vector<double> angles;

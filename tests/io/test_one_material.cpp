@@ -95,6 +95,7 @@ TEST_CASE("one_material: blended where all of the area is, masked where some of 
   CHECK(one(19, Opaque, Mask).alpha_cutoff == 0.25);
   CHECK(one(19, Opaque, Mask).warnings.empty());
   CHECK(one(15, Blend, Mask).alpha_mode == Mask);
+  CHECK(one(5, Mask, Mask).alpha_cutoff == 0.25);  // the other's 0.5 is what alphas are scaled from
   const OneMaterial glazed = one(5, Blend, Opaque);
   CHECK(glazed.alpha_mode == Opaque);
   REQUIRE(glazed.warnings.size() == 1);

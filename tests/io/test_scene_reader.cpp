@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "io/polygons/welding.h"
+#include "sphparam/io/losses.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/read_options.h"
 #include "sphparam/io/up_axis.h"
@@ -85,6 +86,18 @@ TEST_CASE("scene_reader: COLLADA brings its meshes where their nodes put them, a
   CHECK(file.base_colours[0].factor[0] == Approx(1));
   CHECK(file.base_colours[0].factor[1] == Approx(0));
   CHECK(noted_up(file).direction == Vector3::UnitY());
+}
+
+TEST_CASE(
+    "scene_reader: what is lost is told in words of such files, not of the glTF they come as") {
+  std::string shiny = collada();
+  for (const auto& [from, to] : {std::pair<std::string, std::string>{"<lambert>", "<phong>"},
+                                 {"</lambert>",
+                                  "<specular><color>1 1 1 1</color></specular>"
+                                  "<shininess><float>20</float></shininess></phong>"}})
+    shiny.replace(shiny.find(from), from.size(), to);
+  CHECK(losses_among(read_mesh(shiny, "a.bin", {}).notes) ==
+        std::vector<std::string>{"not carried: specular colour and shininess of 1 of 1 material"});
 }
 
 TEST_CASE("scene_reader: FBX is read, polygons cut, and turned so that y is up") {

@@ -7,6 +7,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "number_text.h"
+
 namespace sphparam::cli {
 
 /// From the least to the greatest, both allowed.
@@ -20,7 +22,13 @@ struct Range {
   std::string text() const {
     if (!words.empty()) return words;
     const bool ends = most != std::numeric_limits<Number>::max();
-    return std::to_string(least) + (ends ? " to " + std::to_string(most) : " on");
+    return in_words(least) + (ends ? " to " + in_words(most) : " on");
+  }
+
+ private:
+  static std::string in_words(Number number) {
+    if constexpr (std::is_integral_v<Number>) return std::to_string(number);
+    return shortest(static_cast<double>(number));
   }
 };
 

@@ -56,6 +56,8 @@ class Folder {
       throw WriteError(path_, "is a file, and a folder is needed: -o names one");
     std::error_code error;
     is_made_ = fs::create_directory(path_, error);
+    if (error == std::errc::no_such_file_or_directory)
+      throw WriteError(path_, "the folder that it is to be made in is not there");
     if (error) throw WriteError(path_, error.message());
   }
   ~Folder() {

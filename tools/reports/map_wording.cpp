@@ -119,9 +119,19 @@ void tell_frame(const MapOutcome& outcome, Console& console) {
   given ? console.say(line) : console.detail(line);
 }
 
+/// What is told of a map may be right and of no use: that of a cow in a truck.
+void tell_likeness(const Likeness& likeness, const std::string& other, Console& console) {
+  constexpr double doubtful = 0.05;  // of the diagonal
+  console.say("  like " + other + ": " + to_text(likeness));
+  if (likeness.median > doubtful)
+    console.warning("in the same directions, half of the mesh is more than " +
+                    percent(likeness.median) + " of the diagonal away from " + other +
+                    ": are they of one thing, in the same place?");
+}
+
 void tell_directions(const MapOutcome& outcome, Console& console) {
   if (!outcome.has_map()) return;
-  if (outcome.likeness) console.say("  like " + outcome.other + ": " + to_text(*outcome.likeness));
+  if (outcome.likeness) tell_likeness(*outcome.likeness, outcome.other, console);
   if (const auto& radial = outcome.result.radial) console.say("  " + radial_line(*radial));
   if (const auto& angle = outcome.result.alignment) {
     console.say("  turned to the directions it is aligned to: " +
@@ -141,10 +151,10 @@ void tell_result(const MapOutcome& outcome, const std::string& written, double s
   line += written.empty() ? ", no map written" : " → " + output_name(written);
   if (outcome.succeeded()) return console.say(line);
   if (!outcome.bijective()) {
-    line += "\n" + complaint(outcome.result.certificate) + advice(outcome, !written.empty());
+    line += '\n' + complaint(outcome.result.certificate) + advice(outcome, !written.empty());
   }
   if (!outcome.frame.holds()) {
-    line += "\n" + complaint_of_frame(outcome) + "  no map is written without them";
+    line += '\n' + complaint_of_frame(outcome) + "  no map is written without them";
   }
   console.error(line);
 }

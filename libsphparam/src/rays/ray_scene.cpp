@@ -172,8 +172,8 @@ Frame turned(const TriangleMesh& mesh, Frame frame) {
   return overlap(mesh, other) < worthwhile * given ? other : frame;
 }
 
-template <class Ray>
 /// A ray that is no number anywhere meets nothing.
+template <class Ray>
 void set_ray(Ray& ray, const Eigen::Vector3f& wanted_origin,
              const Eigen::Vector3f& wanted_direction, float wanted_reach) {
   const bool is_ray =

@@ -31,7 +31,7 @@ struct Painter {
   std::optional<Points> colours;         // of the vertices, linear, that multiply the texture
   std::vector<SourceTexture> opacities;  // a texture: what its alpha is times; empty: 1
   std::vector<AlphaMode> modes;          // a texture; empty: what its alpha means is not said
-  std::vector<float> cutoffs;            // a texture, of Mask
+  float cutoff = 0.5F;                   // of Mask, for all: alphas are scaled to it
   double close_behind = 0;               // how far what is masked out shows it; 0: a hole is one
   std::shared_ptr<const WhatIsBehind> behind;  // what blended faces are drawn over; none: nothing
 
@@ -74,10 +74,7 @@ struct Painter {
     if (colours) tint(place, 4, colour.data());
     const AlphaMode means = mode(place.face);
     if (means == AlphaMode::Opaque) colour[3] = 1;
-    if (means == AlphaMode::Mask)
-      colour[3] =
-          colour[3] < cutoffs[static_cast<size_t>(texture_of[static_cast<size_t>(place.face)])] ? 0
-                                                                                                : 1;
+    if (means == AlphaMode::Mask) colour[3] = colour[3] < cutoff ? 0 : 1;
     return colour;
   }
 
@@ -109,7 +106,6 @@ struct Painter {
 
   /// Lets what is masked out show what lies close behind it.
   void close(const SurfaceRun& run, int channels, float* values) const {
-    const float cutoff = cutoffs[static_cast<size_t>(texture_of[static_cast<size_t>(run.face)])];
     for (int i = 0; channels == 4 && i < run.count; ++i, values += channels) {
       if (values[3] >= cutoff) continue;
       Sight sight = behind->through(run, i);
@@ -155,6 +151,12 @@ struct Painter {
  public:
   const Triangles* triangles = nullptr;
 };
+
+/// What masks nothing is opaque.
+AlphaMode meant(const MaterialChannels& said) {
+  const bool masks_nothing = said.alpha_mode == AlphaMode::Mask && !(said.alpha_cutoff > 0);
+  return masks_nothing ? AlphaMode::Opaque : said.alpha_mode;
+}
 
 bool any_image(const std::vector<SourceTexture>& textures) {
   return std::ranges::any_of(textures,
@@ -207,13 +209,17 @@ SurfaceField make_base_colour(const BakeScene& scene, const std::string& argumen
     painter->texture_of.assign(material->values.begin(), material->values.end());
   }
   if (says_alpha(scene.source)) {
-    const bool blends = one_material(file).alpha_mode == AlphaMode::Blend;
-    for (const MaterialChannels& channels : file.channels) {
-      const AlphaMode mode = channels.alpha_mode;
+    const OneMaterial one = one_material(file);
+    const bool blends = one.alpha_mode == AlphaMode::Blend;
+    painter->cutoff = static_cast<float>(one.alpha_cutoff);
+    for (size_t i = 0; i < file.channels.size(); ++i) {
+      const AlphaMode mode = meant(file.channels[i]);
       painter->is_opaque.push_back(mode == AlphaMode::Opaque ||
                                    (mode == AlphaMode::Blend && !blends));
       painter->modes.push_back(mode);
-      painter->cutoffs.push_back(static_cast<float>(channels.alpha_cutoff));
+      if (mode == AlphaMode::Mask)
+        painter->textures[i].factor[3] *=
+            static_cast<float>(one.alpha_cutoff / file.channels[i].alpha_cutoff);
     }
     const auto any = [&](AlphaMode mode) { return std::ranges::count(painter->modes, mode) > 0; };
     if (any(AlphaMode::Mask)) painter->close_behind = 2 * scene.calm_beyond;

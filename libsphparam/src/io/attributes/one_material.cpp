@@ -1,6 +1,7 @@
 #include "io/attributes/one_material.h"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 
 #include "io/attributes/finish_terms.h"
@@ -67,18 +68,23 @@ double area_of(AlphaMode mode, const MeshFile& file, const std::vector<double>& 
   return area;
 }
 
-double first_cutoff(const MeshFile& file, const std::vector<double>& areas) {
-  for (std::size_t i = 0; i < file.channels.size(); ++i)
-    if (file.channels[i].alpha_mode == AlphaMode::Mask && areas[i] > 0)
-      return file.channels[i].alpha_cutoff;
-  return OneMaterial().alpha_cutoff;
+/// Of those that are seen and mask anything; the least, so that alphas which are made to fit it get
+/// no larger than they were.
+double least_cutoff(const MeshFile& file, const std::vector<double>& areas) {
+  std::optional<double> least;
+  for (std::size_t i = 0; i < file.channels.size(); ++i) {
+    const double cutoff = file.channels[i].alpha_cutoff;
+    if (file.channels[i].alpha_mode == AlphaMode::Mask && areas[i] > 0 && cutoff > 0)
+      least = std::min(cutoff, least.value_or(cutoff));
+  }
+  return least.value_or(OneMaterial().alpha_cutoff);
 }
 
 void take_alpha(const MeshFile& file, const std::vector<double>& areas, OneMaterial& one) {
   const double opaque = area_of(AlphaMode::Opaque, file, areas),
                masked = area_of(AlphaMode::Mask, file, areas),
                blended = area_of(AlphaMode::Blend, file, areas);
-  one.alpha_cutoff = first_cutoff(file, areas);
+  one.alpha_cutoff = least_cutoff(file, areas);
   one.alpha_mode = masked > 0                   ? AlphaMode::Mask
                    : blended > 0 && opaque == 0 ? AlphaMode::Blend
                                                 : AlphaMode::Opaque;

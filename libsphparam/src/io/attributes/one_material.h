@@ -14,7 +14,7 @@ struct OneMaterial {
   MaterialFinish finish;
   bool unlit = false;
   AlphaMode alpha_mode = AlphaMode::Opaque;  // Blend only where all of the area is
-  double alpha_cutoff = 0.5;                 // of Mask: that of the first material that masks
+  double alpha_cutoff = 0.5;                 // of Mask: the least; other alphas are to be scaled
   /// For people: of whom it is not, with their share of the area; empty where all agree.
   std::vector<std::string> warnings;
 };

@@ -56,11 +56,20 @@ std::string glb_of(const char* kind, std::string_view bytes) {
   return answer.substr(1);
 }
 
+/// The scene comes as glTF, of whose words its file has none.
+void put_into_words_of_scenes(std::vector<std::string>& notes) {
+  constexpr std::string_view gltf = "'KHR_materials_pbrSpecularGlossiness'";
+  for (std::string& note : notes)
+    if (const std::size_t at = note.find(gltf); at != std::string::npos)
+      note.replace(at, gltf.size(), "specular colour and shininess");
+}
+
 MeshFile read_scene(const char* kind, const char* format, std::string_view bytes,
                     const std::string& name, const std::optional<std::filesystem::path>& folder,
                     const ReadOptions& options) try {
   MeshFile file = read_gltf(glb_of(kind, bytes), name, folder, options);
   file.format = format;
+  put_into_words_of_scenes(file.notes);
   return file;
 } catch (const ModuleError& error) {
   throw ReadError(name, error.what());

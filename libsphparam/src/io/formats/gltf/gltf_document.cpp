@@ -123,6 +123,13 @@ GltfDocument::Accessor plain(const tinygltf::Accessor& accessor) {
   return result;
 }
 
+/// Materials that a file offers beside those that it shows.
+std::size_t variants_of(const tinygltf::Model& model) {
+  const auto found = model.extensions.find("KHR_materials_variants");
+  if (found == model.extensions.end() || !found->second.Get("variants").IsArray()) return 0;
+  return found->second.Get("variants").ArrayLen();
+}
+
 void note_losses(const tinygltf::Model& model, GltfDocument& document) {
   std::vector<std::string> words;
   const auto add = [&](std::size_t count, const char* thing) {
@@ -131,6 +138,11 @@ void note_losses(const tinygltf::Model& model, GltfDocument& document) {
   add(model.animations.size(), "animation");
   add(model.cameras.size(), "camera");
   add(model.lights.size(), "light");
+  add(variants_of(model), "variant");
+  if (const auto many = std::ranges::count_if(model.nodes, [](const tinygltf::Node& node) {
+        return node.extensions.contains("EXT_mesh_gpu_instancing");
+      }))
+    words.push_back("the instances of " + counted(many, "mesh", "meshes") + ", read once");
   if (!words.empty()) add_loss(document.notes, enumerated(words));
 }
 
