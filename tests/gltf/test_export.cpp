@@ -62,6 +62,36 @@ TEST_CASE("export: a mesh made of another shows that one's colours where it carr
   CHECK(look.materials[0].name == "checker");
 }
 
+TEST_CASE("export: where the mesh's own colour is baked, what else its materials say is told") {
+  MeshFile file = mapped_egg(2).file();
+  file.materials = {"m"};
+  file.base_colours.resize(1);
+  file.channels.resize(1);
+  file.channels[0].roughness.factor[0] = 0.5;
+  file.channels[0].emission.factor[0] = 2;
+  file.channels[0].alpha_mode = AlphaMode::Mask;
+  file.channels[0].double_sided = true;
+  file.set_face_property(
+      {"material", ScalarType::Int32, std::vector<double>(file.mesh.face_count(), 0)});
+  const auto look_of = [&](const ExportOptions& options) {
+    return make_look(MappedMesh({.file = file, .map = mapped_egg(2).map(), .name = "egg.obj"}),
+                     options);
+  };
+  const Look look = look_of(small);
+  CHECK(look.materials[0].double_sided);
+  CHECK(look.warnings == Names{"not carried: roughness, metallic, emission and alpha of its "
+                               "materials: `bake --map channels` makes images of all"});
+  const Place place;
+  bake(mapped_egg(2), {{"normal-object", place / "orm.png"}}, {.width = 64});
+  ExportOptions by_folder = small;
+  by_folder.look.folder = place.folder.string();
+  CHECK(look_of(by_folder).warnings == Names{"not carried: emission and alpha of its materials: "
+                                             "`bake --map channels` makes images of all"});
+  file.channels[0].unlit = true;
+  CHECK(look_of(small).warnings ==
+        Names{"not carried: alpha of its materials: `bake --map channels` makes images of all"});
+}
+
 TEST_CASE(
     "export: finish and unlit of the source's materials are carried, also by way of an image") {
   const Place place;
@@ -81,7 +111,10 @@ TEST_CASE(
   glass.attenuation_colour = {1, 0.5, 0};
   glass.sheen = {0.25, 0, 0};
   for (const bool unlit : {false, true}) {
-    const MappedMesh egg = egg_of({.double_sided = true, .unlit = unlit, .finish = glass});
+    const MappedMesh egg = egg_of({.metallic = {.factor = {0, 1, 1, 1}},
+                                   .double_sided = true,
+                                   .unlit = unlit,
+                                   .finish = glass});
     const MaterialFinish seen = unlit ? MaterialFinish() : glass;
     bake(egg, {{"basecolor", place / "a.png"}}, {.width = 64});
     ExportOptions by_image = small;

@@ -72,6 +72,15 @@ TEST_CASE("obj_materials: what else they say is told once") {
   CHECK(file.base_colours.at(1).factor == std::array<double, 4>{1, 1, 1, 0.75});
 }
 
+TEST_CASE("obj_materials: what would be invisible by Tr is what MeshLab calls opaque") {
+  const ObjFolder folder;
+  const MeshFile file =
+      folder.read_with("mtllib a.mtl", "newmtl red\nTr 1.000000\nnewmtl wood\nd 0.5\nTr 1\n");
+  CHECK(file.base_colours.at(0).factor[3] == 1);
+  CHECK(file.channels.at(0).alpha_mode == AlphaMode::Opaque);
+  CHECK(file.base_colours.at(1).factor[3] == 0.5);
+}
+
 TEST_CASE("obj_materials: emission, roughness, metallic and normal maps are channels") {
   const ObjFolder folder;
   const MeshFile file = folder.read_with(

@@ -19,8 +19,10 @@
 #include "io/attributes/one_material.h"
 #include "io/attributes/shading_normals.h"
 #include "io/attributes/source_attributes.h"
+#include "sphparam/bake/fields.h"
 #include "sphparam/chart/chart_failure.h"
 #include "sphparam/gltf/export.h"
+#include "sphparam/io/losses.h"
 #include "sphparam/io/paths.h"
 
 namespace sphparam {
@@ -67,6 +69,29 @@ void take_sides(Material& material, const ImageTexts& texts) {
 }
 
 bool has_colours(const MeshFile& file) { return linear_colours(file).has_value(); }
+
+/// What a mesh's own materials say that an image of their colour alone does not, and no image that
+/// is given does.
+std::vector<std::string> beyond_colour(const MeshFile& file, const BakedImages& given) {
+  const auto any = [&](auto&& says) { return std::ranges::any_of(file.channels, says); };
+  using Said = MaterialChannels;
+  std::vector<std::string> words;
+  if (given.normal.empty() && any([](const Said& said) { return !said.normal.image.empty(); }))
+    words.emplace_back("normal maps");
+  if (given.orm.empty() && any([](const Said& said) {
+        return !said.roughness.image.empty() || said.roughness.factor[0] != 1;
+      }))
+    words.emplace_back("roughness");
+  if (given.orm.empty() && any([](const Said& said) { return said.metallic.factor[0] > 0; }))
+    words.emplace_back("metallic");
+  if (given.orm.empty() && given.occlusion.empty() &&
+      any([](const Said& said) { return !said.occlusion.image.empty(); }))
+    words.emplace_back("occlusion");
+  const std::vector<std::string> channels = channels_of(file, false);
+  if (given.emissive.empty() && std::ranges::count(channels, "emissive") > 0)
+    words.emplace_back("emission");
+  return words;
+}
 
 class LookMaker {
  public:
@@ -164,6 +189,19 @@ class LookMaker {
     material_.finish = one.finish;
     material_.unlit = material_.unlit || (one.unlit && given.none() && !wanted_.tangents);
     look_.warnings = std::move(one.warnings);
+    tell_losses(given, one.alpha_mode);
+  }
+
+  /// The colour that is baked here has no alpha, and light is left as it falls on plain paper.
+  void tell_losses(const BakedImages& given, AlphaMode alpha) {
+    std::vector<std::string> words;
+    if (!material_.unlit) words = beyond_colour(mapped_.file(), given);
+    if (alpha != AlphaMode::Opaque) words.emplace_back("alpha");
+    material_.double_sided =
+        std::ranges::any_of(mapped_.file().channels, &MaterialChannels::double_sided);
+    if (words.empty()) return;
+    add_loss(look_.warnings,
+             enumerated(words) + " of its materials: `bake --map channels` makes images of all");
   }
 
   void add_variant(const std::string& name) {

@@ -138,6 +138,8 @@ class Library {
   void set_alpha(bool transparency) {
     const std::optional<double> written = number(scanner_.word());
     if (!written) return;  // -halo
+    // Nobody writes down what nobody would see: MeshLab's Tr is an opacity, and mostly 1.
+    if (transparency && *written >= 1) return;
     const double alpha = std::clamp(*written, 0.0, 1.0);
     material_->colour.factor[3] = transparency ? 1 - alpha : alpha;
     const bool opaque = material_->colour.factor[3] == 1;
