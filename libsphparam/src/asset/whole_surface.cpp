@@ -105,13 +105,13 @@ class Chooser {
   }
 
   std::optional<WholeSurface> mended_whole() {
-    const RepairTrial trial = try_repair_unasked(asset_);
-    if (!trial.mends_unasked()) return std::nullopt;
+    auto [trial, repaired] = try_repair_unasked(asset_);
+    if (!repaired) return std::nullopt;
     if (trial.parts.area_share < options_.least_kept) {
       found_.push_back("repair would keep " + percent(trial.parts.area_share) + " of the area");
       return std::nullopt;
     }
-    MeshSource mended = repaired(asset_, trial.options);
+    MeshSource& mended = *repaired;
     if (is_flat(mended.file.mesh)) {
       found_.emplace_back("mended, it would enclose nothing");
       return std::nullopt;

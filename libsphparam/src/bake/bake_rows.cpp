@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "bake/bake_progress.h"
+#include "bake/calm_walls.h"
 #include "bake/crowded_texels.h"
 #include "bake/image_level.h"
 #include "bake/sample_seed.h"
@@ -31,22 +32,22 @@ struct Work {
 
 using BandValues = std::vector<std::vector<float>>;  // a field, a band
 
-SurfacePoint place_of(const TexelRun& run, int i) {
-  const double a = run.weights[0] + i * run.step[0], b = run.weights[1] + i * run.step[1];
-  return {run.face, {a, b, 1 - a - b}};
-}
-
 /// Consecutive runs, and the samples they stand for where a field asks for those.
 class Batch {
  public:
   Batch(std::span<const SurfaceRun> runs, std::span<const TexelRun> places, std::int64_t texel,
-        int sample, BakeProgress& progress)
-      : runs_(runs), places_(places), texel_(texel), sample_(sample), progress_(progress) {}
+        int sample, const Work& work)
+      : runs_(runs),
+        places_(places),
+        texel_(texel),
+        sample_(sample),
+        progress_(work.progress),
+        walls_(work.scene.walls.get()) {}
 
   /// The values of a field, colours linear.
   void evaluate(const SurfaceField& field, float* values) {
     find(field, values);
-    if (field.amend) field.amend(runs_, places_, values);
+    if (field.amend && walls_) field.amend(hidden(), places_, values);
   }
 
  private:
@@ -68,6 +69,12 @@ class Batch {
     }
   }
 
+  /// Worked out once for all fields: it asks for the nearest points.
+  std::span<const float> hidden() {
+    if (hidden_.empty()) hidden_ = walls_->shares(runs_, places_);
+    return hidden_;
+  }
+
   void expand() {
     if (!samples_.empty()) return;
     for (const SurfaceRun& run : runs_) {
@@ -77,13 +84,16 @@ class Batch {
                             {},
                             run.step,
                             run.below,
-                            run.found});
+                            run.found,
+                            0});
       }
     }
     size_t next = 0;
     for (const TexelRun& run : places_) {
-      for (int i = 0; i < run.count; ++i) samples_[next++].place = place_of(run, i);
+      for (int i = 0; i < run.count; ++i) samples_[next++].place = run.at(i);
     }
+    if (!walls_) return;
+    for (size_t i = 0; i < samples_.size(); ++i) samples_[i].wall = hidden()[i];
   }
 
   std::span<const SurfaceRun> runs_;
@@ -91,7 +101,9 @@ class Batch {
   std::int64_t texel_;  // of the first
   int sample_;
   BakeProgress& progress_;
+  const CalmWalls* walls_;  // may be none
   std::vector<SurfaceSample> samples_;
+  std::vector<float> hidden_;
 };
 
 /// Calls visit(batch, its first texel in the band, its size) for all texels of a band.
@@ -112,8 +124,7 @@ void for_each_batch(const Work& work, int band, const TexelPoints& points, int s
       while (in_places < in_runs) in_places += places[place++].count;
     }
     Batch batch(runs.subspan(first_run, run - first_run),
-                places.subspan(first_place, place - first_place), start + texel, sample,
-                work.progress);
+                places.subspan(first_place, place - first_place), start + texel, sample, work);
     visit(batch, static_cast<size_t>(texel), static_cast<size_t>(in_places));
     texel += in_places;
   }
@@ -144,7 +155,7 @@ void add_samples(const Work& work, int band, const TexelPoints& points, int samp
 /// Replaces these texels by their means. `seed`: of their first point.
 void average(const Work& work, const CrowdedTexels& crowded, std::int64_t seed,
              std::vector<float>& buffer, BandValues& values) {
-  Batch batch(crowded.points.runs, crowded.points.places, seed, 0, work.progress);
+  Batch batch(crowded.points.runs, crowded.points.places, seed, 0, work);
   for (size_t f = 0; f < work.fields.size(); ++f) {
     const SurfaceField& field = work.fields[f];
     if (!has_means(field.kind)) continue;

@@ -16,7 +16,7 @@ namespace sphparam {
 namespace {
 
 constexpr int most_probes = 64;  // a triangle
-constexpr size_t most_beside = 512, most_on_walls = 1024;
+constexpr size_t most_beside = 512, most_on_walls = 512;
 
 /// The i-th of n points spread over a triangle: a row of the two-dimensional sequence of the
 /// plastic number, folded into it.
@@ -37,6 +37,8 @@ std::vector<double> areas_of(const BakeTarget& target) {
   }
   return areas;
 }
+
+bool stays(const TexelRun& place) { return place.step == std::array<double, 2>{0, 0}; }
 
 bool is_appearance(const SurfaceField& field) {
   return field.kind == FieldKind::Colour || field.eight_bits;
@@ -69,8 +71,12 @@ std::vector<CalmWalls::Probe> CalmWalls::probes_of(const BakeTarget& target) {
   return probes;
 }
 
-Vector3 CalmWalls::on_target(Face f, const Vector3& weights) const {
-  return interpolate(scene_->target.positions, scene_->target.chart.triangles, {f, weights});
+Vector3 CalmWalls::on_target(const SurfacePoint& at) const {
+  return interpolate(scene_->target.positions, scene_->target.chart.triangles, at);
+}
+
+bool CalmWalls::hides(const SurfacePoint& at, const SurfaceRun& shown) const {
+  return share(on_target(at), shown, 0) == 1;
 }
 
 /// How much of a texel is wall: nothing up to `beyond`, all of it from twice as far.
@@ -79,11 +85,28 @@ double CalmWalls::share(const Vector3& place, const SurfaceRun& run, int i) cons
   const Vector3 shown =
       interpolate(mesh.positions, mesh.triangles, {run.face, run.first + i * run.step});
   double away = (shown - place).norm();
-  // What a line met may be far and something else near.
-  if (away > beyond_ && !is_nearest(run.found))
-    away = std::sqrt(scene_->source.surface->rays().nearest(place, run.face).squared_distance);
+  // What a line met may be far and something else near. Only distances between matter.
+  if (away > beyond_ && !is_nearest(run.found)) {
+    const RayScene& rays = scene_->source.surface->rays();
+    if (!rays.is_within(2 * beyond_, place, run.face)) return 1;
+    away = std::sqrt(rays.nearest(place, run.face, beyond_ * beyond_).squared_distance);
+  }
   const double t = std::clamp(away / beyond_ - 1, 0.0, 1.0);
   return t * t * (3 - 2 * t);
+}
+
+std::vector<float> CalmWalls::shares(std::span<const SurfaceRun> runs,
+                                     std::span<const TexelRun> places) const {
+  std::vector<float> shares;
+  size_t run = 0;
+  int in_run = 0;
+  for (const TexelRun& place : places) {
+    for (int i = 0; i < place.count; ++i) {
+      shares.push_back(static_cast<float>(share(on_target(place.at(i)), runs[run], in_run)));
+      if (++in_run == runs[run].count) ++run, in_run = 0;
+    }
+  }
+  return shares;
 }
 
 void CalmWalls::keep_normals(const std::vector<Probe>& probes, const std::vector<char>& is_wall) {
@@ -96,18 +119,15 @@ void CalmWalls::keep_normals(const std::vector<Probe>& probes, const std::vector
     const auto corner = [&](int k) -> Vector3 {
       return scene_->target.positions.row(scene_->target.chart.triangles(probe.at.face, k));
     };
-    wall_points_.push_back(on_target(probe.at.face, probe.at.barycentric));
+    wall_points_.push_back(on_target(probe.at));
     wall_normals_.push_back(probe.area * flat_normal(corner(0), corner(1), corner(2)));
   }
 }
 
 Vector3 CalmWalls::normal(const SurfaceSample& sample, const Vector3& own) const {
-  const Vector3 at = on_target(sample.place.face, sample.place.barycentric);
-  const double share = this->share(
-      at, {sample.point.face, 1, sample.point.barycentric, sample.step, sample.below, sample.found},
-      0);
-  if (share == 0) return own;
+  if (sample.wall == 0) return own;
   const SurfacePoint& place = sample.place;
+  const Vector3 at = on_target(place);
   const Vector3 faces = interpolate(scene_->target.outward, scene_->target.chart.triangles, place);
   Vector3 mean = Vector3::Zero();
   for (size_t i = 0; i < wall_points_.size(); ++i) {
@@ -117,7 +137,7 @@ Vector3 CalmWalls::normal(const SurfaceSample& sample, const Vector3& own) const
     mean += wall_normals_[i] / (away * away);
   }
   mean = mean.stableNormalized();
-  const Vector3 mixed = (1 - share) * own + share * mean;
+  const Vector3 mixed = (1 - sample.wall) * own + sample.wall * mean;
   return mean.isZero(0) || mixed.isZero(0) ? own : Vector3(mixed.stableNormalized());
 }
 
@@ -131,7 +151,7 @@ std::shared_ptr<const CalmWalls> CalmWalls::find(const BakeScene& scene, double 
       Probe& probe = probes[i];
       probe.run = scene.source.surface->project(
           target, {probe.at.face, probe.at.barycentric, probe.step, probe.below});
-      const Vector3 place = walls->on_target(probe.at.face, probe.at.barycentric);
+      const Vector3 place = walls->on_target(probe.at);
       is_wall[i] = walls->share(place, probe.run, 0) > 0;
     }
   });
@@ -152,7 +172,7 @@ std::shared_ptr<const CalmWalls> CalmWalls::find(const BakeScene& scene, double 
   for (size_t i = 0; i < beside.size(); i += stride) {
     const Probe& probe = probes[beside[i]];
     walls->rim_.push_back(probe.run);
-    walls->rim_points_.push_back(walls->on_target(probe.at.face, probe.at.barycentric));
+    walls->rim_points_.push_back(walls->on_target(probe.at));
     walls->rim_areas_.push_back(probe.area);
   }
   return walls;
@@ -181,21 +201,19 @@ void CalmWalls::calm(const std::shared_ptr<const CalmWalls>& walls, SurfaceField
   if (!walls || !field.evaluate_runs || !is_appearance(field)) return;
   const auto channels = static_cast<size_t>(field.channels);
   std::vector<float> about = walls->rim_values(field);
-  field.amend = [walls, about = std::move(about), channels](std::span<const SurfaceRun> runs,
+  field.amend = [walls, about = std::move(about), channels](std::span<const float> hidden,
                                                             std::span<const TexelRun> places,
                                                             float* values) {
-    size_t run = 0;
-    int in_run = 0;
+    size_t sample = 0;
     std::array<float, 4> calm{};
     for (const TexelRun& place : places) {
-      for (int i = 0; i < place.count; ++i, values += channels) {
-        const double a = place.weights[0] + i * place.step[0],
-                     b = place.weights[1] + i * place.step[1];
-        const Vector3 at = walls->on_target(place.face, {a, b, 1 - a - b});
-        const auto share = static_cast<float>(walls->share(at, runs[run], in_run));
-        if (++in_run == runs[run].count) ++run, in_run = 0;
+      bool known = false;  // the mean: of a place that does not move it is one
+      for (int i = 0; i < place.count; ++i, ++sample, values += channels) {
+        const float share = hidden[sample];
         if (share == 0) continue;
-        walls->mean(at, about, std::span(calm).first(channels));
+        if (!known)
+          walls->mean(walls->on_target(place.at(i)), about, std::span(calm).first(channels));
+        known = stays(place);
         for (size_t c = 0; c < channels; ++c) values[c] += share * (calm[c] - values[c]);
       }
     }

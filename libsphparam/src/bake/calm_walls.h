@@ -22,9 +22,18 @@ class CalmWalls {
   /// scene outlives it; beyond > 0. Cost: some projections a triangle of the target.
   static std::shared_ptr<const CalmWalls> find(const BakeScene& scene, double beyond);
 
-  /// The normal to be seen at a place that has this one: on walls a mean of the target's own about
+  /// The normal to be seen at a sample that has this one: on walls a mean of the target's own about
   /// it, for walls have the steps of a lattice. Unit. Cost: as `calm`.
   Vector3 normal(const SurfaceSample& sample, const Vector3& own) const;
+
+  /// Whether nothing is seen of what a point of the target shows of the source, for it lies far
+  /// within a wall. Requires: `shown` is of one sample.
+  bool hides(const SurfacePoint& at, const SurfaceRun& shown) const;
+
+  /// How much of what each sample of the runs shows is hidden, in [0, 1]. Requires: `places` are of
+  /// as many samples. Cost: at most a nearest point a sample.
+  std::vector<float> shares(std::span<const SurfaceRun> runs,
+                            std::span<const TexelRun> places) const;
 
   /// Lets a field be calm on walls: colours and what materials say. Labels, places and measures
   /// stay as they are found. Cost: some hundred products a texel on walls.
@@ -35,7 +44,7 @@ class CalmWalls {
   struct Probe;
   static std::vector<Probe> probes_of(const BakeTarget& target);
   void keep_normals(const std::vector<Probe>& probes, const std::vector<char>& is_wall);
-  Vector3 on_target(Face f, const Vector3& weights) const;
+  Vector3 on_target(const SurfacePoint& at) const;
   double share(const Vector3& place, const SurfaceRun& run, int i) const;
   std::vector<float> rim_values(const SurfaceField& field) const;
   void mean(const Vector3& place, const std::vector<float>& values, std::span<float> mean) const;

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "bake/calm_walls.h"
 #include "bake/chart_piece.h"
 
 namespace sphparam {
@@ -14,7 +15,7 @@ namespace {
 
 constexpr double small_area = 0.5;  // of a texel: such a triangle may own none, wherever it lies
 
-constexpr int finest_grid = 8;  // of points in a texel
+constexpr double finest_grid = 8;  // points in a texel, to the east or to the south
 
 /// A convex polygon under clipping: each of four cuts adds a corner at most.
 struct Clip {
@@ -186,33 +187,51 @@ class Collector {
   std::vector<Deposit> deposits_;
 };
 
-/// How many triangles a texel spans, the longer way.
-double extent(const SurfaceRun& run) {
-  return std::max(run.step.cwiseAbs().maxCoeff(), run.below.cwiseAbs().maxCoeff());
+/// How many points to the east and to the south for a texel that spans so many triangles there.
+GridSize grid_size(const SurfaceRun& run) {
+  const auto points = [](const Vector3& spanned) {
+    const double triangles = spanned.cwiseAbs().maxCoeff();
+    return triangles > 1 ? static_cast<int>(std::min(std::ceil(triangles + 0.5), finest_grid)) : 1;
+  };
+  return {points(run.step), points(run.below)};
 }
 
-/// How many points a side the grid of each texel has: more than 1 in texels that span more than a
-/// triangle, or have neighbours that do.
-std::vector<char> fineness_of(const TexelFinder& finder, int band, const TexelPoints& centres) {
-  const int width = finder.owners().width(), rows = finder.owners().rows(band);
-  std::vector<char> fineness(centres.runs.size(), 1);
+/// The grid of each texel for itself. What a wall hides needs none.
+std::vector<GridSize> own_grids(const BakeScene& scene, const TexelPoints& centres) {
+  std::vector<GridSize> sizes;
+  sizes.reserve(centres.runs.size());
+  for (const TexelRun& place : centres.places) {
+    for (int i = 0; i < place.count; ++i) {
+      const SurfaceRun& shown = centres.runs[sizes.size()];
+      GridSize size = grid_size(shown);
+      if (size.count() > 1 && scene.walls && scene.walls->hides(place.at(i), shown)) size = {};
+      sizes.push_back(size);
+    }
+  }
+  return sizes;
+}
+
+/// The grid of each texel: more than a point in texels that span more than a triangle, or have
+/// neighbours that do.
+std::vector<GridSize> grids_of(const BakeScene& scene, const TexelOwners& owners, int band,
+                               const TexelPoints& centres) {
+  const int width = owners.width(), rows = owners.rows(band);
+  const std::vector<GridSize> own = own_grids(scene, centres);
+  std::vector<GridSize> grids(own.size());
   const auto texel = [&](int row, int column) {
     return static_cast<size_t>(row) * static_cast<size_t>(width) +
            static_cast<size_t>((column + width) % width);
   };
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < width; ++column) {
-      const double spanned = extent(centres.runs[texel(row, column)]);
-      if (!(spanned > 1)) continue;
-      const auto n = static_cast<char>(std::min(std::ceil(spanned) + 1, double{finest_grid}));
+      const GridSize size = own[texel(row, column)];
+      if (size.count() == 1) continue;
       for (int r = std::max(0, row - 1); r <= std::min(rows - 1, row + 1); ++r) {
-        for (int c = column - 1; c <= column + 1; ++c) {
-          fineness[texel(r, c)] = std::max(fineness[texel(r, c)], n);
-        }
+        for (int c = column - 1; c <= column + 1; ++c) grids[texel(r, c)].include(size);
       }
     }
   }
-  return fineness;
+  return grids;
 }
 
 /// Texels that have come together until there are enough to be worked on.
@@ -260,22 +279,22 @@ class Gatherer {
 /// Of each texel that gets a grid.
 void gather_grids(const BakeScene& scene, const TexelFinder& finder, int band,
                   const TexelPoints& centres, Gatherer& gatherer) {
-  const std::vector<char> fineness = fineness_of(finder, band, centres);
+  const std::vector<GridSize> grids = grids_of(scene, finder.owners(), band, centres);
   std::vector<SurfaceRun>& runs = gatherer.gathered.points.runs;
   std::vector<double> areas;
   size_t i = 0;
   for (const TexelRun& run : centres.places) {
     for (int k = 0; k < run.count; ++k, ++i) {
-      const int n = fineness[i];
-      if (n == 1) continue;
+      const GridSize size = grids[i];
+      if (size.count() == 1) continue;
       TexelRun place = run;
       for (size_t c = 0; c < 2; ++c) place.weights[c] += k * run.step[c];
       const size_t first = runs.size();
-      finder.grid(place, n, centres.runs[i].face, runs);
+      finder.grid(place, size, centres.runs[i].face, runs);
       areas.clear();
       for (size_t s = first; s < runs.size(); ++s)
         areas.push_back(area_of_step(scene.source.mesh(), runs[s]));
-      place.count = n * n;
+      place.count = size.count();
       place.step = {0, 0};  // all of them show what the texel's middle is to be lit by
       gatherer.gathered.points.places.push_back(place);
       gatherer.add(i, areas);

@@ -48,6 +48,7 @@ struct SurfaceSample {
   // What the weights change by from a sample to the next one, and to the row below.
   Vector3 step = Vector3::Zero(), below = Vector3::Zero();
   Found found = Found::Here;
+  float wall = 0;  // how much of it a wall hides: see CalmWalls
 };
 
 /// Samples of neighbouring texels of a row on one face of the source: the i-th has the barycentric
@@ -83,8 +84,9 @@ struct SurfaceField {
   /// whole sample a texel, and for those that want to know how large a texel is on the surface;
   /// `evaluate` is not called then. Colours are linear here: to be averaged they would be made so.
   std::function<void(std::span<const SurfaceRun> runs, float* values)> evaluate_runs = {};
-  /// Changes values once they are there, by where the texels lie in the chart; colours are linear.
-  std::function<void(std::span<const SurfaceRun> runs, std::span<const TexelRun> places,
+  /// Changes values once they are there, by how much of each a wall hides and where it lies in the
+  /// chart; colours are linear.
+  std::function<void(std::span<const float> hidden, std::span<const TexelRun> places,
                      float* values)>
       amend = {};
 

@@ -19,6 +19,11 @@ struct TexelRun {
   int row, first, count;
   std::array<double, 2> weights, step;
   std::array<double, 2> below;  // what the weights change by from a row to the next
+
+  SurfacePoint at(int i) const {
+    const double a = weights[0] + i * step[0], b = weights[1] + i * step[1];
+    return {face, {a, b, 1 - a - b}};
+  }
 };
 
 /// Who owns which texel of some rows of an image.

@@ -147,25 +147,26 @@ void TexelFinder::locate(const TexelRun& place, std::vector<SurfaceRun>& runs) c
   for (int i = 0; i < place.count; ++i) runs.push_back(located(first + i * east, east, south));
 }
 
-void TexelFinder::grid(const TexelRun& place, int n, Face near,
+void TexelFinder::grid(const TexelRun& place, GridSize size, Face near,
                        std::vector<SurfaceRun>& runs) const {
   const Vector3 middle = three(place.weights), step = change(place.step),
                 below = change(place.below);
-  const auto at = [n](int k) { return (k + 0.5) / n - 0.5; };
+  const auto east_of = [&](int s) { return (s % size.east + 0.5) / size.east - 0.5; };
+  const auto south_of = [&](int s) { return (s / size.east + 0.5) / size.south - 0.5; };
   if (!source_) {
     std::vector<PlaceOnTarget> places;
-    for (int s = 0; s < n * n; ++s)
-      places.push_back(
-          {place.face, middle + at(s % n) * step + at(s / n) * below, step / n, below / n});
+    for (int s = 0; s < size.count(); ++s)
+      places.push_back({place.face, middle + east_of(s) * step + south_of(s) * below,
+                        step / size.east, below / size.south});
     scene_->source.surface->project(scene_->target, places, near, runs);
     return;
   }
   const SphericalChart& chart = scene_->target.chart;
   const Eigen::Matrix3d corners = rays(chart.triangles, chart.points, place.face);
   const Vector3 east = corners * step, south = corners * below;
-  for (int s = 0; s < n * n; ++s)
-    runs.push_back(
-        located(corners * middle + at(s % n) * east + at(s / n) * south, east / n, south / n));
+  for (int s = 0; s < size.count(); ++s)
+    runs.push_back(located(corners * middle + east_of(s) * east + south_of(s) * south,
+                           east / size.east, south / size.south));
 }
 
 TexelPoints TexelFinder::by_direction(int band, double x, double y) const {

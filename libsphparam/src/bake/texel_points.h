@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -16,6 +17,17 @@ namespace sphparam {
 struct TexelPoints {
   std::vector<SurfaceRun> runs;
   std::vector<TexelRun> places;
+};
+
+/// How many points a texel is looked at, side by side to the east and to the south.
+struct GridSize {
+  int east = 1, south = 1;
+
+  int count() const { return east * south; }
+  void include(const GridSize& other) {
+    east = std::max(east, other.east);
+    south = std::max(south, other.south);
+  }
 };
 
 /// Finds the points of the source mesh that the texels of an image show.
@@ -40,11 +52,11 @@ class TexelFinder {
   /// The source run of a run of the chart. Requires: the source is the target.
   SurfaceRun run_in_source(const TexelRun& place) const;
 
-  /// Appends n × n points of the source in a texel, row by row: those of the middles of its parts,
-  /// beyond the texel's face too, and what a part covers. `place`: the run of the chart at the
-  /// texel's centre. `near`: a face of the source that may be near, which changes nothing.
+  /// Appends a grid of points of the source in a texel, row by row: those of the middles of its
+  /// parts, beyond the texel's face too, and what a part covers. `place`: the run of the chart at
+  /// the texel's centre. `near`: a face of the source that may be near, which changes nothing.
   /// Requires: the source is not the target, or `Sphere`.
-  void grid(const TexelRun& place, int n, Face near, std::vector<SurfaceRun>& runs) const;
+  void grid(const TexelRun& place, GridSize size, Face near, std::vector<SurfaceRun>& runs) const;
 
   /// Whether each texel is located by itself, by direction or by projection; else the chart's
   /// triangles lead to its point.

@@ -195,11 +195,12 @@ RepairTrial try_repair_beyond(const MeshSource& source, const RepairOptions& wan
   }
 }
 
-RepairTrial try_repair_unasked(const MeshSource& source) {
-  const RepairOptions unasked;
+UnaskedRepair try_repair_unasked(const MeshSource& source) {
+  const RepairOptions unasked{.only_whole = true};
   RepairedMesh mended = repair_mesh(source.file.mesh, unasked);
-  KeptParts parts = mended.parts;
-  return trial_of(source, unasked, std::move(mended), std::move(parts));
+  UnaskedRepair result{trial_of(source, unasked, mended, mended.parts), std::nullopt};
+  if (result.trial.mends_unasked()) result.mended = with_repairs(source, std::move(mended));
+  return result;
 }
 
 void require_mappable(const MeshSource& source) {

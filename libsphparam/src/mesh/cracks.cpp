@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <unordered_map>
 
 #include "mesh/face_sides.h"
 #include "mesh/repair_state.h"
@@ -43,6 +44,15 @@ class Grid {
 
  private:
   using Cell = std::array<std::int64_t, 3>;
+  /// Each coordinate times a large odd number.
+  struct CellHash {
+    std::size_t operator()(const Cell& cell) const {
+      std::uint64_t hash = 0;
+      for (const std::int64_t i : cell)
+        hash = (hash ^ static_cast<std::uint64_t>(i)) * 0x9E3779B97F4A7C15U, hash ^= hash >> 29;
+      return hash;
+    }
+  };
   Cell cell_of(const Vector3& p) const {
     return {static_cast<std::int64_t>(std::floor(p[0] / cell_)),
             static_cast<std::int64_t>(std::floor(p[1] / cell_)),
@@ -50,7 +60,7 @@ class Grid {
   }
 
   double cell_;
-  std::map<Cell, std::vector<Vertex>> cells_;
+  std::unordered_map<Cell, std::vector<Vertex>, CellHash> cells_;
 };
 
 /// Sides with no face on the other side, by half-edge.

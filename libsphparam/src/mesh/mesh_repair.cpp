@@ -64,6 +64,10 @@ void choose_component(RepairState& state, const RepairOptions& options, bool fir
                  named ? 0 : options.least_kept);
 }
 
+bool is_given_up(const RepairState& state, const RepairOptions& options) {
+  return options.only_whole && state.parts.refused;
+}
+
 bool is_closed_manifold(const RepairState& state) {
   return Topology::try_build(state.triangles(), state.vertex_count()).has_value();
 }
@@ -79,6 +83,7 @@ void run_round(RepairState& state, const RepairOptions& options, bool first) {
   if (options.orientation && !closed) orient_alike(state);
   if (options.non_manifold && !closed) split_non_manifold(state);
   if (options.components) choose_component(state, options, first);
+  if (is_given_up(state, options)) return;
   if (closed) state.largest_hole_left = 0;
   if (options.holes && !closed) fill_holes(state, options);
   if (options.handles) remove_handles(state, options);
@@ -167,7 +172,7 @@ RepairedMesh repair_mesh(const TriangleMesh& mesh, const RepairOptions& options)
     if (options.orientation && turn_outward(state, inspection)) {
       inspection = inspect_mesh(state.mesh());
     }
-    if (state.log_size() == done_before) break;
+    if (state.log_size() == done_before || is_given_up(state, options)) break;
   }
   RepairedMesh result = as_result(std::move(state), std::move(inspection));
   tell_absent_vertices(result, mesh.triangles, mesh.positions.rows());

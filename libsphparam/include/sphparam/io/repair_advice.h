@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "sphparam/io/mesh_source.h"
@@ -10,8 +11,14 @@ namespace sphparam {
 /// weld and the kind of handle that were chosen stay so. Throws: NoSuchComponent.
 RepairTrial try_repair_beyond(const MeshSource& source, const RepairOptions& wanted);
 
+/// What repair does unasked, and what it makes: none where that is not enough.
+struct UnaskedRepair {
+  RepairTrial trial;
+  std::optional<MeshSource> mended;  // a closed surface of genus 0
+};
+
 /// No more than what repair does unasked, once: whether that is enough.
-RepairTrial try_repair_unasked(const MeshSource& source);
+UnaskedRepair try_repair_unasked(const MeshSource& source);
 
 /// Several lines for people: what repair would do to the mesh of this file and what to type, or
 /// that it cannot help and why. `command`: what to type; empty: a plain `sphparam map`.

@@ -56,6 +56,8 @@ struct RepairOptions {
   /// the mesh instead where `longest_handle_length` is more than 0.
   double longest_handle = 0.35;
   double longest_handle_length = 0;
+  /// Ends where no component is large enough (`parts.refused`): whatever follows, several stay.
+  bool only_whole = false;
 
   /// Nothing at all is wanted; then single ones are switched on.
   static RepairOptions none() {
