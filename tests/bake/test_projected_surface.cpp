@@ -177,6 +177,34 @@ TEST_CASE("projected surface: colours are averaged over what a texel covers of i
   CHECK(squares / count - sum * sum / count / count < 0.02);
 }
 
+TEST_CASE("projected surface: triangles may be far finer one way than the other") {
+  const bool to_the_east = GENERATE(true, false);
+  // Stripes that are about five to a texel, in turn black and white.
+  constexpr int stripes = 300, few = 9;
+  MeshFile fine = file_of(
+      scaled(to_the_east ? uv_sphere(stripes, few) : uv_sphere(few, stripes / 2 - 1), 1.01));
+  Property stripe{.name = "red", .type = ScalarType::Uint8, .values = {}};
+  for (const auto& p : fine.mesh.positions.rowwise()) {
+    const SphericalCoordinates angles = to_spherical(p.normalized());
+    const double turn = to_the_east ? angles.theta : angles.phi;
+    const long number = std::lround(turn / (2 * std::numbers::pi) * stripes);
+    stripe.values.push_back(number % 2 == 0 ? 0 : 255);
+  }
+  for (const char* name : {"red", "green", "blue"}) {
+    stripe.name = name;
+    fine.set_vertex_property(stripe);
+  }
+  const auto scene = on_sphere(std::move(fine));
+  int apart = 0, all = 0;
+  for_each_texel(baked(*scene, "vcolor"), [&](const Vector3& direction, const Vector3& colour) {
+    if (std::abs(direction.z()) > 0.7) return;
+    ++all;
+    apart += std::abs(colour.x() - 0.5) > 0.15;  // a point of a stripe is 0.25 away in the mean
+  });
+  CHECK(all > 900);
+  CHECK(apart < all / 50);
+}
+
 TEST_CASE("projected surface: what a map would have to tell is refused, and no surface too") {
   const auto scene = on_sphere(file_of(icosphere(2)));
   for (const char* field : {"area", "angle", "stretch", "curvature"})

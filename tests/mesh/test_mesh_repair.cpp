@@ -330,6 +330,19 @@ TEST_CASE("mesh_repair: the largest component has the most area, not the most fa
              Catch::Contains("the largest has 80 faces and 98.9 % of the area"));
 }
 
+TEST_CASE(
+    "mesh_repair: what cannot be made whole is left when that is known, where only that counts") {
+  TriangleMesh open = icosphere(2);
+  open.triangles = Triangles(open.triangles.bottomRows(open.triangles.rows() - 1));
+  const TriangleMesh two = joined(open, moved(open, 5));
+  CHECK(count(repair_mesh(two), RepairKind::HoleFilled) == 2);
+  const RepairedMesh left = repair_mesh(two, {.only_whole = true});
+  CHECK(left.parts.refused);
+  CHECK(count(left, RepairKind::HoleFilled) == 0);
+  CHECK_FALSE(left.inspection.is_sphere());
+  check_is_sphere(repair_mesh(open, {.only_whole = true}));
+}
+
 TEST_CASE("mesh_repair: what would cost more than specks is not dropped unless it is asked for") {
   const TriangleMesh two = joined(icosphere(2), moved(icosphere(2), 5));
   const RepairedMesh refused = repair_mesh(two);
