@@ -47,7 +47,7 @@ class Batch {
   /// The values of a field, colours linear.
   void evaluate(const SurfaceField& field, float* values) {
     find(field, values);
-    if (field.amend && walls_) field.amend(hidden(), places_, values);
+    if (field.amend) field.amend(hidden(), places_, values);
   }
 
  private:

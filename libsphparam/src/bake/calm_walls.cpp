@@ -98,6 +98,7 @@ double CalmWalls::share(const Vector3& place, const SurfaceRun& run, int i) cons
 std::vector<float> CalmWalls::shares(std::span<const SurfaceRun> runs,
                                      std::span<const TexelRun> places) const {
   std::vector<float> shares;
+  shares.reserve(runs.size());  // mostly each is one
   size_t run = 0;
   int in_run = 0;
   for (const TexelRun& place : places) {
