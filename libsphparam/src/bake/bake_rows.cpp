@@ -174,17 +174,20 @@ void average(const Work& work, const CrowdedTexels& crowded, std::int64_t seed,
   }
 }
 
+bool is_label(const SurfaceField& field) { return !has_means(field.kind); }
+
 /// Replaces the texels of a band that hold many triangles by their means.
 void average_crowded(const Work& work, int band, const TexelPoints& centres, BandValues& values) {
   const std::int64_t start =
       static_cast<std::int64_t>(work.finder.owners().first_row(band)) * work.options.width;
   std::vector<float> buffer;
-  for_crowded_texels(work.scene, work.finder, band, centres, [&](const CrowdedTexels& crowded) {
-    average(work, crowded, start * crowded_seeds + crowded.before, buffer, values);
-  });
+  const bool calm = std::ranges::all_of(
+      work.fields, [](const SurfaceField& field) { return field.calm || is_label(field); });
+  for_crowded_texels(
+      work.scene, work.finder, band, centres, calm, [&](const CrowdedTexels& crowded) {
+        average(work, crowded, start * crowded_seeds + crowded.before, buffer, values);
+      });
 }
-
-bool is_label(const SurfaceField& field) { return !has_means(field.kind); }
 
 /// How often the texels are gone through.
 int passes(std::span<const SurfaceField> fields, const BakeOptions& options) {

@@ -202,6 +202,7 @@ void CalmWalls::calm(const std::shared_ptr<const CalmWalls>& walls, SurfaceField
   if (!walls || !field.evaluate_runs || !is_appearance(field)) return;
   const auto channels = static_cast<size_t>(field.channels);
   std::vector<float> about = walls->rim_values(field);
+  field.calm = true;
   field.amend = [walls, about = std::move(about), channels](std::span<const float> hidden,
                                                             std::span<const TexelRun> places,
                                                             float* values) {

@@ -197,14 +197,14 @@ GridSize grid_size(const SurfaceRun& run) {
 }
 
 /// The grid of each texel for itself. What a wall hides needs none.
-std::vector<GridSize> own_grids(const BakeScene& scene, const TexelPoints& centres) {
+std::vector<GridSize> own_grids(const CalmWalls* walls, const TexelPoints& centres) {
   std::vector<GridSize> sizes;
   sizes.reserve(centres.runs.size());
   for (const TexelRun& place : centres.places) {
     for (int i = 0; i < place.count; ++i) {
       const SurfaceRun& shown = centres.runs[sizes.size()];
       GridSize size = grid_size(shown);
-      if (size.count() > 1 && scene.walls && scene.walls->hides(place.at(i), shown)) size = {};
+      if (size.count() > 1 && walls && walls->hides(place.at(i), shown)) size = {};
       sizes.push_back(size);
     }
   }
@@ -213,10 +213,10 @@ std::vector<GridSize> own_grids(const BakeScene& scene, const TexelPoints& centr
 
 /// The grid of each texel: more than a point in texels that span more than a triangle, or have
 /// neighbours that do.
-std::vector<GridSize> grids_of(const BakeScene& scene, const TexelOwners& owners, int band,
+std::vector<GridSize> grids_of(const CalmWalls* walls, const TexelOwners& owners, int band,
                                const TexelPoints& centres) {
   const int width = owners.width(), rows = owners.rows(band);
-  const std::vector<GridSize> own = own_grids(scene, centres);
+  const std::vector<GridSize> own = own_grids(walls, centres);
   std::vector<GridSize> grids(own.size());
   const auto texel = [&](int row, int column) {
     return static_cast<size_t>(row) * static_cast<size_t>(width) +
@@ -278,8 +278,9 @@ class Gatherer {
 
 /// Of each texel that gets a grid.
 void gather_grids(const BakeScene& scene, const TexelFinder& finder, int band,
-                  const TexelPoints& centres, Gatherer& gatherer) {
-  const std::vector<GridSize> grids = grids_of(scene, finder.owners(), band, centres);
+                  const TexelPoints& centres, bool calm, Gatherer& gatherer) {
+  const CalmWalls* walls = calm ? scene.walls.get() : nullptr;
+  const std::vector<GridSize> grids = grids_of(walls, finder.owners(), band, centres);
   std::vector<SurfaceRun>& runs = gatherer.gathered.points.runs;
   std::vector<double> areas;
   size_t i = 0;
@@ -320,11 +321,11 @@ void gather_crowds(const std::vector<Deposit>& deposits, Gatherer& gatherer) {
 }  // namespace
 
 void for_crowded_texels(const BakeScene& scene, const TexelFinder& finder, int band,
-                        const TexelPoints& centres,
+                        const TexelPoints& centres, bool calm,
                         const std::function<void(const CrowdedTexels&)>& visit) {
   Gatherer gatherer(visit);
   if (finder.by_location())
-    gather_grids(scene, finder, band, centres, gatherer);
+    gather_grids(scene, finder, band, centres, calm, gatherer);
   else
     gather_crowds(Collector(scene, finder, band).collect(), gatherer);
   gatherer.hand_on();

@@ -35,10 +35,12 @@ struct CrowdedTexels {
 
 /// Visits the crowded texels of a band in the order of their first points, some thousand points at
 /// a time, so that what is worked out of them stays at hand.
-/// `centres`: `finder.points(band, 0.5, 0.5)`. Cost: one clipped polygon for each triangle and
-/// crowded texel that meet; or, by direction, a location for each point of the grids.
+/// `centres`: `finder.points(band, 0.5, 0.5)`. `calm`: all that is wanted is calm on walls (see
+/// CalmWalls), so that texels whose middle a wall hides need no grid of their own. Cost: one
+/// clipped polygon for each triangle and crowded texel that meet; or, by direction, a location for
+/// each point of the grids.
 void for_crowded_texels(const BakeScene& scene, const TexelFinder& finder, int band,
-                        const TexelPoints& centres,
+                        const TexelPoints& centres, bool calm,
                         const std::function<void(const CrowdedTexels&)>& visit);
 
 }  // namespace sphparam

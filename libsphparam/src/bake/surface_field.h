@@ -78,6 +78,8 @@ struct SurfaceField {
   std::vector<std::pair<std::string, std::string>> texts = {};  // more metadata of its own
   // Where values of integer images come from and go to; none: known only once all are baked.
   std::optional<std::pair<double, double>> range = std::nullopt;
+  bool calm = false;  // shows nothing of what walls hide: see CalmWalls
+
   /// Fills values[channels·i …] for sample i. Called from many threads at once.
   std::function<void(std::span<const SurfaceSample> samples, float* values)> evaluate = {};
   /// The same for runs, the values of all in their order. For fields that can do with less than a

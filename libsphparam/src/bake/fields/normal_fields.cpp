@@ -52,6 +52,7 @@ SurfaceField make_tangent_normal(const BakeScene& scene, const std::string&) {
                      .kind = FieldKind::Direction,
                      .about = scene.options.normal_y_down ? "tangent space, +Y down (DirectX)"
                                                           : "tangent space, +Y up (OpenGL, glTF)"};
+  field.calm = scene.walls != nullptr;
   field.evaluate = [&scene, source, frame, x_sign, y_sign](std::span<const SurfaceSample> samples,
                                                            float* values) {
     const Triangles& wedges = scene.target.chart.wedges;
