@@ -121,7 +121,7 @@ TEST_CASE("whole surface: a repair that keeps too little is not taken") {
 }
 
 TEST_CASE(
-    "whole surface: vertices without a place are left out of a wrap; no triangles, no surface") {
+    "whole surface: vertices without a place are left out of a wrap, no triangles, no surface") {
   TriangleMesh balls = two_balls();
   balls.positions(0, 0) = std::numeric_limits<double>::quiet_NaN();
   CHECK(whole_surface(source_of(balls), coarse()).by == WholeBy::Wrap);

@@ -319,7 +319,7 @@ TEST_CASE("id: labels have colours of their own in 8 bits, and none has none's")
   CHECK(std::ssize(colours) == file.mesh.face_count() + 1);
 }
 
-TEST_CASE("scalar: whole numbers are labels, never mixed; of two corners and one the two win") {
+TEST_CASE("scalar: whole numbers are labels, never mixed, of two corners and one the two win") {
   MeshFile file;
   file.mesh = icosphere(2);
   Property parcel{"parcel", ScalarType::Int32, {}}, patch{"patch", ScalarType::Uint8, {}};

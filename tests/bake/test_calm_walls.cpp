@@ -120,7 +120,7 @@ TEST_CASE("calm walls: tangent normals stand on a wall") {
   }
 }
 
-TEST_CASE("calm walls: the same for any number of threads; places stay as they are found") {
+TEST_CASE("calm walls: the same for any number of threads, places stay as they are found") {
   CHECK(baked("vcolor", 0.1, 1) == baked("vcolor", 0.1, 3));
   CHECK(baked("position", 0.1) == baked("position", 0));
   CHECK(baked("vcolor", 10) == baked("vcolor", 0));  // nothing is so far

@@ -157,7 +157,7 @@ TEST_CASE(
   CHECK_THROWS_AS(curvature_field(scene, "median"), FieldError);
 }
 
-TEST_CASE("height field: distance from the origin; above another mesh, along its normals") {
+TEST_CASE("height field: distance from the origin, above another mesh, along its normals") {
   TriangleMesh ball = icosphere(4), base = icosphere(3);
   ball.positions *= 1.25;
   const BakeScene scene = scene_of(ball);

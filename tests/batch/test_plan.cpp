@@ -46,7 +46,7 @@ TEST_CASE("steps: what names its files is left alone") {
   CHECK_THROWS_WITH(complete_steps({{"batch"}}), Contains("cannot be a step"));
 }
 
-TEST_CASE("steps: placeholders stand for the shape; an unknown one is told with those there are") {
+TEST_CASE("steps: placeholders stand for the shape, an unknown one is told with those there are") {
   const BatchPlan plan = plan_of_two();
   CHECK(steps_of(plan, plan.items[1]).front() ==
         BatchStep{"map", "/x/b.ply", "--lambda", "2", "-o", "b.sph.ply"});

@@ -110,7 +110,7 @@ TEST_CASE("tangent_frame: normals that cancel are replaced") {
 }
 
 TEST_CASE(
-    "tangent_frame: normals of wedges that agree are those of vertices; others have their own") {
+    "tangent_frame: normals of wedges that agree are those of vertices, others have their own") {
   const Framed sphere = framed_sphere(3, 8);
   const auto wedges = static_cast<int>(sphere.chart.wedge_count());
   Points spread(wedges, 3);
@@ -153,7 +153,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("tangent_frame: the same bytes for any number of threads; wrong sizes are refused") {
+TEST_CASE("tangent_frame: the same bytes for any number of threads, wrong sizes are refused") {
   const Framed sphere = framed_sphere(5, 7);
   for (const int threads : {1, 2, 5}) {
     const ShadingFrame frame =

@@ -26,7 +26,7 @@ TEST_CASE("asset: `sphparam FILE` fills a folder beside, all files together") {
   CHECK(sphparam_program({mesh, "-o", out, "--size", "64", "--no-page"}).code == 0);  // once more
 }
 
-TEST_CASE("asset: --textures webp is of the .glb, whose size is told; images beside it are PNG") {
+TEST_CASE("asset: --textures webp is of the .glb, whose size is told, images beside it are PNG") {
   const Folder folder;
   const std::string out = folder / "made", json = out + "/r.json";
   const Ended ended = sphparam_program(

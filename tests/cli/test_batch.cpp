@@ -92,7 +92,7 @@ TEST_CASE("batch: what is done is skipped until its input, its options or its fi
   CHECK(shapes.status()["done"] == 3);
 }
 
-TEST_CASE("batch: a plan never changes; tasks that wait run what they were planned for") {
+TEST_CASE("batch: a plan never changes, tasks that wait run what they were planned for") {
   const Shapes shapes;
   shapes.plan();
   const std::string first = bytes_of(shapes.work + "/plan").substr(0, 16);

@@ -87,7 +87,7 @@ TEST_CASE("kept holes: map closes them, certifies, marks, and tells what they ta
   CHECK_THAT(same.err, Contains("fillers left out"));
 }
 
-TEST_CASE("kept holes: a share that is asked for is kept to; without a map they are told") {
+TEST_CASE("kept holes: a share that is asked for is kept to, without a map they are told") {
   const MappedBowl bowl;
   const std::string other = bowl.folder / "other.sph.ply", json = bowl.folder / "other.json";
   REQUIRE(

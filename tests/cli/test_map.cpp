@@ -101,7 +101,7 @@ TEST_CASE("map: the same bytes for 1, 2 and 4 threads") {
   }
 }
 
-TEST_CASE("map: the chart of the report is a stage; where it is too much, the map is there") {
+TEST_CASE("map: the chart of the report is a stage, where it is too much, the map is there") {
   const Folder folder;
   const std::string map = folder / "coil.sph.ply";
   for (const int turns : {3, 40}) {

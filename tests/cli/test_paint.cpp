@@ -40,7 +40,7 @@ std::string obj_with_atlas(const TriangleMesh& mesh, bool overlapping = false) {
 }  // namespace
 
 TEST_CASE(
-    "paint: vertex colours are the image where the map takes the vertices; they stay mapped") {
+    "paint: vertex colours are the image where the map takes the vertices, they stay mapped") {
   const Folder folder;
   const std::string image = folder / "directions.png", painted = folder / "painted.ply";
   write_image(image, direction_image(256));

@@ -304,7 +304,7 @@ TEST_CASE("remesh --lods: coarser levels of a .sph.ply are called .sph.ply too")
                                                    "b.c_lod1.ply", "m.obj"});
 }
 
-TEST_CASE("remesh --lods: with a fit each level is a surface of its own; {n} is the number") {
+TEST_CASE("remesh --lods: with a fit each level is a surface of its own, {n} is the number") {
   const Folder folder;
   write_bytes(folder / "m.obj", wavy_ball());
   const Ended ended = sphparam_program({"remesh", folder / "m.obj", "--grid", "octa:17", "--lods",

@@ -112,7 +112,7 @@ TEST_CASE("remesh --subdiv-fit: .obj and .glb too, the same bytes for one thread
   CHECK(sphparam::read_mesh(obj).comments == words);
 }
 
-TEST_CASE("remesh --subdiv-fit: an .obj of the limit surface has quads too; the RMS is one way") {
+TEST_CASE("remesh --subdiv-fit: an .obj of the limit surface has quads too, the RMS is one way") {
   const Mapped mapped(300);
   const Ended ended =
       mapped.remesh({"--grid", "cube:4", "--subdiv-fit", "catmark", "-o", mapped.folder / "a.obj",

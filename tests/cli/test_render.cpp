@@ -134,7 +134,7 @@ TEST_CASE("render: what needs a map says so") {
   }
 }
 
-TEST_CASE("up: y where a mesh comes from glTF, also by way of a map or a new mesh; else z") {
+TEST_CASE("up: y where a mesh comes from glTF, also by way of a map or a new mesh, else z") {
   const Folder folder;
   TriangleMesh egg = icosphere(2);
   egg.positions.col(2) *= 1.5;
@@ -172,7 +172,7 @@ TEST_CASE("up: y where a mesh comes from glTF, also by way of a map or a new mes
   CHECK(compared("y") != compared("z"));
 }
 
-TEST_CASE("up and front: by name or by numbers; what is none, and a front that is up, is refused") {
+TEST_CASE("up and front: by name or by numbers, what is none, and a front that is up, is refused") {
   const Folder folder;
   const std::string egg = folder / "egg.obj", map = folder / "map.sph.ply";
   write_bytes(egg, obj_text(icosphere(2)));
@@ -222,7 +222,7 @@ TEST_CASE("render: north is up on the sphere, whatever axis of the mesh is") {
 }
 
 TEST_CASE(
-    "render, report: the texture in a glTF file is shown; a map of it says that it has none") {
+    "render, report: the texture in a glTF file is shown, a map of it says that it has none") {
   const Folder folder;
   TriangleMesh egg = icosphere(2);
   egg.positions.col(2) *= 1.5;

@@ -81,7 +81,7 @@ TEST_CASE("repair: a refusal's hint keeps the options and the outputs that were 
 }
 
 TEST_CASE(
-    "repair: components that cannot be mapped say why; unrepaired ones are sent to --repair") {
+    "repair: components that cannot be mapped say why, unrepaired ones are sent to --repair") {
   const Folder folder;
   const std::string mesh = folder / "m.obj", map = folder / "m.sph.ply";
   write_bytes(mesh, obj_text(with_a_hole()));
@@ -389,7 +389,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("repair: a torus stays refused, with what would open it; cut or closed as one likes") {
+TEST_CASE("repair: a torus stays refused, with what would open it, cut or closed as one likes") {
   const std::string torus = obj_text(bumped_torus(16, 40, 0.3, 0.02, 1));
   const Folder folder;
   const std::string map = folder / "map.sph.ply";

@@ -62,7 +62,7 @@ TEST_CASE("ends: the tips of arms, the longest the most prominent, and their dis
   }
 }
 
-TEST_CASE("ends: a size and a place do not matter; a ball has at most one") {
+TEST_CASE("ends: a size and a place do not matter, a ball has at most one") {
   const TriangleMesh mesh = four_arms(4);
   TriangleMesh other = mesh;
   other.positions = (mesh.positions * 8).rowwise() + Vector3(64, -32, 16).transpose();

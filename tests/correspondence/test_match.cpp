@@ -171,7 +171,7 @@ TriangleMesh with_arm(int level, double length) {
   return mesh;
 }
 
-TEST_CASE("match: an arm whose end is a landmark does not collapse; where all must, it is told") {
+TEST_CASE("match: an arm whose end is a landmark does not collapse, where all must, it is told") {
   const MappedMesh arm = mapped(with_arm(5, 3)), ball = mapped(icosphere(4));
   const std::vector<LandmarkPair> ends = {{0, 0}, {3, 3}, {5, 5}, {8, 8}};
   const Match onto_ball = match_surfaces(arm, ball, {.landmarks = ends});

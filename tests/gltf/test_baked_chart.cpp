@@ -73,7 +73,7 @@ TEST_CASE("baked chart: at the poles an image shows the truth on the chart it wa
   }
 }
 
-TEST_CASE("baked chart: images say which one it is; those of strangers suit any") {
+TEST_CASE("baked chart: images say which one it is, those of strangers suit any") {
   for (const int wedges : {1, 6, 1024})
     CHECK(pole_wedges_of(texts_of_chart(true, wedges)) == wedges);
   CHECK(pole_wedges_of({{"ImageDescription",

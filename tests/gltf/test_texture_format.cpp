@@ -107,7 +107,7 @@ TEST_CASE("texture format: of few colours, webp without loss is the smaller one"
   CHECK((decoded(made.images[0]).pixels == decoded(look.images[0]).pixels));
 }
 
-TEST_CASE("texture format: jpeg takes colours without alpha; png what is not; given keeps both") {
+TEST_CASE("texture format: jpeg takes colours without alpha, png what is not, given keeps both") {
   const Look given = painted(), jpeg = encoded(given, TextureFormat::Jpeg);
   CHECK(kinds(jpeg) == std::vector<std::string>{"png", "png", "png", "jpeg"});
   Look opaque = given;
@@ -174,7 +174,7 @@ TEST_CASE("texture format: a .glb of WebP says that it needs its extension, and 
   CHECK((decode_image(bytes, "b").pixels == decoded(painted().images[0]).pixels));
 }
 
-TEST_CASE("texture format: the same bytes for any number of threads; words for people") {
+TEST_CASE("texture format: the same bytes for any number of threads, words for people") {
   const Look one = encoded(painted(), TextureFormat::Webp, 1),
              four = encoded(painted(), TextureFormat::Webp, 4);
   for (std::size_t i = 0; i < 4; ++i) CHECK(one.images[i].bytes == four.images[i].bytes);

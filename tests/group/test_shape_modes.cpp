@@ -36,7 +36,7 @@ struct Family {
 
 }  // namespace
 
-TEST_CASE("shape_modes: all modes together are the shapes; modes are orthogonal, scores normal") {
+TEST_CASE("shape_modes: all modes together are the shapes, modes are orthogonal, scores normal") {
   const Family family;
   const ShapeModes found = shape_modes(family.shapes, family.mean, family.weights, 10);
   REQUIRE(found.modes.size() == 2);

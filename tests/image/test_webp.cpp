@@ -53,7 +53,7 @@ TEST_CASE("webp: without loss every number is what a PNG gives, beneath what is 
   }
 }
 
-TEST_CASE("webp: with loss colours are near and alpha is the same; less quality is smaller") {
+TEST_CASE("webp: with loss colours are near and alpha is the same, less quality is smaller") {
   for (const int channels : {3, 4}) {
     const Image image = picture(192, 96, channels);
     const std::vector<char> fine = encode_webp(image, {.lossless = false, .quality = 95}),

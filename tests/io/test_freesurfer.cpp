@@ -121,7 +121,7 @@ TEST_CASE("freesurfer: what is no surface is refused by name, what is cut short 
   CHECK(contains(complaint(beyond), "names vertex 9 of 4"));
 }
 
-TEST_CASE("freesurfer: doubles are rounded and told; what 32 bits cannot hold is refused") {
+TEST_CASE("freesurfer: doubles are rounded and told, what 32 bits cannot hold is refused") {
   MeshFile file;
   file.mesh = icosphere(2);
   const MeshFile back = read(serialise_freesurfer(file));

@@ -77,14 +77,16 @@ TEST_CASE("try_repair_beyond: the component and the kind of handle that were cho
 
 TEST_CASE("try_repair_unasked: says of unasked repair what the whole trial says") {
   const MeshSource open = source_of(open_ball(), "a.ply");
-  CHECK(try_repair_unasked(open).mends_unasked());
-  CHECK(try_repair_unasked(open).actions.size() == try_repair(open).actions.size());
+  CHECK(try_repair_unasked(open).trial.mends_unasked());
+  CHECK(try_repair_unasked(open).mended->inspection.is_sphere());
+  CHECK(try_repair_unasked(open).trial.actions.size() == try_repair(open).actions.size());
   for (const auto& mesh : {two_balls(), bumped_torus(8, 20, 0.4, 0, 1)}) {
     const MeshSource source = source_of(mesh, "b.ply");
     REQUIRE(try_repair(source).can_mend());
     CHECK_FALSE(try_repair(source).mends_unasked());
-    CHECK_FALSE(try_repair_unasked(source).mends_unasked());
-    CHECK_FALSE(try_repair_unasked(source).can_mend());
+    CHECK_FALSE(try_repair_unasked(source).trial.mends_unasked());
+    CHECK_FALSE(try_repair_unasked(source).trial.can_mend());
+    CHECK_FALSE(try_repair_unasked(source).mended);
   }
 }
 

@@ -55,7 +55,7 @@ TEST_CASE("up: what is askew is made upright, the front as near as it can be") {
   CHECK_THROWS_AS(upright_axes({}, wish("0.1,0.2,1", "0.2,0.4,2")), FrontError);
 }
 
-TEST_CASE("up: glTF's own axes stay; z up looks along −y; a direction that is none is refused") {
+TEST_CASE("up: glTF's own axes stay, z up looks along −y, a direction that is none is refused") {
   CHECK(upright_rotation(upright_axes({}, wish("y"))).isIdentity(0));
   CHECK(upright_rotation(upright_axes({})) * Vector3(1, 2, 3) == Vector3(1, 3, -2));
   for (const std::string& up : names) CHECK_NOTHROW(upright_axes({}, wish(up)));
@@ -64,7 +64,7 @@ TEST_CASE("up: glTF's own axes stay; z up looks along −y; a direction that is 
   CHECK_THROWS_AS(upright_axes({}, {.front = Vector3(nan, 0, 1)}), std::invalid_argument);
 }
 
-TEST_CASE("up: comments keep it; what is asked for goes first and replaces them") {
+TEST_CASE("up: comments keep it, what is asked for goes first and replaces them") {
   MeshFile file;
   file.comments = {"made by hand", "up axis banana"};
   const MeshFile plain = file;

@@ -234,7 +234,7 @@ TEST_CASE("vertex_data: GIFTI keeps structure, intents, names and metadata, and 
 }
 
 TEST_CASE(
-    "vertex_data: arrays of two dimensions are columns; sparse ones and surfaces are refused") {
+    "vertex_data: arrays of two dimensions are columns, sparse ones and surfaces are refused") {
   const auto gifti = [](const std::string& intent, const std::string& more) {
     return "<?xml version=\"1.0\"?><GIFTI Version=\"1.0\" NumberOfDataArrays=\"1\"><DataArray "
            "Intent=\"" +

@@ -64,7 +64,7 @@ TEST_CASE("curvature: a sphere of radius r has mean curvature 1/r and Gauss curv
 }
 
 TEST_CASE(
-    "curvature: a tube of radius 1 has mean curvature 1/2 and no Gauss curvature; inside out "
+    "curvature: a tube of radius 1 has mean curvature 1/2 and no Gauss curvature, inside out "
     "it has the opposite sign") {
   TriangleMesh mesh = tube(40, 64);
   Curvature c = curvature_of(mesh);

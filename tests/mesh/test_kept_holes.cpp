@@ -139,7 +139,7 @@ TEST_CASE("kept holes: memory of fillers is linear in the boundary") {
   CHECK(origins <= 4 * closed.created.size());
 }
 
-TEST_CASE("kept holes: once closed, nothing is left to do; nothing is turned over") {
+TEST_CASE("kept holes: once closed, nothing is left to do, nothing is turned over") {
   const RepairedMesh once = repair_mesh(bowl(3, -0.5), keeping());
   const RepairedMesh again = repair_mesh(once.mesh, keeping());
   CHECK(again.actions.empty());

@@ -59,7 +59,7 @@ TEST_CASE("paint_vertices: where the image is finer than the mesh, light is aver
   }
 }
 
-TEST_CASE("paint_vertices: the same values for any number of threads; can be cancelled") {
+TEST_CASE("paint_vertices: the same values for any number of threads, can be cancelled") {
   const TexturePyramid pyramid(direction_image(64));
   const TriangleMesh mesh = icosphere(4);
   CHECK(painted(mesh, pyramid, 1).pixels == painted(mesh, pyramid, 3).pixels);

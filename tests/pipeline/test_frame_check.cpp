@@ -37,7 +37,7 @@ TEST_CASE("frame check: what was asked for holds in a map made for it, and not i
   CHECK(turned.pole_residuals[0] == Approx(3.14159265));
 }
 
-TEST_CASE("frame check: nothing asked for holds always; without a map nothing else does") {
+TEST_CASE("frame check: nothing asked for holds always, without a map nothing else does") {
   const Parameterization none;
   CHECK(check_frame(none, {}).holds());
   ParameterizeOptions wanted;

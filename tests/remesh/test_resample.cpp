@@ -171,7 +171,7 @@ TEST_CASE("resample: all columns are resampled, and what a file says stays") {
   CHECK_THROWS_AS(resample_data(data, gather), std::invalid_argument);
 }
 
-TEST_CASE("resample: the same weights for any number of threads; remesh takes them") {
+TEST_CASE("resample: the same weights for any number of threads, remesh takes them") {
   const Spheres spheres(3, 2);
   const Gather one = spheres.adaptive(1), three = spheres.adaptive(3);
   CHECK(one.vertices == three.vertices);

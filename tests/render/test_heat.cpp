@@ -40,7 +40,7 @@ TEST_CASE("heat_paint: white where areas are kept, dark where angles are, full a
   CHECK(heat_colour(Heat::Area, 8) == diverging(1));
 }
 
-TEST_CASE("with_legend: the scale runs from its first to its last colour; small pictures stay") {
+TEST_CASE("with_legend: the scale runs from its first to its last colour, small pictures stay") {
   for (const Heat heat : {Heat::Area, Heat::Angle}) {
     const Image image = with_legend(white(400, 400), heat);
     CHECK(image.width == 400);

@@ -261,7 +261,7 @@ TEST_CASE("make_report: a program gets the page of a mapped mesh, or of several 
   CHECK_THROWS_AS(make_report("ball", file, {}, options), std::invalid_argument);
 }
 
-TEST_CASE("page entries: maps of files are told apart; a mesh without a map is mapped now") {
+TEST_CASE("page entries: maps of files are told apart, a mesh without a map is mapped now") {
   namespace fs = std::filesystem;
   const fs::path folder = fs::temp_directory_path() / ("sphparam_maps_" + std::to_string(getpid()));
   fs::create_directories(folder / "other");

@@ -169,7 +169,7 @@ TEST_CASE("SphereLocator: rows near one another are found as one by one, in tiny
   }
 }
 
-TEST_CASE("SphereLocator: length does not matter; what is no direction is refused") {
+TEST_CASE("SphereLocator: length does not matter, what is no direction is refused") {
   const Mapped m(icosphere(2));
   const SphereLocator locator(m.topology, m.map);
   const Vector3 q(0.3, -0.4, 0.5);

@@ -95,7 +95,7 @@ TEST_CASE("spherical_correlation: no rotation of a fine sample is better") {
   for (size_t i = 1; i < found.size(); ++i) CHECK(found[i].correlation <= found[0].correlation);
 }
 
-TEST_CASE("spherical_correlation: the same bits for any number of threads; nonsense is refused") {
+TEST_CASE("spherical_correlation: the same bits for any number of threads, nonsense is refused") {
   const Functions from = random_functions(12, 2, 3), to = random_functions(12, 2, 4);
   const auto one = turns_by_correlation(from, to, 3, 1),
              three = turns_by_correlation(from, to, 3, 3);

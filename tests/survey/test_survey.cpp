@@ -242,7 +242,7 @@ TEST_CASE("survey: a file that takes too long is stopped, and the others go on")
   CHECK(named(survey, "two.off").end != SurveyEnd::Unreadable);
 }
 
-TEST_CASE("survey: stopped, it goes on from its records; what has changed is tried again") {
+TEST_CASE("survey: stopped, it goes on from its records, what has changed is tried again") {
   const Meshes meshes;
   const std::string folder = meshes.folder.string();
   const fs::path records = meshes.folder / "records";
@@ -283,7 +283,7 @@ TEST_CASE("survey: stopped, it goes on from its records; what has changed is tri
   CHECK(named(survey_folder(folder, kept), "ball.ply").end == SurveyEnd::Maps);
 }
 
-TEST_CASE("survey: a folder without meshes, or none at all, is an error; it can be stopped") {
+TEST_CASE("survey: a folder without meshes, or none at all, is an error, it can be stopped") {
   const Meshes meshes;
   const std::string folder = meshes.folder.string();
   CHECK_THROWS_AS(survey_folder((meshes.folder / "nowhere").string()), ReadError);

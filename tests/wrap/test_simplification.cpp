@@ -48,8 +48,7 @@ TEST_CASE("simplification: faces of a cube stay flat, its edges where they are")
   CHECK(off < mesh.vertex_count() / 20);
 }
 
-TEST_CASE(
-    "simplification: what is few enough stays as it is; far from the origin, it is as good") {
+TEST_CASE("simplification: what is few enough stays as it is, far from the origin, it is as good") {
   const TriangleMesh few = icosphere(1);
   CHECK(simplified(few, 80).triangles == few.triangles);
   TriangleMesh far = icosphere(4);

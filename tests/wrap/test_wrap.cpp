@@ -117,7 +117,7 @@ TEST_CASE("wrap: at a distance that closes the hole there is none") {
   check_shell(wrap);
 }
 
-TEST_CASE("wrap: what is apart is joined by a bridge, or the largest is kept; both are told") {
+TEST_CASE("wrap: what is apart is joined by a bridge, or the largest is kept, both are told") {
   const TriangleMesh soup = together(icosphere(2), moved(torus(0.3, 0.15), {3, 0, 0}));
   const Wrap joined = wrap_soup(soup, {.voxel = 0.08});
   CHECK(inspect_mesh(joined.mesh).defects.empty());

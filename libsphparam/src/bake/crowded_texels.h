@@ -20,8 +20,7 @@ inline constexpr std::int64_t crowded_seeds = 1 << 10;
 /// Where the chart is the source's own, a point is a triangle's, the centre of what the texel cuts
 /// out of it in (u, v): no triangle is missed. Where points are found by direction, texels that
 /// cover more than a triangle, and their neighbours in the band, get a grid of up to 8 × 8 points,
-/// as many to the east and to the south as they span triangles there; but none where a wall hides
-/// the middle: see CalmWalls.
+/// as many to the east and to the south as they span triangles there.
 struct CrowdedTexels {
   struct Texel {
     size_t index;        // in the band
