@@ -62,7 +62,7 @@ TEST_CASE("cosine rays: the seed decides, and an odd number becomes even") {
   CHECK(aimed(rays, axis, 5) != aimed(rays, axis, 6));
 }
 
-TEST_CASE("random numbers: in [0, 1), even, and neighbours have nothing to do with each other") {
+TEST_CASE("random numbers: from 0 to below 1, even, neighbours have nothing in common") {
   double sum = 0, product = 0;
   constexpr std::uint64_t count = 20000;
   for (std::uint64_t i = 0; i < count; ++i) {

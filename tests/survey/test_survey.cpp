@@ -236,9 +236,9 @@ TEST_CASE("survey: a file that takes too long is stopped, and the others go on")
   const Meshes meshes;
   meshes.write("slow.ply", icosphere(7));
   const Survey survey = survey_folder(
-      meshes.folder.string(), {.picture_size = 0, .isolated = true, .longest = 0.3, .threads = 1});
+      meshes.folder.string(), {.picture_size = 0, .isolated = true, .longest = 0.05, .threads = 1});
   CHECK(named(survey, "slow.ply").end == SurveyEnd::Stopped);
-  CHECK(named(survey, "slow.ply").reasons == Words{"it took more than 0.3 s"});
+  CHECK(named(survey, "slow.ply").reasons == Words{"it took more than 0.05 s"});
   CHECK(named(survey, "two.off").end != SurveyEnd::Unreadable);
 }
 
