@@ -59,6 +59,7 @@ struct Set {
   std::map<std::string, std::pair<std::string, std::string>> files;  // mesh and truth, of a shape
   bool one_based = false;
   int landmarks = 5;
+  bool alike = false;  // in space, which a search may use
 };
 
 struct Outcome {
@@ -120,7 +121,8 @@ Outcome score(const Shape& from, const Shape& to, const SurfaceRoads& from_roads
   const std::vector<size_t> landmarks = farthest_points(from, from_roads, set.landmarks);
   MatchOptions options;
   options.threads = threads;
-  if (set.landmarks == 0) options.search = true;
+  options.search = set.landmarks == 0;
+  options.alike = set.alike;
   for (const size_t i : landmarks) options.landmarks.push_back({from.truth[i], to.truth[i]});
   const Stopwatch watch;
   const Match match = match_surfaces(from.mapped, to.mapped, options);
@@ -250,7 +252,8 @@ void run(const Set& set, int every, int offset, int most_points, int threads,
   }
   tell(set.name + ", developed on", developed);
   tell(set.name + ", held out", held);
-  const std::string name = set.name + (set.landmarks == 0 ? " without landmarks" : "");
+  const std::string name =
+      set.name + (set.landmarks == 0 ? " without landmarks" : "") + (set.alike ? ", alike" : "");
   draw_worst(pictures, name, developed, threads);
   draw_worst(pictures, name + ", held out", held, threads);
 }
@@ -318,12 +321,13 @@ void run_example(const fs::path& data, const Example& example, int threads) try 
 int main(int argc, char** argv) {
   CLI::App app("Scores matches of surfaces against known correspondences.");
   std::string bcicp, shrec, schmidt, pictures, log_path = "match_table.tsv";
-  bool none = false;
+  bool none = false, alike = false;
   int every = 1, offset = 0, points = 500, threads = 0;
   app.add_option("--bcicp", bcicp, "The folder Dataset of SGA18_orientation_BCICP_dataset");
   app.add_option("--shrec", shrec, "data/meshes/shrec of surface-maps-via-adaptive-triangulations");
   app.add_option("--schmidt", schmidt, "data of surface-maps-via-adaptive-triangulations");
   app.add_flag("--without-landmarks", none);
+  app.add_flag("--alike", alike, "Without landmarks: take the shapes to lie alike in space");
   app.add_option("--log", log_path, "A line a pair");
   app.add_option("--pictures", pictures, "A folder for pictures of the worst pairs");
   app.add_option("--every", every, "Only every so many pairs")->check(CLI::PositiveNumber);
@@ -334,6 +338,7 @@ int main(int argc, char** argv) {
   std::ofstream log(log_path);
   const auto with = [&](Set set) {
     if (none) set.landmarks = 0;
+    set.alike = none && alike;
     return set;
   };
   if (!bcicp.empty()) {

@@ -185,6 +185,22 @@ TEST_CASE("match: without landmarks the ends are paired, told, and listed") {
     CHECK(pair["first"] == pair["second"]);
 }
 
+TEST_CASE("match: surfaces that lie alike in space are matched so, and the record says it") {
+  const Creatures creatures;
+  const std::string arms = creatures.folder / "arms.obj", other = creatures.folder / "other.obj";
+  write_bytes(arms, obj_text(armed(4, 0)));
+  write_bytes(other, obj_text(armed(3, 0.001)));
+  const Ended anyhow = sphparam_program({"match", arms, other, "-o", creatures.out});
+  CHECK_THAT(anyhow.err, Contains("about as well") && Contains("alike in space"));
+  const Ended alike =
+      sphparam_program({"match", arms, other, "--alike", "-o", creatures.out, "--json", "-"});
+  REQUIRE(alike.code == 0);
+  CHECK_THAT(alike.err, !Contains("about as well"));
+  const Json search = Json::parse(alike.out)["search"];
+  CHECK(search["alike"] == true);
+  CHECK(search["suggestions"][0]["place_agreement"] > 0.95);
+}
+
 TEST_CASE("match: where there are no ends a turn is found, with a confidence") {
   const Creatures creatures;
   write_bytes(creatures.first, obj_text(pebble(4)));
@@ -261,6 +277,10 @@ TEST_CASE("match: what makes no sense is refused, and nothing is written") {
                                        creatures.pairs, "-o", creatures.folder / "out.obj"});
   CHECK(name.code == 2);
   CHECK_THAT(name.err, Contains(".ply"));
+  const Ended alike = sphparam_program({"match", creatures.first, creatures.second, "--alike",
+                                        "--landmarks", creatures.pairs, "-o", creatures.out});
+  CHECK(alike.code == 2);
+  CHECK_THAT(alike.err, Contains("--alike: is for a search"));
 }
 
 TEST_CASE(

@@ -257,3 +257,14 @@ TEST_CASE("match by a turn: of a ball every turn is as good, which is told") {
   REQUIRE(match.warnings.size() == 1);
   CHECK_THAT(match.warnings[0], Catch::Contains("after another turn"));
 }
+
+TEST_CASE("match by a turn: places in space tell how a ball lies, if they may") {
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(2, Vector3(1, 2, -1).normalized()).toRotationMatrix();
+  const MappedMesh from = turned_map(ball(3), turn), to = ball(2);
+  const Match match = match_surfaces(from, to, {.search = true, .alike = true});
+  CHECK(match.confidence > 0.9);
+  CHECK(match.warnings.empty());
+  const TriangleMesh there = match.map.from_on_to();
+  CHECK((there.positions - from.mesh().positions).rowwise().norm().mean() < 0.05);
+}

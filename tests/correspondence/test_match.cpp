@@ -212,6 +212,31 @@ TEST_CASE("match: without landmarks ends find one another, and a turn does not m
   CHECK(rms_between(moved, b.mesh()) < 0.1);
 }
 
+TEST_CASE("match: of arms that are alike places in space tell which is which, if they may") {
+  const MappedMesh a = mapped(armed(4, 0)), b = mapped(armed(3, 0.001));
+  const Match anyhow = match_surfaces(a, b, {.search = true});
+  CHECK(anyhow.confidence < 0.15);
+  REQUIRE_FALSE(anyhow.warnings.empty());
+  CHECK_THAT(anyhow.warnings[0], Catch::Contains("alike in space"));
+  const Match match = match_surfaces(a, b, {.search = true, .alike = true});
+  REQUIRE_FALSE(match.suggestions.empty());
+  for (const LandmarkPair& pair : match.suggestions.front().landmarks) CHECK(pair.from == pair.to);
+  CHECK(match.suggestions.front().place_agreement > 0.95);
+  CHECK(match.confidence > 0.5);
+  CHECK(match.warnings.empty());
+  CHECK(rms_between(match.map.from_on_to(), a.mesh()) < 0.1);
+}
+
+TEST_CASE("match: places in space count from the centre, in units of the size") {
+  const MappedMesh a = mapped(armed(4, 0));
+  TriangleMesh far_away = armed(3, 0.001);
+  far_away.positions = (100 * far_away.positions).rowwise() + Eigen::RowVector3d(1e4, -3e4, 5e3);
+  const Match match = match_surfaces(a, mapped(far_away), {.search = true, .alike = true});
+  REQUIRE_FALSE(match.suggestions.empty());
+  for (const LandmarkPair& pair : match.suggestions.front().landmarks) CHECK(pair.from == pair.to);
+  CHECK(match.suggestions.front().place_agreement > 0.95);
+}
+
 TEST_CASE("match: without landmarks a shape matched with itself is the identity") {
   const MappedMesh a = mapped(armed(4, 0.5));
   const Match match = match_surfaces(a, a, {.search = true});

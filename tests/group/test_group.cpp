@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "sphparam/correspondence/map_alignment.h"
 #include "sphparam/correspondence/surface_map.h"
 #include "sphparam/errors.h"
 #include "sphparam/group/group.h"
@@ -122,6 +123,19 @@ TEST_CASE("group: positions that a symmetry makes alike are no doubt") {
       make_group(shapes, shapes[0], {.start = GroupStart::Rotation, .grid = small_grid});
   CHECK(group.members[1].start == "rotation");
   CHECK(group.members[1].warnings.empty());
+}
+
+TEST_CASE("group: shapes that lie alike in space come together as they lie, whatever symmetry") {
+  TriangleMesh mesh = icosphere(4);
+  mesh.positions = mesh.positions * Vector3(3, 2, 1.2).asDiagonal();
+  const MappedMesh shape = mapped(mesh, parameterize(mesh).map);
+  for (const Vector3& axis : {Vector3(1, 0, 0), Vector3(0, 1, 0), Vector3(1, 2, 3)}) {
+    const MappedMesh other = turned_map(shape, rotation(M_PI, axis));
+    const Group group = make_group(
+        {shape, other}, shape,
+        {.start = GroupStart::Rotation, .alike = true, .hold = true, .grid = small_grid});
+    CHECK(rms(group.members[1].mapped.map().points, shape.map().points) < 1e-6);
+  }
 }
 
 TEST_CASE("group: ellipsoids of many lengths vary in one mode, whose scores are the length") {

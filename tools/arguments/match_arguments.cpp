@@ -35,6 +35,8 @@ void require_sensible(const MatchArguments& arguments) {
     throw UsageMistake("--features: pairs are needed, of A and of B, and there are " +
                        std::to_string(arguments.features.size()) + " names");
   }
+  if (arguments.options.alike && !(arguments.landmarks.empty() && arguments.features.empty()))
+    throw UsageMistake("--alike: is for a search, and --landmarks or --features leave none");
   require_one_stream({arguments.first, arguments.second, arguments.landmarks},
                      "the two meshes and --landmarks");
   require_map_name(arguments.output);
@@ -70,6 +72,10 @@ void declare_options(Declaration& command, MatchArguments& arguments) {
       .number("--feature-weight", arguments.feature_weight, "W", {1e-9, 1e9, "1e-9 to 1e9"},
               "Of their mean square difference, in spreads, against the energy, of which isometry "
               "has 2 (default: 2)")
+      .flag(
+          "--alike", arguments.options.alike,
+          "A and B lie alike in space, as their files have them: without landmarks, ends and turns "
+          "are also judged by where places are")
       .flag("--mirror", arguments.mirror, "Match the mirror image of A, which is what is written")
       .choice("--energy", arguments.options.energy.kind,
               {{"symmetric-dirichlet", EnergyKind::SymmetricDirichlet},

@@ -157,6 +157,8 @@ void declare_options(Declaration& command, GroupArguments& arguments) {
           "Where the way to the template begins: ends paired, else as rotation; maps turned until "
           "they look alike; first-order ellipsoids turned alike; maps as they lie (default: "
           "ends)")
+      .flag("--alike", arguments.options.alike,
+            "The shapes lie alike in space: ends and rotations are also judged by where places are")
       .flag("--hold", arguments.options.hold,
             "Maps are only turned, or stay: no distortion is minimised")
       .number("--rounds", arguments.options.rounds, "N", {0, 20},

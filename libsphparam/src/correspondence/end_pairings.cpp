@@ -9,12 +9,12 @@ namespace sphparam {
 namespace {
 
 constexpr size_t least_pairs = 3;  // fewer do not fix a turn
-constexpr double of_farness = 0.5, of_left_out = 0.5;
+constexpr double of_farness = 0.5, of_left_out = 0.5, of_apart = 1;
 
 class Search {
  public:
-  Search(const Extremities& from, const Extremities& to)
-      : from_(from), to_(to), taken_(to.vertices.size(), 0) {}
+  Search(const Extremities& from, const Extremities& to, const Eigen::MatrixXd& apart)
+      : from_(from), to_(to), apart_(apart), taken_(to.vertices.size(), 0) {}
 
   std::vector<EndPairing> all() {
     descend(0);
@@ -39,12 +39,13 @@ class Search {
   }
 
   double cost() const {
-    double lengths = 0, farness = 0;
+    double lengths = 0, farness = 0, apart = 0;
     double left = from_.prominence.sum() + to_.prominence.sum();
     const double all = left;
     for (size_t i = 0; i < pairs_.size(); ++i) {
       const auto [a, b] = pairs_[i];
       farness += std::abs(from_.farness[a] - to_.farness[b]);
+      if (apart_.size() > 0) apart += apart_(a, b);
       left -= from_.prominence[a] + to_.prominence[b];
       for (size_t j = 0; j < i; ++j)
         lengths +=
@@ -52,10 +53,11 @@ class Search {
     }
     const double count = static_cast<double>(pairs_.size());
     return 2 * lengths / (count * (count - 1)) + of_farness * farness / count +
-           of_left_out * left / all;
+           of_left_out * left / all + of_apart * apart / count;
   }
 
   const Extremities &from_, &to_;
+  const Eigen::MatrixXd& apart_;
   std::vector<char> taken_;
   std::vector<std::pair<int, int>> pairs_;
   std::vector<EndPairing> found_;
@@ -63,8 +65,9 @@ class Search {
 
 }  // namespace
 
-std::vector<EndPairing> likely_pairings(const Extremities& from, const Extremities& to, int count) {
-  std::vector<EndPairing> pairings = Search(from, to).all();
+std::vector<EndPairing> likely_pairings(const Extremities& from, const Extremities& to, int count,
+                                        const Eigen::MatrixXd& apart) {
+  std::vector<EndPairing> pairings = Search(from, to, apart).all();
   std::ranges::stable_sort(pairings, {}, &EndPairing::cost);
   if (std::ssize(pairings) > count) pairings.resize(static_cast<size_t>(count));
   return pairings;

@@ -4,8 +4,10 @@
 #include <utility>
 
 #include "correspondence/bounded_curvature.h"
+#include "correspondence/stance.h"
 #include "correspondence/surface_area.h"
 #include "correspondence/turned_starts.h"
+#include "embedding/frame/nearest_rotation.h"
 #include "sphparam/correspondence/map_alignment.h"
 
 // Flat triangles of a coarse level say nothing of a cortex, whose folds they cut across; both maps
@@ -37,6 +39,19 @@ std::vector<TurnOfFunctions> turns_by_shape(const MappedMesh& from, const Mapped
   return align_maps(from, to, most_shape_turns, {.threads = threads});
 } catch (const std::invalid_argument&) {
   return {{Eigen::Matrix3d::Identity(), 0}};
+}
+
+std::vector<TurnOfFunctions> turns_by_stance(const MappedMesh& from, const MappedMesh& to,
+                                             int threads) {
+  const MapSignalOptions options{.threads = threads};
+  return turns_by_correlation(map_signals(from, stance_of(from.mesh()), options),
+                              map_signals(to, stance_of(to.mesh()), options), most_turns, threads);
+}
+
+/// 0 where the second turn is as good as the first, towards 1 where it is nowhere near.
+double confidence_in(const std::vector<TurnOfFunctions>& turns) {
+  if (turns.size() < 2 || turns[1].correlation >= 1) return turns.size() < 2 ? 1 : 0;
+  return 1 - (1 - turns[0].correlation) / (1 - turns[1].correlation);
 }
 
 TriangleMesh unit_surface(const MappedMesh& mapped) {
@@ -87,7 +102,7 @@ FeatureMatch match_by_features(const MappedMesh& from, const MappedMesh& to,
 }
 
 TurnedMatch match_by_turn(const MappedMesh& from, const MappedMesh& to, const TargetSurface& target,
-                          const ComposedOptions& options) {
+                          const ComposedOptions& options, bool alike) {
   const TriangleMesh from_unit = unit_surface(from), to_unit = unit_surface(to);
   const FeatureScales bends(
       from_unit, from.topology(), to_unit, to.topology(),
@@ -96,8 +111,15 @@ TurnedMatch match_by_turn(const MappedMesh& from, const MappedMesh& to, const Ta
   first.features = &bends;
   first.release = true;
   CoarseToFine way(from.mesh(), from.topology(), target, first);
-  const double confidence =
-      start_at_best(way, from.map(), turns_by_shape(from, to, options.threads), options.energy);
+  double confidence = 1;
+  if (alike) {
+    const std::vector<TurnOfFunctions> turns = turns_by_stance(from, to, options.threads);
+    confidence = confidence_in(turns);
+    way.start_at(turned(from.map(), turns.front().rotation));
+  } else {
+    confidence =
+        start_at_best(way, from.map(), turns_by_shape(from, to, options.threads), options.energy);
+  }
   SphereMap map = way.finish();
   return {map.points.rows() > 0 ? std::move(map) : from.map(), confidence};
 }

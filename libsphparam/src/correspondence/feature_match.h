@@ -31,10 +31,10 @@ struct TurnedMatch {
 };
 
 /// From the rotation after which the maps look most alike: of those at which curvature and area
-/// correlate most, the one of a coarse level that distorts least and lets curvatures agree; from
-/// there on distortion alone counts. Same bits for any number of threads. Throws: Cancelled;
-/// SolveError.
+/// correlate most, the one of a coarse level that distorts least and lets curvatures agree; or, if
+/// the surfaces lie `alike` in space, the one after which places correlate most. From there on
+/// distortion alone counts. Same bits for any number of threads. Throws: Cancelled; SolveError.
 TurnedMatch match_by_turn(const MappedMesh& from, const MappedMesh& to, const TargetSurface& target,
-                          const ComposedOptions& options);
+                          const ComposedOptions& options, bool alike);
 
 }  // namespace sphparam

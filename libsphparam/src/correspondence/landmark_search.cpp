@@ -9,13 +9,15 @@
 #include "correspondence/bounded_curvature.h"
 #include "correspondence/end_pairings.h"
 #include "correspondence/extremities.h"
+#include "correspondence/stance.h"
 #include "mesh/mesh_hierarchy.h"
 #include "sphparam/mesh/curvature.h"
 #include "sphparam/parallel.h"
 
 // Lengths pair ends, but know no sides: a body and its mirror image have the same. Of the pairings
 // that they leave, maps are made between coarse levels; the energy of the best is that of a good
-// map, and what tells front from back there is where the surface is convex.
+// map, and what tells front from back there is where the surface is convex, or, of surfaces that
+// lie alike in space, where they are.
 
 namespace sphparam {
 namespace {
@@ -31,7 +33,8 @@ struct SmallSurface {
   TriangleMesh mesh;
   Topology topology;
   std::vector<Vertex> names;
-  VectorX bend;  // of the whole surface
+  VectorX bend;   // of the whole surface
+  Points stance;  // the same
   VectorX area;
 };
 
@@ -60,18 +63,30 @@ SmallSurface small_surface(const MappedMesh& mapped, int threads) {
   TriangleMesh mesh = triangle_mesh(levels[level]);
   Topology topology(mesh, threads);
   VectorX area = measure_curvature(mesh, topology, 0, threads).area;
-  return {std::move(mesh), std::move(topology), names_on_finest(levels, level),
-          bounded_curvature(mapped, threads), std::move(area)};
+  return {std::move(mesh),
+          std::move(topology),
+          names_on_finest(levels, level),
+          bounded_curvature(mapped, threads),
+          stance_of(mapped.mesh()),
+          std::move(area)};
 }
 
-double mean_product(const VectorX& weight, const VectorX& a, const VectorX& b) {
-  return weight.cwiseProduct(a).dot(b) / weight.sum();
+double mean_product(const VectorX& weight, const MatrixX& a, const MatrixX& b) {
+  double sum = 0;
+  for (Eigen::Index c = 0; c < a.cols(); ++c) sum += weight.cwiseProduct(a.col(c)).dot(b.col(c));
+  return sum / weight.sum();
 }
 
-double correlation(const VectorX& weight, VectorX a, VectorX b) {
+MatrixX centred(const VectorX& weight, MatrixX values) {
   const VectorX one = VectorX::Ones(weight.size());
-  a.array() -= mean_product(weight, a, one);
-  b.array() -= mean_product(weight, b, one);
+  for (Eigen::Index c = 0; c < values.cols(); ++c)
+    values.col(c).array() -= mean_product(weight, values.col(c), one);
+  return values;
+}
+
+/// Of all columns together.
+double correlation(const VectorX& weight, const MatrixX& here, const MatrixX& there) {
+  const MatrixX a = centred(weight, here), b = centred(weight, there);
   const double of_both = mean_product(weight, a, a) * mean_product(weight, b, b);
   return of_both > 0 ? mean_product(weight, a, b) / std::sqrt(of_both) : 0;
 }
@@ -94,10 +109,11 @@ auto made_of(const std::vector<Item>& items, int threads, const Make& make) {
 class LandmarkSearch {
  public:
   LandmarkSearch(const MappedMesh& from, const MappedMesh& to, const TargetSurface& target,
-                 const ComposedOptions& options)
+                 const ComposedOptions& options, bool alike)
       : to_(to),
         target_(target),
         options_(options),
+        alike_(alike),
         a_(small_surface(from, options.threads)),
         b_(small_surface(to, options.threads)),
         ends_(find_extremities(a_.mesh, a_.topology, most_ends, options.threads)),
@@ -105,7 +121,7 @@ class LandmarkSearch {
 
   std::vector<SuggestedLandmarks> run() const {
     report(options_.progress, "landmarks", 0);
-    const std::vector<EndPairing> likely = likely_pairings(ends_, others_, tried);
+    const std::vector<EndPairing> likely = likely_pairings(ends_, others_, tried, apart());
     const auto begun =
         made_of(likely, options_.threads, [&](const EndPairing& pairing) -> std::optional<Begun> {
           const std::optional<double> energy = way(options_of(pairing)).start(1);
@@ -142,25 +158,36 @@ class LandmarkSearch {
     if (!coarse.start(1)) return std::nullopt;
     const SphereMap map = coarse.finish();
     if (map.points.rows() == 0) return std::nullopt;
-    SuggestedLandmarks result{.agreement = agreement(map)};
+    SuggestedLandmarks result{.agreement = agreement(map, a_.bend, b_.bend)};
+    if (alike_) result.place_agreement = agreement(map, a_.stance, b_.stance);
     result.energy = energy_of_composition(a_.mesh, a_.topology, target_, map, options.energy, 1);
-    result.score = result.energy * (1 - result.agreement);
+    result.score = result.energy * (1 - result.agreement) * (1 - result.place_agreement);
     for (const auto& [x, y] : pairing.pairs)
       result.landmarks.push_back({a_.names[at(end(x))], partner(y)});
     return result;
   }
 
-  /// Correlation of how the surfaces bend.
-  double agreement(const SphereMap& map) const {
-    VectorX here(map.points.rows()), there(map.points.rows());
+  /// Correlation of values of the whole surfaces.
+  double agreement(const SphereMap& map, const MatrixX& of_a, const MatrixX& of_b) const {
+    MatrixX here(map.points.rows(), of_a.cols());
+    MatrixX there = MatrixX::Zero(map.points.rows(), of_a.cols());
     for (Vertex v = 0; v < map.points.rows(); ++v) {
       const SurfacePoint point = target_.place(map.point(v)).at;
-      here[v] = a_.bend[a_.names[at(v)]];
-      there[v] = 0;
+      here.row(v) = of_a.row(a_.names[at(v)]);
       for (int k = 0; k < 3; ++k)
-        there[v] += point.barycentric[k] * b_.bend[to_.mesh().triangles(point.face, k)];
+        there.row(v) += point.barycentric[k] * of_b.row(to_.mesh().triangles(point.face, k));
     }
-    return correlation(a_.area, std::move(here), std::move(there));
+    return correlation(a_.area, here, there);
+  }
+
+  /// Between ends of both, in space; nothing where that says nothing.
+  MatrixX apart() const {
+    if (!alike_) return {};
+    MatrixX result(ends_.vertices.size(), others_.vertices.size());
+    for (int x = 0; x < result.rows(); ++x)
+      for (int y = 0; y < result.cols(); ++y)
+        result(x, y) = (a_.stance.row(a_.names[at(end(x))]) - b_.stance.row(partner(y))).norm();
+    return result;
   }
 
   ComposedOptions options_of(const EndPairing& pairing) const {
@@ -174,6 +201,7 @@ class LandmarkSearch {
   const MappedMesh& to_;
   const TargetSurface& target_;
   const ComposedOptions& options_;
+  bool alike_;  // in space
   SmallSurface a_, b_;
   Extremities ends_, others_;
 };
@@ -190,8 +218,8 @@ bool says_the_same(const SuggestedLandmarks& a, const SuggestedLandmarks& b) {
 
 std::vector<SuggestedLandmarks> suggest_landmarks(const MappedMesh& from, const MappedMesh& to,
                                                   const TargetSurface& target,
-                                                  const ComposedOptions& options) {
-  return LandmarkSearch(from, to, target, options).run();
+                                                  const ComposedOptions& options, bool alike) {
+  return LandmarkSearch(from, to, target, options, alike).run();
 }
 
 double confidence_of(const std::vector<SuggestedLandmarks>& suggestions) {

@@ -157,7 +157,7 @@ class Matcher {
 
   /// From ends that are paired, or, where there are none, from a turn.
   SphereMap searched() {
-    suggestions_ = suggest_landmarks(from_, to_, target_, composed_);
+    suggestions_ = suggest_landmarks(from_, to_, target_, composed_, options_.alike);
     if (suggestions_.empty()) return by_turn();
     composed_.landmarks = pins_of(suggestions_.front().landmarks, to_);
     composed_.release = true;
@@ -167,7 +167,7 @@ class Matcher {
 
   SphereMap by_turn() {
     made_by_ = "turn";
-    TurnedMatch found = match_by_turn(from_, to_, target_, composed_);
+    TurnedMatch found = match_by_turn(from_, to_, target_, composed_, options_.alike);
     tell_confidence(found.confidence,
                     "neither has three ends, and their maps fit after another turn");
     return std::move(found.map);
@@ -177,7 +177,9 @@ class Matcher {
     confidence_ = confidence;
     if (confidence_ >= telling_confidence) return;
     warn(other + " about as well (confidence " + short_number(confidence_) +
-         "): look at the result, or give landmarks");
+         "): look at the result, " +
+         (options_.search && !options_.alike ? "say so if both lie alike in space, " : "") +
+         "or give landmarks");
   }
 
   Match finished(SphereMap map) {

@@ -138,9 +138,10 @@ class GroupWork {
 
   void bring_all(const MappedMesh& mapped, GroupStart start, const char* stage) {
     SideBySide work(count(), options_.threads, options_.progress);
-    const GroupTarget target = group_target(mapped, start, options_.threads);
+    const GroupTarget target = group_target(mapped, start, options_.alike, options_.threads);
     target.mapped.locator();
-    const MatchOptions match{.energy = options_.energy,
+    const MatchOptions match{.alike = options_.alike,
+                             .energy = options_.energy,
                              .threads = work.inner_threads(),
                              .progress = work.inner_progress(stage)};
     std::vector<std::optional<Brought>> brought(at(count()));

@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "correspondence/stance.h"
 #include "number_text.h"
 #include "sphparam/correspondence/map_alignment.h"
 #include "sphparam/sphere/first_order_alignment.h"
@@ -30,6 +31,13 @@ Brought by_ellipsoid(const GroupTarget& target, const MappedMesh& shape, int thr
           .doubts = doubts_about(alignment)};
 }
 
+/// What tells how a map lies: what it looks like, or, of shapes that lie alike in space, places.
+Functions turning_signals(const MappedMesh& mapped, bool alike, int threads) {
+  const MapSignalOptions options{.threads = threads};
+  return alike ? map_signals(mapped, stance_of(mapped.mesh()), options)
+               : map_signals(mapped, options);
+}
+
 /// Whether functions on the sphere are as good as themselves, turned.
 bool is_symmetric(const Functions& signals, int threads) {
   const auto turns = turns_by_correlation(signals, signals, tried_turns, threads);
@@ -37,8 +45,8 @@ bool is_symmetric(const Functions& signals, int threads) {
 }
 
 /// The shape's sphere lies as the target's does, by what the maps look like.
-Brought by_rotation(const GroupTarget& target, const MappedMesh& shape, int threads) {
-  const Functions signals = map_signals(shape, {.threads = threads});
+Brought by_rotation(const GroupTarget& target, const MappedMesh& shape, bool alike, int threads) {
+  const Functions signals = turning_signals(shape, alike, threads);
   const std::vector<TurnOfFunctions> turns =
       turns_by_correlation(signals, target.signals, tried_turns, threads);
   Brought result{.mapped = turned_map(shape, turns.front().rotation), .start = "rotation"};
@@ -77,10 +85,10 @@ std::optional<Brought> by_ends(const GroupTarget& target, const MappedMesh& shap
 
 }  // namespace
 
-GroupTarget group_target(const MappedMesh& mapped, GroupStart start, int threads) {
+GroupTarget group_target(const MappedMesh& mapped, GroupStart start, bool alike, int threads) {
   GroupTarget target{.mapped = mapped};
   if (start == GroupStart::Rotation || start == GroupStart::Ends) {
-    target.signals = map_signals(mapped, {.threads = threads});
+    target.signals = turning_signals(mapped, alike, threads);
     target.symmetric = is_symmetric(target.signals, threads);
   }
   if (start != GroupStart::Ellipsoid) return target;
@@ -95,9 +103,10 @@ Brought bring_to(const GroupTarget& target, const MappedMesh& shape, GroupStart 
                  const MatchOptions& options) {
   if (start == GroupStart::Ends && !hold)
     if (std::optional<Brought> found = by_ends(target, shape, options)) return *std::move(found);
-  Brought begun = start == GroupStart::Maps        ? Brought{.mapped = shape, .start = "its map"}
-                  : start == GroupStart::Ellipsoid ? by_ellipsoid(target, shape, options.threads)
-                                                   : by_rotation(target, shape, options.threads);
+  Brought begun = start == GroupStart::Maps ? Brought{.mapped = shape, .start = "its map"}
+                  : start == GroupStart::Ellipsoid
+                      ? by_ellipsoid(target, shape, options.threads)
+                      : by_rotation(target, shape, options.alike, options.threads);
   if (hold) return begun;
   Brought result =
       from_match(match_surfaces(begun.mapped, target.mapped, options), std::move(begun.start));

@@ -12,14 +12,14 @@ namespace sphparam {
 /// What shapes are brought to: the template, or their mean.
 struct GroupTarget {
   MappedMesh mapped;
-  Functions signals = {};       // `map_signals`, where rotations are looked for
+  Functions signals = {};       // what turns are judged by, where rotations are looked for
   bool symmetric = false;       // these look the same in several positions: any of them is right
   Functions aligned = {};       // its harmonics on its axes, where ellipsoids are,
   Eigen::Matrix3d sphere = {};  // and how its sphere was turned for them
 };
 
 /// Cost: a fit of harmonics, unless `start` is Maps.
-GroupTarget group_target(const MappedMesh& mapped, GroupStart start, int threads);
+GroupTarget group_target(const MappedMesh& mapped, GroupStart start, bool alike, int threads);
 
 /// A shape in correspondence.
 struct Brought {

@@ -126,6 +126,7 @@ std::string to_json(const GroupRecord& record) {
                      {"command", "group"},
                      {"template", record.reference},
                      {"start", name_of(record.options.start)},
+                     {"alike", record.options.alike},
                      {"hold", record.options.hold},
                      {"rounds", record.options.hold ? 0 : record.options.rounds},
                      {"grid", grid_name(record.options)},

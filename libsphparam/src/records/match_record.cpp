@@ -40,12 +40,16 @@ Json search_json(const MatchRecord& record) {
     Json pairs = Json::array();
     for (const LandmarkPair& pair : suggestion.landmarks)
       pairs.push_back({{"first", from.number(pair.from)}, {"second", to.number(pair.to)}});
-    suggestions.push_back({{"landmarks", pairs},
-                           {"energy", suggestion.energy},
-                           {"agreement", suggestion.agreement},
-                           {"score", suggestion.score}});
+    Json made{{"landmarks", pairs},
+              {"energy", suggestion.energy},
+              {"agreement", suggestion.agreement},
+              {"score", suggestion.score}};
+    if (record.options.alike) made["place_agreement"] = suggestion.place_agreement;
+    suggestions.push_back(std::move(made));
   }
-  return {{"confidence", record.match.confidence}, {"suggestions", suggestions}};
+  return {{"confidence", record.match.confidence},
+          {"alike", record.options.alike},
+          {"suggestions", suggestions}};
 }
 
 /// What was to agree besides.

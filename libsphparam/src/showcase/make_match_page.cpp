@@ -201,9 +201,9 @@ class MatchReporter {
     PageTable table{
         "Ends that were paired, the likeliest first, with which it began: the vertex of " + first_ +
             " and that of " + second_ +
-            ", the energy of a coarse map, the correlation of curvatures, and the score of both: "
-            "the less, the better.",
-        {"pairs", "energy", "agreement", "score"},
+            ", the energy of a coarse map, the correlation of curvatures, that of places in space "
+            "where these count, and the score of all: the less, the better.",
+        {"pairs", "energy", "curvatures", "places", "score"},
         {}};
     for (const SuggestedLandmarks& suggestion : match_.suggestions) {
       std::vector<std::string> pairs;
@@ -211,8 +211,9 @@ class MatchReporter {
         const auto [from, to] = numbers(pair);
         pairs.push_back(from + " – " + to);
       }
-      table.rows.push_back({joined(pairs), significant(suggestion.energy),
-                            significant(suggestion.agreement), significant(suggestion.score)});
+      table.rows.push_back(
+          {joined(pairs), significant(suggestion.energy), significant(suggestion.agreement),
+           significant(suggestion.place_agreement), significant(suggestion.score)});
     }
     return table;
   }

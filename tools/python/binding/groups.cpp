@@ -19,6 +19,7 @@ GroupOptions options_of(const py::dict& values) {
       .take("start", options.start,
             {GroupStart::Ends, GroupStart::Rotation, GroupStart::Ellipsoid, GroupStart::Maps},
             [](GroupStart start) { return name_of(start); })
+      .take("alike", options.alike)
       .take("hold", options.hold)
       .take("rounds", options.rounds)
       .take("grid", grid)

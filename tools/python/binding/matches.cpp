@@ -45,6 +45,7 @@ MatchOptions options_of(const py::dict& values) {
             [](EnergyKind kind) { return name_of(kind); })
       .take("lambda", options.energy.lambda)
       .take("search", options.search)
+      .take("alike", options.alike)
       .take("threads", options.threads);
   settings.require_all_known();
   return options;

@@ -65,6 +65,7 @@ def group(
     template: Optional[SphereMap] = None,
     *,
     start: str = "ends",
+    alike: bool = False,
     hold: bool = False,
     rounds: int = 1,
     grid: str = "ico:5",
@@ -84,6 +85,8 @@ def group(
     start
         Where the way to it begins: ``"ends"`` paired, else as ``"rotation"``: maps turned until they look
         alike; ``"ellipsoid"``: first-order ellipsoids turned alike; ``"maps"``: as they lie.
+    alike
+        The shapes lie alike in space: ends and rotations are also judged by where places are.
     hold
         Maps are only turned, or stay; else the distortion of shape → template is minimised.
     rounds
@@ -103,6 +106,7 @@ def group(
     reference = maps[0] if template is None else mapped_of(template, "template")
     options = {
         "start": _arrays.text(start, "start"),
+        "alike": bool(alike),
         "hold": bool(hold),
         "rounds": _arrays.whole(rounds, "rounds", 0, 20),
         "grid": _arrays.text(grid, "grid"),

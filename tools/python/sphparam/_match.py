@@ -150,6 +150,7 @@ def match(
     *,
     features: Optional[Tuple[Any, Any]] = None,
     feature_weight: float = 2.0,
+    alike: bool = False,
     mirror: bool = False,
     energy: str = "symmetric-dirichlet",
     weight: float = 1.0,
@@ -172,6 +173,9 @@ def match(
         that they agree, to begin with.
     feature_weight
         Of their mean square difference, in spreads, against the energy, of which isometry has 2.
+    alike
+        Source and target lie alike in space: ends that are paired, and turns, are also judged by where
+        places are. For ``landmarks=None`` without features.
     mirror
         Match the mirror image of the source, which is ``SurfaceMap.source`` then.
     energy
@@ -192,6 +196,9 @@ def match(
     first, second = mapped_of(source, "source"), mapped_of(target, "target")
     options = {"energy": _arrays.text(energy, "energy"), "lambda": float(weight), "threads": _arrays.threads(threads)}
     options["search"] = landmarks is None and features is None
+    options["alike"] = bool(alike)
+    if alike and not options["search"]:
+        raise ValueError("alike: is for a search, and landmarks or features leave none")
     pairs = [] if landmarks is None else _pairs(landmarks)
     agreeing = None
     if features is not None:

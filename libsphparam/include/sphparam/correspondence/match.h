@@ -29,6 +29,9 @@ struct MatchOptions {
   /// For landmarks, to start from, and where there are none for a turn; none are held. Requires:
   /// none are given.
   bool search = false;
+  /// `from` and `to` lie alike in space, as files of one rig or scanner do: a search is also judged
+  /// by how well places agree, in their coordinates.
+  bool alike = false;
   /// What is to agree besides. Without landmarks the first map is turned so that it does, to begin
   /// with. Requires: no search.
   std::optional<MatchFeatures> features = {};
@@ -44,7 +47,8 @@ struct SuggestedLandmarks {
   std::vector<LandmarkPair> landmarks = {};
   double energy = 0;     // of the map between coarse levels that they lead to, of a unit of area
   double agreement = 0;  // correlation of the surfaces' bounded mean curvatures by it
-  double score = 0;      // the less, the better: energy · (1 − agreement)
+  double place_agreement = 0;  // the same of places in space, of surfaces that lie alike there
+  double score = 0;  // the less, the better: energy · (1 − agreement) · (1 − place agreement)
 };
 
 struct Match {

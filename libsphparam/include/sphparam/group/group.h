@@ -27,6 +27,7 @@ std::string name_of(GroupStart start);
 
 struct GroupOptions {
   GroupStart start = GroupStart::Ends;
+  bool alike = false;  // shapes lie alike in space: Ends and Rotation are also judged by places
   bool hold = false;  // maps are only turned; else the distortion of shape → template is minimised
   int rounds = 1;     // ≥ 0: how often all are then brought to their mean
   /// Of the mean, of triangles; nothing: the template's own vertices and triangles.
