@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "correspondence/bounded_curvature.h"
-#include "correspondence/stance.h"
 #include "correspondence/surface_area.h"
 #include "correspondence/turned_starts.h"
 #include "embedding/frame/nearest_rotation.h"

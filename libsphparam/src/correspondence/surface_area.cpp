@@ -30,6 +30,13 @@ VectorX areas_round_vertices(const TriangleMesh& mesh) {
   return areas;
 }
 
+Points stance_of(const TriangleMesh& mesh) {
+  const VectorX share = areas_round_vertices(mesh);
+  const double area = share.sum();
+  const Eigen::RowVector3d centre = share.transpose() * mesh.positions / area;
+  return (mesh.positions.rowwise() - centre) / std::sqrt(area);
+}
+
 void require_area(const MappedMesh& mapped) {
   const double area = surface_area(mapped.mesh());
   if (area > 0 && std::isfinite(area)) return;

@@ -3,7 +3,7 @@
 #include <optional>
 #include <utility>
 
-#include "correspondence/stance.h"
+#include "correspondence/surface_area.h"
 #include "number_text.h"
 #include "sphparam/correspondence/map_alignment.h"
 #include "sphparam/sphere/first_order_alignment.h"
