@@ -8,7 +8,8 @@ curvatures (same_maps.cpp): of generated shapes, and of the meshes of a folder. 
 emulated by qemu-user, for every tenth shape (`--every`), and only for small meshes. A build is
 a compiler with its flags, or a program with flags of its own that links the plain library; all of
 them unless some are named. What is not there (a compiler, an emulator, a processor's instructions) is
-said. Ends with 1 where a bit differs or nothing was compared.
+said. Ends with 1 where a bit differs or nothing was compared; on other machines bits are known to differ
+(the laws of ARCHITECTURE.md), and programs linked with -ffast-math make others of subnormal shapes.
 
 Packages of Debian: clang, qemu-user, g++-aarch64-linux-gnu, g++-riscv64-linux-gnu, g++-s390x-linux-gnu.
 """
