@@ -62,7 +62,7 @@ TEST_CASE(
     const int steps = refined.refine(Quality::Normal, draft.size());
     const int steps_to_the_end = converged.refine(Quality::Best, draft.size());
     const double least = converged.energy(), left = refined.energy() / least - 1;
-    REQUIRE(draft.energy() > 1.05 * least);
+    REQUIRE(draft.energy() > 1.03 * least);  // there is something to do
     CHECK(left < 3e-3 * draft.size() / 5000);
     CHECK(steps > 2);
     CHECK(5 * steps < 4 * steps_to_the_end);

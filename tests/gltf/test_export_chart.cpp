@@ -70,3 +70,22 @@ TEST_CASE("export_chart: texture coordinates as stored are certified as stored")
   tiny.chart.chart.uv.col(0) = tiny.chart.chart.uv.col(0).array() * 1e-9 + 0.5;
   CHECK_FALSE(tiny.geometry().stored.folded.empty());
 }
+
+TEST_CASE(
+    "export_chart: what float32 cannot tell apart is moved until it can, in every convention") {
+  std::mt19937 random(5);
+  const TriangleMesh mesh = icosphere(3);
+  const SphereMap map = rotated(squashed({mesh.positions}, 1e-9), random_rotation(random));
+  const Topology topology(mesh);
+  const SphericalChart plain = spherical_chart(mesh, topology, map);
+  REQUIRE(plain.certificate.one_to_one());
+  REQUIRE_FALSE(certify_stored(plain, stored_uv(plain, {}), {}).one_to_one());
+  for (const ConventionInfo& info : all_conventions()) {
+    INFO(info.name);
+    const ExportChart chart = export_chart(mesh, topology, map, {.convention = info.convention});
+    const UvStorage storage{.mirrored = chart.mirrored};
+    CHECK(certify_stored(chart.chart, stored_uv(chart.chart, storage), storage).one_to_one());
+    CHECK(chart.chart.counts.nudged_vertices > 50);
+    CHECK(chart.chart.certificate.max_shift < 1e-4);
+  }
+}

@@ -59,8 +59,9 @@ bool loaded_openimageio() {
 TEST_CASE("image codec: what is not an image is refused by its first bytes") {
   const auto refuse = [](const std::string& text) {
     const std::vector<char> bytes(text.begin(), text.end());
-    CHECK_THROWS_WITH(decode_image(bytes, "x.png"),
-                      Contains("x.png") && Contains("not a PNG, JPEG, WebP, TIFF or EXR"));
+    CHECK_THROWS_WITH(
+        decode_image(bytes, "x.png"),
+        Contains("x.png") && Contains("not a PNG, JPEG, WebP, TIFF, EXR, BMP or TGA"));
   };
   refuse("");
   refuse("GIF89a..........");

@@ -5,9 +5,9 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "support/draco_encoder.h"
 #include "reading.h"
 #include "sphparam/io/losses.h"
+#include "support/draco_encoder.h"
 #include "support/test_meshes.h"
 
 // Compressed by the encoders of those who made the formats, read by ours.

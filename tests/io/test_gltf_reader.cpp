@@ -390,7 +390,7 @@ TEST_CASE("gltf_reader: what is not supported is refused by name") {
     refused(R"("version":"2.0"})",
             R"("version":"2.0"},"extensionsRequired":[")" + extension + R"("])", extension);
   };
-  required("EXT_mesh_gpu_instancing");
+  required("EXT_mesh_of_nobody");
   refused("\"2.0\"", "\"1.0\"", "glTF '1.0'");
   refused(R"("indices":1)", R"("indices":1,"mode":0)", "points");
   refused(R"("indices":1)", R"("indices":1,"mode":1)", "lines");
@@ -902,17 +902,128 @@ TEST_CASE("gltf_reader: what a file says beside shape and materials is told, a l
   CHECK(losses ==
         std::vector<std::string>{
             "not carried: 'KHR_materials_anisotropy' of 1 of 2 materials",
-            "not carried: 1 skin: the mesh is read as it rests", "not carried: 2 morph targets",
+            "not carried: 1 broken skin: the mesh is read unposed", "not carried: 2 morph targets",
             "not carried: of the vertices TANGENT, TEXCOORD_1 and _PAIR", "not carried: 1 camera"});
 }
 
-TEST_CASE("gltf_reader: instances and variants, of which the first are read, are told") {
+TEST_CASE("gltf_reader: variants, of which none is read, are told") {
   Gltf gltf = tetrahedron_gltf();
-  gltf.rest = R"("nodes":[{"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{}}}}],)"
-              R"("scenes":[{"nodes":[0]}],"extensions":{"KHR_materials_variants":)"
-              R"({"variants":[{"name":"a"},{"name":"b"}]}})";
+  gltf.rest = R"("nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],)"
+              R"("extensions":{"KHR_materials_variants":{"variants":[{"name":"a"},{"name":"b"}]}})";
   CHECK(sphparam::losses_among(read(gltf.bytes()).notes) ==
-        std::vector<std::string>{"not carried: 2 variants and the instances of 1 mesh, read once"});
+        std::vector<std::string>{"not carried: 2 variants"});
+}
+
+namespace {
+
+/// Two joints, of which the first doubles what was bound to it and the second takes it from z = 4
+/// to z = 5. Vertices: the first joint's, the second's, half of each, and of no weights.
+Gltf skinned_tetrahedron() {
+  Gltf gltf = tetrahedron_gltf();
+  gltf.add(integers({0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0}, 1), 5121, 4, "VEC4")
+      .add(floats({1, 0, 0, 0, 1, 0, 0, 0, 2, 2, 0, 0, 0, 0, 0, 0}), 5126, 4, "VEC4")
+      .add(floats({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0,  1,  //
+                   1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -4, 1}),
+           5126, 2, "MAT4")
+      .add(floats({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}), 5126, 4, "VEC3");
+  gltf.meshes =
+      R"([{"primitives":[{"attributes":{"POSITION":0,"JOINTS_0":2,"WEIGHTS_0":3,"NORMAL":5},)"
+      R"("indices":1}]}])";
+  gltf.rest =
+      R"("nodes":[{"mesh":0,"skin":0,"translation":[9,9,9]},{"scale":[2,2,4],"children":[2]},)"
+      R"({"translation":[0,0,1.25],"scale":[0.5,0.5,0.25]}],"scenes":[{"nodes":[0,1]}],)"
+      R"("skins":[{"joints":[1,2],"inverseBindMatrices":4}])";
+  return gltf;
+}
+
+}  // namespace
+
+TEST_CASE("gltf_reader: a mesh with a skin is as its joints stand, wherever its node is") {
+  const TriangleMesh bound = tetrahedron();
+  const MeshFile file = read(skinned_tetrahedron().bytes());
+  const auto first = [&](int v) -> Vector3 {
+    return bound.position(v).cwiseProduct(Vector3(2, 2, 4));
+  };
+  const auto second = [&](int v) -> Vector3 { return bound.position(v) + Vector3(0, 0, 1); };
+  CHECK(file.mesh.position(0) == first(0));
+  CHECK(file.mesh.position(1) == second(1));
+  CHECK(file.mesh.position(2) == Vector3((first(2) + second(2)) / 2));
+  CHECK(file.mesh.position(3) == second(3));
+  CHECK(file.mesh.triangles == bound.triangles);
+  const std::vector<double>& z = file.find_vertex_property("nz")->values;
+  CHECK(z[0] == 1);  // across what is stretched
+  CHECK(sphparam::losses_among(file.notes) ==
+        std::vector<std::string>{"not carried: 1 skin: the mesh is read as the joints stand"});
+}
+
+TEST_CASE("gltf_reader: what joints mirror is turned over") {
+  Gltf gltf = skinned_tetrahedron();
+  gltf.rest = replaced(gltf.rest, "[2,2,4]", "[2,2,-4]");
+  const TriangleMesh mirrored = read(gltf.bytes()).mesh;
+  CHECK(mirrored.position(0).z() == -4 * tetrahedron().position(0).z());
+  CHECK(mirrored.triangles.col(1) == tetrahedron().triangles.col(2));
+}
+
+TEST_CASE("gltf_reader: a broken skin leaves the mesh where its node puts it, and is told") {
+  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+           {R"("joints":[1,2])", R"("joints":[1,7])"},
+           {R"("joints":[1,2])", R"("joints":[1])"},
+           {R"("joints":[1,2])", R"("joints":[1,2,1])"},
+           {R"("scenes":[{"nodes":[0,1]}])", R"("scenes":[{"nodes":[0]}])"},
+           {R"("inverseBindMatrices":4)", R"("inverseBindMatrices":3)"},
+           {R"("inverseBindMatrices":4)", R"("inverseBindMatrices":99)"},
+           {R"("skin":0)", R"("skin":1)"}}) {
+    Gltf gltf = skinned_tetrahedron();
+    gltf.rest = replaced(gltf.rest, from, to);
+    const MeshFile file = read(gltf.bytes());
+    INFO(to);
+    CHECK(file.mesh.position(0) == Vector3(10, 10, 10));
+    CHECK(sphparam::losses_among(file.notes) ==
+          std::vector<std::string>{"not carried: 1 broken skin: the mesh is read unposed"});
+  }
+  Gltf gltf = skinned_tetrahedron();
+  gltf.meshes = replaced(gltf.meshes, R"("WEIGHTS_0":3)", R"("WEIGHTS_0":5)");
+  CHECK(read(gltf.bytes()).mesh.position(0) == Vector3(10, 10, 10));
+}
+
+TEST_CASE("gltf_reader: instances of a mesh are all there") {
+  Gltf gltf = tetrahedron_gltf();
+  gltf.add(floats({10, 0, 0, 0, 10, 0}), 5126, 2, "VEC3")
+      .add(floats({0, 0, 1, 0, 0, 0, 0, 1}), 5126, 2, "VEC4")
+      .add(floats({1, 1, 1, 2, 2, 2}), 5126, 2, "VEC3");
+  gltf.rest =
+      R"("nodes":[{"mesh":0,"translation":[0,0,5],"extensions":{"EXT_mesh_gpu_instancing":)"
+      R"({"attributes":{"TRANSLATION":2,"ROTATION":3,"SCALE":4}}}}],"scenes":[{"nodes":[0]}],)"
+      R"("extensionsRequired":["EXT_mesh_gpu_instancing"])";
+  const TriangleMesh one = tetrahedron();
+  const MeshFile file = read(gltf.bytes());
+  REQUIRE(file.mesh.vertex_count() == 8);
+  CHECK(file.notes.empty());
+  for (int v = 0; v < 4; ++v) {
+    const Vector3 at = one.position(v);
+    CHECK(file.mesh.position(v) == Vector3(10 - at.x(), -at.y(), 5 + at.z()));
+    CHECK(file.mesh.position(4 + v) == Vector3(2 * at.x(), 10 + 2 * at.y(), 5 + 2 * at.z()));
+  }
+}
+
+TEST_CASE("gltf_reader: instances that are broken or far too many are told, the mesh read once") {
+  Gltf gltf = tetrahedron_gltf();
+  gltf.add(floats({10, 0, 0, 0, 10, 0}), 5126, 2, "VEC3")
+      .add(floats(std::vector<double>(900000, 1)), 5126, 300000, "VEC3");
+  const auto with = [&](const std::string& attributes) {
+    gltf.rest = R"("nodes":[{"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{)" +
+                attributes + R"(}}}}],"scenes":[{"nodes":[0]}])";
+    return read(gltf.bytes());
+  };
+  for (const std::string attributes :
+       {R"("TRANSLATION":9)", R"("TRANSLATION":2,"SCALE":3)", R"("ROTATION":2)", R"("_ID":2)",
+        R"("SCALE":2)", R"("TRANSLATION":3)"}) {
+    INFO(attributes);
+    const MeshFile file = with(attributes);
+    CHECK(file.mesh.vertex_count() == 4);
+    CHECK(sphparam::losses_among(file.notes) ==
+          std::vector<std::string>{"not carried: the instances of 1 mesh, read once"});
+  }
 }
 
 TEST_CASE("gltf_reader: the angles of _THETA_PHI are a map") {

@@ -70,6 +70,77 @@ Connections:  {
 )";
 }
 
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
+/// The same with a skin: what is bound three times as large, to a bone that goes up from 4 to 5.
+std::string skinned_collada() {
+  const auto source = [](const std::string& id, const std::string& array,
+                         const std::string& numbers, int count, const std::string& parameter) {
+    const std::string values = std::to_string(count);
+    return "<source id=\"" + id + "\"><" + array + " id=\"" + id + "a\" count=\"" + values + "\">" +
+           numbers + "</" + array + "><technique_common><accessor source=\"#" + id +
+           "a\" count=\"1\" stride=\"" + values + "\"><param " + parameter +
+           "/></accessor></technique_common></source>\n";
+  };
+  const std::string skin =
+      R"(<library_controllers><controller id="c"><skin source="#g">)"
+      "<bind_shape_matrix>3 0 0 0 0 3 0 0 0 0 3 0 0 0 0 1</bind_shape_matrix>\n" +
+      source("j", "Name_array", "bone", 1, R"(name="JOINT" type="name")") +
+      source("i", "float_array", "1 0 0 0 0 1 0 0 0 0 1 -4 0 0 0 1", 16,
+             R"(name="TRANSFORM" type="float4x4")") +
+      source("w", "float_array", "1", 1, R"(name="WEIGHT" type="float")") +
+      R"(<joints><input semantic="JOINT" source="#j"/>
+<input semantic="INV_BIND_MATRIX" source="#i"/></joints>
+<vertex_weights count="4"><input semantic="JOINT" source="#j" offset="0"/>
+<input semantic="WEIGHT" source="#w" offset="1"/><vcount>1 1 1 1</vcount>
+<v>0 0 0 0 0 0 0 0</v></vertex_weights></skin></controller></library_controllers>
+<library_visual_scenes>)";
+  std::string scene = replaced(collada(), "<library_visual_scenes>", skin);
+  scene =
+      replaced(scene, R"(<node id="n">)",
+               R"(<node id="bone" sid="bone" name="bone" type="JOINT"><translate>0 0 5</translate>
+</node><node id="n">)");
+  scene = replaced(scene, R"(<instance_geometry url="#g">)",
+                   R"(<instance_controller url="#c"><skeleton>#bone</skeleton>)");
+  return replaced(scene, "</instance_geometry>", "</instance_controller>");
+}
+
+/// The pyramid, bound to a bone at z = 4 that stands at z = 5.
+std::string skinned_fbx() {
+  const std::string deformers = R"(	Deformer: 2001, "Deformer::skin", "Skin" {
+		Version: 101
+	}
+	Deformer: 2002, "SubDeformer::bone", "Cluster" {
+		Version: 100
+		Indexes: *5 {
+			a: 0,1,2,3,4
+		}
+		Weights: *5 {
+			a: 1,1,1,1,1
+		}
+		Transform: *16 {
+			a: 1,0,0,0,0,1,0,0,0,0,1,0,0,0,-4,1
+		}
+		TransformLink: *16 {
+			a: 1,0,0,0,0,1,0,0,0,0,1,0,0,0,4,1
+		}
+	}
+	Model: 1003, "Model::bone", "LimbNode" {
+		Version: 232
+		Properties70:  {
+			P: "Lcl Translation", "Lcl Translation", "", "A",0,0,5
+		}
+	}
+	Model: 1002)";
+  return replaced(replaced(fbx(1), "	Model: 1002", deformers), "	C: \"OO\",1002,0\n",
+                  "	C: \"OO\",1002,0\n	C: \"OO\",1003,0\n	C: \"OO\",2001,1001\n"
+                  "	C: \"OO\",2002,2001\n	C: \"OO\",1003,2002\n");
+}
+
 double height_along(const MeshFile& file, int axis) {
   return file.mesh.positions.col(axis).maxCoeff() - file.mesh.positions.col(axis).minCoeff();
 }
@@ -109,6 +180,29 @@ TEST_CASE("scene_reader: FBX is read, polygons cut, and turned so that y is up")
     CHECK(height_along(file, up == 1 ? 2 : 1) == Approx(3));
     CHECK(noted_up(file).direction == Vector3::UnitY());
   }
+}
+
+TEST_CASE("scene_reader: meshes with a skin are as their joints stand, wherever their nodes are") {
+  const std::vector<std::string> told = {
+      "not carried: 1 skin: the mesh is read as the joints stand"};
+  const MeshFile dae = read_mesh(skinned_collada(), "a.bin", {});
+  CHECK(losses_among(dae.notes).back() == told.back());
+  CHECK(inspect_mesh(prepare_for_mapping(dae).mesh).is_sphere());
+  CHECK(dae.mesh.positions.colwise().minCoeff().isApprox(Eigen::RowVector3d(0, 0, 1)));
+  CHECK(dae.mesh.positions.colwise().maxCoeff().isApprox(Eigen::RowVector3d(3, 3, 4)));
+  const MeshFile fbx = read_mesh(skinned_fbx(), "a.bin", {});
+  CHECK(losses_among(fbx.notes) == told);
+  CHECK(inspect_mesh(prepare_for_mapping(fbx).mesh).is_sphere());
+  CHECK(fbx.mesh.positions.colwise().minCoeff().isApprox(Eigen::RowVector3d(-1, -1, 1)));
+  CHECK(fbx.mesh.positions.colwise().maxCoeff().isApprox(Eigen::RowVector3d(1, 1, 4)));
+}
+
+TEST_CASE("scene_reader: a skin whose bone is nowhere leaves its mesh where the node puts it") {
+  const MeshFile file =
+      read_mesh(replaced(skinned_collada(), "<node id=\"bone\" sid=\"bone\" name=\"bone\"",
+                         "<node id=\"b\" sid=\"b\" name=\"b\""),
+                "a.bin", {});
+  CHECK(height_along(file, 0) == Approx(2));
 }
 
 TEST_CASE("scene_reader: what is broken is refused, and says what it was taken for") {

@@ -322,6 +322,14 @@ TEST_CASE("bake_record: images, and what they are for") {
   CHECK(line_of(baked.images[0], settings) == "ball.ply: ao, 64 × 32 uint8 → ao.png");
 }
 
+TEST_CASE("bake_record: a mesh that lies on the surface baked from has no shares to tell") {
+  const BakeSettings settings{.source_name = "the asset"};
+  CHECK(line_of(ProjectionShares{.farthest = 1e-12}, settings) ==
+        "the asset: the mesh lies on it everywhere");
+  CHECK_THAT(line_of(ProjectionShares{.nearest = 0.25, .farthest = 0.5}, settings),
+             Contains("0 % of the mesh shows its back, 25 %"));
+}
+
 TEST_CASE("export_record: what is proved of each level, and the files") {
   ChartFigures chart;
   chart.splits = 3;

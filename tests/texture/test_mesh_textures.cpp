@@ -7,7 +7,9 @@
 #include "sphparam/io/safe_file.h"
 #include "sphparam/texture/mesh_textures.h"
 #include "support/test_meshes.h"
+#include "texture/read_textures.h"
 #include "texture/source_texture.h"
+#include "texture/texture_pyramid.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;
@@ -48,6 +50,17 @@ TEST_CASE("shown textures: an image that is named is on all of the mesh, where i
                     "ball.ply has no texture coordinates, so its texture has no place");
   std::filesystem::remove(image);
   CHECK_THROWS_AS(shown_textures(ball(true), "ball.ply", image), ImageError);
+}
+
+TEST_CASE("read_textures: BMP and TGA are images of materials") {
+  const std::string head = {0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 24, 0};
+  const std::string tga = head + std::string("\0\xff\0", 3);
+  MaterialTexture texture{.image = "skin.tga"};
+  texture.bytes = std::make_shared<const std::vector<char>>(tga.begin(), tga.end());
+  CHECK(why_unusable(texture).empty());
+  const MeshFile file = ball(true);
+  const SourceTexture green = TextureReader(file, TexelKind::Colour, 1).read(texture, "skin");
+  CHECK(green.image->levels()[0].texels[1] == 65535);
 }
 
 TEST_CASE("shown textures: what stands against those of a file is told, the mesh shown without") {

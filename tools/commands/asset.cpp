@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <stdexcept>
-#include <string_view>
 
 #include "arguments/limits.h"
 #include "arguments/texture_arguments.h"
@@ -17,6 +16,7 @@
 #include "sphparam/io/up_axis.h"
 #include "sphparam/records/bake_record.h"
 #include "sphparam/version.h"
+#include "sphparam/wrap/wrap.h"
 
 namespace sphparam::cli {
 
@@ -91,9 +91,8 @@ RemadeAsset remade(const MeshSource& asset, const std::string& folder,
   return remake_asset(asset, folder, options, session.files);
 } catch (const BakeSettingError& error) {
   throw UsageMistake(std::string("--size: ") + error.what());
-} catch (const std::invalid_argument& error) {
+} catch (const VoxelError& error) {
   // How fine a lattice can be the mesh decides: no domain of the option says so before.
-  if (!std::string_view(error.what()).starts_with("voxel")) throw;
   throw UsageMistake(std::string("--resolution: ") + error.what());
 } catch (const MeshError& error) {
   throw ReadError(display_name(asset.path), error.defects().front().message);

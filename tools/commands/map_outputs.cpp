@@ -10,6 +10,7 @@
 #include "console/places.h"
 #include "number_text.h"
 #include "report/plots.h"
+#include "sphparam/chart/chart_failure.h"
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/io/loop_file.h"
 #include "sphparam/io/map_files.h"
@@ -85,6 +86,12 @@ std::optional<ChartReport> affordable_chart(const MapOutcome& outcome, Session& 
   return ChartReport{.not_made = "out of memory"};
 }
 
+/// Is the chart certified, with all vertices where the map has them?
+bool stands_as_it_is(const ChartReport& chart) {
+  return chart.not_made.empty() && chart.certificate.one_to_one() &&
+         moved_vertices(chart.counts, chart.certificate, chart.vertices).empty();
+}
+
 /// The figures of the (u, v) chart, as a stage of its own. The map that was asked for is written
 /// and certified by now, under its temporary name: a chart that cannot be made is told, and costs
 /// nothing else.
@@ -94,7 +101,7 @@ std::optional<ChartReport> figures_of_chart(MapOutcome& outcome, Session& sessio
   std::optional<ChartReport> chart = affordable_chart(outcome, session);
   outcome.result.stages.push_back({.name = "chart", .seconds = stopwatch.seconds()});
   session.console.detail("  chart: " + short_number(stopwatch.seconds()) + " s");
-  if (chart && !chart->not_made.empty()) {
+  if (chart && !stands_as_it_is(*chart)) {
     outcome.result.warnings.push_back(chart_line(chart));
     session.console.warning(chart_line(chart));
   }

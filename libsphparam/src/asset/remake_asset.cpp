@@ -9,6 +9,7 @@
 #include "asset/asset_page.h"
 #include "asset/soup.h"
 #include "io/attributes/one_material.h"
+#include "mesh/box.h"
 #include "rays/flat_normal.h"
 #include "sphparam/io/certified_files.h"
 #include "sphparam/io/paths.h"

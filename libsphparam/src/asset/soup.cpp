@@ -9,9 +9,4 @@ MeshFile with_places(const MeshSource& asset) {
   return mended(asset, finite).file;
 }
 
-double longest_side(const TriangleMesh& mesh) {
-  if (mesh.vertex_count() == 0) return 0;
-  return (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).maxCoeff();
-}
-
 }  // namespace sphparam

@@ -7,6 +7,7 @@
 
 #include "asset/asset_words.h"
 #include "asset/soup.h"
+#include "mesh/box.h"
 #include "number_text.h"
 #include "option_domain.h"
 #include "sphparam/chart/spherical_chart.h"

@@ -15,6 +15,7 @@
 #include "bake/projected_surface.h"
 #include "bake/write_images.h"
 #include "io/attributes/one_material.h"
+#include "mesh/box.h"
 #include "number_text.h"
 #include "sphparam/version.h"
 
@@ -44,13 +45,10 @@ BakeScene scene_for(const MappedMesh& source, BakeTarget target, bool with_textu
 /// Farther away on the whole, the two are hardly of one thing.
 constexpr double doubtful_distance = 0.05;  // of the diagonal
 
-double longest_side(const Points& positions) {
-  return (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).maxCoeff();
-}
-
 /// Of the surface baked from, over the mesh's.
 double relative_size(const BakeScene& scene) {
-  return longest_side(scene.source.mesh().positions) / longest_side(scene.target.positions);
+  return box_of(scene.source.mesh().positions).longest_side() /
+         box_of(scene.target.positions).longest_side();
 }
 
 /// Tells how the target finds the surface that is baked on it.

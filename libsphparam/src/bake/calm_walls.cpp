@@ -142,20 +142,24 @@ Vector3 CalmWalls::normal(const SurfaceSample& sample, const Vector3& own) const
   return mean.isZero(0) || mixed.isZero(0) ? own : Vector3(mixed.stableNormalized());
 }
 
-std::shared_ptr<const CalmWalls> CalmWalls::find(const BakeScene& scene, double beyond) {
-  auto walls = std::shared_ptr<CalmWalls>(new CalmWalls(scene, beyond));
-  const BakeTarget& target = scene.target;
-  std::vector<Probe> probes = probes_of(target);
+/// Finds what each probe shows of the source. Returns whether it is on a wall.
+std::vector<char> CalmWalls::project(std::vector<Probe>& probes) const {
   std::vector<char> is_wall(probes.size());
-  parallel_for(std::ssize(probes), 256, scene.threads, [&](std::int64_t from, std::int64_t to) {
+  parallel_for(std::ssize(probes), 256, scene_->threads, [&](std::int64_t from, std::int64_t to) {
     for (auto i = static_cast<size_t>(from); i < static_cast<size_t>(to); ++i) {
       Probe& probe = probes[i];
-      probe.run = scene.source.surface->project(
-          target, {probe.at.face, probe.at.barycentric, probe.step, probe.below});
-      const Vector3 place = walls->on_target(probe.at);
-      is_wall[i] = walls->share(place, probe.run, 0) > 0;
+      probe.run = scene_->source.surface->project(
+          scene_->target, {probe.at.face, probe.at.barycentric, probe.step, probe.below});
+      is_wall[i] = share(on_target(probe.at), probe.run, 0) > 0;
     }
   });
+  return is_wall;
+}
+
+/// Probes that are on no wall, in triangles that share a vertex with one that is.
+std::vector<size_t> CalmWalls::beside_walls(const std::vector<Probe>& probes,
+                                            const std::vector<char>& is_wall) const {
+  const BakeTarget& target = scene_->target;
   std::vector<char> touched(static_cast<size_t>(target.positions.rows()));
   for (size_t i = 0; i < probes.size(); ++i)
     if (is_wall[i])
@@ -167,15 +171,27 @@ std::shared_ptr<const CalmWalls> CalmWalls::find(const BakeScene& scene, double 
         std::ranges::any_of(target.chart.triangles.row(probes[i].at.face),
                             [&](Vertex v) { return touched[static_cast<size_t>(v)] != 0; }))
       beside.push_back(i);
-  if (beside.empty()) return nullptr;
-  walls->keep_normals(probes, is_wall);
+  return beside;
+}
+
+void CalmWalls::keep_rim(const std::vector<Probe>& probes, const std::vector<size_t>& beside) {
   const size_t stride = (beside.size() + most_beside - 1) / most_beside;
   for (size_t i = 0; i < beside.size(); i += stride) {
     const Probe& probe = probes[beside[i]];
-    walls->rim_.push_back(probe.run);
-    walls->rim_points_.push_back(walls->on_target(probe.at));
-    walls->rim_areas_.push_back(probe.area);
+    rim_.push_back(probe.run);
+    rim_points_.push_back(on_target(probe.at));
+    rim_areas_.push_back(probe.area);
   }
+}
+
+std::shared_ptr<const CalmWalls> CalmWalls::find(const BakeScene& scene, double beyond) {
+  auto walls = std::shared_ptr<CalmWalls>(new CalmWalls(scene, beyond));
+  std::vector<Probe> probes = probes_of(scene.target);
+  const std::vector<char> is_wall = walls->project(probes);
+  const std::vector<size_t> beside = walls->beside_walls(probes, is_wall);
+  if (beside.empty()) return nullptr;
+  walls->keep_normals(probes, is_wall);
+  walls->keep_rim(probes, beside);
   return walls;
 }
 

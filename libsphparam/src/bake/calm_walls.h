@@ -43,7 +43,11 @@ class CalmWalls {
   explicit CalmWalls(const BakeScene& scene, double beyond) : scene_(&scene), beyond_(beyond) {}
   struct Probe;
   static std::vector<Probe> probes_of(const BakeTarget& target);
+  std::vector<char> project(std::vector<Probe>& probes) const;
+  std::vector<size_t> beside_walls(const std::vector<Probe>& probes,
+                                   const std::vector<char>& is_wall) const;
   void keep_normals(const std::vector<Probe>& probes, const std::vector<char>& is_wall);
+  void keep_rim(const std::vector<Probe>& probes, const std::vector<size_t>& beside);
   Vector3 on_target(const SurfacePoint& at) const;
   double share(const Vector3& place, const SurfaceRun& run, int i) const;
   std::vector<float> rim_values(const SurfaceField& field) const;

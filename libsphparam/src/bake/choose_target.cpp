@@ -47,8 +47,10 @@ ChosenTarget choose_target(const MappedMesh& source, const BakeSettings& setting
   if (settings.target) require_one_sphere(source, settings, chosen);
   const MappedMesh& mesh = settings.target ? *settings.target : source;
   chosen.target = target_on(mesh, !settings.target && !settings.from, settings);
-  require_one_to_one(chosen.target.chart,
-                     settings.target ? mesh.name() : source_name(source, settings));
+  const std::string& name = settings.target ? mesh.name() : source_name(source, settings);
+  require_one_to_one(chosen.target.chart, name);
+  const std::string moved = moved_vertices(chosen.target.chart);
+  if (!moved.empty()) chosen.warnings.push_back(name + ": " + moved);
   return chosen;
 }
 

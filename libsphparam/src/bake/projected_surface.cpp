@@ -231,10 +231,9 @@ double median_distance(std::vector<Probe> probes, double area) {
   return 0;
 }
 
-}  // namespace
-
-ProjectionShares measure_projection(const ProjectedSurface& surface, const BakeTarget& target,
-                                    int threads) {
+/// Of every triangle of the target.
+std::vector<Probe> probe_all(const ProjectedSurface& surface, const BakeTarget& target,
+                             int threads) {
   std::vector<Probe> probes(static_cast<size_t>(target.chart.triangles.rows()));
   parallel_for(std::ssize(probes), 256, threads, [&](std::int64_t from, std::int64_t to) {
     const auto first = static_cast<Face>(from), last = static_cast<Face>(to);
@@ -247,6 +246,10 @@ ProjectionShares measure_projection(const ProjectedSurface& surface, const BakeT
       probes[static_cast<size_t>(f)] =
           probe(surface, target, f, runs[static_cast<size_t>(f - first)]);
   });
+  return probes;
+}
+
+ProjectionShares shares_of(std::vector<Probe> probes, double diagonal) {
   ProjectionShares shares;
   double area = 0;
   for (const Probe& one : probes) {
@@ -258,10 +261,16 @@ ProjectionShares measure_projection(const ProjectedSurface& surface, const BakeT
   if (!(area > 0)) return shares;
   shares.back /= area;
   shares.nearest /= area;
-  const double diagonal = surface.rays().diagonal();
   shares.median = median_distance(std::move(probes), area) / diagonal;
   shares.farthest /= diagonal;
   return shares;
+}
+
+}  // namespace
+
+ProjectionShares measure_projection(const ProjectedSurface& surface, const BakeTarget& target,
+                                    int threads) {
+  return shares_of(probe_all(surface, target, threads), surface.rays().diagonal());
 }
 
 }  // namespace sphparam

@@ -108,11 +108,12 @@ class ChartCertifier {
   double distance_from_map(int w) const {
     const Vertex v = chart_.wedge_vertices[static_cast<size_t>(w)];
     if (v < 0 || v >= chart_.points.rows()) return 1;
-    const ChartPoint p = point(w), there = chart_point(chart_.points.row(v));
+    const Vector3 ray = chart_.points.row(v);
+    const ChartPoint p = point(w), there = chart_point(ray);
     const double along_v = std::abs(p.v - there.v);
     if (on_rim(p)) return along_v;
-    const double along_u = std::abs(p.u - there.u);
-    return std::max(along_v, std::min(along_u, std::abs(along_u - 1)));
+    const double turns = std::abs(p.u - there.u), parallel = ray.head<2>().stableNorm();
+    return std::max(along_v, std::min(turns, std::abs(turns - 1)) * parallel / ray.stableNorm());
   }
 
   void examine_faces(const Topology& topology, int threads) {

@@ -1,8 +1,28 @@
 #include "sphparam/chart/chart_failure.h"
 
+#include "number_text.h"
 #include "sphparam/errors.h"
 
 namespace sphparam {
+
+namespace {
+
+constexpr double rounding = 0x1p-23;  // of a turn: what vertices move by when they settle, at least
+
+}  // namespace
+
+std::string moved_vertices(const ChartCounts& counts, const ChartCertificate& certificate,
+                           long vertices) {
+  const double moved = counts.nudged_vertices, by = certificate.max_shift;
+  if (moved == 0 || by <= rounding || !certificate.one_to_one()) return "";
+  return "where triangles are thinner than (u, v) can tell, " +
+         percent(moved / static_cast<double>(vertices)) +
+         " of its vertices moved there, by up to " + short_number(by) + " of a turn";
+}
+
+std::string moved_vertices(const SphericalChart& chart) {
+  return moved_vertices(chart.counts, chart.certificate, chart.points.rows());
+}
 
 std::string split_limit_reached(const SphericalChart& chart) {
   return "its " + std::to_string(chart.counts.folded_faces) +

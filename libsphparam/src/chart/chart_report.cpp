@@ -44,13 +44,14 @@ std::string chart_line(const std::optional<ChartReport>& chart) {
   if (!chart->not_made.empty()) return "chart: not made: " + chart->not_made;
   const ChartCounts& counts = chart->counts;
   const bool certified = chart->certificate.one_to_one();
+  const std::string moved = moved_vertices(counts, chart->certificate, chart->vertices);
   return "chart: " + std::string(certified ? "certified" : "not one-to-one") +
          (certified ? "" : failures(chart->certificate)) + ", " + std::to_string(counts.splits()) +
          " splits (" + std::to_string(counts.pole_splits) + " at ±z, " +
          std::to_string(counts.meridian_splits) + " along the meridian, " +
          std::to_string(counts.fold_splits) + " of " + std::to_string(counts.folded_faces) +
          " folds), " + std::to_string(chart->triangles) + " triangles, " +
-         std::to_string(chart->wedges) + " wedges";
+         std::to_string(chart->wedges) + " wedges" + (moved.empty() ? "" : "; " + moved);
 }
 
 }  // namespace sphparam

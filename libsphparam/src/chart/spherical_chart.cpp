@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "chart/flat_mesh.h"
+#include "chart/settle.h"
 #include "chart/split_at_poles_and_meridian.h"
 #include "chart/unfold.h"
 #include "option_domain.h"
@@ -179,7 +180,8 @@ SphericalChart spherical_chart(const TriangleMesh& mesh, const Topology& topolog
                   .at_limit = unfolding.at_limit};
   report(progress, "chart", 1);
   chart.certificate = certify_chart(chart, threads);
-  return chart;
+  if (chart.certificate.one_to_one() || unfolding.at_limit) return chart;
+  return settled(std::move(chart), threads);
 }
 
 SphericalChart wrapped_chart(const TriangleMesh& mesh, const Topology& topology,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <utility>
 
@@ -16,7 +17,9 @@
 // fold by it, as where long flat triangles lie on each other like tiles, the fold would only move
 // from strip to strip, once for every corner; there the edge is split where it meets a line
 // u = n / 2ᵏ, k least. Strips share these lines, so their pieces lie between the same meridians,
-// and soon corners' meridians can end within them. What neither cut mends is folded by rounding.
+// and soon corners' meridians can end within them. What neither cut mends is folded by rounding;
+// but for faces beside ones so thin that no point of their edge lies between its apexes: where such
+// a fold is deep, its edge is cut all the same, and the points there are no map.
 
 namespace sphparam {
 namespace {
@@ -24,6 +27,7 @@ namespace {
 constexpr std::int64_t chunk_size = 8192;
 // Of what an edge spans in u, at either end: a line there would leave the long piece as it is.
 constexpr double margin = 0x1p-3;
+constexpr double least_depth = 0x1p-20;  // of a turn: a fold that textures show
 constexpr size_t faces_a_report = 4096;
 
 /// The number n / 2ᵏ between two, k least.
@@ -40,6 +44,28 @@ class Unfolder {
   Unfolding run(int threads, const Progress& progress) {
     waiting_ = folded_faces(threads);
     result_.folded_faces = static_cast<int>(waiting_.size());
+    cut_waiting(progress);
+    keep_folded(result_.left);
+    waiting_ = deep_ones(result_.left);
+    if (!waiting_.empty()) {
+      points_must_fit_ = false;
+      cut_waiting(progress);
+      keep_folded(result_.left);
+    }
+    if (result_.at_limit) return std::move(result_);  // the rest folds: nothing is worth mending
+    result_.nudged_vertices = nudge(flat_, result_.left);
+    return std::move(result_);
+  }
+
+ private:
+  /// A point of an edge to split it at.
+  struct Cut {
+    Halfedge halfedge = -1;
+    Crossing crossing = {0, Vector3::Zero()};
+    ChartPoint uv = {0, 0};
+  };
+
+  void cut_waiting(const Progress& progress) {
     for (size_t i = 0; i < waiting_.size() && !result_.at_limit; ++i) {
       if (i % faces_a_report == 0) report(progress, "chart", share_of_limit());
       const Face f = waiting_[i];
@@ -53,19 +79,21 @@ class Unfolder {
         result_.at_limit = true;
       }
     }
-    if (result_.at_limit) return std::move(result_);  // the rest folds: nothing is worth mending
-    keep_folded(result_.left);
-    result_.nudged_vertices = nudge(flat_, result_.left);
-    return std::move(result_);
   }
 
- private:
-  /// A point of an edge to split it at.
-  struct Cut {
-    Halfedge halfedge = -1;
-    Crossing crossing = {0, Vector3::Zero()};
-    ChartPoint uv = {0, 0};
-  };
+  /// Of folded faces, those that are seen: their edges pass triangles that are as thin as rounding.
+  std::vector<Face> deep_ones(const std::vector<Face>& faces) const {
+    std::vector<Face> deep;
+    std::ranges::copy_if(faces, std::back_inserter(deep), [&](Face f) {
+      if (flat_.pole_halfedge(f) >= 0) return false;
+      const ChartPoint a = flat_.corner(3 * f), b = flat_.corner(3 * f + 1),
+                       c = flat_.corner(3 * f + 2);
+      const double along_u = std::max({a.u, b.u, c.u}) - std::min({a.u, b.u, c.u}),
+                   along_v = std::max({a.v, b.v, c.v}) - std::min({a.v, b.v, c.v});
+      return -planar_area(a, b, c) > least_depth * std::max(along_u, along_v);
+    });
+    return deep;
+  }
 
   std::vector<Face> folded_faces(int threads) const {
     const Face faces = flat_.mesh.face_count();
@@ -120,7 +148,9 @@ class Unfolder {
     return {h, crossing, {u, chart_point(crossing.point).v}};
   }
 
-  bool fits(const Cut& cut) const { return flat_.mesh.fits(cut.halfedge, cut.crossing.point); }
+  bool fits(const Cut& cut) const {
+    return !points_must_fit_ || flat_.mesh.fits(cut.halfedge, cut.crossing.point);
+  }
 
   /// Is a point with the apex's u on its right side, so that both pieces are positive?
   bool is_above(Halfedge h, const ChartPoint& p) const {
@@ -161,6 +191,7 @@ class Unfolder {
   FlatMesh& flat_;
   const std::int64_t most_splits_;
   std::vector<Face> waiting_;
+  bool points_must_fit_ = true;
   Unfolding result_;
 };
 

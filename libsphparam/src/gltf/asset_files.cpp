@@ -190,6 +190,7 @@ TexturedFiles add_textured_mesh(PendingFiles& files, const std::string& path,
   }
   adder.add(image_path, image.bytes);
   result.files = adder.take();
+  warn_of_moves(source_name(mapped, options), chart, result.warnings);
   warn_of_folds(source_name(mapped, options), result.chart, options.keep_topology, result.warnings);
   return result;
 }

@@ -5,6 +5,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "chart/settle.h"
+#include "gltf/stored_chart.h"
 #include "sphparam/chart/refine_poles.h"
 
 // A convention has u = turns·u₀ + offset. The chart of the map turned by θ ↦ θ + 2πr has
@@ -21,6 +23,12 @@ SphereMap turned(SphereMap map, int quarters) {
     map.points.col(1) = x;
   }
   return map;
+}
+
+bool holds_in_float32(const ExportChart& chart, int threads) {
+  const UvStorage storage{.mirrored = chart.mirrored};
+  return certify_stored(chart.chart, stored_uv(chart.chart, storage), storage, threads)
+      .one_to_one();
 }
 
 }  // namespace
@@ -43,6 +51,8 @@ ExportChart export_chart(const TriangleMesh& mesh, const Topology& topology, con
                                 options.threads);
   }
   result.mirrored = info.turns < 0;
+  if (result.chart.certificate.one_to_one() && !holds_in_float32(result, options.threads))
+    result.chart = settled(std::move(result.chart), options.threads);
   result.theta_offset = -quarters * std::numbers::pi / 2;
   return result;
 }

@@ -47,6 +47,12 @@ void warn_of_folds(const std::string& name, const ChartFigures& figures, bool to
   warnings.push_back(name + ": " + line);
 }
 
+void warn_of_moves(const std::string& name, const ExportChart& chart,
+                   std::vector<std::string>& warnings) {
+  const std::string moved = moved_vertices(chart.chart);
+  if (!moved.empty()) warnings.push_back(name + ": " + moved);
+}
+
 ChartFigures figures_of(const ExportChart& chart) {
   return {.triangles = static_cast<long>(chart.chart.triangles.rows()),
           .vertices = static_cast<long>(chart.chart.wedge_count()),

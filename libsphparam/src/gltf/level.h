@@ -21,6 +21,11 @@ ExportChart chart_of_level(const MappedMesh& mapped, const ExportOptions& option
 void warn_of_folds(const std::string& name, const ChartFigures& figures, bool topology_is_kept,
                    std::vector<std::string>& warnings);
 
+/// Appends a line of how many vertices were moved in (u, v) to be told apart in float32, if any
+/// were.
+void warn_of_moves(const std::string& name, const ExportChart& chart,
+                   std::vector<std::string>& warnings);
+
 /// Without what is known of the coordinates as stored.
 ChartFigures figures_of(const ExportChart& chart);
 

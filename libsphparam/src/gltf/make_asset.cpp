@@ -78,6 +78,7 @@ void add_level(Asset& asset, const MappedMesh& mapped, const std::string& name, 
   ChartFigures figures = figures_of(chart);
   figures.stored = std::move(geometry.stored);
   figures.sphere_folds = geometry.stored_sphere_folds;
+  warn_of_moves(name, chart, asset.warnings);
   warn_of_folds(name, figures, options.keep_topology, asset.warnings);
   asset.charts.push_back(std::move(figures));
   leave_out(geometry.surface, fillers_of_chart(chart.chart, mapped.fillers()));

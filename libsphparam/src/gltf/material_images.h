@@ -7,9 +7,9 @@
 
 namespace sphparam {
 
-/// An image file: PNG, JPEG and WebP as they are, after they were decoded once; TIFF becomes PNG.
-/// Throws: ReadError, ImageError; also for EXR, whose numbers no viewer shows. `texts`, where
-/// given, gets the texts of its metadata.
+/// An image file: PNG, JPEG and WebP as they are, after they were decoded once; TIFF, BMP and TGA
+/// become PNG. Throws: ReadError, ImageError; also for EXR, whose numbers no viewer shows. `texts`,
+/// where given, gets the texts of its metadata.
 AssetImage read_asset_image(const std::string& path, const std::string& name,
                             ImageTexts* texts = nullptr);
 

@@ -4,13 +4,17 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <new>
 #include <system_error>
 
+#include "image/bmp.h"
 #include "image/image_writer.h"
 #include "image/open_module.h"
+#include "image/targa.h"
 #include "sphparam/io/paths.h"
+#include "sphparam/io/read_options.h"
 
-// Whole images in memory, decoded and encoded by the module.
+// Whole images in memory, decoded and encoded by the module; BMP and TGA without it.
 
 namespace sphparam {
 namespace {
@@ -51,6 +55,14 @@ const char* format_of(const std::vector<char>& bytes) {
   return nullptr;
 }
 
+using Decoder = Image (*)(std::string_view, const std::string&, const ImageLimits&);
+
+/// Our own for what the module does not decode; null for what is none of these formats.
+Decoder decoder_of(std::string_view bytes) {
+  if (looks_like_bmp(bytes)) return decode_bmp;
+  return looks_like_targa(bytes) ? decode_targa : nullptr;
+}
+
 /// Clamped to [0, 1]; what is no number becomes 0.
 template <class Sample>
 std::vector<Sample> integers(const float* values, size_t count) {
@@ -60,6 +72,16 @@ std::vector<Sample> integers(const float* values, size_t count) {
     return x > 0 ? static_cast<Sample>(std::min(x, 1.0F) * full + 0.5F) : Sample{0};
   });
   return samples;
+}
+
+Image decode_ourselves(std::string_view bytes, const std::string& name,
+                       const ImageLimits& limits) try {
+  if (const Decoder decode = decoder_of(bytes)) return decode(bytes, name, limits);
+  throw ImageError(name + ": not a PNG, JPEG, WebP, TIFF, EXR, BMP or TGA image");
+} catch (const ReadError& error) {
+  throw ImageError(error.what());
+} catch (const std::bad_alloc&) {
+  throw ImageError(name + ": not enough memory");
 }
 
 std::vector<char> read_bytes(const std::string& path, const ImageLimits& limits) {
@@ -80,13 +102,15 @@ std::vector<char> read_bytes(const std::string& path, const ImageLimits& limits)
 
 }  // namespace
 
-bool is_image(const std::vector<char>& bytes) { return format_of(bytes) != nullptr; }
+bool is_image(const std::vector<char>& bytes) {
+  return format_of(bytes) || decoder_of({bytes.data(), bytes.size()});
+}
 
 Image decode_image(const std::vector<char>& bytes, std::string_view name, const ImageLimits& limits,
                    ImageTexts* texts) {
   const std::string prefix = std::string(name) + ": ";
   const char* format = format_of(bytes);
-  if (!format) throw ImageError(prefix + "not a PNG, JPEG, WebP, TIFF or EXR image");
+  if (!format) return decode_ourselves({bytes.data(), bytes.size()}, std::string(name), limits);
   Image image;
   std::string error;
   if (image_codecs().decode(format, bytes.data(), bytes.size(), limits.decoded_megabytes,

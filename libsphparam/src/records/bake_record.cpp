@@ -1,5 +1,6 @@
 #include "sphparam/records/bake_record.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "number_text.h"
@@ -69,6 +70,8 @@ std::string to_json(const BakeRecord& record) {
 
 std::string line_of(const ProjectionShares& shares, const BakeSettings& settings) {
   constexpr double rounding = 1e-9;
+  const double most = std::max({shares.back, shares.nearest, shares.median, shares.farthest});
+  if (most <= rounding) return settings.source_name + ": the mesh lies on it everywhere";
   const auto told = [](double share) { return percent(share > rounding ? share : 0); };
   return settings.source_name + ": found along the normals; " + told(shares.back) +
          " of the mesh shows its back, " + told(shares.nearest) +

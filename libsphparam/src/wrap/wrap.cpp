@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "mesh/box.h"
 #include "number_text.h"
 #include "option_domain.h"
 #include "rays/flat_normal.h"
@@ -33,12 +34,8 @@ constexpr double roundings_a_voxel =
 constexpr double largest_coordinate = 1e70, least_extent = 1e-60;  // fourth powers are doubles
 constexpr std::int64_t samples = 100'000;  // of each surface, for their distance
 
-struct Box {
-  Vector3 lower = Vector3::Constant(std::numeric_limits<double>::infinity());
-  Vector3 upper = -lower;
-  double longest() const { return (upper - lower).maxCoeff(); }
-  double farthest() const { return std::max(-lower.minCoeff(), upper.maxCoeff()); }
-};
+/// The largest coordinate, on either side of the origin.
+double farthest(const Box& box) { return std::max(-box.lower.minCoeff(), box.upper.maxCoeff()); }
 
 std::vector<char> used_vertices(const TriangleMesh& soup) {
   std::vector<char> used(static_cast<size_t>(soup.vertex_count()), 0);
@@ -64,9 +61,7 @@ void require_places(const TriangleMesh& soup) {
 Box box_of(const TriangleMesh& soup, const std::vector<char>& used) {
   Box box;
   for (Vertex v = 0; v < soup.vertex_count(); ++v) {
-    if (!used[static_cast<size_t>(v)]) continue;
-    box.lower = box.lower.cwiseMin(soup.position(v));
-    box.upper = box.upper.cwiseMax(soup.position(v));
+    if (used[static_cast<size_t>(v)]) box.add(soup.position(v));
   }
   return box;
 }
@@ -80,21 +75,21 @@ void require_domain(const WrapOptions& options) {
 
 double chosen_voxel(const WrapOptions& options, const Box& box) {
   if (options.voxel > 0) return options.voxel;
-  if (options.resolution > 0) return box.longest() / options.resolution;
-  const double usual = box.longest() / usual_resolution;
+  if (options.resolution > 0) return box.longest_side() / options.resolution;
+  const double usual = box.longest_side() / usual_resolution;
   return options.distance > 0 ? std::min(usual, options.distance / usual_distance) : usual;
 }
 
 void require_regular(const Box& box, double voxel) {
-  const double finest = roundings_a_voxel * std::numeric_limits<double>::epsilon() * box.farthest();
-  if (box.farthest() >= largest_coordinate)
-    throw UnmeasurableMesh("coordinates up to " + short_number(box.farthest()) +
+  const double finest = roundings_a_voxel * std::numeric_limits<double>::epsilon() * farthest(box);
+  if (farthest(box) >= largest_coordinate)
+    throw UnmeasurableMesh("coordinates up to " + short_number(farthest(box)) +
                            " are too large to be wrapped: scale the mesh down");
-  if (box.longest() > least_extent && voxel > finest) return;
+  if (box.longest_side() > least_extent && voxel > finest) return;
   throw UnmeasurableMesh(
-      box.longest() > least_extent
+      box.longest_side() > least_extent
           ? "a voxel of " + short_number(voxel) + " is too small for coordinates up to " +
-                short_number(box.farthest()) + ": make it larger, or move the mesh to the origin"
+                short_number(farthest(box)) + ": make it larger, or move the mesh to the origin"
           : "this mesh has no extent: a surface about it would have no size of its own");
 }
 
@@ -111,9 +106,9 @@ Vector3 points_of_lattice(const Box& box, double voxel, double distance) {
   double least = voxel;
   while (points_of_lattice(box, least, std::max(distance, least)).prod() > most_points)
     least *= step;
-  refuse_option("voxel", voxel,
-                "about " + short_number(least) + " or more here, for a lattice of at most " +
-                    short_number(most_points / 1e6) + " million points");
+  throw VoxelError("voxel is " + shortest(voxel) + ": it must be about " + short_number(least) +
+                   " or more here, for a lattice of at most " + short_number(most_points / 1e6) +
+                   " million points");
 }
 
 Lattice lattice_about(const Box& box, double voxel, double distance) {

@@ -22,7 +22,9 @@ struct ChartCertificate {
   std::vector<Halfedge> torn;   // edges whose sides are neither at one place nor exact seam copies
   std::vector<Face> around_pole;  // of a wrapped chart: triangles with ±z inside, or on an edge
   int north_turns = 0, south_turns = 0;  // how often the pieces run through v = 0 and v = 1
-  double max_shift = 0;  // max distance of (u, v) from that of the refined vertex, in turns
+  // Max distance of (u, v) from that of the refined vertex, in turns; u by the length of its
+  // parallel.
+  double max_shift = 0;
   // Triangles whose points are not counter-clockwise on the sphere. `one_to_one` does not ask for
   // them, but who uses the points as a refined sphere map must.
   std::vector<Face> inverted;

@@ -29,7 +29,7 @@ struct ChartCounts {
   int fold_splits = 0;       // edges split so that nothing folds in (u, v)
   int folded_faces = 0;      // triangles between poles and meridian that folded before
   int snapped_vertices = 0;  // within rounding of ±z or the meridian: moved there
-  int nudged_vertices = 0;   // moved in (u, v) by some roundings of it: too small a fold to split
+  int nudged_vertices = 0;   // moved in (u, v), as triangles there are thinner than it can tell
   bool at_limit = false;     // the folds need more splits than were allowed: some are left
 
   int splits() const { return pole_splits + meridian_splits + fold_splits; }
@@ -75,12 +75,16 @@ struct SphericalChart {
 /// New vertices lie on the geodesic map: f(Σ λᵢ vᵢ) = Σ λᵢ xᵢ / |Σ λᵢ xᵢ|, so positions and all
 /// other attributes of the source interpolate linearly (`carry_vertex_attribute`). Vertices closer
 /// to ±z or to the meridian than double (u, v) can tell are moved there.
+///
+/// Where triangles, or the strips between neighbouring edges, are thinner than (u, v) can tell,
+/// some 1e-15 radians, vertices are nudged by some roundings; where that does not do, (u, v)
+/// settles on multiples of 2⁻²⁴ of a turn, and vertices that crowd there move apart, by little more
+/// than makes room for all. `counts.nudged_vertices` says how many, `certificate.max_shift` how far.
+///
 /// Requires: a map that `certify` calls bijective, rays of unit length up to rounding.
-/// Ensures: `certificate` is certify_chart's of the data returned. It fails only where triangles,
-/// or
-///          the strips between neighbouring edges, are as thin as the rounding of (u, v), some
-///          1e-15 radians, or where folds need more than `splits_a_vertex`·#V + 4096 splits:
-///          `counts.at_limit` tells. Tubes wound dozens of times about ±z take tens a vertex.
+/// Ensures: `certificate` is certify_chart's of the data returned. It fails only where folds need
+///          more than `splits_a_vertex`·#V + 4096 splits: `counts.at_limit` tells, tubes wound
+///          dozens of times about ±z take tens a vertex; or where no room is found, which is rare.
 ///          Every split leaves the refined map positive on the sphere; where rounding does not let
 ///          it, `certificate.inverted` lists the faces. Same bytes for any number of threads.
 /// Progress is told of "chart": the share of the splits allowed that was needed so far.

@@ -34,7 +34,7 @@ struct OtherShape {
   Points positions, normals;  // #V×3; normals unit
 };
 
-/// What an asset shows. Paths of images; empty: none. Of PNG, JPEG, WebP and TIFF.
+/// What an asset shows. Paths of images; empty: none. Of PNG, JPEG, WebP, TIFF, BMP and TGA.
 struct LookOptions {
   std::string texture = {};    // an equirectangular image, row 0 north
   std::string normal = {};     // a normal map in the tangent frame of the asset, as `bake` makes it

@@ -43,7 +43,7 @@ class EquirectangularImage {
   ConventionInfo convention_;
 };
 
-/// Reads a PNG, JPEG or TIFF, which hold sRGB, or an EXR, whose name says so: linear light.
+/// Reads an EXR, whose name says so: linear light, or one of the other formats, which hold sRGB.
 /// Throws: ImageError. Cost: 11 bytes a texel.
 EquirectangularImage read_equirectangular(const std::string& path,
                                           Convention convention = Convention::Sphparam,

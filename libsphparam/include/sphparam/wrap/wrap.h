@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <stdexcept>
 
 #include "sphparam/measure/surface_distance.h"
 #include "sphparam/mesh/triangle_mesh.h"
@@ -24,6 +25,13 @@ struct WrapOptions {
   long faces = 0;
   int threads = 0;  // 0: all cores
   Progress progress = {};
+};
+
+/// A voxel that is too small for a lattice about the soup. Where `voxel` is 0 it followed from
+/// `resolution` or `distance`.
+class VoxelError : public std::invalid_argument {
+ public:
+  using std::invalid_argument::invalid_argument;
 };
 
 /// A closed surface about a soup of triangles.
@@ -65,7 +73,7 @@ struct Wrap {
 /// Requires: a lattice of at most 100 million points.
 /// Throws: MeshError where triangles name vertices that are not there or not finite, or there are
 ///         none; UnmeasurableMesh where they all are one point, or coordinates are too large for
-///         the voxel; std::invalid_argument, which names the option; Cancelled.
+///         the voxel; VoxelError; std::invalid_argument, which names the option; Cancelled.
 /// Ensures: `require_sphere` takes the mesh; the same bytes for any number of threads.
 /// Cost: 5 bytes a point of the lattice, 9 where it is carved; about 2 µs a point near the surface.
 Wrap wrap_soup(const TriangleMesh& soup, const WrapOptions& options = {});

@@ -181,6 +181,57 @@ bool has_alpha(const Painter& painter) {
   return false;
 }
 
+void place_textures(const BakeScene& scene, Painter& painter) {
+  const MeshFile& file = scene.source.file();
+  painter.textures = scene.source.textures;
+  painter.filter = scene.options.filter;
+  painter.triangles = &file.mesh.triangles;
+  if (auto corners = texcoords_of(file)) {
+    painter.corners = std::move(*corners);
+  } else if (any_image(painter.textures)) {
+    throw FieldError("basecolor: the mesh has no texture coordinates, so its texture has no place");
+  }
+  if (const Property* material = file.find_face_property("material");
+      material && !scene.source.one_texture_for_all) {
+    painter.texture_of.assign(material->values.begin(), material->values.end());
+  }
+}
+
+/// All become one material: alphas are such that its cutoff means what theirs do.
+void set_alpha(const BakeScene& scene, Painter& painter) {
+  const MeshFile& file = scene.source.file();
+  const OneMaterial one = one_material(file);
+  const bool blends = one.alpha_mode == AlphaMode::Blend;
+  painter.cutoff = static_cast<float>(one.alpha_cutoff);
+  for (size_t i = 0; i < file.channels.size(); ++i) {
+    const AlphaMode mode = meant(file.channels[i]);
+    painter.is_opaque.push_back(mode == AlphaMode::Opaque || (mode == AlphaMode::Blend && !blends));
+    painter.modes.push_back(mode);
+    if (mode == AlphaMode::Mask)
+      painter.textures[i].factor[3] *=
+          static_cast<float>(one.alpha_cutoff / file.channels[i].alpha_cutoff);
+  }
+  const auto any = [&](AlphaMode mode) { return std::ranges::count(painter.modes, mode) > 0; };
+  if (any(AlphaMode::Mask)) painter.close_behind = 2 * scene.calm_beyond;
+  if (!blends && (any(AlphaMode::Blend) || painter.close_behind > 0))
+    painter.behind = std::make_shared<const WhatIsBehind>(scene);
+  painter.opacities =
+      TextureReader(file, TexelKind::Number, scene.threads).read(&MaterialChannels::opacity);
+}
+
+SurfaceField field_of(std::shared_ptr<const Painter> painter, const MeshFile& file) {
+  SurfaceField field{.name = "basecolor",
+                     .channels = has_alpha(*painter) ? 4 : 3,
+                     .kind = FieldKind::Colour,
+                     .about = "the source's texture"};
+  field.texts = texts_of_material(file);
+  field.evaluate_runs = [painter = std::move(painter), channels = field.channels](
+                            std::span<const SurfaceRun> runs, float* values) {
+    painter->paint(runs, channels, values);
+  };
+  return field;
+}
+
 }  // namespace
 
 SurfaceField make_base_colour(const BakeScene& scene, const std::string& argument) {
@@ -193,54 +244,13 @@ SurfaceField make_base_colour(const BakeScene& scene, const std::string& argumen
     field.name = "basecolor";
     return field;
   }
-  if (textures.empty()) {
+  if (textures.empty())
     throw NoColoursError("basecolor: the mesh has no texture and no colours at its vertices");
-  }
   auto painter = std::make_shared<Painter>();
-  if (auto corners = texcoords_of(file)) {
-    painter->corners = std::move(*corners);
-  } else if (any_image(textures)) {
-    throw FieldError("basecolor: the mesh has no texture coordinates, so its texture has no place");
-  }
-  painter->textures = textures;
-  painter->filter = scene.options.filter;
-  if (const Property* material = file.find_face_property("material");
-      material && !scene.source.one_texture_for_all) {
-    painter->texture_of.assign(material->values.begin(), material->values.end());
-  }
-  if (says_alpha(scene.source)) {
-    const OneMaterial one = one_material(file);
-    const bool blends = one.alpha_mode == AlphaMode::Blend;
-    painter->cutoff = static_cast<float>(one.alpha_cutoff);
-    for (size_t i = 0; i < file.channels.size(); ++i) {
-      const AlphaMode mode = meant(file.channels[i]);
-      painter->is_opaque.push_back(mode == AlphaMode::Opaque ||
-                                   (mode == AlphaMode::Blend && !blends));
-      painter->modes.push_back(mode);
-      if (mode == AlphaMode::Mask)
-        painter->textures[i].factor[3] *=
-            static_cast<float>(one.alpha_cutoff / file.channels[i].alpha_cutoff);
-    }
-    const auto any = [&](AlphaMode mode) { return std::ranges::count(painter->modes, mode) > 0; };
-    if (any(AlphaMode::Mask)) painter->close_behind = 2 * scene.calm_beyond;
-    if (!blends && (any(AlphaMode::Blend) || painter->close_behind > 0))
-      painter->behind = std::make_shared<const WhatIsBehind>(scene);
-    painter->opacities =
-        TextureReader(file, TexelKind::Number, scene.threads).read(&MaterialChannels::opacity);
-  }
+  place_textures(scene, *painter);
+  if (says_alpha(scene.source)) set_alpha(scene, *painter);
   if (tints) painter->colours = linear_colours(file);
-  painter->triangles = &file.mesh.triangles;
-  const bool alpha = has_alpha(*painter);
-  SurfaceField field{.name = "basecolor",
-                     .channels = alpha ? 4 : 3,
-                     .kind = FieldKind::Colour,
-                     .about = "the source's texture"};
-  field.texts = texts_of_material(file);
-  field.evaluate_runs = [painter, channels = field.channels](std::span<const SurfaceRun> runs,
-                                                             float* values) {
-    painter->paint(runs, channels, values);
-  };
-  return field;
+  return field_of(painter, file);
 }
 
 }  // namespace sphparam

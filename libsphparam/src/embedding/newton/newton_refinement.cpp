@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "embedding/newton/global_newton.h"
+#include "embedding/newton/twists.h"
 
 // Levels are due at every fourfold vertex count, counted down from the finest. The smallest get a
 // step in any case: all of them together cost less than a tenth of a step on the finest. Finer ones
@@ -14,6 +15,7 @@
 // suffice: rings without room, or, for the finest alone, a sample of it. Shapes with long
 // protrusions gain 0.3 to 4 % there, others below 0.2 %.
 // Between steps a few guarded sweeps smooth what the step has creased; half of the gain is theirs.
+// Then twisted limbs are turned back (twists.cpp), which no step does, and steps go on from there.
 // What is left is estimated from the gains and from what a step promised and could not keep.
 
 namespace sphparam {
@@ -33,6 +35,7 @@ constexpr double worthwhile_sampled = 4e-3;  // of the energy
 constexpr double unseen = 2;                 // times as much as a sample says is left
 constexpr double idle_share = 0.1;           // of what may be left: a step that gains less is idle
 constexpr int most_idle_steps = 3;           // in a row
+constexpr int most_rounds = 4;               // of turning twisted limbs back
 constexpr double least_share = 0.5;  // of a system's iterations: twice as many gain next to nothing
 
 /// Levels up to this size cost hardly anything.
@@ -86,6 +89,20 @@ bool NewtonRefinement::due(int vertices) const {
 bool NewtonRefinement::sweeps_suffice() const { return last_gain_ <= worthwhile && !protrusions_; }
 
 void NewtonRefinement::improve(const TriangleMesh& mesh, const Topology& topology,
+                               const std::vector<Vertex>& pinned, std::vector<ImagePoint>& image,
+                               ProgressShare share) {
+  descend(mesh, topology, pinned, image, share);
+  if (sweeps_suffice() || !pinned.empty()) return;
+  const RestTriangles source = measure_source(mesh, options_.threads);
+  const double gain = last_gain_;
+  for (int round = 0; round < most_rounds; ++round) {
+    if (untwist(topology, source, options_.energy, image) == 0) break;
+    descend(mesh, topology, pinned, image, {share.end, share.end});
+  }
+  last_gain_ = std::max(gain, last_gain_);
+}
+
+void NewtonRefinement::descend(const TriangleMesh& mesh, const Topology& topology,
                                const std::vector<Vertex>& pinned, std::vector<ImagePoint>& image,
                                ProgressShare share) {
   const int n = topology.vertex_count();

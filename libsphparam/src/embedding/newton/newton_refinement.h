@@ -51,6 +51,11 @@ class NewtonRefinement {
   std::optional<double> energy_left() const { return energy_left_; }
 
  private:
+  /// Steps alone.
+  void descend(const TriangleMesh& mesh, const Topology& topology,
+               const std::vector<Vertex>& pinned, std::vector<ImagePoint>& image,
+               ProgressShare share);
+
   RefinementOptions options_;
   int finest_;
   int next_;          // vertices of the next level to be improved, at least

@@ -1,5 +1,6 @@
 // The only code that knows assimp. Scenes become glTF, which our own reader takes: meshes where
-// their nodes put them, materials, pictures inside the file; pictures beside it by name.
+// their nodes put them, posed as the joints of their skins stand, materials, pictures inside the
+// file; pictures beside it by name.
 
 #include "io/assimp/scene_module.h"
 
@@ -12,10 +13,13 @@
 #include <algorithm>
 #include <assimp/Exporter.hpp>
 #include <assimp/Importer.hpp>
+#include <cmath>
 #include <exception>
 #include <new>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace {
 
@@ -51,12 +55,80 @@ void name_pictures(const aiScene& scene) {
   }
 }
 
+aiMatrix4x4 place_of(const aiNode* node) {
+  aiMatrix4x4 place;
+  for (; node; node = node->mParent) place = node->mTransformation * place;
+  return place;
+}
+
+aiMatrix4x4 inverse_of(aiMatrix4x4 matrix) { return matrix.Inverse(); }
+
+bool is_finite(const aiMatrix4x4& matrix) {
+  return std::all_of(matrix[0], matrix[0] + 16, [](float x) { return std::isfinite(x); });
+}
+
+/// What each bone does to the mesh of a node; empty where a bone has no node, or no place.
+std::vector<aiMatrix4x4> bone_matrices(const aiScene& scene, const aiMesh& mesh,
+                                       const aiNode& node) {
+  const aiMatrix4x4 into_node = inverse_of(place_of(&node));
+  std::vector<aiMatrix4x4> matrices;
+  for (unsigned b = 0; b < mesh.mNumBones; ++b) {
+    const aiNode* const bone = scene.mRootNode->FindNode(mesh.mBones[b]->mName);
+    if (!bone) return {};
+    matrices.push_back(into_node * place_of(bone) * mesh.mBones[b]->mOffsetMatrix);
+    if (!is_finite(matrices.back())) return {};
+  }
+  return matrices;
+}
+
+/// Vertices without weights stay where they are.
+void pose(aiMesh& mesh, const std::vector<aiMatrix4x4>& bones) {
+  const aiMatrix4x4 zero = aiMatrix4x4() * 0.0F;
+  std::vector<aiMatrix4x4> means(mesh.mNumVertices, zero);
+  std::vector<float> weights(mesh.mNumVertices, 0);
+  for (std::size_t b = 0; b < bones.size(); ++b) {
+    for (unsigned i = 0; i < mesh.mBones[b]->mNumWeights; ++i) {
+      const aiVertexWeight& weight = mesh.mBones[b]->mWeights[i];
+      if (weight.mVertexId >= mesh.mNumVertices) continue;
+      means[weight.mVertexId] = means[weight.mVertexId] + bones[b] * weight.mWeight;
+      weights[weight.mVertexId] += weight.mWeight;
+    }
+  }
+  for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
+    if (!(weights[v] > 0)) continue;
+    const aiMatrix4x4 mean = means[v] * (1 / weights[v]);
+    mesh.mVertices[v] *= mean;
+    aiMatrix3x3 linear(mean);
+    if (mesh.mNormals && linear.Determinant() != 0)
+      mesh.mNormals[v] = linear.Inverse().Transpose() * mesh.mNormals[v];
+  }
+}
+
+/// As many as there are. They go in any case: the exporter of glTF gives bones that meshes share
+/// the place that the first mesh has them at, and does not look whether they have a node.
+long pose_meshes(const aiScene& scene, const aiNode& node, std::vector<bool>& seen) {
+  long skins = 0;
+  for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+    aiMesh& mesh = *scene.mMeshes[node.mMeshes[i]];
+    if (seen[node.mMeshes[i]] || !mesh.HasBones()) continue;
+    seen[node.mMeshes[i]] = true;
+    pose(mesh, bone_matrices(scene, mesh, node));
+    for (unsigned b = 0; b < mesh.mNumBones; ++b) delete mesh.mBones[b];
+    delete[] std::exchange(mesh.mBones, nullptr);
+    mesh.mNumBones = 0;
+    ++skins;
+  }
+  for (unsigned i = 0; i < node.mNumChildren; ++i)
+    skins += pose_meshes(scene, *node.mChildren[i], seen);
+  return skins;
+}
+
 void tell(SphparamSceneSink sink, void* context, std::string_view text) {
   sink(context, text.data(), text.size());
 }
 
 int to_glb(const char* kind, const char* bytes, size_t size, SphparamSceneSink glb,
-           void* glb_context, SphparamSceneSink error, void* error_context) try {
+           void* glb_context, long* skins, SphparamSceneSink error, void* error_context) try {
   Assimp::Importer importer;
   // A scene without meshes is not to show its nodes in their stead.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
@@ -67,6 +139,8 @@ int to_glb(const char* kind, const char* bytes, size_t size, SphparamSceneSink g
   }
   turn_up(*scene);
   name_pictures(*scene);
+  std::vector<bool> seen(scene->mNumMeshes);
+  *skins = pose_meshes(*scene, *scene->mRootNode, seen);
   Assimp::Exporter exporter;
   const aiExportDataBlob* const blob = exporter.ExportToBlob(scene, "glb2");
   if (!blob) {

@@ -3,9 +3,9 @@
 #include "io/formats/polygon_ply.h"
 
 #include <bit>
-#include <cstring>
 #include <vector>
 
+#include "io/files/byte_reader.h"
 #include "io/formats/lossless_type.h"
 #include "io/formats/ply_writer.h"
 
@@ -13,12 +13,9 @@ namespace sphparam {
 
 namespace {
 
-static_assert(std::endian::native == std::endian::little);
-
 void put(std::string& bytes, ScalarType type, double value) {
   with_scalar(type, [&](auto scalar) {
-    const auto number = static_cast<decltype(scalar)>(value);
-    bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+    append_number(bytes, static_cast<decltype(scalar)>(value), std::endian::little);
   });
 }
 

@@ -40,36 +40,36 @@ ChildLimits limits_for(std::string_view bytes) {
           .bytes = memory + memory_per_byte * bytes.size()};
 }
 
+struct Scene {
+  long skins = 0;
+  std::string glb;
+};
+
 /// In a process of its own: broken files make assimp crash.
-std::string glb_of(const char* kind, std::string_view bytes) {
+Scene scene_of(const char* kind, std::string_view bytes) {
   const SphparamSceneTable& scenes = scene_table();
   const std::string answer = result_of_child(
       [&] {
-        std::string glb(1, ' '), complaint(1, '!');
-        const int code =
-            scenes.to_glb(kind, bytes.data(), bytes.size(), append, &glb, append, &complaint);
-        return code == 0 ? glb : complaint;
+        std::string glb, complaint(1, '!');
+        long skins = 0;
+        const int code = scenes.to_glb(kind, bytes.data(), bytes.size(), append, &glb, &skins,
+                                       append, &complaint);
+        return code == 0 ? std::to_string(skins) + ' ' + glb : complaint;
       },
       limits_for(bytes));
   if (answer.starts_with('!'))
     throw SceneError(answer.size() > 1 ? answer.substr(1) : "cannot be read");
-  return answer.substr(1);
-}
-
-/// The scene comes as glTF, of whose words its file has none.
-void put_into_words_of_scenes(std::vector<std::string>& notes) {
-  constexpr std::string_view gltf = "'KHR_materials_pbrSpecularGlossiness'";
-  for (std::string& note : notes)
-    if (const std::size_t at = note.find(gltf); at != std::string::npos)
-      note.replace(at, gltf.size(), "specular colour and shininess");
+  return {std::stol(answer), answer.substr(answer.find(' ') + 1)};
 }
 
 MeshFile read_scene(const char* kind, const char* format, std::string_view bytes,
                     const std::string& name, const std::optional<std::filesystem::path>& folder,
                     const ReadOptions& options) try {
-  MeshFile file = read_gltf(glb_of(kind, bytes), name, folder, options);
+  const Scene scene = scene_of(kind, bytes);
+  MeshFile file = read_gltf(
+      scene.glb, name, folder, options,
+      {.posed_skins = scene.skins, .specular_glossiness = "specular colour and shininess"});
   file.format = format;
-  put_into_words_of_scenes(file.notes);
   return file;
 } catch (const ModuleError& error) {
   throw ReadError(name, error.what());

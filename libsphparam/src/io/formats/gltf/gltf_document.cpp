@@ -109,6 +109,9 @@ GltfDocument::Accessor plain(const tinygltf::Accessor& accessor) {
     case TINYGLTF_TYPE_VEC4:
       result.components = accessor.type;  // which is 2, 3, 4
       break;
+    case TINYGLTF_TYPE_MAT4:
+      result.components = 16;
+      break;
     default:
       break;
   }
@@ -139,16 +142,26 @@ void note_losses(const tinygltf::Model& model, GltfDocument& document) {
   add(model.cameras.size(), "camera");
   add(model.lights.size(), "light");
   add(variants_of(model), "variant");
-  if (const auto many = std::ranges::count_if(model.nodes, [](const tinygltf::Node& node) {
-        return node.extensions.contains("EXT_mesh_gpu_instancing");
-      }))
-    words.push_back("the instances of " + counted(many, "mesh", "meshes") + ", read once");
   if (!words.empty()) add_loss(document.notes, enumerated(words));
+}
+
+/// By EXT_mesh_gpu_instancing.
+std::map<std::string, int> instances_of(const tinygltf::Node& node) {
+  std::map<std::string, int> instances;
+  const auto found = node.extensions.find("EXT_mesh_gpu_instancing");
+  if (found == node.extensions.end() || !found->second.IsObject() ||
+      !found->second.Get("attributes").IsObject())
+    return {};
+  const tinygltf::Value& attributes = found->second.Get("attributes");
+  for (const std::string& name : attributes.Keys())
+    if (attributes.Get(name).IsInt()) instances[name] = attributes.Get(name).GetNumberAsInt();
+  return instances;
 }
 
 GltfDocument::Node plain(const tinygltf::Node& node) {
   return {.mesh = node.mesh,
-          .skinned = node.skin >= 0,
+          .skin = node.skin,
+          .instances = instances_of(node),
           .children = node.children,
           .matrix = node.matrix,
           .translation = node.translation,
@@ -156,7 +169,8 @@ GltfDocument::Node plain(const tinygltf::Node& node) {
           .scale = node.scale};
 }
 
-void copy_model(tinygltf::Model& model, const std::string& name, GltfDocument& document) {
+void copy_model(tinygltf::Model& model, const std::string& name, const SceneOrigin& origin,
+                GltfDocument& document) {
   for (tinygltf::Buffer& buffer : model.buffers) document.buffers.push_back(std::move(buffer.data));
   for (const tinygltf::BufferView& view : model.bufferViews)
     document.views.push_back({view.buffer, view.byteOffset, view.byteLength, view.byteStride});
@@ -170,9 +184,11 @@ void copy_model(tinygltf::Model& model, const std::string& name, GltfDocument& d
                                         primitive.attributes});
   }
   for (const tinygltf::Node& node : model.nodes) document.nodes.push_back(plain(node));
+  for (const tinygltf::Skin& skin : model.skins)
+    document.skins.push_back({skin.joints, skin.inverseBindMatrices});
   for (const tinygltf::Scene& scene : model.scenes) document.scenes.push_back(scene.nodes);
   document.default_scene = model.defaultScene;
-  document.materials = materials_of(model, document, name);
+  document.materials = materials_of(model, document, name, origin);
   note_losses(model, document);
 }
 
@@ -180,7 +196,7 @@ void copy_model(tinygltf::Model& model, const std::string& name, GltfDocument& d
 
 GltfDocument load_gltf(std::string_view bytes, const std::string& name,
                        const std::optional<std::filesystem::path>& folder,
-                       const ReadOptions& options) {
+                       const ReadOptions& options, const SceneOrigin& origin) {
   GltfDocument document;
   const std::string padded = with_padded_chunks(bytes, document.notes);
   const GltfContainer container = open_gltf(padded.empty() ? bytes : padded, name, document.notes);
@@ -198,7 +214,7 @@ GltfDocument load_gltf(std::string_view bytes, const std::string& name,
     primitives += static_cast<std::int64_t>(mesh.primitives.size());
   if (primitives != summary.primitives)
     throw ReadError(name, "a mesh has a primitive without attributes");
-  copy_model(model, name, document);
+  copy_model(model, name, origin, document);
   decompress(document, compression, name);
   const auto place = [&](MaterialTexture& texture) {
     if (texture.path.empty()) return;

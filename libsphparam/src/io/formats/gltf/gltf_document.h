@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/formats/gltf/scene_origin.h"
 #include "sphparam/io/mesh_file.h"
 #include "sphparam/io/read_options.h"
 
@@ -30,7 +31,7 @@ struct GltfDocument {
     int view = -1;
     std::uint64_t offset = 0, count = 0;
     int component_type = 0;
-    int components = 0;  // 1 to 4; 0 for matrices
+    int components = 0;  // 1 to 4; 16 for 4 × 4 matrices, column by column; 0 for smaller ones
     bool normalised = false;
     std::optional<Sparse> sparse;
   };
@@ -43,9 +44,14 @@ struct GltfDocument {
   };
   struct Node {
     int mesh = -1;
-    bool skinned = false;
+    int skin = -1;
+    std::map<std::string, int> instances;  // of the mesh: attributes to accessors; empty: one
     std::vector<int> children;
     std::vector<double> matrix, translation, rotation, scale;  // empty where not given
+  };
+  struct Skin {
+    std::vector<int> joints;         // nodes
+    int inverse_bind_matrices = -1;  // −1: the identity
   };
   /// (u, v) of vertices → those of an image: scaled, turned, then moved. Source:
   /// KHR_texture_transform; positive angles turn (u, v) counter-clockwise as an image shows it.
@@ -71,6 +77,7 @@ struct GltfDocument {
   std::vector<Accessor> accessors;
   std::vector<std::vector<Primitive>> meshes;
   std::vector<Node> nodes;
+  std::vector<Skin> skins;
   std::vector<std::vector<int>> scenes;  // root nodes
   int default_scene = -1;
   std::vector<Material> materials;
@@ -84,6 +91,6 @@ struct GltfDocument {
 /// more than the buffers hold; those in files are not read. Throws: ReadError.
 GltfDocument load_gltf(std::string_view bytes, const std::string& name,
                        const std::optional<std::filesystem::path>& folder,
-                       const ReadOptions& options);
+                       const ReadOptions& options, const SceneOrigin& origin = {});
 
 }  // namespace sphparam

@@ -186,8 +186,9 @@ TexturePlacement placement_from(const Transform& mesh, const Transform& image) {
 /// that of the first texture, and the first other one.
 class MaterialReader {
  public:
-  MaterialReader(const tinygltf::Model& model, const tinygltf::Material& material, Images& images)
-      : model_(model), said_(material), images_(images) {}
+  MaterialReader(const tinygltf::Model& model, const tinygltf::Material& material, Images& images,
+                 const SceneOrigin& origin)
+      : model_(model), said_(material), images_(images), origin_(origin) {}
 
   GltfDocument::Material read() {
     const auto& pbr = said_.pbrMetallicRoughness;
@@ -255,8 +256,14 @@ class MaterialReader {
       if (extension == "KHR_materials_unlit")
         channels.unlit = true;
       else if (extension != "KHR_materials_emissive_strength" && !read_finish(extension, value))
-        result_.others.push_back(sphparam::quoted(extension));
+        result_.others.push_back(in_words(extension));
     }
+  }
+
+  std::string in_words(const std::string& extension) const {
+    const bool is_shine = extension == "KHR_materials_pbrSpecularGlossiness";
+    if (is_shine && origin_.specular_glossiness) return origin_.specular_glossiness;
+    return sphparam::quoted(extension);
   }
 
   /// Whether it is one whose factors are carried. What an image says of its first factors is not
@@ -295,6 +302,7 @@ class MaterialReader {
   const tinygltf::Model& model_;
   const tinygltf::Material& said_;
   Images& images_;
+  const SceneOrigin& origin_;
   GltfDocument::Material result_;
   std::optional<Transform> placed_;  // of the first texture
 };
@@ -303,11 +311,12 @@ class MaterialReader {
 
 std::vector<GltfDocument::Material> materials_of(const tinygltf::Model& model,
                                                  const GltfDocument& document,
-                                                 const std::string& name) {
+                                                 const std::string& name,
+                                                 const SceneOrigin& origin) {
   Images images(model, document, name);
   std::vector<GltfDocument::Material> materials;
   for (const tinygltf::Material& material : model.materials)
-    materials.push_back(MaterialReader(model, material, images).read());
+    materials.push_back(MaterialReader(model, material, images, origin).read());
   return materials;
 }
 

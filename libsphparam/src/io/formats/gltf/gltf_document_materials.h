@@ -13,6 +13,7 @@ namespace sphparam {
 /// Throws: ReadError for an image outside of its buffer.
 std::vector<GltfDocument::Material> materials_of(const tinygltf::Model& model,
                                                  const GltfDocument& document,
-                                                 const std::string& name);
+                                                 const std::string& name,
+                                                 const SceneOrigin& origin);
 
 }  // namespace sphparam

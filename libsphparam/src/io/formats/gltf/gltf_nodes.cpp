@@ -39,8 +39,9 @@ class NodeWalk {
     return roots;
   }
 
-  std::vector<PlacedMesh> visit(const std::vector<int>& roots) const {
-    std::vector<PlacedMesh> placed;
+  PlacedScene visit(const std::vector<int>& roots) const {
+    PlacedScene placed;
+    placed.nodes.resize(document_.nodes.size());
     std::vector<char> seen(document_.nodes.size());
     std::vector<Visit> waiting;
     const auto wait_for = [&](const std::vector<int>& nodes, const Transform& above) {
@@ -58,9 +59,10 @@ class NodeWalk {
       waiting.pop_back();
       const GltfDocument::Node& node = document_.nodes[static_cast<std::size_t>(here.node)];
       const Transform transform = here.above * local_transform(here.node);
+      placed.nodes[static_cast<std::size_t>(here.node)] = transform;
       if (node.mesh >= 0) {
         check_placement(here.node, transform);
-        placed.push_back({node.mesh, transform, node.skinned});
+        placed.meshes.push_back({node.mesh, here.node, transform});
       }
       wait_for(node.children, transform);
     }
@@ -95,25 +97,20 @@ class NodeWalk {
     check(has_size(node.matrix, 16) && has_size(node.translation, 3) &&
               has_size(node.rotation, 4) && has_size(node.scale, 3),
           "its transform has the wrong number of numbers");
-    Transform transform;
     if (!node.matrix.empty()) {
       const Eigen::Matrix4d matrix = Eigen::Map<const Eigen::Matrix4d>(node.matrix.data());
       check(matrix.row(3) == Eigen::RowVector4d(0, 0, 0, 1), "its matrix is not affine");
-      transform.linear = matrix.topLeftCorner<3, 3>();
-      transform.shift = matrix.topRightCorner<3, 1>();
-      return transform;
+      return {matrix.topLeftCorner<3, 3>(), matrix.topRightCorner<3, 1>()};
     }
-    if (!node.rotation.empty()) {
-      const auto& r = node.rotation;
-      const Eigen::Quaterniond rotation(r[3], r[0], r[1], r[2]);
-      check(rotation.norm() > 0, "its rotation is zero");
-      transform.linear = rotation.normalized().toRotationMatrix();
-    }
-    if (!node.scale.empty())
-      transform.linear *= Eigen::Map<const Vector3>(node.scale.data()).asDiagonal();
-    if (!node.translation.empty())
-      transform.shift = Eigen::Map<const Vector3>(node.translation.data());
-    return transform;
+    const auto or_else = [](const std::vector<double>& numbers, double otherwise) {
+      return numbers.empty() ? Vector3(Vector3::Constant(otherwise))
+                             : Vector3(Eigen::Map<const Vector3>(numbers.data()));
+    };
+    Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+    if (const auto& r = node.rotation; !r.empty())
+      rotation = Eigen::Quaterniond(r[3], r[0], r[1], r[2]);
+    check(rotation.norm() > 0, "its rotation is zero");
+    return composed(or_else(node.translation, 0), rotation, or_else(node.scale, 1));
   }
 
   const GltfDocument& document_;
@@ -123,8 +120,13 @@ class NodeWalk {
 
 }  // namespace
 
-std::vector<PlacedMesh> placed_meshes(const GltfDocument& document, const std::string& name,
-                                      std::vector<std::string>& notes) {
+Transform composed(const Vector3& translation, const Eigen::Quaterniond& rotation,
+                   const Vector3& scale) {
+  return {rotation.normalized().toRotationMatrix() * scale.asDiagonal(), translation};
+}
+
+PlacedScene place_scene(const GltfDocument& document, const std::string& name,
+                        std::vector<std::string>& notes) {
   NodeWalk walk(document, name, notes);
   return walk.visit(walk.roots());
 }

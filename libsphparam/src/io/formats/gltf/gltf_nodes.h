@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,19 +19,28 @@ struct Transform {
   }
 };
 
+/// Translation · rotation · scale. Requires: the rotation is not zero.
+Transform composed(const Vector3& translation, const Eigen::Quaterniond& rotation,
+                   const Vector3& scale);
+
 /// A mesh of a glTF file where a node puts it.
 struct PlacedMesh {
-  int mesh = 0;
+  int mesh = 0, node = 0;
   Transform transform;  // never singular
-  bool skinned = false;
 };
 
-/// All meshes of the default scene (of the first one, where none is named; without scenes, of every
-/// node that is no child), in the order of the trees.
+/// What the nodes of a scene are for.
+struct PlacedScene {
+  std::vector<PlacedMesh> meshes;               // in the order of the trees
+  std::vector<std::optional<Transform>> nodes;  // of each of the file, where it is in the scene
+};
+
+/// The default scene (the first one, where none is named; without scenes, every node that is no
+/// child).
 ///
 /// `notes` gets a line where there are several scenes. Throws: ReadError when a node or mesh is not
 /// there, a node has two parents, or a transform is malformed or singular.
-std::vector<PlacedMesh> placed_meshes(const GltfDocument& document, const std::string& name,
-                                      std::vector<std::string>& notes);
+PlacedScene place_scene(const GltfDocument& document, const std::string& name,
+                        std::vector<std::string>& notes);
 
 }  // namespace sphparam

@@ -12,13 +12,16 @@
 #include "elementary.h"
 #include "io/formats/gltf/gltf_accessors.h"
 #include "io/formats/gltf/gltf_document.h"
+#include "io/formats/gltf/gltf_instances.h"
 #include "io/formats/gltf/gltf_nodes.h"
+#include "io/formats/gltf/gltf_skins.h"
 #include "number_text.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/up_axis.h"
 
 // Every placed mesh in turn: positions go through x ↦ Ax + b, normals through A⁻ᵀ; where det A < 0
-// the triangles are turned over, as the specification says. Primitives of one placed mesh that
+// the triangles are turned over, as the specification says. With a skin each vertex has an A and b
+// of its own, as the joints stand in the file. Primitives of one placed mesh that
 // share their vertices share them here too, so that a mesh closed in the file is closed in memory.
 
 namespace sphparam {
@@ -58,13 +61,34 @@ double srgb(double linear) {
   return static_cast<double>(static_cast<float>(encoded));
 }
 
+/// Where the vertices of a primitive go: one transform for all, or one each.
+struct VertexTransforms {
+  std::vector<Transform> all;
+
+  bool is_one() const { return all.size() == 1; }
+  const Transform& operator[](std::size_t vertex) const { return all[is_one() ? 0 : vertex]; }
+};
+
+/// Vertices of a mesh that are there already.
+struct PlacedVertices {
+  int first = 0;
+  Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();  // of the first: its scale, and its side
+};
+
 class SceneReader {
  public:
-  SceneReader(const GltfDocument& document, const std::string& name, const ReadOptions& options)
-      : document_(document), name_(name), options_(options), accessors_(document, name) {}
+  SceneReader(const GltfDocument& document, const std::string& name, const ReadOptions& options,
+              const SceneOrigin& origin)
+      : document_(document),
+        name_(name),
+        options_(options),
+        accessors_(document, name),
+        posed_skins_(origin.posed_skins) {}
 
   MeshFile read() {
-    for (const PlacedMesh& placed : placed_meshes(document_, name_, file_.notes)) add_mesh(placed);
+    const PlacedScene scene = place_scene(document_, name_, file_.notes);
+    for (const PlacedMesh& placed : scene.meshes)
+      for (const PlacedMesh& instance : instances_of(placed)) add_mesh(instance, scene);
     if (triangles_.empty() && without_area_ > 0)
       fail(first_without_area_ + ", which are not supported; triangles are");
     if (triangles_.empty()) fail("holds no triangles");
@@ -83,28 +107,90 @@ class SceneReader {
   Eigen::Index vertex_count() const { return static_cast<Eigen::Index>(positions_.size() / 3); }
   Eigen::Index triangle_count() const { return static_cast<Eigen::Index>(triangles_.size() / 3); }
 
-  void add_mesh(const PlacedMesh& placed) {
-    const Transform& transform = placed.transform;
-    const bool turn_over = transform.linear.determinant() < 0;
-    skinned_ += placed.skinned;
+  const GltfDocument::Node& node_of(const PlacedMesh& placed) const {
+    return document_.nodes[static_cast<std::size_t>(placed.node)];
+  }
+
+  /// The mesh once where it has no instances, or more or other ones than can be read.
+  std::vector<PlacedMesh> instances_of(const PlacedMesh& placed) {
+    if (node_of(placed).instances.empty()) return {placed};
+    std::vector<PlacedMesh> instances;
+    try {
+      const std::vector<Transform> transforms =
+          instance_transforms(node_of(placed).instances, accessors_, name_);
+      make_room_for(transforms.size(), placed.mesh);
+      for (const Transform& transform : transforms)
+        instances.push_back({placed.mesh, placed.node, placed.transform * transform});
+    } catch (const ReadError&) {
+      ++read_once_;
+      return {placed};
+    }
+    return instances;
+  }
+
+  /// A forest is a tree and a list of places, of few bytes: up to a number that harms nobody it
+  /// may be more triangles than other files of its size.
+  void make_room_for(std::size_t instances, int mesh) {
+    constexpr double harmless = 1 << 20;
+    double triangles = 0, vertices = 0;
+    for (const auto& primitive : document_.meshes[static_cast<std::size_t>(mesh)]) {
+      const auto count = [&](int id) { return static_cast<double>(accessors_.accessor(id).count); };
+      const double points = count(check_primitive(primitive));
+      const double corners = primitive.indices >= 0 ? count(primitive.indices) : points;
+      triangles += primitive.mode == ModeTriangles ? corners / 3 : corners;
+      vertices += points;
+    }
+    const double more = std::max(triangles, vertices / 3) * static_cast<double>(instances);
+    if (more > harmless - static_cast<double>(of_instances_)) fail("more instances than are read");
+    of_instances_ += static_cast<std::uint64_t>(std::ceil(more));
+  }
+
+  std::uint64_t most_triangles() const {
+    return most_triangles_per_byte * accessors_.buffer_bytes() + of_instances_;
+  }
+
+  /// As the joints stand, or where a skin is broken as the node stands.
+  VertexTransforms transforms_of(const GltfDocument::Primitive& primitive, const PlacedMesh& placed,
+                                 const PlacedScene& scene) {
+    if (node_of(placed).skin < 0) return {{placed.transform}};
+    try {
+      const auto [joints, is_new] = joints_of_.try_emplace(node_of(placed).skin);
+      if (is_new)
+        joints->second =
+            joint_transforms(document_, node_of(placed).skin, scene.nodes, accessors_, name_);
+      return {posed_vertices(primitive, joints->second, accessors_, name_)};
+    } catch (const ReadError&) {
+      is_broken_ = true;
+      return {{placed.transform}};
+    }
+  }
+
+  void add_mesh(const PlacedMesh& placed, const PlacedScene& scene) {
+    is_broken_ = false;
     // By the accessors of the vertices and the material that says where its image lies on them.
-    std::map<std::pair<std::map<std::string, int>, int>, int> first_vertex;
+    std::map<std::pair<std::map<std::string, int>, int>, PlacedVertices> already;
     const auto& primitives = document_.meshes[static_cast<std::size_t>(placed.mesh)];
     for (std::size_t p = 0; p < primitives.size(); ++p) {
       const GltfDocument::Primitive& primitive = primitives[p];
       where_ = "mesh " + std::to_string(placed.mesh) + " primitive " + std::to_string(p);
       if (leave_out(primitive)) continue;
-      scale_of_.try_emplace(primitive.material, std::sqrt(transform.linear.squaredNorm() / 3));
       const int position = check_primitive(primitive);
       transform_of_uv_ = transform_of(primitive);
       second_ = second_texcoords_of(primitive);
       const bool plain = transform_of_uv_ == GltfDocument::TextureTransform() && second_.empty();
-      const auto [first, is_new] =
-          first_vertex.try_emplace({primitive.attributes, plain ? -1 : primitive.material},
-                                   static_cast<int>(vertex_count()));
-      if (is_new) add_vertices(primitive, position, transform);
-      add_triangles(primitive, accessors_.accessor(position).count, first->second, turn_over);
+      const auto [vertices, is_new] =
+          already.try_emplace({primitive.attributes, plain ? -1 : primitive.material});
+      if (is_new) {
+        const VertexTransforms transforms = transforms_of(primitive, placed, scene);
+        vertices->second = {static_cast<int>(vertex_count()), transforms[0].linear};
+        add_vertices(primitive, position, transforms);
+      }
+      const auto& [first, linear] = vertices->second;
+      scale_of_.try_emplace(primitive.material, std::sqrt(linear.squaredNorm() / 3));
+      add_triangles(primitive, accessors_.accessor(position).count, first,
+                    linear.determinant() < 0);
     }
+    if (node_of(placed).skin >= 0) ++(is_broken_ ? broken_skins_ : posed_skins_);
   }
 
   GltfDocument::TextureTransform transform_of(const GltfDocument::Primitive& primitive) {
@@ -166,30 +252,31 @@ class SceneReader {
   }
 
   void add_vertices(const GltfDocument::Primitive& primitive, int position,
-                    const Transform& transform) {
+                    const VertexTransforms& transforms) {
     const std::vector<double>& xyz = accessors_.numbers(position);
     const auto count = static_cast<std::int64_t>(xyz.size() / 3);
     const std::int64_t limit =
         std::min<std::int64_t>(options_.max_vertices, std::numeric_limits<int>::max());
-    const std::int64_t in_bytes =
-        static_cast<std::int64_t>(3 * most_triangles_per_byte * accessors_.buffer_bytes());
+    const std::int64_t in_bytes = static_cast<std::int64_t>(3 * most_triangles());
     if (count > std::min(limit, in_bytes) - vertex_count())
       fail(where_ + ": more vertices than the limit of " +
            std::to_string(std::min(limit, in_bytes)));
     const auto before = static_cast<std::size_t>(vertex_count());
     for (std::size_t i = 0; i < xyz.size(); i += 3) {
-      const Vector3 x =
-          transform.linear * Eigen::Map<const Vector3>(xyz.data() + i) + transform.shift;
+      const Transform& transform = transforms[i / 3];
+      Vector3 x = transform.linear * Eigen::Map<const Vector3>(xyz.data() + i) + transform.shift;
+      // Copies of a vertex that name its joints in another order are to stay copies.
+      if (!transforms.is_one()) x = x.cast<float>().cast<double>();
       if (!x.allFinite()) fail(where_ + ": a transformed position is not finite");
       positions_.insert(positions_.end(), x.begin(), x.end());
     }
     for (const auto& [attribute, accessor] : primitive.attributes)
       if (accessor != position)
-        add_attribute(attribute, accessor, transform, before, xyz.size() / 3);
+        add_attribute(attribute, accessor, transforms, before, xyz.size() / 3);
     morph_targets_ = std::max(morph_targets_, primitive.morph_targets);
   }
 
-  void add_attribute(const std::string& attribute, int accessor, const Transform& transform,
+  void add_attribute(const std::string& attribute, int accessor, const VertexTransforms& transforms,
                      std::size_t before, std::size_t count) {
     if (!has_place(attribute, accessor)) {
       // Joints and weights belong to skins, which are told of.
@@ -200,13 +287,13 @@ class SceneReader {
     if (accessors_.accessor(accessor).count != count)
       accessors_.fail(accessor, where_ + " has " + std::to_string(count) + " vertices");
     if (attribute == "NORMAL") {
-      add_normals(accessor, transform, before);
+      add_normals(accessor, transforms, before);
     } else if (attribute == texcoords_of(transform_of_uv_)) {
       add_texcoords(accessor, before);
     } else if (attribute == second_) {
       add_second_texcoords(accessor, before);
     } else if (attribute == "TANGENT") {
-      add_tangents(accessor, transform, before);
+      add_tangents(accessor, transforms, before);
     } else if (attribute == "COLOR_0") {
       add_colours(accessor, before);
     } else if (attribute == theta_phi) {
@@ -253,15 +340,18 @@ class SceneReader {
     column.written += values.size();
   }
 
-  void add_normals(int accessor, const Transform& transform, std::size_t before) {
+  void add_normals(int accessor, const VertexTransforms& transforms, std::size_t before) {
     require_components(accessor, {3});
-    const Eigen::Matrix3d cotransform = transform.linear.inverse().transpose();
-    const bool as_written = transform.linear == Eigen::Matrix3d::Identity();
+    std::vector<Eigen::Matrix3d> cotransforms;
+    for (const Transform& transform : transforms.all)
+      cotransforms.push_back(transform.linear.inverse().transpose());
     const std::vector<double>& xyz = accessors_.numbers(accessor);
     std::vector<double> turned[3];
     for (std::size_t i = 0; i < xyz.size(); i += 3) {
       Vector3 normal = Eigen::Map<const Vector3>(xyz.data() + i);
-      if (!as_written) normal = (cotransform * normal).stableNormalized();
+      const bool as_written = transforms[i / 3].linear == Eigen::Matrix3d::Identity();
+      if (!as_written)
+        normal = (cotransforms[transforms.is_one() ? 0 : i / 3] * normal).stableNormalized();
       for (int axis = 0; axis < 3; ++axis)
         turned[axis].push_back(std::isfinite(normal[axis]) ? normal[axis] : 0);
     }
@@ -297,14 +387,14 @@ class SceneReader {
 
   /// A tangent lies in the surface, and goes where that goes; where space is mirrored, w · N × T is
   /// not, but for w.
-  void add_tangents(int accessor, const Transform& transform, std::size_t before) {
+  void add_tangents(int accessor, const VertexTransforms& transforms, std::size_t before) {
     require_components(accessor, {4});
     const std::vector<double>& xyzw = accessors_.numbers(accessor);
-    const double turned = transform.linear.determinant() < 0 ? -1 : 1;
+    const double turned = transforms[0].linear.determinant() < 0 ? -1 : 1;
     std::vector<double> columns[4];
     for (std::size_t i = 0; i < xyzw.size(); i += 4) {
-      const Vector3 along =
-          (transform.linear * Eigen::Map<const Vector3>(xyzw.data() + i)).stableNormalized();
+      const Vector3 along = (transforms[i / 4].linear * Eigen::Map<const Vector3>(xyzw.data() + i))
+                                .stableNormalized();
       const bool is_one = along.allFinite() && !along.isZero(0);
       for (int axis = 0; axis < 3; ++axis) columns[axis].push_back(is_one ? along[axis] : 0);
       columns[3].push_back(is_one ? (xyzw[i + 3] < 0 ? -turned : turned) : 0);
@@ -350,7 +440,7 @@ class SceneReader {
   void require_room_for(std::uint64_t count) const {
     const auto limit = static_cast<std::uint64_t>(
         std::min<std::int64_t>(options_.max_faces, std::numeric_limits<int>::max() / 3));
-    const std::uint64_t most = std::min(limit, most_triangles_per_byte * accessors_.buffer_bytes());
+    const std::uint64_t most = std::min(limit, most_triangles());
     if (count + static_cast<std::uint64_t>(triangle_count()) > most)
       fail(where_ + ": more triangles than the limit of " + std::to_string(most));
   }
@@ -448,8 +538,14 @@ class SceneReader {
                                 counted(static_cast<long>(file_.materials.size()), "material"));
     if (without_area_ > 0)
       add_loss(file_.notes, counted(without_area_, "primitive") + " of points or lines");
-    if (skinned_ > 0)
-      add_loss(file_.notes, counted(skinned_, "skin") + ": the mesh is read as it rests");
+    if (posed_skins_ > 0)
+      add_loss(file_.notes,
+               counted(posed_skins_, "skin") + ": the mesh is read as the joints stand");
+    if (broken_skins_ > 0)
+      add_loss(file_.notes, counted(broken_skins_, "broken skin") + ": the mesh is read unposed");
+    if (read_once_ > 0)
+      add_loss(file_.notes,
+               "the instances of " + counted(read_once_, "mesh", "meshes") + ", read once");
     if (morph_targets_ > 0) add_loss(file_.notes, counted(morph_targets_, "morph target"));
     if (!not_carried_.empty())
       add_loss(file_.notes,
@@ -477,11 +573,15 @@ class SceneReader {
   std::vector<std::string> others_;  // what of materials is not carried, each once
   std::set<std::string> others_seen_;
   long materials_with_others_ = 0;
-  std::map<int, double> scale_of_;     // of materials, where they are first used
-  std::set<int> without_second_;       // materials whose other coordinates some primitive lacks
-  std::set<int> without_texcoords_;    // materials whose images some primitive has no place for
-  std::set<std::string> not_carried_;  // attributes
-  long skinned_ = 0;                   // meshes placed with a skin
+  std::map<int, double> scale_of_;       // of materials, where they are first used
+  std::set<int> without_second_;         // materials whose other coordinates some primitive lacks
+  std::set<int> without_texcoords_;      // materials whose images some primitive has no place for
+  std::set<std::string> not_carried_;    // attributes
+  long posed_skins_, broken_skins_ = 0;  // meshes placed with one
+  std::map<int, std::vector<Transform>> joints_of_;  // of skins
+  std::uint64_t of_instances_ = 0;                   // triangles, at most
+  long read_once_ = 0;                               // meshes without their instances
+  bool is_broken_ = false;                           // the skin of the mesh being read
   int morph_targets_ = 0;
   long degenerate_ = 0;
   long without_area_ = 0;           // primitives of points and lines
@@ -497,10 +597,11 @@ bool looks_like_gltf(std::string_view bytes) {
 }
 
 MeshFile read_gltf(std::string_view bytes, const std::string& name,
-                   const std::optional<std::filesystem::path>& folder, const ReadOptions& options) {
+                   const std::optional<std::filesystem::path>& folder, const ReadOptions& options,
+                   const SceneOrigin& origin) {
   if (!looks_like_gltf(bytes)) throw ReadError(name, "is no glTF");
-  const GltfDocument document = load_gltf(bytes, name, folder, options);
-  MeshFile file = SceneReader(document, name, options).read();
+  const GltfDocument document = load_gltf(bytes, name, folder, options, origin);
+  MeshFile file = SceneReader(document, name, options, origin).read();
   file.format = bytes.starts_with("glTF") ? "glTF binary" : "glTF";
   file.position_type = ScalarType::Float32;
   note_up(file, {.direction = Vector3::UnitY()});

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "io/formats/gltf/scene_origin.h"
 #include "sphparam/io/mesh_file.h"
 #include "sphparam/io/read_options.h"
 
@@ -14,7 +15,8 @@ namespace sphparam {
 bool looks_like_gltf(std::string_view bytes);
 
 /// Reads the default scene of a glTF 2.0 file, text or binary (GLB): all meshes of all nodes,
-/// transformed, as one mesh.
+/// transformed, as one mesh; those with a skin as their joints stand in the file, those with
+/// instances (EXT_mesh_gpu_instancing) once for each, unless these are broken or far too many.
 ///
 /// Vertices are those of the file: where normals or texture coordinates split them,
 /// `prepare_for_mapping` welds them by position and keeps both at the corners. Kept: NORMAL,
@@ -28,11 +30,13 @@ bool looks_like_gltf(std::string_view bytes);
 /// scenes, points and lines. Triangles, strips and fans, with or without indices; triangles that
 /// name a vertex twice are dropped and counted in a note. Refused by name: a file of points and
 /// lines alone, glTF 1.0, required extensions other than KHR_mesh_quantization,
-/// EXT_meshopt_compression, KHR_draco_mesh_compression and those of materials, textures and lights.
-/// `folder` is where buffers in files of their own may be; without it they are refused. Throws:
-/// ReadError that names the accessor, mesh or node.
+/// EXT_mesh_gpu_instancing, EXT_meshopt_compression, KHR_draco_mesh_compression and those of
+/// materials, textures and lights.
+/// `folder` is where buffers in files of their own may be; without it they are refused. `origin`
+/// says what the scene was before it was glTF. Throws: ReadError that names the accessor, mesh or
+/// node.
 MeshFile read_gltf(std::string_view bytes, const std::string& name,
                    const std::optional<std::filesystem::path>& folder,
-                   const ReadOptions& options = {});
+                   const ReadOptions& options = {}, const SceneOrigin& origin = {});
 
 }  // namespace sphparam

@@ -1,0 +1,111 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "sphparam/chart/spherical_chart.h"
+
+namespace sphparam {
+
+/// A place in the (u, v) rectangle, in cells of the grid that texture coordinates settle on: x = v
+/// and y = u, so that faces are counter-clockwise.
+struct Place {
+  double x, y;
+};
+
+inline Place operator-(const Place& a, const Place& b) { return {a.x - b.x, a.y - b.y}; }
+inline double cross(const Place& a, const Place& b) { return a.x * b.y - a.y * b.x; }
+inline double square(const Place& a) { return a.x * a.x + a.y * a.y; }
+
+/// The pieces of a chart as a triangulation whose vertices move in the plane, and are taken out one
+/// by one and put back in the opposite order.
+///
+/// A vertex on the seam has y = 0 for faces in the east, y = `cells` for those in the west. A face
+/// with a corner at ±z is the trapezoid over its link edge. Lengths are up to rounding.
+class Sheet {
+ public:
+  static constexpr double cells = 0x1p24;  // a turn of u, and of v
+
+  /// Requires: `chart.certificate.closed`.
+  explicit Sheet(const SphericalChart& chart);
+
+  int vertex_count() const { return static_cast<int>(places_.size()); }
+  int face_count() const { return static_cast<int>(in_west_.size()); }
+  Halfedge twin(Halfedge h) const { return twin_[static_cast<size_t>(h)]; }
+  Vertex origin(Halfedge h) const { return origin_[static_cast<size_t>(h)]; }
+  Vertex target(Halfedge h) const { return origin(Topology::next(h)); }
+  Vertex apex(Halfedge h) const { return origin(Topology::previous(h)); }
+  Halfedge outgoing(Vertex v) const { return outgoing_[static_cast<size_t>(v)]; }
+  Halfedge rotate_ccw(Halfedge h) const { return twin(Topology::previous(h)); }
+  bool is_pole(Vertex v) const { return v == north_ || v == south_; }
+  bool on_seam(Vertex v) const { return on_seam_[static_cast<size_t>(v)] != 0; }
+  /// Has a face vanished with a vertex taken out?
+  bool is_out(Face f) const { return is_out_[static_cast<size_t>(f)] != 0; }
+  /// More spokes than are looked at again and again: such vertices stay where they are.
+  bool is_hub(Vertex v) const;
+
+  /// Calls visit(h) for the half-edges that start at v.
+  template <class Visit>
+  void for_each_spoke(Vertex v, Visit&& visit) const {
+    Halfedge h = outgoing(v);
+    do {
+      visit(h);
+      h = rotate_ccw(h);
+    } while (h != outgoing(v));
+  }
+
+  const Place& place(Vertex v) const { return places_[static_cast<size_t>(v)]; }
+  void move(Vertex v, const Place& to) { places_[static_cast<size_t>(v)] = to; }
+  /// May v be there: inside the rectangle, on the seam if it is one of the seam's?
+  bool allows(Vertex v, const Place& p) const;
+  /// Where its face sees the origin of h. Requires: not a pole.
+  Place corner(Halfedge h) const;
+  /// From the origin of h to its end, as its face sees both; to a pole, the direction.
+  Place towards(Halfedge h) const;
+
+  /// The least altitude of a face; of a trapezoid, its width or a side. Not above 0: folded.
+  double height(Face f) const;
+  /// What the height changes by with the places of the corners.
+  std::array<Place, 3> height_gradient(Face f) const;
+  /// Is a face positive? Exact.
+  bool positive(Face f) const;
+  double lowest_around(Vertex v) const;
+
+  /// May the origin of h be taken out, so that its faces go to the target?
+  bool may_take_out(Halfedge h);
+  void take_out(Halfedge h);
+  bool any_out() const { return !taken_.empty(); }
+  /// Puts the last vertex taken out back, at the target of the half-edge returned.
+  Halfedge put_back();
+
+ private:
+  struct Taken {
+    Vertex vertex;
+    Halfedge halfedge;
+    std::vector<Halfedge> spokes;  // whose origin it was, the half-edge first
+    std::vector<char> in_west;     // whether their faces were
+  };
+
+  char& west(Halfedge h) { return in_west_[static_cast<size_t>(Topology::face(h))]; }
+  int pole_corner(Face f) const;
+  double depth(Halfedge pole, Halfedge h) const;  // of a trapezoid, at the origin of h
+  double width(Halfedge pole) const;
+  std::array<Place, 3> trapezoid_gradient(Halfedge pole) const;
+  void join(Halfedge h, Halfedge other);
+  void mark_neighbours(Vertex v);
+  bool has_two_common_neighbours(Halfedge h);
+  bool seam_allows(Halfedge h);
+  bool has_three_spokes(Halfedge h) const;
+
+  std::vector<Vertex> origin_;
+  std::vector<Halfedge> twin_, outgoing_;
+  std::vector<Place> places_;
+  std::vector<char> in_west_, is_out_;  // of faces
+  std::vector<char> on_seam_;           // of vertices
+  Vertex north_, south_;
+  std::vector<Taken> taken_;
+  std::vector<int> marks_;  // of vertices
+  int mark_ = 0;
+};
+
+}  // namespace sphparam

@@ -1,0 +1,12 @@
+#pragma once
+
+namespace sphparam {
+
+/// What a scene was before it was made glTF, as far as that is told of it.
+struct SceneOrigin {
+  long posed_skins = 0;  // of meshes that were posed on the way
+  /// Its words for what came to be KHR_materials_pbrSpecularGlossiness; null: glTF's own.
+  const char* specular_glossiness = nullptr;
+};
+
+}  // namespace sphparam
