@@ -906,6 +906,57 @@ TEST_CASE("gltf_reader: what a file says beside shape and materials is told, a l
             "not carried: of the vertices TANGENT, TEXCOORD_1 and _PAIR", "not carried: 1 camera"});
 }
 
+TEST_CASE("gltf_reader: a material by specular colour becomes one by metallic and roughness") {
+  Gltf gltf = tetrahedron_gltf();
+  gltf.add(floats(std::vector<double>(8, 0)), 5126, 4, "VEC2");
+  gltf.meshes =
+      R"([{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":2},"indices":1,"material":0}]}])";
+  const std::string rest = gltf.rest;
+  const auto read_with = [&](const std::string& said) {
+    gltf.rest = rest +
+                R"(,"materials":[{"pbrMetallicRoughness":{"baseColorFactor":[1,0,0,1]},)"
+                R"("extensions":{"KHR_materials_pbrSpecularGlossiness":)" +
+                said +
+                R"(}}],"textures":[{"source":0},{"source":1}],)"
+                R"("images":[{"uri":"d.png"},{"uri":"s.png"}])";
+    return read(gltf.bytes());
+  };
+  const MeshFile plain =
+      read_with(R"({"diffuseFactor":[0.25,0.5,0.75,0.5],"specularFactor":[0.04,0.04,0.04],)"
+                R"("glossinessFactor":0.25})");
+  CHECK(plain.notes.empty());
+  CHECK(plain.base_colours[0].factor[1] == Approx(0.5));
+  CHECK(plain.base_colours[0].factor[3] == 0.5);
+  CHECK(plain.channels[0].roughness.factor[0] == 0.75);
+  CHECK(plain.channels[0].metallic.factor[0] == 0);
+  CHECK_FALSE(plain.base_colours[0].made_of);
+
+  const std::string images =
+      R"({"diffuseTexture":{"index":0},"specularGlossinessTexture":{"index":1}})";
+  const MeshFile file = read_with(images);
+  CHECK(file.notes.empty());
+  const MaterialTexture& colour = file.base_colours[0];
+  CHECK(colour.image == "d.png and s.png");
+  REQUIRE(colour.made_of);
+  CHECK(colour.made_of->diffuse.path == "d.png");
+  CHECK(colour.made_of->specular.path == "s.png");
+  CHECK(colour.made_of == file.channels[0].metallic.made_of);
+  CHECK(file.channels[0].roughness.channel == 1);
+  CHECK(file.channels[0].metallic.channel == 2);
+
+  const MeshFile apart =
+      read_with(replaced(images, R"({"index":1})",
+                         R"({"index":1,"extensions":{"KHR_texture_transform":{"scale":[2,2]}}})"));
+  CHECK(apart.base_colours[0].image == "d.png");
+  CHECK(sphparam::losses_among(apart.notes) ==
+        std::vector<std::string>{"not carried: specular textures in another place than diffuse "
+                                 "ones of 1 of 1 material"});
+  for (const char* broken : {"7", "{}", R"({"diffuseTexture":7,"diffuseFactor":[1]})"}) {
+    INFO(broken);
+    CHECK(read_with(broken).notes.empty());
+  }
+}
+
 TEST_CASE("gltf_reader: variants, of which none is read, are told") {
   Gltf gltf = tetrahedron_gltf();
   gltf.rest = R"("nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],)"

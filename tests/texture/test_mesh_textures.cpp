@@ -1,6 +1,7 @@
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <filesystem>
 
 #include "image/image_codec.h"
@@ -50,6 +51,57 @@ TEST_CASE("shown textures: an image that is named is on all of the mesh, where i
                     "ball.ply has no texture coordinates, so its texture has no place");
   std::filesystem::remove(image);
   CHECK_THROWS_AS(shown_textures(ball(true), "ball.ply", image), ImageError);
+}
+
+TEST_CASE("read_textures: of specular colour and glossiness an image is made, texel by texel") {
+  // Red plastic, and gold, half as glossy; the specular image is twice as large.
+  Image diffuse(1, 2, 4), specular(2, 4, 4);
+  for (int y = 0; y < 2; ++y) {
+    const std::array<float, 4> colour =
+        y == 0 ? std::array<float, 4>{1, 0, 0, 0.5F} : std::array<float, 4>{0, 0, 0, 1};
+    std::ranges::copy(colour, diffuse.pixel(0, y));
+  }
+  for (int i = 0; i < 8; ++i) {
+    const std::array<float, 4> colour =
+        i < 4 ? std::array<float, 4>{0, 0, 0, 1} : std::array<float, 4>{1, 0.8F, 0.2F, 0.5F};
+    std::ranges::copy(colour, specular.pixel(i % 2, i / 2));
+  }
+  const auto embedded = [](const Image& image) {
+    return std::make_shared<const std::vector<char>>(encode_image(image, ImageFormat::Png));
+  };
+  SpecularGlossiness parts;
+  parts.diffuse = {.image = "d.png", .bytes = embedded(diffuse)};
+  parts.specular = {.image = "s.png", .bytes = embedded(specular)};
+  MaterialTexture texture{.image = "d.png and s.png"};
+  texture.made_of = std::make_shared<const SpecularGlossiness>(parts);
+  CHECK(why_unusable(texture).empty());
+
+  const MeshFile file = ball(true);
+  const auto texel = [&](TexelKind kind, int x, int y) {
+    const auto image = TextureReader(file, kind, 1).read(texture, "skin").image;
+    REQUIRE(image->levels()[0].width == 2);
+    REQUIRE(image->levels()[0].height == 4);
+    const std::uint16_t* const at =
+        &image->levels()[0].texels[static_cast<size_t>(4 * (2 * y + x))];
+    return std::array<double, 4>{at[0] / 65535.0, at[1] / 65535.0, at[2] / 65535.0,
+                                 at[3] / 65535.0};
+  };
+  const auto near = [](double x) { return Approx(x).margin(0.003); };
+  const auto plastic = texel(TexelKind::Colour, 1, 1), gold = texel(TexelKind::Colour, 0, 2);
+  CHECK(plastic[0] == near(1));
+  CHECK(plastic[1] == near(0));
+  CHECK(plastic[3] == near(0.5));
+  CHECK(gold[0] == near(1));
+  CHECK(gold[1] == near(std::pow((0.8 + 0.055) / 1.055, 2.4)));
+  const auto numbers = texel(TexelKind::Number, 0, 0), of_gold = texel(TexelKind::Number, 1, 3);
+  CHECK(numbers[1] == near(0));
+  CHECK(numbers[2] == near(0));
+  CHECK(of_gold[1] == near(0.5));
+  CHECK(of_gold[2] == near(1));
+
+  parts.specular.problem = "it is not there";
+  texture.made_of = std::make_shared<const SpecularGlossiness>(parts);
+  CHECK(why_unusable(texture) == "it is not there");
 }
 
 TEST_CASE("read_textures: BMP and TGA are images of materials") {

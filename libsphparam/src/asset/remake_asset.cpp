@@ -9,6 +9,7 @@
 #include "asset/asset_page.h"
 #include "asset/soup.h"
 #include "io/attributes/one_material.h"
+#include "io/attributes/specular_glossiness.h"
 #include "mesh/box.h"
 #include "rays/flat_normal.h"
 #include "sphparam/io/certified_files.h"
@@ -176,6 +177,7 @@ std::vector<std::string> drop_unusable_images(MeshFile& file) {
     told.push_back("not carried: " + texture.image + " of material " + file.materials[material] +
                    ": " + why);
     texture.image.clear();
+    if (texture.made_of) leave_factors(texture);
   };
   for (size_t i = 0; i < file.base_colours.size(); ++i) check(file.base_colours[i], i);
   for (size_t i = 0; i < file.channels.size(); ++i)

@@ -6,6 +6,7 @@
 #include "image/image_codec.h"
 #include "io/formats/gltf/gltf_files.h"
 #include "sphparam/io/paths.h"
+#include "texture/specular_glossiness_image.h"
 #include "texture/texture_pyramid.h"
 
 namespace sphparam {
@@ -63,16 +64,25 @@ Image normals_of_heights(const Image& heights, const MaterialTexture& said) {
 }
 
 /// Throws ImageError.
-DecodedTexture decode(const MaterialTexture& colour, const std::string& what, bool linear,
-                      int threads) {
-  if (!colour.problem.empty()) throw ImageError(what + ": " + colour.problem);
+Image image_of(const MaterialTexture& texture, const std::string& what) {
+  if (texture.image.empty()) return {};
+  if (!texture.problem.empty()) throw ImageError(what + ": " + texture.problem);
   std::vector<char> bytes;
   try {
-    bytes = bytes_of(colour);
+    bytes = bytes_of(texture);
   } catch (const std::runtime_error& error) {
     throw ImageError(what + " cannot be read: " + error.what());
   }
-  Image image = decode_image(bytes, what);
+  return decode_image(bytes, what);
+}
+
+/// Throws ImageError.
+DecodedTexture decode(const MaterialTexture& colour, const std::string& what, bool linear,
+                      int threads) {
+  Image image = colour.made_of ? metallic_roughness_image(
+                                     *colour.made_of, image_of(colour.made_of->diffuse, what),
+                                     image_of(colour.made_of->specular, what), linear, threads)
+                               : image_of(colour, what);
   const bool heights = colour.bump != 0 && is_grey(image);
   if (heights) image = normals_of_heights(image, colour);
   return {std::make_shared<const TexturePyramid>(image, linear, threads), heights};
@@ -83,6 +93,10 @@ DecodedTexture decode(const MaterialTexture& colour, const std::string& what, bo
 std::string why_unusable(const MaterialTexture& texture) try {
   if (texture.image.empty()) return "";
   if (!texture.problem.empty()) return texture.problem;
+  if (const auto& parts = texture.made_of) {
+    const std::string why = why_unusable(parts->diffuse);
+    return why.empty() ? why_unusable(parts->specular) : why;
+  }
   return is_image(bytes_of(texture)) ? "" : "its format is not read";
 } catch (const std::runtime_error& error) {
   return error.what();
@@ -104,7 +118,7 @@ SourceTexture TextureReader::read(const MaterialTexture& said, const std::string
   std::ranges::transform(said.factor, texture.factor.begin(),
                          [](double x) { return static_cast<float>(x); });
   if (said.image.empty()) return texture;
-  DecodedTexture& decoded = decoded_[{said.image, said.bump}];
+  DecodedTexture& decoded = decoded_[{said.image, said.bump, said.made_of}];
   const std::string what = "material " + material + ", " + said.image;
   if (!decoded.image) decoded = decode(said, what, kind_ == TexelKind::Number, threads_);
   texture.image = decoded.image;

@@ -3,7 +3,7 @@
 #include <map>
 #include <memory>
 #include <string>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "sphparam/io/mesh_file.h"
@@ -48,7 +48,10 @@ class TextureReader {
   const MeshFile& file_;
   TexelKind kind_;
   int threads_;
-  std::map<std::pair<std::string, double>, DecodedTexture> decoded_;  // by names and heights
+  /// By what makes an image what it is.
+  std::map<std::tuple<std::string, double, std::shared_ptr<const SpecularGlossiness>>,
+           DecodedTexture>
+      decoded_;
 };
 
 }  // namespace sphparam

@@ -13,6 +13,8 @@ enum class Wrapping { Repeat, Mirror, Clamp };
 /// (s, t) of a mesh → those of an image, t upwards: a row a coordinate, the last number is added.
 using TexturePlacement = std::array<std::array<double, 3>, 2>;
 
+struct SpecularGlossiness;
+
 /// Something that a material says, as glTF has it: factor · image, channel by channel, or the
 /// factor alone. Images are not decoded here.
 struct MaterialTexture {
@@ -28,6 +30,15 @@ struct MaterialTexture {
   /// Of a normal map that may be one of heights, which are grey: how high white is, in texels; of
   /// colours, what x and y are times. 0: normals, whatever their colours.
   double bump = 0;
+  /// Of a material by specular colour and glossiness: what its base colour (channel 0), roughness
+  /// (1) and metallic (2) are made of, factors and all, instead of `bytes` or `path`.
+  std::shared_ptr<const SpecularGlossiness> made_of = nullptr;
+};
+
+/// A material by KHR_materials_pbrSpecularGlossiness. Both images are in the same place.
+struct SpecularGlossiness {
+  MaterialTexture diffuse = {};
+  MaterialTexture specular = {};  // alpha: glossiness
 };
 
 /// What alpha means. Source: glTF 2.0, Section 3.9.4.

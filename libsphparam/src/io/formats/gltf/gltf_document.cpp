@@ -1,6 +1,8 @@
 #include "io/formats/gltf/gltf_document.h"
 
 #include <algorithm>
+#include <functional>
+#include <memory>
 #include <stdexcept>
 
 #include "io/formats/gltf/gltf_compression.h"
@@ -216,7 +218,18 @@ GltfDocument load_gltf(std::string_view bytes, const std::string& name,
     throw ReadError(name, "a mesh has a primitive without attributes");
   copy_model(model, name, origin, document);
   decompress(document, compression, name);
-  const auto place = [&](MaterialTexture& texture) {
+  std::map<const SpecularGlossiness*, std::shared_ptr<const SpecularGlossiness>> placed_parts;
+  const std::function<void(MaterialTexture&)> place = [&](MaterialTexture& texture) {
+    if (texture.made_of) {
+      std::shared_ptr<const SpecularGlossiness>& placed = placed_parts[texture.made_of.get()];
+      if (!placed) {
+        auto parts = std::make_shared<SpecularGlossiness>(*texture.made_of);
+        place(parts->diffuse);
+        place(parts->specular);
+        placed = std::move(parts);
+      }
+      texture.made_of = placed;
+    }
     if (texture.path.empty()) return;
     if (folder)
       texture.folder = folder->string();

@@ -11,6 +11,7 @@
 
 #include "elementary.h"
 #include "io/attributes/finish_terms.h"
+#include "io/attributes/specular_glossiness.h"
 #include "io/formats/gltf/gltf_files.h"
 #include "number_text.h"
 #include "sphparam/io/mesh_file.h"
@@ -20,6 +21,8 @@ namespace sphparam {
 namespace {
 
 using Transform = GltfDocument::TextureTransform;
+
+constexpr char specular_glossiness[] = "KHR_materials_pbrSpecularGlossiness";
 
 constexpr auto npos = static_cast<std::size_t>(-1);
 
@@ -191,22 +194,16 @@ class MaterialReader {
       : model_(model), said_(material), images_(images), origin_(origin) {}
 
   GltfDocument::Material read() {
-    const auto& pbr = said_.pbrMetallicRoughness;
-    MaterialChannels& channels = result_.channels;
     result_.name = one_line(said_.name);
-    result_.words = base_colour(model_, said_);
-    if (pbr.baseColorFactor.size() == 4)
-      std::ranges::copy(pbr.baseColorFactor, result_.base_colour.factor.begin());
-    channels.roughness.factor[0] = pbr.roughnessFactor;
-    channels.metallic.factor[0] = pbr.metallicFactor;
-    channels.roughness.channel = 1;
-    channels.metallic.channel = 2;
+    const auto shine = said_.extensions.find(specular_glossiness);
+    if (shine != said_.extensions.end() && shine->second.IsObject() && !origin_.specular_glossiness)
+      read_specular_glossiness(shine->second);
+    else
+      read_metallic_roughness();
+    MaterialChannels& channels = result_.channels;
     channels.normal.factor[0] = said_.normalTexture.scale;
     channels.occlusion.factor[0] = said_.occlusionTexture.strength;
     read_emission();
-    add_texture(pbr.baseColorTexture, result_.base_colour, "base colour");
-    add_texture(pbr.metallicRoughnessTexture, channels.roughness, "roughness");
-    add_texture(pbr.metallicRoughnessTexture, channels.metallic, "metallic");
     add_texture(said_.normalTexture, channels.normal, "normal");
     add_texture(said_.occlusionTexture, channels.occlusion, "occlusion");
     add_texture(said_.emissiveTexture, channels.emission, "emissive");
@@ -215,6 +212,71 @@ class MaterialReader {
   }
 
  private:
+  void read_metallic_roughness() {
+    const auto& pbr = said_.pbrMetallicRoughness;
+    MaterialChannels& channels = result_.channels;
+    result_.words = base_colour(model_, said_);
+    if (pbr.baseColorFactor.size() == 4)
+      std::ranges::copy(pbr.baseColorFactor, result_.base_colour.factor.begin());
+    channels.roughness.factor[0] = pbr.roughnessFactor;
+    channels.metallic.factor[0] = pbr.metallicFactor;
+    channels.roughness.channel = 1;
+    channels.metallic.channel = 2;
+    add_texture(pbr.baseColorTexture, result_.base_colour, "base colour");
+    add_texture(pbr.metallicRoughnessTexture, channels.roughness, "roughness");
+    add_texture(pbr.metallicRoughnessTexture, channels.metallic, "metallic");
+  }
+
+  /// Base colour, roughness and metallic are made of it, here where it has no images.
+  void read_specular_glossiness(const tinygltf::Value& said) {
+    SpecularGlossiness parts;
+    set_factor(said, "diffuseFactor", 4, parts.diffuse);
+    set_factor(said, "specularFactor", 3, parts.specular);
+    if (said.Get("glossinessFactor").IsNumber())
+      parts.specular.factor[3] = said.Get("glossinessFactor").GetNumberAsDouble();
+    add_texture(texture_in(said, "diffuseTexture"), parts.diffuse, "diffuse");
+    add_texture(texture_in(said, "specularGlossinessTexture"), parts.specular, "specular");
+    const bool both = !parts.diffuse.image.empty() && !parts.specular.image.empty();
+    if (both && (parts.diffuse.placement != parts.specular.placement ||
+                 parts.diffuse.second != parts.specular.second)) {
+      parts.specular.image.clear();
+      result_.others.emplace_back("specular textures in another place than diffuse ones");
+    }
+    const std::string between = both && !parts.specular.image.empty() ? " and " : "";
+    MaterialTexture made = parts.diffuse.image.empty() ? parts.specular : parts.diffuse;
+    made.image = parts.diffuse.image + between + parts.specular.image;
+    made.bytes = nullptr;
+    made.path = made.problem = "";
+    made.factor = {1, 1, 1, 1};
+    made.made_of = std::make_shared<const SpecularGlossiness>(std::move(parts));
+    const std::array<MaterialTexture*, 3> all = {&result_.base_colour, &result_.channels.roughness,
+                                                 &result_.channels.metallic};
+    for (int channel = 0; channel < 3; ++channel) {
+      MaterialTexture& one = *all[static_cast<std::size_t>(channel)] = made;
+      one.channel = channel;
+      if (one.image.empty()) leave_factors(one);
+    }
+  }
+
+  static void set_factor(const tinygltf::Value& said, const char* key, std::size_t count,
+                         MaterialTexture& texture) {
+    const std::vector<double> numbers =
+        said.Has(key) ? numbers_in(said.Get(key)) : std::vector<double>();
+    if (numbers.size() == count) std::ranges::copy(numbers, texture.factor.begin());
+  }
+
+  static tinygltf::TextureInfo texture_in(const tinygltf::Value& said, const char* key) {
+    tinygltf::TextureInfo info;
+    const tinygltf::Value& value = said.Get(key);
+    if (!value.IsObject()) return info;
+    if (value.Get("index").IsInt()) info.index = value.Get("index").GetNumberAsInt();
+    if (value.Get("texCoord").IsInt()) info.texCoord = value.Get("texCoord").GetNumberAsInt();
+    const tinygltf::Value& extensions = value.Get("extensions");
+    if (extensions.IsObject() && extensions.Has("KHR_texture_transform"))
+      info.extensions["KHR_texture_transform"] = extensions.Get("KHR_texture_transform");
+    return info;
+  }
+
   template <class Info>
   void add_texture(const Info& info, MaterialTexture& texture, const std::string& what) {
     if (info.index < 0) return;
@@ -255,15 +317,11 @@ class MaterialReader {
     for (const auto& [extension, value] : said_.extensions) {
       if (extension == "KHR_materials_unlit")
         channels.unlit = true;
-      else if (extension != "KHR_materials_emissive_strength" && !read_finish(extension, value))
-        result_.others.push_back(in_words(extension));
+      else if (extension == specular_glossiness) {
+        if (origin_.specular_glossiness) result_.others.emplace_back(origin_.specular_glossiness);
+      } else if (extension != "KHR_materials_emissive_strength" && !read_finish(extension, value))
+        result_.others.push_back(sphparam::quoted(extension));
     }
-  }
-
-  std::string in_words(const std::string& extension) const {
-    const bool is_shine = extension == "KHR_materials_pbrSpecularGlossiness";
-    if (is_shine && origin_.specular_glossiness) return origin_.specular_glossiness;
-    return sphparam::quoted(extension);
   }
 
   /// Whether it is one whose factors are carried. What an image says of its first factors is not
