@@ -169,11 +169,11 @@ TEST_CASE("sheet: the gradient of a height is what it changes by") {
   Sheet sheet(chart_of(mesh, rotated({mesh.positions}, random_rotation(random))));
   constexpr double step = 16;  // cells, of a million
   for (Face f = 0; f < sheet.face_count(); ++f) {
-    const std::array<Place, 3> gradient = sheet.height_gradient(f);
+    const std::array<SheetPoint, 3> gradient = sheet.height_gradient(f);
     for (int k = 0; k < 3; ++k) {
       const Vertex v = sheet.origin(3 * f + k);
       if (sheet.is_pole(v) || sheet.on_seam(v)) continue;
-      const Place at = sheet.place(v);
+      const SheetPoint at = sheet.place(v);
       const auto difference = [&](double dx, double dy) {
         sheet.move(v, {at.x + dx, at.y + dy});
         const double ahead = sheet.height(f);
@@ -182,7 +182,7 @@ TEST_CASE("sheet: the gradient of a height is what it changes by") {
         sheet.move(v, at);
         return (ahead - behind) / (2 * step);
       };
-      const Place& change = gradient[static_cast<size_t>(k)];
+      const SheetPoint& change = gradient[static_cast<size_t>(k)];
       CHECK(difference(step, 0) == Approx(change.x).margin(1e-3));
       CHECK(difference(0, step) == Approx(change.y).margin(1e-3));
     }
@@ -203,11 +203,11 @@ TEST_CASE("spread: a crowd about a point makes room for itself") {
     };
     if (off(v) < off(middle)) middle = v;
   }
-  const Place at = sheet.place(middle);
+  const SheetPoint at = sheet.place(middle);
   std::vector<Vertex> crowd = {middle};
   sheet.for_each_spoke(middle, [&](Halfedge h) { crowd.push_back(sheet.target(h)); });
   for (const Vertex v : crowd) {
-    const Place away = sheet.place(v) - at;
+    const SheetPoint away = sheet.place(v) - at;
     sheet.move(v, {at.x + 1e-8 * away.x, at.y + 1e-8 * away.y});
   }
   REQUIRE(sheet.lowest_around(middle) > 0);

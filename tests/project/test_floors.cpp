@@ -244,3 +244,21 @@ TEST_CASE("floors: constants are written as other variables are") {
   CHECK_FALSE(std::regex_search("constexpr int longest = 64;", prefixed));
   require_in_no_line({"libsphparam", "tools", "samples", "tests"}, prefixed);
 }
+
+TEST_CASE("floors: no two headers of the library have a class by one name") {
+  // What a linker keeps of templates on the one would be run on the other.
+  const std::regex definition("^(struct|class) (\\w+)( final)?( : .*)? \\{.*");
+  std::map<std::string, fs::path> home;
+  for (const auto& entry : fs::recursive_directory_iterator(root / "libsphparam")) {
+    if (entry.path().extension() != ".h") continue;
+    std::ifstream in(entry.path());
+    std::smatch match;
+    for (std::string line; std::getline(in, line);) {
+      if (!std::regex_match(line, match, definition)) continue;
+      const auto [other, is_new] = home.emplace(match[2], entry.path());
+      INFO(match[2] << " in " << other->second.string() << " and " << entry.path().string());
+      CHECK(is_new);
+    }
+  }
+  CHECK(home.count("TriangleMesh") == 1);
+}

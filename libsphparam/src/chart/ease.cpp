@@ -17,14 +17,14 @@ constexpr double longest_step = 16, longest_slide = 64;  // cells
 constexpr int lengths_that_help = 2;
 constexpr double least_gain = 0.01;  // of the cost, that neighbours are told of
 constexpr double diagonal = 0x1.6a09e667f3bcdp-1;
-constexpr std::array<Place, 8> directions = {{{1, 0},
-                                              {-1, 0},
-                                              {0, 1},
-                                              {0, -1},
-                                              {diagonal, diagonal},
-                                              {-diagonal, -diagonal},
-                                              {diagonal, -diagonal},
-                                              {-diagonal, diagonal}}};
+constexpr std::array<SheetPoint, 8> directions = {{{1, 0},
+                                                   {-1, 0},
+                                                   {0, 1},
+                                                   {0, -1},
+                                                   {diagonal, diagonal},
+                                                   {-diagonal, -diagonal},
+                                                   {diagonal, -diagonal},
+                                                   {-diagonal, diagonal}}};
 
 }  // namespace
 
@@ -51,8 +51,8 @@ void Easing::run(std::int64_t most) {
   }
 }
 
-void Easing::slide(Vertex v, const Place& direction) {
-  const Place start = sheet_.place(v);
+void Easing::slide(Vertex v, const SheetPoint& direction) {
+  const SheetPoint start = sheet_.place(v);
   double lowest = HUGE_VAL;
   for (double step = longest_slide; step > least; step /= 2)
     try_place(v, {start.x + step * direction.x, start.y + step * direction.y}, lowest);
@@ -79,8 +79,8 @@ bool Easing::ease(Vertex v) {
   int helped = 0;
   for (double step = std::clamp(longest_spoke(v), 1.0, longest_step);
        step > least && helped < lengths_that_help; step /= 2) {
-    const Place start = sheet_.place(v);
-    for (const Place& d : directions)
+    const SheetPoint start = sheet_.place(v);
+    for (const SheetPoint& d : directions)
       try_place(v, {start.x + step * d.x, start.y + step * d.y}, lowest);
     helped += lowest < before;
   }
@@ -96,9 +96,9 @@ double Easing::longest_spoke(Vertex v) const {
 }
 
 /// Leaves v there if that costs less.
-bool Easing::try_place(Vertex v, const Place& p, double& lowest) {
+bool Easing::try_place(Vertex v, const SheetPoint& p, double& lowest) {
   if (!sheet_.allows(v, p)) return false;
-  const Place before = sheet_.place(v);
+  const SheetPoint before = sheet_.place(v);
   sheet_.move(v, p);
   const double there = cost_around(v);
   if (there < lowest) {

@@ -23,14 +23,14 @@ class Easing {
   /// of faces that are still low.
   void run(std::int64_t most);
   /// Moves v, from where it is, to the best place in a direction, if that is better.
-  void slide(Vertex v, const Place& direction);
+  void slide(Vertex v, const SheetPoint& direction);
 
  private:
   double cost(Face f) const;
   double cost_around(Vertex v) const;
   bool ease(Vertex v);
   double longest_spoke(Vertex v) const;
-  bool try_place(Vertex v, const Place& p, double& least);
+  bool try_place(Vertex v, const SheetPoint& p, double& least);
 
   Sheet& sheet_;
   std::deque<Vertex> waiting_;

@@ -48,7 +48,7 @@ class Settling {
   void round_all() {
     const auto rounded = [](double x) { return std::clamp(std::round(x), 1.0, Sheet::cells - 1); };
     for (Vertex v = 0; v < sheet_.vertex_count(); ++v) {
-      const Place& p = sheet_.place(v);
+      const SheetPoint& p = sheet_.place(v);
       if (!sheet_.is_pole(v)) sheet_.move(v, {rounded(p.x), sheet_.on_seam(v) ? 0 : rounded(p.y)});
     }
   }
@@ -68,7 +68,7 @@ class Settling {
   }
 
   bool on_grid(Vertex v) const {
-    const Place& p = sheet_.place(v);
+    const SheetPoint& p = sheet_.place(v);
     return p.x == std::floor(p.x) && p.y == std::floor(p.y);
   }
 
@@ -119,9 +119,9 @@ class Settling {
   /// by more than its size.
   double low_without(Halfedge h) {
     const Vertex v = sheet_.origin(h);
-    const Place there =
+    const SheetPoint there =
         sheet_.on_seam(v) ? sheet_.place(sheet_.target(h)) : sheet_.corner(Topology::next(h));
-    const Place before = sheet_.place(v);
+    const SheetPoint before = sheet_.place(v);
     sheet_.move(v, there);
     int low = 0;
     bool deep = false;
@@ -152,27 +152,27 @@ class Settling {
 
   /// The direction, from the target of h, in which its origin unfolds all its faces: the middle
   /// between the edges to the two apexes. Along the seam there is one way.
-  Place way_in(Halfedge h) const {
+  SheetPoint way_in(Halfedge h) const {
     const Halfedge g = sheet_.twin(h);
-    const Place a = unit(sheet_.towards(Topology::next(h)));
+    const SheetPoint a = unit(sheet_.towards(Topology::next(h)));
     if (sheet_.on_seam(sheet_.origin(h))) return {a.y < 0 ? 1.0 : -1.0, 0};
-    Place b;
+    SheetPoint b;
     if (sheet_.is_pole(sheet_.apex(g))) {
       b = sheet_.towards(sheet_.twin(Topology::previous(g)));
     } else {
-      const Place back = unit(sheet_.towards(Topology::previous(g)));
+      const SheetPoint back = unit(sheet_.towards(Topology::previous(g)));
       b = {-back.x, -back.y};
     }
-    const Place sum{a.x + b.x, a.y + b.y};
+    const SheetPoint sum{a.x + b.x, a.y + b.y};
     constexpr double opposite = 1e-12;
     if (square(sum) < opposite) return {-a.y, a.x};
-    const Place middle = unit(sum);
-    return cross(a, b) > 0 ? middle : Place{-middle.x, -middle.y};
+    const SheetPoint middle = unit(sum);
+    return cross(a, b) > 0 ? middle : SheetPoint{-middle.x, -middle.y};
   }
 
-  static Place unit(const Place& p) {
+  static SheetPoint unit(const SheetPoint& p) {
     const double length = std::sqrt(square(p));
-    return length > 0 ? Place{p.x / length, p.y / length} : p;
+    return length > 0 ? SheetPoint{p.x / length, p.y / length} : p;
   }
 
   // --- regions --------------------------------------------------------------------------------
@@ -234,11 +234,11 @@ class Settling {
   /// Moves a vertex to the nearest place on the grid that leaves its faces positive.
   void land(Vertex v) {
     if (sheet_.is_pole(v) || on_grid(v) || sheet_.is_hub(v)) return;
-    const Place at = sheet_.place(v);
-    std::vector<std::pair<double, Place>> near;
+    const SheetPoint at = sheet_.place(v);
+    std::vector<std::pair<double, SheetPoint>> near;
     for (int dx = -landing_cells; dx <= landing_cells; ++dx) {
       for (int dy = -landing_cells; dy <= landing_cells; ++dy) {
-        const Place p{std::round(at.x) + dx, std::round(at.y) + dy};
+        const SheetPoint p{std::round(at.x) + dx, std::round(at.y) + dy};
         if (sheet_.allows(v, p)) near.emplace_back(square(p - at), p);
       }
     }
@@ -263,7 +263,7 @@ class Settling {
 };
 
 /// Further than its nearest place on the grid.
-bool has_moved(const Place& now, const Place& before) {
+bool has_moved(const SheetPoint& now, const SheetPoint& before) {
   return std::abs(now.x - before.x) > 1 || std::abs(now.y - before.y) > 1;
 }
 

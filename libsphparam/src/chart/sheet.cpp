@@ -52,18 +52,18 @@ bool Sheet::is_hub(Vertex v) const {
   return true;
 }
 
-bool Sheet::allows(Vertex v, const Place& p) const {
+bool Sheet::allows(Vertex v, const SheetPoint& p) const {
   const auto inside = [](double x) { return x > 0 && x < cells; };
   return inside(p.x) && (on_seam(v) ? p.y == 0 : inside(p.y));
 }
 
-Place Sheet::corner(Halfedge h) const {
+SheetPoint Sheet::corner(Halfedge h) const {
   const Vertex v = origin(h);
   const bool in_west = in_west_[static_cast<size_t>(Topology::face(h))] != 0;
-  return on_seam(v) && in_west ? Place{place(v).x, cells} : place(v);
+  return on_seam(v) && in_west ? SheetPoint{place(v).x, cells} : place(v);
 }
 
-Place Sheet::towards(Halfedge h) const {
+SheetPoint Sheet::towards(Halfedge h) const {
   if (target(h) == north_) return {-1, 0};
   if (target(h) == south_) return {1, 0};
   return corner(Topology::next(h)) - corner(h);
@@ -92,16 +92,16 @@ double Sheet::height(Face f) const {
     return std::min(
         {width(pole), depth(pole, Topology::next(pole)), depth(pole, Topology::previous(pole))});
   }
-  const Place a = corner(3 * f), b = corner(3 * f + 1), c = corner(3 * f + 2);
+  const SheetPoint a = corner(3 * f), b = corner(3 * f + 1), c = corner(3 * f + 2);
   const double longest = std::max({square(b - a), square(c - b), square(a - c)});
   return longest > 0 ? cross(b - a, c - a) / std::sqrt(longest) : 0;
 }
 
-std::array<Place, 3> Sheet::trapezoid_gradient(Halfedge pole) const {
-  std::array<Place, 3> gradient = {Place{0, 0}, Place{0, 0}, Place{0, 0}};
+std::array<SheetPoint, 3> Sheet::trapezoid_gradient(Halfedge pole) const {
+  std::array<SheetPoint, 3> gradient = {SheetPoint{0, 0}, SheetPoint{0, 0}, SheetPoint{0, 0}};
   const double sign = origin(pole) == north_ ? 1 : -1;
   const Halfedge begin = Topology::next(pole), end = Topology::previous(pole);
-  const auto at = [&](Halfedge h) -> Place& {
+  const auto at = [&](Halfedge h) -> SheetPoint& {
     return gradient[static_cast<size_t>(Topology::corner(h))];
   };
   if (width(pole) <= std::min(depth(pole, begin), depth(pole, end))) {
@@ -113,10 +113,10 @@ std::array<Place, 3> Sheet::trapezoid_gradient(Halfedge pole) const {
   return gradient;
 }
 
-std::array<Place, 3> Sheet::height_gradient(Face f) const {
+std::array<SheetPoint, 3> Sheet::height_gradient(Face f) const {
   const int pole = pole_corner(f);
   if (pole >= 0) return trapezoid_gradient(3 * f + pole);
-  std::array<Place, 3> edges;  // opposite to each corner
+  std::array<SheetPoint, 3> edges;  // opposite to each corner
   for (int k = 0; k < 3; ++k)
     edges[static_cast<size_t>(k)] = corner(3 * f + (k + 2) % 3) - corner(3 * f + (k + 1) % 3);
   size_t longest = 0;
@@ -124,12 +124,12 @@ std::array<Place, 3> Sheet::height_gradient(Face f) const {
     if (square(edges[k]) > square(edges[longest])) longest = k;
   }
   const double length = std::sqrt(square(edges[longest]));
-  std::array<Place, 3> gradient = {Place{0, 0}, Place{0, 0}, Place{0, 0}};
+  std::array<SheetPoint, 3> gradient = {SheetPoint{0, 0}, SheetPoint{0, 0}, SheetPoint{0, 0}};
   if (length == 0) return gradient;
   // h = D / l, D twice the area: ∇h = (∇D − h ∇l) / l, where ∇D is the edge opposite, turned.
   for (size_t k = 0; k < 3; ++k) gradient[k] = {-edges[k].y / length, edges[k].x / length};
   const double by_length = cross(edges[0], edges[1]) / (length * length * length);
-  Place &begin = gradient[(longest + 1) % 3], &end = gradient[(longest + 2) % 3];
+  SheetPoint &begin = gradient[(longest + 1) % 3], &end = gradient[(longest + 2) % 3];
   begin = {begin.x + by_length * edges[longest].x, begin.y + by_length * edges[longest].y};
   end = {end.x - by_length * edges[longest].x, end.y - by_length * edges[longest].y};
   return gradient;
@@ -138,7 +138,7 @@ std::array<Place, 3> Sheet::height_gradient(Face f) const {
 bool Sheet::positive(Face f) const {
   if (pole_corner(f) >= 0) return height(f) > 0;
   const auto point = [&](Halfedge h) {
-    const Place p = corner(h);
+    const SheetPoint p = corner(h);
     return ChartPoint{p.y, p.x};
   };
   return planar_orientation(point(3 * f), point(3 * f + 1), point(3 * f + 2)) > 0;

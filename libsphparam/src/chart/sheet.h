@@ -9,13 +9,15 @@ namespace sphparam {
 
 /// A place in the (u, v) rectangle, in cells of the grid that texture coordinates settle on: x = v
 /// and y = u, so that faces are counter-clockwise.
-struct Place {
+struct SheetPoint {
   double x, y;
 };
 
-inline Place operator-(const Place& a, const Place& b) { return {a.x - b.x, a.y - b.y}; }
-inline double cross(const Place& a, const Place& b) { return a.x * b.y - a.y * b.x; }
-inline double square(const Place& a) { return a.x * a.x + a.y * a.y; }
+inline SheetPoint operator-(const SheetPoint& a, const SheetPoint& b) {
+  return {a.x - b.x, a.y - b.y};
+}
+inline double cross(const SheetPoint& a, const SheetPoint& b) { return a.x * b.y - a.y * b.x; }
+inline double square(const SheetPoint& a) { return a.x * a.x + a.y * a.y; }
 
 /// The pieces of a chart as a triangulation whose vertices move in the plane, and are taken out one
 /// by one and put back in the opposite order.
@@ -54,19 +56,19 @@ class Sheet {
     } while (h != outgoing(v));
   }
 
-  const Place& place(Vertex v) const { return places_[static_cast<size_t>(v)]; }
-  void move(Vertex v, const Place& to) { places_[static_cast<size_t>(v)] = to; }
+  const SheetPoint& place(Vertex v) const { return places_[static_cast<size_t>(v)]; }
+  void move(Vertex v, const SheetPoint& to) { places_[static_cast<size_t>(v)] = to; }
   /// May v be there: inside the rectangle, on the seam if it is one of the seam's?
-  bool allows(Vertex v, const Place& p) const;
+  bool allows(Vertex v, const SheetPoint& p) const;
   /// Where its face sees the origin of h. Requires: not a pole.
-  Place corner(Halfedge h) const;
+  SheetPoint corner(Halfedge h) const;
   /// From the origin of h to its end, as its face sees both; to a pole, the direction.
-  Place towards(Halfedge h) const;
+  SheetPoint towards(Halfedge h) const;
 
   /// The least altitude of a face; of a trapezoid, its width or a side. Not above 0: folded.
   double height(Face f) const;
   /// What the height changes by with the places of the corners.
-  std::array<Place, 3> height_gradient(Face f) const;
+  std::array<SheetPoint, 3> height_gradient(Face f) const;
   /// Is a face positive? Exact.
   bool positive(Face f) const;
   double lowest_around(Vertex v) const;
@@ -90,7 +92,7 @@ class Sheet {
   int pole_corner(Face f) const;
   double depth(Halfedge pole, Halfedge h) const;  // of a trapezoid, at the origin of h
   double width(Halfedge pole) const;
-  std::array<Place, 3> trapezoid_gradient(Halfedge pole) const;
+  std::array<SheetPoint, 3> trapezoid_gradient(Halfedge pole) const;
   void join(Halfedge h, Halfedge other);
   void mark_neighbours(Vertex v);
   bool has_two_common_neighbours(Halfedge h);
@@ -99,7 +101,7 @@ class Sheet {
 
   std::vector<Vertex> origin_;
   std::vector<Halfedge> twin_, outgoing_;
-  std::vector<Place> places_;
+  std::vector<SheetPoint> places_;
   std::vector<char> in_west_, is_out_;  // of faces
   std::vector<char> on_seam_;           // of vertices
   Vertex north_, south_;

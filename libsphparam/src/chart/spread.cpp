@@ -79,12 +79,12 @@ class Spreading {
     const double height = heights_[i], weight = 1 / std::max(height, least_weighed);
     Request request;
     request.right = weight * (std::max(height, std::min(wanted_, growth * height)) - height);
-    const std::array<Place, 3> gradient = sheet_.height_gradient(faces_[i]);
+    const std::array<SheetPoint, 3> gradient = sheet_.height_gradient(faces_[i]);
     for (int k = 0; k < 3; ++k) {
       const Vertex v = sheet_.origin(3 * faces_[i] + k);
       const auto found = first_unknown_.find(v);
       if (found == first_unknown_.end()) continue;
-      const Place& change = gradient[static_cast<size_t>(k)];
+      const SheetPoint& change = gradient[static_cast<size_t>(k)];
       request.add(found->second, weight * change.x);
       if (!sheet_.on_seam(v)) request.add(found->second + 1, weight * change.y);
     }
@@ -116,7 +116,7 @@ class Spreading {
 
   /// Moves by as much of a step as can be; false: by nothing.
   bool take(const VectorX& step, double& lack) {
-    std::vector<Place> before;
+    std::vector<SheetPoint> before;
     for (const Vertex v : vertices_) before.push_back(sheet_.place(v));
     const std::vector<double> heights = heights_;
     double share = 1;
@@ -132,7 +132,7 @@ class Spreading {
     return false;
   }
 
-  void move(const std::vector<Place>& before, const VectorX& step, double share) {
+  void move(const std::vector<SheetPoint>& before, const VectorX& step, double share) {
     for (size_t i = 0; i < vertices_.size(); ++i) {
       const int first = first_unknown_.at(vertices_[i]);
       const double by_x = share * step[first];
