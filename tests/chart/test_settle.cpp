@@ -215,3 +215,15 @@ TEST_CASE("spread: a crowd about a point makes room for itself") {
   spread(sheet, crowd, 4);
   CHECK(sheet.lowest_around(middle) > 3.9);
 }
+
+TEST_CASE("chart: one that is not one-to-one is refused, with what is wrong with it") {
+  const TriangleMesh mesh = uv_sphere(12, 5);
+  SphericalChart chart = chart_of(mesh, {mesh.positions});
+  CHECK_NOTHROW(require_one_to_one(chart, "a.ply"));
+  chart.certificate.folded = {3, 5};
+  CHECK_THROWS_WITH(require_one_to_one(chart, "a.ply"),
+                    Contains("a.ply: its map is one-to-one, but thinner in (u, v)") &&
+                        Contains("2 triangles fold there"));
+  chart.counts.at_limit = true;
+  CHECK_THROWS_WITH(require_one_to_one(chart, "a.ply"), Contains("splits that are made at most"));
+}
