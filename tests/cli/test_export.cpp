@@ -133,7 +133,7 @@ TEST_CASE(
   for (const int crowd : {6, 300}) {
     std::string ball = "v 0 0 1\nv 0 0 -1\nv 1 1 0\nv -1 1 0\nv -1 -1 0\nv 1 -1 0\n";
     for (int i = crowd; i > 0; --i)
-      ball += "v 1 -0.000001000000000" + std::to_string(1000000 + i) + " 0\n";
+      ball += "v 1 -0.0000010000000" + std::to_string(1000000 + i) + " 0\n";
     const int ring = 4 + crowd;
     for (int i = 0; i < ring; ++i) {
       const std::string one = std::to_string(3 + i), next = std::to_string(3 + (i + 1) % ring);
