@@ -1,5 +1,6 @@
 #include "correspondence/feature_match.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -49,8 +50,10 @@ std::vector<TurnOfFunctions> turns_by_stance(const MappedMesh& from, const Mappe
 
 /// 0 where the second turn is as good as the first, towards 1 where it is nowhere near.
 double confidence_in(const std::vector<TurnOfFunctions>& turns) {
-  if (turns.size() < 2 || turns[1].correlation >= 1) return turns.size() < 2 ? 1 : 0;
-  return 1 - (1 - turns[0].correlation) / (1 - turns[1].correlation);
+  if (turns.size() < 2) return 1;
+  const double left_by_second = 1 - turns[1].correlation;
+  return left_by_second > 0 ? std::clamp(1 - (1 - turns[0].correlation) / left_by_second, 0.0, 1.0)
+                            : 0;
 }
 
 TriangleMesh unit_surface(const MappedMesh& mapped) {

@@ -33,8 +33,7 @@ struct SmallSurface {
   TriangleMesh mesh;
   Topology topology;
   std::vector<Vertex> names;
-  VectorX bend;   // of the whole surface
-  Points stance;  // the same
+  MatrixX bend, stance;  // of the whole surface
   VectorX area;
 };
 
