@@ -8,7 +8,7 @@
 #include "elementary.h"
 #include "embedding/constructions/progressive.h"
 #include "embedding/energy/map_image.h"
-#include "embedding/newton/twists.h"
+#include "embedding/twists/twists.h"
 #include "sphparam/sphere/certificate.h"
 #include "support/hard_shapes.h"
 #include "support/test_meshes.h"

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "embedding/newton/global_newton.h"
-#include "embedding/newton/twists.h"
+#include "embedding/twists/twists.h"
 
 // Levels are due at every fourfold vertex count, counted down from the finest. The smallest get a
 // step in any case: all of them together cost less than a tenth of a step on the finest. Finer ones

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <memory>
 
-#include "embedding/energy/triangle_packs.h"
+#include "embedding/energy/packed_triangles.h"
 #include "sphparam/parallel.h"
 
 // Patch i of m grows around the vertex at which (i + ½)/m of the energy is reached, vertices in
@@ -46,11 +46,12 @@ class Patch {
 
   /// ½ gᵀH⁻¹g / E; 1 where that cannot be told.
   double relative_decrement(const DistortionEnergy& energy) {
-    const int packs = static_cast<int>(packs_.size());
-    const double value = guarded_energy(packs_.data(), triangles_, points_.data(), energy);
+    const double value = triangles_.energy(points_, energy);
     if (!std::isfinite(value)) return 1;
-    terms_.resize(packs_.size());
-    differentiate_triangles(packs_.data(), packs, points_.data(), energy, terms_.data());
+    const std::vector<TrianglePack>& packs = triangles_.packs();
+    terms_.resize(packs.size());
+    differentiate_triangles(packs.data(), static_cast<int>(packs.size()), points_.data(), energy,
+                            terms_.data());
     assemble();
     if (!gradient_.allFinite() || !hessian_.allFinite()) return 1;
     hessian_.diagonal() *= 1 + shift;
@@ -102,19 +103,15 @@ class Patch {
       const double edge = std::sqrt(4 / std::sqrt(3.0) * area_floor_);
       rest = {area_floor_, 1 / edge, edge / (2 * area_floor_), 0.5};
     }
-    const int lane = triangles_ % pack_width;
-    if (lane == 0) packs_.emplace_back();
-    for (int l = lane; l < pack_width; ++l) fill_lane(rest, corners, l, packs_.back());
-    ++triangles_;
+    triangles_.add(rest, corners);
   }
 
   void measure_units() {
     unit_.assign(at(free_), 1.0);
     std::vector<double> least(at(free_), 1.0);
-    for (int t = 0; t < triangles_; ++t) {
-      const TrianglePack& pack = packs_[at(t / pack_width)];
+    for (int t = 0; t < triangles_.count(); ++t) {
       for (int k = 0; k < 3; ++k) {
-        const int v = pack.corner[k][t % pack_width], w = pack.corner[(k + 1) % 3][t % pack_width];
+        const int v = triangles_.corner(t, k), w = triangles_.corner(t, (k + 1) % 3);
         const double edge = (points_[at(v)].vector() - points_[at(w)].vector()).squaredNorm();
         if (v < free_) least[at(v)] = std::min(least[at(v)], edge);
         if (w < free_) least[at(w)] = std::min(least[at(w)], edge);
@@ -129,12 +126,11 @@ class Patch {
   void assemble() {
     gradient_ = VectorX::Zero(2 * free_);
     hessian_ = Eigen::MatrixXd::Zero(2 * free_, 2 * free_);
-    for (int t = 0; t < triangles_; ++t) {
-      const TrianglePack& pack = packs_[at(t / pack_width)];
+    for (int t = 0; t < triangles_.count(); ++t) {
       const TriangleTerms& terms = terms_[at(t / pack_width)];
       const int lane = t % pack_width;
       for (int k = 0; k < 3; ++k) {
-        const int v = pack.corner[k][lane], w = pack.corner[(k + 1) % 3][lane];
+        const int v = triangles_.corner(t, k), w = triangles_.corner(t, (k + 1) % 3);
         if (v >= free_) continue;
         for (int i = 0; i < 2; ++i) {
           gradient_[2 * v + i] += unit_[at(v)] * terms.gradient[k][i][lane];
@@ -145,7 +141,7 @@ class Patch {
         }
       }
       for (int k = 0; k < 3; ++k) {
-        const int v = pack.corner[k][lane], w = pack.corner[(k + 1) % 3][lane];
+        const int v = triangles_.corner(t, k), w = triangles_.corner(t, (k + 1) % 3);
         if (v >= free_ || w >= free_) continue;
         for (int i = 0; i < 4; ++i) {
           const double entry = unit_[at(v)] * unit_[at(w)] * terms.off[k][i][lane];
@@ -159,10 +155,10 @@ class Patch {
   const HierarchyLevel& level_;
   double area_floor_;
   std::vector<Vertex> vertices_;
-  int free_ = 0, triangles_ = 0;
+  int free_ = 0;
   std::vector<ImagePoint> points_;
   std::vector<double> unit_;
-  std::vector<TrianglePack> packs_;
+  PackedTriangles triangles_;
   std::vector<TriangleTerms> terms_;
   VectorX gradient_;
   Dense hessian_;

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "sphparam/mesh/topology.h"
+
+namespace sphparam {
+
+/// A closed path of edges: its vertices in order.
+using VertexLoop = std::vector<Vertex>;
+
+/// Finds loops of a few edges that go round limbs. Our own.
+class LoopSearch {
+ public:
+  /// Edges of a loop; with more around no twist stays.
+  static constexpr int most_around = 8;
+
+  /// Requires: the topology outlives it.
+  explicit LoopSearch(const Topology& topology);
+
+  /// A shortest loop through v that has more than a few vertices on its left, and on its right.
+  /// Empty: there is none, or a hub is near, or the surface about v is as plain as a plane.
+  /// Cost: that of the vertices within a few edges of v; nothing near a v that was found plain.
+  VertexLoop through(Vertex v);
+
+  /// Has it more edges than are looked at again and again? No loop goes there.
+  bool is_hub(Vertex v) const;
+
+ private:
+  bool is_plain_about(Vertex v);
+  bool grow_ball(Vertex v, int radius);
+  void forget_ball();
+  bool ball_is_disk() const;
+  VertexLoop shortest_loop();
+  std::vector<std::pair<int, Halfedge>> closing_edges() const;
+  VertexLoop closed_by(Halfedge h) const;
+  bool goes_round(const VertexLoop& loop);
+  bool reaches_many(const VertexLoop& loop, bool left);
+
+  const Topology& topology_;
+  std::vector<int> depth_;  // −1: not in the ball
+  std::vector<Vertex> parent_, branch_;
+  std::vector<char> side_;  // 0 between uses
+  std::vector<char> plain_;
+  std::vector<int> valence_;
+  std::vector<Vertex> ball_;
+};
+
+/// Visits the vertices next to a loop on one side, one after the other.
+template <class Visit>
+void for_each_beside(const Topology& topology, const VertexLoop& loop, bool left,
+                     const Visit& visit) {
+  const size_t n = loop.size();
+  for (size_t i = 0; i < n; ++i) {
+    const Vertex next = loop[(i + 1) % n], previous = loop[(i + n - 1) % n];
+    const Vertex from = left ? next : previous, to = left ? previous : next;
+    Halfedge h = topology.rotate_ccw(topology.find_halfedge(loop[i], from));
+    for (; topology.target(h) != to; h = topology.rotate_ccw(h)) visit(topology.target(h));
+  }
+}
+
+}  // namespace sphparam

@@ -1,0 +1,126 @@
+#include "embedding/twists/strip.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+#include "elementary.h"
+#include "sphere/solid_angle.h"
+
+namespace sphparam {
+namespace {
+
+constexpr double least_gain = 1e-3;  // of a strip's energy: not worth it
+
+using Matrix3 = Eigen::Matrix3d;
+using Layer = std::span<const ImagePoint>;
+
+/// Rodrigues' formula.
+Matrix3 turn_about(const Vector3& axis, double angle) {
+  Matrix3 cross;
+  cross << 0, -axis.z(), axis.y(), axis.z(), 0, -axis.x(), -axis.y(), axis.x(), 0;
+  return Matrix3::Identity() + elementary::sin(angle) * cross +
+         (1 - elementary::cos(angle)) * cross * cross;
+}
+
+/// Nothing where a layer is as much on one side of the sphere as on the other.
+std::optional<Vector3> middle_of(Layer layer) {
+  Vector3 sum = Vector3::Zero();
+  for (const ImagePoint& point : layer) sum += point.vector();
+  if (!(sum.squaredNorm() > 0)) return std::nullopt;
+  return sum.normalized();
+}
+
+/// Where a vertex is in a loop; −1: nowhere.
+int place_in(const VertexLoop& loop, Vertex v) {
+  const auto found = std::ranges::find(loop, v);
+  return found == loop.end() ? -1 : static_cast<int>(found - loop.begin());
+}
+
+/// visit(half-edge, corners from its origin on) for the triangles with corners in both layers, once
+/// each: at the corner that is alone in its layer. The moved layer is numbered after the fixed one.
+template <class Visit>
+void for_each_between(const Topology& topology, const VertexLoop& fixed, const VertexLoop& moved,
+                      const Visit& visit) {
+  const int split = static_cast<int>(fixed.size());
+  const auto number = [&](Vertex v) {
+    const int in_fixed = place_in(fixed, v), in_moved = place_in(moved, v);
+    return in_fixed >= 0 ? in_fixed : in_moved >= 0 ? split + in_moved : -1;
+  };
+  for (const VertexLoop* layer : {&fixed, &moved}) {
+    for (const Vertex v : *layer) {
+      topology.for_each_outgoing(v, [&](Halfedge h) {
+        const int a = number(v), b = number(topology.target(h)), c = number(topology.apex(h));
+        if (b < 0 || c < 0) return;
+        if ((a < split) != (b < split) && (a < split) != (c < split))
+          visit(h, std::array<Vertex, 3>{a, b, c});
+      });
+    }
+  }
+}
+
+}  // namespace
+
+std::optional<Strip> Strip::between(const Topology& topology, const RestTriangles& source,
+                                    const std::vector<ImagePoint>& image, const VertexLoop& fixed,
+                                    const VertexLoop& moved) {
+  Strip strip;
+  for_each_between(topology, fixed, moved, [&](Halfedge h, const std::array<Vertex, 3>& corners) {
+    const RestTriangle& rest = source[static_cast<size_t>(Topology::face(h))];
+    strip.triangles_.add(rotated(rest, Topology::corner(h)), corners);
+  });
+  if (strip.triangles_.count() != static_cast<int>(fixed.size() + moved.size()))
+    return std::nullopt;
+  for (const VertexLoop* layer : {&fixed, &moved}) {
+    for (const Vertex v : *layer) strip.points_.push_back(image[static_cast<size_t>(v)]);
+  }
+  strip.fixed_ = fixed.size();
+  return strip;
+}
+
+/// About the middle of either layer, by one vertex of it or two.
+std::optional<Matrix3> Strip::better_turn(const DistortionEnergy& energy) const {
+  double least = (1 - least_gain) * triangles_.energy(points_, energy);
+  const double covered = solid_angle(points_);
+  std::optional<Matrix3> best;
+  const Layer all = points_;
+  for (const Layer layer : {all.first(fixed_), all.subspan(fixed_)}) {
+    const std::optional<Vector3> middle = middle_of(layer);
+    if (!middle) continue;
+    for (const int by : {-1, 1, -2, 2}) {
+      const double angle = by * 2 * std::numbers::pi / static_cast<double>(layer.size());
+      const Matrix3 turn = turn_about(*middle, angle);
+      const Points there = turned(turn);
+      const double value = triangles_.energy(there, energy);
+      if (!(value < least)) continue;
+      // Triangles that wind about a middle once more are all positive, too.
+      if (!(std::abs(solid_angle(there) - covered) < 1)) continue;
+      least = value;
+      best = turn;
+    }
+  }
+  return best;
+}
+
+Strip::Points Strip::turned(const Matrix3& turn) const {
+  Points points = points_;
+  for (size_t i = fixed_; i < points.size(); ++i)
+    points[i] = image_point(turn * points[i].vector());
+  return points;
+}
+
+/// Of all triangles.
+double Strip::solid_angle(const Points& points) const {
+  double sum = 0;
+  for (int t = 0; t < triangles_.count(); ++t) {
+    const auto corner = [&](int k) {
+      return points[static_cast<size_t>(triangles_.corner(t, k))].vector();
+    };
+    sum += sphparam::solid_angle(corner(0), corner(1), corner(2));
+  }
+  return sum;
+}
+
+}  // namespace sphparam
