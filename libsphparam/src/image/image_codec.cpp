@@ -10,6 +10,7 @@
 #include "image/bmp.h"
 #include "image/image_writer.h"
 #include "image/open_module.h"
+#include "image/sinks.h"
 #include "image/targa.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/read_options.h"
@@ -18,19 +19,6 @@
 
 namespace sphparam {
 namespace {
-
-void append_bytes(void* context, const char* bytes, size_t size) {
-  auto& out = *static_cast<std::vector<char>*>(context);
-  out.insert(out.end(), bytes, bytes + size);
-}
-
-void append_text(void* context, const char* bytes, size_t size) {
-  static_cast<std::string*>(context)->append(bytes, size);
-}
-
-void append_pair(void* context, const char* name, const char* value) {
-  static_cast<ImageTexts*>(context)->emplace_back(name, value);
-}
 
 float* make_room(void* context, int width, int height, int channels) {
   auto& image = *static_cast<Image*>(context);

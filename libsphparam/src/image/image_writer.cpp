@@ -8,14 +8,11 @@
 
 #include "image/meant_rows.h"
 #include "image/open_module.h"
+#include "image/sinks.h"
 #include "sphparam/io/paths.h"
 
 namespace sphparam {
 namespace {
-
-void append_text(void* context, const char* bytes, size_t size) {
-  static_cast<std::string*>(context)->append(bytes, size);
-}
 
 constexpr std::uint64_t no_bytes = 0xcbf29ce484222325;
 
@@ -115,10 +112,6 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& why) {
   throw ImageError("the image as written, read back: " + why);
-}
-
-void append_pair(void* context, const char* name, const char* value) {
-  static_cast<ImageTexts*>(context)->emplace_back(name, value);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "image/image_codec.h"
 #include "image/open_module.h"
+#include "image/sinks.h"
 
 namespace sphparam {
 namespace {
@@ -32,15 +33,6 @@ Samples colours_of(const Image& image) {
     if (alpha) samples.push_back(sample_of(texel[channels - 1]));
   }
   return samples;
-}
-
-void append_bytes(void* context, const char* bytes, std::size_t size) {
-  auto& out = *static_cast<std::vector<char>*>(context);
-  out.insert(out.end(), bytes, bytes + size);
-}
-
-void append_text(void* context, const char* bytes, std::size_t size) {
-  static_cast<std::string*>(context)->append(bytes, size);
 }
 
 /// Alpha that is 1 everywhere is not in the file.
