@@ -139,7 +139,7 @@ TEST_CASE("asset: what cannot be done is said, and leaves no folder") {
   write_bytes(mesh, "v 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n");  // a lattice about it is a cube
   const Ended fine = asset({"--resolution", "2000"});
   CHECK(fine.code == 2);
-  CHECK_THAT(fine.err, Contains("--resolution: voxel is "));
+  CHECK_THAT(fine.err, Contains("--resolution is 2000: it must be about "));
   write_bytes(mesh, obj_text(icosphere(1)));
   CHECK_FALSE(fs::exists(out));
   write_bytes(out, "a file");

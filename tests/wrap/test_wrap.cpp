@@ -187,6 +187,34 @@ TEST_CASE("wrap: a voxel or distance beyond what doubles measure is refused, wha
   }
 }
 
+TEST_CASE("wrap: whose lattice is too fine is told what would do, of the option it comes from") {
+  const auto refusal = [](const WrapOptions& options) -> std::string {
+    try {
+      wrap_soup(sheet(), options);
+    } catch (const VoxelError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const auto number_in = [](const std::string& text) {
+    const std::string words = "it must be about ";
+    return std::stod(text.substr(text.find(words) + words.size()));
+  };
+  const auto begins = [](WrapOptions options) {  // with what takes time
+    options.progress = [](std::string_view, double) { return false; };
+    CHECK_THROWS_AS(wrap_soup(sheet(), options), Cancelled);
+  };
+  const std::string fine = refusal({.resolution = 50'000});
+  CHECK_THAT(fine, Catch::StartsWith("resolution is 50000: ") && Catch::Contains(" or less here"));
+  begins({.resolution = static_cast<int>(number_in(fine))});
+  const std::string near = refusal({.distance = 1e-5});
+  CHECK_THAT(near, Catch::StartsWith("distance is 1e-05: ") && Catch::Contains(" or more here"));
+  begins({.distance = 1.01 * number_in(near)});
+  const std::string far = refusal({.distance = 20});
+  CHECK_THAT(far, Catch::StartsWith("voxel is 0.0234") && Catch::Contains(" or more here"));
+  begins({.voxel = 1.01 * number_in(far), .distance = 20});
+}
+
 TEST_CASE("wrap: gives up when told to") {
   CHECK_THROWS_AS(wrap_soup(sheet(), {.progress = [](std::string_view, double) { return false; }}),
                   Cancelled);

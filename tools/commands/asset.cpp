@@ -93,7 +93,7 @@ RemadeAsset remade(const MeshSource& asset, const std::string& folder,
   throw UsageMistake(std::string("--size: ") + error.what());
 } catch (const VoxelError& error) {
   // How fine a lattice can be the mesh decides: no domain of the option says so before.
-  throw UsageMistake(std::string("--resolution: ") + error.what());
+  throw UsageMistake(std::string("--") + error.what());
 } catch (const MeshError& error) {
   throw ReadError(display_name(asset.path), error.defects().front().message);
 }

@@ -46,12 +46,6 @@ void require_sensible(const WrapArguments& arguments) {
   check_places({{"-o", arguments.output}, {"--json", arguments.json}});
 }
 
-/// What is to be given otherwise where a voxel is too small.
-std::string option_of_voxel(const WrapOptions& options) {
-  if (options.voxel > 0) return "--";  // the message begins with its name
-  return options.resolution > 0 ? "--resolution: " : "--distance: ";
-}
-
 /// Throws: UsageMistake for what of the options does not suit the mesh, ReadError for a mesh
 /// without places.
 Wrap wrapped(const WrapArguments& arguments, const MeshFile& soup, Session& session) try {
@@ -61,8 +55,6 @@ Wrap wrapped(const WrapArguments& arguments, const MeshFile& soup, Session& sess
   return wrap_soup(soup.mesh, options);
 } catch (const MeshError& error) {
   throw ReadError(display_name(arguments.input), error.defects().front().message);
-} catch (const VoxelError& error) {
-  throw UsageMistake(option_of_voxel(arguments.options) + error.what());
 } catch (const std::invalid_argument& error) {
   throw UsageMistake(std::string("--") + error.what());
 }

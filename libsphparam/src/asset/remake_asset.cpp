@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 
 #include "asset/asset_page.h"
 #include "asset/soup.h"
@@ -163,10 +164,6 @@ class Remaker {
   std::string stem_;
   RemadeAsset remade_;
 };
-
-}  // namespace
-
-namespace {
 
 /// Takes images that cannot be used from the materials, which keep their factors; tells of each.
 std::vector<std::string> drop_unusable_images(MeshFile& file) {

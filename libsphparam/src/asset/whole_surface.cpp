@@ -143,7 +143,9 @@ class Chooser {
     source.inspection = inspect_mesh(wrap.mesh);
     source.topology.emplace(wrap.mesh);
     std::optional<MappedMesh> mapped = mapped_with_chart(std::move(source));
-    if (!mapped) throw NotCertifiedError(asset_.path + ": the chart of its wrap is not one-to-one");
+    if (!mapped)
+      throw NotCertifiedError(
+          asset_.path + ": the chart of its wrap is not one-to-one: another --resolution may do");
     return whole(*std::move(mapped), WholeBy::Wrap);
   }
 

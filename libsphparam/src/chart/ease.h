@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <vector>
 
@@ -30,7 +31,7 @@ class Easing {
   double cost_around(Vertex v) const;
   bool ease(Vertex v);
   double longest_spoke(Vertex v) const;
-  bool try_place(Vertex v, const SheetPoint& p, double& least);
+  bool try_place(Vertex v, const SheetPoint& p, double& lowest);
 
   Sheet& sheet_;
   std::deque<Vertex> waiting_;

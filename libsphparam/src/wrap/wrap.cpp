@@ -101,19 +101,50 @@ Vector3 points_of_lattice(const Box& box, double voxel, double distance) {
   return (inside.array().ceil() + 2 * room(voxel, distance) + 1).matrix();
 }
 
-[[noreturn]] void refuse_voxel(const Box& box, double voxel, double distance) {
+/// Is a voxel as large as it is because the distance is small?
+bool follows_from_distance(const WrapOptions& options, double voxel) {
+  return options.voxel == 0 && options.resolution == 0 &&
+         usual_distance * voxel == options.distance;
+}
+
+/// Of those larger than one that is too small the first that is not, about.
+double least_voxel(const Box& box, const WrapOptions& options, double voxel) {
   constexpr double step = 1.02;
-  double least = voxel;
-  while (points_of_lattice(box, least, std::max(distance, least)).prod() > most_points)
-    least *= step;
-  throw VoxelError("voxel is " + shortest(voxel) + ": it must be about " + short_number(least) +
-                   " or more here, for a lattice of at most " + short_number(most_points / 1e6) +
+  const bool distance_stays = options.distance > 0 && !follows_from_distance(options, voxel);
+  const auto too_many = [&] {
+    const double distance =
+        distance_stays ? std::max(options.distance, voxel) : usual_distance * voxel;
+    return points_of_lattice(box, voxel, distance).prod() > most_points;
+  };
+  while (too_many()) voxel *= step;
+  return voxel;
+}
+
+/// "OPTION is VALUE: it must be about WANTED", of the option that a voxel comes from.
+std::string wanted_for_voxel(const WrapOptions& options, double voxel, double least) {
+  const auto say = [](const std::string& option, const std::string& value,
+                      const std::string& wanted) {
+    return option + " is " + value + ": it must be about " + wanted;
+  };
+  if (options.resolution > 0) {
+    const auto most = static_cast<long>(options.resolution * voxel / least);
+    return say("resolution", std::to_string(options.resolution), std::to_string(most) + " or less");
+  }
+  if (follows_from_distance(options, voxel))
+    return say("distance", shortest(options.distance),
+               short_number(usual_distance * least) + " or more");
+  return say("voxel", shortest(voxel), short_number(least) + " or more");
+}
+
+[[noreturn]] void refuse_voxel(const Box& box, const WrapOptions& options, double voxel) {
+  throw VoxelError(wanted_for_voxel(options, voxel, least_voxel(box, options, voxel)) +
+                   " here, for a lattice of at most " + short_number(most_points / 1e6) +
                    " million points");
 }
 
-Lattice lattice_about(const Box& box, double voxel, double distance) {
+Lattice lattice_about(const Box& box, const WrapOptions& options, double voxel, double distance) {
   const Vector3 points = points_of_lattice(box, voxel, distance);
-  if (points.prod() > most_points) refuse_voxel(box, voxel, distance);
+  if (points.prod() > most_points) refuse_voxel(box, options, voxel);
   const Vector3 first = Vector3::Constant(room(voxel, distance) * voxel);
   Lattice lattice = {box.lower - first, voxel, {}};
   for (int axis = 0; axis < 3; ++axis) lattice.points[axis] = static_cast<int>(points[axis]);
@@ -195,7 +226,7 @@ Wrap wrap_soup(const TriangleMesh& soup, const WrapOptions& options) {
   require_regular(box, wrap.voxel);
   wrap.distance = options.distance > 0 ? options.distance : usual_distance * wrap.voxel;
   require_at_least("distance", wrap.distance, wrap.voxel);
-  const Lattice lattice = lattice_about(box, wrap.voxel, wrap.distance);
+  const Lattice lattice = lattice_about(box, options, wrap.voxel, wrap.distance);
   wrap.lattice = lattice.points;
   wrap.mesh = surface_about(soup, lattice, options, wrap);
   require_sphere(wrap.mesh);

@@ -27,8 +27,9 @@ struct WrapOptions {
   Progress progress = {};
 };
 
-/// A voxel that is too small for a lattice about the soup. Where `voxel` is 0 it followed from
-/// `resolution` or `distance`.
+/// A voxel that is too small for a lattice about the soup. The message names what it follows from,
+/// `resolution` where that is given, `distance` where that is small, else `voxel`, and about what
+/// would do.
 class VoxelError : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;
