@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "../chart/maps.h"
+#include "image/image_codec.h"
 #include "sphparam/bake/bake.h"
 #include "sphparam/gltf/export.h"
 #include "sphparam/io/mesh_reader.h"
@@ -308,6 +309,18 @@ TEST_CASE("export: what of a look an .obj has no words for is told") {
         Names{"said before",
               "not carried: the image normal, how alpha is meant and KHR_materials_clearcoat: .glb "
               "and .gltf have room for that"});
+}
+
+TEST_CASE("export: what an image says of its light is taken if it is a number of glTF's") {
+  const Place place;
+  const auto strength = [&](const std::string& said) {
+    ExportOptions options = small;
+    options.look.emissive = place / "emissive.png";
+    write_image(options.look.emissive, Image(4, 2, 3), {.metadata = {{"sphparam:strength", said}}});
+    return make_look(mapped_egg(1), options).materials.front().emissive_strength;
+  };
+  CHECK(strength("2.5") == 2.5);
+  for (const char* said : {"nan", "inf", "-1", "1e999", "bright", ""}) CHECK(strength(said) == 1);
 }
 
 TEST_CASE("export: a look that cannot be is an error that says why") {

@@ -5,23 +5,18 @@
 #include "image/bmp.h"
 #include "image/image_codec.h"
 #include "image/mutants.h"
+#include "image/samples.h"
 
 using namespace sphparam;
 using Catch::Detail::Approx;
 using Catch::Matchers::Contains;
-using sphparam::tests::check_mutants;
+using namespace sphparam::tests;
 
 namespace {
 
 std::string little(std::uint64_t value, int bytes) {
   std::string text;
   for (int i = 0; i < bytes; ++i) text.push_back(static_cast<char>(value >> (8 * i)));
-  return text;
-}
-
-std::string bytes(std::initializer_list<int> values) {
-  std::string text;
-  for (const int value : values) text.push_back(static_cast<char>(value));
   return text;
 }
 
@@ -46,15 +41,6 @@ struct Bmp {
 Image read(const std::string& text, const ImageLimits& limits = {}) {
   return decode_image({text.begin(), text.end()}, "skin.bmp", limits);
 }
-
-/// Samples in 255ths, row after row.
-std::vector<int> samples(const Image& image) {
-  std::vector<int> all;
-  for (const float x : image.pixels) all.push_back(static_cast<int>(x * 255 + 0.5F));
-  return all;
-}
-
-using Samples = std::vector<int>;
 
 const std::string black_red_green_blue =
     bytes({0, 0, 0, 0, 0, 0, 255, 0, 0, 255, 0, 0, 255, 0, 0, 0});
@@ -186,6 +172,8 @@ TEST_CASE("bmp: whatever is wrong in a file, it is read or refused") {
   const std::string masks = little(0xf800, 4) + little(0x07e0, 4) + little(0x001f, 4);
   const std::vector<std::string> files = {
       runs.text(), Bmp{2, 2, 16, 3, masks, bytes({1, 2, 3, 4, 5, 6, 7, 8})}.text(),
-      Bmp{3, 1, 4, 0, black_red_green_blue, bytes({0x13, 0, 0, 0})}.text()};
+      Bmp{3, 1, 4, 0, black_red_green_blue, bytes({0x13, 0, 0, 0})}.text(),
+      Bmp{5, 2, 4, 2, black_red_green_blue, bytes({3, 0x12, 0, 0, 0, 3, 0x12, 0x30, 0, 1})}.text(),
+      Bmp{1, 1, 32, 0, "", bytes({1, 2, 3, 4}), std::string(84, '\0')}.text()};
   check_mutants(files, 14, [](const std::string& file) { return read(file); });
 }

@@ -4,19 +4,14 @@
 
 #include "image/image_codec.h"
 #include "image/mutants.h"
+#include "image/samples.h"
 #include "image/targa.h"
 
 using namespace sphparam;
 using Catch::Matchers::Contains;
-using sphparam::tests::check_mutants;
+using namespace sphparam::tests;
 
 namespace {
-
-std::string bytes(std::initializer_list<int> values) {
-  std::string text;
-  for (const int value : values) text.push_back(static_cast<char>(value));
-  return text;
-}
 
 struct Targa {
   int type, width, height, bits;
@@ -36,15 +31,6 @@ struct Targa {
 
 Image read(const std::string& text, const ImageLimits& limits = {}) {
   return decode_image({text.begin(), text.end()}, "skin.tga", limits);
-}
-
-using Samples = std::vector<int>;
-
-/// In 255ths, row after row.
-Samples samples(const Image& image) {
-  Samples all;
-  for (const float x : image.pixels) all.push_back(static_cast<int>(x * 255 + 0.5F));
-  return all;
 }
 
 const Targa two_by_two = {2, 2, 2, 24, bytes({1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12})};
@@ -151,6 +137,9 @@ TEST_CASE("targa: a head in which a field makes no sense is that of another form
 }
 
 TEST_CASE("targa: whatever is wrong in a file, it is read or refused") {
-  const std::vector<std::string> files = {two_by_two.text(), of_runs.text(), of_palette.text()};
+  const Targa with_alpha = {10, 2, 1, 32, bytes({0x00, 1, 2, 3, 4, 0x80, 5, 6, 7, 8})};
+  const std::vector<std::string> files = {two_by_two.text(), of_runs.text(), of_palette.text(),
+                                          with_alpha.text(),
+                                          Targa{3, 1, 1, 16, bytes({7, 200})}.text()};
   check_mutants(files, 0, [](const std::string& file) { return read(file); });
 }

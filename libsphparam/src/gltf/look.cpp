@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <optional>
 
 #include "bake/baked_chart.h"
@@ -50,9 +51,11 @@ void require_known(const std::vector<std::string>& names) {
   }
 }
 
+/// What a text says, if that is a number that glTF takes.
 double number_in(std::string_view text, double otherwise) {
-  std::from_chars(text.data(), text.data() + text.size(), otherwise);
-  return otherwise;
+  double number = -1;
+  std::from_chars(text.data(), text.data() + text.size(), number);
+  return number >= 0 && std::isfinite(number) ? number : otherwise;
 }
 
 /// How an image of the base colour says that its alpha and its surfaces are seen.

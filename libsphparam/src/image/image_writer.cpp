@@ -194,23 +194,29 @@ void ImageWriter::State::read_back() {
   }
 }
 
-ImageWriter::ImageWriter(const ImageFileOptions& options, ImagePlace file)
-    : state_(std::make_unique<State>(State{options, std::move(file)})) {
+namespace {
+
+/// Throws: ImageError for what the format has no room for.
+void require_room(const ImageFileOptions& options) {
   const std::string name = name_of(options.format);
-  if (options.width <= 0 || options.height <= 0 || options.channels <= 0) {
+  if (options.width <= 0 || options.height <= 0 || options.channels <= 0)
     throw ImageError("an image without pixels cannot be written");
-  }
-  if (std::ranges::count(sample_types_of(options.format), options.sample_type) == 0) {
+  if (std::ranges::count(sample_types_of(options.format), options.sample_type) == 0)
     throw ImageError(name + " images have no samples of type " + name_of(options.sample_type));
-  }
   if (options.channels > most_channels(options.format)) {
     throw ImageError(name + " images have at most " +
                      std::to_string(most_channels(options.format)) + " channels, not " +
                      std::to_string(options.channels));
   }
-  if (options.tiles && options.format != ImageFormat::Exr) {
+  if (options.tiles && options.format != ImageFormat::Exr)
     throw ImageError(name + " images have no levels");
-  }
+}
+
+}  // namespace
+
+ImageWriter::ImageWriter(const ImageFileOptions& options, ImagePlace file)
+    : state_(std::make_unique<State>(State{options, std::move(file)})) {
+  require_room(options);
   std::vector<const char*> metadata;
   for (const auto& [key, value] : options.metadata) {
     metadata.insert(metadata.end(), {key.c_str(), value.c_str()});
