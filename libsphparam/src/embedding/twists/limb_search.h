@@ -17,7 +17,7 @@ class LimbSearch {
   explicit LimbSearch(const Topology& topology);
 
   /// Another limb; empty: there is none left. Hubs (`LoopSearch::is_hub`) are in no limb.
-  /// Cost: of all limbs together O(#V), where few balls overlap.
+  /// Cost: of all limbs together O(#V log #V), about 1 µs a vertex.
   Limb next();
 
  private:

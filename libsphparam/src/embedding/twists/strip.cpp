@@ -9,6 +9,9 @@
 #include "elementary.h"
 #include "sphere/solid_angle.h"
 
+// Few turns come into question: by one vertex or two either way, about the middle of the image of
+// either layer. Each is tried on the strip's own triangles.
+
 namespace sphparam {
 namespace {
 
@@ -80,7 +83,6 @@ std::optional<Strip> Strip::between(const Topology& topology, const RestTriangle
   return strip;
 }
 
-/// About the middle of either layer, by one vertex of it or two.
 std::optional<Matrix3> Strip::better_turn(const DistortionEnergy& energy) const {
   double least = (1 - least_gain) * triangles_.energy(points_, energy);
   const double covered = solid_angle(points_);
