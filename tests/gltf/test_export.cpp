@@ -327,6 +327,12 @@ TEST_CASE("export: a look that cannot be is an error that says why") {
   ExportOptions options = small;
   options.look.variants = {"chekcer"};
   CHECK_THROWS_AS(make_look(mapped_egg(1), options), LookError);
+  const Place place;
+  options = small;
+  options.look.texture = place / "map.png";
+  write_image(options.look.texture, Image(4, 2, 3), {.metadata = {{"sphparam:convention", "gis"}}});
+  CHECK_THROWS_WITH(make_look(mapped_egg(1), options),
+                    Catch::EndsWith("--convention gis shows it as it is"));
 }
 
 }  // namespace sphparam::tests

@@ -145,9 +145,10 @@ class LookMaker {
     if (baked && *baked != options_.refine_poles) throw ImageOfOtherChart(path, *baked);
     const std::optional<Convention> convention = baked_convention_of(texts);
     if (convention && *convention != options_.convention) {
-      throw LookError(display_name(path) + " is baked in the convention " +
-                      info_of(*convention).name + ", and would be shown in " +
-                      info_of(options_.convention).name);
+      const std::string baked_in = info_of(*convention).name;
+      throw LookError(display_name(path) + " is baked in the convention " + baked_in +
+                      ", and would be shown in " + info_of(options_.convention).name +
+                      ": --convention " + baked_in + " shows it as it is");
     }
     return add(std::move(image));
   }
