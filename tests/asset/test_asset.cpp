@@ -231,12 +231,18 @@ TEST_CASE("remake asset: a channel whose image cannot be read is told, the other
   asset.file.channels[0].emission.image = "glow.ktx2";
   asset.file.channels[0].emission.bytes =
       std::make_shared<const std::vector<char>>(std::vector<char>{'?', '?', '?', '?'});
+  std::vector<char> half = encode_image(Image(8, 8, 3), ImageFormat::Png);
+  half.resize(half.size() / 2);
+  asset.file.channels[0].normal.image = "half.png";
+  asset.file.channels[0].normal.bytes = std::make_shared<const std::vector<char>>(half);
   RemakeOptions options{.whole = coarse(), .width = 64};
   options.page = false;
   PendingFiles files;
   const RemadeAsset made = remake_asset(asset, folder.path.string(), options, files);
-  REQUIRE(made.warnings.size() == 1);
+  REQUIRE(made.warnings.size() == 2);
   CHECK_THAT(made.warnings[0], Catch::StartsWith("not carried: glow.ktx2 of material paint: "));
+  CHECK_THAT(made.warnings[1],
+             Catch::StartsWith("not carried: half.png of material paint: broken: "));
   CHECK(made.baked.images.size() == 3);  // the emission has its factor
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <map>
 
 #include "asset/asset_page.h"
 #include "asset/soup.h"
@@ -168,8 +169,11 @@ class Remaker {
 /// Takes images that cannot be used from the materials, which keep their factors; tells of each.
 std::vector<std::string> drop_unusable_images(MeshFile& file) {
   std::vector<std::string> told;
+  std::map<std::string, std::string> known;  // by the name of an image: why not
   const auto check = [&](MaterialTexture& texture, size_t material) {
-    const std::string why = why_unusable(texture);
+    const auto [found, is_new] = known.try_emplace(texture.image);
+    if (is_new) found->second = why_unusable(texture);
+    const std::string& why = found->second;
     if (why.empty()) return;
     told.push_back("not carried: " + texture.image + " of material " + file.materials[material] +
                    ": " + why);

@@ -97,9 +97,13 @@ std::string why_unusable(const MaterialTexture& texture) try {
     const std::string why = why_unusable(parts->diffuse);
     return why.empty() ? why_unusable(parts->specular) : why;
   }
-  return is_image(bytes_of(texture)) ? "" : "its format is not read";
+  const std::vector<char> bytes = bytes_of(texture);
+  if (!is_image(bytes)) return "its format is not read";
+  decode_image(bytes, "broken");
+  return "";
 } catch (const std::runtime_error& error) {
-  return error.what();
+  const std::string why = error.what();
+  return why.substr(0, why.find('\n'));
 }
 
 SourceTexture read_texture(const std::string& path, TextureWrap wrap, int threads) {

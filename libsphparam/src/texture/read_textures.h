@@ -20,8 +20,8 @@ SourceTexture read_texture(const std::string& path, TextureWrap wrap, int thread
 /// Throws: ImageError that names material and image, for one that is missing, broken or unusable.
 std::vector<SourceTexture> read_textures(const MeshFile& file, int threads);
 
-/// Why a material's image cannot be used, as far as is known before it is decoded: it is not there,
-/// or of no kind that is read; empty where there is none, or nothing against it.
+/// Why a material's image cannot be used, in a line: it is not there, of no kind that is read, or
+/// broken; empty where there is none, or nothing against it. Cost: that of decoding it.
 std::string why_unusable(const MaterialTexture& texture);
 
 /// Whether images hold colours, which are sRGB, or numbers.
