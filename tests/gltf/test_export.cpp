@@ -333,6 +333,11 @@ TEST_CASE("export: a look that cannot be is an error that says why") {
   write_image(options.look.texture, Image(4, 2, 3), {.metadata = {{"sphparam:convention", "gis"}}});
   CHECK_THROWS_WITH(make_look(mapped_egg(1), options),
                     Catch::EndsWith("--convention gis shows it as it is"));
+  options = small;
+  options.look.folder = place.folder.string();
+  for (const char* name : {"a_ao.png", "b_ao.png"}) write_image(place / name, Image(4, 2, 1));
+  CHECK_THROWS_WITH(make_look(mapped_egg(1), options),
+                    Catch::EndsWith("a_ao.png, b_ao.png: leave one of them there"));
 }
 
 }  // namespace sphparam::tests

@@ -262,7 +262,7 @@ class Settling {
   std::vector<char> near_ = std::vector<char>(static_cast<size_t>(sheet_.vertex_count()), 0);
 };
 
-/// Further than its nearest place on the grid.
+/// By more than rounding to the grid does.
 bool has_moved(const SheetPoint& now, const SheetPoint& before) {
   return std::abs(now.x - before.x) > 1 || std::abs(now.y - before.y) > 1;
 }

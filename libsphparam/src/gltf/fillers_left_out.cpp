@@ -7,6 +7,7 @@
 // The chart is of the whole sphere, and proved so; what is shown is the surface.
 
 namespace sphparam {
+
 FillerMarks fillers_of_chart(const SphericalChart& chart, const FillerMarks& of_source) {
   if (of_source.empty()) return {};
   FillerMarks fillers;

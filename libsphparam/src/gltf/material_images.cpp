@@ -35,7 +35,7 @@ std::string find_one(const std::vector<fs::path>& files, const std::string& fold
     if (!found.empty()) {
       throw ReadError(folder, "holds more than one image of '" + map +
                                   "': " + fs::path(found).filename().string() + ", " +
-                                  file.filename().string());
+                                  file.filename().string() + ": leave one of them there");
     }
     found = file.string();
   }

@@ -12,9 +12,8 @@ struct Shape {
   ShadingFrame frame;
 };
 
-/// The mesh itself, turned upright; with z up, (x, y, z) becomes (x, z, −y). `mesh_normals` #V×3,
-/// unit
-/// (`shading_normals`).
+/// The mesh itself, turned upright; with z up, (x, y, z) becomes (x, z, −y). `mesh_normals`: #V×3,
+/// unit (`shading_normals`).
 Shape mesh_shape(const SphericalChart& chart, const TriangleMesh& mesh, const Points& mesh_normals,
                  const UprightAxes& up, int threads = 0);
 

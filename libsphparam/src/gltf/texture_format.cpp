@@ -38,7 +38,7 @@ bool is_webp(TextureFormat format) {
 }
 
 /// Without the alpha of an image that is opaque all over.
-Image without_empty_alpha(const Image& image) {
+Image without_opaque_alpha(const Image& image) {
   Image opaque(image.width, image.height, 3);
   for (std::size_t i = 0; i < image.pixels.size() / 4; ++i) {
     if (image.pixels[4 * i + 3] != 1) return image;
@@ -58,7 +58,7 @@ Encoded encoded(const std::vector<char>& bytes, bool exact) {
 
 /// Nothing where there is alpha.
 std::optional<Encoded> as_jpeg(const Image& given) {
-  const Image image = given.channels == 4 ? without_empty_alpha(given) : given;
+  const Image image = given.channels == 4 ? without_opaque_alpha(given) : given;
   if (image.channels % 2 == 0) return std::nullopt;
   return encoded(encode_image(image, ImageFormat::Jpeg), false);
 }
