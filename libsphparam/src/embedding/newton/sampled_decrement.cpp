@@ -130,7 +130,7 @@ class Patch {
       const TriangleTerms& terms = terms_[at(t / pack_width)];
       const int lane = t % pack_width;
       for (int k = 0; k < 3; ++k) {
-        const int v = triangles_.corner(t, k), w = triangles_.corner(t, (k + 1) % 3);
+        const int v = triangles_.corner(t, k);
         if (v >= free_) continue;
         for (int i = 0; i < 2; ++i) {
           gradient_[2 * v + i] += unit_[at(v)] * terms.gradient[k][i][lane];
