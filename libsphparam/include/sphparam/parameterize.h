@@ -101,8 +101,9 @@ struct RadialRecord {
   double largest_movement = 0;  // of a vertex, in radians
 };
 
-// That nobody is told of, and with Quality::Best.
-constexpr double greatest_energy_gap = 0.01, greatest_gap_of_best = 1e-3;
+// That nobody is told of: with Quality::Normal, Draft and Best.
+constexpr double greatest_energy_gap = 0.01, greatest_gap_of_draft = 0.05,
+                 greatest_gap_of_best = 1e-3;
 
 struct Parameterization {
   SphereMap map;
@@ -112,10 +113,10 @@ struct Parameterization {
   /// Share by which the poles (and pins) of a finished map raised its energy; 0 where none were
   /// tried.
   double pole_cost = 0;
-  /// Of a map that the progressive embedding made for a λ near 1, but with Quality::Draft: an
-  /// estimate of the share of its energy that more steps would take, made on the mesh itself; 0 is
-  /// converged. A warning tells of more than `greatest_energy_gap`, with
-  /// Quality::Best of more than `greatest_gap_of_best`. It knows of no other minimum.
+  /// Of a map that the progressive embedding made for a λ near 1, with Quality::Draft only of a
+  /// shape with protrusions: an estimate of the share of its energy that more steps would take,
+  /// made on the mesh itself; 0 is converged. A warning tells of more than the greatest for its
+  /// quality (above). It knows of no other minimum.
   std::optional<double> energy_gap;
   /// Of Method::Progressive with a `balance` to find, or a λ far from 1; empty where none was made.
   std::optional<BalanceRecord> balance;
@@ -123,7 +124,7 @@ struct Parameterization {
   /// With `align_to`: the angle left between the map and these directions, in radians; root of the
   /// mean of squares over the surface.
   std::optional<double> alignment;
-  std::optional<Vertex> meridian;  // a vertex with θ = 0 that was asked for or chosen
+  std::optional<Vertex> meridian;      // a vertex with θ = 0 that was asked for or chosen
   std::optional<double> filler_share;  // of the sphere, where there are fillers
   /// Per pin, radians from its point; 0: exactly there. Of pins that were not tried, too.
   std::vector<double> pin_residuals;

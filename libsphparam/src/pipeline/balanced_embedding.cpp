@@ -64,6 +64,11 @@ SphereMap balance(MapInProgress& work, const SphereMap& map, double from_lambda,
   return std::move(result.map);
 }
 
+double greatest_gap_of(Quality quality) {
+  if (quality == Quality::Best) return greatest_gap_of_best;
+  return quality == Quality::Draft ? greatest_gap_of_draft : greatest_energy_gap;
+}
+
 /// Three digits, as people read.
 std::string figure(double value) {
   std::ostringstream text;
@@ -118,7 +123,7 @@ void warn_of_balance(MapInProgress& work) {
 void warn_of_gap(MapInProgress& work) {
   const std::optional<double>& gap = work.result.energy_gap;
   const bool best = work.options.quality == Quality::Best;
-  if (!gap || *gap <= (best ? greatest_gap_of_best : greatest_energy_gap)) return;
+  if (!gap || *gap <= greatest_gap_of(work.options.quality)) return;
   const std::string share = figure(100 * *gap) + " %";
   work.warn(*gap < 0.5 ? "the map is not at its least energy: about " + share + " of it is left" +
                              (best ? ": quality best stopped before it converged"

@@ -22,7 +22,7 @@ SphereMap with_fillers_pressed(MapInProgress& work, SphereMap map, const std::ve
 /// `work.result.balance` gets that of the finished map.
 void warn_of_balance(MapInProgress& work);
 
-/// Warns where steps have left more of the energy than `greatest_energy_gap`.
+/// Warns where steps have left more of the energy than is the greatest for the quality.
 void warn_of_gap(MapInProgress& work);
 
 /// `work.result.filler_share` is that of the finished map; warns where it is more than was asked

@@ -4,10 +4,11 @@ namespace sphparam {
 
 /// Time against distortion, for methods that minimise it. No map has folds, whatever the quality.
 enum class Quality {
-  Draft,   // relaxed sweeps, Newton steps on coarse levels only: within 1 % of the least energy on
-           // ordinary shapes, 20 % on long protrusions
-  Normal,  // within 1 %, on tubes of 100:1 within 15 %: Newton steps where their gain pays
-  Best,    // converged; on shapes with protrusions the lowest of up to five starts, until two agree
+  Draft,   // within 5 % of the least energy: relaxed sweeps, Newton steps on coarse levels, and of
+           // shapes with protrusions a few on the finest
+  Normal,  // within 1 %: Newton steps where their gain pays, and of shapes that cannot but be much
+           // distorted a second start
+  Best,    // converged; of shapes with protrusions the lowest of up to five starts
 };
 
 /// What a map gives up for what.

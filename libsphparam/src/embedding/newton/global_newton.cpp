@@ -29,7 +29,10 @@ constexpr int most_iterations = 60;
 constexpr double longest_step = 0.7;  // radians, of any vertex
 constexpr double sufficient_decrease = 1e-4;
 constexpr int halvings = 40;
-constexpr double most_expansion = 8;      // of a Newton step: clamped Hessians are too stiff
+constexpr double most_expansion = 8;  // of a Newton step: clamped Hessians are too stiff
+// Of a diagonal block's trace. What floats round off lets the energy of a limb that moves as a
+// whole by many of its own small edges come out negative, and the solver gives up.
+constexpr double certain_curvature = 5e-7;
 constexpr int least_exponent = -60;       // of units: their products are floats
 constexpr double over_relaxation = 1.5;   // of the sweeps
 constexpr std::int64_t sweep_grain = 16;  // packs
@@ -107,6 +110,9 @@ void GlobalNewton::gather_row(int row, const TriangleTerms* terms,
     to_previous[2] += t.off[before][1][lane];
     to_previous[3] += t.off[before][3][lane];
   }
+  const double shift = certain_curvature * (d[0] + d[2]);
+  d[0] += shift;
+  d[2] += shift;
   const double unit = unit_[at(row)];
   const auto store = [](double value, float& to) { to = static_cast<float>(value); };
   for (int e = 0; e < valence; ++e) {

@@ -27,7 +27,7 @@ constexpr double worthwhile = 2e-3;
 constexpr int coarse_steps = 20, finest_steps = 60, best_steps = 300, most_best_steps = 3000;
 constexpr double best_work = 2e6;  // steps × vertices that the best may take where it has few
 // What may be left, relative to the energy. Small meshes cost little: less is left of theirs.
-constexpr double coarse_rest = 6e-3, finest_rest = 5e-3, best_rest = 1e-5;
+constexpr double coarse_rest = 6e-3, draft_rest = 0.03, finest_rest = 5e-3, best_rest = 1e-5;
 constexpr double small_mesh = 5000;                        // vertices
 constexpr double least_ratio = 0.5, greatest_ratio = 0.9;  // of a gain to the one before
 constexpr int sweeps_between = 5;
@@ -43,6 +43,12 @@ int cheap(int finest) { return std::max(1000, finest / 16); }
 
 int most_steps_of_best(int vertices) {
   return static_cast<int>(std::clamp<double>(best_work / vertices, best_steps, most_best_steps));
+}
+
+/// What may be left on a finest level of n vertices.
+double finest_rest_of(Quality quality, int n) {
+  if (quality == Quality::Best) return best_rest;
+  return (quality == Quality::Draft ? draft_rest : finest_rest) * std::min(1.0, n / small_mesh);
 }
 
 /// What steps to come will gain, from the gains so far. In long valleys good steps and poor ones
@@ -81,9 +87,10 @@ void NewtonRefinement::note_sampled_decrement(double share) {
 
 bool NewtonRefinement::due(int vertices) const {
   if (vertices < next_ || vertices < std::min(least_vertices, finest_)) return false;
-  if (options_.quality == Quality::Draft) return vertices < finest_ && vertices <= cheap(finest_);
-  if (vertices == finest_ && (slivers_ || options_.quality == Quality::Best)) return true;
-  return vertices <= cheap(finest_) || !sweeps_suffice();
+  const bool draft = options_.quality == Quality::Draft, finest = vertices == finest_;
+  if (finest && (slivers_ || options_.quality == Quality::Best)) return true;
+  if (vertices <= cheap(finest_) && !(finest && draft)) return true;
+  return (finest || !draft) && !sweeps_suffice();
 }
 
 bool NewtonRefinement::sweeps_suffice() const { return last_gain_ <= worthwhile && !protrusions_; }
@@ -110,9 +117,7 @@ void NewtonRefinement::descend(const TriangleMesh& mesh, const Topology& topolog
   while (next_ <= n && next_ < finest_) next_ = std::min(finest_, growth * next_);
   const bool best = options_.quality == Quality::Best && finest;
   const int most_steps = best ? most_steps_of_best(n) : finest ? finest_steps : coarse_steps;
-  const double rest = best     ? best_rest
-                      : finest ? finest_rest * std::min(1.0, n / small_mesh)
-                               : coarse_rest;
+  const double rest = finest ? finest_rest_of(options_.quality, n) : coarse_rest;
   GlobalNewton newton(topology, measure_source(mesh, options_.threads), image, pinned,
                       options_.threads);
   double done = share.begin;
