@@ -133,7 +133,7 @@ TEST_CASE("progressive: says how much of the energy is left") {
     const auto left = [&](Quality quality) {
       return embed_progressively(mesh, topology, {.quality = quality}).report.energy_left;
     };
-    CHECK_FALSE(left(Quality::Draft));
+    CHECK(left(Quality::Draft).has_value() == (mesh.face_count() != icosphere(4).face_count()));
     REQUIRE(left(Quality::Normal));
     const double gap = 1 - energy_at(mesh, Quality::Best) / energy_at(mesh, Quality::Normal);
     CHECK(*left(Quality::Normal) > gap / 5);
@@ -210,6 +210,6 @@ TEST_CASE("progressive: what was found by another energy is brought near the one
     return distortion_energy(topology, measure_source(mesh), *embedding.map, {});
   };
   const double best = energy_of(Quality::Best);
-  CHECK(energy_of(Quality::Normal) < 1.1 * best);
-  CHECK(energy_of(Quality::Draft) > 1.3 * best);
+  CHECK(energy_of(Quality::Normal) < 1.01 * best);
+  CHECK(energy_of(Quality::Draft) < 1.05 * best);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 #include <utility>
 
 #include "elementary.h"
@@ -38,6 +39,8 @@ constexpr double clearly_lower = 0.95;  // than a map that has not had its steps
 // half of that, slivers twice as much: there angles are kept at the cost of areas that do not come
 // back.)
 constexpr double hopeless = -0.75;
+// Of the progress: the first start where the best is wanted, and any other, of what is left.
+constexpr double part_before_best = 0.3, part_of_start = 0.5;
 constexpr double agreement = 5e-4;  // of two minima's energies: they are one
 
 /// From λ to λ, a few steps at each.
@@ -49,14 +52,49 @@ constexpr Way up{10, 1e-3, 10}, down{0.25, 1e-2, 6};
 constexpr double nearly_conformal = 1e-6, others_nearly_conformal[] = {1e-8, 1e-4};
 constexpr double nearly_equal_area[] = {10, 100, 1000};
 
+/// The progress of an embedding that is made of several: it rises.
+class RisingProgress {
+ public:
+  explicit RisingProgress(const Progress& told) : to_(told) {}
+
+  /// From here on comes a part that is so much of what is left.
+  void begin(double share) {
+    begin_ = reached_;
+    length_ = share * (1 - reached_);
+  }
+  Progress progress() {
+    if (!to_) return {};
+    return [this](std::string_view stage, double fraction) {
+      if (stage == "embedding") reached_ = std::max(reached_, begin_ + length_ * fraction);
+      if (begin_ == 0 && stage != "embedding") return to_(stage, fraction);
+      return to_("embedding", reached_);  // nobody wants to know of a second hierarchy
+    };
+  }
+  void end() { report(to_, "embedding", 1); }
+
+ private:
+  const Progress& to_;
+  double begin_ = 0, length_ = 1, reached_ = 0;
+};
+
 /// Embeds one mesh in several ways, and keeps the lowest map.
 class Starts {
  public:
   Starts(const TriangleMesh& mesh, const Topology& topology, const ProgressiveOptions& options,
          const KeptVertices& keep)
-      : mesh_(mesh), topology_(topology), options_(options), keep_(keep), wanted_(options.energy) {}
+      : mesh_(mesh),
+        topology_(topology),
+        options_(options),
+        keep_(keep),
+        wanted_(options.energy),
+        rising_(options.progress),
+        progress_(rising_.progress()) {
+    rising_.begin(options.quality == Quality::Best ? part_before_best : 1);
+  }
+  Starts(const Starts&) = delete;
+  Starts& operator=(const Starts&) = delete;
 
-  ProgressiveEmbedding first() const { return embed_with_room(wanted_); }
+  ProgressiveEmbedding first() { return embed_with_room(wanted_); }
 
   /// No map: nothing found room.
   ProgressiveEmbedding lowest() {
@@ -64,7 +102,9 @@ class Starts {
     lowest_ = embed_with_room(wanted_, several ? much_energy : infinity);
     if (!lowest_.map) return std::move(lowest_);
     if (several && !lowest_.report.sweeps_sufficed) try_others();
+    rising_.begin(1);
     if (options_.quality == Quality::Best) refine(lowest_, wanted_, Quality::Best);
+    rising_.end();
     return std::move(lowest_);
   }
 
@@ -73,7 +113,7 @@ class Starts {
               Quality quality) const {
     std::vector<ImagePoint> image = image_of(*embedding.map);
     NewtonRefinement refinement(topology_.vertex_count(),
-                                {quality, energy, options_.threads, options_.progress});
+                                {quality, energy, options_.threads, progress_});
     refinement.improve(mesh_, topology_, keep_.vertices, image);
     embedding.map = map_of(image);
     embedding.report.energy_left = refinement.energy_left();
@@ -90,6 +130,7 @@ class Starts {
     ProgressiveOptions how = options_;
     how.energy = energy;
     how.quality = quality;
+    how.progress = progress_;
     return embed_by_levels(mesh_, topology_, how, keep_, demanding);
   }
 
@@ -122,6 +163,7 @@ class Starts {
     for (const double more : nearly_equal_area) {
       if (!other_way && !is_far()) return;
       const double lambda = more * std::max(1.0, wanted_.lambda);
+      rising_.begin(part_of_start);
       ProgressiveEmbedding start = embed_with_room({.lambda = lambda});
       lead(source, start, lambda, down);
       if (keep_lower(source, std::move(start)) == Found::Same) return;
@@ -130,6 +172,7 @@ class Starts {
 
   /// The first map waits for its steps until it is clear that it needs them.
   Found try_nearly_conformal(const RestTriangles& source, double lambda) {
+    rising_.begin(part_of_start);
     ProgressiveEmbedding start = embed({.lambda = lambda}, made_quality());
     lead(source, start, lambda, up);
     if (lowest_.report.demanding &&
@@ -155,7 +198,7 @@ class Starts {
                                 .least_gain = way.least_gain,
                                 .max_steps = way.steps,
                                 .threads = options_.threads,
-                                .progress = options_.progress};
+                                .progress = progress_};
       start.map = optimise(topology_, source, *start.map, how).map;
       const double most = elementary::pow(lambda / wanted_.lambda, hopeless) * first_energy_;
       if (rising && !(energy_of(source, *start.map) <= most)) start.map.reset();
@@ -183,6 +226,8 @@ class Starts {
   const ProgressiveOptions& options_;
   const KeptVertices& keep_;
   const DistortionEnergy wanted_;
+  RisingProgress rising_;
+  const Progress progress_;
   ProgressiveEmbedding lowest_;
   double energy_ = 0, first_energy_ = 0;  // as wanted: of the lowest map, and of the first
 };

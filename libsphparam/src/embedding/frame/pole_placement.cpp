@@ -20,7 +20,9 @@ namespace {
 
 constexpr std::int64_t grain = 8192;
 constexpr double smallest_part = 1e-3;  // of the way: below this a move counts as impossible
-constexpr int rings_to_settle = 3;      // around a pole that was moved by less than an edge
+// Around a pole that was moved by less than an edge; and where layers of long thin triangles lie
+// between it and its place.
+constexpr int rings_to_settle[] = {3, 12};
 constexpr int vertices_an_end = 32;     // of an axis, among which opposite ones are looked for
 constexpr int pairs_tried = 8;
 
@@ -139,11 +141,11 @@ std::vector<std::pair<Vertex, Vertex>> opposite_pairs(const Topology& topology,
 
 /// Moves the south pole to −z as far as it can, relaxing what is around it. The energy gained.
 double bring_down(const Topology& topology, const RestTriangles& source,
-                  const PolePlacementOptions& options, PolePlacement& placement) {
+                  const PolePlacementOptions& options, int rings, PolePlacement& placement) {
   const Vector3 down = -Vector3::UnitZ();
   const Vertex south = placement.south;
   SphereMap& map = placement.map;
-  const std::vector<Vertex> around = rings_around(topology, {south}, rings_to_settle);
+  const std::vector<Vertex> around = rings_around(topology, {south}, rings);
   const double before = energy_around(topology, source, map, around, options.energy);
   for (double part = 1; map.point(south) != down && part > smallest_part;) {
     const Vector3 from = map.point(south);
@@ -207,17 +209,19 @@ std::optional<PolePlacement> place_poles_on_axis(const Topology& topology,
                                                  const PolePlacementOptions& options) {
   require_domain(options);
   require_more_than("axis: squared length", axis.squaredNorm(), 0);
-  for (const auto& [north, south] :
-       opposite_pairs(topology, map, axis, options.no_pole, options.threads)) {
-    report(options.progress, "poles", 0);
-    PolePlacement result{
-        .map = rotated_to_north(map, north, options.threads), .north = north, .south = south};
-    const double gain = bring_down(topology, source, options, result);
-    if (result.map.point(south) != -Vector3::UnitZ()) continue;
-    result.energy_before =
-        distortion_energy(topology, source, map, options.energy, options.threads);
-    result.energy_after = result.energy_before - gain;
-    return result;
+  const auto pairs = opposite_pairs(topology, map, axis, options.no_pole, options.threads);
+  for (const int rings : rings_to_settle) {
+    for (const auto& [north, south] : pairs) {
+      report(options.progress, "poles", 0);
+      PolePlacement result{
+          .map = rotated_to_north(map, north, options.threads), .north = north, .south = south};
+      const double gain = bring_down(topology, source, options, rings, result);
+      if (result.map.point(south) != -Vector3::UnitZ()) continue;
+      result.energy_before =
+          distortion_energy(topology, source, map, options.energy, options.threads);
+      result.energy_after = result.energy_before - gain;
+      return result;
+    }
   }
   return std::nullopt;
 }

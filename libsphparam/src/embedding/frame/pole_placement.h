@@ -29,7 +29,8 @@ struct PolePlacement {
 
 /// Puts the axis of a finished map on z. Of the 32 vertices nearest to either end, the two that are
 /// most nearly opposite become the poles: a rotation brings one to +z, and the other, a fraction of
-/// an edge away from −z, goes there. All but the three rings around it is left as it is.
+/// an edge away from −z, goes there. All but the three rings around it is left
+/// as it is, or all but twelve where three are not enough.
 ///
 /// Ensures: no triangle folds but by rounding in the rotation: certify; same bits for any number of
 ///          threads. Returns nothing where none of the eight best pairs can be brought opposite, or
