@@ -187,8 +187,9 @@ class Embedder {
   }
 
   /// Of the finest level.
-  bool is_demanding() const {
+  bool is_demanding() {
     if (!std::isfinite(demanding_) || refinement_.sweeps_suffice()) return false;
+    packs_ = {};  // no more sweeps
     const RestTriangles source = measure_source(mesh_, options_.threads);
     const double energy =
         distortion_energy(topology_, source, map_of(image_), options_.energy, options_.threads);

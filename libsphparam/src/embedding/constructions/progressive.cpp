@@ -150,14 +150,13 @@ class Starts {
   }
 
   void try_others() {
-    const RestTriangles source = measure_source(mesh_, options_.threads);
-    energy_ = first_energy_ = energy_of(source, *lowest_.map);
+    energy_ = first_energy_ = energy_of(*lowest_.map);
     const bool best = options_.quality == Quality::Best;
     Found found = Found::Same;
-    if (best || lowest_.report.demanding) found = try_nearly_conformal(source, nearly_conformal);
+    if (best || lowest_.report.demanding) found = try_nearly_conformal(nearly_conformal);
     for (const double lambda : others_nearly_conformal) {
       if (!best || found != Found::Lower) break;
-      if (try_nearly_conformal(source, lambda) == Found::Same) return;
+      if (try_nearly_conformal(lambda) == Found::Same) return;
     }
     const bool other_way = best && found == Found::Higher;
     for (const double more : nearly_equal_area) {
@@ -165,31 +164,30 @@ class Starts {
       const double lambda = more * std::max(1.0, wanted_.lambda);
       rising_.begin(part_of_start);
       ProgressiveEmbedding start = embed_with_room({.lambda = lambda});
-      lead(source, start, lambda, down);
-      if (keep_lower(source, std::move(start)) == Found::Same) return;
+      lead(start, lambda, down);
+      if (keep_lower(std::move(start)) == Found::Same) return;
     }
   }
 
   /// The first map waits for its steps until it is clear that it needs them.
-  Found try_nearly_conformal(const RestTriangles& source, double lambda) {
+  Found try_nearly_conformal(double lambda) {
     rising_.begin(part_of_start);
     ProgressiveEmbedding start = embed({.lambda = lambda}, made_quality());
-    lead(source, start, lambda, up);
+    lead(start, lambda, up);
     if (lowest_.report.demanding &&
-        !(start.map && energy_of(source, *start.map) < clearly_lower * energy_)) {
+        !(start.map && energy_of(*start.map) < clearly_lower * energy_)) {
       refine(lowest_, wanted_, made_quality());
-      energy_ = energy_of(source, *lowest_.map);
+      energy_ = energy_of(*lowest_.map);
     }
     lowest_.report.demanding = false;
-    return keep_lower(source, std::move(start));
+    return keep_lower(std::move(start));
   }
 
   /// Not a number: nobody knows.
   bool is_far() const { return !(lowest_.report.energy_left.value_or(0) < far_from_energy); }
 
   /// From the λ by which a map was made to the energy wanted. No map: it is not worth it.
-  void lead(const RestTriangles& source, ProgressiveEmbedding& start, double lambda,
-            const Way& way) const {
+  void lead(ProgressiveEmbedding& start, double lambda, const Way& way) const {
     const bool rising = way.factor > 1;
     while (start.map) {
       lambda *= way.factor;
@@ -199,16 +197,16 @@ class Starts {
                                 .max_steps = way.steps,
                                 .threads = options_.threads,
                                 .progress = progress_};
-      start.map = optimise(topology_, source, *start.map, how).map;
+      start.map = optimise(topology_, source(), *start.map, how).map;
       const double most = elementary::pow(lambda / wanted_.lambda, hopeless) * first_energy_;
-      if (rising && !(energy_of(source, *start.map) <= most)) start.map.reset();
+      if (rising && !(energy_of(*start.map) <= most)) start.map.reset();
     }
     if (start.map) refine(start, wanted_, made_quality());
   }
 
-  Found keep_lower(const RestTriangles& source, ProgressiveEmbedding start) {
+  Found keep_lower(ProgressiveEmbedding start) {
     if (!start.map) return Found::Higher;
-    const double energy = energy_of(source, *start.map);
+    const double energy = energy_of(*start.map);
     const bool same = std::abs(energy - energy_) <= agreement * energy_;
     if (!(energy < energy_)) return same ? Found::Same : Found::Higher;
     energy_ = energy;
@@ -217,9 +215,12 @@ class Starts {
     return same ? Found::Same : Found::Lower;
   }
 
-  double energy_of(const RestTriangles& source, const SphereMap& map) const {
-    return distortion_energy(topology_, source, map, wanted_, options_.threads);
+  double energy_of(const SphereMap& map) const {
+    return distortion_energy(topology_, source(), map, wanted_, options_.threads);
   }
+
+  /// Measured whenever it is needed: cheaper than its room while levels are embedded.
+  RestTriangles source() const { return measure_source(mesh_, options_.threads); }
 
   const TriangleMesh& mesh_;
   const Topology& topology_;
