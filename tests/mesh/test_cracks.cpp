@@ -95,6 +95,21 @@ TEST_CASE("cracks: a tolerance larger than the faces takes no face's vertices to
   }
 }
 
+TEST_CASE(
+    "cracks: a hole without extent is mended as any other, however small it is beside the mesh") {
+  TriangleMesh mesh = icosphere(2);
+  const Eigen::RowVector3i corners = mesh.triangles.row(0);
+  for (const double extent : {0.0, 1e-30, 1e-12}) {
+    for (int k = 0; k < 3; ++k)
+      mesh.positions.row(corners[k]) << extent * (k == 1), extent * (k == 2), 1;
+    TriangleMesh open = mesh;
+    open.triangles = mesh.triangles.bottomRows(mesh.face_count() - 1);
+    const RepairedMesh repaired = repair_mesh(open);
+    CHECK(repaired.inspection.is_sphere());
+    CHECK(repaired.inspection.volume > 1);
+  }
+}
+
 TEST_CASE("repair_mesh: mended once, a mesh is mended, whichever of its parts were wrong") {
   TriangleMesh scan = icosphere(3);
   const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -53,10 +53,14 @@ class Grid {
       return hash;
     }
   };
+  /// Boundaries without extent have cells so small that some have no whole number: what is as far
+  /// as that shares its last one.
   Cell cell_of(const Vector3& p) const {
-    return {static_cast<std::int64_t>(std::floor(p[0] / cell_)),
-            static_cast<std::int64_t>(std::floor(p[1] / cell_)),
-            static_cast<std::int64_t>(std::floor(p[2] / cell_))};
+    constexpr double far = 0x1p62;
+    Cell cell;
+    for (int k = 0; k < 3; ++k)
+      cell[k] = static_cast<std::int64_t>(std::clamp(std::floor(p[k] / cell_), -far, far));
+    return cell;
   }
 
   double cell_;
