@@ -1,9 +1,12 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "chart/longitude.h"
 #include "chart/settle.h"
 #include "chart/sheet.h"
 #include "chart/spread.h"
+#include "chart/unbend.h"
 #include "exact_area.h"
 #include "maps.h"
 #include "sphparam/chart/chart_failure.h"
@@ -134,6 +137,21 @@ TEST_CASE("chart: what was moved is told") {
   CHECK_THAT(chart_line(report), Contains(moved_vertices(chart)));
 }
 
+TEST_CASE("chart: vertices that moved are counted once each") {
+  std::mt19937 random(38);
+  for (const double factor : {1e-9, 1e-15}) {
+    const SphericalChart chart = settled(crowded_chart(factor, random), 1);
+    int moved = 0;
+    for (Vertex v = 0; v < chart.points.rows(); ++v) {
+      const ChartPoint mapped = chart_point(chart.points.row(v));
+      if (v == chart.north || v == chart.south) continue;
+      moved +=
+          std::abs(chart.uv(v, 0) - mapped.u) > grid || std::abs(chart.uv(v, 1) - mapped.v) > grid;
+    }
+    CHECK(chart.counts.nudged_vertices == moved);
+  }
+}
+
 TEST_CASE("sheet: vertices taken out come back, and all is as it was") {
   std::mt19937 random(35);
   const TriangleMesh mesh = icosphere(3);
@@ -214,6 +232,29 @@ TEST_CASE("spread: a crowd about a point makes room for itself") {
   REQUIRE(sheet.lowest_around(middle) < 0.1);
   spread(sheet, crowd, 4);
   CHECK(sheet.lowest_around(middle) > 3.9);
+}
+
+TEST_CASE("unbend: a vertex far beyond the edge opposite to it, and all around, unfold") {
+  std::mt19937 random(39);
+  const TriangleMesh mesh = icosphere(3);
+  Sheet sheet(chart_of(mesh, rotated({mesh.positions}, random_rotation(random))));
+  int tried = 0;
+  for (Halfedge h = 0; h < 3 * sheet.face_count() && tried < 10; h += 37) {
+    const Halfedge across = Topology::next(h);
+    const Vertex v = sheet.origin(h);
+    const auto is_free = [&](Vertex w) { return !sheet.is_pole(w) && !sheet.on_seam(w); };
+    std::vector<Vertex> region = {v};
+    sheet.for_each_spoke(v, [&](Halfedge spoke) { region.push_back(sheet.target(spoke)); });
+    if (!std::ranges::all_of(region, is_free)) continue;
+    const SheetPoint a = sheet.corner(across), b = sheet.corner(Topology::next(across));
+    const SheetPoint at = sheet.place(v);
+    sheet.move(v, {a.x + b.x - at.x, a.y + b.y - at.y});
+    REQUIRE(sheet.height(Topology::face(h)) < -1000);
+    unbend(sheet, region, 4);
+    for (const Vertex w : region) CHECK(sheet.lowest_around(w) > 0);
+    ++tried;
+  }
+  CHECK(tried == 10);
 }
 
 TEST_CASE("chart: one that is not one-to-one is refused, with what is wrong with it") {

@@ -104,7 +104,7 @@ TEST_CASE("map: the same bytes for 1, 2 and 4 threads") {
 TEST_CASE("map: the chart of the report is a stage, where it is too much, the map is there") {
   const Folder folder;
   const std::string map = folder / "coil.sph.ply";
-  for (const int turns : {3, 40}) {
+  for (const int turns : {3, 80}) {
     const Ended ended =
         sphparam_program({"map", "-", "-o", map, "--json", "-"}, obj_text(coil(turns)));
     INFO(ended.err);
@@ -114,11 +114,24 @@ TEST_CASE("map: the chart of the report is a stage, where it is too much, the ma
     CHECK(report["stages"].back()["name"] == "chart");
     const Json& chart = report["chart"];
     CHECK(chart["certified"] == (turns == 3));
-    CHECK(chart.contains("not_made") == (turns == 40));
+    CHECK(chart.contains("not_made") == (turns == 80));
     if (turns == 3) continue;
-    CHECK_THAT(chart["not_made"].get<std::string>(), Contains("more than the 27"));
+    CHECK_THAT(chart["not_made"].get<std::string>(), Contains("more than the 50"));
     CHECK_THAT(ended.err, Contains("warning: chart: not made: "));
   }
+}
+
+TEST_CASE(
+    "map: without a report too it says of a chart that vertices moved, and nothing of others") {
+  const Folder folder;
+  const std::string map = folder / "coil.sph.ply";
+  const Ended moved = sphparam_program({"map", "-", "-o", map}, obj_text(coil(10)));
+  CHECK(moved.code == 0);
+  CHECK_THAT(moved.err, Contains("warning: chart: certified") && Contains("vertices moved there"));
+  const Ended quiet = sphparam_program({"map", "-", "-o", map, "-q"}, obj_text(coil(10)));
+  CHECK(quiet.err.empty());
+  const Ended plain = sphparam_program({"map", "-", "-o", map}, obj_text(icosphere(3)));
+  CHECK_THAT(plain.err, !Contains("chart"));
 }
 
 TEST_CASE("map: --json has the documented keys") {

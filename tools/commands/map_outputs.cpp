@@ -92,6 +92,17 @@ bool stands_as_it_is(const ChartReport& chart) {
          moved_vertices(chart.counts, chart.certificate, chart.vertices).empty();
 }
 
+/// Has the chart more than twice the vertices of its mesh, and not for their being few?
+bool is_large(const ChartReport& chart, const MapOutcome& outcome) {
+  constexpr long few = 64;
+  return chart.vertices > 2 * outcome.source.file.mesh.vertex_count() + few;
+}
+
+void warn(const std::string& line, MapOutcome& outcome, Session& session) {
+  outcome.result.warnings.push_back(line);
+  session.console.warning(line);
+}
+
 /// The figures of the (u, v) chart, as a stage of its own. The map that was asked for is written
 /// and certified by now, under its temporary name: a chart that cannot be made is told, and costs
 /// nothing else.
@@ -102,10 +113,19 @@ std::optional<ChartReport> figures_of_chart(MapOutcome& outcome, Session& sessio
   outcome.result.stages.push_back({.name = "chart", .seconds = stopwatch.seconds()});
   session.console.detail("  chart: " + short_number(stopwatch.seconds()) + " s");
   if (chart && !stands_as_it_is(*chart)) {
-    outcome.result.warnings.push_back(chart_line(chart));
-    session.console.warning(chart_line(chart));
+    warn(chart_line(chart), outcome, session);
+  } else if (chart && is_large(*chart, outcome)) {
+    warn(chart_line(chart) + ": more than twice the vertices of the mesh", outcome, session);
   }
   return chart;
+}
+
+/// Whether a chart stands is told of every map that is written, but of large ones, where it would
+/// be the peak of memory.
+bool is_told_of_chart(const MapArguments& arguments, const MapOutcome& outcome) {
+  constexpr Eigen::Index most_triangles = 1'000'000;
+  return !arguments.quiet && !arguments.output.empty() &&
+         outcome.source.file.mesh.face_count() <= most_triangles;
 }
 
 std::string report_on(const MapArguments& arguments, MapOutcome& outcome, const Outputs& outputs,
@@ -151,7 +171,9 @@ std::string add_outputs(const MapArguments& arguments, MapOutcome& outcome, bool
     add_plots(arguments.plots, stem_or(arguments.input, "map"), *outcome.distortion, session.files);
     outputs.emplace_back("charts", arguments.plots);
   }
-  return arguments.json.empty() ? "" : report_on(arguments, outcome, outputs, session);
+  if (!arguments.json.empty()) return report_on(arguments, outcome, outputs, session);
+  if (with_map && is_told_of_chart(arguments, outcome)) figures_of_chart(outcome, session);
+  return "";
 }
 
 void write_outputs(const MapArguments& arguments, MapOutcome& outcome, bool with_map,

@@ -1,7 +1,5 @@
 #include "sphparam/chart/chart_failure.h"
 
-#include <algorithm>
-
 #include "number_text.h"
 #include "sphparam/errors.h"
 
@@ -17,9 +15,8 @@ std::string moved_vertices(const ChartCounts& counts, const ChartCertificate& ce
                            long vertices) {
   const double moved = counts.nudged_vertices, by = certificate.max_shift;
   if (moved == 0 || by <= rounding || !certificate.one_to_one()) return "";
-  // Some were moved twice, first within their place, then for room.
-  return "where triangles are thinner than (u, v) can tell, at most " +
-         percent(std::min(moved / static_cast<double>(vertices), 1.0)) +
+  return "where triangles are thinner than (u, v) can tell, " +
+         percent(moved / static_cast<double>(vertices)) +
          " of its vertices moved there, by up to " + short_number(by) + " of a turn";
 }
 

@@ -20,14 +20,15 @@ class Nudger {
 
   int run(std::vector<Face>& folded) {
     for (int round = 0; round < most_rounds && !folded.empty(); ++round) {
-      const int before = moved_;
+      const size_t before = moved_.size();
       for (const Face f : folded) {
         for (Halfedge h = 3 * f; h < 3 * f + 3 && !flat_.positive(f); ++h) try_to_move(h);
       }
       std::erase_if(folded, [&](Face f) { return flat_.positive(f); });
-      if (moved_ == before) break;
+      if (moved_.size() == before) break;
     }
-    return moved_;
+    std::sort(moved_.begin(), moved_.end());
+    return static_cast<int>(std::unique(moved_.begin(), moved_.end()) - moved_.begin());
   }
 
  private:
@@ -55,7 +56,7 @@ class Nudger {
       }
     }
     place = best;
-    if (fewest < before) ++moved_;
+    if (fewest < before) moved_.push_back(v);
   }
 
   /// Folded faces around the origin of h; −1: there are too many faces to look at.
@@ -71,7 +72,7 @@ class Nudger {
   }
 
   FlatMesh& flat_;
-  int moved_ = 0;
+  std::vector<Vertex> moved_;  // some more than once
 };
 
 }  // namespace

@@ -7,15 +7,18 @@
 #include <vector>
 
 #include "chart/ease.h"
+#include "chart/longitude.h"
 #include "chart/sheet.h"
 #include "chart/spread.h"
+#include "chart/unbend.h"
 
-// 1. Everything is rounded to the grid.  2. What folds and stands alone unfolds by easing.  3. Of
-// the other low faces, vertices are taken out, by their shortest edges, until none is left.  4.
-// They come back in the opposite order, each beside the vertex that had its faces, where there
-// always is a place, however narrow; easing widens it.  5. Faces that are still low are spread with
-// all around them, in regions that grow.  6. What is high enough lands on the grid, decided
-// exactly.
+// 1. Where folds are deep, as chords of long edges are far from their geodesics, all around them
+// moves with the chords (unbend), in regions that grow.  2. Everything is rounded to the grid.
+// 3. What folds and stands alone unfolds by easing.  4. Of the other low faces, vertices are taken
+// out, by their shortest edges, until none is left.  5. They come back in the opposite order, each
+// beside the vertex that had its faces, where there always is a place, however narrow; easing
+// widens it.  6. Faces that are still low are spread with all around them, in regions that grow.
+// 7. What is high enough lands on the grid, decided exactly.
 
 namespace sphparam {
 namespace {
@@ -25,6 +28,8 @@ constexpr double cell = std::numbers::pi / Sheet::cells;  // on the sphere, radi
 constexpr double longest_taken_out = 4096;  // cells: an edge on the sphere, a thousandth of it
 constexpr double deepest = -64;             // cells: deeper folds are no rounding
 constexpr double narrow = 0x1p-6;           // cells: what easing leaves lower is spread at once
+constexpr int rings_to_unbend[] = {4, 8, 16};
+constexpr size_t most_unbent = 3000;  // vertices at once: more take too long
 constexpr int fewest_rings = 8, most_rings = 128;
 constexpr int landing_cells = 3;
 
@@ -34,6 +39,8 @@ class Settling {
       : points_(chart.points), sheet_(chart), easing_(sheet_) {}
 
   void run() {
+    if (is_deep()) unbend_folds();
+    if (is_deep()) return;
     round_all();
     ease_folds();
     take_out_low();
@@ -45,6 +52,32 @@ class Settling {
   const Sheet& sheet() const { return sheet_; }
 
  private:
+  bool is_deep() const {
+    for (Face f = 0; f < sheet_.face_count(); ++f) {
+      if (sheet_.height(f) < deepest) return true;
+    }
+    return false;
+  }
+
+  void unbend_folds() {
+    for (const int rings : rings_to_unbend) {
+      const std::vector<Face> folded = folded_faces();
+      if (folded.empty()) return;
+      for (const auto& region : regions_around(folded, rings)) {
+        if (region.size() > most_unbent) return;
+        unbend(sheet_, region, Easing::wanted);
+      }
+    }
+  }
+
+  std::vector<Face> folded_faces() const {
+    std::vector<Face> folded;
+    for (Face f = 0; f < sheet_.face_count(); ++f) {
+      if (!sheet_.positive(f)) folded.push_back(f);
+    }
+    return folded;
+  }
+
   void round_all() {
     const auto rounded = [](double x) { return std::clamp(std::round(x), 1.0, Sheet::cells - 1); };
     for (Vertex v = 0; v < sheet_.vertex_count(); ++v) {
@@ -181,15 +214,19 @@ class Settling {
     for (int rings = fewest_rings; rings <= most_rings; rings *= 2) {
       const std::vector<Face> low = low_faces();
       if (low.empty()) return;
-      for (const auto& region : regions_around(low, rings)) spread_if_positive(region);
+      for (const auto& region : regions_around(low, rings)) {
+        if (!is_positive(region)) unbend(sheet_, region, Easing::wanted);
+        spread_if_positive(region);
+      }
     }
   }
 
   void spread_if_positive(const std::vector<Vertex>& region) {
-    for (const Vertex v : region) {
-      if (!(sheet_.lowest_around(v) > 0)) return;
-    }
-    spread(sheet_, region, Easing::wanted);
+    if (is_positive(region)) spread(sheet_, region, Easing::wanted);
+  }
+
+  bool is_positive(const std::vector<Vertex>& region) const {
+    return std::ranges::all_of(region, [&](Vertex v) { return sheet_.lowest_around(v) > 0; });
   }
 
   /// The vertices within so many rings of faces that may move, each connected part for itself.
@@ -262,16 +299,17 @@ class Settling {
   std::vector<char> near_ = std::vector<char>(static_cast<size_t>(sheet_.vertex_count()), 0);
 };
 
-/// By more than rounding to the grid does.
-bool has_moved(const SheetPoint& now, const SheetPoint& before) {
-  return std::abs(now.x - before.x) > 1 || std::abs(now.y - before.y) > 1;
+/// Further from where the map has it than rounding to the grid goes.
+bool has_moved(const SheetPoint& now, const ChartPoint& mapped) {
+  return std::abs(now.x - Sheet::cells * mapped.v) > 1 ||
+         std::abs(now.y - Sheet::cells * mapped.u) > 1;
 }
 
 void write(const Sheet& sheet, SphericalChart& chart) {
-  const Sheet before(chart);
+  chart.counts.nudged_vertices = 0;
   for (Vertex v = 0; v < sheet.vertex_count(); ++v) {
     if (!sheet.is_pole(v))
-      chart.counts.nudged_vertices += has_moved(sheet.place(v), before.place(v));
+      chart.counts.nudged_vertices += has_moved(sheet.place(v), chart_point(chart.points.row(v)));
   }
   for (Eigen::Index w = 0; w < chart.wedge_count(); ++w) {
     const Vertex v = chart.wedge_vertices[static_cast<size_t>(w)];

@@ -1,5 +1,7 @@
 #include "sphparam/chart/spherical_chart.h"
 
+#include <algorithm>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 
@@ -19,6 +21,9 @@ namespace {
 
 constexpr std::int64_t chunk_size = 8192;
 constexpr std::int64_t some_splits = 4096;  // small meshes may need many a vertex
+constexpr std::int64_t some_few = 16;       // that are no matter however small the mesh
+constexpr int most_doublings = 4;           // of twice the vertices, before they need not move
+constexpr double far = 0x1p-7;              // of a turn: moves that more splits are better than
 
 void check_sizes(const TriangleMesh& mesh, const Topology& topology, const SphereMap& map) {
   if (map.points.rows() != topology.vertex_count() || mesh.face_count() != topology.face_count())
@@ -131,6 +136,94 @@ bool touches_seam_from_west(const FlatMesh& flat, Face f) {
   return false;
 }
 
+/// The stages of a chart, the splits of folds as often as it takes.
+class ChartMaker {
+ public:
+  ChartMaker(const TriangleMesh& mesh, const Topology& topology, const SphereMap& map, int threads,
+             const Progress& progress)
+      : mesh_(mesh), topology_(topology), map_(map), threads_(threads), progress_(progress) {}
+
+  /// Splits, in the order in which folds are found. Where that would give the chart more than twice
+  /// the vertices of the mesh, few splits where they mend most, and moves for the rest; where these
+  /// were far, all the splits.
+  SphericalChart make(std::int64_t most) {
+    most_ = most;
+    begin();
+    unfold(FoldOrder::AsFound, twice_as_many());
+    if (!counts_.at_limit) return chart();
+    begin();
+    for (int i = 0; i < most_doublings; ++i) {
+      unfold(FoldOrder::DeepestFirst, twice_as_many() << i);
+      SphericalChart moved = chart();
+      if (is_near(moved.certificate)) return moved;
+    }
+    begin();
+    unfold(FoldOrder::AsFound, most);
+    return chart();
+  }
+
+ private:
+  void begin() {
+    flat_ = std::make_unique<FlatMesh>(
+        FlatMesh{RefinedMesh(topology_, map_, mesh_.triangles, threads_)});
+    const PolarFrame frame = split_at_poles_and_meridian(flat_->mesh, threads_);
+    flat_->north = frame.north;
+    flat_->south = frame.south;
+    lay_out(*flat_, threads_);
+    counts_ = {.pole_splits = frame.pole_splits,
+               .meridian_splits = frame.meridian_splits,
+               .snapped_vertices = frame.snapped_vertices};
+  }
+
+  /// Splits of folds that make the vertices of the chart twice those of its mesh.
+  std::int64_t twice_as_many() const {
+    return std::max<std::int64_t>(
+        some_few, topology_.vertex_count() - counts_.pole_splits - counts_.meridian_splits);
+  }
+
+  void unfold(FoldOrder order, std::int64_t allowed) {
+    const std::int64_t left = std::min(allowed, most_) - counts_.fold_splits;
+    const Unfolding done = sphparam::unfold(*flat_, left, order, threads_, [&](auto, double share) {
+      return tell(static_cast<double>(counts_.fold_splits) + share * static_cast<double>(left));
+    });
+    if (counts_.fold_splits == 0) counts_.folded_faces = done.folded_faces;
+    counts_.fold_splits += done.splits;
+    counts_.nudged_vertices = done.nudged_vertices;
+    counts_.at_limit = done.at_limit;
+  }
+
+  /// Has every vertex a place, on the map and in (u, v), near that of the mesh's?
+  static bool is_near(const ChartCertificate& certificate) {
+    return certificate.one_to_one() && certificate.inverted.empty() && certificate.max_shift < far;
+  }
+
+  /// The share never falls, though splits may begin again.
+  bool tell(double splits) {
+    told_ = std::max(told_, std::min(1.0, splits / static_cast<double>(most_)));
+    return !progress_ || progress_("chart", told_);
+  }
+
+  SphericalChart chart() {
+    SphericalChart chart = surface_of(*flat_);
+    WedgeBuilder(*flat_).build(chart, [&](Face f) { return touches_seam_from_west(*flat_, f); });
+    chart.counts = counts_;
+    chart.certificate = certify_chart(chart, threads_);
+    if (!chart.certificate.one_to_one()) chart = settled(std::move(chart), threads_);
+    if (chart.certificate.one_to_one()) chart.counts.at_limit = false;
+    return chart;
+  }
+
+  const TriangleMesh& mesh_;
+  const Topology& topology_;
+  const SphereMap& map_;
+  const int threads_;
+  const Progress& progress_;
+  std::int64_t most_ = 0;
+  double told_ = 0;
+  std::unique_ptr<FlatMesh> flat_;
+  ChartCounts counts_;
+};
+
 /// For a mesh that was not split: does the face reach over the meridian, or up to it from the west?
 bool reaches_meridian_from_west(const FlatMesh& flat, Face f) {
   if (touches_seam_from_west(flat, f)) return true;
@@ -161,27 +254,10 @@ SphericalChart spherical_chart(const TriangleMesh& mesh, const Topology& topolog
   check_sizes(mesh, topology, map);
   require_at_least("splits_a_vertex", splits_a_vertex, 0);
   report(progress, "chart", 0);
-  FlatMesh flat{RefinedMesh(topology, map, mesh.triangles, threads)};
-  const PolarFrame frame = split_at_poles_and_meridian(flat.mesh, threads);
-  flat.north = frame.north;
-  flat.south = frame.south;
-  lay_out(flat, threads);
   const std::int64_t most = std::int64_t{splits_a_vertex} * topology.vertex_count() + some_splits;
-  const Unfolding unfolding = unfold(flat, most, threads, progress);
-
-  SphericalChart chart = surface_of(flat);
-  WedgeBuilder(flat).build(chart, [&](Face f) { return touches_seam_from_west(flat, f); });
-  chart.counts = {.pole_splits = frame.pole_splits,
-                  .meridian_splits = frame.meridian_splits,
-                  .fold_splits = unfolding.splits,
-                  .folded_faces = unfolding.folded_faces,
-                  .snapped_vertices = frame.snapped_vertices,
-                  .nudged_vertices = unfolding.nudged_vertices,
-                  .at_limit = unfolding.at_limit};
+  SphericalChart chart = ChartMaker(mesh, topology, map, threads, progress).make(most);
   report(progress, "chart", 1);
-  chart.certificate = certify_chart(chart, threads);
-  if (chart.certificate.one_to_one() || unfolding.at_limit) return chart;
-  return settled(std::move(chart), threads);
+  return chart;
 }
 
 SphericalChart wrapped_chart(const TriangleMesh& mesh, const Topology& topology,

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <iterator>
 #include <numbers>
+#include <queue>
 #include <utility>
 
 #include "chart/nudge.h"
@@ -39,18 +41,17 @@ double simplest_between(double low, double high) {
 
 class Unfolder {
  public:
-  Unfolder(FlatMesh& flat, std::int64_t most_splits) : flat_(flat), most_splits_(most_splits) {}
+  Unfolder(FlatMesh& flat, std::int64_t most_splits, FoldOrder order)
+      : flat_(flat), most_splits_(most_splits), order_(order) {}
 
   Unfolding run(int threads, const Progress& progress) {
-    waiting_ = folded_faces(threads);
-    result_.folded_faces = static_cast<int>(waiting_.size());
-    cut_waiting(progress);
-    keep_folded(result_.left);
-    waiting_ = deep_ones(result_.left);
-    if (!waiting_.empty()) {
+    const std::vector<Face> folded = folded_faces(threads);
+    result_.folded_faces = static_cast<int>(folded.size());
+    cut(folded, progress);
+    const std::vector<Face> deep = deep_ones(result_.left);
+    if (!deep.empty() && !result_.at_limit) {
       points_must_fit_ = false;
-      cut_waiting(progress);
-      keep_folded(result_.left);
+      cut(deep, progress);
     }
     if (result_.at_limit) return std::move(result_);  // the rest folds: nothing is worth mending
     result_.nudged_vertices = nudge(flat_, result_.left);
@@ -65,10 +66,21 @@ class Unfolder {
     ChartPoint uv = {0, 0};
   };
 
-  void cut_waiting(const Progress& progress) {
-    for (size_t i = 0; i < waiting_.size() && !result_.at_limit; ++i) {
+  /// A face that may be folded, and how urgent it is.
+  struct Fold {
+    double urgency;
+    Face face;
+    auto operator<=>(const Fold&) const = default;
+  };
+
+  void add(Face f) { waiting_.push({order_ == FoldOrder::DeepestFirst ? depth(f) : -found_++, f}); }
+
+  void cut(const std::vector<Face>& folded, const Progress& progress) {
+    for (const Face f : folded) add(f);
+    for (size_t i = 0; !waiting_.empty() && !result_.at_limit; ++i) {
       if (i % faces_a_report == 0) report(progress, "chart", share_of_limit());
-      const Face f = waiting_[i];
+      const Face f = waiting_.top().face;
+      waiting_.pop();
       if (flat_.positive(f)) continue;
       const Cut cut = choose_cut(f);
       if (cut.halfedge < 0) {
@@ -79,19 +91,26 @@ class Unfolder {
         result_.at_limit = true;
       }
     }
+    keep_folded(result_.left);
+  }
+
+  /// Twice the area of a folded face by the longer side of its box, in turns; 0: at ±z. Negative:
+  /// not folded.
+  double depth(Face f) const {
+    if (flat_.pole_halfedge(f) >= 0) return 0;
+    const ChartPoint a = flat_.corner(3 * f), b = flat_.corner(3 * f + 1),
+                     c = flat_.corner(3 * f + 2);
+    const double along_u = std::max({a.u, b.u, c.u}) - std::min({a.u, b.u, c.u}),
+                 along_v = std::max({a.v, b.v, c.v}) - std::min({a.v, b.v, c.v});
+    const double longer = std::max(along_u, along_v);
+    return longer > 0 ? -planar_area(a, b, c) / longer : 0;
   }
 
   /// Of folded faces, those that are seen: their edges pass triangles that are as thin as rounding.
   std::vector<Face> deep_ones(const std::vector<Face>& faces) const {
     std::vector<Face> deep;
-    std::ranges::copy_if(faces, std::back_inserter(deep), [&](Face f) {
-      if (flat_.pole_halfedge(f) >= 0) return false;
-      const ChartPoint a = flat_.corner(3 * f), b = flat_.corner(3 * f + 1),
-                       c = flat_.corner(3 * f + 2);
-      const double along_u = std::max({a.u, b.u, c.u}) - std::min({a.u, b.u, c.u}),
-                   along_v = std::max({a.v, b.v, c.v}) - std::min({a.v, b.v, c.v});
-      return -planar_area(a, b, c) > least_depth * std::max(along_u, along_v);
-    });
+    std::ranges::copy_if(faces, std::back_inserter(deep),
+                         [&](Face f) { return depth(f) > least_depth; });
     return deep;
   }
 
@@ -170,10 +189,10 @@ class Unfolder {
   void split(const Cut& cut) {
     const Halfedge h = cut.halfedge;
     const Face first_new = flat_.mesh.face_count();
-    waiting_.insert(waiting_.end(), {Topology::face(h), Topology::face(flat_.mesh.twin(h)),
-                                     first_new, first_new + 1});
+    const Face other = Topology::face(flat_.mesh.twin(h));
     flat_.mesh.split_edge(h, cut.crossing.t, cut.crossing.point);
     flat_.uv.push_back(cut.uv);
+    for (const Face f : {Topology::face(h), other, first_new, first_new + 1}) add(f);
     ++result_.splits;
   }
 
@@ -190,15 +209,18 @@ class Unfolder {
 
   FlatMesh& flat_;
   const std::int64_t most_splits_;
-  std::vector<Face> waiting_;
+  const FoldOrder order_;
+  double found_ = 0;  // so many faces so far
+  std::priority_queue<Fold> waiting_;
   bool points_must_fit_ = true;
   Unfolding result_;
 };
 
 }  // namespace
 
-Unfolding unfold(FlatMesh& flat, std::int64_t most_splits, int threads, const Progress& progress) {
-  return Unfolder(flat, most_splits).run(threads, progress);
+Unfolding unfold(FlatMesh& flat, std::int64_t most_splits, FoldOrder order, int threads,
+                 const Progress& progress) {
+  return Unfolder(flat, most_splits, order).run(threads, progress);
 }
 
 }  // namespace sphparam

@@ -181,6 +181,7 @@ Json chart_json(const std::optional<ChartReport>& chart) {
           {"folded_without_splits", counts.folded_faces},
           {"snapped_vertices", counts.snapped_vertices},
           {"nudged_vertices", counts.nudged_vertices},
+          {"max_shift", certificate.max_shift},
           {"vertices", chart->vertices},
           {"triangles", chart->triangles},
           {"wedges", chart->wedges},

@@ -11,7 +11,7 @@ namespace sphparam {
 std::string chart_failure(const SphericalChart& chart);
 
 /// Of a chart that is one-to-one because vertices were moved in (u, v): "where triangles are
-/// thinner than (u, v) can tell, at most 1.2 % of its vertices moved there, by up to 3e-05 of a turn".
+/// thinner than (u, v) can tell, 1.2 % of its vertices moved there, by up to 3e-05 of a turn".
 /// Empty: none by more than the rounding of float32. `vertices`: of the chart.
 std::string moved_vertices(const ChartCounts& counts, const ChartCertificate& certificate,
                            long vertices);

@@ -79,20 +79,24 @@ struct SphericalChart {
 /// Where triangles, or the strips between neighbouring edges, are thinner than (u, v) can tell,
 /// some 1e-15 radians, vertices are nudged by some roundings; where that does not do, (u, v)
 /// settles on multiples of 2⁻²⁴ of a turn, and vertices that crowd there move apart, by little more
-/// than makes room for all. `counts.nudged_vertices` says how many, `certificate.max_shift` how far.
+/// than makes room for all. Where splits would give the chart more than twice the vertices of the
+/// mesh, fewer are made, where folds are deepest, and vertices move with the chords of the edges
+/// that are left whole, by less than 2⁻⁷ of a turn; where they would move further, more is split,
+/// in the end everything. `counts.nudged_vertices` says how many moved, `certificate.max_shift` how
+/// far.
 ///
 /// Requires: a map that `certify` calls bijective, rays of unit length up to rounding.
 /// Ensures: `certificate` is certify_chart's of the data returned. It fails only where folds need
-///          more than `splits_a_vertex`·#V + 4096 splits: `counts.at_limit` tells, tubes wound
-///          dozens of times about ±z take tens a vertex; or where no room is found, which is rare.
-///          Every split leaves the refined map positive on the sphere; where rounding does not let
-///          it, `certificate.inverted` lists the faces. Same bytes for any number of threads.
-/// Progress is told of "chart": the share of the splits allowed that was needed so far.
+///          more than `splits_a_vertex`·#V + 4096 splits: `counts.at_limit` tells, limbs stacked
+///          sixty deep may take more; or where no room is found, which is rare. Every split leaves
+///          the refined map positive on the sphere; where rounding does not let it,
+///          `certificate.inverted` lists the faces. Same bytes for any number of threads.
+/// Progress is told of "chart": the largest share so far of the splits allowed.
 /// Throws: std::invalid_argument for a map of wrong size or splits below 0, or where no face holds
 /// ±z; Cancelled. Our own; the need for it: Section 3 of the paper has the date line along edges,
 /// which a relaxed map leaves. Cost: a few passes, a tenth of the default map's time, half of it
 /// the certificate; and 1 to 3 µs a split: some 2 to 10 a fold, 10 to 75 where needles (1 : 1000)
-/// lie on each other by the thousand near ±z.
+/// lie on each other by the thousand near ±z. Moves cost up to some seconds.
 SphericalChart spherical_chart(const TriangleMesh& mesh, const Topology& topology,
                                const SphereMap& map, int threads = 0, const Progress& progress = {},
                                int splits_a_vertex = 256);
