@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string_view>
 #include <utility>
 
 #include "elementary.h"
 #include "embedding/constructions/level_embedding.h"
+#include "embedding/constructions/rising_progress.h"
 #include "embedding/energy/energy_domain.h"
 #include "embedding/energy/map_image.h"
 #include "embedding/frame/pin_domain.h"
@@ -51,31 +51,6 @@ struct Way {
 constexpr Way up{10, 1e-3, 10}, down{0.25, 1e-2, 6};
 constexpr double nearly_conformal = 1e-6, others_nearly_conformal[] = {1e-8, 1e-4};
 constexpr double nearly_equal_area[] = {10, 100, 1000};
-
-/// The progress of an embedding that is made of several: it rises.
-class RisingProgress {
- public:
-  explicit RisingProgress(const Progress& told) : to_(told) {}
-
-  /// From here on comes a part that is so much of what is left.
-  void begin(double share) {
-    begin_ = reached_;
-    length_ = share * (1 - reached_);
-  }
-  Progress progress() {
-    if (!to_) return {};
-    return [this](std::string_view stage, double fraction) {
-      if (stage == "embedding") reached_ = std::max(reached_, begin_ + length_ * fraction);
-      if (begin_ == 0 && stage != "embedding") return to_(stage, fraction);
-      return to_("embedding", reached_);  // nobody wants to know of a second hierarchy
-    };
-  }
-  void end() { report(to_, "embedding", 1); }
-
- private:
-  const Progress& to_;
-  double begin_ = 0, length_ = 1, reached_ = 0;
-};
 
 /// Embeds one mesh in several ways, and keeps the lowest map.
 class Starts {
