@@ -139,6 +139,22 @@ TEST_CASE("progressive: limbs end alike in every order of vertices") {
   }
 }
 
+TEST_CASE("progressive: where minima are many, what is left says how far two are apart") {
+  double least = 1e300, most = 0, left = 1;
+  for (unsigned order = 1; order <= 3; ++order) {
+    const TriangleMesh mesh = relabelled(dumbbell(100, 0.05, 8), order);
+    const Topology topology(mesh);
+    const ProgressiveEmbedding embedding = embed_progressively(mesh, topology);
+    REQUIRE(embedding.map);
+    const double energy = distortion_energy(topology, measure_source(mesh), *embedding.map, {});
+    least = std::min(least, energy);
+    most = std::max(most, energy);
+    left = std::min(left, embedding.report.energy_left.value());
+  }
+  CHECK(left > 0.005);
+  CHECK(most / least - 1 < 2 * left);
+}
+
 TEST_CASE("progressive: says how much of the energy is left") {
   for (const TriangleMesh& mesh : {icosphere(4), tube(60, 16), tube(400, 8)}) {
     const Topology topology(mesh);

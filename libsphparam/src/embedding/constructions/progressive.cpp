@@ -12,6 +12,7 @@
 #include "embedding/energy/map_image.h"
 #include "embedding/frame/pin_domain.h"
 #include "embedding/newton/freed_memory.h"
+#include "embedding/newton/minimise.h"
 #include "embedding/newton/newton_refinement.h"
 #include "embedding/newton/optimise.h"
 #include "embedding/sweeps/relaxation.h"
@@ -34,6 +35,8 @@ constexpr double roomier_lambdas[] = {10, 100, 1000};
 constexpr double far_from_energy = 0.1;  // the share that steps to come would take
 // Times an isometry's energy, before the finest level gets its steps: worth another start.
 constexpr double much_energy = 2.75;
+constexpr double many_minima =
+    5;  // times an isometry's energy: even nearly conformal starts differ
 constexpr double clearly_lower = 0.95;  // than a map that has not had its steps
 // Of λ: a map on its way up has at most λ to this power times the first map's energy. (Limbs have
 // half of that, slivers twice as much: there angles are kept at the cost of areas that do not come
@@ -129,9 +132,11 @@ class Starts {
     const bool best = options_.quality == Quality::Best;
     Found found = Found::Same;
     if (best || lowest_.report.demanding) found = try_nearly_conformal(nearly_conformal);
+    if (!best && found == Found::Lower) compare_minima();
     for (const double lambda : others_nearly_conformal) {
       if (!best || found != Found::Lower) break;
-      if (try_nearly_conformal(lambda) == Found::Same) return;
+      found = try_nearly_conformal(lambda);
+      if (found == Found::Same) return;
     }
     const bool other_way = best && found == Found::Higher;
     for (const double more : nearly_equal_area) {
@@ -142,6 +147,15 @@ class Starts {
       lead(start, lambda, down);
       if (keep_lower(std::move(start)) == Found::Same) return;
     }
+  }
+
+  /// Where minima may be many, of how much energy may be left says also how far two are apart.
+  void compare_minima() {
+    if (energy_ <= many_minima * isometric_energy(source(), wanted_, {})) return;
+    const double one = energy_;
+    try_nearly_conformal(others_nearly_conformal[0]);
+    std::optional<double>& left = lowest_.report.energy_left;
+    if (left) left = std::max(*left, std::abs(latest_ - one) / energy_);
   }
 
   /// The first map waits for its steps until it is clear that it needs them.
@@ -181,7 +195,7 @@ class Starts {
 
   Found keep_lower(ProgressiveEmbedding start) {
     if (!start.map) return Found::Higher;
-    const double energy = energy_of(*start.map);
+    const double energy = latest_ = energy_of(*start.map);
     const bool same = std::abs(energy - energy_) <= agreement * energy_;
     if (!(energy < energy_)) return same ? Found::Same : Found::Higher;
     energy_ = energy;
@@ -205,7 +219,8 @@ class Starts {
   RisingProgress rising_;
   const Progress progress_;
   ProgressiveEmbedding lowest_;
-  double energy_ = 0, first_energy_ = 0;  // as wanted: of the lowest map, and of the first
+  // As wanted: of the lowest map, the first, and the one that came last.
+  double energy_ = 0, first_energy_ = 0, latest_ = 0;
 };
 
 /// As if all triangles were equilateral, then relaxed and refined for the shape they have. No

@@ -40,7 +40,8 @@ struct ProgressiveReport {
   int retries = 0;             // levels that had to be relaxed again before vertices found room
   long kernel_placements = 0;  // vertices that had no room in their ring where they belong
   std::vector<double> pin_residuals = {};  // radians from the point asked for; 0 is exact
-  /// Estimated on the finest level: share of the energy that steps to come would take. Nothing
+  /// Estimated on the finest level: share of the energy that steps to come would take, and at least
+  /// how far two other starts ended from each other, where they were needed. Nothing
   /// where the quality is Draft and the finest level got no steps.
   std::optional<double> energy_left = std::nullopt;
   double pressure = 0;  // that fillers needed on the last level where they were pressed, or 0
@@ -66,12 +67,12 @@ struct ProgressiveEmbedding {
 ///           an option outside of its domain.
 /// Cost: O(#F). Sweeps solve no linear system; where they stall, on long protrusions, around
 /// slivers and with Quality::Best, a bounded number of Newton steps does, each O(#F) by multigrid.
-/// A shape with protrusions whose energy is much more than an isometry's is embedded once more, by
-/// a nearly conformal energy that is led to the one asked for; one that ends far from its energy up
-/// to three times more; with Quality::Best a shape with protrusions three times more. The map of
-/// least energy is returned. Paper: Praun and Hoppe, "Spherical parametrization and remeshing"
-/// (2003); whole levels instead of single vertices, the energy, the guard and the over-relaxed
-/// sweeps are our own.
+/// A shape with protrusions whose energy is much more than an isometry's is embedded once more, or
+/// twice, by a nearly conformal energy that is led to the one asked for; one that ends far from its
+/// energy up to three times more; with Quality::Best a shape with protrusions three times more. The
+/// map of least energy is returned. Paper: Praun and Hoppe, "Spherical parametrization and
+/// remeshing" (2003); whole levels instead of single vertices, the energy, the guard and the
+/// over-relaxed sweeps are our own.
 ProgressiveEmbedding embed_progressively(const TriangleMesh& mesh, const Topology& topology,
                                          const ProgressiveOptions& options = {});
 
