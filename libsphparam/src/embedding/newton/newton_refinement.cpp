@@ -90,7 +90,7 @@ bool NewtonRefinement::due(int vertices) const {
   const bool draft = options_.quality == Quality::Draft, finest = vertices == finest_;
   if (finest && (slivers_ || options_.quality == Quality::Best)) return true;
   if (vertices <= cheap(finest_) && !(finest && draft)) return true;
-  return (finest || !draft) && !sweeps_suffice();
+  return !sweeps_suffice();
 }
 
 bool NewtonRefinement::sweeps_suffice() const { return last_gain_ <= worthwhile && !protrusions_; }
