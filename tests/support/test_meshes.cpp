@@ -191,7 +191,7 @@ TriangleMesh relabelled(const TriangleMesh& mesh, unsigned seed) {
 
 TriangleMesh gathered_sphere() {
   TriangleMesh mesh = icosphere(5);
-  const double cap = -0.9;
+  const double cap = -0.5;
   for (Vertex v = 0; v < mesh.vertex_count(); ++v) {
     if (mesh.positions(v, 2) > cap) mesh.positions.row(v) << 0, 0, 1;
   }

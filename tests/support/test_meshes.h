@@ -24,7 +24,7 @@ TriangleMesh tube(int rings, int around);
 /// shape crumples and intersects itself: only its connectivity is a sphere.
 TriangleMesh random_sphere_mesh(int vertices, unsigned seed);
 
-/// A sphere whose vertices but for those of a small cap are all in one place: its map has triangles
+/// A sphere whose vertices but for those of a cap are all in one place: its map has triangles
 /// too small for numbers of 32 bits.
 TriangleMesh gathered_sphere();
 
