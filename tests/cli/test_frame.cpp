@@ -301,14 +301,17 @@ TEST_CASE("map: a GIFTI sphere that is mapped anew claims no poles, and may not 
   const Folder folder;
   const std::string mesh = obj_text(gathered_sphere());
   const std::string map = folder / "map.sph.ply", sphere = folder / "sphere.gii";
-  const Ended free = sphparam_program({"map", "-", "-o", map, "--write-sphere", sphere}, mesh);
+  const std::vector<std::string> words{"map",  "-",        "-o", map, "--write-sphere",
+                                       sphere, "--lambda", "0.1"};
+  const Ended free = sphparam_program(words, mesh);
   REQUIRE(free.code == 0);
   CHECK_THAT(free.err, Contains("mapped anew"));
   CHECK_THAT(bytes_of(map), Contains("poles"));
   CHECK_THAT(bytes_of(sphere), !Contains("poles"));
   fs::remove(sphere);
-  const Ended refused =
-      sphparam_program({"map", "-", "-o", map, "--write-sphere", sphere, "--meridian", "7"}, mesh);
+  std::vector<std::string> with_meridian = words;
+  with_meridian.insert(with_meridian.end(), {"--meridian", "7"});
+  const Ended refused = sphparam_program(with_meridian, mesh);
   CHECK(refused.code == 5);
   CHECK_THAT(refused.err, Contains("32 bits cannot hold this map"));
   CHECK_FALSE(fs::exists(sphere));
