@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <unordered_map>
 
+#include "chart/sheet_region.h"
 #include "elementary.h"
 
 // Gauss and Newton's steps d: a face of height h asks for h + ∇h·d = min(wanted, growth·h), and
@@ -30,15 +30,7 @@ using Matrix = Eigen::SparseMatrix<double>;
 class Spreading {
  public:
   Spreading(Sheet& sheet, const std::vector<Vertex>& vertices, double wanted)
-      : sheet_(sheet), vertices_(vertices), wanted_(wanted) {
-    for (const Vertex v : vertices_) {
-      first_unknown_[v] = unknowns_;
-      unknowns_ += sheet_.on_seam(v) ? 1 : 2;
-      sheet_.for_each_spoke(v, [&](Halfedge h) { faces_.push_back(Topology::face(h)); });
-    }
-    std::sort(faces_.begin(), faces_.end());
-    faces_.erase(std::unique(faces_.begin(), faces_.end()), faces_.end());
-  }
+      : sheet_(sheet), vertices_(vertices), wanted_(wanted), region_(sheet, vertices) {}
 
   void run() {
     double lack = measure();
@@ -54,7 +46,7 @@ class Spreading {
   double measure() {
     double sum = 0;
     heights_.clear();
-    for (const Face f : faces_) {
+    for (const Face f : region_.faces) {
       heights_.push_back(sheet_.height(f));
       const double lack = std::max(0.0, elementary::log(wanted_ / heights_.back()));
       sum += lack * lack;
@@ -79,11 +71,11 @@ class Spreading {
     const double height = heights_[i], weight = 1 / std::max(height, least_weighed);
     Request request;
     request.right = weight * (std::max(height, std::min(wanted_, growth * height)) - height);
-    const std::array<SheetPoint, 3> gradient = sheet_.height_gradient(faces_[i]);
+    const std::array<SheetPoint, 3> gradient = sheet_.height_gradient(region_.faces[i]);
     for (int k = 0; k < 3; ++k) {
-      const Vertex v = sheet_.origin(3 * faces_[i] + k);
-      const auto found = first_unknown_.find(v);
-      if (found == first_unknown_.end()) continue;
+      const Vertex v = sheet_.origin(3 * region_.faces[i] + k);
+      const auto found = region_.first_unknown.find(v);
+      if (found == region_.first_unknown.end()) continue;
       const SheetPoint& change = gradient[static_cast<size_t>(k)];
       request.add(found->second, weight * change.x);
       if (!sheet_.on_seam(v)) request.add(found->second + 1, weight * change.y);
@@ -93,8 +85,8 @@ class Spreading {
 
   std::optional<VectorX> find_step() const {
     std::vector<Eigen::Triplet<double>> entries;
-    VectorX right = VectorX::Zero(unknowns_);
-    for (size_t i = 0; i < faces_.size(); ++i) {
+    VectorX right = VectorX::Zero(region_.unknowns);
+    for (size_t i = 0; i < region_.faces.size(); ++i) {
       if (heights_[i] > high * wanted_) continue;
       const Request request = request_of(i);
       for (size_t a = 0; a < static_cast<size_t>(request.count); ++a) {
@@ -104,8 +96,8 @@ class Spreading {
                                request.row[a] * request.row[b]);
       }
     }
-    for (int i = 0; i < unknowns_; ++i) entries.emplace_back(i, i, staying);
-    Matrix matrix(unknowns_, unknowns_);
+    for (int i = 0; i < region_.unknowns; ++i) entries.emplace_back(i, i, staying);
+    Matrix matrix(region_.unknowns, region_.unknowns);
     matrix.setFromTriplets(entries.begin(), entries.end());
     const Eigen::SimplicialLDLT<Matrix> factor(matrix);
     if (factor.info() != Eigen::Success) return std::nullopt;
@@ -134,7 +126,7 @@ class Spreading {
 
   void move(const std::vector<SheetPoint>& before, const VectorX& step, double share) {
     for (size_t i = 0; i < vertices_.size(); ++i) {
-      const int first = first_unknown_.at(vertices_[i]);
+      const int first = region_.first_unknown.at(vertices_[i]);
       const double by_x = share * step[first];
       const double by_y = sheet_.on_seam(vertices_[i]) ? 0 : share * step[first + 1];
       sheet_.move(vertices_[i], {before[i].x + by_x, before[i].y + by_y});
@@ -145,8 +137,9 @@ class Spreading {
     for (const Vertex v : vertices_) {
       if (!sheet_.allows(v, sheet_.place(v))) return false;
     }
-    for (size_t i = 0; i < faces_.size(); ++i) {
-      if (sheet_.height(faces_[i]) < kept * std::min(heights[i], high * wanted_)) return false;
+    for (size_t i = 0; i < region_.faces.size(); ++i) {
+      if (sheet_.height(region_.faces[i]) < kept * std::min(heights[i], high * wanted_))
+        return false;
     }
     return true;
   }
@@ -154,9 +147,7 @@ class Spreading {
   Sheet& sheet_;
   const std::vector<Vertex>& vertices_;
   const double wanted_;
-  std::unordered_map<Vertex, int> first_unknown_;
-  int unknowns_ = 0;
-  std::vector<Face> faces_;
+  const SheetRegion region_;
   std::vector<double> heights_;
 };
 

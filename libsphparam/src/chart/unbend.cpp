@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <optional>
-#include <unordered_map>
+
+#include "chart/sheet_region.h"
 
 // Levenberg and Marquardt's method for Σ max(0, 1 − h / wanted)² over the faces: the damped step d
 // of the linearised problem, each coordinate held inside the rectangle; where that brings nothing,
@@ -24,15 +25,7 @@ using Matrix = Eigen::SparseMatrix<double>;
 class Unbending {
  public:
   Unbending(Sheet& sheet, const std::vector<Vertex>& vertices, double wanted)
-      : sheet_(sheet), vertices_(vertices), wanted_(wanted) {
-    for (const Vertex v : vertices_) {
-      first_unknown_[v] = unknowns_;
-      unknowns_ += sheet_.on_seam(v) ? 1 : 2;
-      sheet_.for_each_spoke(v, [&](Halfedge h) { faces_.push_back(Topology::face(h)); });
-    }
-    std::sort(faces_.begin(), faces_.end());
-    faces_.erase(std::unique(faces_.begin(), faces_.end()), faces_.end());
-  }
+      : sheet_(sheet), vertices_(vertices), wanted_(wanted), region_(sheet, vertices) {}
 
   void run() {
     double lack = measure();
@@ -50,15 +43,15 @@ class Unbending {
 
   double measure() const {
     double sum = 0;
-    for (const Face f : faces_) sum += lack_of(f) * lack_of(f);
+    for (const Face f : region_.faces) sum += lack_of(f) * lack_of(f);
     return sum;
   }
 
   /// The normal equations of ∇h·d = wanted − h, of the faces that lack something.
   void linearise() {
     std::vector<Eigen::Triplet<double>> entries;
-    right_ = VectorX::Zero(unknowns_);
-    for (const Face f : faces_) {
+    right_ = VectorX::Zero(region_.unknowns);
+    for (const Face f : region_.faces) {
       const double lack = lack_of(f);
       if (lack == 0) continue;
       const Row row = row_of(f);
@@ -71,8 +64,8 @@ class Unbending {
         }
       }
     }
-    for (int i = 0; i < unknowns_; ++i) entries.emplace_back(i, i, 0.0);
-    normal_.resize(unknowns_, unknowns_);
+    for (int i = 0; i < region_.unknowns; ++i) entries.emplace_back(i, i, 0.0);
+    normal_.resize(region_.unknowns, region_.unknowns);
     normal_.setFromTriplets(entries.begin(), entries.end());
   }
 
@@ -87,8 +80,8 @@ class Unbending {
     const std::array<SheetPoint, 3> gradient = sheet_.height_gradient(f);
     for (int k = 0; k < 3; ++k) {
       const Vertex v = sheet_.origin(3 * f + k);
-      const auto found = first_unknown_.find(v);
-      if (found == first_unknown_.end()) continue;
+      const auto found = region_.first_unknown.find(v);
+      if (found == region_.first_unknown.end()) continue;
       const SheetPoint& change = gradient[static_cast<size_t>(k)];
       row.entries[static_cast<size_t>(row.count++)] = {found->second, change.x / wanted_};
       if (!sheet_.on_seam(v))
@@ -125,7 +118,7 @@ class Unbending {
 
   void move(const VectorX& step) {
     for (const Vertex v : vertices_) {
-      const int first = first_unknown_.at(v);
+      const int first = region_.first_unknown.at(v);
       const SheetPoint at = sheet_.place(v);
       sheet_.move(
           v, {inside(at.x, step[first]), sheet_.on_seam(v) ? 0 : inside(at.y, step[first + 1])});
@@ -139,9 +132,7 @@ class Unbending {
   Sheet& sheet_;
   const std::vector<Vertex>& vertices_;
   const double wanted_;
-  std::unordered_map<Vertex, int> first_unknown_;
-  int unknowns_ = 0;
-  std::vector<Face> faces_;
+  const SheetRegion region_;
   Matrix normal_;
   VectorX right_;
   double damping_ = first_damping;
