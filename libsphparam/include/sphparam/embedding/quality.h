@@ -7,8 +7,8 @@ enum class Quality {
   Draft,   // within 5 % of the least energy: relaxed sweeps, Newton steps on coarse levels, and of
            // shapes with protrusions a few on the finest
   Normal,  // within 1 %: Newton steps where their gain pays, and of shapes that cannot but be much
-           // distorted a second start
-  Best,    // converged; of shapes with protrusions the lowest of up to five starts
+           // distorted another start or two
+  Best,    // converged; of shapes with protrusions the lowest of several starts
 };
 
 /// What a map gives up for what.
