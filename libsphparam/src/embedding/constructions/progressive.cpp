@@ -35,7 +35,7 @@ constexpr double roomier_lambdas[] = {10, 100, 1000};
 constexpr double far_from_energy = 0.1;  // the share that steps to come would take
 // Times an isometry's energy, before the finest level gets its steps: worth another start.
 constexpr double much_energy = 2.75;
-constexpr double many_minima = 5;  // and here, at last, even nearly conformal starts differ
+constexpr double many_minima = 5;       // and here, at last, even nearly conformal starts differ
 constexpr double clearly_lower = 0.95;  // than a map that has not had its steps
 // Of λ: a map on its way up has at most λ to this power times the first map's energy. (Limbs have
 // half of that, slivers twice as much: there angles are kept at the cost of areas that do not come
