@@ -146,6 +146,25 @@ TEST_CASE("bake: what is linear on a triangle is exact at the centres of its tex
   }
 }
 
+TEST_CASE("bake: with N x N samples a texel is the mean of what its points show") {
+  const auto scene = sphere_scene(icosphere(1));  // no triangle is small, so no texel is crowded
+  const int width = 64, n = 3;
+  const std::vector<float> image = baked(*scene, make_position(*scene, ""), size(width, n));
+  const SphericalChart& chart = scene->target.chart;
+  const TexelOwners owners(chart, width, width / 2);
+  std::vector<Vector3> sums(image.size() / 3, Vector3::Zero());
+  for (int s = 0; s < n * n; ++s) {
+    const OwnerBand band = owners.band(0, (s % n + 0.5) / n, (s / n + 0.5) / n);
+    for (size_t i = 0; i < sums.size(); ++i)
+      for (int k = 0; k < 3; ++k)
+        sums[i] += band.barycentric(i)[k] *
+                   scene->target.positions.row(chart.triangles(band.faces[i], k)).transpose() /
+                   (n * n);
+  }
+  for (size_t i = 0; i < sums.size(); ++i)
+    REQUIRE((Vector3(image[3 * i], image[3 * i + 1], image[3 * i + 2]) - sums[i]).norm() < 1e-6);
+}
+
 TEST_CASE("bake: with --interp sphere a texel shows what lies in its direction") {
   const TriangleMesh mesh = body();
   const auto scene = sphere_scene(mesh);
@@ -307,6 +326,7 @@ TEST_CASE("id: labels have colours of their own in 8 bits, and none has none's")
   const auto scene = scene_of(file, map);
   scene->ids_as_colours = true;
   const SurfaceField field = make_id(*scene, "face");
+  CHECK(field.range == std::pair(0.0, 1.0));
   std::set<std::array<int, 3>> colours = {{0, 0, 0}};
   for (Face f = 0; f < file.mesh.face_count(); ++f) {
     const SurfaceRun run{f, 1, Vector3(1, 0, 0), Vector3::Zero(), Vector3::Zero()};
@@ -422,6 +442,27 @@ TEST_CASE("normal-tangent: x turns round with u, y where it is asked to") {
     CHECK(turned[i] == -plain[i]);
     CHECK(turned[i + 1] == -plain[i + 1]);
     CHECK(turned[i + 2] == plain[i + 2]);
+  }
+}
+
+TEST_CASE("uv: the texture coordinates of the corners, t upwards, and a range that holds them") {
+  MeshFile file;
+  file.mesh = icosphere(1);
+  file.corner_texcoords.emplace(3 * file.mesh.face_count(), 2);
+  for (Eigen::Index i = 0; i < file.corner_texcoords->rows(); ++i) {
+    const auto x = static_cast<double>(i);
+    file.corner_texcoords->row(i) << x, -2 * x;
+  }
+  const auto scene = scene_of(file, SphereMap{file.mesh.positions});
+  const SurfaceField field = make_field("uv", *scene);
+  CHECK(field.range == std::pair(-2.0 * (3.0 * 80 - 1), 3.0 * 80 - 1));
+  for (const Face f : {0, 7, 79}) {
+    const SurfaceRun run{f, 1, {0.5, 0.3, 0.2}, Vector3::Zero(), Vector3::Zero()};
+    std::array<float, 3> value{};
+    field.evaluate_runs(std::span(&run, 1), value.data());
+    CHECK(value[0] == Approx(3 * f + 0.7));
+    CHECK(value[1] == Approx(-2 * (3 * f + 0.7)));
+    CHECK(value[2] == 0);
   }
 }
 

@@ -135,6 +135,39 @@ TEST_CASE("bake images: what is out of its domain is named, before any work") {
   CHECK_THROWS_AS(require_bakeable({{"axes:x", "x.png"}}, {}), FieldError);
 }
 
+TEST_CASE("bake images: labels are whole in the samples that they get, or refused") {
+  const Folder folder;
+  const auto labelled = [](double most) {
+    MeshFile file;
+    file.mesh = icosphere(2);
+    SphereMap map{file.mesh.positions};
+    Property label{"label", ScalarType::Int32, std::vector<double>(320, 0.0)};
+    label.values.back() = most;
+    file.set_face_property(std::move(label));
+    return MappedMesh({.file = std::move(file), .map = std::move(map), .name = "labelled"});
+  };
+  const auto complaint = [&](double most, const char* name, SampleType type) -> std::string {
+    BakeSettings settings = small;
+    settings.depth = type;
+    try {
+      bake(labelled(most), {{"scalar:label", folder / name}}, settings);
+      return "";
+    } catch (const BakeSettingError& error) {
+      return error.setting() + ": " + error.what();
+    }
+  };
+  const auto holds = [&](double most, const char* name, SampleType type) {
+    INFO(name << " " << name_of(type));
+    CHECK(complaint(most, name, type).empty());
+    CHECK_THAT(complaint(most + 1, name, type),
+               Catch::StartsWith("depth: ") && Catch::Contains(std::to_string(std::lround(most))));
+  };
+  holds(255, "l.png", SampleType::Uint8);
+  holds(65535, "l.png", SampleType::Uint16);
+  holds(2048, "l.exr", SampleType::Half);
+  holds(16777216, "l.exr", SampleType::Float);
+}
+
 TEST_CASE("bake images: a target is on the same sphere, or the user is told") {
   const Folder folder;
   const MappedMesh source = egg(3);

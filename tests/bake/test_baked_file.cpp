@@ -76,6 +76,18 @@ TEST_CASE("baked file: colours are sRGB in integers and linear in others") {
             .pixels[0] == Approx(0.21404).margin(1e-6));
 }
 
+TEST_CASE("baked file: PNG of colours says that they are sRGB, of other numbers not") {
+  const auto has_chunk = [](FieldKind kind) {
+    const SurfaceField field{
+        .name = "x", .channels = 3, .kind = kind, .range = std::pair(0.0, 1.0)};
+    const std::vector<char> bytes =
+        file_of(field, {.width = 4, .height = 2}, [](int, int, int) { return 0.5; });
+    return std::string_view(bytes.data(), bytes.size()).find("sRGB") != std::string_view::npos;
+  };
+  CHECK(has_chunk(FieldKind::Colour));
+  CHECK_FALSE(has_chunk(FieldKind::Data));
+}
+
 TEST_CASE("baked file: conventions move texels to where their viewers look for them") {
   // The value is our longitude in turns; in column c of the convention, turns·θ/2π + offset is
   // (c + ½)/W.
@@ -93,6 +105,26 @@ TEST_CASE("baked file: conventions move texels to where their viewers look for t
       const double u =
           convention.turns * static_cast<double>(image.pixel(c, 3)[0]) + convention.offset;
       CHECK(std::abs(std::remainder(u - (c + 0.5) / 16, 1.0)) < 1e-6);
+    }
+  }
+}
+
+TEST_CASE("baked file: EXR of the convention of environment maps says that it is one, no other") {
+  const SurfaceField data{.name = "x"};
+  for (const ImageFormat format : {ImageFormat::Exr, ImageFormat::Png}) {
+    for (const Convention convention : {Convention::Envmap, Convention::Sphparam}) {
+      const std::vector<char> bytes = file_of(
+          data,
+          {.width = 16,
+           .height = 8,
+           .format = format,
+           .sample_type = format == ImageFormat::Exr ? SampleType::Float : SampleType::Uint16,
+           .convention = convention},
+          [](int, int, int) { return 0.5; });
+      const std::string_view text(bytes.data(), bytes.size());
+      const bool wanted = format == ImageFormat::Exr && convention == Convention::Envmap;
+      const std::string_view attribute("envmap\0string", 13);  // its name and its type
+      CHECK((text.find(attribute) != std::string_view::npos) == wanted);
     }
   }
 }

@@ -6,7 +6,9 @@
 #include <iterator>
 #include <numbers>
 
+#include "bake/field_registry.h"
 #include "rays/ray_scene.h"
+#include "scenes.h"
 #include "sphparam/bake/bake.h"
 #include "sphparam/sphere/radial_directions.h"
 #include "sphparam/sphere/spherical_coordinates.h"
@@ -191,6 +193,32 @@ TEST_CASE("lon: never a mean across 180 degrees, with many samples and crowded t
   }
 }
 
+TEST_CASE("lon: the date line is at 180 degrees, counted either way") {
+  TriangleMesh octahedron;
+  octahedron.positions =
+      (Points(6, 3) << 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1).finished();
+  octahedron.triangles =
+      (Triangles(8, 3) << 0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5)
+          .finished();
+  for (const bool west : {false, true}) {
+    MeshFile file;
+    file.mesh = octahedron;
+    const auto scene =
+        scene_of(std::move(file), SphereMap{octahedron.positions}, {.positive_west = west});
+    const SurfaceField field = make_field("lon", *scene);
+    const auto at = [&](const Vector3& weights) {
+      const SurfaceSample sample{{1, weights}, 0};  // between +y, −x and +z
+      float value = 0;
+      field.evaluate(std::span(&sample, 1), &value);
+      return value;
+    };
+    CHECK(at({0, 1, 0}) == 180);
+    CHECK(at({1, 0, 0}) == (west ? -90 : 90));
+    CHECK(at({0, 0, 1}) == 0);
+    CHECK(at({0.5, 0.5, 0}) == (west ? -135 : 135));
+  }
+}
+
 TEST_CASE("slope: 0 on a sphere about its centre, that of the plane on a cube's face") {
   const Baked none = baked(mapped_radially(icosphere(6)), "slope");
   CHECK(*std::ranges::max_element(none.values) < 1.2);  // a facet's own tilt
@@ -250,8 +278,15 @@ TEST_CASE("body_of: names, radii and WKT, and what is none of them") {
   CHECK(given.name == "Ryugu");
   CHECK(given.semi_axes == Vector3(448, 448, 448));
   CHECK(given.positive_west);
-  for (const char* text : {"vespa", "", "-3", "0", "1,2", "1,2,3,4", "1,,2", "nan", "3,2,inf",
-                           "GEOGCRS[\"x\"]", "GEOGCRS[\"x\",ELLIPSOID[\"x\",1,0]", "PROJCRS[]"}) {
+  const Body old = body_of(
+      "GEOGCS[\"Mars\",DATUM[\"Mars\",SPHEROID[\"Mars\",3396190,169.894447223612]],"
+      "PRIMEM[\"Airy-0\",0],UNIT[\"degree\",0.0174532925199433]]");
+  CHECK(old.name == "Mars");
+  CHECK(old.semi_axes.z() == Approx(3376200).epsilon(1e-9));
+  CHECK_FALSE(old.positive_west);
+  for (const char* text :
+       {"vespa", "", "-3", "0", "1,2", "1,2,3,4", "1,,2", "nan", "3,2,inf", "GEOGCRS[\"x\"]",
+        "GEOGCRS[\"x\",ELLIPSOID[\"x\",1,0]", "PROJCRS[]", "GEOGCRS[\"x\",5,0,ELLIPSOID[]]"}) {
     INFO(text);
     CHECK_THROWS_AS(body_of(text), BodyError);
   }

@@ -35,13 +35,14 @@ MeshFile bowl() {
 }
 
 /// Three linear numbers a texel, of the bowl on a ball that closes it.
-std::vector<float> baked(const std::string& field, double calm_beyond, int threads = 1) {
+std::vector<float> baked(const std::string& field, double calm_beyond, int threads = 1,
+                         const MeshFile& surface = bowl()) {
   MeshFile ball;
   ball.mesh = icosphere(3);
   SphereMap map{ball.mesh.positions};
   const MappedMesh mapped({.file = std::move(ball), .map = std::move(map)});
   BakeSettings settings{
-      .width = width, .from = bowl(), .calm_beyond = calm_beyond, .threads = threads};
+      .width = width, .from = surface, .calm_beyond = calm_beyond, .threads = threads};
   std::vector<float> values;
   bake_values(mapped, {field}, settings,
               [&](size_t, const BakedField&, int, int rows, const float* row) {
@@ -111,9 +112,25 @@ TEST_CASE("calm walls: what is masked out shows what lies close behind it, not w
   is(first(0), {1, 0, 0, 0.25F});
 }
 
+TEST_CASE("calm walls: of what stands about a wall, what is near counts most") {
+  MeshFile halves = bowl();
+  for (size_t v = 0; v < halves.vertex_properties[0].values.size(); ++v) {
+    const bool is_red = halves.mesh.positions(static_cast<Eigen::Index>(v), 1) > 0;
+    halves.vertex_properties[0].values[v] = is_red;
+    halves.vertex_properties[2].values[v] = !is_red;
+  }
+  const std::vector<float> calm = baked("vcolor", 0.1, 1, halves);
+  const auto red = [&](int column) { return calm[static_cast<size_t>(3 * (3 * width + column))]; };
+  CHECK(red(width / 4) > 0.55);  // towards +y
+  CHECK(red(3 * width / 4) < 0.45);
+  CHECK(red(width / 4) + red(3 * width / 4) == Approx(1).margin(0.02));
+}
+
 TEST_CASE("calm walls: tangent normals stand on a wall") {
-  const std::vector<float> calm = baked("normal-tangent", 0.1);
-  for (size_t i = 0; i < 3 * width * 4; i += 3) {
+  const std::vector<float> streaks = baked("normal-tangent", 0),
+                           calm = baked("normal-tangent", 0.1);
+  CHECK(streaks[3 * width * 4 + 1] < -0.3F);
+  for (size_t i = 0; i < 3 * width * 6; i += 3) {
     CHECK(calm[i] == Approx(0).margin(0.1));
     CHECK(calm[i + 1] == Approx(0).margin(0.1));
     CHECK(calm[i + 2] > 0.99);

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <memory>
 
+#include "bake/field_registry.h"
 #include "bake/fields/material_fields.h"
 #include "bake/fields/normal_fields.h"
 #include "image/image_codec.h"
@@ -113,6 +114,35 @@ TEST_CASE("material fields: the constants of two materials are baked as they are
         std::vector<std::pair<std::string, std::string>>{{"sphparam:strength", "4"}});
   CHECK(emissive.kind == FieldKind::Colour);
   CHECK(orm.kind == FieldKind::Data);
+}
+
+TEST_CASE("material fields: many runs at once are as one by one") {
+  Cube cube;
+  cube.file.channels[0].roughness = texel("r", {0.25F, 0.5F, 0.75F});
+  cube.file.channels[0].emission.factor = {0.5, 0.25, 0.125, 1};
+  cube.file.channels[1].emission.factor = {1, 0.75, 0.5, 1};
+  const auto scene = cube.scene();
+  const Vector3 first(0.5, 0.3, 0.2), step(0.01, -0.02, 0.01);
+  const std::vector<SurfaceRun> runs = {{3, 2, first, step, Vector3::Zero()},
+                                        {0, 3, first, step, Vector3::Zero()},
+                                        {5, 1, first, step, Vector3::Zero()}};
+  for (const char* name : {"orm", "roughness", "metallic", "emissive"}) {
+    INFO(name);
+    const SurfaceField field = make_field(name, *scene);
+    const auto values_of = [&](std::span<const SurfaceRun> some) {
+      size_t count = 0;
+      for (const SurfaceRun& run : some) count += static_cast<size_t>(run.count * field.channels);
+      std::vector<float> values(count);
+      field.evaluate_runs(some, values.data());
+      return values;
+    };
+    std::vector<float> one_by_one;
+    for (const SurfaceRun& run : runs) {
+      const std::vector<float> values = values_of(std::span(&run, 1));
+      one_by_one.insert(one_by_one.end(), values.begin(), values.end());
+    }
+    CHECK(values_of(runs) == one_by_one);
+  }
 }
 
 TEST_CASE("material fields: a face without a material has what glTF says of it") {
@@ -419,7 +449,8 @@ TEST_CASE("material fields: a mesh without materials, or without coordinates for
   CHECK_THROWS_WITH(make_orm(*bare, ""), Catch::Contains("no texture coordinates"));
   cube.file.channels.clear();
   const auto none = cube.scene();
-  CHECK_THROWS_WITH(make_emissive(*none, ""), Catch::Contains("nothing of materials"));
+  for (const char* name : {"emissive", "orm", "roughness", "metallic"})
+    CHECK_THROWS_WITH(make_field(name, *none), Catch::Contains("nothing of materials"));
 }
 
 TEST_CASE("channels_of: those that a mesh has something to say of") {

@@ -130,6 +130,30 @@ TEST_CASE("projected surface: what is seen from behind is told, its normals turn
   for (const float sky : baked(*scene, "ao")) CHECK(sky == Approx(1).margin(1e-5));
 }
 
+TEST_CASE("projected surface: shares are of area, wherever both lie") {
+  // Half of the sphere, of few large triangles beside many small ones.
+  TriangleMesh mesh = icosphere(3), half = scaled(icosphere(3), 0.9);
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index f = 0; f < half.triangles.rows(); ++f)
+    if (half.positions(half.triangles(f, 0), 2) > 0) kept.push_back(f);
+  half.triangles = Triangles(half.triangles(kept, Eigen::all));
+  for (TriangleMesh* m : {&mesh, &half}) m->positions.col(2).array() += 0.4;
+  const auto shares = [&](const Vector3& moved) {
+    TriangleMesh a = mesh, b = half;
+    for (TriangleMesh* m : {&a, &b}) m->positions.rowwise() += moved.transpose();
+    MeshFile file = file_of(a);
+    const MappedMesh mapped({.file = file, .map = normalised(mesh.positions)}, 1);
+    const BakeScene scene{make_source(file_of(b)), make_target(mapped, false, 1), FieldOptions{},
+                          1};
+    return shares_of(scene);
+  };
+  const ProjectionShares here = shares(Vector3::Zero()), there = shares(Vector3(3, -5, 2));
+  CHECK(here.nearest + here.back > 0.3);
+  CHECK(there.nearest == Approx(here.nearest).margin(0.01));
+  CHECK(there.back == Approx(here.back).margin(0.01));
+  CHECK(there.median == Approx(here.median).margin(1e-3));
+}
+
 TEST_CASE("projected surface: beyond its rim the nearest point is shown, and told") {
   // What is left of a sphere: a cap about +x, of 60°.
   TriangleMesh cap = scaled(icosphere(4), 0.9);

@@ -66,6 +66,20 @@ TEST_CASE("TexelOwners: every texel's owner holds it, by rational arithmetic") {
   }
 }
 
+TEST_CASE("TexelOwners: bands have all rows, also where one is left over") {
+  const SphericalChart chart = chart_of(icosphere(1));
+  for (const int height : {1, 31, 32, 33, 64, 65}) {
+    const TexelOwners owners(chart, 16, height);
+    int rows = 0;
+    for (int b = 0; b < owners.band_count(); ++b) {
+      CHECK(owners.first_row(b) == rows);
+      CHECK(owners.rows(b) > 0);
+      rows += owners.rows(b);
+    }
+    CHECK(rows == height);
+  }
+}
+
 TEST_CASE("TexelOwners: no gap and no double where texels lie exactly on edges and vertices") {
   // Vertices of the grid sphere sit at multiples of 1/16 and 1/8: centres of 8 × 4 texels.
   const TriangleMesh mesh = uv_sphere(16, 7);

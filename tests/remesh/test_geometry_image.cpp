@@ -112,7 +112,12 @@ TEST_CASE("geometry images: half and 16 bits are within half a quantum") {
   for (const double scale : {1e-6, 1.0, 3000.0}) {
     const Made made("octa:17", scale);
     const auto half = through_file(made.image(ImageDepth::Half), ImageDepth::Half).values;
-    const auto u16 = through_file(made.image(ImageDepth::Uint16), ImageDepth::Uint16).values;
+    const GeometryImage image = made.image(ImageDepth::Uint16);
+    for (const float sample : image.image.pixels) {  // 0 to 65535, so that PNG rounds nothing
+      const double step = static_cast<double>(sample) * 65535;
+      CHECK(std::abs(step - std::round(step)) < 0.01);
+    }
+    const auto u16 = through_file(image, ImageDepth::Uint16).values;
     for (size_t i = 0; i < made.values.size(); ++i) {
       const double x = made.values[i];
       const double quantum = std::ldexp(1, std::max(std::ilogb(x), -14) - 10);
@@ -139,6 +144,10 @@ TEST_CASE("geometry images: what is broken is refused, saying what") {
                     Catch::Contains("9 x 9"));
   CHECK_THROWS_WITH(read_geometry_image(good.image, {{"sphparam:grid", "ico:2"}}),
                     Catch::Contains("ico:2"));
+  for (const auto& [width, height] : {std::pair(8, 9), std::pair(9, 8), std::pair(10, 9)}) {
+    CHECK_THROWS_WITH(read_geometry_image(Image(width, height, 3), good.texts),
+                      Catch::Contains("which is not octa:9"));
+  }
   GeometryImage torn = good;
   torn.image.pixels[0] += 1;  // one of the four corners, which are all −z
   CHECK_THROWS_WITH(read_geometry_image(torn.image, torn.texts), Catch::Contains("differ"));

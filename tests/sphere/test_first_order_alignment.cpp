@@ -127,6 +127,8 @@ TEST_CASE(
 
 TEST_CASE("first_order_alignment: flips of a template decide, whatever skewness says") {
   const Functions c = bumpy(4), usual = lying(c);
+  const Functions same = 3 * usual;
+  CHECK((lying(c, &same) - usual).cwiseAbs().maxCoeff() < 1e-11);
   for (const Vector3& axis : {Vector3(1, 0, 0), Vector3(0, 1, 0), Vector3(0, 0, 1)}) {
     const Matrix3 half = rotation(pi, axis);
     const Functions other = turn_harmonics(usual, half) * half.transpose();
@@ -136,6 +138,13 @@ TEST_CASE("first_order_alignment: flips of a template decide, whatever skewness 
   }
   const Functions crooked = bumpy(4);
   CHECK_THROWS_WITH(lying(c, &crooked), Catch::Contains("not aligned"));
+}
+
+TEST_CASE("first_order_alignment: what is flat along an axis has no skewness there") {
+  Functions flat = Functions::Zero(9, 3);
+  flat(harmonic_index(1, 1), 0) = 3;
+  flat(harmonic_index(1, -1), 1) = 2;
+  CHECK(first_order_alignment(flat).skewness == Vector3::Zero());
 }
 
 TEST_CASE("first_order_alignment: what is not decided is told") {

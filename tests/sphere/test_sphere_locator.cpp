@@ -120,6 +120,7 @@ TEST_CASE("SphereLocator: the weights give the direction back, in tiny triangles
       const SurfacePoint found = locator.locate(q);
       CHECK(found.face == f);
       CHECK((found.barycentric - weights).norm() < 1e-6);
+      CHECK(found.barycentric.sum() == Approx(1).epsilon(1e-15));
     }
   }
 }

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "sphere/harmonic_turns.h"
@@ -93,6 +94,24 @@ TEST_CASE("spherical_correlation: no rotation of a fine sample is better") {
   for (unsigned seed = 0; seed < 3000; ++seed)
     CHECK(correlation(random_rotation(seed)) <= found.front().correlation + 1e-12);
   for (size_t i = 1; i < found.size(); ++i) CHECK(found[i].correlation <= found[0].correlation);
+}
+
+TEST_CASE("spherical_correlation: of what is the same a third of a turn on, all three are found") {
+  // Turns of it are apart by a third of a turn and more, and none is nearer than 20 degrees.
+  Functions f = Functions::Zero(25, 1);
+  f(harmonic_index(3, 3), 0) = 1;
+  f(harmonic_index(4, 3), 0) = 0.7;
+  f(harmonic_index(1, 0), 0) = 0.9;
+  const auto found = turns_by_correlation(f, f, 40);
+  int exact = 0;
+  for (size_t i = 0; i < found.size(); ++i) {
+    exact += found[i].correlation > 1 - 1e-9;
+    for (size_t j = 0; j < i; ++j) {
+      const Matrix3 between = found[i].rotation.transpose() * found[j].rotation;
+      CHECK(std::acos(std::min(1.0, (between.trace() - 1) / 2)) > std::numbers::pi / 9);
+    }
+  }
+  CHECK(exact == 3);
 }
 
 TEST_CASE("spherical_correlation: the same bits for any number of threads, nonsense is refused") {
