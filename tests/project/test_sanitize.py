@@ -77,3 +77,11 @@ def test_what_passed_runs_again_only_for_another_program(sanitize, room, capsys)
 def test_a_room_without_cases_is_no_success(sanitize, room):
     write(room, "#!/bin/sh\n")
     assert not sanitize.run_room(room, 1)
+
+
+def test_options_may_stand_before_the_rooms(sanitize, monkeypatch):
+    ran_with = []
+    monkeypatch.setattr(sanitize, "run_room", lambda room, jobs: ran_with.append((room.name, jobs)) or True)
+    monkeypatch.setattr(sys, "argv", ["sanitize", "address", "--jobs", "1", "sphere", "mesh"])
+    assert sanitize.main() == 0
+    assert ran_with == [("sphere", 1), ("mesh", 1)]
