@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "measure/farthest_point.h"
+#include "support/brush.h"
 #include "support/test_meshes.h"
 
 namespace sphparam {
@@ -17,17 +18,20 @@ TriangleMesh triangle(const Vector3& a, const Vector3& b, const Vector3& c) {
   return mesh;
 }
 
-FarthestPoint farthest(const TriangleMesh& from, const TriangleMesh& to,
-                       const FarthestPoint& known = {}) {
+/// From what is known, or the vertices if they are farther.
+FarthestPoint farthest(const TriangleMesh& from, const TriangleMesh& to, FarthestPoint known = {},
+                       std::int64_t cuts = 0) {
   const RayScene scene(to);
   VertexDistances vertices = {Eigen::VectorXd(from.vertex_count()), {}};
   for (int v = 0; v < from.vertex_count(); ++v) {
     const NearestPoint found = scene.nearest(from.position(v));
     vertices.distances[v] = std::sqrt(found.squared_distance);
     vertices.nearest.push_back(found.on.face);
+    if (vertices.distances[v] > known.distance)
+      known = {.point = from.position(v), .distance = vertices.distances[v]};
   }
-  const FarthestPoint one = find_farthest(from, vertices, to, scene, known, 1);
-  const FarthestPoint two = find_farthest(from, vertices, to, scene, known, 2);
+  const FarthestPoint one = find_farthest(from, vertices, to, scene, known, cuts, 1);
+  const FarthestPoint two = find_farthest(from, vertices, to, scene, known, cuts, 2);
   CHECK(one.point == two.point);
   CHECK(one.at_most == two.at_most);
   return one;
@@ -89,10 +93,33 @@ TEST_CASE(
   TriangleMesh thin = tube(2, around), other = tube(3, around);
   thin.positions.leftCols<2>() *= 1e-2;
   other.positions.leftCols<2>() *= 1e-2;
-  other.positions.col(2) /= 2;
+  other.positions.col(2) *= 2.0 / 3;
   other.positions.col(0).array() += 1e-3;
   const FarthestPoint found = farthest(thin, other);
   CHECK(found.distance > 5e-4);
+  CHECK(found.distance < 1e-2);
+  CHECK(found.at_most <= 2 * found.distance);
+}
+
+TEST_CASE("farthest point: of thin bodies of different triangles, the bound is as near") {
+  // Needles from end to end, almost in place of one another: halved, they promised a thousand times
+  // what there is after hundreds of cuts each.
+  TriangleMesh thin = tube(4, 900), other = tube(3, 1100);
+  other.positions.col(2) *= 3.0 / 2;
+  for (TriangleMesh* mesh : {&thin, &other}) {
+    mesh->positions.row(0).z() = 2.25;
+    mesh->positions.row(mesh->vertex_count() - 1).z() = -2.25;
+    mesh->positions.leftCols<2>() *= 1e-3;
+  }
+  const FarthestPoint found = farthest(thin, other, {}, 20 * thin.face_count());
+  CHECK(found.distance < 1e-7);
+  CHECK(found.at_most <= 2 * found.distance);
+}
+
+TEST_CASE("farthest point: a brush beside one of other triangles, in few cuts each") {
+  const TriangleMesh few = brush(50, 8, 1), many = brush(50, 12, 4);
+  const FarthestPoint found = farthest(few, many, {}, 25 * few.face_count());
+  CHECK(found.distance < 1e-2);
   CHECK(found.at_most <= 2 * found.distance);
 }
 

@@ -8,6 +8,7 @@
 #include "rays/distinct_faces.h"
 #include "rays/ray_scene.h"
 #include "rays/triangle_distance.h"
+#include "support/brush.h"
 #include "support/test_meshes.h"
 
 namespace sphparam {
@@ -133,6 +134,25 @@ TEST_CASE("ray scene: where long triangles lie across the axes, all answers are 
                  two = scene.first_hit(turn * origin, turn * towards, 4);
     CHECK((one.face >= 0) == (two.face >= 0));
     CHECK(one.distance == Approx(two.distance).margin(1e-5));
+  }
+}
+
+TEST_CASE("ray scene: where thin triangles lie across all axes, nearest points are as exact") {
+  Random random;
+  for (const double scale : {1e-60, 1.0, 1e60}) {
+    TriangleMesh hairs = brush(60, 12, 1);
+    hairs.positions.array() = scale * (hairs.positions.array() + 100);
+    const RayScene scene(hairs);
+    for (int i = 0; i < 150; ++i) {
+      const double away = i % 10 == 0 ? 1e7 : 12;
+      const Vector3 p = scale * (away * random.point().array() + 100);
+      check_nearest(hairs, scene, p, i % 3 - 1);
+      const double nearest = std::sqrt(by_brute_force(hairs, p).squared_distance);
+      CHECK(scene.is_within(nearest * (1 + 1e-9), p, i % 3 - 1));
+      CHECK_FALSE(scene.is_within(nearest * (1 - 1e-9), p, i % 3 - 1));
+    }
+    for (int v = 0; v < hairs.vertex_count(); v += 13)
+      check_nearest(hairs, scene, hairs.position(v), -1);
   }
 }
 

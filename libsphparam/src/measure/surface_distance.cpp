@@ -24,6 +24,8 @@ namespace {
 
 constexpr std::int64_t chunk = 1024;        // that one thread measures at once
 constexpr std::int64_t block = 64 * chunk;  // between two calls of the progress
+constexpr std::int64_t most_cuts =
+    1 << 20;  // for the bound, as many as samples; up to 150 bytes each
 
 // a + u (b − a) + v (c − a) is off by at most some twenty roundings of the largest coordinate.
 constexpr double sample_rounding = 0x1p-48;
@@ -189,7 +191,8 @@ OneSidedDistance measure_one_side(Side side, const TriangleMesh& from, const Tri
                          .distance = all.max,
                          .at_most = std::numeric_limits<double>::infinity()};
   if (options.extremes)
-    farthest = find_farthest(from, at_vertices, other, to, farthest, options.threads);
+    farthest =
+        find_farthest(from, at_vertices, other, to, farthest, options.samples, options.threads);
   const bool noise = farthest.distance < sample_rounding * largest_coordinate(from);
   result.max = noise ? all.max : farthest.distance;
   result.max_bound = farthest.at_most;

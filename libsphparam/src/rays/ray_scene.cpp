@@ -4,7 +4,8 @@
 //
 // Nearest points: Embree walks its tree by boxes in floats; here every triangle it comes to is
 // judged in doubles. A box may be passed over only if no triangle in it can be the nearest, so the
-// radius of the search is the distance known so far, widened by what rounding may have cost. For a
+// radius of the search is the distance known so far, widened by what rounding may have cost. Where
+// such boxes overlap much, boxes that lie as the triangles do take their place. For a
 // point p far away floats cannot tell distances apart; the search then goes round a point p' on the
 // way from p to the centre, at distance D' ≥ r from it, where all of the mesh is within r = √3.
 // Lemma: where x is no farther from p than y, |p' − x|² ≤ |p' − y|² + r². Proof: with centre 0 and
@@ -20,6 +21,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <new>
 #include <optional>
 #include <stdexcept>
@@ -27,6 +29,7 @@
 #include <vector>
 
 #include "rays/distinct_faces.h"
+#include "rays/oriented_boxes.h"
 #include "rays/triangle_distance.h"
 
 namespace sphparam {
@@ -210,6 +213,145 @@ RTCIntersectContext rays_side_by_side() {
   return context_of_rays(RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
 }
 
+/// A search for the nearest point, as it goes on.
+///
+/// Most triangles that the tree comes to are farther away than the best so far already by their
+/// boxes, and are passed over. That is told from squared distances, whose rounding must not decide:
+/// a point of a triangle is computed to within 8√3 roundings of the longest vector that goes in,
+/// and the distance of a box likewise, e = 2⁻⁴⁷ L together, so that one found at distance d has a
+/// box at d + e at most, and (d + e)² ≤ (1 + 2⁻³⁰) d² + (1 + 2³⁰) e².
+class Search {
+ public:
+  Search(const TriangleMesh& mesh, const std::vector<Face>& faces, const Frame& frame,
+         const Vector3& point, double near_enough)
+      : mesh_(mesh),
+        faces_(faces),
+        frame_(frame),
+        point_(point),
+        near_enough_(near_enough),
+        slack_(0x1p-63 * squared_longest(frame, point)),
+        centre_(frame.local(point)) {
+    if (centre_.squaredNorm() <= far_away * far_away) return;
+    const Vector3 away = (point - frame.centre).stableNormalized();
+    centre_ = far_away * (frame.turn ? Vector3(*frame.turn * away) : away);
+    widening_ = squared_reach_of_cube;
+  }
+
+  const Vector3& point() const { return point_; }
+  const Vector3& centre() const { return centre_; }
+  bool is_far_away() const { return widening_ > 0; }
+  const NearestPoint& best() const { return best_; }
+  /// Squared: a box farther than that has nothing to offer.
+  double beyond() const { return beyond_; }
+  /// How many triangles the tree of boxes came to.
+  int visited() const { return visited_; }
+
+  void pass_over_what_is_not_near_enough() {
+    beyond_ = std::min(beyond_, widened_square(near_enough_));
+  }
+
+  bool ends() const { return best_.squared_distance <= near_enough_; }
+
+  /// By Embree's number.
+  bool come_to(unsigned number) {
+    ++visited_;
+    return !ends() && consider(faces_[number]);
+  }
+
+  /// Is this face nearer than the best so far?
+  bool consider(Face face) {
+    const auto corners = mesh_.triangles.row(face);
+    const Vector3 a = mesh_.position(corners[0]), b = mesh_.position(corners[1]),
+                  c = mesh_.position(corners[2]);
+    if (is_beyond_best(a, b, c)) return false;
+    const TrianglePoint found = nearest_on_triangle(point_, a, b, c);
+    const double squared = found.squared_distance;
+    const bool first = best_.on.face < 0;
+    const bool wins =
+        first || squared < best_.squared_distance ||
+        (squared == best_.squared_distance && face < best_.on.face);  // whoever came first
+    if (!wins) return false;
+    best_ = {{face, found.barycentric}, squared};
+    beyond_ = std::min(beyond_, widened_square(squared));
+    const Vector3& w = found.barycentric;
+    foot_ = w[0] * frame_.local(a) + w[1] * frame_.local(b) + w[2] * frame_.local(c);
+    return true;
+  }
+
+  /// Beyond it from `centre` nothing can be the nearest.
+  float radius() const {
+    if (best_.on.face < 0) return std::numeric_limits<float>::infinity();
+    return widened(std::sqrt((centre_ - foot_).squaredNorm() + widening_));
+  }
+
+  /// Beyond it nothing is near enough.
+  float radius_of_near_enough() const {
+    if (widening_ > 0) return std::numeric_limits<float>::infinity();
+    return widened(std::sqrt(near_enough_) * frame_.scale);
+  }
+
+ private:
+  /// L²: from the point to any other of the mesh, and of two sides of a triangle.
+  static double squared_longest(const Frame& frame, const Vector3& point) {
+    const double longest = (point - frame.centre).stableNorm() + 2.5 * frame.diagonal;
+    return longest * longest;
+  }
+
+  bool is_beyond_best(const Vector3& a, const Vector3& b, const Vector3& c) const {
+    const Vector3 lower = a.cwiseMin(b).cwiseMin(c), upper = a.cwiseMax(b).cwiseMax(c);
+    return (lower - point_).cwiseMax(point_ - upper).cwiseMax(0).squaredNorm() > beyond_;
+  }
+
+  double widened_square(double squared) const { return (1 + 0x1p-30) * squared + slack_; }
+
+  float widened(double known) const {
+    const double size = 1 + centre_.cwiseAbs().maxCoeff();
+    return static_cast<float>(known * (1 + radius_slack) + position_slack * size);
+  }
+
+  const TriangleMesh& mesh_;
+  const std::vector<Face>& faces_;
+  const Frame& frame_;
+  const Vector3& point_;
+  const double near_enough_;  // squared; where triangles are piled up, all of them are near
+  const double slack_;        // of squared distances of boxes
+  int visited_ = 0;
+  double beyond_ = std::numeric_limits<double>::infinity();
+  Vector3 centre_;       // p, or p' where p is far away; local
+  double widening_ = 0;  // of the squared radius
+  NearestPoint best_ = {{-1, Vector3::Zero()}, std::numeric_limits<double>::infinity()};
+  Vector3 foot_ = Vector3::Zero();  // of the best; local
+};
+
+/// Returns true where the radius has changed, as Embree wants it.
+bool come_to_triangle(RTCPointQueryFunctionArguments* arguments) {
+  auto& search = *static_cast<Search*>(arguments->userPtr);
+  if (!search.come_to(arguments->primID)) return false;
+  const float radius = search.radius();
+  // Of two triangles equally near the second may have the wider radius, by rounding.
+  if (!(radius < arguments->query->radius)) return false;
+  arguments->query->radius = radius;
+  return true;
+}
+
+void go_through(RTCScene scene, Search& search, float radius) {
+  RTCPointQuery query;
+  query.x = static_cast<float>(search.centre().x());
+  query.y = static_cast<float>(search.centre().y());
+  query.z = static_cast<float>(search.centre().z());
+  query.time = 0;
+  query.radius = radius;
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(scene, &query, &context, come_to_triangle, &search);
+}
+
+void go_through(const OrientedBoxes& boxes, Search& search) {
+  boxes.visit(
+      search.point(), [&] { return search.beyond(); },
+      [&](Face face) { return search.consider(face) && search.ends(); });
+}
+
 }  // namespace
 
 struct RayScene::Tree {
@@ -245,6 +387,32 @@ struct RayScene::Tree {
     }
   }
 
+  /// Do boxes along the axes overlap, so that a search comes to many triangles also where it begins
+  /// on the mesh? A handful is usual.
+  bool is_crowded() const {
+    constexpr size_t probes = 256, many = 24;
+    size_t visited = 0;
+    for (size_t i = 0; i < probes && visited <= many * probes; ++i) {
+      const Face face = faces[i * faces.size() / probes];
+      Vector3 middle = Vector3::Zero();
+      for (int k = 0; k < 3; ++k) middle += mesh.position(mesh.triangles(face, k)) / 3;
+      Search search(mesh, faces, frame, middle, -1);
+      search.consider(face);
+      sphparam::go_through(scene.handle, search, search.radius());
+      visited += static_cast<size_t>(search.visited());
+    }
+    return visited > many * probes;
+  }
+
+  /// The rest of a search; nothing beyond the radius, of Embree's coordinates, is of interest.
+  void go_through(Search& search, float radius) const {
+    std::call_once(boxes_chosen, [&] {
+      if (is_crowded()) oriented.emplace(mesh, faces, frame.scale);
+    });
+    if (oriented && !search.is_far_away()) return sphparam::go_through(*oriented, search);
+    sphparam::go_through(scene.handle, search, radius);
+  }
+
   RayHit hit_of(const RTCRayHit& ray) const {
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
     return {faces[ray.hit.primID], ray.ray.tfar / frame.scale};
@@ -255,6 +423,8 @@ struct RayScene::Tree {
   std::vector<Face> faces;  // of the mesh, by Embree's numbers
   Device device;
   Scene scene;
+  mutable std::once_flag boxes_chosen;
+  mutable std::optional<OrientedBoxes> oriented;  // for nearest points, where it is crowded
 };
 
 RayScene::RayScene(const TriangleMesh& mesh) : tree_(std::make_unique<Tree>(mesh)) {}
@@ -331,138 +501,18 @@ void RayScene::first_hits(std::span<const Ray> rays, std::span<RayHit> hits) con
   }
 }
 
-namespace {
-
-/// A search for the nearest point, as it goes on.
-///
-/// Most triangles that the tree comes to are farther away than the best so far already by their
-/// boxes, and are passed over. That is told from squared distances, whose rounding must not decide:
-/// a point of a triangle is computed to within 8√3 roundings of the longest vector that goes in,
-/// e = 2⁻⁴⁸ L, so that one found at distance d has a box at d + e at most, and
-/// (d + e)² ≤ (1 + 2⁻³⁰) d² + (1 + 2³⁰) e².
-class Search {
- public:
-  Search(const TriangleMesh& mesh, const std::vector<Face>& faces, const Frame& frame,
-         const Vector3& point, double near_enough)
-      : mesh_(mesh),
-        faces_(faces),
-        frame_(frame),
-        point_(point),
-        near_enough_(near_enough),
-        slack_(0x1p-65 * squared_longest(frame, point)),
-        centre_(frame.local(point)) {
-    if (centre_.squaredNorm() <= far_away * far_away) return;
-    const Vector3 away = (point - frame.centre).stableNormalized();
-    centre_ = far_away * (frame.turn ? Vector3(*frame.turn * away) : away);
-    widening_ = squared_reach_of_cube;
-  }
-
-  const Vector3& centre() const { return centre_; }
-  const NearestPoint& best() const { return best_; }
-
-  bool ends() const { return best_.squared_distance <= near_enough_; }
-
-  /// By Embree's number.
-  bool come_to(unsigned number) { return !ends() && consider(faces_[number]); }
-
-  /// Is this face nearer than the best so far?
-  bool consider(Face face) {
-    const auto corners = mesh_.triangles.row(face);
-    const Vector3 a = mesh_.position(corners[0]), b = mesh_.position(corners[1]),
-                  c = mesh_.position(corners[2]);
-    if (is_beyond_best(a, b, c)) return false;
-    const TrianglePoint found = nearest_on_triangle(point_, a, b, c);
-    const double squared = found.squared_distance;
-    const bool first = best_.on.face < 0;
-    const bool wins =
-        first || squared < best_.squared_distance ||
-        (squared == best_.squared_distance && face < best_.on.face);  // whoever came first
-    if (!wins) return false;
-    best_ = {{face, found.barycentric}, squared};
-    beyond_ = (1 + 0x1p-30) * squared + slack_;
-    const Vector3& w = found.barycentric;
-    foot_ = w[0] * frame_.local(a) + w[1] * frame_.local(b) + w[2] * frame_.local(c);
-    return true;
-  }
-
-  /// Beyond it from `centre` nothing can be the nearest.
-  float radius() const {
-    if (best_.on.face < 0) return std::numeric_limits<float>::infinity();
-    return widened(std::sqrt((centre_ - foot_).squaredNorm() + widening_));
-  }
-
-  /// Beyond it nothing is near enough.
-  float radius_of_near_enough() const {
-    if (widening_ > 0) return std::numeric_limits<float>::infinity();
-    return widened(std::sqrt(near_enough_) * frame_.scale);
-  }
-
- private:
-  /// L²: from the point to any other of the mesh, and of two sides of a triangle.
-  static double squared_longest(const Frame& frame, const Vector3& point) {
-    const double longest = (point - frame.centre).stableNorm() + 2.5 * frame.diagonal;
-    return longest * longest;
-  }
-
-  bool is_beyond_best(const Vector3& a, const Vector3& b, const Vector3& c) const {
-    const Vector3 lower = a.cwiseMin(b).cwiseMin(c), upper = a.cwiseMax(b).cwiseMax(c);
-    return (lower - point_).cwiseMax(point_ - upper).cwiseMax(0).squaredNorm() > beyond_;
-  }
-
-  float widened(double known) const {
-    const double size = 1 + centre_.cwiseAbs().maxCoeff();
-    return static_cast<float>(known * (1 + radius_slack) + position_slack * size);
-  }
-
-  const TriangleMesh& mesh_;
-  const std::vector<Face>& faces_;
-  const Frame& frame_;
-  const Vector3& point_;
-  const double near_enough_;  // squared; where triangles are piled up, all of them are near
-  const double slack_;        // of squared distances of boxes
-  double beyond_ = std::numeric_limits<double>::infinity();
-  Vector3 centre_;       // p, or p' where p is far away; local
-  double widening_ = 0;  // of the squared radius
-  NearestPoint best_ = {{-1, Vector3::Zero()}, std::numeric_limits<double>::infinity()};
-  Vector3 foot_ = Vector3::Zero();  // of the best; local
-};
-
-/// Returns true where the radius has changed, as Embree wants it.
-bool come_to_triangle(RTCPointQueryFunctionArguments* arguments) {
-  auto& search = *static_cast<Search*>(arguments->userPtr);
-  if (!search.come_to(arguments->primID)) return false;
-  const float radius = search.radius();
-  // Of two triangles equally near the second may have the wider radius, by rounding.
-  if (!(radius < arguments->query->radius)) return false;
-  arguments->query->radius = radius;
-  return true;
-}
-
-void go_through(RTCScene scene, Search& search, float radius) {
-  RTCPointQuery query;
-  query.x = static_cast<float>(search.centre().x());
-  query.y = static_cast<float>(search.centre().y());
-  query.z = static_cast<float>(search.centre().z());
-  query.time = 0;
-  query.radius = radius;
-  RTCPointQueryContext context;
-  rtcInitPointQueryContext(&context);
-  rtcPointQuery(scene, &query, &context, come_to_triangle, &search);
-}
-
-}  // namespace
-
 NearestPoint RayScene::nearest(const Vector3& point, Face guess, double near_enough) const {
   Search search(tree_->mesh, tree_->faces, tree_->frame, point, near_enough);
   if (guess >= 0) search.consider(guess);
-  if (!search.ends()) go_through(tree_->scene.handle, search, search.radius());
+  if (!search.ends()) tree_->go_through(search, search.radius());
   return search.best();
 }
 
 bool RayScene::is_within(double distance, const Vector3& point, Face guess) const {
   Search search(tree_->mesh, tree_->faces, tree_->frame, point, distance * distance);
   if (guess >= 0) search.consider(guess);
-  if (!search.ends()) go_through(tree_->scene.handle, search, search.radius_of_near_enough());
+  search.pass_over_what_is_not_near_enough();
+  if (!search.ends()) tree_->go_through(search, search.radius_of_near_enough());
   return search.ends();
 }
 
