@@ -1,11 +1,16 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <random>
 #include <stdexcept>
 
 #include "image/image_codec.h"
 #include "remesh/image_values.h"
+#include "sphparam/remesh/geometry_image.h"
+#include "support/mapped.h"
+#include "support/test_meshes.h"
 
 using namespace sphparam;
 
@@ -165,4 +170,52 @@ TEST_CASE("geometry images: what is broken is refused, saying what") {
                                         {"sphparam:max", "1.7e308 1.7e308 1.7e308"}}),
       Catch::Contains("not finite"));
   CHECK_THROWS_AS(Made("octa:9", 1e5).image(ImageDepth::Half), std::range_error);
+}
+
+TEST_CASE("geometry images: a mesh comes back from its files, normals and colours too") {
+  MeshFile file;
+  file.mesh = tests::icosphere(3);
+  const SphereMap map{file.mesh.positions};
+  file.mesh.positions.col(0) *= 2;
+  for (const char* name : {"red", "green", "blue"}) {
+    Property channel{name, ScalarType::Uint8, {}};
+    for (size_t v = 0; v < 642; ++v)
+      channel.values.push_back(static_cast<double>((v * (name[0] == 'r' ? 7 : 13)) % 256));
+    file.set_vertex_property(std::move(channel));
+  }
+  const Remeshed made = remesh(tests::mapped(file, map), parse_grid("octa:9"));
+  std::string folder = (std::filesystem::temp_directory_path() / "sphparam_gim_XXXXXX").string();
+  REQUIRE(mkdtemp(folder.data()));
+  PendingFiles files;
+  for (const char* what : {"position", "normal", "color"})
+    add_geometry_image(files, folder + "/" + what + ".exr", made, what);
+  add_geometry_image(files, folder + "/small.png", made, "position");
+  files.publish();
+  const Remeshed back = load_geometry_image({.positions = folder + "/position.exr",
+                                             .normals = folder + "/normal.exr",
+                                             .attributes = {{"color", folder + "/color.exr"}}});
+  CHECK(back.map().points == made.map().points);
+  CHECK(back.mesh().triangles == made.mesh().triangles);
+  CHECK(back.mesh().positions == made.mesh().positions.cast<float>().cast<double>());
+  for (const char* name : {"red", "green", "blue"}) {
+    const Property* channel = back.file().find_vertex_property(name);
+    REQUIRE(channel);
+    CHECK(channel->type == ScalarType::Uint8);
+    CHECK(channel->values == made.file().find_vertex_property(name)->values);
+  }
+  for (Vertex v = 0; v < back.mesh().vertex_count(); ++v) {
+    const auto at = static_cast<size_t>(v);
+    const Vector3 normal(back.file().find_vertex_property("nx")->values[at],
+                         back.file().find_vertex_property("ny")->values[at],
+                         back.file().find_vertex_property("nz")->values[at]);
+    CHECK(normal.norm() == Approx(1));
+    const Vector3 p = back.mesh().position(v);  // of x²/4 + y² + z² = 1
+    CHECK(normal.dot(Vector3(p[0] / 4, p[1], p[2]).normalized()) > 0.9);
+  }
+  const Remeshed small = load_geometry_image({.positions = folder + "/small.png"});
+  CHECK((small.mesh().positions - made.mesh().positions).cwiseAbs().maxCoeff() <= 4.0 / 65535);
+  CHECK_THROWS_AS(load_geometry_image({.positions = folder + "/position.exr",
+                                       .attributes = {{"thickness", folder + "/color.exr"}}}),
+                  ImageError);
+  std::filesystem::remove_all(folder);
 }

@@ -245,7 +245,8 @@ TEST_CASE("limit surface: many places at once, on any threads, as one by one") {
 
 TEST_CASE("limit surface: what is none is refused") {
   const SphereGrid quads = make_grid(parse_grid("cube:2"));
-  CHECK_THROWS_AS(LimitSurface(quads.faces, quads.directions, Scheme::Loop), std::invalid_argument);
+  CHECK_THROWS_WITH(LimitSurface(quads.faces, quads.directions, Scheme::Loop),
+                    "face 0 has 4 corners, and Loop's scheme is for triangles");
   CHECK_THROWS_AS(LimitSurface(quads.faces, quads.directions.topRows(5), Scheme::CatmullClark),
                   std::invalid_argument);
   const SphereGrid crowded = make_grid(parse_grid("uv:513x3"));

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "sphparam/io/fillers.h"
 #include "sphparam/remesh/levels_of_detail.h"
 #include "support/test_meshes.h"
 
@@ -49,4 +50,31 @@ TEST_CASE("levels of detail: of any mesh, each with a quarter of the vertices, o
     finer = vertices;
   }
   CHECK(quartered_meshes(mapped, 0).empty());
+}
+
+TEST_CASE(
+    "levels of detail: distances are from the surface, and of a fit from all, as it has no hole") {
+  MeshFile file;
+  file.mesh = tests::icosphere(4);
+  const SphereMap map{file.mesh.positions};
+  FillerMarks fillers;
+  for (Face f = 0; f < file.mesh.face_count(); ++f)
+    fillers.push_back(file.mesh.positions(file.mesh.triangles(f, 0), 2) > 0.7);
+  file.mesh.positions.col(2) *= 1.3;
+  // What closes the hole is a spike, far from all grids.
+  for (auto p : file.mesh.positions.rowwise())
+    if (p[2] > 1.25) p[2] = 3;
+  const MappedMesh whole({.file = file, .map = map, .name = "whole"});
+  mark_fillers(file, fillers);
+  const MappedMesh open({.file = file, .map = map, .name = "open"});
+  const std::vector<GridSpec> grids = {parse_grid("ico:3"), parse_grid("ico:2")};
+  const auto distance = [&](const MappedMesh& mesh, std::optional<Scheme> scheme, size_t level) {
+    return levels_of_detail(mesh, grids, {.subdivision = scheme, .threads = 1})
+        .at(level)
+        .distance.value();
+  };
+  CHECK(distance(whole, {}, 1).rms > distance(whole, {}, 0).rms);
+  CHECK(distance(open, {}, 0).max < 0.5);  // nothing of the spike
+  CHECK(distance(open, Scheme::Loop, 1).rms == Approx(distance(whole, Scheme::Loop, 1).rms));
+  CHECK_FALSE(levels_of_detail(whole, grids, {.measure = false}).front().distance);
 }

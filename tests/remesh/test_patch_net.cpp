@@ -133,4 +133,7 @@ TEST_CASE("patch net: mixed faces and open meshes are refused") {
   open.starts.pop_back();
   open.corners.resize(20);
   CHECK_THROWS_AS(PatchNet(open), std::invalid_argument);
+  const SphereGrid ball = make_grid(parse_grid("ico:1"));
+  CHECK_THROWS_WITH(tessellate(ball.faces, 42, 1 << 13), Catch::Contains("more than"));
+  CHECK_THROWS_WITH(tessellate(ball.faces, 42, 1 << 20), Catch::Contains("more than"));
 }

@@ -224,6 +224,14 @@ TEST_CASE("remesh: over cells nothing is left out, at points most is") {
     for (const double value : values) square += (value - 1) * (value - 1);
     return std::sqrt(square / static_cast<double>(values.size()));
   };
+  const auto averaged = [&](SampleMode mode, const char* grid) {
+    return remesh(mapped(source, {fine.positions}), grid_named(grid), {.sample = mode})
+        .figures()
+        .averaged;
+  };
+  CHECK(averaged(SampleMode::Cell, "ico:2") == 162);
+  CHECK(averaged(SampleMode::Cell, "ico:7") == 0);  // finer than the mesh
+  CHECK(averaged(SampleMode::Point, "ico:2") == 0);
   CHECK(spread(SampleMode::Cell) < 0.4);
   CHECK(spread(SampleMode::Point) > 1.5);
 }
@@ -313,12 +321,17 @@ TEST_CASE("remesh: only what is wanted is carried, and unknown names are refused
     return remesh(source.mapped(), grid_named("ico:2"), {.transfer = std::move(names)}).file();
   };
   CHECK(run({"none"}).vertex_properties.empty());
+  CHECK(run({"none"}).face_properties.empty());
+  CHECK(run({"material"}).find_face_property("material"));
+  CHECK(run({"material"}).materials == source.file.materials);
   CHECK(run({"color"}).vertex_properties.size() == 3);
   CHECK_FALSE(run({"color"}).corner_texcoords);
   CHECK(run({"uv", "thickness"}).corner_texcoords);
   CHECK(run({"uv", "thickness"}).vertex_properties.size() == 1);
   CHECK(run({"all"}).vertex_properties.size() == 8);
-  CHECK_THROWS_WITH(run({"thicknes"}), Catch::Contains("thicknes") && Catch::Contains("parcel"));
+  CHECK_THROWS_WITH(run({"thicknes"}),
+                    "no property thicknes to transfer; there are position, nx, ny, nz, red, green, "
+                    "blue, thickness, parcel, material, uv, normal");
 }
 
 TEST_CASE("remesh: a callback that says no ends it") {

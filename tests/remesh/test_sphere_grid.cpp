@@ -1,9 +1,13 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <map>
 #include <set>
 #include <stdexcept>
 
+#include "sphparam/errors.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/mesh/topology.h"
 #include "sphparam/remesh/sphere_grid.h"
@@ -188,6 +192,23 @@ TEST_CASE("grids: names that make no sense are refused") {
     CHECK_THROWS_AS(parse_grid(name), std::invalid_argument);
   }
   CHECK(vertex_count(parse_grid("ico:10")) == 10'485'762);
+}
+
+TEST_CASE("grids: a file's vertices about the origin are directions of any length, or refused") {
+  std::string path = (std::filesystem::temp_directory_path() / "sphparam_grid_XXXXXX.off").string();
+  REQUIRE(mkstemps(path.data(), 4) >= 0);
+  const auto write = [&](const char* top) {
+    std::ofstream(path) << "OFF\n6 8 0\n3 0 0\n-3 0 0\n0 2 0\n0 -2 0\n0 0 " << top
+                        << "\n0 0 -0.5\n3 0 2 4\n3 2 1 4\n3 1 3 4\n3 3 0 4\n3 2 0 5\n3 1 2 5\n"
+                           "3 3 1 5\n3 0 3 5\n";
+  };
+  write("1e-3");
+  const SphereGrid grid = load_grid(path);
+  CHECK(grid.directions.rowwise().norm() == VectorX::Ones(6));
+  CHECK(grid.faces.count() == 8);
+  write("-0.1");
+  CHECK_THROWS_AS(load_grid(path), NotCertifiedError);
+  std::filesystem::remove(path);
 }
 
 TEST_CASE("grids: the same bytes for any number of threads") {

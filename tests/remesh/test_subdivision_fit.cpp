@@ -161,6 +161,17 @@ TEST_CASE("least squares: control points are found again from points of their su
   }
 }
 
+TEST_CASE("least squares: where there is nothing to do nothing is done") {
+  const Fitting fitting(subjects[0]);
+  const StencilLeastSquares squares(fitting.stencils, fitting.grid.faces,
+                                    random_weights(fitting.samples()), 1);
+  Points control = Points::Zero(fitting.grid.directions.rows(), 3);
+  const auto outcome = squares.minimise(squares.evaluate(control), control, 1e-12, {});
+  CHECK(outcome.steps == 0);
+  CHECK(outcome.reduction == 0);
+  CHECK(control.isZero(0));
+}
+
 TEST_CASE("least squares: from the minimum every way leads up, by the same both ways") {
   for (const LimitSubject& subject : subjects) {
     INFO(subject.name);

@@ -119,6 +119,27 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("texture layout: beside a tile its faces go on, so that a gutter's texel has its place") {
+  for (const std::string& name : {"cube:4", "octa:9", "ico:2"}) {
+    INFO(name);
+    const Laid laid(name);
+    const TextureLayout& layout = laid.layout;
+    const TexelPoint corner = laid.lattice.corner(0);
+    int beyond = 0;
+    for (int row = 0; row < layout.height; ++row) {
+      for (int column = 0; column < layout.width; ++column) {
+        const LimitPlace place = laid.lattice.place(column, row);
+        const TexelPoint shown = laid.lattice.point(place);
+        const bool goes_on = place.s < 0 || place.t < 0 || place.s > 1 || place.t > 1;
+        beyond += goes_on;
+        if (goes_on) REQUIRE((shown - TexelPoint(column, row)).norm() < 1e-9);
+      }
+    }
+    CHECK(beyond > 2 * layout.gutter * (layout.width / 4));
+    CHECK(corner.x() >= layout.gutter);
+  }
+}
+
 TEST_CASE("texture layout: a vertex lies where it did in the equirectangular chart of uv:WxH") {
   const Laid laid("uv:16x8");
   CHECK(laid.layout.width == 16 * laid.layout.steps);

@@ -1,0 +1,43 @@
+#include <catch2/catch.hpp>
+
+#include "sphparam/remesh/remesh.h"
+#include "support/mapped.h"
+
+using namespace sphparam;
+
+namespace {
+
+MappedMesh octahedron() {
+  MeshFile file;
+  file.mesh.positions =
+      (Points(6, 3) << 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1).finished();
+  file.mesh.triangles =
+      (Triangles(8, 3) << 0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5)
+          .finished();
+  SphereMap map{file.mesh.positions};
+  file.mesh.positions *= 0.5;
+  file.set_vertex_property({"thick, \"mm\"", ScalarType::Float64, {0.1, 1, 2, 3, 4, 5}});
+  file.set_vertex_property({"parcel", ScalarType::Int32, {7, 8, 9, 10, 11, 12}});
+  return tests::mapped(std::move(file), std::move(map));
+}
+
+}  // namespace
+
+TEST_CASE("sample table: a row a vertex, of its number, place, position and properties") {
+  CHECK(sample_table(octahedron()) ==
+        "vertex,theta,phi,x,y,z,\"thick, \"\"mm\"\"\",parcel\n"
+        "0,0,1.5707963267948966,0.5,0,0,0.1,7\n"
+        "1,3.141592653589793,1.5707963267948966,-0.5,0,0,1,8\n"
+        "2,1.5707963267948966,1.5707963267948966,0,0.5,0,2,9\n"
+        "3,4.71238898038469,1.5707963267948966,0,-0.5,0,3,10\n"
+        "4,0,0,0,0,0.5,4,11\n"
+        "5,0,3.141592653589793,0,0,-0.5,5,12\n");
+}
+
+TEST_CASE("sample table: in degrees longitude goes from -180 to 180 and latitude north") {
+  const std::string text = sample_table(octahedron(), TableAngles::Degrees);
+  CHECK_THAT(text, Catch::StartsWith("vertex,lon,lat,x,y,z,"));
+  for (const char* row :
+       {"\n0,0,0,0.5,", "\n1,180,0,-0.5,", "\n2,90,0,", "\n3,-90,0,", "\n4,0,90,", "\n5,0,-90,"})
+    CHECK_THAT(text, Catch::Contains(row));
+}
