@@ -286,7 +286,7 @@ TEST_CASE("body_of: names, radii and WKT, and what is none of them") {
   CHECK_FALSE(old.positive_west);
   for (const char* text :
        {"vespa", "", "-3", "0", "1,2", "1,2,3,4", "1,,2", "nan", "3,2,inf", "GEOGCRS[\"x\"]",
-        "GEOGCRS[\"x\",ELLIPSOID[\"x\",1,0]", "PROJCRS[]", "GEOGCRS[\"x\",5,0,ELLIPSOID[]]"}) {
+        "GEOGCRS[\"x\",ELLIPSOID[\"x\",1,0]", "PROJCRS[]", "GEOGCRS[\",5,0,\",ELLIPSOID[]]"}) {
     INFO(text);
     CHECK_THROWS_AS(body_of(text), BodyError);
   }

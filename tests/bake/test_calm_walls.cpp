@@ -126,6 +126,19 @@ TEST_CASE("calm walls: of what stands about a wall, what is near counts most") {
   CHECK(red(width / 4) + red(3 * width / 4) == Approx(1).margin(0.02));
 }
 
+TEST_CASE("calm walls: what does not stand beside a wall does not count") {
+  MeshFile banded = bowl();  // green at its rim, red below
+  for (size_t v = 0; v < banded.vertex_properties[0].values.size(); ++v) {
+    const bool is_green = banded.mesh.positions(static_cast<Eigen::Index>(v), 2) > 0.1;
+    banded.vertex_properties[0].values[v] = !is_green;
+    banded.vertex_properties[1].values[v] = is_green;
+    banded.vertex_properties[2].values[v] = 0;
+  }
+  const std::vector<float> calm = baked("vcolor", 0.1, 1, banded);
+  CHECK(calm[0] < 0.05);
+  CHECK(calm[1] > 0.95);
+}
+
 TEST_CASE("calm walls: tangent normals stand on a wall") {
   const std::vector<float> streaks = baked("normal-tangent", 0),
                            calm = baked("normal-tangent", 0.1);
