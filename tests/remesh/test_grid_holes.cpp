@@ -63,17 +63,19 @@ TEST_CASE("grid holes: of a surface in pieces the largest stays") {
 }
 
 TEST_CASE("grid holes: of each hole the largest piece stays, however small another hole is") {
-  const auto cap = by_height([](double z) { return z > 0.8 ? 0 : -1; });
-  const auto is_low = [](Face f) { return height_of(f) < 0; };
   const auto faces = std::views::iota(Face{0}, topology.face_count());
-  const Face first = *std::ranges::find_if(faces, is_low),
-             last = *std::ranges::find_if(faces | std::views::reverse, is_low);
-  for (const Face speck : {first, last}) {
-    auto holes = cap;
-    holes[static_cast<size_t>(speck)] = 0;  // far from the rest of its hole
-    CHECK(tidy_fillers(topology, holes) == marks(cap));
-    holes[static_cast<size_t>(speck)] = 1;  // a hole of one triangle
-    CHECK(tidy_fillers(topology, holes) == marks(holes));
+  for (const int side : {1, -1}) {
+    const auto cap = by_height([&](double z) { return side * z > 0.8 ? 0 : -1; });
+    const auto is_far = [&](Face f) { return side * height_of(f) < 0; };
+    const Face first = *std::ranges::find_if(faces, is_far),
+               last = *std::ranges::find_if(faces | std::views::reverse, is_far);
+    for (const Face speck : {first, last}) {  // before and after the rest of its hole
+      auto holes = cap;
+      holes[static_cast<size_t>(speck)] = 0;
+      CHECK(tidy_fillers(topology, holes) == marks(cap));
+      holes[static_cast<size_t>(speck)] = 1;  // a hole of one triangle
+      CHECK(tidy_fillers(topology, holes) == marks(holes));
+    }
   }
 }
 

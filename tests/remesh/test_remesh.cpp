@@ -316,13 +316,16 @@ TEST_CASE("remesh: the same bytes for any number of threads, at points and over 
 }
 
 TEST_CASE("remesh: only what is wanted is carried, and unknown names are refused") {
-  const Mapped source(icosphere(1));
+  Mapped source(icosphere(1));
+  source.file.set_face_property({"part", ScalarType::Int32, std::vector<double>(80, 3.0)});
   const auto run = [&](std::vector<std::string> names) {
     return remesh(source.mapped(), grid_named("ico:2"), {.transfer = std::move(names)}).file();
   };
   CHECK(run({"none"}).vertex_properties.empty());
   CHECK(run({"none"}).face_properties.empty());
   CHECK(run({"material"}).find_face_property("material"));
+  CHECK_FALSE(run({"material"}).find_face_property("part"));
+  CHECK(run({"part"}).find_face_property("part"));
   CHECK(run({"material"}).materials == source.file.materials);
   CHECK(run({"color"}).vertex_properties.size() == 3);
   CHECK_FALSE(run({"color"}).corner_texcoords);
@@ -331,7 +334,7 @@ TEST_CASE("remesh: only what is wanted is carried, and unknown names are refused
   CHECK(run({"all"}).vertex_properties.size() == 8);
   CHECK_THROWS_WITH(run({"thicknes"}),
                     "no property thicknes to transfer; there are position, nx, ny, nz, red, green, "
-                    "blue, thickness, parcel, material, uv, normal");
+                    "blue, thickness, parcel, material, part, uv, normal");
 }
 
 TEST_CASE("remesh: a callback that says no ends it") {
