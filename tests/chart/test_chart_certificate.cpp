@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
+#include "chart/one_to_one.h"
 #include "maps.h"
 #include "sphparam/chart/spherical_chart.h"
 #include "support/test_meshes.h"
@@ -35,10 +36,21 @@ Face ordinary_face(const SphericalChart& chart) {
   }
 }
 
+/// The certificate; the short question has the same answer, also of (u, v) that a chart is given.
+ChartCertificate certified(const SphericalChart& chart) {
+  const ChartCertificate certificate = certify_chart(chart);
+  CHECK(is_one_to_one(chart, chart.uv) == certificate.one_to_one());
+  SphericalChart other = chart;
+  other.uv.setConstant(0.5);
+  CHECK(is_one_to_one(other, chart.uv) == certificate.one_to_one());
+  CHECK_FALSE(is_one_to_one(chart, other.uv));
+  return certificate;
+}
+
 }  // namespace
 
 TEST_CASE("chart certificate: a sound chart is one-to-one") {
-  const ChartCertificate certificate = certify_chart(sound_chart());
+  const ChartCertificate certificate = certified(sound_chart());
   CHECK(certificate.one_to_one());
   CHECK(certificate.north_turns == 1);
   CHECK(certificate.south_turns == 1);
@@ -52,7 +64,7 @@ TEST_CASE("chart certificate: a planted fold is found, in the faces that have it
                            b = chart.uv.row(chart.wedges(f, 1)),
                            c = chart.uv.row(chart.wedges(f, 2));
   chart.uv.row(chart.wedges(f, 0)) = b + c - a;
-  const ChartCertificate certificate = certify_chart(chart);
+  const ChartCertificate certificate = certified(chart);
   CHECK_FALSE(certificate.one_to_one());
   CHECK(certificate.torn.empty());
   const auto& folded = certificate.folded;
@@ -66,17 +78,17 @@ TEST_CASE("chart certificate: a triangle of no area is folded") {
   SphericalChart chart = sound_chart();
   const Face f = ordinary_face(chart);
   chart.uv.row(chart.wedges(f, 0)) = chart.uv.row(chart.wedges(f, 1));
-  CHECK_FALSE(certify_chart(chart).folded.empty());
+  CHECK_FALSE(certified(chart).folded.empty());
 }
 
 TEST_CASE("chart certificate: points that are no sphere map are listed, and do not harm (u, v)") {
   for (const double scale : {-1.0, 1e300, std::numeric_limits<double>::quiet_NaN()}) {
     SphericalChart chart = sound_chart();
-    CHECK(certify_chart(chart).inverted.empty());
+    CHECK(certified(chart).inverted.empty());
     const Face f = ordinary_face(chart);
     const Vertex v = chart.triangles(f, 0);
     chart.points.row(v) *= scale;
-    const ChartCertificate certificate = certify_chart(chart);
+    const ChartCertificate certificate = certified(chart);
     CHECK(certificate.one_to_one());
     const auto& inverted = certificate.inverted;
     CHECK(std::find(inverted.begin(), inverted.end(), f) != inverted.end());
@@ -89,7 +101,7 @@ TEST_CASE("chart certificate: seam copies one unit in the last place apart are t
     SphericalChart chart = sound_chart();
     double& value = chart.uv(find_wedge(chart, WedgeKind::SeamCopy), column);
     value = std::nextafter(value, 0.0);
-    const ChartCertificate certificate = certify_chart(chart);
+    const ChartCertificate certificate = certified(chart);
     CHECK(certificate.torn.size() >= 2);
     CHECK_FALSE(certificate.one_to_one());
   }
@@ -105,7 +117,7 @@ TEST_CASE("chart certificate: two corners of a face given wedges of their own te
   chart.wedge_vertices.push_back(chart.wedge_vertices[static_cast<size_t>(w)]);
   chart.wedge_kinds.push_back(WedgeKind::Ordinary);
   chart.wedges(f, 0) = copy;
-  const ChartCertificate certificate = certify_chart(chart);
+  const ChartCertificate certificate = certified(chart);
   CHECK(certificate.folded.empty());
   CHECK(certificate.torn.size() == 2);
 }
@@ -116,11 +128,11 @@ TEST_CASE("chart certificate: points outside, not finite, or ordinary ones on a 
     SphericalChart chart = sound_chart();
     const int w = chart.wedges(ordinary_face(chart), 0);
     chart.uv(w, 1) = value;
-    CHECK(certify_chart(chart).outside == std::vector<int>{w});
+    CHECK(certified(chart).outside == std::vector<int>{w});
   }
   SphericalChart chart = sound_chart();
   chart.uv(chart.wedges(ordinary_face(chart), 0), 1) = 0;
-  CHECK_FALSE(certify_chart(chart).one_to_one());
+  CHECK_FALSE(certified(chart).one_to_one());
 }
 
 TEST_CASE("chart certificate: the rim must run one way") {
@@ -132,7 +144,7 @@ TEST_CASE("chart certificate: the rim must run one way") {
     double& to = chart.uv(chart.wedges(f, (k + 2) % 3), 0);
     if (from == 0 || from == 1 || to == 0 || to == 1) continue;
     std::swap(from, to);
-    const auto folded = certify_chart(chart).folded;
+    const auto folded = certified(chart).folded;
     CHECK(std::find(folded.begin(), folded.end(), f) != folded.end());
     break;
   }
@@ -174,7 +186,7 @@ TEST_CASE("chart certificate: a rectangle that is covered twice is not one-to-on
     chart.uv(chart.wedges(f, k), 0) = 0.5 * (chart.uv(chart.wedges(f, (k + 1) % 3), 0) +
                                              chart.uv(chart.wedges(f, (k + 2) % 3), 0));
   }
-  const ChartCertificate certificate = certify_chart(chart);
+  const ChartCertificate certificate = certified(chart);
   CHECK(certificate.folded.empty());
   CHECK(certificate.torn.empty());
   CHECK(certificate.malformed.empty());
@@ -183,36 +195,36 @@ TEST_CASE("chart certificate: a rectangle that is covered twice is not one-to-on
 }
 
 TEST_CASE("chart certificate: tables that do not fit together fail closed") {
-  CHECK_FALSE(certify_chart(SphericalChart{}).one_to_one());
+  CHECK_FALSE(certified(SphericalChart{}).one_to_one());
   {
     SphericalChart chart = sound_chart();
     chart.wedges(3, 1) = static_cast<int>(chart.wedge_count());
-    CHECK(certify_chart(chart).malformed == std::vector<Face>{3});
+    CHECK(certified(chart).malformed == std::vector<Face>{3});
   }
   {
     SphericalChart chart = sound_chart();
     std::swap(chart.wedges(3, 0), chart.wedges(3, 1));  // wedges of other vertices
-    CHECK(certify_chart(chart).malformed == std::vector<Face>{3});
+    CHECK(certified(chart).malformed == std::vector<Face>{3});
   }
   {
     SphericalChart chart = sound_chart();
     chart.triangles.row(5) = chart.triangles.row(4).eval();
     chart.wedges.row(5) = chart.wedges.row(4).eval();
-    CHECK_FALSE(certify_chart(chart).closed);
+    CHECK_FALSE(certified(chart).closed);
   }
   {
     SphericalChart chart = sound_chart();
     chart.wedge_vertices.pop_back();
-    CHECK_FALSE(certify_chart(chart).one_to_one());
+    CHECK_FALSE(certified(chart).one_to_one());
   }
 }
 
 TEST_CASE("chart certificate: (u, v) that are those of other points show in the shift") {
   SphericalChart chart = sound_chart();
-  CHECK(certify_chart(chart).max_shift < 1e-15);
+  CHECK(certified(chart).max_shift < 1e-15);
   std::mt19937 random(5);
   chart.points = rotated({chart.points}, random_rotation(random)).points;
-  CHECK(certify_chart(chart).max_shift > 0.01);
+  CHECK(certified(chart).max_shift > 0.01);
 }
 
 TEST_CASE(
@@ -225,13 +237,13 @@ TEST_CASE(
 
   SphericalChart narrow = sound;
   narrow.uv(a, 0) = narrow.uv(b, 0);
-  const ChartCertificate folds = certify_chart(narrow);
+  const ChartCertificate folds = certified(narrow);
   CHECK(std::count(folds.folded.begin(), folds.folded.end(), f) == 1);
   CHECK_FALSE(folds.one_to_one());
 
   SphericalChart flat = sound;
   flat.uv(a, 1) = flat.uv(sound.wedges(f, pole), 1);
-  const ChartCertificate rims = certify_chart(flat);
+  const ChartCertificate rims = certified(flat);
   CHECK(std::count(rims.malformed.begin(), rims.malformed.end(), f) == 1);
   CHECK_FALSE(rims.one_to_one());
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "chart/longitude.h"
+#include "chart/one_to_one.h"
 #include "sphere/planar_orientation.h"
 #include "sphparam/chart/spherical_chart.h"
 #include "sphparam/parallel.h"
@@ -36,8 +37,13 @@ constexpr double largest_coordinate = 0x1p64;  // what the predicate promises to
 
 class ChartCertifier {
  public:
-  explicit ChartCertifier(const SphericalChart& chart)
-      : chart_(chart), wedge_count_(static_cast<int>(chart.uv.rows())) {}
+  enum class Question { Everything, OneToOne };
+
+  ChartCertifier(const SphericalChart& chart, const TextureCoordinates& uv, Question question)
+      : chart_(chart),
+        uv_(uv),
+        wedge_count_(static_cast<int>(uv.rows())),
+        everything_(question == Question::Everything) {}
 
   ChartCertificate run(int threads) {
     if (!well_formed()) return std::move(result_);
@@ -58,7 +64,7 @@ class ChartCertifier {
     int north_turns = 0, south_turns = 0;
   };
 
-  ChartPoint point(int wedge) const { return {chart_.uv(wedge, 0), chart_.uv(wedge, 1)}; }
+  ChartPoint point(int wedge) const { return {uv_(wedge, 0), uv_(wedge, 1)}; }
   ChartPoint corner(Halfedge h) const { return point(wedge(h)); }
   int wedge(Halfedge h) const { return chart_.wedges(Topology::face(h), Topology::corner(h)); }
   static bool on_rim(const ChartPoint& p) { return p.v == 0 || p.v == 1; }
@@ -67,7 +73,7 @@ class ChartCertifier {
   bool well_formed() {
     const Eigen::Index vertices = chart_.points.rows();
     if (chart_.wedges.rows() != chart_.triangles.rows() ||
-        static_cast<Eigen::Index>(chart_.wedge_vertices.size()) != chart_.uv.rows() ||
+        static_cast<Eigen::Index>(chart_.wedge_vertices.size()) != uv_.rows() ||
         chart_.triangles.rows() == 0)
       return false;
     for (Face f = 0; f < static_cast<Face>(chart_.triangles.rows()); ++f) {
@@ -96,7 +102,7 @@ class ChartCertifier {
         if (!inside) outside[chunk].push_back(w);
         if (!(std::abs(p.u) <= largest_coordinate && std::abs(p.v) <= largest_coordinate))
           usable_ = false;
-        shift[chunk] = std::max(shift[chunk], distance_from_map(w));
+        if (everything_) shift[chunk] = std::max(shift[chunk], distance_from_map(w));
       }
     });
     for (size_t i = 0; i < chunks; ++i) {
@@ -123,7 +129,7 @@ class ChartCertifier {
       Findings& findings = chunks[static_cast<size_t>(first / chunk_size)];
       for (auto f = static_cast<Face>(first); f < static_cast<Face>(last); ++f) {
         examine_piece(f, findings);
-        if (!positive_on_sphere(f)) findings.inverted.push_back(f);
+        if (everything_ && !positive_on_sphere(f)) findings.inverted.push_back(f);
         for (Halfedge h = 3 * f; h < 3 * f + 3; ++h) {
           if (h < topology.twin(h) && !fits(h, topology.twin(h))) findings.torn.push_back(h);
         }
@@ -195,7 +201,9 @@ class ChartCertifier {
   }
 
   const SphericalChart& chart_;
+  const TextureCoordinates& uv_;
   const int wedge_count_;
+  const bool everything_;
   std::atomic<bool> usable_{true};  // by the exact predicate
   ChartCertificate result_;
 };
@@ -203,7 +211,11 @@ class ChartCertifier {
 }  // namespace
 
 ChartCertificate certify_chart(const SphericalChart& chart, int threads) {
-  return ChartCertifier(chart).run(threads);
+  return ChartCertifier(chart, chart.uv, ChartCertifier::Question::Everything).run(threads);
+}
+
+bool is_one_to_one(const SphericalChart& chart, const TextureCoordinates& uv, int threads) {
+  return ChartCertifier(chart, uv, ChartCertifier::Question::OneToOne).run(threads).one_to_one();
 }
 
 }  // namespace sphparam

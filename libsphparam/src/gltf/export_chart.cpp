@@ -5,6 +5,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "chart/one_to_one.h"
 #include "chart/settle.h"
 #include "gltf/stored_chart.h"
 #include "sphparam/chart/refine_poles.h"
@@ -27,8 +28,7 @@ SphereMap turned(SphereMap map, int quarters) {
 
 bool holds_in_float32(const ExportChart& chart, int threads) {
   const UvStorage storage{.mirrored = chart.mirrored};
-  return certify_stored(chart.chart, stored_uv(chart.chart, storage), storage, threads)
-      .one_to_one();
+  return is_one_to_one(chart.chart, read_uv(stored_uv(chart.chart, storage), storage), threads);
 }
 
 }  // namespace

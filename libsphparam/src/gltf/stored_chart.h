@@ -14,6 +14,9 @@ struct UvStorage {
 /// The (u, v) of a chart's wedges as a file has them. Rounding keeps their order, and 0 and 1.
 FloatRows stored_uv(const SphericalChart& chart, const UvStorage& storage);
 
+/// As who reads the file takes them for a chart's.
+TextureCoordinates read_uv(const FloatRows& uv, const UvStorage& storage);
+
 /// What is proved of the chart with its (u, v) as stored. Triangles smaller than the spacing of
 /// these numbers fold; they cover less than a texel of any image.
 ChartCertificate certify_stored(const SphericalChart& chart, const FloatRows& uv,
