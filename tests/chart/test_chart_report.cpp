@@ -35,5 +35,12 @@ TEST_CASE("chart_report: what fails is counted") {
   ChartReport report;
   report.certificate.folded = {3, 4};
   report.certificate.torn = {1};
-  CHECK_THAT(chart_line(report), StartsWith("chart: not one-to-one, 2 folded, 1 torn edges, "));
+  CHECK_THAT(chart_line(report),
+             StartsWith("chart: not one-to-one, 2 folded, 1 torn edges, 0 splits "));
+  report.certificate.outside = {1, 2, 3};
+  report.certificate.malformed = {4};
+  report.certificate.around_pole = {5};
+  CHECK_THAT(chart_line(report),
+             StartsWith("chart: not one-to-one, 2 folded, 1 torn edges, 3 wedges outside, "
+                        "1 malformed, 1 around a pole, 0 splits "));
 }

@@ -49,6 +49,18 @@ TEST_CASE("refine_poles: a certified chart of the same surface, each pole triang
   }
 }
 
+TEST_CASE("refine_poles: also where a triangle has two sides about a pole, or all") {
+  std::mt19937 random(6);
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    INFO("seed " << seed);
+    const TriangleMesh mesh = random_sphere_mesh(8, seed);
+    const SphereMap map = rotated(parameterize(mesh).map, random_rotation(random));
+    const SphericalChart chart = spherical_chart(mesh, Topology(mesh), map);
+    REQUIRE(chart.certificate.one_to_one());
+    CHECK(refine_poles(chart, mesh.triangles, 3).certificate.one_to_one());
+  }
+}
+
 TEST_CASE("refine_poles: outside the caps every vertex keeps its (u, v)") {
   const TriangleMesh mesh = icosphere(3);
   std::mt19937 random(8);

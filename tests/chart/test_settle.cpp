@@ -107,6 +107,40 @@ TEST_CASE("settle: a chart that float32 holds is rounded and nothing more") {
   check_settled(before);
 }
 
+TEST_CASE("settle: what is no closed chart with two poles stays as it is") {
+  std::mt19937 random(31);
+  const SphericalChart chart = crowded_chart(1e-7, random);
+  CHECK(settled(chart, 1).uv != chart.uv);
+  SphericalChart open = chart, no_north = chart, no_south = chart;
+  open.certificate.closed = false;
+  no_north.north = -1;
+  no_south.south = -1;
+  for (const SphericalChart& one : {open, no_north, no_south})
+    CHECK(settled(one, 1).uv == chart.uv);
+}
+
+TEST_CASE("sheet: a vertex may lie inside of it, one of the seam on the seam") {
+  const TriangleMesh mesh = uv_sphere(12, 5);
+  const Sheet sheet(chart_of(mesh, {mesh.positions}));
+  constexpr double end = Sheet::cells, middle = 0.5 * Sheet::cells;
+  int on_seam = 0, others = 0;
+  for (Halfedge h = 0; h < 3 * sheet.face_count(); ++h) {
+    const Vertex v = sheet.origin(h);
+    if (sheet.is_pole(v)) continue;
+    const bool seam = sheet.on_seam(v);
+    ++(seam ? on_seam : others);
+    CHECK(sheet.allows(v, {middle, middle}) == !seam);
+    CHECK(sheet.allows(v, {middle, 0}) == seam);
+    CHECK(sheet.allows(v, {0.75 * end, seam ? 0 : 0.75 * end}));
+    for (const double out : {-middle, 0.0, end, 1.5 * end}) {
+      CHECK_FALSE(sheet.allows(v, {out, seam ? 0 : middle}));
+      if (!seam) CHECK_FALSE(sheet.allows(v, {middle, out}));
+    }
+  }
+  CHECK(on_seam > 0);
+  CHECK(others > 0);
+}
+
 TEST_CASE("chart: certified where triangles are smaller than the rounding of doubles") {
   std::mt19937 random(33);
   for (const double factor : {1e-15, 1e-16}) {

@@ -67,6 +67,41 @@ TEST_CASE("tangent_frame: the bitangent points to decreasing v") {
   }
 }
 
+TEST_CASE("tangent_frame: a vertex has the mean of where u grows in its faces, by their angles") {
+  TriangleMesh mesh = random_sphere_mesh(60, 4);
+  const SphereMap map = parameterize(mesh).map;
+  const Framed framed(mesh, map, map.points);
+  std::vector<Vector3> sums(framed.chart.surface_points.size(), Vector3::Zero());
+  for (Face f = 0; f < static_cast<Face>(framed.chart.triangles.rows()); ++f) {
+    const auto at = [&](int k) -> Vector3 {
+      return framed.positions.row(framed.chart.triangles(f, k % 3));
+    };
+    const auto uv = [&](int k) -> Eigen::Vector2d {
+      return framed.chart.uv.row(framed.chart.wedges(f, k));
+    };
+    Eigen::Matrix2d of_uv;
+    of_uv << uv(1) - uv(0), uv(2) - uv(0);
+    Eigen::Matrix<double, 3, 2> of_space;
+    of_space << at(1) - at(0), at(2) - at(0);
+    const Vector3 along = (of_space * of_uv.inverse()).col(0).normalized();
+    for (int k = 0; k < 3; ++k) {
+      const Vector3 a = (at(k + 1) - at(k)).normalized(), b = (at(k + 2) - at(k)).normalized();
+      sums[static_cast<size_t>(framed.chart.triangles(f, k))] += std::acos(a.dot(b)) * along;
+    }
+  }
+  int compared = 0;
+  for (int w = 0; w < static_cast<int>(framed.chart.wedge_count()); ++w) {
+    if (framed.chart.wedge_kinds[static_cast<size_t>(w)] == WedgeKind::PoleFan) continue;
+    const Vector3
+        sum = sums[static_cast<size_t>(framed.chart.wedge_vertices[static_cast<size_t>(w)])],
+        normal = framed.frame.normals.row(w);
+    const Vector3 wanted = (sum - sum.dot(normal) * normal).normalized();
+    CHECK((framed.frame.tangents.row(w).head<3>().transpose() - wanted).norm() < 1e-6);
+    ++compared;
+  }
+  CHECK(compared > 60);
+}
+
 TEST_CASE("tangent_frame: copies of a seam vertex have one frame, wedges of a pole their own") {
   const Framed sphere = framed_sphere(3, 5);
   int copies = 0, fans = 0;
@@ -150,6 +185,42 @@ TEST_CASE(
     const Vector3 first = frame.tangents.row(corner).head<3>();
     for (int k = 1; k < 3; ++k)
       CHECK((first - frame.tangents.row(corner + k).head<3>().transpose()).norm() < 1e-12);
+  }
+}
+
+TEST_CASE("tangent_frame: where normals are not the surface's, tangents lie in their plane") {
+  // A normal of its own a corner, so that no two directions are summed.
+  const Framed sphere = framed_sphere(2, 9);
+  SphericalChart chart = sphere.chart;
+  const Eigen::Index corners = chart.wedges.size();
+  TextureCoordinates uv(corners, 2);
+  Points flat(corners, 3);
+  std::vector<Vertex> vertices;
+  for (Eigen::Index corner = 0; corner < corners; ++corner) {
+    const auto w = sphere.chart.wedges.data()[corner];
+    uv.row(corner) = sphere.chart.uv.row(w);
+    vertices.push_back(sphere.chart.wedge_vertices[static_cast<size_t>(w)]);
+    const auto at = [&](int k) -> Vector3 {
+      return sphere.positions.row(sphere.chart.triangles(corner / 3, k));
+    };
+    flat.row(corner) = (at(1) - at(0)).cross(at(2) - at(0)).normalized();
+    chart.wedges.data()[corner] = static_cast<int>(corner);
+  }
+  chart.uv = uv;
+  chart.wedge_vertices = vertices;
+  chart.wedge_kinds.assign(vertices.size(), WedgeKind::Ordinary);
+  const ShadingFrame frame = tangent_frame(chart, sphere.positions, flat);
+  Points tilted = flat;
+  for (Eigen::Index corner = 0; corner < corners; ++corner)
+    tilted.row(corner) = (flat.row(corner) + 0.7 * frame.tangents.row(corner).head<3>() +
+                          Vector3(0.01 * std::cos(corner), 0.2, 0.1).transpose())
+                             .normalized();
+  const ShadingFrame found = tangent_frame(chart, sphere.positions, tilted);
+  check_orthonormal(found);
+  for (Eigen::Index corner = 0; corner < corners; ++corner) {
+    const Vector3 along = frame.tangents.row(corner).head<3>(), normal = tilted.row(corner);
+    const Vector3 wanted = (along - along.dot(normal) * normal).normalized();
+    CHECK((found.tangents.row(corner).head<3>().transpose() - wanted).norm() < 1e-12);
   }
 }
 
