@@ -74,13 +74,13 @@ struct Network {
 inline Unknowns random_vector(size_t size, unsigned seed) {
   std::mt19937 generator(seed);
   Unknowns x(size);
-  for (float& v : x) v = static_cast<float>(generator() % 2001) / 1000 - 1;
+  for (double& v : x) v = static_cast<double>(generator() % 2001) / 1000 - 1;
   return x;
 }
 
 inline double dot(const Unknowns& a, const Unknowns& b) {
   double sum = 0;
-  for (size_t i = 0; i < a.size(); ++i) sum += static_cast<double>(a[i]) * b[i];
+  for (size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
   return sum;
 }
 

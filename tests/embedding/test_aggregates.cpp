@@ -43,7 +43,7 @@ TEST_CASE("aggregate: no aggregate reaches across weak connections, unless all c
   for (int row = 0; row < a.rows(); ++row) {
     for (int e = a.start[at(row)]; e < a.start[at(row) + 1]; ++e) {
       if (north(row) == north(a.column[at(e)])) continue;
-      for (float& v : a.off[at(e)].a) v *= 1e-3F;
+      for (double& v : a.off[at(e)].a) v *= 1e-3;
     }
   }
   for (const double strength : {0.05, 0.0}) {

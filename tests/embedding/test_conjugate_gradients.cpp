@@ -12,14 +12,13 @@ TEST_CASE(
     "conjugate gradients: solve until nothing is gained, in about as many iterations at any size") {
   int before = 0;
   for (const int level : {3, 4, 5}) {
-    const Network network(icosphere(level), 1e-3);  // turns 1e6 times too large would drown floats
+    const Network network(icosphere(level), 1e-3);
     Multigrid multigrid = network.multigrid();
     const Unknowns b = random_vector(network.size(), 3);
     const LinearSolution s =
         solve_by_conjugate_gradients(network.matrix, multigrid, b, 1e-9, 200, 1);
     const Eigen::VectorXd rhs =
-        Eigen::Map<const Eigen::VectorXf>(b.data(), static_cast<Eigen::Index>(b.size()))
-            .cast<double>();
+        Eigen::Map<const Eigen::VectorXd>(b.data(), static_cast<Eigen::Index>(b.size()));
     CHECK((network.times(s.x) - rhs).norm() < 1e-3 * rhs.norm());
     CHECK(s.gain == Approx(dot(b, s.x)).epsilon(1e-3));
     CHECK(s.iterations < 60);
@@ -52,7 +51,7 @@ TEST_CASE("conjugate gradients: the first iteration that gains less than its sha
     CHECK(solution.gain == before);
   }
   CHECK(solve(0.02, 1).iterations == 1);
-  CHECK(solve(0.02, 0).x == Unknowns(network.size(), 0.0F));
+  CHECK(solve(0.02, 0).x == Unknowns(network.size(), 0.0));
 }
 
 TEST_CASE("conjugate gradients: a direction without curvature ends them, and is not taken") {
@@ -61,12 +60,12 @@ TEST_CASE("conjugate gradients: a direction without curvature ends them, and is 
   const double sign = GENERATE(0, -1);
   for (Block<2>& block : matrix.off) block = {};
   for (Block<2>& block : matrix.diagonal) {
-    block = {{static_cast<float>(sign), 0, 0, static_cast<float>(sign)}};
+    block = {{sign, 0, 0, sign}};
   }
   Multigrid multigrid = network.multigrid();
   const LinearSolution solution =
       solve_by_conjugate_gradients(matrix, multigrid, random_vector(network.size(), 7), 0.1, 60, 1);
   CHECK(solution.iterations == 0);
   CHECK(solution.gain == 0);
-  CHECK(solution.x == Unknowns(network.size(), 0.0F));
+  CHECK(solution.x == Unknowns(network.size(), 0.0));
 }

@@ -35,7 +35,7 @@ Unknowns turns(const std::vector<AggregateSite>& sites, const Vector3& omega) {
     const TangentFrame frame = tangent_frame(s.centre);
     for (const double amount :
          {omega.dot(frame.u) / s.radius, omega.dot(frame.v) / s.radius, omega.dot(s.centre), 0.0}) {
-      y.push_back(static_cast<float>(amount));
+      y.push_back(amount);
     }
   }
   return y;
@@ -48,7 +48,7 @@ Unknowns times(const std::vector<Block<N, near_nullspace>>& p, const Aggregates&
   Unknowns x;
   for (size_t row = 0; row < p.size(); ++row) {
     for (int i = 0; i < N; ++i) {
-      float sum = 0;
+      double sum = 0;
       for (int k = 0; k < near_nullspace; ++k) {
         sum += p[row](i, k) * y[near_nullspace * at(aggregates.of_row[row]) + at(k)];
       }
@@ -64,14 +64,14 @@ TEST_CASE("aggregate modes: turns of the whole sphere are among them, on every l
   const TwoLevels levels;
   const Vector3 omega(0.3, -0.5, 0.8);
   const Unknowns children = turns(levels.sites, omega), parents = turns(levels.parent_sites, omega);
-  Unknowns x(levels.network.size(), 0.0F);
+  Unknowns x(levels.network.size(), 0.0);
   prolong_to_points(levels.rows, levels.aggregates, levels.sites, children.data(), x.data(), 2);
   for (size_t v = 0; v < levels.network.points.size(); ++v) {
     const Vector3 point = levels.network.points[v].vector(), velocity = omega.cross(point);
     const TangentFrame frame = tangent_frame(point);
     const double unit = levels.network.units[v];
-    CHECK(unit * x[2 * v] == Approx(velocity.dot(frame.u)).margin(1e-5));
-    CHECK(unit * x[2 * v + 1] == Approx(velocity.dot(frame.v)).margin(1e-5));
+    CHECK(unit * x[2 * v] == Approx(velocity.dot(frame.u)).margin(1e-10));
+    CHECK(unit * x[2 * v + 1] == Approx(velocity.dot(frame.v)).margin(1e-10));
   }
   const Unknowns found = times(site_prolongation(levels.sites, levels.parents, levels.parent_sites),
                                levels.parents, parents);
@@ -80,9 +80,9 @@ TEST_CASE("aggregate modes: turns of the whole sphere are among them, on every l
 
 TEST_CASE("aggregate modes: a dilation draws every point towards its aggregate's centre") {
   const TwoLevels levels;
-  Unknowns dilation(near_nullspace * levels.sites.size(), 0.0F);
+  Unknowns dilation(near_nullspace * levels.sites.size(), 0.0);
   for (size_t c = 0; c < levels.sites.size(); ++c) dilation[near_nullspace * c + 3] = 1;
-  Unknowns x(levels.network.size(), 0.0F);
+  Unknowns x(levels.network.size(), 0.0);
   prolong_to_points(levels.rows, levels.aggregates, levels.sites, dilation.data(), x.data(), 1);
   for (size_t v = 0; v < levels.network.points.size(); ++v) {
     const Vector3 point = levels.network.points[v].vector();
@@ -98,10 +98,10 @@ TEST_CASE(
     "aggregate modes: a parent's dilation draws its children's points towards its own centre") {
   const TwoLevels levels;
   const auto p = site_prolongation(levels.sites, levels.parents, levels.parent_sites);
-  Unknowns dilation(near_nullspace * levels.parent_sites.size(), 0.0F);
+  Unknowns dilation(near_nullspace * levels.parent_sites.size(), 0.0);
   for (size_t c = 0; c < levels.parent_sites.size(); ++c) dilation[near_nullspace * c + 3] = 1;
   const Unknowns y = times(p, levels.parents, dilation);
-  Unknowns x(levels.network.size(), 0.0F);
+  Unknowns x(levels.network.size(), 0.0);
   prolong_to_points(levels.rows, levels.aggregates, levels.sites, y.data(), x.data(), 1);
   double error = 0, size = 0;
   for (size_t v = 0; v < levels.network.points.size(); ++v) {
@@ -124,9 +124,9 @@ TEST_CASE(
   const Unknowns y = random_vector(near_nullspace * levels.sites.size(), 1);
   const Unknowns r = random_vector(levels.network.size(), 2),
                  expected = times(p, levels.aggregates, y);
-  Unknowns x(r.size(), 0.0F), b(y.size());
+  Unknowns x(r.size(), 0.0), b(y.size());
   prolong_to_points(levels.rows, levels.aggregates, levels.sites, y.data(), x.data(), 2);
-  for (size_t i = 0; i < x.size(); ++i) CHECK(x[i] == Approx(expected[i]).margin(1e-5));
+  for (size_t i = 0; i < x.size(); ++i) CHECK(x[i] == Approx(expected[i]).margin(1e-10));
   restrict_from_points(levels.rows, levels.aggregates, levels.sites, r.data(), b.data(), 2);
-  CHECK(dot(b, y) == Approx(dot(r, x)).epsilon(1e-4));
+  CHECK(dot(b, y) == Approx(dot(r, x)).epsilon(1e-9));
 }

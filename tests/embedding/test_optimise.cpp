@@ -111,8 +111,10 @@ TEST_CASE("optimise_balance: towards conformal the angles win, towards equal are
   const SphereMap start = embedded(mesh, Quality::Normal);
   const DistortionSummary middle = summarise(measure_distortion(mesh, start));
 
+  const ProgressiveOptions nearly{.energy = {.lambda = least_lambda}};
   const BalancedMap angles =
-      optimise_balance(topology, source, start, {.balance = Balance::Conformal});
+      optimise_balance(topology, source, *embed_progressively(mesh, topology, nearly).map,
+                       {.balance = Balance::Conformal, .from_lambda = least_lambda});
   const DistortionSummary conformal = summarise(measure_distortion(mesh, angles.map));
   CHECK(angles.lambda < 1e-3);
   CHECK(conformal.mean_abs_ln_angle < middle.mean_abs_ln_angle / 2);

@@ -88,7 +88,7 @@ struct StageRecord {
 struct BalanceRecord {
   double lambda;      // the map is minimised for it
   double area_error;  // mean |log2 area ratio|, weighted by source area
-  bool moved;         // false: no step was possible, the map is that of λ = 1
+  bool moved;         // false: no step was possible, the map is as it was embedded
 };
 
 /// How a map of Method::Radial differs from the directions from its centre. Without folds it does

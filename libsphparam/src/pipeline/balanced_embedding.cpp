@@ -13,7 +13,8 @@
 #include "sphparam/sphere/distortion.h"
 #include "sphparam/sphere/sphere_share.h"
 
-// The embedding's own sweeps and steps serve λ near 1; from there on λ goes step by step.
+// The embedding's own sweeps and steps serve λ near 1, and the nearly conformal energy, which has
+// hardly more than one minimum; from there on λ goes step by step.
 
 namespace sphparam {
 namespace {
@@ -21,7 +22,8 @@ namespace {
 constexpr double least_direct_lambda = 0.1, greatest_direct_lambda = 10;  // others by continuation
 
 double first_lambda(const ParameterizeOptions& options) {
-  if (options.balance != Balance::Lambda) return 1;
+  if (options.balance == Balance::Conformal) return least_lambda;
+  if (options.balance == Balance::EqualArea) return 1;
   return std::clamp(options.energy.lambda, least_direct_lambda, greatest_direct_lambda);
 }
 
@@ -58,7 +60,7 @@ SphereMap balance(MapInProgress& work, const SphereMap& map, double from_lambda,
                                      .threads = work.options.threads,
                                      .progress = work.options.progress}});
   work.energy.lambda = result.lambda;
-  const bool moved = result.report.steps > 0 && result.lambda != from_lambda;
+  const bool moved = result.report.steps > 0 && result.lambda != 1;
   work.result.balance = {moved ? result.lambda : from_lambda, result.area_error, moved};
   work.record("balance", result.map);
   return std::move(result.map);
@@ -117,7 +119,8 @@ void warn_of_balance(MapInProgress& work) {
                        ", not at most " + figure(BalanceOptions{}.area_error)
                  : ": the mean |ln angle ratio| is " + figure(summary.mean_abs_ln_angle)) +
             (balance->moved ? " (lambda " + figure(balance->lambda) + ")"
-                            : ", as in the map of lambda 1: nothing could be gained"));
+                            : ", as in the map of lambda " + figure(balance->lambda) +
+                                  ": nothing could be gained"));
 }
 
 void warn_of_gap(MapInProgress& work) {

@@ -14,7 +14,7 @@ enum class Quality {
 /// What a map gives up for what.
 enum class Balance {
   Lambda,     // as energy.lambda says
-  Conformal,  // angles, whatever the areas: λ towards 0 as long as the mean angle error falls
+  Conformal,  // angles: the λ at which areas weigh next to nothing of what the angles still miss
   EqualArea,  // areas within `area_error`, then angles: the least λ that does it
 };
 

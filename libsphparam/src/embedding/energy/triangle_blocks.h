@@ -40,6 +40,7 @@ class TriangleBlocks {
     return &packs_[blocks_[static_cast<size_t>(block)].first_pack];
   }
   int pack_count(int block) const { return blocks_[static_cast<size_t>(block)].packs; }
+  int pack_count() const { return static_cast<int>(packs_.size()); }  // of all blocks
 
   /// The triangle (row, neighbour, next neighbour) that begins with an entry of the row: its place
   /// among those of the row's block, and the corner that the row's vertex is.

@@ -21,8 +21,8 @@ struct alignas(8 * pack_width) TrianglePack {
 /// corners' frames (`tangent_frame`).
 struct alignas(8 * pack_width) TriangleTerms {
   double gradient[3][2][pack_width];
-  float diagonal[3][3][pack_width];  // corner k with itself: entries 00, 01, 11
-  float off[3][4][pack_width];       // corner k (rows) with corner k + 1 (columns): 00, 01, 10, 11
+  double diagonal[3][3][pack_width];  // corner k with itself: entries 00, 01, 11
+  double off[3][4][pack_width];       // corner k (rows) with corner k + 1 (columns): 00, 01, 10, 11
 };
 
 /// Puts a triangle into a lane.

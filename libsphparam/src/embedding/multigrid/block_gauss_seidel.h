@@ -26,19 +26,17 @@ SweepOrder order_sweeps(const std::vector<int>& start, const std::vector<int>& c
 inline constexpr double diagonal_shift = 1e-10;  // of a block's trace, so that it has an inverse
 
 /// The inverse of a block to which `diagonal_shift` of its trace has been added; of a zero block
-/// the identity. Requires: symmetric positive semidefinite, finite. Computed in doubles. Ensures:
-/// symmetric positive definite up to the rounding to floats. Cost: O(N³).
+/// the identity. Requires: symmetric positive semidefinite, finite. Ensures: symmetric positive
+/// definite up to rounding. Cost: O(N³).
 template <int N>
 Block<N> inverse(const Block<N>& a) {
   using Matrix = Eigen::Matrix<double, N, N, Eigen::RowMajor>;
-  Matrix m = Eigen::Map<const Eigen::Matrix<float, N, N, Eigen::RowMajor>>(a.a.data())
-                 .template cast<double>();
+  Matrix m = Eigen::Map<const Matrix>(a.a.data());
   const double trace = m.trace();
   // A mode that the aggregate does not have (a single row does not turn) has a zero row.
   for (int i = 0; i < N; ++i) m(i, i) += diagonal_shift * trace + (trace > 0 ? 0 : 1);
   Block<N> r;
-  Eigen::Map<Eigen::Matrix<float, N, N, Eigen::RowMajor>>(r.a.data()) =
-      m.inverse().template cast<float>();
+  Eigen::Map<Matrix>(r.a.data()) = m.inverse();
   return r;
 }
 
@@ -57,10 +55,10 @@ void invert(const std::vector<Block<N>>& diagonal, std::vector<Block<N>>& result
 
 /// What the row's own unknowns would have to make of the others' work.
 template <int N>
-[[gnu::always_inline]] inline std::array<float, N> off_residual(const BlockMatrix<N>& a,
-                                                                const float* b, const float* x,
-                                                                int row) {
-  std::array<float, N> s = off_product<float>(a, x, row);
+[[gnu::always_inline]] inline std::array<double, N> off_residual(const BlockMatrix<N>& a,
+                                                                 const double* b, const double* x,
+                                                                 int row) {
+  std::array<double, N> s = off_product(a, x, row);
   for (int i = 0; i < N; ++i) s[at(i)] = b[N * row + i] - s[at(i)];
   return s;
 }
@@ -68,29 +66,28 @@ template <int N>
 /// The diagonal's inverse is stored for large blocks, …
 template <int N>
 [[gnu::always_inline]] inline void relax_row(const BlockMatrix<N>& a,
-                                             const std::vector<Block<N>>& inverse, const float* b,
-                                             float* x, int row) {
-  const std::array<float, N> s = off_residual(a, b, x, row);
+                                             const std::vector<Block<N>>& inverse, const double* b,
+                                             double* x, int row) {
+  const std::array<double, N> s = off_residual(a, b, x, row);
   const Block<N>& d = inverse[at(row)];
   for (int i = 0; i < N; ++i) {
-    float sum = 0;
+    double sum = 0;
     for (int j = 0; j < N; ++j) sum += d(i, j) * s[at(j)];
     x[N * row + i] = sum;
   }
 }
 
-/// … and computed where it is needed for small ones: a product of floats is exact in double.
+/// … and computed where it is needed for small ones.
 struct SmallInverses {};
-[[gnu::always_inline]] inline void relax_row(const BlockMatrix<2>& a, SmallInverses, const float* b,
-                                             float* x, int row) {
-  const std::array<float, 2> s = off_residual(a, b, x, row);
+[[gnu::always_inline]] inline void relax_row(const BlockMatrix<2>& a, SmallInverses,
+                                             const double* b, double* x, int row) {
+  const std::array<double, 2> s = off_residual(a, b, x, row);
   const Block<2>& d = a.diagonal[at(row)];
-  const double shift = diagonal_shift * (static_cast<double>(d(0, 0)) + d(1, 1));
+  const double shift = diagonal_shift * (d(0, 0) + d(1, 1));
   const double d0 = d(0, 0) + shift, d1 = d(1, 1) + shift, off = d(0, 1);
   const double scale = 1 / (d0 * d1 - off * off);
-  // Rounded before the rows before this one are needed: that is what a sweep waits for.
-  const float i0 = static_cast<float>(scale * d1), i1 = static_cast<float>(scale * d0);
-  const float i01 = static_cast<float>(scale * off);
+  // Before the rows before this one are needed: that is what a sweep waits for.
+  const double i0 = scale * d1, i1 = scale * d0, i01 = scale * off;
   x[2 * row] = i0 * s[0] - i01 * s[1];
   x[2 * row + 1] = i1 * s[1] - i01 * s[0];
 }
@@ -99,7 +96,7 @@ struct SmallInverses {};
 /// SmallInverses. Same bits for any number of threads.
 template <int N, class Inverses>
 void sweep(const BlockMatrix<N>& a, const Inverses& inverse, const SweepOrder& order,
-           const float* b, float* x, bool forward, int threads) {
+           const double* b, double* x, bool forward, int threads) {
   const int colours = static_cast<int>(order.colour_start.size()) - 1;
   for (int n = 0; n < colours; ++n) {
     const int c = forward ? n : colours - 1 - n;

@@ -17,15 +17,15 @@ inline constexpr std::int64_t row_grain = 512;  // rows that a thread takes at o
 /// A dense N×M block, row by row.
 template <int N, int M = N>
 struct Block {
-  std::array<float, static_cast<size_t>(N) * static_cast<size_t>(M)> a{};
+  std::array<double, static_cast<size_t>(N) * static_cast<size_t>(M)> a{};
 
-  float& operator()(int i, int j) { return a[static_cast<size_t>(i * M + j)]; }
-  float operator()(int i, int j) const { return a[static_cast<size_t>(i * M + j)]; }
+  double& operator()(int i, int j) { return a[static_cast<size_t>(i * M + j)]; }
+  double operator()(int i, int j) const { return a[static_cast<size_t>(i * M + j)]; }
 };
 
-/// One number of every unknown. Steps are solved for to one digit or two: floats hold that in half
-/// the memory, and half the time.
-using Unknowns = std::vector<float>;
+/// One number of every unknown. Doubles, though steps are solved for to a digit or two: what a limb
+/// resists a motion with is next to nothing of what each of its triangles would, were it alone.
+using Unknowns = std::vector<double>;
 
 /// A symmetric sparse matrix of N×N blocks; the rows' neighbours without the row itself.
 template <int N>
@@ -65,56 +65,55 @@ double squared_norm(const Block<N>& a) {
 }
 
 /// One row of A x, without the diagonal's part. Every entry of a block has a sum of its own, so
-/// that they run abreast. `Number`: of the sums.
-template <class Number, int N>
-[[gnu::always_inline]] inline std::array<Number, N> off_product(const BlockMatrix<N>& a,
-                                                                const float* x, int row) {
-  Number sums[N * N] = {};
+/// that they run abreast.
+template <int N>
+[[gnu::always_inline]] inline std::array<double, N> off_product(const BlockMatrix<N>& a,
+                                                                const double* x, int row) {
+  double sums[N * N] = {};
   for (int e = a.start[at(row)]; e < a.start[at(row) + 1]; ++e) {
-    const float* block = a.off[at(e)].a.data();
-    const float* y = x + static_cast<std::ptrdiff_t>(N) * a.column[at(e)];
+    const double* block = a.off[at(e)].a.data();
+    const double* y = x + static_cast<std::ptrdiff_t>(N) * a.column[at(e)];
     for (int i = 0; i < N; ++i) {
-      for (int j = 0; j < N; ++j) sums[N * i + j] += static_cast<Number>(block[N * i + j]) * y[j];
+      for (int j = 0; j < N; ++j) sums[N * i + j] += block[N * i + j] * y[j];
     }
   }
-  std::array<Number, N> s{};
+  std::array<double, N> s{};
   for (int i = 0; i < N; ++i) {
     for (int j = 0; j < N; ++j) s[at(i)] += sums[N * i + j];
   }
   return s;
 }
 
-/// One row of A x. In doubles: of a smooth x little is left, and were that lost in rounding,
-/// conjugate gradients would meet curvatures below zero.
+/// One row of A x.
 template <int N>
-[[gnu::always_inline]] inline std::array<double, N> product(const BlockMatrix<N>& a, const float* x,
-                                                            int row) {
-  std::array<double, N> s = off_product<double>(a, x, row);
+[[gnu::always_inline]] inline std::array<double, N> product(const BlockMatrix<N>& a,
+                                                            const double* x, int row) {
+  std::array<double, N> s = off_product(a, x, row);
   const Block<N>& d = a.diagonal[at(row)];
   for (int i = 0; i < N; ++i) {
-    for (int j = 0; j < N; ++j) s[at(i)] += static_cast<double>(d(i, j)) * x[N * row + j];
+    for (int j = 0; j < N; ++j) s[at(i)] += d(i, j) * x[N * row + j];
   }
   return s;
 }
 
 /// r = b − A x
 template <int N>
-void residual(const BlockMatrix<N>& a, const float* b, const float* x, float* r, int threads) {
+void residual(const BlockMatrix<N>& a, const double* b, const double* x, double* r, int threads) {
   parallel_for(a.rows(), row_grain, threads, [&](std::int64_t begin, std::int64_t end) {
     for (int row = static_cast<int>(begin); row < static_cast<int>(end); ++row) {
       const std::array<double, N> s = product(a, x, row);
-      for (int i = 0; i < N; ++i) r[N * row + i] = static_cast<float>(b[N * row + i] - s[at(i)]);
+      for (int i = 0; i < N; ++i) r[N * row + i] = b[N * row + i] - s[at(i)];
     }
   });
 }
 
 /// y = A x
 template <int N>
-void multiply(const BlockMatrix<N>& a, const float* x, float* y, int threads) {
+void multiply(const BlockMatrix<N>& a, const double* x, double* y, int threads) {
   parallel_for(a.rows(), row_grain, threads, [&](std::int64_t begin, std::int64_t end) {
     for (int row = static_cast<int>(begin); row < static_cast<int>(end); ++row) {
       const std::array<double, N> s = product(a, x, row);
-      for (int i = 0; i < N; ++i) y[N * row + i] = static_cast<float>(s[at(i)]);
+      for (int i = 0; i < N; ++i) y[N * row + i] = s[at(i)];
     }
   });
 }

@@ -88,12 +88,12 @@ void restrict_matrix(const BlockMatrix<N>& fine, const std::vector<Block<N, M>>&
 
 /// b = Pᵀ r
 template <int N>
-void restrict_vector(const std::vector<Block<N>>& p, const Aggregates& aggregates, const float* r,
-                     float* b, int threads) {
+void restrict_vector(const std::vector<Block<N>>& p, const Aggregates& aggregates, const double* r,
+                     double* b, int threads) {
   const std::vector<int>&start = aggregates.start, &members = aggregates.members;
   parallel_for(aggregates.count(), row_grain, threads, [&](std::int64_t begin, std::int64_t end) {
     for (int c = static_cast<int>(begin); c < static_cast<int>(end); ++c) {
-      std::array<float, N> s{};
+      std::array<double, N> s{};
       for (int m = start[at(c)]; m < start[at(c) + 1]; ++m) {
         const int row = members[at(m)];
         for (int i = 0; i < N; ++i) {
@@ -107,14 +107,14 @@ void restrict_vector(const std::vector<Block<N>>& p, const Aggregates& aggregate
 
 /// x += P y
 template <int N>
-void prolong_vector(const std::vector<Block<N>>& p, const std::vector<int>& of_row, const float* y,
-                    float* x, int threads) {
+void prolong_vector(const std::vector<Block<N>>& p, const std::vector<int>& of_row, const double* y,
+                    double* x, int threads) {
   parallel_for(static_cast<std::int64_t>(p.size()), row_grain, threads,
                [&](std::int64_t begin, std::int64_t end) {
                  for (int row = static_cast<int>(begin); row < static_cast<int>(end); ++row) {
                    const int c = of_row[at(row)];
                    for (int i = 0; i < N; ++i) {
-                     float sum = 0;
+                     double sum = 0;
                      for (int j = 0; j < N; ++j) sum += p[at(row)](i, j) * y[N * c + j];
                      x[N * row + i] += sum;
                    }

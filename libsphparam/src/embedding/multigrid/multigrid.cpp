@@ -116,19 +116,19 @@ void Multigrid::cycle(size_t l) {
   Level& level = levels_[l];
   const int threads = level.matrix.rows() < least_parallel_rows ? 1 : threads_;
   const auto vector = [](Unknowns& v) {
-    return Eigen::Map<Eigen::VectorXf>(v.data(), static_cast<Eigen::Index>(v.size()));
+    return Eigen::Map<Eigen::VectorXd>(v.data(), static_cast<Eigen::Index>(v.size()));
   };
   if (l + 1 == levels_.size()) {
     // Where it has no factor, what comes down from finer levels stays as their sweeps left it.
     if (coarsest_.info() == Eigen::Success) {
-      vector(level.x) = coarsest_.solve(vector(level.b).cast<double>()).cast<float>();
+      vector(level.x) = coarsest_.solve(vector(level.b));
     } else {
       vector(level.x).setZero();
     }
     return;
   }
   Level& coarse = levels_[l + 1];
-  std::fill(level.x.begin(), level.x.end(), 0.0F);
+  std::fill(level.x.begin(), level.x.end(), 0.0);
   sweep(level.matrix, level.inverse, level.order, level.b.data(), level.x.data(), true, threads);
   residual(level.matrix, level.b.data(), level.x.data(), level.r.data(), threads);
   restrict_vector(level.prolongation, level.aggregates, level.r.data(), coarse.b.data(), threads);
@@ -146,7 +146,7 @@ void Multigrid::cycle(size_t l) {
 }
 
 void Multigrid::apply(const Unknowns& b, Unknowns& x, Unknowns& rest) {
-  std::fill(x.begin(), x.end(), 0.0F);
+  std::fill(x.begin(), x.end(), 0.0);
   sweep(matrix_, SmallInverses{}, order_, b.data(), x.data(), true, threads_);
   residual(matrix_, b.data(), x.data(), rest.data(), threads_);
   Level& first = levels_.front();

@@ -80,8 +80,8 @@ std::vector<Block<2, near_nullspace>> point_prolongation(const PointRows& rows,
       const double at_v[near_nullspace] = {
           -radius * frame.u.dot(own.u), -radius * frame.v.dot(own.u), -d.dot(own.u), d.dot(own.v)};
       for (int k = 0; k < near_nullspace; ++k) {
-        p[at(row)](0, k) = static_cast<float>(at_u[k] / rows.units[row]);
-        p[at(row)](1, k) = static_cast<float>(at_v[k] / rows.units[row]);
+        p[at(row)](0, k) = at_u[k] / rows.units[row];
+        p[at(row)](1, k) = at_v[k] / rows.units[row];
       }
     }
   });
@@ -89,7 +89,7 @@ std::vector<Block<2, near_nullspace>> point_prolongation(const PointRows& rows,
 }
 
 void restrict_from_points(const PointRows& rows, const Aggregates& aggregates,
-                          const std::vector<AggregateSite>& sites, const float* r, float* b,
+                          const std::vector<AggregateSite>& sites, const double* r, double* b,
                           int threads) {
   parallel_for(std::ssize(sites), row_grain, threads, [&](std::int64_t begin, std::int64_t end) {
     for (auto c = static_cast<size_t>(begin); c < static_cast<size_t>(end); ++c) {
@@ -108,21 +108,21 @@ void restrict_from_points(const PointRows& rows, const Aggregates& aggregates,
         dilation += d.dot(along_u * own.u + along_v * own.v);
       }
       const TangentFrame frame = tangent_frame(site.centre);
-      b[near_nullspace * c] = static_cast<float>(site.radius * frame.u.dot(turn));
-      b[near_nullspace * c + 1] = static_cast<float>(site.radius * frame.v.dot(turn));
-      b[near_nullspace * c + 2] = static_cast<float>(spin);
-      b[near_nullspace * c + 3] = static_cast<float>(dilation);
+      b[near_nullspace * c] = site.radius * frame.u.dot(turn);
+      b[near_nullspace * c + 1] = site.radius * frame.v.dot(turn);
+      b[near_nullspace * c + 2] = spin;
+      b[near_nullspace * c + 3] = dilation;
     }
   });
 }
 
 void prolong_to_points(const PointRows& rows, const Aggregates& aggregates,
-                       const std::vector<AggregateSite>& sites, const float* y, float* x,
+                       const std::vector<AggregateSite>& sites, const double* y, double* x,
                        int threads) {
   parallel_for(std::ssize(sites), row_grain, threads, [&](std::int64_t begin, std::int64_t end) {
     for (auto c = static_cast<size_t>(begin); c < static_cast<size_t>(end); ++c) {
       const AggregateSite& site = sites[c];
-      const float* amounts = y + near_nullspace * c;
+      const double* amounts = y + near_nullspace * c;
       const TangentFrame frame = tangent_frame(site.centre);
       const Vector3 turn = site.radius * (amounts[0] * frame.u + amounts[1] * frame.v);
       for (int m = aggregates.start[c]; m < aggregates.start[c + 1]; ++m) {
@@ -131,8 +131,8 @@ void prolong_to_points(const PointRows& rows, const Aggregates& aggregates,
         const TangentFrame own = tangent_frame(point);
         const Vector3 omega = turn + amounts[2] * d, away = amounts[3] * d;
         const double s = 1.0 / rows.units[row];
-        x[2 * row] += static_cast<float>(s * (omega.dot(own.v) + away.dot(own.u)));
-        x[2 * row + 1] += static_cast<float>(s * (away.dot(own.v) - omega.dot(own.u)));
+        x[2 * row] += s * (omega.dot(own.v) + away.dot(own.u));
+        x[2 * row + 1] += s * (away.dot(own.v) - omega.dot(own.u));
       }
     }
   });
@@ -153,9 +153,7 @@ std::vector<Block<near_nullspace>> site_prolongation(const std::vector<Aggregate
       const Vector3 d = site.centre - child.centre;  // C·u = d·u, U·c = −U·d
       const double s = 1 / child.radius, larger = site.radius * s;
       const double along = site.centre.dot(child.centre);
-      const auto set = [&](int i, int j, double value) {
-        p[at(row)](i, j) = static_cast<float>(value);
-      };
+      const auto set = [&](int i, int j, double value) { p[at(row)](i, j) = value; };
       set(0, 0, larger * frame.u.dot(own.u));
       set(1, 0, larger * frame.u.dot(own.v));
       set(2, 0, -site.radius * frame.u.dot(d));

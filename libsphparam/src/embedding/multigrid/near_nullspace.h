@@ -39,11 +39,11 @@ std::vector<Block<2, near_nullspace>> point_prolongation(const PointRows& rows,
                                                          int threads);
 /// The same P, too large to be kept: b = Pᵀ r …
 void restrict_from_points(const PointRows& rows, const Aggregates& aggregates,
-                          const std::vector<AggregateSite>& sites, const float* r, float* b,
+                          const std::vector<AggregateSite>& sites, const double* r, double* b,
                           int threads);
 /// … and x += P y.
 void prolong_to_points(const PointRows& rows, const Aggregates& aggregates,
-                       const std::vector<AggregateSite>& sites, const float* y, float* x,
+                       const std::vector<AggregateSite>& sites, const double* y, double* x,
                        int threads);
 
 /// P from the modes of aggregates (`parents`) to those of their members.

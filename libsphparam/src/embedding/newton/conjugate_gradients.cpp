@@ -5,8 +5,7 @@
 #include "embedding/multigrid/multigrid.h"
 #include "sphparam/parallel.h"
 
-// The method of Hestenes and Stiefel, a V-cycle before every direction. Vectors are floats, their
-// products are summed in doubles.
+// The method of Hestenes and Stiefel, a V-cycle before every direction.
 
 namespace sphparam {
 namespace {
@@ -16,7 +15,7 @@ double dot(const Unknowns& a, const Unknowns& b, int threads) {
       static_cast<std::int64_t>(a.size()), threads, [&](std::int64_t first, std::int64_t last) {
         double sum = 0;
         for (auto i = static_cast<size_t>(first); i < static_cast<size_t>(last); ++i) {
-          sum += static_cast<double>(a[i]) * b[i];
+          sum += a[i] * b[i];
         }
         return sum;
       });
@@ -24,8 +23,7 @@ double dot(const Unknowns& a, const Unknowns& b, int threads) {
 
 /// a += factor · b
 void add(Unknowns& a, double factor, const Unknowns& b) {
-  const float f = static_cast<float>(factor);
-  for (size_t i = 0; i < a.size(); ++i) a[i] += f * b[i];
+  for (size_t i = 0; i < a.size(); ++i) a[i] += factor * b[i];
 }
 
 }  // namespace
@@ -34,15 +32,15 @@ LinearSolution solve_by_conjugate_gradients(const BlockMatrix<2>& matrix, Multig
                                             Unknowns r, double least_share, int most_iterations,
                                             int threads, const std::function<void()>& ask) {
   const size_t n = r.size();
-  LinearSolution solution{Unknowns(n, 0.0F)};
-  Unknowns z(n), direction(n, 0.0F), image(n);
+  LinearSolution solution{Unknowns(n, 0.0)};
+  Unknowns z(n), direction(n, 0.0), image(n);
   double rz = 0;
   while (solution.iterations < most_iterations) {
     if (ask) ask();
     // 1. The next direction: the preconditioned residual, made conjugate to the one before.
     multigrid.apply(r, z, image);
     const double next = dot(r, z, threads);
-    const float share = rz > 0 ? static_cast<float>(next / rz) : 0.0F;
+    const double share = rz > 0 ? next / rz : 0.0;
     for (size_t i = 0; i < n; ++i) direction[i] = z[i] + share * direction[i];
     rz = next;
     // 2. The step along it that minimises the quadratic form.

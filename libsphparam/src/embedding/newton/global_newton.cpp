@@ -29,11 +29,12 @@ constexpr int most_iterations = 60;
 constexpr double longest_step = 0.7;  // radians, of any vertex
 constexpr double sufficient_decrease = 1e-4;
 constexpr int halvings = 40;
+constexpr int most_stiffenings = 4;
 constexpr double most_expansion = 8;  // of a Newton step: clamped Hessians are too stiff
-// Of a diagonal block's trace. What floats round off lets the energy of a limb that moves as a
-// whole by many of its own small edges come out negative, and the solver gives up.
-constexpr double certain_curvature = 5e-7;
-constexpr int least_exponent = -60;       // of units: their products are floats
+// Of a diagonal block's trace. Rounding lets the energy of a limb that moves as a whole by millions
+// of its own small edges come out negative, and the solver gives up.
+constexpr double certain_curvature = 1e-13;
+constexpr int least_exponent = -60;       // of units
 constexpr double over_relaxation = 1.5;   // of the sweeps
 constexpr std::int64_t sweep_grain = 16;  // packs
 
@@ -90,20 +91,19 @@ void GlobalNewton::measure_units() {
       });
 }
 
-void GlobalNewton::gather_row(int row, const TriangleTerms* terms,
-                              std::vector<std::array<double, 4>>& off) {
+void GlobalNewton::gather_row(int row, const TriangleTerms* terms) {
   const int first = hessian_.start[at(row)], valence = hessian_.start[at(row) + 1] - first;
   std::array<double, 3> d{};
   std::array<double, 2> g{};
-  off.assign(at(valence), {});
+  Block<2>* const off = hessian_.off.data() + first;
+  std::fill(off, off + valence, Block<2>{});
   for (int e = 0; e < valence; ++e) {
     const int triangle = blocks_.triangle(first + e), k = blocks_.corner(first + e);
     const TriangleTerms& t = terms[triangle / pack_width];
     const int lane = triangle % pack_width, before = (k + 2) % 3;
     for (size_t i = 0; i < 3; ++i) d[i] += t.diagonal[k][i][lane];
     for (size_t i = 0; i < 2; ++i) g[i] += t.gradient[k][i][lane];
-    std::array<double, 4>& to_next = off[at(e)];
-    std::array<double, 4>& to_previous = off[at(e + 1 < valence ? e + 1 : 0)];
+    std::array<double, 4>&to_next = off[e].a, &to_previous = off[e + 1 < valence ? e + 1 : 0].a;
     for (size_t i = 0; i < 4; ++i) to_next[i] += t.off[k][i][lane];
     to_previous[0] += t.off[before][0][lane];
     to_previous[1] += t.off[before][2][lane];
@@ -114,20 +114,16 @@ void GlobalNewton::gather_row(int row, const TriangleTerms* terms,
   d[0] += shift;
   d[2] += shift;
   const double unit = unit_[at(row)];
-  const auto store = [](double value, float& to) { to = static_cast<float>(value); };
   for (int e = 0; e < valence; ++e) {
     const double units = unit * unit_[at(hessian_.column[at(first + e)])];
-    for (size_t i = 0; i < 4; ++i) store(units * off[at(e)][i], hessian_.off[at(first + e)].a[i]);
+    for (double& entry : off[e].a) entry *= units;
   }
-  std::array<float, 4>& diagonal = hessian_.diagonal[at(row)].a;
-  store(unit * unit * d[0], diagonal[0]);
-  store(unit * unit * d[1], diagonal[1]);
-  store(unit * unit * d[1], diagonal[2]);
-  store(unit * unit * d[2], diagonal[3]);
-  for (size_t i = 0; i < 2; ++i) store(-unit * g[i], downhill_[2 * at(row) + i]);
+  const double square = unit * unit;
+  hessian_.diagonal[at(row)].a = {square * d[0], square * d[1], square * d[1], square * d[2]};
+  for (size_t i = 0; i < 2; ++i) downhill_[2 * at(row) + i] = -unit * g[i];
 }
 
-/// False: numbers of a protrusion are beyond floats.
+/// False: numbers of a protrusion are beyond doubles.
 bool GlobalNewton::assemble(const DistortionEnergy& energy) {
   hessian_.off.resize(hessian_.column.size());
   hessian_.diagonal.resize(image_.size());
@@ -139,13 +135,13 @@ bool GlobalNewton::assemble(const DistortionEnergy& energy) {
   parallel_for(blocks_.count(), TriangleBlocks::grain, threads_,
                [&](std::int64_t first, std::int64_t last) {
                  const auto terms = std::make_unique_for_overwrite<TriangleTerms[]>(at(most_packs));
-                 std::vector<std::array<double, 4>> off;
                  for (int b = static_cast<int>(first); b < static_cast<int>(last); ++b) {
                    differentiate_triangles(blocks_.packs_of(b), blocks_.pack_count(b),
                                            image_.data(), energy, terms.get());
+                   stiffened_.apply(blocks_, b, terms.get());
                    const int end = std::min((b + 1) * TriangleBlocks::size, hessian_.rows());
                    for (int row = b * TriangleBlocks::size; row < end; ++row) {
-                     gather_row(row, terms.get(), off);
+                     gather_row(row, terms.get());
                    }
                  }
                });
@@ -155,7 +151,7 @@ bool GlobalNewton::assemble(const DistortionEnergy& energy) {
     for (int e = hessian_.start[at(row)]; e < hessian_.start[at(row) + 1]; ++e) {
       if (fixed || pinned_[at(hessian_.column[at(e)])]) hessian_.off[at(e)] = {};
     }
-    std::array<float, 4>& diagonal = hessian_.diagonal[at(row)].a;
+    std::array<double, 4>& diagonal = hessian_.diagonal[at(row)].a;
     finite &= std::isfinite(diagonal[0] + diagonal[3]);
     if (!fixed) continue;
     diagonal = {1, 0, 0, 1};
@@ -260,10 +256,27 @@ LinearSolution GlobalNewton::solve(const DistortionEnergy& energy, double least_
   return solution;
 }
 
+/// Of every vertex, in space.
+std::vector<Vector3> GlobalNewton::motion(const Unknowns& direction) const {
+  std::vector<Vector3> motion(image_.size());
+  for (size_t v = 0; v < image_.size(); ++v) {
+    const TangentFrame frame = tangent_frame(image_[v].vector());
+    const double unit = unit_[v];
+    motion[v] = unit * direction[2 * v] * frame.u + unit * direction[2 * v + 1] * frame.v;
+  }
+  return motion;
+}
+
 GlobalNewton::Step GlobalNewton::step(const DistortionEnergy& energy, double least_share) {
   const double before = this->energy(energy);
-  const LinearSolution solution = solve(energy, least_share);
-  const double slope = -solution.gain, promised = solution.gain / 2;
+  stiffened_.relax();
+  LinearSolution solution = solve(energy, least_share);
+  const double promised = solution.gain / 2;
+  for (int n = 0; n < most_stiffenings && solution.gain > 0; ++n) {
+    if (!stiffened_.stiffen(blocks_, image_, motion(solution.x), threads_)) break;
+    solution = solve(energy, least_share);
+  }
+  const double slope = -solution.gain, kept = solution.gain / (2 * promised);
   if (!(slope < 0) || !std::isfinite(slope)) return {before, solution.iterations, 0, promised};
   const double cap = longest_step / longest(solution.x);
 
@@ -286,7 +299,7 @@ GlobalNewton::Step GlobalNewton::step(const DistortionEnergy& energy, double lea
       length *= 2;
     }
     image_.swap(candidate);
-    return {after, solution.iterations, length, promised};
+    return {after, solution.iterations, kept * length, promised};
   }
   return {before, solution.iterations, 0, promised};
 }

@@ -9,6 +9,7 @@
 #include "embedding/energy/triangle_blocks.h"
 #include "embedding/multigrid/multigrid.h"
 #include "embedding/newton/conjugate_gradients.h"
+#include "embedding/newton/stiffened_triangles.h"
 #include "embedding/sweeps/ring_packs.h"
 #include "sphparam/mesh/topology.h"
 
@@ -18,7 +19,7 @@ namespace sphparam {
 /// near in memory, cut into blocks; each block with the triangles that touch it.
 ///
 /// Memory, bytes a triangle: 80 always, of which 40 for the rest triangles and 16 for the image;
-/// in a step 60 for the Hessian, 60 for the multigrid, 20 for the solver's vectors; in sweeps 55
+/// in a step 120 for the Hessian, 110 for the multigrid, 40 for the solver's vectors; in sweeps 55
 /// for the rings instead of the Hessian and the vectors.
 class GlobalNewton {
  public:
@@ -35,7 +36,8 @@ class GlobalNewton {
   struct Step {
     double energy;   // after the step; before it, if nothing moved
     int iterations;  // of the linear solver
-    double length;   // of the step, in Newton steps; 0: nothing moved
+    double length;   // of the step, in Newton steps; 0: nothing moved. Stiffened triangles shorten
+                     // it by what the model then promises less
     double
         decrement;  // ½ gᵀH⁻¹g as far as the system was solved: what the quadratic model promised
   };
@@ -44,8 +46,9 @@ class GlobalNewton {
   bool can_move() const;
 
   /// One projected Newton step, the system solved as long as iterations bring `least_share` (see
-  /// `solve_by_conjugate_gradients`), with line search. No orientation is lost, decided by the
-  /// guard.
+  /// `solve_by_conjugate_gradients`), with line search; solved anew, up to four times, where few
+  /// triangles would cut the step short (stiffened_triangles.h). No orientation is lost, decided
+  /// by the guard.
   Step step(const DistortionEnergy& energy, double least_share);
 
   /// Guarded relaxation of every vertex, so many times: smooths what a step has creased.
@@ -68,9 +71,10 @@ class GlobalNewton {
   void measure_units();
   void make_pattern(const Topology& topology, const std::vector<int>& new_name);
   bool assemble(const DistortionEnergy& energy);
-  void gather_row(int row, const TriangleTerms* terms, std::vector<std::array<double, 4>>& off);
+  void gather_row(int row, const TriangleTerms* terms);
   void make_room() const;
   LinearSolution solve(const DistortionEnergy& energy, double least_share);
+  std::vector<Vector3> motion(const Unknowns& direction) const;
   RingPacks pack_rings_of_all() const;
   void move(const Unknowns& direction, double length, Image& image) const;
   double longest(const Unknowns& direction) const;
@@ -85,6 +89,7 @@ class GlobalNewton {
   Unknowns downhill_;        // − the gradient; only in a step
   SweepOrder order_;
   TriangleBlocks blocks_;
+  StiffenedTriangles stiffened_;
   std::optional<Multigrid> multigrid_;
 };
 

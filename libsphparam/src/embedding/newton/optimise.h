@@ -52,6 +52,7 @@ Optimisation optimise(const Topology& topology, const RestTriangles& source, con
 struct BalanceOptions {
   Balance balance = Balance::Lambda;
   // As energy.lambda from `least_lambda` to `greatest_lambda`: for which the map is about optimal.
+  // Conformal: nearly conformal already, `least_lambda` as a rule.
   double from_lambda = 1;
   double area_error = 0.1;  // EqualArea: mean |log2 area ratio|, weighted by source area; ≥ 0
   OptimiseOptions optimise = {};  // at the λ aimed at; on the way there 1 % is good enough
@@ -67,7 +68,9 @@ struct BalancedMap {
 /// Minimises E for a λ far from 1, by continuation: from λ to λ in factors of ten or four, each
 /// time from the map before. Straight from λ = 1 the steps would be many and short. Equal areas are
 /// solid angles: where triangles are large, E's areas are corrected (see solid_angle_aim.h), and
-/// energies are of these. Where they are missed the climb is made again, in factors of two.
+/// energies are of these. Where they are missed the climb is made again, in factors of two. A
+/// nearly conformal map is minimised at once, for the λ at which areas weigh 0.3 % of what its
+/// angles miss, at most 0.1.
 /// Requires: EnergyKind::AngleAndArea. Ensures: as `optimise`, but for E itself.
 /// Throws: std::invalid_argument naming an option outside of its domain; Cancelled.
 /// Cost: 3 to 5 steps a factor, of a second climb up to 60. Source: our own.
