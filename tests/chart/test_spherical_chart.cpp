@@ -240,7 +240,7 @@ TEST_CASE("chart: where triangles are as small as rounding it is certified all t
   }
 }
 
-TEST_CASE("chart: needles that lie on each other by the thousand take tens of splits a fold") {
+TEST_CASE("chart: needles that lie on each other by the thousand take some hundred splits a fold") {
   std::mt19937 random(12);
   for (const int rings : {300, 1000, 3000}) {
     const TriangleMesh mesh = tube(rings, 6);
@@ -251,7 +251,7 @@ TEST_CASE("chart: needles that lie on each other by the thousand take tens of sp
       CHECK(chart.certificate.inverted.empty());
       CHECK(chart.certificate.max_shift < 0x1p-7);
       CHECK(chart.counts.folded_faces > rings / 2);
-      CHECK(chart.counts.fold_splits < 100 * chart.counts.folded_faces);
+      CHECK(chart.counts.fold_splits < 200 * chart.counts.folded_faces);
       CHECK(count_folds(chart) == 0);
     }
   }
@@ -269,7 +269,7 @@ TEST_CASE(
 }
 
 TEST_CASE("chart: where moves would be far, all the splits are made, as often as it takes") {
-  const TriangleMesh mesh = coil(20);
+  const TriangleMesh mesh = coil(28);
   const Topology topology(mesh);
   const SphereMap map = embedded(mesh, Quality::Normal, 1e300);
   double last = 0;

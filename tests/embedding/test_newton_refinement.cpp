@@ -109,7 +109,8 @@ TEST_CASE("Newton refinement: levels are due at every fourfold size, large ones 
   CHECK_FALSE(after_protrusion.sweeps_suffice());
   CHECK_FALSE(after_protrusion.due(639));  // 640 is next
   CHECK(after_protrusion.due(40'960));
-  const NewtonRefinement draft_of_protrusion = after(protrusion, Quality::Draft, 40'960);
+  Draft unrefined{tube(75, 8)};
+  const NewtonRefinement draft_of_protrusion = after(unrefined, Quality::Draft, 40'960);
   CHECK(draft_of_protrusion.due(40'960));
 }
 

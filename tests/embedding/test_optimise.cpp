@@ -104,6 +104,25 @@ TEST_CASE("optimise: tiny meshes and large valences") {
   }
 }
 
+TEST_CASE("optimise: limbs of nearly conformal maps find their place as a direct solver does") {
+  // They are 1e-4 to 1e-6 of the sphere, and move by thousands of their own edges.
+  const TriangleMesh mesh = brush(3, 6, 6, 20);
+  const Topology topology(mesh);
+  const RestTriangles source = measure_source(mesh);
+  const DistortionEnergy energy{.lambda = least_lambda};
+  const auto beyond_conformal = [&](const SphereMap& map) {
+    double area = 0;
+    for (const RestTriangle& triangle : source) area += triangle.area;
+    return distortion_energy(topology, source, map, energy) / area - 1;
+  };
+  const SphereMap start = *embed_progressively(mesh, topology, {.energy = energy}).map;
+  const SphereMap map =
+      optimise(topology, source, start, {.energy = energy, .least_gain = 1e-3}).map;
+  const SphereMap further =
+      minimise_by_newton(topology, source, map, {.energy = energy, .max_steps = 10}).map;
+  CHECK(beyond_conformal(map) < 1.005 * beyond_conformal(further));
+}
+
 TEST_CASE("optimise_balance: towards conformal the angles win, towards equal area the areas") {
   TriangleMesh mesh = tube(40, 12);
   const Topology topology(mesh);
@@ -118,6 +137,7 @@ TEST_CASE("optimise_balance: towards conformal the angles win, towards equal are
   const DistortionSummary conformal = summarise(measure_distortion(mesh, angles.map));
   CHECK(angles.lambda < 1e-3);
   CHECK(conformal.mean_abs_ln_angle < middle.mean_abs_ln_angle / 2);
+  CHECK(angles.lambda == least_lambda);  // areas fall beyond what any λ makes light
   CHECK(certify(topology, angles.map).bijective());
 
   const BalancedMap areas =
@@ -126,6 +146,20 @@ TEST_CASE("optimise_balance: towards conformal the angles win, towards equal are
   CHECK(equal.weighted_abs_log2_area <= 0.1);
   CHECK(areas.area_error == Approx(equal.weighted_abs_log2_area).epsilon(1e-6));
   CHECK(certify(topology, areas.map).bijective());
+}
+
+TEST_CASE("optimise_balance: in a conformal map areas weigh next to nothing, but not nothing") {
+  const Stretched s(3);
+  const DistortionEnergy nearly{.lambda = least_lambda};
+  const SphereMap start = *embed_progressively(s.mesh, s.topology, {.energy = nearly}).map;
+  const BalancedMap r = optimise_balance(
+      s.topology, s.source, start, {.balance = Balance::Conformal, .from_lambda = least_lambda});
+  const auto energy = [&](double lambda) {
+    return distortion_energy(s.topology, s.source, r.map, {.lambda = lambda}) / (4 * M_PI);
+  };
+  const double missed = energy(0) - 1, of_areas = energy(1) - energy(0) - 1;
+  CHECK(r.lambda * of_areas < 0.01 * missed);
+  CHECK(r.lambda * of_areas > 0.001 * missed);
 }
 
 TEST_CASE("optimise_balance: equal areas are solid angles, also of triangles that are large") {

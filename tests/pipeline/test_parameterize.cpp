@@ -308,7 +308,7 @@ TEST_CASE("parameterize: a map that stayed above its least energy says so, other
   REQUIRE(ball.energy_gap);
   CHECK(*ball.energy_gap < greatest_energy_gap);
   CHECK(gap_warnings(ball) == 0);
-  const TriangleMesh slivers = with_slivers(tube(60, 16), 0.3, 1e-5, 1);
+  const TriangleMesh slivers = with_slivers(with_slivers(tube(60, 16), 0.3, 1e-5, 1), 0.3, 1e-5, 2);
   for (const Quality quality : {Quality::Normal, Quality::Draft}) {
     const Parameterization result = parameterize(slivers, {.quality = quality});
     REQUIRE(result.energy_gap);

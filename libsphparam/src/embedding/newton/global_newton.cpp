@@ -269,12 +269,14 @@ std::vector<Vector3> GlobalNewton::motion(const Unknowns& direction) const {
 
 GlobalNewton::Step GlobalNewton::step(const DistortionEnergy& energy, double least_share) {
   const double before = this->energy(energy);
-  stiffened_.relax();
+  stiffened_ = {};
   LinearSolution solution = solve(energy, least_share);
   const double promised = solution.gain / 2;
   for (int n = 0; n < most_stiffenings && solution.gain > 0; ++n) {
     if (!stiffened_.stiffen(blocks_, image_, motion(solution.x), threads_)) break;
-    solution = solve(energy, least_share);
+    LinearSolution another = solve(energy, least_share);
+    if (!(another.gain > 0)) break;
+    solution = std::move(another);
   }
   const double slope = -solution.gain, kept = solution.gain / (2 * promised);
   if (!(slope < 0) || !std::isfinite(slope)) return {before, solution.iterations, 0, promised};

@@ -13,7 +13,8 @@
 // From reward to reward the map before is a good start; the last interval is halved, so that the
 // surface does not pay for more than was asked for. On meshes of a few large triangles the volume
 // below them ends where they are alike, whatever the reward: what is missing there is pressed out
-// of the fillers, which are small by then, by a price on theirs.
+// of the fillers, which are small by then, by a price on theirs. Where they are not (an
+// octahedron's corners stay where they are, as nothing slopes there) a nudge comes first.
 
 namespace sphparam {
 namespace {
@@ -29,6 +30,7 @@ constexpr double near_enough = 0.8;  // of the share: not worth another try
 constexpr double margin = 0.05;      // of it: what settles the map may give back
 constexpr double on_the_way_gain = 3e-2;
 constexpr int on_the_way_steps = 20;
+constexpr double nudge = 0.05;    // of the way to a filler's middle
 constexpr int small_mesh = 4000;  // vertices: where steps cost nothing, the search is thorough
 constexpr double small_gain = 5e-3;
 constexpr int small_steps = 60;
@@ -73,6 +75,23 @@ class Press {
     return at(from, pressure, std::move(options));
   }
   PressedMap settled(const PressedMap& map) const { return at(map.map, map.pressure, options_); }
+
+  /// With the corners of fillers nearer to their middles; the same map where that has no room.
+  SphereMap nudged(SphereMap map) const {
+    const SphereMap before = map;
+    for (Face f = 0; f < topology_.face_count(); ++f) {
+      if (!fillers_[static_cast<size_t>(f)]) continue;
+      Vector3 middle = Vector3::Zero();
+      for (int k = 0; k < 3; ++k) middle += before.point(topology_.vertex(f, k)) / 3;
+      for (int k = 0; k < 3; ++k) {
+        if (std::ranges::count(options_.pinned, topology_.vertex(f, k)) > 0) continue;
+        auto point = map.points.row(topology_.vertex(f, k));
+        point = (point + nudge * (middle.transpose() - point)).normalized();
+      }
+    }
+    const double energy = distortion_energy(topology_, source_, map, options_.energy, 1);
+    return std::isfinite(energy) ? map : before;
+  }
 
   /// With a price on fillers instead of the reward.
   PressedMap priced(const SphereMap& from, double price) const {
@@ -123,7 +142,7 @@ PressedMap rewarded(const Press& press, const SphereMap& map, double most, doubl
 PressedMap pressed_out(const Press& press, PressedMap map, double most, double first) {
   double price = first;
   for (int i = 0; i < most_raises && map.share > most; ++i, price *= raise) {
-    PressedMap next = press.priced(map.map, price);
+    PressedMap next = press.priced(press.nudged(map.map), price);
     if (next.share < map.share) map = std::move(next);
   }
   return map;

@@ -16,7 +16,7 @@ constexpr double least_kept = 0.1;      // of the determinant
 constexpr double allowed_part = 0.5;    // of a step: no triangle that allows it is stiffened
 constexpr double shortest_part = 1e-5;  // that is told from none
 constexpr double margin = 2;            // more than 1/t
-constexpr float relaxation = 0.25;      // from step to step
+constexpr float greatest = 1e6;         // beyond it the system is no longer solved
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
@@ -72,17 +72,12 @@ bool StiffenedTriangles::stiffen(const TriangleBlocks& blocks, const std::vector
   for (const std::vector<Blocking>& of_block : found) {
     for (const Blocking& triangle : of_block) {
       if (factors_.empty()) factors_.assign(at(blocks.pack_count()), all_once);
-      factors_[triangle.pack][triangle.lane] *= triangle.factor;
+      float& factor = factors_[triangle.pack][triangle.lane];
+      factor = std::min(greatest, factor * triangle.factor);
       any = true;
     }
   }
   return any;
-}
-
-void StiffenedTriangles::relax() {
-  for (Factors& pack : factors_) {
-    for (float& factor : pack) factor = std::max(1.0F, relaxation * factor);
-  }
 }
 
 void StiffenedTriangles::apply(const TriangleBlocks& blocks, int block,

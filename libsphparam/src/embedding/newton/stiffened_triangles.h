@@ -11,7 +11,8 @@ namespace sphparam {
 /// Triangles that would cut Newton steps short: light ones among slivers, whose resistance to being
 /// folded is next to nothing in the quadratic model. A step is as long as the first of them lets
 /// it, and moves nothing. Counted several times in the Hessian they go along instead; as the
-/// gradient is left alone, a step still goes downhill. Our own.
+/// gradient is left alone, a step still goes downhill. For one step: were it for more, what a step
+/// promises would no longer tell how much is left. Our own.
 class StiffenedTriangles {
  public:
   /// Stiffens those that lose nine tenths of their determinant on the first half of a straight
@@ -19,9 +20,6 @@ class StiffenedTriangles {
   /// Same result for any number of threads. Cost: linear, 3 % of a step.
   bool stiffen(const TriangleBlocks& blocks, const std::vector<ImagePoint>& image,
                const std::vector<Vector3>& motion, int threads);
-
-  /// What was stiffened counts less, from step to step, until it counts once.
-  void relax();
 
   /// Multiplies the Hessians, not the gradients, of a block's triangles.
   void apply(const TriangleBlocks& blocks, int block, TriangleTerms* terms) const;
