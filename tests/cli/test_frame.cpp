@@ -310,7 +310,7 @@ TEST_CASE("map: a GIFTI sphere that is mapped anew claims no poles, and may not 
   CHECK_THAT(bytes_of(sphere), !Contains("poles"));
   fs::remove(sphere);
   std::vector<std::string> with_meridian = words;
-  with_meridian.insert(with_meridian.end(), {"--meridian", "7"});
+  with_meridian.insert(with_meridian.end(), {"--meridian", "0"});
   const Ended refused = sphparam_program(with_meridian, mesh);
   CHECK(refused.code == 5);
   CHECK_THAT(refused.err, Contains("32 bits cannot hold this map"));

@@ -272,7 +272,7 @@ GlobalNewton::Step GlobalNewton::step(const DistortionEnergy& energy, double lea
   stiffened_ = {};
   LinearSolution solution = solve(energy, least_share);
   const double promised = solution.gain / 2;
-  for (int n = 0; n < most_stiffenings && solution.gain > 0; ++n) {
+  for (int n = 0; n < most_stiffenings && promised > 0; ++n) {
     if (!stiffened_.stiffen(blocks_, image_, motion(solution.x), threads_)) break;
     LinearSolution another = solve(energy, least_share);
     if (!(another.gain > 0)) break;

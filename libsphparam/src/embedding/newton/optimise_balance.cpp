@@ -132,8 +132,8 @@ class Continuation {
     const double angles = newton_->energy({.lambda = 0}) - isometric_areas_;
     const double areas = newton_->energy({.lambda = 1}) - 2 * isometric_areas_ - angles;
     const double lambda = weight_of_areas * std::max(0.0, angles) / areas;
-    lambda_ =
-        areas > 0 ? std::clamp(lambda, least_lambda, greatest_conformal_lambda) : least_lambda;
+    lambda_ = std::isfinite(lambda) ? std::clamp(lambda, least_lambda, greatest_conformal_lambda)
+                                    : least_lambda;
     settle(options_.optimise);
   }
 
