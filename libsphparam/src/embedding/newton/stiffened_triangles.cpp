@@ -17,6 +17,8 @@ constexpr double allowed_part = 0.5;    // of a step: no triangle that allows it
 constexpr double shortest_part = 1e-5;  // that is told from none
 constexpr double margin = 2;            // more than 1/t
 constexpr float greatest = 1e6;         // beyond it the system is no longer solved
+constexpr double few = 0.02;            // of all triangles …
+constexpr double always_few = 8;        // … and of however many
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
@@ -66,18 +68,20 @@ bool StiffenedTriangles::stiffen(const TriangleBlocks& blocks, const std::vector
                    found[at(b)] = blocking_triangles(blocks, b, image, motion);
                  }
                });
+  size_t count = 0;
+  for (const std::vector<Blocking>& of_block : found) count += of_block.size();
+  const double all = pack_width * blocks.pack_count();
+  if (count == 0 || static_cast<double>(count) > std::max(always_few, few * all)) return false;
   Factors all_once;
   all_once.fill(1);
-  bool any = false;
   for (const std::vector<Blocking>& of_block : found) {
     for (const Blocking& triangle : of_block) {
       if (factors_.empty()) factors_.assign(at(blocks.pack_count()), all_once);
       float& factor = factors_[triangle.pack][triangle.lane];
       factor = std::min(greatest, factor * triangle.factor);
-      any = true;
     }
   }
-  return any;
+  return true;
 }
 
 void StiffenedTriangles::apply(const TriangleBlocks& blocks, int block,
