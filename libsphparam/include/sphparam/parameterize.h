@@ -150,8 +150,8 @@ struct Parameterization {
 ///         arithmetic if the mesh is not a closed genus-0 manifold; SolveError naming the system;
 ///         Cancelled.
 /// Cost: Method::Progressive: linear, some 2 µs and 200 bytes a triangle, with long protrusions or
-///       Quality::Best some times that, and 350 bytes. The other methods and the last rungs of the repair: a
-///       handful of sparse factorisations of #V unknowns.
+///       Quality::Best some times that, and 350 bytes. The other methods and the last rungs of the
+///       repair: a handful of sparse factorisations of #V unknowns.
 Parameterization parameterize(const TriangleMesh& mesh, const ParameterizeOptions& options = {});
 /// The same for a mesh whose topology is there already.
 Parameterization parameterize(const TriangleMesh& mesh, const Topology& topology,

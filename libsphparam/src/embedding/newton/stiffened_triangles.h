@@ -18,7 +18,7 @@ class StiffenedTriangles {
   /// Stiffens those that lose nine tenths of their determinant on the first half of a straight
   /// way, where each vertex moves by `motion`; the earlier, the more. False: there are none, or
   /// more than a few: what blocks a whole limb is its way over the sphere, which no stiffness
-  /// changes. Same result for any number of threads. Cost: linear, 3 % of a step.
+  /// changes. Same result for any number of threads. Cost: linear.
   bool stiffen(const TriangleBlocks& blocks, const std::vector<ImagePoint>& image,
                const std::vector<Vector3>& motion, int threads);
 
