@@ -1,6 +1,7 @@
 #include "embedding/newton/global_newton.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>

@@ -3,15 +3,12 @@
 #include <optional>
 #include <utility>
 
-#include "elementary.h"
 #include "embedding/energy/energy_domain.h"
 #include "embedding/energy/map_image.h"
 #include "embedding/energy/solid_angle_aim.h"
 #include "embedding/newton/global_newton.h"
 #include "embedding/newton/minimise.h"
 #include "embedding/newton/optimise.h"
-#include "mesh/triangle_geometry.h"
-#include "sphparam/parallel.h"
 
 // From λ to λ, each time from the map before. Equal areas are areas of spherical triangles, where
 // the energy has determinants: where triangles are large its areas are corrected on the way. Where

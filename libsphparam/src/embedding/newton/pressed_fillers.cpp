@@ -13,8 +13,8 @@
 // From reward to reward the map before is a good start; the last interval is halved, so that the
 // surface does not pay for more than was asked for. On meshes of a few large triangles the volume
 // below them ends where they are alike, whatever the reward: what is missing there is pressed out
-// of the fillers, which are small by then, by a price on theirs. Where they are not (an
-// octahedron's corners stay where they are, as nothing slopes there) a nudge comes first.
+// of the fillers, which are small by then, by a price on theirs. The corners of an octahedron feel
+// neither, as a determinant is greatest there: a nudge towards the middles of fillers comes first.
 
 namespace sphparam {
 namespace {
