@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "measure/farthest_point.h"
-#include "support/brush.h"
+#include "support/hedgehog.h"
 #include "support/test_meshes.h"
 
 namespace sphparam {
@@ -117,7 +117,7 @@ TEST_CASE("farthest point: of thin bodies of different triangles, the bound is a
 }
 
 TEST_CASE("farthest point: a brush beside one of other triangles, in few cuts each") {
-  const TriangleMesh few = brush(50, 8, 1), many = brush(50, 12, 4);
+  const TriangleMesh few = hedgehog(50, 8, 1), many = hedgehog(50, 12, 4);
   const FarthestPoint found = farthest(few, many, {}, 25 * few.face_count());
   CHECK(found.distance < 1e-2);
   CHECK(found.at_most <= 2 * found.distance);

@@ -4,7 +4,7 @@
 
 #include "rays/oriented_boxes.h"
 #include "rays/triangle_distance.h"
-#include "support/brush.h"
+#include "support/hedgehog.h"
 
 namespace sphparam {
 
@@ -29,7 +29,7 @@ OrientedBoxes boxes_of(const TriangleMesh& mesh, double scale = 1) {
 
 TEST_CASE("oriented boxes: every face within reach is come to once, wherever the mesh lies") {
   for (const double scale : {1e-80, 1.0, 1e80}) {
-    TriangleMesh mesh = brush(40, 3, 1);
+    TriangleMesh mesh = hedgehog(40, 3, 1);
     mesh.positions.array() = scale * (mesh.positions.array() + 1e4);
     const OrientedBoxes boxes = boxes_of(mesh, 1 / scale);
     for (int v = 0; v < mesh.vertex_count(); v += 17) {
@@ -52,7 +52,7 @@ TEST_CASE("oriented boxes: every face within reach is come to once, wherever the
 }
 
 TEST_CASE("oriented boxes: the visit ends when it is told that this is enough") {
-  const TriangleMesh mesh = brush(20, 3, 1);
+  const TriangleMesh mesh = hedgehog(20, 3, 1);
   int came = 0;
   boxes_of(mesh).visit(
       Vector3::Zero(), [] { return 1e9; }, [&](Face) { return ++came == 3; });
@@ -60,7 +60,7 @@ TEST_CASE("oriented boxes: the visit ends when it is told that this is enough") 
 }
 
 TEST_CASE("oriented boxes: of a brush whose hairs point everywhere, a place sees a few triangles") {
-  const TriangleMesh mesh = brush(1000, 12, 1);
+  const TriangleMesh mesh = hedgehog(1000, 12, 1);
   const OrientedBoxes boxes = boxes_of(mesh);
   std::int64_t came = 0, places = 0;
   for (Face f = 0; f < mesh.face_count(); f += 97) {

@@ -8,7 +8,7 @@
 #include "rays/distinct_faces.h"
 #include "rays/ray_scene.h"
 #include "rays/triangle_distance.h"
-#include "support/brush.h"
+#include "support/hedgehog.h"
 #include "support/test_meshes.h"
 
 namespace sphparam {
@@ -140,7 +140,7 @@ TEST_CASE("ray scene: where long triangles lie across the axes, all answers are 
 TEST_CASE("ray scene: where thin triangles lie across all axes, nearest points are as exact") {
   Random random;
   for (const double scale : {1e-60, 1.0, 1e60}) {
-    TriangleMesh hairs = brush(60, 12, 1);
+    TriangleMesh hairs = hedgehog(60, 12, 1);
     hairs.positions.array() = scale * (hairs.positions.array() + 100);
     const RayScene scene(hairs);
     for (int i = 0; i < 150; ++i) {

@@ -9,7 +9,7 @@ namespace sphparam::tests {
 
 /// Hairs from the unit sphere outwards, evenly in all directions: each a closed tube, 10 long and
 /// 0.02 thick, of `pieces` from end to end. Thin triangles that lie across all axes.
-inline TriangleMesh brush(int hairs, int around, int pieces) {
+inline TriangleMesh hedgehog(int hairs, int around, int pieces) {
   const TriangleMesh hair = tube(pieces + 1, around);
   const auto vertices = static_cast<int>(hair.vertex_count()),
              faces = static_cast<int>(hair.face_count());
