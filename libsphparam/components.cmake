@@ -102,10 +102,12 @@ if(io IN_LIST SPHPARAM_BUILT)
   find_library(GIFTIIO_LIBRARY giftiio REQUIRED)
   add_component(io ROOMS io
     LIBRARIES TinyGLTF::TinyGLTF=tinygltf nlohmann_json::nlohmann_json ${GIFTIIO_LIBRARY}=giftiio
-      meshoptimizer::meshoptimizer=meshoptimizer EXPAT::EXPAT=expat
+      $<LINK_ONLY:meshoptimizer::meshoptimizer>=meshoptimizer EXPAT::EXPAT=expat
       ZLIB::ZLIB=z ${CMAKE_DL_LIBS}=${CMAKE_DL_LIBS})
-  target_include_directories(sphparam_io SYSTEM PRIVATE ${GIFTIIO_INCLUDE_DIR}
-    ${NIFTIIO_INCLUDE_DIR})
+  # Of meshoptimizer its headers alone: with the macro that it asks users to define, no other component
+  # could share the headers that are precompiled here.
+  target_include_directories(sphparam_io SYSTEM PRIVATE ${GIFTIIO_INCLUDE_DIR} ${NIFTIIO_INCLUDE_DIR}
+    $<TARGET_PROPERTY:meshoptimizer::meshoptimizer,INTERFACE_INCLUDE_DIRECTORIES>)
   include(draco_inside.cmake)
   include(scene_module.cmake)
 endif()

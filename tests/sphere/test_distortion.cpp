@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 #include <random>
 #include <vector>
@@ -229,6 +230,18 @@ TEST_CASE("summarise: percentiles are ranks of the sorted ratios") {
   CHECK(s.area_within_two == Approx(2.0 / n));
   CHECK(s.symmetric_dirichlet == Approx(4));
   CHECK(s.mean_abs_ln_angle == Approx(std::log(4) / (3 * n)));
+}
+
+TEST_CASE("summarise_distortion: every figure is that of the tables, to the bit") {
+  const auto [mesh, map] = lumpy_case(5);  // more than what a thread takes at a time
+  for (const int threads : {1, 3}) {
+    const DistortionSummary from_tables = summarise(measure_distortion(mesh, map, threads), threads);
+    const DistortionSummary at_once = summarise_distortion(mesh, map, threads);
+    static_assert(sizeof(DistortionSummary) == 15 * sizeof(double));  // no gaps to compare
+    CHECK(std::memcmp(&from_tables, &at_once, sizeof at_once) == 0);
+    CHECK(at_once.mean_abs_ln_area > 0.01);
+  }
+  CHECK(summarise_distortion({}, {}).symmetric_dirichlet == 4);
 }
 
 TEST_CASE("distortion: degenerate triangles, of the source or of the image, never give NaN") {

@@ -121,6 +121,18 @@ void follow(const MappedMesh& other, MapOutcome& outcome, Session& session) try 
   throw UsageMistake(std::string("--like: ") + error.what());
 }
 
+/// Of each triangle only where that is to be drawn.
+void measure(const MapArguments& arguments, MapOutcome& outcome) {
+  const TriangleMesh surface = surface_of(outcome.source.file.mesh, outcome.options.fillers);
+  const int threads = outcome.options.threads;
+  if (arguments.plots.empty()) {
+    outcome.figures = summarise_distortion(surface, outcome.result.map, threads);
+  } else {
+    outcome.distortion = measure_distortion(surface, outcome.result.map, threads);
+    outcome.figures = summarise(*outcome.distortion, threads);
+  }
+}
+
 MapOutcome compute(MeshSource source, const MapArguments& arguments, Session& session) {
   require_mappable(source);
   const std::optional<MappedMesh> other = read_other(arguments, session);
@@ -141,18 +153,15 @@ MapOutcome compute(MeshSource source, const MapArguments& arguments, Session& se
   if (outcome.has_map() && is_to_stand(arguments))
     outcome.upright = upright_words(outcome.result.map, mesh, outcome.topology(),
                                     upright_axes(outcome.source.file));
-  if (outcome.has_map()) {
-    outcome.distortion =
-        measure_distortion(surface_of(mesh, options.fillers), outcome.result.map, options.threads);
-    outcome.figures = summarise(*outcome.distortion, options.threads);
-  }
+  if (outcome.has_map()) measure(arguments, outcome);
   return outcome;
 }
 
 /// The mesh, after the repairs that are wanted.
 MeshSource mended(MeshSource source, const MapArguments& arguments) try {
   const std::optional<RepairOptions> repairs = wanted_repairs(arguments.repair);
-  return repairs ? repaired(std::move(source), *repairs) : source;
+  if (repairs) return repaired(std::move(source), *repairs);
+  return source;
 } catch (const NoSuchComponent& error) {
   throw UsageMistake(std::string("--component: ") + error.what());
 }

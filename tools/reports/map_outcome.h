@@ -24,7 +24,7 @@ struct MapOutcome {
   std::string upright = {};                         // `upright_words`
   std::optional<Likeness> likeness = std::nullopt;  // of a map that follows another mesh's, …
   std::string other = {};                           // … which has this name
-  std::optional<Distortion> distortion = std::nullopt;
+  std::optional<Distortion> distortion = std::nullopt;  // where it is to be drawn
   std::optional<DistortionSummary> figures = std::nullopt;
 
   /// The paper's method makes none where no pair of poles is usable.

@@ -84,7 +84,10 @@ class Chooser {
       details_.emplace_back("top and bottom are not at the poles: the map would be too thin there");
     }
     MappedMesh mapped = mapped_mesh(std::move(source), load);
-    if (has_chart(mapped)) return options_.upright ? told_upright(mapped) : mapped;
+    if (has_chart(mapped)) {
+      if (options_.upright) return told_upright(mapped);
+      return mapped;
+    }
     found_.emplace_back("its map is thinner in (u, v) than doubles can tell");
     return std::nullopt;
   }

@@ -334,7 +334,8 @@ SphericalChart settled(SphericalChart chart, int threads) {
   SphericalChart result = chart;
   write(settling.sheet(), result);
   result.certificate = certify_chart(result, threads);
-  return result.certificate.one_to_one() ? result : chart;
+  if (result.certificate.one_to_one()) return result;
+  return chart;
 }
 
 }  // namespace sphparam

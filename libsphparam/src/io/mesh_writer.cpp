@@ -51,7 +51,8 @@ std::string serialise_mesh(const std::string& path, const MeshFile& file,
   std::string bytes = format->keeps_map || options.is_sphere
                           ? format->write(file, options, path)
                           : format->write(without_map(file), options, path);
-  return is_packed_name(path) ? zip(bytes) : bytes;
+  if (is_packed_name(path)) return zip(bytes);
+  return bytes;
 }
 
 void write_mesh(const std::string& path, const MeshFile& file, const WriteOptions& options) {

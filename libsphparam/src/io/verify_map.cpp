@@ -110,9 +110,8 @@ VerifiedMap verify_map(const std::string& path, const VerifyOptions& options) {
   const SphereMap unit = normalised(verified.map.points);  // any radius is judged alike
   verified.filler_share = sphere_share(as_claimed.triangles, unit, verified.fillers);
   if (has_shape) {
-    verified.distortion = summarise(
-        measure_distortion(surface_of(as_claimed, verified.fillers), unit, options.threads),
-        options.threads);
+    verified.distortion = summarise_distortion(surface_of(as_claimed, verified.fillers), unit,
+                                               options.threads);
   }
   return verified;
 }

@@ -216,8 +216,9 @@ std::string serialise_vertex_data(const std::string& path, const VertexData& dat
   if (!format) throw WriteError(path, "values are written as " + written_data_names());
   if (data.columns.empty()) throw WriteError(path, "there are no values to write");
   try {
-    const std::string bytes = write_as(*format, data, surface);
-    return is_packed(path) ? zip(bytes) : bytes;
+    std::string bytes = write_as(*format, data, surface);
+    if (is_packed(path)) return zip(bytes);
+    return bytes;
   } catch (const WriteError& error) {
     throw WriteError(path, error.what());
   }

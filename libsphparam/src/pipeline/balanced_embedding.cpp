@@ -104,9 +104,8 @@ void warn_of_balance(MapInProgress& work) {
   if (!balance) {
     return work.warn(name + ": the map is not balanced: it was made by the " + work.result.made_by);
   }
-  const Distortion distortion = measure_distortion(surface_of(work.mesh, work.options.fillers),
-                                                   work.result.map, work.options.threads);
-  const DistortionSummary summary = summarise(distortion, work.options.threads);
+  const DistortionSummary summary = summarise_distortion(
+      surface_of(work.mesh, work.options.fillers), work.result.map, work.options.threads);
   balance->area_error = summary.weighted_abs_log2_area;
   if (!std::isfinite(balance->area_error)) {
     return work.warn(name + ": a mesh without area has no ratios of areas");

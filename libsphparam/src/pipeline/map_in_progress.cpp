@@ -57,8 +57,7 @@ long MapInProgress::count_folds(const SphereMap& map) const {
 
 std::optional<DistortionSummary> MapInProgress::measured(const SphereMap& map) const {
   if (!options.measure_stages) return std::nullopt;
-  const TriangleMesh surface = surface_of(mesh, options.fillers);
-  return summarise(measure_distortion(surface, map, options.threads), options.threads);
+  return summarise_distortion(surface_of(mesh, options.fillers), map, options.threads);
 }
 
 }  // namespace sphparam

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "elementary.h"
@@ -81,16 +82,23 @@ struct Source {
   }
 };
 
-/// Row f of the result. `to_sphere` scales source areas so that they sum to 4π.
-void measure_triangle(const PlaneTriangle& source, const Vector3& a, const Vector3& b,
-                      const Vector3& c, double to_sphere, Eigen::Index f, Distortion& result) {
+/// A row of a Distortion.
+struct TriangleDistortion {
+  std::array<double, 3> angle_ratio;
+  double area_ratio, sigma_max, sigma_min, source_area;
+};
+
+/// `to_sphere` scales source areas so that they sum to 4π.
+TriangleDistortion measure_triangle(const PlaneTriangle& source, const Vector3& a, const Vector3& b,
+                                    const Vector3& c, double to_sphere) {
+  TriangleDistortion result;
   const PlaneTriangle chord = plane_triangle(a, b, c);
   const std::array<double, 3> before = angles(source), after = angles(chord);
-  for (int k = 0; k < 3; ++k) result.angle_ratio(f, k) = after[k] / before[k];
+  for (int k = 0; k < 3; ++k) result.angle_ratio[k] = after[k] / before[k];
 
   const double area = source.doubled_area * to_sphere / 2;
-  result.source_area[f] = area / sphere_area;
-  result.area_ratio[f] = std::abs(solid_angle(a, b, c)) / area;
+  result.source_area = area / sphere_area;
+  result.area_ratio = std::abs(solid_angle(a, b, c)) / area;
 
   // σ1 σ2 = A_chord / A
   const double det = chord.doubled_area / (2 * area);
@@ -100,9 +108,36 @@ void measure_triangle(const PlaneTriangle& source, const Vector3& a, const Vecto
   squares = std::max(squares / source.doubled_area / (2 * area), 2 * det);
   // σ1,2 = (√(‖J‖² + 2 det) ± √(‖J‖² − 2 det)) / 2, the smaller one without cancellation
   const double sigma_max = (std::sqrt(squares + 2 * det) + std::sqrt(squares - 2 * det)) / 2;
-  result.sigma_max[f] = sigma_max;
-  result.sigma_min[f] = sigma_max > 0 ? det / sigma_max : 0;
+  result.sigma_max = sigma_max;
+  result.sigma_min = sigma_max > 0 ? det / sigma_max : 0;
+  return result;
 }
+
+/// Measures one triangle after the other of a mesh that has any.
+class Measuring {
+ public:
+  Measuring(const TriangleMesh& mesh, const SphereMap& map, int threads)
+      : mesh_(mesh), map_(map), source_{mesh} {
+    // A mesh of no area at all still gets finite figures: every triangle the same.
+    const double mean =
+        source_.total_doubled_area(0, threads) / static_cast<double>(mesh.face_count());
+    floor_ = std::max(area_floor * mean, std::numeric_limits<double>::min());
+    to_sphere_ = sphere_area / (source_.total_doubled_area(floor_, threads) / 2);
+  }
+
+  TriangleDistortion operator()(Eigen::Index f) const {
+    PlaneTriangle triangle = source_.triangle(f);
+    triangle.doubled_area = std::max(triangle.doubled_area, floor_);
+    const auto ray = [&](int k) { return map_.point(mesh_.triangles(f, k)); };
+    return measure_triangle(triangle, ray(0), ray(1), ray(2), to_sphere_);
+  }
+
+ private:
+  const TriangleMesh& mesh_;
+  const SphereMap& map_;
+  Source source_;
+  double floor_ = 0, to_sphere_ = 1;
+};
 
 /// Sums and extremes over some triangles; they merge in a fixed order.
 struct Tally {
@@ -110,19 +145,19 @@ struct Tally {
   double log2_area = 0, dirichlet = 0, conformal = 0, stretch = 0, area = 0;
   double area_min = infinity, area_max = 0, angle_max = 1, conformal_max = 1, sigma_min = infinity;
 
-  void add(const Distortion& d, Eigen::Index f) {
-    const double ratio = d.area_ratio[f], share = d.source_area[f];
+  void add(const TriangleDistortion& d) {
+    const double ratio = d.area_ratio, share = d.source_area;
     const double ln_ratio = std::abs(elementary::log(ratio));
     ln_area += ln_ratio;
     within_two += ratio >= 0.5 && ratio <= 2 ? 1 : 0;
     area_min = std::min(area_min, ratio);
     area_max = std::max(area_max, ratio);
     for (int k = 0; k < 3; ++k) {
-      const double angle = d.angle_ratio(f, k);
+      const double angle = d.angle_ratio[k];
       ln_angle += std::abs(elementary::log(angle));
       angle_max = std::max({angle_max, angle, 1 / angle});
     }
-    const double s1 = d.sigma_max[f], s2 = d.sigma_min[f];
+    const double s1 = d.sigma_max, s2 = d.sigma_min;
     const double squeeze = 1 / (s1 * s1) + 1 / (s2 * s2);  // σ1⁻² + σ2⁻²
     const double quasi_conformal = s2 > 0 ? s1 / s2 : infinity;
     area += share;
@@ -145,12 +180,13 @@ struct Tally {
   }
 };
 
-Tally tally(const Distortion& distortion, int threads) {
-  const std::int64_t faces = distortion.area_ratio.size();
+/// Of all triangles: `of(f)` is a TriangleDistortion.
+template <class Of>
+Tally tally(Eigen::Index faces, int threads, const Of& of) {
   std::vector<Tally> partial(static_cast<size_t>((faces + grain - 1) / grain));
   parallel_for(faces, grain, threads, [&](std::int64_t first, std::int64_t last) {
     Tally local;
-    for (Eigen::Index f = first; f < last; ++f) local.add(distortion, f);
+    for (Eigen::Index f = first; f < last; ++f) local.add(of(f));
     partial[static_cast<size_t>(first / grain)] = local;
   });
   Tally total;
@@ -159,8 +195,7 @@ Tally tally(const Distortion& distortion, int threads) {
 }
 
 /// The values at 1, 50 and 99 % of the sorted list, nearest rank.
-std::array<double, 3> percentiles(const VectorX& values) {
-  std::vector<double> v(values.begin(), values.end());
+std::array<double, 3> percentiles(VectorX v) {
   const auto begin = v.begin();
   const auto select = [&](double share, auto first, auto last) {
     const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(v.size() - 1) + 0.5);
@@ -174,35 +209,9 @@ std::array<double, 3> percentiles(const VectorX& values) {
   return {low, median, high};
 }
 
-}  // namespace
-
-Distortion measure_distortion(const TriangleMesh& mesh, const SphereMap& map, int threads) {
-  const Eigen::Index faces = mesh.face_count();
-  Distortion result{VectorX(faces), {}, VectorX(faces), VectorX(faces), VectorX(faces)};
-  result.angle_ratio.resize(faces, 3);
-  if (faces == 0) return result;
-
-  const Source source{mesh};
-  // A mesh of no area at all still gets finite figures: every triangle the same.
-  const double mean = source.total_doubled_area(0, threads) / static_cast<double>(faces);
-  const double floor = std::max(area_floor * mean, std::numeric_limits<double>::min());
-  const double to_sphere = sphere_area / (source.total_doubled_area(floor, threads) / 2);
-  parallel_for(faces, grain, threads, [&](std::int64_t first, std::int64_t last) {
-    for (Eigen::Index f = first; f < last; ++f) {
-      PlaneTriangle triangle = source.triangle(f);
-      triangle.doubled_area = std::max(triangle.doubled_area, floor);
-      const auto ray = [&](int k) { return map.point(mesh.triangles(f, k)); };
-      measure_triangle(triangle, ray(0), ray(1), ray(2), to_sphere, f, result);
-    }
-  });
-  return result;
-}
-
-DistortionSummary summarise(const Distortion& distortion, int threads) {
-  const auto faces = static_cast<double>(distortion.area_ratio.size());
-  if (faces == 0) return {};
-  const Tally total = tally(distortion, threads);
-  const auto [p01, p50, p99] = percentiles(distortion.area_ratio);
+DistortionSummary summary_of(const Tally& total, VectorX area_ratio) {
+  const auto faces = static_cast<double>(area_ratio.size());
+  const auto [p01, p50, p99] = percentiles(std::move(area_ratio));
   return {
       .mean_abs_ln_area = total.ln_area / faces,
       .mean_abs_ln_angle = total.ln_angle / (3 * faces),
@@ -220,6 +229,53 @@ DistortionSummary summarise(const Distortion& distortion, int threads) {
       .stretch_l2 = std::sqrt(total.stretch / total.area),
       .stretch_linf = 1 / total.sigma_min,
   };
+}
+
+}  // namespace
+
+Distortion measure_distortion(const TriangleMesh& mesh, const SphereMap& map, int threads) {
+  const Eigen::Index faces = mesh.face_count();
+  Distortion result{VectorX(faces), {}, VectorX(faces), VectorX(faces), VectorX(faces)};
+  result.angle_ratio.resize(faces, 3);
+  if (faces == 0) return result;
+  const Measuring measure(mesh, map, threads);
+  parallel_for(faces, grain, threads, [&](std::int64_t first, std::int64_t last) {
+    for (Eigen::Index f = first; f < last; ++f) {
+      const TriangleDistortion d = measure(f);
+      for (int k = 0; k < 3; ++k) result.angle_ratio(f, k) = d.angle_ratio[k];
+      result.area_ratio[f] = d.area_ratio;
+      result.sigma_max[f] = d.sigma_max;
+      result.sigma_min[f] = d.sigma_min;
+      result.source_area[f] = d.source_area;
+    }
+  });
+  return result;
+}
+
+DistortionSummary summarise(const Distortion& d, int threads) {
+  if (d.area_ratio.size() == 0) return {};
+  const auto row = [&](Eigen::Index f) -> TriangleDistortion {
+    return {{d.angle_ratio(f, 0), d.angle_ratio(f, 1), d.angle_ratio(f, 2)},
+            d.area_ratio[f],
+            d.sigma_max[f],
+            d.sigma_min[f],
+            d.source_area[f]};
+  };
+  return summary_of(tally(d.area_ratio.size(), threads, row), d.area_ratio);
+}
+
+DistortionSummary summarise_distortion(const TriangleMesh& mesh, const SphereMap& map,
+                                       int threads) {
+  const Eigen::Index faces = mesh.face_count();
+  if (faces == 0) return {};
+  const Measuring measure(mesh, map, threads);
+  VectorX area_ratio(faces);
+  const Tally total = tally(faces, threads, [&](Eigen::Index f) {
+    const TriangleDistortion d = measure(f);
+    area_ratio[f] = d.area_ratio;
+    return d;
+  });
+  return summary_of(total, std::move(area_ratio));
 }
 
 }  // namespace sphparam

@@ -84,6 +84,6 @@ std::vector<int> corners_in(const Triangles& triangles, const Polygons& polygons
 /// Puts the triangles into a mesh file: triangles, polygon count and, where a polygon was split,
 /// the face property `source_face`. Face properties, so far one value a polygon, are copied to
 /// every triangle of the polygon. Notes tell of shortened polygons and of doublets.
-void adopt_triangulation(MeshFile& file, const Triangulation& triangulation);
+void adopt_triangulation(MeshFile& file, Triangulation triangulation);
 
 }  // namespace sphparam

@@ -47,4 +47,9 @@ Distortion measure_distortion(const TriangleMesh& mesh, const SphereMap& map, in
 /// any number of threads.
 DistortionSummary summarise(const Distortion& distortion, int threads = 0);
 
+/// The same of a mesh and its map, to the bit, without the 56 bytes a triangle of a `Distortion`.
+/// Requires, Cost: as `measure_distortion`.
+DistortionSummary summarise_distortion(const TriangleMesh& mesh, const SphereMap& map,
+                                       int threads = 0);
+
 }  // namespace sphparam

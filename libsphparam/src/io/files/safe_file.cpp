@@ -91,12 +91,14 @@ std::unique_ptr<TemporaryFile> make_temporary(const std::string& path,
                : std::make_unique<TemporaryFile>(place.target, replaced);
 }
 
-void check_on_disk(const TemporaryFile& file, std::string_view bytes, const BytesCheck& check) {
+/// Compares what is on the disk with what was written, which need not be held any longer then.
+void check_on_disk(const TemporaryFile& file, std::string bytes, const BytesCheck& check) {
   const std::string name = file.target().string();
   try {
     const FileBytes on_disk(file.descriptor(), name);
     if (on_disk.view() != bytes)
       throw WriteError(name, "the disk holds other bytes than were written");
+    std::string().swap(bytes);
     if (check) check(on_disk.view());
   } catch (const ReadError& error) {  // of what we wrote: it is no input that is at fault
     throw WriteError(name, std::string("what was written cannot be read back: ") + error.what());
@@ -127,7 +129,7 @@ void PendingFiles::add(const std::string& path, std::string bytes, const BytesCh
   }
   if (pending(path)) throw WriteError(path, "two outputs go to this file");
   auto file = make_temporary(path, bytes);
-  check_on_disk(*file, bytes, check);
+  check_on_disk(*file, std::move(bytes), check);
   files_.push_back(std::move(file));
 }
 

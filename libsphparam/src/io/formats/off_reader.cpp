@@ -247,8 +247,7 @@ class OffReader {
 
   MeshFile finish() {
     add_face_colours();
-    const Triangulation triangulation = triangulate(file_.mesh.positions, polygons_);
-    adopt_triangulation(file_, triangulation);
+    adopt_triangulation(file_, triangulate(file_.mesh.positions, polygons_));
     normals_.append_to(file_.vertex_properties, ScalarType::Float64);
     colours_.append_to(file_.vertex_properties, colour_type(colours_));
     texcoords_.append_to(file_.vertex_properties, ScalarType::Float64);

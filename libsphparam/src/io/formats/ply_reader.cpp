@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "io/files/text_scanner.h"
 #include "io/formats/ply_header.h"
@@ -474,8 +475,7 @@ class PlyReader {
   }
 
   MeshFile finish() {
-    const Triangulation triangulation = triangulate(file_.mesh.positions, polygons_);
-    adopt_triangulation(file_, triangulation);
+    Triangulation triangulation = triangulate(file_.mesh.positions, polygons_);
     if (has_texcoords_) {
       file_.corner_texcoords = texcoords_.gather<CornerTexcoords>(triangulation);
       file_.corner_texcoord_type = texcoords_.type;
@@ -486,6 +486,7 @@ class PlyReader {
       file_.corner_normal_type = normals_.type;
       note_missing(normals_);
     }
+    adopt_triangulation(file_, std::move(triangulation));
     add_comments();
     return std::move(file_);
   }

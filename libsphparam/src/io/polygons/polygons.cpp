@@ -323,8 +323,8 @@ std::vector<int> corners_in(const Triangles& triangles, const Polygons& polygons
   return found;
 }
 
-void adopt_triangulation(MeshFile& file, const Triangulation& triangulation) {
-  file.mesh.triangles = triangulation.triangles;
+void adopt_triangulation(MeshFile& file, Triangulation triangulation) {
+  file.mesh.triangles = std::move(triangulation.triangles);
   file.polygons = triangulation.split;
   if (triangulation.split == 0) return;
   if (triangulation.shortened > 0) file.notes.push_back(shortened_note(triangulation.shortened));

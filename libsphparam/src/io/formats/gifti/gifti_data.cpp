@@ -227,7 +227,8 @@ std::vector<double> decode_gifti(const GiftiArray& array, const std::string& nam
   const bool by_column = array.order == "ColumnMajorOrder";
   if (!by_column && array.order != "RowMajorOrder")
     fail_in_array(name, array, "has the unknown order " + quoted(array.order));
-  return by_column ? transposed(numbers, static_cast<std::size_t>(array.dimensions[0])) : numbers;
+  if (by_column) return transposed(numbers, static_cast<std::size_t>(array.dimensions[0]));
+  return numbers;
 }
 
 }  // namespace sphparam
