@@ -5,9 +5,8 @@
 //
 //   fault_runner PROGRAM SHIM COUNT [ERRAND]
 //
-// COUNT: how many faults at least; prints how many of which kind. ERRAND: map, holes (kept),
-// parts (all components), survey, data, repair.EXT, which writes that format, read.EXT, which reads
-// it, or data.EXT, which reads and writes that format of numbers a vertex (default: map).
+// COUNT: how many faults at least; prints how many of which kind. ERRAND: see errands.cpp (default:
+// map).
 
 #include <algorithm>
 #include <cerrno>
@@ -26,8 +25,8 @@
 #include <string>
 #include <vector>
 
+#include "faults/errands.h"
 #include "support/process.h"
-#include "support/test_meshes.h"
 
 namespace {
 
@@ -48,25 +47,6 @@ void write_off(const fs::path& path, const sphparam::TriangleMesh& mesh) {
   for (Eigen::Index f = 0; f < mesh.face_count(); ++f) file << "\n3 " << mesh.triangles.row(f);
 }
 
-/// A ball with a hole and a doubled face, or two whole balls.
-sphparam::TriangleMesh damaged_ball() {
-  sphparam::TriangleMesh mesh = icosphere(1);
-  mesh.triangles.row(7) = mesh.triangles.row(8);
-  mesh.triangles.conservativeResize(mesh.face_count() - 1, 3);
-  return mesh;
-}
-
-sphparam::TriangleMesh two_balls() {
-  const sphparam::TriangleMesh ball = icosphere(1);
-  sphparam::TriangleMesh mesh;
-  mesh.positions.resize(2 * ball.vertex_count(), 3);
-  mesh.positions << ball.positions, (ball.positions.array() + 5).matrix();
-  mesh.triangles.resize(2 * ball.face_count(), 3);
-  mesh.triangles << ball.triangles,
-      (ball.triangles.array() + static_cast<int>(ball.vertex_count())).matrix();
-  return mesh;
-}
-
 /// Numbers a vertex as FreeSurfer has them, all 0.
 void write_values(const fs::path& path, const sphparam::TriangleMesh& mesh) {
   std::ofstream file(path, std::ios::binary);
@@ -74,83 +54,6 @@ void write_values(const fs::path& path, const sphparam::TriangleMesh& mesh) {
   for (const auto number : {mesh.vertex_count(), mesh.face_count(), Eigen::Index{1}})
     for (int shift = 24; shift >= 0; shift -= 8) file.put(static_cast<char>(number >> shift));
   file << std::string(4 * static_cast<std::size_t>(mesh.vertex_count()), '\0');
-}
-
-/// What is run: names of files stand in the scene's folder.
-struct Errand {
-  sphparam::TriangleMesh mesh;       // scans/mesh.off
-  std::vector<std::string> words;    // a word that begins with @ is a file
-  std::vector<std::string> outputs;  // the first is the one that counts
-  std::string map = {};              // of these, one to be proved
-  std::set<int> other_codes = {};    // that a fault may end it with besides
-  std::string unnamed = {};          // of these, one that may not be there before
-  std::string given = {};            // a file of tests/hostile, with the ending of its format
-};
-
-/// Numbers of four vertices, to other vertices.
-Errand data_errand(const std::string& extension) {
-  const std::string packed = extension == ".mgz" ? "packed" : "plain";
-  const std::string output = "made" + extension;
-  return {.mesh = tetrahedron(),
-          .words = {"remesh", "@scans/mesh.off", "--grid", "ico:0", "--data", "@given" + extension,
-                    "--write-data", "@" + output, "--json", "@report.json", "--threads", "1"},
-          .outputs = {output, "report.json"},
-          .given = "values_ok_" + packed + extension};
-}
-
-Errand read_errand(const std::string& extension) {
-  const std::string kind = extension == ".icq"   ? "icq"
-                           : extension == ".tab" ? "plates"
-                                                 : "freesurfer";
-  return {.mesh = tetrahedron(),
-          .words = {"repair", "@given" + extension, "-o", "@made.ply", "--json", "@report.json"},
-          .outputs = {"made.ply", "report.json"},
-          .given = kind + "_ok_plain" + extension};
-}
-
-Errand errand_named(const std::string& name) {
-  if (name == "map")
-    return {icosphere(1),
-            {"map", "@scans/mesh.off", "-o", "@map.sph.ply", "--write-sphere", "@sphere.obj",
-             "--json", "@report.json", "--threads", "1"},
-            {"map.sph.ply", "sphere.obj", "report.json"},
-            "map.sph.ply"};
-  if (name == "holes")
-    return {damaged_ball(),
-            {"map", "@scans/mesh.off", "-o", "@map.sph.ply", "--repair", "--keep-holes", "--json",
-             "@report.json", "--threads", "1"},
-            {"map.sph.ply", "report.json"},
-            "map.sph.ply"};
-  if (name == "parts")
-    return {two_balls(),
-            {"map", "@scans/mesh.off", "-o", "@map.sph.ply", "--all-components", "--json",
-             "@report.json", "--threads", "1"},
-            {"map_0001.sph.ply", "map_0002.sph.ply", "report.json"},
-            "map_0002.sph.ply"};
-  if (name == "survey")  // of a file that a fault meets it says so and goes on
-    return {damaged_ball(),
-            {"survey", "@scans", "-o", "@page.html", "--records", "@found", "--size", "16",
-             "--json", "@report.json", "--threads", "1"},
-            {"page.html", "report.json"},
-            "",
-            {0, 4}};
-  if (name == "data")  // numbers of vertices, in a file of their own and in another beside
-    return {icosphere(1),
-            {"repair", "@scans/mesh.off", "--data", "@rh.depth", "-o", "@lh.white", "--json",
-             "@report.json"},
-            {"lh.white", "lh.depth", "report.json"},
-            "",
-            {},
-            "lh.depth"};
-  if (name.starts_with("data.")) return data_errand(name.substr(4));
-  if (name.starts_with("read.")) return read_errand(name.substr(4));
-  if (name.starts_with("repair.")) {
-    const std::string output = "mended" + name.substr(6);
-    return {damaged_ball(),
-            {"repair", "@scans/mesh.off", "-o", "@" + output, "--json", "@report.json"},
-            {output, "report.json"}};
-  }
-  throw std::runtime_error("no errand " + name);
 }
 
 /// One thing that goes wrong, in the words of the shim or as a limit or a late signal.
@@ -178,6 +81,10 @@ class Scene {
     if (!errand_.given.empty())
       fs::copy_file(fs::path(SPHPARAM_HOSTILE_FILES) / errand_.given,
                     folder_ / ("given" + errand_.given.substr(errand_.given.find('.'))));
+    for (const Words& command : errand_.before) {
+      const ProcessEnd end = run_process(command_line(command), {}, {.seconds = most_seconds});
+      if (end.code != 0) throw std::runtime_error("before: " + end.messages);
+    }
     reset(true);
     const auto start = std::chrono::steady_clock::now();
     const ProcessEnd end = run({}, {"SPHPARAM_FAULT_COUNTS=" + (folder_ / "counts").string()});
@@ -185,6 +92,9 @@ class Scene {
     seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     std::ifstream counts(folder_ / "counts");
     for (std::string call; counts >> call;) counts >> calls[call];
+    for (const auto& entry : fs::directory_iterator(folder_ / "found"))
+      if (entry.path().extension() != ".json")
+        errand_.outputs.push_back("found/" + entry.path().filename().string());
     for (const std::string& output : errand_.outputs) new_[output] = bytes_of(folder_ / output);
     if (errand_.map.empty()) return;
     const ProcessEnd proof = run_process({program_, "verify", (folder_ / errand_.map).string()});
@@ -218,13 +128,17 @@ class Scene {
   std::map<std::string, long> happened;  // by kind
 
  private:
-  ProcessEnd run(const Fault& fault, std::vector<std::string> environment) {
-    if (!environment.empty()) environment.push_back("LD_PRELOAD=" + shim_);
+  std::vector<std::string> command_line(const Words& command) const {
     std::vector<std::string> words = {program_};
-    for (const std::string& word : errand_.words)
+    for (const std::string& word : command)
       words.push_back(word.starts_with("@") ? (folder_ / word.substr(1)).string() : word);
     words.push_back("-q");
-    return run_process(words, environment, fault.limits, fault.signal);
+    return words;
+  }
+
+  ProcessEnd run(const Fault& fault, std::vector<std::string> environment) {
+    if (!environment.empty()) environment.push_back("LD_PRELOAD=" + shim_);
+    return run_process(command_line(errand_.words), environment, fault.limits, fault.signal);
   }
 
   void reset(bool fresh) {
@@ -239,13 +153,13 @@ class Scene {
   /// Of reports, which hold times, and of pages, which tell of faults, only the ends are known.
   bool is_new(const std::string& output) const {
     const std::string bytes = bytes_of(folder_ / output);
-    if (output == "page.html")
+    if (output.ends_with(".html"))
       return bytes.starts_with("<!DOCTYPE html>") && bytes.ends_with("</html>\n");
     if (output != "report.json") return bytes == new_.at(output);
     return bytes.starts_with("{") && bytes.ends_with("}\n");
   }
 
-  /// Records of a survey appear whole or not at all.
+  /// Records appear whole or not at all.
   std::string half_record() const {
     for (const auto& entry : fs::directory_iterator(folder_ / "found")) {
       if (entry.path().extension() != ".json") continue;
@@ -263,7 +177,7 @@ class Scene {
 
   std::vector<std::string> temporaries() const {
     std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(folder_))
+    for (const auto& entry : fs::recursive_directory_iterator(folder_))
       if (entry.path().string().find(".sphparam-") != std::string::npos)
         names.push_back(entry.path().filename());
     return names;
@@ -303,6 +217,11 @@ class Scene {
 /// The n-th call of each kind with each way to go wrong: all of them.
 std::vector<Fault> call_faults(const Scene& scene) {
   const std::map<std::string, std::vector<int>> errors = {{"open", {EACCES, EMFILE, EINTR, EIO}},
+                                                          {"read", {EIO, EINTR}},
+                                                          {"map", {ENOMEM, ENODEV}},
+                                                          {"thread", {EAGAIN}},
+                                                          {"load", {ENOENT}},
+                                                          {"mkdir", {EACCES, ENOSPC}},
                                                           {"write", {ENOSPC, EIO, EINTR, EDQUOT}},
                                                           {"fsync", {EIO, ENOSPC, EINTR}},
                                                           {"fcntl", {ENOLCK, EMFILE, EINTR}},
@@ -312,15 +231,16 @@ std::vector<Fault> call_faults(const Scene& scene) {
   for (const auto& [call, numbers] : errors) {
     for (long n = 1; n <= scene.calls.at(call); ++n) {
       const std::string turn = call + " " + std::to_string(n) + " ";
+      const std::set<int> codes = call == "thread" ? std::set{0, 1, 3} : std::set{0, 3};
       for (const int number : numbers) {
         const std::string error = std::string(strerrorname_np(number));
         faults.push_back({.kind = call + " " + error,
                           .shim = turn + "E" + std::to_string(number),
-                          .codes = {0, 3}});
+                          .codes = codes});
         if (number != EINTR)
           faults.push_back({.kind = call + " " + error + " from then on",
                             .shim = turn + "A" + std::to_string(number),
-                            .codes = {0, 3},
+                            .codes = codes,
                             .lasts = call == "rename"});
       }
       if (call == "write")

@@ -1,6 +1,7 @@
 // Loaded into the program with LD_PRELOAD: makes the n-th call of one kind fail. The environment
-// says which: SPHPARAM_FAULT="CALL N ACTION", where CALL is malloc (also operator new), open,
-// write, fsync, fcntl, close or rename, N counts from 1, and ACTION is
+// says which: SPHPARAM_FAULT="CALL N ACTION", where CALL is malloc (also operator new), open, read,
+// write (also at a place), fsync, fcntl, close, rename, mkdir, map (a file into memory), thread
+// (its creation) or load (a module), N counts from 1, and ACTION is
 //   E<errno>     fails with this error            A<errno>    so do all later calls
 //   short        writes half                      S<signal>   raises a signal before the call
 //   T<signal>    raises it after the call
@@ -9,6 +10,9 @@
 
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <pthread.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -30,9 +34,23 @@ void* __libc_memalign(std::size_t, std::size_t);
 
 namespace {
 
-enum Call { Malloc, Open, Write, Fsync, Fcntl, Close, Rename, CallCount };
-constexpr const char* names[CallCount] = {"malloc", "open",  "write", "fsync",
-                                          "fcntl",  "close", "rename"};
+enum Call {
+  Malloc,
+  Open,
+  Read,
+  Write,
+  Fsync,
+  Fcntl,
+  Close,
+  Rename,
+  MakeFolder,
+  MapFile,
+  Thread,
+  Load,
+  CallCount
+};
+constexpr const char* names[CallCount] = {"malloc", "open",   "read",  "write", "fsync",  "fcntl",
+                                          "close",  "rename", "mkdir", "map",   "thread", "load"};
 
 struct Fault {
   int call = -1;
@@ -44,6 +62,7 @@ struct Fault {
 Fault fault;
 std::array<std::atomic<long>, CallCount> calls{};
 std::atomic<bool> ready{false};
+std::atomic<int> loading{0};  // modules, just now
 
 void log_fault() {
   const char* const path = std::getenv("SPHPARAM_FAULT_LOG");
@@ -56,6 +75,7 @@ void log_fault() {
 /// Counts the call. The fault, if this is its turn.
 const Fault* turn(Call call) {
   if (!ready.load(std::memory_order_relaxed)) return nullptr;
+  if ((call == Malloc || call == Thread) && loading > 0) return nullptr;
   const long count = calls[call].fetch_add(1) + 1;
   if (call != fault.call) return nullptr;
   const bool now = count == fault.nth || (fault.action == 'A' && count > fault.nth);
@@ -112,7 +132,9 @@ __attribute__((destructor)) void finish() {
 
 extern "C" {
 
-// Nothing is counted before main: what static objects allocate there cannot be caught by anybody.
+// Nothing is counted before main, and neither allocations nor threads while a module is loaded:
+// what static objects do there, those of some fifty libraries behind one for images, cannot be
+// caught by anybody, and one of them waits for ever for a thread that there is not.
 int __libc_start_main(Main program, int argc, char** argv, void (*init)(), void (*fini)(),
                       void (*rtld_fini)(), void* stack_end) {
   using Start = int (*)(Main, int, char**, void (*)(), void (*)(), void (*)(), void*);
@@ -158,6 +180,64 @@ ssize_t write(int file, const void* bytes, std::size_t count) {
   if (fails(due)) return -1;
   if (due && due->action == 's') count = (count + 1) / 2;
   return after(due, syscall(SYS_write, file, bytes, count));
+}
+
+ssize_t pwrite(int file, const void* bytes, std::size_t count, off_t at) {
+  const Fault* const due = turn(Write);
+  if (fails(due)) return -1;
+  if (due && due->action == 's') count = (count + 1) / 2;
+  return after(due, syscall(SYS_pwrite64, file, bytes, count, at));
+}
+
+ssize_t pwrite64(int file, const void* bytes, std::size_t count, off_t at)
+    __attribute__((alias("pwrite")));
+
+ssize_t read(int file, void* bytes, std::size_t count) {
+  const Fault* const due = turn(Read);
+  return fails(due) ? -1 : after(due, syscall(SYS_read, file, bytes, count));
+}
+
+ssize_t pread(int file, void* bytes, std::size_t count, off_t at) {
+  const Fault* const due = turn(Read);
+  return fails(due) ? -1 : after(due, syscall(SYS_pread64, file, bytes, count, at));
+}
+
+ssize_t pread64(int file, void* bytes, std::size_t count, off_t at) __attribute__((alias("pread")));
+
+int mkdir(const char* path, mode_t mode) noexcept {
+  const Fault* const due = turn(MakeFolder);
+  return fails(due) ? -1 : after(due, static_cast<int>(syscall(SYS_mkdir, path, mode)));
+}
+
+// Of files alone: what the C library maps for itself does not come by.
+void* mmap(void* where, std::size_t size, int protection, int flags, int file, off_t at) noexcept {
+  const Fault* const due = file >= 0 ? turn(MapFile) : nullptr;
+  if (fails(due)) return MAP_FAILED;
+  return after(
+      due, reinterpret_cast<void*>(syscall(SYS_mmap, where, size, protection, flags, file, at)));
+}
+
+void* mmap64(void* where, std::size_t size, int protection, int flags, int file, off_t at) noexcept
+    __attribute__((alias("mmap")));
+
+int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*begin)(void*),
+                   void* argument) noexcept {
+  const Fault* const due = turn(Thread);
+  if (fails(due)) return due->number;
+  using Create = int (*)(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*);
+  static const auto create = reinterpret_cast<Create>(dlsym(RTLD_NEXT, "pthread_create"));
+  return after(due, create(thread, attributes, begin, argument));
+}
+
+void* dlopen(const char* path, int mode) noexcept {
+  const Fault* const due = turn(Load);
+  using Open = void* (*)(const char*, int);
+  static const auto open_module = reinterpret_cast<Open>(dlsym(RTLD_NEXT, "dlopen"));
+  // A failure as the loader has them, so that dlerror knows of it.
+  ++loading;
+  void* const module = open_module(fails(due) ? "/no module" : path, mode);
+  --loading;
+  return after(due, module);
 }
 
 int fsync(int file) {

@@ -5,6 +5,9 @@
 
 #include <sys/resource.h>
 #include <unistd.h>
+#if __has_include(<execinfo.h>)
+#include <execinfo.h>
+#endif
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -14,6 +17,7 @@
 #include <new>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -258,14 +262,34 @@ void forbid_core_dumps() {
   setrlimit(RLIMIT_CORE, &none);
 }
 
+/// The C library loads what exceptions need to pass through its own functions when the first one
+/// comes by, and aborts where there is no memory for that: it loads it now.
+void load_unwinder() {
+#if __has_include(<execinfo.h>)
+  void* frame = nullptr;
+  backtrace(&frame, 1);
+#endif
+}
+
+constexpr char no_threads[] = "the system has no room for more threads; --threads asks for fewer";
+
+bool has_no_threads(const std::system_error& error) {
+  return error.code() == std::errc::resource_unavailable_try_again;
+}
+
 /// Where an exception can go no further: memory that runs out in a destructor, which happens in the
-/// libraries for JSON and for options.
+/// libraries for JSON and for options; threads that a library for images cannot start.
 [[noreturn]] void end_at_once() {
   const char* message = "sphparam: error: internal error\n";
   try {
     if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
   } catch (const std::bad_alloc&) {
     message = out_of_memory_message();
+  } catch (const std::system_error& error) {
+    if (has_no_threads(error)) {
+      std::fprintf(stderr, "sphparam: error: %s\n", no_threads);
+      message = "";
+    }
   } catch (...) {
   }
   std::fputs(message, stderr);
@@ -310,6 +334,10 @@ int guarded_main(int argc, char** argv) {
     return Interrupted;
   } catch (const std::bad_alloc&) {
     throw;
+  } catch (const std::system_error& error) {
+    print_error(has_no_threads(error) ? no_threads
+                                      : std::string("internal error: ") + error.what());
+    return InternalError;
   } catch (const std::exception& error) {
     print_error(std::string("internal error: ") + error.what());
     return InternalError;
@@ -364,6 +392,7 @@ std::vector<std::string> files_read_by(const std::vector<std::string>& words) {
 
 int run_sphparam(int argc, char** argv) {
   forbid_core_dumps();
+  load_unwinder();
   end_on_interruption();
   turn_signals_into_errors();
   std::set_terminate(end_at_once);

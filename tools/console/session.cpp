@@ -28,6 +28,7 @@ void Session::add_report(const std::function<std::string()>& report) {
 }
 
 void Session::publish() {
+  hold_signals();  // an output that has its name by now is no failure
   if (interrupted()) throw Cancelled();
   files.publish();
   console.clear_progress();
