@@ -93,7 +93,7 @@ class Scene {
     std::ifstream counts(folder_ / "counts");
     for (std::string call; counts >> call;) counts >> calls[call];
     for (const auto& entry : fs::directory_iterator(folder_ / "found"))
-      if (entry.path().extension() != ".json")
+      if (entry.is_regular_file() && entry.path().extension() != ".json")
         errand_.outputs.push_back("found/" + entry.path().filename().string());
     for (const std::string& output : errand_.outputs) new_[output] = bytes_of(folder_ / output);
     if (errand_.map.empty()) return;
@@ -121,7 +121,11 @@ class Scene {
            complaint + "; the program ended with " + std::to_string(end.code) + ": " + end.messages;
   }
 
-  std::size_t largest_output() const { return new_.at(errand_.outputs[0]).size(); }
+  std::size_t largest_output() const {
+    std::size_t largest = 1;
+    for (const auto& [output, bytes] : new_) largest = std::max(largest, bytes.size());
+    return largest;
+  }
 
   double seconds = 0;                    // of a run without faults
   std::map<std::string, long> calls;     // in it

@@ -235,7 +235,8 @@ TEST_CASE("summarise: percentiles are ranks of the sorted ratios") {
 TEST_CASE("summarise_distortion: every figure is that of the tables, to the bit") {
   const auto [mesh, map] = lumpy_case(5);  // more than what a thread takes at a time
   for (const int threads : {1, 3}) {
-    const DistortionSummary from_tables = summarise(measure_distortion(mesh, map, threads), threads);
+    const DistortionSummary from_tables =
+        summarise(measure_distortion(mesh, map, threads), threads);
     const DistortionSummary at_once = summarise_distortion(mesh, map, threads);
     static_assert(sizeof(DistortionSummary) == 15 * sizeof(double));  // no gaps to compare
     CHECK(std::memcmp(&from_tables, &at_once, sizeof at_once) == 0);

@@ -122,8 +122,7 @@ void follow(const MappedMesh& other, MapOutcome& outcome, Session& session) try 
 }
 
 /// Of each triangle only where that is to be drawn.
-void measure(const MapArguments& arguments, MapOutcome& outcome) {
-  const TriangleMesh surface = surface_of(outcome.source.file.mesh, outcome.options.fillers);
+void measure(const TriangleMesh& surface, const MapArguments& arguments, MapOutcome& outcome) {
   const int threads = outcome.options.threads;
   if (arguments.plots.empty()) {
     outcome.figures = summarise_distortion(surface, outcome.result.map, threads);
@@ -153,7 +152,12 @@ MapOutcome compute(MeshSource source, const MapArguments& arguments, Session& se
   if (outcome.has_map() && is_to_stand(arguments))
     outcome.upright = upright_words(outcome.result.map, mesh, outcome.topology(),
                                     upright_axes(outcome.source.file));
-  if (outcome.has_map()) measure(arguments, outcome);
+  if (outcome.has_map()) {
+    if (options.fillers.empty())
+      measure(mesh, arguments, outcome);
+    else
+      measure(surface_of(mesh, options.fillers), arguments, outcome);
+  }
   return outcome;
 }
 

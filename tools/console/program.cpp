@@ -271,7 +271,8 @@ void load_unwinder() {
 #endif
 }
 
-constexpr char no_threads[] = "the system has no room for more threads; --threads asks for fewer";
+constexpr char no_threads[] =
+    "sphparam: error: the system has no room for more threads or processes\n";
 
 bool has_no_threads(const std::system_error& error) {
   return error.code() == std::errc::resource_unavailable_try_again;
@@ -286,10 +287,7 @@ bool has_no_threads(const std::system_error& error) {
   } catch (const std::bad_alloc&) {
     message = out_of_memory_message();
   } catch (const std::system_error& error) {
-    if (has_no_threads(error)) {
-      std::fprintf(stderr, "sphparam: error: %s\n", no_threads);
-      message = "";
-    }
+    if (has_no_threads(error)) message = no_threads;
   } catch (...) {
   }
   std::fputs(message, stderr);
@@ -335,8 +333,8 @@ int guarded_main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::system_error& error) {
-    print_error(has_no_threads(error) ? no_threads
-                                      : std::string("internal error: ") + error.what());
+    if (has_no_threads(error)) end_at_once();
+    print_error(std::string("internal error: ") + error.what());
     return InternalError;
   } catch (const std::exception& error) {
     print_error(std::string("internal error: ") + error.what());

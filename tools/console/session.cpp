@@ -28,7 +28,7 @@ void Session::add_report(const std::function<std::string()>& report) {
 }
 
 void Session::publish() {
-  hold_signals();  // an output that has its name by now is no failure
+  hold_signals();  // a handler that ends at once would say 130 of files that have their names
   if (interrupted()) throw Cancelled();
   files.publish();
   console.clear_progress();

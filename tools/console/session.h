@@ -40,7 +40,8 @@ class Session {
   void warn(const std::vector<std::string>& warnings);
   /// Adds what --json asks for, if it does.
   void add_report(const std::function<std::string()>& report);
-  /// Throws: Cancelled where a signal arrived; as `PendingFiles::publish`.
+  /// From here on signals are held. Throws: Cancelled where one has arrived; as
+  /// `PendingFiles::publish`.
   void publish();
 
  private:

@@ -68,7 +68,8 @@ Encoded as_webp(const Image& image, bool may_lose, int quality) {
   Encoded exact = encoded(encode_webp(image), true);
   if (!may_lose) return exact;
   Encoded lossy = encoded(encode_webp(image, {.lossless = false, .quality = quality}), false);
-  return lossy.bytes.size() < exact.bytes.size() ? lossy : exact;
+  if (lossy.bytes.size() < exact.bytes.size()) return lossy;
+  return exact;
 }
 
 /// One image on its way to its format.

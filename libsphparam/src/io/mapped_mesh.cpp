@@ -139,7 +139,8 @@ const SphereLocator& MappedMesh::locator() const {
 SphereMap unit_rays(SphereMap map) {
   constexpr double roundings = 8 * 2.22e-16;
   const Eigen::ArrayXd deviation = map.points.rowwise().norm().array() - 1;
-  return (deviation.abs() <= roundings).all() ? map : normalised(std::move(map.points));
+  if ((deviation.abs() <= roundings).all()) return map;
+  return normalised(std::move(map.points));
 }
 
 MappedMesh mapped_mesh(MeshSource source, const LoadOptions& options) {

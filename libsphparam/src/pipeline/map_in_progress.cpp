@@ -57,6 +57,7 @@ long MapInProgress::count_folds(const SphereMap& map) const {
 
 std::optional<DistortionSummary> MapInProgress::measured(const SphereMap& map) const {
   if (!options.measure_stages) return std::nullopt;
+  if (options.fillers.empty()) return summarise_distortion(mesh, map, options.threads);
   return summarise_distortion(surface_of(mesh, options.fillers), map, options.threads);
 }
 

@@ -98,11 +98,11 @@ class Drawing {
     }
     const auto drawn = [&](Shape shape) { return draw(shape, paint); };
     const View view = options_.view.value_or(map_ ? View::Both : View::Mesh);
-    const Image image = view == View::Mesh ? drawn(Shape::Mesh)
-                        : view == View::Sphere
-                            ? drawn(Shape::Sphere)
-                            : in_a_row({drawn(Shape::Mesh), drawn(Shape::Sphere)});
-    return scale && options_.legend && !options_.transparent ? with_legend(image, *scale) : image;
+    Image image = view == View::Mesh     ? drawn(Shape::Mesh)
+                  : view == View::Sphere ? drawn(Shape::Sphere)
+                                         : in_a_row({drawn(Shape::Mesh), drawn(Shape::Sphere)});
+    if (scale && options_.legend && !options_.transparent) return with_legend(image, *scale);
+    return image;
   }
 
  private:

@@ -47,7 +47,7 @@ Distortion measure_distortion(const TriangleMesh& mesh, const SphereMap& map, in
 /// any number of threads.
 DistortionSummary summarise(const Distortion& distortion, int threads = 0);
 
-/// The same of a mesh and its map, to the bit, without the 56 bytes a triangle of a `Distortion`.
+/// The same of a mesh and its map, to the bit, in 8 bytes a triangle, not the 56 of a `Distortion`.
 /// Requires, Cost: as `measure_distortion`.
 DistortionSummary summarise_distortion(const TriangleMesh& mesh, const SphereMap& map,
                                        int threads = 0);

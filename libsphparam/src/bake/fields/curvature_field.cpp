@@ -68,7 +68,8 @@ SurfaceField curvature_field(const BakeScene& scene, const std::string& argument
       [values, &triangles = mesh.triangles](Face face, int k, std::array<double, 1>& value) {
         value[0] = values[triangles(face, k)];
       });
-  return scene.options.heat ? as_heat(std::move(field)) : field;
+  if (scene.options.heat) return as_heat(std::move(field));
+  return field;
 }
 
 }  // namespace sphparam

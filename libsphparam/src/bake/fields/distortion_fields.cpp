@@ -29,12 +29,15 @@ SurfaceField distortion_field(Heat heat, const char* name, const char* about,
   const MappedMesh& mapped = scene.source.map_for(name);
   Distortion distortion = measure_distortion(mapped.mesh(), mapped.map(), scene.threads);
   leave_out_areas(distortion, mapped.fillers());
-  const VectorX values = heat_values(heat, distortion).cwiseMax(-extreme).cwiseMin(extreme);
+  VectorX values = heat_values(heat, distortion).cwiseMax(-extreme).cwiseMin(extreme);
   const HeatScale& scale = heat_scale(heat);
-  SurfaceField field = linear_field<1>(
-      {.name = name, .about = about, .range = {{scale.low, scale.high}}},
-      [values](Face face, int, std::array<double, 1>& value) { value[0] = values[face]; });
-  return scene.options.heat ? as_heat(std::move(field)) : field;
+  SurfaceField field =
+      linear_field<1>({.name = name, .about = about, .range = {{scale.low, scale.high}}},
+                      [values = std::move(values)](Face face, int, std::array<double, 1>& value) {
+                        value[0] = values[face];
+                      });
+  if (scene.options.heat) return as_heat(std::move(field));
+  return field;
 }
 
 }  // namespace

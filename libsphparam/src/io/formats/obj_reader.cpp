@@ -262,12 +262,12 @@ class ObjReader {
   MeshFile finish() {
     file_.format = "OBJ";
     file_.mesh.positions = Eigen::Map<const Points>(positions_.data(), vertices_.count, 3);
-    const Triangulation triangulation = triangulate(file_.mesh.positions, polygons_);
+    Triangulation triangulation = triangulate(file_.mesh.positions, polygons_);
     add_materials();
-    adopt_triangulation(file_, triangulation);
     add_colours();
     add_texcoords(triangulation);
     add_normals(triangulation);
+    adopt_triangulation(file_, std::move(triangulation));
     add_notes();
     return std::move(file_);
   }
