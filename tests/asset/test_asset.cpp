@@ -15,6 +15,7 @@
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/sphere/sphere_locator.h"
 #include "sphparam/sphere/spherical_coordinates.h"
+#include "support/joined.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -47,13 +48,7 @@ TriangleMesh with_holes(TriangleMesh mesh, int n) {
 }
 
 /// Two balls that pass through one another.
-TriangleMesh two_balls() {
-  const TriangleMesh ball = icosphere(3);
-  TriangleMesh both{Points(2 * ball.vertex_count(), 3), Triangles(2 * ball.face_count(), 3)};
-  both.positions << ball.positions, ball.positions.rowwise() + Eigen::RowVector3d(1, 0, 0);
-  both.triangles << ball.triangles, (ball.triangles.array() + ball.vertex_count()).matrix();
-  return both;
-}
+TriangleMesh two_balls() { return joined(icosphere(3), icosphere(3), {1, 0, 0}); }
 
 /// Red, metallic and glowing.
 MeshSource painted(MeshSource source) {

@@ -9,6 +9,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "support/joined.h"
 #include "support/test_meshes.h"
 
 namespace sphparam::tests {
@@ -22,16 +23,7 @@ TriangleMesh damaged_ball() {
   return mesh;
 }
 
-TriangleMesh two_balls() {
-  const TriangleMesh ball = icosphere(1);
-  TriangleMesh mesh;
-  mesh.positions.resize(2 * ball.vertex_count(), 3);
-  mesh.positions << ball.positions, (ball.positions.array() + 5).matrix();
-  mesh.triangles.resize(2 * ball.face_count(), 3);
-  mesh.triangles << ball.triangles,
-      (ball.triangles.array() + static_cast<int>(ball.vertex_count())).matrix();
-  return mesh;
-}
+TriangleMesh two_balls() { return joined(icosphere(1), icosphere(1), {5, 5, 5}); }
 
 const Words map_it = {"map", "@scans/mesh.off", "-o", "@in.sph.ply"};
 const Words make_another = {"remesh", "@in.sph.ply", "--grid", "ico:1", "-o", "@other.sph.ply"};

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "sphparam/io/repair_advice.h"
+#include "support/joined.h"
 #include "support/test_meshes.h"
 #include "support/volume_surface.h"
 
@@ -27,13 +28,9 @@ TriangleMesh open_ball() {
 
 /// Two balls, the second one smaller and beside the first.
 TriangleMesh two_balls() {
-  const TriangleMesh ball = icosphere(1);
-  TriangleMesh mesh;
-  mesh.positions.resize(2 * ball.vertex_count(), 3);
-  mesh.positions << ball.positions, (0.9 * ball.positions).rowwise() + Vector3(3, 0, 0).transpose();
-  mesh.triangles.resize(2 * ball.face_count(), 3);
-  mesh.triangles << ball.triangles, (ball.triangles.array() + ball.vertex_count()).matrix();
-  return mesh;
+  TriangleMesh smaller = icosphere(1);
+  smaller.positions *= 0.9;
+  return joined(icosphere(1), smaller, {3, 0, 0});
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/survey/survey.h"
+#include "support/joined.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -71,16 +72,7 @@ struct Meshes {
     return mesh;
   }
 
-  static TriangleMesh two_balls() {
-    const TriangleMesh ball = icosphere(2);
-    TriangleMesh mesh;
-    mesh.positions.resize(2 * ball.vertex_count(), 3);
-    mesh.positions << ball.positions, (ball.positions.array() + 5).matrix();
-    mesh.triangles.resize(2 * ball.face_count(), 3);
-    mesh.triangles << ball.triangles,
-        (ball.triangles.array() + static_cast<int>(ball.vertex_count())).matrix();
-    return mesh;
-  }
+  static TriangleMesh two_balls() { return joined(icosphere(2), icosphere(2), {5, 5, 5}); }
 };
 
 const SurveyedMesh& named(const Survey& survey, const std::string& name) {

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "rays/ray_scene.h"
+#include "support/joined.h"
 #include "support/test_meshes.h"
 #include "wrap/distance_field.h"
 
@@ -42,17 +43,7 @@ Errors errors_of(const TriangleMesh& soup, const Lattice& lattice, double distan
   return errors;
 }
 
-TriangleMesh two_balls() {
-  const TriangleMesh ball = icosphere(2);
-  TriangleMesh both = ball;
-  both.positions.conservativeResize(2 * ball.vertex_count(), 3);
-  both.positions.bottomRows(ball.vertex_count()) = ball.positions;
-  both.positions.topRows(ball.vertex_count()).col(0).array() -= 3;
-  both.triangles.conservativeResize(2 * ball.face_count(), 3);
-  both.triangles.bottomRows(ball.face_count()) =
-      ball.triangles.array() + static_cast<int>(ball.vertex_count());
-  return both;
-}
+TriangleMesh two_balls() { return joined(icosphere(2), icosphere(2), {-3, 0, 0}); }
 
 }  // namespace
 
