@@ -111,20 +111,29 @@ TEST_CASE("baked file: conventions move texels to where their viewers look for t
 
 TEST_CASE("baked file: EXR of the convention of environment maps says that it is one, no other") {
   const SurfaceField data{.name = "x"};
-  for (const ImageFormat format : {ImageFormat::Exr, ImageFormat::Png}) {
+  struct Case {
+    ImageFormat format;
+    SampleType sample_type;
+    bool tiles;
+  };
+  for (const Case& c : {Case{ImageFormat::Exr, SampleType::Float, false},
+                        Case{ImageFormat::Exr, SampleType::Half, true},
+                        Case{ImageFormat::Png, SampleType::Uint16, false}}) {
     for (const Convention convention : {Convention::Envmap, Convention::Sphparam}) {
-      const std::vector<char> bytes = file_of(
-          data,
-          {.width = 16,
-           .height = 8,
-           .format = format,
-           .sample_type = format == ImageFormat::Exr ? SampleType::Float : SampleType::Uint16,
-           .convention = convention},
-          [](int, int, int) { return 0.5; });
+      const std::vector<char> bytes = file_of(data,
+                                              {.width = 256,
+                                               .height = 128,
+                                               .format = c.format,
+                                               .sample_type = c.sample_type,
+                                               .convention = convention,
+                                               .tiles = c.tiles},
+                                              [](int, int, int) { return 0.5; });
       const std::string_view text(bytes.data(), bytes.size());
-      const bool wanted = format == ImageFormat::Exr && convention == Convention::Envmap;
-      const std::string_view attribute("envmap\0string", 13);  // its name and its type
+      const bool wanted = c.format == ImageFormat::Exr && convention == Convention::Envmap;
+      // Name, type, size and value: 0 is a latitude-longitude map.
+      const std::string_view attribute("envmap\0envmap\0\1\0\0\0\0", 19);
       CHECK((text.find(attribute) != std::string_view::npos) == wanted);
+      CHECK((text.find(std::string_view("envmap\0", 7)) != std::string_view::npos) == wanted);
     }
   }
 }

@@ -54,7 +54,7 @@ ImageFileOptions file_options(const SurfaceField& field, const BakedFileOptions&
   const bool colour = field.kind == FieldKind::Colour;
   add("oiio:ColorSpace", !colour ? "raw" : is_integer(options.sample_type) ? "sRGB" : "Linear");
   if (options.format == ImageFormat::Exr && options.convention == Convention::Envmap) {
-    add("envmap", "latlong");
+    add("textureformat", "LatLong Environment");  // OpenImageIO's for OpenEXR's attribute `envmap`
   }
   return file;
 }

@@ -194,6 +194,8 @@ OIIO::ImageSpec spec_of(const SphparamImageFile& file) {
     spec.attribute("openexr:levelmode", 1);     // mipmap
     spec.attribute("openexr:roundingmode", 0);  // down
     if (file.wraps) spec.attribute("wrapmodes", "periodic,clamp");
+  } else {
+    spec.attribute("openexr:levelmode", 0);  // one level, of environment maps too
   }
   // JPEG and TIFF have no place for names of ours.
   std::string all;
