@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "elementary.h"
+#include "srgb_curves.h"
 
 namespace sphparam {
 namespace {
@@ -23,18 +24,11 @@ Rgb interpolate(const std::array<std::array<float, 3>, N>& table, double t) {
 }  // namespace
 
 Rgb to_linear(const Rgb& srgb) {
-  return srgb.unaryExpr([](float c) {
-    return c <= 0.04045F ? c / 12.92F
-                         : static_cast<float>(elementary::pow((c + 0.055) / 1.055, 2.4));
-  });
+  return srgb.unaryExpr([](float c) { return SrgbCurves::get().to_linear(c); });
 }
 
 Rgb to_srgb(const Rgb& linear) {
-  return linear.unaryExpr([](float c) {
-    c = std::clamp(c, 0.0F, 1.0F);
-    return c <= 0.0031308F ? c * 12.92F
-                           : static_cast<float>(1.055 * elementary::pow(c, 1 / 2.4) - 0.055);
-  });
+  return linear.unaryExpr([](float c) { return SrgbCurves::get().to_srgb(c); });
 }
 
 Rgb viridis(double t) {
