@@ -9,7 +9,7 @@ namespace sphparam::cli {
 /// What the program answers to its caller. Documented in `sphparam --help`: never renumber.
 enum ExitCode : int {
   Ok = 0,             // for `map`: what is on disk is certified
-  InternalError = 1,  // a fault of ours, or out of memory
+  InternalError = 1,  // a fault of ours, or out of memory or threads
   UsageError = 2,     // the command line makes no sense
   FileError = 3,      // a file cannot be read, parsed or written
   MeshUnusable = 4,   // the mesh is not a closed genus-0 manifold, or cannot be measured
@@ -31,7 +31,7 @@ struct ExitMeaning {
 };
 inline constexpr ExitMeaning exit_meanings[] = {
     {Ok, "done; for map: what is on disk is certified one-to-one"},
-    {InternalError, "internal error, or out of memory"},
+    {InternalError, "internal error, or out of memory or threads"},
     {UsageError, "the command line makes no sense"},
     {FileError, "a file cannot be read, parsed or written"},
     {MeshUnusable,

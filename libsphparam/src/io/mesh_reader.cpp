@@ -144,8 +144,7 @@ MeshFile read_bytes(std::string_view bytes, const std::string& name,
                     const std::optional<std::filesystem::path>& folder,
                     const ReadOptions& options) {
   if (bytes.size() > options.max_file_bytes)
-    throw ReadError(
-        name, "is larger than the limit of " + std::to_string(options.max_file_bytes) + " bytes");
+    throw ReadError(name, "is larger than " + file_limit(options.max_file_bytes));
   return looks_like_gzip(bytes) ? read_gzip(bytes, name, folder, options)
                                 : read_unpacked(bytes, name, folder, options);
 }

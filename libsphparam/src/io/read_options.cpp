@@ -22,6 +22,10 @@ std::string repeated_corners_advice() {
   return "; `sphparam map --repair=duplicates` removes such faces";
 }
 
+std::string file_limit(std::uint64_t max_bytes) {
+  return "the limit of " + std::to_string(max_bytes) + " bytes; `--limit file=N` raises it";
+}
+
 std::string quoted(std::string_view text) {
   constexpr std::size_t most_shown = 40;
   std::string shown = "'";

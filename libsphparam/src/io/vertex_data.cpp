@@ -175,8 +175,7 @@ bool is_packed(const std::string& path) {
 VertexData read_vertex_data(std::string_view bytes, const std::string& name, Eigen::Index vertices,
                             const ReadOptions& options) {
   if (bytes.size() > options.max_file_bytes)
-    throw ReadError(
-        name, "is larger than the limit of " + std::to_string(options.max_file_bytes) + " bytes");
+    throw ReadError(name, "is larger than " + file_limit(options.max_file_bytes));
   std::string unpacked;
   if (looks_like_gzip(bytes)) {
     unpacked = unzip(bytes, name, options.max_file_bytes).bytes;

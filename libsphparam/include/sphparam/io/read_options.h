@@ -52,6 +52,10 @@ class ReadError : public std::runtime_error {
 /// What the refusal of a face that names a vertex twice ends with: the way out.
 std::string repeated_corners_advice();
 
+/// What is said of a file, or of what it unpacks to, of more than `max_bytes`, with the way out:
+/// "the limit of 4096 bytes; `--limit file=N` raises it".
+std::string file_limit(std::uint64_t max_bytes);
+
 /// Text of a hostile file as it may be shown: printable, at most 40 characters, in quotes.
 std::string quoted(std::string_view text);
 

@@ -31,7 +31,7 @@ int open_to_read(const std::string& path) {
 }
 
 ReadError over_limit(const std::string& name, std::uint64_t max_bytes) {
-  return {name, "is larger than the limit of " + std::to_string(max_bytes) + " bytes"};
+  return {name, "is larger than " + file_limit(max_bytes)};
 }
 
 }  // namespace

@@ -49,8 +49,7 @@ class Inflater {
 
   void require_within_limit() const {
     if (filled_ > max_bytes_)
-      throw ReadError(name_,
-                      "unpacks to more than the limit of " + std::to_string(max_bytes_) + " bytes");
+      throw ReadError(name_, "unpacks to more than " + file_limit(max_bytes_));
   }
 
   // One byte more than allowed shows that there is more.
