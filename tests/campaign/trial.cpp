@@ -1,24 +1,19 @@
 #include "trial.h"
 
-#include <cstring>
 #include <ctime>
 #include <exception>
 
+#include "digest.h"
 #include "embedding/constructions/float32_safe.h"
 #include "sphparam/parameterize.h"
 
 namespace sphparam::campaign {
 namespace {
 
-/// FNV-1a.
 std::uint64_t hash_of(const Points& points) {
-  std::uint64_t hash = 0xcbf29ce484222325;
-  for (Eigen::Index i = 0; i < points.size(); ++i) {
-    std::uint64_t bits;
-    std::memcpy(&bits, points.data() + i, sizeof bits);
-    hash = (hash ^ bits) * 0x100000001b3;
-  }
-  return hash;
+  Digest digest;
+  digest.add(points);
+  return digest.bits();
 }
 
 }  // namespace
@@ -38,7 +33,8 @@ Outcome try_specimen(const Specimen& specimen, bool compare_threads) {
     outcome.hash = hash_of(result.map.points);
     if (outcome.certified) {
       outcome.float32_folds =
-          round_float32_safe(specimen.mesh, topology, result.map, {.threads = 1}).rounding.bad_after;
+          round_float32_safe(specimen.mesh, topology, result.map, {.threads = 1})
+              .rounding.bad_after;
     }
     if (!compare_threads) return outcome;
     for (const int threads : {2, 4}) {
