@@ -114,6 +114,33 @@ TEST_CASE("Newton refinement: levels are due at every fourfold size, large ones 
   CHECK(draft_of_protrusion.due(40'960));
 }
 
+TEST_CASE("Newton refinement: a draft of a large mesh asks a sample where little is left") {
+  const int large = 40'960, small = 2'560;
+  const auto after = [](TriangleMesh shape, Quality quality, int finest) {
+    Draft level{std::move(shape)};
+    NewtonRefinement refinement(finest, {.quality = quality});
+    refinement.improve(level.mesh, level.topology, {}, level.image);
+    return refinement;
+  };
+  const TriangleMesh limb = tube(20, 20);  // its first step gains between 0.2 and 1 %
+  NewtonRefinement draft = after(limb, Quality::Draft, large);
+  REQUIRE_FALSE(draft.sweeps_suffice());
+  CHECK(draft.due(large / 4));
+  CHECK_FALSE(draft.due(large));
+  CHECK(draft.finest_is_open());
+  draft.note_sampled_decrement(0.02);
+  CHECK(draft.due(large));
+  draft.note_sampled_decrement(0.01);
+  CHECK_FALSE(draft.due(large));
+  CHECK(draft.energy_left() > 0.02);
+
+  CHECK(after(limb, Quality::Normal, large).due(large));
+  CHECK(after(limb, Quality::Draft, small).due(small));
+  const NewtonRefinement of_ball = after(icosphere(3), Quality::Draft, large);
+  CHECK_FALSE(of_ball.finest_is_open());  // nothing is sampled, nothing known
+  CHECK_FALSE(of_ball.energy_left());
+}
+
 TEST_CASE("Newton refinement: can be cancelled in every step") {
   Draft protrusion{tube(60, 16)};
   int told = 0;

@@ -103,11 +103,11 @@ class Embedder {
       const int vertices = hierarchy_[l].vertex_count();
       done += vertices;
       if (pressed_.due(l, vertices)) press(l);
+      if (l == 0) result.report.limbs = !refinement_.sweeps_suffice();
       if (!ring_energy_.empty()) refinement_.note_sampled_decrement(sampled());
-      if (refinement_.due(vertices) && !is_pressed()) {
-        result.report.demanding = l == 0 && is_demanding();
-        if (!result.report.demanding) refine_by_newton(l, {before, done / all});
-      }
+      result.report.demanding = l == 0 && !is_pressed() && is_demanding();
+      if (refinement_.due(vertices) && !is_pressed() && !result.report.demanding)
+        refine_by_newton(l, {before, done / all});
       ask_();
     }
     result.report.energy_left = refinement_.energy_left();

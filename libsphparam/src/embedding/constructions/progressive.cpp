@@ -22,8 +22,8 @@
 // Limbs give the energy many minima: how a coarse level folds them stays. The nearly conformal
 // energy has hardly more than one. A map of it, led from λ to λ, ends several per cent lower, and
 // nearly alike from wherever it came. It costs an embedding more: maps of great energy are worth
-// that, and all with limbs where the best is wanted. Among slivers, and where a map ends far from
-// its energy, it is the other way round: maps in which areas weigh more lead to the lower minima.
+// that, and of less where the best is wanted. Among slivers, and where a map ends far from its
+// energy, it is the other way round: maps in which areas weigh more lead to the lower minima.
 
 namespace sphparam {
 namespace {
@@ -34,7 +34,7 @@ constexpr int shape_sweeps = 30;  // of relaxation, where the embedding knew not
 constexpr double roomier_lambdas[] = {10, 100, 1000};
 constexpr double far_from_energy = 0.1;  // the share that steps to come would take
 // Times an isometry's energy, before the finest level gets its steps: worth another start.
-constexpr double much_energy = 2.75;
+constexpr double much_energy = 2.75, much_for_best = 1.6;
 constexpr double many_minima = 5;       // and here, at last, even nearly conformal starts differ
 constexpr double clearly_lower = 0.95;  // than a map that has not had its steps
 // Of λ: a map on its way up has at most λ to this power times the first map's energy. (Limbs have
@@ -75,12 +75,13 @@ class Starts {
 
   /// No map: nothing found room.
   ProgressiveEmbedding lowest() {
-    const bool several = options_.pins.empty();
-    lowest_ = embed_with_room(wanted_, several ? much_energy : infinity);
+    const bool several = options_.pins.empty(), best = options_.quality == Quality::Best;
+    const double demanding = best ? much_for_best : much_energy;
+    lowest_ = embed_with_room(wanted_, several ? demanding : infinity);
     if (!lowest_.map) return std::move(lowest_);
     if (several && !lowest_.report.sweeps_sufficed) try_others();
     rising_.begin(1);
-    if (options_.quality == Quality::Best) refine(lowest_, wanted_, Quality::Best);
+    if (best) refine(lowest_, wanted_, Quality::Best);
     rising_.end();
     return std::move(lowest_);
   }
@@ -130,7 +131,8 @@ class Starts {
     energy_ = first_energy_ = energy_of(*lowest_.map);
     const bool best = options_.quality == Quality::Best;
     Found found = Found::Same;
-    if (best || lowest_.report.demanding) found = try_nearly_conformal(nearly_conformal);
+    if (lowest_.report.demanding || (best && !lowest_.report.limbs))
+      found = try_nearly_conformal(nearly_conformal);
     if (!best && found == Found::Lower) compare_minima();
     for (const double lambda : others_nearly_conformal) {
       if (!best || found != Found::Lower) break;

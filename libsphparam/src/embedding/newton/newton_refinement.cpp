@@ -13,7 +13,8 @@
 // get steps only if the first step on the level before gained enough, relative to its energy, or
 // promised to (a few triangles can block a step), or if something else has shown that sweeps do not
 // suffice: rings without room, or, for the finest alone, a sample of it. Shapes with long
-// protrusions gain 0.3 to 4 % there, others below 0.2 %.
+// protrusions gain 0.3 to 4 % there, others below 0.2 %. A draft of a large mesh leaves out the
+// finest where neither the level before nor the sample says that it would leave much.
 // Between steps a few guarded sweeps smooth what the step has creased; half of the gain is theirs.
 // Then twisted limbs are turned back (twists.cpp), which no step does, and steps go on from there.
 // What is left is estimated from the gains and from what a step promised and could not keep.
@@ -23,7 +24,7 @@ namespace {
 
 constexpr int least_vertices = 100;
 constexpr int growth = 4;  // from one level that is due to the next
-constexpr double worthwhile = 2e-3;
+constexpr double worthwhile = 2e-3, worthwhile_for_draft = 1e-2;
 constexpr int coarse_steps = 20, finest_steps = 60, best_steps = 300, most_best_steps = 3000;
 constexpr double best_work = 2e6;  // steps × vertices that the best may take where it has few
 // What may be left, relative to the energy. Small meshes cost little: less is left of theirs.
@@ -31,11 +32,11 @@ constexpr double coarse_rest = 6e-3, draft_rest = 0.03, finest_rest = 5e-3, best
 constexpr double small_mesh = 5000;                        // vertices
 constexpr double least_ratio = 0.5, greatest_ratio = 0.9;  // of a gain to the one before
 constexpr int sweeps_between = 5;
-constexpr double worthwhile_sampled = 4e-3;  // of the energy
-constexpr double unseen = 2;                 // times as much as a sample says is left
-constexpr double idle_share = 0.1;           // of what may be left: a step that gains less is idle
-constexpr int most_idle_steps = 3;           // in a row
-constexpr int most_rounds = 4;               // of turning twisted limbs back
+constexpr double worthwhile_sampled = 4e-3, sampled_for_draft = 1.5e-2;  // of the energy
+constexpr double unseen = 2;         // times as much as a sample says is left
+constexpr double idle_share = 0.1;   // of what may be left: a step that gains less is idle
+constexpr int most_idle_steps = 3;   // in a row
+constexpr int most_rounds = 4;       // of turning twisted limbs back
 constexpr double least_share = 0.5;  // of a system's iterations: twice as many gain next to nothing
 
 /// Levels up to this size cost hardly anything.
@@ -77,11 +78,12 @@ NewtonRefinement::NewtonRefinement(int finest_vertices, RefinementOptions option
 }
 
 bool NewtonRefinement::finest_is_open() const {
-  return options_.quality != Quality::Draft && !due(finest_);
+  return !due(finest_) && (options_.quality != Quality::Draft || !sweeps_suffice());
 }
 
 void NewtonRefinement::note_sampled_decrement(double share) {
-  slivers_ = share > worthwhile_sampled;
+  const bool draft = options_.quality == Quality::Draft;
+  slivers_ = share > (draft ? sampled_for_draft : worthwhile_sampled);
   energy_left_ = last_gain_ + unseen * share;
 }
 
@@ -90,6 +92,8 @@ bool NewtonRefinement::due(int vertices) const {
   const bool draft = options_.quality == Quality::Draft, finest = vertices == finest_;
   if (finest && (slivers_ || options_.quality == Quality::Best)) return true;
   if (vertices <= cheap(finest_) && !(finest && draft)) return true;
+  if (finest && draft && finest_ > small_mesh)
+    return protrusions_ || last_gain_ > worthwhile_for_draft;
   return !sweeps_suffice();
 }
 
