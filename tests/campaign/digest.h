@@ -6,7 +6,8 @@
 
 namespace sphparam::campaign {
 
-/// 64 bits of numbers, by FNV-1a a number: whether two runs made the same.
+/// 64 bits of numbers, by FNV-1a a number: whether two runs made the same. The product moves bits
+/// up alone, and so a sign nowhere: it is brought down.
 class Digest {
  public:
   template <class Table>
@@ -18,7 +19,10 @@ class Digest {
  private:
   static std::uint64_t bits_of(double x) { return std::bit_cast<std::uint64_t>(x); }
   static std::uint64_t bits_of(int x) { return static_cast<std::uint64_t>(x); }
-  void add_bits(std::uint64_t bits) { bits_ = (bits_ ^ bits) * 0x100000001b3; }
+  void add_bits(std::uint64_t bits) {
+    bits_ = (bits_ ^ bits) * 0x100000001b3;
+    bits_ ^= bits_ >> 32;
+  }
 
   std::uint64_t bits_ = 0xcbf29ce484222325;
 };

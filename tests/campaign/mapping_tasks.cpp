@@ -166,7 +166,7 @@ int main_of(Settings settings) {
     write_shapes(settings.made);
     settings.places.push_back(settings.made);
   }
-  TaskLog log(settings.log_path);
+  TaskLog log(settings.log_path, settings.table || settings.task >= 0);
   if (!settings.table) open(log, settings);
   const TaskList tasks(log.meshes(), settings.log.orders);
   if (settings.task >= 0) return run_alone(tasks, settings);

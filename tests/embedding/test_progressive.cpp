@@ -117,14 +117,29 @@ TEST_CASE(
 }
 
 TEST_CASE("progressive: no quality is better than the next one") {
-  const std::vector<TriangleMesh> shapes{icosphere(4), uv_sphere(40, 20), tube(60, 16),
-                                         random_sphere_mesh(2000, 4),
-                                         with_slivers(tube(30, 12), 0.2, 0.01, 2)};
+  const std::vector<TriangleMesh> shapes{
+      icosphere(4),        uv_sphere(40, 20),
+      tube(60, 16),        random_sphere_mesh(2000, 4),
+      brush(1, 3, 10, 30), with_slivers(tube(30, 12), 0.2, 0.01, 2)};
   for (const TriangleMesh& shape : shapes) {
     const double normal = energy_at(shape, Quality::Normal);
     CHECK(normal <= (1 + 1e-4) * energy_at(shape, Quality::Draft));
     CHECK(energy_at(shape, Quality::Best) <= normal);
   }
+}
+
+TEST_CASE("progressive: a draft of a large mesh leaves out steps that gain little, and says so") {
+  const TriangleMesh shape = brush(4, 20, 8, 60);
+  const Topology topology(shape);
+  const ProgressiveEmbedding draft =
+      embed_progressively(shape, topology, {.quality = Quality::Draft});
+  const double more = distortion_energy(topology, measure_source(shape), draft.map.value(), {}) /
+                          energy_at(shape, Quality::Normal) -
+                      1;
+  CHECK(more > 1e-3);  // with steps on the finest level it is next to nothing
+  CHECK(more < 0.05);
+  CHECK(draft.report.energy_left > more);
+  CHECK(draft.report.energy_left < 0.05);
 }
 
 TEST_CASE("progressive: limbs end alike in every order of vertices") {

@@ -168,7 +168,7 @@ MeshFile read_mesh(std::string_view bytes, const std::string& name, const ReadOp
 
 MeshFile read_mesh(const std::string& path, const ReadOptions& options) {
   refuse_name_of_parts(path);
-  const FileBytes bytes(path, options.max_file_bytes);
+  const FileBytes bytes(path, options);
   const bool is_file = path != "-";
   return read_bytes(
       bytes.view(), bytes.name(),

@@ -193,7 +193,7 @@ VertexData read_vertex_data(std::string_view bytes, const std::string& name, Eig
 
 VertexData read_vertex_data(const std::string& path, Eigen::Index vertices,
                             const ReadOptions& options) {
-  const FileBytes bytes(path, options.max_file_bytes);
+  const FileBytes bytes(path, options);
   return read_vertex_data(bytes.view(), bytes.name(), vertices, options);
 }
 

@@ -65,12 +65,12 @@ void simplify(TriangleMesh read, SourceMesh& mesh) {
   }
 }
 
+}  // namespace
+
 std::string first_line(const std::exception& error) {
   const std::string text = error.what();
   return text.substr(0, text.find('\n'));
 }
-
-}  // namespace
 
 std::vector<SourceMesh> find_meshes(const std::vector<std::string>& places,
                                     const std::vector<std::string>& lists) {
@@ -103,15 +103,18 @@ MeshFile load(const SourceMesh& mesh) {
 }
 
 SourceMesh inspected(SourceMesh mesh, bool repair) {
+  TriangleMesh read;
   try {
-    TriangleMesh read = load(mesh).mesh;
+    read = load(mesh).mesh;
+  } catch (const std::exception& error) {
+    mesh.refusal = first_line(error);
+  }
+  if (mesh.refusal.empty()) {
     Digest digest;
     digest.add(read.positions);
     digest.add(read.triangles);
     mesh.digest = digest.bits();
-    simplify(std::move(read), mesh);
-  } catch (const std::exception& error) {
-    mesh.refusal = first_line(error);
+    simplify(std::move(read), mesh);  // throws: lost
   }
   if (mesh.refusal.empty() || !repair) return mesh;
   SourceMesh again = mesh;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <exception>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -26,6 +27,8 @@ struct SourceMesh {
 };
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SourceMesh, path, folder, triangles, digest, mended, refusal,
                                    lost)
+
+std::string first_line(const std::exception& error);
 
 /// Files by path, each once, not read yet. A place is a folder (all meshes in it and below, told by
 /// their names) or a mesh. A list has a path at the beginning of each line, before a tab.

@@ -1,18 +1,37 @@
 #include "mapping/task_log.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+
+#include <filesystem>
 #include <stdexcept>
 #include <utility>
 
 namespace sphparam::campaign {
 
-TaskLog::TaskLog(const std::string& path) {
+namespace fs = std::filesystem;
+
+TaskLog::TaskLog(const std::string& path, bool read_only) {
   if (path.empty()) return;
   read(path);
-  // Meshes without the settings behind them are of a run that ended while it was still reading.
-  if (!settings_) meshes_.clear();
-  file_.open(path, settings_ ? std::ios::app : std::ios::trunc);
-  if (!file_) throw std::runtime_error(path + ": cannot be written");
+  if (!settings_ && meshes_.empty() && fs::exists(path) && fs::file_size(path) > 0)
+    throw std::runtime_error(path + " is no log of tasks");
+  if (read_only) return;
+  lock(path);
+  // Meshes without the settings behind them are of a run that was cut off while it wrote them.
+  if (!settings_) {
+    meshes_.clear();
+    fs::resize_file(path, 0);
+  }
+  file_.open(path, std::ios::app);
   if (settings_) file_ << std::endl;  // after half a line
+}
+
+/// Two runs would do everything twice. The lock goes with the process.
+void TaskLog::lock(const std::string& path) {
+  const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  if (file < 0 || ::flock(file, LOCK_EX | LOCK_NB) != 0)
+    throw std::runtime_error(path + " cannot be written, or another run writes it");
 }
 
 void TaskLog::read(const std::string& path) {

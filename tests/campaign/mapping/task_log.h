@@ -26,9 +26,9 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LogSettings, seed, orders, repair)
 /// be cut off anywhere and gone on with: half a line counts for nothing.
 class TaskLog {
  public:
-  /// Reads what is there; an empty path is a log that is not kept.
-  /// Throws: std::runtime_error, if it cannot be written.
-  explicit TaskLog(const std::string& path);
+  /// Reads what is there; an empty path is a log that is not kept. Throws: std::runtime_error, if
+  /// it is something else, cannot be written, or another run writes it.
+  TaskLog(const std::string& path, bool read_only);
 
   const std::optional<LogSettings>& settings() const { return settings_; }
   const std::vector<SourceMesh>& meshes() const { return meshes_; }
@@ -40,6 +40,7 @@ class TaskLog {
 
  private:
   void read(const std::string& path);
+  static void lock(const std::string& path);
 
   std::optional<LogSettings> settings_;
   std::vector<SourceMesh> meshes_;

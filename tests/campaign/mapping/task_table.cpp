@@ -89,7 +89,8 @@ void print_refusals(const std::vector<SourceMesh>& meshes, std::ostream& out) {
       none +=
           mesh.refusal.empty() && mesh.triangles[0] > 2 * sizes[size] && mesh.triangles[size] == 0;
   }
-  out << "\nSimplifications to half the triangles and less that are no task, for they stop early: "
+  out << "\nSimplifications to half the triangles and less that are no task, for they stop early "
+         "or are no closed mesh of genus 0: "
       << none << ".\n";
   if (kinds.empty()) return;
   out << "\n| no mesh to map, since | files |\n|---|---|\n";

@@ -1,6 +1,6 @@
 #include "mapping/task_trial.h"
 
-#include <algorithm>
+#include <cmath>
 #include <ctime>
 #include <exception>
 #include <utility>
@@ -15,7 +15,9 @@
 namespace sphparam::campaign {
 namespace {
 
-constexpr double largest_mean = 1e300;  // JSON has no infinity
+constexpr double largest_mean = 1e300;  // JSON has neither infinity nor NaN
+
+double finite(double mean) { return std::isfinite(mean) ? mean : largest_mean; }
 
 sphparam::Poles drawn_poles(const TriangleMesh& mesh, std::uint64_t seed) {
   Random random(seed);
@@ -38,10 +40,12 @@ ParameterizeOptions placed(ParameterizeOptions options, Placement placement,
   return options;
 }
 
-bool is_placed(const Parameterization& result, Placement placement) {
-  const bool by_poles = placement == Placement::Upright || placement == Placement::Drawn;
-  return by_poles ? result.poles.has_value()
-                  : placement != Placement::Aligned || result.alignment.has_value();
+/// The poles, or the directions, are those asked for.
+bool is_placed(const Parameterization& result, const ParameterizeOptions& options) {
+  if (options.align_to) return result.alignment.has_value();
+  if (!options.poles) return true;
+  return result.poles && result.poles->north == options.poles->north &&
+         result.poles->south == options.poles->south;
 }
 
 void take_result(const TriangleMesh& mesh, const Topology& topology, const Parameterization& result,
@@ -60,8 +64,8 @@ void take_result(const TriangleMesh& mesh, const Topology& topology, const Param
   digest.add(result.map.points);
   record.digest = digest.bits();
   const DistortionSummary distortion = summarise_distortion(mesh, result.map, 1);
-  record.mean_abs_ln_angle = std::min(distortion.mean_abs_ln_angle, largest_mean);
-  record.mean_abs_ln_area = std::min(distortion.mean_abs_ln_area, largest_mean);
+  record.mean_abs_ln_angle = finite(distortion.mean_abs_ln_angle);
+  record.mean_abs_ln_area = finite(distortion.mean_abs_ln_area);
 }
 
 }  // namespace
@@ -89,7 +93,7 @@ TaskRecord TaskTrial::run(std::int64_t number) {
     map(task, record);
   } catch (const std::exception& error) {
     record.end = thrown;
-    record.reason = error.what();
+    record.reason = first_line(error);
   }
   return record;
 }
@@ -120,7 +124,7 @@ void TaskTrial::map(const Task& task, TaskRecord& record) {
   const std::clock_t begun = std::clock();
   const Parameterization result = parameterize(mesh, topology, options);
   record.seconds = static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
-  record.placed = is_placed(result, placement);
+  record.placed = is_placed(result, options);
   take_result(mesh, topology, result, record);
 }
 

@@ -5,10 +5,11 @@ namespace sphparam {
 /// Time against distortion, for methods that minimise it. No map has folds, whatever the quality.
 enum class Quality {
   Draft,   // within 5 % of the least energy: relaxed sweeps, Newton steps on coarse levels, and of
-           // shapes with protrusions a few on the finest
+           // shapes with protrusions a few on the finest, where the mesh is small or they pay
   Normal,  // within 1 %: Newton steps where their gain pays, and of shapes that cannot but be much
            // distorted another start or two
-  Best,    // converged; of shapes with protrusions the lowest of several starts
+  Best,    // converged; of shapes that cannot but be distorted, and where only the finest level
+           // needs Newton steps, the lowest of several starts
 };
 
 /// What a map gives up for what.

@@ -50,7 +50,7 @@ struct Way {
   double factor, least_gain;
   int steps;
 };
-constexpr Way up{10, 1e-3, 10}, down{0.25, 1e-2, 6};
+constexpr Way up{10, 1e-2, 10}, down{0.25, 1e-2, 6};
 constexpr double nearly_conformal = 1e-6, others_nearly_conformal[] = {1e-8, 1e-4};
 constexpr double nearly_equal_area[] = {10, 100, 1000};
 
@@ -131,7 +131,7 @@ class Starts {
     energy_ = first_energy_ = energy_of(*lowest_.map);
     const bool best = options_.quality == Quality::Best;
     Found found = Found::Same;
-    if (lowest_.report.demanding || (best && !lowest_.report.limbs))
+    if (lowest_.report.demanding || (best && (is_much() || !lowest_.report.limbs)))
       found = try_nearly_conformal(nearly_conformal);
     if (!best && found == Found::Lower) compare_minima();
     for (const double lambda : others_nearly_conformal) {
@@ -150,6 +150,9 @@ class Starts {
     }
   }
 
+  /// Of a map that did not wait for its steps: it found no room at first, or has fillers.
+  bool is_much() const { return energy_ > much_for_best * isometric_energy(source(), wanted_, {}); }
+
   /// Where minima may be many, of how much energy may be left says also how far two are apart.
   void compare_minima() {
     if (energy_ <= many_minima * isometric_energy(source(), wanted_, {})) return;
@@ -159,13 +162,14 @@ class Starts {
     if (left) left = std::max(*left, std::abs(latest_ - one) / energy_);
   }
 
-  /// The first map waits for its steps until it is clear that it needs them.
+  /// The first map waits for its steps until it is clear that it needs them: where the best is
+  /// wanted it does.
   Found try_nearly_conformal(double lambda) {
     rising_.begin(part_of_start);
     ProgressiveEmbedding start = embed({.lambda = lambda}, made_quality());
     lead(start, lambda, up);
-    if (lowest_.report.demanding &&
-        !(start.map && energy_of(*start.map) < clearly_lower * energy_)) {
+    if (lowest_.report.demanding && (options_.quality == Quality::Best || !start.map ||
+                                     !(energy_of(*start.map) < clearly_lower * energy_))) {
       refine(lowest_, wanted_, made_quality());
       energy_ = energy_of(*lowest_.map);
     }

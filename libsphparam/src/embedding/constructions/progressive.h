@@ -42,12 +42,12 @@ struct ProgressiveReport {
   std::vector<double> pin_residuals = {};  // radians from the point asked for; 0 is exact
   /// Estimated on the finest level: share of the energy that steps to come would take, and at least
   /// how far two other starts ended from each other, where they were needed. Nothing
-  /// where the quality is Draft and sweeps sufficed.
+  /// where the quality is Draft and coarser levels said that sweeps suffice.
   std::optional<double> energy_left = std::nullopt;
   double pressure = 0;  // that fillers needed on the last level where they were pressed, or 0
   bool sweeps_sufficed = false;  // no protrusions that sweeps creep along
-  bool limbs = false;            // such protrusions, on coarser levels too
-  bool demanding = false;        // has great energy, and has not had the finest level's steps
+  bool limbs = false;      // such protrusions on coarser levels too, or there were none to look at
+  bool demanding = false;  // has great energy, and has not had the finest level's steps
 };
 
 struct ProgressiveEmbedding {
@@ -70,10 +70,10 @@ struct ProgressiveEmbedding {
 /// slivers and with Quality::Best, a bounded number of Newton steps does, each O(#F) by multigrid.
 /// A shape with protrusions whose energy is much more than an isometry's is embedded once more, or
 /// twice, by a nearly conformal energy that is led to the one asked for; one that ends far from its
-/// energy up to three times more; with Quality::Best from less energy on, and up to three times
-/// more. The map of least energy is returned. Paper: Praun and Hoppe, "Spherical parametrization and
-/// remeshing" (2003); whole levels instead of single vertices, the energy, the guard and the
-/// over-relaxed sweeps are our own.
+/// energy up to three times more; with Quality::Best from less energy on, and where only the finest
+/// level needs steps, up to three times more. The map of least energy is returned. Paper: Praun and
+/// Hoppe, "Spherical parametrization and remeshing" (2003); whole levels instead of single
+/// vertices, the energy, the guard and the over-relaxed sweeps are our own.
 ProgressiveEmbedding embed_progressively(const TriangleMesh& mesh, const Topology& topology,
                                          const ProgressiveOptions& options = {});
 

@@ -14,7 +14,7 @@
 // promised to (a few triangles can block a step), or if something else has shown that sweeps do not
 // suffice: rings without room, or, for the finest alone, a sample of it. Shapes with long
 // protrusions gain 0.3 to 4 % there, others below 0.2 %. A draft of a large mesh leaves out the
-// finest where neither the level before nor the sample says that it would leave much.
+// finest unless rings had no room, or the level before or the sample says that much is left.
 // Between steps a few guarded sweeps smooth what the step has creased; half of the gain is theirs.
 // Then twisted limbs are turned back (twists.cpp), which no step does, and steps go on from there.
 // What is left is estimated from the gains and from what a step promised and could not keep.

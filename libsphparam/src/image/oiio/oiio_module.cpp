@@ -194,8 +194,6 @@ OIIO::ImageSpec spec_of(const SphparamImageFile& file) {
     spec.attribute("openexr:levelmode", 1);     // mipmap
     spec.attribute("openexr:roundingmode", 0);  // down
     if (file.wraps) spec.attribute("wrapmodes", "periodic,clamp");
-  } else {
-    spec.attribute("openexr:levelmode", 0);  // one level, of environment maps too
   }
   // JPEG and TIFF have no place for names of ours.
   std::string all;
@@ -204,6 +202,9 @@ OIIO::ImageSpec spec_of(const SphparamImageFile& file) {
     spec.attribute(name, value);
     if (name.starts_with("sphparam:")) all += (all.empty() ? "" : "\n") + name + "=" + value;
   }
+  // Else an environment map would have levels.
+  if (file.tile == 0 && spec.find_attribute("textureformat"))
+    spec.attribute("openexr:levelmode", 0);
   const bool one_text = format == "jpeg" || format == "tiff";
   if (one_text && !all.empty()) spec.attribute("ImageDescription", all);
   return spec;

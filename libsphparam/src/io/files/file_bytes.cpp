@@ -30,14 +30,16 @@ int open_to_read(const std::string& path) {
   }
 }
 
-ReadError over_limit(const std::string& name, std::uint64_t max_bytes) {
-  return {name, "is larger than " + file_limit(max_bytes)};
-}
-
 }  // namespace
 
 FileBytes::FileBytes(const std::string& path, std::uint64_t max_bytes)
-    : name_(path == "-" ? "standard input" : path) {
+    : FileBytes(path, max_bytes, "the limit of " + std::to_string(max_bytes) + " bytes") {}
+
+FileBytes::FileBytes(const std::string& path, const ReadOptions& options)
+    : FileBytes(path, options.max_file_bytes, file_limit(options.max_file_bytes)) {}
+
+FileBytes::FileBytes(const std::string& path, std::uint64_t max_bytes, std::string limit)
+    : name_(path == "-" ? "standard input" : path), limit_(std::move(limit)) {
   const bool standard_input = path == "-";
   const Descriptor file{standard_input ? STDIN_FILENO : open_to_read(path), !standard_input};
   if (file.number < 0) throw ReadError(name_, std::strerror(errno));
@@ -62,7 +64,7 @@ void FileBytes::map_or_read(int descriptor, std::uint64_t max_bytes) {
     return read_all(descriptor, max_bytes);
 
   const auto size = static_cast<std::uint64_t>(status.st_size);
-  if (size > max_bytes) throw over_limit(name_, max_bytes);
+  if (size > max_bytes) throw ReadError(name_, "is larger than " + limit_);
   void* const mapping = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE | MAP_POPULATE, descriptor, 0);
   if (mapping == MAP_FAILED) return read_all(descriptor, max_bytes);
   mapping_ = mapping;
@@ -74,7 +76,7 @@ void FileBytes::read_all(int descriptor, std::uint64_t max_bytes) {
   std::size_t filled = 0;
   const std::uint64_t one_too_many = std::min<std::uint64_t>(max_bytes, copy_.max_size() - 1) + 1;
   for (;;) {
-    if (filled > max_bytes) throw over_limit(name_, max_bytes);
+    if (filled > max_bytes) throw ReadError(name_, "is larger than " + limit_);
     if (filled == copy_.size())
       copy_.resize(std::min<std::uint64_t>(one_too_many, std::max(first_block, 2 * filled)));
     const ssize_t count = ::read(descriptor, copy_.data() + filled, copy_.size() - filled);
