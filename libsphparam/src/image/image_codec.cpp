@@ -68,8 +68,6 @@ Image decode_ourselves(std::string_view bytes, const std::string& name,
   throw ImageError(name + ": not a PNG, JPEG, WebP, TIFF, EXR, BMP or TGA image");
 } catch (const ReadError& error) {
   throw ImageError(error.what());
-} catch (const std::bad_alloc&) {
-  throw ImageError(name + ": not enough memory");
 }
 
 std::vector<char> read_bytes(const std::string& path, const ImageLimits& limits) {
@@ -104,7 +102,7 @@ Image decode_image(const std::vector<char>& bytes, std::string_view name, const 
   if (image_codecs().decode(format, bytes.data(), bytes.size(), limits.decoded_megabytes,
                             limits.channels, make_room, &image, texts ? append_pair : nullptr,
                             texts, append_text, &error) != 0) {
-    throw ImageError(prefix + (error.empty() ? "broken image" : error));
+    throw_told(prefix, error.empty() ? "broken image" : error);
   }
   return image;
 }

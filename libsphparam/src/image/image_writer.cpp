@@ -93,7 +93,7 @@ struct ImageWriter::State {
 
   void check(bool failed) {
     if (thrown) std::rethrow_exception(thrown);
-    if (failed) throw ImageError("cannot encode the image: " + error);
+    if (failed) throw_told("cannot encode the image: ", error);
   }
 
   bool keeps_samples() const { return options.format != ImageFormat::Jpeg; }
@@ -111,7 +111,7 @@ struct ImageWriter::State {
 namespace {
 
 [[noreturn]] void refuse(const std::string& why) {
-  throw ImageError("the image as written, read back: " + why);
+  throw_told("the image as written, read back: ", why);
 }
 
 }  // namespace

@@ -95,5 +95,7 @@ struct SphparamImageTable {
 typedef const SphparamImageTable* (*SphparamImageTableFunction)();
 }
 
-constexpr int sphparam_image_table_version = 5;
+constexpr int sphparam_image_table_version = 6;
+/// What `error` is told where memory ran out, and nowhere else.
+constexpr char sphparam_image_no_memory[] = "not enough memory";
 constexpr char sphparam_image_table_name[] = "sphparam_image_table";

@@ -1,5 +1,7 @@
 #include "image/open_module.h"
 
+#include <new>
+
 #include "io/files/modules.h"
 #include "sphparam/image/image_format.h"
 
@@ -25,6 +27,11 @@ const SphparamImageTable& open_module() try {
 const SphparamImageTable& image_codecs() {
   static const SphparamImageTable& table = open_module();
   return table;
+}
+
+void throw_told(const std::string& prefix, const std::string& told) {
+  if (told == sphparam_image_no_memory) throw std::bad_alloc();
+  throw ImageError(prefix + told);
 }
 
 }  // namespace sphparam

@@ -68,7 +68,7 @@ std::vector<char> encode_webp(const Image& image, const WebpOptions& options) {
   std::vector<char> bytes;
   std::string error;
   if (image_codecs().encode_webp(&described, append_bytes, &bytes, append_text, &error) != 0)
-    throw ImageError("cannot encode the image: " + error);
+    throw_told("cannot encode the image: ", error);
   require_kept(bytes, samples, described);
   return bytes;
 }

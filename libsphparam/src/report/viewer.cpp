@@ -1,11 +1,11 @@
 #include "report/viewer.h"
 
+#include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "embedded/viewer.css.h"
 #include "embedded/viewer.js.h"
+#include "io/files/file_bytes.h"
 #include "io/files/program_path.h"
 #include "io/uri.h"
 #include "report/svg.h"
@@ -14,9 +14,12 @@
 namespace sphparam {
 namespace {
 
+constexpr std::uint64_t most_bytes = std::uint64_t{64} << 20;  // of a file of the viewer
+
+/// Empty where there is no such file. Throws: ReadError.
 std::string bytes_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
+  if (!std::filesystem::exists(path)) return {};
+  return std::string(FileBytes(path.string(), most_bytes).view());
 }
 
 /// The viewer's map back to its sources is not here; browsers would ask for it.

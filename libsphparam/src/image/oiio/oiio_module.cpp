@@ -2,12 +2,15 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <limits>
 #include <memory>
+#include <new>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +25,22 @@ namespace {
 
 void tell(SphparamBytesSink sink, void* context, const std::string& text) {
   sink(context, text.data(), text.size());
+}
+
+/// Where memory ran out under it, OpenImageIO's table of names keeps a lock, and aborts the program
+/// that destructs it: what has been written is flushed, and the program ends as it was to end.
+void end_without_destructors() {
+  const auto end = [](int status, void*) {
+    std::fflush(nullptr);
+    _exit(status);
+  };
+  on_exit(end, nullptr);
+}
+
+std::string words_of(const std::exception& error) {
+  if (!dynamic_cast<const std::bad_alloc*>(&error)) return error.what();
+  end_without_destructors();
+  return sphparam_image_no_memory;
 }
 
 /// A compressed image cannot grow without bound: deflate, the best of these codecs at it, reaches
@@ -92,13 +111,13 @@ int decode(const char* format, const char* bytes, size_t size, int64_t max_megab
   if (!refused.empty()) return fail(refused);
   if (text) tell_texts(spec, text, text_context);
   float* pixels = room(room_context, spec.width, spec.height, spec.nchannels);
-  if (!pixels) return fail("not enough memory");
+  if (!pixels) return fail(sphparam_image_no_memory);
   if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels)) {
     return fail(input->geterror());
   }
   return 0;
 } catch (const std::exception& e) {
-  tell(error, error_context, e.what());
+  tell(error, error_context, words_of(e));
   return 1;
 }
 
@@ -170,7 +189,7 @@ int guarded(SphparamBytesSink error, void* error_context, const Codec& codec,
   tell(error, error_context, codec.geterror());
   return 1;
 } catch (const std::exception& e) {
-  tell(error, error_context, e.what());
+  tell(error, error_context, words_of(e));
   return 1;
 }
 
@@ -230,7 +249,7 @@ void* open(const SphparamImageFile* file, SphparamBytesSink error, void* error_c
   }
   return image.release();
 } catch (const std::exception& e) {
-  tell(error, error_context, e.what());
+  tell(error, error_context, words_of(e));
   return nullptr;
 }
 
@@ -304,7 +323,7 @@ void* open_written(const char* format, SphparamBytesFrom read, void* context, in
   tell_texts(spec, text, text_context);
   return image.release();
 } catch (const std::exception& e) {
-  tell(error, error_context, e.what());
+  tell(error, error_context, words_of(e));
   return nullptr;
 }
 

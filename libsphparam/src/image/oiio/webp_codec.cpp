@@ -8,6 +8,7 @@
 
 #include <exception>
 #include <memory>
+#include <new>
 #include <string>
 
 namespace {
@@ -87,7 +88,7 @@ int decode_webp(const WebpHead& head, const char* bytes, size_t size, SphparamPi
   if (!samples || width != head.width || height != head.height)
     return complain("a WebP image that is broken or cut short");
   float* const pixels = room(room_context, head.width, head.height, head.channels);
-  if (!pixels) return complain("not enough memory");
+  if (!pixels) return complain(sphparam_image_no_memory);
   const int row = head.width * head.channels;
   for (std::ptrdiff_t y = 0; y < head.height; ++y) {
     OIIO::convert_pixel_values(OIIO::TypeDesc::UINT8, samples.get() + y * row,
@@ -107,6 +108,8 @@ int encode_webp(const SphparamWebp* image, SphparamBytesSink bytes, void* contex
     return complain("libwebp gave up: error " + std::to_string(encoding.picture.error_code));
   bytes(context, reinterpret_cast<const char*>(encoding.file.mem), encoding.file.size);
   return 0;
+} catch (const std::bad_alloc&) {
+  return Complaint{error, error_context}(sphparam_image_no_memory);
 } catch (const std::exception& e) {
   return Complaint{error, error_context}(e.what());
 }
