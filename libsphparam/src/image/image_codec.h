@@ -32,8 +32,8 @@ struct ImageWriteOptions {
 /// The decoders are OpenImageIO's, in a module opened on first use: a program that touches no
 /// image never loads them. Those of BMP and TGA, which are not written, are our own.
 /// `texts`, where given, gets the texts of the file's metadata.
-/// Throws: ImageError with the file's name, for what is no PNG, JPEG, WebP, TIFF, EXR, BMP or TGA
-/// file, for broken ones and for what is beyond the limits.
+/// Throws: std::bad_alloc; ImageError with the file's name, for what is no PNG, JPEG, WebP, TIFF,
+/// EXR, BMP or TGA file, for broken ones and for what is beyond the limits.
 Image read_image(const std::string& path, const ImageLimits& limits = {},
                  ImageTexts* texts = nullptr);
 

@@ -24,7 +24,7 @@ inline constexpr char viewer_option[] =
 /// Empty where nobody can tell where the program is.
 std::string viewer_folder();
 
-/// Nothing where it is not there.
+/// Nothing where it is not there. Throws: ReadError.
 std::optional<ViewerScript> installed_viewer();
 
 /// What a page without it says; `is_missing`: it was wanted.
