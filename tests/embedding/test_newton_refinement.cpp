@@ -65,7 +65,7 @@ TEST_CASE(
     REQUIRE(draft.energy() > 1.03 * least);  // there is something to do
     CHECK(left < 3e-3 * draft.size() / 5000);
     CHECK(steps > 2);
-    CHECK(5 * steps < 4 * steps_to_the_end);
+    CHECK(steps < 2 * steps_to_the_end);  // which are better ones: by exact Hessians
 
     // As a coarse level of a larger mesh, whose own steps come later, it gets fewer.
     Draft coarse = draft;

@@ -31,10 +31,7 @@ TEST_CASE("triangle packs: energy and gradient are those of the scalar formulas"
       rounded[static_cast<size_t>(lane)] = {0.5 / (base * height), base, height, pack.foot[lane]};
       CHECK(rounded[static_cast<size_t>(lane)].area == Approx(s.area).epsilon(1e-6));
     }
-    TriangleTerms terms;
-    differentiate_triangles(&pack, 1, points.data(), energy, &terms);
-    double sum = 0, first = 0;
-    for (int lane = 0; lane < pack_width; ++lane) {
+    const auto exact_energy = [&](int lane) {
       ImageTriangle image;
       std::array<TangentFrame, 3> frames;
       for (int k = 0; k < 3; ++k) {
@@ -42,8 +39,13 @@ TEST_CASE("triangle packs: energy and gradient are those of the scalar formulas"
         image[corner] = points[static_cast<size_t>(topology.vertex(lane, k))].vector();
         frames[corner] = tangent_frame(image[corner]);
       }
-      const TriangleEnergy exact =
-          triangle_energy(energy, rounded[static_cast<size_t>(lane)], image, frames);
+      return triangle_energy(energy, rounded[static_cast<size_t>(lane)], image, frames);
+    };
+    TriangleTerms terms;
+    differentiate_triangles(&pack, 1, points.data(), energy, Curvature::Projected, &terms);
+    double sum = 0, first = 0;
+    for (int lane = 0; lane < pack_width; ++lane) {
+      const TriangleEnergy exact = exact_energy(lane);
       sum += exact.value;
       if (lane == 0) first = exact.value;
       Eigen::Matrix<double, 6, 6> hessian;
@@ -63,6 +65,22 @@ TEST_CASE("triangle packs: energy and gradient are those of the scalar formulas"
       const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(hessian);
       CHECK(eigen.eigenvalues()[0] > -1e-6 * eigen.eigenvalues()[5]);
       CHECK(eigen.eigenvalues()[1] < 1e-6 * eigen.eigenvalues()[5]);
+    }
+    differentiate_triangles(&pack, 1, points.data(), energy, Curvature::Exact, &terms);
+    for (int lane = 0; lane < pack_width; ++lane) {
+      const TriangleEnergy exact = exact_energy(lane);
+      for (int k = 0; k < 3; ++k) {
+        const int i = 2 * k, j = 2 * ((k + 1) % 3);
+        for (int p = 0; p < 2; ++p) {
+          CHECK(terms.gradient[k][p][lane] == Approx(exact.gradient[i + p]).margin(1e-12));
+          for (int q = 0; q < 2; ++q) {
+            CHECK(terms.diagonal[k][p + q][lane] ==
+                  Approx(exact.hessian(i + p, i + q)).margin(1e-11));
+            CHECK(terms.off[k][2 * p + q][lane] ==
+                  Approx(exact.hessian(i + p, j + q)).margin(1e-11));
+          }
+        }
+      }
     }
     CHECK(guarded_energy(&pack, pack_width, points.data(), energy) == Approx(sum).epsilon(1e-13));
     // Triangles beyond `count` are guarded, and not counted.

@@ -9,7 +9,7 @@
 #include "embedding/energy/triangle_derivatives.h"
 #include "sphere/ieee_arithmetic.h"
 
-// Energy, gradient and projected Hessian of eight triangles at a time.
+// Energy, gradient and Hessian of eight triangles at a time.
 
 namespace sphparam {
 namespace {
@@ -35,10 +35,23 @@ SPHPARAM_INLINE double sum_energy(const Terms& energy, const TrianglePack* packs
   return total;
 }
 
+/// Lanes `first` … of a pack. `entry(i, j)`: of their Hessians.
+template <class Entry>
+SPHPARAM_INLINE void store_hessian(const Entry& entry, int first, TriangleTerms& terms) {
+  for (int k = 0; k < 3; ++k) {
+    const int i = 2 * k, j = 2 * ((k + 1) % 3);
+    store(entry(i, i), terms.diagonal[k][0] + first);
+    store(entry(i, i + 1), terms.diagonal[k][1] + first);
+    store(entry(i + 1, i + 1), terms.diagonal[k][2] + first);
+    for (int e = 0; e < 4; ++e) store(entry(i + e / 2, j + e % 2), terms.off[k][e] + first);
+  }
+}
+
 /// Lanes `first` … of a pack.
 template <int W, class Terms>
 SPHPARAM_INLINE void differentiate_part(const Terms& energy, const TrianglePack& pack, int first,
-                                        const ImagePoint* points, TriangleTerms& terms) {
+                                        const ImagePoint* points, Curvature curvature,
+                                        TriangleTerms& terms) {
   using Derivatives = TriangleDerivatives<W>;
   const auto m = Derivatives::measure(energy, pack, first, points);
   LaneVectors<W> u[3], v[3];
@@ -49,17 +62,12 @@ SPHPARAM_INLINE void differentiate_part(const Terms& energy, const TrianglePack&
   for (int k = 0; k < 3; ++k) {
     for (int i = 0; i < 2; ++i) store(gradient[k][i], terms.gradient[k][i] + first);
   }
+  if (curvature == Curvature::Exact) {
+    return store_hessian([&](int i, int j) SPHPARAM_INLINED { return h[i].c[j]; }, first, terms);
+  }
   typename ShapeProjection<W>::Projected projected;
   ShapeProjection<W>::project(h, m, u, v, projected);
-  for (int k = 0; k < 3; ++k) {
-    const int i = 2 * k, j = 2 * ((k + 1) % 3);
-    store(projected.entry(i, i), terms.diagonal[k][0] + first);
-    store(projected.entry(i, i + 1), terms.diagonal[k][1] + first);
-    store(projected.entry(i + 1, i + 1), terms.diagonal[k][2] + first);
-    for (int e = 0; e < 4; ++e) {
-      store(projected.entry(i + e / 2, j + e % 2), terms.off[k][e] + first);
-    }
-  }
+  store_hessian([&](int i, int j) SPHPARAM_INLINED { return projected.entry(i, j); }, first, terms);
 }
 
 }  // namespace
@@ -83,12 +91,13 @@ double guarded_energy(const TrianglePack* packs, int count, const ImagePoint* po
 }
 
 void differentiate_triangles(const TrianglePack* packs, int count, const ImagePoint* points,
-                             const DistortionEnergy& energy, TriangleTerms* terms) {
+                             const DistortionEnergy& energy, Curvature curvature,
+                             TriangleTerms* terms) {
   with_terms_of(energy, [&](const auto& energy_terms) {
     run_on_lanes([&]<int W>(Width<W>) SPHPARAM_INLINED {
       for (int p = 0; p < count; ++p) {
         for (int first = 0; first < pack_width; first += W) {
-          differentiate_part<W>(energy_terms, packs[p], first, points, terms[p]);
+          differentiate_part<W>(energy_terms, packs[p], first, points, curvature, terms[p]);
         }
       }
     });

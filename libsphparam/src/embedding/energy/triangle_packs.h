@@ -17,8 +17,13 @@ struct alignas(8 * pack_width) TrianglePack {
   Vertex corner[3][pack_width];
 };
 
-/// Gradient and projected Hessian of A f of eight triangles, in the tangent coordinates of their
-/// corners' frames (`tangent_frame`).
+/// Which Hessian of a triangle. Projected ones (shape_projection.h) are positive semidefinite, but
+/// leave out terms that stay at a minimum: steps by them end in halves of what is left. By the
+/// exact ones a step leaves next to nothing near a minimum, and is worth little far from one.
+enum class Curvature { Projected, Exact };
+
+/// Gradient and Hessian of A f of eight triangles, in the tangent coordinates of their corners'
+/// frames (`tangent_frame`).
 struct alignas(8 * pack_width) TriangleTerms {
   double gradient[3][2][pack_width];
   double diagonal[3][3][pack_width];  // corner k with itself: entries 00, 01, 11
@@ -39,8 +44,9 @@ inline void press_lane(int lane, TrianglePack& pack) {
 double guarded_energy(const TrianglePack* packs, int count, const ImagePoint* points,
                       const DistortionEnergy& energy);
 
-/// Of `count` packs. Requires: determinants positive. The Hessians are positive semidefinite.
+/// Of `count` packs. Requires: determinants positive.
 void differentiate_triangles(const TrianglePack* packs, int count, const ImagePoint* points,
-                             const DistortionEnergy& energy, TriangleTerms* terms);
+                             const DistortionEnergy& energy, Curvature curvature,
+                             TriangleTerms* terms);
 
 }  // namespace sphparam

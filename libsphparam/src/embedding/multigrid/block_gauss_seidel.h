@@ -26,8 +26,8 @@ SweepOrder order_sweeps(const std::vector<int>& start, const std::vector<int>& c
 inline constexpr double diagonal_shift = 1e-10;  // of a block's trace, so that it has an inverse
 
 /// The inverse of a block to which `diagonal_shift` of its trace has been added; of a zero block
-/// the identity. Requires: symmetric positive semidefinite, finite. Ensures: symmetric positive
-/// definite up to rounding. Cost: O(N³).
+/// the identity. Requires: symmetric, finite. Ensures: of a positive semidefinite one symmetric
+/// positive definite up to rounding. Cost: O(N³).
 template <int N>
 Block<N> inverse(const Block<N>& a) {
   using Matrix = Eigen::Matrix<double, N, N, Eigen::RowMajor>;

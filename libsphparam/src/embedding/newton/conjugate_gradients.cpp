@@ -40,6 +40,7 @@ LinearSolution solve_by_conjugate_gradients(const BlockMatrix<2>& matrix, Multig
     // 1. The next direction: the preconditioned residual, made conjugate to the one before.
     multigrid.apply(r, z, image);
     const double next = dot(r, z, threads);
+    if (!(next > 0)) break;
     const double share = rz > 0 ? next / rz : 0.0;
     for (size_t i = 0; i < n; ++i) direction[i] = z[i] + share * direction[i];
     rz = next;

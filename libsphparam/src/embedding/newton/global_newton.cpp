@@ -125,7 +125,7 @@ void GlobalNewton::gather_row(int row, const TriangleTerms* terms) {
 }
 
 /// False: numbers of a protrusion are beyond doubles.
-bool GlobalNewton::assemble(const DistortionEnergy& energy) {
+bool GlobalNewton::assemble(const DistortionEnergy& energy, Curvature curvature) {
   hessian_.off.resize(hessian_.column.size());
   hessian_.diagonal.resize(image_.size());
   downhill_.resize(2 * image_.size());
@@ -138,7 +138,7 @@ bool GlobalNewton::assemble(const DistortionEnergy& energy) {
                  const auto terms = std::make_unique_for_overwrite<TriangleTerms[]>(at(most_packs));
                  for (int b = static_cast<int>(first); b < static_cast<int>(last); ++b) {
                    differentiate_triangles(blocks_.packs_of(b), blocks_.pack_count(b),
-                                           image_.data(), energy, terms.get());
+                                           image_.data(), energy, curvature, terms.get());
                    stiffened_.apply(blocks_, b, terms.get());
                    const int end = std::min((b + 1) * TriangleBlocks::size, hessian_.rows());
                    for (int row = b * TriangleBlocks::size; row < end; ++row) {
@@ -238,10 +238,11 @@ void GlobalNewton::make_room() const {
 
 /// The direction of a step; nothing where `assemble` fails. Leaves nothing of the Hessian but its
 /// pattern.
-LinearSolution GlobalNewton::solve(const DistortionEnergy& energy, double least_share) {
+LinearSolution GlobalNewton::solve(const DistortionEnergy& energy, double least_share,
+                                   Curvature curvature) {
   make_room();
   LinearSolution solution;
-  if (assemble(energy)) {
+  if (assemble(energy, curvature)) {
     ask_();
     if (multigrid_) {
       multigrid_->update(image_.data());
@@ -268,19 +269,25 @@ std::vector<Vector3> GlobalNewton::motion(const Unknowns& direction) const {
   return motion;
 }
 
-GlobalNewton::Step GlobalNewton::step(const DistortionEnergy& energy, double least_share) {
+GlobalNewton::Step GlobalNewton::step(const DistortionEnergy& energy, double least_share,
+                                      Curvature curvature) {
   const double before = this->energy(energy);
   stiffened_ = {};
-  LinearSolution solution = solve(energy, least_share);
+  LinearSolution solution = solve(energy, least_share, curvature);
+  if (curvature == Curvature::Exact && !(solution.gain > 0)) {
+    curvature = Curvature::Projected;
+    solution = solve(energy, least_share, curvature);
+  }
   const double promised = solution.gain / 2;
   for (int n = 0; n < most_stiffenings && promised > 0; ++n) {
     if (!stiffened_.stiffen(blocks_, image_, motion(solution.x), threads_)) break;
-    LinearSolution another = solve(energy, least_share);
+    LinearSolution another = solve(energy, least_share, curvature);
     if (!(another.gain > 0)) break;
     solution = std::move(another);
   }
   const double slope = -solution.gain, kept = solution.gain / (2 * promised);
-  if (!(slope < 0) || !std::isfinite(slope)) return {before, solution.iterations, 0, promised};
+  const auto stay = [&] { return Step{before, solution.iterations, 0, promised, curvature}; };
+  if (!(slope < 0) || !std::isfinite(slope)) return stay();
   const double cap = longest_step / longest(solution.x);
 
   Image candidate;
@@ -302,9 +309,9 @@ GlobalNewton::Step GlobalNewton::step(const DistortionEnergy& energy, double lea
       length *= 2;
     }
     image_.swap(candidate);
-    return {after, solution.iterations, kept * length, promised};
+    return {after, solution.iterations, kept * length, promised, curvature};
   }
-  return {before, solution.iterations, 0, promised};
+  return stay();
 }
 
 void GlobalNewton::write_to(std::vector<ImagePoint>& image) const {

@@ -39,16 +39,18 @@ class GlobalNewton {
                      // it by what the model then promises less
     double
         decrement;  // ½ gᵀH⁻¹g as far as the system was solved: what the quadratic model promised
+    Curvature curvature;  // by which it was made
   };
 
   /// Is there a vertex that is not pinned?
   bool can_move() const;
 
-  /// One projected Newton step, the system solved as long as iterations bring `least_share` (see
+  /// One Newton step, the system solved as long as iterations bring `least_share` (see
   /// `solve_by_conjugate_gradients`), with line search; solved anew, up to four times, where few
-  /// triangles would cut the step short (stiffened_triangles.h). No orientation is lost, decided
-  /// by the guard.
-  Step step(const DistortionEnergy& energy, double least_share);
+  /// triangles would cut the step short (stiffened_triangles.h), and by projected Hessians where
+  /// the exact ones lead nowhere. No orientation is lost, decided by the guard.
+  Step step(const DistortionEnergy& energy, double least_share,
+            Curvature curvature = Curvature::Projected);
 
   /// Guarded relaxation of every vertex, so many times: smooths what a step has creased.
   void sweep(const DistortionEnergy& energy, int sweeps);
@@ -69,10 +71,10 @@ class GlobalNewton {
 
   void measure_units();
   void make_pattern(const Topology& topology, const std::vector<int>& new_name);
-  bool assemble(const DistortionEnergy& energy);
+  bool assemble(const DistortionEnergy& energy, Curvature curvature);
   void gather_row(int row, const TriangleTerms* terms);
   void make_room() const;
-  LinearSolution solve(const DistortionEnergy& energy, double least_share);
+  LinearSolution solve(const DistortionEnergy& energy, double least_share, Curvature curvature);
   std::vector<Vector3> motion(const Unknowns& direction) const;
   RingPacks pack_rings_of_all() const;
   void move(const Unknowns& direction, double length, Image& image) const;

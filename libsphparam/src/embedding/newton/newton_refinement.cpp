@@ -16,6 +16,8 @@
 // protrusions gain 0.3 to 4 % there, others below 0.2 %. A draft of a large mesh leaves out the
 // finest unless rings had no room, or the level before or the sample says that much is left.
 // Between steps a few guarded sweeps smooth what the step has creased; half of the gain is theirs.
+// Where the best is wanted and a step has shown that the minimum is near, the next ones are made by
+// exact Hessians, as long as they are not cut short: each leaves a small part of what it gained.
 // Then twisted limbs are turned back (twists.cpp), which no step does, and steps go on from there.
 // What is left is estimated from the gains and from what a step promised and could not keep.
 
@@ -33,11 +35,14 @@ constexpr double small_mesh = 5000;                        // vertices
 constexpr double least_ratio = 0.5, greatest_ratio = 0.9;  // of a gain to the one before
 constexpr int sweeps_between = 5;
 constexpr double worthwhile_sampled = 4e-3, sampled_for_draft = 1.5e-2;  // of the energy
-constexpr double unseen = 2;         // times as much as a sample says is left
-constexpr double idle_share = 0.1;   // of what may be left: a step that gains less is idle
-constexpr int most_idle_steps = 3;   // in a row
-constexpr int most_rounds = 4;       // of turning twisted limbs back
-constexpr double least_share = 0.5;  // of a system's iterations: twice as many gain next to nothing
+constexpr double unseen = 2;        // times as much as a sample says is left
+constexpr double idle_share = 0.1;  // of what may be left: a step that gains less is idle
+constexpr int most_idle_steps = 3;  // in a row
+constexpr int most_rounds = 4;      // of turning twisted limbs back
+// Of a system's iterations: twice as many gain next to nothing, but where little is left.
+constexpr double least_share = 0.5, least_share_of_best = 0.1;
+constexpr double near_minimum = 1e-3;  // of the energy: what a step promises there, at most
+constexpr double hardly_cut = 0.5;     // of a Newton step
 
 /// Levels up to this size cost hardly anything.
 int cheap(int finest) { return std::max(1000, finest / 16); }
@@ -50,6 +55,11 @@ int most_steps_of_best(int vertices) {
 double finest_rest_of(Quality quality, int n) {
   if (quality == Quality::Best) return best_rest;
   return (quality == Quality::Draft ? draft_rest : finest_rest) * std::min(1.0, n / small_mesh);
+}
+
+/// Is the energy so nearly its quadratic model that the exact one is worth a step?
+bool is_near(const GlobalNewton::Step& made, double promised) {
+  return made.curvature == Curvature::Exact ? made.length >= hardly_cut : promised < near_minimum;
 }
 
 /// What steps to come will gain, from the gains so far. In long valleys good steps and poor ones
@@ -132,9 +142,11 @@ void NewtonRefinement::descend(const TriangleMesh& mesh, const Topology& topolog
   if (!newton.can_move() || !std::isfinite(energy)) return;  // not finite: positive, not certain
   image = std::vector<ImagePoint>();  // there is no room to spare in a step; = {} would keep it
   std::vector<double> gains;
+  Curvature curvature = Curvature::Projected;
   int idle = 0;
   for (int step = 0; step < most_steps; ++step) {
-    const GlobalNewton::Step made = newton.step(options_.energy, least_share);
+    const GlobalNewton::Step made =
+        newton.step(options_.energy, best ? least_share_of_best : least_share, curvature);
     newton.sweep(options_.energy, sweeps_between);
     done = std::lerp(share.begin, share.end, (step + 1.0) / most_steps);
     report(options_.progress, "embedding", done);
@@ -142,7 +154,9 @@ void NewtonRefinement::descend(const TriangleMesh& mesh, const Topology& topolog
     const double gain = 1 - energy / before, promised = std::min(1.0, made.decrement / before);
     if (step == 0) last_gain_ = std::max(gain, promised);
     gains.push_back(gain);
-    const double to_come = expected(gains);
+    const bool quadratic = made.curvature == Curvature::Exact && made.length >= 1;
+    const double to_come = quadratic ? gain : expected(gains);
+    if (best) curvature = is_near(made, promised) ? Curvature::Exact : Curvature::Projected;
     // A step cut short has left most of what it promised.
     const double left =
         std::min(1.0, std::max(to_come, (1 - std::min(1.0, made.length)) * promised));

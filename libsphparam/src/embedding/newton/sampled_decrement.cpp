@@ -51,7 +51,7 @@ class Patch {
     const std::vector<TrianglePack>& packs = triangles_.packs();
     terms_.resize(packs.size());
     differentiate_triangles(packs.data(), static_cast<int>(packs.size()), points_.data(), energy,
-                            terms_.data());
+                            Curvature::Projected, terms_.data());
     assemble();
     if (!gradient_.allFinite() || !hessian_.allFinite()) return 1;
     hessian_.diagonal() *= 1 + shift;
