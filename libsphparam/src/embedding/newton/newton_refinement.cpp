@@ -41,7 +41,7 @@ constexpr int most_idle_steps = 3;  // in a row
 constexpr int most_rounds = 4;      // of turning twisted limbs back
 // Of a system's iterations: twice as many gain next to nothing, but where little is left.
 constexpr double least_share = 0.5, least_share_of_best = 0.1;
-constexpr double near_minimum = 1e-3;  // of the energy: what a step promises there, at most
+constexpr double near_minimum = 3e-3;  // of the energy: what a step promises there, at most
 constexpr double hardly_cut = 0.5;     // of a Newton step
 
 /// Levels up to this size cost hardly anything.
