@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "embedding/newton/global_newton.h"
+#include "embedding/newton/outlook.h"
 #include "embedding/twists/twists.h"
 
 // Levels are due at every fourfold vertex count, counted down from the finest. The smallest get a
@@ -16,10 +17,9 @@
 // protrusions gain 0.3 to 4 % there, others below 0.2 %. A draft of a large mesh leaves out the
 // finest unless rings had no room, or the level before or the sample says that much is left.
 // Between steps a few guarded sweeps smooth what the step has creased; half of the gain is theirs.
-// Where the best is wanted and a step has shown that the minimum is near, the next ones are made by
-// exact Hessians, as long as they are not cut short: each leaves a small part of what it gained.
-// Then twisted limbs are turned back (twists.cpp), which no step does, and steps go on from there.
-// What is left is estimated from the gains and from what a step promised and could not keep.
+// They go on until little is left (outlook.cpp), where the best is wanted by exact Hessians near
+// the minimum. Then twisted limbs are turned back (twists.cpp), which no step does, and steps go on
+// from there.
 
 namespace sphparam {
 namespace {
@@ -31,18 +31,13 @@ constexpr int coarse_steps = 20, finest_steps = 60, best_steps = 300, most_best_
 constexpr double best_work = 2e6;  // steps × vertices that the best may take where it has few
 // What may be left, relative to the energy. Small meshes cost little: less is left of theirs.
 constexpr double coarse_rest = 6e-3, draft_rest = 0.03, finest_rest = 5e-3, best_rest = 1e-5;
-constexpr double small_mesh = 5000;                        // vertices
-constexpr double least_ratio = 0.5, greatest_ratio = 0.9;  // of a gain to the one before
+constexpr double small_mesh = 5000;  // vertices
 constexpr int sweeps_between = 5;
 constexpr double worthwhile_sampled = 4e-3, sampled_for_draft = 1.5e-2;  // of the energy
-constexpr double unseen = 2;        // times as much as a sample says is left
-constexpr double idle_share = 0.1;  // of what may be left: a step that gains less is idle
-constexpr int most_idle_steps = 3;  // in a row
-constexpr int most_rounds = 4;      // of turning twisted limbs back
+constexpr double unseen = 2;    // times as much as a sample says is left
+constexpr int most_rounds = 4;  // of turning twisted limbs back
 // Of a system's iterations: twice as many gain next to nothing, but where little is left.
 constexpr double least_share = 0.5, least_share_of_best = 0.1;
-constexpr double near_minimum = 3e-3;  // of the energy: what a step promises there, at most
-constexpr double hardly_cut = 0.5;     // of a Newton step
 
 /// Levels up to this size cost hardly anything.
 int cheap(int finest) { return std::max(1000, finest / 16); }
@@ -55,26 +50,6 @@ int most_steps_of_best(int vertices) {
 double finest_rest_of(Quality quality, int n) {
   if (quality == Quality::Best) return best_rest;
   return (quality == Quality::Draft ? draft_rest : finest_rest) * std::min(1.0, n / small_mesh);
-}
-
-/// Is the energy so nearly its quadratic model that the exact one is worth a step?
-bool is_near(const GlobalNewton::Step& made, double promised) {
-  return made.curvature == Curvature::Exact ? made.length >= hardly_cut : promised < near_minimum;
-}
-
-/// What steps to come will gain, from the gains so far. In long valleys good steps and poor ones
-/// take turns: pairs are compared, where there are two.
-double expected(const std::vector<double>& gains) {
-  const size_t n = gains.size();
-  const auto pair = [&](size_t last) { return (gains[last] + gains[last - 1]) / 2; };
-  double gain = gains.back(), ratio = n > 1 ? gain / gains[n - 2] : 0;
-  if (n > 3) {
-    gain = pair(n - 1);
-    ratio = std::sqrt(gain / pair(n - 3));
-  }
-  if (!(ratio <= greatest_ratio)) ratio = greatest_ratio;
-  ratio = std::max(ratio, least_ratio);
-  return gain * std::max(ratio / (1 - ratio), n > 1 ? static_cast<double>(n) : 0.0);
 }
 
 }  // namespace
@@ -141,29 +116,19 @@ void NewtonRefinement::descend(const TriangleMesh& mesh, const Topology& topolog
   if (finest) energy_left_ = 1;
   if (!newton.can_move() || !std::isfinite(energy)) return;  // not finite: positive, not certain
   image = std::vector<ImagePoint>();  // there is no room to spare in a step; = {} would keep it
-  std::vector<double> gains;
-  Curvature curvature = Curvature::Projected;
-  int idle = 0;
-  for (int step = 0; step < most_steps; ++step) {
+  Outlook outlook(rest);
+  for (int step = 0; step < most_steps && !outlook.settled(); ++step) {
     const GlobalNewton::Step made =
-        newton.step(options_.energy, best ? least_share_of_best : least_share, curvature);
+        best ? newton.step(options_.energy, least_share_of_best, outlook.next())
+             : newton.step(options_.energy, least_share);
     newton.sweep(options_.energy, sweeps_between);
     done = std::lerp(share.begin, share.end, (step + 1.0) / most_steps);
     report(options_.progress, "embedding", done);
     const double before = std::exchange(energy, newton.energy(options_.energy));
-    const double gain = 1 - energy / before, promised = std::min(1.0, made.decrement / before);
-    if (step == 0) last_gain_ = std::max(gain, promised);
-    gains.push_back(gain);
-    const bool quadratic = made.curvature == Curvature::Exact && made.length >= 1;
-    const double to_come = quadratic ? gain : expected(gains);
-    if (best) curvature = is_near(made, promised) ? Curvature::Exact : Curvature::Projected;
-    // A step cut short has left most of what it promised.
-    const double left =
-        std::min(1.0, std::max(to_come, (1 - std::min(1.0, made.length)) * promised));
-    if (finest) energy_left_ = left;
-    idle = gain < rest * idle_share ? idle + 1 : 0;
-    if (!(left >= rest) || idle == most_idle_steps) break;
+    outlook.note(made, before, energy);
   }
+  last_gain_ = outlook.first_gain();
+  if (finest) energy_left_ = outlook.left();
   newton.write_to(image);
 }
 
