@@ -26,7 +26,8 @@ constexpr int lanes = 8;                  // of a vector, whatever the machine
 constexpr int wide = 3;                   // functions that share a run of the recursion
 constexpr std::int64_t most_chunks = 32;  // each has coefficients of its own to sum into
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+// ThreadSanitizer watches the choice among clones too, which is made before it has started.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
 #define SPHPARAM_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
 #define SPHPARAM_CLONES
