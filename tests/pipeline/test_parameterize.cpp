@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sphparam/mesh/mesh_defects.h"
@@ -132,6 +133,27 @@ TEST_CASE("parameterize: where three pins fold a triangle no other pin is tried,
   CHECK(result.pole_cost == 0);
   REQUIRE(result.warnings.size() == 1);  // nothing is said of poles that could not be moved
   CHECK(result.warnings[0].find(names_of_triangle(mesh, 7)) != std::string::npos);
+}
+
+TEST_CASE("parameterize: poles cost next to nothing on limbs too, and what they cost is told") {
+  for (const TriangleMesh& mesh :
+       {brush(1, 3, 20, 20), brush(1, 3, 5, 20), dumbbell(100, 0.05, 4)}) {
+    const Topology topology(mesh);
+    for (const auto& [quality, most] : {std::pair{Quality::Normal, 1e-3}, {Quality::Best, 1e-4}}) {
+      const auto energy = [&](const Parameterization& result) {
+        return distortion_energy(topology, measure_source(mesh), result.map, {});
+      };
+      const Parameterization map = parameterize(mesh, {.quality = quality});
+      const Parameterization free =
+          parameterize(mesh, {.automatic_poles = false, .quality = quality});
+      REQUIRE(map.poles);
+      CHECK(map.certificate.bijective());
+      CHECK(map.map.point(map.poles->north) == Vector3::UnitZ());
+      CHECK(map.map.point(map.poles->south) == -Vector3::UnitZ());
+      CHECK(map.pole_cost < most);
+      CHECK(energy(map) / energy(free) - 1 == Approx(map.pole_cost).margin(1e-6));
+    }
+  }
 }
 
 TEST_CASE("parameterize: the balance that was found is told, and what falls short of its name") {

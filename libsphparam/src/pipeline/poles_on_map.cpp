@@ -6,17 +6,23 @@
 
 #include "embedding/frame/axis_choice.h"
 #include "embedding/frame/pole_placement.h"
+#include "embedding/newton/optimise.h"
 #include "pipeline/balanced_embedding.h"
 #include "pipeline/meridian.h"
 
 // The axis crosses the map where poles disturb least; the vertices nearest to it are moved there,
-// and pinned sweeps make good what that cost.
+// and pinned sweeps make good what that cost. Where limbs hang on what was moved they do not: there
+// Newton steps of all vertices do.
 
 namespace sphparam {
 namespace {
 
 constexpr int pole_sweeps = 10;      // of pinned relaxation after poles were moved
 constexpr int most_pole_moves = 20;  // on finished maps, which are fine: each costs such sweeps
+// Of the energy: what poles may cost.
+constexpr double greatest_cost = 1e-3, greatest_cost_of_best = 1e-5;
+constexpr double settling_gain = 1e-4;  // of the last step
+constexpr int most_settling_steps = 10;
 
 PolePlacementOptions pole_options(const MapInProgress& work) {
   return {.energy = work.energy,
@@ -31,6 +37,24 @@ PolePlacementOptions pole_options(const MapInProgress& work) {
 void go_without_poles(MapInProgress& work, const std::string& reason) {
   work.warn(reason + ": the map has no poles");
   if (work.options.meridian) turn(work, work.result.map, *work.options.meridian);
+}
+
+/// Only maps that are made for the energy.
+void settle(MapInProgress& work, PolePlacement& placement) {
+  if (work.options.method != Method::Progressive || !work.options.fillers.empty()) return;
+  const bool best = work.options.quality == Quality::Best;
+  const double most = 1 + (best ? greatest_cost_of_best : greatest_cost);
+  if (!(placement.energy_after > most * placement.energy_before)) return;
+  placement.map = optimise(work.topology, work.source(), placement.map,
+                           {.energy = work.energy,
+                            .least_gain = settling_gain,
+                            .max_steps = most_settling_steps,
+                            .pinned = {placement.north, placement.south},
+                            .threads = work.options.threads,
+                            .progress = work.options.progress})
+                      .map;
+  placement.energy_after = distortion_energy(work.topology, work.source(), placement.map,
+                                             work.energy, work.options.threads);
 }
 
 /// What is relaxed about a pole may be most of a small mesh, and fillers with it.
@@ -58,6 +82,7 @@ void choose_poles_on_map(MapInProgress& work) {
   std::optional<PolePlacement> placement = place_poles_on_axis(
       work.topology, work.source(), work.result.map, choice.axis, pole_options(work));
   if (!placement) return go_without_poles(work, "no vertex could be moved to -z");
+  settle(work, *placement);
   press_again(work, *placement);
   const Vertex meridian =
       work.options.meridian ? *work.options.meridian : quiet_meridian(work, placement->map);
