@@ -67,5 +67,6 @@ TEST_CASE("conjugate gradients: a direction without curvature ends them, and is 
       solve_by_conjugate_gradients(matrix, multigrid, random_vector(network.size(), 7), 0.1, 60, 1);
   CHECK(solution.iterations == 0);
   CHECK(solution.gain == 0);
+  CHECK_FALSE(solution.complete);
   CHECK(solution.x == Unknowns(network.size(), 0.0));
 }

@@ -7,11 +7,12 @@ using namespace sphparam;
 
 namespace {
 
-GlobalNewton::Step step(double length, double promised, Curvature curvature) {
+GlobalNewton::Step step(double length, double promised, Curvature curvature, bool complete = true) {
   return {.energy = 0,
           .iterations = 2,
           .length = length,
           .decrement = promised,
+          .complete = complete,
           .curvature = curvature};
 }
 
@@ -79,4 +80,15 @@ TEST_CASE("outlook: the next step is exact once little is promised, until one is
   CHECK(outlook.left() > 2e-4);
   gain(outlook, 1e-4, Curvature::Exact);
   CHECK(outlook.left() == Approx(1e-4));
+}
+
+TEST_CASE("outlook: a step whose system was given up tells little of what is left") {
+  Outlook outlook(1e-9);
+  gain(outlook, 1e-3);
+  gain(outlook, 1e-3, Curvature::Exact);
+  const double left = outlook.left();
+  outlook.note(step(1, 1e-4, Curvature::Exact, false), 1, 1 - 1e-4);
+  CHECK(outlook.next() == Curvature::Projected);
+  CHECK(outlook.left() > 2e-4);
+  CHECK(outlook.left() < left);
 }

@@ -19,10 +19,13 @@ namespace {
 
 constexpr int pole_sweeps = 10;      // of pinned relaxation after poles were moved
 constexpr int most_pole_moves = 20;  // on finished maps, which are fine: each costs such sweeps
-// Of the energy: what poles may cost.
-constexpr double greatest_cost = 1e-3, greatest_cost_of_best = 1e-5;
-constexpr double settling_gain = 1e-4;  // of the last step
-constexpr int most_settling_steps = 10;
+
+/// Steps of all vertices, where poles cost more than a share of the energy.
+struct Settling {
+  double least_cost, least_gain;
+  int steps;
+};
+constexpr Settling brief{1e-3, 1e-4, 10}, thorough{1e-5, 1e-6, 30};
 
 PolePlacementOptions pole_options(const MapInProgress& work) {
   return {.energy = work.energy,
@@ -39,22 +42,24 @@ void go_without_poles(MapInProgress& work, const std::string& reason) {
   if (work.options.meridian) turn(work, work.result.map, *work.options.meridian);
 }
 
-/// Only maps that are made for the energy.
+/// Of maps that were made for their energy.
 void settle(MapInProgress& work, PolePlacement& placement) {
-  if (work.options.method != Method::Progressive || !work.options.fillers.empty()) return;
-  const bool best = work.options.quality == Quality::Best;
-  const double most = 1 + (best ? greatest_cost_of_best : greatest_cost);
-  if (!(placement.energy_after > most * placement.energy_before)) return;
-  placement.map = optimise(work.topology, work.source(), placement.map,
-                           {.energy = work.energy,
-                            .least_gain = settling_gain,
-                            .max_steps = most_settling_steps,
-                            .pinned = {placement.north, placement.south},
-                            .threads = work.options.threads,
-                            .progress = work.options.progress})
-                      .map;
-  placement.energy_after = distortion_energy(work.topology, work.source(), placement.map,
-                                             work.energy, work.options.threads);
+  if (!work.result.energy_gap) return;
+  const Settling& how = work.options.quality == Quality::Best ? thorough : brief;
+  if (!(placement.energy_after > (1 + how.least_cost) * placement.energy_before)) return;
+  SphereMap settled = optimise(work.topology, work.source(), placement.map,
+                               {.energy = work.energy,
+                                .least_gain = how.least_gain,
+                                .max_steps = how.steps,
+                                .pinned = {placement.north, placement.south},
+                                .threads = work.options.threads,
+                                .progress = work.options.progress})
+                          .map;
+  const double energy =
+      distortion_energy(work.topology, work.source(), settled, work.energy, work.options.threads);
+  if (!(energy < placement.energy_after)) return;  // steps see the source rounded to floats
+  placement.map = std::move(settled);
+  placement.energy_after = energy;
 }
 
 /// What is relaxed about a pole may be most of a small mesh, and fillers with it.

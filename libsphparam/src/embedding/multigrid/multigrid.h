@@ -30,7 +30,8 @@ class Multigrid {
   /// Takes the values the matrix has now, and points near those the aggregates were made with.
   void update(const ImagePoint* points);
 
-  /// x = M⁻¹ b, M symmetric and positive definite. `residual` is room for one more vector.
+  /// x = M⁻¹ b, M symmetric, and positive definite where the matrix is semidefinite. `residual` is
+  /// room for one more vector.
   void apply(const Unknowns& b, Unknowns& x, Unknowns& residual);
 
   int levels() const { return static_cast<int>(levels_.size()); }

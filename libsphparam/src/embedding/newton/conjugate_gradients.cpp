@@ -54,7 +54,8 @@ LinearSolution solve_by_conjugate_gradients(const BlockMatrix<2>& matrix, Multig
     solution.gain += gain;
     ++solution.iterations;
     // Of what is left nothing is known but this: asking the preconditioner costs an iteration.
-    if (!(gain > least_share * solution.gain)) break;
+    solution.complete = !(gain > least_share * solution.gain);
+    if (solution.complete) break;
     add(r, -rz / curvature, image);
   }
   return solution;

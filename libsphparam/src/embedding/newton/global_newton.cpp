@@ -281,13 +281,14 @@ GlobalNewton::Step GlobalNewton::step(const DistortionEnergy& energy, double lea
   const double promised = solution.gain / 2;
   for (int n = 0; n < most_stiffenings && promised > 0; ++n) {
     if (!stiffened_.stiffen(blocks_, image_, motion(solution.x), threads_)) break;
+    curvature = Curvature::Projected;  // of which stiffer ones are positive semidefinite too
     LinearSolution another = solve(energy, least_share, curvature);
     if (!(another.gain > 0)) break;
     solution = std::move(another);
   }
-  const double slope = -solution.gain, kept = solution.gain / (2 * promised);
-  const auto stay = [&] { return Step{before, solution.iterations, 0, promised, curvature}; };
-  if (!(slope < 0) || !std::isfinite(slope)) return stay();
+  const double slope = -solution.gain, kept = std::min(1.0, solution.gain / (2 * promised));
+  Step made{before, solution.iterations, 0, promised, solution.complete, curvature};
+  if (!(slope < 0) || !std::isfinite(slope)) return made;
   const double cap = longest_step / longest(solution.x);
 
   Image candidate;
@@ -309,9 +310,11 @@ GlobalNewton::Step GlobalNewton::step(const DistortionEnergy& energy, double lea
       length *= 2;
     }
     image_.swap(candidate);
-    return {after, solution.iterations, kept * length, promised, curvature};
+    made.energy = after;
+    made.length = kept * length;
+    return made;
   }
-  return stay();
+  return made;
 }
 
 void GlobalNewton::write_to(std::vector<ImagePoint>& image) const {

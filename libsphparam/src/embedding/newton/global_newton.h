@@ -39,6 +39,7 @@ class GlobalNewton {
                      // it by what the model then promises less
     double
         decrement;  // ½ gᵀH⁻¹g as far as the system was solved: what the quadratic model promised
+    bool complete;        // the system was solved as far as was asked
     Curvature curvature;  // by which it was made
   };
 
@@ -47,8 +48,8 @@ class GlobalNewton {
 
   /// One Newton step, the system solved as long as iterations bring `least_share` (see
   /// `solve_by_conjugate_gradients`), with line search; solved anew, up to four times, where few
-  /// triangles would cut the step short (stiffened_triangles.h), and by projected Hessians where
-  /// the exact ones lead nowhere. No orientation is lost, decided by the guard.
+  /// triangles would cut the step short (stiffened_triangles.h); by projected Hessians there, and
+  /// where the exact ones lead nowhere. No orientation is lost, decided by the guard.
   Step step(const DistortionEnergy& energy, double least_share,
             Curvature curvature = Curvature::Projected);
 

@@ -37,12 +37,12 @@ void Outlook::note(const GlobalNewton::Step& made, double before, double after) 
   if (gains_.empty()) first_gain_ = std::max(gain, promised);
   gains_.push_back(gain);
   const bool exact = made.curvature == Curvature::Exact;
-  const double to_come = exact && made.length >= 1 ? gain : expected(gains_);
+  const double to_come = exact && made.complete && made.length >= 1 ? gain : expected(gains_);
   // A step cut short has left most of what it promised.
   left_ = std::min(1.0, std::max(to_come, (1 - std::min(1.0, made.length)) * promised));
   idle_ = gain < rest_ * idle_share ? idle_ + 1 : 0;
-  next_ = (exact ? made.length >= hardly_cut : promised < near_minimum) ? Curvature::Exact
-                                                                        : Curvature::Projected;
+  const bool near = exact ? made.complete && made.length >= hardly_cut : promised < near_minimum;
+  next_ = near ? Curvature::Exact : Curvature::Projected;
 }
 
 bool Outlook::settled() const { return !(left_ >= rest_) || idle_ == most_idle_steps; }

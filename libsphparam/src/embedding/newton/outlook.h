@@ -26,7 +26,8 @@ class Outlook {
   bool settled() const;
 
   /// By which Hessian a next step gets farthest, where the minimum itself is wanted: the exact one
-  /// as soon as a step promises little, and then as long as steps are not cut short.
+  /// as soon as a step promises little, and then as long as its systems are solved and its steps
+  /// not cut short.
   Curvature next() const { return next_; }
 
  private:
