@@ -6,7 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <utility>
+
+#include "lanes.h"
 
 // One method for all: an argument is brought near 0 without loss, as the sum of two doubles; there
 // the Taylor series beyond its first term is so small beside that term that doubles will do for it;
@@ -29,64 +32,86 @@
 namespace sphparam::elementary {
 namespace {
 
-/// high + low, where |low| is at most half a unit in the last place of `high`.
-struct Sum {
-  double high, low;
+/// high + low, where |low| is at most half a unit in the last place of `high`. One number, or
+/// several lanes of them.
+template <class Number>
+struct SumOf {
+  Number high, low;
 
-  double value() const { return high + low; }
+  SPHPARAM_INLINE Number value() const { return high + low; }
 };
+using Sum = SumOf<double>;
 
 /// Exact where |a| ≥ |b| or a is 0.
-Sum ordered_sum(double a, double b) {
-  const double high = a + b;
+template <class Number>
+SPHPARAM_INLINE SumOf<Number> ordered_sum(Number a, Number b) {
+  const Number high = a + b;
   return {high, b - (high - a)};
 }
 
 /// Exact.
-Sum sum(double a, double b) {
-  const double high = a + b, of_b = high - a;
+template <class Number>
+SPHPARAM_INLINE SumOf<Number> sum(Number a, Number b) {
+  const Number high = a + b, of_b = high - a;
   return {high, (a - (high - of_b)) + (b - of_b)};
 }
 
 /// The upper 26 bits of a, and the rest. Requires: |a| < 2⁹⁹⁶.
-Sum halves(double a) {
-  const double shifted = 0x1.0000002p27 * a;
-  const double high = shifted - (shifted - a);
+template <class Number>
+SPHPARAM_INLINE SumOf<Number> halves(Number a) {
+  const Number shifted = 0x1.0000002p27 * a;
+  const Number high = shifted - (shifted - a);
   return {high, a - high};
 }
 
 /// Exact but for underflow.
-Sum product(double a, double b) {
-  const Sum x = halves(a), y = halves(b);
-  const double high = a * b;
+template <class Number>
+SPHPARAM_INLINE SumOf<Number> product(Number a, Number b) {
+  const SumOf<Number> x = halves(a), y = halves(b);
+  const Number high = a * b;
   return {high, ((x.high * y.high - high) + x.high * y.low + x.low * y.high) + x.low * y.low};
 }
 
 /// Exact where `few` has at most 26 bits.
-Sum product_with_few(double few, double b) {
-  const Sum y = halves(b);
-  const double high = few * b;
+template <class Number>
+SPHPARAM_INLINE SumOf<Number> product_with_few(Number few, Number b) {
+  const SumOf<Number> y = halves(b);
+  const Number high = few * b;
   return {high, (few * y.high - high) + few * y.low};
 }
 
-Sum operator-(Sum a) { return {-a.high, -a.low}; }
+template <class Number>
+SPHPARAM_INLINE SumOf<Number> operator-(SumOf<Number> a) {
+  return {-a.high, -a.low};
+}
 
-Sum operator+(Sum a, Sum b) {
-  const Sum high = sum(a.high, b.high);
+template <class Number>
+SPHPARAM_INLINE SumOf<Number> operator+(SumOf<Number> a, SumOf<Number> b) {
+  const SumOf<Number> high = sum(a.high, b.high);
   return ordered_sum(high.high, high.low + (a.low + b.low));
 }
 
-Sum operator-(Sum a, Sum b) { return a + -b; }
+template <class Number>
+SPHPARAM_INLINE SumOf<Number> operator-(SumOf<Number> a, SumOf<Number> b) {
+  return a + -b;
+}
 
 Sum operator*(Sum a, Sum b) {
   const Sum high = product(a.high, b.high);
   return ordered_sum(high.high, high.low + (a.high * b.low + a.low * b.high));
 }
 
-Sum operator/(Sum a, Sum b) {
-  const double inverse = 1 / b.high, high = a.high * inverse;
-  const Sum back = product(high, b.high);  // what is left of a corrects both roundings
+template <class Number>
+SPHPARAM_INLINE SumOf<Number> operator/(SumOf<Number> a, SumOf<Number> b) {
+  const Number inverse = 1.0 / b.high, high = a.high * inverse;
+  const SumOf<Number> back = product(high, b.high);  // what is left of a corrects both roundings
   return ordered_sum(high, (((a.high - back.high) - back.low) + (a.low - high * b.low)) * inverse);
+}
+
+template <int W>
+SPHPARAM_INLINE SumOf<Lanes<W>> select(LaneMask<W> m, const SumOf<Lanes<W>>& a,
+                                       const SumOf<Lanes<W>>& b) {
+  return {select(m, a.high, b.high), select(m, a.low, b.low)};
 }
 
 /// Requires: a > 0.
@@ -97,10 +122,10 @@ Sum root(Sum a) {
 }
 
 /// c₀ + c₁ x + c₂ x² + …
-template <size_t n>
-double polynomial(const std::array<double, n>& c, double x) {
-  double value = c[n - 1];
-  for (size_t i = n - 1; i-- > 0;) value = c[i] + x * value;
+template <size_t n, class Number>
+SPHPARAM_INLINE Number polynomial(const std::array<double, n>& c, const Number& x) {
+  Number value = c[n - 1];
+  for (size_t i = n - 1; i-- > 0;) value = Number(c[i]) + x * value;
   return value;
 }
 
@@ -223,7 +248,7 @@ Sum sine_series(Sum r) {
 Sum cosine_series(Sum r) {
   static constexpr auto c = inverse_factorials<8>(4, 2, -1);
   const Sum square = product(r.high, r.high);
-  const Sum begin = ordered_sum(1, -square.high / 2);
+  const Sum begin = ordered_sum(1.0, -square.high / 2);
   return ordered_sum(begin.high, begin.low - square.low / 2 - r.high * r.low +
                                      square.high * square.high * polynomial(c, square.high));
 }
@@ -248,47 +273,130 @@ constexpr std::array<Sum, 9> arc_tangents{{{0, 0},
                                            {0x1.700a7c5784634p-1, -0x1.8c34d25aadef6p-56},
                                            {0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55}}};
 
-/// atan(a/b), 0 ≤ a ≤ b. |t| ≤ 1/16: what the series leaves out is below 2⁻⁶⁸ of t.
-Sum arc_tangent(double a, double b) {
-  static constexpr auto series = inverse_odds<7>(-1);
-  constexpr double negligible = 0x1p-40;  // its square, beside 1
-  const double ratio = a / b;
-  if (ratio < negligible) return {ratio, 0};
+/// c, the multiple of 1/8 nearest to a ratio, and atan c.
+template <class Number>
+struct Eighth {
+  Number c;
+  SumOf<Number> angle;
+};
+
+Eighth<double> nearest_eighth(double ratio) {
   const int k = static_cast<int>(8 * ratio + 0.5);
-  const double c = k / 8.0;
-  const Sum top = Sum{a, 0} - product_with_few(c, b);
-  const Sum t = top / (Sum{b, 0} + product_with_few(c, a));
-  const double square = t.high * t.high;
-  const Sum& begin = arc_tangents[static_cast<size_t>(k)];
-  const Sum first = sum(begin.high, t.high);
-  return ordered_sum(
-      first.high, first.low + (begin.low + t.low - t.high * square * polynomial(series, square)));
+  return {k / 8.0, arc_tangents[static_cast<size_t>(k)]};
+}
+
+template <int W>
+SPHPARAM_INLINE Eighth<Lanes<W>> nearest_eighth(const Lanes<W>& ratio) {
+  Eighth<Lanes<W>> result{0.0, {0.0, 0.0}};
+  for (int i = 0; i < W; ++i) {
+    const int k = static_cast<int>(8 * ratio[i] + 0.5);
+    result.c.v[i] = k;
+    result.angle.high.v[i] = arc_tangents[static_cast<size_t>(k)].high;
+    result.angle.low.v[i] = arc_tangents[static_cast<size_t>(k)].low;
+  }
+  result.c = result.c / 8.0;
+  return result;
+}
+
+/// atan(a/b) for a/b, 0 ≤ a ≤ b. |t| ≤ 1/16: what the series leaves out is below 2⁻⁶⁸ of t.
+template <class Number>
+SPHPARAM_INLINE SumOf<Number> arc_tangent(const Number& a, const Number& b, const Number& ratio) {
+  static constexpr auto series = inverse_odds<7>(-1);
+  const Eighth<Number> begin = nearest_eighth(ratio);
+  const SumOf<Number> top = SumOf<Number>{a, 0.0} - product_with_few(begin.c, b);
+  const SumOf<Number> t = top / (SumOf<Number>{b, 0.0} + product_with_few(begin.c, a));
+  const Number square = t.high * t.high;
+  const SumOf<Number> first = sum(begin.angle.high, t.high);
+  return ordered_sum(first.high, first.low + (begin.angle.low + t.low -
+                                              t.high * square * polynomial(series, square)));
+}
+
+constexpr double negligible = 0x1p-40;  // a ratio: its square, beside 1
+
+Sum arc_tangent(double a, double b) {
+  const double ratio = a / b;
+  return ratio < negligible ? Sum{ratio, 0} : arc_tangent(a, b, ratio);
+}
+
+// Products of halves neither overflow nor vanish.
+constexpr double least_plain = 0x1p-900, greatest_plain = 0x1p900;
+
+/// Needs nothing but arithmetic: finite, not both 0, and of usual sizes.
+template <int W>
+SPHPARAM_INLINE bool are_plain(const Lanes<W>& y, const Lanes<W>& x) {
+  const Lanes<W> a = magnitude(y), b = magnitude(x), greater = larger(a, b);
+  const LaneMask<W> plain =
+      (greater > least_plain) & (greater < greatest_plain) & (a == a) & (b == b);
+  return !(~plain).any();
+}
+
+/// Requires: plain ones.
+template <int W>
+SPHPARAM_INLINE Lanes<W> atan2_of_plain(const Lanes<W>& y, const Lanes<W>& x) {
+  using Sums = SumOf<Lanes<W>>;
+  const auto all = [](const Sum& a) SPHPARAM_INLINED { return Sums{a.high, a.low}; };
+  const Lanes<W> of_y = magnitude(y), of_x = magnitude(x);
+  const LaneMask<W> steep = of_y > of_x;
+  const Lanes<W> a = select(steep, of_x, of_y), b = select(steep, of_y, of_x), ratio = a / b;
+  Sums angle = select(ratio < negligible, Sums{ratio, 0.0}, arc_tangent(a, b, ratio));
+  angle = select(steep, all(half_pi) - angle, angle);
+  angle = select(sign_bit(x), all(pi) - angle, angle);
+  const Lanes<W> value = angle.value();
+  return select(sign_bit(y), -value, value);
 }
 
 /// ln m, √½ ≤ m < √2. |s| < 0.172: what the series leaves out is below 2⁻⁶⁴ of s.
-Sum log_near_one(double m) {
+template <class Number>
+SPHPARAM_INLINE SumOf<Number> log_near_one(const Number& m) {
   static constexpr auto series = inverse_odds<11>(1);
-  const Sum s = Sum{m - 1, 0} / sum(2, m - 1);
-  const double square = s.high * s.high;
-  return ordered_sum(2 * s.high, 2 * (s.low + s.high * square * polynomial(series, square)));
+  const Number beyond = m - 1.0;
+  const SumOf<Number> s = SumOf<Number>{beyond, 0.0} / sum(Number(2.0), beyond);
+  const Number square = s.high * s.high;
+  return ordered_sum(2.0 * s.high, 2.0 * (s.low + s.high * square * polynomial(series, square)));
 }
+
+constexpr double sqrt_half = 0x1.6a09e667f3bcdp-1;
 
 /// x = 2ᵉ m, √½ ≤ m < √2. Requires: x > 0, finite.
 std::pair<double, int> split(double x) {
   int exponent = 0;
   const double m = std::frexp(x, &exponent);
-  return m < 0x1.6a09e667f3bcdp-1 ? std::pair(2 * m, exponent - 1) : std::pair(m, exponent);
+  return m < sqrt_half ? std::pair(2 * m, exponent - 1) : std::pair(m, exponent);
 }
 
 /// ln 2; products of the first part with integers below 2¹¹ are exact.
 constexpr Sum log_of_two{0x1.62e42fefa38p-1, 0x1.ef35793c7673p-45};
 
+/// ln (2ᵉ m).
+template <class Number>
+SPHPARAM_INLINE SumOf<Number> log_of(const Number& m, const Number& e) {
+  const SumOf<Number> rest = log_near_one(m);
+  const SumOf<Number> first = sum(e * log_of_two.high, rest.high);
+  return ordered_sum(first.high, first.low + (rest.low + e * log_of_two.low));
+}
+
 /// Requires: x > 0, finite.
 Sum log_sum(double x) {
   const auto [m, e] = split(x);
-  const Sum rest = log_near_one(m);
-  const Sum first = sum(e * log_of_two.high, rest.high);
-  return ordered_sum(first.high, first.low + (rest.low + e * log_of_two.low));
+  return log_of<double>(m, e);
+}
+
+/// Requires: normal numbers > 0.
+template <int W>
+SPHPARAM_INLINE Lanes<W> log_of_plain(const Lanes<W>& x) {
+  using Bits = typename LaneMask<W>::Vector;
+  constexpr long long mantissa = 0x000fffffffffffff, one_half = 0x3fe0000000000000;
+  constexpr long long to_double = 0x4338000000000000;  // the bits of 3·2⁵¹, to which e is added
+  Bits bits;
+  __builtin_memcpy(&bits, &x.v, sizeof bits);
+  const Bits m_bits = (bits & mantissa) | one_half;
+  Lanes<W> m, e;
+  __builtin_memcpy(&m.v, &m_bits, sizeof m_bits);
+  const LaneMask<W> low = m < sqrt_half;
+  m = select(low, 2.0 * m, m);
+  const Bits e_bits = (bits >> 52) - 1022 + low.v + to_double;  // one less where low
+  __builtin_memcpy(&e.v, &e_bits, sizeof e_bits);
+  return log_of(m, e - 0x1.8p52).value();
 }
 
 /// log, log2 where the argument is not positive and finite.
@@ -303,7 +411,7 @@ double exp_sum(Sum x) {
   const double n = std::nearbyint(x.high * 0x1.71547652b82fep+0);
   const Sum rest = sum(x.high - n * log_of_two.high, -n * log_of_two.low);
   const Sum r = ordered_sum(rest.high, rest.low + x.low);
-  const Sum first = ordered_sum(1, r.high);
+  const Sum first = ordered_sum(1.0, r.high);
   const double more = r.low + r.low * r.high + r.high * r.high * polynomial(series, r.high);
   return std::ldexp(first.high + (first.low + more), static_cast<int>(n));
 }
@@ -328,7 +436,7 @@ double tan(double x) {
 double acos(double x) {
   if (!(std::abs(x) <= 1)) return std::numeric_limits<double>::quiet_NaN();
   if (std::abs(x) == 1) return x > 0 ? 0 : pi.high;
-  return atan2(root(sum(1, -x) * sum(1, x)).value(), x);
+  return atan2(root(sum(1.0, -x) * sum(1.0, x)).value(), x);
 }
 
 double atan(double x) { return atan2(x, 1); }
@@ -343,7 +451,7 @@ double atan2(double y, double x) {
   }
   const bool steep = a > b;
   if (steep) std::swap(a, b);
-  if (!(b > 0x1p-900 && b < 0x1p900)) {  // products of halves neither overflow nor vanish
+  if (!(b > least_plain && b < greatest_plain)) {
     const double scale = b < 1 ? 0x1p170 : 0x1p-170;
     a *= scale;
     b *= scale;
@@ -352,6 +460,21 @@ double atan2(double y, double x) {
   if (steep) angle = half_pi - angle;
   if (std::signbit(x)) angle = pi - angle;
   return std::copysign(angle.value(), y);
+}
+
+void atan2(std::span<const double> y, std::span<const double> x, std::span<double> angles) {
+  size_t i = 0;
+  run_on_lanes([&]<int W>(Width<W>) SPHPARAM_INLINED {
+    for (; i + W <= angles.size(); i += W) {
+      const Lanes<W> up = load<W>(&y[i]), along = load<W>(&x[i]);
+      if (are_plain(up, along)) {
+        store(atan2_of_plain(up, along), &angles[i]);
+      } else {
+        for (size_t k = i; k < i + W; ++k) angles[k] = atan2(y[k], x[k]);
+      }
+    }
+  });
+  for (; i < angles.size(); ++i) angles[i] = atan2(y[i], x[i]);
 }
 
 double exp(double x) {
@@ -365,11 +488,28 @@ double log(double x) {
   return log_sum(x).value();
 }
 
+void log(std::span<const double> x, std::span<double> logs) {
+  size_t i = 0;
+  run_on_lanes([&]<int W>(Width<W>) SPHPARAM_INLINED {
+    constexpr double least = std::numeric_limits<double>::min(),
+                     infinite = std::numeric_limits<double>::infinity();
+    for (; i + W <= logs.size(); i += W) {
+      const Lanes<W> numbers = load<W>(&x[i]);
+      if (!(~(numbers > least) | ~(numbers < infinite)).any()) {
+        store(log_of_plain(numbers), &logs[i]);
+      } else {
+        for (size_t k = i; k < i + W; ++k) logs[k] = log(x[k]);
+      }
+    }
+  });
+  for (; i < logs.size(); ++i) logs[i] = log(x[i]);
+}
+
 double log2(double x) {
   constexpr Sum per_log{0x1.71547652b82fep+0, 0x1.777d0ffda0d24p-56};
   if (!(x > 0) || is_nan_or_infinite(x)) return log_of_special(x);
   const auto [m, e] = split(x);
-  return (Sum{static_cast<double>(e), 0} + log_near_one(m) * per_log).value();
+  return (Sum{static_cast<double>(e), 0} + log_near_one<double>(m) * per_log).value();
 }
 
 double pow(double x, double y) {

@@ -25,7 +25,7 @@
 #include <vector>
 
 #include "embedding/constructions/progressive.h"
-#include "embedding/energy/lanes.h"
+#include "lanes.h"
 #include "io/files/read_back.h"
 #include "io/polygons/welding.h"
 #include "loop_subdivision.h"

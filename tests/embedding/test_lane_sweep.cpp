@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "embedding/constructions/progressive.h"
-#include "embedding/energy/lanes.h"
+#include "lanes.h"
 #include "embedding/energy/triangle_packs.h"
 #include "embedding/sweeps/lane_sweep.h"
 #include "sphparam/sphere/orientation.h"

@@ -8,8 +8,10 @@
 #include <numbers>
 #include <random>
 #include <utility>
+#include <vector>
 
 #include "elementary.h"
+#include "lanes.h"
 
 // The law is the bits: they are written down here, from one machine, and hold on all. How near they
 // are to the exact values is measured against long double where that has more digits.
@@ -218,4 +220,38 @@ TEST_CASE("elementary: zeros, infinities and what is no number, as the C standar
       CHECK((std::isnan(power) ? std::isnan(e::pow(a, b)) : e::pow(a, b) == Approx(power)));
     }
   }
+}
+
+TEST_CASE("elementary: of many at once the bits are those of one by one, by any instructions") {
+  Numbers numbers;
+  std::vector<double> y, x;
+  const std::array<double, 8> special{0.0,       -0.0,      infinity, -infinity,
+                                      no_number, 0x1p-1074, 0x1p1023, 1.0};
+  for (const double a : special) {
+    for (const double b : special) y.push_back(a), x.push_back(b);
+  }
+  for (int i = 0; i < many; ++i) {
+    const bool usual = i % 4 != 0;
+    y.push_back(usual ? numbers.between(-2, 2) : numbers.of_any_size(-1060, 1020));
+    x.push_back(usual ? numbers.between(-2, 2) : numbers.of_any_size(-1060, 1020));
+  }
+  y.resize(y.size() - 3), x.resize(y.size());  // a last part that fills no lanes
+  std::vector<double> angles(y.size()), logs(y.size());
+  const auto alike = [](double a, double b) {
+    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b) ||
+           (std::isnan(a) && std::isnan(b));
+  };
+  for (const InstructionSet set :
+       {InstructionSet::Baseline, InstructionSet::Avx2, InstructionSet::Avx512}) {
+    limit_instruction_set(set);
+    elementary::atan2(y, x, angles);
+    elementary::log(x, logs);
+    size_t different = 0;
+    for (size_t i = 0; i < y.size(); ++i) {
+      different += !alike(angles[i], elementary::atan2(y[i], x[i]));
+      different += !alike(logs[i], elementary::log(x[i]));
+    }
+    CHECK(different == 0);
+  }
+  limit_instruction_set(InstructionSet::Avx512);
 }

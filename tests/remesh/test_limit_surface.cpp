@@ -231,14 +231,31 @@ TEST_CASE("limit surface: many places at once, on any threads, as one by one") {
     std::vector<LimitPlace> places;
     for (int p = 0; p < surface.topology().patch_count(); ++p) {
       for (const double s : {0.0, 0.1, 0.5}) places.push_back({p, s, 0.25});
+      for (int i = 0; i < p % 20; ++i) places.push_back({p, 0.025 * i, 0.5 - 0.02 * i});
     }
     const auto one = surface.evaluate_all(places, 1), three = surface.evaluate_all(places, 3);
     const auto curvatures = surface.curvature_all(places, 2);
     for (size_t i = 0; i < places.size(); ++i) {
       const LimitPoint alone = surface.evaluate(places[i]);
       REQUIRE(one[i].position == alone.position);
+      REQUIRE(one[i].by_t == alone.by_t);
       REQUIRE(three[i].by_s == alone.by_s);
       REQUIRE(curvatures[i].mean == surface.curvature(places[i]).mean);
+    }
+  }
+}
+
+TEST_CASE("limit surface: a patch made of another one's is as if made anew") {
+  for (const LimitSubject& subject : subjects) {
+    const LimitSurface surface = surface_of(subject);
+    const Points others = 2 * surface.control().rowwise().reverse();
+    const LimitSurface other(surface.shared_topology(), others);
+    for (int p = 0; p < surface.topology().patch_count(); ++p) {
+      const LimitPatch made(surface.patch(p), other.control());
+      CHECK(made.index() == p);
+      const LimitPoint point = made.evaluate(0.3, 0.6), anew = other.evaluate({p, 0.3, 0.6});
+      REQUIRE(point.position == anew.position);
+      REQUIRE(point.by_t == anew.by_t);
     }
   }
 }

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
-#include <vector>
 
 #include "remesh/subdivision/patch_net.h"
 #include "sphparam/mesh/topology.h"
@@ -50,37 +48,6 @@ class DirectedBase {
   SphereMap grid_map_;
   std::unique_ptr<Topology> grid_topology_;
   std::unique_ptr<SphereLocator> locator_;
-};
-
-/// Both of a base's surfaces on one patch.
-struct DirectedPatch {
-  LimitPatch surface, direction;
-};
-
-/// Finds the places of directions, fast where one is near the one before. One for each thread.
-class PlaceFinder {
- public:
-  explicit PlaceFinder(const DirectedBase& base);
-
-  struct Found {
-    LimitPlace place;            // within its patch
-    const DirectedPatch* patch;  // until the next search
-    bool exact;  // else the grid's own place, where the directions' surface folds or Newton fails
-  };
-  /// Requires: unit direction. Ensures: where `exact`, the place's direction is the one asked for,
-  /// to 1e-7 of a face. `start_anew` forgets the search before, so that what is found does not
-  /// depend on it, not even by rounding.
-  Found find(const Vector3& direction);
-  void start_anew() { last_.reset(); }
-
-  const DirectedPatch& patch(int index);
-
- private:
-  std::optional<LimitPlace> newton(const Vector3& direction, LimitPlace place);
-
-  const DirectedBase& base_;
-  std::vector<std::unique_ptr<DirectedPatch>> kept_;  // by the last bits of their numbers
-  std::optional<LimitPlace> last_, before_last_;
 };
 
 }  // namespace sphparam

@@ -1,5 +1,5 @@
 // Row by row: directions, where they are on the mesh and on the base, the normal's way from one to
-// the other. Every row starts anew, so that none depends on who did the row above.
+// the other. Every run of rows starts anew, so that none depends on who did those above it.
 
 #include "displace/displacement.h"
 
@@ -7,7 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "displace/base_normals.h"
 #include "displace/filled_rows.h"
+#include "displace/place_rows.h"
 #include "elementary.h"
 
 namespace sphparam {
@@ -29,29 +31,26 @@ class Rows {
   Tally fill(std::int64_t first, std::int64_t last, Image& image) const {
     Points directions(options_.width, 3);
     std::vector<SurfacePoint> on_mesh(static_cast<size_t>(options_.width));
-    PlaceFinder finder(base_);
+    PlaceFinder patches(base_);
+    PlaceRows places(patches);
+    LineTable normals(on_mesh.size());
+    std::vector<NormalLines::Crossing> crossings(on_mesh.size());
     Tally tally;
     for (std::int64_t row = first; row < last; ++row) {
       const double phi = std::numbers::pi * (static_cast<double>(row) + 0.5) / options_.height;
       directions.leftCols(2) = elementary::sin(phi) * around_;
       directions.col(2).setConstant(elementary::cos(phi));
       locator_.locate_all(directions, std::span(on_mesh), 1);
-      finder.start_anew();
-      float* pixel = image.pixel(0, static_cast<int>(row));
-      for (int c = 0; c < options_.width; ++c)
-        *pixel++ =
-            stored(measure(finder.find(directions.row(c)), on_mesh[static_cast<size_t>(c)], tally));
+      places.find_next(directions);
+      find_normals(places.places(), patches, normals);
+      lines_.find_all(normals, on_mesh, crossings);
+      for (size_t c = 0; c < on_mesh.size(); ++c) tally.inexact += !places.exact(c);
+      tally.store(crossings, image.pixel(0, static_cast<int>(row)));
     }
     return tally;
   }
 
  private:
-  double measure(const PlaceFinder::Found& found, const SurfacePoint& on_mesh, Tally& tally) const {
-    tally.inexact += !found.exact;
-    return tally.height(lines_, found.patch->surface.evaluate(found.place.s, found.place.t),
-                        on_mesh);
-  }
-
   const DirectedBase& base_;
   const DisplacementOptions& options_;
   const SphereLocator& locator_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "displace/displacement.h"
@@ -26,12 +27,14 @@ struct Tally {
     for (int i = 0; i < 3; ++i) hits[i] += other.hits[i];
     inexact += other.inexact;
   }
-  /// Along the normal of a point of the base to the mesh.
-  double height(const NormalLines& lines, const LimitPoint& point, const SurfacePoint& on_mesh) {
-    const NormalLines::Crossing crossing = lines.find(point.position, point.normal(), on_mesh);
-    ++hits[static_cast<int>(crossing.hit)];
-    add(crossing.height);
-    return crossing.height;
+  /// As an image holds them: `greatest` of the figures tells where that is not the height.
+  void store(std::span<const NormalLines::Crossing> crossings, float* pixels) {
+    constexpr double most = std::numeric_limits<float>::max();
+    for (const NormalLines::Crossing& crossing : crossings) {
+      ++hits[static_cast<int>(crossing.hit)];
+      add(crossing.height);
+      *pixels++ = static_cast<float>(std::clamp(crossing.height, -most, most));
+    }
   }
   DisplacementFigures figures() const {
     return {least,
@@ -47,8 +50,8 @@ struct Tally {
 template <class Fill>
 Displacement filled_rows(int width, int height, const DisplacementOptions& options,
                          const Fill& fill) {
-  constexpr std::int64_t rows_at_once = 16;   // of a thread
-  constexpr std::int64_t rows_between = 256;  // looks whether to go on
+  constexpr std::int64_t rows_at_once = 32;   // of a thread
+  constexpr std::int64_t rows_between = 512;  // looks whether to go on
   Displacement result;
   result.image = Image(width, height, 1);
   Tally all;
@@ -64,12 +67,6 @@ Displacement filled_rows(int width, int height, const DisplacementOptions& optio
   }
   result.figures = all.figures();
   return result;
-}
-
-/// As an image holds it: `greatest` of the figures tells where that is not the height.
-inline float stored(double height) {
-  constexpr double most = std::numeric_limits<float>::max();
-  return static_cast<float>(std::clamp(height, -most, most));
 }
 
 }  // namespace sphparam

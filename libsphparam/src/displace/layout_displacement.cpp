@@ -4,8 +4,10 @@
 #include <span>
 #include <vector>
 
+#include "displace/base_normals.h"
 #include "displace/displacement.h"
 #include "displace/filled_rows.h"
+#include "remesh/subdivision/limit_runs.h"
 
 namespace sphparam {
 
@@ -19,27 +21,37 @@ class Texels {
 
   Tally fill(std::int64_t first, std::int64_t last, Image& image) const {
     const auto width = static_cast<size_t>(image.width);
+    std::vector<LimitPlace> places(width);
     Points directions(image.width, 3);
-    std::vector<LimitPoint> on_base(width);
     std::vector<SurfacePoint> on_mesh(width);
+    LineTable normals(width);
+    std::vector<NormalLines::Crossing> crossings(width);
     PlaceFinder patches(base_);
     Tally tally;
     for (auto row = static_cast<int>(first); row < static_cast<int>(last); ++row) {
-      for (int c = 0; c < image.width; ++c) {
-        const LimitPlace place = base_.on_patches(lattice_.place(c, row));
-        const DirectedPatch& patch = patches.patch(place.patch);
-        on_base[static_cast<size_t>(c)] = patch.surface.evaluate(place.s, place.t);
-        directions.row(c) = patch.direction.evaluate(place.s, place.t).position.normalized();
-      }
+      for (int c = 0; c < image.width; ++c)
+        places[static_cast<size_t>(c)] = base_.on_patches(lattice_.place(c, row));
+      find_normals(places, patches, normals);
+      directions_at(places, patches, directions);
       locator_.locate_all(directions, std::span(on_mesh), 1);
-      float* pixel = image.pixel(0, row);
-      for (size_t c = 0; c < width; ++c)
-        *pixel++ = stored(tally.height(lines_, on_base[c], on_mesh[c]));
+      lines_.find_all(normals, on_mesh, crossings);
+      tally.store(crossings, image.pixel(0, row));
     }
     return tally;
   }
 
  private:
+  static void directions_at(std::span<const LimitPlace> places, PlaceFinder& patches,
+                            Points& directions) {
+    LimitPoints points;
+    for_each_run(places, [&](const LimitRun& run) {
+      patches.patch(places[run.first].patch).direction.evaluate(run.s, run.t, run.count, points);
+      for (size_t i = 0; i < run.count; ++i) {
+        directions.row(static_cast<Eigen::Index>(run.first + i)) = points[i].position.normalized();
+      }
+    });
+  }
+
   const DirectedBase& base_;
   const TextureLattice& lattice_;
   const SphereLocator& locator_;

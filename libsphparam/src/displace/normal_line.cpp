@@ -2,7 +2,7 @@
 //   eₖ = n · (aᵢ × aⱼ),  (i, j) the edge opposite to corner k,
 // all of them positive where the line leaves the surface through it, and then the weights of the
 // point; their sum is twice the triangle's area as the line sees it. The walk crosses the edge
-// whose e is least.
+// whose e is least. Of many lines the first triangle is seen side by side; few walk on.
 
 #include "displace/normal_line.h"
 
@@ -11,6 +11,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lanes.h"
 #include "rays/interpolation.h"
 
 namespace sphparam {
@@ -23,7 +24,64 @@ constexpr double steepness = 3;      // of what is believed: height over distanc
 constexpr int most_approaches = 64;  // of the line's point nearest to the surface
 constexpr double approached = 1e-3;  // of its distance, that a step gains no more
 
+/// A triangle as a line sees it, with its corners from the line's origin. One line, or several
+/// lanes of them.
+template <class Number>
+struct Seen {
+  Number weights[3];  // of where the line meets the triangle's plane, not divided by
+  Number sum;
+  Number height;  // of that, along the line
+};
+
+template <class Vector>
+SPHPARAM_INLINE auto see(const Vector (&a)[3], const Vector& normal) {
+  using Number = decltype(dot(normal, normal));
+  const Number w0 = dot(cross(a[1], a[2]), normal), w1 = dot(cross(a[2], a[0]), normal),
+               w2 = dot(cross(a[0], a[1]), normal), sum = w0 + w1 + w2;
+  const Number height =
+      (w0 * dot(a[0], normal) + w1 * dot(a[1], normal) + w2 * dot(a[2], normal)) / sum;
+  return Seen<Number>{{w0, w1, w2}, sum, height};
+}
+
+/// Some lines, and of each the triangle of its known point.
+struct Few {
+  static constexpr size_t count = 8;
+  using Numbers = std::array<double, count>;
+  using Vectors = std::array<Numbers, 3>;
+  Vectors corners[3], origins, normals, barycentric;
+};
+
+struct FewSeen {
+  Few::Numbers least, sum, height;  // least of the weights
+  Few::Numbers known2;              // squared distance to the known point
+};
+
+void see(const Few& few, FewSeen& seen) {
+  run_on_lanes([&]<int W>(Width<W>) SPHPARAM_INLINED {
+    for (size_t i = 0; i < Few::count; i += W) {
+      const LaneVectors<W> origin = load<W>(few.origins, i);
+      const LaneVectors<W> a[3] = {load<W>(few.corners[0], i) - origin,
+                                   load<W>(few.corners[1], i) - origin,
+                                   load<W>(few.corners[2], i) - origin};
+      const LaneVectors<W> weights = load<W>(few.barycentric, i),
+                           known = weights.x * a[0] + weights.y * a[1] + weights.z * a[2];
+      const auto of = see(a, load<W>(few.normals, i));
+      store(smaller(smaller(of.weights[0], of.weights[1]), of.weights[2]), &seen.least[i]);
+      store(of.sum, &seen.sum[i]);
+      store(of.height, &seen.height[i]);
+      store(dot(known, known), &seen.known2[i]);
+    }
+  });
+}
+
 }  // namespace
+
+LineTable::LineTable(size_t count) {
+  for (size_t k = 0; k < 3; ++k) {
+    origins[k].resize(count);
+    normals[k].resize(count);
+  }
+}
 
 NormalLines::NormalLines(const TriangleMesh& surface, const Topology& topology)
     : surface_(surface), topology_(topology) {}
@@ -41,21 +99,16 @@ std::optional<NormalLines::Walked> NormalLines::walk(const Line& line, Face star
   Face face = start;
   bool started_outwards = false;
   for (int crossed = 0; crossed < most_crossed; ++crossed) {
-    std::array<Vector3, 3> a;
-    for (int k = 0; k < 3; ++k)
-      a[static_cast<size_t>(k)] = surface_.position(surface_.triangles(face, k)) - line.origin;
-    const std::array<double, 3> e = {line.normal.dot(a[1].cross(a[2])),
-                                     line.normal.dot(a[2].cross(a[0])),
-                                     line.normal.dot(a[0].cross(a[1]))};
-    const double sum = e[0] + e[1] + e[2];
-    if (crossed == 0) started_outwards = sum > 0;
-    const auto least = std::min_element(e.begin(), e.end());
+    Vector3 a[3];
+    for (int k = 0; k < 3; ++k) a[k] = surface_.position(surface_.triangles(face, k)) - line.origin;
+    const auto seen = see(a, line.normal);
+    if (crossed == 0) started_outwards = seen.sum > 0;
+    const auto least = std::min_element(seen.weights, seen.weights + 3);
     if (*least >= 0) {
-      if (!(sum > 0)) return std::nullopt;
-      const Vector3 hit = (e[0] * a[0] + e[1] * a[1] + e[2] * a[2]) / sum;
-      return Walked{hit.dot(line.normal), started_outwards};
+      if (!(seen.sum > 0)) return std::nullopt;
+      return Walked{seen.height, started_outwards};
     }
-    const auto opposite = static_cast<int>(least - e.begin());
+    const auto opposite = static_cast<int>(least - seen.weights);
     face = Topology::face(topology_.twin(3 * face + (opposite + 1) % 3));
   }
   return std::nullopt;
@@ -105,6 +158,43 @@ NormalLines::Crossing NormalLines::find(const Vector3& origin, const Vector3& no
   if (walked && std::abs(walked->height) <= reach) return {walked->height, LineHit::Walk};
   if (const std::optional<double> height = cast(line, reach)) return {*height, LineHit::Ray};
   return {approach(line, 0), LineHit::Near};
+}
+
+void NormalLines::find_all(const LineTable& lines, std::span<const SurfacePoint> known,
+                           std::span<Crossing> crossings) const {
+  for (size_t first = 0; first < known.size(); first += Few::count) {
+    const size_t count = std::min(known.size() - first, Few::count);
+    find_few(lines, first, known.subspan(first, count), crossings.subspan(first, count));
+  }
+}
+
+void NormalLines::find_few(const LineTable& lines, size_t first,
+                           std::span<const SurfacePoint> known,
+                           std::span<Crossing> crossings) const {
+  Few few;
+  for (size_t i = 0; i < Few::count; ++i) {
+    const size_t from = std::min(i, known.size() - 1);  // the last one again where there are fewer
+    for (size_t k = 0; k < 3; ++k) {
+      const auto axis = static_cast<Eigen::Index>(k);
+      const Vertex corner = surface_.triangles(known[from].face, axis);
+      for (size_t c = 0; c < 3; ++c)
+        few.corners[k][c][i] = surface_.positions(corner, static_cast<Eigen::Index>(c));
+      few.barycentric[k][i] = known[from].barycentric[axis];
+      few.origins[k][i] = lines.origins[k][first + from];
+      few.normals[k][i] = lines.normals[k][first + from];
+    }
+  }
+  FewSeen seen;
+  see(few, seen);
+  for (size_t i = 0; i < known.size(); ++i) {
+    const double height = seen.height[i];
+    if (seen.least[i] >= 0 && seen.sum[i] > 0 && height * height <= seen.known2[i]) {
+      crossings[i] = {height, LineHit::Walk};
+    } else {
+      const auto one = [i](const Few::Vectors& x) { return Vector3(x[0][i], x[1][i], x[2][i]); };
+      crossings[i] = find(one(few.origins), one(few.normals), known[i]);
+    }
+  }
 }
 
 }  // namespace sphparam

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,7 @@
 //   ‖J‖² = σ1² + σ2² = Σ cot_i |e_i|² / 2A      and      det J = σ1 σ2 = A_chord / A.
 // Two angles a triangle are computed, those at the ends of its longest side; the third, the
 // largest, is what is missing to π: cheaper, and exact to rounding because it is never small.
+// Arctangents and logarithms are made of some triangles at once.
 
 namespace sphparam {
 namespace {
@@ -42,17 +44,46 @@ PlaneTriangle plane_triangle(const Vector3& a, const Vector3& b, const Vector3& 
           ab.cross(-ca).norm()};
 }
 
-std::array<double, 3> angles(const PlaneTriangle& t) {
-  const int largest =
+/// The corners at the ends of the longest side, and the one that faces it.
+struct Corners {
+  int first, second, facing;
+};
+
+Corners about_longest_side(const PlaneTriangle& t) {
+  const int longest =
       static_cast<int>(std::max_element(t.squared.begin(), t.squared.end()) - t.squared.begin());
-  const int i = (largest + 1) % 3, j = (largest + 2) % 3;
+  return {(longest + 1) % 3, (longest + 2) % 3, longest};
+}
+
+std::array<double, 3> angles_from(const Corners& at, double first, double second) {
   std::array<double, 3> angle;
-  angle[i] = elementary::atan2(t.doubled_area, t.dots[i]);
-  angle[j] = elementary::atan2(t.doubled_area, t.dots[j]);
+  angle[at.first] = first;
+  angle[at.second] = second;
   // At least π/3, as the largest must be: where the area is a floor the sum of the three is not π.
-  angle[largest] = std::max(std::numbers::pi / 3, std::numbers::pi - angle[i] - angle[j]);
+  angle[at.facing] = std::max(std::numbers::pi / 3, std::numbers::pi - first - second);
   return angle;
 }
+
+/// Arctangents that are asked for one by one and made all at once.
+template <size_t most>
+class Arctangents {
+ public:
+  void ask(double y, double x) {
+    y_[count_] = y;
+    x_[count_++] = x;
+  }
+  void make() {
+    elementary::atan2(std::span(y_).first(count_), std::span(x_).first(count_),
+                      std::span(angles_).first(count_));
+    count_ = 0;
+  }
+  /// In the order in which they were asked for.
+  double next() { return angles_[count_++]; }
+
+ private:
+  std::array<double, most> y_, x_, angles_;
+  size_t count_ = 0;
+};
 
 /// A power of two that brings the mesh to about unit size, so that no square overflows.
 double unit_scale(const TriangleMesh& mesh) {
@@ -88,17 +119,42 @@ struct TriangleDistortion {
   double area_ratio, sigma_max, sigma_min, source_area;
 };
 
+/// A triangle and its image while its angles are being made.
+struct Pair {
+  PlaneTriangle source, chord;
+  Corners source_corners, chord_corners;
+  static constexpr size_t angles = 5;  // two of each, and half the solid angle
+
+  template <class Arctangents>
+  void ask(Arctangents& arctangents, const Vector3& a, const Vector3& b, const Vector3& c) {
+    chord = plane_triangle(a, b, c);
+    source_corners = about_longest_side(source), chord_corners = about_longest_side(chord);
+    for (const auto& [triangle, at] :
+         {std::pair(&source, source_corners), std::pair(&chord, chord_corners)}) {
+      arctangents.ask(triangle->doubled_area, triangle->dots[at.first]);
+      arctangents.ask(triangle->doubled_area, triangle->dots[at.second]);
+    }
+    const HalfSolidAngle half = half_solid_angle_of(a, b, c);
+    arctangents.ask(half.sine, half.cosine);
+  }
+};
+
 /// `to_sphere` scales source areas so that they sum to 4π.
-TriangleDistortion measure_triangle(const PlaneTriangle& source, const Vector3& a, const Vector3& b,
-                                    const Vector3& c, double to_sphere) {
+template <class Arctangents>
+TriangleDistortion distortion_of(const Pair& pair, Arctangents& arctangents, double to_sphere) {
   TriangleDistortion result;
-  const PlaneTriangle chord = plane_triangle(a, b, c);
-  const std::array<double, 3> before = angles(source), after = angles(chord);
+  const PlaneTriangle &source = pair.source, &chord = pair.chord;
+  const auto angles_at = [&](const Corners& at) {
+    const double first = arctangents.next(), second = arctangents.next();
+    return angles_from(at, first, second);
+  };
+  const std::array<double, 3> before = angles_at(pair.source_corners),
+                              after = angles_at(pair.chord_corners);
   for (int k = 0; k < 3; ++k) result.angle_ratio[k] = after[k] / before[k];
 
   const double area = source.doubled_area * to_sphere / 2;
   result.source_area = area / sphere_area;
-  result.area_ratio = std::abs(solid_angle(a, b, c)) / area;
+  result.area_ratio = std::abs(2 * arctangents.next()) / area;
 
   // σ1 σ2 = A_chord / A
   const double det = chord.doubled_area / (2 * area);
@@ -113,7 +169,7 @@ TriangleDistortion measure_triangle(const PlaneTriangle& source, const Vector3& 
   return result;
 }
 
-/// Measures one triangle after the other of a mesh that has any.
+/// Measures some triangles after the others of a mesh that has any.
 class Measuring {
  public:
   Measuring(const TriangleMesh& mesh, const SphereMap& map, int threads)
@@ -125,11 +181,22 @@ class Measuring {
     to_sphere_ = sphere_area / (source_.total_doubled_area(floor_, threads) / 2);
   }
 
-  TriangleDistortion operator()(Eigen::Index f) const {
-    PlaneTriangle triangle = source_.triangle(f);
-    triangle.doubled_area = std::max(triangle.doubled_area, floor_);
-    const auto ray = [&](int k) { return map_.point(mesh_.triangles(f, k)); };
-    return measure_triangle(triangle, ray(0), ray(1), ray(2), to_sphere_);
+  static constexpr size_t most = 64;  // triangles at once
+
+  /// Triangles first, first + 1, …. Requires: at most `most`.
+  void measure(Eigen::Index first, std::span<TriangleDistortion> rows) const {
+    std::array<Pair, most> pairs;
+    Arctangents<most * Pair::angles> arctangents;
+    for (size_t i = 0; i < rows.size(); ++i) {
+      const Eigen::Index f = first + static_cast<Eigen::Index>(i);
+      pairs[i].source = source_.triangle(f);
+      pairs[i].source.doubled_area = std::max(pairs[i].source.doubled_area, floor_);
+      const auto ray = [&](int k) { return map_.point(mesh_.triangles(f, k)); };
+      pairs[i].ask(arctangents, ray(0), ray(1), ray(2));
+    }
+    arctangents.make();
+    for (size_t i = 0; i < rows.size(); ++i)
+      rows[i] = distortion_of(pairs[i], arctangents, to_sphere_);
   }
 
  private:
@@ -145,16 +212,30 @@ struct Tally {
   double log2_area = 0, dirichlet = 0, conformal = 0, stretch = 0, area = 0;
   double area_min = infinity, area_max = 0, angle_max = 1, conformal_max = 1, sigma_min = infinity;
 
-  void add(const TriangleDistortion& d) {
+  /// Requires: at most Measuring::most.
+  void add(std::span<const TriangleDistortion> rows) {
+    constexpr size_t ratios = 4;  // of a triangle
+    std::array<double, Measuring::most * ratios> values, logs;
+    size_t count = 0;
+    for (const TriangleDistortion& d : rows) {
+      values[count++] = d.area_ratio;
+      for (const double ratio : d.angle_ratio) values[count++] = ratio;
+    }
+    elementary::log(std::span(values).first(count), std::span(logs).first(count));
+    for (size_t i = 0; i < rows.size(); ++i)
+      add(rows[i], std::span(logs).subspan(ratios * i).first<ratios>());
+  }
+
+  void add(const TriangleDistortion& d, std::span<const double, 4> logs) {
     const double ratio = d.area_ratio, share = d.source_area;
-    const double ln_ratio = std::abs(elementary::log(ratio));
+    const double ln_ratio = std::abs(logs[0]);
     ln_area += ln_ratio;
     within_two += ratio >= 0.5 && ratio <= 2 ? 1 : 0;
     area_min = std::min(area_min, ratio);
     area_max = std::max(area_max, ratio);
     for (int k = 0; k < 3; ++k) {
       const double angle = d.angle_ratio[k];
-      ln_angle += std::abs(elementary::log(angle));
+      ln_angle += std::abs(logs[k + 1]);
       angle_max = std::max({angle_max, angle, 1 / angle});
     }
     const double s1 = d.sigma_max, s2 = d.sigma_min;
@@ -180,13 +261,25 @@ struct Tally {
   }
 };
 
-/// Of all triangles: `of(f)` is a TriangleDistortion.
+/// Calls of(first, rows) for all triangles from first to last, some at a time.
 template <class Of>
-Tally tally(Eigen::Index faces, int threads, const Of& of) {
+void for_some(std::int64_t first, std::int64_t last, const Of& of) {
+  std::array<TriangleDistortion, Measuring::most> rows;
+  constexpr std::int64_t most = Measuring::most;
+  for (; first < last; first += most)
+    of(first, std::span(rows).first(static_cast<size_t>(std::min(most, last - first))));
+}
+
+/// Of all triangles: `fill(first, rows)` makes their rows.
+template <class Fill>
+Tally tally(Eigen::Index faces, int threads, const Fill& fill) {
   std::vector<Tally> partial(static_cast<size_t>((faces + grain - 1) / grain));
   parallel_for(faces, grain, threads, [&](std::int64_t first, std::int64_t last) {
     Tally local;
-    for (Eigen::Index f = first; f < last; ++f) local.add(of(f));
+    for_some(first, last, [&](std::int64_t from, std::span<TriangleDistortion> rows) {
+      fill(from, rows);
+      local.add(rows);
+    });
     partial[static_cast<size_t>(first / grain)] = local;
   });
   Tally total;
@@ -238,43 +331,48 @@ Distortion measure_distortion(const TriangleMesh& mesh, const SphereMap& map, in
   Distortion result{VectorX(faces), {}, VectorX(faces), VectorX(faces), VectorX(faces)};
   result.angle_ratio.resize(faces, 3);
   if (faces == 0) return result;
-  const Measuring measure(mesh, map, threads);
+  const Measuring measuring(mesh, map, threads);
   parallel_for(faces, grain, threads, [&](std::int64_t first, std::int64_t last) {
-    for (Eigen::Index f = first; f < last; ++f) {
-      const TriangleDistortion d = measure(f);
-      for (int k = 0; k < 3; ++k) result.angle_ratio(f, k) = d.angle_ratio[k];
-      result.area_ratio[f] = d.area_ratio;
-      result.sigma_max[f] = d.sigma_max;
-      result.sigma_min[f] = d.sigma_min;
-      result.source_area[f] = d.source_area;
-    }
+    for_some(first, last, [&](Eigen::Index f, std::span<TriangleDistortion> rows) {
+      measuring.measure(f, rows);
+      for (const TriangleDistortion& d : rows) {
+        for (int k = 0; k < 3; ++k) result.angle_ratio(f, k) = d.angle_ratio[k];
+        result.area_ratio[f] = d.area_ratio;
+        result.sigma_max[f] = d.sigma_max;
+        result.sigma_min[f] = d.sigma_min;
+        result.source_area[f++] = d.source_area;
+      }
+    });
   });
   return result;
 }
 
 DistortionSummary summarise(const Distortion& d, int threads) {
   if (d.area_ratio.size() == 0) return {};
-  const auto row = [&](Eigen::Index f) -> TriangleDistortion {
-    return {{d.angle_ratio(f, 0), d.angle_ratio(f, 1), d.angle_ratio(f, 2)},
-            d.area_ratio[f],
-            d.sigma_max[f],
-            d.sigma_min[f],
-            d.source_area[f]};
+  const auto copy = [&](Eigen::Index f, std::span<TriangleDistortion> rows) {
+    for (TriangleDistortion& row : rows) {
+      row = {{d.angle_ratio(f, 0), d.angle_ratio(f, 1), d.angle_ratio(f, 2)},
+             d.area_ratio[f],
+             d.sigma_max[f],
+             d.sigma_min[f],
+             d.source_area[f]};
+      ++f;
+    }
   };
-  return summary_of(tally(d.area_ratio.size(), threads, row), d.area_ratio);
+  return summary_of(tally(d.area_ratio.size(), threads, copy), d.area_ratio);
 }
 
 DistortionSummary summarise_distortion(const TriangleMesh& mesh, const SphereMap& map,
                                        int threads) {
   const Eigen::Index faces = mesh.face_count();
   if (faces == 0) return {};
-  const Measuring measure(mesh, map, threads);
+  const Measuring measuring(mesh, map, threads);
   VectorX area_ratio(faces);
-  const Tally total = tally(faces, threads, [&](Eigen::Index f) {
-    const TriangleDistortion d = measure(f);
-    area_ratio[f] = d.area_ratio;
-    return d;
-  });
+  const Tally total =
+      tally(faces, threads, [&](Eigen::Index f, std::span<TriangleDistortion> rows) {
+        measuring.measure(f, rows);
+        for (const TriangleDistortion& d : rows) area_ratio[f++] = d.area_ratio;
+      });
   return summary_of(total, std::move(area_ratio));
 }
 

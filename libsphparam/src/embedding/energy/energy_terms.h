@@ -2,7 +2,7 @@
 
 #include <type_traits>
 
-#include "embedding/energy/lanes.h"
+#include "lanes.h"
 #include "sphparam/embedding/distortion_energy.h"
 
 // The density f(d, s) of either energy where nothing is folded (ε = 0; `differentiate` in

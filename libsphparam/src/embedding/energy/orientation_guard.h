@@ -1,6 +1,6 @@
 #pragma once
 
-#include "embedding/energy/lanes.h"
+#include "lanes.h"
 #include "sphere/ieee_arithmetic.h"
 
 // The one guard of all sweeps and Newton steps. They take a step only if

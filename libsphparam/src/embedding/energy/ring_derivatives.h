@@ -1,8 +1,8 @@
 #pragma once
 
 #include "embedding/energy/energy_terms.h"
-#include "embedding/energy/lanes.h"
 #include "embedding/energy/orientation_guard.h"
+#include "lanes.h"
 
 // The energy of the rings of W vertices x, one a lane, as functions of x alone: the value and the
 // second-order model. For a ring p₀ … p_{k−1}, A = pᵢ − x, B = pᵢ₊₁ − x (see ring_slot.h):

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "embedding/energy/lanes.h"
+#include "lanes.h"
 #include "sphparam/mesh/triangle_mesh.h"
 
 // The energy of one triangle, seen from its corner x. With rest edges a, b from x (capital: the

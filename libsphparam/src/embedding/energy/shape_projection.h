@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "embedding/energy/lanes.h"
 #include "embedding/energy/triangle_derivatives.h"
+#include "lanes.h"
 
 // A triangle has six tangent coordinates; turning it about the centre changes nothing, so only
 // three of them carry shape. Householder reflections turn the Hessian into a basis whose first

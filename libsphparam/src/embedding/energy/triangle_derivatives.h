@@ -1,8 +1,8 @@
 #pragma once
 
 #include "embedding/energy/energy_terms.h"
+#include "embedding/energy/gathered_lanes.h"
 #include "embedding/energy/image_point.h"
-#include "embedding/energy/lanes.h"
 #include "embedding/energy/orientation_guard.h"
 #include "embedding/energy/triangle_packs.h"
 

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "embedding/energy/energy_terms.h"
-#include "embedding/energy/lanes.h"
+#include "lanes.h"
 #include "embedding/energy/shape_projection.h"
 #include "embedding/energy/triangle_derivatives.h"
 #include "sphere/ieee_arithmetic.h"

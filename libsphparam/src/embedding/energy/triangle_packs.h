@@ -3,7 +3,7 @@
 #include <array>
 
 #include "embedding/energy/image_point.h"
-#include "embedding/energy/lanes.h"
+#include "lanes.h"
 #include "sphparam/embedding/distortion_energy.h"
 
 namespace sphparam {

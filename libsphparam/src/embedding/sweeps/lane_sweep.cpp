@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <memory>
 
-#include "embedding/energy/lanes.h"
+#include "embedding/energy/gathered_lanes.h"
 #include "embedding/energy/ring_derivatives.h"
 #include "sphere/ieee_arithmetic.h"
 #include "sphparam/parallel.h"

@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "embedding/energy/lanes.h"
+#include "embedding/energy/gathered_lanes.h"
 #include "embedding/sweeps/least_colour.h"
 #include "sphparam/parallel.h"
 

@@ -240,11 +240,6 @@ ControlMesh subdivide_to_quads(const ControlMesh& mesh) {
 PatchNet::PatchNet(const Polygons& faces)
     : degree_(require_one_degree(faces)), across_(pair_edges(faces)) {}
 
-double PatchNet::beyond(const LimitPlace& place) const {
-  if (degree_ == 3) return std::max({-place.s, -place.t, place.s + place.t - 1});
-  return std::max({-place.s, -place.t, place.s - 1, place.t - 1});
-}
-
 LimitPlace PatchNet::cross(const LimitPlace& place) const {
   int farthest = 0;
   std::array<double, 2> there = on_edge(degree_, 0, place);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "sphparam/io/polygons.h"
@@ -36,7 +37,11 @@ class PatchNet {
   int across(int edge) const { return across_[static_cast<size_t>(edge)]; }
 
   /// How far a place is beyond the end of its patch, in parameters; 0 or less within.
-  double beyond(const LimitPlace& place) const;
+  double beyond(const LimitPlace& place) const {
+    const double before = std::max(-place.s, -place.t);
+    if (degree_ == 3) return std::max(before, place.s + place.t - 1);
+    return std::max(before, std::max(place.s, place.t) - 1);
+  }
   /// A place beyond the end of its patch in the parameters of the patch there, as if the two were
   /// one flat piece. The edge farthest behind is crossed, one only. Requires: beyond(place) > 0.
   LimitPlace cross(const LimitPlace& place) const;

@@ -1,4 +1,4 @@
-#include "embedding/energy/lanes.h"
+#include "lanes.h"
 
 #include <algorithm>
 #include <atomic>

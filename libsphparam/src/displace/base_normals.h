@@ -1,0 +1,14 @@
+#pragma once
+
+#include <span>
+
+#include "displace/normal_line.h"
+#include "displace/place_finder.h"
+
+namespace sphparam {
+
+/// Lines along the normals of a base's surface, from there; where it has none, that is 0.
+/// Requires: lines as many as places.
+void find_normals(std::span<const LimitPlace> places, PlaceFinder& patches, LineTable& lines);
+
+}  // namespace sphparam

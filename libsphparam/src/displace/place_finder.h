@@ -1,0 +1,57 @@
+#pragma once
+
+#include <optional>
+#include <unordered_map>
+
+#include "displace/directed_base.h"
+
+namespace sphparam {
+
+/// Both of a base's surfaces on one patch.
+struct DirectedPatch {
+  DirectedPatch(LimitPatch surface, LimitPatch direction)
+      : surface(std::move(surface)), direction(std::move(direction)) {}
+  LimitPatch surface, direction;
+};
+
+/// Finds the places of directions, fast where one is near the one before. One for each thread.
+class PlaceFinder {
+ public:
+  explicit PlaceFinder(const DirectedBase& base) : base_(base) {}
+
+  struct Found {
+    LimitPlace place;  // within its patch
+    bool exact;  // else the grid's own place, where the directions' surface folds or Newton fails
+  };
+  /// Requires: unit direction. Ensures: where `exact`, the place's direction is the one asked for,
+  /// to 1e-7 of a face. `start_anew` forgets the search before, so that what is found does not
+  /// depend on it, not even by rounding.
+  Found find(const Vector3& direction);
+  void start_anew() { last_.reset(); }
+  /// The same from a place that should be near.
+  Found find(const Vector3& direction, const LimitPlace& near);
+
+  /// Until the next call.
+  const DirectedPatch& patch(int index);
+  const DirectedBase& base() const { return base_; }
+
+  static constexpr double longest_step = 0.75;   // in parameters: beyond, a patch says nothing
+  static constexpr double edge_rounding = 1e-9;  // beyond the edge of a patch, and still in it
+  /// Of a polynomial the next step would be some 1e-8; derivatives of other patches are not quite
+  /// those of their points.
+  static constexpr double last_step(bool of_polynomial) { return of_polynomial ? 1e-4 : 5e-6; }
+
+ private:
+  std::optional<LimitPlace> newton(const Vector3& direction, LimitPlace place);
+  std::optional<LimitPlace> newton_anew(const Vector3& direction) {
+    return newton(direction, base_.guess(direction));
+  }
+  Found found(const Vector3& direction, const std::optional<LimitPlace>& place) const;
+
+  const DirectedBase& base_;
+  std::unordered_map<int, DirectedPatch> kept_;
+  const DirectedPatch* last_patch_ = nullptr;
+  std::optional<LimitPlace> last_, before_last_;
+};
+
+}  // namespace sphparam

@@ -1,0 +1,115 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "displace/base_normals.h"
+#include "displace/place_rows.h"
+#include "remesh/limit_subject.h"
+
+using namespace sphparam;
+using namespace sphparam::tests;
+
+namespace {
+
+const std::vector<LimitSubject> subjects = {
+    {"ico:0", Scheme::Loop},          {"ico:3", Scheme::Loop},
+    {"octa:9", Scheme::Loop},         {"cube:2", Scheme::CatmullClark},
+    {"cube:7", Scheme::CatmullClark}, {"uv:12x7", Scheme::CatmullClark}};
+
+constexpr int width = 101;  // a last run that is not full
+
+Points row_at(double phi) {
+  Points directions(width, 3);
+  for (int c = 0; c < width; ++c) {
+    const double theta = 2 * std::numbers::pi * (c + 0.5) / width;
+    directions.row(c) << std::cos(theta) * std::sin(phi), std::sin(theta) * std::sin(phi),
+        std::cos(phi);
+  }
+  return directions;
+}
+
+}  // namespace
+
+TEST_CASE("place rows: what is found below a row is what a search anew finds, near rows and far") {
+  for (const LimitSubject& subject : subjects) {
+    const SphereGrid grid = subject.grid();
+    const DirectedBase base(grid, 2 * grid.directions, subject.scheme);
+    for (const double step : {0.01, 0.2}) {
+      PlaceFinder finder(base), anew(base);
+      PlaceRows rows(finder);
+      for (double phi = 0.005; phi < std::numbers::pi; phi += step) {
+        const Points directions = row_at(phi);
+        rows.find_next(directions);
+        for (int c = 0; c < width; ++c) {
+          INFO(subject.name << ", ϕ " << phi << ", column " << c);
+          const LimitPlace& place = rows.places()[static_cast<size_t>(c)];
+          REQUIRE(rows.exact(static_cast<size_t>(c)));
+          REQUIRE(base.net().beyond(place) <= 0);
+          const Vector3 direction = directions.row(c);
+          REQUIRE((base.directions().evaluate(place).position.normalized() - direction).norm() <
+                  5e-8);
+          anew.start_anew();
+          const Vector3 found = base.surface().evaluate(anew.find(direction).place).position;
+          REQUIRE((base.surface().evaluate(place).position - found).norm() < 2e-7);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("place rows: where directions fold over, the flat grid's place is told") {
+  SphereGrid grid = make_grid(parse_grid("ico:1"));
+  grid.directions.row(0) =
+      (grid.directions.row(0) + 0.9 * grid.directions.row(grid.faces.polygon(0)[1])).normalized();
+  const DirectedBase odd(grid, grid.directions, Scheme::Loop);
+  PlaceFinder finder(odd);
+  PlaceRows rows(finder);
+  int inexact = 0;
+  for (double phi = 0.01; phi < std::numbers::pi; phi += 0.02) {
+    const Points directions = row_at(phi);
+    rows.find_next(directions);
+    for (int c = 0; c < width; ++c) {
+      const LimitPlace& place = rows.places()[static_cast<size_t>(c)];
+      CHECK(odd.net().beyond(place) <= 0);
+      const Vector3 there = odd.directions().evaluate(place).position.normalized();
+      const Vector3 direction = directions.row(c);
+      if (rows.exact(static_cast<size_t>(c)))
+        CHECK((there - direction).norm() < 1e-6);
+      else
+        ++inexact;
+    }
+  }
+  CHECK(inexact < 50 * width);
+}
+
+TEST_CASE("base normals: origins and unit normals are those of the surface's points") {
+  for (const LimitSubject& subject : subjects) {
+    const SphereGrid grid = subject.grid();
+    const DirectedBase base(grid, 2 * grid.directions, subject.scheme);
+    std::vector<LimitPlace> places;
+    for (int p = 0; p < base.net().patch_count(); ++p) {
+      for (int i = 0; i <= p % 11; ++i) places.push_back({p, 0.05 * i, 0.4 - 0.03 * i});
+    }
+    PlaceFinder patches(base);
+    LineTable lines(places.size());
+    find_normals(places, patches, lines);
+    for (size_t i = 0; i < places.size(); ++i) {
+      const LimitPoint point = base.surface().evaluate(places[i]);
+      for (size_t k = 0; k < 3; ++k) {
+        const auto axis = static_cast<int>(k);
+        REQUIRE(lines.origins[k][i] == point.position[axis]);
+        REQUIRE(std::abs(lines.normals[k][i] - point.normal()[axis]) < 1e-15);
+      }
+    }
+  }
+}
+
+TEST_CASE("base normals: where all control points are the origin, there is no normal") {
+  const SphereGrid grid = make_grid(parse_grid("ico:2"));
+  const DirectedBase base(grid, Points::Zero(grid.directions.rows(), 3), Scheme::Loop);
+  PlaceFinder patches(base);
+  LineTable lines(1);
+  const LimitPlace place{7, 0.2, 0.3};
+  find_normals({&place, 1}, patches, lines);
+  for (size_t k = 0; k < 3; ++k) CHECK(lines.normals[k][0] == 0);
+}
