@@ -36,14 +36,26 @@ Face ordinary_face(const SphericalChart& chart) {
   }
 }
 
-/// The certificate; the short question has the same answer, also of (u, v) that a chart is given.
+/// The certificate; the short question has the same answer, also of (u, v) that a chart is given,
+/// one that is certified with others and one that is not certified at all.
 ChartCertificate certified(const SphericalChart& chart) {
   const ChartCertificate certificate = certify_chart(chart);
-  CHECK(is_one_to_one(chart, chart.uv) == certificate.one_to_one());
   SphericalChart other = chart;
+  other.certificate = {};
+  CHECK(is_one_to_one(other, chart.uv) == certificate.one_to_one());
   other.uv.setConstant(0.5);
   CHECK(is_one_to_one(other, chart.uv) == certificate.one_to_one());
-  CHECK_FALSE(is_one_to_one(chart, other.uv));
+  CHECK_FALSE(is_one_to_one(other, other.uv));
+  other.certificate = certificate;
+  CHECK_FALSE(is_one_to_one(other, other.uv));
+  CHECK(is_one_to_one(other, chart.uv) == certificate.one_to_one());
+  const SphericalChart sound = sound_chart();
+  const auto same = [](const Triangles& a, const Triangles& b) {
+    return a.rows() == b.rows() && a == b;
+  };
+  if (same(chart.wedges, sound.wedges) && same(chart.triangles, sound.triangles) &&
+      chart.wedge_vertices == sound.wedge_vertices && chart.uv.rows() == sound.uv.rows())
+    CHECK(is_one_to_one(sound, chart.uv) == certificate.one_to_one());
   return certificate;
 }
 

@@ -80,3 +80,19 @@ TEST_CASE("chart point: inside the rectangle, but on the meridian and at ±z") {
   CHECK(chart_point({0, 1, 0}).u == 0.25);
   CHECK(chart_point({0, -1, 0}).u == 0.75);
 }
+
+TEST_CASE("longitude: chart points of many at once are those of one by one, to the bit") {
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  std::vector<Vector3> rays = {
+      {0, 0, 1},       {0, -0.0, -2},  {1, 0, 0},           {-1, 0, 0.5}, {-1, -0.0, 0},
+      {1, -1e-300, 0}, {1, 1e-320, 0}, {1e-200, 1e-200, 1}, {1, 1, 0},    {1e-200, -1e-9, -1}};
+  while (rays.size() < 333) rays.emplace_back(normal(random), normal(random), normal(random));
+  std::vector<ChartPoint> points(rays.size());
+  chart_points(rays, points);
+  for (size_t i = 0; i < rays.size(); ++i) {
+    INFO(rays[i].transpose());
+    CHECK(points[i].u == chart_point(rays[i]).u);
+    CHECK(points[i].v == chart_point(rays[i]).v);
+  }
+}

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "chart/longitude.h"
 #include "chart/one_to_one.h"
@@ -47,31 +49,41 @@ class ChartCertifier {
 
   ChartCertificate run(int threads) {
     if (!well_formed()) return std::move(result_);
-    const auto topology =
-        Topology::try_build(chart_.triangles, static_cast<int>(chart_.points.rows()));
-    if (!topology) return std::move(result_);
+    if (!Topology::try_build(chart_.triangles, static_cast<int>(chart_.points.rows())))
+      return std::move(result_);
+    return run_closed(threads);
+  }
+
+  /// Of a chart that was certified with other (u, v): its tables and how its triangles meet are
+  /// known.
+  ChartCertificate run_closed(int threads) {
+    if (static_cast<Eigen::Index>(chart_.wedge_vertices.size()) != uv_.rows())
+      return std::move(result_);
     result_.closed = true;
     find_outside(threads);
     if (!usable_) return std::move(result_);
-    examine_faces(*topology, threads);
+    examine_faces(threads);
+    examine_edges();
     return std::move(result_);
   }
 
  private:
   struct Findings {
     std::vector<Face> malformed, folded, inverted;
-    std::vector<Halfedge> torn;
     int north_turns = 0, south_turns = 0;
   };
 
   ChartPoint point(int wedge) const { return {uv_(wedge, 0), uv_(wedge, 1)}; }
   ChartPoint corner(Halfedge h) const { return point(wedge(h)); }
+  bool exists(Vertex v) const { return v >= 0 && v < chart_.points.rows(); }
+  Vertex origin(Halfedge h) const {
+    return chart_.triangles(Topology::face(h), Topology::corner(h));
+  }
   int wedge(Halfedge h) const { return chart_.wedges(Topology::face(h), Topology::corner(h)); }
   static bool on_rim(const ChartPoint& p) { return p.v == 0 || p.v == 1; }
 
   /// Do the tables fit together? Lists the faces whose wedges are not those of their vertices.
   bool well_formed() {
-    const Eigen::Index vertices = chart_.points.rows();
     if (chart_.wedges.rows() != chart_.triangles.rows() ||
         static_cast<Eigen::Index>(chart_.wedge_vertices.size()) != uv_.rows() ||
         chart_.triangles.rows() == 0)
@@ -80,7 +92,7 @@ class ChartCertifier {
       for (int k = 0; k < 3; ++k) {
         const Vertex v = chart_.triangles(f, k);
         const int w = chart_.wedges(f, k);
-        const bool fits = v >= 0 && v < vertices && w >= 0 && w < wedge_count_ &&
+        const bool fits = exists(v) && w >= 0 && w < wedge_count_ &&
                           chart_.wedge_vertices[static_cast<size_t>(w)] == v;
         if (fits) continue;
         result_.malformed.push_back(f);
@@ -102,8 +114,8 @@ class ChartCertifier {
         if (!inside) outside[chunk].push_back(w);
         if (!(std::abs(p.u) <= largest_coordinate && std::abs(p.v) <= largest_coordinate))
           usable_ = false;
-        if (everything_) shift[chunk] = std::max(shift[chunk], distance_from_map(w));
       }
+      if (everything_) shift[chunk] = farthest_from_map(first, last);
     });
     for (size_t i = 0; i < chunks; ++i) {
       result_.outside.insert(result_.outside.end(), outside[i].begin(), outside[i].end());
@@ -111,28 +123,45 @@ class ChartCertifier {
     }
   }
 
-  double distance_from_map(int w) const {
-    const Vertex v = chart_.wedge_vertices[static_cast<size_t>(w)];
-    if (v < 0 || v >= chart_.points.rows()) return 1;
-    const Vector3 ray = chart_.points.row(v);
-    const ChartPoint p = point(w), there = chart_point(ray);
-    const double along_v = std::abs(p.v - there.v);
-    if (on_rim(p)) return along_v;
-    const double turns = std::abs(p.u - there.u), parallel = ray.head<2>().stableNorm();
-    return std::max(along_v, std::min(turns, std::abs(turns - 1)) * parallel / ray.stableNorm());
+  /// Of wedges first … last − 1.
+  double farthest_from_map(std::int64_t first, std::int64_t last) const {
+    const auto count = static_cast<size_t>(last - first);
+    std::vector<Vector3> rays(count);
+    std::vector<ChartPoint> there(count);
+    double farthest = 0;
+    for (size_t i = 0; i < count; ++i) {
+      const Vertex v = chart_.wedge_vertices[static_cast<size_t>(first) + i];
+      rays[i] = exists(v) ? Vector3(chart_.points.row(v)) : Vector3::UnitZ();
+      if (!exists(v)) farthest = 1;
+    }
+    chart_points(rays, there);
+    for (size_t i = 0; i < count; ++i) {
+      const ChartPoint p = point(static_cast<int>(first) + static_cast<int>(i));
+      farthest = std::max(farthest, distance_beyond(farthest, p, rays[i], there[i]));
+    }
+    return farthest;
   }
 
-  void examine_faces(const Topology& topology, int threads) {
-    const Face faces = topology.face_count();
+  /// From a wedge to where its ray is, as far as that says something on the sphere; where it is no
+  /// more than `least`, that will do.
+  static double distance_beyond(double least, const ChartPoint& p, const Vector3& ray,
+                                const ChartPoint& there) {
+    const double along_v = std::abs(p.v - there.v);
+    if (on_rim(p)) return along_v;
+    const double turns = std::abs(p.u - there.u), along_u = std::min(turns, std::abs(turns - 1));
+    if (along_v <= least && along_u <= least) return least;
+    const double parallel = ray.head<2>().stableNorm();
+    return std::max(along_v, along_u * parallel / ray.stableNorm());
+  }
+
+  void examine_faces(int threads) {
+    const auto faces = static_cast<Face>(chart_.triangles.rows());
     std::vector<Findings> chunks(static_cast<size_t>((faces + chunk_size - 1) / chunk_size));
     parallel_for(faces, chunk_size, threads, [&](std::int64_t first, std::int64_t last) {
       Findings& findings = chunks[static_cast<size_t>(first / chunk_size)];
       for (auto f = static_cast<Face>(first); f < static_cast<Face>(last); ++f) {
         examine_piece(f, findings);
         if (everything_ && !positive_on_sphere(f)) findings.inverted.push_back(f);
-        for (Halfedge h = 3 * f; h < 3 * f + 3; ++h) {
-          if (h < topology.twin(h) && !fits(h, topology.twin(h))) findings.torn.push_back(h);
-        }
       }
     });
     for (const Findings& chunk : chunks) {
@@ -142,10 +171,42 @@ class ChartCertifier {
       append(result_.malformed, chunk.malformed);
       append(result_.folded, chunk.folded);
       append(result_.inverted, chunk.inverted);
-      append(result_.torn, chunk.torn);
       result_.north_turns += chunk.north_turns;
       result_.south_turns += chunk.south_turns;
     }
+  }
+
+  /// (c). Where both ends of an edge have one wedge each, its sides see the same; the others are
+  /// those of seam and poles.
+  void examine_edges() {
+    for (const auto& [h, twin] : edges_at_copies()) {
+      if (!fits(h, twin)) result_.torn.push_back(h);
+    }
+    std::ranges::sort(result_.torn);
+  }
+
+  /// Edges with an end that has several wedges, and their twins. Requires: closed.
+  std::vector<std::pair<Halfedge, Halfedge>> edges_at_copies() const {
+    std::vector<char> several(static_cast<size_t>(chart_.points.rows()), 0);
+    for (const Vertex v : chart_.wedge_vertices) {
+      if (!exists(v)) continue;  // of a wedge that no triangle has
+      char& seen = several[static_cast<size_t>(v)];
+      seen = static_cast<char>(std::min(seen + 1, 2));
+    }
+    struct Side {
+      Vertex low, high;
+      Halfedge h;
+    };
+    std::vector<Side> sides;
+    for (Halfedge h = 0; h < 3 * static_cast<Halfedge>(chart_.triangles.rows()); ++h) {
+      const Vertex a = origin(h), b = origin(Topology::next(h));
+      if (several[static_cast<size_t>(a)] == 2 || several[static_cast<size_t>(b)] == 2)
+        sides.push_back({std::min(a, b), std::max(a, b), h});
+    }
+    std::ranges::sort(sides, {}, [](const Side& s) { return std::tuple(s.low, s.high, s.h); });
+    std::vector<std::pair<Halfedge, Halfedge>> edges;
+    for (size_t i = 0; i + 1 < sides.size(); i += 2) edges.emplace_back(sides[i].h, sides[i + 1].h);
+    return edges;
   }
 
   /// (a) and (b), and counts for (d).
@@ -215,7 +276,9 @@ ChartCertificate certify_chart(const SphericalChart& chart, int threads) {
 }
 
 bool is_one_to_one(const SphericalChart& chart, const TextureCoordinates& uv, int threads) {
-  return ChartCertifier(chart, uv, ChartCertifier::Question::OneToOne).run(threads).one_to_one();
+  ChartCertifier certifier(chart, uv, ChartCertifier::Question::OneToOne);
+  return (chart.certificate.one_to_one() ? certifier.run_closed(threads) : certifier.run(threads))
+      .one_to_one();
 }
 
 }  // namespace sphparam

@@ -1,6 +1,7 @@
 #include "chart/longitude.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -44,16 +45,46 @@ Crossing meridian_crossing(const Vector3& a, const Vector3& b, const Vector3& th
   return {at_a / (at_a - at_b), ray.stableNormalized()};
 }
 
-ChartPoint chart_point(const Vector3& ray) {
-  const double x = ray.x(), y = ray.y(), z = ray.z();
-  if (at_pole(ray)) return {0, z > 0 ? 0.0 : 1.0};
-  const double square = x * x + y * y;
-  const double radius = square > 1e-280 ? std::sqrt(square) : elementary::hypot(x, y);
-  const double v =
-      std::clamp(elementary::atan2(radius, z) * std::numbers::inv_pi, above_zero, below_one);
+namespace {
+
+/// Not 0 but at the poles.
+double distance_from_axis(const Vector3& ray) {
+  const double x = ray.x(), y = ray.y(), square = x * x + y * y;
+  return square > 1e-280 ? std::sqrt(square) : elementary::hypot(x, y);
+}
+
+/// Of a ray with these angles; at ±z they do not matter.
+ChartPoint chart_point(const Vector3& ray, double theta, double phi) {
+  if (at_pole(ray)) return {0, ray.z() > 0 ? 0.0 : 1.0};
+  const double v = std::clamp(phi * std::numbers::inv_pi, above_zero, below_one);
   if (on_meridian(ray)) return {0, v};
-  const double turns = y == 0 ? 0.5 : elementary::atan2(y, x) * (0.5 * std::numbers::inv_pi);
+  const double y = ray.y(), turns = y == 0 ? 0.5 : theta * (0.5 * std::numbers::inv_pi);
   return {y < 0 ? std::clamp(1 + turns, 0.5, below_one) : std::clamp(turns, above_zero, 0.5), v};
+}
+
+}  // namespace
+
+ChartPoint chart_point(const Vector3& ray) {
+  return chart_point(ray, elementary::atan2(ray.y(), ray.x()),
+                     elementary::atan2(distance_from_axis(ray), ray.z()));
+}
+
+void chart_points(std::span<const Vector3> rays, std::span<ChartPoint> points) {
+  constexpr size_t most = 64;
+  std::array<double, 2 * most> y, x, angles;  // of each, θ and ϕ
+  while (!rays.empty()) {
+    const size_t count = std::min(most, rays.size());
+    for (size_t i = 0; i < count; ++i) {
+      y[2 * i] = rays[i].y(), x[2 * i] = rays[i].x();
+      y[2 * i + 1] = distance_from_axis(rays[i]), x[2 * i + 1] = rays[i].z();
+    }
+    elementary::atan2(std::span(y).first(2 * count), std::span(x).first(2 * count),
+                      std::span(angles).first(2 * count));
+    for (size_t i = 0; i < count; ++i)
+      points[i] = chart_point(rays[i], angles[2 * i], angles[2 * i + 1]);
+    rays = rays.subspan(count);
+    points = points.subspan(count);
+  }
 }
 
 }  // namespace sphparam

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "sphere/planar_orientation.h"
 #include "sphparam/mesh/triangle_mesh.h"
 
@@ -30,5 +32,7 @@ double difference_of_products(double a, double b, double c, double d);
 /// u = θ/2π, v = ϕ/π of a ray. Ensures: strictly inside the rectangle, but u = 0 on the meridian;
 /// v = 0 or 1 at ±z.
 ChartPoint chart_point(const Vector3& ray);
+/// Of many, to the same bits. Requires: as many points as rays. Cost: half of one by one.
+void chart_points(std::span<const Vector3> rays, std::span<ChartPoint> points);
 
 }  // namespace sphparam

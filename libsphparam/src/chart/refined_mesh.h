@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "sphparam/mesh/surface_point.h"
@@ -23,6 +24,7 @@ class RefinedMesh {
   Vertex vertex(Face f, int corner) const { return origin(3 * f + corner); }
   Halfedge rotate_ccw(Halfedge h) const { return twin(Topology::previous(h)); }
   const Vector3& point(Vertex v) const { return points_[static_cast<size_t>(v)]; }
+  std::span<const Vector3> rays() const { return points_; }
   Points points() const;
   Triangles triangles() const;
   const std::vector<SurfacePoint>& surface_points() const { return surface_points_; }

@@ -32,11 +32,12 @@ void check_sizes(const TriangleMesh& mesh, const Topology& topology, const Spher
 
 void lay_out(FlatMesh& flat, int threads) {
   flat.uv.resize(static_cast<size_t>(flat.mesh.vertex_count()));
-  parallel_for(flat.mesh.vertex_count(), chunk_size, threads,
-               [&](std::int64_t first, std::int64_t last) {
-                 for (auto v = static_cast<Vertex>(first); v < static_cast<Vertex>(last); ++v)
-                   flat.uv[static_cast<size_t>(v)] = chart_point(flat.mesh.point(v));
-               });
+  parallel_for(
+      flat.mesh.vertex_count(), chunk_size, threads, [&](std::int64_t first, std::int64_t last) {
+        const auto begin = static_cast<size_t>(first), count = static_cast<size_t>(last) - begin;
+        chart_points(flat.mesh.rays().subspan(begin, count),
+                     std::span(flat.uv).subspan(begin, count));
+      });
 }
 
 /// Wedges of a flat mesh, face by face.

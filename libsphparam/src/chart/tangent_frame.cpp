@@ -5,10 +5,11 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <span>
 #include <stdexcept>
 #include <tuple>
 
-#include "mesh/triangle_geometry.h"
+#include "elementary.h"
 #include "sphparam/chart/carry_attributes.h"
 #include "sphparam/parallel.h"
 
@@ -29,35 +30,73 @@ struct CornerDirections {
   std::array<double, 3> angles = {0, 0, 0};
 };
 
+/// Of two angles, sines and cosines times a positive number.
+struct TwoAngles {
+  std::array<double, 2> sines = {0, 0}, cosines = {1, 1};
+
+  void set(size_t i, const Vector3& a, const Vector3& b) {
+    sines[i] = a.cross(b).norm();
+    cosines[i] = a.dot(b);
+  }
+};
+
+/// Whether products of a few such numbers stay in the range of doubles.
+bool is_usual(double size) { return size > 0x1p-200 && size < 0x1p200; }
+
 /// v / |v|, or zero; for any finite v.
 Vector3 direction_of(const Vector3& v) {
   const double largest = v.cwiseAbs().maxCoeff();
+  if (is_usual(largest)) return v.normalized();
   return largest > 0 ? Vector3((v / largest).normalized()) : Vector3(Vector3::Zero());
 }
 
-CornerDirections corner_directions(const SphericalChart& chart, const Points& positions, Face f) {
+/// The direction of a triangle, and what its angles at corners 0 and 1 are made of.
+Vector3 direction_along(const SphericalChart& chart, const Points& positions, Face f,
+                        TwoAngles& angles) {
   std::array<Vector3, 3> edges;  // from corner k to the next
   for (int k = 0; k < 3; ++k)
     edges[k] =
         positions.row(chart.triangles(f, (k + 1) % 3)) - positions.row(chart.triangles(f, k));
-  // The largest is 1, so that no product leaves the range of doubles.
-  double scale = 0;
-  for (const Vector3& e : edges) scale = std::max(scale, e.cwiseAbs().maxCoeff());
-  if (scale == 0) return {};
-  for (Vector3& e : edges) e /= scale;
+  double largest = 0;
+  for (const Vector3& e : edges) largest = std::max(largest, e.cwiseAbs().maxCoeff());
+  if (largest == 0) return Vector3::Zero();
+  if (!is_usual(largest)) {
+    for (Vector3& e : edges) e /= largest;
+  }
 
   const Eigen::Vector2d a = chart.uv.row(chart.wedges(f, 0));
   const Eigen::Vector2d first = chart.uv.row(chart.wedges(f, 1)).transpose() - a,
                         second = chart.uv.row(chart.wedges(f, 2)).transpose() - a;
   const double area = first[0] * second[1] - second[0] * first[1];
   const double sign = area > 0 ? 1 : -1;  // −: not folded
-  // e₂ = −edges[2]
-  const Vector3 along = direction_of(sign * (second[1] * edges[0] + first[1] * edges[2]));
   // Angles, so that it does not matter how finely a triangle is split; they sum to π.
-  const double at_first = angle_between(edges[0], -edges[2]),
-               at_second = angle_between(edges[1], -edges[0]);
-  const double at_third = std::max(0.0, std::numbers::pi - at_first - at_second);
-  return {along, {at_first, at_second, at_third}};
+  angles.set(0, edges[0], -edges[2]);
+  angles.set(1, edges[1], -edges[0]);
+  // e₂ = −edges[2]
+  return direction_of(sign * (second[1] * edges[0] + first[1] * edges[2]));
+}
+
+/// Of triangles first, first + 1, …; arctangents of some at once.
+void find_directions(const SphericalChart& chart, const Points& positions, Face first,
+                     std::span<CornerDirections> directions) {
+  constexpr size_t most = 64;
+  std::array<double, 2 * most> sines, cosines, angles;
+  for (size_t begin = 0; begin < directions.size(); begin += most) {
+    const auto some = directions.subspan(begin, std::min(most, directions.size() - begin));
+    for (size_t i = 0; i < some.size(); ++i) {
+      TwoAngles two;
+      some[i].along = direction_along(chart, positions, first + static_cast<Face>(begin + i), two);
+      std::ranges::copy(two.sines, &sines[2 * i]);
+      std::ranges::copy(two.cosines, &cosines[2 * i]);
+    }
+    elementary::atan2(std::span(sines).first(2 * some.size()),
+                      std::span(cosines).first(2 * some.size()),
+                      std::span(angles).first(2 * some.size()));
+    for (size_t i = 0; i < some.size(); ++i) {
+      const double a = angles[2 * i], b = angles[2 * i + 1];
+      some[i].angles = {a, b, std::max(0.0, std::numbers::pi - a - b)};
+    }
+  }
 }
 
 /// A unit vector in the plane of the normal, as near to `sum` as can be.
@@ -125,8 +164,9 @@ ShadingFrame tangent_frame(const SphericalChart& chart, const Points& positions,
   const std::vector<int> sum_of = sums_of(chart, normals);
   std::vector<CornerDirections> directions(static_cast<size_t>(faces));
   parallel_for(faces, chunk_size, threads, [&](std::int64_t first, std::int64_t last) {
-    for (auto f = static_cast<Face>(first); f < static_cast<Face>(last); ++f)
-      directions[static_cast<size_t>(f)] = corner_directions(chart, positions, f);
+    find_directions(chart, positions, static_cast<Face>(first),
+                    std::span(directions)
+                        .subspan(static_cast<size_t>(first), static_cast<size_t>(last - first)));
   });
 
   const auto is_fan = [&](int w) {
