@@ -96,8 +96,9 @@ SPHPARAM_INLINE SumOf<Number> operator-(SumOf<Number> a, SumOf<Number> b) {
   return a + -b;
 }
 
-Sum operator*(Sum a, Sum b) {
-  const Sum high = product(a.high, b.high);
+template <class Number>
+SPHPARAM_INLINE SumOf<Number> operator*(SumOf<Number> a, SumOf<Number> b) {
+  const SumOf<Number> high = product(a.high, b.high);
   return ordered_sum(high.high, high.low + (a.high * b.low + a.low * b.high));
 }
 
@@ -381,9 +382,14 @@ Sum log_sum(double x) {
   return log_of<double>(m, e);
 }
 
-/// Requires: normal numbers > 0.
 template <int W>
-SPHPARAM_INLINE Lanes<W> log_of_plain(const Lanes<W>& x) {
+struct SplitLanes {
+  Lanes<W> m, e;
+};
+
+/// As `split`. Requires: normal numbers > 0.
+template <int W>
+SPHPARAM_INLINE SplitLanes<W> split_lanes(const Lanes<W>& x) {
   using Bits = typename LaneMask<W>::Vector;
   constexpr long long mantissa = 0x000fffffffffffff, one_half = 0x3fe0000000000000;
   constexpr long long to_double = 0x4338000000000000;  // the bits of 3·2⁵¹, to which e is added
@@ -393,10 +399,37 @@ SPHPARAM_INLINE Lanes<W> log_of_plain(const Lanes<W>& x) {
   Lanes<W> m, e;
   __builtin_memcpy(&m.v, &m_bits, sizeof m_bits);
   const LaneMask<W> low = m < sqrt_half;
-  m = select(low, 2.0 * m, m);
   const Bits e_bits = (bits >> 52) - 1022 + low.v + to_double;  // one less where low
   __builtin_memcpy(&e.v, &e_bits, sizeof e_bits);
-  return log_of(m, e - 0x1.8p52).value();
+  return {select(low, 2.0 * m, m), e - 0x1.8p52};
+}
+
+/// log2 (2ᵉ m).
+template <class Number>
+SPHPARAM_INLINE SumOf<Number> log2_of(const Number& m, const Number& e) {
+  constexpr Sum per_log{0x1.71547652b82fep+0, 0x1.777d0ffda0d24p-56};
+  return SumOf<Number>{e, 0.0} + log_near_one(m) * SumOf<Number>{per_log.high, per_log.low};
+}
+
+/// Logarithms of many: those of normal numbers > 0 side by side by `of(m, e)`, others by `alone`.
+template <class Of>
+SPHPARAM_INLINE void logs_of(std::span<const double> x, std::span<double> logs,
+                             double (*alone)(double), const Of& of) {
+  constexpr double least = std::numeric_limits<double>::min(),
+                   infinite = std::numeric_limits<double>::infinity();
+  size_t i = 0;
+  run_on_lanes([&]<int W>(Width<W>) SPHPARAM_INLINED {
+    for (; i + W <= logs.size(); i += W) {
+      const Lanes<W> numbers = load<W>(&x[i]);
+      if (!(~(numbers > least) | ~(numbers < infinite)).any()) {
+        const SplitLanes<W> parts = split_lanes(numbers);
+        store(of(parts.m, parts.e).value(), &logs[i]);
+      } else {
+        for (size_t k = i; k < i + W; ++k) logs[k] = alone(x[k]);
+      }
+    }
+  });
+  for (; i < logs.size(); ++i) logs[i] = alone(x[i]);
 }
 
 /// log, log2 where the argument is not positive and finite.
@@ -489,27 +522,18 @@ double log(double x) {
 }
 
 void log(std::span<const double> x, std::span<double> logs) {
-  size_t i = 0;
-  run_on_lanes([&]<int W>(Width<W>) SPHPARAM_INLINED {
-    constexpr double least = std::numeric_limits<double>::min(),
-                     infinite = std::numeric_limits<double>::infinity();
-    for (; i + W <= logs.size(); i += W) {
-      const Lanes<W> numbers = load<W>(&x[i]);
-      if (!(~(numbers > least) | ~(numbers < infinite)).any()) {
-        store(log_of_plain(numbers), &logs[i]);
-      } else {
-        for (size_t k = i; k < i + W; ++k) logs[k] = log(x[k]);
-      }
-    }
-  });
-  for (; i < logs.size(); ++i) logs[i] = log(x[i]);
+  logs_of(x, logs, log, [](const auto& m, const auto& e) SPHPARAM_INLINED { return log_of(m, e); });
 }
 
 double log2(double x) {
-  constexpr Sum per_log{0x1.71547652b82fep+0, 0x1.777d0ffda0d24p-56};
   if (!(x > 0) || is_nan_or_infinite(x)) return log_of_special(x);
   const auto [m, e] = split(x);
-  return (Sum{static_cast<double>(e), 0} + log_near_one<double>(m) * per_log).value();
+  return log2_of<double>(m, e).value();
+}
+
+void log2(std::span<const double> x, std::span<double> logs) {
+  logs_of(x, logs, log2,
+          [](const auto& m, const auto& e) SPHPARAM_INLINED { return log2_of(m, e); });
 }
 
 double pow(double x, double y) {

@@ -40,6 +40,8 @@ double log(double x);
 void log(std::span<const double> x, std::span<double> logs);
 /// 0.55 ulp; exact at powers of two.
 double log2(double x);
+/// Of many, to the same bits. Requires: as many of each. Cost: a third of one by one, or less.
+void log2(std::span<const double> x, std::span<double> logs);
 /// x^y for x ≥ 0; NaN where x < 0. 0.7 ulp for results from e^−5 to e^5, 1.4 to e^±20, 40 anywhere.
 double pow(double x, double y);
 

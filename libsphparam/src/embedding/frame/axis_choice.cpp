@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include "elementary.h"
@@ -22,6 +23,7 @@ namespace sphparam {
 namespace {
 
 constexpr std::int64_t face_grain = 8192;
+constexpr size_t at_once = 64;  // triangles whose logarithms are taken together
 constexpr std::int64_t candidate_grain = 8;
 constexpr int cells_a_side = 6;  // of each face of a cube
 constexpr int cell_count = 6 * cells_a_side * cells_a_side;
@@ -185,13 +187,24 @@ Survey survey_triangles(const Topology& topology, const RestTriangles& source, c
     Part& part = parts[at(first / face_grain)];
     part.folds.assign(axes.size(), 0);
     std::vector<unsigned char> suspect(axes.size());
-    for (auto f = static_cast<Face>(first); f < static_cast<Face>(last); ++f) {
-      const ImageCorners t = corners(topology, map, f);
-      const double det = t.a.dot((t.b - t.a).cross(t.c - t.a)), area = source[at(f)].area;
-      if (!(det > 0)) continue;
-      const double log = elementary::log2(det / (2 * area));
-      part.cells[at(cell_of(t.a + t.b + t.c))].add({area, area * log, area * log * log});
-      count_folds(t, det, axes, suspect, part.folds);
+    std::array<ImageCorners, at_once> triangles;
+    std::array<double, at_once> dets, areas, ratios, logs;
+    for (auto f = static_cast<Face>(first); f < static_cast<Face>(last);) {
+      size_t count = 0;
+      for (; f < static_cast<Face>(last) && count < at_once; ++f) {
+        const ImageCorners t = triangles[count] = corners(topology, map, f);
+        dets[count] = t.a.dot((t.b - t.a).cross(t.c - t.a));
+        areas[count] = source[at(f)].area;
+        ratios[count] = dets[count] / (2 * areas[count]);
+        if (dets[count] > 0) ++count;
+      }
+      elementary::log2(std::span(ratios).first(count), std::span(logs).first(count));
+      for (size_t i = 0; i < count; ++i) {
+        const ImageCorners& t = triangles[i];
+        const double area = areas[i], log = logs[i];
+        part.cells[at(cell_of(t.a + t.b + t.c))].add({area, area * log, area * log * log});
+        count_folds(t, dets[i], axes, suspect, part.folds);
+      }
     }
   });
   Survey survey{{}, std::vector<double>(axes.size(), 0)};
@@ -295,13 +308,17 @@ std::vector<int> count_crossings(const Topology& topology, const std::vector<flo
 bool folds_in_chart(const Vector3& a, const Vector3& b, const Vector3& c) {
   constexpr double pi = std::numbers::pi;
   const std::array<Vector3, 3> x{a, b, c};
-  std::array<double, 3> theta, phi;
+  // θ of each corner, ϕ of each; two more fill the lanes.
+  std::array<double, 8> sines, cosines, angles;
+  sines.fill(0), cosines.fill(1);
   for (size_t i = 0; i < 3; ++i) {
     const double r = x[i].head<2>().norm();
     if (r == 0) return false;
-    theta[i] = elementary::atan2(x[i].y(), x[i].x());
-    phi[i] = elementary::atan2(r, x[i].z());
+    sines[i] = x[i].y(), cosines[i] = x[i].x();
+    sines[i + 3] = r, cosines[i + 3] = x[i].z();
   }
+  elementary::atan2(sines, cosines, angles);
+  const double *theta = angles.data(), *phi = theta + 3;
   const auto short_way = [&](size_t i, size_t j) {
     const double d = theta[j] - theta[i];
     return d > pi ? d - 2 * pi : (d < -pi ? d + 2 * pi : d);
