@@ -313,6 +313,15 @@ TEST_CASE("bake: numbers of faces are exact or refused, and a misspelt property 
   CHECK_THAT(misspelt.err, Contains("did you mean heat?"));
 }
 
+TEST_CASE("bake: an image named without its option is told what to type") {
+  const Ended bare = sphparam_program({"bake", "m.ply", "normal-object", "-o", "x.png"});
+  CHECK(bare.code == 2);
+  CHECK_THAT(bare.err, Contains("unexpected argument normal-object; --map normal-object bakes it"));
+  const Ended other = sphparam_program({"bake", "m.ply", "n.ply"});
+  CHECK(other.code == 2);
+  CHECK_THAT(other.err, Contains("unexpected argument n.ply") && !Contains("--map"));
+}
+
 TEST_CASE("bake: what cannot be done is said before anything is written") {
   const Folder folder;
   const std::string out = folder / "x.png", obj = textured_ball();

@@ -24,6 +24,7 @@
 #include "arguments/leading_options.h"
 #include "arguments/limits.h"
 #include "arguments/words.h"
+#include "bake/field_registry.h"
 #include "commands/command.h"
 #include "console/console.h"
 #include "console/exit_codes.h"
@@ -144,6 +145,13 @@ std::string hint_of_rename(const CLI::App& command, const CLI::ParseError& error
   return now.empty() ? "" : "; " + now;
 }
 
+/// Where a word that nothing takes names an image of `bake`.
+std::string hint_of_image(const CLI::App& command, const std::string& word) {
+  const Words kinds = names_of(field_makers(), [](const FieldMaker& maker) { return maker.name; });
+  const bool is_kind = std::ranges::count(kinds, word.substr(0, word.find(':'))) > 0;
+  return command.get_name() == "bake" && is_kind ? "; --map " + word + " bakes it" : "";
+}
+
 /// The subcommand that was asked for, of a subcommand where that has some; else the program.
 const CLI::App& chosen_command(const CLI::App& program) {
   const std::vector<CLI::App*> chosen = program.get_subcommands();
@@ -164,6 +172,7 @@ std::string explain(const CLI::App& program, const CLI::ParseError& error) {
     }
     if (wants_subcommand)
       return "unknown subcommand " + word + did_you_mean(word, command_names(app));
+    if (!is_option) return "unexpected argument " + word + hint_of_image(app, word);
   }
   return error.what() + hint_of_json(app, error) + hint_of_rename(app, error);
 }
