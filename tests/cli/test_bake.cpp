@@ -317,6 +317,9 @@ TEST_CASE("bake: an image named without its option is told what to type") {
   const Ended bare = sphparam_program({"bake", "m.ply", "normal-object", "-o", "x.png"});
   CHECK(bare.code == 2);
   CHECK_THAT(bare.err, Contains("unexpected argument normal-object; --map normal-object bakes it"));
+  const Ended size = sphparam_program({"bake", "m.ply", "--size", "--map", "ao", "-o", "x.png"});
+  CHECK(size.code == 2);
+  CHECK_THAT(size.err, Contains("--size: expected a number"));
   const Ended other = sphparam_program({"bake", "m.ply", "n.ply"});
   CHECK(other.code == 2);
   CHECK_THAT(other.err, Contains("unexpected argument n.ply") && !Contains("--map"));

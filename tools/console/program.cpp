@@ -162,6 +162,10 @@ const CLI::App& chosen_command(const CLI::App& program) {
 std::string explain(const CLI::App& program, const CLI::ParseError& error) {
   const CLI::App& app = chosen_command(program);
   const bool wants_subcommand = !app.get_subcommands({}).empty();
+  // An option that took the word before a stray one says more.
+  const auto kind = static_cast<CLI::ExitCodes>(error.get_exit_code());
+  const bool nothing_else =
+      kind == CLI::ExitCodes::ExtrasError || kind == CLI::ExitCodes::RequiredError;
   for (const std::string& word : app.remaining()) {
     const bool is_option = word.size() > 1 && word.front() == '-';
     if (is_option) {
@@ -172,7 +176,7 @@ std::string explain(const CLI::App& program, const CLI::ParseError& error) {
     }
     if (wants_subcommand)
       return "unknown subcommand " + word + did_you_mean(word, command_names(app));
-    if (!is_option) return "unexpected argument " + word + hint_of_image(app, word);
+    if (!is_option && nothing_else) return "unexpected argument " + word + hint_of_image(app, word);
   }
   return error.what() + hint_of_json(app, error) + hint_of_rename(app, error);
 }
