@@ -11,6 +11,7 @@
 #include "sphparam/sphere/spherical_coordinates.h"
 #include "support/all_triangulations.h"
 #include "support/coil.h"
+#include "support/instruction_limit.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -307,7 +308,7 @@ TEST_CASE("chart: one that takes more splits than are allowed says so") {
   CHECK(cut.triangles.rows() == mesh.face_count() + 2 * cut.counts.splits());
 }
 
-TEST_CASE("chart: the same bytes for any number of threads") {
+TEST_CASE("chart: the same bytes for any number of threads, by any instructions") {
   const TriangleMesh mesh = relabelled(icosphere(5), 3);
   std::mt19937 random(9);
   const SphereMap map = rotated({mesh.positions}, random_rotation(random));
@@ -318,6 +319,10 @@ TEST_CASE("chart: the same bytes for any number of threads") {
     CHECK(many.wedges == one.wedges);
     CHECK(many.uv == one.uv);
     CHECK(many.points == one.points);
+  }
+  for (const InstructionSet set : {InstructionSet::Baseline, InstructionSet::Avx2}) {
+    const InstructionLimit limit(set);
+    CHECK(chart_of(mesh, map, 2).uv == one.uv);
   }
 }
 

@@ -5,6 +5,7 @@
 #include "sphparam/chart/carry_attributes.h"
 #include "sphparam/chart/tangent_frame.h"
 #include "sphparam/parameterize.h"
+#include "support/instruction_limit.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -231,6 +232,11 @@ TEST_CASE("tangent_frame: the same bytes for any number of threads, wrong sizes 
         tangent_frame(sphere.chart, sphere.positions, sphere.normals, threads);
     CHECK(frame.tangents == sphere.frame.tangents);
     CHECK(frame.normals == sphere.frame.normals);
+  }
+  for (const InstructionSet set : {InstructionSet::Baseline, InstructionSet::Avx2}) {
+    const tests::InstructionLimit limit(set);
+    CHECK(tangent_frame(sphere.chart, sphere.positions, sphere.normals).tangents ==
+          sphere.frame.tangents);
   }
   CHECK_THROWS_AS(tangent_frame(sphere.chart, sphere.positions, Points::Zero(3, 3)),
                   std::invalid_argument);

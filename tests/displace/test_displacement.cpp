@@ -9,6 +9,7 @@
 #include "displace/rebuild.h"
 #include "sphparam/measure/surface_distance.h"
 #include "sphparam/sphere/spherical_coordinates.h"
+#include "support/instruction_limit.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -108,11 +109,16 @@ TEST_CASE("displacement: of the base itself it is zero, of a parallel surface it
   }
 }
 
-TEST_CASE("displacement: the same bytes for any number of threads") {
+TEST_CASE("displacement: the same bytes for any number of threads, by any instructions") {
   const Landscape land("cube:4", Scheme::CatmullClark, 8, bumps);
   CHECK(land.displacement(96, 1).image.pixels == land.displacement(96, 3).image.pixels);
   const TextureLattice lattice = lattice_of("cube:4", 20000);
   CHECK(land.displacement(lattice, 1).image.pixels == land.displacement(lattice, 3).image.pixels);
+  const auto pixels = land.displacement(96).image.pixels;
+  for (const InstructionSet set : {InstructionSet::Baseline, InstructionSet::Avx2}) {
+    const tests::InstructionLimit limit(set);
+    CHECK(land.displacement(96).image.pixels == pixels);
+  }
 }
 
 TEST_CASE(

@@ -34,7 +34,7 @@ TEST_CASE("place rows: what is found below a row is what a search anew finds, ne
   for (const LimitSubject& subject : subjects) {
     const SphereGrid grid = subject.grid();
     const DirectedBase base(grid, 2 * grid.directions, subject.scheme);
-    for (const double step : {0.01, 0.2}) {
+    for (const double step : {0.03, 0.2}) {
       PlaceFinder finder(base), anew(base);
       PlaceRows rows(finder);
       for (double phi = 0.005; phi < std::numbers::pi; phi += step) {

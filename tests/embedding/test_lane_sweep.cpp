@@ -6,11 +6,12 @@
 #include <vector>
 
 #include "embedding/constructions/progressive.h"
-#include "lanes.h"
 #include "embedding/energy/triangle_packs.h"
 #include "embedding/sweeps/lane_sweep.h"
+#include "lanes.h"
 #include "sphparam/sphere/orientation.h"
 #include "support/hard_shapes.h"
+#include "support/instruction_limit.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -28,12 +29,6 @@ Vector3 random_ray(Random& random) {
   std::normal_distribution<double> normal;
   return Vector3(normal(random), normal(random), normal(random)).normalized();
 }
-
-/// Uses up to the given instruction set while it lives.
-struct Limit {
-  explicit Limit(InstructionSet widest) { limit_instruction_set(widest); }
-  ~Limit() { limit_instruction_set(InstructionSet::Avx512); }
-};
 
 /// A wheel of 2k triangles around vertex 0 with a hub on the other side: closed, and vertex 0's
 /// ring is the rim.
@@ -99,7 +94,7 @@ TEST_CASE("guard of triangles: what it accepts, the exact predicate calls positi
   Random random(7);
   const InstructionSet widest =
       GENERATE(InstructionSet::Baseline, InstructionSet::Avx2, InstructionSet::Avx512);
-  const Limit limit(widest);
+  const InstructionLimit limit(widest);
   int accepted = 0, refused_positive = 0;
   for (int trial = 0; trial < 200'000; ++trial) {
     // The third point on the great circle of the first two, or a few roundings beside it.
@@ -126,7 +121,7 @@ TEST_CASE("guard of steps: no vertex of a ring that is nearly flat leaves its ke
   Random random(11);
   const InstructionSet widest =
       GENERATE(InstructionSet::Baseline, InstructionSet::Avx2, InstructionSet::Avx512);
-  const Limit limit(widest);
+  const InstructionLimit limit(widest);
   int moved = 0;
   for (int trial = 0; trial < 20'000; ++trial) {
     const int rim = std::uniform_int_distribution<int>(3, 7)(random);
@@ -172,7 +167,7 @@ TEST_CASE("lanes: the same bits from every instruction set, sweeps and Newton st
   const Topology topology(mesh);
   for (const EnergyKind kind : {EnergyKind::AngleAndArea, EnergyKind::SymmetricDirichlet}) {
     const auto points = [&](InstructionSet widest) {
-      const Limit limit(widest);
+      const InstructionLimit limit(widest);
       return embed_progressively(mesh, topology,
                                  {.energy = {.kind = kind}, .quality = Quality::Best})
           .map->points;

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "elementary.h"
-#include "lanes.h"
+#include "support/instruction_limit.h"
 
 // The law is the bits: they are written down here, from one machine, and hold on all. How near they
 // are to the exact values is measured against long double where that has more digits.
@@ -243,7 +243,7 @@ TEST_CASE("elementary: of many at once the bits are those of one by one, by any 
   };
   for (const InstructionSet set :
        {InstructionSet::Baseline, InstructionSet::Avx2, InstructionSet::Avx512}) {
-    limit_instruction_set(set);
+    const tests::InstructionLimit limit(set);
     elementary::atan2(y, x, angles);
     elementary::log(x, logs);
     elementary::log2(x, binary);
@@ -255,5 +255,4 @@ TEST_CASE("elementary: of many at once the bits are those of one by one, by any 
     }
     CHECK(different == 0);
   }
-  limit_instruction_set(InstructionSet::Avx512);
 }

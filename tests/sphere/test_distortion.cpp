@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sphparam/sphere/distortion.h"
+#include "support/instruction_limit.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -182,11 +183,15 @@ TEST_CASE("distortion: the size of the source is divided out, exactly for powers
   }
 }
 
-TEST_CASE("distortion: the same bits for 1, 2 and 4 threads") {
+TEST_CASE("distortion: the same bits for 1, 2 and 4 threads, by any instructions") {
   const Case c = lumpy_case(5);
   const Distortion one = measure_distortion(c.mesh, c.map, 1);
   CHECK(same_bits(one, measure_distortion(c.mesh, c.map, 2)));
   CHECK(same_bits(one, measure_distortion(c.mesh, c.map, 4)));
+  for (const InstructionSet set : {InstructionSet::Baseline, InstructionSet::Avx2}) {
+    const tests::InstructionLimit limit(set);
+    CHECK(same_bits(one, measure_distortion(c.mesh, c.map)));
+  }
 }
 
 TEST_CASE("distortion: of a one-to-one map the shares of source and image each sum to one") {
