@@ -25,9 +25,9 @@
 #include <vector>
 
 #include "embedding/constructions/progressive.h"
-#include "lanes.h"
 #include "io/files/read_back.h"
 #include "io/polygons/welding.h"
+#include "lanes.h"
 #include "loop_subdivision.h"
 #include "sample_meshes.h"
 #include "sphparam/io/mesh_reader.h"

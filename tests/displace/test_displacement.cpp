@@ -114,10 +114,13 @@ TEST_CASE("displacement: the same bytes for any number of threads, by any instru
   CHECK(land.displacement(96, 1).image.pixels == land.displacement(96, 3).image.pixels);
   const TextureLattice lattice = lattice_of("cube:4", 20000);
   CHECK(land.displacement(lattice, 1).image.pixels == land.displacement(lattice, 3).image.pixels);
-  const auto pixels = land.displacement(96).image.pixels;
+  const Landscape triangles("ico:3", Scheme::Loop, 8, bumps);
+  const auto pixels = land.displacement(96).image.pixels,
+             others = triangles.displacement(96).image.pixels;
   for (const InstructionSet set : {InstructionSet::Baseline, InstructionSet::Avx2}) {
     const tests::InstructionLimit limit(set);
     CHECK(land.displacement(96).image.pixels == pixels);
+    CHECK(triangles.displacement(96).image.pixels == others);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <limits>
 #include <numbers>
 #include <random>
@@ -230,6 +231,16 @@ TEST_CASE("elementary: of many at once the bits are those of one by one, by any 
   for (const double a : special) {
     for (const double b : special) y.push_back(a), x.push_back(b);
   }
+  // Zeros of both signs beside what lanes take, a whole vector of the widest at a time.
+  for (const auto& [a, b] : {std::pair(0.0, 1.0),
+                             {-0.0, 1.0},
+                             {0.0, -1.0},
+                             {-0.0, -1.0},
+                             {1.0, 0.0},
+                             {1.0, -0.0},
+                             {-1.0, 0.0},
+                             {-1.0, -0.0}})
+    y.insert(y.end(), 8, a), x.insert(x.end(), 8, b);
   for (int i = 0; i < many; ++i) {
     const bool usual = i % 4 != 0;
     y.push_back(usual ? numbers.between(-2, 2) : numbers.of_any_size(-1060, 1020));

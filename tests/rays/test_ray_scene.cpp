@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
+#include <span>
 #include <vector>
 
 #include "rays/cosine_rays.h"
@@ -74,6 +75,19 @@ TEST_CASE("ray scene: the nearest point is that of brute force to the bit, with 
     for (int i = 0; i < 500; ++i) {
       check_nearest(soup, scene, 1.5 * random.point(), i % 3 == 0 ? -1 : i % 400);
     }
+  }
+}
+
+TEST_CASE("ray scene: of a long body the nearest point is found from any guess, and from none") {
+  TriangleMesh body = icosphere(2);
+  body.positions.col(0) *= 4;
+  body.positions.col(0).array() += 1;
+  const RayScene scene(body);
+  Random random;
+  for (int i = 0; i < 100; ++i) {
+    const Vector3 p = i == 0 ? Vector3(1, 0, 0) : Vector3(3 * random.number(), random.number(), 0);
+    for (Face guess = -1; guess < body.face_count(); guess += 13)
+      check_nearest(body, scene, p, guess);
   }
 }
 
@@ -219,9 +233,10 @@ TEST_CASE("ray scene: bundles say what single rays say, for any number of rays")
     std::vector<Eigen::Vector3f> directions(count);
     for (auto& d : directions) d = random.point().normalized().cast<float>();
     std::vector<std::uint8_t> blocked(count, 7);
-    std::vector<float> distances(count, -1);
+    std::vector<float> distances(count + 1, -1);
     scene.find_blocked(origin, directions, reach, blocked);
-    scene.find_distances(origin, directions, reach, distances);
+    scene.find_distances(origin, directions, reach, std::span(distances).first(count));
+    CHECK(distances[count] == -1);
     for (size_t i = 0; i < count; ++i) {
       const RayHit hit = scene.first_hit(origin, directions[i].cast<double>(), reach);
       CHECK(int{blocked[i]} == int{hit.face >= 0});
@@ -249,11 +264,11 @@ TEST_CASE("ray scene: rays side by side meet what they meet alone, each within i
   const RayScene scene(ball);
   Random random;
   for (const size_t count : {1u, 7u, 64u, 100u}) {
-    const Vector3 origin = random.point(), way = random.point().normalized();
+    const Vector3 origin = 0.3 * random.point(), way = random.point().normalized();
     std::vector<Ray> rays;
     for (size_t i = 0; i < count; ++i)
       rays.push_back({origin + 0.1 * random.point(), (way + 0.1 * random.point()).normalized(),
-                      i % 5 == 4 ? -1 : 0.02 * static_cast<double>(i % 50)});
+                      i % 5 == 4 ? -1 : 0.06 * static_cast<double>(i % 50)});
     std::vector<RayHit> hits(count);
     scene.first_hits(rays, hits);
     for (size_t i = 0; i < count; ++i) {
@@ -264,6 +279,8 @@ TEST_CASE("ray scene: rays side by side meet what they meet alone, each within i
       CHECK((hits[i].face < 0) == (alone.face < 0));
       CHECK(hits[i].distance == Approx(alone.distance).margin(1e-6));
     }
+    if (count == 100)
+      CHECK(std::count_if(hits.begin() + 64, hits.end(), [](auto& h) { return h.face >= 0; }) > 10);
   }
 }
 

@@ -176,7 +176,7 @@ std::string explain(const CLI::App& program, const CLI::ParseError& error) {
     }
     if (wants_subcommand)
       return "unknown subcommand " + word + did_you_mean(word, command_names(app));
-    if (!is_option && nothing_else) return "unexpected argument " + word + hint_of_image(app, word);
+    if (nothing_else) return "unexpected argument " + word + hint_of_image(app, word);
   }
   return error.what() + hint_of_json(app, error) + hint_of_rename(app, error);
 }

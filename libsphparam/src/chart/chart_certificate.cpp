@@ -49,21 +49,17 @@ class ChartCertifier {
 
   ChartCertificate run(int threads) {
     if (!well_formed()) return std::move(result_);
-    if (!Topology::try_build(chart_.triangles, static_cast<int>(chart_.points.rows())))
-      return std::move(result_);
-    return run_closed(threads);
+    const auto topology =
+        Topology::try_build(chart_.triangles, static_cast<int>(chart_.points.rows()));
+    if (topology) examine_closed(&*topology, threads);
+    return std::move(result_);
   }
 
   /// Of a chart that was certified with other (u, v): its tables and how its triangles meet are
   /// known.
-  ChartCertificate run_closed(int threads) {
-    if (static_cast<Eigen::Index>(chart_.wedge_vertices.size()) != uv_.rows())
-      return std::move(result_);
-    result_.closed = true;
-    find_outside(threads);
-    if (!usable_) return std::move(result_);
-    examine_faces(threads);
-    examine_edges();
+  ChartCertificate run_again(int threads) {
+    if (static_cast<Eigen::Index>(chart_.wedge_vertices.size()) == uv_.rows())
+      examine_closed(nullptr, threads);
     return std::move(result_);
   }
 
@@ -72,6 +68,15 @@ class ChartCertifier {
     std::vector<Face> malformed, folded, inverted;
     int north_turns = 0, south_turns = 0;
   };
+
+  /// Of tables that fit together and triangles that are closed.
+  void examine_closed(const Topology* topology, int threads) {
+    result_.closed = true;
+    find_outside(threads);
+    if (!usable_) return;
+    examine_faces(threads);
+    examine_edges(topology);
+  }
 
   ChartPoint point(int wedge) const { return {uv_(wedge, 0), uv_(wedge, 1)}; }
   ChartPoint corner(Halfedge h) const { return point(wedge(h)); }
@@ -132,12 +137,13 @@ class ChartCertifier {
     for (size_t i = 0; i < count; ++i) {
       const Vertex v = chart_.wedge_vertices[static_cast<size_t>(first) + i];
       rays[i] = exists(v) ? Vector3(chart_.points.row(v)) : Vector3::UnitZ();
-      if (!exists(v)) farthest = 1;
     }
     chart_points(rays, there);
     for (size_t i = 0; i < count; ++i) {
       const ChartPoint p = point(static_cast<int>(first) + static_cast<int>(i));
-      farthest = std::max(farthest, distance_beyond(farthest, p, rays[i], there[i]));
+      const Vertex v = chart_.wedge_vertices[static_cast<size_t>(first) + i];
+      farthest =
+          std::max(farthest, exists(v) ? distance_beyond(farthest, p, rays[i], there[i]) : 1.0);
     }
     return farthest;
   }
@@ -177,36 +183,50 @@ class ChartCertifier {
   }
 
   /// (c). Where both ends of an edge have one wedge each, its sides see the same; the others are
-  /// those of seam and poles.
-  void examine_edges() {
-    for (const auto& [h, twin] : edges_at_copies()) {
+  /// those of seam, poles and, in files, of hard edges.
+  void examine_edges(const Topology* topology) {
+    const std::vector<Halfedge> sides = sides_at_copies();
+    if (!topology) return examine_pairs(paired(sides));
+    for (const Halfedge h : sides) {
+      if (h < topology->twin(h) && !fits(h, topology->twin(h))) result_.torn.push_back(h);
+    }
+  }
+
+  using Pairs = std::vector<std::pair<Halfedge, Halfedge>>;
+
+  void examine_pairs(const Pairs& edges) {
+    for (const auto& [h, twin] : edges) {
       if (!fits(h, twin)) result_.torn.push_back(h);
     }
     std::ranges::sort(result_.torn);
   }
 
-  /// Edges with an end that has several wedges, and their twins. Requires: closed.
-  std::vector<std::pair<Halfedge, Halfedge>> edges_at_copies() const {
-    std::vector<char> several(static_cast<size_t>(chart_.points.rows()), 0);
+  /// Half-edges with an end that has several wedges.
+  std::vector<Halfedge> sides_at_copies() const {
+    std::vector<char> wedges(static_cast<size_t>(chart_.points.rows()), 0);  // of each, up to 2
     for (const Vertex v : chart_.wedge_vertices) {
       if (!exists(v)) continue;  // of a wedge that no triangle has
-      char& seen = several[static_cast<size_t>(v)];
-      seen = static_cast<char>(std::min(seen + 1, 2));
+      char& count = wedges[static_cast<size_t>(v)];
+      count = static_cast<char>(std::min(count + 1, 2));
     }
-    struct Side {
-      Vertex low, high;
-      Halfedge h;
-    };
-    std::vector<Side> sides;
+    std::vector<Halfedge> sides;
     for (Halfedge h = 0; h < 3 * static_cast<Halfedge>(chart_.triangles.rows()); ++h) {
-      const Vertex a = origin(h), b = origin(Topology::next(h));
-      if (several[static_cast<size_t>(a)] == 2 || several[static_cast<size_t>(b)] == 2)
-        sides.push_back({std::min(a, b), std::max(a, b), h});
+      const bool several = wedges[static_cast<size_t>(origin(h))] == 2 ||
+                           wedges[static_cast<size_t>(origin(Topology::next(h)))] == 2;
+      if (several) sides.push_back(h);
     }
-    std::ranges::sort(sides, {}, [](const Side& s) { return std::tuple(s.low, s.high, s.h); });
-    std::vector<std::pair<Halfedge, Halfedge>> edges;
-    for (size_t i = 0; i + 1 < sides.size(); i += 2) edges.emplace_back(sides[i].h, sides[i + 1].h);
-    return edges;
+    return sides;
+  }
+
+  /// The two sides of each edge. Requires: both are there, of a closed surface.
+  Pairs paired(std::vector<Halfedge> sides) const {
+    std::ranges::sort(sides, {}, [&](Halfedge h) {
+      const Vertex a = origin(h), b = origin(Topology::next(h));
+      return std::tuple(std::min(a, b), std::max(a, b), h);
+    });
+    Pairs pairs;
+    for (size_t i = 0; i + 1 < sides.size(); i += 2) pairs.emplace_back(sides[i], sides[i + 1]);
+    return pairs;
   }
 
   /// (a) and (b), and counts for (d).
@@ -277,7 +297,7 @@ ChartCertificate certify_chart(const SphericalChart& chart, int threads) {
 
 bool is_one_to_one(const SphericalChart& chart, const TextureCoordinates& uv, int threads) {
   ChartCertifier certifier(chart, uv, ChartCertifier::Question::OneToOne);
-  return (chart.certificate.one_to_one() ? certifier.run_closed(threads) : certifier.run(threads))
+  return (chart.certificate.one_to_one() ? certifier.run_again(threads) : certifier.run(threads))
       .one_to_one();
 }
 

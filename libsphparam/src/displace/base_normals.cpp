@@ -1,3 +1,5 @@
+// As LimitPoint::normal has them, eight at a time.
+
 #include "displace/base_normals.h"
 
 #include <algorithm>
@@ -16,11 +18,11 @@ void unit_normals(const LimitPoints& points, Rows& normals) {
   run_on_lanes([&]<int W>(Width<W>) SPHPARAM_INLINED {
     for (size_t i = 0; i < LimitPoints::count; i += W) {
       const LaneVectors<W> across = cross(load<W>(points.by_s, i), load<W>(points.by_t, i));
-      const Lanes<W> square = dot(across, across);
-      const Lanes<W> length = root(select(square > 0.0, square, Lanes<W>(1.0)));
-      store(across.x / length, &normals[0][i]);
-      store(across.y / length, &normals[1][i]);
-      store(across.z / length, &normals[2][i]);
+      const Lanes<W> length = root(dot(across, across)), none = 0.0;
+      const LaneMask<W> has_normal = length > 0.0;
+      store(select(has_normal, across.x / length, none), &normals[0][i]);
+      store(select(has_normal, across.y / length, none), &normals[1][i]);
+      store(select(has_normal, across.z / length, none), &normals[2][i]);
     }
   });
 }
@@ -28,7 +30,7 @@ void unit_normals(const LimitPoints& points, Rows& normals) {
 }  // namespace
 
 void find_normals(std::span<const LimitPlace> places, PlaceFinder& patches, LineTable& lines) {
-  LimitPoints points;
+  LimitPoints points{};
   Rows normals;
   for_each_run(places, [&](const LimitRun& run) {
     patches.patch(places[run.first].patch).surface.evaluate(run.s, run.t, run.count, points);

@@ -1,3 +1,6 @@
+// A guess is where the flat faces of the grid have the direction; corners of a face become those of
+// its patch.
+
 #include "displace/directed_base.h"
 
 #include <array>

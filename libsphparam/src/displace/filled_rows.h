@@ -50,7 +50,9 @@ struct Tally {
 template <class Fill>
 Displacement filled_rows(int width, int height, const DisplacementOptions& options,
                          const Fill& fill) {
-  constexpr std::int64_t rows_at_once = 32;   // of a thread
+  // Of a thread. The first of them costs five times as much as the others; the fewer there are, the
+  // more threads share a small image.
+  constexpr std::int64_t rows_at_once = 32;
   constexpr std::int64_t rows_between = 512;  // looks whether to go on
   Displacement result;
   result.image = Image(width, height, 1);

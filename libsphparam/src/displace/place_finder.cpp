@@ -11,8 +11,7 @@ namespace sphparam {
 
 namespace {
 
-constexpr size_t most_kept = 1 << 14;  // patches, of 1 kB
-constexpr int most_steps = 24;         // of Newton, patches crossed included
+constexpr int most_steps = 24;  // of Newton, patches crossed included
 
 }  // namespace
 
@@ -20,7 +19,8 @@ const DirectedPatch& PlaceFinder::patch(int index) {
   if (last_patch_ && last_patch_->surface.index() == index) return *last_patch_;
   auto kept = kept_.find(index);
   if (kept == kept_.end()) {
-    if (kept_.size() >= most_kept) kept_.clear();
+    last_patch_ = nullptr;
+    if (kept_.size() >= most_kept_) kept_.clear();
     LimitPatch surface = base_.surface().patch(index);
     LimitPatch direction(surface, base_.directions().control());
     kept = kept_.try_emplace(index, std::move(surface), std::move(direction)).first;

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <unordered_map>
+#include <utility>
 
 #include "displace/directed_base.h"
 
@@ -17,15 +18,17 @@ struct DirectedPatch {
 /// Finds the places of directions, fast where one is near the one before. One for each thread.
 class PlaceFinder {
  public:
-  explicit PlaceFinder(const DirectedBase& base) : base_(base) {}
+  /// `most_kept`: patches that are kept, of 1 kB; when there are more, it begins anew.
+  explicit PlaceFinder(const DirectedBase& base, size_t most_kept = 1 << 14)
+      : base_(base), most_kept_(most_kept) {}
 
   struct Found {
     LimitPlace place;  // within its patch
     bool exact;  // else the grid's own place, where the directions' surface folds or Newton fails
   };
   /// Requires: unit direction. Ensures: where `exact`, the place's direction is the one asked for,
-  /// to 1e-7 of a face. `start_anew` forgets the search before, so that what is found does not
-  /// depend on it, not even by rounding.
+  /// to 1e-7 of a face where faces beside one another are of like sizes. `start_anew` forgets the
+  /// search before, so that what is found does not depend on it, not even by rounding.
   Found find(const Vector3& direction);
   void start_anew() { last_.reset(); }
   /// The same from a place that should be near.
@@ -49,6 +52,7 @@ class PlaceFinder {
   Found found(const Vector3& direction, const std::optional<LimitPlace>& place) const;
 
   const DirectedBase& base_;
+  size_t most_kept_;
   std::unordered_map<int, DirectedPatch> kept_;
   const DirectedPatch* last_patch_ = nullptr;
   std::optional<LimitPlace> last_, before_last_;

@@ -95,8 +95,8 @@ struct WrittenDisplacement {
 /// Requires: a fit on `control`'s grid; sizes as DisplacementOptions says; for the layout of the
 /// grid one that has it. Throws: std::range_error where the depth cannot hold the distances;
 /// ImageError; WriteError; UnmeasurableMesh where nothing of the mesh's area is left on the grid;
-/// Cancelled. Ensures: the same bytes for any number of threads. Cost: some 0.1 µs a texel, and 5 µs
-/// a triangle of the rebuilt mesh.
+/// Cancelled. Ensures: the same bytes for any number of threads. Cost: some 0.1 µs a texel, and 5
+/// µs a triangle of the rebuilt mesh.
 WrittenDisplacement add_displacement(PendingFiles& files, const DisplacementFiles& paths,
                                      const MappedMesh& source, const Remeshed& control,
                                      const SubdivisionFit& fit,

@@ -87,6 +87,7 @@ class LimitPatch {
   /// Both outlive the patch.
   LimitPatch(const LimitTopology& topology, const Points& control, int patch);
   /// The same patch of a surface of the same topology with other control points, in less time.
+  /// Requires: as many of them; they and the topology outlive the patch.
   LimitPatch(const LimitPatch& other, const Points& control);
   ~LimitPatch();
   LimitPatch(LimitPatch&&) noexcept;
@@ -101,6 +102,7 @@ class LimitPatch {
   LimitPoint evaluate(double s, double t) const;
   LimitCurvature curvature(double s, double t) const;
   /// At the first `count` of some places; of a polynomial, at all of them, which costs the same.
+  /// Requires: as above, each; count at most that of LimitPoints; numbers for all of them.
   /// Ensures: the same bits as one by one. Cost: some 5 ns each for a polynomial.
   void evaluate(const LimitPoints::Numbers& s, const LimitPoints::Numbers& t, size_t count,
                 LimitPoints& points) const;
@@ -117,7 +119,7 @@ class LimitPatch {
 
   int patch_;
   const LimitTopology* topology_;
-  std::array<int, most_control_points> control_points_;
+  std::array<int, most_control_points> control_points_{};
   Coefficients coefficients_;
   std::unique_ptr<Irregular> irregular_;
 };

@@ -4,9 +4,9 @@
 #include <limits>
 
 #include "embedding/energy/energy_terms.h"
-#include "lanes.h"
 #include "embedding/energy/shape_projection.h"
 #include "embedding/energy/triangle_derivatives.h"
+#include "lanes.h"
 #include "sphere/ieee_arithmetic.h"
 
 // Energy, gradient and Hessian of eight triangles at a time.

@@ -10,8 +10,12 @@
 #include <opensubdiv/bfr/parameterization.h>
 
 #include <array>
+#include <memory>
+#include <mutex>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "lanes.h"
 #include "remesh/subdivision/limit_tables.h"

@@ -1,3 +1,5 @@
+// What OpenSubdiv is told of the faces, and what it is asked for; patches are in limit_patch.cpp.
+
 #include "sphparam/remesh/limit_surface.h"
 
 #include <opensubdiv/far/topologyDescriptor.h>
