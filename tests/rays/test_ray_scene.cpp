@@ -79,7 +79,9 @@ TEST_CASE("ray scene: the nearest point is that of brute force to the bit, with 
 }
 
 TEST_CASE("ray scene: of a long body the nearest point is found from any guess, and from none") {
-  TriangleMesh body = icosphere(2);
+  TriangleMesh body = icosphere(2);  // thick at one end
+  for (Eigen::Index v = 0; v < body.vertex_count(); ++v)
+    body.positions.row(v).tail<2>() *= 0.6 + 0.5 * body.positions(v, 0);
   body.positions.col(0) *= 4;
   body.positions.col(0).array() += 1;
   const RayScene scene(body);
