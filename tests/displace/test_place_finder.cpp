@@ -2,19 +2,14 @@
 #include <cmath>
 #include <random>
 
+#include "displace/base_subjects.h"
 #include "displace/crumpled_grid.h"
 #include "displace/place_finder.h"
-#include "remesh/limit_subject.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;
 
 namespace {
-
-const std::vector<LimitSubject> subjects = {
-    {"ico:0", Scheme::Loop},          {"ico:3", Scheme::Loop},
-    {"octa:9", Scheme::Loop},         {"cube:2", Scheme::CatmullClark},
-    {"cube:7", Scheme::CatmullClark}, {"uv:12x7", Scheme::CatmullClark}};
 
 std::vector<Vector3> random_directions(int count) {
   std::mt19937 engine(3);
@@ -33,7 +28,7 @@ Vector3 direction_at(PlaceFinder& finder, const LimitPlace& place) {
 }  // namespace
 
 TEST_CASE("place finder: the place found has the direction asked for") {
-  for (const LimitSubject& subject : subjects) {
+  for (const LimitSubject& subject : base_subjects) {
     const SphereGrid grid = subject.grid();
     const DirectedBase base(grid, 2 * grid.directions, subject.scheme);
     PlaceFinder finder(base);
@@ -51,7 +46,7 @@ TEST_CASE("place finder: the place found has the direction asked for") {
 }
 
 TEST_CASE("place finder: along a row and anew the same places are found") {
-  for (const LimitSubject& subject : subjects) {
+  for (const LimitSubject& subject : base_subjects) {
     const SphereGrid grid = subject.grid();
     const DirectedBase base(grid, grid.directions, subject.scheme);
     PlaceFinder along(base), anew(base);

@@ -3,19 +3,14 @@
 #include <numbers>
 
 #include "displace/base_normals.h"
+#include "displace/base_subjects.h"
 #include "displace/crumpled_grid.h"
 #include "displace/place_rows.h"
-#include "remesh/limit_subject.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;
 
 namespace {
-
-const std::vector<LimitSubject> subjects = {
-    {"ico:0", Scheme::Loop},          {"ico:3", Scheme::Loop},
-    {"octa:9", Scheme::Loop},         {"cube:2", Scheme::CatmullClark},
-    {"cube:7", Scheme::CatmullClark}, {"uv:12x7", Scheme::CatmullClark}};
 
 constexpr int width = 101;  // a last run that is not full
 
@@ -36,7 +31,7 @@ bool same(const LimitPlace& a, const LimitPlace& b) {
 }  // namespace
 
 TEST_CASE("place rows: what is found below a row is what a search anew finds, near rows and far") {
-  for (const LimitSubject& subject : subjects) {
+  for (const LimitSubject& subject : base_subjects) {
     const SphereGrid grid = subject.grid();
     const DirectedBase base(grid, 2 * grid.directions, subject.scheme);
     for (const double step : {0.03, 0.2}) {
@@ -89,7 +84,7 @@ TEST_CASE("place rows: where directions fold over, the flat grid's place is told
 }
 
 TEST_CASE("base normals: origins and unit normals are those of the surface's points") {
-  for (const LimitSubject& subject : subjects) {
+  for (const LimitSubject& subject : base_subjects) {
     const SphereGrid grid = subject.grid();
     const DirectedBase base(grid, 2 * grid.directions, subject.scheme);
     std::vector<LimitPlace> places;

@@ -12,9 +12,9 @@ namespace sphparam {
 
 namespace {
 
-using Rows = std::array<LimitPoints::Numbers, 3>;
+using Components = std::array<LimitPoints::Numbers, 3>;
 
-void unit_normals(const LimitPoints& points, Rows& normals) {
+void unit_normals(const LimitPoints& points, Components& normals) {
   run_on_lanes([&]<int W>(Width<W>) SPHPARAM_INLINED {
     for (size_t i = 0; i < LimitPoints::count; i += W) {
       const LaneVectors<W> across = cross(load<W>(points.by_s, i), load<W>(points.by_t, i));
@@ -31,7 +31,7 @@ void unit_normals(const LimitPoints& points, Rows& normals) {
 
 void find_normals(std::span<const LimitPlace> places, PlaceFinder& patches, LineTable& lines) {
   LimitPoints points{};
-  Rows normals;
+  Components normals;
   for_each_run(places, [&](const LimitRun& run) {
     patches.patch(places[run.first].patch).surface.evaluate(run.s, run.t, run.count, points);
     unit_normals(points, normals);

@@ -32,9 +32,9 @@ struct Steps {
   }
 };
 
-using Rows = std::array<Numbers, 3>;
+using Components = std::array<Numbers, 3>;
 
-void step_towards(const Rows& q, const LimitPoints& d, Steps& steps) {
+void step_towards(const Components& q, const LimitPoints& d, Steps& steps) {
   run_on_lanes([&]<int W>(Width<W>) SPHPARAM_INLINED {
     for (size_t i = 0; i < LimitPoints::count; i += W) {
       const auto step = direction_step(load<W>(d.position, i), load<W>(d.by_s, i),
@@ -47,8 +47,8 @@ void step_towards(const Rows& q, const LimitPoints& d, Steps& steps) {
   });
 }
 
-Rows side_by_side(const LimitRun& run, const Points& directions) {
-  Rows q;
+Components side_by_side(const LimitRun& run, const Points& directions) {
+  Components q;
   for (size_t i = 0; i < LimitPoints::count; ++i) {
     const auto row = static_cast<Eigen::Index>(run.first + std::min(i, run.count - 1));
     for (int k = 0; k < 3; ++k) q[static_cast<size_t>(k)][i] = directions(row, k);
@@ -57,7 +57,7 @@ Rows side_by_side(const LimitRun& run, const Points& directions) {
 }
 
 /// Newton's steps of a run at once; how long the last one of each was.
-Numbers newton(const LimitPatch& direction, const Rows& q, LimitRun& run) {
+Numbers newton(const LimitPatch& direction, const Components& q, LimitRun& run) {
   Numbers length;
   LimitPoints d;
   Steps steps;
