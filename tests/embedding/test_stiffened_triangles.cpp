@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <memory>
@@ -17,13 +18,16 @@ using namespace sphparam::tests;
 
 namespace {
 
-/// A sphere as its own map, in the mesh's order.
+/// A sphere as its own map, in the mesh's order; each vertex resists with 1 in all directions.
 struct Ball {
   TriangleMesh mesh = icosphere(4);
   Topology topology{mesh};
   std::vector<ImagePoint> image = image_of({mesh.positions});
   TriangleBlocks blocks;
   std::vector<Vector3> still{image.size(), Vector3::Zero()};
+  std::vector<Block<2>> diagonal{image.size(), Block<2>{{1, 0, 0, 1}}};
+  std::vector<float> unit = std::vector<float>(image.size(), 1);
+  std::vector<char> pinned = std::vector<char>(image.size(), 0);
 
   Ball() {
     std::vector<int> names(image.size()), start{0};
@@ -44,31 +48,85 @@ struct Ball {
     });
     return result;
   }
+
+  std::vector<Vector3> turn() const {
+    std::vector<Vector3> result;
+    for (const ImagePoint& x : image) result.push_back(Vector3(0, 0, 0.6).cross(x.vector()));
+    return result;
+  }
+
+  bool stiffen(StiffenedTriangles& stiffened, const std::vector<Vector3>& motion,
+               int threads = 1) const {
+    return stiffened.stiffen(blocks, image, motion, {diagonal, unit, pinned}, threads);
+  }
 };
 
-/// By what the Hessian of each triangle with this corner is multiplied, as blocks see it.
-std::vector<double> factors(const Ball& ball, const StiffenedTriangles& stiffened, Vertex v) {
-  std::vector<double> found;
+/// Calls visit(terms, pack, lane) for each triangle with this corner, as blocks see it, after
+/// their Hessians, all entries of which were `entry`, are stiffened.
+template <class Visit>
+void for_each_around(const Ball& ball, const StiffenedTriangles& stiffened, Vertex v, double entry,
+                     const Visit& visit) {
   for (int b = 0; b < ball.blocks.count(); ++b) {
-    const int packs = ball.blocks.pack_count(b);
-    const auto terms = std::make_unique<TriangleTerms[]>(static_cast<size_t>(packs));
-    for (int p = 0; p < packs; ++p) {
-      for (auto* entries : {&terms[p].diagonal[0][0], &terms[p].gradient[0][0]}) {
-        std::fill(*entries, *entries + pack_width, 1.0);
-      }
+    const auto packs = static_cast<size_t>(ball.blocks.pack_count(b));
+    const auto terms = std::make_unique<TriangleTerms[]>(packs);
+    for (size_t p = 0; p < packs; ++p) {
+      std::fill_n(&terms[p].gradient[0][0][0], sizeof(TriangleTerms) / sizeof(double), entry);
     }
-    stiffened.apply(ball.blocks, b, terms.get());
-    for (int p = 0; p < packs; ++p) {
+    stiffened.apply(ball.blocks, b, ball.image, terms.get());
+    for (size_t p = 0; p < packs; ++p) {
       const TrianglePack& pack = ball.blocks.packs_of(b)[p];
       for (int lane = 0; lane < pack_width; ++lane) {
-        CHECK(terms[p].gradient[0][0][lane] == 1);
+        CHECK(terms[p].gradient[0][0][lane] == entry);
         for (const auto& corner : pack.corner) {
-          if (corner[lane] == v) found.push_back(terms[p].diagonal[0][0][lane]);
+          if (corner[lane] == v) visit(terms[p], pack, lane);
         }
       }
     }
   }
+}
+
+/// What the triangles around a vertex have come to resist a motion with, each on its own.
+std::vector<double> resistances(const Ball& ball, const StiffenedTriangles& stiffened, Vertex v,
+                                const std::vector<Vector3>& motion) {
+  std::vector<double> found;
+  for_each_around(ball, stiffened, v, 0,
+                  [&](const TriangleTerms& terms, const TrianglePack& pack, int lane) {
+                    std::array<double, 6> m{};
+                    for (size_t k = 0; k < 3; ++k) {
+                      const auto corner = static_cast<size_t>(pack.corner[k][lane]);
+                      const TangentFrame frame = tangent_frame(ball.image[corner].vector());
+                      m[2 * k] = motion[corner].dot(frame.u);
+                      m[2 * k + 1] = motion[corner].dot(frame.v);
+                    }
+                    double form = 0;
+                    for (size_t k = 0; k < 3; ++k) {
+                      const double *own = &m[2 * k], *next = &m[2 * ((k + 1) % 3)];
+                      for (size_t i = 0; i < 4; ++i) {
+                        form += terms.diagonal[k][i / 2 + i % 2][lane] * own[i / 2] * own[i % 2];
+                        form += 2 * terms.off[k][i][lane] * own[i / 2] * next[i % 2];
+                      }
+                    }
+                    found.push_back(form);
+                  });
   return found;
+}
+
+double greatest(const std::vector<double>& all) {
+  return *std::max_element(all.begin(), all.end());
+}
+
+/// By what the Hessians of the triangles around a vertex are multiplied, at most.
+double greatest_factor(const Ball& ball, const StiffenedTriangles& stiffened, Vertex v) {
+  std::vector<double> with, without;
+  const auto note = [](std::vector<double>& in) {
+    return [&](const TriangleTerms& terms, const TrianglePack&, int lane) {
+      in.push_back(terms.diagonal[0][0][lane]);
+    };
+  };
+  for_each_around(ball, stiffened, v, 1, note(with));
+  for_each_around(ball, stiffened, v, 0, note(without));
+  for (size_t i = 0; i < with.size(); ++i) with[i] -= without[i];
+  return greatest(with);
 }
 
 }  // namespace
@@ -76,33 +134,92 @@ std::vector<double> factors(const Ball& ball, const StiffenedTriangles& stiffene
 TEST_CASE("stiffened triangles: none where no vertex moves, or where all turn with the sphere") {
   const Ball ball;
   StiffenedTriangles stiffened;
-  CHECK_FALSE(stiffened.stiffen(ball.blocks, ball.image, ball.still, 1));
-  std::vector<Vector3> turn;
-  for (const ImagePoint& x : ball.image) turn.push_back(Vector3(0, 0, 0.6).cross(x.vector()));
-  CHECK_FALSE(stiffened.stiffen(ball.blocks, ball.image, turn, 1));
-  for (const double factor : factors(ball, stiffened, 3)) CHECK(factor == 1);
+  CHECK_FALSE(ball.stiffen(stiffened, ball.still));
+  CHECK_FALSE(ball.stiffen(stiffened, ball.turn()));
+  CHECK(greatest(resistances(ball, stiffened, 3, ball.motion(3, 1))) == 0);
+  CHECK(greatest_factor(ball, stiffened, 3) == 1);
 }
 
-TEST_CASE("stiffened triangles: those that a vertex runs into, the more the sooner") {
+TEST_CASE("stiffened triangles: those that a vertex runs into resist, the more the sooner") {
   const Ball ball;
   constexpr Vertex v = 200;
-  const auto greatest = [](const std::vector<double>& all) {
-    return *std::max_element(all.begin(), all.end());
-  };
-  double before = 1;
+  const std::vector<Vector3> way = ball.motion(v, 1);
+  double before = 0;
   for (const double far : {4.0, 100.0, 1000.0}) {
     StiffenedTriangles stiffened;
-    REQUIRE(stiffened.stiffen(ball.blocks, ball.image, ball.motion(v, far), 1));
-    const std::vector<double> of_ring = factors(ball, stiffened, v);
-    CHECK(*std::min_element(of_ring.begin(), of_ring.end()) == 1);  // those behind it
-    CHECK(greatest(of_ring) > before);
-    CHECK(greatest(of_ring) >= far);      // a triangle is gone before the vertex is there
-    CHECK(greatest(of_ring) < 10 * far);  // but not long before
-    before = greatest(of_ring);
-    for (const double factor : factors(ball, stiffened, 700)) CHECK(factor == 1);
+    REQUIRE(ball.stiffen(stiffened, ball.motion(v, far)));
+    const std::vector<double> found = resistances(ball, stiffened, v, way);
+    CHECK(*std::min_element(found.begin(), found.end()) == 0);  // those behind it
+    // A triangle is gone on the way, not long before the vertex is there; a lone vertex would need
+    // a force of |g|⁻² for log|T| to change by one, of three of its corners.
+    const double edge = way[static_cast<size_t>(v)].norm();
+    CHECK(greatest(found) > 0.2 * far * edge * edge);
+    CHECK(greatest(found) < 20 * far * edge * edge);
+    CHECK(greatest(found) > before);
+    before = greatest(found);
+    CHECK(greatest(resistances(ball, stiffened, v, ball.turn())) < 1e-12 * before);
+    CHECK(greatest(resistances(ball, stiffened, 700, ball.motion(700, 1))) == 0);
+    CHECK(greatest_factor(ball, stiffened, v) == 1);
   }
   StiffenedTriangles stiffened;
-  CHECK_FALSE(stiffened.stiffen(ball.blocks, ball.image, ball.motion(v, 0.4), 1));
+  CHECK_FALSE(ball.stiffen(stiffened, ball.motion(v, 0.4)));
+  CHECK_FALSE(ball.stiffen(stiffened, ball.motion(v, 2)));  // a step cut in four is one still
+}
+
+TEST_CASE("stiffened triangles: with all of their Hessian where they block again") {
+  const Ball ball;
+  constexpr Vertex v = 200;
+  const std::vector<Vector3> motion = ball.motion(v, 100);
+  StiffenedTriangles stiffened;
+  double resistance = 0, factor = 1;
+  for (const int time : {1, 2, 3, 4, 5}) {
+    REQUIRE(ball.stiffen(stiffened, motion));
+    const double now = greatest(resistances(ball, stiffened, v, motion));
+    CHECK(now > 1.1 * resistance);
+    resistance = now;
+    if (time == 1) continue;
+    const double times = greatest_factor(ball, stiffened, v) / factor;
+    factor *= times;
+    CHECK((times > 100 || factor == 1e6));
+  }
+  CHECK(factor == 1e6);
+}
+
+TEST_CASE(
+    "stiffened triangles: the more their vertices are held, which pinned ones are not asked") {
+  Ball ball;
+  constexpr Vertex v = 200;
+  const std::vector<Vector3> motion = ball.motion(v, 100);
+  const auto resistance = [&] {
+    StiffenedTriangles stiffened;
+    REQUIRE(ball.stiffen(stiffened, motion));
+    return greatest(resistances(ball, stiffened, v, motion));
+  };
+  const double plain = resistance();
+  for (Block<2>& d : ball.diagonal) d.a = {9, 0, 0, 9};
+  CHECK(resistance() == Approx(9 * plain));
+  std::fill(ball.unit.begin(), ball.unit.end(), 3.0F);  // the same in other units
+  CHECK(resistance() == Approx(plain));
+  std::fill(ball.pinned.begin(), ball.pinned.end(), 1);
+  ball.pinned[v] = 0;
+  const double alone = resistance();
+  CHECK(alone > 1.5 * plain);
+  ball.diagonal[700].a = {1, 0, 0, 0};  // of no vertex at hand
+  CHECK(resistance() == alone);
+}
+
+TEST_CASE("the compliance of a vertex is that of its block's inverse") {
+  const std::vector<Block<2>> diagonal{{{5, 2, 2, 3}}};
+  const std::vector<float> unit{0.5F};
+  std::vector<char> pinned{0};
+  const VertexStiffness vertex{diagonal, unit, pinned};
+  Eigen::Matrix2d block;
+  block << 5, 2, 2, 3;
+  block /= 0.25;  // in radians
+  const Eigen::Vector2d g(0.3, -0.7);
+  CHECK(vertex.compliance(0, {g.x(), g.y()}) == Approx(g.dot(block.inverse() * g)));
+  pinned[0] = 1;
+  CHECK(vertex.compliance(0, {g.x(), g.y()}) == 0);
 }
 
 TEST_CASE("stiffened triangles: the same for any number of threads") {
@@ -110,30 +227,28 @@ TEST_CASE("stiffened triangles: the same for any number of threads") {
   std::vector<Vector3> motion = ball.motion(200, 50);
   motion[700] = ball.motion(700, 7)[700];
   StiffenedTriangles one, three;
-  CHECK(one.stiffen(ball.blocks, ball.image, motion, 1));
-  CHECK(three.stiffen(ball.blocks, ball.image, motion, 3));
-  for (const Vertex v : {200, 700}) CHECK(factors(ball, one, v) == factors(ball, three, v));
+  for ([[maybe_unused]] const int time : {1, 2}) {
+    CHECK(ball.stiffen(one, motion, 1));
+    CHECK(ball.stiffen(three, motion, 3));
+  }
+  for (const Vertex v : {200, 700}) {
+    CHECK(resistances(ball, one, v, motion) == resistances(ball, three, v, motion));
+    CHECK(greatest_factor(ball, one, v) == greatest_factor(ball, three, v));
+  }
 }
 
 TEST_CASE("Newton steps among slivers are not cut short by the first that would be folded") {
-  // Slivers of slivers: without what is tested the steps are 0.004, 0.002 and 0.06 long.
-  const auto in_band = [](const Vector3& x) { return std::abs(x.z()) < 0.3; };
-  TriangleMesh mesh =
-      with_slivers(with_slivers(icosphere(4), 0.3, 1e-3, 5, in_band), 0.3, 1e-3, 6, in_band);
-  mesh.positions.col(0) *= 3;
+  // Slivers of slivers: without what is tested three steps gain 8e-5.
+  TriangleMesh mesh = with_slivers(with_slivers(icosphere(3), 0.33, 1e-4, 5), 0.33, 1e-4, 6);
+  mesh.positions.col(0) *= 4;
   const Topology topology(mesh);
   const RestTriangles source = measure_source(mesh);
   const SphereMap map = *embed_progressively(mesh, topology, {.quality = Quality::Draft}).map;
   GlobalNewton newton(topology, source, image_of(map), {}, 1);
   const double before = newton.energy({});
   for (int step = 0; step < 3; ++step) {
-    CHECK(newton.step({}, 0.5).length > 0.02);
-    newton.sweep({}, 5);
-  }
-  const double after = newton.energy({});
-  for (int step = 0; step < 20; ++step) {
     newton.step({}, 0.5);
     newton.sweep({}, 5);
   }
-  CHECK(before - after > 0.8 * (before - newton.energy({})));
+  CHECK(1 - newton.energy({}) / before > 5e-4);
 }

@@ -30,7 +30,7 @@ constexpr int most_iterations = 60;
 constexpr double longest_step = 0.7;  // radians, of any vertex
 constexpr double sufficient_decrease = 1e-4;
 constexpr int halvings = 40;
-constexpr int most_stiffenings = 4;
+constexpr int most_stiffenings = 6;
 constexpr double most_expansion = 8;  // of a Newton step: clamped Hessians are too stiff
 // Of a diagonal block's trace. Rounding lets the energy of a limb that moves as a whole by millions
 // of its own small edges come out negative, and the solver gives up.
@@ -139,7 +139,7 @@ bool GlobalNewton::assemble(const DistortionEnergy& energy, Curvature curvature)
                  for (int b = static_cast<int>(first); b < static_cast<int>(last); ++b) {
                    differentiate_triangles(blocks_.packs_of(b), blocks_.pack_count(b),
                                            image_.data(), energy, curvature, terms.get());
-                   stiffened_.apply(blocks_, b, terms.get());
+                   stiffened_.apply(blocks_, b, image_, terms.get());
                    const int end = std::min((b + 1) * TriangleBlocks::size, hessian_.rows());
                    for (int row = b * TriangleBlocks::size; row < end; ++row) {
                      gather_row(row, terms.get());
@@ -236,8 +236,8 @@ void GlobalNewton::make_room() const {
   if (hessian_.rows() >= least_trimmed_vertices) give_back_freed_memory();
 }
 
-/// The direction of a step; nothing where `assemble` fails. Leaves nothing of the Hessian but its
-/// pattern.
+/// The solution of a step's system; nothing where `assemble` fails. Leaves nothing of the Hessian
+/// but its pattern and its diagonal.
 LinearSolution GlobalNewton::solve(const DistortionEnergy& energy, double least_share,
                                    Curvature curvature) {
   make_room();
@@ -253,7 +253,6 @@ LinearSolution GlobalNewton::solve(const DistortionEnergy& energy, double least_
                                             least_share, most_iterations, threads_, ask_);
   }
   hessian_.off = std::vector<Block<2>>();  // = {} would keep the memory
-  hessian_.diagonal = std::vector<Block<2>>();
   downhill_ = Unknowns();
   return solution;
 }
@@ -269,25 +268,36 @@ std::vector<Vector3> GlobalNewton::motion(const Unknowns& direction) const {
   return motion;
 }
 
-GlobalNewton::Step GlobalNewton::step(const DistortionEnergy& energy, double least_share,
-                                      Curvature curvature) {
-  const double before = this->energy(energy);
+/// Which way a step goes, and what it promises, without stiffened triangles, noted in `made`.
+LinearSolution GlobalNewton::direction(const DistortionEnergy& energy, double least_share,
+                                       Step& made) {
   stiffened_ = {};
-  LinearSolution solution = solve(energy, least_share, curvature);
-  if (curvature == Curvature::Exact && !(solution.gain > 0)) {
-    curvature = Curvature::Projected;
-    solution = solve(energy, least_share, curvature);
+  LinearSolution solution = solve(energy, least_share, made.curvature);
+  if (made.curvature == Curvature::Exact && !(solution.gain > 0)) {
+    made.curvature = Curvature::Projected;
+    solution = solve(energy, least_share, made.curvature);
   }
-  const double promised = solution.gain / 2;
-  for (int n = 0; n < most_stiffenings && promised > 0; ++n) {
-    if (!stiffened_.stiffen(blocks_, image_, motion(solution.x), threads_)) break;
-    curvature = Curvature::Projected;  // of which stiffer ones are positive semidefinite too
-    LinearSolution another = solve(energy, least_share, curvature);
+  made.decrement = solution.gain / 2;
+  for (int n = 0; n < most_stiffenings && made.decrement > 0; ++n) {
+    const VertexStiffness vertices{hessian_.diagonal, unit_, pinned_};
+    if (!stiffened_.stiffen(blocks_, image_, motion(solution.x), vertices, threads_)) break;
+    made.curvature = Curvature::Projected;  // of which stiffer ones are positive semidefinite too
+    LinearSolution another = solve(energy, least_share, made.curvature);
     if (!(another.gain > 0)) break;
     solution = std::move(another);
   }
-  const double slope = -solution.gain, kept = std::min(1.0, solution.gain / (2 * promised));
-  Step made{before, solution.iterations, 0, promised, solution.complete, curvature};
+  hessian_.diagonal = std::vector<Block<2>>();
+  made.iterations = solution.iterations;
+  made.complete = solution.complete;
+  return solution;
+}
+
+GlobalNewton::Step GlobalNewton::step(const DistortionEnergy& energy, double least_share,
+                                      Curvature curvature) {
+  const double before = this->energy(energy);
+  Step made{.energy = before, .curvature = curvature};
+  const LinearSolution solution = direction(energy, least_share, made);
+  const double slope = -solution.gain, kept = std::min(1.0, solution.gain / (2 * made.decrement));
   if (!(slope < 0) || !std::isfinite(slope)) return made;
   const double cap = longest_step / longest(solution.x);
 

@@ -33,21 +33,21 @@ class GlobalNewton {
   void ask_with(std::function<void()> ask) { ask_ = std::move(ask); }
 
   struct Step {
-    double energy;   // after the step; before it, if nothing moved
-    int iterations;  // of the linear solver
-    double length;   // of the step, in Newton steps; 0: nothing moved. Stiffened triangles shorten
-                     // it by what the model then promises less
-    double
-        decrement;  // ½ gᵀH⁻¹g as far as the system was solved: what the quadratic model promised
-    bool complete;        // the system was solved as far as was asked
-    Curvature curvature;  // by which it was made
+    double energy = 0;     // after the step; before it, if nothing moved
+    int iterations = 0;    // of the linear solver
+    double length = 0;     // of the step, in Newton steps; 0: nothing moved. Stiffened triangles
+                           // shorten it by what the model then promises less
+    double decrement = 0;  // ½ gᵀH⁻¹g as far as the system was solved: what the quadratic model
+                           // promised
+    bool complete = false;                       // the system was solved as far as was asked
+    Curvature curvature = Curvature::Projected;  // by which it was made
   };
 
   /// Is there a vertex that is not pinned?
   bool can_move() const;
 
   /// One Newton step, the system solved as long as iterations bring `least_share` (see
-  /// `solve_by_conjugate_gradients`), with line search; solved anew, up to four times, where few
+  /// `solve_by_conjugate_gradients`), with line search; solved anew, up to six times, where
   /// triangles would cut the step short (stiffened_triangles.h); by projected Hessians there, and
   /// where the exact ones lead nowhere. No orientation is lost, decided by the guard.
   Step step(const DistortionEnergy& energy, double least_share,
@@ -76,6 +76,7 @@ class GlobalNewton {
   void gather_row(int row, const TriangleTerms* terms);
   void make_room() const;
   LinearSolution solve(const DistortionEnergy& energy, double least_share, Curvature curvature);
+  LinearSolution direction(const DistortionEnergy& energy, double least_share, Step& made);
   std::vector<Vector3> motion(const Unknowns& direction) const;
   RingPacks pack_rings_of_all() const;
   void move(const Unknowns& direction, double length, Image& image) const;

@@ -30,7 +30,7 @@ constexpr double near_enough = 0.8;  // of the share: not worth another try
 constexpr double margin = 0.05;      // of it: what settles the map may give back
 constexpr double on_the_way_gain = 3e-2;
 constexpr int on_the_way_steps = 20;
-constexpr double nudge = 0.05;    // of the way to a filler's middle
+constexpr double nudge = 0.05;    // of the way to a filler's middle; as much again each time
 constexpr int small_mesh = 4000;  // vertices: where steps cost nothing, the search is thorough
 constexpr double small_gain = 5e-3;
 constexpr int small_steps = 60;
@@ -76,8 +76,9 @@ class Press {
   }
   PressedMap settled(const PressedMap& map) const { return at(map.map, map.pressure, options_); }
 
-  /// With the corners of fillers nearer to their middles; the same map where that has no room.
-  SphereMap nudged(SphereMap map) const {
+  /// With the corners of fillers nearer to their middles, by a part of the way; the same map where
+  /// that has no room.
+  SphereMap nudged(SphereMap map, double part) const {
     const SphereMap before = map;
     for (Face f = 0; f < topology_.face_count(); ++f) {
       if (!fillers_[static_cast<size_t>(f)]) continue;
@@ -86,7 +87,7 @@ class Press {
       for (int k = 0; k < 3; ++k) {
         if (std::ranges::count(options_.pinned, topology_.vertex(f, k)) > 0) continue;
         auto point = map.points.row(topology_.vertex(f, k));
-        point = (point + nudge * (middle.transpose() - point)).normalized();
+        point = (point + part * (middle.transpose() - point)).normalized();
       }
     }
     const double energy = distortion_energy(topology_, source_, map, options_.energy, 1);
@@ -142,7 +143,7 @@ PressedMap rewarded(const Press& press, const SphereMap& map, double most, doubl
 PressedMap pressed_out(const Press& press, PressedMap map, double most, double first) {
   double price = first;
   for (int i = 0; i < most_raises && map.share > most; ++i, price *= raise) {
-    PressedMap next = press.priced(press.nudged(map.map), price);
+    PressedMap next = press.priced(press.nudged(map.map, (i + 1) * nudge), price);
     if (next.share < map.share) map = std::move(next);
   }
   return map;

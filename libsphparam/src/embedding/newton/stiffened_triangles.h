@@ -5,30 +5,58 @@
 
 #include "embedding/energy/image_point.h"
 #include "embedding/energy/triangle_blocks.h"
+#include "embedding/multigrid/block_matrix.h"
 
 namespace sphparam {
 
+/// The diagonal blocks of a Hessian: what each vertex resists with when it moves alone. Refers to
+/// what it is given.
+struct VertexStiffness {
+  const std::vector<Block<2>>& diagonal;  // in units of
+  const std::vector<float>& unit;         // radians
+  const std::vector<char>& pinned;
+
+  /// gᵀD⁻¹g: how far the vertex goes along g, times |g|, for a force g. A pinned one does not.
+  double compliance(Vertex v, const std::array<double, 2>& g) const;
+};
+
 /// Triangles that would cut Newton steps short: light ones among slivers, whose resistance to being
 /// folded is next to nothing in the quadratic model. A step is as long as the first of them lets
-/// it, and moves nothing. Counted several times in the Hessian they go along instead; as the
-/// gradient is left alone, a step still goes downhill. For one step: were it for more, what a step
-/// promises would no longer tell how much is left. Our own.
+/// it, and moves nothing. Made stiffer they go along instead; as the gradient is left alone, a step
+/// still goes downhill. At first it is only their area that may not change by much: a term
+/// c ∇log|T| ∇log|T|ᵀ, of the metric of Dikin's ellipsoid (1967), inside which no area vanishes.
+/// Those that block again, as they are drawn out and flattened, have all of their Hessian counted
+/// several times too. For one step: were it for more, what a step promises would no longer tell how
+/// much is left. Our own.
 class StiffenedTriangles {
  public:
   /// Stiffens those that lose nine tenths of their determinant on the first half of a straight
-  /// way, where each vertex moves by `motion`; the earlier, the more. False: there are none, or
-  /// more than a few: what blocks a whole limb is its way over the sphere, which no stiffness
-  /// changes. Same result for any number of threads. Cost: linear.
+  /// way, where each vertex moves by `motion`; the earlier, the more. False: none does so on the
+  /// first eighth, and it is not worth a step's solution. `vertices`: by the Hessian of that
+  /// motion. Same result for any number of threads. Cost: linear.
   bool stiffen(const TriangleBlocks& blocks, const std::vector<ImagePoint>& image,
-               const std::vector<Vector3>& motion, int threads);
+               const std::vector<Vector3>& motion, const VertexStiffness& vertices, int threads);
 
-  /// Multiplies the Hessians, not the gradients, of a block's triangles.
-  void apply(const TriangleBlocks& blocks, int block, TriangleTerms* terms) const;
+  /// Adds to the Hessians, not the gradients, of a block's triangles.
+  void apply(const TriangleBlocks& blocks, int block, const std::vector<ImagePoint>& image,
+             TriangleTerms* terms) const;
 
  private:
-  using Factors = std::array<float, pack_width>;
+  struct Stiffened {
+    int pack, lane;          // of its block
+    double of_area, of_all;  // c, and a factor
+  };
+  struct OfBlock {
+    std::vector<Stiffened> triangles;  // by pack and lane
+    double allowed = 1;                // by all of them: part of a step
+  };
 
-  std::vector<Factors> factors_;  // of the triangles of all packs; empty: all are 1
+  static OfBlock blocking(const TriangleBlocks& blocks, int block,
+                          const std::vector<ImagePoint>& image, const std::vector<Vector3>& motion,
+                          const VertexStiffness& vertices);
+  static void add(OfBlock&& more, OfBlock& to);
+
+  std::vector<OfBlock> stiffened_;  // a list a block, or none at all
 };
 
 }  // namespace sphparam
