@@ -260,7 +260,7 @@ TEST_CASE("chart: needles that lie on each other by the thousand take some hundr
 
 TEST_CASE(
     "chart: a tube wound about the poles takes twice its vertices, and moves some for the rest") {
-  const TriangleMesh mesh = coil(10);
+  const TriangleMesh mesh = coil(17);
   const SphericalChart chart = chart_of(mesh, parameterize(mesh, {.energy = {.lambda = 0.1}}).map);
   CHECK(chart.certificate.one_to_one());
   CHECK(chart.points.rows() <= 2 * mesh.vertex_count());
@@ -270,7 +270,7 @@ TEST_CASE(
 }
 
 TEST_CASE("chart: where moves would be far, all the splits are made, as often as it takes") {
-  const TriangleMesh mesh = coil(28);
+  const TriangleMesh mesh = coil(24);
   const Topology topology(mesh);
   const SphereMap map = embedded(mesh, Quality::Normal, 1e300);
   double last = 0;
