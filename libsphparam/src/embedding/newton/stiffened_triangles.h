@@ -31,9 +31,9 @@ struct VertexStiffness {
 class StiffenedTriangles {
  public:
   /// Stiffens those that lose nine tenths of their determinant on the first half of a straight
-  /// way, where each vertex moves by `motion`; the earlier, the more. False: none does so on the
-  /// first eighth, and it is not worth a step's solution. `vertices`: by the Hessian of that
-  /// motion. Same result for any number of threads. Cost: linear.
+  /// way, where each vertex moves by `motion`; the earlier, the more. False: all allow more than an
+  /// eighth of the way, which is not worth a solution. `vertices`: by the Hessian of that motion.
+  /// Same result for any number of threads. Cost: linear.
   bool stiffen(const TriangleBlocks& blocks, const std::vector<ImagePoint>& image,
                const std::vector<Vector3>& motion, const VertexStiffness& vertices, int threads);
 
