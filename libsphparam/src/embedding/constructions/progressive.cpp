@@ -44,6 +44,9 @@ constexpr double hopeless = -0.75;
 // Of the progress: the first start where the best is wanted, and any other, of what is left.
 constexpr double part_before_best = 0.3, part_of_start = 0.5;
 constexpr double agreement = 5e-4;  // of two minima's energies: they are one
+constexpr double far_apart = 2;     // times what steps leave
+// Where more is left than that. A draft is not to take longer than a map by Normal.
+constexpr Budget more_for_draft{5e5, 20, 200}, more_for_normal{2e6, 60, 600};
 
 /// From λ to λ, a few steps at each.
 struct Way {
@@ -81,17 +84,20 @@ class Starts {
     if (!lowest_.map) return std::move(lowest_);
     if (several && !lowest_.report.sweeps_sufficed) try_others();
     rising_.begin(1);
-    if (best) refine(lowest_, wanted_, Quality::Best);
+    if (best)
+      refine(lowest_, wanted_, Quality::Best);
+    else
+      go_on();
     rising_.end();
     return std::move(lowest_);
   }
 
   /// Steps towards the energy of a map that was found by another one; notes what they leave.
-  void refine(ProgressiveEmbedding& embedding, const DistortionEnergy& energy,
-              Quality quality) const {
+  void refine(ProgressiveEmbedding& embedding, const DistortionEnergy& energy, Quality quality,
+              const Budget& budget = {}) const {
     std::vector<ImagePoint> image = image_of(*embedding.map);
     NewtonRefinement refinement(topology_.vertex_count(),
-                                {quality, energy, options_.threads, progress_});
+                                {quality, energy, options_.threads, progress_, budget});
     refinement.improve(mesh_, topology_, keep_.vertices, image);
     embedding.map = map_of(image);
     embedding.report.energy_left = refinement.energy_left();
@@ -158,8 +164,19 @@ class Starts {
     if (energy_ <= many_minima * isometric_energy(source(), wanted_, {})) return;
     const double one = energy_;
     try_nearly_conformal(others_nearly_conformal[0]);
+    apart_ = std::abs(latest_ - one) / energy_;
+  }
+
+  /// As the best does, where steps ended before no more was left than there should be, or minima
+  /// are far apart.
+  void go_on() {
     std::optional<double>& left = lowest_.report.energy_left;
-    if (left) left = std::max(*left, std::abs(latest_ - one) / energy_);
+    const double rest = rest_of(options_.quality);
+    if ((left > rest || apart_ > far_apart * rest) && !lowest_.report.sweeps_sufficed) {
+      refine(lowest_, wanted_, Quality::Best,
+             options_.quality == Quality::Draft ? more_for_draft : more_for_normal);
+    }
+    if (left) left = std::max(*left, apart_);
   }
 
   /// The first map waits for its steps until it is clear that it needs them: where the best is
@@ -226,6 +243,7 @@ class Starts {
   ProgressiveEmbedding lowest_;
   // As wanted: of the lowest map, the first, and the one that came last.
   double energy_ = 0, first_energy_ = 0, latest_ = 0;
+  double apart_ = 0;  // two minima, as a share of the energy
 };
 
 /// As if all triangles were equilateral, then relaxed and refined for the shape they have. No

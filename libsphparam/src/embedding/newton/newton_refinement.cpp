@@ -27,8 +27,7 @@ namespace {
 constexpr int least_vertices = 100;
 constexpr int growth = 4;  // from one level that is due to the next
 constexpr double worthwhile = 2e-3, worthwhile_for_draft = 1e-2;
-constexpr int coarse_steps = 20, finest_steps = 60, best_steps = 300, most_best_steps = 3000;
-constexpr double best_work = 2e6;  // steps × vertices that the best may take where it has few
+constexpr int coarse_steps = 20, finest_steps = 60;
 // What may be left, relative to the energy. Small meshes cost little: less is left of theirs.
 constexpr double coarse_rest = 6e-3, draft_rest = 0.03, finest_rest = 5e-3, best_rest = 1e-5;
 constexpr double small_mesh = 5000;  // vertices
@@ -42,17 +41,22 @@ constexpr double least_share = 0.5, least_share_of_best = 0.1;
 /// Levels up to this size cost hardly anything.
 int cheap(int finest) { return std::max(1000, finest / 16); }
 
-int most_steps_of_best(int vertices) {
-  return static_cast<int>(std::clamp<double>(best_work / vertices, best_steps, most_best_steps));
+int most_steps_of_best(int vertices, const Budget& budget) {
+  return static_cast<int>(
+      std::clamp<double>(budget.work / vertices, budget.least_steps, budget.most_steps));
 }
 
 /// What may be left on a finest level of n vertices.
 double finest_rest_of(Quality quality, int n) {
-  if (quality == Quality::Best) return best_rest;
-  return (quality == Quality::Draft ? draft_rest : finest_rest) * std::min(1.0, n / small_mesh);
+  return rest_of(quality) * (quality == Quality::Best ? 1 : std::min(1.0, n / small_mesh));
 }
 
 }  // namespace
+
+double rest_of(Quality quality) {
+  if (quality == Quality::Best) return best_rest;
+  return quality == Quality::Draft ? draft_rest : finest_rest;
+}
 
 NewtonRefinement::NewtonRefinement(int finest_vertices, RefinementOptions options)
     : options_(std::move(options)),
@@ -105,7 +109,8 @@ void NewtonRefinement::descend(const TriangleMesh& mesh, const Topology& topolog
   const bool finest = n == finest_;
   while (next_ <= n && next_ < finest_) next_ = std::min(finest_, growth * next_);
   const bool best = options_.quality == Quality::Best && finest;
-  const int most_steps = best ? most_steps_of_best(n) : finest ? finest_steps : coarse_steps;
+  const int most_steps =
+      best ? most_steps_of_best(n, options_.budget) : (finest ? finest_steps : coarse_steps);
   const double rest = finest ? finest_rest_of(options_.quality, n) : coarse_rest;
   GlobalNewton newton(topology, measure_source(mesh, options_.threads), image, pinned,
                       options_.threads);

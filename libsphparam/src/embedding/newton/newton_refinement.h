@@ -11,12 +11,22 @@
 
 namespace sphparam {
 
+/// What Quality::Best may take on the finest level.
+struct Budget {
+  double work = 2e6;                         // steps × vertices
+  int least_steps = 300, most_steps = 3000;  // however large or small the mesh
+};
+
 struct RefinementOptions {
   Quality quality = Quality::Normal;
   DistortionEnergy energy = {};
   int threads = 0;  // 0: all cores
   Progress progress = {};
+  Budget budget = {};
 };
+
+/// What steps leave of a finest level's energy, as a share; of small meshes less.
+double rest_of(Quality quality);
 
 /// Which part of the progress of a whole embedding a level's steps are: fractions.
 struct ProgressShare {
