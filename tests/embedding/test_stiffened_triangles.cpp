@@ -2,11 +2,12 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numeric>
 #include <vector>
 
-#include "embedding/constructions/progressive.h"
+#include "embedding/constructions/level_embedding.h"
 #include "embedding/energy/map_image.h"
 #include "embedding/newton/global_newton.h"
 #include "embedding/newton/stiffened_triangles.h"
@@ -238,17 +239,19 @@ TEST_CASE("stiffened triangles: the same for any number of threads") {
 }
 
 TEST_CASE("Newton steps among slivers are not cut short by the first that would be folded") {
-  // Slivers of slivers: without what is tested three steps gain 8e-5.
-  TriangleMesh mesh = with_slivers(with_slivers(icosphere(3), 0.33, 1e-4, 5), 0.33, 1e-4, 6);
+  // Slivers of slivers: without what is tested three steps gain 4e-4.
+  TriangleMesh mesh = with_slivers(with_slivers(icosphere(3), 0.33, 1e-5, 5), 0.33, 1e-5, 6);
   mesh.positions.col(0) *= 4;
   const Topology topology(mesh);
   const RestTriangles source = measure_source(mesh);
-  const SphereMap map = *embed_progressively(mesh, topology, {.quality = Quality::Draft}).map;
+  const SphereMap map = *embed_by_levels(mesh, topology, {.quality = Quality::Draft}, {},
+                                         std::numeric_limits<double>::infinity())
+                             .map;
   GlobalNewton newton(topology, source, image_of(map), {}, 1);
   const double before = newton.energy({});
   for (int step = 0; step < 3; ++step) {
     newton.step({}, 0.5);
     newton.sweep({}, 5);
   }
-  CHECK(1 - newton.energy({}) / before > 5e-4);
+  CHECK(1 - newton.energy({}) / before > 2e-3);
 }

@@ -44,9 +44,10 @@ constexpr double hopeless = -0.75;
 // Of the progress: the first start where the best is wanted, and any other, of what is left.
 constexpr double part_before_best = 0.3, part_of_start = 0.5;
 constexpr double agreement = 5e-4;  // of two minima's energies: they are one
-constexpr double far_apart = 2;     // times what steps leave
-// Where more is left than that. A draft is not to take longer than a map by Normal.
-constexpr Budget more_for_draft{5e5, 20, 200}, more_for_normal{2e6, 60, 600};
+// Of the energy: with more left, or minima that far apart, steps go on, within a budget. A draft is
+// not to take longer than a map by Normal.
+constexpr double much_left = 5e-3, much_left_of_draft = 3e-2, far_apart = 1e-2;
+constexpr Budget more_steps{2e6, 60, 1200}, more_for_draft{5e5, 20, 300};
 
 /// From λ to λ, a few steps at each.
 struct Way {
@@ -167,15 +168,13 @@ class Starts {
     apart_ = std::abs(latest_ - one) / energy_;
   }
 
-  /// As the best does, where steps ended before no more was left than there should be, or minima
-  /// are far apart.
+  /// As the best does, where steps ended early or minima are far apart.
   void go_on() {
     std::optional<double>& left = lowest_.report.energy_left;
-    const double rest = rest_of(options_.quality);
-    if ((left > rest || apart_ > far_apart * rest) && !lowest_.report.sweeps_sufficed) {
-      refine(lowest_, wanted_, Quality::Best,
-             options_.quality == Quality::Draft ? more_for_draft : more_for_normal);
-    }
+    const bool draft = options_.quality == Quality::Draft;
+    const bool early = left > (draft ? much_left_of_draft : much_left) || apart_ > far_apart;
+    if (early && !lowest_.report.sweeps_sufficed)
+      refine(lowest_, wanted_, Quality::Best, draft ? more_for_draft : more_steps);
     if (left) left = std::max(*left, apart_);
   }
 

@@ -29,7 +29,7 @@ constexpr int growth = 4;  // from one level that is due to the next
 constexpr double worthwhile = 2e-3, worthwhile_for_draft = 1e-2;
 constexpr int coarse_steps = 20, finest_steps = 60;
 // What may be left, relative to the energy. Small meshes cost little: less is left of theirs.
-constexpr double coarse_rest = 6e-3, draft_rest = 0.03, finest_rest = 5e-3, best_rest = 1e-5;
+constexpr double coarse_rest = 6e-3, draft_rest = 0.01, finest_rest = 5e-3, best_rest = 1e-5;
 constexpr double small_mesh = 5000;  // vertices
 constexpr int sweeps_between = 5;
 constexpr double worthwhile_sampled = 4e-3, sampled_for_draft = 1.5e-2;  // of the energy
@@ -48,15 +48,11 @@ int most_steps_of_best(int vertices, const Budget& budget) {
 
 /// What may be left on a finest level of n vertices.
 double finest_rest_of(Quality quality, int n) {
-  return rest_of(quality) * (quality == Quality::Best ? 1 : std::min(1.0, n / small_mesh));
+  if (quality == Quality::Best) return best_rest;
+  return (quality == Quality::Draft ? draft_rest : finest_rest) * std::min(1.0, n / small_mesh);
 }
 
 }  // namespace
-
-double rest_of(Quality quality) {
-  if (quality == Quality::Best) return best_rest;
-  return quality == Quality::Draft ? draft_rest : finest_rest;
-}
 
 NewtonRefinement::NewtonRefinement(int finest_vertices, RefinementOptions options)
     : options_(std::move(options)),

@@ -25,9 +25,6 @@ struct RefinementOptions {
   Budget budget = {};
 };
 
-/// What steps leave of a finest level's energy, as a share; of small meshes less.
-double rest_of(Quality quality);
-
 /// Which part of the progress of a whole embedding a level's steps are: fractions.
 struct ProgressShare {
   double begin = 0, end = 1;
