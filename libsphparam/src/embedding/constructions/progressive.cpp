@@ -24,6 +24,8 @@
 // nearly alike from wherever it came. It costs an embedding more: maps of great energy are worth
 // that, and of less where the best is wanted. Among slivers, and where a map ends far from its
 // energy, it is the other way round: maps in which areas weigh more lead to the lower minima.
+// Steps that stop with much left, as they do among slivers, go on in the end as the best's do: of
+// the lowest map alone, and no longer than a budget lasts.
 
 namespace sphparam {
 namespace {
