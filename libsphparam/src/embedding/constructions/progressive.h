@@ -72,10 +72,10 @@ struct ProgressiveEmbedding {
 /// twice, by a nearly conformal energy that is led to the one asked for; one that ends far from its
 /// energy up to three times more; with Quality::Best from less energy on, and where only the finest
 /// level needs steps, up to three times more. The map of least energy is returned; where more than
-/// 0.5 % of its energy is left (by Quality::Draft 3 %), after up to 1200 steps (300) as
-/// Quality::Best makes them. Paper: Praun and Hoppe, "Spherical parametrization and remeshing"
-/// (2003); whole levels instead of single vertices, the energy, the guard and the over-relaxed
-/// sweeps are our own.
+/// 0.5 % of its energy is left (by Quality::Draft 3 %), or two starts end 1 % apart, after up to
+/// 1200 steps (300) as Quality::Best makes them. Paper: Praun and Hoppe, "Spherical parametrization
+/// and remeshing" (2003); whole levels instead of single vertices, the energy, the guard and the
+/// over-relaxed sweeps are our own.
 ProgressiveEmbedding embed_progressively(const TriangleMesh& mesh, const Topology& topology,
                                          const ProgressiveOptions& options = {});
 
