@@ -117,6 +117,19 @@ TEST_CASE("bmp: the head of OS/2 has sizes of 16 bits and colours of three bytes
   CHECK(samples(read(file)) == Samples{9, 8, 7, 3, 2, 1});
 }
 
+TEST_CASE("bmp: heads of all sizes that are in use are known, by the first 18 bytes") {
+  Bmp file = {1, 1, 24, 0, "", bytes({1, 2, 3, 0})};
+  for (const size_t size : {40, 52, 56, 64, 108, 124}) {
+    INFO(size);
+    file.more_of_head = std::string(size - 40, '\0');
+    CHECK(samples(read(file.text())) == Samples{3, 2, 1});
+    CHECK(looks_like_bmp(file.text().substr(0, 18)));
+    CHECK_FALSE(looks_like_bmp(file.text().substr(0, 17)));
+    file.more_of_head.push_back('\0');
+    CHECK_FALSE(looks_like_bmp(file.text()));
+  }
+}
+
 TEST_CASE("bmp: what is cut short is refused wherever it ends") {
   Bmp runs = of_runs;
   runs.rows = bytes({1, 1, 0, 3, 1, 2, 3, 0, 0, 1});

@@ -108,6 +108,58 @@ TEST_CASE("image codec: EXR keeps floats bit by bit, beyond [0, 1] too") {
   CHECK((decode_image(bytes, "memory").pixels == image.pixels));
 }
 
+TEST_CASE("image codec: an image of one pixel is one") {
+  for (const ImageFormat format : {ImageFormat::Png, ImageFormat::Tiff}) {
+    const Image pixel = ramp(1, 1, 1, 256);
+    CHECK(same_pixels(decode_image(encode_image(pixel, format), "memory"), pixel));
+  }
+}
+
+TEST_CASE("image codec: an EXR whose pixels have depths is refused") {
+  const auto number = [](int value) {
+    return std::string{static_cast<char>(value), 0, 0, 0};  // from the lowest byte on
+  };
+  const auto named = [&](const std::string& name, const std::string& type,
+                         const std::string& value) {
+    return name + '\0' + type + '\0' + number(static_cast<int>(value.size())) + value;
+  };
+  const std::string zero = number(0), one = number(1), half = {0, 0, 0, 0x3f},
+                    whole = {0, 0, -128, 0x3f};
+  const std::string channel = std::string("Z") + '\0' + number(2) + zero + one + one + '\0';
+  const std::string head =
+      "\x76\x2f\x31\x01\x02\x08" + std::string(2, '\0') + named("channels", "chlist", channel) +
+      named("chunkCount", "int", one) + named("compression", "compression", std::string(1, '\0')) +
+      named("dataWindow", "box2i", zero + zero + zero + zero) +
+      named("displayWindow", "box2i", zero + zero + zero + zero) +
+      named("lineOrder", "lineOrder", std::string(1, '\0')) +
+      named("pixelAspectRatio", "float", whole) + named("screenWindowCenter", "v2f", zero + zero) +
+      named("screenWindowWidth", "float", whole) + named("type", "string", "deepscanline") +
+      named("version", "int", one) + '\0';
+  const std::string row =
+      zero + number(4) + zero + number(4) + zero + number(4) + zero + one + half;
+  const std::string rows_at = {static_cast<char>((head.size() + 8) & 255),
+                               static_cast<char>((head.size() + 8) >> 8),
+                               0,
+                               0,
+                               0,
+                               0,
+                               0,
+                               0};
+  const std::string file = head + rows_at + row;
+  CHECK_THROWS_WITH(decode_image({file.begin(), file.end()}, "smoke.exr"),
+                    Contains("smoke.exr") && Contains("deep images are not supported"));
+}
+
+TEST_CASE("image codec: a name's ending says the kind, of two spellings where there are two") {
+  using enum ImageFormat;
+  const std::vector<std::pair<const char*, ImageFormat>> kinds = {
+      {"a.png", Png},   {"a.exr", Exr},  {"a.jpg", Jpeg},  {"a.jpeg", Jpeg},
+      {"a.JPEG", Jpeg}, {"a.tif", Tiff}, {"a.tiff", Tiff}, {"b/a.b.tif", Tiff}};
+  for (const auto& [name, kind] : kinds) CHECK(image_format_of(name) == kind);
+  for (const char* name : {"png", "a.webp", "a.png.gz", ".png/a", ""})
+    CHECK(image_format_of(name) == std::nullopt);
+}
+
 TEST_CASE("image codec: a file's kind is its name's ending, in whatever case") {
   const std::filesystem::path folder = std::filesystem::temp_directory_path();
   const std::string path =

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "image/image_writer.h"
@@ -151,6 +152,82 @@ TEST_CASE("image writer: a file that reads back otherwise is refused, wherever a
         CHECK_THROWS_AS(written(options, change), ImageError);
       }
     }
+  }
+}
+
+TEST_CASE("image writer: a text or a size that reads back otherwise is named") {
+  const auto refused = [](const ImageFileOptions& options, const std::string& place, size_t beyond,
+                          const std::string& why) {
+    const std::vector<char> bytes = written(options);
+    // TIFF writes its directory twice, and means the last.
+    const size_t found = std::string_view(bytes.data(), bytes.size()).rfind(place);
+    REQUIRE(found != std::string_view::npos);
+    const auto at = static_cast<std::int64_t>(found + beyond);
+    const auto change = [&](std::int64_t offset, std::string& part) {
+      const std::int64_t k = at - offset;
+      if (k >= 0 && k < std::ssize(part)) part[static_cast<size_t>(k)] ^= 0x02;
+    };
+    INFO(name_of(options.format));
+    CHECK_THROWS_WITH(written(options, change), Contains(why));
+  };
+  for (const ImageFormat format : {ImageFormat::Png, ImageFormat::Tiff, ImageFormat::Exr}) {
+    refused({.width = 8,
+             .height = 4,
+             .channels = 3,
+             .format = format,
+             .sample_type = sample_types_of(format).front(),
+             .metadata = {{"sphparam:map", "basecolor"}}},
+            "basecolor", 4, "its metadata lack sphparam:map");
+  }
+  // Its box: the least and the greatest x and y.
+  const ImageFileOptions exr{.width = 8,
+                             .height = 4,
+                             .channels = 3,
+                             .format = ImageFormat::Exr,
+                             .sample_type = SampleType::Half};
+  const std::string box("dataWindow\0box2i\0\x10\0\0\0", 21);
+  refused(exr, box, box.size() + 8, "6 x 4 texels with 3 channels of half, not 8 x 4");
+}
+
+TEST_CASE(
+    "image writer: levels are of EXR alone, and only they wrap; only EXR and TIFF are dated") {
+  const auto has = [](const std::vector<char>& bytes, std::string_view word) {
+    return std::string_view(bytes.data(), bytes.size()).find(word) != std::string_view::npos;
+  };
+  for (const ImageFormat format : every_format) {
+    INFO(name_of(format));
+    ImageFileOptions options{.width = 8,
+                             .height = 4,
+                             .channels = 3,
+                             .format = format,
+                             .sample_type = sample_types_of(format).front()};
+    const std::vector<char> rows = written(options);
+    CHECK_FALSE(has(rows, "periodic,clamp"));
+    CHECK(has(rows, "1970:01:01") == (format == ImageFormat::Tiff || format == ImageFormat::Exr));
+    CHECK_FALSE(has(rows, "tIME"));  // of PNG
+    options.tiles = true;
+    if (format == ImageFormat::Exr) {
+      CHECK(has(written(options), "periodic,clamp"));
+    } else {
+      CHECK_THROWS_WITH(written(options), Contains(name_of(format)) && Contains("no levels"));
+    }
+  }
+}
+
+TEST_CASE("image writer: one that is given up writes no more") {
+  for (const ImageFormat format : every_format) {
+    INFO(name_of(format));
+    const ImageFileOptions options{.width = 32,
+                                   .height = 16,
+                                   .channels = 1,
+                                   .format = format,
+                                   .sample_type = sample_types_of(format).front()};
+    std::vector<char> bytes;
+    std::optional<ImageWriter> writer(std::in_place, options, in_memory(bytes));
+    writer->write_rows(samples_for(options, 8).data(), 8);
+    const std::vector<char> before = bytes;
+    writer.reset();
+    CHECK(bytes == before);
   }
 }
 
