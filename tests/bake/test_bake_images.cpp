@@ -122,6 +122,9 @@ TEST_CASE("bake images: what is out of its domain is named, before any work") {
   CHECK(refused(png, {}).empty());
   CHECK(refused(png, {.width = 33}) == "width");
   CHECK(refused(png, {.width = 0}) == "width");
+  CHECK(refused(png, {.width = 65536}).empty());
+  CHECK(refused({"position", "x.jpg"}, {.width = 65500}).empty());
+  CHECK(refused({"position", "x.jpg"}, {.width = 65502}) == "width");
   CHECK(refused(png, {.width = 34, .convention = Convention::Envmap}) == "convention");
   CHECK(refused(png, {.samples = 33}) == "samples");
   CHECK(refused(png, {.depth = SampleType::Half}) == "depth");

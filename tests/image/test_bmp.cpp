@@ -16,7 +16,7 @@ namespace {
 
 std::string little(std::uint64_t value, int bytes) {
   std::string text;
-  for (int i = 0; i < bytes; ++i) text.push_back(static_cast<char>(value >> (8 * i)));
+  for (int i = 0; i < bytes; ++i, value >>= 8) text.push_back(static_cast<char>(value));
   return text;
 }
 
@@ -112,20 +112,20 @@ TEST_CASE("bmp: runs, pixels as they come, steps and ends of rows") {
 
 TEST_CASE("bmp: the head of OS/2 has sizes of 16 bits and colours of three bytes") {
   const std::string file = "BM" + little(0, 8) + little(32, 4) + little(12, 4) + little(2, 2) +
-                           little(1, 2) + little(1, 2) + little(1, 2) + bytes({7, 8, 9, 1, 2, 3}) +
-                           bytes({0x40, 0, 0, 0});
-  CHECK(samples(read(file)) == Samples{9, 8, 7, 3, 2, 1});
+                           little(2, 2) + little(1, 2) + little(1, 2) + bytes({7, 8, 9, 1, 2, 3}) +
+                           bytes({0x40, 0, 0, 0, 0, 0, 0, 0});
+  CHECK(samples(read(file)) == Samples{9, 8, 7, 9, 8, 7, 9, 8, 7, 3, 2, 1});
 }
 
 TEST_CASE("bmp: heads of all sizes that are in use are known, by the first 18 bytes") {
-  Bmp file = {1, 1, 24, 0, "", bytes({1, 2, 3, 0})};
+  Bmp file = {1, 1, 8, 0, black_red_green_blue, bytes({2, 0, 0, 0}), "", 4};
   for (const size_t size : {40, 52, 56, 64, 108, 124}) {
     INFO(size);
-    file.more_of_head = std::string(size - 40, '\0');
-    CHECK(samples(read(file.text())) == Samples{3, 2, 1});
+    file.more_of_head = std::string(size - 40, '\x7f');
+    CHECK(samples(read(file.text())) == Samples{0, 255, 0});
     CHECK(looks_like_bmp(file.text().substr(0, 18)));
     CHECK_FALSE(looks_like_bmp(file.text().substr(0, 17)));
-    file.more_of_head.push_back('\0');
+    file.more_of_head.push_back('\x7f');
     CHECK_FALSE(looks_like_bmp(file.text()));
   }
 }
@@ -168,9 +168,16 @@ TEST_CASE("bmp: absurd heads are refused before anything is made for them") {
     file.bits = bits;
     refused(file, "bits a pixel are not read");
   }
+  for (const auto& [compression, bits] : {std::pair{4, 24}, {5, 16}, {5, 32}, {1, 24}, {2, 8}}) {
+    file = good;
+    file.compression = compression;
+    file.bits = bits;
+    refused(file, "compression " + std::to_string(compression));
+  }
   file = good;
-  file.compression = 4;
-  refused(file, "compression 4");
+  file.compression = 3;
+  file.behind_head = little(0xf800, 4) + little(0x07e0, 4) + little(0x001f, 4);
+  refused(file, "compression 3 and 24 bits");
   std::string text = good.text();
   text[13] = 0x7f;
   CHECK_THROWS_WITH(read(text), Contains("rows are said to begin"));

@@ -1,12 +1,15 @@
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 #include <string>
 
 #include "image/image_writer.h"
+#include "image/leaks_of_others.h"
 #include "image/meant_rows.h"
 #include "support/image_headers.h"
 
@@ -250,9 +253,94 @@ TEST_CASE("image writer: a file that ends early is refused") {
   }
 }
 
+TEST_CASE("image writer: a file that is shorter when it is read back is refused") {
+  for (const ImageFormat format : every_format) {
+    INFO(name_of(format));
+    const LeaksOfOthers leaks;
+    const ImageFileOptions options{.width = 150,
+                                   .height = 75,
+                                   .channels = 3,
+                                   .format = format,
+                                   .sample_type = sample_types_of(format).front()};
+    std::vector<char> bytes;
+    const ImagePlace memory = in_memory(bytes);
+    ImageWriter writer(options, {memory.write, [&](std::int64_t offset, char* part, size_t size) {
+                                   bytes.resize(std::min(bytes.size(), size_t{500}));
+                                   return memory.read(offset, part, size);
+                                 }});
+    writer.write_rows(samples_for(options, options.height).data(), options.height);
+    CHECK_THROWS_AS(writer.close(), ImageError);
+  }
+}
+
+TEST_CASE("image writer: what the file throws comes through, the first of it") {
+  for (const ImageFormat format : every_format) {
+    INFO(name_of(format));
+    const LeaksOfOthers leaks;
+    const ImageFileOptions options{.width = 150,
+                                   .height = 75,
+                                   .channels = 3,
+                                   .format = format,
+                                   .sample_type = sample_types_of(format).front()};
+    std::vector<char> bytes;
+    const ImagePlace memory = in_memory(bytes);
+    const std::vector<char> samples = samples_for(options, options.height);
+    const auto write_all = [&](const ImagePlace& file) {
+      ImageWriter writer(options, file);
+      writer.write_rows(samples.data(), options.height);
+      writer.close();
+    };
+    int thrown = 0;
+    const auto fail = [&](std::int64_t, const auto&...) -> size_t {
+      throw std::runtime_error("fault " + std::to_string(++thrown));
+    };
+    CHECK_THROWS_WITH(write_all({fail, memory.read}), "fault 1");
+    thrown = 0;
+    CHECK_THROWS_WITH(write_all({memory.write, fail}), "fault 1");
+  }
+}
+
+TEST_CASE("image writer: memory has no bytes beyond its end") {
+  std::vector<char> bytes;
+  const ImagePlace memory = in_memory(bytes);
+  memory.write(2, "abc");
+  CHECK(bytes == std::vector<char>{0, 0, 'a', 'b', 'c'});
+  std::array<char, 4> part{};
+  CHECK(memory.read(3, part.data(), part.size()) == 2);
+  CHECK(part == std::array{'b', 'c', '\0', '\0'});
+  CHECK(memory.read(5, part.data(), part.size()) == 0);
+  CHECK(memory.read(50, part.data(), part.size()) == 0);
+}
+
+TEST_CASE("image writer: JPEG of more texels than libjpeg takes is refused, which ends processes") {
+  const auto jpeg = [](int width, int height) {
+    return written({.width = width,
+                    .height = height,
+                    .channels = 1,
+                    .format = ImageFormat::Jpeg,
+                    .sample_type = SampleType::Uint8});
+  };
+  const int most = most_texels_a_side(ImageFormat::Jpeg);
+  CHECK_NOTHROW(jpeg(most, 1));
+  CHECK_NOTHROW(jpeg(1, most));
+  CHECK_THROWS_WITH(jpeg(most + 1, 1), Contains("at most 65500 texels a side, not 65501 x 1"));
+  CHECK_THROWS_WITH(jpeg(1, most + 1), Contains("at most 65500 texels a side, not 1 x 65501"));
+}
+
+TEST_CASE("image writer: an environment map in rows has no levels") {
+  const std::vector<char> bytes = written({.width = 8,
+                                           .height = 4,
+                                           .channels = 3,
+                                           .format = ImageFormat::Exr,
+                                           .sample_type = SampleType::Half,
+                                           .metadata = {{"textureformat", "LatLong Environment"}}});
+  CHECK_FALSE(image_header({bytes.data(), bytes.size()}).tiled);
+}
+
 TEST_CASE("image writer: an image whose rows did not all come is refused") {
   for (const ImageFormat format : every_format) {
     INFO(name_of(format));
+    const LeaksOfOthers leaks;
     std::vector<char> bytes;
     const ImageFileOptions options{.width = 32,
                                    .height = 16,
@@ -337,11 +425,13 @@ TEST_CASE("meant rows: halves are the nearest ones, even where two are as near")
   }
 }
 
-TEST_CASE("meant rows: one changed sample is found in its row") {
-  std::vector<std::uint16_t> samples(size_t{30} * 7, 9);
-  MeantRows rows(10, 3, SampleType::Uint16, true);
-  rows.add(samples.data(), 7);
-  CHECK(rows.difference(samples.data(), 0, 7).empty());
-  samples[size_t{30} * 4 + 29] = 8;
-  CHECK_THAT(rows.difference(samples.data(), 0, 7), Contains("row 4"));
+TEST_CASE("meant rows: one changed sample is found in its row, whichever it is") {
+  for (int row = 0; row < 7; ++row) {
+    std::vector<std::uint16_t> samples(size_t{30} * 7, 9);
+    MeantRows rows(10, 3, SampleType::Uint16, true);
+    rows.add(samples.data(), 7);
+    CHECK(rows.difference(samples.data(), 0, 7).empty());
+    samples[size_t{30} * static_cast<size_t>(row) + 29] = 8;
+    CHECK_THAT(rows.difference(samples.data(), 0, 7), Contains("row " + std::to_string(row)));
+  }
 }

@@ -111,6 +111,8 @@ TEST_CASE("targa: absurd heads are refused before anything is made for them") {
 }
 
 TEST_CASE("targa: a head in which a field makes no sense is that of another format") {
+  CHECK(looks_like_targa(two_by_two.text().substr(0, 18)));
+  CHECK_FALSE(looks_like_targa(two_by_two.text().substr(0, 17)));
   const auto refused = [](const Targa& file) {
     CHECK_FALSE(looks_like_targa(file.text()));
     CHECK_THROWS_WITH(read(file.text()), Contains("not a PNG"));

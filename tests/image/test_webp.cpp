@@ -80,6 +80,13 @@ TEST_CASE("webp: grey becomes RGB, values beyond [0, 1] are clamped, bytes are t
   CHECK(encode_webp(both) == encode_webp(both));
 }
 
+TEST_CASE("webp: alpha that is 1 everywhere is left out") {
+  Image image = picture(32, 16, 4);
+  for (int i = 0; i < 32 * 16; ++i) image.pixels[4 * std::size_t(i) + 3] = 1;
+  for (const bool lossless : {true, false})
+    CHECK(decode_image(encode_webp(image, {.lossless = lossless}), "w").channels == 3);
+}
+
 TEST_CASE("webp: one colour over millions of texels is a hundred bytes, and read") {
   Image flat(4096, 2048, 3);
   std::fill(flat.pixels.begin(), flat.pixels.end(), 0.2F);

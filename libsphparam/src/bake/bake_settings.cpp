@@ -63,6 +63,10 @@ void require_format(const std::string& path, const BakeSettings& settings) {
     throw BakeSettingError("path", "images are written as .png, .jpg, .tif or .exr, not " +
                                        (ending.empty() ? "without a name" : ending));
   }
+  if (const int most = most_texels_a_side(*format); settings.width > most) {
+    throw BakeSettingError("width", std::string(name_of(*format)) + " images have at most " +
+                                        std::to_string(most) + " texels a row; .png has more");
+  }
   if (settings.mip && format != ImageFormat::Exr) {
     throw BakeSettingError("mip", "only .exr files have levels");
   }

@@ -1,5 +1,7 @@
 #include "sphparam/image/image_format.h"
 
+#include <limits>
+
 #include "sphparam/io/paths.h"
 
 namespace sphparam {
@@ -32,6 +34,11 @@ const std::vector<SampleType>& sample_types_of(ImageFormat format) {
 
 int most_channels(ImageFormat format) {
   return format == ImageFormat::Jpeg ? 3 : format == ImageFormat::Exr ? 1024 : 4;
+}
+
+int most_texels_a_side(ImageFormat format) {
+  constexpr int of_libjpeg = 65500;
+  return format == ImageFormat::Jpeg ? of_libjpeg : std::numeric_limits<int>::max();
 }
 
 const char* name_of(SampleType type) {

@@ -208,6 +208,13 @@ void require_room(const ImageFileOptions& options) {
                      std::to_string(most_channels(options.format)) + " channels, not " +
                      std::to_string(options.channels));
   }
+  // Beyond it libjpeg ends the process.
+  if (const int most = most_texels_a_side(options.format);
+      std::max(options.width, options.height) > most) {
+    throw ImageError(name + " images have at most " + std::to_string(most) +
+                     " texels a side, not " + std::to_string(options.width) + " x " +
+                     std::to_string(options.height));
+  }
   if (options.tiles && options.format != ImageFormat::Exr)
     throw ImageError(name + " images have no levels");
 }

@@ -31,8 +31,8 @@ std::vector<BakeRequest> requests_for(const std::vector<std::string>& fields,
                                       const std::string& pattern, const std::string& stem);
 
 struct BakeSettings {
-  int width = 2048;  // texels a row, even, 2 to 65536; half as many rows. A multiple of 4 for
-                     // conventions that are a quarter turn away
+  int width = 2048;  // texels a row, even, 2 to 65536 (JPEG: 65500); half as many rows. A multiple
+                     // of 4 for conventions that are a quarter turn away
   int samples = 1;   // N: N × N a texel, their mean; 1 to 32
   Interpolation interpolation = Interpolation::Uv;
   Convention convention = Convention::Sphparam;

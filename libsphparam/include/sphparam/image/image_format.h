@@ -25,6 +25,8 @@ std::optional<ImageFormat> image_format_of(const std::string& path);
 /// The sample types a format has, the usual one first.
 const std::vector<SampleType>& sample_types_of(ImageFormat format);
 int most_channels(ImageFormat format);
+/// Texels a row, and rows: 65,500 of JPEG; others have room for what memory has.
+int most_texels_a_side(ImageFormat format);
 
 /// Whether values are rounded to whole numbers: Uint8 and Uint16.
 bool is_integer(SampleType type);
