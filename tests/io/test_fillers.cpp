@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "folder.h"
+#include "sphparam/errors.h"
 #include "sphparam/io/certified_files.h"
 #include "sphparam/io/fillers.h"
 #include "sphparam/io/mapped_mesh.h"
@@ -106,6 +108,27 @@ TEST_CASE("fillers: a mapped mesh knows them, and its surface") {
       {.file = without_fillers(marked_ball(0)), .map = {icosphere(2).positions}});
   CHECK(plain.fillers().empty());
   CHECK(&plain.surface() == &plain.mesh());
+}
+
+TEST_CASE("fillers: a surface alone is refused for numbers that are not finite, by its vertices") {
+  const Folder folder;
+  MeshFile file = marked_ball();
+  const double infinity = std::numeric_limits<double>::infinity();
+  const auto says = [&](const std::string& what) {
+    const MappedMesh ball({.file = file, .map = {icosphere(2).positions}});
+    PendingFiles files;
+    CHECK_THROWS_AS(add_mapped(files, folder.file("a.ply"), ball, 1, {}, FillersInFile::Left),
+                    UnmeasurableMesh);
+    CHECK_THROWS_WITH(add_mapped(files, folder.file("a.ply"), ball, 1, {}, FillersInFile::Left),
+                      Catch::Contains("a.ply: not written: " + what));
+  };
+  const Eigen::Index all = without_fillers(file).mesh.vertex_count();
+  const std::string last = " of vertex " + std::to_string(all - 1) + " of " + std::to_string(all);
+  REQUIRE(all < file.mesh.vertex_count());
+  file.vertex_properties[0].values.back() = infinity;
+  says("'tens'" + last);
+  file.mesh.positions(file.mesh.vertex_count() - 1, 2) = infinity;
+  says("the position" + last);
 }
 
 TEST_CASE("fillers: files of maps keep them marked, others get the surface alone") {

@@ -4,6 +4,7 @@
 #include "folder.h"
 #include "reading.h"
 #include "sphparam/errors.h"
+#include "sphparam/io/certified_files.h"
 #include "sphparam/io/harmonic_expansion.h"
 #include "sphparam/io/map_files.h"
 #include "sphparam/io/mesh_writer.h"
@@ -57,6 +58,25 @@ TEST_CASE("map_files: what is written must have the verdict that was found") {
   CHECK(fs::exists(folder.file("egg.sph.ply")));
 }
 
+TEST_CASE("map_files: a map is proved on the faces and the vertices that the file has") {
+  const Folder folder;
+  const MappedMesh mapped = egg();
+  const MeshFile with_map = attach_map(mapped.file(), mapped.map(), {});
+  PendingFiles files;
+  const auto add = [&](const MeshFile& file) {
+    add_certified(files, folder.file("egg.sph.ply"), serialise_ply(file), mapped.topology(), 1);
+  };
+  MeshFile other_faces = with_map;
+  for (int& v : other_faces.mesh.triangles.reshaped()) v = v == 3 ? 100 : v == 100 ? 3 : v;
+  CHECK_THROWS_AS(add(other_faces), NotCertifiedError);
+  MeshFile one_more = with_map;
+  one_more.mesh.positions.conservativeResize(163, 3);
+  one_more.mesh.positions.row(162).setZero();
+  for (Property& property : one_more.vertex_properties) property.values.push_back(1);
+  CHECK_THROWS_AS(add(one_more), MeshError);
+  CHECK_NOTHROW(add(with_map));
+}
+
 TEST_CASE("map_files: provenance says how a map came about, by the numbers of the file") {
   MeshFile file;
   file.mesh = octahedron();
@@ -92,6 +112,27 @@ TEST_CASE("harmonic_expansion: an ellipsoid is of degree 1, and comes back") {
   CHECK(values_of(back.find_vertex_property("height"))[3] ==
         Approx(mapped.mesh().position(3).z()).margin(1e-9));
   CHECK(read_provenance(back).back() == std::pair<std::string, std::string>{"harmonics", "3"});
+}
+
+TEST_CASE("harmonic_expansion: what was turned says so, and no longer that it lies as a body") {
+  MeshFile file = egg().file();
+  file.mesh.positions.col(1) *= 1.2;
+  const MappedMesh mapped(
+      {.file = file,
+       .map = {icosphere(2).positions},
+       .provenance = {{"method", "radial"}, {"radial-centre", "0 0 0"}, {"radial-movement", "0"}}});
+  const HarmonicExpansion as_it_was = expand_in_harmonics(mapped, {}, {.degree = 3});
+  Provenance lines = mapped.provenance();
+  lines.emplace_back("harmonics", "3");
+  CHECK(read_provenance(reconstruction(mapped, as_it_was)) == lines);
+
+  HarmonicExpansion turned = as_it_was;
+  align(turned, mapped, HarmonicAlignment::SphereAndSurface);
+  const MeshFile back = reconstruction(mapped, turned);
+  CHECK(read_provenance(back) ==
+        Provenance{{"method", "radial"}, {"harmonics", "3"}, {"aligned", "first-order ellipsoid"}});
+  const Points along = read_sphere(back)->points * Vector3(-1.5, -1.2, 1).asDiagonal();
+  CHECK((back.mesh.positions - along).cwiseAbs().maxCoeff() < 1e-9);
 }
 
 TEST_CASE("harmonic_expansion: what it makes is written with its map, or as the mesh alone") {

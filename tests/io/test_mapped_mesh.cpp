@@ -5,6 +5,8 @@
 #include "folder.h"
 #include "reading.h"
 #include "sphparam/errors.h"
+#include "sphparam/io/certified_files.h"
+#include "sphparam/io/fillers.h"
 #include "sphparam/io/mapped_mesh.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/safe_file.h"
@@ -234,6 +236,24 @@ TEST_CASE("mapped_mesh: the polygons that the triangles are cut of are kept and 
     CHECK(back.polygons == 6);
     CHECK(back.mesh.triangles == file.mesh.triangles);
   }
+}
+
+TEST_CASE("mapped_mesh: a surface without its fillers is written in the polygons that are left") {
+  const Folder folder;
+  auto [file, polygons] = box();
+  // The quads about vertex 0, two triangles each, close a hole: no other quad has that vertex.
+  mark_fillers(file, {1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0});
+  const MappedMesh mapped({.file = file, .map = {file.mesh.positions}, .polygons = polygons});
+  PendingFiles files;
+  add_mapped(files, folder.file("box.obj"), mapped, 1, {}, FillersInFile::Left);
+  files.publish();
+  const MeshFile back = read_mesh(folder.file("box.obj"));
+  CHECK(back.polygons == 3);
+  CHECK(back.mesh.positions == file.mesh.positions.bottomRows(7));
+  Triangles left(6, 3);
+  for (const int t : {2, 3, 6, 7, 10, 11})
+    left.row(t / 4 * 2 + t % 2) = file.mesh.triangles.row(t).array() - 1;
+  CHECK(back.mesh.triangles == left);
 }
 
 TEST_CASE("mapped_mesh: progress may cancel the map that is made") {

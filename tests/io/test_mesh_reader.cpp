@@ -4,6 +4,7 @@
 #include <fstream>
 #include <random>
 
+#include "io/files/file_bytes.h"
 #include "reading.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/mesh/mesh_repair.h"
@@ -41,6 +42,8 @@ TEST_CASE("mesh_reader: other formats are refused by name") {
   refused(header, "a.obj", "a volume (NIfTI)");
   header.replace(504, 2, "\xbe\x0b");  // 3006
   refused(header, "a.dscalar.nii", "CIFTI-2");
+  refused(header.substr(0, 508), "a.dscalar.nii", "CIFTI-2");  // the code is the last that is there
+  refused(header.substr(0, 507), "a.dscalar.nii", "a volume (NIfTI)");
   refused("", "a.obj", "empty");
   refused("\xef\xbb\xbf", "a.obj", "empty");
 }
@@ -77,6 +80,16 @@ TEST_CASE("mesh_reader: a file on disk reads like its bytes") {
   CHECK_THROWS_WITH(sphparam::read_mesh(path.string(), options),
                     Catch::Matchers::Contains("`--limit file=N` raises it"));
   std::filesystem::remove(path);
+}
+
+TEST_CASE("mesh_reader: of what has no end no more is read than the limit") {
+  CHECK_THROWS_WITH(FileBytes("/dev/zero", 1000),
+                    "/dev/zero: is larger than the limit of 1000 bytes");
+  ReadOptions options;
+  options.max_file_bytes = 1000;
+  CHECK_THROWS_WITH(FileBytes("/dev/zero", options),
+                    Catch::Contains("limit of 1000 bytes; `--limit file=N` raises it"));
+  CHECK(FileBytes("/dev/null", 0).view().empty());
 }
 
 TEST_CASE(

@@ -55,6 +55,15 @@ TEST_CASE("mz3: layers that need it have 64 bits, and names are told to be lost"
   CHECK(contains(losses_of_writing(file, back).at(0), "thickness"));
 }
 
+TEST_CASE("mz3: comments are told to be lost, but for what says of a map and of vertices") {
+  MeshFile file = coloured_tetrahedron();
+  const MeshFile back = read(serialise_mz3(file));
+  file.comments = {"sphparam method progressive", "source_vertices 9"};
+  CHECK(losses_of_writing(file, back).empty());
+  file.comments.push_back("made by hand");
+  CHECK(losses_of_writing(file, back) == std::vector<std::string>{"not carried: 1 comment"});
+}
+
 TEST_CASE("mz3: a layer that leaves vertices out, and private data, are told") {
   MeshFile file = coloured_tetrahedron();
   file.vertex_properties[4].values[2] = std::numeric_limits<double>::quiet_NaN();

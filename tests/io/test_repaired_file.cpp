@@ -314,8 +314,12 @@ TEST_CASE("repaired_file: texture coordinates of vertices stay there where they 
   file.set_vertex_property(t);
   const MeshFile mended = repaired_file(file, repair_mesh(mesh));
   CHECK_FALSE(mended.corner_texcoords);
-  REQUIRE(mended.find_vertex_property("s"));
-  CHECK(mended.find_vertex_property("t")->values[7] == mended.mesh.positions(7, 1));
+  for (const auto& [name, axis] : {std::pair("s", 0), std::pair("t", 1)}) {
+    REQUIRE(mended.find_vertex_property(name));
+    const VectorX column = mended.mesh.positions.col(axis);
+    CHECK(mended.find_vertex_property(name)->values ==
+          std::vector<double>(column.begin(), column.end()));
+  }
 
   // A side that is cut at a vertex from elsewhere in the image: the vertex has two places there.
   MeshFile cut = file;

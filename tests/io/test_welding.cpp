@@ -100,6 +100,16 @@ TEST_CASE("welding: a closed mesh is never welded, an open one is, both are note
   CHECK(inspect_mesh(prepared.mesh).is_sphere());
   CHECK(notes.size() == 1);
 
+  // A flap on a closed mesh, which only the edges of the very first vertex leave open.
+  notes.clear();
+  const MeshFile flap =
+      prepare_for_mapping(read("v -1 -1 1\nv 1 1 1\nv -1 -1 1\nv -1 1 -1\nv 1 -1 -1\n"
+                               "f 2 4 3\nf 2 3 5\nf 2 5 4\nf 3 4 5\nf 1 4 2\n",
+                               "a.obj"),
+                          &notes);
+  CHECK(values_of(flap.find_vertex_property("source_vertex")) == std::vector<double>{0, 1, 3, 4});
+  CHECK(notes.size() == 1);
+
   // Welding and dropping together still name the ids of the file.
   const MeshFile both = prepare_for_mapping(
       read("v 7 7 7\nv 0 0 0\nv 1 0 0\nv 0 0 0\nv 0 1 0\nf 2 3 5\nf 4 5 3\n", "a.obj"), &notes);

@@ -10,7 +10,7 @@ namespace sphparam {
 std::vector<int> find_doublets(const Polygons& polygons, std::int64_t vertex_count) {
   struct Star {
     int corners = 0;
-    std::array<int, 2> neighbours = {-1, -1};
+    std::array<int, 2> neighbours = {};  // of the corner before
     bool same = false;
   };
   std::vector<Star> stars(static_cast<std::size_t>(vertex_count));
