@@ -202,6 +202,14 @@ TEST_CASE("vertex_data: an overlay in MGH has a column a frame, and is no volume
   std::string bytes = serialise_vertex_data("a.mgh", data);
   CHECK(bytes.size() == 284 + 32);
   check_same(read_values(bytes, "a.mgh"), data);
+  const std::string scanner = int32(0x44fa0000) + std::string(16, '\0');  // 2000 ms
+  const VertexData series = read_values(bytes + scanner + "command", "a.mgh");
+  CHECK(series.kind == DataKind::TimeSeries);
+  CHECK(series.columns[1].values == data.columns[1].values);
+  CHECK(series.notes ==
+        std::vector<std::string>{"not carried: the time between frames, 2000 ms",
+                                 "not carried: 7 bytes after the values (how the file was made)"});
+  CHECK(read_values(bytes + scanner, "a.mgh").notes.size() == 1);
   bytes.replace(8, 4, int32(2));  // the second size
   CHECK(contains(values_complaint(bytes, "a.mgh"), "a volume of 4 × 2 × 1"));
   bytes.replace(8, 4, int32(1));
