@@ -83,6 +83,10 @@ TEST_CASE("freesurfer: a volume geometry that is none, or not all there, is not 
   for (const auto& [from, to] : {std::pair("valid = 1", "valid = 0"), std::pair("cras", "x"),
                                  std::pair("-1.25", "nan"), std::pair("-1.25", "")})
     CHECK_FALSE(contains(gifti(from, to), "VolGeom"));
+  // As long as what lines of the geometry begin with, which is all that they are known by.
+  MeshFile told = whole;
+  told.comments.insert(told.comments.begin(), "the volume moved to cras = 9 9 9");
+  CHECK(contains(serialise_mesh("x.surf.gii", told), "<![CDATA[-1.25]]>"));
   const std::string broken = replaced(gifti("x", "x"), "-1.25", "far");
   const MeshFile read_back = read(broken, "x.surf.gii");
   CHECK(contains(losses_among(read_back.notes).at(0), "VolGeom"));

@@ -111,6 +111,13 @@ TEST_CASE("gifti_reader: every encoding, byte order and index order means the sa
   Array by_column = triangles("0 0 0 1 2 1 3 2 1 3 2 3");
   by_column.order = "ColumnMajorOrder";
   CHECK(read(gifti({points(), by_column})).mesh.triangles == expected);
+  // Text without a number, and no row to take numbers from.
+  Array nothing = triangles("\n");
+  nothing.dimensions = R"(Dimensionality="2" Dim0="0" Dim1="3")";
+  for (const char* order : {"RowMajorOrder", "ColumnMajorOrder"}) {
+    nothing.order = order;
+    CHECK(read(gifti({points(), nothing})).mesh.face_count() == 0);
+  }
 }
 
 TEST_CASE("gifti_reader: one number a vertex is a property, named by its metadata") {
@@ -207,6 +214,9 @@ TEST_CASE("gifti_reader: what breaks the rules is refused at its line") {
   refused(changed("Dim0=\"4\"", ""), 3, "Dimensionality");
   refused(changed("Dim0=\"4\"", "Dim0=\"2147483647\""), 3, "cannot hold");
   refused(changed("Dim1=\"3\"", "Dim1=\"2147483647\""), 3, "cannot hold");
+  refused(changed(four_by_three,  // 2⁶⁴ numbers
+                  R"(Dimensionality="4" Dim0="65536" Dim1="65536" Dim2="65536" Dim3="65536")"),
+          3, "cannot hold");
   refused(changed("Dimensionality=\"2\"", "Dimensionality=\"7\""), 3, "1 to 6");
   refused(changed("ASCII", "ExternalFileBinary"), 3, "another file");
   refused(changed("ExternalFileName=\"\"", "ExternalFileName=\"x\""), 3, "another file");
@@ -226,6 +236,7 @@ TEST_CASE("gifti_reader: what breaks the rules is refused at its line") {
   CHECK(read(changed("1 2 3", "1 2 2"), "mesh", {.repeated_corners = true}).mesh.face_count() == 4);
   refused(changed("<Data>", "<Data></Data><Data>"), 4, "second <Data>");
   refused(changed("<Data>", "<Other>"), 0, "malformed");
+  refused(changed("<Data>0 2 1 0 1 3 0 3 2 1 2 3</Data>", ""), 7, "has no <Data>");
   refused(gifti({points()}), 0, "no array of NIFTI_INTENT_TRIANGLE");
   refused(gifti({triangles(), triangles()}), 0, "no array of NIFTI_INTENT_POINTSET");
   refused(gifti({points(), points(), triangles()}), 7, "second one");

@@ -46,6 +46,18 @@ TEST_CASE("mz3: a mesh with colours and layers comes back as it was, packed or n
   }
 }
 
+TEST_CASE("mz3: colours without alpha are opaque, and a byte after them is told") {
+  MeshFile file = coloured_tetrahedron();
+  file.vertex_properties.resize(3);
+  const std::string bytes = serialise_mz3(file);
+  const MeshFile back = read(bytes);
+  CHECK(values_of(back.find_vertex_property("blue")) == std::vector<double>{0, 0, 0, 255});
+  CHECK(values_of(back.find_vertex_property("alpha")) == std::vector<double>(4, 255));
+  CHECK(back.notes.empty());
+  CHECK(read(bytes + "x").notes ==
+        std::vector<std::string>{"data after the end of the mesh ignored"});
+}
+
 TEST_CASE("mz3: layers that need it have 64 bits, and names are told to be lost") {
   MeshFile file = coloured_tetrahedron();
   file.set_vertex_property({"thickness", ScalarType::Float64, {0.1, 0.2, 0.3, 1e300}});

@@ -1,5 +1,7 @@
 #include <catch2/catch.hpp>
 
+#include "reading.h"
+#include "sphparam/io/components.h"
 #include "sphparam/io/repair_advice.h"
 #include "support/joined.h"
 #include "support/test_meshes.h"
@@ -31,6 +33,19 @@ TriangleMesh two_balls() {
   TriangleMesh smaller = icosphere(1);
   smaller.positions *= 0.9;
   return joined(icosphere(1), smaller, {3, 0, 0});
+}
+
+/// A flat square of two triangles, or of four around its middle: areas without rounding.
+TriangleMesh square(double side, bool in_four = false) {
+  TriangleMesh mesh;
+  mesh.positions = Points{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  mesh.triangles = Triangles{{0, 1, 2}, {0, 2, 3}};
+  if (in_four) {
+    mesh.positions = Points{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0}};
+    mesh.triangles = Triangles{{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
+  }
+  mesh.positions *= side;
+  return mesh;
 }
 
 }  // namespace
@@ -94,4 +109,24 @@ TEST_CASE("repair_advice: a refusal says what was done before") {
         "  Done already:\n    1 face turned over\n");
   const std::string advice = repair_advice(MeshRefusal(source, try_repair(source)));
   CHECK_THAT(advice, StartsWith("  --repair would mend it") && Contains("  Done already:\n"));
+}
+
+TEST_CASE(
+    "connected_parts: the largest is first, of equal ones more faces, then the lowest vertex") {
+  constexpr int equal = 30;  // more than a sort that is not stable leaves in place
+  TriangleMesh mesh = square(1);
+  for (int i = 1; i < equal; ++i) mesh = joined(mesh, square(1), {0, 0, 0});
+  mesh = joined(joined(mesh, square(1, true), {0, 0, 0}), square(2), {0, 0, 0});
+  mesh.triangles = mesh.triangles.colwise().reverse().eval();  // which is no order of theirs
+  const std::vector<MeshPart> parts = connected_parts(source_of(mesh, "squares.ply"));
+  std::vector<double> lowest, expected = {4 * equal + 5, 4 * equal};
+  for (int i = 0; i < equal; ++i) expected.push_back(4 * i);
+  for (const MeshPart& part : parts) {
+    const std::vector<double>& vertices =
+        values_of(part.source.file.find_vertex_property("source_vertex"));
+    lowest.push_back(*std::min_element(vertices.begin(), vertices.end()));
+  }
+  CHECK(lowest == expected);
+  CHECK(parts.at(0).area_share == Approx(4.0 / (equal + 5)));
+  CHECK(parts.at(1).area_share == Approx(1.0 / (equal + 5)));
 }

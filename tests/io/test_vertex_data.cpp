@@ -149,7 +149,9 @@ TEST_CASE("vertex_data: an annotation has its labels by colour, in any order of 
   CHECK(data.labels[2].name == "blue");
   CHECK(data.structure == "CortexLeft");
   const std::string bytes = serialise_vertex_data("lh.b.annot", data);
-  check_same(read_values(bytes, "lh.b.annot"), data);
+  const VertexData again = read_values(bytes, "lh.b.annot");
+  check_same(again, data);
+  CHECK(again.notes.empty());
   CHECK(contains(bytes, "table.txt"));
 }
 
@@ -202,6 +204,14 @@ TEST_CASE("vertex_data: an overlay in MGH has a column a frame, and is no volume
   std::string bytes = serialise_vertex_data("a.mgh", data);
   CHECK(bytes.size() == 284 + 32);
   check_same(read_values(bytes, "a.mgh"), data);
+  const std::string scanner = int32(0x44fa0000) + std::string(16, '\0');  // 2000 ms
+  const VertexData series = read_values(bytes + scanner + "command", "a.mgh");
+  CHECK(series.kind == DataKind::TimeSeries);
+  CHECK(series.columns[1].values == data.columns[1].values);
+  CHECK(series.notes ==
+        std::vector<std::string>{"not carried: the time between frames, 2000 ms",
+                                 "not carried: 7 bytes after the values (how the file was made)"});
+  CHECK(read_values(bytes + scanner, "a.mgh").notes.size() == 1);
   bytes.replace(8, 4, int32(2));  // the second size
   CHECK(contains(values_complaint(bytes, "a.mgh"), "a volume of 4 × 2 × 1"));
   bytes.replace(8, 4, int32(1));
@@ -222,6 +232,17 @@ TEST_CASE("vertex_data: GIFTI keeps structure, intents, names and metadata, and 
   CHECK(again.labels.at(0).colour->at(3) == 0);
   CHECK(contains(bytes, "NIFTI_INTENT_LABEL"));
   CHECK(contains(bytes, "Dimensionality=\"1\""));
+  VertexData nameless = thickness();
+  nameless.columns[0].name.clear();
+  const auto names = [&] {
+    std::string all;
+    const auto shape = read_values(serialise_vertex_data("x.shape.gii", nameless), "x.shape.gii");
+    for (const DataColumn& column : shape.columns) all += column.name + " ";
+    return all;
+  };
+  CHECK(names() == "thickness ");
+  nameless.columns.push_back(nameless.columns[0]);
+  CHECK(names() == "thickness_1 thickness_2 ");
   VertexData series = thickness();
   series.kind = DataKind::TimeSeries;
   CHECK(contains(serialise_vertex_data("x.func.gii", series), "NIFTI_INTENT_TIME_SERIES"));
@@ -374,19 +395,19 @@ TEST_CASE("vertex_data: text in UTF-8 passes through GIFTI, other bytes are told
   const Folder folder;
   PendingFiles files;
   VertexData data = lobes();
-  data.labels[1].name = "cortex cérébral 脳 𝛼";
+  data.labels[1].name = "cortex cérébral 脳 अ 𝛼";
   data.metadata = {{"Größe", "½ µm"}};
   CHECK(add_vertex_data(files, folder.file("a.label.gii"), data).empty());
   const VertexData again = read_values(serialise_vertex_data("a.label.gii", data), "a.label.gii");
   CHECK(again.labels.at(1).name == data.labels[1].name);
   CHECK(again.metadata == data.metadata);
-  data.labels[1].name = "caf\xe9 \xed\xa0\x80 \xc0\x80\x01";
+  data.labels[1].name = "caf\xe9 \xed\xa0\x80 \xc0\x80\x01 \xa9\xa9 \xf8\x90\x80\x80";
   data.metadata[0].second = "\xff";
   CHECK(add_vertex_data(files, folder.file("b.label.gii"), data) ==
         std::vector<std::string>{"not carried: key, name or colour, as they were, of 1 of 3 labels",
                                  "not carried: 1 line of metadata"});
   CHECK(read_values(serialise_vertex_data("b.label.gii", data), "b.label.gii").labels.at(1).name ==
-        "caf? ??? ???");
+        "caf? ??? ??? ?? ????");
 }
 
 TEST_CASE("vertex_data: what other formats have no place for is told in a line each") {

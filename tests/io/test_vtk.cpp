@@ -121,6 +121,8 @@ TEST_CASE("vtk: what is written is read back bit for bit, and written again the 
     CHECK(serialise(back, {}) == bytes);
     CHECK(read(bytes, "nameless").format == back.format);
   }
+  // As VTK spells names: only what a word cannot hold is in hexadecimal.
+  CHECK(contains(serialise_legacy_vtk(file, {}), "\na%2520name%22<&> 1 42 short\n"));
 }
 
 TEST_CASE("vtk: a mesh of floats is written in floats, one without faces is read") {
@@ -176,10 +178,28 @@ TEST_CASE("vtk: legacy text is read with whatever its writers put beside the mes
   CHECK(losses_among(file.notes).size() == 2);  // the table, and the array of another length
 }
 
+TEST_CASE("vtk: an array of a known name that cannot be what it says keeps its own name") {
+  const MeshFile file = read(tetrahedron_vtk +
+                             "POINT_DATA 4\nFIELD FieldData 3\nNormals 2 4 float\n0 1 0 1 0 1 0 1\n"
+                             "rgb 3 4 float\n0 0 2 0 0 2 0 0 2 0 0 2\n"
+                             "Colors 3 4 unsigned_char\n1 2 3 1 2 3 1 2 3 1 2 3\n");
+  std::vector<std::string> names;
+  for (const Property& property : file.vertex_properties) names.push_back(property.name);
+  CHECK(names == std::vector<std::string>{"Normals_0", "Normals_1", "rgb_0", "rgb_1", "rgb_2",
+                                          "red", "green", "blue"});
+}
+
 TEST_CASE("vtk: strips, and cells by offsets as version 5 writes them") {
   const MeshFile strip =
       read(legacy_head + points + "TRIANGLE_STRIPS 1 7\n6 0 2 1 3 0 2\n", "a.vtk");
   CHECK(strip.mesh.face_count() == 4);
+  CHECK(strip.notes.empty());
+  const MeshFile stitched =  // of two strips, as programs make one
+      read(legacy_head + points + "TRIANGLE_STRIPS 1 12\n11 0 2 1 3 3 1 1 3 0 2 0\n", "a.vtk");
+  CHECK(stitched.mesh.triangles == strip.mesh.triangles);
+  CHECK(stitched.notes ==
+        std::vector<std::string>{
+            "5 triangles of strips with a vertex twice: left out, as strips turn so"});
   const MeshFile offsets =
       read(replaced(legacy_head, "3.0", "5.1") + points +
            "POLYGONS 5 12\nOFFSETS vtktypeint64\n0 3 6 9 12\nCONNECTIVITY vtktypeint64\n"
@@ -238,10 +258,32 @@ TEST_CASE("vtk: every way to encode XML data gives the same mesh") {
   }
 }
 
+TEST_CASE("vtk: blocks unpack to no more numbers than the file can hold, all of them together") {
+  const auto said = [](std::size_t blocks, std::size_t size) {
+    const std::string packed = deflated(std::string(size, '\0'));
+    std::string head = header<std::uint32_t>({blocks, size, 0}), data;
+    for (std::size_t i = 0; i < blocks; ++i) {
+      head += header<std::uint32_t>({packed.size()});
+      data += packed;
+    }
+    return complaint(
+        "<VTKFile type=\"PolyData\" compressor=\"vtkZLibDataCompressor\"><PolyData><Piece "
+        "NumberOfPoints=\"1\"><PointData><DataArray type=\"UInt8\" Name=\"a\" format=\"binary\">" +
+        to_base64(head) + to_base64(data) +
+        "</DataArray></PointData><Points><DataArray type=\"Float32\" NumberOfComponents=\"3\">1 2 3"
+        "</DataArray></Points></Piece></PolyData></VTKFile>");
+  };
+  CHECK(said(1, 1).empty());
+  CHECK(contains(said(1, 50000), "has 50000 numbers, not 1"));
+  CHECK(contains(said(1, 1000000), "asks for more numbers than the file can hold"));
+  CHECK(contains(said(5, 50000), "asks for more numbers than the file can hold"));
+}
+
 TEST_CASE("vtk: pieces are put together, with the arrays that all of them have") {
   const std::string piece =
       "<Piece NumberOfPoints=\"4\" NumberOfPolys=\"4\"><PointData><DataArray type=\"UInt8\" "
-      "Name=\"a\" format=\"ascii\">1 2 3 4</DataArray>EXTRA</PointData><Points><DataArray "
+      "Name=\"a\" format=\"ascii\">1 2 3 4</DataArray>EXTRA</PointData><CellData><DataArray "
+      "type=\"UInt8\" Name=\"c\" format=\"ascii\">5 6 7 8</DataArray></CellData><Points><DataArray "
       "type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">1 1 1 -1 -1 1 -1 1 -1 1 -1 -1"
       "</DataArray></Points><Polys><DataArray type=\"Int32\" Name=\"connectivity\" "
       "format=\"ascii\">0 2 1 0 1 3 0 3 2 1 2 3</DataArray><DataArray type=\"Int32\" "
@@ -254,6 +296,7 @@ TEST_CASE("vtk: pieces are put together, with the arrays that all of them have")
   CHECK(file.mesh.vertex_count() == 8);
   CHECK(file.mesh.triangles(4, 0) == 4);
   CHECK(values_of(file.find_vertex_property("a")).size() == 8);
+  CHECK(values_of(file.find_face_property("c")) == std::vector<double>{5, 6, 7, 8, 5, 6, 7, 8});
   CHECK(losses_among(file.notes).size() == 1);
 }
 

@@ -132,9 +132,10 @@ VertexData read_mgh(std::string_view bytes, const std::string& name, const ReadO
   }
   const float step = time_step(reader);
   if (frames > 1 && step > 0) {
+    constexpr int digits = 6;  // of a float
     data.kind = DataKind::TimeSeries;
     add_loss(data.notes,
-             "the time between frames, " + short_number(static_cast<double>(step)) + " ms");
+             "the time between frames, " + short_number(static_cast<double>(step), digits) + " ms");
   }
   constexpr std::size_t times_bytes = 4 * sizeof(float);
   if (reader.remaining() > times_bytes)
