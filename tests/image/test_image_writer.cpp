@@ -11,6 +11,7 @@
 #include "image/image_writer.h"
 #include "image/leaks_of_others.h"
 #include "image/meant_rows.h"
+#include "image/open_module.h"
 #include "support/image_headers.h"
 
 using namespace sphparam;
@@ -327,14 +328,33 @@ TEST_CASE("image writer: JPEG of more texels than libjpeg takes is refused, whic
   CHECK_THROWS_WITH(jpeg(1, most + 1), Contains("at most 65500 texels a side, not 1 x 65501"));
 }
 
-TEST_CASE("image writer: an environment map in rows has no levels") {
-  const std::vector<char> bytes = written({.width = 8,
-                                           .height = 4,
-                                           .channels = 3,
-                                           .format = ImageFormat::Exr,
-                                           .sample_type = SampleType::Half,
-                                           .metadata = {{"textureformat", "LatLong Environment"}}});
-  CHECK_FALSE(image_header({bytes.data(), bytes.size()}).tiled);
+TEST_CASE("image writer: an environment map in rows has one level, in tiles all") {
+  for (const bool tiles : {false, true}) {
+    std::vector<char> bytes = written({.width = 256,
+                                       .height = 128,
+                                       .channels = 3,
+                                       .format = ImageFormat::Exr,
+                                       .sample_type = SampleType::Half,
+                                       .tiles = tiles,
+                                       .metadata = {{"textureformat", "LatLong Environment"}}});
+    CHECK(image_header({bytes.data(), bytes.size()}).tiled == tiles);
+    const ImagePlace memory = in_memory(bytes);
+    const auto read = [](void* place, std::int64_t offset, void* part, size_t size) {
+      return static_cast<const ImagePlace*>(place)->read(offset, static_cast<char*>(part), size);
+    };
+    const auto ignore = [](void*, const char*, size_t) {};
+    const auto forget = [](void*, const char*, const char*) {};
+    void* file = image_codecs().open_written("openexr", read, const_cast<ImagePlace*>(&memory),
+                                             std::ssize(bytes), forget, nullptr, ignore, nullptr);
+    REQUIRE(file != nullptr);
+    for (int level = 1; level < 10; ++level) {
+      SphparamImageLevel found{};
+      const bool there = image_codecs().level_written(file, level, &found) == 0;
+      CHECK(there == (tiles && level <= 8));
+      if (there) CHECK(found.width == 256 >> level);
+    }
+    image_codecs().close_written(file);
+  }
 }
 
 TEST_CASE("image writer: an image whose rows did not all come is refused") {

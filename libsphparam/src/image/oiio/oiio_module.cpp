@@ -221,9 +221,6 @@ OIIO::ImageSpec spec_of(const SphparamImageFile& file) {
     spec.attribute(name, value);
     if (name.starts_with("sphparam:")) all += (all.empty() ? "" : "\n") + name + "=" + value;
   }
-  // Else an environment map would have levels.
-  if (file.tile == 0 && spec.find_attribute("textureformat"))
-    spec.attribute("openexr:levelmode", 0);
   const bool one_text = format == "jpeg" || format == "tiff";
   if (one_text && !all.empty()) spec.attribute("ImageDescription", all);
   return spec;
