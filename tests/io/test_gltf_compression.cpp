@@ -168,6 +168,42 @@ TEST_CASE("gltf_compression: what Draco has packed is the mesh that it was") {
   }
 }
 
+namespace {
+
+/// One of Draco with metadata after its header, whose flag says so.
+CompressedFile with_metadata(CompressedFile file, const std::string& metadata) {
+  file.binary[10] = static_cast<char>(file.binary[10] | 0x80);
+  file.binary.insert(11, metadata);
+  file.root["buffers"][0]["byteLength"] = file.binary.size();
+  file.root["bufferViews"][0]["byteLength"] = file.binary.size();
+  return file;
+}
+
+}  // namespace
+
+TEST_CASE("gltf_compression: metadata of Draco are passed over, up to a depth") {
+  const TriangleMesh mesh = icosphere(2);
+  // Of one attribute, with entries within entries, and of all.
+  const std::string entry = "\1\4name\2me", none(1, '\0');
+  const std::string nested = entry + "\1\5inner" + entry + none;
+  const std::string one_attribute = "\1" + none;
+  for (const bool edge_breaker : {false, true}) {
+    const CompressedFile file =
+        with_metadata(draco_file(mesh, edge_breaker), one_attribute + nested + entry + none);
+    CHECK(places(read(file.bytes(), "a.glb").mesh) == places(mesh));
+  }
+  // Within each other: no entries, and one more with a name of no letters. Then far too many faces.
+  const auto deep = [&](int depth) {
+    std::string metadata = none;
+    for (int i = 0; i < depth; ++i) metadata += none + "\1" + none;
+    CompressedFile file = with_metadata(draco_file(mesh, false), metadata + none + none);
+    file.binary.replace(11 + metadata.size() + 2, 5, "\xff\xff\xff\xff\x0f");
+    return complaint(file.bytes(), "a.glb");
+  };
+  CHECK(contains(deep(64), "more triangles than its bytes can hold"));
+  CHECK(contains(deep(65), "its metadata are nested too deep"));
+}
+
 TEST_CASE("gltf_compression: what meshoptimizer has packed is the mesh that it was") {
   const TriangleMesh mesh = icosphere(3);
   for (const char* mode : {"TRIANGLES", "INDICES"}) {
@@ -209,6 +245,10 @@ TEST_CASE("gltf_compression: damage is refused with its place") {
     refused(file, expected);
   };
   meshopt("count", 1 << 30, "buffer view 0: EXT_meshopt_compression: it claims more rows");
+  CompressedFile few = meshopt_file(octahedron());
+  REQUIRE(packed_view(few, 0)["byteLength"] < 256);
+  packed_view(few, 0)["count"] = 10000;  // 120 kB of at most 256 times as many bytes, and 64 kB
+  refused(few, "it claims more rows");
   meshopt("count", -1, "buffer view 0: its compression has no count");
   meshopt("count", 2.5, "no whole number");
   meshopt("count", 161, "do not fit");

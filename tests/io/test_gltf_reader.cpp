@@ -8,6 +8,7 @@
 #include <fstream>
 #include <random>
 
+#include "io/attributes/source_attributes.h"
 #include "io/formats/gltf/gltf_files.h"
 #include "io/polygons/welding.h"
 #include "io/sphere_angles.h"
@@ -260,6 +261,10 @@ TEST_CASE("gltf_reader: attributes survive, and welding moves them to the corner
   CHECK(values_of(file.find_vertex_property("green"))[3] == Approx(0.37751).epsilon(1e-4));
   CHECK(values_of(file.find_vertex_property("blue"))[3] == 0);
   CHECK(values_of(file.find_vertex_property("alpha"))[3] == Approx(128 / 255.0));
+  const auto light = sphparam::linear_colours(file);
+  REQUIRE(light);
+  CHECK(light->row(3).isApprox(Eigen::RowVector3d(1, 30 / 255.0, 0), 1e-6));
+  CHECK_FALSE(sphparam::linear_colours(read(tetrahedron_gltf().bytes())));
   CHECK(values_of(file.find_vertex_property("_RANK"))[6] == 7);
   CHECK(file.find_vertex_property("_RANK")->type == ScalarType::Uint16);
 
@@ -340,6 +345,10 @@ TEST_CASE("gltf_reader: buffers come from data URIs or from files next to the gl
     }
     return std::string();
   };
+  const auto open_files = [] {
+    return std::distance(fs::directory_iterator("/proc/self/fd"), fs::directory_iterator());
+  };
+  const auto open_before = open_files();
   CHECK(said("a%20b+c.bin").empty());
   CHECK(said("./a%20b+c.bin").empty());
   CHECK(contains(said("../secret.bin"), "'..'"));
@@ -353,6 +362,7 @@ TEST_CASE("gltf_reader: buffers come from data URIs or from files next to the gl
   CHECK(contains(said("link.bin"), "out of the folder"));
   CHECK(contains(said("folder.bin"), "no regular file"));
   CHECK(contains(said("missing.bin"), "No such file"));
+  CHECK(open_files() == open_before);
   CHECK(contains(said("data:text/html,x"), "data URI"));
   CHECK(contains(complaint(gltf.json("a%20b+c.bin")), "only a glTF read from a file"));
   fs::remove_all(folder);
@@ -461,6 +471,7 @@ TEST_CASE("gltf_reader: the container is checked before its JSON") {
   CHECK(contains(patched(8, static_cast<std::uint32_t>(good.size() + 4)), "the file has"));
   CHECK(contains(patched(8, 8), "length"));
   CHECK(contains(patched(8, 16), "header of a chunk"));
+  CHECK(contains(patched(8, 14), "header of a chunk"));
   CHECK(contains(patched(12, 0xfffffff0), "past the end"));
   CHECK(contains(patched(12, 6), "multiple of 4"));
   CHECK(contains(patched(16, 0), "no JSON"));
@@ -624,6 +635,8 @@ TEST_CASE("gltf_reader: a material brings its base colour: factor, image, wrap m
   CHECK(contains(with_image(R"("uri":"../secret.png")").problem, "'..'"));
   CHECK(contains(with_image(R"("uri":"skin.png")").problem, "only a glTF read from a file"));
   CHECK(with_image(R"("uri":"skin.png")").path == "skin.png");
+  gltf.rest = replaced(gltf.rest, R"("samplers":[{"wrapS":33071,"wrapT":33648}],)", "");
+  CHECK(read(gltf.bytes()).base_colours.at(0).wrap_s == sphparam::Wrapping::Repeat);
 }
 
 TEST_CASE(
@@ -674,6 +687,33 @@ TEST_CASE(
   CHECK(placed(said.roughness, 1) == Approx(0).margin(1e-12));
   CHECK(placed(said.emission, 0) == Approx(3 + 0.5));
   CHECK(placed(said.emission, 1) == Approx(1 - (-2 + 0.25)));
+  // A strength that is no number is as if it was not there.
+  gltf.rest = replaced(gltf.rest, R"("emissiveStrength":4)", R"("emissiveStrength":"x")");
+  CHECK(read(gltf.bytes()).channels.at(0).emission.factor == std::array{1.0, 0.5, 0.0, 1.0});
+}
+
+TEST_CASE(
+    "gltf_reader: an image whose place on the mesh's coordinates is no number is not carried") {
+  Gltf gltf = tetrahedron_gltf();
+  gltf.add(floats({0, 0, 1, 0, 0, 1, 1, 1}), 5126, 4, "VEC2");
+  gltf.meshes = R"([{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":2},"indices":1,)"
+                R"("material":0}]}])";
+  const auto texture = [](const std::string& scale) {
+    return R"({"index":0,"extensions":{"KHR_texture_transform":{"scale":)" + scale + "}}}";
+  };
+  const std::string rest = gltf.rest;
+  for (const auto& [first, other] :
+       {std::pair{"[1e-10,1]", "[1e308,1]"}, {"[1,1e-10]", "[1,1e308]"}}) {
+    gltf.rest = rest + R"(,"materials":[{"pbrMetallicRoughness":{"baseColorTexture":)" +
+                texture(first) + R"(},"occlusionTexture":)" + texture(other) +
+                R"(}],"textures":[{"source":0}],"images":[{"uri":"a.png"}])";
+    const MeshFile file = read(gltf.bytes());
+    CHECK(file.base_colours.at(0).image == "a.png");
+    CHECK(file.channels.at(0).occlusion.image.empty());
+    CHECK(sphparam::losses_among(file.notes) ==
+          std::vector<std::string>{
+              "not carried: occlusion textures whose place is no number of 1 of 1 material"});
+  }
 }
 
 TEST_CASE(
@@ -895,15 +935,17 @@ TEST_CASE("gltf_reader: what a file says beside shape and materials is told, a l
       R"("nodes":[{"mesh":0,"skin":0},{}],"scenes":[{"nodes":[0]}],"scene":0,)"
       R"("skins":[{"joints":[1]}],)"
       R"("cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":0.1}}],)"
+      R"("animations":[{},{}],"extensions":{"KHR_lights_punctual":{"lights":[{"type":"point"}]}},)"
       R"("materials":[{"name":"plain","pbrMetallicRoughness":{"metallicFactor":1}},)"
       R"({"name":"glow","emissiveFactor":[0,1,0],"doubleSided":true,"extensions":{"KHR_materials_anisotropy":{},)"
       R"("KHR_materials_emissive_strength":{}}}])";
   const std::vector<std::string> losses = sphparam::losses_among(read(gltf.bytes()).notes);
   CHECK(losses ==
-        std::vector<std::string>{
-            "not carried: 'KHR_materials_anisotropy' of 1 of 2 materials",
-            "not carried: 1 broken skin: the mesh is read unposed", "not carried: 2 morph targets",
-            "not carried: of the vertices TANGENT, TEXCOORD_1 and _PAIR", "not carried: 1 camera"});
+        std::vector<std::string>{"not carried: 'KHR_materials_anisotropy' of 1 of 2 materials",
+                                 "not carried: 1 broken skin: the mesh is read unposed",
+                                 "not carried: 2 morph targets",
+                                 "not carried: of the vertices TANGENT, TEXCOORD_1 and _PAIR",
+                                 "not carried: 2 animations, 1 camera and 1 light"});
 }
 
 TEST_CASE("gltf_reader: a material by specular colour becomes one by metallic and roughness") {
@@ -940,6 +982,8 @@ TEST_CASE("gltf_reader: a material by specular colour becomes one by metallic an
   REQUIRE(colour.made_of);
   CHECK(colour.made_of->diffuse.path == "d.png");
   CHECK(colour.made_of->specular.path == "s.png");
+  for (const MaterialTexture* part : {&colour.made_of->diffuse, &colour.made_of->specular})
+    CHECK(contains(part->problem, "only a glTF read from a file"));
   CHECK(colour.made_of == file.channels[0].metallic.made_of);
   CHECK(file.channels[0].roughness.channel == 1);
   CHECK(file.channels[0].metallic.channel == 2);
@@ -1055,6 +1099,31 @@ TEST_CASE("gltf_reader: instances of a mesh are all there") {
     CHECK(file.mesh.position(v) == Vector3(10 - at.x(), -at.y(), 5 + at.z()));
     CHECK(file.mesh.position(4 + v) == Vector3(2 * at.x(), 10 + 2 * at.y(), 5 + 2 * at.z()));
   }
+}
+
+TEST_CASE("gltf_reader: instances may be more triangles than a file has bytes, up to a million") {
+  constexpr std::uint32_t vertices = 1000, instances = 400;
+  std::vector<double> xyz;
+  std::vector<std::uint32_t> strip;
+  for (std::uint32_t v = 0; v < vertices; ++v) {
+    xyz.insert(xyz.end(), {v / 2.0, v % 2 * 1.0, 0.0});
+    strip.push_back(v);
+  }
+  Gltf gltf;
+  gltf.add(floats(xyz), 5126, vertices, "VEC3")
+      .add(integers(strip, 2), 5123, vertices, "SCALAR")
+      .add(floats(std::vector<double>(3 * instances, 1)), 5126, instances, "VEC3");
+  gltf.meshes = R"([{"primitives":[{"attributes":{"POSITION":0},"indices":1,"mode":5}]}])";
+  const std::string forest =
+      R"({"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":2}}}})";
+  gltf.rest =
+      R"("nodes":[)" + forest + "," + forest + "," + forest + R"(],"scenes":[{"nodes":[0,1,2]}])";
+  const MeshFile file = read(gltf.bytes());
+  // Two forests are there, of the third one tree.
+  CHECK(file.mesh.vertex_count() == vertices * (2 * instances + 1));
+  CHECK(file.mesh.face_count() == (vertices - 2) * (2 * instances + 1));
+  CHECK(sphparam::losses_among(file.notes) ==
+        std::vector<std::string>{"not carried: the instances of 1 mesh, read once"});
 }
 
 TEST_CASE("gltf_reader: instances that are broken or far too many are told, the mesh read once") {

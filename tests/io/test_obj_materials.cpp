@@ -106,8 +106,13 @@ TEST_CASE("obj_materials: emission, roughness, metallic and normal maps are chan
   // A material of which nothing is said is rough and no metal.
   const MaterialChannels bare = folder.read_with("mtllib a.mtl", "newmtl red\n").channels.at(0);
   CHECK(bare.roughness.factor[0] == 1);
-  CHECK(bare.metallic.factor[0] == 0);
+  CHECK(bare.metallic.factor == std::array<double, 4>{0, 1, 1, 1});
   CHECK(bare.emission.factor == std::array<double, 4>{0, 0, 0, 1});
+  // Shares are at most all, and at least nothing.
+  const MaterialChannels beyond =
+      folder.read_with("mtllib a.mtl", "newmtl red\nPr 1.5\nPm -1\n").channels.at(0);
+  CHECK(beyond.roughness.factor[0] == 1);
+  CHECK(beyond.metallic.factor[0] == 0);
 }
 
 TEST_CASE(

@@ -279,6 +279,45 @@ TEST_CASE("repaired_file: halves of a face that a flat one cuts in two keep its 
   CHECK(worst_corner(mended, [](Face) { return true; }) < 1e-12);
 }
 
+TEST_CASE("repaired_file: where a diagonal turns from one piece to another, both keep their own") {
+  // A flap on an edge, whose two faces have that edge too.
+  TriangleMesh mesh = icosphere(1);
+  const Face flap = static_cast<Face>(mesh.face_count());
+  const Vertex a = mesh.triangles(0, 0), b = mesh.triangles(0, 1);
+  const Vertex tip = static_cast<Vertex>(mesh.vertex_count());
+  mesh.positions.conservativeResize(tip + 1, 3);
+  mesh.positions.row(tip) = 0.6 * (mesh.positions.row(a) + mesh.positions.row(b)).eval();
+  mesh.triangles.conservativeResize(flap + 2, 3);
+  mesh.triangles.bottomRows(2) << a, tip, b, b, tip, a;
+  const RepairedMesh repaired = repair_mesh(mesh);
+  REQUIRE(repaired.actions.back().kind == RepairKind::DiagonalTurned);
+
+  MeshFile file = labelled(mesh);
+  check_labels(file, repaired_file(file, repaired));  // of one piece
+  const Eigen::RowVector2d elsewhere(500, 500);
+  file.corner_texcoords->bottomRows(6).rowwise() = elsewhere;
+  const MeshFile mended = repaired_file(file, repaired);
+  int turned = 0;
+  for (Face f = 0; f < mended.mesh.face_count(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::RowVector2d shown = mended.corner_texcoords->row(3 * f + k);
+      const auto corner = [&](int i) { return mended.mesh.triangles(f, (k + i) % 3); };
+      const Vector3 here = mended.mesh.position(corner(0)), from = mended.mesh.position(corner(1)),
+                    side = mended.mesh.position(corner(2)) - from;
+      if (mended.find_face_property("source_face")->values[f] >= flap) {
+        CHECK(shown == elsewhere);
+      } else if (corner(0) != tip) {
+        CHECK(shown == here.head<2>().transpose());
+      } else {  // what the side opposite shows nearest to it
+        ++turned;
+        const Vector3 nearest = from + (here - from).dot(side) / side.squaredNorm() * side;
+        CHECK((shown - nearest.head<2>().transpose()).norm() < 1e-12);
+      }
+    }
+  }
+  CHECK(turned == 1);
+}
+
 TEST_CASE("repaired_file: second coordinates and tangents go where their corners go") {
   const TriangleMesh whole = icosphere(3);
   TriangleMesh mesh = without_faces(whole, faces_at(whole, vertex_at(whole, {1, 1, 0.3})));

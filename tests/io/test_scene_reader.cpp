@@ -171,6 +171,27 @@ TEST_CASE(
         std::vector<std::string>{"not carried: specular colour and shininess of 1 of 1 material"});
 }
 
+TEST_CASE("scene_reader: pictures are named beside the scene, wherever they were") {
+  const auto image_of = [](const std::string& path) {
+    const std::string scene =
+        replaced(collada(), "<color>1 0 0 1</color>", R"(<texture texture="u" texcoord="c"/>)");
+    const std::string with_image =
+        replaced(scene, "<library_effects>",
+                 R"(<library_images><image id="i"><init_from>)" + path +
+                     "</init_from></image></library_images>\n<library_effects>");
+    return read_mesh(replaced(with_image, R"(<technique sid="t">)",
+                              R"(<newparam sid="w"><surface type="2D"><init_from>i</init_from>)"
+                              R"(</surface></newparam><newparam sid="u"><sampler2D><source>w)"
+                              R"(</source></sampler2D></newparam><technique sid="t">)"),
+                     "a.bin", {})
+        .base_colours.at(0)
+        .image;
+  };
+  CHECK(image_of("maps/red.png") == "maps/red.png");
+  CHECK(image_of("C:\\work\\maps\\red.png") == "red.png");
+  CHECK(image_of("../../maps/red.png") == "red.png");
+}
+
 TEST_CASE("scene_reader: FBX is read, polygons cut, and turned so that y is up") {
   for (const int up : {1, 2}) {
     const MeshFile file = read_mesh(fbx(up), "a.bin", {});
@@ -206,13 +227,15 @@ TEST_CASE("scene_reader: a skin whose bone is nowhere leaves its mesh where the 
 }
 
 TEST_CASE("scene_reader: what is broken is refused, and says what it was taken for") {
-  const auto refused = [](const std::string& bytes, const std::string& name) {
-    CHECK_THROWS_WITH(read_mesh(bytes, name, {}), Catch::StartsWith(name + ": "));
+  const auto refused = [](const std::string& bytes, const std::string& name,
+                          const std::string& words = "") {
+    CHECK_THROWS_WITH(read_mesh(bytes, name, {}), Catch::StartsWith(name + ": " + words));
   };
-  refused("; FBX 7.4.0 project file\nObjects:  {", "a.fbx");
-  refused("Kaydara FBX Binary  \x1a", "a.bin");
+  // In assimp's words.
+  refused("; FBX 7.4.0 project file\nObjects:  {", "a.fbx", "FBX-Parser");
+  refused("Kaydara FBX Binary  \x1a", "a.bin", "FBX-Tokenize");
   refused("nothing of the kind", "a.fbx");
   refused(collada().substr(0, 900), "a.dae");
-  refused("<COLLADA/>", "a.dae");
-  refused("", "a.fbx");
+  refused("<COLLADA/>", "a.dae", "Collada");
+  refused("", "a.fbx", "the file is empty");
 }

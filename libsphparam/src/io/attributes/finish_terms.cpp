@@ -96,18 +96,17 @@ std::vector<double> numbers_of(const FinishTerm& term, const MaterialFinish& fin
   return {colour.begin(), colour.end()};
 }
 
-bool set_numbers(const FinishTerm& term, const std::vector<double>& numbers,
+void set_numbers(const FinishTerm& term, const std::vector<double>& numbers,
                  MaterialFinish& finish) {
   const auto allowed = [&](double x) { return x >= term.least && x <= term.most; };
   const bool is_speed = term.number == &MaterialFinish::ior;  // no light is faster than in a vacuum
   if (numbers.size() != (term.number ? 1U : 3U) || !std::ranges::all_of(numbers, allowed) ||
       (is_speed && numbers[0] > 0 && numbers[0] < 1))
-    return false;
+    return;
   if (term.number)
     finish.*term.number = numbers[0];
   else
     std::ranges::copy(numbers, (finish.*term.colour).begin());
-  return true;
 }
 
 std::vector<std::string> extensions_of(const MaterialFinish& finish) {

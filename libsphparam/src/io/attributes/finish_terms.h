@@ -23,8 +23,8 @@ const std::vector<FinishTerm>& finish_terms();
 /// The numbers of a term.
 std::vector<double> numbers_of(const FinishTerm& term, const MaterialFinish& finish);
 
-/// Sets a term; what the extension does not allow is as if it was not there, and false.
-bool set_numbers(const FinishTerm& term, const std::vector<double>& numbers,
+/// Sets a term; what the extension does not allow is as if it was not there.
+void set_numbers(const FinishTerm& term, const std::vector<double>& numbers,
                  MaterialFinish& finish);
 
 /// The extensions that a finish needs, by their whole names: those with a factor that says

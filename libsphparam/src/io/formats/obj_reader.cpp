@@ -161,7 +161,7 @@ class ObjReader {
     for (std::size_t corner = first; !scanner_.at_line_end(); ++corner) read_corner(corner);
     const std::string problem = polygons_.close_polygon(options_);
     if (!problem.empty()) scanner_.fail(problem);
-    if (material_ != no_index || !material_of_.empty()) {
+    if (material_ != no_index) {
       material_of_.resize(static_cast<std::size_t>(polygons_.count() - 1), no_index);
       material_of_.push_back(material_);
     }

@@ -289,8 +289,12 @@ class MaterialReader {
     const bool has_place =
         std::ranges::all_of(placement[0], [](double x) { return std::isfinite(x); }) &&
         std::ranges::all_of(placement[1], [](double x) { return std::isfinite(x); });
-    if ((second && transform.texcoord != result_.second_texcoord) || !has_place) {
+    if (second && transform.texcoord != result_.second_texcoord) {
       result_.others.push_back(what + " textures on a third set of texture coordinates");
+      return;
+    }
+    if (!has_place) {
+      result_.others.push_back(what + " textures whose place is no number");
       return;
     }
     texture.placement = placement;
