@@ -166,9 +166,9 @@ std::string freesurfer_data_name(const BrainName& name, const VertexData& data) 
 /// Whether it is one of these words, or one with something added: "white_MSMAll".
 bool says(const std::string& what, std::initializer_list<std::string_view> words) {
   return std::ranges::any_of(words, [&](std::string_view word) {
-    const bool ends =
-        what.size() == word.size() || !std::isalnum(static_cast<unsigned char>(what[word.size()]));
-    return what.starts_with(word) && ends;
+    if (!what.starts_with(word)) return false;
+    return what.size() == word.size() ||
+           !std::isalnum(static_cast<unsigned char>(what[word.size()]));
   });
 }
 
