@@ -71,6 +71,29 @@ TEST_CASE("triangle blocks: every triangle counts once") {
   CHECK(m.blocks.energy(m.image, {}, 3) == m.blocks.energy(m.image, {}, 1));
 }
 
+TEST_CASE("triangle blocks: how often the sphere is covered is told of maps without a fold") {
+  const LaidOut m;
+  CHECK(m.blocks.covering(m.image, 1) == Approx(1).epsilon(0.01));
+  CHECK(m.blocks.covering(m.image, 3) == m.blocks.covering(m.image, 1));
+  const TriangleMesh ball = uv_sphere(24, 12);
+  const Topology topology(ball);
+  std::vector<int> names(static_cast<size_t>(ball.vertex_count())), start{0};
+  std::iota(names.begin(), names.end(), 0);
+  for (const int v : names) {
+    int valence = 0;
+    topology.for_each_outgoing(v, [&](Halfedge) { ++valence; });
+    start.push_back(start.back() + valence);
+  }
+  const TriangleBlocks blocks(topology, measure_source(ball), names, names, start);
+  for (const int turns : {1, 2, 3}) {
+    const Points rays = wound_rays(24, 12, turns);
+    std::vector<ImagePoint> image;
+    for (const int v : names) image.push_back(image_point(rays.row(v)));
+    CHECK(std::isfinite(blocks.energy(image, {}, 1)));
+    CHECK(blocks.covering(image, 1) == Approx(turns).epsilon(0.01));
+  }
+}
+
 TEST_CASE("triangle blocks: an entry of a row leads to the triangle that begins with it") {
   const LaidOut m;
   for (int row = 0; row < m.topology.vertex_count(); ++row) {

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
+#include "elementary.h"
+#include "sphere/solid_angle.h"
 #include "sphparam/parallel.h"
 
 // Triangles on the rim of a block are packed with every block that they touch, and count in the
@@ -30,6 +33,14 @@ int append_packs(const Topology& topology, const RestTriangles& source, const Fi
     }
   }
   return static_cast<int>((faces.size() + pack_width - 1) / pack_width);
+}
+
+/// To some per mille, mostly without an arctangent.
+double about_half_of_solid_angle(const Vector3& a, const Vector3& b, const Vector3& c) {
+  const HalfSolidAngle half = half_solid_angle_of(a, b, c);
+  constexpr double small = 0.1;
+  if (half.sine < small * half.cosine) return half.sine / half.cosine;
+  return elementary::atan2(half.sine, half.cosine);
 }
 
 }  // namespace
@@ -107,6 +118,24 @@ TriangleBlocks::TriangleBlocks(const Topology& topology, const RestTriangles& so
     }
   }
   packs_.shrink_to_fit();
+}
+
+double TriangleBlocks::covering(const std::vector<ImagePoint>& image, int threads) const {
+  std::vector<double> partial(blocks_.size());
+  parallel_for(count(), grain, threads, [&](std::int64_t first, std::int64_t last) {
+    for (auto b = static_cast<size_t>(first); b < static_cast<size_t>(last); ++b) {
+      for (int t = 0; t < blocks_[b].owned; ++t) {
+        const TrianglePack& pack = packs_[blocks_[b].first_pack + at(t / pack_width)];
+        const auto corner = [&](int k) {
+          return image[at(pack.corner[k][t % pack_width])].vector();
+        };
+        partial[b] += about_half_of_solid_angle(corner(0), corner(1), corner(2));
+      }
+    }
+  });
+  double sum = 0;
+  for (const double angle : partial) sum += angle;
+  return sum / (2 * std::numbers::pi);
 }
 
 double TriangleBlocks::energy(const std::vector<ImagePoint>& image,

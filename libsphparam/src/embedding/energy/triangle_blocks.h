@@ -51,6 +51,10 @@ class TriangleBlocks {
   double energy(const std::vector<ImagePoint>& image, const DistortionEnergy& energy,
                 int threads) const;
 
+  /// How often the image covers the sphere, to some per cent: a whole number where every
+  /// orientation is positive, and then the map is one-to-one if it is 1.
+  double covering(const std::vector<ImagePoint>& image, int threads) const;
+
   /// The rest triangles of a row of entries first … last − 1, each seen from the row's vertex (as
   /// `rotated` turns them).
   void measure_ring(int row, int first, int last, int lane, RingSlot* slots) const;

@@ -32,6 +32,9 @@ constexpr double sufficient_decrease = 1e-4;
 constexpr int halvings = 40;
 constexpr int most_stiffenings = 6;
 constexpr double most_expansion = 8;  // of a Newton step: clamped Hessians are too stiff
+// The sphere is covered once or twice, or more often: triangles that are small next to a step may
+// turn over twice in it, and come out right, with a part of the mesh wound around a vertex twice.
+constexpr double once = 1.5;
 // Of a diagonal block's trace. Rounding lets the energy of a limb that moves as a whole by millions
 // of its own small edges come out negative, and the solver gives up.
 constexpr double certain_curvature = 1e-13;
@@ -302,13 +305,14 @@ GlobalNewton::Step GlobalNewton::step(const DistortionEnergy& energy, double lea
   const double cap = longest_step / longest(solution.x);
 
   Image candidate;
+  bool may_grow = true;
   double length = std::min(1.0, cap);
   for (int i = 0; i < halvings; ++i, length /= 2) {
     ask_();
     move(solution.x, length, candidate);
     double after = blocks_.energy(candidate, energy, threads_);
     if (!(after < before + sufficient_decrease * length * slope)) continue;
-    while (2 * length <= std::min(cap, most_expansion) && (i == 0 || length >= 1)) {
+    while (may_grow && 2 * length <= std::min(cap, most_expansion) && (i == 0 || length >= 1)) {
       ask_();
       move(solution.x, 2 * length, candidate);
       const double further = blocks_.energy(candidate, energy, threads_);
@@ -318,6 +322,10 @@ GlobalNewton::Step GlobalNewton::step(const DistortionEnergy& energy, double lea
       }
       after = further;
       length *= 2;
+    }
+    if (blocks_.covering(candidate, threads_) > once) {
+      may_grow = false;
+      continue;
     }
     image_.swap(candidate);
     made.energy = after;

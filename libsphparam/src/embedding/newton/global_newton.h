@@ -49,7 +49,8 @@ class GlobalNewton {
   /// One Newton step, the system solved as long as iterations bring `least_share` (see
   /// `solve_by_conjugate_gradients`), with line search; solved anew, up to six times, where
   /// triangles would cut the step short (stiffened_triangles.h); by projected Hessians there, and
-  /// where the exact ones lead nowhere. No orientation is lost, decided by the guard.
+  /// where the exact ones lead nowhere. No orientation is lost, decided by the guard, and
+  /// the sphere is not covered twice.
   Step step(const DistortionEnergy& energy, double least_share,
             Curvature curvature = Curvature::Projected);
 
