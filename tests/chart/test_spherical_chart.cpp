@@ -26,7 +26,7 @@ SphericalChart chart_of(const TriangleMesh& mesh, const SphereMap& map, int thre
 /// A map by one start, the finest level left as it comes beyond so many times an isometry's energy:
 /// triangles of limbs are thinner on it than on the map that is made of several.
 SphereMap embedded(const TriangleMesh& mesh, Quality quality, double demanding) {
-  return *embed_by_levels(mesh, Topology(mesh), {.quality = quality}, {}, demanding).map;
+  return *embed_by_levels(mesh, Topology(mesh), {.quality = quality}, {}, {.demanding = demanding}).map;
 }
 
 bool usable(const TriangleMesh& mesh, const SphereMap& map) {

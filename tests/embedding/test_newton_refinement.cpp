@@ -24,7 +24,7 @@ struct Draft {
   TriangleMesh mesh;
   Topology topology{mesh};
   std::vector<ImagePoint> image =
-      image_of(*embed_by_levels(mesh, topology, {.quality = Quality::Draft}, {}, 0).map);
+      image_of(*embed_by_levels(mesh, topology, {.quality = Quality::Draft}, {}, {.demanding = 0}).map);
 
   int size() const { return topology.vertex_count(); }
 

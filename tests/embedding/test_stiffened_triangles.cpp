@@ -244,9 +244,7 @@ TEST_CASE("Newton steps among slivers are not cut short by the first that would 
   mesh.positions.col(0) *= 4;
   const Topology topology(mesh);
   const RestTriangles source = measure_source(mesh);
-  const SphereMap map = *embed_by_levels(mesh, topology, {.quality = Quality::Draft}, {},
-                                         std::numeric_limits<double>::infinity())
-                             .map;
+  const SphereMap map = *embed_by_levels(mesh, topology, {.quality = Quality::Draft}, {}).map;
   GlobalNewton newton(topology, source, image_of(map), {}, 1);
   const double before = newton.energy({});
   for (int step = 0; step < 3; ++step) {

@@ -35,7 +35,7 @@ Float32SafeRounding round_float32_safe(const TriangleMesh& mesh, const Topology&
                                                             .least_area = share,
                                                             .threads = options.threads,
                                                             .progress = options.progress},
-                                                           {}, no_steps);
+                                                           {}, {.demanding = no_steps});
     if (!embedding.map) continue;
     FloatRounding rounding =
         round_to_float(topology, turned_like(*embedding.map, map), options.threads, options.radius);

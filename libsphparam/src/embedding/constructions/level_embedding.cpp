@@ -13,6 +13,7 @@
 #include "embedding/constructions/narrow_rings.h"
 #include "embedding/constructions/pressed_levels.h"
 #include "embedding/energy/map_image.h"
+#include "embedding/energy/rest_floors.h"
 #include "embedding/newton/freed_memory.h"
 #include "embedding/newton/minimise.h"
 #include "embedding/newton/newton_refinement.h"
@@ -51,11 +52,13 @@ size_t at(int i) { return static_cast<size_t>(i); }
 
 using Image = std::vector<ImagePoint>;
 
-RefinementOptions refinement_options(const ProgressiveOptions& options) {
+RefinementOptions refinement_options(const ProgressiveOptions& options, const LevelOptions& how) {
   return {.quality = options.quality,
           .energy = options.energy,
           .threads = options.threads,
-          .progress = options.progress};
+          .progress = options.progress,
+          .fatness = how.fatness,
+          .most_blocked = how.most_blocked};
 }
 
 PressedLevels::Options pressed_options(const ProgressiveOptions& options) {
@@ -68,14 +71,14 @@ PressedLevels::Options pressed_options(const ProgressiveOptions& options) {
 class Embedder {
  public:
   Embedder(const TriangleMesh& mesh, const Topology& topology, const ProgressiveOptions& options,
-           const KeptVertices& keep, double demanding)
+           const KeptVertices& keep, const LevelOptions& how)
       : mesh_(mesh),
         topology_(topology),
         hierarchy_(build_hierarchy(mesh, topology, options.threads, keep, options.progress)),
         options_(options),
-        demanding_(demanding),
+        how_(how),
         area_floor_(options.least_area * 4 * std::numbers::pi / topology.face_count()),
-        refinement_(topology.vertex_count(), refinement_options(options)),
+        refinement_(topology.vertex_count(), refinement_options(options, how)),
         pressed_(topology, hierarchy_, pressed_options(options)) {
     std::vector<Vertex> names;
     for (const Pin& pin : options.pins) names.push_back(pin.vertex);
@@ -111,6 +114,7 @@ class Embedder {
       ask_();
     }
     result.report.energy_left = refinement_.energy_left();
+    result.report.left_slivers = refinement_.left_slivers();
     result.report.sweeps_sufficed = refinement_.sweeps_suffice();
     result.report.pressure = pressed_.pressure();
     packs_ = {};
@@ -169,13 +173,17 @@ class Embedder {
   /// Of the finest level.
   double sampled() {
     const std::vector<float> ring_energy = std::exchange(ring_energy_, {});
-    return sampled_decrement(hierarchy_[0], area_floor_, image_, ring_energy, options_.energy,
+    return sampled_decrement(hierarchy_[0], floors_of(0), image_, ring_energy, options_.energy,
                              options_.threads);
   }
 
   RingPacks pack(size_t l, bool hold_pins, RingPacks used = {}) const {
-    return pack_rings(hierarchy_[l], area_floor_, options_.threads,
+    return pack_rings(hierarchy_[l], floors_of(l), options_.threads,
                       hold_pins ? pinned_[l] : std::vector<Vertex>{}, std::move(used));
+  }
+
+  RestFloors floors_of(size_t l) const {
+    return {area_floor_, Fatness(how_.fatness, 2.0 * hierarchy_[l].vertex_count() - 4)};
   }
 
   bool is_pressed() const { return pressed_.pressure() > 0; }
@@ -188,12 +196,13 @@ class Embedder {
 
   /// Of the finest level.
   bool is_demanding() {
-    if (!std::isfinite(demanding_) || refinement_.sweeps_suffice()) return false;
+    if (!std::isfinite(how_.demanding) || refinement_.sweeps_suffice()) return false;
     packs_ = {};  // no more sweeps
-    const RestTriangles source = measure_source(mesh_, options_.threads);
+    const RestTriangles source =
+        fattened(measure_source(mesh_, options_.threads), how_.fatness, options_.threads);
     const double energy =
         distortion_energy(topology_, source, map_of(image_), options_.energy, options_.threads);
-    return !(energy <= demanding_ * isometric_energy(source, options_.energy, {}));
+    return !(energy <= how_.demanding * isometric_energy(source, options_.energy, {}));
   }
 
   void refine_by_newton(size_t l, ProgressShare share) {
@@ -301,7 +310,7 @@ class Embedder {
   }
 
   NarrowRings::Options narrow_options() const {
-    return {options_.energy, area_floor_, options_.over_relaxation, options_.threads, ask_};
+    return {options_.energy, floors_of(level_), options_.over_relaxation, options_.threads, ask_};
   }
 
   void sweep_colours(const RingPacks& packs, int first_colour, double over_relaxation,
@@ -316,7 +325,7 @@ class Embedder {
   const Topology& topology_;
   MeshHierarchy hierarchy_;
   const ProgressiveOptions& options_;
-  const double demanding_;     // times an isometry's energy
+  const LevelOptions how_;
   std::function<void()> ask_;  // whether to go on; throws if not
   const double area_floor_;
   std::vector<std::vector<Vertex>> pinned_;  // per level that has all pins: their names there
@@ -334,8 +343,8 @@ class Embedder {
 
 ProgressiveEmbedding embed_by_levels(const TriangleMesh& mesh, const Topology& topology,
                                      const ProgressiveOptions& options, const KeptVertices& keep,
-                                     double demanding) {
-  return Embedder(mesh, topology, options, keep, demanding).run();
+                                     const LevelOptions& how) {
+  return Embedder(mesh, topology, options, keep, how).run();
 }
 
 }  // namespace sphparam

@@ -39,7 +39,7 @@ NarrowRings::PlacedRing NarrowRings::placed_ring(Vertex v) const {
     image.push_back(image_[at(begin[i])].vector());
     edges.emplace_back(level_.positions.row(begin[i]) - level_.positions.row(v));
   }
-  return {std::move(image), RestRing(edges, options_.area_floor)};
+  return {std::move(image), RestRing(edges, options_.floors)};
 }
 
 Room NarrowRings::place(Vertex v) {
@@ -103,7 +103,7 @@ void NarrowRings::relax(const std::vector<Vertex>& near, const std::vector<Verte
   for (Vertex v = 0; v < level_.vertex_count(); ++v) {
     if (!moves[at(v)]) others.push_back(v);
   }
-  const RingPacks packs = pack_rings(level_, options_.area_floor, options_.threads, others);
+  const RingPacks packs = pack_rings(level_, options_.floors, options_.threads, others);
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     options_.ask();
     sweep_packs(packs, 0, image_.data(), options_.energy, options_.over_relaxation,
@@ -133,7 +133,8 @@ void NarrowRings::open_by_newton(std::vector<Crowd> crowds, const std::vector<Ve
   if (!(crowds.front().energy > far)) return;
   const TriangleMesh mesh = triangle_mesh(level_);
   const Topology topology(mesh, options_.threads);
-  const RestTriangles source = measure_source(mesh, options_.threads);
+  const RestTriangles source = fattened(measure_source(mesh, options_.threads),
+                                        options_.floors.fatness.mu, options_.threads);
   Points points(level_.vertex_count(), 3);
   for (Vertex v = 0; v < level_.vertex_count(); ++v) points.row(v) = image_[at(v)].vector();
   for (size_t i = 0; i < std::min(crowds.size(), most_patches); ++i) {

@@ -20,7 +20,7 @@ class NarrowRings {
  public:
   struct Options {
     DistortionEnergy energy;
-    double area_floor;  // smaller rest triangles count as equilateral ones of that area
+    RestFloors floors;
     double over_relaxation;
     int threads;
     std::function<void()> ask;  // called now and then; may throw

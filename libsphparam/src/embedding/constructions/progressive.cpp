@@ -8,8 +8,10 @@
 #include "elementary.h"
 #include "embedding/constructions/level_embedding.h"
 #include "embedding/constructions/rising_progress.h"
+#include "embedding/constructions/slivers.h"
 #include "embedding/energy/energy_domain.h"
 #include "embedding/energy/map_image.h"
+#include "embedding/energy/rest_floors.h"
 #include "embedding/frame/pin_domain.h"
 #include "embedding/newton/freed_memory.h"
 #include "embedding/newton/minimise.h"
@@ -24,8 +26,11 @@
 // nearly alike from wherever it came. It costs an embedding more: maps of great energy are worth
 // that, and of less where the best is wanted. Among slivers, and where a map ends far from its
 // energy, it is the other way round: maps in which areas weigh more lead to the lower minima.
-// Steps that stop with much left, as they do among slivers, go on in the end as the best's do: of
-// the lowest map alone, and no longer than a budget lasts.
+// Among slivers no way leads far: each that is about to fold stops all that moves. Where there are
+// many, and sweeps did not do, all of the above is done as if they were fatter, and the map of that
+// is led to what they are (slivers.cpp).
+// Steps that stop with much left even so go on in the end as the best's do: of the lowest map
+// alone, and no longer than a budget lasts.
 
 namespace sphparam {
 namespace {
@@ -47,9 +52,10 @@ constexpr double hopeless = -0.75;
 constexpr double part_before_best = 0.3, part_of_start = 0.5;
 constexpr double agreement = 5e-4;  // of two minima's energies: they are one
 // Of the energy: with more left, or minima that far apart, steps go on, within a budget. A draft is
-// not to take longer than a map by Normal.
+// not to take longer than a map by Normal, and slimmed maps have hardly more to gain.
 constexpr double much_left = 5e-3, much_left_of_draft = 3e-2, far_apart = 1e-2;
 constexpr Budget more_steps{2e6, 60, 1200}, more_for_draft{5e5, 20, 300};
+constexpr Budget more_for_slimmed{1e5, 10, 60};
 
 /// From λ to λ, a few steps at each.
 struct Way {
@@ -57,6 +63,9 @@ struct Way {
   int steps;
 };
 constexpr Way up{10, 1e-2, 10}, down{0.25, 1e-2, 6};
+constexpr double slimming_gain = 1e-3;
+constexpr int slimming_steps = 80, steps_of_slim = 12;
+constexpr int first_steps = 4, blocked_in_a_row = 4;
 constexpr double nearly_conformal = 1e-6, others_nearly_conformal[] = {1e-8, 1e-4};
 constexpr double nearly_equal_area[] = {10, 100, 1000};
 
@@ -83,27 +92,34 @@ class Starts {
   ProgressiveEmbedding lowest() {
     const bool several = options_.pins.empty(), best = options_.quality == Quality::Best;
     const double demanding = best ? much_for_best : much_energy;
-    lowest_ = embed_with_room(wanted_, several ? demanding : infinity);
+    lowest_ = embed_with_room(wanted_, several ? demanding : infinity, blocked_in_a_row);
+    if (several && !(lowest_.map && lowest_.report.sweeps_sufficed)) try_more(demanding);
     if (!lowest_.map) return std::move(lowest_);
-    if (several && !lowest_.report.sweeps_sufficed) try_others();
     rising_.begin(1);
     if (best)
-      refine(lowest_, wanted_, Quality::Best);
+      refine(lowest_, steps(wanted_, Quality::Best));
     else
       go_on();
     rising_.end();
     return std::move(lowest_);
   }
 
+  RefinementOptions steps(const DistortionEnergy& energy, Quality quality) const {
+    return {.quality = quality,
+            .energy = energy,
+            .threads = options_.threads,
+            .progress = progress_,
+            .fatness = fatness_};
+  }
+
   /// Steps towards the energy of a map that was found by another one; notes what they leave.
-  void refine(ProgressiveEmbedding& embedding, const DistortionEnergy& energy, Quality quality,
-              const Budget& budget = {}) const {
+  void refine(ProgressiveEmbedding& embedding, const RefinementOptions& how) const {
     std::vector<ImagePoint> image = image_of(*embedding.map);
-    NewtonRefinement refinement(topology_.vertex_count(),
-                                {quality, energy, options_.threads, progress_, budget});
+    NewtonRefinement refinement(topology_.vertex_count(), how);
     refinement.improve(mesh_, topology_, keep_.vertices, image);
     embedding.map = map_of(image);
     embedding.report.energy_left = refinement.energy_left();
+    embedding.report.left_slivers = refinement.left_slivers();
   }
 
  private:
@@ -113,27 +129,90 @@ class Starts {
   Quality made_quality() const { return std::min(options_.quality, Quality::Normal); }
 
   ProgressiveEmbedding embed(const DistortionEnergy& energy, Quality quality,
-                             double demanding = infinity) const {
+                             double demanding = infinity, int most_blocked = 0) const {
     ProgressiveOptions how = options_;
     how.energy = energy;
     how.quality = quality;
     how.progress = progress_;
-    return embed_by_levels(mesh_, topology_, how, keep_, demanding);
+    return embed_by_levels(mesh_, topology_, how, keep_, {demanding, fatness_, most_blocked});
   }
 
   /// By this energy, or else first with greater λ: weighing areas more keeps protrusions from
   /// shrinking to where doubles have no room left.
-  ProgressiveEmbedding embed_with_room(const DistortionEnergy& energy,
-                                       double demanding = infinity) const {
-    ProgressiveEmbedding embedding = embed(energy, made_quality(), demanding);
+  ProgressiveEmbedding embed_with_room(const DistortionEnergy& energy, double demanding = infinity,
+                                       int most_blocked = 0) const {
+    ProgressiveEmbedding embedding = embed(energy, made_quality(), demanding, most_blocked);
     for (const double lambda : roomier_lambdas) {
       if (embedding.map) break;
       const int retries = embedding.report.retries;
       embedding = embed({.lambda = std::max(lambda, energy.lambda)}, Quality::Draft);
       embedding.report.retries += retries;
-      if (embedding.map) refine(embedding, energy, made_quality());
+      if (embedding.map) refine(embedding, steps(energy, made_quality()));
     }
     return embedding;
+  }
+
+  /// Other starts, where sweeps did not suffice.
+  void try_more(double demanding) {
+    if (are_slivers_in_the_way()) {
+      ProgressiveEmbedding fat = embed_fattened(demanding);
+      slimmed_ = fat.map &&
+                 (!lowest_.map || energy_of(*fat.map) < clearly_lower * energy_of(*lowest_.map));
+      if (slimmed_) std::swap(lowest_, fat);
+      if (slimmed_ || !lowest_.map) return;
+      try_others();
+      slimmed_ = keep_lower(std::move(fat)) == Found::Lower;
+    } else if (lowest_.map) {
+      try_others();
+      if (ended_early() && may_fatten())
+        slimmed_ = keep_lower(embed_fattened(demanding)) == Found::Lower;
+    }
+  }
+
+  bool may_fatten() const { return options_.fillers.empty() && has_slivers(source()); }
+
+  /// They stopped the lowest map's steps, or one of the first, where it has had none; where there
+  /// is no map, they may have left no room.
+  bool are_slivers_in_the_way() {
+    if (lowest_.map && !lowest_.report.demanding)
+      return lowest_.report.left_slivers && may_fatten();
+    if (!may_fatten() || !lowest_.map) return may_fatten();
+    RefinementOptions few = steps(wanted_, made_quality());
+    few.finest_steps = first_steps;
+    few.most_blocked = 1;
+    refine(lowest_, few);
+    lowest_.report.energy_left.reset();
+    return lowest_.report.left_slivers;
+  }
+
+  /// With the slivers fat at first, and slimmed.
+  ProgressiveEmbedding embed_fattened(double demanding) {
+    ProgressiveEmbedding before = std::exchange(lowest_, {});
+    const double apart = apart_;
+    rising_.begin(part_of_start);
+    fatness_ = fattening;
+    lowest_ = embed_with_room(wanted_, demanding);
+    if (lowest_.map && !lowest_.report.sweeps_sufficed) try_others();
+    fatness_ = 0;
+    apart_ = apart;  // as fat ones they were others
+    ProgressiveEmbedding fat = std::exchange(lowest_, std::move(before));
+    if (!fat.map) return fat;
+    const OptimiseOptions slimming = step_of(wanted_, slimming_gain, slimming_steps);
+    fat.map = slim_down(topology_, source(), *std::move(fat.map), slimming);
+    RefinementOptions how = steps(wanted_, made_quality());
+    how.finest_steps = steps_of_slim;
+    refine(fat, how);
+    fat.report.sweeps_sufficed = false;
+    if (lowest_.map) energy_ = energy_of(*lowest_.map);
+    return fat;
+  }
+
+  OptimiseOptions step_of(const DistortionEnergy& energy, double least_gain, int steps) const {
+    return {.energy = energy,
+            .least_gain = least_gain,
+            .max_steps = steps,
+            .threads = options_.threads,
+            .progress = progress_};
   }
 
   void try_others() {
@@ -170,13 +249,22 @@ class Starts {
     apart_ = std::abs(latest_ - one) / energy_;
   }
 
+  bool is_draft() const { return options_.quality == Quality::Draft; }
+
+  bool ended_early() const {
+    const double much = is_draft() ? much_left_of_draft : much_left;
+    return lowest_.report.energy_left > much || apart_ > far_apart;
+  }
+
   /// As the best does, where steps ended early or minima are far apart.
   void go_on() {
     std::optional<double>& left = lowest_.report.energy_left;
-    const bool draft = options_.quality == Quality::Draft;
-    const bool early = left > (draft ? much_left_of_draft : much_left) || apart_ > far_apart;
-    if (early && !lowest_.report.sweeps_sufficed)
-      refine(lowest_, wanted_, Quality::Best, draft ? more_for_draft : more_steps);
+    if (ended_early() && !lowest_.report.sweeps_sufficed) {
+      RefinementOptions how = steps(wanted_, Quality::Best);
+      how.budget = is_draft() || slimmed_ ? more_for_draft : more_steps;
+      if (slimmed_ && left < much_left_of_draft) how.budget = more_for_slimmed;
+      refine(lowest_, how);
+    }
     if (left) left = std::max(*left, apart_);
   }
 
@@ -188,7 +276,7 @@ class Starts {
     lead(start, lambda, up);
     if (lowest_.report.demanding && (options_.quality == Quality::Best || !start.map ||
                                      !(energy_of(*start.map) < clearly_lower * energy_))) {
-      refine(lowest_, wanted_, made_quality());
+      refine(lowest_, steps(wanted_, made_quality()));
       energy_ = energy_of(*lowest_.map);
     }
     lowest_.report.demanding = false;
@@ -204,16 +292,12 @@ class Starts {
     while (start.map) {
       lambda *= way.factor;
       if (rising ? lambda >= wanted_.lambda : lambda <= wanted_.lambda) break;
-      const OptimiseOptions how{.energy = {.lambda = lambda},
-                                .least_gain = way.least_gain,
-                                .max_steps = way.steps,
-                                .threads = options_.threads,
-                                .progress = progress_};
+      const OptimiseOptions how = step_of({.lambda = lambda}, way.least_gain, way.steps);
       start.map = optimise(topology_, source(), *start.map, how).map;
       const double most = elementary::pow(lambda / wanted_.lambda, hopeless) * first_energy_;
       if (rising && !(energy_of(*start.map) <= most)) start.map.reset();
     }
-    if (start.map) refine(start, wanted_, made_quality());
+    if (start.map) refine(start, steps(wanted_, made_quality()));
   }
 
   Found keep_lower(ProgressiveEmbedding start) {
@@ -232,7 +316,9 @@ class Starts {
   }
 
   /// Measured whenever it is needed: cheaper than its room while levels are embedded.
-  RestTriangles source() const { return measure_source(mesh_, options_.threads); }
+  RestTriangles source() const {
+    return fattened(measure_source(mesh_, options_.threads), fatness_, options_.threads);
+  }
 
   const TriangleMesh& mesh_;
   const Topology& topology_;
@@ -244,7 +330,9 @@ class Starts {
   ProgressiveEmbedding lowest_;
   // As wanted: of the lowest map, the first, and the one that came last.
   double energy_ = 0, first_energy_ = 0, latest_ = 0;
-  double apart_ = 0;  // two minima, as a share of the energy
+  double apart_ = 0;      // two minima, as a share of the energy
+  double fatness_ = 0;    // of all that is measured
+  bool slimmed_ = false;  // the lowest map, from fattened slivers
 };
 
 /// As if all triangles were equilateral, then relaxed and refined for the shape they have. No
@@ -267,7 +355,8 @@ ProgressiveEmbedding embed_by_valences(const TriangleMesh& mesh, const Topology&
                          .progress = options.progress,
                          .measure_energy = false})
                       .map;
-  Starts(mesh, topology, options, keep).refine(embedding, options.energy, options.quality);
+  const Starts starts(mesh, topology, options, keep);
+  starts.refine(embedding, starts.steps(options.energy, options.quality));
   return embedding;
 }
 

@@ -46,8 +46,9 @@ struct ProgressiveReport {
   std::optional<double> energy_left = std::nullopt;
   double pressure = 0;  // that fillers needed on the last level where they were pressed, or 0
   bool sweeps_sufficed = false;  // no protrusions that sweeps creep along
-  bool limbs = false;      // such protrusions on coarser levels too, or there were none to look at
-  bool demanding = false;  // has great energy, and has not had the finest level's steps
+  bool limbs = false;  // such protrusions on coarser levels too, or there were none to look at
+  bool left_slivers = false;  // steps on the finest level ended where slivers cut them short
+  bool demanding = false;     // has great energy, and has not had the finest level's steps
 };
 
 struct ProgressiveEmbedding {
@@ -71,11 +72,12 @@ struct ProgressiveEmbedding {
 /// A shape with protrusions whose energy is much more than an isometry's is embedded once more, or
 /// twice, by a nearly conformal energy that is led to the one asked for; one that ends far from its
 /// energy up to three times more; with Quality::Best from less energy on, and where only the finest
-/// level needs steps, up to three times more. The map of least energy is returned; where more than
-/// 0.5 % of its energy is left (by Quality::Draft 3 %), or two starts end 1 % apart, after up to
-/// 1200 steps (300) as Quality::Best makes them. Paper: Praun and Hoppe, "Spherical parametrization
-/// and remeshing" (2003); whole levels instead of single vertices, the energy, the guard and the
-/// over-relaxed sweeps are our own.
+/// level needs steps, up to three times more. Among many slivers (slivers.h) all that is done as if
+/// they were fatter, and they are slimmed in the end. The map of least energy is returned; where
+/// more than 0.5 % of its energy is left (by Quality::Draft 3 %), or two starts end 1 % apart,
+/// after up to 1200 steps (300) as Quality::Best makes them. Paper: Praun and Hoppe, "Spherical
+/// parametrization and remeshing" (2003); whole levels instead of single vertices, the energy, the
+/// guard and the over-relaxed sweeps are our own.
 ProgressiveEmbedding embed_progressively(const TriangleMesh& mesh, const Topology& topology,
                                          const ProgressiveOptions& options = {});
 

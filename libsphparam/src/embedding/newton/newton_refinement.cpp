@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "embedding/energy/rest_floors.h"
 #include "embedding/newton/global_newton.h"
 #include "embedding/newton/outlook.h"
 #include "embedding/twists/twists.h"
@@ -27,11 +28,12 @@ namespace {
 constexpr int least_vertices = 100;
 constexpr int growth = 4;  // from one level that is due to the next
 constexpr double worthwhile = 2e-3, worthwhile_for_draft = 1e-2;
-constexpr int coarse_steps = 20, finest_steps = 60;
+constexpr int coarse_steps = 20;
 // What may be left, relative to the energy. Small meshes cost little: less is left of theirs.
 constexpr double coarse_rest = 6e-3, draft_rest = 0.01, finest_rest = 5e-3, best_rest = 1e-5;
 constexpr double small_mesh = 5000;  // vertices
 constexpr int sweeps_between = 5;
+constexpr double cut_short = 0.125;                                      // of a Newton step
 constexpr double worthwhile_sampled = 4e-3, sampled_for_draft = 1.5e-2;  // of the energy
 constexpr double unseen = 2;    // times as much as a sample says is left
 constexpr int most_rounds = 4;  // of turning twisted limbs back
@@ -84,12 +86,16 @@ bool NewtonRefinement::due(int vertices) const {
 
 bool NewtonRefinement::sweeps_suffice() const { return last_gain_ <= worthwhile && !protrusions_; }
 
+RestTriangles NewtonRefinement::source_of(const TriangleMesh& mesh) const {
+  return fattened(measure_source(mesh, options_.threads), options_.fatness, options_.threads);
+}
+
 void NewtonRefinement::improve(const TriangleMesh& mesh, const Topology& topology,
                                const std::vector<Vertex>& pinned, std::vector<ImagePoint>& image,
                                ProgressShare share) {
   descend(mesh, topology, pinned, image, share);
-  if (sweeps_suffice() || !pinned.empty()) return;
-  const RestTriangles source = measure_source(mesh, options_.threads);
+  if (sweeps_suffice() || !pinned.empty() || left_slivers_) return;
+  const RestTriangles source = source_of(mesh);
   const double gain = last_gain_;
   for (int round = 0; round < most_rounds; ++round) {
     if (untwist(topology, source, options_.energy, image) == 0) break;
@@ -105,11 +111,10 @@ void NewtonRefinement::descend(const TriangleMesh& mesh, const Topology& topolog
   const bool finest = n == finest_;
   while (next_ <= n && next_ < finest_) next_ = std::min(finest_, growth * next_);
   const bool best = options_.quality == Quality::Best && finest;
-  const int most_steps =
-      best ? most_steps_of_best(n, options_.budget) : (finest ? finest_steps : coarse_steps);
+  const int most_steps = best ? most_steps_of_best(n, options_.budget)
+                              : (finest ? options_.finest_steps : coarse_steps);
   const double rest = finest ? finest_rest_of(options_.quality, n) : coarse_rest;
-  GlobalNewton newton(topology, measure_source(mesh, options_.threads), image, pinned,
-                      options_.threads);
+  GlobalNewton newton(topology, source_of(mesh), image, pinned, options_.threads);
   double done = share.begin;
   newton.ask_with([&] { report(options_.progress, "embedding", done); });
   double energy = newton.energy(options_.energy);
@@ -118,7 +123,8 @@ void NewtonRefinement::descend(const TriangleMesh& mesh, const Topology& topolog
   if (!newton.can_move() || !std::isfinite(energy)) return;  // not finite: positive, not certain
   image = std::vector<ImagePoint>();  // there is no room to spare in a step; = {} would keep it
   Outlook outlook(rest);
-  for (int step = 0; step < most_steps && !outlook.settled(); ++step) {
+  int blocked = 0;  // steps in a row
+  for (int step = 0; step < most_steps && !outlook.settled() && !left_slivers_; ++step) {
     const GlobalNewton::Step made =
         best ? newton.step(options_.energy, least_share_of_best, outlook.next())
              : newton.step(options_.energy, least_share);
@@ -127,9 +133,12 @@ void NewtonRefinement::descend(const TriangleMesh& mesh, const Topology& topolog
     report(options_.progress, "embedding", done);
     const double before = std::exchange(energy, newton.energy(options_.energy));
     outlook.note(made, before, energy);
+    blocked = made.length < cut_short ? blocked + 1 : 0;
+    left_slivers_ =
+        finest && blocked > 0 && blocked == options_.most_blocked && has_slivers(source_of(mesh));
   }
   last_gain_ = outlook.first_gain();
-  if (finest) energy_left_ = outlook.left();
+  if (finest) energy_left_ = left_slivers_ ? 1 : outlook.left();
   newton.write_to(image);
 }
 

@@ -23,6 +23,10 @@ struct RefinementOptions {
   int threads = 0;  // 0: all cores
   Progress progress = {};
   Budget budget = {};
+  double fatness = 0;     // μ of rest_floors.h
+  int finest_steps = 60;  // at most, but by Quality::Best
+  // Steps on the finest level end where slivers have cut so many in a row short; 0: no matter.
+  int most_blocked = 0;
 };
 
 /// Which part of the progress of a whole embedding a level's steps are: fractions.
@@ -56,8 +60,11 @@ class NewtonRefinement {
   /// Estimate of the share of the finest level's energy that more steps would take; nothing as long
   /// as nobody has looked.
   std::optional<double> energy_left() const { return energy_left_; }
+  /// Steps on the finest level were left because of slivers: what is left is then all there is.
+  bool left_slivers() const { return left_slivers_; }
 
  private:
+  RestTriangles source_of(const TriangleMesh& mesh) const;
   /// Steps alone.
   void descend(const TriangleMesh& mesh, const Topology& topology,
                const std::vector<Vertex>& pinned, std::vector<ImagePoint>& image,
@@ -69,6 +76,7 @@ class NewtonRefinement {
   double last_gain_;  // on the level improved last: of the first step, or what it promised
   std::optional<double> energy_left_;
   bool protrusions_ = false;
+  bool left_slivers_ = false;
   bool slivers_ = false;  // a sample of the finest level says that sweeps did not suffice
 };
 

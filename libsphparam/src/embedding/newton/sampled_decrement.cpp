@@ -29,9 +29,9 @@ size_t at(int i) { return static_cast<size_t>(i); }
 /// Free vertices first, then those of their triangles that are fixed.
 class Patch {
  public:
-  Patch(const HierarchyLevel& level, double area_floor, const std::vector<ImagePoint>& image,
+  Patch(const HierarchyLevel& level, const RestFloors& floors, const std::vector<ImagePoint>& image,
         Vertex centre)
-      : level_(level), area_floor_(area_floor) {
+      : level_(level), floors_(floors) {
     vertices_.push_back(centre);
     for (size_t i = 0; i < vertices_.size() && free_count() < most_free; ++i) {
       for_each_neighbour(vertices_[i], [&](Vertex w) {
@@ -97,13 +97,7 @@ class Patch {
     };
     const Vector3 a = position(corners[1]) - position(corners[0]);
     const Vector3 b = position(corners[2]) - position(corners[0]);
-    const double area = a.cross(b).norm() / 2, base = a.norm();
-    RestTriangle rest{area, 1 / base, base / (2 * area), a.dot(b) / (base * base)};
-    if (!(area > area_floor_)) {
-      const double edge = std::sqrt(4 / std::sqrt(3.0) * area_floor_);
-      rest = {area_floor_, 1 / edge, edge / (2 * area_floor_), 0.5};
-    }
-    triangles_.add(rest, corners);
+    triangles_.add(rest_triangle(a, b, floors_), corners);
   }
 
   void measure_units() {
@@ -153,7 +147,7 @@ class Patch {
   }
 
   const HierarchyLevel& level_;
-  double area_floor_;
+  const RestFloors& floors_;
   std::vector<Vertex> vertices_;
   int free_ = 0;
   std::vector<ImagePoint> points_;
@@ -181,7 +175,7 @@ std::vector<Vertex> vertices_by_energy(const std::vector<float>& ring_energy, in
 
 }  // namespace
 
-double sampled_decrement(const HierarchyLevel& level, double area_floor,
+double sampled_decrement(const HierarchyLevel& level, const RestFloors& floors,
                          const std::vector<ImagePoint>& image,
                          const std::vector<float>& ring_energy, const DistortionEnergy& energy,
                          int threads) {
@@ -191,7 +185,7 @@ double sampled_decrement(const HierarchyLevel& level, double area_floor,
   std::vector<double> share(centres.size());
   parallel_for(std::ssize(centres), 4, threads, [&](std::int64_t first, std::int64_t last) {
     for (auto i = static_cast<size_t>(first); i < static_cast<size_t>(last); ++i) {
-      share[i] = Patch(level, area_floor, image, centres[i]).relative_decrement(energy);
+      share[i] = Patch(level, floors, image, centres[i]).relative_decrement(energy);
     }
   });
   double sum = 0;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "embedding/energy/image_point.h"
+#include "embedding/energy/rest_floors.h"
 #include "mesh/mesh_hierarchy.h"
 #include "sphparam/embedding/distortion_energy.h"
 
@@ -13,10 +14,10 @@ namespace sphparam {
 /// It sees what sweeps leave where triangles are slivers, and not what whole protrusions lack.
 ///
 /// `ring_energy`: of each vertex, about the energy of its triangles; patches lie where energy is.
-/// Triangles smaller than `area_floor` count as equilateral ones of that area. 1 where numbers of a
-/// patch are beyond floats. Requires: every determinant certain to be positive. Same bits for any
-/// number of threads. Cost: some 70 µs a patch, of which there are 12 to 64. Our own.
-double sampled_decrement(const HierarchyLevel& level, double area_floor,
+/// 1 where numbers of a patch are beyond floats. Requires: every determinant certain to be
+/// positive. Same bits for any number of threads. Cost: some 70 µs a patch, of which there are 12
+/// to 64. Our own.
+double sampled_decrement(const HierarchyLevel& level, const RestFloors& floors,
                          const std::vector<ImagePoint>& image,
                          const std::vector<float>& ring_energy, const DistortionEnergy& energy,
                          int threads);

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "embedding/energy/orientation_guard.h"
 
@@ -13,16 +12,9 @@ constexpr double narrow = 100;  // energy of an isometry: more is a ring without
 
 }  // namespace
 
-RestRing::RestRing(const std::vector<Vector3>& edges, double area_floor) {
+RestRing::RestRing(const std::vector<Vector3>& edges, const RestFloors& floors) {
   for (size_t i = 0; i < edges.size(); ++i) {
-    const Vector3 &a = edges[i], &b = edges[(i + 1) % edges.size()];
-    const double area = a.cross(b).norm() / 2, base = a.norm();
-    if (area > area_floor) {
-      triangles_.push_back({area, 1 / base, base / (2 * area), a.dot(b) / (base * base)});
-    } else {
-      const double edge = std::sqrt(4 / std::numbers::sqrt3 * area_floor);
-      triangles_.push_back({area_floor, 1 / edge, edge / (2 * area_floor), 0.5});
-    }
+    triangles_.push_back(rest_triangle(edges[i], edges[(i + 1) % edges.size()], floors));
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "embedding/energy/rest_floors.h"
 #include "sphparam/embedding/distortion_energy.h"
 
 namespace sphparam {
@@ -9,9 +10,8 @@ namespace sphparam {
 /// The rest triangles around a vertex: one vertex at a time, where `RingPacks` are eight.
 class RestRing {
  public:
-  /// The edges from the vertex to its ring on the source. Triangles smaller than `area_floor` count
-  /// as equilateral ones of that area.
-  RestRing(const std::vector<Vector3>& edges, double area_floor);
+  /// The edges from the vertex to its ring on the source.
+  RestRing(const std::vector<Vector3>& edges, const RestFloors& floors);
 
   /// Of the vertex at x; +∞ unless every triangle is certain to be positive.
   double energy(const DistortionEnergy& energy, const std::vector<Vector3>& ring,

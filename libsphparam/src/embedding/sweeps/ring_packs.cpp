@@ -112,9 +112,24 @@ void fill_neighbours(const Rings& rings, const RingPack& pack, RingSlot* slots) 
   }
 }
 
+/// Rest triangles with edges a and b from a corner: F², |a|² and a·b / |a|².
+template <int W>
+struct RestLanes {
+  Lanes<W> area2, base2, shear;
+};
+
+/// As `fattened` of one (rest_floors.cpp). `side2`: |b|².
+template <int W>
+SPHPARAM_INLINE RestLanes<W> fattened(const RestLanes<W>& rest, Lanes<W> side2,
+                                      const Fatness& fatness) {
+  const Lanes<W> ab = rest.shear * rest.base2, half_sum = rest.base2 + side2 - ab;
+  const Lanes<W> c = fatness.added(half_sum), base2 = rest.base2 + c;
+  return {rest.area2 + 0.25 * (c * (half_sum + 0.75 * c)), base2, (ab + 0.5 * c) / base2};
+}
+
 /// Measures the rest triangles of a pack's vertices, W lanes at a time.
 template <int W>
-SPHPARAM_INLINE void measure_part(const HierarchyLevel& level, double area_floor,
+SPHPARAM_INLINE void measure_part(const HierarchyLevel& level, const RestFloors& floors,
                                   const RingPack& pack, int first, RingSlot* slots) {
   Vertex own[W];
   Lanes<W> valence = 0.0;
@@ -123,7 +138,7 @@ SPHPARAM_INLINE void measure_part(const HierarchyLevel& level, double area_floor
     own[i] = v < 0 ? pack.vertex[0] : v;
     valence.v[i] = v < 0 ? 0 : level.valence(v);
   }
-  const Lanes<W> zero = 0.0, least = area_floor * area_floor;
+  const Lanes<W> zero = 0.0, least = floors.area * floors.area;
   const LaneVectors<W> x = gather<W>(level.positions, own);
   const auto edge = [&](int i) SPHPARAM_INLINED {
     return gather<W>(level.positions, slots[i].neighbour + first) - x;
@@ -135,12 +150,14 @@ SPHPARAM_INLINE void measure_part(const HierarchyLevel& level, double area_floor
     const Lanes<W> area2 = 0.25 * dot(normal, normal), base = dot(a, a);
     // Too small or not a number: the equilateral triangle of the least area.
     const LaneMask<W> fine = area2 > least, live = valence > static_cast<double>(i);
-    const Lanes<W> base_used = select(fine, base, 4 / std::sqrt(3.0) * area_floor);
-    const Lanes<W> alpha = select(fine, area2, least) / (base_used + base_used);
-    const Lanes<W> shear = select(fine, dot(a, b) / base, Lanes<W>(0.5));
-    store(select(live, alpha, zero), slots[i].alpha + first);
-    store(select(live, 0.125 * base_used, zero), slots[i].beta + first);
-    store(select(live, shear, zero), slots[i].shear + first);
+    const Lanes<W> base_used = select(fine, base, 4 / std::sqrt(3.0) * floors.area);
+    RestLanes<W> rest{select(fine, area2, least), base_used,
+                      select(fine, dot(a, b) / base, Lanes<W>(0.5))};
+    if (!floors.fatness.is_none())
+      rest = fattened(rest, select(fine, dot(b, b), base_used), floors.fatness);
+    store(select(live, rest.area2 / (rest.base2 + rest.base2), zero), slots[i].alpha + first);
+    store(select(live, 0.125 * rest.base2, zero), slots[i].beta + first);
+    store(select(live, rest.shear, zero), slots[i].shear + first);
     a = b;
   }
 }
@@ -198,7 +215,7 @@ RingPacks room_for_rings(std::int64_t halfedges) {
   return packs;
 }
 
-RingPacks pack_rings(const HierarchyLevel& level, double area_floor, int threads,
+RingPacks pack_rings(const HierarchyLevel& level, const RestFloors& floors, int threads,
                      const std::vector<Vertex>& pinned, RingPacks used) {
   const Rings rings{level.start, level.ring, level.removed};
   RingPacks packs =
@@ -210,7 +227,7 @@ RingPacks pack_rings(const HierarchyLevel& level, double area_floor, int threads
     run_on_lanes([&]<int W>(Width<W>) SPHPARAM_INLINED {
       for (std::int64_t p = 0; p < count; ++p) {
         for (int lane = 0; lane < pack_width; lane += W) {
-          measure_part<W>(level, area_floor, pack[p], lane, &packs.slots[pack[p].first_slot]);
+          measure_part<W>(level, floors, pack[p], lane, &packs.slots[pack[p].first_slot]);
         }
       }
     });

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "embedding/energy/rest_floors.h"
 #include "embedding/energy/ring_slot.h"
 #include "mesh/mesh_hierarchy.h"
 
@@ -32,10 +33,9 @@ struct RingPacks {
 /// yet is not touched.
 RingPacks room_for_rings(std::int64_t halfedges);
 
-/// Colours, sorts and packs the vertices of a level. Triangles smaller than `area_floor` count as
-/// equilateral ones of that area. `pinned`: vertices in no pack. `used`: packs that nobody needs
-/// any more; their memory serves again.
-RingPacks pack_rings(const HierarchyLevel& level, double area_floor, int threads,
+/// Colours, sorts and packs the vertices of a level. `pinned`: vertices in no pack. `used`: packs
+/// that nobody needs any more; their memory serves again.
+RingPacks pack_rings(const HierarchyLevel& level, const RestFloors& floors, int threads,
                      const std::vector<Vertex>& pinned = {}, RingPacks used = {});
 
 /// The same for any rings (as in HierarchyLevel). `measure(v, lane, slots)` fills in the numbers of
