@@ -63,9 +63,11 @@ struct Way {
   int steps;
 };
 constexpr Way up{10, 1e-2, 10}, down{0.25, 1e-2, 6};
+// Among slivers steps of the first map end after so many that were cut short; one of the first few
+// tells of a map that has had none. Then the way of a fattened map, and steps at its end.
+constexpr int blocked_in_a_row = 4, first_steps = 4;
 constexpr double slimming_gain = 1e-3;
 constexpr int slimming_steps = 80, steps_of_slim = 12;
-constexpr int first_steps = 4, blocked_in_a_row = 4;
 constexpr double nearly_conformal = 1e-6, others_nearly_conformal[] = {1e-8, 1e-4};
 constexpr double nearly_equal_area[] = {10, 100, 1000};
 
@@ -92,7 +94,9 @@ class Starts {
   ProgressiveEmbedding lowest() {
     const bool several = options_.pins.empty(), best = options_.quality == Quality::Best;
     const double demanding = best ? much_for_best : much_energy;
-    lowest_ = embed_with_room(wanted_, several ? demanding : infinity, blocked_in_a_row);
+    const bool gives_up = several && options_.fillers.empty();
+    lowest_ =
+        embed_with_room(wanted_, several ? demanding : infinity, gives_up ? blocked_in_a_row : 0);
     if (several && !(lowest_.map && lowest_.report.sweeps_sufficed)) try_more(demanding);
     if (!lowest_.map) return std::move(lowest_);
     rising_.begin(1);

@@ -1,6 +1,7 @@
 #include "embedding/constructions/slivers.h"
 
 #include <algorithm>
+
 namespace sphparam {
 namespace {
 
