@@ -193,8 +193,7 @@ TEST_CASE("image writer: a text or a size that reads back otherwise is named") {
   refused(exr, box, box.size() + 8, "6 x 4 texels with 3 channels of half, not 8 x 4");
 }
 
-TEST_CASE(
-    "image writer: levels are of EXR alone, and only they wrap; only EXR and TIFF are dated") {
+TEST_CASE("image writer: levels are of EXR alone, and only they wrap, and dates of EXR and TIFF") {
   const auto has = [](const std::vector<char>& bytes, std::string_view word) {
     return std::string_view(bytes.data(), bytes.size()).find(word) != std::string_view::npos;
   };

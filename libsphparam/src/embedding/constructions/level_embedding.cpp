@@ -52,7 +52,7 @@ size_t at(int i) { return static_cast<size_t>(i); }
 
 using Image = std::vector<ImagePoint>;
 
-RefinementOptions refinement_options(const ProgressiveOptions& options, const LevelOptions& how) {
+RefinementOptions refinement_options(const ProgressiveOptions& options, const StartOptions& how) {
   return {.quality = options.quality,
           .energy = options.energy,
           .threads = options.threads,
@@ -71,7 +71,7 @@ PressedLevels::Options pressed_options(const ProgressiveOptions& options) {
 class Embedder {
  public:
   Embedder(const TriangleMesh& mesh, const Topology& topology, const ProgressiveOptions& options,
-           const KeptVertices& keep, const LevelOptions& how)
+           const KeptVertices& keep, const StartOptions& how)
       : mesh_(mesh),
         topology_(topology),
         hierarchy_(build_hierarchy(mesh, topology, options.threads, keep, options.progress)),
@@ -325,7 +325,7 @@ class Embedder {
   const Topology& topology_;
   MeshHierarchy hierarchy_;
   const ProgressiveOptions& options_;
-  const LevelOptions how_;
+  const StartOptions how_;
   std::function<void()> ask_;  // whether to go on; throws if not
   const double area_floor_;
   std::vector<std::vector<Vertex>> pinned_;  // per level that has all pins: their names there
@@ -343,7 +343,7 @@ class Embedder {
 
 ProgressiveEmbedding embed_by_levels(const TriangleMesh& mesh, const Topology& topology,
                                      const ProgressiveOptions& options, const KeptVertices& keep,
-                                     const LevelOptions& how) {
+                                     const StartOptions& how) {
   return Embedder(mesh, topology, options, keep, how).run();
 }
 

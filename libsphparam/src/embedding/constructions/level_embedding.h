@@ -7,7 +7,7 @@
 namespace sphparam {
 
 /// What one embedding of several may leave to others.
-struct LevelOptions {
+struct StartOptions {
   /// Where sweeps do not suffice and the energy is more than so many times an isometry's, the
   /// finest level gets no steps: `report.demanding` says so, and nothing for sure what is left.
   double demanding = std::numeric_limits<double>::infinity();
@@ -23,6 +23,6 @@ struct LevelOptions {
 /// Cost: O(#F). Source: see progressive.h.
 ProgressiveEmbedding embed_by_levels(const TriangleMesh& mesh, const Topology& topology,
                                      const ProgressiveOptions& options, const KeptVertices& keep,
-                                     const LevelOptions& how = {});
+                                     const StartOptions& how = {});
 
 }  // namespace sphparam
