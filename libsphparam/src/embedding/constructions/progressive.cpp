@@ -24,11 +24,11 @@
 // Limbs give the energy many minima: how a coarse level folds them stays. The nearly conformal
 // energy has hardly more than one. A map of it, led from λ to λ, ends several per cent lower, and
 // nearly alike from wherever it came. It costs an embedding more: maps of great energy are worth
-// that, and of less where the best is wanted. Among slivers, and where a map ends far from its
-// energy, it is the other way round: maps in which areas weigh more lead to the lower minima.
-// Among slivers no way leads far: each that is about to fold stops all that moves. Where there are
-// many, and sweeps did not do, all of the above is done as if they were fatter, and the map of that
-// is led to what they are (slivers.cpp).
+// that, and of less where the best is wanted. Where a map ends far from its energy it is the other
+// way round: maps in which areas weigh more lead to the lower minima.
+// Among slivers no way leads far: each that is about to fold stops all that moves. Where they are
+// in the way, all of the above is done as if they were fatter, and the map of that is led to what
+// they are (slivers.cpp).
 // Steps that stop with much left even so go on in the end as the best's do: of the lowest map
 // alone, and no longer than a budget lasts.
 
@@ -158,7 +158,7 @@ class Starts {
 
   /// Other starts, where sweeps did not suffice.
   void try_more(double demanding) {
-    if (are_slivers_in_the_way()) {
+    if (finds_slivers_in_the_way()) {
       ProgressiveEmbedding fat = embed_fattened(demanding);
       slimmed_ = fat.map &&
                  (!lowest_.map || energy_of(*fat.map) < clearly_lower * energy_of(*lowest_.map));
@@ -175,12 +175,12 @@ class Starts {
 
   bool may_fatten() const { return options_.fillers.empty() && has_slivers(source()); }
 
-  /// They stopped the lowest map's steps, or one of the first, where it has had none; where there
-  /// is no map, they may have left no room.
-  bool are_slivers_in_the_way() {
-    if (lowest_.map && !lowest_.report.demanding)
-      return lowest_.report.left_slivers && may_fatten();
-    if (!may_fatten() || !lowest_.map) return may_fatten();
+  /// They stopped the lowest map's steps, or one of the first, which are made where it has had
+  /// none; where there is no map, they may have left no room.
+  bool finds_slivers_in_the_way() {
+    if (!may_fatten()) return false;
+    if (!lowest_.map) return true;
+    if (!lowest_.report.demanding) return lowest_.report.left_slivers;
     RefinementOptions few = steps(wanted_, made_quality());
     few.finest_steps = first_steps;
     few.most_blocked = 1;
@@ -200,14 +200,15 @@ class Starts {
     fatness_ = 0;
     apart_ = apart;  // as fat ones they were others
     ProgressiveEmbedding fat = std::exchange(lowest_, std::move(before));
+    if (lowest_.map) energy_ = energy_of(*lowest_.map);
     if (!fat.map) return fat;
+    rising_.begin(part_of_start);
     const OptimiseOptions slimming = step_of(wanted_, slimming_gain, slimming_steps);
     fat.map = slim_down(topology_, source(), *std::move(fat.map), slimming);
     RefinementOptions how = steps(wanted_, made_quality());
     how.finest_steps = steps_of_slim;
     refine(fat, how);
     fat.report.sweeps_sufficed = false;
-    if (lowest_.map) energy_ = energy_of(*lowest_.map);
     return fat;
   }
 
@@ -312,6 +313,7 @@ class Starts {
     energy_ = energy;
     lowest_.map = std::move(start.map);
     lowest_.report.energy_left = start.report.energy_left;
+    lowest_.report.left_slivers = start.report.left_slivers;
     return same ? Found::Same : Found::Lower;
   }
 

@@ -72,12 +72,13 @@ struct ProgressiveEmbedding {
 /// A shape with protrusions whose energy is much more than an isometry's is embedded once more, or
 /// twice, by a nearly conformal energy that is led to the one asked for; one that ends far from its
 /// energy up to three times more; with Quality::Best from less energy on, and where only the finest
-/// level needs steps, up to three times more. Among many slivers (slivers.h) all that is done as if
-/// they were fatter, and they are slimmed in the end. The map of least energy is returned; where
-/// more than 0.5 % of its energy is left (by Quality::Draft 3 %), or two starts end 1 % apart,
-/// after up to 1200 steps (300) as Quality::Best makes them. Paper: Praun and Hoppe, "Spherical
-/// parametrization and remeshing" (2003); whole levels instead of single vertices, the energy, the
-/// guard and the over-relaxed sweeps are our own.
+/// level needs steps, up to three times more. Where a mesh has slivers (rest_floors.h), no pins and
+/// no fillers, and they cut steps short or left no room, or much is left in the end, all that is
+/// done as if they were fatter, and they are slimmed in the end. The map of least energy is
+/// returned; where more than 0.5 % of its energy is left (by Quality::Draft 3 %), or two starts end
+/// 1 % apart, after up to 1200 steps (300; slimmed maps 60) as Quality::Best makes them. Paper:
+/// Praun and Hoppe, "Spherical parametrization and remeshing" (2003); whole levels instead of
+/// single vertices, the energy, the guard and the over-relaxed sweeps are our own.
 ProgressiveEmbedding embed_progressively(const TriangleMesh& mesh, const Topology& topology,
                                          const ProgressiveOptions& options = {});
 

@@ -12,7 +12,8 @@ namespace sphparam {
 ///
 /// What for: the image of a sliver is a sliver, and one that is next to folded blocks all around
 /// it. While they are fat, the map finds its place; led from μ to μ it then slims them all at once,
-/// as a path-following method follows its barrier to a corner. Our own.
+/// as a path-following method follows its barrier to a corner. Their areas add up to more than 4π:
+/// of plain meshes by 3 μ², of slivers alone to several times as much. Our own.
 struct Fatness {
   double mu = 0;
   double relative = 0, absolute = 0;  // μ² 4/3, μ² L²
@@ -46,8 +47,8 @@ struct RestFloors {
   double area;  // smaller ones count as equilateral ones of that area, before they are fattened
   Fatness fatness = {};
 
-  RestFloors(double least_area, const Fatness& fattening = {})  // NOLINT: implicit
-      : area(least_area), fatness(fattening) {}
+  RestFloors(double least_area, const Fatness& added = {})  // NOLINT: implicit
+      : area(least_area), fatness(added) {}
 };
 
 /// With edges a and b from corner 0.

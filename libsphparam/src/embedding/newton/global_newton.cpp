@@ -323,6 +323,7 @@ GlobalNewton::Step GlobalNewton::step(const DistortionEnergy& energy, double lea
       after = further;
       length *= 2;
     }
+    ask_();
     if (blocks_.covering(candidate, threads_) > once) {
       may_grow = false;
       continue;

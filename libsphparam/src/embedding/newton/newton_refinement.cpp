@@ -98,7 +98,7 @@ void NewtonRefinement::improve(const TriangleMesh& mesh, const Topology& topolog
   const RestTriangles source = source_of(mesh);
   const double gain = last_gain_;
   for (int round = 0; round < most_rounds; ++round) {
-    if (untwist(topology, source, options_.energy, image) == 0) break;
+    if (left_slivers_ || untwist(topology, source, options_.energy, image) == 0) break;
     descend(mesh, topology, pinned, image, {share.end, share.end});
   }
   last_gain_ = std::max(gain, last_gain_);

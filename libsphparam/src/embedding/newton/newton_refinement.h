@@ -25,7 +25,8 @@ struct RefinementOptions {
   Budget budget = {};
   double fatness = 0;     // μ of rest_floors.h
   int finest_steps = 60;  // at most, but by Quality::Best
-  // Steps on the finest level end where slivers have cut so many in a row short; 0: no matter.
+  // Steps on the finest level of a mesh with slivers end where so many in a row were cut short; 0:
+  // no matter.
   int most_blocked = 0;
 };
 
@@ -60,7 +61,7 @@ class NewtonRefinement {
   /// Estimate of the share of the finest level's energy that more steps would take; nothing as long
   /// as nobody has looked.
   std::optional<double> energy_left() const { return energy_left_; }
-  /// Steps on the finest level were left because of slivers: what is left is then all there is.
+  /// Steps on the finest level were left because of slivers; `energy_left` is 1 then.
   bool left_slivers() const { return left_slivers_; }
 
  private:
