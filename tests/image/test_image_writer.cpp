@@ -27,6 +27,15 @@ int bits_of(SampleType type) {
   return type == SampleType::Uint8 ? 8 : type == SampleType::Float ? 32 : 16;
 }
 
+/// Of the format's usual samples.
+ImageFileOptions plain(ImageFormat format, int width, int height, int channels) {
+  return {.width = width,
+          .height = height,
+          .channels = channels,
+          .format = format,
+          .sample_type = sample_types_of(format).front()};
+}
+
 /// Samples of all sizes: in floats from 0 to 1, in integers over their range.
 std::vector<char> samples_for(const ImageFileOptions& options, int rows) {
   const auto count = static_cast<size_t>(options.width) * static_cast<size_t>(rows) *
@@ -199,11 +208,7 @@ TEST_CASE("image writer: levels are of EXR alone, and only they wrap, and dates 
   };
   for (const ImageFormat format : every_format) {
     INFO(name_of(format));
-    ImageFileOptions options{.width = 8,
-                             .height = 4,
-                             .channels = 3,
-                             .format = format,
-                             .sample_type = sample_types_of(format).front()};
+    ImageFileOptions options = plain(format, 8, 4, 3);
     const std::vector<char> rows = written(options);
     CHECK_FALSE(has(rows, "periodic,clamp"));
     CHECK(has(rows, "1970:01:01") == (format == ImageFormat::Tiff || format == ImageFormat::Exr));
@@ -220,11 +225,7 @@ TEST_CASE("image writer: levels are of EXR alone, and only they wrap, and dates 
 TEST_CASE("image writer: one that is given up writes no more") {
   for (const ImageFormat format : every_format) {
     INFO(name_of(format));
-    const ImageFileOptions options{.width = 32,
-                                   .height = 16,
-                                   .channels = 1,
-                                   .format = format,
-                                   .sample_type = sample_types_of(format).front()};
+    const ImageFileOptions options = plain(format, 32, 16, 1);
     std::vector<char> bytes;
     std::optional<ImageWriter> writer(std::in_place, options, in_memory(bytes));
     writer->write_rows(samples_for(options, 8).data(), 8);
@@ -237,11 +238,7 @@ TEST_CASE("image writer: one that is given up writes no more") {
 TEST_CASE("image writer: a file that ends early is refused") {
   for (const ImageFormat format : every_format) {
     INFO(name_of(format));
-    const ImageFileOptions options{.width = 150,
-                                   .height = 75,
-                                   .channels = 3,
-                                   .format = format,
-                                   .sample_type = sample_types_of(format).front()};
+    const ImageFileOptions options = plain(format, 150, 75, 3);
     const auto most = static_cast<std::int64_t>(written(options).size()) / 2;
     CHECK_THROWS_AS(written(options,
                             [&](std::int64_t offset, std::string& bytes) {
@@ -257,11 +254,7 @@ TEST_CASE("image writer: a file that is shorter when it is read back is refused"
   for (const ImageFormat format : every_format) {
     INFO(name_of(format));
     const LeaksOfOthers leaks;
-    const ImageFileOptions options{.width = 150,
-                                   .height = 75,
-                                   .channels = 3,
-                                   .format = format,
-                                   .sample_type = sample_types_of(format).front()};
+    const ImageFileOptions options = plain(format, 150, 75, 3);
     std::vector<char> bytes;
     const ImagePlace memory = in_memory(bytes);
     ImageWriter writer(options, {memory.write, [&](std::int64_t offset, char* part, size_t size) {
@@ -277,11 +270,7 @@ TEST_CASE("image writer: what the file throws comes through, the first of it") {
   for (const ImageFormat format : every_format) {
     INFO(name_of(format));
     const LeaksOfOthers leaks;
-    const ImageFileOptions options{.width = 150,
-                                   .height = 75,
-                                   .channels = 3,
-                                   .format = format,
-                                   .sample_type = sample_types_of(format).front()};
+    const ImageFileOptions options = plain(format, 150, 75, 3);
     std::vector<char> bytes;
     const ImagePlace memory = in_memory(bytes);
     const std::vector<char> samples = samples_for(options, options.height);
@@ -361,11 +350,7 @@ TEST_CASE("image writer: an image whose rows did not all come is refused") {
     INFO(name_of(format));
     const LeaksOfOthers leaks;
     std::vector<char> bytes;
-    const ImageFileOptions options{.width = 32,
-                                   .height = 16,
-                                   .channels = 1,
-                                   .format = format,
-                                   .sample_type = sample_types_of(format).front()};
+    const ImageFileOptions options = plain(format, 32, 16, 1);
     CHECK_THROWS_AS(
         [&] {
           ImageWriter writer(options, in_memory(bytes));
