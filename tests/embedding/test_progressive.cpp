@@ -154,6 +154,50 @@ TEST_CASE("progressive: limbs end alike in every order of vertices") {
   }
 }
 
+/// Of the mesh, as that map has them once it is turned.
+std::vector<Pin> turned_pins(const SphereMap& map, int count) {
+  std::vector<Pin> pins;
+  for (int i = 0; i < count; ++i) {
+    const Vertex v = static_cast<Vertex>((7919L * i + 13) % map.points.rows());
+    const Vector3 point = map.point(v);
+    pins.push_back({v, {point.y(), point.z(), point.x()}});
+  }
+  return pins;
+}
+
+TEST_CASE("progressive: pins where the free map has them cost limbs nothing") {
+  const TriangleMesh mesh = brush(2, 7, 10, 12);
+  const Topology topology(mesh);
+  const RestTriangles source = measure_source(mesh);
+  const ProgressiveEmbedding free = embed_progressively(mesh, topology);
+  const double energy = distortion_energy(topology, source, free.map.value(), {});
+  const std::vector<Pin> pins = turned_pins(*free.map, 5);
+
+  const ProgressiveEmbedding alone = embed_progressively(mesh, topology, {.pins = pins});
+  CHECK(all_exact(pin_residuals(alone.map.value(), pins)));
+  CHECK(distortion_energy(topology, source, *alone.map, {}) < 1.05 * energy);
+
+  const ProgressiveEmbedding led =
+      embed_progressively(mesh, topology, {.pins = pins, .free_map = &*free.map});
+  CHECK(all_exact(pin_residuals(led.map.value(), pins)));
+  CHECK(distortion_energy(topology, source, *led.map, {}) < 1.001 * energy);
+}
+
+TEST_CASE("progressive: pins off the free map's places are reached all the same") {
+  const TriangleMesh mesh = brush(1, 3, 20, 30);
+  const Topology topology(mesh);
+  const ProgressiveEmbedding free = embed_progressively(mesh, topology);
+  std::vector<Pin> pins = turned_pins(free.map.value(), 4);
+  for (Pin& pin : pins) pin.point = (pin.point + Vector3(0.1, -0.15, 0.05)).normalized();
+  const ProgressiveEmbedding led =
+      embed_progressively(mesh, topology, {.pins = pins, .free_map = &*free.map, .threads = 1});
+  CHECK(all_exact(pin_residuals(led.map.value(), pins)));
+  CHECK(certify(topology, *led.map).bijective());
+  const ProgressiveEmbedding again =
+      embed_progressively(mesh, topology, {.pins = pins, .free_map = &*free.map, .threads = 3});
+  CHECK(again.map->points == led.map->points);
+}
+
 TEST_CASE("progressive: where minima are many, what is left says how far two are apart") {
   double least = 1e300, most = 0, left = 1;
   for (unsigned order = 1; order <= 3; ++order) {

@@ -154,6 +154,7 @@ bool embed(MapInProgress& work, const std::vector<Pin>& pins) {
        .quality = balanced ? std::min(work.options.quality, Quality::Normal) : work.options.quality,
        .sweeps = work.options.sweeps,
        .pins = pins,
+       .free_map = !pins.empty() && work.certified() ? &work.result.map : nullptr,
        .fillers = work.options.fillers,
        .filler_share = work.options.filler_share,
        .threads = work.options.threads,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "elementary.h"
@@ -29,6 +30,8 @@
 // Among slivers no way leads far: each that is about to fold stops all that moves. Where they are
 // in the way, all of the above is done as if they were fatter, and the map of that is led to what
 // they are (slivers.cpp).
+// Around pins all starts have their way to find, and may fold what no pin asks for. A map without
+// pins has found its own: where one is known, the pins are led from where it has them.
 // Steps that stop with much left even so go on in the end as the best's do: of the lowest map
 // alone, and no longer than a budget lasts.
 
@@ -39,6 +42,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int shape_sweeps = 30;  // of relaxation, where the embedding knew nothing of the shape
 // Tried in turn when vertices found no room at the λ asked for.
 constexpr double roomier_lambdas[] = {10, 100, 1000};
+// Of moves of pins from where the free map has them: they cost every vertex a distance from each.
+constexpr double most_free_map_rounds = 20, free_map_work = 5e7;
+constexpr int free_map_sweeps = 5;
 constexpr double far_from_energy = 0.1;  // the share that steps to come would take
 // Times an isometry's energy, before the finest level gets its steps: worth another start.
 constexpr double much_energy = 2.75, much_for_best = 1.6;
@@ -92,12 +98,11 @@ class Starts {
 
   /// No map: nothing found room.
   ProgressiveEmbedding lowest() {
-    const bool several = options_.pins.empty(), best = options_.quality == Quality::Best;
+    const bool best = options_.quality == Quality::Best;
     const double demanding = best ? much_for_best : much_energy;
-    const bool gives_up = several && options_.fillers.empty();
-    lowest_ =
-        embed_with_room(wanted_, several ? demanding : infinity, gives_up ? blocked_in_a_row : 0);
-    if (several && !(lowest_.map && lowest_.report.sweeps_sufficed)) try_more(demanding);
+    lowest_ = embed_with_room(wanted_, demanding, blocked_in_a_row);
+    const bool sufficed = lowest_.map && lowest_.report.sweeps_sufficed;
+    if (!sufficed && (!try_free_map() || best)) try_more(demanding);
     if (!lowest_.map) return std::move(lowest_);
     rising_.begin(1);
     if (best)
@@ -156,11 +161,47 @@ class Starts {
     return embedding;
   }
 
+  /// The pins, led from where the free map has them; the rest stays folded as it is there. Is that
+  /// the lowest now?
+  bool try_free_map() {
+    if (!options_.free_map) return false;
+    rising_.begin(part_of_start);
+    const double rounds = free_map_work / pairs_of_pins();
+    const LandmarkPlacement placed =
+        place_landmarks(topology_, source(), *options_.free_map, options_.pins,
+                        {.energy = wanted_,
+                         .sweeps = free_map_sweeps,
+                         .most_rounds = static_cast<int>(std::min(rounds, most_free_map_rounds)),
+                         .most_detours = 0,
+                         .threads = options_.threads,
+                         .progress = progress_});
+    if (nearer_pins(placed.map) < 0) return false;
+    ProgressiveEmbedding start{placed.map, {}};
+    refine(start, steps(wanted_, made_quality()));
+    if (lowest_.map) energy_ = energy_of(*lowest_.map);
+    if (keep_lower(std::move(start)) != Found::Lower) return false;
+    lowest_.report.demanding = false;
+    return true;
+  }
+
+  double pairs_of_pins() const {
+    return static_cast<double>(options_.pins.size()) * topology_.vertex_count();
+  }
+
+  /// Than by the lowest map, in radians of all pins together.
+  double nearer_pins(const SphereMap& map) const {
+    const auto missed_by = [&](const SphereMap& of) {
+      const std::vector<double> residuals = pin_residuals(of, options_.pins);
+      return std::accumulate(residuals.begin(), residuals.end(), 0.0);
+    };
+    return lowest_.map ? missed_by(*lowest_.map) - missed_by(map) : infinity;
+  }
+
   /// Other starts, where sweeps did not suffice.
   void try_more(double demanding) {
     if (finds_slivers_in_the_way()) {
       ProgressiveEmbedding fat = embed_fattened(demanding);
-      slimmed_ = fat.map &&
+      slimmed_ = fat.map && nearer_pins(*fat.map) >= 0 &&
                  (!lowest_.map || energy_of(*fat.map) < clearly_lower * energy_of(*lowest_.map));
       if (slimmed_) std::swap(lowest_, fat);
       if (slimmed_ || !lowest_.map) return;
@@ -168,17 +209,15 @@ class Starts {
       slimmed_ = keep_lower(std::move(fat)) == Found::Lower;
     } else if (lowest_.map) {
       try_others();
-      if (ended_early() && may_fatten())
+      if (ended_early() && has_slivers(source()))
         slimmed_ = keep_lower(embed_fattened(demanding)) == Found::Lower;
     }
   }
 
-  bool may_fatten() const { return options_.fillers.empty() && has_slivers(source()); }
-
   /// They stopped the lowest map's steps, or one of the first, which are made where it has had
   /// none; where there is no map, they may have left no room.
   bool finds_slivers_in_the_way() {
-    if (!may_fatten()) return false;
+    if (!has_slivers(source())) return false;
     if (!lowest_.map) return true;
     if (!lowest_.report.demanding) return lowest_.report.left_slivers;
     RefinementOptions few = steps(wanted_, made_quality());
@@ -216,6 +255,7 @@ class Starts {
     return {.energy = energy,
             .least_gain = least_gain,
             .max_steps = steps,
+            .pinned = keep_.vertices,
             .threads = options_.threads,
             .progress = progress_};
   }
@@ -305,11 +345,14 @@ class Starts {
     if (start.map) refine(start, steps(wanted_, made_quality()));
   }
 
+  /// Of maps that miss pins alike; else the one that misses them less.
   Found keep_lower(ProgressiveEmbedding start) {
     if (!start.map) return Found::Higher;
+    const double nearer = nearer_pins(*start.map);
+    if (nearer < 0) return Found::Higher;
     const double energy = latest_ = energy_of(*start.map);
-    const bool same = std::abs(energy - energy_) <= agreement * energy_;
-    if (!(energy < energy_)) return same ? Found::Same : Found::Higher;
+    const bool same = nearer == 0 && std::abs(energy - energy_) <= agreement * energy_;
+    if (nearer == 0 && !(energy < energy_)) return same ? Found::Same : Found::Higher;
     energy_ = energy;
     lowest_.map = std::move(start.map);
     lowest_.report.energy_left = start.report.energy_left;

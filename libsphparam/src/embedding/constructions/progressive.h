@@ -21,6 +21,7 @@ struct ProgressiveOptions {
   double over_relaxation = 1.7;  // first step tried, in Newton steps; 0 to `most_over_relaxation`
   int retries = 5;               // of a level whose vertices found no room; 0 to `most_retries`
   std::vector<Pin> pins = {};    // vertices that lie at given points; no vertex twice
+  const SphereMap* free_map = nullptr;  // borrowed: of the mesh, bijective, made without the pins
   int pin_level =
       400;  // vertices of the level where pins are placed, 20 a pin if that is more; ≥ 0
   /// Triangles that are no surface, and what they may take of the sphere, 0 to 1: from some level
@@ -72,13 +73,16 @@ struct ProgressiveEmbedding {
 /// A shape with protrusions whose energy is much more than an isometry's is embedded once more, or
 /// twice, by a nearly conformal energy that is led to the one asked for; one that ends far from its
 /// energy up to three times more; with Quality::Best from less energy on, and where only the finest
-/// level needs steps, up to three times more. Where a mesh has slivers (rest_floors.h), no pins and
-/// no fillers, and they cut steps short or left no room, or much is left in the end, all that is
-/// done as if they were fatter, and they are slimmed in the end. The map of least energy is
-/// returned; where more than 0.5 % of its energy is left (by Quality::Draft 3 %), or two starts end
-/// 1 % apart, after up to 1200 steps (300; slimmed maps 60) as Quality::Best makes them. Paper:
-/// Praun and Hoppe, "Spherical parametrization and remeshing" (2003); whole levels instead of
-/// single vertices, the energy, the guard and the over-relaxed sweeps are our own.
+/// level needs steps, up to three times more. Where a mesh has slivers (rest_floors.h), and they
+/// cut steps short or left no room, or much is left in the end, all that is done as if they were
+/// fatter, and they are slimmed in the end; not on the way of fillers that are pressed. With a free
+/// map its pins are led to their points where sweeps do not suffice, on all the mesh, and the rest
+/// is done only if that misses pins that others reach, is not lower, or the best is wanted.
+/// Of the maps that come nearest to the pins the one of least energy is returned; where more than
+/// 0.5 % of its energy is left (by Quality::Draft 3 %), or two starts end 1 % apart, after up to
+/// 1200 steps (300; slimmed maps 60) as Quality::Best makes them. Paper: Praun and Hoppe,
+/// "Spherical parametrization and remeshing" (2003); whole levels instead of single vertices, the
+/// energy, the guard and the over-relaxed sweeps are our own.
 ProgressiveEmbedding embed_progressively(const TriangleMesh& mesh, const Topology& topology,
                                          const ProgressiveOptions& options = {});
 
