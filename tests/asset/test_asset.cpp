@@ -16,6 +16,7 @@
 #include "sphparam/sphere/sphere_locator.h"
 #include "sphparam/sphere/spherical_coordinates.h"
 #include "support/joined.h"
+#include "support/leaks_of_others.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -233,6 +234,7 @@ TEST_CASE("remake asset: a channel whose image cannot be read is told, the other
   RemakeOptions options{.whole = coarse(), .width = 64};
   options.page = false;
   PendingFiles files;
+  const LeaksOfOthers broken_png;
   const RemadeAsset made = remake_asset(asset, folder.path.string(), options, files);
   REQUIRE(made.warnings.size() == 2);
   CHECK_THAT(made.warnings[0], Catch::StartsWith("not carried: glow.ktx2 of material paint: "));

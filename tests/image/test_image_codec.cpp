@@ -11,8 +11,8 @@
 #include <string>
 
 #include "image/image_codec.h"
-#include "image/leaks_of_others.h"
 #include "image/open_module.h"
+#include "support/leaks_of_others.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;

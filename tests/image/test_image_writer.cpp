@@ -9,10 +9,10 @@
 #include <string>
 
 #include "image/image_writer.h"
-#include "image/leaks_of_others.h"
 #include "image/meant_rows.h"
 #include "image/open_module.h"
 #include "support/image_headers.h"
+#include "support/leaks_of_others.h"
 
 using namespace sphparam;
 using namespace sphparam::tests;
