@@ -43,9 +43,44 @@ double least_gain_of(Quality quality) {
   return quality == Quality::Draft ? 1e-2 : quality == Quality::Normal ? 1e-3 : 1e-6;
 }
 
-/// Of the steps that settle fillers, after a map that coarser levels have pressed.
+/// Of the steps that settle fillers where sweeps nearly do.
 double pressed_gain_of(Quality quality) {
   return quality == Quality::Best ? least_gain_of(quality) : 1e-2;
+}
+
+PressedMap press(MapInProgress& work, const SphereMap& map, const std::vector<Pin>& pins,
+                 double known, double least_gain) {
+  return press_fillers(work.topology, measure_source(work.mesh, work.options.threads), map,
+                       work.options.filler_share,
+                       {.energy = work.energy,
+                        .least_gain = least_gain,
+                        .pinned = vertices_of(pins),
+                        .pressed = work.options.fillers,
+                        .threads = work.options.threads,
+                        .progress = work.options.progress},
+                       known);
+}
+
+bool is_better(const PressedMap& one, const PressedMap& other, double most) {
+  if (one.share <= most && other.share <= most) return one.energy < other.energy;
+  return one.share < other.share;
+}
+
+/// Settles what was pressed on its way. That way knows one start alone: where there are limbs or
+/// slivers the map made by `how`, without fillers, is pressed as much, and the better one taken.
+PressedMap settled(MapInProgress& work, const ProgressiveEmbedding& embedding,
+                   ProgressiveOptions how) {
+  const Quality quality = work.options.quality;
+  const double pressure = embedding.report.pressure;
+  if (embedding.report.sweeps_sufficed)
+    return press(work, *embedding.map, how.pins, pressure, pressed_gain_of(quality));
+  PressedMap settled = press(work, *embedding.map, how.pins, pressure, least_gain_of(quality));
+  how.fillers.clear();
+  how.quality = std::min(quality, Quality::Normal);
+  const ProgressiveEmbedding whole = embed_progressively(work.mesh, work.topology, how);
+  if (!whole.map) return settled;
+  PressedMap other = press(work, *whole.map, how.pins, pressure, least_gain_of(quality));
+  return is_better(other, settled, work.options.filler_share) ? other : settled;
 }
 
 SphereMap balance(MapInProgress& work, const SphereMap& map, double from_lambda,
@@ -80,18 +115,9 @@ std::string figure(double value) {
 
 }  // namespace
 
-SphereMap with_fillers_pressed(MapInProgress& work, SphereMap map, const std::vector<Pin>& pins,
-                               double known) {
+SphereMap with_fillers_pressed(MapInProgress& work, SphereMap map, const std::vector<Pin>& pins) {
   if (work.options.fillers.empty()) return map;
-  PressedMap pressed = press_fillers(work.topology, measure_source(work.mesh, work.options.threads),
-                                     map, work.options.filler_share,
-                                     {.energy = work.energy,
-                                      .least_gain = pressed_gain_of(work.options.quality),
-                                      .pinned = vertices_of(pins),
-                                      .pressed = work.options.fillers,
-                                      .threads = work.options.threads,
-                                      .progress = work.options.progress},
-                                     known);
+  PressedMap pressed = press(work, map, pins, 0, pressed_gain_of(work.options.quality));
   if (pressed.pressure > 0) work.record("fillers pressed", pressed.map);
   return std::move(pressed.map);
 }
@@ -148,25 +174,29 @@ bool embed(MapInProgress& work, const std::vector<Pin>& pins) {
   DistortionEnergy energy = work.options.energy;
   const bool balanced = needs_balancing(work.options);
   if (balanced) energy.lambda = first_lambda(work.options);
-  ProgressiveEmbedding embedding = embed_progressively(
-      work.mesh, work.topology,
-      {.energy = energy,
-       .quality = balanced ? std::min(work.options.quality, Quality::Normal) : work.options.quality,
-       .sweeps = work.options.sweeps,
-       .pins = pins,
-       .free_map = !pins.empty() && work.certified() ? &work.result.map : nullptr,
-       .fillers = work.options.fillers,
-       .filler_share = work.options.filler_share,
-       .threads = work.options.threads,
-       .progress = work.options.progress});
+  const ProgressiveOptions how{
+      .energy = energy,
+      .quality = balanced ? std::min(work.options.quality, Quality::Normal) : work.options.quality,
+      .sweeps = work.options.sweeps,
+      .pins = pins,
+      .free_map = !pins.empty() && work.certified() ? &work.result.map : nullptr,
+      .fillers = work.options.fillers,
+      .filler_share = work.options.filler_share,
+      .threads = work.options.threads,
+      .progress = work.options.progress};
+  ProgressiveEmbedding embedding = embed_progressively(work.mesh, work.topology, how);
   if (!embedding.map) return false;
   work.record(pins.empty() ? "progressive embedding" : "pinned embedding", *embedding.map);
   if (balanced) *embedding.map = balance(work, *embedding.map, energy.lambda, pins);
-  const bool pressed = !work.options.fillers.empty();
-  *embedding.map = with_fillers_pressed(work, std::move(*embedding.map), pins,
-                                        balanced ? 0 : embedding.report.pressure);
+  if (!balanced && embedding.report.pressure > 0) {
+    *embedding.map = settled(work, embedding, how).map;
+    work.record("fillers pressed", *embedding.map);
+  } else {
+    *embedding.map = with_fillers_pressed(work, *std::move(embedding.map), pins);
+  }
   work.accept(balanced ? balanced_map : "progressive embedding", std::move(*embedding.map));
-  if (!balanced && !pressed) work.result.energy_gap = embedding.report.energy_left;
+  if (!balanced && work.options.fillers.empty())
+    work.result.energy_gap = embedding.report.energy_left;
   return true;
 }
 

@@ -14,9 +14,8 @@ namespace sphparam {
 bool embed(MapInProgress& work, const std::vector<Pin>& pins);
 
 /// The map with fillers pressed to what they may take of the sphere, pins where they are; as it is
-/// where that is so. `known`: the pressure that a coarser level of it needed, or 0.
-SphereMap with_fillers_pressed(MapInProgress& work, SphereMap map, const std::vector<Pin>& pins,
-                               double known = 0);
+/// where that is so.
+SphereMap with_fillers_pressed(MapInProgress& work, SphereMap map, const std::vector<Pin>& pins);
 
 /// Warns where the map is not what the balance asked for promises, with the figure it reached:
 /// `work.result.balance` gets that of the finished map.

@@ -96,11 +96,12 @@ class Starts {
 
   ProgressiveEmbedding first() { return embed_with_room(wanted_); }
 
-  /// No map: nothing found room.
+  /// No map: nothing found room. One with pressed fillers is the first, for the caller to settle.
   ProgressiveEmbedding lowest() {
     const bool best = options_.quality == Quality::Best;
     const double demanding = best ? much_for_best : much_energy;
     lowest_ = embed_with_room(wanted_, demanding, blocked_in_a_row);
+    if (lowest_.report.pressure > 0) return std::move(lowest_);
     const bool sufficed = lowest_.map && lowest_.report.sweeps_sufficed;
     if (!sufficed && (!try_free_map() || best)) try_more(demanding);
     if (!lowest_.map) return std::move(lowest_);

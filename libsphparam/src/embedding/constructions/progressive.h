@@ -25,7 +25,8 @@ struct ProgressiveOptions {
   int pin_level =
       400;  // vertices of the level where pins are placed, 20 a pin if that is more; ≥ 0
   /// Triangles that are no surface, and what they may take of the sphere, 0 to 1: from some level
-  /// on they are pressed (see `press_fillers`). The finest level gets sweeps alone of that.
+  /// on they are pressed (see `press_fillers`). The finest level gets sweeps alone of that: such a
+  /// map is to be settled, and where sweeps do not suffice compared with one made without fillers.
   FillerMarks fillers = {};
   double filler_share = 1;
   /// Of the mean area, 0 to 1: smaller triangles count as equilateral ones of that size.
@@ -75,7 +76,7 @@ struct ProgressiveEmbedding {
 /// energy up to three times more; with Quality::Best from less energy on, and where only the finest
 /// level needs steps, up to three times more. Where a mesh has slivers (rest_floors.h), and they
 /// cut steps short or left no room, or much is left in the end, all that is done as if they were
-/// fatter, and they are slimmed in the end; not on the way of fillers that are pressed. With a free
+/// fatter, and they are slimmed in the end. A map with pressed fillers has one start. With a free
 /// map its pins are led to their points where sweeps do not suffice, on all the mesh, and the rest
 /// is done only if that misses pins that others reach, is not lower, or the best is wanted.
 /// Of the maps that come nearest to the pins the one of least energy is returned; where more than

@@ -64,7 +64,12 @@ class Press {
     for (unsigned char& mark : options_.pressed) mark = mark ? 0 : 1;
   }
 
-  double share_of(const SphereMap& map) const { return sphere_share(triangles_, map, fillers_); }
+  PressedMap measured(SphereMap map, double pressure) const {
+    const double share = sphere_share(triangles_, map, fillers_);
+    const double energy =
+        distortion_energy(topology_, source_, map, options_.energy, options_.threads);
+    return {std::move(map), share, pressure, energy};
+  }
 
   /// The map for a reward, well enough to go on from.
   PressedMap roughly(const SphereMap& from, double pressure) const {
@@ -106,8 +111,7 @@ class Press {
   PressedMap at(const SphereMap& from, double pressure, OptimiseOptions options) const {
     options.energy.pressure = -pressure;
     SphereMap map = optimise(topology_, source_, from, options).map;
-    const double share = share_of(map);
-    return {std::move(map), share, std::abs(pressure)};
+    return measured(std::move(map), std::abs(pressure));
   }
 
   const Topology& topology_;
@@ -161,11 +165,12 @@ std::pair<double, double> pressed_areas(double of_fillers, double of_surface, do
 PressedMap press_fillers(const Topology& topology, RestTriangles source, const SphereMap& map,
                          double most, const OptimiseOptions& options, double known) {
   const Press press(topology, source, options);
-  const double before = press.share_of(map), first = std::max(options.energy.lambda, 1.0);
-  if (before <= most && !(known > 0)) return {map, before, 0};
+  PressedMap before = press.measured(map, known);
+  if (before.share <= most && !(known > 0)) return before;
   shrink(source, options.pressed, most);
-  PressedMap result = press.settled(known > 0 ? PressedMap{map, before, known}
-                                              : rewarded(press, map, most * (1 - margin), first));
+  const double first = std::max(options.energy.lambda, 1.0);
+  PressedMap result =
+      press.settled(known > 0 ? before : rewarded(press, map, most * (1 - margin), first));
   for (int i = 0; i < most_retries && result.share > most; ++i) {
     result.pressure = std::max(result.pressure, 1.0) * retry_raise;
     result = press.settled(result);

@@ -10,6 +10,7 @@ struct PressedMap {
   SphereMap map;
   double share;     // of the sphere that fillers take
   double pressure;  // that was needed, on the surface outwards or on fillers inwards: 0 or more
+  double energy;    // E without the reward, fillers and surface by the areas that they count with
 };
 
 /// Lowers the share of the sphere that fillers take to `most` or less, where it is more, and the
