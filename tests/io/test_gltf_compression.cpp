@@ -182,6 +182,16 @@ TEST_CASE("gltf_compression: attributes that Draco has not packed are where they
   file.root["accessors"][2]["bufferView"] = 1;
   CHECK(values_of(read(file.bytes(), "a.glb").find_vertex_property("_RANK")) ==
         std::vector<double>{'a', 'b', 'c', 'd', 'e', 'f'});
+  // A primitive that is not packed shares an accessor with one that is.
+  const std::vector<float> numbers = float_positions(mesh);
+  const std::size_t bytes = numbers.size() * sizeof(float), start = packed + 8;
+  file.binary.resize(start + bytes);
+  std::memcpy(file.binary.data() + start, numbers.data(), bytes);
+  file.root["buffers"][0]["byteLength"] = file.binary.size();
+  file.root["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", start}, {"byteLength", bytes}});
+  file.root["accessors"][0]["bufferView"] = 2;
+  file.root["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}});
+  CHECK(read(file.bytes(), "a.glb").mesh.positions.bottomRows(6) == mesh.positions);
 }
 
 namespace {
