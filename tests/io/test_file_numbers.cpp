@@ -51,6 +51,11 @@ TEST_CASE("file numbers: a number of no vertex says whose it was") {
     CHECK(error.whose() == "meridian");
     CHECK(error.what() == numbers.absence(3));
   }
+  CHECK(numbers.absence(3) ==
+        "the mesh has no vertex 3 (it was merged with another, or no face used it)");
+  MeshFile plain;
+  plain.mesh = icosphere(0);
+  CHECK(FileNumbers(plain).absence(12) == "the mesh has no vertex 12; they are 0 to 11");
   options.meridian = {};
   options.poles = Poles{104, 104};
   CHECK_THROWS_WITH(with_vertices_of_mesh(options, numbers), Catch::Contains("one vertex"));

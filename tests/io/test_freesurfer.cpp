@@ -120,6 +120,9 @@ TEST_CASE("freesurfer: what is no surface is refused by name, what is cut short 
     INFO(size);
     CHECK(contains(complaint(bytes.substr(0, size), "lh.white"), "lh.white"));
   }
+  // Before there is room made for all that was announced.
+  CHECK(contains(complaint(bytes.substr(0, bytes.size() - 60)), "the coordinates and triangles"));
+  CHECK(contains(complaint(bytes.substr(0, bytes.size() - 1)), "the coordinates and triangles"));
   std::string beyond = bytes;
   beyond.back() = 9;
   CHECK(contains(complaint(beyond), "names vertex 9 of 4"));

@@ -181,6 +181,15 @@ TEST_CASE("gifti_reader: what the surface is comes as comments, a transform not 
   const MeshFile file = read(gifti({array, triangles()}));
   CHECK(file.comments == std::vector<std::string>{"gifti AnatomicalStructurePrimary CortexLeft"});
   CHECK(file.notes.empty());  // the identity
+  // What has the name of a part of it elsewhere is none of it.
+  const std::string elsewhere = "<MatrixData>5</MatrixData>";
+  Array beside = array;
+  beside.inside += "<Other>" + elsewhere + "</Other>";
+  CHECK(read(gifti({beside, triangles()})).notes.empty());
+  CHECK(read(replaced(gifti({triangles(), array}), "</GIFTI>",
+                      "<CoordinateSystemTransformMatrix>" + elsewhere +
+                          "</CoordinateSystemTransformMatrix></GIFTI>"))
+            .notes.empty());
   Array signed_by = points();
   signed_by.inside = "<MetaData><MD><Name>UserName</Name><Value>me</Value></MD></MetaData>";
   CHECK(read(gifti({signed_by, triangles()})).notes ==

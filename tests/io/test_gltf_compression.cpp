@@ -168,6 +168,32 @@ TEST_CASE("gltf_compression: what Draco has packed is the mesh that it was") {
   }
 }
 
+TEST_CASE("gltf_compression: attributes that Draco has not packed are where they say") {
+  const TriangleMesh mesh = octahedron();
+  CompressedFile file = draco_file(mesh, false);
+  while (file.binary.size() % 4 != 0) file.binary.push_back('\0');
+  const std::size_t packed = file.binary.size();
+  file.binary += "abcdef";
+  file.root["buffers"][0]["byteLength"] = file.binary.size();
+  file.root["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", packed}, {"byteLength", 6}});
+  file.root["accessors"].push_back(accessor(5121, 6, "SCALAR"));
+  file.root["meshes"][0]["primitives"][0]["attributes"]["_RANK"] = 2;
+  CHECK(complaint(file.bytes(), "a.glb") == "a.glb: accessor 2: has no data");
+  file.root["accessors"][2]["bufferView"] = 1;
+  CHECK(values_of(read(file.bytes(), "a.glb").find_vertex_property("_RANK")) ==
+        std::vector<double>{'a', 'b', 'c', 'd', 'e', 'f'});
+  // A primitive that is not packed shares an accessor with one that is.
+  const std::vector<float> numbers = float_positions(mesh);
+  const std::size_t bytes = numbers.size() * sizeof(float), start = packed + 8;
+  file.binary.resize(start + bytes);
+  std::memcpy(file.binary.data() + start, numbers.data(), bytes);
+  file.root["buffers"][0]["byteLength"] = file.binary.size();
+  file.root["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", start}, {"byteLength", bytes}});
+  file.root["accessors"][0]["bufferView"] = 2;
+  file.root["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}});
+  CHECK(read(file.bytes(), "a.glb").mesh.positions.bottomRows(6) == mesh.positions);
+}
+
 namespace {
 
 /// One of Draco with metadata after its header, whose flag says so.
@@ -275,6 +301,8 @@ TEST_CASE("gltf_compression: damage is refused with its place") {
   CompressedFile file = draco_file(mesh);
   file.root["accessors"][0]["type"] = "VEC2";
   refused(file, "attribute 0 has 3 components");
+  file.root["accessors"][0] = 7;
+  refused(file, "cannot be read as glTF");
 }
 
 TEST_CASE("gltf_compression: bytes changed anywhere are read or refused, and end") {

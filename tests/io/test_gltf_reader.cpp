@@ -351,6 +351,7 @@ TEST_CASE("gltf_reader: buffers come from data URIs or from files next to the gl
   const auto open_before = open_files();
   CHECK(said("a%20b+c.bin").empty());
   CHECK(said("./a%20b+c.bin").empty());
+  CHECK(said("a%20b%2Bc%2ebi%6e").empty());
   CHECK(contains(said("../secret.bin"), "'..'"));
   CHECK(contains(said("%2e%2e/secret.bin"), "'..'"));
   CHECK(contains(said("..%5Csecret.bin"), "backslash"));
@@ -358,7 +359,8 @@ TEST_CASE("gltf_reader: buffers come from data URIs or from files next to the gl
   CHECK(contains(said("file:secret.bin"), "scheme"));
   CHECK(contains(said("http://a/b.bin"), "scheme"));
   CHECK(contains(said("a.bin%00.png"), "control"));
-  CHECK(contains(said("a%zz"), "hexadecimal"));
+  for (const char* uri : {"a%zz", "a%", "a%2", "a%2g.bin", "a%g2.bin", "a%-2.bin", "a% 2.bin"})
+    CHECK(contains(said(uri), "hexadecimal"));
   CHECK(contains(said("link.bin"), "out of the folder"));
   CHECK(contains(said("folder.bin"), "no regular file"));
   CHECK(contains(said("missing.bin"), "No such file"));

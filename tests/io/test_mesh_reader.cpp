@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 #include <cstdio>
 #include <filesystem>
@@ -90,6 +92,10 @@ TEST_CASE("mesh_reader: of what has no end no more is read than the limit") {
   CHECK_THROWS_WITH(FileBytes("/dev/zero", options),
                     Catch::Contains("limit of 1000 bytes; `--limit file=N` raises it"));
   CHECK(FileBytes("/dev/null", 0).view().empty());
+  // It says that it has 0 bytes.
+  CHECK(FileBytes("/proc/self/stat", 1000).view().starts_with(std::to_string(::getpid()) + " "));
+  CHECK_THROWS_WITH(FileBytes("/proc/self/stat", 3),
+                    "/proc/self/stat: is larger than the limit of 3 bytes");
 }
 
 TEST_CASE(

@@ -35,8 +35,9 @@ TEST_CASE("obj_reader: line ends, byte order mark and a missing final newline ch
   for (const std::string& text :
        {replaced(tetrahedron_obj, "\n", "\r\n"), replaced(tetrahedron_obj, "\n", "\r"), unended,
         "\xef\xbb\xbf" + tetrahedron_obj, replaced(tetrahedron_obj, " ", " \t "),
-        replaced(tetrahedron_obj, "\n", " # comment\n\n"),
-        replaced(tetrahedron_obj, " ", " \\\n ")}) {
+        replaced(tetrahedron_obj, "\n", " # comment\n\n"), replaced(tetrahedron_obj, " ", " \\\n "),
+        // Where the first line ends in CRLF, a CR alone ends none.
+        "# one line\r\n# another\rv 9 9 9\r\n" + replaced(tetrahedron_obj, "\n", "\r\n")}) {
     const MeshFile file = read(text, "a.obj");
     CHECK(file.mesh.triangles == expected);
     CHECK(file.mesh.position(3) == Vector3(1, -1, -1));

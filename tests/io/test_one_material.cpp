@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "io/attributes/appearance.h"
 #include "io/attributes/finish_terms.h"
 #include "io/attributes/one_material.h"
 #include "support/test_meshes.h"
@@ -56,6 +57,10 @@ TEST_CASE("one_material: what most of the area has, and the share of what has it
         "materials become one: KHR_materials_clearcoat as the largest part of the area has it; "
         "25 % of the area has it otherwise");
 
+  file.mesh.positions *= 1e-3;  // shares, not areas
+  CHECK(one_material(file).finish.clearcoat == 1);
+  CHECK(one_material(file).warnings == one.warnings);
+
   file = two_materials(15);
   file.channels[1].finish.clearcoat = 1;
   CHECK(one_material(file).finish.clearcoat == 0);
@@ -108,4 +113,22 @@ TEST_CASE("one_material: blended where all of the area is, masked where some of 
   none.values[0] = -1;  // glTF has it opaque
   bare.set_face_property(none);
   CHECK(one_material(bare).alpha_mode == Opaque);
+}
+
+TEST_CASE("appearance: corners have the texture coordinates of their vertices or their own") {
+  MeshFile file;
+  file.mesh = tetrahedron();
+  CHECK_FALSE(texcoords_of(file));
+  file.set_vertex_property({"s", ScalarType::Float32, {0, 1, 2, 3}});
+  CHECK_FALSE(texcoords_of(file));
+  file.set_vertex_property({"t", ScalarType::Float32, {10, 11, 12, 13}});
+  REQUIRE(texcoords_of(file));
+  CornerTexcoords corners(12, 2);
+  for (int i = 0; i < 12; ++i) {
+    const Vertex v = file.mesh.triangles(i / 3, i % 3);
+    corners.row(i) << v, v + 10;
+  }
+  CHECK(*texcoords_of(file) == corners);
+  file.corner_texcoords = 2 * corners;
+  CHECK(*texcoords_of(file) == 2 * corners);
 }

@@ -130,3 +130,11 @@ TEST_CASE(
   CHECK(parts.at(0).area_share == Approx(4.0 / (equal + 5)));
   CHECK(parts.at(1).area_share == Approx(1.0 / (equal + 5)));
 }
+
+TEST_CASE("connected_parts: where nothing has area, shares are of the faces") {
+  const TriangleMesh mesh = joined(square(0), square(0, true), {0, 0, 0});
+  const std::vector<MeshPart> parts = connected_parts(source_of(mesh, "points.ply"));
+  REQUIRE(parts.size() == 2);
+  CHECK(parts[0].area_share == Approx(4.0 / 6));
+  CHECK(parts[1].area_share == Approx(2.0 / 6));
+}

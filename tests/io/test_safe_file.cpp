@@ -358,6 +358,25 @@ TEST_CASE("safe_file: pending files that are given up leave nothing") {
   CHECK(folder.entries() == 1);
 }
 
+TEST_CASE("safe_file: nothing stays open of files that were written, replaced or given up") {
+  const Folder folder;
+  const auto open_files = [] {
+    return std::distance(fs::directory_iterator("/proc/self/fd"), fs::directory_iterator());
+  };
+  const auto before = open_files();
+  write_file(folder.file("a"), "old");
+  CHECK(open_files() == before);
+  write_file(folder.file("a"), "new");
+  CHECK(open_files() == before);
+  {
+    PendingFiles files;
+    files.add(folder.file("a"), "newer");
+    files.open(folder.file("b")).write(0, "in pieces");
+    CHECK(open_files() > before);
+  }
+  CHECK(open_files() == before);
+}
+
 TEST_CASE("safe_file: when one file cannot take its name, the others give theirs back") {
   const Folder folder;
   write_file(folder.file("a"), "old");

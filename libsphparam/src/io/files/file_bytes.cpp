@@ -60,12 +60,13 @@ void FileBytes::map_or_read(int descriptor, std::uint64_t max_bytes) {
   if (::fstat(descriptor, &status) != 0) throw ReadError(name_, std::strerror(errno));
   if (S_ISDIR(status.st_mode)) throw ReadError(name_, "is a directory");
   // A redirected standard input may be half read already, so its offset counts: read it instead.
-  if (!S_ISREG(status.st_mode) || descriptor == STDIN_FILENO || status.st_size == 0)
+  if (!S_ISREG(status.st_mode) || descriptor == STDIN_FILENO)
     return read_all(descriptor, max_bytes);
 
   const auto size = static_cast<std::uint64_t>(status.st_size);
   if (size > max_bytes) throw ReadError(name_, "is larger than " + limit_);
   void* const mapping = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE | MAP_POPULATE, descriptor, 0);
+  // No mapping has 0 bytes, which is what empty files have, and what those of /proc say.
   if (mapping == MAP_FAILED) return read_all(descriptor, max_bytes);
   mapping_ = mapping;
   view_ = {static_cast<const char*>(mapping), size};

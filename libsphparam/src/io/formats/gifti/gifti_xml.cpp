@@ -117,7 +117,6 @@ class Parser : public XmlEvents {
       colour[k] = number<float>(attributes.value(channels[k]), "a number");
       label.colour = colour;
     }
-    if (label.colour) label.colour = colour;
     document_.labels.push_back(std::move(label));
   }
 

@@ -99,7 +99,8 @@ std::string name_of(int mesh, int primitive) {
 }
 
 /// Gives accessors whose numbers are in Draco's bytes a view all the same; true if there were any.
-bool fill_absent_views(Json& root, const Json& primitive) {
+bool fill_absent_views(Json& root, const Json& primitive,
+                       const GltfCompression::Primitive& packed) {
   const auto accessors = root.find("accessors");
   if (accessors == root.end() || !accessors->is_array()) return false;
   bool any = false;
@@ -111,8 +112,9 @@ bool fill_absent_views(Json& root, const Json& primitive) {
     any = true;
   };
   if (const Json* indices = member(primitive, "indices")) fill(*indices);
-  if (const Json* attributes = member(primitive, "attributes"); attributes != nullptr)
-    for (const Json& id : *attributes) fill(id);
+  if (const Json* attributes = member(primitive, "attributes"))
+    for (const auto& [attribute, unused] : packed.attributes)
+      if (const Json* id = member(*attributes, attribute.c_str())) fill(*id);
   return any;
 }
 
@@ -279,7 +281,7 @@ GltfCompression compression_of(std::string_view json, const std::string& name) {
       const Json* said = extension(primitives[p], draco);
       if (said == nullptr) continue;
       compression.primitives[at] = primitive_of(*said, {name, name_of(at.first, at.second)});
-      changed |= fill_absent_views(root, primitives[p]);
+      changed |= fill_absent_views(root, primitives[p], compression.primitives[at]);
     }
   }
   if (changed) compression.loadable_json = root.dump();

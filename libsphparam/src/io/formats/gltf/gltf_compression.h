@@ -26,8 +26,8 @@ struct GltfCompression {
   std::map<std::pair<int, int>, Primitive> primitives;  // by mesh and place in it
 
   /// The JSON as a library loads it that knows no compression: three bytes in the place of buffers
-  /// that exist in decoded form only, some view for accessors without one. Empty where it is as it
-  /// is.
+  /// that exist in decoded form only, some view for accessors of what Draco has packed. Empty where
+  /// it is as it is.
   std::string loadable_json;
 };
 

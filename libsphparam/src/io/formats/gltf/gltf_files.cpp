@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <stdexcept>
 
@@ -24,13 +25,6 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void refuse(const std::string& why) { throw std::runtime_error(why); }
 
-int hex_digit(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return -1;
-}
-
 std::string percent_decoded(std::string_view uri) {
   std::string text;
   for (std::size_t i = 0; i < uri.size(); ++i) {
@@ -38,10 +32,12 @@ std::string percent_decoded(std::string_view uri) {
       text += uri[i];
       continue;
     }
-    const int high = i + 2 < uri.size() ? hex_digit(uri[i + 1]) : -1;
-    const int low = i + 2 < uri.size() ? hex_digit(uri[i + 2]) : -1;
-    if (high < 0 || low < 0) refuse("a percent sign that two hexadecimal digits do not follow");
-    text += static_cast<char>(16 * high + low);
+    const std::string_view digits = uri.substr(i + 1, 2);
+    const char* const end = digits.data() + digits.size();
+    unsigned char byte = 0;
+    if (digits.size() < 2 || std::from_chars(digits.data(), end, byte, 16).ptr != end)
+      refuse("a percent sign that two hexadecimal digits do not follow");
+    text += static_cast<char>(byte);
     i += 2;
   }
   return text;
