@@ -296,6 +296,23 @@ TEST_CASE("gltf_reader: a primitive without colours beside one with colours is w
   }
 }
 
+TEST_CASE("gltf_reader: what primitives hold in several types becomes double, in one type stays") {
+  Gltf gltf;
+  gltf.add(floats({0, 0, 0, 1, 0, 0, 0, 1, 0}), 5126, 3, "VEC3")
+      .add(integers({1, 2, 3}, 2), 5123, 3, "SCALAR")
+      .add(floats({0.5, 1.5, 2.5}), 5126, 3, "SCALAR")
+      .add(integers({4, 5, 6}, 2), 5123, 3, "SCALAR");
+  const auto ranks = [&](const std::string& other) {
+    gltf.meshes = R"([{"primitives":[{"attributes":{"POSITION":0,"_RANK":1}},)"
+                  R"({"attributes":{"POSITION":0,"_RANK":)" +
+                  other + "}}]}]";
+    return *read(gltf.bytes()).find_vertex_property("_RANK");
+  };
+  CHECK(ranks("2").type == ScalarType::Float64);
+  CHECK(ranks("2").values == std::vector<double>{1, 2, 3, 0.5, 1.5, 2.5});
+  CHECK(ranks("3").type == ScalarType::Uint16);
+}
+
 TEST_CASE("gltf_reader: quantised and sparse accessors are decoded") {
   Gltf gltf;
   gltf.asset = R"({"version":"2.0"},"extensionsRequired":["KHR_mesh_quantization"])";

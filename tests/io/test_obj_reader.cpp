@@ -88,6 +88,10 @@ TEST_CASE("obj_reader: normals go to the vertices when each has one, else to the
   const MeshFile smooth = read(vertices + "f 1//1 2//1 3//2\nf 1//2 3//1 4//1\n", "a.obj");
   CHECK_FALSE(smooth.corner_normals);
   CHECK(values_of(smooth.find_vertex_property("nz")) == std::vector<double>{1, 1, 1, 1});
+  // A vertex that no corner gives a normal has a zero.
+  const MeshFile partly = read(vertices + "f 1//1 2//1 3//1\nf 1 3 4\n", "a.obj");
+  CHECK_FALSE(partly.corner_normals);
+  CHECK(values_of(partly.find_vertex_property("nz")) == std::vector<double>{1, 1, 1, 0});
   const MeshFile creased = read(vertices + "f 1//1 2//1 3//1\nf 1//3 3//3 4//3\n", "a.obj");
   CHECK_FALSE(creased.find_vertex_property("nx"));
   REQUIRE(creased.corner_normals);

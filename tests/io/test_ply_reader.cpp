@@ -134,11 +134,10 @@ TEST_CASE("ply_reader: a text number has the precision of its declared type") {
 TEST_CASE("ply_reader: faces may come first, other elements and lists are skipped") {
   const MeshFile file = read(
       "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\n"
-      "property list uchar float weights\nelement edge 2\nproperty int a\nproperty list char int "
-      "b\n"
-      "element vertex 3\nproperty float x\nproperty list uchar int near\nproperty float "
-      "y\nproperty "
-      "float z\nend_header\n3 0 1 2 2 0.5 0.5\n1 0\n2 3 7 8 9\n0 0 0 0\n1 2 5 6 0 0\n0 1 4 1 0\n");
+      "property list uchar float weights\nelement none 0\nelement edge 2\nproperty int a\n"
+      "property list char int b\nelement vertex 3\nproperty float x\nproperty list uchar int near\n"
+      "property float y\nproperty float z\nend_header\n3 0 1 2 2 0.5 0.5\n1 0\n2 3 7 8 9\n0 0 0 0\n"
+      "1 2 5 6 0 0\n0 1 4 1 0\n");
   CHECK(file.mesh.position(2) == Vector3(0, 1, 0));
   CHECK(file.mesh.face_count() == 1);
   CHECK(file.vertex_properties.empty());
@@ -231,7 +230,7 @@ TEST_CASE("ply_reader: strips in binary are those of text") {
   CHECK(contains(complaint(bytes.substr(0, bytes.size() - 1)), "the file ends within tristrips 0"));
 }
 
-TEST_CASE("ply_reader: faces without texture coordinates are zero and noted") {
+TEST_CASE("ply_reader: faces without texture coordinates or normals are zero and noted") {
   const std::string text =
       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
       "z\nelement face 2\nproperty list uchar float texcoord\nproperty list uchar int "
@@ -239,13 +238,21 @@ TEST_CASE("ply_reader: faces without texture coordinates are zero and noted") {
   const MeshFile file = read(text);
   CHECK((*file.corner_texcoords)(2, 1) == 6);
   CHECK((*file.corner_texcoords)(5, 1) == 0);
-  CHECK(file.notes.size() == 1);
+  REQUIRE(file.notes.size() == 1);
+  CHECK(contains(file.notes[0], "have no texture coordinates: set to zero"));
   CHECK(contains(complaint(replaced(text, "\n0 3 0 2 1", "\n2 1 1 3 0 2 1"), "a.ply"),
                  "a.ply:15: face of 3 corners has 2 numbers"));
+  const MeshFile shaded =
+      read(replaced(replaced(text, "texcoord", "normal"), "6 1 2 3 4 5 6", "9 1 2 3 4 5 6 7 8 9"));
+  CHECK((*shaded.corner_normals)(2, 2) == 9);
+  CHECK((*shaded.corner_normals)(5, 2) == 0);
+  REQUIRE(shaded.notes.size() == 1);
+  CHECK(contains(shaded.notes[0], "have no normals: set to zero"));
 }
 
 TEST_CASE("ply_reader: a header that breaks the rules is refused at its line") {
   refused("ply\n", "plx\n", 1, "magic");
+  refused(tetrahedron_ply, "plyx", 1, "magic");
   refused("ascii 1.0", "ascii 2.0", 2, "version '2.0'");
   refused("ascii 1.0", "utf8 1.0", 2, "unknown format");
   refused("format ascii 1.0\n", "", 8, "no format");
@@ -324,6 +331,9 @@ TEST_CASE("ply_reader: huge counts are refused before memory is spent") {
   const std::string header = binary_quads(false);
   for (const char* count : {"face 4000000000", "face 200000000", "face 99"})
     CHECK(contains(complaint(replaced(header, "face 2", count), "a.ply"), "do not fit"));
+  const std::string of_one_byte = "element mark 99999\nproperty uchar a\nelement face 2";
+  CHECK(contains(complaint(replaced(header, "element face 2", of_one_byte), "a.ply"),
+                 "99999 records of element 'mark' do not fit"));
   // A list that claims more entries than there are bytes.
   std::string list =
       "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"

@@ -167,6 +167,42 @@ TEST_CASE("vertex_data: colours that the table of an annotation lacks are told")
   CHECK(contains(values_complaint(annotation().substr(0, 28), "lh.a.annot"), "no colour table"));
 }
 
+TEST_CASE("vertex_data: a key 0 that the table of an annotation lacks is that of no label") {
+  const std::string frontal = text("frontal");
+  const VertexData data =
+      read_values(replaced(annotation(), int32(0) + frontal, int32(5) + frontal), "lh.a.annot");
+  CHECK(data.columns[0].values == std::vector<double>{2, 0, 5});
+  REQUIRE(data.labels.size() == 3);
+  CHECK(data.labels[0].key == 0);
+  CHECK(data.labels[0].name == "???");
+}
+
+TEST_CASE("vertex_data: keys and colours of an annotation are within their limits") {
+  const std::string blue = int32(2) + text("blue"), channels = int32(0) + int32(0) + int32(255);
+  const auto with = [&](int key, int red, int transparency) {
+    return replaced(
+        annotation(), blue + channels + int32(0),
+        int32(key) + text("blue") + int32(red) + int32(0) + int32(255) + int32(transparency));
+  };
+  const auto said = [](const std::string& bytes) { return values_complaint(bytes, "lh.a.annot"); };
+  CHECK(read_values(with(1000000, 0, 255), "lh.a.annot").columns[0].values[0] == 1000000);
+  CHECK(contains(said(with(1000001, 0, 0)), "has a label of number 1000001"));
+  CHECK(contains(said(with(-1, 0, 0)), "has a label of number -1"));
+  CHECK(contains(said(with(2, 256, 0)), "has a label with a colour of 256"));
+  CHECK(contains(said(with(2, 0, 256)), "has a label with a colour of 256"));
+  CHECK(contains(said(with(2, -1, 0)), "has a label with a colour of -1"));
+}
+
+TEST_CASE("vertex_data: an annotation without labels has an empty table") {
+  VertexData data = lobes();
+  data.columns[0].values = {-1, -1};
+  data.labels.clear();
+  const std::string bytes = serialise_vertex_data("lh.a.annot", data);
+  CHECK(bytes == int32(2) + int32(0) + int32(0) + int32(1) + int32(0) + int32(1) + int32(-2) +
+                     int32(0) + text("NOFILE") + int32(0));
+  CHECK(read_values(bytes, "lh.a.annot").columns[0].values == std::vector<double>{0, 0});
+}
+
 TEST_CASE("vertex_data: what an annotation cannot tell apart is refused") {
   VertexData data = lobes();
   data.labels[2].colour = data.labels[1].colour;

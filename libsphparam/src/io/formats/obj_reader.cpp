@@ -29,9 +29,8 @@ constexpr int no_index = -1;
 /// first index out of range at the end is one of them.
 class ForwardReferences {
  public:
-  void note(std::int64_t index, std::int64_t count, long line) {
-    if (index >= count && (found_.empty() || index > found_.back().index))
-      found_.push_back({index, line});
+  void note(std::int64_t index, long line) {
+    if (found_.empty() || index > found_.back().index) found_.push_back({index, line});
   }
 
   void check(std::int64_t count, const char* what, const TextScanner& scanner) const {
@@ -195,7 +194,7 @@ class ObjReader {
       scanner_.fail(std::string(kind.name) + " index " + std::to_string(written) +
                     " is out of range");
     if (index >= kind.count) [[unlikely]]
-      kind.forward.note(index, kind.count, scanner_.line_number());
+      kind.forward.note(index, scanner_.line_number());
     return static_cast<int>(index);
   }
 
