@@ -29,6 +29,19 @@ MappedMesh egg() {
                      .provenance = {{"method", "given"}, {"verdict", "one-to-one"}}});
 }
 
+/// A map of the egg whose points lie closer together than floats do there, all but the first.
+SphereMap gathered_map() {
+  constexpr double scale = 1e-8;
+  SphereMap map{icosphere(2).positions};
+  const Vector3 pole = -map.point(0);
+  for (Vertex v = 1; v < 162; ++v) {
+    const Vector3 p = map.point(v);
+    const Vector3 plane = scale / (1 + p.dot(pole)) * (p - p.dot(pole) * pole);
+    map.points.row(v) = (2 * plane + (1 - plane.squaredNorm()) * pole).normalized();
+  }
+  return map;
+}
+
 }  // namespace
 
 TEST_CASE("map_files: the sphere is written in every format, exactly but for GIFTI's floats") {
@@ -43,6 +56,45 @@ TEST_CASE("map_files: the sphere is written in every format, exactly but for GIF
     CHECK(read_provenance(read_mesh(folder.file(name))) == egg().provenance());
   }
   CHECK_THROWS_AS(save_sphere(folder.file("s.stl"), egg()), WriteError);
+}
+
+TEST_CASE("map_files: what floats cannot hold is mapped anew, where nothing holds it in place") {
+  const Folder folder;
+  const Provenance held = {{"method", "given"},
+                           {"poles", "1 2"},
+                           {"meridian", "3"},
+                           {"upright", "as the mesh"},
+                           {"verdict", "one-to-one"}};
+  const MappedMesh mapped({.file = egg().file(), .map = gathered_map(), .provenance = held});
+  CHECK_THROWS_WITH(
+      save_sphere(folder.file("a.gii"), mapped, {.may_remap = false}),
+      Catch::Contains("a.gii: numbers of 32 bits cannot hold this map with its pins"));
+  CHECK(save_sphere(folder.file("a.ply"), mapped, {.may_remap = false}) == 0);
+  CHECK(read_provenance(read_mesh(folder.file("a.ply"))) == held);
+  CHECK(save_sphere(folder.file("b.gii"), egg(), {.may_remap = false}) == 0);
+  CHECK(save_sphere(folder.file("c.gii"), mapped) > 0);
+  CHECK(verify_map(folder.file("c.gii")).certificate.bijective());
+  CHECK(read_provenance(read_mesh(folder.file("c.gii"))) ==
+        Provenance{{"method", "given"}, {"verdict", "one-to-one"}});
+}
+
+TEST_CASE("map_files: a folded map has the verdict of what floats made of it") {
+  const Folder folder;
+  const MappedMesh mapped = egg();
+  SphereMap map = gathered_map();
+  map.points.row(0) = map.points.row(1);
+  const Certificate certificate = certify(mapped.topology(), map);
+  const Provenance provenance = {{"verdict", verdict(certificate)}};
+  PendingFiles files;
+  for (const char* name : {"a.ply", "a.gii"}) {
+    CHECK(add_sphere(files, folder.file(name),
+                     {mapped.file(), mapped.topology(), map, certificate, provenance}) == 0);
+  }
+  files.publish();
+  CHECK(read_provenance(read_mesh(folder.file("a.ply"))) == provenance);
+  const std::string found = verdict(verify_map(folder.file("a.gii")).certificate);
+  REQUIRE(found != verdict(certificate));
+  CHECK(read_provenance(read_mesh(folder.file("a.gii"))) == Provenance{{"verdict", found}});
 }
 
 TEST_CASE("map_files: what is written must have the verdict that was found") {

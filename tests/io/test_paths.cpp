@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "io/uri.h"
 #include "sphparam/io/paths.h"
 
 using namespace sphparam;
@@ -17,4 +18,9 @@ TEST_CASE("paths: a stem is without what says that there is a map, or that it is
   CHECK(stem_of("folder/statue.ply") == "statue");
   CHECK(stem_of("statue.sph.ply") == "statue");
   CHECK(stem_of("statue.v2.obj.gz") == "statue.v2");
+}
+
+TEST_CASE("uri: of a name letters, digits and four marks stay, all else is told byte by byte") {
+  CHECK(uri_of_file("aZ09-._~") == "aZ09-._~");
+  CHECK(uri_of_file("ä b/c%d") == "%C3%A4%20b%2Fc%25d");
 }

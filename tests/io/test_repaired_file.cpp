@@ -4,6 +4,8 @@
 #include <numbers>
 
 #include "io/repaired_file.h"
+#include "sphparam/io/fillers.h"
+#include "sphparam/io/loop_file.h"
 #include "support/test_meshes.h"
 #include "support/volume_surface.h"
 
@@ -368,4 +370,35 @@ TEST_CASE("repaired_file: texture coordinates of vertices stay there where they 
   REQUIRE(closed.corner_texcoords);
   CHECK(closed.corner_texcoord_type == ScalarType::Float32);
   CHECK_FALSE(closed.find_vertex_property("s"));
+}
+
+TEST_CASE("repaired_file: fillers of before stay, and those of the holes that are kept join them") {
+  const TriangleMesh whole = icosphere(2);
+  MeshFile file = labelled(without_faces(whole, faces_at(whole, 5)));
+  FillerMarks marks(static_cast<size_t>(file.mesh.face_count()), 0);
+  marks[0] = marks[7] = 1;
+  mark_fillers(file, marks);
+  const RepairedMesh repaired = repair_mesh(file.mesh, {.keep_holes = true});
+  REQUIRE(repaired.inspection.is_sphere());
+  marks.resize(repaired.face_origin.size(), 1);
+  CHECK(fillers_of(repaired_file(file, repaired)) == marks);
+}
+
+TEST_CASE("loop_file: loops are closed lines in OBJ and PLY, and have no other names") {
+  for (const char* name : {"a.obj", "b.ply", "folder.stl/C.PLY"}) CHECK(is_loop_file(name));
+  for (const char* name : {"a.txt", "obj", "a.obj.off", ""}) CHECK_FALSE(is_loop_file(name));
+  std::vector<HandleLoop> loops(2);
+  loops[0].points = {{0, 0, 0}, {1, 0, 0}, {0, 0.1, 0}};
+  loops[1].points = {{0, 0, 2}, {1, 0, 2}, {0, 1, 2}};
+  loops[1].filled = true;
+  const std::string obj = serialise_loops("a.obj", loops);
+  CHECK(obj.starts_with("# loops that handles were cut along\n# 1: cut along "));
+  CHECK(obj.find("\no cut_1\nv 0 0 0\nv 1 0 0\nv 0 0.1 0\nl 1 2 3 1\n# 2: closed along ") !=
+        std::string::npos);
+  CHECK(obj.ends_with("\no fill_2\nv 0 0 2\nv 1 0 2\nv 0 1 2\nl 4 5 6 4\n"));
+  const std::string ply = serialise_loops("a.ply", loops);
+  CHECK(ply.starts_with("ply\n"));
+  CHECK(
+      ply.ends_with("\nend_header\n0 0 0\n1 0 0\n0 0.1 0\n0 0 2\n1 0 2\n0 1 2\n"
+                    "0 1 1 0\n1 2 1 0\n2 0 1 0\n3 4 2 1\n4 5 2 1\n5 3 2 1\n"));
 }

@@ -224,6 +224,8 @@ TEST_CASE("vertex_data: a FreeSurfer label is one label, of a surface that is na
   CHECK(data.columns[0].values == std::vector<double>{0, 1, 0, 1});
   CHECK(data.labels.at(1).name == "cortex");
   CHECK(data.notes.at(0) == "not carried: the numbers of 1 of 2 vertices in the label");
+  // 0 and 1 say no more than that the vertex is in the label.
+  CHECK(read_values(replaced(bytes, "0.5", "1"), "lh.cortex.label", 4).notes.empty());
   CHECK(contains(values_complaint(bytes, "lh.cortex.label"), "name the surface"));
   CHECK(contains(values_complaint(bytes, "lh.cortex.label", 3), "names vertex 3 of 3"));
   CHECK(contains(values_complaint(replaced(bytes, "\n2\n", "\n3\n"), "a.label", 4),
@@ -240,12 +242,12 @@ TEST_CASE("vertex_data: an overlay in MGH has a column a frame, and is no volume
   std::string bytes = serialise_vertex_data("a.mgh", data);
   CHECK(bytes.size() == 284 + 32);
   check_same(read_values(bytes, "a.mgh"), data);
-  const std::string scanner = int32(0x44fa0000) + std::string(16, '\0');  // 2000 ms
+  const std::string scanner = int32(0x4426aaab) + std::string(16, '\0');  // 2000 ms / 3
   const VertexData series = read_values(bytes + scanner + "command", "a.mgh");
   CHECK(series.kind == DataKind::TimeSeries);
   CHECK(series.columns[1].values == data.columns[1].values);
   CHECK(series.notes ==
-        std::vector<std::string>{"not carried: the time between frames, 2000 ms",
+        std::vector<std::string>{"not carried: the time between frames, 666.667 ms",
                                  "not carried: 7 bytes after the values (how the file was made)"});
   CHECK(read_values(bytes + scanner, "a.mgh").notes.size() == 1);
   bytes.replace(8, 4, int32(2));  // the second size
@@ -253,6 +255,10 @@ TEST_CASE("vertex_data: an overlay in MGH has a column a frame, and is no volume
   bytes.replace(8, 4, int32(1));
   bytes.replace(20, 4, int32(7));
   CHECK(contains(values_complaint(bytes, "a.mgh"), "numbers of type 7"));
+  data.columns.resize(100, data.columns[0]);  // of more bytes than the header
+  bytes = serialise_vertex_data("a.mgh", data);
+  CHECK(bytes.size() == 284 + 1600);
+  check_same(read_values(bytes, "a.mgh"), data);
 }
 
 TEST_CASE("vertex_data: GIFTI keeps structure, intents, names and metadata, and gets a key 0") {

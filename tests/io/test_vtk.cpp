@@ -200,6 +200,15 @@ TEST_CASE("vtk: strips, and cells by offsets as version 5 writes them") {
   CHECK(stitched.notes ==
         std::vector<std::string>{
             "5 triangles of strips with a vertex twice: left out, as strips turn so"});
+  const MeshFile two = read(
+      "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"4\" NumberOfStrips=\"2\">"
+      "<Points><DataArray type=\"Float32\" NumberOfComponents=\"3\">1 1 1 -1 -1 1 -1 1 -1 1 -1 -1"
+      "</DataArray></Points><Strips><DataArray type=\"Int32\" Name=\"connectivity\">0 2 1 3 1 3 0 2"
+      "</DataArray><DataArray type=\"Int32\" Name=\"offsets\">4 8</DataArray></Strips><CellData>"
+      "<DataArray type=\"UInt8\" Name=\"a\">5 6</DataArray></CellData></Piece></PolyData>"
+      "</VTKFile>");
+  CHECK(two.mesh.triangles == strip.mesh.triangles);
+  CHECK(two.notes == std::vector<std::string>{"not carried: array 'a': of strips"});
   const MeshFile offsets =
       read(replaced(legacy_head, "3.0", "5.1") + points +
            "POLYGONS 5 12\nOFFSETS vtktypeint64\n0 3 6 9 12\nCONNECTIVITY vtktypeint64\n"
@@ -283,13 +292,14 @@ TEST_CASE("vtk: pieces are put together, with the arrays that all of them have")
   const std::string piece =
       "<Piece NumberOfPoints=\"4\" NumberOfPolys=\"4\"><PointData><DataArray type=\"UInt8\" "
       "Name=\"a\" format=\"ascii\">1 2 3 4</DataArray>EXTRA</PointData><CellData><DataArray "
-      "type=\"UInt8\" Name=\"c\" format=\"ascii\">5 6 7 8</DataArray></CellData><Points><DataArray "
-      "type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">1 1 1 -1 -1 1 -1 1 -1 1 -1 -1"
+      "type=\"UInt8\" Name=\"c\" format=\"ascii\">5 6 7 8</DataArray>EXTRA</CellData><Points>"
+      "<DataArray type=\"Float64\" NumberOfComponents=\"3\">1 1 1 -1 -1 1 -1 1 -1 1 -1 -1"
       "</DataArray></Points><Polys><DataArray type=\"Int32\" Name=\"connectivity\" "
       "format=\"ascii\">0 2 1 0 1 3 0 3 2 1 2 3</DataArray><DataArray type=\"Int32\" "
       "Name=\"offsets\" format=\"ascii\">3 6 9 12</DataArray></Polys></Piece>";
   const std::string extra =
-      "<DataArray type=\"UInt8\" Name=\"b\" format=\"ascii\">1 2 3 4</DataArray>";
+      "<DataArray type=\"UInt8\" Name=\"b\" format=\"ascii\">1 2 3 4</DataArray>"
+      "<Array type=\"String\" Name=\"d\">65 0 66 0 67 0 68 0</Array>";
   const MeshFile file =
       read("<VTKFile type=\"PolyData\"><PolyData>" + replaced(piece, "EXTRA", "") +
            replaced(piece, "EXTRA", extra) + "</PolyData></VTKFile>");
@@ -297,7 +307,21 @@ TEST_CASE("vtk: pieces are put together, with the arrays that all of them have")
   CHECK(file.mesh.triangles(4, 0) == 4);
   CHECK(values_of(file.find_vertex_property("a")).size() == 8);
   CHECK(values_of(file.find_face_property("c")) == std::vector<double>{5, 6, 7, 8, 5, 6, 7, 8});
-  CHECK(losses_among(file.notes).size() == 1);
+  const std::string no_b = "not carried: array 'b': not all pieces have it",
+                    no_d = "not carried: array 'd': it holds strings";
+  CHECK(file.notes == std::vector<std::string>{no_b, no_d, no_b, no_d});  // of points, of cells
+}
+
+TEST_CASE("vtk: limits of points and of cells hold at their value and not beyond") {
+  MeshFile file;
+  file.mesh = tetrahedron();
+  for (const auto serialise : {serialise_legacy_vtk, serialise_xml_vtk}) {
+    const std::string bytes = serialise(file, {});
+    CHECK(complaint(bytes, "a.vtk", {.max_vertices = 4, .max_faces = 4}).empty());
+    CHECK(contains(complaint(bytes, "a.vtk", {.max_vertices = 3}),
+                   "4 points are over the limit of 3"));
+    CHECK(contains(complaint(bytes, "a.vtk", {.max_faces = 3}), "4 cells are over the limit of 3"));
+  }
 }
 
 TEST_CASE("vtk: other data is refused by name, and what is wrong by its place") {
@@ -312,12 +336,17 @@ TEST_CASE("vtk: other data is refused by name, and what is wrong by its place") 
                  "point 3 is not finite"));
   CHECK(contains(complaint(replaced(tetrahedron_vtk, "4 float", "4000000 float")), "do not fit"));
   CHECK(contains(complaint(tetrahedron_vtk + "SCALERS a int\n"), "unknown keyword 'SCALERS'"));
+  // Of five letters there are four.
+  CHECK(contains(complaint(replaced(legacy_head, "ASCII", "BINARY") +
+                           "FIELD FieldData 1\ncomments 1 1 string\n\xc5word"),
+                 "the file ends within strings"));
 }
 
 TEST_CASE("vtk: a file that is cut short anywhere is refused or is whole without the rest") {
   for (const auto serialise : {serialise_legacy_vtk, serialise_xml_vtk}) {
     MeshFile file;
     file.mesh = tetrahedron();
+    file.comments = {"scanned by hand"};
     const std::string bytes = serialise(file, {});
     for (std::size_t size = 0; size < bytes.size(); ++size) {
       try {
