@@ -48,8 +48,10 @@ double pressed_gain_of(Quality quality) {
   return quality == Quality::Best ? least_gain_of(quality) : 1e-2;
 }
 
-PressedMap press(MapInProgress& work, const SphereMap& map, const std::vector<Pin>& pins,
+/// The same map where there are no fillers, or where they are small enough.
+PressedMap press(const MapInProgress& work, const SphereMap& map, const std::vector<Pin>& pins,
                  double known, double least_gain) {
+  if (work.options.fillers.empty()) return {map, 0, 0, 0};
   return press_fillers(work.topology, measure_source(work.mesh, work.options.threads), map,
                        work.options.filler_share,
                        {.energy = work.energy,
@@ -68,7 +70,7 @@ bool is_better(const PressedMap& one, const PressedMap& other, double most) {
 
 /// Settles what was pressed on its way. That way knows one start alone: where there are limbs or
 /// slivers the map made by `how`, without fillers, is pressed as much, and the better one taken.
-PressedMap settled(MapInProgress& work, const ProgressiveEmbedding& embedding,
+PressedMap settled(const MapInProgress& work, const ProgressiveEmbedding& embedding,
                    ProgressiveOptions how) {
   const Quality quality = work.options.quality;
   const double pressure = embedding.report.pressure;
@@ -115,8 +117,8 @@ std::string figure(double value) {
 
 }  // namespace
 
-SphereMap with_fillers_pressed(MapInProgress& work, SphereMap map, const std::vector<Pin>& pins) {
-  if (work.options.fillers.empty()) return map;
+SphereMap with_fillers_pressed(MapInProgress& work, const SphereMap& map,
+                               const std::vector<Pin>& pins) {
   PressedMap pressed = press(work, map, pins, 0, pressed_gain_of(work.options.quality));
   if (pressed.pressure > 0) work.record("fillers pressed", pressed.map);
   return std::move(pressed.map);
@@ -188,15 +190,13 @@ bool embed(MapInProgress& work, const std::vector<Pin>& pins) {
   if (!embedding.map) return false;
   work.record(pins.empty() ? "progressive embedding" : "pinned embedding", *embedding.map);
   if (balanced) *embedding.map = balance(work, *embedding.map, energy.lambda, pins);
-  if (!balanced && embedding.report.pressure > 0) {
-    *embedding.map = settled(work, embedding, how).map;
-    work.record("fillers pressed", *embedding.map);
-  } else {
-    *embedding.map = with_fillers_pressed(work, *std::move(embedding.map), pins);
-  }
-  work.accept(balanced ? balanced_map : "progressive embedding", std::move(*embedding.map));
-  if (!balanced && work.options.fillers.empty())
-    work.result.energy_gap = embedding.report.energy_left;
+  PressedMap pressed =
+      !balanced && embedding.report.pressure > 0
+          ? settled(work, embedding, how)
+          : press(work, *embedding.map, pins, 0, pressed_gain_of(work.options.quality));
+  if (pressed.pressure > 0) work.record("fillers pressed", pressed.map);
+  work.accept(balanced ? balanced_map : "progressive embedding", std::move(pressed.map));
+  if (!balanced && pressed.pressure == 0) work.result.energy_gap = embedding.report.energy_left;
   return true;
 }
 

@@ -15,7 +15,8 @@ bool embed(MapInProgress& work, const std::vector<Pin>& pins);
 
 /// The map with fillers pressed to what they may take of the sphere, pins where they are; as it is
 /// where that is so.
-SphereMap with_fillers_pressed(MapInProgress& work, SphereMap map, const std::vector<Pin>& pins);
+SphereMap with_fillers_pressed(MapInProgress& work, const SphereMap& map,
+                               const std::vector<Pin>& pins);
 
 /// Warns where the map is not what the balance asked for promises, with the figure it reached:
 /// `work.result.balance` gets that of the finished map.

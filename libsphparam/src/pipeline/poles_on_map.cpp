@@ -66,8 +66,8 @@ void settle(MapInProgress& work, PolePlacement& placement) {
 void press_again(MapInProgress& work, PolePlacement& placement) {
   if (work.options.method != Method::Progressive) return;
   const Vector3 up = Vector3::UnitZ();
-  placement.map = with_fillers_pressed(work, std::move(placement.map),
-                                       {{placement.north, up}, {placement.south, -up}});
+  placement.map =
+      with_fillers_pressed(work, placement.map, {{placement.north, up}, {placement.south, -up}});
 }
 
 }  // namespace
