@@ -164,7 +164,7 @@ TEST_CASE("pressed fillers: limbs fold as well around them as without, by all qu
     CHECK(sphere_share(mesh.triangles, map, fillers) <= 0.02);
     // As they count, once they are pressed.
     return press_fillers(topology, source, map, 0.02, {.max_steps = 0, .pressed = fillers}, 1)
-        .energy;
+        .energy.value();
   };
   const double best = energy(Quality::Best);
   CHECK(energy(Quality::Normal) < 1.01 * best);

@@ -117,7 +117,7 @@ struct Parameterization {
   /// shape with protrusions: an estimate of the share of its energy that more steps would take,
   /// made on the mesh itself; 0 is converged. A warning tells of more than the greatest for its
   /// quality (above). Of much distorted shapes it is at least how far two starts ended from each
-  /// other; otherwise it knows of no other minimum.
+  /// other; otherwise it knows of no other minimum. Nothing where fillers had to be pressed.
   std::optional<double> energy_gap;
   /// Of Method::Progressive with a `balance` to find, or a λ far from 1; empty where none was made.
   std::optional<BalanceRecord> balance;

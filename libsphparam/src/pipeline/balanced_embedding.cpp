@@ -43,15 +43,26 @@ double least_gain_of(Quality quality) {
   return quality == Quality::Draft ? 1e-2 : quality == Quality::Normal ? 1e-3 : 1e-6;
 }
 
-/// Of the steps that settle fillers where sweeps nearly do.
-double pressed_gain_of(Quality quality) {
-  return quality == Quality::Best ? least_gain_of(quality) : 1e-2;
+ProgressiveOptions embedding_options(const MapInProgress& work, const std::vector<Pin>& pins) {
+  return {.quality = work.options.quality,
+          .sweeps = work.options.sweeps,
+          .pins = pins,
+          .free_map = !pins.empty() && work.certified() ? &work.result.map : nullptr,
+          .fillers = work.options.fillers,
+          .filler_share = work.options.filler_share,
+          .threads = work.options.threads,
+          .progress = work.options.progress};
+}
+
+/// Of the steps that settle fillers, where sweeps nearly do or not.
+double settling_gain_of(Quality quality, bool sweeps_sufficed) {
+  return sweeps_sufficed && quality == Quality::Normal ? 1e-2 : least_gain_of(quality);
 }
 
 /// The same map where there are no fillers, or where they are small enough.
 PressedMap press(const MapInProgress& work, const SphereMap& map, const std::vector<Pin>& pins,
                  double known, double least_gain) {
-  if (work.options.fillers.empty()) return {map, 0, 0, 0};
+  if (work.options.fillers.empty()) return {map, 0, 0};
   return press_fillers(work.topology, measure_source(work.mesh, work.options.threads), map,
                        work.options.filler_share,
                        {.energy = work.energy,
@@ -68,21 +79,19 @@ bool is_better(const PressedMap& one, const PressedMap& other, double most) {
   return one.share < other.share;
 }
 
-/// Settles what was pressed on its way. That way knows one start alone: where there are limbs or
-/// slivers the map made by `how`, without fillers, is pressed as much, and the better one taken.
+/// Settles what was pressed on its way. That way knows one start alone: where sweeps do not suffice
+/// the map made by `how`, without fillers, is pressed as much, and the better one taken.
 PressedMap settled(const MapInProgress& work, const ProgressiveEmbedding& embedding,
-                   ProgressiveOptions how) {
-  const Quality quality = work.options.quality;
+                   ProgressiveOptions how, double least_gain) {
   const double pressure = embedding.report.pressure;
-  if (embedding.report.sweeps_sufficed)
-    return press(work, *embedding.map, how.pins, pressure, pressed_gain_of(quality));
-  PressedMap settled = press(work, *embedding.map, how.pins, pressure, least_gain_of(quality));
+  PressedMap on_the_way = press(work, *embedding.map, how.pins, pressure, least_gain);
+  if (embedding.report.sweeps_sufficed) return on_the_way;
   how.fillers.clear();
-  how.quality = std::min(quality, Quality::Normal);
+  how.quality = std::min(how.quality, Quality::Normal);
   const ProgressiveEmbedding whole = embed_progressively(work.mesh, work.topology, how);
-  if (!whole.map) return settled;
-  PressedMap other = press(work, *whole.map, how.pins, pressure, least_gain_of(quality));
-  return is_better(other, settled, work.options.filler_share) ? other : settled;
+  if (!whole.map) return on_the_way;
+  PressedMap at_last = press(work, *whole.map, how.pins, pressure, least_gain);
+  return is_better(at_last, on_the_way, work.options.filler_share) ? at_last : on_the_way;
 }
 
 SphereMap balance(MapInProgress& work, const SphereMap& map, double from_lambda,
@@ -117,11 +126,13 @@ std::string figure(double value) {
 
 }  // namespace
 
-SphereMap with_fillers_pressed(MapInProgress& work, const SphereMap& map,
-                               const std::vector<Pin>& pins) {
-  PressedMap pressed = press(work, map, pins, 0, pressed_gain_of(work.options.quality));
-  if (pressed.pressure > 0) work.record("fillers pressed", pressed.map);
-  return std::move(pressed.map);
+bool press_fillers_again(MapInProgress& work, SphereMap& map, const std::vector<Pin>& pins) {
+  PressedMap pressed = press(work, map, pins, 0, settling_gain_of(work.options.quality, true));
+  if (!pressed.energy) return false;
+  work.record("fillers pressed", pressed.map);
+  map = std::move(pressed.map);
+  work.result.energy_gap.reset();
+  return true;
 }
 
 void warn_of_balance(MapInProgress& work) {
@@ -176,27 +187,21 @@ bool embed(MapInProgress& work, const std::vector<Pin>& pins) {
   DistortionEnergy energy = work.options.energy;
   const bool balanced = needs_balancing(work.options);
   if (balanced) energy.lambda = first_lambda(work.options);
-  const ProgressiveOptions how{
-      .energy = energy,
-      .quality = balanced ? std::min(work.options.quality, Quality::Normal) : work.options.quality,
-      .sweeps = work.options.sweeps,
-      .pins = pins,
-      .free_map = !pins.empty() && work.certified() ? &work.result.map : nullptr,
-      .fillers = work.options.fillers,
-      .filler_share = work.options.filler_share,
-      .threads = work.options.threads,
-      .progress = work.options.progress};
+  ProgressiveOptions how = embedding_options(work, pins);
+  how.energy = energy;
+  if (balanced) how.quality = std::min(how.quality, Quality::Normal);
   ProgressiveEmbedding embedding = embed_progressively(work.mesh, work.topology, how);
   if (!embedding.map) return false;
   work.record(pins.empty() ? "progressive embedding" : "pinned embedding", *embedding.map);
   if (balanced) *embedding.map = balance(work, *embedding.map, energy.lambda, pins);
-  PressedMap pressed =
-      !balanced && embedding.report.pressure > 0
-          ? settled(work, embedding, how)
-          : press(work, *embedding.map, pins, 0, pressed_gain_of(work.options.quality));
-  if (pressed.pressure > 0) work.record("fillers pressed", pressed.map);
+  const double least_gain =
+      settling_gain_of(work.options.quality, embedding.report.sweeps_sufficed);
+  PressedMap pressed = !balanced && embedding.report.pressure > 0
+                           ? settled(work, embedding, how, least_gain)
+                           : press(work, *embedding.map, pins, 0, least_gain);
+  if (pressed.energy) work.record("fillers pressed", pressed.map);
   work.accept(balanced ? balanced_map : "progressive embedding", std::move(pressed.map));
-  if (!balanced && pressed.pressure == 0) work.result.energy_gap = embedding.report.energy_left;
+  if (!balanced && !pressed.energy) work.result.energy_gap = embedding.report.energy_left;
   return true;
 }
 

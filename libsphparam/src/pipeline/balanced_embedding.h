@@ -10,13 +10,12 @@ namespace sphparam {
 /// The progressive embedding around the pins, then, where λ is far from 1 or to be found, its
 /// balance of angles and areas; `work.energy` gets the λ that it found. False: the embedding ran
 /// out of room, and nothing has changed but `work.tried_to_embed`. True: its map is the map so far,
-/// certified or not.
+/// certified or not. Of a certified map so far, made without them, the pins may keep its folds.
 bool embed(MapInProgress& work, const std::vector<Pin>& pins);
 
-/// The map with fillers pressed to what they may take of the sphere, pins where they are; as it is
-/// where that is so.
-SphereMap with_fillers_pressed(MapInProgress& work, const SphereMap& map,
-                               const std::vector<Pin>& pins);
+/// Presses fillers that take more of the sphere than they may, pins where they are. False: none
+/// does, and the map stays. True: no energy gap is known any more.
+bool press_fillers_again(MapInProgress& work, SphereMap& map, const std::vector<Pin>& pins);
 
 /// Warns where the map is not what the balance asked for promises, with the figure it reached:
 /// `work.result.balance` gets that of the finished map.

@@ -42,9 +42,13 @@ void go_without_poles(MapInProgress& work, const std::string& reason) {
   if (work.options.meridian) turn(work, work.result.map, *work.options.meridian);
 }
 
-/// Of maps that were made for their energy.
+double energy_of(MapInProgress& work, const SphereMap& map) {
+  return distortion_energy(work.topology, work.source(), map, work.energy, work.options.threads);
+}
+
+/// Of maps that were made for their energy alone.
 void settle(MapInProgress& work, PolePlacement& placement) {
-  if (!work.result.energy_gap) return;
+  if (!work.result.energy_gap || !work.options.fillers.empty()) return;
   const Settling& how = work.options.quality == Quality::Best ? thorough : brief;
   if (!(placement.energy_after > (1 + how.least_cost) * placement.energy_before)) return;
   SphereMap settled = optimise(work.topology, work.source(), placement.map,
@@ -55,8 +59,7 @@ void settle(MapInProgress& work, PolePlacement& placement) {
                                 .threads = work.options.threads,
                                 .progress = work.options.progress})
                           .map;
-  const double energy =
-      distortion_energy(work.topology, work.source(), settled, work.energy, work.options.threads);
+  const double energy = energy_of(work, settled);
   if (!(energy < placement.energy_after)) return;  // steps see the source rounded to floats
   placement.map = std::move(settled);
   placement.energy_after = energy;
@@ -66,8 +69,9 @@ void settle(MapInProgress& work, PolePlacement& placement) {
 void press_again(MapInProgress& work, PolePlacement& placement) {
   if (work.options.method != Method::Progressive) return;
   const Vector3 up = Vector3::UnitZ();
-  placement.map =
-      with_fillers_pressed(work, placement.map, {{placement.north, up}, {placement.south, -up}});
+  const std::vector<Pin> poles{{placement.north, up}, {placement.south, -up}};
+  if (!press_fillers_again(work, placement.map, poles)) return;
+  placement.energy_after = energy_of(work, placement.map);
 }
 
 }  // namespace

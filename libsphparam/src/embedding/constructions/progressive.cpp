@@ -44,6 +44,7 @@ constexpr int shape_sweeps = 30;  // of relaxation, where the embedding knew not
 constexpr double roomier_lambdas[] = {10, 100, 1000};
 // Of moves of pins from where the free map has them: they cost every vertex a distance from each.
 constexpr double most_free_map_rounds = 20, free_map_work = 5e7;
+constexpr double alike = 1e-9;  // radians by which two maps miss their pins
 constexpr int free_map_sweeps = 5;
 constexpr double far_from_energy = 0.1;  // the share that steps to come would take
 // Times an isometry's energy, before the finest level gets its steps: worth another start.
@@ -101,7 +102,10 @@ class Starts {
     const bool best = options_.quality == Quality::Best;
     const double demanding = best ? much_for_best : much_energy;
     lowest_ = embed_with_room(wanted_, demanding, blocked_in_a_row);
-    if (lowest_.report.pressure > 0) return std::move(lowest_);
+    if (lowest_.report.pressure > 0) {
+      rising_.end();
+      return std::move(lowest_);
+    }
     const bool sufficed = lowest_.map && lowest_.report.sweeps_sufficed;
     if (!sufficed && (!try_free_map() || best)) try_more(demanding);
     if (!lowest_.map) return std::move(lowest_);
@@ -130,6 +134,7 @@ class Starts {
     embedding.map = map_of(image);
     embedding.report.energy_left = refinement.energy_left();
     embedding.report.left_slivers = refinement.left_slivers();
+    embedding.report.pressure = 0;  // steps know of none
   }
 
  private:
@@ -163,11 +168,11 @@ class Starts {
   }
 
   /// The pins, led from where the free map has them; the rest stays folded as it is there. Is that
-  /// the lowest now?
+  /// as good as the lowest, or is now?
   bool try_free_map() {
-    if (!options_.free_map) return false;
+    if (!options_.free_map || options_.pins.empty()) return false;
     rising_.begin(part_of_start);
-    const double rounds = free_map_work / pairs_of_pins();
+    const double rounds = free_map_work / work_of_pins();
     const LandmarkPlacement placed =
         place_landmarks(topology_, source(), *options_.free_map, options_.pins,
                         {.energy = wanted_,
@@ -180,22 +185,28 @@ class Starts {
     ProgressiveEmbedding start{placed.map, {}};
     refine(start, steps(wanted_, made_quality()));
     if (lowest_.map) energy_ = energy_of(*lowest_.map);
-    if (keep_lower(std::move(start)) != Found::Lower) return false;
-    lowest_.report.demanding = false;
-    return true;
+    give_steps_unless(start);
+    return keep_lower(std::move(start)) != Found::Higher;
   }
 
-  double pairs_of_pins() const {
-    return static_cast<double>(options_.pins.size()) * topology_.vertex_count();
+  /// Of a round that moves them.
+  double work_of_pins() const {
+    const auto pins = static_cast<double>(options_.pins.size());
+    return pins * (topology_.vertex_count() + pins * pins);
   }
 
-  /// Than by the lowest map, in radians of all pins together.
+  /// Than by the lowest map, in radians of all pins together. Only exact ones are better than next
+  /// to exact ones.
   double nearer_pins(const SphereMap& map) const {
-    const auto missed_by = [&](const SphereMap& of) {
-      const std::vector<double> residuals = pin_residuals(of, options_.pins);
-      return std::accumulate(residuals.begin(), residuals.end(), 0.0);
-    };
-    return lowest_.map ? missed_by(*lowest_.map) - missed_by(map) : infinity;
+    if (!lowest_.map) return infinity;
+    const double before = missed_by(*lowest_.map), now = missed_by(map);
+    const bool are_alike = before > 0 && now > 0 && std::abs(before - now) < alike;
+    return are_alike ? 0 : before - now;
+  }
+
+  double missed_by(const SphereMap& map) const {
+    const std::vector<double> residuals = pin_residuals(map, options_.pins);
+    return std::accumulate(residuals.begin(), residuals.end(), 0.0);
   }
 
   /// Other starts, where sweeps did not suffice.
@@ -284,7 +295,7 @@ class Starts {
     }
   }
 
-  /// Of a map that did not wait for its steps: it found no room at first, or has fillers.
+  /// Of a map that does not wait for its steps.
   bool is_much() const { return energy_ > much_for_best * isometric_energy(source(), wanted_, {}); }
 
   /// Where minima may be many, of how much energy may be left says also how far two are apart.
@@ -292,7 +303,7 @@ class Starts {
     if (energy_ <= many_minima * isometric_energy(source(), wanted_, {})) return;
     const double one = energy_;
     try_nearly_conformal(others_nearly_conformal[0]);
-    apart_ = std::abs(latest_ - one) / energy_;
+    if (latest_) apart_ = std::abs(*latest_ - one) / energy_;
   }
 
   bool is_draft() const { return options_.quality == Quality::Draft; }
@@ -314,19 +325,26 @@ class Starts {
     if (left) left = std::max(*left, apart_);
   }
 
-  /// The first map waits for its steps until it is clear that it needs them: where the best is
-  /// wanted it does.
   Found try_nearly_conformal(double lambda) {
     rising_.begin(part_of_start);
     ProgressiveEmbedding start = embed({.lambda = lambda}, made_quality());
     lead(start, lambda, up);
-    if (lowest_.report.demanding && (options_.quality == Quality::Best || !start.map ||
-                                     !(energy_of(*start.map) < clearly_lower * energy_))) {
-      refine(lowest_, steps(wanted_, made_quality()));
-      energy_ = energy_of(*lowest_.map);
-    }
-    lowest_.report.demanding = false;
+    give_steps_unless(start);
     return keep_lower(std::move(start));
+  }
+
+  /// The first map waits for its steps until it is clear that it needs them: where the best is
+  /// wanted it does, and else where the start is not clearly better.
+  void give_steps_unless(const ProgressiveEmbedding& start) {
+    if (!std::exchange(lowest_.report.demanding, false)) return;
+    if (options_.quality != Quality::Best && start.map && is_clearly_better(*start.map)) return;
+    refine(lowest_, steps(wanted_, made_quality()));
+    energy_ = energy_of(*lowest_.map);
+  }
+
+  bool is_clearly_better(const SphereMap& map) const {
+    const double nearer = nearer_pins(map);
+    return nearer > 0 || (nearer == 0 && energy_of(map) < clearly_lower * energy_);
   }
 
   /// Not a number: nobody knows.
@@ -348,10 +366,11 @@ class Starts {
 
   /// Of maps that miss pins alike; else the one that misses them less.
   Found keep_lower(ProgressiveEmbedding start) {
+    latest_.reset();
     if (!start.map) return Found::Higher;
-    const double nearer = nearer_pins(*start.map);
-    if (nearer < 0) return Found::Higher;
-    const double energy = latest_ = energy_of(*start.map);
+    const double nearer = nearer_pins(*start.map), energy = energy_of(*start.map);
+    if (nearer < 0 || !std::isfinite(energy)) return Found::Higher;
+    latest_ = energy;
     const bool same = nearer == 0 && std::abs(energy - energy_) <= agreement * energy_;
     if (nearer == 0 && !(energy < energy_)) return same ? Found::Same : Found::Higher;
     energy_ = energy;
@@ -379,7 +398,8 @@ class Starts {
   const Progress progress_;
   ProgressiveEmbedding lowest_;
   // As wanted: of the lowest map, the first, and the one that came last.
-  double energy_ = 0, first_energy_ = 0, latest_ = 0;
+  double energy_ = 0, first_energy_ = 0;
+  std::optional<double> latest_;
   double apart_ = 0;      // two minima, as a share of the energy
   double fatness_ = 0;    // of all that is measured
   bool slimmed_ = false;  // the lowest map, from fattened slivers
@@ -432,6 +452,8 @@ ProgressiveEmbedding embed_progressively(const TriangleMesh& mesh, const Topolog
   KeptVertices keep{{}, std::max(options.pin_level, 20 * static_cast<int>(options.pins.size()))};
   for (const Pin& pin : options.pins) keep.vertices.push_back(pin.vertex);
   ProgressiveEmbedding embedding = Starts(mesh, topology, options, keep).lowest();
+  if (embedding.map && !options.pins.empty())
+    embedding.report.pin_residuals = pin_residuals(*embedding.map, options.pins);
   give_back_freed_memory();  // before the caller measures and turns the map
   if (embedding.map) return embedding;
   const int retries = embedding.report.retries;

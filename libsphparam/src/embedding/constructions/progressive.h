@@ -78,7 +78,7 @@ struct ProgressiveEmbedding {
 /// cut steps short or left no room, or much is left in the end, all that is done as if they were
 /// fatter, and they are slimmed in the end. A map with pressed fillers has one start. With a free
 /// map its pins are led to their points where sweeps do not suffice, on all the mesh, and the rest
-/// is done only if that misses pins that others reach, is not lower, or the best is wanted.
+/// is done only if that comes no nearer to the pins and is higher, or the best is wanted.
 /// Of the maps that come nearest to the pins the one of least energy is returned; where more than
 /// 0.5 % of its energy is left (by Quality::Draft 3 %), or two starts end 1 % apart, after up to
 /// 1200 steps (300; slimmed maps 60) as Quality::Best makes them. Paper: Praun and Hoppe,

@@ -46,7 +46,8 @@ struct LandmarkPlacement {
 /// Throws: std::invalid_argument for pins that are no vertices, twice the same, or at points that
 ///         are not of unit length to 1e-6, and for options outside of their domain; Cancelled.
 /// Cost: a round takes `sweeps` of relaxation and O(#V·#pins + #pins³): meant for coarse meshes,
-///       see ProgressiveOptions::pins.
+/// see
+///       ProgressiveOptions::pins, and for few rounds on others.
 /// Our own; the field is the radial interpolation of Joshi and Miller, "Landmark matching via large
 /// deformation diffeomorphisms" (2000).
 LandmarkPlacement place_landmarks(const Topology& topology, const RestTriangles& source,

@@ -64,11 +64,9 @@ class Press {
     for (unsigned char& mark : options_.pressed) mark = mark ? 0 : 1;
   }
 
-  PressedMap measured(SphereMap map, double pressure) const {
-    const double share = sphere_share(triangles_, map, fillers_);
-    const double energy =
-        distortion_energy(topology_, source_, map, options_.energy, options_.threads);
-    return {std::move(map), share, pressure, energy};
+  double share_of(const SphereMap& map) const { return sphere_share(triangles_, map, fillers_); }
+  double energy_of(const SphereMap& map) const {
+    return distortion_energy(topology_, source_, map, options_.energy, options_.threads);
   }
 
   /// The map for a reward, well enough to go on from.
@@ -111,7 +109,8 @@ class Press {
   PressedMap at(const SphereMap& from, double pressure, OptimiseOptions options) const {
     options.energy.pressure = -pressure;
     SphereMap map = optimise(topology_, source_, from, options).map;
-    return measured(std::move(map), std::abs(pressure));
+    const double share = share_of(map);
+    return {std::move(map), share, std::abs(pressure)};
   }
 
   const Topology& topology_;
@@ -165,17 +164,18 @@ std::pair<double, double> pressed_areas(double of_fillers, double of_surface, do
 PressedMap press_fillers(const Topology& topology, RestTriangles source, const SphereMap& map,
                          double most, const OptimiseOptions& options, double known) {
   const Press press(topology, source, options);
-  PressedMap before = press.measured(map, known);
-  if (before.share <= most && !(known > 0)) return before;
+  const double before = press.share_of(map), first = std::max(options.energy.lambda, 1.0);
+  if (before <= most && !(known > 0)) return {map, before, 0};
   shrink(source, options.pressed, most);
-  const double first = std::max(options.energy.lambda, 1.0);
-  PressedMap result =
-      press.settled(known > 0 ? before : rewarded(press, map, most * (1 - margin), first));
+  PressedMap result = press.settled(known > 0 ? PressedMap{map, before, known}
+                                              : rewarded(press, map, most * (1 - margin), first));
   for (int i = 0; i < most_retries && result.share > most; ++i) {
     result.pressure = std::max(result.pressure, 1.0) * retry_raise;
     result = press.settled(result);
   }
-  return pressed_out(press, std::move(result), most, first);
+  result = pressed_out(press, std::move(result), most, first);
+  result.energy = press.energy_of(result.map);
+  return result;
 }
 
 }  // namespace sphparam

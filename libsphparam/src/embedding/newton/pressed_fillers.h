@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <utility>
 
 #include "embedding/newton/optimise.h"
@@ -10,7 +11,9 @@ struct PressedMap {
   SphereMap map;
   double share;     // of the sphere that fillers take
   double pressure;  // that was needed, on the surface outwards or on fillers inwards: 0 or more
-  double energy;    // E without the reward, fillers and surface by the areas that they count with
+  /// E without the reward, by the areas that count where fillers are pressed; nothing: the map is
+  /// as it was.
+  std::optional<double> energy = std::nullopt;
 };
 
 /// Lowers the share of the sphere that fillers take to `most` or less, where it is more, and the
