@@ -221,7 +221,7 @@ TEST_CASE("kept holes: remesh tells where a grid is too coarse for them, and onl
     CHECK(ended.code == 0);
     return ended.err;
   };
-  CHECK_THAT(told("ico:1"), Contains("2 holes before, ") && Contains("a finer grid"));
+  CHECK_THAT(told("ico:0"), Contains("2 holes before, ") && Contains("a finer grid"));
   CHECK_THAT(told("ico:7"), !Contains("a finer grid"));
 }
 
