@@ -24,19 +24,29 @@ namespace {
 using namespace sphparam;
 using namespace sphparam::tests;
 
-/// Of every triangle whether it is no surface, where a recipe has as many bits; pins anywhere.
-void add_pins_and_fillers(ParameterizeOptions& options, Recipe& recipe, int vertices) {
-  for (unsigned pins = recipe.byte() % 5; pins > 0; --pins) {
+bool is_held(const ParameterizeOptions& options, Vertex vertex) {
+  if (options.poles && (vertex == options.poles->north || vertex == options.poles->south))
+    return true;
+  return std::ranges::any_of(options.pins,
+                             [&](const Landmark& pin) { return pin.vertex == vertex; });
+}
+
+/// Anywhere, but no two at one point.
+void add_pins(ParameterizeOptions& options, Recipe& recipe, int vertices) {
+  const unsigned pins = recipe.byte() % 5;
+  for (unsigned i = 0; i < pins; ++i) {
     const int vertex = static_cast<int>(recipe.byte()) % vertices;
-    const bool is_pinned = std::ranges::any_of(
-        options.pins, [&](const Landmark& pin) { return pin.vertex == vertex; });
-    const SphericalCoordinates at{recipe.byte() / 41.0, recipe.byte() / 82.0};
-    if (!is_pinned) options.pins.push_back({vertex, at});
+    const SphericalCoordinates at{recipe.byte() / 41.0, 0.01 * i + recipe.byte() / 85.0};
+    if (!is_held(options, vertex)) options.pins.push_back({vertex, at});
   }
+}
+
+/// Any triangles but all.
+void add_fillers(ParameterizeOptions& options, Recipe& recipe, int vertices) {
   options.filler_share = (1 + recipe.byte() % 64) / 64.0;
-  if (recipe.byte() % 2 == 0) return;
   const int faces = 2 * vertices - 4;
   for (int f = 0; f < faces; ++f) options.fillers.push_back(recipe.byte() % 4 == 3 ? 1 : 0);
+  options.fillers.back() = 0;
 }
 
 ParameterizeOptions options_of(Recipe& recipe, int vertices) {
@@ -61,7 +71,11 @@ ParameterizeOptions options_of(Recipe& recipe, int vertices) {
     const int south = static_cast<int>(recipe.byte()) % vertices;
     if (north != south) options.poles = Poles{north, south};
   }
-  if (what & 32) add_pins_and_fillers(options, recipe, vertices);
+  if (what & 32) {
+    const unsigned held = recipe.byte();
+    if (held & 1 && options.method != Method::Radial) add_pins(options, recipe, vertices);
+    if (held & 2) add_fillers(options, recipe, vertices);
+  }
   if (what & 128) {
     constexpr double lambdas[] = {1e-8, 1e-2, 0.3, 2, 30, 1000};
     options.energy.lambda = lambdas[recipe.byte() % std::size(lambdas)];

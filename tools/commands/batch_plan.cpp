@@ -105,8 +105,7 @@ bool dry_run(const std::string& folder, const BatchPlan& plan, Session& session)
   for (std::size_t k = 0; k < std::min(dry_items, order.size()); ++k)
     options.only.push_back(order[(2 * k + 1) * order.size() / (2 * dry_items)]);
   std::ranges::sort(options.only);
-  const auto repeated = std::ranges::unique(options.only);
-  options.only.erase(repeated.begin(), repeated.end());
+  options.only.erase(std::unique(options.only.begin(), options.only.end()), options.only.end());
   options.workers = 1;
   options.run_step = [](const BatchStep& words, const BatchStepSetting& step) {
     return run_batch_step(words, step.report, step.threads);

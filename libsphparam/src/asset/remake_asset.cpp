@@ -184,7 +184,7 @@ std::vector<std::string> drop_unusable_images(MeshFile& file) {
   for (size_t i = 0; i < file.channels.size(); ++i)
     for (MaterialTexture* texture : file.channels[i].textures()) check(*texture, i);
   std::ranges::sort(told);
-  told.erase(std::ranges::unique(told).begin(), told.end());
+  told.erase(std::unique(told.begin(), told.end()), told.end());
   return told;
 }
 

@@ -99,14 +99,14 @@ void CompositionNewton::gather(Vertex v, const std::vector<FaceTerms>& terms) {
   double* values = hessian_.valuePtr();
   const std::array<int, 2> first{outer[2 * i], outer[2 * i + 1]};
   std::fill(values + first[0], values + outer[2 * i + 2], 0.0);
-  auto [gradient, own] = surface_.feature_terms(v);
-  values[first[0]] = own(0, 0);
-  values[first[0] + 1] = own(1, 0);
-  values[first[1]] = own(1, 1);
+  MovingSurface::FeatureTerms own = surface_.feature_terms(v);
+  values[first[0]] = own.hessian(0, 0);
+  values[first[0] + 1] = own.hessian(1, 0);
+  values[first[1]] = own.hessian(1, 1);
   topology.for_each_outgoing(v, [&](Halfedge h) {
     const FaceTerms& t = terms[at(h / 3)];
     const int k = h % 3;
-    gradient += t.gradient.segment<2>(2 * k);
+    own.gradient += t.gradient.segment<2>(2 * k);
     values[first[0]] += t.hessian(2 * k, 2 * k);
     values[first[0] + 1] += t.hessian(2 * k + 1, 2 * k);
     values[first[1]] += t.hessian(2 * k + 1, 2 * k + 1);
@@ -121,7 +121,7 @@ void CompositionNewton::gather(Vertex v, const std::vector<FaceTerms>& terms) {
       }
     }
   });
-  gradient_.segment<2>(2 * i) = gradient;
+  gradient_.segment<2>(2 * i) = own.gradient;
 }
 
 void CompositionNewton::assemble(const ComposedEnergy& energy) {

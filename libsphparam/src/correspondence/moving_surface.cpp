@@ -145,13 +145,13 @@ bool MovingSurface::step(Vertex v, const ComposedEnergy& energy) {
   const Place& from = place(v);
   const double before = ring_energy(v, from, energy);
   if (!std::isfinite(before)) return false;
-  auto [gradient, hessian] = feature_terms(v);
+  FeatureTerms sum = feature_terms(v);
   topology_.for_each_outgoing(v, [&](Halfedge h) {
     const ComposedTerms of_face = terms(h / 3, energy);
-    gradient += of_face.gradient.segment<2>(2 * (h % 3));
-    hessian += of_face.hessian.block<2, 2>(2 * (h % 3), 2 * (h % 3));
+    sum.gradient += of_face.gradient.segment<2>(2 * (h % 3));
+    sum.hessian += of_face.hessian.block<2, 2>(2 * (h % 3), 2 * (h % 3));
   });
-  const Eigen::Vector2d u = descent(hessian, gradient);
+  const Eigen::Vector2d u = descent(sum.hessian, sum.gradient);
   if (!u.allFinite() || u.isZero(0)) return false;
   Vector3 way = u[0] * from.frame.u + u[1] * from.frame.v;
   way *= std::min(1.0, longest_way / way.norm());

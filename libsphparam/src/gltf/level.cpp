@@ -30,7 +30,7 @@ void warn_of_folds(const std::string& name, const ChartFigures& figures, bool to
   std::vector<Face> wrong = stored.folded;
   wrong.insert(wrong.end(), stored.around_pole.begin(), stored.around_pole.end());
   std::ranges::sort(wrong);
-  wrong.erase(std::ranges::unique(wrong).begin(), wrong.end());
+  wrong.erase(std::unique(wrong.begin(), wrong.end()), wrong.end());
   if (wrong.empty() && !stored.one_to_one()) {
     warnings.push_back(name + ": not one-to-one in (u, v) as stored, " +
                        std::to_string(stored.torn.size()) + " edges torn");

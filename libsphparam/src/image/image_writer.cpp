@@ -132,14 +132,15 @@ void ImageWriter::State::require_bytes() {
 /// JPEG and TIFF have no place for names, so all texts are one.
 void ImageWriter::State::require_texts(const ImageTexts& found) const {
   const bool has_names = options.format == ImageFormat::Png || options.format == ImageFormat::Exr;
-  for (const auto& [name, value] : options.metadata) {
-    if (!name.starts_with("sphparam:")) continue;
+  for (const auto& wanted : options.metadata) {
+    if (!wanted.first.starts_with("sphparam:")) continue;
+    const std::string line = wanted.first + "=" + wanted.second;
     const bool there = std::ranges::any_of(found, [&](const auto& text) {
-      return has_names ? text.first == name && text.second == value
-                       : text.first == "ImageDescription" &&
-                             text.second.find(name + "=" + value) != std::string::npos;
+      return has_names
+                 ? text == wanted
+                 : text.first == "ImageDescription" && text.second.find(line) != std::string::npos;
     });
-    if (!there) refuse("its metadata lack " + name);
+    if (!there) refuse("its metadata lack " + wanted.first);
   }
 }
 
