@@ -60,9 +60,9 @@ double settling_gain_of(Quality quality, bool sweeps_sufficed) {
 }
 
 /// The same map where there are no fillers, or where they are small enough.
-PressedMap press(const MapInProgress& work, const SphereMap& map, const std::vector<Pin>& pins,
+PressedMap press(const MapInProgress& work, SphereMap map, const std::vector<Pin>& pins,
                  double known, double least_gain) {
-  if (work.options.fillers.empty()) return {map, 0, 0};
+  if (work.options.fillers.empty()) return {std::move(map), 0, 0};
   return press_fillers(work.topology, measure_source(work.mesh, work.options.threads), map,
                        work.options.filler_share,
                        {.energy = work.energy,
@@ -198,7 +198,7 @@ bool embed(MapInProgress& work, const std::vector<Pin>& pins) {
       settling_gain_of(work.options.quality, embedding.report.sweeps_sufficed);
   PressedMap pressed = !balanced && embedding.report.pressure > 0
                            ? settled(work, embedding, how, least_gain)
-                           : press(work, *embedding.map, pins, 0, least_gain);
+                           : press(work, *std::move(embedding.map), pins, 0, least_gain);
   if (pressed.energy) work.record("fillers pressed", pressed.map);
   work.accept(balanced ? balanced_map : "progressive embedding", std::move(pressed.map));
   if (!balanced && !pressed.energy) work.result.energy_gap = embedding.report.energy_left;
