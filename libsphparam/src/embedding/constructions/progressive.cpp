@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "elementary.h"
+#include "embedding/constructions/kneading.h"
 #include "embedding/constructions/level_embedding.h"
 #include "embedding/constructions/rising_progress.h"
 #include "embedding/constructions/slivers.h"
@@ -32,6 +33,8 @@
 // they are (slivers.cpp).
 // Around pins all starts have their way to find, and may fold what no pin asks for. A map without
 // pins has found its own: where one is known, the pins are led from where it has them.
+// Limbs that are long have more minima than starts find: the lowest map is kneaded (kneading.cpp),
+// as long as that lowers it.
 // Steps that stop with much left even so go on in the end as the best's do: of the lowest map
 // alone, and no longer than a budget lasts.
 
@@ -63,6 +66,19 @@ constexpr double agreement = 5e-4;  // of two minima's energies: they are one
 constexpr double much_left = 5e-3, much_left_of_draft = 3e-2, far_apart = 1e-2;
 constexpr Budget more_steps{2e6, 60, 1200}, more_for_draft{5e5, 20, 300};
 constexpr Budget more_for_slimmed{1e5, 10, 60};
+
+/// From so many times an isometry's energy on, as long as it gains: rounds × vertices at most.
+struct Kneading {
+  double demanding, least_gain, work;
+};
+constexpr Kneading kneading_of_draft{5, 1e-2, 2.5e4}, kneading_of_normal{5, 1e-3, 5e4},
+    kneading_of_best{3, 5e-4, 2e5};
+constexpr double least_kneaded = 0.1;  // λ: below, minima are few
+
+const Kneading& kneading_of(Quality quality) {
+  if (quality == Quality::Best) return kneading_of_best;
+  return quality == Quality::Draft ? kneading_of_draft : kneading_of_normal;
+}
 
 /// From λ to λ, a few steps at each.
 struct Way {
@@ -109,11 +125,13 @@ class Starts {
     const bool sufficed = lowest_.map && lowest_.report.sweeps_sufficed;
     if (!sufficed && (!try_free_map() || best)) try_more(demanding);
     if (!lowest_.map) return std::move(lowest_);
+    rising_.begin(part_of_start);
+    if (best) refine(lowest_, steps(wanted_, Quality::Best));
+    if (!sufficed && !slimmed_) knead_lowest();
     rising_.begin(1);
-    if (best)
-      refine(lowest_, steps(wanted_, Quality::Best));
-    else
-      go_on();
+    if (!best) go_on();
+    std::optional<double>& left = lowest_.report.energy_left;
+    if (left) left = std::max(*left, apart_);
     rising_.end();
     return std::move(lowest_);
   }
@@ -306,6 +324,28 @@ class Starts {
     if (latest_) apart_ = std::abs(*latest_ - one) / energy_;
   }
 
+  /// As long as that pays, the best each time as far as it goes. What the last round gained may be
+  /// left.
+  void knead_lowest() {
+    const Kneading& how = kneading_of(options_.quality);
+    energy_ = energy_of(*lowest_.map);
+    const double demanding = how.demanding * isometric_energy(source(), wanted_, {});
+    if (energy_ <= demanding || wanted_.lambda < least_kneaded) return;
+    const OptimiseOptions by = step_of({.lambda = wanted_.lambda}, 0, 0);
+    double rounds = how.work / topology_.vertex_count();
+    double gain = 0;
+    for (bool pays = true; pays && rounds >= 1; --rounds) {
+      const double before = energy_;
+      rising_.begin(part_of_start);
+      ProgressiveEmbedding start{knead(topology_, source(), *lowest_.map, by), {}};
+      refine(start, steps(wanted_, options_.quality));
+      keep_lower(std::move(start));
+      gain = (before - energy_) / energy_;
+      pays = gain > how.least_gain;
+    }
+    apart_ = std::max(apart_, gain);
+  }
+
   bool is_draft() const { return options_.quality == Quality::Draft; }
 
   bool ended_early() const {
@@ -315,14 +355,11 @@ class Starts {
 
   /// As the best does, where steps ended early or minima are far apart.
   void go_on() {
-    std::optional<double>& left = lowest_.report.energy_left;
-    if (ended_early() && !lowest_.report.sweeps_sufficed) {
-      RefinementOptions how = steps(wanted_, Quality::Best);
-      how.budget = is_draft() || slimmed_ ? more_for_draft : more_steps;
-      if (slimmed_ && left < much_left_of_draft) how.budget = more_for_slimmed;
-      refine(lowest_, how);
-    }
-    if (left) left = std::max(*left, apart_);
+    if (!ended_early() || lowest_.report.sweeps_sufficed) return;
+    RefinementOptions how = steps(wanted_, Quality::Best);
+    how.budget = is_draft() || slimmed_ ? more_for_draft : more_steps;
+    if (slimmed_ && lowest_.report.energy_left < much_left_of_draft) how.budget = more_for_slimmed;
+    refine(lowest_, how);
   }
 
   Found try_nearly_conformal(double lambda) {
