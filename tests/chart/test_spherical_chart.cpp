@@ -299,8 +299,9 @@ TEST_CASE("chart: where moves would be far, all the splits are made, as often as
 TEST_CASE("chart: one that takes more splits than are allowed says so") {
   const TriangleMesh mesh = coil(40);
   constexpr int some = 4096;
-  const SphericalChart cut =
-      spherical_chart(mesh, Topology(mesh), parameterize(mesh).map, 0, {}, 0);
+  const Topology topology(mesh);
+  const SphereMap first = *embed_by_levels(mesh, topology, {}, {}, {}).map;
+  const SphericalChart cut = spherical_chart(mesh, topology, first, 0, {}, 0);
   CHECK(cut.counts.at_limit);
   CHECK(cut.counts.fold_splits == some);
   CHECK_FALSE(cut.certificate.one_to_one());
