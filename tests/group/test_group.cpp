@@ -196,7 +196,10 @@ TEST_CASE("group: deviations are those of the aligned shapes") {
   CHECK(group.modes.modes.size() == 1);
   GroupOptions scaled = options;
   scaled.scale = true;
-  CHECK(make_group({one, other}, one, scaled).deviation.maxCoeff() < 1e-12);
+  const Group of_one_size = make_group({one, other}, one, scaled);
+  CHECK(of_one_size.deviation.maxCoeff() < 1e-12);
+  CHECK(of_one_size.distances.maxCoeff() < 1e-12);
+  CHECK(group.distances(0, 1) > 0.1);
 }
 
 TEST_CASE("group: the same bits for any number of threads") {

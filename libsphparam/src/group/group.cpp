@@ -223,7 +223,7 @@ class GroupWork {
     ShapeModes modes = shape_modes(procrustes.shapes, procrustes.mean, weights_of, options_.modes,
                                    options_.threads);
     const int iterations = procrustes.iterations;
-    MatrixX distances = procrustes_distances(positions, weights_of, options_.threads);
+    MatrixX distances = procrustes_distances(procrustes.shapes, weights_of, options_.threads);
     Group group{.members = members(procrustes),
                 .reference = reference,
                 .mean = mean,

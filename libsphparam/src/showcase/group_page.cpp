@@ -176,8 +176,12 @@ class GroupPage {
   }
 
   PageTable distances() const {
-    PageTable table{
-        "Distances of each two, RMS, moved and turned onto each other", {"shape"}, {}, {}};
+    PageTable table{std::string("Distances of each two, RMS, ") +
+                        (record_.options.scale ? "brought to one size, " : "") +
+                        "moved and turned onto each other",
+                    {"shape"},
+                    {},
+                    {}};
     for (const std::string& name : record_.names) table.header.push_back(name);
     for (Eigen::Index i = 0; i < group_.distances.rows(); ++i) {
       table.rows.push_back({record_.names[static_cast<size_t>(i)]});

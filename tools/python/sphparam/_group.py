@@ -33,7 +33,7 @@ class Group:
         self.normal_deviation: Floats = found["normal_deviation"]
         """(V,) the same along the mean's normals."""
         self.distances: Floats = found["distances"]
-        """(n, n) RMS distance of each two, one moved and turned onto the other."""
+        """(n, n) RMS distance of each two of ``aligned``, one moved and turned onto the other."""
         self.modes: Floats = found["modes"]
         """(k, V, 3) what one standard deviation of each principal mode adds, most variance first."""
         self.deviations: Floats = found["deviations"]

@@ -61,7 +61,7 @@ struct Group {
   MappedMesh mean;                   // on the grid, where and as the template lies
   VectorX weights;                   // of vertices: their mean share of the area
   ShapeModes modes;
-  MatrixX distances;         // `procrustes_distances`, the mesh's unit
+  MatrixX distances;         // `procrustes_distances` of the aligned shapes, the mesh's unit
   VectorX deviation;         // #V: root of Σ |x − mean|² / (shapes − 1); 0 of one shape
   VectorX normal_deviation;  // #V: the same along the mean's normals
   int iterations = 0;        // of Procrustes
