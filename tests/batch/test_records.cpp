@@ -53,6 +53,11 @@ TEST_CASE("record: its head is read back, and nothing behind it is looked at") {
   CHECK_THROWS_WITH(read_head(json.substr(0, 40), "r"), Contains("no whole record"));
 }
 
+TEST_CASE("record: what stands in the lists of another key is no file") {
+  const BatchRecordHead head = read_head(R"({"stamp":[[{"files":3,"files":"a"}]],"id":"x"})", "r");
+  CHECK(head.files.empty());
+}
+
 TEST_CASE("record: long lists of reports are left out, all else stays") {
   BatchRecord record;
   record.steps.push_back(

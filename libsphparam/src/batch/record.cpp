@@ -84,7 +84,7 @@ class HeadReader : public nlohmann::json_sax<nlohmann::json> {
   bool number_integer(number_integer_t value) override { return number(value); }
   bool number_unsigned(number_unsigned_t value) override {
     if (list_ == 1 && key_ == "stamp") return stamp(static_cast<std::int64_t>(value));
-    if (list_ == 2 && key_ == "files") head.files.back().size = value;
+    if (in_file()) head.files.back().size = value;
     return number(static_cast<std::int64_t>(value));
   }
   bool number_float(number_float_t value, const string_t&) override {
@@ -100,7 +100,7 @@ class HeadReader : public nlohmann::json_sax<nlohmann::json> {
     if (key_ == "program") head.program = value;
     if (key_ == "reason") head.reason = value;
     if (key_ == "repairs") head.repairs = value;
-    if (list_ == 2 && key_ == "files") {
+    if (in_file()) {
       BatchFile& file = head.files.back();
       (file.name.empty() ? file.name : file.hash) = value;
     }
@@ -127,6 +127,8 @@ class HeadReader : public nlohmann::json_sax<nlohmann::json> {
   }
 
  private:
+  /// Also of a broken record, where "files" may stand in the lists of another key.
+  bool in_file() const { return list_ == 2 && key_ == "files" && !head.files.empty(); }
   bool number(std::int64_t value) {
     if (list_ == 1 && key_ == "stamp") return stamp(value);
     if (list_ > 0) return true;
