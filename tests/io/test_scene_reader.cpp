@@ -109,6 +109,34 @@ std::string skinned_collada() {
   return replaced(scene, "</instance_geometry>", "</instance_controller>");
 }
 
+/// The tetrahedron, its node moved by an animation of this name.
+std::string moved_collada(const std::string& animation) {
+  const auto source = [](const std::string& id, const std::string& array,
+                         const std::string& numbers, int stride, const std::string& parameter) {
+    return "<source id=\"" + id + "\"><" + array + " id=\"" + id + "a\" count=\"" +
+           std::to_string(2 * stride) + "\">" + numbers + "</" + array +
+           "><technique_common><accessor source=\"#" + id + "a\" count=\"2\" stride=\"" +
+           std::to_string(stride) + "\">" + parameter + "</accessor></technique_common></source>\n";
+  };
+  const std::string times =
+      source("t", "float_array", "0 1", 1, R"(<param name="TIME" type="float"/>)");
+  const std::string places = source("o", "float_array", "5 0 0 9 0 0", 3,
+                                    R"(<param name="X" type="float"/>
+<param name="Y" type="float"/><param name="Z" type="float"/>)");
+  const std::string kinds =
+      source("k", "Name_array", "LINEAR LINEAR", 1, R"(<param name="INTERPOLATION" type="name"/>)");
+  const std::string library = R"(<library_animations><animation id="m0" name=")" + animation +
+                              "\">\n" + times + places + kinds + R"(<sampler id="q">
+<input semantic="INPUT" source="#t"/><input semantic="OUTPUT" source="#o"/>
+<input semantic="INTERPOLATION" source="#k"/></sampler>
+<channel source="#q" target="n/move"/></animation></library_animations>
+<library_visual_scenes>)";
+  const std::string scene =
+      replaced(collada(), R"(<node id="n">)",
+               R"(<node id="n" name="n"><translate sid="move">0 0 7</translate>)");
+  return replaced(scene, "<library_visual_scenes>", library);
+}
+
 /// The pyramid, bound to a bone at z = 4 that stands at z = 5.
 std::string skinned_fbx() {
   const std::string deformers = R"(	Deformer: 2001, "Deformer::skin", "Skin" {
@@ -216,6 +244,14 @@ TEST_CASE("scene_reader: meshes with a skin are as their joints stand, wherever 
   CHECK(inspect_mesh(prepare_for_mapping(fbx).mesh).is_sphere());
   CHECK(fbx.mesh.positions.colwise().minCoeff().isApprox(Eigen::RowVector3d(-1, -1, 1)));
   CHECK(fbx.mesh.positions.colwise().maxCoeff().isApprox(Eigen::RowVector3d(1, 1, 4)));
+}
+
+TEST_CASE("scene_reader: animations are left at rest and told, also where one has a node's name") {
+  for (const char* const animation : {"walk", "n"}) {
+    const MeshFile file = read_mesh(moved_collada(animation), "a.bin", {});
+    CHECK(losses_among(file.notes) == std::vector<std::string>{"not carried: 1 animation"});
+    CHECK(file.mesh.positions.colwise().minCoeff().isApprox(Eigen::RowVector3d(0, 0, 7)));
+  }
 }
 
 TEST_CASE("scene_reader: a skin whose bone is nowhere leaves its mesh where the node puts it") {

@@ -15,6 +15,7 @@
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <exception>
+#include <memory>
 #include <new>
 #include <string>
 #include <string_view>
@@ -123,28 +124,42 @@ long pose_meshes(const aiScene& scene, const aiNode& node, std::vector<bool>& se
   return skins;
 }
 
+/// They are at rest, and the exporter of glTF fails where one has the name of a node.
+long drop_animations(aiScene& scene) {
+  const long dropped = scene.mNumAnimations;
+  for (unsigned a = 0; a < scene.mNumAnimations; ++a) delete scene.mAnimations[a];
+  delete[] std::exchange(scene.mAnimations, nullptr);
+  scene.mNumAnimations = 0;
+  return dropped;
+}
+
 void tell(SphparamSceneSink sink, void* context, std::string_view text) {
   sink(context, text.data(), text.size());
 }
 
 int to_glb(const char* kind, const char* bytes, size_t size, SphparamSceneSink glb,
-           void* glb_context, long* skins, SphparamSceneSink error, void* error_context) try {
+           void* glb_context, SphparamSceneCounts* counts, SphparamSceneSink error,
+           void* error_context) try {
   Assimp::Importer importer;
   // A scene without meshes is not to show its nodes in their stead.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
-  const aiScene* const scene = importer.ReadFileFromMemory(bytes, size, steps, kind);
-  if (!scene || !scene->mRootNode) {
+  const aiScene* const read = importer.ReadFileFromMemory(bytes, size, steps, kind);
+  if (!read || !read->mRootNode) {
     tell(error, error_context, importer.GetErrorString());
     return 1;
   }
+  const std::unique_ptr<aiScene> scene(importer.GetOrphanedScene());
   turn_up(*scene);
   name_pictures(*scene);
   std::vector<bool> seen(scene->mNumMeshes);
-  *skins = pose_meshes(*scene, *scene->mRootNode, seen);
+  counts->skins = pose_meshes(*scene, *scene->mRootNode, seen);
+  counts->animations = drop_animations(*scene);
   Assimp::Exporter exporter;
-  const aiExportDataBlob* const blob = exporter.ExportToBlob(scene, "glb2");
+  const aiExportDataBlob* const blob = exporter.ExportToBlob(scene.get(), "glb2");
   if (!blob) {
-    tell(error, error_context, exporter.GetErrorString());
+    const std::string why = exporter.GetErrorString();  // not always there
+    tell(error, error_context,
+         "assimp cannot make glTF of the scene" + (why.empty() ? "" : ": " + why));
     return 1;
   }
   glb(glb_context, static_cast<const char*>(blob->data), blob->size);

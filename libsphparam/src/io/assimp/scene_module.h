@@ -11,18 +11,25 @@ extern "C" {
 /// Receives bytes; `context` is the caller's own.
 typedef void (*SphparamSceneSink)(void* context, const char* bytes, size_t size);
 
+/// What of a scene is not in its GLB.
+struct SphparamSceneCounts {
+  long skins;  // of meshes that were posed as their joints stand
+  long animations;
+};
+
 struct SphparamSceneTable {
   int version;
   /// A scene in memory as the bytes of a GLB: `kind` is "fbx" or "dae". Opens no other file.
-  /// Meshes with a skin are posed as their joints stand, and counted in `skins`; the GLB has none.
+  /// Meshes with a skin are posed as their joints stand at rest, whatever is animated.
   /// Returns 0, or 1 after telling `error` why.
   int (*to_glb)(const char* kind, const char* bytes, size_t size, SphparamSceneSink glb,
-                void* glb_context, long* skins, SphparamSceneSink error, void* error_context);
+                void* glb_context, SphparamSceneCounts* counts, SphparamSceneSink error,
+                void* error_context);
 };
 
 /// The module's one exported name.
 typedef const SphparamSceneTable* (*SphparamSceneTableFunction)();
 }
 
-constexpr int sphparam_scene_table_version = 2;
+constexpr int sphparam_scene_table_version = 3;
 constexpr char sphparam_scene_table_name[] = "sphparam_scene_table";

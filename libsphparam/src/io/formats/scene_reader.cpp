@@ -41,7 +41,7 @@ ChildLimits limits_for(std::string_view bytes) {
 }
 
 struct Scene {
-  long skins = 0;
+  SphparamSceneCounts counts = {};
   std::string glb;
 };
 
@@ -51,24 +51,29 @@ Scene scene_of(const char* kind, std::string_view bytes) {
   const std::string answer = result_of_child(
       [&] {
         std::string glb, complaint(1, '!');
-        long skins = 0;
-        const int code = scenes.to_glb(kind, bytes.data(), bytes.size(), append, &glb, &skins,
+        SphparamSceneCounts counts = {};
+        const int code = scenes.to_glb(kind, bytes.data(), bytes.size(), append, &glb, &counts,
                                        append, &complaint);
-        return code == 0 ? std::to_string(skins) + ' ' + glb : complaint;
+        if (code != 0) return complaint;
+        return std::to_string(counts.skins) + ' ' + std::to_string(counts.animations) + ' ' + glb;
       },
       limits_for(bytes));
   if (answer.starts_with('!'))
     throw SceneError(answer.size() > 1 ? answer.substr(1) : "cannot be read");
-  return {std::stol(answer), answer.substr(answer.find(' ') + 1)};
+  const std::size_t second = answer.find(' ') + 1, glb = answer.find(' ', second) + 1;
+  return {
+      {.skins = std::stol(answer), .animations = std::stol(answer.substr(second, glb - second))},
+      answer.substr(glb)};
 }
 
 MeshFile read_scene(const char* kind, const char* format, std::string_view bytes,
                     const std::string& name, const std::optional<std::filesystem::path>& folder,
                     const ReadOptions& options) try {
   const Scene scene = scene_of(kind, bytes);
-  MeshFile file = read_gltf(
-      scene.glb, name, folder, options,
-      {.posed_skins = scene.skins, .specular_glossiness = "specular colour and shininess"});
+  MeshFile file = read_gltf(scene.glb, name, folder, options,
+                            {.posed_skins = scene.counts.skins,
+                             .animations = scene.counts.animations,
+                             .specular_glossiness = "specular colour and shininess"});
   file.format = format;
   return file;
 } catch (const ModuleError& error) {

@@ -15,8 +15,8 @@ bool looks_like_collada(std::string_view bytes);
 
 // Scenes that assimp reads, in a module that is opened for them. It makes glTF of them, which is
 // read as `read_gltf` does: all meshes where their nodes put them, those with a skin as their
-// joints stand, y up, materials with their images, which may lie in `folder`. What assimp leaves
-// out it does not tell. Throws: ReadError, also where the module is missing.
+// joints stand at rest, y up, materials with their images, which may lie in `folder`. What assimp
+// leaves out it does not tell. Throws: ReadError, also where the module is missing.
 
 MeshFile read_fbx(std::string_view bytes, const std::string& name,
                   const std::optional<std::filesystem::path>& folder,

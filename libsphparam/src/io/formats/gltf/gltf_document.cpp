@@ -135,12 +135,12 @@ std::size_t variants_of(const tinygltf::Model& model) {
   return found->second.Get("variants").ArrayLen();
 }
 
-void note_losses(const tinygltf::Model& model, GltfDocument& document) {
+void note_losses(const tinygltf::Model& model, const SceneOrigin& origin, GltfDocument& document) {
   std::vector<std::string> words;
   const auto add = [&](std::size_t count, const char* thing) {
     if (count > 0) words.push_back(counted(static_cast<long>(count), thing));
   };
-  add(model.animations.size(), "animation");
+  add(model.animations.size() + static_cast<std::size_t>(origin.animations), "animation");
   add(model.cameras.size(), "camera");
   add(model.lights.size(), "light");
   add(variants_of(model), "variant");
@@ -191,7 +191,7 @@ void copy_model(tinygltf::Model& model, const std::string& name, const SceneOrig
   for (const tinygltf::Scene& scene : model.scenes) document.scenes.push_back(scene.nodes);
   document.default_scene = model.defaultScene;
   document.materials = materials_of(model, document, name, origin);
-  note_losses(model, document);
+  note_losses(model, origin, document);
 }
 
 }  // namespace
