@@ -1,6 +1,7 @@
 #include "number_text.h"
 
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 
 namespace sphparam {
@@ -11,7 +12,13 @@ std::string short_number(double value, int digits) {
   return text;
 }
 
-std::string percent(double share, int digits) { return short_number(100 * share, digits) + " %"; }
+std::string percent(double share, int digits) {
+  constexpr double longest = 1e6;  // that people read digit by digit
+  std::string text = short_number(100 * share, digits);
+  if (text.find("e+") != std::string::npos && std::abs(100 * share) < longest)
+    text = std::to_string(std::lround(100 * share));
+  return text + " %";
+}
 
 std::string shortest(double value) {
   char digits[32];

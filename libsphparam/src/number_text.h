@@ -11,7 +11,7 @@ namespace sphparam {
 /// "12.3", "0.00123": as many digits as people read.
 std::string short_number(double value, int digits = 3);
 
-/// "12.3 %" of 0.123.
+/// "12.3 %" of 0.123; all of it is "100 %" by any digits.
 std::string percent(double share, int digits = 3);
 
 /// All digits that matter, no more: what reads back as the same double.

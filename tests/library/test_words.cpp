@@ -14,6 +14,11 @@ TEST_CASE("number_text: as many digits as people read, or all that matter") {
   CHECK(short_number(1234567, 6) == "1.23457e+06");
   CHECK(percent(0.12345) == "12.3 %");
   CHECK(percent(0.12345, 2) == "12 %");
+  CHECK(percent(1, 2) == "100 %");
+  CHECK(percent(0.9999, 2) == "100 %");
+  CHECK(percent(12.346) == "1235 %");
+  CHECK(percent(1e-7) == "1e-05 %");
+  CHECK(percent(1e20) == "1e+22 %");
   CHECK(shortest(0.1) == "0.1");
   for (const double value : {1 / 3., std::numeric_limits<double>::min(), 1e300})
     CHECK(std::stod(shortest(value)) == value);
@@ -44,6 +49,9 @@ TEST_CASE("words: what choosing a component kept, where one was dropped") {
   parts.area_share = 0.997;
   parts.face_share = 0.98;
   CHECK(kept_line(parts) == "kept 99.7 % of the area and 98 % of the faces, lost 0.3 % and 2 %");
+  parts.area_share = parts.face_share = 0.00001;
+  CHECK(kept_line(parts) ==
+        "kept 0.001 % of the area and 0.001 % of the faces, lost 100 % and 100 %");
   parts.refused = true;
   CHECK(kept_line(parts).empty());
 }
