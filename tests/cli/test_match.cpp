@@ -245,7 +245,7 @@ TEST_CASE("match: features come to lie on each other, from files and from proper
   CHECK(report["features"]["columns"] == 1);
   CHECK(report["features"]["weight"] == 2);
   CHECK(report["features"]["correlation"] > 0.9);
-  CHECK_THAT(ended.err, Contains("correlation of features"));
+  CHECK_THAT(ended.err, Contains("correlation of features") && Contains("turn with confidence"));
   CHECK(sphparam_program({"verify", creatures.first, sphere}).code == 0);
 
   const std::string carried = creatures.folder / "second.ply";
@@ -254,6 +254,12 @@ TEST_CASE("match: features come to lie on each other, from files and from proper
   INFO(by_property.err);
   CHECK(by_property.code == 0);
   CHECK(Json::parse(by_property.out)["features"] == report["features"]);
+
+  const Ended alike = sphparam_program({"match", creatures.first, creatures.second, "--features",
+                                        one + "," + two, "--alike", "-o", sphere, "--json", "-"});
+  INFO(alike.err);
+  REQUIRE(alike.code == 0);
+  CHECK(Json::parse(alike.out)["features"]["correlation"] > 0.9);
 
   const Ended odd = match(one, creatures.second);
   CHECK(odd.code == 2);
@@ -281,7 +287,7 @@ TEST_CASE("match: what makes no sense is refused, and nothing is written") {
   const Ended alike = sphparam_program({"match", creatures.first, creatures.second, "--alike",
                                         "--landmarks", creatures.pairs, "-o", creatures.out});
   CHECK(alike.code == 2);
-  CHECK_THAT(alike.err, Contains("--alike: is for a search"));
+  CHECK_THAT(alike.err, Contains("--alike: --landmarks say already"));
 }
 
 TEST_CASE(

@@ -56,6 +56,10 @@ Functions values_at(const Points& points, Vector3 (*moved)(const Vector3&)) {
 
 Vector3 as_it_is(const Vector3& x) { return x; }
 
+Eigen::Matrix3d rotation_by(double angle) {
+  return Eigen::AngleAxisd(angle, Vector3(1, -2, 0.5).normalized()).toRotationMatrix();
+}
+
 MappedMesh ball(int level) {
   const TriangleMesh mesh = icosphere(level);
   return mapped(mesh, {mesh.positions});
@@ -109,9 +113,7 @@ TEST_CASE(
     "match by features: a map that is only turned is turned back, whatever the unit of "
     "what is to agree") {
   const MappedMesh to = ball(4);
-  const Eigen::Matrix3d turn =
-      Eigen::AngleAxisd(2.5, Vector3(1, -2, 0.5).normalized()).toRotationMatrix();
-  const MappedMesh from = turned_map(to, turn);
+  const MappedMesh from = turned_map(to, rotation_by(2.5));
   const Functions values = values_at(to.mesh().positions, as_it_is);
   const Functions other_unit = (100 + 7 * values.array()).matrix();
   const Match match = match_surfaces(from, to, {.features = MatchFeatures{values, other_unit}});
@@ -148,6 +150,60 @@ TEST_CASE("match by features: values that are not finite and wild ones say littl
   }
   const Match match = match_surfaces(from, to, {.features = features});
   CHECK(error_of(match, twisted) < 0.15);
+}
+
+TEST_CASE("match by features: what is known of a part of one side alone is told, and doubted") {
+  const MappedMesh to = ball(4);
+  const MappedMesh from = turned_map(to, rotation_by(2.5));
+  Functions here = values_at(to.mesh().positions, as_it_is);
+  here += 3 * to.mesh().positions.col(0);  // so that the median of a part is far from the other's
+  const Functions there = here;
+  const Match whole = match_surfaces(from, to, {.features = MatchFeatures{here, there}});
+  CHECK(error_of(whole, as_it_is) < 0.01);
+  CHECK(whole.warnings.empty());
+  for (Vertex v = 0; v < here.rows(); ++v)
+    if (to.mesh().position(v).z() < -1.0 / 3) here(v, 0) = std::numeric_limits<double>::quiet_NaN();
+  const Match match = match_surfaces(from, to, {.features = MatchFeatures{here, there}});
+  REQUIRE_FALSE(match.warnings.empty());
+  CHECK_THAT(match.warnings[0], Catch::Contains("feature 1 is known on 66.") &&
+                                    Catch::Contains("and on 100 %") && Catch::Contains("in both"));
+  CHECK((error_of(match, as_it_is) < 0.3 || match.confidence < 0.15));
+  CHECK(match.confidence < 0.9);
+  // Where both sides leave the same part out, nothing is amiss.
+  const Match both = match_surfaces(from, to, {.features = MatchFeatures{here, here}});
+  CHECK(error_of(both, as_it_is) < 0.01);
+  CHECK(both.warnings.empty());
+}
+
+TEST_CASE("match by features: a sign that is the opposite on one side is told") {
+  const MappedMesh from = ball(3), to = ball(3);
+  MatchFeatures features = twisted_features(from, to, 2);
+  CHECK(match_surfaces(from, to, {.features = features}).warnings.empty());
+  features.from *= -1;
+  const auto told = [&](const MatchOptions& options) {
+    std::string all;
+    for (const std::string& warning : match_surfaces(from, to, options).warnings) all += warning;
+    return all;
+  };
+  CHECK_THAT(told({.features = features}), Catch::Contains("opposite sign"));
+  // Beside a feature that tells the turn.
+  MatchFeatures two = twisted_features(from, to, 2);
+  two.from.conservativeResize(Eigen::NoChange, 2);
+  two.to.conservativeResize(Eigen::NoChange, 2);
+  two.from.col(1) = -from.mesh().positions.col(0);
+  two.to.col(1) = to.mesh().positions.col(0);
+  CHECK_THAT(told({.alike = true, .features = two}),
+             Catch::Contains("feature 2 agrees with the opposite sign"));
+}
+
+TEST_CASE("match by features: of surfaces that lie alike, places tell the turn") {
+  const MappedMesh to = ball(4);
+  const MappedMesh from = turned_map(to, rotation_by(2.5));
+  const Functions height = to.mesh().positions.col(2);  // looks alike after any turn about z
+  const MatchFeatures features{height, height};
+  const Match match = match_surfaces(from, to, {.alike = true, .features = features});
+  CHECK(error_of(match, as_it_is) < 0.01);
+  CHECK(match.warnings.empty());
 }
 
 TEST_CASE("match by features: what says nothing is refused") {

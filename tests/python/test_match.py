@@ -105,6 +105,9 @@ def test_features_come_to_lie_on_each_other(maps):
     assert s.made_by == "features" and s.source.certificate.one_to_one
     assert np.corrcoef(s.carry(heights), maps[0].values["height"])[0, 1] > 0.95
     assert s.agreement > 0.95 and 0 <= s.confidence <= 1
+    assert sp.match(*maps, features=("height", heights), alike=True).agreement > 0.95
+    with pytest.raises(ValueError, match="alike: landmarks say already"):
+        sp.match(*maps, landmarks(maps), alike=True)
     both = sp.match(*maps, landmarks(maps), features=("height", heights), feature_weight=1)
     assert not both.residuals.any()
     with pytest.raises(ValueError, match=r"features\[1\]"):

@@ -35,8 +35,9 @@ void require_sensible(const MatchArguments& arguments) {
     throw UsageMistake("--features: pairs are needed, of A and of B, and there are " +
                        std::to_string(arguments.features.size()) + " names");
   }
-  if (arguments.options.alike && !(arguments.landmarks.empty() && arguments.features.empty()))
-    throw UsageMistake("--alike: is for a search, and --landmarks or --features leave none");
+  if (arguments.options.alike && !arguments.landmarks.empty())
+    throw UsageMistake(
+        "--alike: --landmarks say already what lies where on both; leave one of the two out");
   require_one_stream({arguments.first, arguments.second, arguments.landmarks},
                      "the two meshes and --landmarks");
   require_map_name(arguments.output);
@@ -75,7 +76,7 @@ void declare_options(Declaration& command, MatchArguments& arguments) {
       .flag(
           "--alike", arguments.options.alike,
           "A and B lie alike in space, as their files have them: without landmarks, ends and turns "
-          "are also judged by where places are")
+          "are also judged by where places are, the first turn of --features by that alone")
       .flag("--mirror", arguments.mirror, "Match the mirror image of A, which is what is written")
       .choice("--energy", arguments.options.energy.kind,
               {{"symmetric-dirichlet", EnergyKind::SymmetricDirichlet},

@@ -26,11 +26,18 @@ TriangleMesh sphere_of(const MappedMesh& mapped) {
   return {scaled_to_sphere({mapped.map().points, mesh.triangles}), mesh.triangles};
 }
 
-std::vector<TurnOfFunctions> turns_by_features(const MappedMesh& from, const MappedMesh& to,
-                                               const FeatureField& field, int threads) {
+struct FeatureTurns {
+  std::vector<TurnOfFunctions> turns;
+  double opposed;  // correlation after the best turn with one side's sign changed
+};
+
+FeatureTurns turns_by_features(const MappedMesh& from, const MappedMesh& to,
+                               const FeatureField& field, int threads) {
   const MapSignalOptions options{.threads = threads};
-  return turns_by_correlation(map_signals(from, field.from, options),
-                              map_signals(to, field.to, options), most_turns, threads);
+  const Functions here = map_signals(from, field.from, options);
+  const Functions there = map_signals(to, field.to, options);
+  return {turns_by_correlation(here, there, most_turns, threads),
+          turns_by_correlation(-here, there, 1, threads).front().correlation};
 }
 
 /// None where curvature or area is the same everywhere: no turn is better than another.
@@ -56,27 +63,38 @@ double confidence_in(const std::vector<TurnOfFunctions>& turns) {
                             : 0;
 }
 
+/// Starts after the first of turns by which places in space agree; returns the confidence in it.
+double start_alike(CoarseToFine& way, const SphereMap& map,
+                   const std::vector<TurnOfFunctions>& turns) {
+  way.start_at(turned(map, turns.front().rotation));
+  return confidence_in(turns);
+}
+
 TriangleMesh unit_surface(const MappedMesh& mapped) {
   return {scaled_to_sphere(mapped.mesh()), mapped.mesh().triangles};
 }
 
-/// Correlation of the features by a map.
-double agreement_of(const MappedMesh& from, const TargetSurface& target, const FeatureField& field,
-                    const SphereMap& map) {
+/// Correlation of each feature by a map.
+VectorX agreement_of(const MappedMesh& from, const TargetSurface& target, const FeatureField& field,
+                     const SphereMap& map) {
   Functions there = Functions::Zero(field.from.rows(), field.from.cols());
   for (Vertex v = 0; v < there.rows(); ++v) {
     const Place place = target.place(map.point(v));
     for (int k = 0; k < 3; ++k)
       there.row(v) += place.at.barycentric[k] * field.to.row(target.corner(place, k));
   }
-  return correlation_of(field.from, there, areas_round_vertices(from.mesh()));
+  const VectorX area = areas_round_vertices(from.mesh());
+  VectorX agreement(there.cols());
+  for (Eigen::Index c = 0; c < there.cols(); ++c)
+    agreement[c] = correlation_of(field.from.col(c), there.col(c), area);
+  return agreement;
 }
 
 }  // namespace
 
 FeatureMatch match_by_features(const MappedMesh& from, const MappedMesh& to,
                                const TargetSurface& target, const ComposedOptions& options,
-                               const MatchFeatures& features) {
+                               const MatchFeatures& features, bool alike) {
   const TriangleMesh from_sphere = sphere_of(from), to_sphere = sphere_of(to);
   const FeatureScales scales(from_sphere, from.topology(), to_sphere, to.topology(), features);
   const FeatureField field = scales.raw();
@@ -87,11 +105,20 @@ FeatureMatch match_by_features(const MappedMesh& from, const MappedMesh& to,
   const TargetSurface sphere(to, to_sphere.positions);
   CoarseToFine way(from_sphere, from.topology(), sphere, with_features);
   FeatureMatch result;
-  if (options.landmarks.empty()) {
-    const auto turns = turns_by_features(from, to, field, options.threads);
+  const auto after_turn = [&](const std::vector<TurnOfFunctions>& turns) {
+    return agreement_of(from, target, field, turned(from.map(), turns.front().rotation));
+  };
+  if (!options.landmarks.empty()) {
+    if (!way.start(starts)) return {std::nullopt, way.residuals()};
+  } else if (alike) {
+    const std::vector<TurnOfFunctions> turns = turns_by_stance(from, to, options.threads);
+    result.begun_with = after_turn(turns);
+    result.confidence = start_alike(way, from.map(), turns);
+  } else {
+    const auto [turns, opposed] = turns_by_features(from, to, field, options.threads);
+    result.begun_with = after_turn(turns);
+    result.better_opposed = opposed - turns.front().correlation;
     result.confidence = start_at_best(way, from.map(), turns, options.energy);
-  } else if (!way.start(starts)) {
-    return {std::nullopt, way.residuals()};
   }
 
   // 2. Up to the whole sphere, then between the surfaces.
@@ -99,7 +126,9 @@ FeatureMatch match_by_features(const MappedMesh& from, const MappedMesh& to,
   if (map.points.rows() == 0) return {std::nullopt, way.residuals()};
   result.map =
       improve_composition(from.mesh(), from.topology(), target, map, with_features, last_steps);
-  result.agreement = agreement_of(from, target, field, *result.map);
+  const VectorX agreement = agreement_of(from, target, field, *result.map);
+  result.agreement = agreement.mean();
+  if (!options.landmarks.empty()) result.begun_with = agreement;
   return result;
 }
 
@@ -113,15 +142,10 @@ TurnedMatch match_by_turn(const MappedMesh& from, const MappedMesh& to, const Ta
   first.features = &bends;
   first.release = true;
   CoarseToFine way(from.mesh(), from.topology(), target, first);
-  double confidence = 1;
-  if (alike) {
-    const std::vector<TurnOfFunctions> turns = turns_by_stance(from, to, options.threads);
-    confidence = confidence_in(turns);
-    way.start_at(turned(from.map(), turns.front().rotation));
-  } else {
-    confidence =
-        start_at_best(way, from.map(), turns_by_shape(from, to, options.threads), options.energy);
-  }
+  const double confidence =
+      alike ? start_alike(way, from.map(), turns_by_stance(from, to, options.threads))
+            : start_at_best(way, from.map(), turns_by_shape(from, to, options.threads),
+                            options.energy);
   SphereMap map = way.finish();
   return {map.points.rows() > 0 ? std::move(map) : from.map(), confidence};
 }

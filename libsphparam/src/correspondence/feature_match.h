@@ -14,15 +14,18 @@ struct FeatureMatch {
   std::vector<double> residuals;  // of these, where the attempt had to give up
   double agreement = 0;           // correlation of the features by the map, the mean over columns
   double confidence = 1;          // in the turn that all begins with; 1 with landmarks
+  VectorX begun_with = {};  // correlation of each column after the turn; with landmarks by the map
+  double better_opposed = 0;  // how much greater it would be, at most, with one side's sign changed
 };
 
 /// From coarse to fine between the spheres of both surfaces, which have no folds that coarse levels
 /// could not have, by how features agree; then between the surfaces themselves. Begins with
-/// landmarks, or with the rotation after which features agree best: some are tried.
+/// landmarks, or with the rotation after which features agree best: some are tried; or, if the
+/// surfaces lie `alike` in space, with the one after which places do.
 /// Same bits for any number of threads. Throws: Cancelled; SolveError.
 FeatureMatch match_by_features(const MappedMesh& from, const MappedMesh& to,
                                const TargetSurface& target, const ComposedOptions& options,
-                               const MatchFeatures& features);
+                               const MatchFeatures& features, bool alike);
 
 /// A map from a turn, and the confidence in it.
 struct TurnedMatch {

@@ -1,6 +1,7 @@
 #include "sphparam/correspondence/match.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <set>
 #include <utility>
@@ -27,6 +28,9 @@ constexpr int all_starts = 3;                // of coarse levels, to take the be
 constexpr double collapsed = 0.01;           // of its share of the area: a triangle that is lost
 constexpr double telling_area = 1e-3;        // share of the surface that is lost: worth a word
 constexpr double telling_confidence = 0.15;  // less is worth a word
+constexpr double telling_share = 0.03;       // of the area, known on one side alone: worth a word
+constexpr double opposed_agreement = -0.2;   // correlation of a feature: worth a word,
+constexpr double telling_opposition = 0.1;   // as is so much more with the opposite sign
 
 void require_landmarks(const MatchOptions& options, const MappedMesh& from, const MappedMesh& to) {
   if (options.search && !options.landmarks.empty())
@@ -91,6 +95,44 @@ std::optional<std::string> collapse_of(const SurfaceMap& map, int threads) {
          ": landmarks at the ends of what sticks out there may help";
 }
 
+double known_share(const VectorX& values, const VectorX& area) {
+  return values.array().isFinite().select(area, 0.0).sum() / area.sum();
+}
+
+/// A feature that is known of more of one surface than of the other says of that part what is not
+/// so: there it counts as the median.
+std::optional<std::string> one_sided(const MatchFeatures& features, const MappedMesh& from,
+                                     const MappedMesh& to) {
+  const VectorX from_area = areas_round_vertices(from.mesh());
+  const VectorX to_area = areas_round_vertices(to.mesh());
+  for (Eigen::Index c = 0; c < features.from.cols(); ++c) {
+    const double here = known_share(features.from.col(c), from_area);
+    const double there = known_share(features.to.col(c), to_area);
+    if (std::abs(here - there) > telling_share)
+      return "feature " + std::to_string(c + 1) + " is known on " + percent(here) + " of " +
+             from.name() + " and on " + percent(there) + " of " + to.name() +
+             ", and counts as its median elsewhere, which may turn one wrongly: leave the same "
+             "part out in both";
+  }
+  return std::nullopt;
+}
+
+/// Features whose signs mean the opposite on the two sides.
+std::optional<std::string> opposed_signs(const FeatureMatch& found) {
+  const std::string advice =
+      ": signs of curvature and depth differ between programs (positive in sulci by FreeSurfer, "
+      "negative by Connectome Workbench and the HCP); change them on one side";
+  for (Eigen::Index c = 0; c < found.begun_with.size(); ++c)
+    if (found.begun_with[c] < opposed_agreement)
+      return "feature " + std::to_string(c + 1) + " agrees with the opposite sign (correlation " +
+             short_number(found.begun_with[c]) + ")" + advice;
+  if (found.better_opposed > telling_opposition)
+    return "after another turn the features agree better with the opposite sign (correlation "
+           "greater by " +
+           short_number(found.better_opposed) + ")" + advice;
+  return std::nullopt;
+}
+
 /// One match on its way.
 class Matcher {
  public:
@@ -136,11 +178,15 @@ class Matcher {
   /// Throws: UnreachableLandmarks; MirroredLandmarks.
   SphereMap by_features() {
     made_by_ = "features";
+    warn(one_sided(*options_.features, from_, to_));
     if (!composed_.landmarks.empty()) warn(suspicion_of_sides());
-    FeatureMatch found = match_by_features(from_, to_, target_, composed_, *options_.features);
+    FeatureMatch found =
+        match_by_features(from_, to_, target_, composed_, *options_.features, options_.alike);
     if (!found.map) throw unreachable(found.residuals);
     agreement_ = found.agreement;
-    tell_confidence(found.confidence, "the features agree after another turn");
+    warn(opposed_signs(found));
+    tell_confidence(found.confidence, options_.alike ? "places in space agree after another turn"
+                                                     : "the features agree after another turn");
     return std::move(*found.map);
   }
 
@@ -178,7 +224,7 @@ class Matcher {
     if (confidence_ >= telling_confidence) return;
     warn(other + " about as well (confidence " + short_number(confidence_) +
          "): look at the result, " +
-         (options_.search && !options_.alike ? "say --alike if both lie alike in space, " : "") +
+         (options_.alike ? "" : "say --alike if both lie alike in space, ") +
          "or give --landmarks");
   }
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 
 #include "embedding/frame/nearest_rotation.h"
 
@@ -23,6 +23,19 @@ double rms_angle(const std::vector<Place>& a, const std::vector<Place>& b) {
   return std::sqrt(sum / static_cast<double>(a.size()));
 }
 
+/// The excess of the best of those that lead elsewhere than the first.
+std::optional<double> excess_elsewhere(const std::vector<Start>& starts) {
+  for (const Start& other : starts)
+    if (rms_angle(starts.front().places, other.places) > elsewhere) return other.excess;
+  return std::nullopt;
+}
+
+Eigen::Matrix3d half_turn(int axis) {
+  Vector3 diagonal = Vector3::Constant(-1);
+  diagonal[axis] = 1;
+  return diagonal.asDiagonal();
+}
+
 }  // namespace
 
 double start_at_best(CoarseToFine& way, const SphereMap& map,
@@ -30,17 +43,23 @@ double start_at_best(CoarseToFine& way, const SphereMap& map,
   const double isometric = differentiate(energy.energy, 1, 1).f;
   const double least = std::isfinite(isometric) ? isometric : 0;
   std::vector<Start> starts;
-  for (const TurnOfFunctions& turn : turns) {
-    const double reached = way.start_at(turned(map, turn.rotation));
-    starts.push_back({turn.rotation, reached - least, way.places()});
-  }
+  const auto add = [&](const Eigen::Matrix3d& rotation) {
+    const double reached = way.start_at(turned(map, rotation));
+    starts.push_back({rotation, reached - least, way.places()});
+  };
+  for (const TurnOfFunctions& turn : turns) add(turn.rotation);
   std::ranges::stable_sort(starts, {}, &Start::excess);
-  const Start& best = starts.front();
-  way.start_at(turned(map, best.rotation));
-  for (const Start& other : starts)
-    if (rms_angle(best.places, other.places) > elsewhere)
-      return other.excess > 0 ? std::clamp(1 - best.excess / other.excess, 0.0, 1.0) : 0;
-  return 1;
+  // One start is better than others only if there are others.
+  if (!excess_elsewhere(starts)) {
+    const Eigen::Matrix3d only = starts.front().rotation;
+    for (int axis = 0; axis < 3; ++axis) add(half_turn(axis) * only);
+    std::ranges::stable_sort(starts, {}, &Start::excess);
+  }
+  const double best = starts.front().excess;
+  way.start_at(turned(map, starts.front().rotation));
+  const std::optional<double> other = excess_elsewhere(starts);
+  if (!other) return 1;
+  return *other > 0 ? std::clamp(1 - best / *other, 0.0, 1.0) : 0;
 }
 
 }  // namespace sphparam

@@ -7,7 +7,8 @@
 
 namespace sphparam {
 
-/// Starts `way` at the map after each of these turns, and leaves it at the one of least energy.
+/// Starts `way` at the map after each of these turns, and, where all of them lead to one map, half a
+/// turn from it about each axis; leaves it at the one of least energy.
 /// Returns the confidence in it: 0 where a start that leads elsewhere has as little energy beyond
 /// isometry's, towards 1 where none comes near. Requires: at least one turn.
 double start_at_best(CoarseToFine& way, const SphereMap& map,

@@ -110,6 +110,8 @@ std::string to_text(const MatchRecord& record) {
     line += ", " + counted(static_cast<long>(landmarks), "landmark", "landmarks") + " exact";
   if (record.options.features)
     line += ", correlation of features " + short_number(record.match.agreement);
+  if (record.options.features && landmarks == 0)
+    line += " from a turn with confidence " + short_number(record.match.confidence);
   line += words_of_search(record.match, record.options.search);
   return line + ", " + short_number(record.seconds) + " s";
 }

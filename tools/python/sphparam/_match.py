@@ -169,13 +169,13 @@ def match(
         that the source has.
     features
         Numbers a vertex that are to agree, such as sulcal depth: of the source and of the target, each an array,
-        (V,) or (V, k), or the name of values; NaN says nothing. Without landmarks the source's map is turned so
+        (V,) or (V, k), or the name of values; NaN counts as the median. Without landmarks the source's map is turned so
         that they agree, to begin with.
     feature_weight
         Of their mean square difference, in spreads, against the energy, of which isometry has 2.
     alike
         Source and target lie alike in space: ends that are paired, and turns, are also judged by where
-        places are. For ``landmarks=None`` without features.
+        places are, the first turn by features by that alone. For ``landmarks=None``.
     mirror
         Match the mirror image of the source, which is ``SurfaceMap.source`` then.
     energy
@@ -197,8 +197,8 @@ def match(
     options = {"energy": _arrays.text(energy, "energy"), "lambda": float(weight), "threads": _arrays.threads(threads)}
     options["search"] = landmarks is None and features is None
     options["alike"] = bool(alike)
-    if alike and not options["search"]:
-        raise ValueError("alike: is for a search, and landmarks or features leave none")
+    if alike and landmarks is not None:
+        raise ValueError("alike: landmarks say already what lies where on both; leave one of the two out")
     pairs = [] if landmarks is None else _pairs(landmarks)
     agreeing = None
     if features is not None:

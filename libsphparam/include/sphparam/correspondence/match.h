@@ -18,7 +18,7 @@ struct LandmarkPair {
 };
 
 /// Values at the vertices of two surfaces that are to agree where they come to lie: sulcal depth,
-/// curvature. A column a feature, in whatever unit; what is not finite says nothing.
+/// curvature. A column a feature, in whatever unit; what is not finite counts as the median.
 struct MatchFeatures {
   Functions from, to;  // #V×k each
   double weight = 2;   // > 0: of their mean square difference, in spreads, against the energy
@@ -30,7 +30,7 @@ struct MatchOptions {
   /// none are given.
   bool search = false;
   /// `from` and `to` lie alike in space, as files of one rig or scanner do: a search is also judged
-  /// by how well places agree, in their coordinates.
+  /// by how well places agree, in their coordinates; with features, the first turn is by that alone.
   bool alike = false;
   /// What is to agree besides. Without landmarks the first map is turned so that it does, to begin
   /// with. Requires: no search.
@@ -63,7 +63,7 @@ struct Match {
   double confidence = 1;
   double agreement = 0;  // of features: their correlation by the map, the mean over columns
   /// For people: landmarks that a mirror image fits as well, area that shrinks to nothing on the
-  /// other surface, little confidence.
+  /// other surface, little confidence, features of which one side lacks a part or has other signs.
   std::vector<std::string> warnings;
 };
 
