@@ -323,6 +323,34 @@ TEST_CASE("match: a mirrored shape is told, and --mirror matches it") {
   CHECK(report["distortion"]["symmetric_dirichlet"] < 4.3);
 }
 
+TEST_CASE("match: --mirror is named where names or metadata say left and right") {
+  const Creatures creatures;
+  const auto named = [&](const std::string& name, double length) {
+    write_bytes(creatures.folder / name, obj_text(creature(3, length)));
+    return creatures.folder / name;
+  };
+  const std::string left = named("lh.white.obj", 1), right = named("S.R.white.native.obj", 1.4),
+                    other_left = named("sub-1_hemi-L_white.obj", 1.4);
+  const auto told = [&](const std::string& first, const std::string& second,
+                        std::vector<std::string> more) {
+    more.insert(more.begin(), {"match", first, second, "-o", creatures.out});
+    const Ended ended = sphparam_program(more);
+    INFO(ended.err);
+    CHECK(ended.code == 0);
+    return ended.err;
+  };
+  CHECK_THAT(told(left, right, {}), Contains("A is CortexLeft and B is CortexRight: --mirror"));
+  CHECK_THAT(told(left, right, {"--mirror"}), !Contains("Cortex"));
+  CHECK_THAT(told(left, other_left, {}), !Contains("Cortex"));
+  CHECK_THAT(told(left, other_left, {"--mirror"}), Contains("both CortexLeft"));
+  const std::string gifti = creatures.folder / "x.surf.gii";  // the structure is in the file
+  REQUIRE(sphparam_program({"repair", creatures.folder / "S.R.white.native.obj", "-o",
+                            creatures.folder / "S.R.white.native.surf.gii"})
+              .code == 0);
+  std::filesystem::rename(creatures.folder / "S.R.white.native.surf.gii", gifti);
+  CHECK_THAT(told(gifti, left, {}), Contains("A is CortexRight and B is CortexLeft: --mirror"));
+}
+
 TEST_CASE("map --like gives a low mesh the sphere of the one that it lies about") {
   const Folder folder;
   const std::string low = folder / "low.obj", fine = folder / "fine.obj",

@@ -14,6 +14,7 @@
 #include "sphparam/correspondence/landmark_file.h"
 #include "sphparam/correspondence/matched_files.h"
 #include "sphparam/io/safe_file.h"
+#include "sphparam/io/vertex_data.h"
 #include "sphparam/records/match_record.h"
 
 namespace sphparam::cli {
@@ -39,6 +40,24 @@ constexpr char summary[] =
     "most alike, and a start is made from there; the confidence in it is told.\n"
     "With --features, as for cortices, numbers at the vertices of A come to lie on those of B.\n"
     "The exit status is 5 where no map has them.\n";
+
+/// A left and a right hemisphere are mirror images of each other, one and the same is none.
+void tell_hemispheres(const MatchArguments& arguments, const MappedMesh& first,
+                      const MappedMesh& second, Session& session) {
+  const std::string of_first = structure_of(first.file(), arguments.first);
+  const std::string of_second = structure_of(second.file(), arguments.second);
+  const auto are = [&](const char* one, const char* other) {
+    return of_first == one && of_second == other;
+  };
+  const bool opposite = are("CortexLeft", "CortexRight") || are("CortexRight", "CortexLeft");
+  const bool same = are("CortexLeft", "CortexLeft") || are("CortexRight", "CortexRight");
+  if (opposite && !arguments.mirror)
+    session.console.warning("A is " + of_first + " and B is " + of_second +
+                            ": --mirror matches the mirror image of A");
+  else if (same && arguments.mirror)
+    session.console.warning("A and B are both " + of_first +
+                            ", and --mirror matches the mirror image of A: leave it out");
+}
 
 /// The landmarks' file names vertices by their numbers in the meshes' files.
 void read_landmarks_of(MatchArguments& arguments, const MappedMesh& first,
@@ -96,9 +115,10 @@ int run_match(MatchArguments& arguments) {
   Session session(arguments);
   MappedMesh first =
       read_side("A", arguments.first, arguments.first_sphere, arguments.repair, session);
-  if (arguments.mirror) first = mirror_image(first, session.threads());
   const MappedMesh second =
       read_side("B", arguments.second, arguments.second_sphere, arguments.repair, session);
+  tell_hemispheres(arguments, first, second, session);
+  if (arguments.mirror) first = mirror_image(first, session.threads());
   read_landmarks_of(arguments, first, second);
   read_features_of(arguments, first, second);
   tell_absent_values(arguments, second, session);
