@@ -161,6 +161,42 @@ TEST_CASE("group: a template that is no shape does not count, and held maps stay
   CHECK(count(eggs.in_out("mean.sph.ply")) == count(other));
 }
 
+TEST_CASE("group: of files that it does not write, those of an earlier run are told") {
+  const Eggs eggs;
+  const Ended first = eggs.group({"--size", "0", "--rounds", "0", "--modes", "2"});
+  CHECK(first.code == 0);
+  CHECK_THAT(first.err, !Contains("earlier run"));
+  write_bytes(eggs.in_out("own.txt"), "x");
+  const auto again = [&](std::vector<std::string> shapes) {
+    shapes.insert(shapes.begin(), "group");
+    shapes.insert(shapes.end(), {"--size", "0", "--rounds", "0", "--hold", "--modes", "1", "--grid",
+                                 "ico:3", "-o", eggs.out});
+    const Ended ended = sphparam_program(shapes);
+    INFO(ended.err);
+    CHECK(ended.code == 0);
+    return ended.err;
+  };
+  const std::string told = again({eggs.paths[0], eggs.paths[1]});
+  CHECK_THAT(told, Contains("map_egg2.sph.ply, mode2.glb, mode2_minus.glb, mode2_plus.glb, "
+                            "shape_egg2.sph.ply are of an earlier run") &&
+                       !Contains("own.txt") && !Contains("egg1.sph.ply"));
+  // What is read is no remainder.
+  CHECK_THAT(again({eggs.in_out("map_egg2.sph.ply"), eggs.paths[0], eggs.paths[1]}),
+             Contains("shape_egg2") && !Contains(" map_egg2.sph.ply"));
+}
+
+TEST_CASE("group: a mesh that cannot be mapped is told with its name") {
+  const Eggs eggs;
+  write_bytes(eggs.paths[1], "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n");
+  const Ended ended = eggs.group({"--size", "0"});
+  CHECK(ended.code == 4);
+  CHECK_THAT(ended.err, Contains("egg1.obj cannot be mapped:") && Contains("not closed"));
+  const Ended as_template = sphparam_program(
+      {"group", eggs.paths[0], eggs.paths[2], "--template", eggs.paths[1], "-o", eggs.out});
+  CHECK(as_template.code == 4);
+  CHECK_THAT(as_template.err, Contains("egg1.obj cannot be mapped:"));
+}
+
 TEST_CASE("group: what makes no sense is refused, and nothing is written") {
   const Eggs eggs;
   const auto refused = [&](std::vector<std::string> more, int code, const std::string& word) {
@@ -177,7 +213,8 @@ TEST_CASE("group: what makes no sense is refused, and nothing is written") {
   write_bytes(eggs.folder / "marks.txt", "0 a\n5 a\n");
   refused({"--landmarks", eggs.folder / "marks.txt", "--size", "0"}, 3, "second landmark");
   write_bytes(eggs.folder / "marks.txt", "100000\n");
-  refused({"--landmarks", eggs.folder / "marks.txt", "--size", "0"}, 3, "no vertex 100000");
+  refused({"--landmarks", eggs.folder / "marks.txt", "--size", "0"}, 3,
+          "marks.txt:1: the mesh has no vertex 100000");
   CHECK(sphparam_program({"group", "-o", eggs.out}).code == 2);
   CHECK(sphparam_program({"group", eggs.folder / "none.obj", "-o", eggs.out}).code == 3);
   CHECK(sphparam_program({"group", eggs.paths[0], "-o", eggs.folder / "no/where/"}).code == 3);

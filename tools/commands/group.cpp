@@ -2,12 +2,17 @@
 
 #include "sphparam/group/group.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "commands/command.h"
 #include "commands/sources.h"
+#include "console/console.h"
 #include "console/places.h"
+#include "number_text.h"
 #include "sphparam/group/template_landmarks.h"
+#include "sphparam/io/paths.h"
 #include "sphparam/records/group_files.h"
 
 namespace sphparam::cli {
@@ -88,10 +93,19 @@ void make_folder(const std::string& folder) {
   if (error) throw WriteError(folder, error.message());
 }
 
+/// Which file a refusal is about, which tells what is wrong with a mesh.
+MappedMesh read_shape(const std::string& path, const GroupArguments& arguments,
+                      Session& session) try {
+  return read_mapped(path, "", session, arguments.repair);
+} catch (const MeshRefusal&) {
+  print_error(display_name(path) + " cannot be mapped:");
+  throw;
+}
+
 std::vector<MappedMesh> read_shapes(const GroupArguments& arguments, Session& session) {
   std::vector<MappedMesh> shapes;
   for (const std::string& path : arguments.inputs)
-    shapes.push_back(read_mapped(path, "", session, arguments.repair));
+    shapes.push_back(read_shape(path, arguments, session));
   return shapes;
 }
 
@@ -101,7 +115,42 @@ MappedMesh read_reference(const GroupArguments& arguments, const std::vector<Map
   for (size_t i = 0; i < shapes.size(); ++i)
     if (arguments.reference.empty() || is_same_place(arguments.reference, arguments.inputs[i]))
       return shapes[i];
-  return read_mapped(arguments.reference, "", session, arguments.repair);
+  return read_shape(arguments.reference, arguments, session);
+}
+
+/// Whether a group is written in files of such names.
+bool is_of_group(const std::string& name) {
+  const auto is = [&](const char* begin, const char* end) {
+    return name.starts_with(begin) && name.ends_with(end);
+  };
+  return is("map_", ".sph.ply") || is("shape_", ".sph.ply") || is("mode", ".glb") ||
+         name == "landmarks.tsv";
+}
+
+/// Files in the folder that look as if they were of this group, and are not.
+void tell_stale(const GroupArguments& arguments, const Words& written, Session& session) {
+  namespace fs = std::filesystem;
+  constexpr size_t most_names = 8;
+  std::error_code error;
+  const auto place = [&](const fs::path& path) { return fs::weakly_canonical(path, error); };
+  std::set<fs::path> known{place(arguments.reference)};  // what is read is no remainder
+  for (const std::string& path : arguments.inputs) known.insert(place(path));
+  for (const std::string& name : written) known.insert(place(fs::path(arguments.folder) / name));
+  Words stale;
+  for (const auto& entry : fs::directory_iterator(arguments.folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (is_of_group(name) && !known.contains(place(entry.path()))) stale.push_back(name);
+  }
+  if (stale.empty()) return;
+  std::ranges::sort(stale);
+  const std::string are = stale.size() == 1 ? " is" : " are";
+  if (stale.size() > most_names) {
+    const auto others = static_cast<long>(stale.size() - most_names);
+    stale.resize(most_names);
+    stale.push_back(counted(others, "other"));
+  }
+  session.console.warning(arguments.folder + ": " + joined(stale) + are +
+                          " of an earlier run, and not of this group");
 }
 
 int run_group(GroupArguments& arguments) {
@@ -138,6 +187,7 @@ int run_group(GroupArguments& arguments) {
   session.publish();
   session.console.say(to_text(record));
   for (const std::string& line : mode_lines(record)) session.console.say("  " + line);
+  tell_stale(arguments, record.outputs, session);
   session.console.say("→ " + (std::filesystem::path(arguments.folder) / "index.html").string());
   return Ok;
 }
