@@ -81,6 +81,25 @@ TEST_CASE("data: files have the names that are given, or those of a field") {
   CHECK(read_mesh(brain.mapped.folder / "S.L.white.ico1.surf.gii").mesh.vertex_count() == 42);
   CHECK(read_vertex_data(brain.mapped.folder / "S.L.thickness.ico1.shape.gii").structure ==
         "CortexLeft");
+  // Another mesh's vertices are not its own, whatever that one's name says; its own sphere's are.
+  const auto made = [&](const std::string& like, const std::string& space) {
+    if (like != brain.sphere)
+      std::filesystem::copy_file(brain.sphere, brain.mapped.folder / like,
+                                 std::filesystem::copy_options::overwrite_existing);
+    const std::string grid = like == brain.sphere ? like : brain.mapped.folder / like;
+    const Ended ended = sphparam_program({"remesh", brain.white, "--sphere", brain.sphere, "--grid",
+                                          "like:" + grid, "--data", brain.thickness, "--names",
+                                          "hcp", "--subject", "S", "-o", folder});
+    INFO(ended.err);
+    REQUIRE(ended.code == 0);
+    CHECK(std::filesystem::exists(brain.mapped.folder / ("S.L.white." + space + ".surf.gii")));
+    CHECK(std::filesystem::exists(brain.mapped.folder / ("S.L.thickness." + space + ".shape.gii")));
+  };
+  made("lh.sphere.reg", "spherereg");
+  std::filesystem::create_directories(brain.mapped.folder / "fsaverage/surf");
+  made("fsaverage/surf/lh.sphere", "fsaverage");
+  CHECK_FALSE(std::filesystem::exists(brain.mapped.folder / "S.L.white.native.surf.gii"));
+  made(brain.sphere, "native");
   REQUIRE(
       sphparam_program({"map", brain.white, "--write-sphere", folder, "--names", "bids"}).code ==
       0);
@@ -249,6 +268,10 @@ TEST_CASE("data: what makes no sense is refused before any work") {
   refused({"remesh", brain.mapped.path, "--grid", "ico:1", "-o", out, "--data", brain.thickness}, 3,
           "lh.thickness");
   refused({"repair", brain.white, "--data", brain.white, "-o", out}, 3, "file of values");
+  for (const std::string& values : {brain.thickness, brain.parcels}) {
+    refused({"map", values, "-o", out}, 3, "and no mesh");
+    refused({"verify", values}, 3, "as --data " + values);
+  }
 }
 
 }  // namespace sphparam::tests

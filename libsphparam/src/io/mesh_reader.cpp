@@ -7,8 +7,10 @@
 #include "io/files/file_bytes.h"
 #include "io/files/gzip.h"
 #include "io/formats/mesh_formats.h"
+#include "io/shell_word.h"
 #include "number_text.h"
 #include "sphparam/io/paths.h"
+#include "sphparam/io/vertex_data.h"
 
 namespace sphparam {
 namespace {
@@ -149,6 +151,21 @@ MeshFile read_bytes(std::string_view bytes, const std::string& name,
                                 : read_unpacked(bytes, name, folder, options);
 }
 
+/// Numbers of a surface's vertices, which people name in the place of the surface.
+/// Throws: ReadError where it is such a file.
+void refuse_values(std::string_view bytes, const std::string& name, const ReadOptions& options) {
+  VertexData data;
+  try {
+    data = read_vertex_data(bytes, name, any_vertices, options);
+  } catch (const ReadError&) {
+    return;
+  }
+  throw ReadError(name, "this is a file of values (" + data.format + "), numbers of " +
+                            counted(data.vertex_count(), "vertex", "vertices") +
+                            ", and no mesh: name its surface, and this beside it, as --data " +
+                            shell_word(name) + "; `sphparam info` says what it holds");
+}
+
 }  // namespace
 
 std::string readable_formats(const std::string& conjunction) {
@@ -169,10 +186,14 @@ MeshFile read_mesh(std::string_view bytes, const std::string& name, const ReadOp
 MeshFile read_mesh(const std::string& path, const ReadOptions& options) {
   refuse_name_of_parts(path);
   const FileBytes bytes(path, options);
-  const bool is_file = path != "-";
-  return read_bytes(
-      bytes.view(), bytes.name(),
-      is_file ? std::optional(std::filesystem::path(path).parent_path()) : std::nullopt, options);
+  if (path == "-") return read_bytes(bytes.view(), bytes.name(), std::nullopt, options);
+  try {
+    return read_bytes(bytes.view(), bytes.name(), std::filesystem::path(path).parent_path(),
+                      options);
+  } catch (const ReadError&) {
+    refuse_values(bytes.view(), bytes.name(), options);
+    throw;
+  }
 }
 
 }  // namespace sphparam
