@@ -85,6 +85,7 @@ def test_a_mirror_image_is_told_and_matched_on_request(maps):
     ([(0, 1), (0, 2)], "", ValueError),
     ([(0.5, 1)], "whole numbers", TypeError),
     ([0, 1, 2], "#×2", ValueError),
+    ([(0, 1), (2,)], "#×2|whole numbers", (ValueError, TypeError)),
     ([("a", "b")], "whole numbers", TypeError),
 ])
 def test_wrong_landmarks_are_refused(maps, wrong, what, error):
@@ -112,6 +113,20 @@ def test_features_come_to_lie_on_each_other(maps):
     assert not both.residuals.any()
     with pytest.raises(ValueError, match=r"features\[1\]"):
         sp.match(*maps, features=("height", heights[:5]))
+    for wrong, words in [
+        (heights, "a pair is needed, .* not ndarray"),
+        (("height",), "a pair is needed, .* not 1 things"),
+        ({"height": heights}, "a pair is needed, .* not dict"),
+        (("height", np.c_[heights, heights]), "as many columns .* not 1 and 2"),
+        (("height", np.zeros((len(heights), 1, 1))), r"features\[1\]: .* rows"),
+        (("no such", heights), "no such"),
+    ]:
+        with pytest.raises(ValueError, match=words):
+            sp.match(*maps, features=wrong)
+    with pytest.raises(TypeError, match=r"features\[0\]: an array is needed, not NoneType"):
+        sp.match(*maps, features=(None, heights))
+    with pytest.raises(TypeError, match="feature_weight: a number is needed"):
+        sp.match(*maps, features=("height", heights), feature_weight="much")
     with pytest.raises(ValueError, match="same everywhere"):
         sp.match(*maps, features=("height", np.ones(len(heights))))
     with pytest.raises(ValueError, match="weight"):

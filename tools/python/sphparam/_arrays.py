@@ -95,6 +95,16 @@ def whole(number: Any, name: str, least: int, most: Optional[int] = None) -> int
     return int(number)
 
 
+def real(thing: Any, name: str) -> float:
+    """A number; its domain is told later."""
+    try:
+        if not isinstance(thing, (str, bytes)):
+            return float(thing)
+    except (TypeError, ValueError):
+        pass
+    raise TypeError(f"{name}: a number is needed, not {thing!r}")
+
+
 def threads(number: int) -> int:
     """0 for all cores, or how many."""
     return whole(number, "threads", 0, 4096)

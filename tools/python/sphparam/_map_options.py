@@ -12,13 +12,25 @@ from ._up import as_direction
 _of_the_paper = ("weights", "epsilon", "iterations", "rings", "sweeps")
 
 
+def _angles(place: Any, name: str) -> Tuple[float, float]:
+    try:
+        theta, phi = place
+        return _arrays.real(theta, name), _arrays.real(phi, name)
+    except (TypeError, ValueError):
+        raise ValueError(f"{name}: two angles are needed, (theta, phi), not {place!r}") from None
+
+
 def _pins(pins: Any) -> List[Tuple[float, float, float]]:
     """Vertex to (theta, phi), as rows."""
+    try:
+        places = dict(pins)
+    except (TypeError, ValueError):
+        raise TypeError(f"pins: a dict is needed, {{vertex: (theta, phi)}}, not {type(pins).__name__}") from None
     rows = []
-    for vertex, place in dict(pins).items():
+    for vertex, place in places.items():
         if not hasattr(vertex, "__index__") or isinstance(vertex, bool):
             raise TypeError(f"pins: a vertex is a whole number, not {vertex!r}")
-        theta, phi = (float(x) for x in place)
+        theta, phi = _angles(place, f"pins[{vertex}]")
         if not (np.isfinite(theta) and 0 <= phi <= np.pi):
             raise ValueError(f"pins[{vertex}]: theta is finite and phi from 0 to π, not {theta}, {phi}")
         rows.append((float(vertex), theta, phi))
@@ -35,15 +47,18 @@ def _vertex_number(thing: Any, name: str) -> int:
 
 def _weight(balance: Union[str, float], weight: Optional[float]) -> Dict[str, Any]:
     """A word, or the number that it stands for."""
-    options: Dict[str, Any] = {"balance": balance} if isinstance(balance, str) else {"lambda": float(balance)}
+    options: Dict[str, Any] = {"balance": balance} if isinstance(balance, str) else {"lambda": _arrays.real(balance, "balance")}
     if weight is not None:
-        options["lambda"] = float(weight)
+        options["lambda"] = _arrays.real(weight, "weight")
     return options
 
 
 def _poles(poles: Any) -> Dict[str, Any]:
     if not isinstance(poles, str):
-        north, south = poles
+        try:
+            north, south = poles
+        except (TypeError, ValueError):
+            raise ValueError(f"poles: 'auto', 'none', 'up' or two vertices, not {poles!r}") from None
         return {"poles": (_vertex_number(north, "poles"), _vertex_number(south, "poles"))}
     if poles not in ("auto", "none", "up"):
         raise ValueError(f"poles: 'auto', 'none', 'up' or two vertices, not {poles!r}")
@@ -103,11 +118,12 @@ def requested(
         energy=_arrays.text(energy, "energy"), filler_share=filler_share, repair_map=repair_map,
         measure_stages=measure_stages, threads=_arrays.threads(threads),
     )  # fmt: skip
-    options.update(_weight(balance, weight), **_poles(poles), **_stance(up, front, poles, pins, align))
+    pinned = [] if pins is None else _pins(pins)
+    options.update(_weight(balance, weight), **_poles(poles), **_stance(up, front, poles, pinned, align))
     if meridian is not None:
         options["meridian"] = _vertex_number(meridian, "meridian")
-    if pins:
-        options["pins"] = _pins(pins)
+    if pinned:
+        options["pins"] = pinned
     if centre is not None:
         options["centre"] = tuple(float(x) for x in _arrays.finite_points([centre], "centre")[0])
     if align is not None:

@@ -121,7 +121,10 @@ class SurfaceMap:
 
 
 def _pairs(landmarks: Any) -> List[Tuple[int, int]]:
-    rows = np.asarray(landmarks)
+    try:
+        rows = np.asarray(landmarks)
+    except ValueError:
+        raise ValueError("landmarks: two vertices a row are needed, source and target, #×2") from None
     if rows.size == 0:
         return []
     if rows.dtype.kind not in "iu":
@@ -141,6 +144,17 @@ def _feature(values: Any, of: SphereMap, name: str) -> Floats:
         shape = "×".join(str(n) for n in rows.shape) or "a single number"
         raise ValueError(f"{name}: {len(of.vertices)} rows are needed, one a vertex, not {shape}")
     return rows
+
+
+def _features(features: Any, source: SphereMap, target: SphereMap) -> Tuple[Floats, Floats]:
+    """Of both, as many columns."""
+    if not isinstance(features, (tuple, list)) or len(features) != 2:
+        found = f"{len(features)} things" if isinstance(features, (tuple, list)) else type(features).__name__
+        raise ValueError(f"features: a pair is needed, of the source and of the target, not {found}")
+    one, other = _feature(features[0], source, "features[0]"), _feature(features[1], target, "features[1]")
+    if one.shape[1] != other.shape[1]:
+        raise ValueError(f"features: as many columns are needed of both, not {one.shape[1]} and {other.shape[1]}")
+    return one, other
 
 
 def match(
@@ -194,7 +208,7 @@ def match(
     shrinks to nothing: look at the result.
     """
     first, second = mapped_of(source, "source"), mapped_of(target, "target")
-    options = {"energy": _arrays.text(energy, "energy"), "lambda": float(weight), "threads": _arrays.threads(threads)}
+    options = {"energy": _arrays.text(energy, "energy"), "lambda": _arrays.real(weight, "weight"), "threads": _arrays.threads(threads)}
     options["search"] = landmarks is None and features is None
     options["alike"] = bool(alike)
     if alike and landmarks is not None:
@@ -202,8 +216,7 @@ def match(
     pairs = [] if landmarks is None else _pairs(landmarks)
     agreeing = None
     if features is not None:
-        one, other = features
-        agreeing = (_feature(one, source, "features[0]"), _feature(other, target, "features[1]"), float(feature_weight))
+        agreeing = (*_features(features, source, target), _arrays.real(feature_weight, "feature_weight"))
     with told(progress) as report:
         found = _core.match(first, second, pairs, agreeing, bool(mirror), options, report)
     moved, least, made_by, residuals, confidence, agreement, warnings = found
