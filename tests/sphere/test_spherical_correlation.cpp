@@ -114,6 +114,45 @@ TEST_CASE("spherical_correlation: of what is the same a third of a turn on, all 
   CHECK(exact == 3);
 }
 
+TEST_CASE("spherical_correlation: functions known on parts are compared where both are") {
+  const Matrix3 turn = random_rotation(3);
+  const auto f = [](const Vector3& x) {
+    return 4 + 2 * x.x() + std::sin(4 * x.y() + 1) * std::cos(3 * x.z()) + 0.5 * x.z() * x.y();
+  };
+  const auto part = [&](const Matrix3& back, const auto& is_known) {
+    const QuadratureGrid grid = quadrature_grid(12);
+    Functions known(grid.directions.rows(), 1), values = known;
+    for (Eigen::Index i = 0; i < known.rows(); ++i) {
+      const Vector3 x = back * grid.directions.row(i).transpose();
+      known(i, 0) = is_known(x) ? 1 : 0;
+      values(i, 0) = is_known(x) ? f(x) : 0;
+    }
+    const auto harmonics = [&](const Functions& c) {
+      return analyse(12, grid.directions, grid.weights, c);
+    };
+    return PartlyKnown{harmonics(known), harmonics(values), harmonics(values.cwiseAbs2())};
+  };
+  const auto all = [](const Vector3&) { return true; };
+  const auto most = [](const Vector3& x) { return x.x() < 0.3; };
+  const auto others = [](const Vector3& x) { return x.y() > -0.4; };
+  const PartlyKnown whole = part(Matrix3::Identity(), all);
+  const PartlyKnown without = part(Matrix3::Identity(), most);
+  for (const PartlyKnown& to : {part(turn.transpose(), all), part(turn.transpose(), most),
+                                part(turn.transpose(), others)}) {
+    for (const PartlyKnown* const from : {&whole, &without}) {
+      const auto found = turns_by_shared_correlation(*from, to, 4);
+      REQUIRE(found.size() == 4);
+      CHECK(angle_between(found[0].rotation, turn) < 0.2);  // of a grid of 0.13
+      CHECK(found[0].correlation > 0.8);
+      for (size_t i = 1; i < 4; ++i) CHECK(found[i].correlation <= found[i - 1].correlation);
+    }
+  }
+  const PartlyKnown none{Functions::Zero(169, 1), Functions::Zero(169, 1), Functions::Zero(169, 1)};
+  CHECK(turns_by_shared_correlation(whole, none).empty());
+  CHECK_THROWS_AS(turns_by_shared_correlation(whole, {whole.known, whole.values, {}}),
+                  std::invalid_argument);
+}
+
 TEST_CASE("spherical_correlation: the same bits for any number of threads, nonsense is refused") {
   const Functions from = random_functions(12, 2, 3), to = random_functions(12, 2, 4);
   const auto one = turns_by_correlation(from, to, 3, 1),

@@ -1,6 +1,9 @@
 #include "correspondence/feature_match.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <list>
 #include <stdexcept>
 #include <utility>
 
@@ -17,7 +20,8 @@
 namespace sphparam {
 namespace {
 
-constexpr int most_turns = 4, most_shape_turns = 8;
+constexpr int most_turns = 4, most_shape_turns = 8, most_shared_turns = 8;
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 constexpr int last_steps = 6;  // of Newton, at most, between the surfaces
 constexpr int starts = 3;      // with landmarks
 
@@ -39,6 +43,86 @@ FeatureTurns turns_by_features(const MappedMesh& from, const MappedMesh& to,
   return {turns_by_correlation(here, there, most_turns, threads),
           turns_by_correlation(-here, there, 1, threads).front().correlation};
 }
+
+/// Whether a feature is known on clearly more of one side than of the other. Parts that both leave
+/// out are taken to be the same: where these lie tells the turn, too.
+bool is_one_sided(const MatchFeatures& features, const MappedMesh& from, const MappedMesh& to) {
+  const VectorX from_area = areas_round_vertices(from.mesh());
+  const VectorX to_area = areas_round_vertices(to.mesh());
+  for (Eigen::Index c = 0; c < features.from.cols(); ++c)
+    if (std::abs(known_share(features.from.col(c), from_area) -
+                 known_share(features.to.col(c), to_area)) > telling_share)
+      return true;
+  return false;
+}
+
+/// What is known of features; `values`: these, centred and cut.
+PartlyKnown known_part(const MappedMesh& mapped, const Functions& features, const Functions& values,
+                       int threads) {
+  const MapSignalOptions options{.threads = threads};
+  const Functions known = features.array().isFinite().cast<double>();
+  const Functions there = values.cwiseProduct(known);
+  return {map_signals(mapped, known, options), map_signals(mapped, there, options),
+          map_signals(mapped, there.cwiseAbs2(), options)};
+}
+
+/// By what both know after the turn; perhaps none.
+FeatureTurns turns_by_shared_features(const MappedMesh& from, const MappedMesh& to,
+                                      const MatchFeatures& features, const FeatureField& field,
+                                      int threads) {
+  PartlyKnown here = known_part(from, features.from, field.from, threads);
+  const PartlyKnown there = known_part(to, features.to, field.to, threads);
+  FeatureTurns result{turns_by_shared_correlation(here, there, most_shared_turns, threads), -1};
+  here.values *= -1;
+  const auto opposed = turns_by_shared_correlation(here, there, 1, threads);
+  if (!opposed.empty()) result.opposed = opposed.front().correlation;
+  return result;
+}
+
+/// Values where the others are known, too, at the corners of the face that a direction is in.
+void leave_out_unknown(Functions& values, const Points& directions, const Functions& others,
+                       const MappedMesh& other) {
+  for (Vertex v = 0; v < values.rows(); ++v) {
+    const Face face = other.locator().locate(directions.row(v)).face;
+    for (int k = 0; k < 3; ++k)
+      for (Eigen::Index c = 0; c < values.cols(); ++c)
+        if (!std::isfinite(others(other.topology().vertex(face, k), c))) values(v, c) = nothing;
+  }
+}
+
+/// Features as they are compared after turns of the map of `from`: each where both sides know it.
+class SharedFeatures {
+ public:
+  /// Borrows all.
+  SharedFeatures(const MappedMesh& from, const MappedMesh& to, const TriangleMesh& from_sphere,
+                 const TriangleMesh& to_sphere, const MatchFeatures& features)
+      : from_(from),
+        to_(to),
+        from_sphere_(from_sphere),
+        to_sphere_(to_sphere),
+        features_(features) {}
+
+  /// They stay. Where nothing is shared that varies, features are compared as they are.
+  const FeatureScales& after(const Eigen::Matrix3d& rotation) {
+    for (const auto& [before, scales] : made_)
+      if (before == rotation) return scales;
+    MatchFeatures shared = features_;
+    leave_out_unknown(shared.from, from_.map().points * rotation.transpose(), features_.to, to_);
+    leave_out_unknown(shared.to, to_.map().points * rotation, features_.from, from_);
+    bool vary = true;
+    for (Eigen::Index c = 0; c < shared.from.cols(); ++c)
+      vary = vary && varies(shared.from.col(c)) && varies(shared.to.col(c));
+    made_.emplace_back(rotation, FeatureScales(from_sphere_, from_.topology(), to_sphere_,
+                                               to_.topology(), vary ? shared : features_));
+    return made_.back().second;
+  }
+
+ private:
+  const MappedMesh &from_, &to_;
+  const TriangleMesh &from_sphere_, &to_sphere_;
+  const MatchFeatures& features_;
+  std::list<std::pair<Eigen::Matrix3d, FeatureScales>> made_;
+};
 
 /// None where curvature or area is the same everywhere: no turn is better than another.
 std::vector<TurnOfFunctions> turns_by_shape(const MappedMesh& from, const MappedMesh& to,
@@ -97,28 +181,36 @@ FeatureMatch match_by_features(const MappedMesh& from, const MappedMesh& to,
                                const MatchFeatures& features, bool alike) {
   const TriangleMesh from_sphere = sphere_of(from), to_sphere = sphere_of(to);
   const FeatureScales scales(from_sphere, from.topology(), to_sphere, to.topology(), features);
-  const FeatureField field = scales.raw();
+  SharedFeatures shared(from, to, from_sphere, to_sphere, features);
+  const bool one_sided = is_one_sided(features, from, to);
   ComposedOptions with_features = options;
   with_features.features = &scales;
+  const auto prepare = [&](const Eigen::Matrix3d& rotation) {
+    if (one_sided) with_features.features = &shared.after(rotation);
+  };
+  const auto after_turn = [&](const Eigen::Matrix3d& rotation) {
+    prepare(rotation);
+    return agreement_of(from, target, with_features.features->raw(), turned(from.map(), rotation));
+  };
 
   // 1. A coarse level.
   const TargetSurface sphere(to, to_sphere.positions);
   CoarseToFine way(from_sphere, from.topology(), sphere, with_features);
   FeatureMatch result;
-  const auto after_turn = [&](const std::vector<TurnOfFunctions>& turns) {
-    return agreement_of(from, target, field, turned(from.map(), turns.front().rotation));
-  };
   if (!options.landmarks.empty()) {
     if (!way.start(starts)) return {std::nullopt, way.residuals()};
   } else if (alike) {
     const std::vector<TurnOfFunctions> turns = turns_by_stance(from, to, options.threads);
-    result.begun_with = after_turn(turns);
+    result.begun_with = after_turn(turns.front().rotation);
     result.confidence = start_alike(way, from.map(), turns);
   } else {
-    const auto [turns, opposed] = turns_by_features(from, to, field, options.threads);
-    result.begun_with = after_turn(turns);
-    result.better_opposed = opposed - turns.front().correlation;
-    result.confidence = start_at_best(way, from.map(), turns, options.energy);
+    FeatureTurns found{{}, 0};
+    if (one_sided)
+      found = turns_by_shared_features(from, to, features, scales.raw(), options.threads);
+    if (found.turns.empty()) found = turns_by_features(from, to, scales.raw(), options.threads);
+    result.begun_with = after_turn(found.turns.front().rotation);
+    result.better_opposed = found.opposed - found.turns.front().correlation;
+    result.confidence = start_at_best(way, from.map(), found.turns, options.energy, prepare);
   }
 
   // 2. Up to the whole sphere, then between the surfaces.
@@ -126,7 +218,7 @@ FeatureMatch match_by_features(const MappedMesh& from, const MappedMesh& to,
   if (map.points.rows() == 0) return {std::nullopt, way.residuals()};
   result.map =
       improve_composition(from.mesh(), from.topology(), target, map, with_features, last_steps);
-  const VectorX agreement = agreement_of(from, target, field, *result.map);
+  const VectorX agreement = agreement_of(from, target, with_features.features->raw(), *result.map);
   result.agreement = agreement.mean();
   if (!options.landmarks.empty()) result.begun_with = agreement;
   return result;

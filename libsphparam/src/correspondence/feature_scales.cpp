@@ -121,6 +121,10 @@ bool varies(const VectorX& values) {
                      [&](double x) { return std::isfinite(x) && x != *first; });
 }
 
+double known_share(const VectorX& values, const VectorX& area) {
+  return values.array().isFinite().select(area, 0.0).sum() / area.sum();
+}
+
 double correlation_of(const Functions& a, const Functions& b, const VectorX& area) {
   double sum = 0;
   for (Eigen::Index c = 0; c < a.cols(); ++c) {

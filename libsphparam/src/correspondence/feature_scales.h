@@ -51,6 +51,11 @@ class FeatureScales {
 /// Whether finite values of it differ.
 bool varies(const VectorX& values);
 
+/// The share of the area of vertices at which a column has a finite number.
+double known_share(const VectorX& values, const VectorX& area);
+
+constexpr double telling_share = 0.03;  // of the area, known on one side alone: worth a word
+
 /// Correlation of columns over a surface with these areas of its vertices: their mean.
 double correlation_of(const Functions& a, const Functions& b, const VectorX& area);
 

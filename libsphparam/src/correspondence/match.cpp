@@ -28,7 +28,6 @@ constexpr int all_starts = 3;                // of coarse levels, to take the be
 constexpr double collapsed = 0.01;           // of its share of the area: a triangle that is lost
 constexpr double telling_area = 1e-3;        // share of the surface that is lost: worth a word
 constexpr double telling_confidence = 0.15;  // less is worth a word
-constexpr double telling_share = 0.03;       // of the area, known on one side alone: worth a word
 constexpr double opposed_agreement = -0.2;   // correlation of a feature: worth a word,
 constexpr double telling_opposition = 0.1;   // as is so much more with the opposite sign
 
@@ -95,12 +94,7 @@ std::optional<std::string> collapse_of(const SurfaceMap& map, int threads) {
          ": landmarks at the ends of what sticks out there may help";
 }
 
-double known_share(const VectorX& values, const VectorX& area) {
-  return values.array().isFinite().select(area, 0.0).sum() / area.sum();
-}
-
-/// A feature that is known of more of one surface than of the other says of that part what is not
-/// so: there it counts as the median.
+/// A feature that is known of more of one surface than of the other.
 std::optional<std::string> one_sided(const MatchFeatures& features, const MappedMesh& from,
                                      const MappedMesh& to) {
   const VectorX from_area = areas_round_vertices(from.mesh());
@@ -111,8 +105,8 @@ std::optional<std::string> one_sided(const MatchFeatures& features, const Mapped
     if (std::abs(here - there) > telling_share)
       return "feature " + std::to_string(c + 1) + " is known on " + percent(here) + " of " +
              from.name() + " and on " + percent(there) + " of " + to.name() +
-             ", and counts as its median elsewhere, which may turn one wrongly: leave the same "
-             "part out in both";
+             ": it is compared where both are known, as far as that can be told: look at the "
+             "result";
   }
   return std::nullopt;
 }

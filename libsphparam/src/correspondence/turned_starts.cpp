@@ -39,11 +39,13 @@ Eigen::Matrix3d half_turn(int axis) {
 }  // namespace
 
 double start_at_best(CoarseToFine& way, const SphereMap& map,
-                     const std::vector<TurnOfFunctions>& turns, const ComposedEnergy& energy) {
+                     const std::vector<TurnOfFunctions>& turns, const ComposedEnergy& energy,
+                     const std::function<void(const Eigen::Matrix3d&)>& prepare) {
   const double isometric = differentiate(energy.energy, 1, 1).f;
   const double least = std::isfinite(isometric) ? isometric : 0;
   std::vector<Start> starts;
   const auto add = [&](const Eigen::Matrix3d& rotation) {
+    prepare(rotation);
     const double reached = way.start_at(turned(map, rotation));
     starts.push_back({rotation, reached - least, way.places()});
   };
@@ -56,6 +58,7 @@ double start_at_best(CoarseToFine& way, const SphereMap& map,
     std::ranges::stable_sort(starts, {}, &Start::excess);
   }
   const double best = starts.front().excess;
+  prepare(starts.front().rotation);
   way.start_at(turned(map, starts.front().rotation));
   const std::optional<double> other = excess_elsewhere(starts);
   if (!other) return 1;

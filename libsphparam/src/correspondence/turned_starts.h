@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "correspondence/coarse_to_fine.h"
@@ -7,11 +8,14 @@
 
 namespace sphparam {
 
-/// Starts `way` at the map after each of these turns, and, where all of them lead to one map, half a
-/// turn from it about each axis; leaves it at the one of least energy.
-/// Returns the confidence in it: 0 where a start that leads elsewhere has as little energy beyond
-/// isometry's, towards 1 where none comes near. Requires: at least one turn.
-double start_at_best(CoarseToFine& way, const SphereMap& map,
-                     const std::vector<TurnOfFunctions>& turns, const ComposedEnergy& energy);
+/// Starts `way` at the map after each of these turns, and, where all of them lead to one map, half
+/// a turn from it about each axis; leaves it at the one of least energy. Returns the confidence in
+/// it: 0 where a start that leads elsewhere has as little energy beyond isometry's, towards 1 where
+/// none comes near. Requires: at least one turn. `prepare` is called with each turn before `way`
+/// starts there, also with the best one at last.
+double start_at_best(
+    CoarseToFine& way, const SphereMap& map, const std::vector<TurnOfFunctions>& turns,
+    const ComposedEnergy& energy,
+    const std::function<void(const Eigen::Matrix3d&)>& prepare = [](const Eigen::Matrix3d&) {});
 
 }  // namespace sphparam

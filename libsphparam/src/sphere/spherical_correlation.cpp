@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -17,6 +18,8 @@
 // with T from the turn about y of all degrees, and its values on a grid are two matrix products.
 // A maximum is then followed by Newton's method: with J the generators of turns, the gradient is
 // ⟨to, J_k f⟩, the Hessian ⟨to, (J_j J_k + J_k J_j)/2 f⟩.
+// Of functions that are known on parts, with m where each is known, mf and mf² there, six such
+// grids have all sums over what is shared: of 1 (m, m'), f, f', f², f'², ff'.
 
 namespace sphparam {
 namespace {
@@ -25,7 +28,9 @@ using Matrix3 = Eigen::Matrix3d;
 constexpr int grid_degree = 12;
 constexpr double least_angle = std::numbers::pi / 9;  // between two maxima
 constexpr int most_steps = 30;
-constexpr double small_step = 1e-13;  // radians
+constexpr double small_step = 1e-13;     // radians
+constexpr double least_shared = 0.5;     // of the smaller of two parts
+constexpr double least_variance = 1e-3;  // on what is shared, of the mean square on the part
 
 int degree_of(const Functions& c) {
   return static_cast<int>(std::lround(std::sqrt(double(c.rows())))) - 1;
@@ -146,21 +151,61 @@ double angle_between(const Matrix3& a, const Matrix3& b) {
   return elementary::acos(std::clamp(((a.transpose() * b).trace() - 1) / 2, -1.0, 1.0));
 }
 
-/// The greatest values on the grid, far enough from one another.
-std::vector<Matrix3> peaks(const EulerGrid& grid, int most) {
+/// The greatest values at the rotations of a grid, far enough from one another.
+std::vector<TurnOfFunctions> peaks(const EulerGrid& grid, const VectorX& values, int most) {
   std::vector<std::int64_t> order(static_cast<size_t>(grid.count()));
   std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order, [&](auto a, auto b) { return grid.value(a) > grid.value(b); });
-  std::vector<Matrix3> found;
+  std::ranges::stable_sort(order, [&](auto a, auto b) { return values[a] > values[b]; });
+  std::vector<TurnOfFunctions> found;
   for (const std::int64_t i : order) {
+    if (!std::isfinite(values[i])) break;
     const Matrix3 rotation = grid.rotation(i);
-    if (std::ranges::all_of(found, [&](const Matrix3& other) {
-          return angle_between(rotation, other) > least_angle;
+    if (std::ranges::all_of(found, [&](const TurnOfFunctions& other) {
+          return angle_between(rotation, other.rotation) > least_angle;
         }))
-      found.push_back(rotation);
+      found.push_back({rotation, values[i]});
     if (std::ssize(found) == most) break;
   }
   return found;
+}
+
+VectorX values_of(const EulerGrid& grid) {
+  VectorX values(grid.count());
+  for (std::int64_t i = 0; i < grid.count(); ++i) values[i] = grid.value(i);
+  return values;
+}
+
+/// Integrals over the sphere of the product of two functions, one turned, at all rotations.
+VectorX products(const Functions& from, const Functions& to, Eigen::Index k, int threads) {
+  const int degree = std::min(degree_of(from), grid_degree);
+  const Functions f = of_degree(from, degree).col(k), g = of_degree(to, degree).col(k);
+  return values_of(EulerGrid(f, g, threads)).array() + f(0, 0) * g(0, 0);
+}
+
+/// Correlations over what is shared, at all rotations; −∞ where they say nothing.
+VectorX shared_correlations(const PartlyKnown& from, const PartlyKnown& to, Eigen::Index k,
+                            int threads) {
+  const auto integral = [&](const Functions& c) {
+    return c(0, k) * std::sqrt(4 * std::numbers::pi);
+  };
+  const double smaller = std::min(integral(from.known), integral(to.known));
+  const VectorX n = products(from.known, to.known, k, threads);
+  const VectorX f = products(from.values, to.known, k, threads);
+  const VectorX g = products(from.known, to.values, k, threads);
+  const VectorX ff = products(from.squares, to.known, k, threads);
+  const VectorX gg = products(from.known, to.squares, k, threads);
+  const VectorX fg = products(from.values, to.values, k, threads);
+  const double least_f = least_variance * integral(from.squares) / integral(from.known);
+  const double least_g = least_variance * integral(to.squares) / integral(to.known);
+  VectorX result(n.size());
+  for (Eigen::Index i = 0; i < n.size(); ++i) {
+    const double of_f = ff[i] / n[i] - f[i] * f[i] / (n[i] * n[i]);
+    const double of_g = gg[i] / n[i] - g[i] * g[i] / (n[i] * n[i]);
+    const bool tells = n[i] >= least_shared * smaller && of_f > least_f && of_g > least_g;
+    result[i] = tells ? (fg[i] / n[i] - f[i] * g[i] / (n[i] * n[i])) / std::sqrt(of_f * of_g)
+                      : -std::numeric_limits<double>::infinity();
+  }
+  return result;
 }
 
 /// The turn by the vector w, up to second order: (1 − W/2)⁻¹ (1 + W/2), W x = w × x.
@@ -246,8 +291,8 @@ std::vector<TurnOfFunctions> turns_by_correlation(const Functions& from, const F
   const EulerGrid grid(coarse_f, coarse_g, threads);
   const Ascent ascent(f, g);
   std::vector<TurnOfFunctions> found;
-  for (const Matrix3& peak : peaks(grid, most)) {
-    const TurnOfFunctions turn = ascent.run(peak);
+  for (const TurnOfFunctions& peak : peaks(grid, values_of(grid), most)) {
+    const TurnOfFunctions turn = ascent.run(peak.rotation);
     const bool is_new = std::ranges::all_of(found, [&](const TurnOfFunctions& other) {
       return angle_between(other.rotation, turn.rotation) > least_angle;
     });
@@ -255,6 +300,23 @@ std::vector<TurnOfFunctions> turns_by_correlation(const Functions& from, const F
   }
   std::ranges::stable_sort(found, std::greater{}, &TurnOfFunctions::correlation);
   return found;
+}
+
+std::vector<TurnOfFunctions> turns_by_shared_correlation(const PartlyKnown& from,
+                                                         const PartlyKnown& to, int most,
+                                                         int threads) {
+  for (const auto& [one, other] :
+       {std::pair(&from.known, &to.known), std::pair(&from.values, &to.values),
+        std::pair(&from.squares, &to.squares), std::pair(&from.known, &from.values),
+        std::pair(&from.known, &from.squares)})
+    require_alike(*one, *other, most);
+  VectorX values = shared_correlations(from, to, 0, threads);
+  for (Eigen::Index k = 1; k < from.known.cols(); ++k)
+    values += shared_correlations(from, to, k, threads);
+  values /= static_cast<double>(from.known.cols());
+  const int degree = std::min(degree_of(from.known), grid_degree);
+  const Functions any = Functions::Zero(Eigen::Index(degree + 1) * (degree + 1), 1);
+  return peaks(EulerGrid(any, any, threads), values, most);  // for its rotations alone
 }
 
 }  // namespace sphparam
