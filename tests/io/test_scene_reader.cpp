@@ -249,7 +249,7 @@ TEST_CASE("scene_reader: meshes with a skin are as their joints stand, wherever 
 TEST_CASE("scene_reader: animations are left at rest and told, also where one has a node's name") {
   for (const char* const animation : {"walk", "n"}) {
     const MeshFile file = read_mesh(moved_collada(animation), "a.bin", {});
-    CHECK(losses_among(file.notes) == std::vector<std::string>{"not carried: 1 animation"});
+    CHECK(losses_among(file.notes).back() == "not carried: 1 animation");
     CHECK(file.mesh.positions.colwise().minCoeff().isApprox(Eigen::RowVector3d(0, 0, 7)));
   }
 }
