@@ -1,6 +1,9 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <set>
 
 #include "folder.h"
+#include "number_text.h"
 #include "reading.h"
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/io/mesh_source.h"
@@ -81,6 +84,82 @@ MeshSource read_text(const Folder& folder, const std::string& text) {
 }
 
 }  // namespace
+
+TEST_CASE("file numbers: defects name places as the file does, and count what it does not have") {
+  MeshFile file = renumbered();
+  file.vertex_properties.back().values[3] = -1;
+  Property polygons{"source_face", ScalarType::Int32, {}};
+  for (Face f = 0; f < file.mesh.face_count(); ++f) polygons.values.push_back(f / 2);
+  polygons.values[9] = -1;
+  file.set_face_property(polygons);
+  const FileNumbers numbers(file);
+  const auto named = [&](const MeshDefect& defect) {
+    return by_file_numbers({defect}, numbers)[0];
+  };
+
+  const MeshDefect edges = named({DefectKind::BoundaryEdge,
+                                  true,
+                                  3,
+                                  {0, 1, 2, 3, 4, 5},
+                                  "3 edges: between vertices 0-1, 2-3, 4-5",
+                                  "close them"});
+  CHECK(edges.elements == std::vector<int>{100, 101, 104, 105});
+  CHECK(edges.message ==
+        "3 edges: between vertices 100-101, 104-105 and 1 that the file does not have");
+  CHECK(edges.count == 3);
+  CHECK(edges.hint == "close them");
+  const MeshDefect vertices =
+      named({DefectKind::NonManifoldVertex, true, 12, {1, 2}, "12: vertices 1, 2, …", ""});
+  CHECK(vertices.elements == std::vector<int>{101, 102});
+  CHECK(vertices.message == "12: vertices 101, 102, …");
+  const MeshDefect none =
+      named({DefectKind::CoincidentVertices, false, 1, {3}, "1: vertices 3", ""});
+  CHECK(none.elements.empty());
+  CHECK(none.message == "1: 1 that the file does not have");
+  // Two triangles of one polygon are one place.
+  const MeshDefect faces =
+      named({DefectKind::ZeroAreaFace, false, 4, {4, 5, 7, 9}, "4: faces 4, 5, 7, 9", ""});
+  CHECK(faces.elements == std::vector<int>{2, 3});
+  CHECK(faces.message == "4: faces 2, 3 and 1 that the file does not have");
+  const MeshDefect genus = named({DefectKind::WrongGenus, true, 1, {}, "genus 1: no", ""});
+  CHECK(genus.message == "genus 1: no");
+}
+
+TEST_CASE("file numbers: what is wrong with a welded mesh has the numbers of the file") {
+  TriangleMesh mesh = icosphere(1);
+  mesh.triangles.conservativeResize(mesh.face_count() - 1, 3);
+  const Eigen::RowVector3i missing = icosphere(1).triangles.bottomRows<1>();
+  // Every triangle with vertices of its own.
+  std::string places, faces;
+  std::vector<Vertex> of_file;
+  for (Face f = 0; f < mesh.face_count(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const Vector3 p = mesh.position(mesh.triangles(f, k));
+      places += "v " + shortest(p.x()) + " " + shortest(p.y()) + " " + shortest(p.z()) + "\n";
+      of_file.push_back(mesh.triangles(f, k));
+      faces += (k == 0 ? "f " : " ") + std::to_string(of_file.size()) + (k == 2 ? "\n" : "");
+    }
+  const Folder folder;
+  const MeshSource source = read_text(folder, places + faces);
+  REQUIRE(source.welded);
+  const std::vector<MeshDefect>& defects = source.inspection.defects;
+  REQUIRE(defects.front().kind == DefectKind::BoundaryEdge);
+  std::set<Vertex> named;
+  for (const int number : defects.front().elements) named.insert(of_file.at(number));
+  CHECK(named == std::set<Vertex>{missing[0], missing[1], missing[2]});
+}
+
+TEST_CASE("file numbers: faces that were cut into triangles are named as polygons") {
+  const Folder folder;  // a square, and a triangle without area
+  const MeshSource source =
+      read_text(folder, "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0.5 0\nf 1 2 3 4\nf 2 5 3\n");
+  REQUIRE(source.file.mesh.face_count() == 3);
+  const auto flat =
+      std::ranges::find(source.inspection.defects, DefectKind::ZeroAreaFace, &MeshDefect::kind);
+  REQUIRE(flat != source.inspection.defects.end());
+  CHECK(flat->elements == std::vector<int>{1});
+  CHECK(flat->message == "1 face has no area: faces 1");
+}
 
 TEST_CASE("file numbers: a mesh knows how many vertices its file had, after dropping and repair") {
   const Folder folder;

@@ -8,6 +8,7 @@
 #include "io/mesh_part.h"
 #include "mesh/triangle_geometry.h"
 #include "mesh/union_find.h"
+#include "sphparam/io/file_numbers.h"
 #include "sphparam/names.h"
 
 // Areas are of the mesh at unit size, and added in the order of the faces.
@@ -61,6 +62,8 @@ MeshSource source_of(const MeshSource& whole, const MeshFile& numbered, const Pa
   source.topology = Topology::try_build(source.file.mesh.triangles,
                                         static_cast<int>(source.file.mesh.vertex_count()));
   source.inspection = inspect_mesh(source.file.mesh);
+  source.inspection.defects =
+      by_file_numbers(std::move(source.inspection.defects), FileNumbers(source.file));
   source.welded = whole.welded;
   source.notes = whole.notes;
   source.repairs = whole.repairs;

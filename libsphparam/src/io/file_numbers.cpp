@@ -4,6 +4,8 @@
 #include <charconv>
 #include <limits>
 
+#include "mesh/defect_places.h"
+
 // Renumbered meshes carry the old numbers as a vertex property; sorted, it answers both ways.
 
 namespace sphparam {
@@ -22,6 +24,13 @@ long said_count(const MeshFile& file) {
     return std::from_chars(comment.data(), end, count).ptr == end ? count : 0;
   }
   return 0;
+}
+
+/// None where there is no such property, or one of that name for something else.
+std::vector<double> ids_in(const Property* property) {
+  const auto is_id = [](double value) { return holds_exactly(ScalarType::Int32, value); };
+  if (!property || !std::ranges::all_of(property->values, is_id)) return {};
+  return property->values;
 }
 
 }  // namespace
@@ -49,12 +58,11 @@ void forget_vertices_of_file(MeshFile& file) {
 bool says_vertices_of_file(std::string_view comment) { return comment.starts_with(count_prefix); }
 
 FileNumbers::FileNumbers(const MeshFile& file)
-    : vertices_(static_cast<Vertex>(file.mesh.vertex_count())) {
-  const Property* property = file.find_vertex_property("source_vertex");
-  const auto is_id = [](double value) { return holds_exactly(ScalarType::Int32, value); };
-  // A file may have a property of that name for something else.
-  if (!property || !std::all_of(property->values.begin(), property->values.end(), is_id)) return;
-  numbers_ = property->values;
+    : vertices_(static_cast<Vertex>(file.mesh.vertex_count())),
+      numbers_(ids_in(file.find_vertex_property("source_vertex"))),
+      face_numbers_(ids_in(file.find_face_property("source_face"))) {
+  if (numbers_.empty()) return;
+  if (numbers_.empty()) return;
   by_number_.reserve(numbers_.size());
   for (Vertex v = 0; v < vertices_; ++v) {
     by_number_.emplace_back(numbers_[static_cast<size_t>(v)], v);
@@ -77,10 +85,23 @@ long FileNumbers::number(Vertex vertex) const {
   return numbers_.empty() ? vertex : static_cast<long>(numbers_[static_cast<size_t>(vertex)]);
 }
 
+long FileNumbers::face_number(Face face) const {
+  return face_numbers_.empty() ? face : static_cast<long>(face_numbers_[static_cast<size_t>(face)]);
+}
+
 std::string FileNumbers::absence(long number) const {
   return "the mesh has no vertex " + std::to_string(number) +
          (numbers_.empty() ? "; they are 0 to " + std::to_string(vertices_ - 1)
                            : " (it was merged with another, or no face used it)");
+}
+
+std::vector<MeshDefect> by_file_numbers(std::vector<MeshDefect> defects,
+                                        const FileNumbers& numbers) {
+  for (MeshDefect& defect : defects)
+    defect = renumbered(
+        std::move(defect), [&](Vertex v) { return numbers.number(v); },
+        [&](Face f) { return numbers.face_number(f); });
+  return defects;
 }
 
 ParameterizeOptions with_vertices_of_mesh(ParameterizeOptions options, const FileNumbers& numbers) {

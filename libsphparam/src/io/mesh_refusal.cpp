@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "io/repaired_file.h"
+#include "mesh/defect_places.h"
 #include "mesh/triangle_geometry.h"
 #include "number_text.h"
 #include "sphparam/io/file_numbers.h"
@@ -23,12 +24,12 @@ std::vector<RepairAction> by_file_numbers(std::vector<RepairAction> actions,
                                           const MeshSource& source) {
   const FileNumbers numbers(source.file);
   for (RepairAction& action : actions) {
-    if (place_of(action.kind) != RepairPlace::Faces) {
-      for (int& vertex : action.elements) {
-        if (vertex >= 0) vertex = static_cast<int>(numbers.number(vertex));
-      }
-      action.message = describe(action);
+    const bool names_faces = place_of(action.kind) == RepairPlace::Faces;
+    for (int& id : action.elements) {
+      if (id < 0) continue;
+      id = static_cast<int>(names_faces ? numbers.face_number(id) : numbers.number(id));
     }
+    action.message = describe(action);
     const bool made_by_welding = action.kind == RepairKind::InvalidFaceRemoved ||
                                  action.kind == RepairKind::DuplicateFaceRemoved;
     if (source.welded && made_by_welding) action.message = "after welding, " + action.message;
@@ -54,6 +55,27 @@ std::vector<HandleLoop> by_file_numbers(std::vector<HandleLoop> loops, const Mes
   return loops;
 }
 
+/// Those that stand in the way of a mended mesh, by the numbers of the file that it was mended
+/// from.
+std::vector<MeshDefect> remaining_ones(const RepairedMesh& mended, const MeshSource& source) {
+  const FileNumbers numbers(source.file);
+  std::vector<MeshDefect> remaining;
+  for (const MeshDefect& defect : mended.inspection.defects) {
+    if (!defect.fatal) continue;
+    remaining.push_back(renumbered(
+        defect,
+        [&](Vertex v) {
+          const Vertex origin = mended.vertex_origin[static_cast<std::size_t>(v)];
+          return origin < 0 ? -1 : numbers.number(origin);
+        },
+        [&](Face f) {
+          const Face origin = mended.face_origin[static_cast<std::size_t>(f)];
+          return origin < 0 ? -1 : numbers.face_number(origin);
+        }));
+  }
+  return remaining;
+}
+
 /// The limit that lets all of these go, in whole permille.
 double limit_for(const std::vector<HandleLoop>& loops) {
   double longest = RepairOptions{}.longest_handle;
@@ -61,14 +83,6 @@ double limit_for(const std::vector<HandleLoop>& loops) {
     if (loop.share > longest) longest = std::ceil(loop.share * 1000 + 1e-6) / 1000;
   }
   return longest;
-}
-
-std::vector<MeshDefect> fatal_ones(const MeshInspection& inspection) {
-  std::vector<MeshDefect> fatal;
-  for (const MeshDefect& defect : inspection.defects) {
-    if (defect.fatal) fatal.push_back(defect);
-  }
-  return fatal;
 }
 
 /// Whether repair would help; nothing where there is no memory to find out.
@@ -114,6 +128,8 @@ MeshSource with_repairs(MeshSource source, RepairedMesh mended) {
   source.handles = by_file_numbers(std::move(mended.handles), source);
   source.file = repaired_file(source.file, mended);
   source.inspection = std::move(mended.inspection);
+  source.inspection.defects =
+      by_file_numbers(std::move(source.inspection.defects), FileNumbers(source.file));
   source.topology = Topology::try_build(source.file.mesh.triangles,
                                         static_cast<int>(source.file.mesh.vertex_count()));
   return source;
@@ -121,8 +137,9 @@ MeshSource with_repairs(MeshSource source, RepairedMesh mended) {
 
 RepairTrial trial_of(const MeshSource& source, const RepairOptions& options, RepairedMesh mended,
                      KeptParts parts) {
-  return {options, by_file_numbers(std::move(mended.actions), source),
-          fatal_ones(mended.inspection), by_file_numbers(std::move(parts), source),
+  std::vector<MeshDefect> remaining = remaining_ones(mended, source);
+  return {options, by_file_numbers(std::move(mended.actions), source), std::move(remaining),
+          by_file_numbers(std::move(parts), source),
           by_file_numbers(std::move(mended.handles), source)};
 }
 

@@ -3,6 +3,8 @@
 #include <filesystem>
 
 #include "io/polygons/welding.h"
+#include "mesh/defect_places.h"
+#include "sphparam/io/file_numbers.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/safe_file.h"
 
@@ -17,9 +19,22 @@ long count_of(const MeshInspection& inspection, DefectKind kind) {
   return 0;
 }
 
+/// As the file has the mesh: its vertices, and its polygons where they are cut into triangles.
+MeshInspection inspect_as_read(const MeshFile& file) {
+  MeshInspection inspection = inspect_mesh(file.mesh);
+  if (file.polygons == 0) return inspection;
+  const FileNumbers numbers(file);
+  for (MeshDefect& defect : inspection.defects)
+    defect = renumbered(
+        std::move(defect), [](Vertex v) { return v; },
+        [&](Face f) { return numbers.face_number(f); });
+  return inspection;
+}
+
 /// The inspection of the welded mesh; what is not true of the faces as the file has them says so.
-MeshInspection inspect_welded(const TriangleMesh& mesh, const MeshInspection& as_indexed) {
-  MeshInspection inspection = inspect_mesh(mesh);
+MeshInspection inspect_welded(const MeshFile& file, const MeshInspection& as_indexed) {
+  MeshInspection inspection = inspect_mesh(file.mesh);
+  inspection.defects = by_file_numbers(std::move(inspection.defects), FileNumbers(file));
   for (MeshDefect& defect : inspection.defects) {
     const bool more = defect.count > count_of(as_indexed, defect.kind);
     if (more) defect.message = "after welding, " + defect.message;
@@ -44,14 +59,14 @@ MeshSource read_source(const std::string& path, const ReadOptions& options) {
   source.path = path;
   source.file = read_mesh(path, options);
   keep_textures(source.file);
-  source.inspection = inspect_mesh(source.file.mesh);
+  source.inspection = inspect_as_read(source.file);
   source.notes = source.file.notes;
   MappableMesh mappable = make_mappable(std::move(source.file), &source.notes);
   source.file = std::move(mappable.file);
   source.topology = std::move(mappable.topology);
   // Dropping unused vertices leaves all used ones; welding merges some of these.
   source.welded = source.file.mesh.vertex_count() < source.inspection.used_vertices;
-  if (source.welded) source.inspection = inspect_welded(source.file.mesh, source.inspection);
+  if (source.welded) source.inspection = inspect_welded(source.file, source.inspection);
   return source;
 }
 

@@ -9,6 +9,7 @@
 #include <optional>
 #include <sstream>
 
+#include "mesh/defect_places.h"
 #include "mesh/face_sides.h"
 #include "mesh/flat_face.h"
 #include "mesh/index_range.h"
@@ -40,17 +41,8 @@ struct Places {
   }
 };
 
-/// "first at vertices 4–17, 17–23" for edges, "first: 4, 17" otherwise.
-std::string place_list(const Places& places, const char* noun, size_t ids_per_place) {
-  if (places.elements.empty()) return {};
-  std::ostringstream text;
-  text << ": " << noun << " ";
-  for (size_t i = 0; i < places.elements.size(); i += ids_per_place) {
-    if (i > 0) text << ", ";
-    for (size_t k = 0; k < ids_per_place; ++k) text << (k ? "-" : "") << places.elements[i + k];
-  }
-  if (static_cast<long>(places.elements.size() / ids_per_place) < places.count) text << ", …";
-  return text.str();
+std::string list_of(RepairPlace place, const Places& places) {
+  return place_list(place, places.elements, places.count);
 }
 
 class Inspector {
@@ -112,13 +104,13 @@ class Inspector {
       add_fatal(DefectKind::IndexOutOfRange, out_of_range.count, out_of_range.elements,
                 counted(out_of_range.count, "face names a vertex that does not exist",
                         "faces name vertices that do not exist") +
-                    place_list(out_of_range, "faces", 1),
+                    list_of(RepairPlace::Faces, out_of_range),
                 counts_from_one(mesh_) ? "the indices count from 1: faces - 1" : "");
     }
     if (repeated.count > 0) {
       add_fatal(DefectKind::RepeatedVertex, repeated.count, repeated.elements,
                 counted(repeated.count, "face names", "faces name") + " one vertex twice" +
-                    place_list(repeated, "faces", 1),
+                    list_of(RepairPlace::Faces, repeated),
                 "remove degenerate faces");
     }
   }
@@ -139,7 +131,8 @@ class Inspector {
     if (finite_) return;
     add_fatal(DefectKind::NonFinitePosition, places.count, places.elements,
               counted(places.count, "vertex has", "vertices have") +
-                  " a coordinate that is not a finite number" + place_list(places, "vertices", 1),
+                  " a coordinate that is not a finite number" +
+                  list_of(RepairPlace::Vertices, places),
               "");
   }
 
@@ -188,13 +181,13 @@ class Inspector {
       add_fatal(DefectKind::BoundaryEdge, boundary.count, boundary.elements,
                 "not closed: " + counted(boundary.count, "boundary edge", "boundary edges") +
                     " in " + counted(result_.boundary_loops, "loop", "loops") +
-                    place_list(boundary, "between vertices", 2),
+                    list_of(RepairPlace::Edges, boundary),
                 "fill the holes, or weld vertices that lie at the same place");
     }
     if (crowded.count > 0) {
       add_fatal(DefectKind::NonManifoldEdge, crowded.count, crowded.elements,
                 counted(crowded.count, "edge has", "edges have") + " three or more faces" +
-                    place_list(crowded, "between vertices", 2),
+                    list_of(RepairPlace::Edges, crowded),
                 "remove inner or duplicate faces");
     }
     if (misoriented.count > 0) {
@@ -203,7 +196,7 @@ class Inspector {
                 counted(misoriented.count, "edge is", "edges are") +
                     " run through the same way by both faces" +
                     (one_sided ? " of a one-sided (non-orientable) surface" : "") +
-                    place_list(misoriented, "between vertices", 2),
+                    list_of(RepairPlace::Edges, misoriented),
                 one_sided ? "however its faces are turned, some edge is run through the same way"
                           : "orient the faces consistently");
     }
@@ -245,7 +238,7 @@ class Inspector {
     if (places.count == 0) return;
     add_fatal(DefectKind::DuplicateFace, places.count, places.elements,
               counted(places.count, "face has", "faces have") +
-                  " the same three vertices as another" + place_list(places, "faces", 1),
+                  " the same three vertices as another" + list_of(RepairPlace::Faces, places),
               "remove duplicate faces");
   }
 
@@ -277,7 +270,7 @@ class Inspector {
     if (places.count == 0) return;
     add_fatal(DefectKind::NonManifoldVertex, places.count, places.elements,
               counted(places.count, "vertex joins", "vertices join") +
-                  " separate fans of faces (non-manifold)" + place_list(places, "vertices", 1),
+                  " separate fans of faces (non-manifold)" + list_of(RepairPlace::Vertices, places),
               "split the vertex, one copy for each fan");
   }
 
@@ -348,7 +341,7 @@ class Inspector {
     if (places.count == 0) return;
     add_remark(DefectKind::UnusedVertex, places,
                counted(places.count, "vertex is", "vertices are") + " used by no face" +
-                   place_list(places, "vertices", 1),
+                   list_of(RepairPlace::Vertices, places),
                "");
   }
 
@@ -365,10 +358,10 @@ class Inspector {
     result_.area *= scale_ * scale_;
     result_.volume *= scale_ * scale_ * scale_;
     if (flat.count > 0) {
-      add_remark(
-          DefectKind::ZeroAreaFace, flat,
-          counted(flat.count, "face has", "faces have") + " no area" + place_list(flat, "faces", 1),
-          "");
+      add_remark(DefectKind::ZeroAreaFace, flat,
+                 counted(flat.count, "face has", "faces have") + " no area" +
+                     list_of(RepairPlace::Faces, flat),
+                 "");
     }
     if (result_.volume < 0 && result_.boundary_loops == 0) {
       add_remark(DefectKind::InsideOut, {}, "inside out: the volume is negative",
@@ -397,7 +390,7 @@ class Inspector {
     if (places.count == 0) return;
     add_remark(DefectKind::CoincidentVertices, places,
                counted(places.count, "vertex lies", "vertices lie") + " exactly on another" +
-                   place_list(places, "vertices", 1),
+                   list_of(RepairPlace::Vertices, places),
                "");
   }
 

@@ -11,6 +11,7 @@
 #include <tuple>
 #include <utility>
 
+#include "mesh/defect_places.h"
 #include "mesh/face_sides.h"
 #include "mesh/triangle_geometry.h"
 #include "mesh/union_find.h"
@@ -24,11 +25,6 @@ using Colour = std::array<double, 3>;
 constexpr Colour sound = {205, 205, 200}, beside = {240, 160, 60}, bad = {214, 30, 30};
 constexpr double bead_size = 0.011;  // radius, in diagonals of the bounding box
 constexpr std::size_t most_beads = 5000;
-
-bool names_faces(DefectKind kind) {
-  return kind == DefectKind::RepeatedVertex || kind == DefectKind::DuplicateFace ||
-         kind == DefectKind::ZeroAreaFace || kind == DefectKind::IndexOutOfRange;
-}
 
 /// The faces that can be drawn: their vertices are there and have a place.
 TriangleMesh drawable(const TriangleMesh& mesh) {
@@ -66,10 +62,11 @@ std::set<Edge> places_of(const MeshSource& source) {
   const auto add = [&](int a, int b) {
     if (std::min(a, b) >= 0 && std::max(a, b) < mesh.vertex_count()) places.insert({a, b});
   };
-  for (const MeshDefect& defect : source.inspection.defects) {
+  // Those of the source have the numbers of the file.
+  for (const MeshDefect& defect : inspect_mesh(mesh).defects) {
     if (!defect.fatal || defect.kind == DefectKind::SeveralComponents) continue;
     for (const int id : defect.elements) {
-      if (!names_faces(defect.kind)) {
+      if (place_of(defect.kind) != RepairPlace::Faces) {
         add(id, id);
       } else if (id >= 0 && id < mesh.face_count()) {
         for (int k = 0; k < 3; ++k) add(mesh.triangles(id, k), mesh.triangles(id, (k + 1) % 3));

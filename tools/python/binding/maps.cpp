@@ -23,6 +23,12 @@
 namespace sphparam::python {
 namespace {
 
+void inspect_by_file_numbers(MeshSource& source) {
+  source.inspection = inspect_mesh(source.file.mesh);
+  source.inspection.defects =
+      by_file_numbers(std::move(source.inspection.defects), FileNumbers(source.file));
+}
+
 /// The topology of what can be mapped. Throws MeshRefusal, with what repair would do.
 Topology topology_of(MeshSource& source) {
   if (source.topology) {
@@ -32,7 +38,7 @@ Topology topology_of(MeshSource& source) {
   try {
     return require_sphere(source.file.mesh);
   } catch (const MeshError&) {
-    source.inspection = inspect_mesh(source.file.mesh);
+    inspect_by_file_numbers(source);
     throw MeshRefusal(source, try_repair(source));
   }
 }
@@ -40,7 +46,7 @@ Topology topology_of(MeshSource& source) {
 [[noreturn]] void refuse(const Source& source) {
   const auto mesh = std::make_shared<MeshSource>(source.mesh);
   call(py::none(), [mesh](const Progress&) {
-    mesh->inspection = inspect_mesh(mesh->file.mesh);
+    inspect_by_file_numbers(*mesh);
     throw MeshRefusal(*mesh, try_repair(*mesh));
     return true;
   });

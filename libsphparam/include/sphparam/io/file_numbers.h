@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sphparam/io/mesh_file.h"
+#include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/parameterize.h"
 
 namespace sphparam {
@@ -24,6 +25,10 @@ class FileNumbers {
   /// The number in the file of a vertex of the mesh.
   long number(Vertex vertex) const;
 
+  /// The same of a face: where polygons were cut into triangles, that of its polygon. Negative: the
+  /// file does not have it.
+  long face_number(Face face) const;
+
   /// "the mesh has no vertex 99; they are 0 to 41".
   std::string absence(long number) const;
 
@@ -31,7 +36,13 @@ class FileNumbers {
   Vertex vertices_;
   std::vector<double> numbers_;  // by vertex; empty: vertices have their numbers
   std::vector<std::pair<double, Vertex>> by_number_;  // sorted; the first of equal ones counts
+  std::vector<double> face_numbers_;                  // by face; likewise
 };
+
+/// Defects of a mesh by the numbers that its file has for their places. What the file does not have
+/// is counted in their messages, and not among their elements.
+std::vector<MeshDefect> by_file_numbers(std::vector<MeshDefect> defects,
+                                        const FileNumbers& numbers);
 
 /// How many vertices the mesh's file had: those of the mesh, or, where they were renumbered
 /// (`source_vertex`), what the comment "source_vertices N" says; 0 where that is not there or

@@ -17,7 +17,7 @@ struct MeshSource {
   std::string path;                  // as it was named
   MeshFile file;                     // welded where needed, without unused vertices
   std::optional<Topology> topology;  // of it; nothing where it is no closed manifold
-  MeshInspection inspection;  // with the ids of the file, or after welding if that was needed
+  MeshInspection inspection;  // after welding if that was needed; with the numbers of the file
   bool welded = false;
   std::vector<std::string> notes;     // of the reader, then what was done to the mesh
   std::vector<RepairAction> repairs;  // with the numbers of the file; see `repaired`
@@ -38,7 +38,7 @@ void keep_textures(const MeshFile& file);
 struct RepairTrial {
   RepairOptions options;              // that mend it, or would most
   std::vector<RepairAction> actions;  // by the numbers of the file
-  std::vector<MeshDefect> remaining;  // those that stand in the way even then
+  std::vector<MeshDefect> remaining;  // that stand in the way even then; so numbered too
   KeptParts parts;                    // those that can be chosen from; so numbered too
   std::vector<HandleLoop> handles;    // that would go; so numbered too
   bool can_mend() const { return remaining.empty(); }
