@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "program.h"
+#include "support/joined.h"
 #include "support/test_meshes.h"
 
 namespace sphparam::tests {
@@ -42,6 +43,23 @@ TEST_CASE("asset: --textures webp is of the .glb, whose size is told, images bes
   for (const auto& texture : textures) CHECK(texture["kind"] == "webp");
 }
 
+TEST_CASE(
+    "asset: where its file would replace the input, another folder is named before any work") {
+  const Folder folder;
+  const std::string mesh = folder / "ball.obj", made = folder / "made";
+  write_bytes(mesh, obj_text(icosphere(2)));
+  REQUIRE(sphparam_program({mesh, "-o", made, "--size", "64", "--no-page"}).code == 0);
+  for (const char* name : {"/ball.glb", "/ball.sph.ply"}) {
+    const std::string before = bytes_of(made + name);
+    const Ended ended = sphparam_program({"asset", made + name, "-o", made});
+    CHECK(ended.code == 2);
+    CHECK_THAT(ended.err, Contains("-o: " + made + name + " is the input, and would be replaced") &&
+                              Contains("as in -o " + made + "/made"));
+    CHECK(bytes_of(made + name) == before);
+    CHECK(sphparam_program({"asset", made + name, "-o", made + "/made", "--size", "64"}).code == 0);
+  }
+}
+
 TEST_CASE("asset: a stream, a folder with a slash at its end, a report in it") {
   const Folder folder;
   const std::string out = folder / "made";
@@ -65,10 +83,29 @@ TEST_CASE("asset: what stood in the way is told in plain words, with figures by 
   REQUIRE(brief.code == 0);
   CHECK_THAT(brief.err,
              Contains("  it is open: 1 hole or border\n") && Contains("  1 hole filled"));
-  CHECK_THAT(brief.err, !Contains("boundary edges"));
+  CHECK_THAT(brief.err, !Contains("boundary edges") && !Contains("--keep"));
   std::vector<std::string> wordy = line;
   wordy.emplace_back("-v");
   CHECK_THAT(sphparam_program(wordy, obj_text(open)).err, Contains("3 boundary edges"));
+}
+
+TEST_CASE("asset: where repair drops a part, --keep 1 is told, which keeps it") {
+  const Folder folder;
+  TriangleMesh claw = icosphere(0);
+  claw.positions *= 0.05;
+  const std::string text = obj_text(joined(icosphere(3), claw, {1.2, 0, 0}));
+  std::vector<std::string> line = {
+      "asset", "-", "-o", folder / "made", "--size", "64", "--no-page", "--resolution", "24"};
+  const Ended mended = sphparam_program(line, text);
+  INFO(mended.err);
+  REQUIRE(mended.code == 0);
+  CHECK_THAT(mended.err, Contains("1 component dropped") && Contains("Mended to one") &&
+                             Contains("with --keep 1 the parts that it dropped stay"));
+  line.insert(line.end(), {"--keep", "1"});
+  const Ended kept = sphparam_program(line, text);
+  INFO(kept.err);
+  REQUIRE(kept.code == 0);
+  CHECK_THAT(kept.err, Contains("Wrapped in one closed surface") && !Contains("--keep 1"));
 }
 
 TEST_CASE("asset: a vertex without a place is left out, and what no number holds is refused") {

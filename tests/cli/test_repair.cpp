@@ -139,7 +139,8 @@ TEST_CASE("repair: where a component is kept, the shares that are kept and lost 
   REQUIRE(mended.code == 0);
   CHECK_THAT(mended.err, Contains("1 component dropped: with vertices 162") &&
                              Contains("kept 99.063 % of the area and 80 % of the faces, lost "
-                                      "0.94 % and 20 %"));
+                                      "0.94 % and 20 %") &&
+                             Contains("\n    `sphparam asset - --keep 1` keeps that too"));
   const Json parts = Json::parse(mended.out)["components"];
   CHECK(parts["count"] == 2);
   CHECK(parts["area_kept"].get<double>() == Approx(0.9906).epsilon(1e-3));
@@ -179,7 +180,8 @@ TEST_CASE("repair: more than specks is lost only where a component or a share is
     const Ended kept = sphparam_program(arguments, two);
     INFO(kept.err);
     CHECK(kept.code == 0);
-    CHECK_THAT(kept.err, Contains("320 triangles") && Contains("lost 49 % and 20 %"));
+    CHECK_THAT(kept.err, Contains("320 triangles") && Contains("lost 49 % and 20 %") &&
+                             !Contains("--keep 1"));
   }
   // `info` says the same before.
   const Json info = Json::parse(sphparam_program({"info", "-", "--json", "-"}, two).out)["repair"];
@@ -222,6 +224,25 @@ TEST_CASE("repair: other subcommands name their own command line with --repair")
     std::string line = "`sphparam " + command.front() + " '" + mesh + "'";
     for (size_t i = 2; i < command.size(); ++i) line += " " + command[i];
     CHECK_THAT(refused.err, Contains(line + " --repair`"));
+  }
+}
+
+TEST_CASE("repair: only map is told to map all components, others how map does") {
+  const Folder folder;
+  const std::string mesh = folder / "two.obj";
+  write_bytes(mesh, obj_text(two_bodies()));
+  const std::string by_map = "`sphparam map " + mesh + " --all-components -o parts.sph.ply` maps";
+  const Ended map = sphparam_program({"map", mesh, "-o", folder / "x.sph.ply"});
+  CHECK_THAT(map.err, Contains("  --all-components maps each") && !Contains(by_map));
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"export", mesh, "-o", folder / "x.glb"},
+        {"bake", mesh, "--map", "axes", "-o", folder / "x.png"},
+        {"spharm", mesh, "-o", folder / "x.coef"},
+        {"repair", mesh, "-o", folder / "x.ply"}}) {
+    const Ended refused = sphparam_program(command);
+    INFO(refused.err);
+    CHECK(refused.code == 4);
+    CHECK_THAT(refused.err, Contains(by_map) && !Contains("  --all-components maps"));
   }
 }
 

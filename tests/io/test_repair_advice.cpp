@@ -1,4 +1,6 @@
 #include <catch2/catch.hpp>
+#include <limits>
+#include <set>
 
 #include "reading.h"
 #include "sphparam/io/components.h"
@@ -67,6 +69,20 @@ TEST_CASE("repair_advice: components are listed where one must be chosen") {
                          Contains("    it keeps 55.2 % of the area\n"));
 }
 
+TEST_CASE("repair_advice: --all-components is told as map's, a wrap where parts are many") {
+  const MeshSource two = source_of(two_balls(), "two.ply");
+  CHECK_THAT(repair_advice(try_repair(two), two.path),
+             Contains("\n  --all-components maps each") && !Contains("wrap"));
+  CHECK_THAT(repair_advice(try_repair(two), two.path, "sphparam bake two.ply"),
+             !Contains("\n  --all-components") &&
+                 Contains("`sphparam map two.ply --all-components -o parts.sph.ply` maps each"));
+  TriangleMesh many = icosphere(0);
+  for (int i = 1; i < 11; ++i) many = joined(many, icosphere(0), {3.0 * i, 0, 0});
+  const MeshSource eleven = source_of(many, "many parts.ply");
+  CHECK_THAT(repair_advice(try_repair(eleven), eleven.path),
+             Contains("  `sphparam wrap 'many parts.ply' -o wrapped.ply` draws one"));
+}
+
 TEST_CASE("repair_advice: what is typed may be a command of one's own") {
   const MeshSource source = source_of(open_ball(), "a.ply");
   CHECK_THAT(repair_advice(try_repair(source), source.path, "mend a.ply"),
@@ -109,6 +125,62 @@ TEST_CASE("repair_advice: a refusal says what was done before") {
         "  Done already:\n    1 face turned over\n");
   const std::string advice = repair_advice(MeshRefusal(source, try_repair(source)));
   CHECK_THAT(advice, StartsWith("  --repair would mend it") && Contains("  Done already:\n"));
+}
+
+TEST_CASE("connected_parts: what is wrong with one is told by the numbers of the file") {
+  TriangleMesh open = open_ball();
+  open.positions *= 0.5;
+  const Eigen::RowVector3i missing = icosphere(1).triangles.bottomRows<1>().array() + 42;
+  const std::vector<MeshPart> parts =
+      connected_parts(source_of(joined(icosphere(1), open, {3, 0, 0}), "two.ply"));
+  REQUIRE(parts.size() == 2);
+  try {
+    require_mappable(parts[1].source);
+    FAIL("it has a hole");
+  } catch (const MeshRefusal& refusal) {
+    const std::vector<int>& named = refusal.defects().at(0).elements;
+    CHECK(std::set<int>(named.begin(), named.end()) ==
+          std::set<int>{missing[0], missing[1], missing[2]});
+    CHECK_THAT(refusal.defects().at(0).message, Contains(std::to_string(named[0]) + "-"));
+  }
+}
+
+TEST_CASE("repaired: what is left is told by the numbers of the file") {
+  TriangleMesh mesh = icosphere(1);
+  constexpr Vertex lost = 5;
+  mesh.positions.row(lost).setConstant(std::numeric_limits<double>::quiet_NaN());
+  std::set<int> about;
+  for (Face f = 0; f < mesh.face_count(); ++f) {
+    const Eigen::RowVector3i face = mesh.triangles.row(f);
+    if ((face.array() == lost).any()) about.insert(face.begin(), face.end());
+  }
+  about.erase(lost);
+  RepairOptions options = RepairOptions::none();
+  options.non_finite = true;
+  try {
+    repaired(source_of(mesh, "a.ply"), options);
+    FAIL("it has a hole");
+  } catch (const MeshRefusal& refusal) {
+    const std::vector<int>& named = refusal.defects().at(0).elements;
+    CHECK(std::set<int>(named.begin(), named.end()) == about);
+  }
+}
+
+TEST_CASE("try_repair: what even repair leaves is told by the numbers of the file") {
+  TriangleMesh plane;  // the projective one, of six vertices, after one that no face uses
+  plane.positions = icosphere(0).positions.topRows(7);
+  plane.triangles = Triangles{{1, 2, 3}, {1, 3, 4}, {1, 4, 5}, {1, 5, 6}, {1, 6, 2},
+                              {2, 3, 5}, {3, 4, 6}, {4, 5, 2}, {5, 6, 3}, {6, 2, 4}};
+  const RepairTrial trial = try_repair(source_of(plane, "plane.ply"));
+  REQUIRE(trial.remaining.size() == 1);
+  const MeshDefect& left = trial.remaining[0];
+  REQUIRE(left.kind == DefectKind::InconsistentOrientation);
+  std::set<std::string> edges;
+  for (size_t i = 0; i < left.elements.size(); i += 2) {
+    CHECK(left.elements[i] >= 1);
+    edges.insert(std::to_string(left.elements[i]) + "-" + std::to_string(left.elements[i + 1]));
+  }
+  for (const std::string& edge : edges) CHECK_THAT(left.message, Contains(edge));
 }
 
 TEST_CASE(

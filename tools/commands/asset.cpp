@@ -9,10 +9,12 @@
 #include "commands/command.h"
 #include "console/places.h"
 #include "console/session.h"
+#include "io/shell_word.h"
 #include "number_text.h"
 #include "reports/told_losses.h"
 #include "sphparam/asset/remake_asset.h"
 #include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/paths.h"
 #include "sphparam/io/up_axis.h"
 #include "sphparam/records/bake_record.h"
 #include "sphparam/version.h"
@@ -106,6 +108,8 @@ void tell(const RemadeAsset& made, const std::string& folder, TextureFormat text
   session.warn(made.warnings);
   if (made.baked.projection)
     session.console.say("  " + line_of(*made.baked.projection, {.source_name = "the asset"}));
+  if (made.whole.by == WholeBy::Repair && made.whole.area_kept < 1)
+    session.console.say("  with --keep 1 the parts that it dropped stay, and all is wrapped");
   if (made.whole.by == WholeBy::Wrap)
     session.console.detail("  a larger --resolution wraps closer, --faces has more of it");
   if (made.viewer_is_missing)
@@ -129,11 +133,23 @@ void require_sense(const AssetArguments& arguments) {
                        ": `export` writes one file");
 }
 
+/// What is made of a map or a .glb has its name.
+void require_other_folder(const std::string& folder, const std::string& input) {
+  for (const char* ending : {".glb", ".sph.ply"}) {
+    const std::string made = (fs::path(folder) / (stem_of(input) + ending)).string();
+    if (!is_stream(input) && is_same_place(made, input))
+      throw UsageMistake("-o: " + made +
+                         " is the input, and would be replaced; another folder is " +
+                         "needed, as in -o " + shell_word((fs::path(folder) / "made").string()));
+  }
+}
+
 int run_asset(AssetArguments& arguments) {
   require_sense(arguments);
   Session session(arguments);
   session.hold_signals();
   const Folder folder(arguments);
+  require_other_folder(folder.path(), arguments.input);
   check_places({{"--json", arguments.json}});
   const MeshSource asset = read_asset(arguments.input);
   tell_losses(asset, session.console);

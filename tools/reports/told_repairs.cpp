@@ -1,15 +1,32 @@
 #include "reports/told_repairs.h"
 
+#include "io/shell_word.h"
 #include "sphparam/io/repair_advice.h"
 #include "sphparam/words.h"
 
 namespace sphparam::cli {
+
+namespace {
+
+/// How to have what nobody asked to drop; empty where nothing was dropped, or more than specks, and
+/// so because it was asked for.
+std::string kept_whole_line(const MeshSource& source) {
+  const KeptParts& parts = source.parts;
+  const bool are_specks = parts.count > 0 && !parts.refused && parts.area_share < 1 &&
+                          parts.area_share >= RepairOptions{}.least_kept;
+  if (!are_specks) return "";
+  return "`sphparam asset " + shell_word(source.path) + " --keep 1` keeps that too, in a wrap";
+}
+
+}  // namespace
 
 void tell_repairs(const MeshSource& source, Console& console) {
   for (const RepairAction& repair : source.repairs) console.say("  " + repair.message);
   if (const std::string lines = handle_lines(source.handles, "    "); !lines.empty())
     console.say(lines.substr(0, lines.size() - 1));
   if (const std::string kept = kept_line(source.parts); !kept.empty()) console.say("  " + kept);
+  if (const std::string whole = kept_whole_line(source); !whole.empty())
+    console.say("    " + whole);
   if (const std::string added = added_line(source); !added.empty()) console.say("  " + added);
 }
 

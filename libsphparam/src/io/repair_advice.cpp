@@ -37,13 +37,23 @@ std::string reached_share(const KeptParts& parts) {
   return short_number(std::floor(100 * parts.largest.front().area_share) / 100);
 }
 
-/// Why --repair alone leaves all components, and how to choose.
-std::string choice_lines(const KeptParts& parts) {
+/// Why --repair alone leaves all components, and how to choose. `in_map`: what is typed is `map`,
+/// which alone takes --all-components.
+std::string choice_lines(const KeptParts& parts, const std::string& path, bool in_map) {
   if (!parts.refused) return "";
-  return "  --repair keeps one of " + std::to_string(parts.count) +
-         " components, and drops no more than specks unasked. By area, before holes are closed:\n" +
-         part_lines(parts) + "  --component N keeps the N-th, --min-kept " + reached_share(parts) +
-         " the largest, and\n  --all-components maps each into a file of its own.\n";
+  const std::string mesh = shell_word(path);
+  const std::string each =
+      in_map ? "--all-components maps"
+             : "`sphparam map " + mesh + " --all-components -o parts.sph.ply` maps";
+  std::string lines =
+      "  --repair keeps one of " + std::to_string(parts.count) +
+      " components, and drops no more than specks unasked. By area, before holes are closed:\n" +
+      part_lines(parts) + "  --component N keeps the N-th, --min-kept " + reached_share(parts) +
+      " the largest, and\n  " + each + " each into a file of its own.\n";
+  const bool too_many_to_choose = parts.count > std::ssize(parts.largest);
+  if (too_many_to_choose)
+    lines += "  `sphparam wrap " + mesh + " -o wrapped.ply` draws one closed surface about all.\n";
+  return lines;
 }
 
 /// What a component that is chosen because it must be has of all.
@@ -57,7 +67,9 @@ std::string share_line(const RepairTrial& trial) {
 
 std::string repair_advice(const RepairTrial& trial, const std::string& path,
                           const std::string& command) {
-  const std::string choice = choice_lines(trial.parts), options = options_line(trial.options);
+  const bool in_map = command.empty() || command.starts_with("sphparam map ");
+  const std::string choice = choice_lines(trial.parts, path, in_map),
+                    options = options_line(trial.options);
   if (!trial.can_mend()) {
     return choice + "  " + options + " cannot mend it. This would remain:\n" +
            message_lines(trial.remaining);
