@@ -92,6 +92,22 @@ TEST_CASE("wrap command: what the soup carries is told to stay behind") {
              Contains("stays with the soup: 3 properties of vertices, texture coordinates"));
 }
 
+TEST_CASE("wrap command: vertices without a place are left out with their faces, and told") {
+  const Folder folder;
+  const std::string out = folder / "wrapped.ply";
+  const TriangleMesh ball = icosphere(2);
+  const std::string lost = "v nan 0 0\n", face = std::to_string(ball.vertex_count() + 1);
+  const Ended ended = sphparam_program({"wrap", "-", "-o", out, "--resolution", "16"},
+                                       obj_text(ball) + lost + "f 1 2 " + face + "\n");
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.err,
+             Contains("  1 face removed that had a vertex without a place: faces 320\n") &&
+                 Contains("  1 vertex dropped whose coordinates were no finite numbers") &&
+                 !Contains("stays with the soup"));
+  CHECK(bytes_of(out).size() > 1000);
+}
+
 TEST_CASE("wrap command: what makes no sense is refused, and nothing is written") {
   const Folder folder;
   const std::string out = folder / "wrapped.ply";

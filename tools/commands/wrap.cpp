@@ -1,9 +1,11 @@
 // `sphparam wrap`: one closed surface of genus 0 about any triangles.
 
 #include <stdexcept>
+#include <utility>
 
 #include "arguments/limits.h"
 #include "arguments/mesh_names.h"
+#include "asset/soup.h"
 #include "commands/command.h"
 #include "commands/surfaces.h"
 #include "console/places.h"
@@ -46,6 +48,20 @@ void require_sensible(const WrapArguments& arguments) {
   check_places({{"-o", arguments.output}, {"--json", arguments.json}});
 }
 
+/// Without the vertices that have no place, and their triangles, which is told.
+MeshFile with_places_told(const std::string& path, MeshFile soup, Session& session) {
+  if (soup.mesh.positions.allFinite()) return soup;
+  MeshSource source;
+  source.path = path;
+  source.file = std::move(soup);
+  source = without_lost(source);
+  for (const RepairAction& dropped : source.repairs) session.console.say("  " + dropped.message);
+  // Not of the soup: they have been added.
+  remove_properties(source.file.vertex_properties, {"source_vertex"});
+  remove_properties(source.file.face_properties, {"source_face"});
+  return std::move(source.file);
+}
+
 /// Throws: UsageMistake for what of the options does not suit the mesh, ReadError for a mesh
 /// without places.
 Wrap wrapped(const WrapArguments& arguments, const MeshFile& soup, Session& session) try {
@@ -64,7 +80,9 @@ int run_wrap(WrapArguments& arguments) {
   Session session(arguments);
   ReadOptions options = input_limits();
   options.repeated_corners = true;  // needles are as good as any triangle
-  const MeshFile soup = read_surface(arguments.input, session, options);
+  options.non_finite = true;
+  const MeshFile soup =
+      with_places_told(arguments.input, read_surface(arguments.input, session, options), session);
   session.hold_signals();
   const Wrap wrap = wrapped(arguments, soup, session);
   MeshFile file;

@@ -2,11 +2,14 @@
 
 namespace sphparam {
 
-MeshFile with_places(const MeshSource& asset) {
-  if (asset.file.mesh.positions.allFinite()) return asset.file;
+MeshSource without_lost(const MeshSource& asset) {
   RepairOptions finite = RepairOptions::none();
   finite.non_finite = true;
-  return mended(asset, finite).file;
+  return mended(asset, finite);
+}
+
+MeshFile with_places(const MeshSource& asset) {
+  return asset.file.mesh.positions.allFinite() ? asset.file : without_lost(asset).file;
 }
 
 }  // namespace sphparam

@@ -4,7 +4,10 @@
 
 namespace sphparam {
 
-/// The file of an asset without the vertices that have no place, and their triangles.
+/// An asset without the vertices that have no place, and their triangles; `repairs` tells them.
+MeshSource without_lost(const MeshSource& asset);
+
+/// Its file.
 MeshFile with_places(const MeshSource& asset);
 
 }  // namespace sphparam

@@ -1,5 +1,7 @@
 #include "sphparam/io/read_options.h"
 
+#include "io/files/non_finite_advice.h"
+
 namespace sphparam {
 
 ReadError::ReadError(const std::string& file, const std::string& message)
@@ -20,6 +22,11 @@ ReadError ReadError::at_byte(const std::string& file, std::uint64_t byte,
 
 std::string repeated_corners_advice() {
   return "; `sphparam map --repair=duplicates` removes such faces";
+}
+
+std::string non_finite_advice() {
+  return "; `sphparam map --repair` drops such vertices with their faces, `sphparam wrap` and "
+         "`sphparam asset` leave them out";
 }
 
 std::string file_limit(std::uint64_t max_bytes) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "io/files/non_finite_advice.h"
+
 namespace sphparam {
 
 TextScanner::TextScanner(std::string_view text, std::string file, const ReadOptions& options,
@@ -114,8 +116,10 @@ const char* TextScanner::after_hash_of_no_number(const char* hash) const {
   return nullptr;
 }
 
-void TextScanner::fail_expected_instead_of(std::string_view found, const char* what) const {
-  fail(std::string("expected ") + what + ", found " + quoted(found));
+void TextScanner::fail_not_finite(std::string_view found, const char* what,
+                                  NonFinite non_finite) const {
+  fail(std::string("expected ") + what + ", found " + quoted(found) +
+       (non_finite == NonFinite::RefusedWithAdvice ? non_finite_advice() : ""));
 }
 
 void TextScanner::fail_expected(const char* what) {

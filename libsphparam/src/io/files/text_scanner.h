@@ -53,8 +53,8 @@ class TextScanner {
   /// The next number, finite. Text that overflows is refused, text that underflows is zero.
   double real() { return number<double>("a number"); }
   /// The same for coordinates, which options may let be no finite numbers.
-  double coordinate() { return number<double>("a number", options_.non_finite); }
-  float coordinate32() { return number<float>("a number", options_.non_finite); }
+  double coordinate() { return number<double>("a number", of_coordinates()); }
+  float coordinate32() { return number<float>("a number", of_coordinates()); }
   float real32() { return number<float>("a number"); }
 
   /// The next whole number. A token such as 3.0 is refused.
@@ -124,8 +124,14 @@ class TextScanner {
     return plus ? cursor_ + 1 : cursor_;
   }
 
+  /// What is done about NaN and infinity.
+  enum class NonFinite { Refused, RefusedWithAdvice, Taken };
+  NonFinite of_coordinates() const {
+    return options_.non_finite ? NonFinite::Taken : NonFinite::RefusedWithAdvice;
+  }
+
   template <class Real>
-  Real number(const char* what, bool any = false) {
+  Real number(const char* what, NonFinite non_finite = NonFinite::Refused) {
     const char* const start = skip_plus();
     Real value = 0;
     const auto [stop, error] = std::from_chars(start, line_end_, value);
@@ -133,12 +139,15 @@ class TextScanner {
       value = static_cast<Real>(out_of_range_number(start, stop, error));
     if (stop != line_end_ && *stop == '#') [[unlikely]]
       if (const char* const after = after_hash_of_no_number(stop)) {
-        if (!any) fail_expected_instead_of({start, static_cast<std::size_t>(after - start)}, what);
+        if (non_finite != NonFinite::Taken)
+          fail_not_finite({start, static_cast<std::size_t>(after - start)}, what, non_finite);
         cursor_ = after;
         return std::numeric_limits<Real>::quiet_NaN();
       }
-    if (!(any || std::isfinite(value)) || !ends_token(stop)) [[unlikely]]
+    if (!ends_token(stop)) [[unlikely]]
       fail_expected(what);
+    if (!std::isfinite(value) && non_finite != NonFinite::Taken) [[unlikely]]
+      fail_not_finite({start, static_cast<std::size_t>(stop - start)}, what, non_finite);
     cursor_ = stop;
     return value;
   }
@@ -146,7 +155,8 @@ class TextScanner {
   /// Where "1.#INF", "-1.#IND", "1.#QNAN0" ends, as Microsoft's C library writes what is no number;
   /// null: a comment begins here.
   const char* after_hash_of_no_number(const char* hash) const;
-  [[noreturn]] void fail_expected_instead_of(std::string_view found, const char* what) const;
+  [[noreturn]] void fail_not_finite(std::string_view found, const char* what,
+                                    NonFinite non_finite) const;
   double out_of_range_number(const char* start, const char* stop, std::errc error);
   void unify_line_ends();
   void check_line_length() const;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "io/files/byte_reader.h"
+#include "io/files/non_finite_advice.h"
 #include "sphparam/io/mesh_file.h"
 
 namespace sphparam {
@@ -33,7 +34,8 @@ inline Points read_points32(ByteReader& reader, std::int64_t count, const ReadOp
   for (Eigen::Index i = 0; i < points.size(); ++i) {
     const auto value = reader.number<float>("the coordinates");
     if (!std::isfinite(value) && !options.non_finite)
-      reader.fail("a coordinate of vertex " + std::to_string(i / 3) + " is not finite");
+      reader.fail("a coordinate of vertex " + std::to_string(i / 3) + " is not finite" +
+                  non_finite_advice());
     points.data()[i] = static_cast<double>(value);
   }
   return points;

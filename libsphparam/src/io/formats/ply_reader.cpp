@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "io/files/non_finite_advice.h"
 #include "io/files/text_scanner.h"
 #include "io/formats/ply_header.h"
 #include "number_text.h"
@@ -94,7 +95,7 @@ class BinaryBody {
   double coordinate(ScalarType type) {
     return with_scalar(type, [this](auto scalar) {
       const double value = static_cast<double>(this->template read<decltype(scalar)>());
-      if (!std::isfinite(value) && !options_.non_finite) fail_not_finite();
+      if (!std::isfinite(value) && !options_.non_finite) fail_not_finite(non_finite_advice());
       return value;
     });
   }
@@ -125,8 +126,8 @@ class BinaryBody {
   }
 
  private:
-  [[noreturn]] void fail_not_finite() const {
-    fail("number is not finite in " + record_.describe());
+  [[noreturn]] void fail_not_finite(const std::string& advice = "") const {
+    fail("number is not finite in " + record_.describe() + advice);
   }
 
   void require(bool bytes_are_there) const {

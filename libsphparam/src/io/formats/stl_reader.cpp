@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "io/files/non_finite_advice.h"
 #include "io/files/text_scanner.h"
 #include "io/polygons/distinct_rows.h"
 
@@ -206,7 +207,8 @@ class BinaryReader {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       xyz[axis] = std::bit_cast<float>(little_endian(bytes_, at + 4 * axis, 4));
       if (!std::isfinite(xyz[axis]) && !options_.non_finite)
-        throw ReadError::at_byte(name_, at + 4 * axis, "coordinate is not a finite number");
+        throw ReadError::at_byte(name_, at + 4 * axis,
+                                 "coordinate is not a finite number" + non_finite_advice());
     }
     welder.add(xyz[0], xyz[1], xyz[2]);
   }

@@ -8,6 +8,7 @@
 #include <locale>
 #include <sstream>
 
+#include "io/files/non_finite_advice.h"
 #include "io/formats/freesurfer_comments.h"
 #include "io/formats/gifti/gifti_data.h"
 #include "io/formats/gifti/gifti_labels.h"
@@ -76,9 +77,9 @@ class GiftiReader {
     const std::vector<double> xyz = triples(array, options_.max_vertices, "vertices");
     for (std::size_t i = 0; i < xyz.size(); ++i)
       if (!std::isfinite(xyz[i]) && !options_.non_finite)
-        fail_in_array(
-            name_, array,
-            "has a coordinate of vertex " + std::to_string(i / 3) + " that is not finite");
+        fail_in_array(name_, array,
+                      "has a coordinate of vertex " + std::to_string(i / 3) +
+                          " that is not finite" + non_finite_advice());
     file_.mesh.positions = Eigen::Map<const Points>(xyz.data(), array.dimensions[0], 3);
     file_.position_type = gifti_type(array, name_);
   }

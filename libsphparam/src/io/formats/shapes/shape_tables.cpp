@@ -137,7 +137,7 @@ double table_number(TextScanner& scanner, bool non_finite) {
       return *value;
     }
   }
-  return non_finite ? scanner.coordinate() : scanner.real();
+  return scanner.coordinate();
 }
 
 std::int64_t table_count(TextScanner& scanner, const char* things, std::int64_t limit,

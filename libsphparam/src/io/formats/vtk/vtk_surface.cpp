@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "io/files/non_finite_advice.h"
 #include "io/formats/lossless_type.h"
 #include "number_text.h"
 #include "sphparam/io/losses.h"
@@ -136,7 +137,8 @@ Points positions_of(const VtkSurface& surface, const std::string& name,
   if (points.width != 3) throw ReadError(name, "points do not have three coordinates");
   for (std::size_t i = 0; i < points.values.size(); ++i)
     if (!std::isfinite(points.values[i]) && !options.non_finite)
-      throw ReadError(name, "a coordinate of point " + std::to_string(i / 3) + " is not finite");
+      throw ReadError(name, "a coordinate of point " + std::to_string(i / 3) + " is not finite" +
+                                non_finite_advice());
   return Eigen::Map<const Points>(points.values.data(), points.count(), 3);
 }
 
