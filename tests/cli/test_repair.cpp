@@ -237,7 +237,7 @@ TEST_CASE("repair: only map is told to map all components, others how map does")
   for (const std::vector<std::string>& command :
        {std::vector<std::string>{"export", mesh, "-o", folder / "x.glb"},
         {"bake", mesh, "--map", "axes", "-o", folder / "x.png"},
-        {"spharm", mesh, "-o", folder / "x.coef"},
+        {"report", mesh, "-o", folder / "x.html"},
         {"repair", mesh, "-o", folder / "x.ply"}}) {
     const Ended refused = sphparam_program(command);
     INFO(refused.err);
