@@ -35,6 +35,31 @@ TEST_CASE("render: draws a mesh, and a map with its sphere beside it") {
   CHECK(piped.out.substr(16, 8) == std::string("\0\0\0\x40\0\0\0\x40", 8));
 }
 
+TEST_CASE("render: colours of faces are told wherever they are in no image") {
+  const Folder folder;
+  const std::string mesh = folder / "faces.off";
+  std::string off = "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+  for (const char* face : {"0 2 1 255 0 0", "0 1 3 255 0 0", "1 2 3 0 0 255", "0 3 2 0 255 0"})
+    off += std::string("3 ") + face + "\n";
+  write_bytes(mesh, off);
+  const auto lost = Contains("not carried: 3 colours of faces into images");
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"render", mesh, "-o", folder / "a.png", "--size", "64"},
+        {"export", mesh, "-o", folder / "a.glb", "--image-size", "64"},
+        {"remesh", mesh, "-o", folder / "b.glb", "--grid", "ico:1"},
+        {"asset", mesh, "-o", folder / "made", "--size", "64", "--no-page"}}) {
+    const Ended ended = sphparam_program(command);
+    INFO(command.front() << ": " << ended.err);
+    CHECK(ended.code == 0);
+    CHECK_THAT(ended.err, lost);
+    CHECK(ended.err.find("not carried") == ended.err.rfind("not carried"));
+  }
+  const Ended plain = sphparam_program(
+      {"render", mesh, "-o", folder / "a.png", "--size", "64", "--colour", "plain"});
+  CHECK(plain.code == 0);
+  CHECK_THAT(plain.err, !Contains("not carried"));
+}
+
 TEST_CASE("render: every colouring and overlay draws") {
   const Folder folder;
   const std::string map = folder / "map.sph.ply";

@@ -166,7 +166,9 @@ Asset asset_of(const RemeshArguments& arguments, const MappedMesh& mapped,
 void add_glb(const RemeshArguments& arguments, const MappedMesh& mapped,
              std::span<const LevelOfDetail> levels, Session& session) {
   with_file_errors(arguments.input, arguments.output, [&] {
-    add_asset(session.files, arguments.output, asset_of(arguments, mapped, levels, session));
+    const Asset asset = asset_of(arguments, mapped, levels, session);
+    session.warn(asset.warnings);
+    add_asset(session.files, arguments.output, asset);
   });
 }
 

@@ -8,6 +8,7 @@
 #include "commands/data_files.h"
 #include "commands/sources.h"
 #include "console/places.h"
+#include "reports/told_losses.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/render/picture.h"
 
@@ -98,7 +99,13 @@ std::string drawn(DrawnMesh& mesh, const RenderArguments& arguments, Session& se
   drawing.scalar = shown_number(mesh, arguments, session);
   drawing.threads = session.threads();
   if (!arguments.from.empty()) drawing.from = parse_direction(arguments.from);
-  if (drawing.colouring == Colouring::Own && drawing.scalar.empty())
+  const bool shows_own = drawing.colouring == Colouring::Own && drawing.scalar.empty();
+  if (shows_own && arguments.texture.empty()) {
+    Words losses;
+    add_face_colour_loss(losses, mesh.file);
+    tell_losses(arguments.output, losses, session.console);
+  }
+  if (shows_own)
     drawing.textures = read_shown_textures(mesh.file, arguments.input, arguments.texture, session);
   if (!mesh.map) require_map(drawing);
   return draw_png(mesh.file, mesh.map, drawing);

@@ -15,6 +15,7 @@
 #include "mesh/box.h"
 #include "rays/flat_normal.h"
 #include "sphparam/io/certified_files.h"
+#include "sphparam/io/losses.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/stopwatch.h"
 #include "texture/read_textures.h"
@@ -154,8 +155,11 @@ class Remaker {
     lap("page");
   }
 
+  /// Each once: stages tell the same of one mesh.
   void append(const std::vector<std::string>& warnings) {
-    std::ranges::copy(warnings, std::back_inserter(remade_.warnings));
+    for (const std::string& warning : warnings)
+      if (std::ranges::find(remade_.warnings, warning) == remade_.warnings.end())
+        remade_.warnings.push_back(warning);
   }
 
   const MeshSource& asset_;
@@ -218,6 +222,7 @@ RemadeAsset remake_asset(const MeshSource& asset, const std::string& folder,
                          const RemakeOptions& options, PendingFiles& files) {
   MeshSource usable = asset;
   std::vector<std::string> told = drop_unusable_images(usable.file);
+  add_face_colour_loss(told, usable.file);
   add_default_material(usable.file);
   add_flat_normals(usable.file);
   upright_axes(usable.file, options.up);  // a front that cannot be is told before any work

@@ -105,6 +105,7 @@ class LookMaker {
     require_known(wanted_.variants);
     const BakedImages given = images_given(wanted_);
     choose_base_colour(given);
+    if (given.base_colour.empty()) add_face_colour_loss(look_.warnings, mapped_.file());
     if (!material_.unlit) {
       material_.normal = add_file(given.normal, "normal");
       look_.normals_given = material_.normal >= 0;

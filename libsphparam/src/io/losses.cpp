@@ -1,7 +1,9 @@
 #include "sphparam/io/losses.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
+#include <set>
 
 #include "number_text.h"
 #include "sphparam/io/file_numbers.h"
@@ -99,6 +101,18 @@ std::vector<std::string> losses_of_writing(const MeshFile& written, const MeshFi
   if (const long missing = lines(written) - lines(read); missing > 0)
     add_loss(losses, counted(missing, "comment"));
   return losses;
+}
+
+void add_face_colour_loss(std::vector<std::string>& notes, const MeshFile& file) {
+  const Property* const red = file.find_face_property("red");
+  const Property* const green = file.find_face_property("green");
+  const Property* const blue = file.find_face_property("blue");
+  if (!red || !green || !blue) return;
+  std::set<std::array<double, 3>> colours;
+  for (std::size_t f = 0; f < red->values.size(); ++f)
+    colours.insert({red->values[f], green->values[f], blue->values[f]});
+  add_loss(notes, counted(std::ssize(colours), "colour") +
+                      " of faces into images: those of vertices and of materials are");
 }
 
 std::string enumerated(const std::vector<std::string>& words) {

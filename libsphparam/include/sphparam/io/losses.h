@@ -21,6 +21,10 @@ std::vector<std::string> losses_among(const std::vector<std::string>& notes);
 /// said of it are not among them. Cost: O(#V + #F) a property.
 std::vector<std::string> losses_of_writing(const MeshFile& written, const MeshFile& read);
 
+/// Adds what is lost where a mesh becomes images, or is shown: colours of its faces, which nothing
+/// bakes or draws. Cost: O(#F log #F).
+void add_face_colour_loss(std::vector<std::string>& notes, const MeshFile& file);
+
 /// "a, b and c"; of more than eight words the first ones, and how many others.
 std::string enumerated(const std::vector<std::string>& words);
 
