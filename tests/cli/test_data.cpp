@@ -269,7 +269,7 @@ TEST_CASE("data: what makes no sense is refused before any work") {
           "lh.thickness");
   refused({"repair", brain.white, "--data", brain.white, "-o", out}, 3, "file of values");
   for (const std::string& values : {brain.thickness, brain.parcels}) {
-    refused({"map", values, "-o", out}, 3, "and no mesh");
+    refused({"map", values, "--write-sphere", out}, 3, "and no mesh");
     refused({"verify", values}, 3, "as --data " + values);
   }
 }
