@@ -71,6 +71,17 @@ Ended sphparam_program(const std::vector<std::string>& arguments, const std::str
   return Running(arguments, standard_input, output).wait();
 }
 
+int type_advice(const std::string& message, const std::string& folder) {
+  std::string script = "cd '" + folder + "' && sphparam() { '" SPHPARAM_PROGRAM "' -q \"$@\"; }";
+  int count = 0;
+  for (std::size_t at = 0; (at = message.find('`', at)) != std::string::npos; ++count) {
+    const std::size_t end = message.find('`', at + 1);
+    script += " && " + message.substr(at + 1, end - at - 1);
+    at = end + 1;
+  }
+  return std::system(script.c_str()) == 0 ? count : -1;
+}
+
 Folder::Folder() : path_(new_folder()) {}
 
 Folder::~Folder() {

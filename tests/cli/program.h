@@ -38,6 +38,10 @@ class Running {
 Ended sphparam_program(const std::vector<std::string>& arguments,
                        const std::string& standard_input = "", const std::string& output = "");
 
+/// Types what a message advises, the commands between `…`, one after the other in a folder. Returns
+/// how many there were; −1: one of them failed.
+int type_advice(const std::string& message, const std::string& folder);
+
 /// A folder of its own for a test, removed with everything in it at the end.
 class Folder {
  public:

@@ -230,8 +230,45 @@ TEST_CASE("bake: a low mesh must be on the sphere of the high one") {
   INFO(bad.err);
   CHECK(bad.code == 2);
   CHECK_THAT(bad.err, Contains("own.sph.ply: is not on the same sphere"));
-  CHECK_THAT(bad.err, Contains("`sphparam remesh high.sph.ply --grid"));
   CHECK_FALSE(fs::exists(image));
+  CHECK(type_advice(bad.err, folder / ".") == 2);
+  for (const char* made : {"high_ico6.sph.ply", "own_like.sph.ply"}) {
+    const Ended again = bake(folder / made);
+    INFO(again.err);
+    CHECK(again.code == 0);
+  }
+}
+
+TEST_CASE("bake: what is advised for --for can be typed, of a mesh without a map and mended too") {
+  const Folder folder;
+  TriangleMesh egg = icosphere(3), low = icosphere(2);
+  egg.positions.col(0) *= 1.5;
+  low.positions.col(0) *= 1.5;
+  const std::string high = folder / "my egg.obj", target = folder / "low.obj";
+  write_bytes(target, obj_text(low));
+  const Triangles all = egg.triangles;
+  for (const bool hurt : {false, true}) {
+    if (hurt) egg.triangles = all.bottomRows(all.rows() - 1);
+    write_bytes(high, obj_text(egg));
+    const auto bake = [&](const std::string& other) {
+      std::vector<std::string> words = {"bake",           high, "--for",          other,    "--map",
+                                        "normal-tangent", "-o", folder / "x.png", "--size", "32"};
+      if (hurt) words.insert(words.end(), {"--repair=holes", "--max-hole", "7"});
+      return sphparam_program(words);
+    };
+    const Ended bare = bake(target);
+    INFO(bare.err);
+    REQUIRE(bare.code == 5);
+    CHECK_THAT(bare.err, Contains("low.obj: carries no map"));
+    if (hurt) CHECK_THAT(bare.err, Contains("egg.obj' --repair=holes --max-hole 7 -o"));
+    CHECK(type_advice(bare.err, folder / ".") == 3);
+    for (const char* made : {"my egg_ico6.sph.ply", "low_like.sph.ply"}) {
+      const Ended again = bake(folder / made);
+      INFO(again.err);
+      CHECK(again.code == 0);
+      CHECK_THAT(again.err, !Contains("warning"));
+    }
+  }
 }
 
 TEST_CASE("bake: --from bakes another surface on the mesh, and tells how it was found") {
@@ -336,6 +373,7 @@ TEST_CASE("bake: what cannot be done is said before anything is written") {
   };
   for (const Mistake& mistake : {
            Mistake{{"--map", "postion"}, 2, "did you mean position?"},
+           {{"--map", "colour"}, 2, "there is no map colour; did you mean basecolor?"},
            {{"--map", "nothing"}, 2, "there are axes"},
            {{"--map", "scalar:heat"}, 2, "no such property"},
            {{"--map", "position,uv"}, 2, "{map}"},

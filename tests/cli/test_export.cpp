@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "image/image_codec.h"
 #include "io/polygons/welding.h"
 #include "program.h"
 #include "sphparam/io/mesh_reader.h"
@@ -50,6 +51,17 @@ TEST_CASE("export: a mesh becomes a .glb with a checker, its report says what is
   const Json report = Json::parse(bytes_of(egg.folder / "egg.json"));
   CHECK(report["levels"][0]["certified_as_stored"] == true);
   CHECK(report["levels"][0]["triangles"] == gltf["accessors"].back()["count"].get<int>() / 3);
+}
+
+TEST_CASE("export: a square image is shown, with the warning that paint gives") {
+  const Egg egg;
+  write_image(egg.folder / "square.png", Image(16, 16, 3));
+  for (const char* output : {"egg.glb", "square.obj", "egg.ply"}) {
+    const Ended ended = egg.run(output, {"--image", egg.folder / "square.png"});
+    CHECK(ended.code == 0);
+    CHECK_THAT(ended.err, Contains("warning: ") && Contains("square.png: 16 × 16: ") &&
+                              Contains("twice as wide as high"));
+  }
 }
 
 TEST_CASE("export: materials that can be switched, each once") {
@@ -147,8 +159,8 @@ TEST_CASE(
       const Ended ended = sphparam_program(arguments);
       INFO(ended.err);
       CHECK(ended.code == 0);
-      CHECK_THAT(ended.err, Contains("thinner than (u, v) can tell, ") &&
-                                Contains("moved there, by up to"));
+      CHECK_THAT(ended.err,
+                 Contains("thinner than (u, v) can tell, ") && Contains("moved there, by up to"));
     }
   }
 }

@@ -130,4 +130,20 @@ TEST_CASE("map: what radial, --align and --centre may not be said with ends with
   }
 }
 
+TEST_CASE("bake --convention gis: how far a map is from the body's is told of bodies only") {
+  const Folder folder;
+  const auto told = [&](const std::string& mesh, const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"bake", "-",  "--map",          "position",     "--size",
+                                      "32",   "-o", folder / "a.png", "--convention", "gis"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Ended ended = sphparam_program(words, mesh);
+    INFO(ended.err);
+    CHECK(ended.code == 0);
+    return ended.err.find("° from those of the body") != std::string::npos;
+  };
+  CHECK(told(body(), {}));
+  CHECK_FALSE(told(body({5, 6, 7}), {}));  // seen from the origin it is none
+  CHECK(told(body({5, 6, 7}), {"--body", "1"}));
+}
+
 }  // namespace sphparam::tests

@@ -135,6 +135,23 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("export: each image that is not twice as wide as high is told, whatever it shows") {
+  const Place place;
+  write_image(place / "square.png", Image(16, 16, 3));
+  write_image(place / "wide.png", Image(32, 16, 3));
+  using Member = std::string LookOptions::*;
+  for (const Member member : {&LookOptions::texture, &LookOptions::normal, &LookOptions::occlusion,
+                              &LookOptions::orm, &LookOptions::emissive}) {
+    ExportOptions options = small;
+    options.look.*member = place / "wide.png";
+    CHECK(make_look(mapped_egg(2), options).warnings.empty());
+    options.look.*member = place / "square.png";
+    CHECK(make_look(mapped_egg(2), options).warnings ==
+          Names{"square.png: 16 × 16: an equirectangular image of the whole sphere is twice as "
+                "wide as high"});
+  }
+}
+
 TEST_CASE("export: an asset has a look, a proof of its coordinates and the mesh's name") {
   const Asset asset = make_asset(mapped_egg(2), small);
   CHECK(asset.name == "egg");

@@ -9,6 +9,7 @@ import pytest
 
 import sphparam as sp
 from shapes import potato
+from sphparam._images import png_of
 
 V, F = potato(3)
 colours = (np.abs(V) / np.abs(V).max() * 255).astype(np.uint8)
@@ -132,6 +133,13 @@ def test_what_an_export_leaves_out_is_told_once(painted, tmp_path):
     assert told(lambda: with_uv.export(tmp_path / "b.glb", source_uv=True))[1] == []
     low = sp.map(V, F).remesh("ico:2")
     assert told(lambda: low.export(tmp_path / "c.glb"))[1] == []
+
+
+def test_a_picture_that_is_not_twice_as_wide_as_high_is_told(painted, tmp_path):
+    square = tmp_path / "square.png"
+    square.write_bytes(png_of(np.zeros((8, 8, 3), np.uint8)))
+    for use in (lambda: painted.paint(square), lambda: painted.export(tmp_path / "a.glb", texture=square)):
+        assert "square.png: 8 × 8: " in told(use)[1][0]
 
 
 def test_a_file_without_a_map_is_told_as_such(painted, tmp_path):

@@ -94,3 +94,12 @@ TEST_CASE("equirectangular: nothing aliases: one texel of a row at the pole weig
   CHECK(looked_up(look, there, pi / 256).x() < 0.02);
   CHECK(looked_up(look, {0, 0, 1}, pi / 256).x() < 0.02);
 }
+
+TEST_CASE("equirectangular: an image that is not twice as wide as high is told, but for a texel") {
+  CHECK(warning_of_shape("earth.png", 64, 32).empty());
+  CHECK(warning_of_shape("earth.png", 65, 32).empty());
+  CHECK(
+      warning_of_shape("earth.png", 66, 32) ==
+      "earth.png: 66 × 32: an equirectangular image of the whole sphere is twice as wide as high");
+  CHECK_FALSE(warning_of_shape("earth.png", 32, 32).empty());
+}

@@ -8,7 +8,9 @@
 #include <set>
 
 #include "console/places.h"
+#include "io/shell_word.h"
 #include "sphparam/image/image_format.h"
+#include "sphparam/io/paths.h"
 
 namespace sphparam::cli {
 namespace {
@@ -30,6 +32,18 @@ void check_all_places(const BakeArguments& arguments, const std::vector<BakeRequ
   check_places(written);
 }
 
+/// What other programs call a map; else what is nearest to the word.
+std::string hint_of_map(const FieldError& error) {
+  static const std::map<std::string, std::string> synonyms = {
+      {"colour", "basecolor"},      {"color", "basecolor"},        {"diffuse", "basecolor"},
+      {"albedo", "basecolor"},      {"base_color", "basecolor"},   {"texture", "basecolor"},
+      {"normal", "normal-tangent"}, {"normals", "normal-tangent"}, {"emission", "emissive"},
+      {"metalness", "metallic"},    {"displacement", "height"},    {"xyz", "position"}};
+  const auto known = synonyms.find(error.unknown());
+  return known == synonyms.end() ? did_you_mean(error.unknown(), error.known())
+                                 : "; did you mean " + known->second + "?";
+}
+
 /// What can be told of an image before its mesh is read.
 void require_possible(const BakeRequest& image, const BakeSettings& settings) {
   try {
@@ -38,7 +52,7 @@ void require_possible(const BakeRequest& image, const BakeSettings& settings) {
     throw as_mistake(error);
   } catch (const FieldError& error) {
     if (error.unknown().empty()) throw UsageMistake(std::string("--map: ") + error.what());
-    const std::string meant = did_you_mean(error.unknown(), error.known());
+    const std::string meant = hint_of_map(error);
     throw UsageMistake("--map: there is no map " + error.unknown() +
                        (meant.empty() ? "; there are " + joined(error.known()) : meant));
   }
@@ -212,11 +226,37 @@ UsageMistake as_mistake(const FieldError& error, const BakeSettings& settings) {
 }
 
 UsageMistake as_mistake(const OtherSphereError& error, const MappedMesh& source,
-                        const BakeSettings& settings) {
-  return UsageMistake(std::string("--for: ") + error.what() + "; `sphparam remesh " +
-                      settings.source_name +
-                      " --grid ico:6 -o LOW.sph.ply` makes a mesh on its sphere" +
-                      (source.mapped_here() ? ", of a map that is kept (`sphparam map`)" : ""));
+                        const BakeArguments& arguments) {
+  return UsageMistake(std::string("--for: ") + error.what() + "; " +
+                      advice_for_target(source, arguments));
+}
+
+std::string advice_for_target(const MappedMesh& source, const BakeArguments& arguments) {
+  const auto command = [](const std::string& words) { return "`sphparam " + words + "`"; };
+  const auto stem = [](const std::string& path) {
+    return is_stream(path) ? "mesh" : stem_of(path);
+  };
+  const std::string name = stem(arguments.input);
+  const std::string made_here = shell_word(name + "_map.sph.ply"),
+                    fine = is_stream(arguments.input) ? "MESH" : shell_word(arguments.input),
+                    low = shell_word(name + "_ico6.sph.ply"),
+                    target = is_stream(arguments.target) ? "LOW" : shell_word(arguments.target),
+                    followed = shell_word(stem(arguments.target) + "_like.sph.ply");
+  std::string mapped = fine, options = typed_again(arguments.repair), advice;
+  if (source.mapped_here()) {
+    // `remesh` would map it with another λ.
+    advice = command("map " + fine + options + " -o " + made_here) + ", then ";
+    mapped = made_here;
+    options.clear();
+  } else if (!arguments.sphere.empty()) {
+    options += " --sphere " + shell_word(arguments.sphere);
+  }
+  advice += command("remesh " + mapped + options + " --grid ico:6 -o " + low) +
+            " makes a mesh on its sphere: --for " + low;
+  if (!options.empty()) return advice;  // the mesh to follow is read as it is
+  return advice + "; where both are of one thing, " +
+         command("map " + target + " -o " + followed + " --like " + mapped) +
+         " maps this one there: --for " + followed;
 }
 
 void settle_body(BakeArguments& arguments) {

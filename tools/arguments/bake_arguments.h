@@ -50,6 +50,9 @@ std::vector<BakeRequest> requests_of_mesh(std::vector<BakeRequest> images,
 UsageMistake as_mistake(const BakeSettingError& error);
 UsageMistake as_mistake(const FieldError& error, const BakeSettings& settings);
 UsageMistake as_mistake(const OtherSphereError& error, const MappedMesh& source,
-                        const BakeSettings& settings);
+                        const BakeArguments& arguments);
+
+/// What to type, in order, for a mesh on the sphere of `source` that --for takes.
+std::string advice_for_target(const MappedMesh& source, const BakeArguments& arguments);
 
 }  // namespace sphparam::cli

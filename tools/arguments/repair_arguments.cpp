@@ -61,6 +61,16 @@ void settle_handles(const RepairArguments& arguments, RepairOptions& options) {
   }
 }
 
+std::string typed(const Amount& amount) {
+  return shortest(amount.value) + (amount.percent ? "%" : "");
+}
+
+/// "", " --repair" or " --repair=holes".
+std::string typed_flag(const std::string& option, const std::string& words) {
+  if (words.empty()) return "";
+  return " " + option + (words == without_words ? "" : "=" + words);
+}
+
 void require_sensible_loops(const RepairArguments& arguments, bool wanted) {
   if (arguments.loops.empty()) return;
   if (!wanted) throw UsageMistake("--loops is for --repair, or --repair=handles");
@@ -167,6 +177,18 @@ double wanted_filler_share(const RepairArguments& arguments) {
   if (read_share(arguments.keep_holes, share) && *share > 0) return *share;
   throw UsageMistake("--keep-holes: expected a share of the sphere, as in 0.1 or 10%, not " +
                      arguments.keep_holes);
+}
+
+std::string typed_again(const RepairArguments& a) {
+  std::string line = typed_flag("--repair", a.words);
+  if (a.component > 0) line += " --component " + std::to_string(a.component);
+  if (a.least_kept) line += " --min-kept " + shortest(*a.least_kept);
+  if (a.largest_hole > 0) line += " --max-hole " + std::to_string(a.largest_hole);
+  if (a.weld) line += " --weld " + typed(*a.weld);
+  line += typed_flag("--keep-holes", a.keep_holes);
+  if (a.given("--handles")) line += " --handles " + name_of(a.handle_choice);
+  if (a.longest_handle) line += " --max-handle " + typed(*a.longest_handle);
+  return line;
 }
 
 }  // namespace sphparam::cli

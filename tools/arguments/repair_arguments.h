@@ -43,4 +43,7 @@ RepairOptions all_or_wanted_repairs(RepairArguments arguments);
 /// The share of the sphere that fillers may take, as --keep-holes says. Throws: UsageMistake.
 double wanted_filler_share(const RepairArguments& arguments);
 
+/// What was given of these, to be typed again: " --repair=holes --max-hole 12"; empty: nothing.
+std::string typed_again(const RepairArguments& arguments);
+
 }  // namespace sphparam::cli

@@ -52,12 +52,12 @@ class PacedProgress {
   Stopwatch stopwatch_;
 };
 
-MappedMesh read_target(const std::string& path, Session& session) {
-  MappedMesh target = read_mapped(path, "", session);
+MappedMesh read_target(const MappedMesh& source, const BakeArguments& arguments, Session& session) {
+  MappedMesh target = read_mapped(arguments.target, "", session);
   if (!target.mapped_here()) return target;
-  throw NotCertifiedError(display_name(path) +
-                          ": carries no map, so it is on no sphere that it could share; "
-                          "`sphparam remesh` makes meshes on the source's sphere");
+  throw NotCertifiedError(display_name(arguments.target) +
+                          ": carries no map, so it is on no sphere that it could share; " +
+                          advice_for_target(source, arguments));
 }
 
 /// A surface as it is, with all that its materials say.
@@ -76,11 +76,12 @@ MappedMesh read_mesh(const BakeArguments& arguments, Session& session) {
                      arguments.from.empty() ? arguments.data : Words{});
 }
 
-BakeSettings settings_of(const BakeArguments& arguments, Session& session) {
+BakeSettings settings_of(const BakeArguments& arguments, const MappedMesh& source,
+                         Session& session) {
   BakeSettings settings = arguments.settings;
   settings.source_name = display_name(arguments.from.empty() ? arguments.input : arguments.from);
   if (!arguments.from.empty()) settings.from = read_from(arguments, session);
-  if (!arguments.target.empty()) settings.target = read_target(arguments.target, session);
+  if (!arguments.target.empty()) settings.target = read_target(source, arguments, session);
   settings.threads = session.threads();
   settings.progress = PacedProgress(session.console, settings.width);
   return settings;
@@ -88,7 +89,8 @@ BakeSettings settings_of(const BakeArguments& arguments, Session& session) {
 
 /// Errors in the words of the command line.
 BakeReport bake_for_user(const MappedMesh& source, const std::vector<BakeRequest>& images,
-                         const BakeSettings& settings, PendingFiles& files) {
+                         const BakeSettings& settings, const BakeArguments& arguments,
+                         PendingFiles& files) {
   try {
     return bake(source, images, settings, files);
   } catch (const BakeSettingError& error) {
@@ -96,7 +98,7 @@ BakeReport bake_for_user(const MappedMesh& source, const std::vector<BakeRequest
   } catch (const FieldError& error) {
     throw as_mistake(error, settings);
   } catch (const OtherSphereError& error) {
-    throw as_mistake(error, source, settings);
+    throw as_mistake(error, source, arguments);
   } catch (const HalfRangeError& error) {
     throw ImageError(std::string(error.what()) + ": --depth float has");
   }
@@ -118,11 +120,11 @@ BakeArguments of_part(BakeArguments arguments, int part) {
 std::string bake_one(const BakeArguments& arguments, Session& session, Words& lines) {
   std::vector<BakeRequest> images = bake_requests(arguments);
   const MappedMesh source = read_mesh(arguments, session);
-  const BakeSettings settings = settings_of(arguments, session);
+  const BakeSettings settings = settings_of(arguments, source, session);
   images = requests_of_mesh(std::move(images), arguments,
                             settings.from ? *settings.from : source.file());
-  tell_longitudes(source, settings.convention, session);
-  const BakeReport baked = bake_for_user(source, images, settings, session.files);
+  tell_longitudes(source, settings.convention, settings.fields.body.has_value(), session);
+  const BakeReport baked = bake_for_user(source, images, settings, arguments, session.files);
   session.warn(baked.warnings);
   if (!baked.coordinate_system.empty())
     lines.push_back("  longitude and latitude: " + baked.coordinate_system);

@@ -3,8 +3,6 @@
 
 #include "sphparam/paint/paint.h"
 
-#include <cmath>
-
 #include "commands/command.h"
 #include "commands/sources.h"
 #include "console/places.h"
@@ -64,11 +62,8 @@ void require_sensible(const PaintArguments& arguments) {
 EquirectangularImage read_picture(const PaintArguments& arguments, Console& console) {
   EquirectangularImage image =
       read_equirectangular(arguments.image, arguments.convention, arguments.threads);
-  if (std::abs(image.width() - 2 * image.height()) > 1) {
-    console.warning(display_name(arguments.image) + ": " + std::to_string(image.width()) + " × " +
-                    std::to_string(image.height()) +
-                    ": an equirectangular image of the whole sphere is twice as wide as high");
-  }
+  const std::string warning = warning_of_shape(arguments.image, image.width(), image.height());
+  if (!warning.empty()) console.warning(warning);
   return image;
 }
 
@@ -97,7 +92,7 @@ int run_paint(PaintArguments& arguments) {
   Session session(arguments);
   const MappedMesh source =
       read_mapped(arguments.input, arguments.sphere, session, arguments.repair);
-  tell_longitudes(source, arguments.convention, session);
+  tell_longitudes(source, arguments.convention, false, session);
   if (arguments.atlas > 0 && !has_texcoords(source.file()))
     throw UsageMistake("--atlas: the mesh has no texture coordinates of its own");
   const EquirectangularImage image = read_picture(arguments, session.console);

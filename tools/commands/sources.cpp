@@ -12,6 +12,7 @@
 #include "sphparam/io/paths.h"
 #include "sphparam/io/planetocentric.h"
 #include "sphparam/io/sphere_file.h"
+#include "sphparam/sphere/certificate.h"
 #include "sphparam/sphere/radial_directions.h"
 
 namespace sphparam::cli {
@@ -77,12 +78,26 @@ MappedMesh read_mapped(const std::string& path, const std::string& sphere, Sessi
   return mapped;
 }
 
-void tell_longitudes(const MappedMesh& mapped, Convention convention, Session& session) try {
+namespace {
+
+/// Nearly all of a body looks away from its centre, which of a statue a tenth and more does not.
+bool is_like_body(const MappedMesh& mapped, const SphereMap& directions, int threads) {
+  constexpr double most_folded = 0.05;  // of the triangles
+  const Certificate found = certify(mapped.topology(), directions, threads);
+  return static_cast<double>(found.fold_count()) <=
+         most_folded * static_cast<double>(mapped.mesh().face_count());
+}
+
+}  // namespace
+
+void tell_longitudes(const MappedMesh& mapped, Convention convention, bool named_as_body,
+                     Session& session) try {
   if (convention != Convention::Gis) return;
   constexpr double degrees = 180 / std::numbers::pi, nothing = 1e-4;
   const std::optional<Planetocentric> radial = planetocentric(mapped.provenance());
   const SphereMap directions =
       radial_directions(mapped.mesh(), radial ? radial->centre : Vector3(0, 0, 0));
+  if (!named_as_body && !radial && !is_like_body(mapped, directions, session.threads())) return;
   const VectorX even = VectorX::Ones(mapped.mesh().vertex_count());
   const double angle = degrees * rms_angle(mapped.map(), directions, even);
   if (angle < nothing) return;

@@ -38,8 +38,10 @@ MappedMesh read_mapped(const std::string& path, const std::string& sphere, Sessi
 
 /// Of images for geographers: how far the map's longitudes and latitudes are from those of the body
 /// that the mesh is, seen from the centre of a radial map or the origin; nothing where they are the
-/// same.
-void tell_longitudes(const MappedMesh& mapped, Convention convention, Session& session);
+/// same, and of what is no body: neither named as one, nor mapped as one, nor star-shaped but for
+/// little.
+void tell_longitudes(const MappedMesh& mapped, Convention convention, bool named_as_body,
+                     Session& session);
 
 /// `shown_textures` with --texture IMAGE, if it is not empty; what stands against those of the file
 /// is told. `path`: of the mesh. Throws: UsageMistake where there is no place for the image.

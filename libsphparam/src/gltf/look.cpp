@@ -141,7 +141,7 @@ class LookMaker {
 
   int add_file(const std::string& path, const std::string& name, ImageTexts& texts) {
     if (path.empty()) return -1;
-    AssetImage image = read_asset_image(path, name, &texts);
+    AssetImage image = read_asset_image(path, name, texts, look_.warnings);
     const std::optional<int> baked = pole_wedges_of(texts);
     if (baked && *baked != options_.refine_poles) throw ImageOfOtherChart(path, *baked);
     const std::optional<Convention> convention = baked_convention_of(texts);

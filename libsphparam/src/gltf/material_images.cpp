@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <vector>
+#include <utility>
 
 #include "gltf/image_kind.h"
 #include "image/image_codec.h"
 #include "io/files/file_bytes.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/read_options.h"
+#include "sphparam/texture/equirectangular_image.h"
 
 namespace sphparam {
 namespace {
@@ -44,11 +45,14 @@ std::string find_one(const std::vector<fs::path>& files, const std::string& fold
 
 }  // namespace
 
-AssetImage read_asset_image(const std::string& path, const std::string& name, ImageTexts* texts) {
+AssetImage read_asset_image(const std::string& path, const std::string& name, ImageTexts& texts,
+                            std::vector<std::string>& warnings) {
   const FileBytes file(path, most_bytes);
   const std::string_view bytes = file.view();
   if (is_exr(bytes)) throw ImageError(path + ": glTF holds PNG and JPEG, not EXR: bake to .png");
-  const Image image = decode_image({bytes.begin(), bytes.end()}, path, {}, texts);
+  const Image image = decode_image({bytes.begin(), bytes.end()}, path, {}, &texts);
+  std::string warning = warning_of_shape(path, image.width, image.height);
+  if (!warning.empty()) warnings.push_back(std::move(warning));
   if (*image_kind(bytes).mime) return {name, std::string(bytes)};
   const std::vector<char> png = encode_image(image, ImageFormat::Png);
   return {name, {png.begin(), png.end()}};

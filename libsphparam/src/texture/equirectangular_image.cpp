@@ -6,6 +6,7 @@
 
 #include "elementary.h"
 #include "image/image_codec.h"
+#include "sphparam/io/paths.h"
 #include "sphparam/sphere/spherical_coordinates.h"
 #include "texture/texture_pyramid.h"
 
@@ -81,6 +82,12 @@ std::array<float, 4> EquirectangularImage::look_up(const Vector3& direction, dou
 int EquirectangularImage::width() const { return pyramid_->levels().front().width; }
 int EquirectangularImage::height() const { return pyramid_->levels().front().height; }
 bool EquirectangularImage::has_alpha() const { return pyramid_->has_alpha(); }
+
+std::string warning_of_shape(const std::string& path, int width, int height) {
+  if (std::abs(width - 2 * height) <= 1) return "";
+  return display_name(path) + ": " + std::to_string(width) + " × " + std::to_string(height) +
+         ": an equirectangular image of the whole sphere is twice as wide as high";
+}
 
 EquirectangularImage read_equirectangular(const std::string& path, Convention convention,
                                           int threads) {

@@ -18,44 +18,48 @@
 namespace sphparam::python {
 namespace {
 
-/// Red, green, blue and perhaps alpha of each vertex, 0 to 255.
-py::array paint(const Mapped& mapped, const std::string& path, const std::string& convention,
+/// Red, green, blue and perhaps alpha of each vertex, 0 to 255; and warnings.
+py::tuple paint(const Mapped& mapped, const std::string& path, const std::string& convention,
                 int threads, const py::object& progress) {
   const Convention longitude = convention_of(convention);
-  std::vector<std::vector<double>> channels =
-      call(progress, [=, mesh = mapped.mesh()](const Progress& report) {
-        const EquirectangularImage image = read_equirectangular(path, longitude, threads);
-        const MeshFile painted =
-            paint_vertices(mesh, image, {.threads = threads, .progress = report});
-        std::vector<std::vector<double>> found;
-        for (const char* name : {"red", "green", "blue", "alpha"}) {
-          if (const Property* channel = painted.find_vertex_property(name);
-              channel && (found.size() < 3 || image.has_alpha()))
-            found.push_back(channel->values);
-        }
-        return found;
-      });
+  const auto [channels,
+              warnings] = call(progress, [=, mesh = mapped.mesh()](const Progress& report) {
+    const EquirectangularImage image = read_equirectangular(path, longitude, threads);
+    const MeshFile painted = paint_vertices(mesh, image, {.threads = threads, .progress = report});
+    std::vector<std::vector<double>> found;
+    for (const char* name : {"red", "green", "blue", "alpha"}) {
+      if (const Property* channel = painted.find_vertex_property(name);
+          channel && (found.size() < 3 || image.has_alpha()))
+        found.push_back(channel->values);
+    }
+    std::vector<std::string> told = {warning_of_shape(path, image.width(), image.height())};
+    std::erase(told, "");
+    return std::pair(std::move(found), std::move(told));
+  });
   const std::size_t count = channels.front().size();
   std::vector<std::uint8_t> colours;
   for (std::size_t v = 0; v < count; ++v)
     for (const auto& channel : channels) colours.push_back(static_cast<std::uint8_t>(channel[v]));
-  return owning(std::move(colours),
-                {static_cast<py::ssize_t>(count), static_cast<py::ssize_t>(channels.size())});
+  const std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(count),
+                                       static_cast<py::ssize_t>(channels.size())};
+  return py::make_tuple(owning(std::move(colours), shape), warnings);
 }
 
 py::tuple paint_texture(const Mapped& mapped, const std::string& path,
                         const std::string& convention, int size, int padding, int threads,
                         const py::object& progress) {
   const Convention longitude = convention_of(convention);
-  auto [atlas, warning] = call(progress, [=, mesh = mapped.mesh()](const Progress& report) {
+  auto [atlas, warnings] = call(progress, [=, mesh = mapped.mesh()](const Progress& report) {
     const EquirectangularImage image = read_equirectangular(path, longitude, threads);
     PaintedAtlas painted = paint_atlas(
         mesh, image, {.size = size, .padding = padding, .threads = threads, .progress = report});
-    std::string told = overlap_warning(painted, mesh.file());
+    std::vector<std::string> told = {warning_of_shape(path, image.width(), image.height()),
+                                     overlap_warning(painted, mesh.file())};
+    std::erase(told, "");
     return std::pair(std::move(painted.image), std::move(told));
   });
   const std::vector<py::ssize_t> shape{atlas.height, atlas.width, atlas.channels};
-  return py::make_tuple(owning(std::move(atlas.pixels), shape), warning);
+  return py::make_tuple(owning(std::move(atlas.pixels), shape), warnings);
 }
 
 const char* word_of(View view) {

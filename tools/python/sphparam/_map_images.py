@@ -214,7 +214,9 @@ class MapImages(MapFacts):
         from ._images import as_file
 
         with as_file(image, "image", convention) as path, told(progress) as report:
-            return _core.paint(self._mapped, path, convention, _arrays.threads(threads), report)
+            colours, warned = _core.paint(self._mapped, path, convention, _arrays.threads(threads), report)
+        tell(warned)
+        return colours
 
     def paint_texture(
         self,
@@ -239,7 +241,7 @@ class MapImages(MapFacts):
             table, warned = _core.paint_texture(
                 self._mapped, path, convention, size, padding, _arrays.threads(threads), report
             )
-        tell([warned] if warned else [])
+        tell(warned)
         return as_bytes(table)
 
     def picture(

@@ -43,6 +43,10 @@ class EquirectangularImage {
   ConventionInfo convention_;
 };
 
+/// The warning for people that an image is not twice as wide as high, as one of the whole sphere
+/// is; empty: it is, or misses that by one texel.
+std::string warning_of_shape(const std::string& path, int width, int height);
+
 /// Reads an EXR, whose name says so: linear light, or one of the other formats, which hold sRGB.
 /// Throws: ImageError. Cost: 11 bytes a texel.
 EquirectangularImage read_equirectangular(const std::string& path,
