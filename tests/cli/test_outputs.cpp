@@ -1,12 +1,14 @@
 #include <sys/stat.h>
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <set>
 #include <sstream>
 
 #include "image/image_codec.h"
 #include "mapped.h"
 #include "program.h"
+#include "sphparam/io/mesh_reader.h"
 #include "support/test_meshes.h"
 
 namespace sphparam::tests {
@@ -210,6 +212,67 @@ TEST_CASE("outputs: results that are no numbers are told as what they are, and n
   CHECK_THAT(ended.err, Contains("made.ply: not written") && Contains("no finite number") &&
                             !Contains("byte") && !Contains(".tmp"));
   CHECK(folder.names() == Words{"spike.obj"});
+}
+
+TEST_CASE("outputs: what 32 bits cannot hold of a very small mesh is refused alike everywhere") {
+  const Folder folder;
+  for (const double size : {1e-45, 1e-160}) {
+    TriangleMesh egg = icosphere(2);
+    egg.positions.col(2) *= 1.3;
+    egg.positions *= size;
+    const std::string mesh = folder / "egg.obj";
+    write_bytes(mesh, obj_text(egg));
+    const std::string image = folder / "a.png";
+    const Words lines[] = {
+        {"export", mesh, "-o", folder / "a.glb", "--image-size", "16"},
+        {"asset", mesh, "-o", folder / "asset", "--size", "16"},
+        {"remesh", mesh, "--grid", "ico:2", "-o", folder / "a.surf.gii"},
+        {"remesh", mesh, "--grid", "ico:2", "-o", folder / "a.mz3"},
+        {"bake", mesh, "--map", "position", "--size", "16", "-o", image},
+        {"bake", mesh, "--map", "height", "--size", "16", "-o", image},
+        {"bake", mesh, "--map", "radius", "--size", "16", "-o", image},
+        {"bake", mesh, "--map", "elevation", "--body", "1", "--size", "16", "-o", image},
+        {"bake", mesh, "--map", "thickness", "--size", "16", "-o", image},
+        {"bake", mesh, "--map", "curvature", "--size", "16", "-o", image}};
+    for (const Words& line : lines) {
+      const Ended ended = sphparam_program(line);
+      INFO(line.front() << " " << line.back() << "\n" << ended.err);
+      CHECK(ended.code == 4);
+      CHECK_THAT(ended.err,
+                 Contains(": the mesh is too small for numbers of 32 bits, its extent is ") &&
+                     Contains("; scale it"));
+      CHECK(folder.names() == Words{"egg.obj"});
+    }
+    // Texts have doubles, and what has no length is the same for any size.
+    TriangleMesh large = egg;
+    large.positions /= size;
+    write_bytes(folder / "large.obj", obj_text(large));
+    for (const char* field : {"normal-object", "ao", "slope", "lonlat", "area"}) {
+      std::vector<float> values[2];
+      for (const bool small : {false, true}) {
+        const Ended ended =
+            sphparam_program({"bake", small ? mesh : folder / "large.obj", "--map", field,
+                              "--depth", "float", "--size", "16", "-o", folder / "a.exr"});
+        INFO(field << "\n" << ended.err);
+        CHECK(ended.code == 0);
+        values[small] = read_image(folder / "a.exr").pixels;
+      }
+      int apart = 0;  // a ray may go by an edge on the other side
+      for (size_t i = 0; i < values[0].size(); ++i)
+        apart += std::abs(values[0][i] - values[1].at(i)) > 1e-3F;
+      INFO(field);
+      CHECK(apart <= 1);
+    }
+    const Ended text =
+        sphparam_program({"export", mesh, "-o", folder / "b.ply", "--image-size", "16"});
+    INFO(text.err);
+    CHECK(text.code == 0);
+    const Points written = read_mesh(folder / "b.ply").mesh.positions / size,
+                 wanted = egg.positions / size;
+    CHECK((written.colwise().maxCoeff() - wanted.colwise().maxCoeff()).norm() < 1e-12);
+    for (const char* name : {"large.obj", "a.exr", "b.ply", "b_checker.png"})
+      CHECK(fs::remove(folder / name));
+  }
 }
 
 TEST_CASE("outputs: names may be as long as the file system lets them") {

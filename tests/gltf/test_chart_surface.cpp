@@ -126,6 +126,19 @@ TEST_CASE("chart_surface: a position beyond float32 is refused") {
   CHECK_THROWS_AS(egg.geometry(), std::range_error);
 }
 
+TEST_CASE("chart_surface: a mesh too small for float32 is refused, its sphere is not") {
+  Charted egg, small;
+  small.file.mesh.positions *= 1e-30;
+  const FloatRows same = small.geometry().surface.positions * 1e30F;
+  CHECK(same.isApprox(egg.geometry().surface.positions, 1e-6F));
+  for (const double size : {1e-32, 1e-45, 1e-160}) {
+    small.file.mesh.positions = size * egg.file.mesh.positions;
+    CHECK_THROWS_WITH(small.geometry(), Catch::Contains("glTF: the mesh is too small for numbers "
+                                                        "of 32 bits, its extent is "));
+    CHECK_NOTHROW(small.geometry({.shape = ShapeKind::Sphere}));  // has a size of its own
+  }
+}
+
 TEST_CASE("shading_normals: those of the file where they are usable, else the faces'") {
   Charted egg;
   const Points by_faces = shading_normals(egg.file);

@@ -3,6 +3,7 @@
 #include "io/formats/freesurfer_reader.h"
 #include "io/formats/freesurfer_writer.h"
 #include "reading.h"
+#include "sphparam/errors.h"
 #include "sphparam/io/losses.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/safe_file.h"
@@ -136,6 +137,9 @@ TEST_CASE("freesurfer: doubles are rounded and told, what 32 bits cannot hold is
   CHECK(contains(losses_of_writing(file, back).at(0), "of 162 vertices"));
   file.mesh.positions *= 1e300;
   CHECK_THROWS_AS(serialise_freesurfer(file), WriteError);
+  file.mesh = icosphere(2);
+  file.mesh.positions *= 1e-33;
+  CHECK_THROWS_AS(serialise_freesurfer(file), UnmeasurableMesh);
 }
 
 TEST_CASE("freesurfer: names of surfaces ask for the format, also for a sphere") {

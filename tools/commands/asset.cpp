@@ -2,6 +2,7 @@
 // images, a .glb that has them, a page. All files appear together or none.
 
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 
 #include "arguments/limits.h"
@@ -146,9 +147,10 @@ void require_other_folder(const std::string& folder, const std::string& input) {
 
 int run_asset(AssetArguments& arguments) {
   require_sense(arguments);
+  std::optional<Folder> place;  // outlives what is pending in it
   Session session(arguments);
   session.hold_signals();
-  const Folder folder(arguments);
+  const Folder& folder = place.emplace(arguments);
   require_other_folder(folder.path(), arguments.input);
   check_places({{"--json", arguments.json}});
   const MeshSource asset = read_asset(arguments.input);

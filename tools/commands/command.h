@@ -8,6 +8,7 @@
 
 #include "arguments/declaration.h"
 #include "console/exit_codes.h"
+#include "sphparam/errors.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/read_options.h"
 
@@ -31,12 +32,12 @@ Command make_command(CLI::App& program, const std::string& name, const std::stri
 }
 
 /// Makes assets and adds their files: positions beyond float32 are the input's fault, more than a
-/// .glb holds the output's. Throws: ReadError; WriteError; whatever the work throws else.
+/// .glb holds the output's. Throws: UnmeasurableMesh; WriteError; whatever the work throws else.
 template <class Work>
 void with_file_errors(const std::string& input, const std::string& output, const Work& work) try {
   work();
 } catch (const std::range_error& error) {
-  throw ReadError(display_name(input), error.what());
+  throw UnmeasurableMesh(display_name(input) + ": " + error.what());
 } catch (const std::length_error& error) {
   throw WriteError(output_name(output), error.what());
 }

@@ -172,14 +172,26 @@ class Collector {
                          .weight = area * density});
   }
 
+  /// At about unit size: weights are relative, and squares must be numbers.
   double surface_area(Face f) const {
     const auto corner = [&](int k) -> Vector3 {
-      return target_.positions.row(target_.chart.triangles(f, k));
+      return scale_ * target_.positions.row(target_.chart.triangles(f, k));
     };
     return (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm() / 2;
   }
 
+  /// By some of the positions: this is asked for every band.
+  static double to_unit_size(const Points& positions) {
+    constexpr int greatest = 1023;  // 2¹⁰²⁴ is infinite, and subnormal coordinates ask for more
+    constexpr Eigen::Index enough = 1000;
+    double extent = 0;
+    for (Eigen::Index i = 0; i < positions.rows(); i += 1 + positions.rows() / enough)
+      extent = std::max(extent, positions.row(i).cwiseAbs().maxCoeff());
+    return extent > 0 ? std::ldexp(1.0, std::min(greatest, -std::ilogb(extent))) : 1;
+  }
+
   const BakeTarget& target_;
+  double scale_ = to_unit_size(target_.positions);  // a power of two: no bit is lost
   const TexelFinder& finder_;
   const TexelOwners& owners_;
   int band_, width_;

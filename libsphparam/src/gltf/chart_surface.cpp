@@ -9,6 +9,7 @@
 
 #include "io/attributes/source_attributes.h"
 #include "io/polygons/distinct_rows.h"
+#include "mesh/float32_size.h"
 #include "sphparam/chart/carry_attributes.h"
 #include "sphparam/parallel.h"
 
@@ -166,6 +167,7 @@ Surface chart_surface(const SphericalChart& chart, const Shape& shape,
   Surface surface;
   surface.positions = gather(shape.positions, numbering);
   require_float32(surface.positions);
+  require_float32_least(shape.positions, "glTF");
   surface.normals = gather(shape.frame.normals, numbering);
   if (options.tangents) surface.tangents = gather_tangents(shape, numbering, mirrored);
   surface.texcoords.push_back(gather(stored_uv(chart, options.uv), numbering));

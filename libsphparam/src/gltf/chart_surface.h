@@ -29,7 +29,8 @@ struct NamedShape {
 /// Where u = 0 is θ = 0, the copies of the seam at u = 1 have θ = 2π, so that θ is continuous on
 /// every triangle; with another `theta_offset` it jumps within those that lie across θ = 0.
 /// `theta_offset`: the θ of u = 0, radians.
-/// Throws: std::range_error where a position is beyond float32.
+/// Throws: std::range_error where a position is beyond float32; UnmeasurableMesh where the shape is
+/// too small for it.
 Surface chart_surface(const SphericalChart& chart, const Shape& shape,
                       const std::vector<NamedShape>& targets, const MeshFile& mesh,
                       const SurfaceOptions& options, double theta_offset = 0);

@@ -103,7 +103,8 @@ struct BakeReport {
 /// With `from`, what needs a map of the surface itself (area, angle, stretch, curvature) is
 /// refused. Throws: BakeSettingError and FieldError before anything is baked; NotCertifiedError
 /// where the chart of a mesh is not one-to-one; OtherSphereError; ImageError for textures that
-/// cannot be read and for what a format cannot hold (HalfRangeError); WriteError; Cancelled. Cost:
+/// cannot be read and for what a format cannot hold (HalfRangeError); UnmeasurableMesh for lengths
+/// of a mesh that is not between 1e-31 and 1e31 long; WriteError; Cancelled. Cost:
 /// linear in texels and triangles; memory for some rows a field. 1 µs a texel and field, but for
 /// those that cast rays.
 BakeReport bake(const MappedMesh& source, const std::vector<BakeRequest>& images,

@@ -135,7 +135,8 @@ inline constexpr char normals_left_out[] =
 /// Coarser levels share the look, but for a normal map that was given. Ensures: the same asset for
 /// any number of threads. Throws: as `make_look`; NotCertifiedError, named by the mesh's name,
 /// where the (u, v) of a level are not one-to-one, unless the topology is kept; std::range_error
-/// where a position is beyond float32; std::invalid_argument where another shape has not a row a
+/// where a position is beyond float32; UnmeasurableMesh where the mesh is less than 1e-31 long, too
+/// small for it; std::invalid_argument where another shape has not a row a
 /// vertex, `keep_topology` and
 /// `refine_poles` are both wanted, more `refine_poles` than a chart can hold, or the texture
 /// coordinates of a mesh that has none. Cost: some 2 µs a triangle; images that are baked, as

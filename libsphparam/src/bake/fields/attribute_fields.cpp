@@ -9,6 +9,7 @@
 #include "bake/fields/linear_field.h"
 #include "io/attributes/source_attributes.h"
 #include "io/attributes/weightiest_label.h"
+#include "mesh/float32_size.h"
 
 namespace sphparam {
 namespace {
@@ -125,6 +126,7 @@ std::vector<int> materials_of(const MeshFile& file) {
 
 SurfaceField make_position(const BakeScene& scene, const std::string&) {
   const TriangleMesh& mesh = scene.source.mesh();
+  require_float32_size(mesh.positions, "position");
   return linear_field<3>(
       {.name = "position",
        .about = "x y z of the mesh, its own unit and axes; one range for all three",

@@ -3,8 +3,10 @@
 #include <numbers>
 
 #include "elementary.h"
+#include "mesh/float32_size.h"
 #include "mesh/triangle_geometry.h"
 #include "number_text.h"
+#include "rays/flat_normal.h"
 #include "rays/interpolation.h"
 #include "sphparam/io/planetocentric.h"
 
@@ -101,6 +103,7 @@ SurfaceField make_longitude_latitude(const BakeScene& scene, const std::string&)
 }
 
 SurfaceField make_radius(const BakeScene& scene, const std::string&) {
+  require_float32_size(scene.source.mesh().positions, "radius");
   return field_of_places({.name = "radius",
                           .about = "distance from the centre of the body, in units of the mesh",
                           .unit = unit_of_lengths(scene.options)},
@@ -117,10 +120,10 @@ SurfaceField make_slope(const BakeScene& scene, const std::string&) {
        .unit = "degree",
        .range = std::pair(0.0, 180.0)},
       scene, [&mesh](Face f, const Vector3& p, float* out) {
-        const Vector3 a = mesh.position(mesh.triangles(f, 0));
-        const Vector3 normal = (mesh.position(mesh.triangles(f, 1)) - a)
-                                   .cross(mesh.position(mesh.triangles(f, 2)) - a);
-        out[0] = static_cast<float>(angle_between(normal, p) * degrees);
+        const Vector3 normal =
+            flat_normal(mesh.position(mesh.triangles(f, 0)), mesh.position(mesh.triangles(f, 1)),
+                        mesh.position(mesh.triangles(f, 2)));
+        out[0] = static_cast<float>(angle_between(normal, p.stableNormalized()) * degrees);
       });
 }
 
@@ -129,6 +132,7 @@ SurfaceField make_elevation(const BakeScene& scene, const std::string&) {
     throw FieldError(
         "elevation: above which body? Its name, radius or semi-axes are needed (--body)");
   }
+  require_float32_size(scene.source.mesh().positions, "elevation");
   const Body& body = *scene.options.body;
   const Vector3 axes = body.semi_axes / body.unit;
   const bool round = axes.x() == axes.y() && axes.x() == axes.z();

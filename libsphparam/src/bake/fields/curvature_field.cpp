@@ -10,6 +10,7 @@
 #include "bake/field_registry.h"
 #include "bake/fields/heat_field.h"
 #include "bake/fields/linear_field.h"
+#include "mesh/float32_size.h"
 #include "sphparam/mesh/curvature.h"
 
 namespace sphparam {
@@ -54,6 +55,8 @@ SurfaceField curvature_field(const BakeScene& scene, const std::string& argument
     throw FieldError("curvature: there are curvature:mean and curvature:gauss, not " + argument);
   }
   const TriangleMesh& mesh = scene.source.mesh();
+  constexpr double least_squared = 1e-15;  // of Gauss curvature: one over the square of a length
+  require_float32_size(mesh.positions, "curvature", gauss ? least_squared : least_float32_size);
   const MappedMesh& mapped = scene.source.map_for("curvature");
   const double scale = relative_scale * equal_area_radius(mapped.surface(), scene.threads);
   const Curvature curvature =

@@ -5,6 +5,7 @@
 #include "bake/fields/height_field.h"
 
 #include "bake/field_registry.h"
+#include "mesh/float32_size.h"
 #include "rays/interpolation.h"
 
 namespace sphparam {
@@ -44,6 +45,7 @@ SurfaceField height_field(const BakeScene& scene, const std::string& argument) {
   if (!argument.empty() && argument != "radial") {
     throw FieldError("height: there are height and height:radial, not " + argument);
   }
+  require_float32_size(scene.source.mesh().positions, "height");
   const bool radial = argument == "radial" || scene.options.height_radial || scene.target.is_source;
   SurfaceField field =
       radial ? radial_height(scene.source.mesh()) : height_above(scene.source.mesh(), scene.target);

@@ -11,6 +11,7 @@
 #include "bake/bake_scene.h"
 #include "bake/field_registry.h"
 #include "bake/projected_surface.h"
+#include "mesh/float32_size.h"
 #include "rays/cosine_rays.h"
 #include "rays/flat_normal.h"
 
@@ -205,6 +206,7 @@ SurfaceField make_bent_normal(const BakeScene& scene, const std::string& argumen
 }
 
 SurfaceField make_thickness(const BakeScene& scene, const std::string& argument) {
+  require_float32_size(scene.source.mesh().positions, "thickness");
   return make_of_scene(thickness_field, scene, argument, 1);
 }
 

@@ -5,15 +5,17 @@
 #include <string>
 
 #include "io/files/byte_reader.h"
+#include "mesh/float32_size.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/mesh/triangle_mesh.h"
 
 namespace sphparam {
 
 /// Coordinates rounded to the nearest float32 numbers. `format`: for the message.
-/// Throws: WriteError where one is beyond their range.
+/// Throws: WriteError where one is beyond their range; UnmeasurableMesh where all are too near.
 inline void append_points32(std::string& bytes, const Points& points, std::endian order,
                             const char* format) {
+  require_float32_least(points, format);
   for (Eigen::Index i = 0; i < points.size(); ++i) {
     const auto value = static_cast<float>(points.data()[i]);
     if (!std::isfinite(value))

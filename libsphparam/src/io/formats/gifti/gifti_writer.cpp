@@ -10,6 +10,7 @@
 #include "io/formats/gifti/gifti_labels.h"
 #include "io/formats/lossless_type.h"
 #include "io/formats/volume_geometry.h"
+#include "mesh/float32_size.h"
 
 namespace sphparam {
 namespace {
@@ -65,8 +66,10 @@ GiftiImage build_image(const MeshFile& file, const GiftiOptions& options) {
   GiftiImage image = make_gifti_image(2);
   const Points& positions = file.mesh.positions;
   giiDataArray& points = *image->darray[0];
-  if (options.float32 ||
-      lossless_type(ScalarType::Float32, positions.data(), positions.size()) == ScalarType::Float32)
+  const bool is_float32 =
+      lossless_type(ScalarType::Float32, positions.data(), positions.size()) == ScalarType::Float32;
+  if (options.float32 && !is_float32) require_float32_least(positions, "GIFTI");
+  if (options.float32 || is_float32)
     fill_gifti<float>(points, NIFTI_INTENT_POINTSET, NIFTI_TYPE_FLOAT32, numbers_of(positions), 3);
   else
     fill_gifti<double>(points, NIFTI_INTENT_POINTSET, NIFTI_TYPE_FLOAT64, numbers_of(positions), 3);
