@@ -53,7 +53,8 @@ class PartsRun {
     count_ = parts.size();
     for (size_t i = 0; i < count_; ++i) map_part(i + 1, std::move(parts[i]));
     if (refused_ && (written_ == 0 || 1 - lost_ < least_kept(arguments_))) {
-      session_.console.error(first_refused_ + " cannot be mapped; nothing is written");
+      session_.console.error(first_refused_ + " cannot be mapped: nothing is written" +
+                             (written_ > 0 ? ", not even the maps told above" : ""));
       std::rethrow_exception(refused_);
     }
     session_.add_report([&] { return "{\"parts\": [" + reports_ + "]}\n"; });
@@ -99,7 +100,7 @@ class PartsRun {
     const std::string report = add_outputs(of_part, outcome, writes, session_);
     if (!report.empty()) reports_ += (reports_.empty() ? "" : ", ") + report;
     tell_result(outcome, writes ? of_part.output : "", session_.stopwatch.seconds(),
-                session_.console);
+                session_.console, ", once all components are done");
     if (!outcome.succeeded()) code_ = NotCertified;
     ++written_;
   }
@@ -111,6 +112,8 @@ class PartsRun {
                                " is of an earlier run: remove it before bake or export "
                                "--all-components");
     }
+    if (!files_.empty())
+      session_.console.say("  " + counted(static_cast<long>(files_.size()), "map") + " written");
     if (left_out_.empty()) return;
     session_.console.say("  left out: " + joined(left_out_) +
                          ", which cannot be mapped: " + percent(lost_) + " of the area");

@@ -141,14 +141,14 @@ void tell_directions(const MapOutcome& outcome, Console& console) {
 }
 
 void tell_result(const MapOutcome& outcome, const std::string& written, double seconds,
-                 Console& console) {
+                 Console& console, const std::string& when) {
   std::string line = display_name(outcome.source.path) + ": " +
                      std::to_string(outcome.source.file.mesh.face_count()) + " triangles, " +
                      verdict_words(outcome);
   if (outcome.has_map()) line += " (" + outcome.result.made_by + ")";
   if (outcome.figures) line += ", " + distortion_line(*outcome.figures);
   line += ", " + short_number(seconds) + " s";
-  line += written.empty() ? ", no map written" : " → " + output_name(written);
+  line += written.empty() ? ", no map written" : " → " + output_name(written) + when;
   if (outcome.succeeded()) return console.say(line);
   if (!outcome.bijective()) {
     line += '\n' + complaint(outcome.result.certificate) + advice(outcome, !written.empty());

@@ -17,8 +17,9 @@ void tell_frame(const MapOutcome& outcome, Console& console);
 /// Where the map lies by directions: what --method radial had to move, what --align left.
 void tell_directions(const MapOutcome& outcome, Console& console);
 
-/// The verdict in a line, what is wrong with it, and where it was written; empty: nowhere.
+/// The verdict in a line, what is wrong with it, and where it was written; empty: nowhere. `when`
+/// is said of a file that is not there yet.
 void tell_result(const MapOutcome& outcome, const std::string& written, double seconds,
-                 Console& console);
+                 Console& console, const std::string& when = "");
 
 }  // namespace sphparam::cli
