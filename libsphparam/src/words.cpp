@@ -52,9 +52,14 @@ std::string handle_lines(const std::vector<HandleLoop>& loops, const std::string
          " through the surface\n";
 }
 
+std::string flat_images_words(const DistortionSummary& distortion) {
+  if (distortion.flat_images == 0) return "";
+  return " (but for " + counted(distortion.flat_images, "triangle") + " too thin on the sphere)";
+}
+
 std::string distortion_line(const DistortionSummary& distortion) {
-  return "angle " + short_number(distortion.mean_abs_ln_angle) + " area " +
-         short_number(distortion.mean_abs_ln_area);
+  return "angle " + short_number(distortion.mean_abs_ln_angle) + flat_images_words(distortion) +
+         " area " + short_number(distortion.mean_abs_ln_area);
 }
 
 std::string radial_line(const RadialRecord& radial) {

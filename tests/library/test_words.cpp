@@ -63,6 +63,9 @@ TEST_CASE("words: a stage tells what was measured, and nothing else") {
   stage.distortion = DistortionSummary{.mean_abs_ln_area = 0.591, .mean_abs_ln_angle = 0.55};
   CHECK(stage_line(stage) == "harmonic: 0.125 s, 3 folds, " + distortion_line(*stage.distortion));
   CHECK(distortion_line(*stage.distortion) == "angle 0.55 area 0.591");
+  stage.distortion->flat_images = 3;
+  CHECK(distortion_line(*stage.distortion) ==
+        "angle 0.55 (but for 3 triangles too thin on the sphere) area 0.591");
 }
 
 TEST_CASE("names: repairs by their words, and what asks for more than the usual ones") {

@@ -26,6 +26,10 @@ std::string handle_line(const HandleLoop& loop);
 /// Such lines for the first of them, then how many more there are; each ends with a line break.
 std::string handle_lines(const std::vector<HandleLoop>& loops, const std::string& indent);
 
+/// " (but for 3 triangles too thin on the sphere)": what a mean of angles leaves out; empty:
+/// nothing.
+std::string flat_images_words(const DistortionSummary& distortion);
+
 /// "angle 0.55 area 0.59": the paper's means of |ln ratio|.
 std::string distortion_line(const DistortionSummary& distortion);
 

@@ -6,6 +6,7 @@
 #include "report/plots.h"
 #include "report/svg.h"
 #include "sphparam/io/fillers.h"
+#include "sphparam/words.h"
 
 namespace sphparam {
 
@@ -91,7 +92,9 @@ void add_polar_plots(Page& page, FolderFiles& files, const std::string& name, co
     const bool area = measure == PlotMeasure::Area;
     const std::string noun = area ? "area" : "angle";
     const auto mean = [&](const Entry& c) {
-      return significant(area ? c.figures->mean_abs_ln_area : c.figures->mean_abs_ln_angle);
+      const DistortionSummary& d = *c.figures;
+      return area ? significant(d.mean_abs_ln_area)
+                  : significant(d.mean_abs_ln_angle) + flat_images_words(d);
     };
     files.emplace_back(name + "-" + noun + ".svg", polar_plot(measure, series));
     figures.push_back({files.back().first,

@@ -6,6 +6,7 @@
 #include "report/svg.h"
 #include "sphparam/io/fillers.h"
 #include "sphparam/stopwatch.h"
+#include "sphparam/words.h"
 
 namespace sphparam {
 
@@ -35,8 +36,9 @@ std::vector<std::string> table_row(const Entry& c) {
     row.insert(row.end(), 4, "–");
     return row;
   }
-  for (const double figure : {c.figures->mean_abs_ln_angle, c.figures->mean_abs_ln_area,
-                              c.figures->weighted_abs_log2_area, c.figures->symmetric_dirichlet}) {
+  row.push_back(significant(c.figures->mean_abs_ln_angle) + flat_images_words(*c.figures));
+  for (const double figure : {c.figures->mean_abs_ln_area, c.figures->weighted_abs_log2_area,
+                              c.figures->symmetric_dirichlet}) {
     row.push_back(significant(figure));
   }
   return row;

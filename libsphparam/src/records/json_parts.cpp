@@ -121,7 +121,8 @@ Json distortion_json(const std::optional<DistortionSummary>& distortion) {
           {"quasi_conformal_mean", d.quasi_conformal_mean},
           {"quasi_conformal_max", d.quasi_conformal_max},
           {"stretch_l2", d.stretch_l2},
-          {"stretch_linf", d.stretch_linf}};
+          {"stretch_linf", d.stretch_linf},
+          {"flat_images", d.flat_images}};
 }
 
 namespace {

@@ -7,6 +7,7 @@
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/version.h"
+#include "sphparam/words.h"
 
 namespace sphparam {
 namespace {
@@ -103,7 +104,7 @@ std::string to_text(const MatchRecord& record) {
   const DistortionSummary& d = record.distortion;
   std::string line = display_name(record.first) + " → " + display_name(record.second) +
                      ": one-to-one, both maps certified; mean |ln| of angles " +
-                     short_number(d.mean_abs_ln_angle) + ", of areas " +
+                     short_number(d.mean_abs_ln_angle) + flat_images_words(d) + ", of areas " +
                      short_number(d.mean_abs_ln_area);
   const size_t landmarks = record.options.landmarks.size();
   if (landmarks > 0)

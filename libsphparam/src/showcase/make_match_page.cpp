@@ -14,6 +14,7 @@
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/report/match_page.h"
+#include "sphparam/words.h"
 
 // A match is a Distortion of each of its two ways, and tables of maps take it as one.
 
@@ -81,7 +82,7 @@ class MatchReporter {
                  !doubtful);
     std::vector<std::pair<std::string, std::string>> key = {
         {"mean |ln area|", significant(d.mean_abs_ln_area)},
-        {"mean |ln angle|", significant(d.mean_abs_ln_angle)},
+        {"mean |ln angle|", significant(d.mean_abs_ln_angle) + flat_images_words(d)},
         {"areas within [½, 2]", decimal(100 * d.area_within_two, 1) + " %"}};
     if (!options_.landmarks.empty())
       key.emplace_back("landmarks, exact", std::to_string(options_.landmarks.size()));

@@ -17,6 +17,7 @@
 #include "sphparam/errors.h"
 #include "sphparam/io/fillers.h"
 #include "sphparam/render/picture.h"
+#include "sphparam/words.h"
 
 // What is largest comes first on the page and last to be thought of: models and images are made map
 // by map, each from one baked scene; then the page is written from top to bottom.
@@ -72,7 +73,7 @@ class Reporter {
     page.key_figures({{"triangles", grouped(file_.mesh.face_count())},
                       {"vertices", grouped(file_.mesh.vertex_count())},
                       {"mean |ln area|", significant(d.mean_abs_ln_area)},
-                      {"mean |ln angle|", significant(d.mean_abs_ln_angle)},
+                      {"mean |ln angle|", significant(d.mean_abs_ln_angle) + flat_images_words(d)},
                       {"areas within [½, 2]", decimal(100 * d.area_within_two, 1) + " %"}});
   }
 
@@ -83,7 +84,7 @@ class Reporter {
     std::string text = c.name + ": " + short_verdict(c);
     if (c.figures) {
       text += ", mean |ln area| " + significant(c.figures->mean_abs_ln_area) + ", |ln angle| " +
-              significant(c.figures->mean_abs_ln_angle);
+              significant(c.figures->mean_abs_ln_angle) + flat_images_words(*c.figures);
     }
     return text;
   }
@@ -111,7 +112,7 @@ class Reporter {
     const double mean = is_area ? c.figures->mean_abs_ln_area : c.figures->mean_abs_ln_angle;
     return {data_uri("image/png", png(image)),
             noun + " distortion of " + c.name + " over the whole sphere: mean |ln ratio| " +
-                significant(mean),
+                significant(mean) + (is_area ? "" : flat_images_words(*c.figures)),
             (many() ? c.name + ": " : "") + noun + " distortion"};
   }
 

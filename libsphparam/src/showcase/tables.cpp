@@ -5,6 +5,7 @@
 #include <string>
 
 #include "report/svg.h"
+#include "sphparam/words.h"
 
 namespace sphparam {
 namespace {
@@ -38,6 +39,11 @@ Cell count_of_chart(const std::function<long(const SphericalChart&)>& count) {
   };
 }
 
+std::string mean_of_angles(const PageEntry& page_entry) {
+  const auto& figures = page_entry.entry.figures;
+  return figures ? significant(figures->mean_abs_ln_angle) + flat_images_words(*figures) : nothing;
+}
+
 std::string percent_within_two(const PageEntry& page_entry) {
   const auto& figures = page_entry.entry.figures;
   return figures ? decimal(100 * figures->area_within_two, 1) + " %" : nothing;
@@ -59,7 +65,7 @@ PageTable distortion_table(const std::vector<PageEntry>& entries) {
       "weighted ones count every triangle by its area.",
       entries,
       {{"mean |ln area|", figure(&D::mean_abs_ln_area)},
-       {"mean |ln angle|", figure(&D::mean_abs_ln_angle)},
+       {"mean |ln angle|", mean_of_angles},
        {"areas within [½, 2]", percent_within_two},
        {"smallest area ratio", figure(&D::area_ratio_min)},
        {"area ratio, 1 % below", figure(&D::area_ratio_p01)},

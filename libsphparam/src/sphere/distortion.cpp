@@ -209,6 +209,7 @@ class Measuring {
 /// Sums and extremes over some triangles; they merge in a fixed order.
 struct Tally {
   double ln_area = 0, ln_angle = 0, within_two = 0;
+  long flat_images = 0;
   double log2_area = 0, dirichlet = 0, conformal = 0, stretch = 0, area = 0;
   double area_min = infinity, area_max = 0, angle_max = 1, conformal_max = 1, sigma_min = infinity;
 
@@ -233,11 +234,13 @@ struct Tally {
     within_two += ratio >= 0.5 && ratio <= 2 ? 1 : 0;
     area_min = std::min(area_min, ratio);
     area_max = std::max(area_max, ratio);
-    for (int k = 0; k < 3; ++k) {
-      const double angle = d.angle_ratio[k];
-      ln_angle += std::abs(logs[k + 1]);
+    bool flat = false;
+    for (const double angle : d.angle_ratio) {
+      flat |= angle == 0;
       angle_max = std::max({angle_max, angle, 1 / angle});
     }
+    flat_images += flat;
+    for (int k = 1; k <= 3 && !flat; ++k) ln_angle += std::abs(logs[k]);
     const double s1 = d.sigma_max, s2 = d.sigma_min;
     const double squeeze = 1 / (s1 * s1) + 1 / (s2 * s2);  // σ1⁻² + σ2⁻²
     const double quasi_conformal = s2 > 0 ? s1 / s2 : infinity;
@@ -252,6 +255,7 @@ struct Tally {
 
   void merge(const Tally& other) {
     ln_area += other.ln_area, ln_angle += other.ln_angle, within_two += other.within_two;
+    flat_images += other.flat_images;
     log2_area += other.log2_area, dirichlet += other.dirichlet, conformal += other.conformal;
     stretch += other.stretch, area += other.area;
     area_min = std::min(area_min, other.area_min), area_max = std::max(area_max, other.area_max);
@@ -304,10 +308,11 @@ std::array<double, 3> percentiles(VectorX v) {
 
 DistortionSummary summary_of(const Tally& total, VectorX area_ratio) {
   const auto faces = static_cast<double>(area_ratio.size());
+  const double with_angles = faces - static_cast<double>(total.flat_images);
   const auto [p01, p50, p99] = percentiles(std::move(area_ratio));
   return {
       .mean_abs_ln_area = total.ln_area / faces,
-      .mean_abs_ln_angle = total.ln_angle / (3 * faces),
+      .mean_abs_ln_angle = with_angles > 0 ? total.ln_angle / (3 * with_angles) : infinity,
       .area_within_two = total.within_two / faces,
       .area_ratio_p01 = p01,
       .area_ratio_p50 = p50,
@@ -321,6 +326,7 @@ DistortionSummary summary_of(const Tally& total, VectorX area_ratio) {
       .quasi_conformal_max = total.conformal_max,
       .stretch_l2 = std::sqrt(total.stretch / total.area),
       .stretch_linf = 1 / total.sigma_min,
+      .flat_images = total.flat_images,
   };
 }
 

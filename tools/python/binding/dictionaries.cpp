@@ -68,6 +68,7 @@ py::dict as_dict(const DistortionSummary& summary) {
   dict["quasi_conformal_max"] = summary.quasi_conformal_max;
   dict["stretch_l2"] = summary.stretch_l2;
   dict["stretch_linf"] = summary.stretch_linf;
+  dict["flat_images"] = summary.flat_images;
   return dict;
 }
 

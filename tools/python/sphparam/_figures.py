@@ -72,6 +72,8 @@ class Distortion(NamedTuple):
     """L2 stretch of Sander et al. (2001)."""
     stretch_linf: float
     """L-infinity stretch: the largest 1/σ_min."""
+    flat_images: int
+    """Triangles too thin on the sphere for an angle, which the mean of angles leaves out."""
 
 
 class FaceDistortion(NamedTuple):

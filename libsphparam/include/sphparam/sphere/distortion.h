@@ -34,6 +34,8 @@ struct DistortionSummary {
   double quasi_conformal_max = 1;
   double stretch_l2 = 1;    // Sander et al. 2001: √(Σ A (σ1⁻² + σ2⁻²)/2 / ΣA)
   double stretch_linf = 1;  // largest 1/σ_min
+  // Triangles whose image has an angle of 0 in doubles: the mean of angles is that of the others.
+  long flat_images = 0;
 };
 
 /// How a map distorts each triangle: angles, areas, stretch, against the mesh in space.
@@ -43,8 +45,8 @@ struct DistortionSummary {
 Distortion measure_distortion(const TriangleMesh& mesh, const SphereMap& map, int threads = 0);
 
 /// Means and extremes of the distortion of all triangles.
-/// Ensures: never NaN; a mean that a collapsed triangle makes infinite is infinite; same bits for
-/// any number of threads.
+/// Ensures: never NaN; a mean that a collapsed triangle makes infinite is infinite, but for that of
+/// angles, which leaves such triangles out and counts them; same bits for any number of threads.
 DistortionSummary summarise(const Distortion& distortion, int threads = 0);
 
 /// The same of a mesh and its map, to the bit, in 8 bytes a triangle, not the 56 of a `Distortion`.
