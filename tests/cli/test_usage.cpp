@@ -36,6 +36,19 @@ TEST_CASE("program: every subcommand has examples before its options") {
   }
 }
 
+TEST_CASE("program: help does what --help does, of a subcommand too") {
+  using Words = std::vector<std::string>;
+  for (const Words& words : {Words{}, Words{"map"}, Words{"batch", "run"}}) {
+    Words before = words, after = words;
+    before.insert(before.begin(), "help");
+    after.emplace_back("--help");
+    const Ended ended = sphparam_program(before);
+    CHECK(ended.code == 0);
+    CHECK(ended.err.empty());
+    CHECK(ended.out == sphparam_program(after).out);
+  }
+}
+
 TEST_CASE("program: no arguments give a short help and the usage code") {
   const Ended ended = sphparam_program({});
   CHECK(ended.code == 2);

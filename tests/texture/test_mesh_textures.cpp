@@ -118,6 +118,17 @@ TEST_CASE("read_textures: BMP and TGA are images of materials") {
 TEST_CASE("shown textures: what stands against those of a file is told, the mesh shown without") {
   const ShownTextures none = shown_textures(ball(false), "ball.ply");
   CHECK(none.warning.empty());
+  MeshFile glass = ball(false);
+  glass.materials = {"wood", "glass"};
+  glass.base_colours.resize(2);
+  glass.channels.resize(2);
+  glass.channels[1].alpha_mode = AlphaMode::Blend;
+  glass.set_face_property(
+      {"material", ScalarType::Int32, std::vector<double>(glass.mesh.face_count(), 0)});
+  CHECK(shown_textures(glass, "ball.obj").warning.empty());  // no face is of it
+  glass.face_properties.back().values[3] = 1;
+  CHECK_THAT(shown_textures(glass, "ball.obj").warning,
+             Contains("ball.obj: shown opaque") && Contains("'glass'"));
   CHECK(none.textures->of_materials.empty());
 
   MeshFile broken = ball(true);

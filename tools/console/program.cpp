@@ -229,10 +229,15 @@ const CLI::App* subcommand_named(const CLI::App& program, const std::string& nam
   return nullptr;
 }
 
-/// `sphparam FILE` is `sphparam asset FILE`.
+/// `sphparam FILE` is `sphparam asset FILE`, `sphparam help WORDS` is `sphparam WORDS --help`.
 std::vector<char*> with_subcommand(const CLI::App& program, int argc, char** argv) {
-  static char asset[] = "asset";
+  static char asset[] = "asset", help[] = "--help";
   std::vector<char*> words(argv, argv + argc);
+  if (argc > 1 && std::string_view(argv[1]) == "help") {
+    words.erase(words.begin() + 1);
+    words.insert(words.end(), {help, nullptr});
+    return words;
+  }
   const bool is_word = argc > 1 && argv[1][0] != '-' && !subcommand_named(program, argv[1]);
   const bool is_file =
       argc > 1 &&

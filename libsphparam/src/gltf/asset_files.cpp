@@ -79,7 +79,11 @@ std::vector<std::string> warnings_of(const Look& look) {
   return warnings;
 }
 
-std::string megabytes(double bytes) { return short_number(bytes / 1e6) + " MB"; }
+std::string size_words(std::size_t bytes) {
+  constexpr std::size_t few = 1000;
+  return bytes < few ? std::to_string(bytes) + " bytes"
+                     : short_number(static_cast<double>(bytes) / 1e6) + " MB";
+}
 
 /// Files added one after the other, with their sizes.
 class Adder {
@@ -109,9 +113,8 @@ std::string words_of(const WrittenFiles& files, std::size_t image_bytes) {
   std::vector<std::string> parts;
   double all = 0, textures = static_cast<double>(image_bytes);
   for (const auto& [path, bytes] : files) {
-    const auto size = static_cast<double>(bytes);
-    parts.push_back(fs::path(output_name(path)).filename().string() + " " + megabytes(size));
-    all += size;
+    parts.push_back(fs::path(output_name(path)).filename().string() + " " + size_words(bytes));
+    all += static_cast<double>(bytes);
   }
   // In a file of text three bytes are four characters.
   if (files.size() == 1 && extension_of(files.front().first) == ".gltf") textures *= 4.0 / 3;

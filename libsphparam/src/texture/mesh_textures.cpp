@@ -20,6 +20,17 @@ ShownTextures shown_without(const std::string& why, bool left_behind = false) {
 
 bool has_image(const MaterialTexture& colour) { return !colour.image.empty(); }
 
+/// A material of some face that lets through what is behind it; empty: none does.
+std::string see_through(const MeshFile& file) {
+  const Property* const material = file.find_face_property("material");
+  for (std::size_t i = 0; material && i < std::min(file.channels.size(), file.materials.size());
+       ++i) {
+    if (file.channels[i].alpha_mode == AlphaMode::Opaque) continue;
+    if (std::ranges::count(material->values, static_cast<double>(i)) > 0) return file.materials[i];
+  }
+  return "";
+}
+
 /// What the glTF file said of its textures; empty where they are here, or never were.
 std::string left_behind(const MeshFile& file) {
   if (!file.base_colours.empty() || !has_texcoords(file)) return "";
@@ -45,7 +56,11 @@ ShownTextures shown_textures(const MeshFile& file, const std::string& name,
   if (std::ranges::any_of(file.base_colours, has_image) && !has_texcoords(file))
     return shown_without(name + ": shown without its texture: there are no texture coordinates");
   try {
-    return shown({.of_materials = read_textures(file, threads)});
+    ShownTextures result = shown({.of_materials = read_textures(file, threads)});
+    if (const std::string material = see_through(file); !material.empty())
+      result.warning = name + ": shown opaque: pictures have no transparency, as its material '" +
+                       material + "' has";
+    return result;
   } catch (const ImageError& error) {
     return shown_without(std::string(error.what()) + ": shown without");
   }

@@ -14,8 +14,8 @@ struct MeshTextures;
 /// What a mesh is shown with in pictures and on pages.
 struct ShownTextures {
   std::shared_ptr<const MeshTextures> textures;  // never null; may be none
-  /// Why it is shown without those that its file has or should have, for people; empty: nothing
-  /// is wrong.
+  /// Why it is shown without those that its file has or should have, or opaque although its
+  /// materials are not, for people; empty: nothing is wrong.
   std::string warning = {};
   bool left_behind = false;  // they are not in this file but in the glTF that it comes from
 };
