@@ -178,6 +178,17 @@ TEST_CASE("ICQ: points that do not repeat one another are left apart and told") 
   CHECK(losses_among(albedo.notes).empty());
 }
 
+TEST_CASE("ICQ: points that have no place are let through where options say so, never albedos") {
+  const ReadOptions lenient{.non_finite = true};
+  std::string text = icq(1, " 1");
+  const std::size_t first = text.find('\n') + 1;
+  const std::string point = text.substr(first, text.find('\n', first) - first);
+  CHECK(read(replaced(text, point, "nan 0 0 1"), "a.icq", lenient).mesh.positions.hasNaN());
+  CHECK_THROWS_AS(read(replaced(text, point, "0 0 0 nan"), "a.icq", lenient), ReadError);
+  CHECK_THROWS_WITH(read(replaced(text, point, "nan 0 0 1"), "a.icq"),
+                    Catch::Contains("found 'nan'; `sphparam map --repair` drops"));
+}
+
 TEST_CASE("ICQ: what is wrong is said with its line") {
   const std::string text = icq(2);
   CHECK(contains(complaint(text.substr(0, text.rfind('\n', text.size() - 2) + 1), "a.icq"),

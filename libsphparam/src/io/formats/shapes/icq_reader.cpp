@@ -96,8 +96,8 @@ class IcqReader {
       next_table_row(scanner_, "vector", point, count_);
       if (point == 0) has_albedo = words_left(scanner_) == 4;
       for (int axis = 0; axis < 3; ++axis)
-        points_(point, axis) = table_number(scanner_, options_.non_finite);
-      if (has_albedo) albedo_.push_back(table_number(scanner_, false));
+        points_(point, axis) = table_coordinate(scanner_, options_.non_finite);
+      if (has_albedo) albedo_.push_back(table_number(scanner_));
       expect_table_line_end(scanner_);
       add_point(point);
     }

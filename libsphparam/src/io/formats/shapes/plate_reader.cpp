@@ -93,7 +93,7 @@ class PlateReader {
       if (v > 0 || !at_first_vertex_) next_table_row(scanner_, "vertex", v, vertices_);
       numbers.read(scanner_, v);
       for (int axis = 0; axis < 3; ++axis)
-        file_.mesh.positions(v, axis) = table_number(scanner_, options_.non_finite);
+        file_.mesh.positions(v, axis) = table_coordinate(scanner_, options_.non_finite);
       expect_table_line_end(scanner_);
     }
   }

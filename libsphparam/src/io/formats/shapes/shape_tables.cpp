@@ -103,6 +103,16 @@ bool is_vector(const Words& line) {
 
 bool is_plate(const Words& line) { return is_row(line) && line.all(is_index); }
 
+/// Of a word with the exponent of Fortran; nothing, and nothing read, where it is none.
+std::optional<double> fortran_number(TextScanner& scanner, bool non_finite) {
+  const std::string_view word = scanner.peek_word();
+  if (word.find_first_of("Dd") == std::string_view::npos) return std::nullopt;
+  const std::optional<double> value = real(word);
+  if (!value || !(std::isfinite(*value) || non_finite)) return std::nullopt;
+  scanner.word();
+  return value;
+}
+
 }  // namespace
 
 ShapeTable shape_table(std::string_view text) {
@@ -128,15 +138,13 @@ int words_left(const TextScanner& scanner) {
   return static_cast<int>(split(line).count);
 }
 
-double table_number(TextScanner& scanner, bool non_finite) {
-  const std::string_view word = scanner.peek_word();
-  if (word.find_first_of("Dd") != std::string_view::npos) {
-    const std::optional<double> value = real(word);
-    if (value && (std::isfinite(*value) || non_finite)) {
-      scanner.word();
-      return *value;
-    }
-  }
+double table_number(TextScanner& scanner) {
+  if (const std::optional<double> value = fortran_number(scanner, false)) return *value;
+  return scanner.real();
+}
+
+double table_coordinate(TextScanner& scanner, bool non_finite) {
+  if (const std::optional<double> value = fortran_number(scanner, non_finite)) return *value;
   return scanner.coordinate();
 }
 

@@ -21,8 +21,11 @@ ShapeTable shape_table(std::string_view text);
 int words_left(const TextScanner& scanner);
 
 /// The next number, also with an exponent of Fortran's: 1.5D+01. Throws: ReadError, also for what
-/// is not finite unless `non_finite`.
-double table_number(TextScanner& scanner, bool non_finite);
+/// is not finite.
+double table_number(TextScanner& scanner);
+/// The same for coordinates, which may be no finite numbers where `non_finite` is what the options
+/// of the scanner say.
+double table_coordinate(TextScanner& scanner, bool non_finite);
 
 /// A number of things, each of `row_bytes` at least. Throws: ReadError for what is negative, over
 /// the limit or what ids can count, or cannot fit the bytes that follow.
