@@ -1,6 +1,7 @@
 // The library's repair names elements of the mesh it was given; people know the numbers of the
 // file, which welding and dropping vertices have changed.
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <new>
@@ -20,16 +21,27 @@ namespace sphparam {
 
 namespace {
 
+/// What the message of an action ends with: ": faces 7, 9". What is before it may say more than
+/// `describe` knows.
+std::string places_of(const RepairAction& action) {
+  const std::string text = describe(action);
+  return text.substr(std::min(text.rfind(": "), text.size()));
+}
+
 std::vector<RepairAction> by_file_numbers(std::vector<RepairAction> actions,
                                           const MeshSource& source) {
   const FileNumbers numbers(source.file);
   for (RepairAction& action : actions) {
     const bool names_faces = place_of(action.kind) == RepairPlace::Faces;
+    const std::string before = places_of(action);
     for (int& id : action.elements) {
       if (id < 0) continue;
       id = static_cast<int>(names_faces ? numbers.face_number(id) : numbers.number(id));
     }
-    action.message = describe(action);
+    if (action.message.ends_with(before)) {
+      action.message.resize(action.message.size() - before.size());
+      action.message += places_of(action);
+    }
     const bool made_by_welding = action.kind == RepairKind::InvalidFaceRemoved ||
                                  action.kind == RepairKind::DuplicateFaceRemoved;
     if (source.welded && made_by_welding) action.message = "after welding, " + action.message;
