@@ -29,7 +29,8 @@ struct ExportGeometry {
   long stored_sphere_folds = -1;  // of a sphere: triangles that float32 turns over; −1: no sphere
 };
 
-/// Throws: std::range_error; UnmeasurableMesh; std::invalid_argument where source coordinates are wanted and missing.
+/// Throws: std::range_error; UnmeasurableMesh; std::invalid_argument where source coordinates are
+/// wanted and missing.
 ExportGeometry export_geometry(const ExportChart& chart, const MeshFile& source,
                                const GeometryOptions& options = {});
 
