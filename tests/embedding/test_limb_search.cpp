@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "embedding/twists/limb_search.h"
@@ -45,21 +46,24 @@ TriangleMesh with_limb(const TriangleMesh& mesh, Face f, int rings) {
 }  // namespace
 
 TEST_CASE("limb_search: a tube is one limb, a loop beside the other") {
-  const TriangleMesh mesh = tube(12, 5);
-  const Topology topology(mesh);
-  const std::vector<Limb> limbs = limbs_of(mesh);
-  REQUIRE(limbs.size() == 1);
-  CHECK(limbs[0].size() == 12);
-  std::set<Vertex> seen;
-  for (size_t i = 0; i < limbs[0].size(); ++i) {
-    const VertexLoop& loop = limbs[0][i];
-    REQUIRE(loop.size() == 5);
-    for (size_t k = 0; k < 5; ++k) {
-      CHECK(seen.insert(loop[k]).second);
-      CHECK(topology.find_halfedge(loop[k], loop[(k + 1) % 5]) >= 0);
-      if (i == 0) continue;
-      CHECK(std::ranges::any_of(limbs[0][i - 1],
-                                [&](Vertex v) { return topology.find_halfedge(loop[k], v) >= 0; }));
+  for (const auto& [rings, around] : {std::pair{12, 5}, {9, 4}, {25, 12}, {100, 9}}) {
+    CAPTURE(rings, around);
+    const TriangleMesh mesh = tube(rings, around);
+    const Topology topology(mesh);
+    const std::vector<Limb> limbs = limbs_of(mesh);
+    REQUIRE(limbs.size() == 1);
+    CHECK(std::ssize(limbs[0]) == rings);
+    std::set<Vertex> seen;
+    for (size_t i = 0; i < limbs[0].size(); ++i) {
+      const VertexLoop& loop = limbs[0][i];
+      REQUIRE(std::ssize(loop) == around);
+      for (size_t k = 0; k < loop.size(); ++k) {
+        CHECK(seen.insert(loop[k]).second);
+        CHECK(topology.find_halfedge(loop[k], loop[(k + 1) % loop.size()]) >= 0);
+        if (i == 0) continue;
+        CHECK(std::ranges::any_of(
+            limbs[0][i - 1], [&](Vertex v) { return topology.find_halfedge(loop[k], v) >= 0; }));
+      }
     }
   }
 }

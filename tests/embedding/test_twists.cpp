@@ -59,6 +59,25 @@ Latitudes on_latitudes(int rings, int around, int twisted_from, double twist) {
   return made;
 }
 
+/// A tube on the sphere as its rings lie on polygons that cannot be turned, each so many vertices
+/// on from the one before.
+SphereMap on_polygons(int rings, int around, int twist) {
+  SphereMap map{Points(rings * around + 2, 3)};
+  map.points.row(0) << 0, 0, 1;
+  for (int ring = 0; ring < rings; ++ring) {
+    for (int i = 0; i < around; ++i) {
+      const int place = (i + (twist + around) * ring) % around;
+      const double theta = 2 * std::numbers::pi / around * (place + 0.1 * (place % 2));
+      const double phi = std::numbers::pi / (rings + 1) * (ring + 1 + 0.4 * (place % 3));
+      const double sine = elementary::sin(phi);
+      map.points.row(1 + ring * around + i) << sine * elementary::cos(theta),
+          sine * elementary::sin(theta), elementary::cos(phi);
+    }
+  }
+  map.points.row(map.points.rows() - 1) << 0, 0, -1;
+  return map;
+}
+
 }  // namespace
 
 TEST_CASE("twists: a limb that is turned by a vertex between two rings is turned back") {
@@ -80,6 +99,23 @@ TEST_CASE("twists: a limb that is turned by a vertex between two rings is turned
   }
 }
 
+TEST_CASE("twists: a limb that is turned by a vertex between any two rings slides back") {
+  for (const int around : {3, 5, 8, 12}) {
+    const int rings = 2 * around + 1;
+    const TriangleMesh mesh = tube(rings, around);
+    const Topology topology(mesh);
+    const SphereMap plain = on_polygons(rings, around, 0);
+    const SphereMap twisted = on_polygons(rings, around, -1);
+    REQUIRE(certify(topology, plain).bijective());
+    REQUIRE(certify(topology, twisted).bijective());
+    REQUIRE(energy_of(mesh, twisted) > 1.02 * energy_of(mesh, plain));
+    std::vector<ImagePoint> image = image_of(twisted);
+    CHECK(untwist(topology, measure_source(mesh), {}, image) == rings - 1);
+    CHECK(map_of(image).points == plain.points);
+    CHECK(untwist(topology, measure_source(mesh), {}, image) == 0);
+  }
+}
+
 TEST_CASE("twists: a body without limbs keeps its bits, and a hub costs no square of its valence") {
   for (const TriangleMesh& mesh :
        {icosphere(3), uv_sphere(20'000, 2), random_sphere_mesh(500, 3)}) {
@@ -91,7 +127,8 @@ TEST_CASE("twists: a body without limbs keeps its bits, and a hub costs no squar
 }
 
 TEST_CASE("twists: thin limbs end alike in any order of vertices") {
-  for (const TriangleMesh& mesh : {thin_tube(30, 4, 1.5), thin_tube(50, 5, 1)}) {
+  for (const TriangleMesh& mesh :
+       {thin_tube(30, 4, 1.5), thin_tube(50, 5, 1), thin_tube(100, 9, 4)}) {
     std::vector<double> energies;
     for (unsigned order = 1; order <= 8; ++order) {
       const TriangleMesh other = relabelled(mesh, order);

@@ -1,7 +1,6 @@
 #include "embedding/twists/loop_search.h"
 
 #include <algorithm>
-#include <array>
 
 // A ball grows about the vertex, by breadth. Where it is no disk, it reaches round something: an
 // edge between two of its branches closes a loop through the vertex, which is as short as any.
@@ -9,11 +8,16 @@
 namespace sphparam {
 namespace {
 
-constexpr int ball_radius = LoopSearch::most_around / 2;
-constexpr int plain_radius = 2,
-              plain_growth = 3;   // a layer of a plane has 6 vertices more than the one before
+constexpr int largest_radius = LoopSearch::most_around / 2;
+constexpr int plain_radius = 4, plain_reach = largest_radius + plain_radius;
+constexpr int plain_growth = 3;   // a layer of a plane has 6 vertices more than the one before
 constexpr int most_valence = 16;  // of vertices in loops
-constexpr int least_beyond = 8;   // vertices on either side of a loop
+
+/// Vertices on either side of a loop: on a plain surface it may have some two thirds as many.
+int least_beyond(const VertexLoop& loop) {
+  const int around = static_cast<int>(loop.size());
+  return std::max(8, around * around / 8);
+}
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
@@ -33,66 +37,88 @@ LoopSearch::LoopSearch(const Topology& topology)
 bool LoopSearch::is_hub(Vertex v) const { return valence_[at(v)] > most_valence; }
 
 VertexLoop LoopSearch::through(Vertex v) {
+  if (plain_[at(v)]) return {};
+  grow_ball(v);
   VertexLoop found;
-  if (plain_[at(v)] || is_plain_about(v)) return found;
-  if (grow_ball(v, ball_radius) && !ball_is_disk()) found = shortest_loop();
-  forget_ball();
+  if (ball_is_plain())
+    mark_plain();
+  else
+    found = shortest_loop_in_ball();
+  for (const Vertex w : ball_) depth_[at(w)] = -1;
   return found;
 }
 
-/// Where a larger ball grows as on a plain surface, no vertex near its middle has such a loop.
-bool LoopSearch::is_plain_about(Vertex v) {
-  constexpr int radius = ball_radius + plain_radius;
-  bool plain = grow_ball(v, radius);
-  std::array<int, radius + 1> layers{};
-  for (const Vertex w : ball_) ++layers[at(depth_[at(w)])];
-  for (int d = 1; d <= radius; ++d) plain = plain && layers[at(d)] >= plain_growth * d;
-  for (size_t i = 0; plain && i < ball_.size() && depth_[at(ball_[i])] <= plain_radius; ++i) {
-    plain_[at(ball_[i])] = 1;
-  }
-  forget_ball();
-  return plain;
-}
-
-void LoopSearch::forget_ball() {
-  for (const Vertex w : ball_) depth_[at(w)] = -1;
-}
-
-/// False: there is a hub in it.
-bool LoopSearch::grow_ball(Vertex v, int radius) {
+/// Layer by layer, up to the first with a hub in it; no further than loops reach where it does not
+/// grow as on a plain surface.
+void LoopSearch::grow_ball(Vertex v) {
   ball_.assign(1, v);
   depth_[at(v)] = 0;
-  for (size_t i = 0; i < ball_.size(); ++i) {
-    const Vertex w = ball_[i];
-    if (is_hub(w)) return false;
-    if (depth_[at(w)] == radius) continue;
-    topology_.for_each_outgoing(w, [&](Halfedge h) {
-      const Vertex x = topology_.target(h);
-      if (depth_[at(x)] >= 0) return;
-      depth_[at(x)] = depth_[at(w)] + 1;
-      parent_[at(x)] = w;
-      branch_[at(x)] = w == v ? x : branch_[at(w)];
-      ball_.push_back(x);
-    });
+  layer_ends_.clear();
+  bool plain = true;
+  for (size_t i = 0;;) {
+    const size_t end = ball_.size();
+    if (std::any_of(ball_.begin() + static_cast<long>(i), ball_.end(),
+                    [&](Vertex w) { return is_hub(w); }))
+      return;
+    layer_ends_.push_back(end);
+    plain = plain && static_cast<int>(end - i) >= plain_growth * reach();
+    if (reach() >= (plain ? plain_reach : largest_radius)) return;
+    for (; i < end; ++i) add_neighbours(ball_[i]);
   }
-  return true;
 }
 
-/// By the numbers of its vertices, edges and triangles.
-bool LoopSearch::ball_is_disk() const {
+void LoopSearch::add_neighbours(Vertex v) {
+  topology_.for_each_outgoing(v, [&](Halfedge h) {
+    const Vertex w = topology_.target(h);
+    if (depth_[at(w)] >= 0) return;
+    depth_[at(w)] = depth_[at(v)] + 1;
+    parent_[at(w)] = v;
+    branch_[at(w)] = depth_[at(v)] == 0 ? w : branch_[at(v)];
+    ball_.push_back(w);
+  });
+}
+
+/// Edges from the middle of the ball to the last whole layer.
+int LoopSearch::reach() const { return static_cast<int>(layer_ends_.size()) - 1; }
+
+/// Where a larger ball grows as on a plain surface, no vertex near its middle has a loop.
+bool LoopSearch::ball_is_plain() const { return reach() >= plain_reach; }
+
+void LoopSearch::mark_plain() {
+  for (size_t i = 0; i < layer_ends_[plain_radius]; ++i) plain_[at(ball_[i])] = 1;
+}
+
+/// As far as this radius: by the numbers of its vertices, edges and triangles.
+bool LoopSearch::ball_is_disk(int radius) const {
+  const auto is_in_ball = [&](Vertex w) { return depth_[at(w)] >= 0 && depth_[at(w)] <= radius; };
+  const size_t count = layer_ends_[at(radius)];
   int edges = 0, corners = 0;
-  for (const Vertex w : ball_) {
-    topology_.for_each_outgoing(w, [&](Halfedge h) {
-      if (depth_[at(topology_.target(h))] < 0) return;
+  for (size_t i = 0; i < count; ++i) {
+    topology_.for_each_outgoing(ball_[i], [&](Halfedge h) {
+      if (!is_in_ball(topology_.target(h))) return;
       ++edges;
-      corners += depth_[at(topology_.apex(h))] >= 0;
+      corners += is_in_ball(topology_.apex(h));
     });
   }
-  return static_cast<int>(ball_.size()) - edges / 2 + corners / 3 == 1;
+  return static_cast<int>(count) - edges / 2 + corners / 3 == 1;
 }
 
-VertexLoop LoopSearch::shortest_loop() {
-  for (const auto& [length, h] : closing_edges()) {
+/// A large ball swallows short limbs whole: a smaller one is tried first, and what it could have
+/// found elsewhere is no loop of the larger one.
+VertexLoop LoopSearch::shortest_loop_in_ball() {
+  int shorter = 0;
+  for (const int radius : {largest_radius - 2, largest_radius}) {
+    if (radius > reach()) break;
+    VertexLoop loop;
+    if (!ball_is_disk(radius)) loop = shortest_loop(2 * radius);
+    if (std::ssize(loop) > shorter) return loop;
+    shorter = 2 * radius;
+  }
+  return {};
+}
+
+VertexLoop LoopSearch::shortest_loop(int most_edges) {
+  for (const auto& [length, h] : closing_edges(most_edges)) {
     VertexLoop loop = closed_by(h);
     if (goes_round(loop)) return loop;
   }
@@ -100,14 +126,14 @@ VertexLoop LoopSearch::shortest_loop() {
 }
 
 /// Edges between two branches, with the lengths of their loops, short ones first.
-std::vector<std::pair<int, Halfedge>> LoopSearch::closing_edges() const {
+std::vector<std::pair<int, Halfedge>> LoopSearch::closing_edges(int most_edges) const {
   std::vector<std::pair<int, Halfedge>> closing;
   for (const Vertex a : ball_) {
     topology_.for_each_outgoing(a, [&](Halfedge h) {
       const Vertex b = topology_.target(h);
       if (depth_[at(a)] < 1 || depth_[at(b)] < 1 || branch_[at(a)] == branch_[at(b)]) return;
       const int length = depth_[at(a)] + depth_[at(b)] + 1;
-      if (length <= most_around && a < b) closing.emplace_back(length, h);
+      if (length <= most_edges && a < b) closing.emplace_back(length, h);
     });
   }
   std::ranges::sort(closing);
@@ -136,14 +162,15 @@ bool LoopSearch::reaches_many(const VertexLoop& loop, bool left) {
   };
   for_each_beside(topology_, loop, left, enter);
   bool hub = false;
-  for (size_t i = 0; i < seen.size() && std::ssize(seen) < least_beyond; ++i) {
+  const int least = least_beyond(loop);
+  for (size_t i = 0; i < seen.size() && std::ssize(seen) < least; ++i) {
     hub = is_hub(seen[i]);
     if (hub) break;
     topology_.for_each_outgoing(seen[i], [&](Halfedge h) { enter(topology_.target(h)); });
   }
   for (const Vertex v : loop) side_[at(v)] = 0;
   for (const Vertex v : seen) side_[at(v)] = 0;
-  return hub || std::ssize(seen) >= least_beyond;
+  return hub || std::ssize(seen) >= least;
 }
 
 }  // namespace sphparam

@@ -13,8 +13,8 @@ using VertexLoop = std::vector<Vertex>;
 /// Finds loops of a few edges that go round limbs. Our own.
 class LoopSearch {
  public:
-  /// Edges of a loop; with more around no twist stays.
-  static constexpr int most_around = 8;
+  /// Edges of a loop; with more around few twists stay.
+  static constexpr int most_around = 12;
 
   /// Requires: the topology outlives it.
   explicit LoopSearch(const Topology& topology);
@@ -28,12 +28,15 @@ class LoopSearch {
   bool is_hub(Vertex v) const;
 
  private:
-  bool is_plain_about(Vertex v);
-  bool grow_ball(Vertex v, int radius);
-  void forget_ball();
-  bool ball_is_disk() const;
-  VertexLoop shortest_loop();
-  std::vector<std::pair<int, Halfedge>> closing_edges() const;
+  void grow_ball(Vertex v);
+  void add_neighbours(Vertex v);
+  int reach() const;
+  bool ball_is_plain() const;
+  void mark_plain();
+  bool ball_is_disk(int radius) const;
+  VertexLoop shortest_loop_in_ball();
+  VertexLoop shortest_loop(int most_edges);
+  std::vector<std::pair<int, Halfedge>> closing_edges(int most_edges) const;
   VertexLoop closed_by(Halfedge h) const;
   bool goes_round(const VertexLoop& loop);
   bool reaches_many(const VertexLoop& loop, bool left);
@@ -45,6 +48,7 @@ class LoopSearch {
   std::vector<char> plain_;
   std::vector<int> valence_;
   std::vector<Vertex> ball_;
+  std::vector<size_t> layer_ends_;  // in the ball, of those without hubs
 };
 
 /// Visits the vertices next to a loop on one side, one after the other.

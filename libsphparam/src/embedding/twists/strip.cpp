@@ -85,7 +85,6 @@ std::optional<Strip> Strip::between(const Topology& topology, const RestTriangle
 
 std::optional<Matrix3> Strip::better_turn(const DistortionEnergy& energy) const {
   double least = (1 - least_gain) * triangles_.energy(points_, energy);
-  const double covered = solid_angle(points_);
   std::optional<Matrix3> best;
   const Layer all = points_;
   for (const Layer layer : {all.first(fixed_), all.subspan(fixed_)}) {
@@ -96,14 +95,36 @@ std::optional<Matrix3> Strip::better_turn(const DistortionEnergy& energy) const 
       const Matrix3 turn = turn_about(*middle, angle);
       const Points there = turned(turn);
       const double value = triangles_.energy(there, energy);
-      if (!(value < least)) continue;
-      // Triangles that wind about a middle once more are all positive, too.
-      if (!(std::abs(solid_angle(there) - covered) < 1)) continue;
+      if (!(value < least) || !winds_alike(there)) continue;
       least = value;
       best = turn;
     }
   }
   return best;
+}
+
+Strip::Slide Strip::better_slide(const DistortionEnergy& energy) const {
+  const double before = triangles_.energy(points_, energy);
+  Slide best{0, least_gain * before};
+  for (const int by : {-1, 1, -2, 2}) {
+    const Points there = slid(by);
+    const double gain = before - triangles_.energy(there, energy);
+    if (gain > best.falls_by && winds_alike(there)) best = {by, gain};
+  }
+  return best;
+}
+
+/// Triangles that wind about a middle once more are all positive, too.
+bool Strip::winds_alike(const Points& points) const {
+  return std::abs(solid_angle(points) - solid_angle(points_)) < 1;
+}
+
+Strip::Points Strip::slid(int by) const {
+  Points points = points_;
+  const auto moved = points.begin() + static_cast<long>(fixed_);
+  const long around = points.end() - moved;
+  std::rotate(moved, moved + (by + around) % around, points.end());
+  return points;
 }
 
 Strip::Points Strip::turned(const Matrix3& turn) const {

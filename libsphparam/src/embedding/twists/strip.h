@@ -20,10 +20,22 @@ class Strip {
   /// determinant stays certainly positive, and the strip winds about the sphere as it did.
   std::optional<Eigen::Matrix3d> better_turn(const DistortionEnergy& energy) const;
 
+  /// Each vertex of a layer gets the image of the one so many places on in the order of the layer.
+  struct Slide {
+    int by = 0;
+    double falls_by = 0;  // the strip's energy
+  };
+
+  /// The slide of the moved layer that lowers the energy most; by 0: none is worth it. Ensures: as
+  /// above. Requires: both layers have their orders in the same sense.
+  Slide better_slide(const DistortionEnergy& energy) const;
+
  private:
   using Points = std::vector<ImagePoint>;
 
   Points turned(const Eigen::Matrix3d& turn) const;
+  Points slid(int by) const;
+  bool winds_alike(const Points& points) const;
   double solid_angle(const Points& points) const;
 
   PackedTriangles triangles_;

@@ -3,13 +3,15 @@
 #include <optional>
 #include <utility>
 
+#include "embedding/twists/layer_slides.h"
 #include "embedding/twists/strip.h"
 
 // 1. A limb: loops of a few vertices, layer beside layer (limb_search.cpp).
-// 2. Between two layers lies a strip of triangles. If all beyond it is turned as one piece, about
+// 2. Where layers have as many vertices each, they slide (layer_slides.cpp).
+// 3. Between two layers lies a strip of triangles. If all beyond it is turned as one piece, about
 //    the middle of the image of either layer, no other triangle changes: strips are decided one by
 //    one, by their own energy, and cost next to nothing (strip.cpp).
-// 3. What lies beyond the strips of a limb is turned by the product of their turns: that side of
+// 4. What lies beyond the strips of a limb is turned by the product of their turns: that side of
 //    the mesh which has fewer vertices.
 
 namespace sphparam {
@@ -34,8 +36,10 @@ class Untwister {
   int run() {
     LimbSearch search(topology_);
     int turned = 0;
-    for (Limb limb = search.next(); !limb.empty(); limb = search.next())
+    for (Limb limb = search.next(); !limb.empty(); limb = search.next()) {
+      turned += slide_layers(topology_, source_, energy_, limb, image_);
       turned += untwist_limb(limb);
+    }
     return turned;
   }
 
