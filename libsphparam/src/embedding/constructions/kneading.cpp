@@ -7,15 +7,20 @@
 namespace sphparam {
 namespace {
 
-constexpr double factor = 10;  // from λ to λ
-constexpr int factors = 4;     // up, and down again: beyond, areas are equal
+/// From λ to λ, so many times, and back again: beyond, areas are equal, or angles kept.
+struct Way {
+  double factor;
+  int factors;
+};
+constexpr Way by_areas{10, 4}, by_angles{0.1, 3};
 constexpr double rough = 1e-2;
-constexpr int steps_up = 12, steps_down = 6;  // at each
+constexpr int steps_there = 12, steps_back = 6;  // at each λ
 
 }  // namespace
 
 SphereMap knead(const Topology& topology, const RestTriangles& source, const SphereMap& map,
-                const OptimiseOptions& how) {
+                Kneading kneading, const OptimiseOptions& how) {
+  const Way& way = kneading == Kneading::ByAreas ? by_areas : by_angles;
   std::vector<ImagePoint> image = image_of(map);
   GlobalNewton newton(topology, source, image, how.pinned, how.threads);
   const double isometric_areas = isometric_energy(source, {.lambda = 0}, {});
@@ -26,13 +31,13 @@ SphereMap knead(const Topology& topology, const RestTriangles& source, const Sph
     here.max_steps = steps;
     minimise(newton, isometric_areas * (1 + here.energy.lambda), here, report);
   };
-  for (int k = 0; k < factors; ++k) {
-    here.energy.lambda *= factor;
-    settle(steps_up);
+  for (int k = 0; k < way.factors; ++k) {
+    here.energy.lambda *= way.factor;
+    settle(steps_there);
   }
-  for (int k = 1; k < factors; ++k) {
-    here.energy.lambda /= factor;
-    settle(steps_down);
+  for (int k = 1; k < way.factors; ++k) {
+    here.energy.lambda /= way.factor;
+    settle(steps_back);
   }
   newton.write_to(image);
   return map_of(image);

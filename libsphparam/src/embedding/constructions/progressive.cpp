@@ -68,14 +68,14 @@ constexpr Budget more_steps{2e6, 60, 1200}, more_for_draft{5e5, 20, 300};
 constexpr Budget more_for_slimmed{1e5, 10, 60};
 
 /// From so many times an isometry's energy on, as long as it gains: rounds × vertices at most.
-struct Kneading {
+struct KneadingLimits {
   double demanding, least_gain, work;
 };
-constexpr Kneading kneading_of_draft{5, 1e-2, 2.5e4}, kneading_of_normal{5, 1e-3, 5e4},
+constexpr KneadingLimits kneading_of_draft{5, 1e-2, 2.5e4}, kneading_of_normal{5, 1e-3, 5e4},
     kneading_of_best{3, 5e-4, 2e5};
 constexpr double least_kneaded = 0.1;  // λ: below, minima are few
 
-const Kneading& kneading_of(Quality quality) {
+const KneadingLimits& kneading_of(Quality quality) {
   if (quality == Quality::Best) return kneading_of_best;
   return quality == Quality::Draft ? kneading_of_draft : kneading_of_normal;
 }
@@ -324,26 +324,34 @@ class Starts {
     if (latest_) apart_ = std::abs(*latest_ - one) / energy_;
   }
 
-  /// As long as that pays, the best each time as far as it goes. What the last round gained may be
-  /// left.
+  /// By angles as long as that pays, and by areas, until neither does. What the last round gained
+  /// may be left.
   void knead_lowest() {
-    const Kneading& how = kneading_of(options_.quality);
+    const KneadingLimits& how = kneading_of(options_.quality);
     energy_ = energy_of(*lowest_.map);
     const double demanding = how.demanding * isometric_energy(source(), wanted_, {});
     if (energy_ <= demanding || wanted_.lambda < least_kneaded) return;
-    const OptimiseOptions by = step_of({.lambda = wanted_.lambda}, 0, 0);
     double rounds = how.work / topology_.vertex_count();
     double gain = 0;
-    for (bool pays = true; pays && rounds >= 1; --rounds) {
-      const double before = energy_;
-      rising_.begin(part_of_start);
-      ProgressiveEmbedding start{knead(topology_, source(), *lowest_.map, by), {}};
-      refine(start, steps(wanted_, options_.quality));
-      keep_lower(std::move(start));
-      gain = (before - energy_) / energy_;
-      pays = gain > how.least_gain;
+    Kneading kneading = Kneading::ByAngles;
+    for (int in_vain = 0; in_vain < 2 && rounds >= 1; --rounds) {
+      gain = gain_by(kneading);
+      in_vain = gain > how.least_gain ? 0 : in_vain + 1;
+      if (in_vain > 0)
+        kneading = kneading == Kneading::ByAngles ? Kneading::ByAreas : Kneading::ByAngles;
     }
     apart_ = std::max(apart_, gain);
+  }
+
+  /// Of the energy, by a round that goes as far as the quality does.
+  double gain_by(Kneading kneading) {
+    rising_.begin(part_of_start);
+    const OptimiseOptions how = step_of({.lambda = wanted_.lambda}, 0, 0);
+    ProgressiveEmbedding start{knead(topology_, source(), *lowest_.map, kneading, how), {}};
+    refine(start, steps(wanted_, options_.quality));
+    const double before = energy_;
+    keep_lower(std::move(start));
+    return (before - energy_) / energy_;
   }
 
   bool is_draft() const { return options_.quality == Quality::Draft; }
