@@ -67,12 +67,13 @@ constexpr double much_left = 5e-3, much_left_of_draft = 3e-2, far_apart = 1e-2;
 constexpr Budget more_steps{2e6, 60, 1200}, more_for_draft{5e5, 20, 300};
 constexpr Budget more_for_slimmed{1e5, 10, 60};
 
-/// From so many times an isometry's energy on, as long as it gains: rounds × vertices at most.
+/// As long as it gains: rounds × vertices at most, where minima are some, and many.
 struct KneadingLimits {
-  double demanding, least_gain, work;
+  double least_gain, work_on_some, work_on_many;
 };
-constexpr KneadingLimits kneading_of_draft{5, 1e-2, 2.5e4}, kneading_of_normal{5, 1e-3, 5e4},
-    kneading_of_best{3, 5e-4, 2e5};
+constexpr double some_minima = 3;  // times an isometry's energy: below, none is worth it
+constexpr KneadingLimits kneading_of_draft{1e-2, 0, 2.5e4}, kneading_of_normal{1e-3, 1e4, 5e4},
+    kneading_of_best{5e-4, 2e5, 2e5};
 constexpr double least_kneaded = 0.1;  // λ: below, minima are few
 
 const KneadingLimits& kneading_of(Quality quality) {
@@ -329,9 +330,10 @@ class Starts {
   void knead_lowest() {
     const KneadingLimits& how = kneading_of(options_.quality);
     energy_ = energy_of(*lowest_.map);
-    const double demanding = how.demanding * isometric_energy(source(), wanted_, {});
-    if (energy_ <= demanding || wanted_.lambda < least_kneaded) return;
-    double rounds = how.work / topology_.vertex_count();
+    const double energy = energy_ / isometric_energy(source(), wanted_, {});
+    if (energy <= some_minima || wanted_.lambda < least_kneaded) return;
+    const double work = energy > many_minima ? how.work_on_many : how.work_on_some;
+    double rounds = work / topology_.vertex_count();
     double gain = 0;
     Kneading kneading = Kneading::ByAngles;
     for (int in_vain = 0; in_vain < 2 && rounds >= 1; --rounds) {
