@@ -313,7 +313,10 @@ TEST_CASE("render: a sphere in a file of its own is that of the mesh, or refused
   CHECK(drawn(folder / "ball.obj").out.substr(16, 4) == std::string("\0\0\0\x40", 4));
   const Ended other = drawn(folder / "other.obj");
   CHECK(other.code == 3);
-  CHECK_THAT(other.err, Contains("not a sphere of ball.obj"));
+  CHECK_THAT(other.err, Contains("not a sphere of ball.obj") && !Contains("give it alone"));
+  CHECK(sphparam_program({"map", folder / "other.obj", "-o", folder / "other.sph.ply"}).code == 0);
+  CHECK_THAT(drawn(folder / "other.sph.ply").err,
+             Contains("the map holds the surface that it is of: give it alone"));
   TriangleMesh bad = icosphere(1);
   bad.positions.row(5).setZero();
   write_bytes(folder / "bad.obj", obj_text(bad));

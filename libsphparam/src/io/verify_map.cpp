@@ -11,6 +11,7 @@
 #include "sphparam/io/mesh_source.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/sphere_file.h"
+#include "sphparam/io/written_map.h"
 #include "sphparam/sphere/sphere_share.h"
 
 namespace sphparam {
@@ -63,17 +64,13 @@ VerifiedMap claim_of(MeshSource source) {
 }
 
 VerifiedMap claim_of(MeshSource shape, const MeshSource& sphere) {
-  const std::string where = connectivity_difference(shape.file, sphere.file);
-  if (!where.empty()) {
-    throw ReadError(display_name(sphere.path),
-                    "not a sphere of " + display_name(shape.path) + ": " + where);
-  }
+  require_connectivity_of(shape, sphere, "sphere");
+  const std::optional<SphereMap> map = read_sphere(sphere.file);
   VerifiedMap claim;
-  std::optional<SphereMap> map = read_sphere(sphere.file);
   claim.place = map ? RayPlace::Rays : RayPlace::Positions;
   claim.of_two_files = true;
   claim.cut_otherwise = cut_otherwise(shape.file, sphere.file);
-  claim.map = map ? std::move(*map) : SphereMap{sphere.file.mesh.positions};
+  claim.map = map ? *map : SphereMap{sphere.file.mesh.positions};
   claim.fillers = fillers_of(shape.file);
   claim.mesh = std::move(shape.file.mesh);
   claim.format = std::move(shape.file.format);

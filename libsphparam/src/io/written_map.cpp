@@ -6,15 +6,32 @@
 #include "sphparam/io/paths.h"
 
 namespace sphparam {
+namespace {
+
+/// An asset's mesh is not the one that was mapped: it has vertices more, along seams.
+std::string advice_on(const MeshSource& mesh, const MeshSource& map) {
+  if (!read_sphere(map.file)) return "";
+  const bool asset = mesh.file.format.starts_with("glTF") &&
+                     mesh.file.mesh.vertex_count() > map.file.mesh.vertex_count();
+  return std::string(asset ? "; glTF repeats vertices along seams" : "") +
+         "; the map holds the surface that it is of: give it alone";
+}
+
+}  // namespace
+
+void require_connectivity_of(const MeshSource& mesh, const MeshSource& map,
+                             const std::string& kind) {
+  const std::string difference = connectivity_difference(mesh.file, map.file);
+  if (difference.empty()) return;
+  throw ReadError(display_name(map.path), "not a " + kind + " of " + display_name(mesh.path) +
+                                              ": " + difference + advice_on(mesh, map));
+}
 
 WrittenMap read_map_of(const MeshSource& mesh, const std::string& path, const ReadOptions& options,
                        const std::string& kind) {
-  MeshFile file = read_source(path, options).file;
-  const std::string difference = connectivity_difference(mesh.file, file);
-  if (!difference.empty()) {
-    throw ReadError(display_name(path),
-                    "not a " + kind + " of " + display_name(mesh.path) + ": " + difference);
-  }
+  MeshSource source = read_source(path, options);
+  require_connectivity_of(mesh, source, kind);
+  MeshFile file = std::move(source.file);
   SphereMap map = read_sphere(file).value_or(SphereMap{file.mesh.positions});
   Provenance provenance = read_provenance(file);
   return {std::move(file), std::move(map), std::move(provenance)};

@@ -16,6 +16,11 @@ struct WrittenMap {
   Provenance provenance;  // how it came about, if it says so
 };
 
+/// Throws: ReadError where the two are not one connectivity, which says what to give instead where
+/// the file holds a surface of its own. `kind`: what the message calls such a file.
+void require_connectivity_of(const MeshSource& mesh, const MeshSource& map,
+                             const std::string& kind = "sphere");
+
 /// Reads a map of a mesh. Nothing is proved of it. `kind`: what the message calls such a file.
 /// Throws: ReadError, also where the two are not one connectivity.
 WrittenMap read_map_of(const MeshSource& mesh, const std::string& path,
