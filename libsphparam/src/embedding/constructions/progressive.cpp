@@ -30,7 +30,7 @@
 // way round: maps in which areas weigh more lead to the lower minima.
 // Among slivers no way leads far: each that is about to fold stops all that moves. Where they are
 // in the way, all of the above is done as if they were fatter, and the map of that is led to what
-// they are (slivers.cpp).
+// they are (slivers.cpp). The best of many minima is looked for there, too.
 // Around pins all starts have their way to find, and may fold what no pin asks for. A map without
 // pins has found its own: where one is known, the pins are led from where it has them.
 // Limbs that are long have more minima than starts find: the lowest map is kneaded (kneading.cpp),
@@ -240,7 +240,7 @@ class Starts {
       slimmed_ = keep_lower(std::move(fat)) == Found::Lower;
     } else if (lowest_.map) {
       try_others();
-      if (ended_early() && has_slivers(source()))
+      if ((ended_early() || best_of_many()) && has_slivers(source()))
         slimmed_ = keep_lower(embed_fattened(demanding)) == Found::Lower;
     }
   }
@@ -317,9 +317,15 @@ class Starts {
   /// Of a map that does not wait for its steps.
   bool is_much() const { return energy_ > much_for_best * isometric_energy(source(), wanted_, {}); }
 
+  bool has_many_minima() const {
+    return energy_ > many_minima * isometric_energy(source(), wanted_, {});
+  }
+
+  bool best_of_many() const { return options_.quality == Quality::Best && has_many_minima(); }
+
   /// Where minima may be many, of how much energy may be left says also how far two are apart.
   void compare_minima() {
-    if (energy_ <= many_minima * isometric_energy(source(), wanted_, {})) return;
+    if (!has_many_minima()) return;
     const double one = energy_;
     try_nearly_conformal(others_nearly_conformal[0]);
     if (latest_) apart_ = std::abs(*latest_ - one) / energy_;
@@ -330,9 +336,9 @@ class Starts {
   void knead_lowest() {
     const KneadingLimits& how = kneading_of(options_.quality);
     energy_ = energy_of(*lowest_.map);
-    const double energy = energy_ / isometric_energy(source(), wanted_, {});
-    if (energy <= some_minima || wanted_.lambda < least_kneaded) return;
-    const double work = energy > many_minima ? how.work_on_many : how.work_on_some;
+    const double demanding = some_minima * isometric_energy(source(), wanted_, {});
+    if (energy_ <= demanding || wanted_.lambda < least_kneaded) return;
+    const double work = has_many_minima() ? how.work_on_many : how.work_on_some;
     double rounds = work / topology_.vertex_count();
     double gain = 0;
     Kneading kneading = Kneading::ByAngles;
