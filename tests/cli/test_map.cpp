@@ -126,11 +126,11 @@ TEST_CASE(
   const Folder folder;
   const std::string map = folder / "coil.sph.ply";
   const Ended moved =
-      sphparam_program({"map", "-", "-o", map, "--lambda", "0.1"}, obj_text(coil(17)));
+      sphparam_program({"map", "-", "-o", map, "--lambda", "0.1"}, obj_text(coil(19)));
   CHECK(moved.code == 0);
   CHECK_THAT(moved.err, Contains("warning: chart: certified") && Contains("vertices moved there"));
   const Ended quiet =
-      sphparam_program({"map", "-", "-o", map, "--lambda", "0.1", "-q"}, obj_text(coil(17)));
+      sphparam_program({"map", "-", "-o", map, "--lambda", "0.1", "-q"}, obj_text(coil(19)));
   CHECK(quiet.err.empty());
   const Ended plain = sphparam_program({"map", "-", "-o", map}, obj_text(icosphere(3)));
   CHECK_THAT(plain.err, !Contains("chart"));
