@@ -65,12 +65,12 @@ VerifiedMap claim_of(MeshSource source) {
 
 VerifiedMap claim_of(MeshSource shape, const MeshSource& sphere) {
   require_connectivity_of(shape, sphere, "sphere");
-  const std::optional<SphereMap> map = read_sphere(sphere.file);
+  std::optional<SphereMap> map = read_sphere(sphere.file);
   VerifiedMap claim;
   claim.place = map ? RayPlace::Rays : RayPlace::Positions;
   claim.of_two_files = true;
   claim.cut_otherwise = cut_otherwise(shape.file, sphere.file);
-  claim.map = map ? *map : SphereMap{sphere.file.mesh.positions};
+  claim.map = map ? std::move(*map) : SphereMap{sphere.file.mesh.positions};
   claim.fillers = fillers_of(shape.file);
   claim.mesh = std::move(shape.file.mesh);
   claim.format = std::move(shape.file.format);
