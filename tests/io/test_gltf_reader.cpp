@@ -475,7 +475,19 @@ TEST_CASE("gltf_reader: what breaks the rules is refused, with its place") {
   CHECK(contains(complaint(gltf.bytes()), "accessor 1: index 0 names vertex"));
   gltf = tetrahedron_gltf();
   gltf.binary.replace(0, 4, std::string("\0\0\xc0\x7f", 4));
-  CHECK(contains(complaint(gltf.bytes()), "element 0 is no finite number"));
+  CHECK(contains(complaint(gltf.bytes()),
+                 "accessor 0: element 0 is no finite number as mesh 0 primitive 0 places it; "
+                 "`sphparam map --repair` drops"));
+}
+
+TEST_CASE("gltf_reader: positions that are no finite numbers are read where they may be") {
+  Gltf gltf = tetrahedron_gltf();
+  gltf.binary.replace(0, 4, std::string("\0\0\xc0\x7f", 4));
+  const MeshFile file = read_mesh(gltf.bytes(), "a.glb", {.non_finite = true});
+  REQUIRE(file.mesh.vertex_count() == 4);
+  CHECK(std::isnan(file.mesh.positions(0, 0)));
+  CHECK(file.mesh.positions.bottomRows(3).allFinite());
+  CHECK(file.mesh.face_count() == 4);
 }
 
 TEST_CASE("gltf_reader: the container is checked before its JSON") {

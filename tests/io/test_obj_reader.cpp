@@ -117,6 +117,14 @@ TEST_CASE("obj_reader: missing corner attributes are zero and noted") {
   CHECK(file.corner_texcoords->row(3) == Eigen::RowVector2d(1, 1));
   CHECK(file.notes ==
         std::vector<std::string>{"3 corners have no texture coordinates: set to zero"});
+  const std::string normals = four + "v 5 5 5\nvn 0 0 1\nvn 1 0 0\n";  // a vertex of no face
+  const MeshFile one = read(normals + "f 1//1 2//1 3//1\nf 1//1 3//1 4\n", "a.obj");
+  CHECK(values_of(one.find_vertex_property("nz")) == std::vector<double>{1, 1, 1, 0, 0});
+  CHECK(one.notes == std::vector<std::string>{"1 vertex has no normal: set to zero"});
+  CHECK(read(normals + "f 1//1 2 3\n", "a.obj").notes ==
+        std::vector<std::string>{"2 vertices have no normals: set to zero"});
+  CHECK(read(normals + "f 1//1 2 3\nf 1//2 3 4\n", "a.obj").notes ==
+        std::vector<std::string>{"4 corners have no normals: set to zero"});
 }
 
 TEST_CASE("obj_reader: colours after the coordinates") {

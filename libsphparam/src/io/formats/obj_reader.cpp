@@ -343,6 +343,7 @@ class ObjReader {
   }
 
   void add_vertex_normals(const std::vector<int>& normal_of) {
+    note_missing_normals(normal_of);
     const char* const names[] = {"nx", "ny", "nz"};
     for (int axis = 0; axis < 3; ++axis) {
       Property property{names[axis], ScalarType::Float64, {}};
@@ -351,6 +352,18 @@ class ObjReader {
         property.values.push_back(normal == no_index ? 0 : normal_values_[3L * normal + axis]);
       file_.vertex_properties.push_back(std::move(property));
     }
+  }
+
+  /// A vertex of no face needs none.
+  void note_missing_normals(const std::vector<int>& normal_of) {
+    std::vector<char> lacks_one(normal_of.size(), 0);
+    for (const Vertex v : polygons_.corners)
+      lacks_one[static_cast<std::size_t>(v)] = normal_of[static_cast<std::size_t>(v)] == no_index;
+    const long missing = std::count(lacks_one.begin(), lacks_one.end(), 1);
+    if (missing > 0)
+      file_.notes.push_back(std::to_string(missing) +
+                            (missing == 1 ? " vertex has no normal: set to zero"
+                                          : " vertices have no normals: set to zero"));
   }
 
   void add_notes() {

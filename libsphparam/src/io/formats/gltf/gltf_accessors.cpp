@@ -133,9 +133,6 @@ std::vector<double> GltfAccessors::read(int id) {
         numbers[i * components + k] = number_at(bytes.data + i * bytes.stride + k * size, type);
   }
   if (described.sparse) apply_sparse(id, numbers);
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-    if (!std::isfinite(numbers[i]))
-      fail(id, "element " + std::to_string(i / components) + " is no finite number");
   if (described.normalised) {
     if (type == ScalarType::Float32 || type == ScalarType::Uint32)
       fail(id, "may not be normalised: its components are no small integers");
@@ -176,7 +173,16 @@ void GltfAccessors::apply_sparse(int id, std::vector<double>& numbers) {
   }
 }
 
-const std::vector<double>& GltfAccessors::numbers(int accessor) {
+const std::vector<double>& GltfAccessors::numbers(int id) {
+  const std::vector<double>& all = any_numbers(id);
+  const auto components = static_cast<std::size_t>(accessor(id).components);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (!std::isfinite(all[i]))
+      fail(id, "element " + std::to_string(i / components) + " is no finite number");
+  return all;
+}
+
+const std::vector<double>& GltfAccessors::any_numbers(int accessor) {
   const auto found = kept_.find(accessor);
   if (found != kept_.end()) return found->second;
   return kept_.emplace(accessor, read(accessor)).first->second;

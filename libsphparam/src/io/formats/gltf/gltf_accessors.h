@@ -16,7 +16,7 @@ namespace sphparam {
 std::optional<ScalarType> type_of_component(int code);
 
 /// The numbers behind the accessors of a glTF file. Everything is checked before it is read:
-/// component types, strides, byte ranges, sparse indices (strictly increasing), finite values.
+/// component types, strides, byte ranges, sparse indices (strictly increasing).
 /// Every failure is a ReadError that names the accessor. Numbers that are not aligned as glTF wants
 /// them are read all the same, and counted.
 class GltfAccessors {
@@ -25,7 +25,10 @@ class GltfAccessors {
   GltfAccessors(const GltfDocument& document, const std::string& name);
 
   /// count × components numbers, row by row; normalised integers are divided. Read once, then kept.
+  /// All of them finite, or a ReadError.
   const std::vector<double>& numbers(int accessor);
+  /// The same as they are, not finite ones among them.
+  const std::vector<double>& any_numbers(int accessor);
 
   /// Indices of vertices, each < `vertex_count`.
   std::vector<std::uint32_t> indices(int accessor, std::uint64_t vertex_count);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "elementary.h"
+#include "io/files/non_finite_advice.h"
 #include "io/formats/gltf/gltf_accessors.h"
 #include "io/formats/gltf/gltf_document.h"
 #include "io/formats/gltf/gltf_instances.h"
@@ -253,7 +254,7 @@ class SceneReader {
 
   void add_vertices(const GltfDocument::Primitive& primitive, int position,
                     const VertexTransforms& transforms) {
-    const std::vector<double>& xyz = accessors_.numbers(position);
+    const std::vector<double>& xyz = accessors_.any_numbers(position);
     const auto count = static_cast<std::int64_t>(xyz.size() / 3);
     const std::int64_t limit =
         std::min<std::int64_t>(options_.max_vertices, std::numeric_limits<int>::max());
@@ -267,7 +268,9 @@ class SceneReader {
       Vector3 x = transform.linear * Eigen::Map<const Vector3>(xyz.data() + i) + transform.shift;
       // Copies of a vertex that name its joints in another order are to stay copies.
       if (!transforms.is_one()) x = x.cast<float>().cast<double>();
-      if (!x.allFinite()) fail(where_ + ": a transformed position is not finite");
+      if (!options_.non_finite && !x.allFinite())
+        accessors_.fail(position, "element " + std::to_string(i / 3) + " is no finite number as " +
+                                      where_ + " places it" + non_finite_advice());
       positions_.insert(positions_.end(), x.begin(), x.end());
     }
     for (const auto& [attribute, accessor] : primitive.attributes)
