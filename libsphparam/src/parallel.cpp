@@ -8,10 +8,15 @@
 #include <new>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
+#include "sphparam/errors.h"
+#include "sphparam/stopped_by.h"
+
 // One pool for the process: the caller works too and waits only for chunks that somebody claimed. A
-// loop inside a loop runs on its own thread, so nothing can wait for itself. Sweeps are thousands
+// loop inside a loop runs on its own thread, so nothing can wait for itself; so does one that comes
+// while another caller's has the pool, which may take long. Sweeps are thousands
 // of loops of some microseconds each: whoever waits looks around for a while before it sleeps.
 // Each worker begins with a range of its own, the same in all loops alike: what it wrote in the
 // last one is in its cache, and fetching lines from another core's costs more than most bodies.
@@ -20,6 +25,12 @@ namespace sphparam {
 namespace {
 
 constexpr int looks = 1000;  // before a thread sleeps: some ten microseconds
+
+/// What ends the loops of this thread, if anything.
+const std::atomic<bool>*& stop_of_thread() {
+  thread_local const std::atomic<bool>* stop = nullptr;
+  return stop;
+}
 
 void pause() {
 #if defined(__x86_64__)
@@ -84,10 +95,12 @@ class Loop {
 
   /// A worker's own range, then what is left of the others'.
   void work(int worker) {
+    const auto* const before = std::exchange(stop_of_thread(), stop_);  // of loops inside this one
     for (int i = 0; i < parts_; ++i) {
       Range& range = ranges_[(worker + i) % parts_];
       for (std::int64_t chunk; (chunk = range.claim(i == 0)) >= 0;) run(chunk);
     }
+    stop_of_thread() = before;
   }
 
   void work_alone() {
@@ -102,6 +115,7 @@ class Loop {
  private:
   void run(std::int64_t chunk) {
     try {
+      if (stop_ && *stop_) throw Cancelled();
       body_(chunk * grain_, std::min(count_, (chunk + 1) * grain_));
     } catch (...) {
       const std::lock_guard lock(mutex_);
@@ -114,6 +128,7 @@ class Loop {
 
   const std::int64_t count_, grain_, chunks_;
   const Body& body_;
+  const std::atomic<bool>* const stop_ = stop_of_thread();
   int parts_ = 0;
   Range ranges_[most_ranges];
   std::mutex mutex_;
@@ -132,8 +147,10 @@ class Pool {
     for (std::thread& worker : workers_) worker.join();
   }
 
-  void run(Loop& loop, int helpers) {
-    const std::lock_guard one_loop_at_a_time(loop_mutex_);
+  /// False: another loop has it, nothing was done.
+  bool run(Loop& loop, int helpers) {
+    const std::unique_lock one_loop_at_a_time(loop_mutex_, std::try_to_lock);
+    if (!one_loop_at_a_time) return false;
     {
       const std::lock_guard lock(mutex_);
       while (static_cast<int>(workers_.size()) < helpers) {
@@ -159,6 +176,7 @@ class Pool {
     look_out_for([this] { return busy_ == 0; });
     std::unique_lock lock(mutex_);
     idle_.wait(lock, [this] { return busy_ == 0; });
+    return true;
   }
 
  private:
@@ -207,6 +225,11 @@ Pool& pool() {
 
 }  // namespace
 
+StoppedBy::StoppedBy(const std::atomic<bool>& stop)
+    : before_(std::exchange(stop_of_thread(), &stop)) {}
+
+StoppedBy::~StoppedBy() { stop_of_thread() = before_; }
+
 int resolve_threads(int threads) {
   // Asked once: the answer comes from a file, and a map has thousands of loops.
   static const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -224,8 +247,9 @@ void parallel_for(std::int64_t count, std::int64_t grain, int threads,
   } else {
     loop.split(helpers + 1);
     Pool::inside_pool() = true;
-    pool().run(loop, helpers);
+    const bool done = pool().run(loop, helpers);
     Pool::inside_pool() = false;
+    if (!done) loop.work_alone();
   }
   loop.rethrow();
 }

@@ -85,7 +85,18 @@ TEST_CASE("bake: --map channels bakes the constants of two materials, and says w
   const Ended bare = sphparam_program(
       {"bake", "-", "--map", "channels", "-o", folder / "b_{map}.png"}, obj_text(mesh));
   CHECK(bare.code == 2);
-  CHECK_THAT(bare.err, Contains("neither materials nor colours") && Contains("--sphere"));
+  CHECK_THAT(bare.err, Contains("neither materials nor colours") && !Contains("--sphere"));
+  const std::string map = folder / "bare.sph.ply";
+  REQUIRE(sphparam_program({"map", "-", "-o", map}, obj_text(mesh)).code == 0);
+  CHECK_THAT(sphparam_program({"bake", map, "--map", "channels", "-o", folder / "b_{map}.png"}).err,
+             Contains("A map carries no materials") &&
+                 Contains("`sphparam bake ASSET --sphere " + map + " --map channels`"));
+  write_bytes(folder / "lost.obj", "mtllib lost.mtl\nusemtl red\n" + obj_text(mesh));
+  CHECK_THAT(sphparam_program(
+                 {"bake", folder / "lost.obj", "--map", "channels", "-o", folder / "b_{map}.png"})
+                 .err,
+             Contains("what its materials look like could not be read") &&
+                 Contains("'lost.mtl' (No such file or directory)"));
 }
 
 TEST_CASE("bake: conventions show the same colours elsewhere") {

@@ -306,6 +306,12 @@ TEST_CASE("parts: all are baked and exported in one go, each with what is its ow
                           folder / "images/", "--size", "32"})
             .code == 0);
   CHECK(fs::exists(folder / "images/two_0002_axes.png"));
+  fs::remove(folder / "two_0001.sph.ply");
+  const Ended lone = sphparam_program(
+      {"bake", map, "--all-components", "--map", "axes", "-o", folder / "images/", "--size", "32"});
+  CHECK(lone.code == 0);
+  CHECK_THAT(lone.err, Contains("--all-components: 1 of 2 parts: there is no " +
+                                (folder / "two_0001.sph.ply")));
 }
 
 TEST_CASE("parts: where there are none, or one of them is broken, nothing is written") {

@@ -189,6 +189,34 @@ TEST_CASE("outputs: the texture that a glTF file names is read too, and not repl
   CHECK(bytes_of(texture) == before);
 }
 
+TEST_CASE("outputs: libraries of materials and buffers are read too, and not replaced") {
+  const Mapped mapped(100);
+  const Folder& folder = mapped.folder;
+  const auto kept = [&](const std::string& file, const Words& line) {
+    const std::string before = bytes_of(file);
+    const Ended ended = sphparam_program(line);
+    INFO(as_text(line));
+    CHECK(ended.code == 3);
+    CHECK_THAT(ended.err, Contains(file + ": is read by this command; it would be replaced"));
+    CHECK(bytes_of(file) == before);
+  };
+  write_bytes(folder / "a.obj", "mtllib b.mtl\nusemtl red\n" + obj_text(icosphere(1)));
+  write_bytes(folder / "b.mtl", "newmtl red\nKd 1 0 0\n");
+  kept(folder / "b.mtl",
+       {"export", folder / "a.obj", "--image-size", "16", "-o", folder / "b.obj"});
+  kept(folder / "b.mtl",
+       {"map", folder / "a.obj", "-o", folder / "a.sph.ply", "--json", folder / "b.mtl"});
+  kept(folder / "b.mtl", {"bake", mapped.path, "--from", folder / "a.obj", "--map", "axes",
+                          "--size", "16", "-o", folder / "a.png", "--json", folder / "b.mtl"});
+  REQUIRE(sphparam_program({"export", mapped.path, "--image-size", "16", "-o", folder / "c.gltf"})
+              .code == 0);
+  std::string text = bytes_of(folder / "c.gltf");
+  fs::rename(folder / "c.bin", folder / "d.bin");
+  write_bytes(folder / "c.gltf", text.replace(text.find("c.bin"), 5, "d.bin"));
+  kept(folder / "d.bin",
+       {"export", folder / "c.gltf", "--image-size", "16", "-o", folder / "d.gltf"});
+}
+
 TEST_CASE("outputs: a file may be replaced again, and keeps its permissions") {
   const Mapped mapped(100);
   const std::string picture = mapped.folder / "a.png";

@@ -367,6 +367,8 @@ TEST_CASE("gltf_reader: buffers come from data URIs or from files next to the gl
   };
   const auto open_before = open_files();
   CHECK(said("a%20b+c.bin").empty());
+  CHECK(sphparam::read_mesh(path.string()).companions ==
+        std::vector<std::string>{(folder / "inner" / "a b+c.bin").string()});
   CHECK(said("./a%20b+c.bin").empty());
   CHECK(said("a%20b%2Bc%2ebi%6e").empty());
   CHECK(contains(said("../secret.bin"), "'..'"));

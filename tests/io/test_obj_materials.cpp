@@ -59,7 +59,15 @@ TEST_CASE("obj_materials: base colours are those of the library") {
   CHECK(wood.wrap_s == Wrapping::Clamp);
   CHECK(wood.problem.empty());
   CHECK(file.notes.empty());
+  CHECK(file.companions == std::vector<std::string>{(folder.path() / "a.mtl").string()});
   CHECK(file.comments == std::vector<std::string>{"base colour of wood: texture maps/my wood.png"});
+  const MeshFile tinted = folder.read_with("mtllib a.mtl",
+                                           "newmtl wood\nKd 0.8 0.8 0\nmap_Kd w.png\n"
+                                           "newmtl red\nKd 1 0 0\n");
+  CHECK(tinted.base_colours.at(1).factor == std::array<double, 4>{1, 1, 1, 1});
+  CHECK(tinted.notes ==
+        std::vector<std::string>{
+            "not carried: tints of textures (Kd beside map_Kd) of 1 of 2 materials"});
 }
 
 TEST_CASE("obj_materials: what else they say is told once") {

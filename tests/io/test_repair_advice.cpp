@@ -57,6 +57,8 @@ TEST_CASE("repair_advice: what would mend a mesh is told as it is typed") {
   CHECK_THAT(repair_advice(try_repair(source), source.path),
              StartsWith("  --repair would mend it, as in "
                         "`sphparam map 'it'\\''s a.ply' --repair -o mended.sph.ply`:\n    1 hole"));
+  CHECK_THAT(repair_advice(try_repair(source), "-a.ply"),
+             Contains("`sphparam map ./-a.ply --repair -o mended.sph.ply`"));
 }
 
 TEST_CASE("repair_advice: components are listed where one must be chosen") {

@@ -433,6 +433,16 @@ TEST_CASE("vertex_data: keys that are no whole numbers are refused where labels 
   }
 }
 
+TEST_CASE("vertex_data: a name of GIFTI that says what is in it is not given to anything else") {
+  VertexData data = lobes();
+  for (const char* name : {"a.shape.gii", "a.func.gii", "a.shape.gii.gz"})
+    CHECK(contains(writing_complaint(name, data), "holds what is measured, and "));
+  CHECK_FALSE(serialise_vertex_data("a.gii", data).empty());
+  data.kind = DataKind::Metric;
+  CHECK(contains(writing_complaint("a.label.gii", data), "holds labels, and "));
+  CHECK_FALSE(serialise_vertex_data("a.gii", data).empty());
+}
+
 TEST_CASE("vertex_data: text in UTF-8 passes through GIFTI, other bytes are told") {
   const Folder folder;
   PendingFiles files;

@@ -2,12 +2,15 @@
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <cmath>
+#include <future>
 #include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "sphparam/errors.h"
 #include "sphparam/parallel.h"
+#include "sphparam/stopped_by.h"
 
 using namespace sphparam;
 
@@ -68,6 +71,72 @@ TEST_CASE("parallel: a loop inside a loop ends") {
     parallel_for(8, 1, 4, [&](std::int64_t, std::int64_t) { ++sum; });
   });
   CHECK(sum == 64);
+}
+
+TEST_CASE("parallel: a loop does not wait for one of another thread") {
+  constexpr auto patience = std::chrono::seconds(60);
+  std::promise<void> begun, other_is_done;
+  auto waiting = other_is_done.get_future().share();
+  std::atomic<bool> waited{true};
+  std::thread slow([&] {
+    parallel_for(4, 1, 2, [&](std::int64_t first, std::int64_t) {
+      if (first == 0) begun.set_value();
+      if (waiting.wait_for(patience) != std::future_status::ready) waited = false;
+    });
+  });
+  begun.get_future().wait();
+  std::atomic<int> sum{0};
+  parallel_for(100, 10, 2, [&](std::int64_t first, std::int64_t last) {
+    sum += static_cast<int>(last - first);
+  });
+  other_is_done.set_value();
+  slow.join();
+  CHECK(sum == 100);
+  CHECK(waited);
+}
+
+TEST_CASE("parallel: loops that are stopped do no more chunks, nor do loops inside them") {
+  for (const int threads : {1, 3}) {
+    std::atomic<bool> stop{false};
+    std::atomic<int> outer{0}, inner{0};
+    const StoppedBy stopped(stop);
+    CHECK_THROWS_AS(parallel_for(100, 1, threads,
+                                 [&](std::int64_t, std::int64_t) {
+                                   ++outer;
+                                   stop = true;
+                                   parallel_for(100, 1, threads,
+                                                [&](std::int64_t, std::int64_t) { ++inner; });
+                                 }),
+                    Cancelled);
+    CHECK(outer <= threads);
+    CHECK(inner == 0);
+    CHECK_THROWS_AS(parallel_for(1, 1, 1, [&](std::int64_t, std::int64_t) { ++inner; }), Cancelled);
+  }
+  int done = 0;  // both have ended
+  parallel_for(1, 1, 1, [&](std::int64_t, std::int64_t) { ++done; });
+  CHECK(done == 1);
+}
+
+TEST_CASE("parallel: a stop is its own thread's, and the later of two holds") {
+  const std::atomic<bool> yes{true}, no{false};
+  const auto is_stopped = [] {
+    try {
+      parallel_for(1, 1, 1, [](std::int64_t, std::int64_t) {});
+      return false;
+    } catch (const Cancelled&) {
+      return true;
+    }
+  };
+  const StoppedBy first(yes);
+  CHECK(is_stopped());
+  {
+    const StoppedBy second(no);
+    CHECK_FALSE(is_stopped());
+  }
+  CHECK(is_stopped());
+  bool elsewhere = true;
+  std::thread([&] { elsewhere = is_stopped(); }).join();
+  CHECK_FALSE(elsewhere);
 }
 
 TEST_CASE("parallel: sums have the same bits for any number of threads") {

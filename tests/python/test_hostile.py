@@ -225,6 +225,14 @@ bad_options = {
     "values: a blank in the name": (dict(values={"a b": np.zeros(6)}), ValueError, "blanks"),
     "values: a name of the map's": (dict(values={"sx": np.zeros(6)}), ValueError, "own"),
     "values: a number for a name": (dict(values={3: np.zeros(6)}), ValueError, "name"),
+    "values: no number a row": (dict(values={"a": np.zeros((6, 0))}), ValueError, r"values\['a'\]: rows without"),
+    "values: masked": (dict(values={"a": np.ma.masked_less(np.arange(6.0), 2)}), ValueError, "masked"),
+    "balance and weight": (dict(balance="conformal", weight=2.0), ValueError, "contradict"),
+    "balance: of no such method": (dict(method="radial", balance="equal-area"), ValueError, "for method='progressive'"),
+    "quality: of no such method": (dict(method="curvilinear", quality="best"), ValueError, "for method='progressive'"),
+    "paper: of no such method": (dict(paper=dict(sweeps=9)), ValueError, "for method='paper'"),
+    "repair_map: of no such method": (dict(repair_map=True), ValueError, "for method='paper'"),
+    "centre: of no such method": (dict(centre=(1, 2, 3)), ValueError, "for method='radial'"),
     "values: no dict": (dict(values=[1, 2]), TypeError, "values"),
 }
 

@@ -80,6 +80,10 @@ def test_halves_and_whole_numbers_are_coordinates_too():
     for kind in (np.float16, np.int8, np.uint16, np.int64):
         shifted = (vertices + 1).astype(kind)
         assert (sp.map(shifted, faces).vertices == vertices + 1).all()
+    foreign = (vertices + 1).astype(np.dtype("f2").newbyteorder())
+    made = sp.map(foreign, faces, values={"a": foreign[:, 0]})
+    assert (made.vertices == vertices + 1).all()
+    assert (made.values["a"] == vertices[:, 0] + 1).all()
 
 
 def test_nothing_that_is_passed_in_is_changed():
@@ -119,6 +123,24 @@ def test_a_proved_map_cannot_be_written_to(mapped):
             array.flags.writeable = True
     face, weights = mapped.locate(V)
     weights[0] = 0  # one's own
+
+
+def test_values_cannot_be_written_to_either():
+    for mesh in (sp.Mesh(*octahedron(), values={"a": np.arange(6.0)}), sp.map(*octahedron(), values={"a": np.arange(6.0)})):
+        with pytest.raises(ValueError):
+            mesh.values["a"][:] = 7
+        with pytest.raises(TypeError):
+            mesh.values["b"] = np.zeros(6)
+
+
+def test_a_sphere_seen_from_inside_is_one_to_one_as_it_is_in_files(tmp_path):
+    vertices, faces = octahedron()
+    mirrored = vertices * (1, 1, -1)
+    sp.write(tmp_path / "mesh.off", vertices, faces)
+    sp.write(tmp_path / "mirrored.off", mirrored, faces)
+    told = sp.verify(vertices, faces, mirrored)
+    assert told == sp.verify(tmp_path / "mesh.off", points=tmp_path / "mirrored.off")
+    assert told.one_to_one and told.reversed
 
 
 def test_a_mesh_that_was_mapped_is_still_there():

@@ -237,11 +237,11 @@ std::string advice_for_target(const MappedMesh& source, const BakeArguments& arg
     return is_stream(path) ? "mesh" : stem_of(path);
   };
   const std::string name = stem(arguments.input);
-  const std::string made_here = shell_word(name + "_map.sph.ply"),
-                    fine = is_stream(arguments.input) ? "MESH" : shell_word(arguments.input),
-                    low = shell_word(name + "_ico6.sph.ply"),
-                    target = is_stream(arguments.target) ? "LOW" : shell_word(arguments.target),
-                    followed = shell_word(stem(arguments.target) + "_like.sph.ply");
+  const std::string made_here = shell_file(name + "_map.sph.ply"),
+                    fine = is_stream(arguments.input) ? "MESH" : shell_file(arguments.input),
+                    low = shell_file(name + "_ico6.sph.ply"),
+                    target = is_stream(arguments.target) ? "LOW" : shell_file(arguments.target),
+                    followed = shell_file(stem(arguments.target) + "_like.sph.ply");
   std::string mapped = fine, options = typed_again(arguments.repair), advice;
   if (source.mapped_here()) {
     // `remesh` would map it with another λ.
@@ -249,7 +249,7 @@ std::string advice_for_target(const MappedMesh& source, const BakeArguments& arg
     mapped = made_here;
     options.clear();
   } else if (!arguments.sphere.empty()) {
-    options += " --sphere " + shell_word(arguments.sphere);
+    options += " --sphere " + shell_file(arguments.sphere);
   }
   advice += command("remesh " + mapped + options + " --grid ico:6 -o " + low) +
             " makes a mesh on its sphere: --for " + low;
@@ -281,7 +281,8 @@ void settle_body(BakeArguments& arguments) {
 }
 
 std::vector<BakeRequest> requests_of_mesh(std::vector<BakeRequest> images,
-                                          const BakeArguments& arguments, const MeshFile& file) {
+                                          const BakeArguments& arguments, const MeshFile& file,
+                                          bool is_map) {
   if (!contains(arguments.maps, channels_word)) return images;
   Words there = channels_of(file, !arguments.from.empty());
   if (!arguments.settings.texture.empty()) there.emplace_back("basecolor");
@@ -290,10 +291,16 @@ std::vector<BakeRequest> requests_of_mesh(std::vector<BakeRequest> images,
            !contains(there, image.field);
   });
   if (!images.empty()) return images;
-  throw UsageMistake(arguments.input +
+  const std::string& name = arguments.from.empty() ? arguments.input : arguments.from;
+  if (!is_map || !arguments.from.empty()) {
+    throw UsageMistake(name + (file.materials.empty()
+                                   ? ": has neither materials nor colours"
+                                   : ": what its materials look like could not be read"));
+  }
+  throw UsageMistake(name +
                      ": has neither materials nor colours. A map carries no materials: bake the "
                      "asset that it is of, `sphparam bake ASSET --sphere " +
-                     arguments.input + " --map channels`");
+                     shell_file(name) + " --map channels`");
 }
 
 std::vector<BakeRequest> bake_requests(const BakeArguments& arguments) {

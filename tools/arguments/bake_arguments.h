@@ -41,9 +41,10 @@ void settle_body(BakeArguments& arguments);
 std::vector<BakeRequest> bake_requests(const BakeArguments& arguments);
 
 /// Those of the requests that the mesh has something for: of `--map channels` some may be without.
-/// Throws: UsageMistake where there are none.
+/// `is_map`: the input carries its map. Throws: UsageMistake where there are none.
 std::vector<BakeRequest> requests_of_mesh(std::vector<BakeRequest> images,
-                                          const BakeArguments& arguments, const MeshFile& file);
+                                          const BakeArguments& arguments, const MeshFile& file,
+                                          bool is_map);
 
 // The library's complaints about a bake, in the words of the command line: with the option that
 // sets it; of the mesh that was read; of the one that images are for.

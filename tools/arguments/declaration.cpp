@@ -51,12 +51,14 @@ Declaration& Declaration::text(const std::string& name, std::string& value, cons
 Declaration& Declaration::texts(const std::string& name, Words& values, const std::string& word,
                                 const std::string& about) {
   CLI::Option* option = app_->add_option(name, values, about);
-  return keep(name.starts_with('-') ? option->expected(1)->take_all() : option, word);
+  // Else it takes what stands behind its value, the mesh, too.
+  const bool is_option = name.starts_with('-');
+  return keep(is_option ? option->expected(1)->take_all()->allow_extra_args(false) : option, word);
 }
 
 Declaration& Declaration::list(const std::string& name, Words& values, const std::string& word,
                                const std::string& about) {
-  return keep(app_->add_option(name, values, about)->delimiter(','), word);
+  return keep(app_->add_option(name, values, about)->delimiter(',')->allow_extra_args(false), word);
 }
 
 Declaration& Declaration::flag(const std::string& name, bool& value, const std::string& about) {

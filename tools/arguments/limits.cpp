@@ -98,7 +98,8 @@ void declare_limits(Declaration& command) {
       ->type_name("NAME=N")
       ->type_size(1)
       ->expected(1)
-      ->take_all();
+      ->take_all()
+      ->allow_extra_args(false);
 }
 
 const ReadOptions& input_limits() { return limits; }

@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string_view>
 
 #include "arguments/limits.h"
 #include "console/exit_codes.h"
 #include "console/places.h"
 #include "sphparam/errors.h"
+#include "sphparam/io/losses.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/sphere_file.h"
@@ -40,7 +42,9 @@ std::optional<std::string> run_of(const std::string& file) try {
   return std::nullopt;
 }
 
-void require_one_run(const std::string& path, const std::vector<int>& numbers) {
+/// Of which run all of them are; as `run_of`.
+std::optional<std::string> require_one_run(const std::string& path,
+                                           const std::vector<int>& numbers) {
   std::optional<std::string> first_run;
   std::string first;
   for (const int number : numbers) {
@@ -54,6 +58,21 @@ void require_one_run(const std::string& path, const std::vector<int>& numbers) {
       throw UsageMistake("--all-components: " + file + " is of another run of map than " + first +
                          ": remove the older of them, or map into files of another name");
   }
+  return first_run;
+}
+
+/// A run leaves out specks that cannot be mapped; else somebody has taken a file away.
+void tell_missing(const std::string& path, const std::vector<int>& numbers, const std::string& run,
+                  Console& console) {
+  constexpr std::size_t skipped = std::string_view(" of ").size();
+  int count = 0;
+  if (run.size() > skipped) std::from_chars(run.data() + skipped, run.data() + run.size(), count);
+  std::vector<std::string> missing;
+  for (int number = 1; number <= count; ++number)
+    if (!std::ranges::binary_search(numbers, number)) missing.push_back(path_of_part(path, number));
+  if (missing.empty()) return;
+  console.say("  --all-components: " + std::to_string(numbers.size()) + " of " +
+              std::to_string(count) + " parts: there is no " + enumerated(missing));
 }
 
 }  // namespace
@@ -92,13 +111,14 @@ std::vector<int> parts_on_disk(const std::string& path) {
   return numbers;
 }
 
-std::vector<int> numbers_of_parts(const std::string& path) {
+std::vector<int> numbers_of_parts(const std::string& path, Console& console) {
   if (is_stream(path)) throw UsageMistake("--all-components: parts are files, not a stream");
   std::vector<int> numbers = parts_on_disk(path);
   if (numbers.empty())
     throw UsageMistake("--all-components: there is no " + path_of_part(path, 1) +
                        "; `sphparam map MESH --all-components -o " + path + "` makes such files");
-  require_one_run(path, numbers);
+  if (const std::optional<std::string> run = require_one_run(path, numbers))
+    tell_missing(path, numbers, *run, console);
   return numbers;
 }
 
@@ -116,7 +136,7 @@ void report_each(bool of_parts, const std::string& input, Session& session,
     return;
   }
   std::string reports;
-  for (const int part : numbers_of_parts(input))
+  for (const int part : numbers_of_parts(input, session.console))
     reports += (reports.empty() ? "" : ", ") + run(part);
   session.add_report([&] { return "{\"parts\": [" + reports + "]}\n"; });
 }

@@ -23,9 +23,10 @@ std::string component_words(std::size_t number, std::size_t count, const std::st
 /// The numbers of the files that are so named, in order; none for a stream.
 std::vector<int> parts_on_disk(const std::string& path);
 
-/// The numbers of the files that `map --all-components -o PATH` has written, in order.
-/// Throws: UsageMistake where there is none, for a stream, or where they are not of one run.
-std::vector<int> numbers_of_parts(const std::string& path);
+/// The numbers of the files that `map --all-components -o PATH` has written, in order; those that
+/// are missing between them are told. Throws: UsageMistake where there is none, for a stream, or
+/// where they are not of one run.
+std::vector<int> numbers_of_parts(const std::string& path, Console& console);
 
 /// The file of a part where there is one, else the path as it is: what all parts share.
 std::string file_for_part(const std::string& path, int part);

@@ -81,7 +81,7 @@ MeshSource read_asset(const std::string& path) {
   ReadOptions options = input_limits();
   options.repeated_corners = options.non_finite = true;
   MeshSource asset = sphparam::read_source(path, options);
-  keep_textures(asset.file);
+  keep_companions(asset.file);
   return asset;
 }
 

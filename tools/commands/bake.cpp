@@ -13,6 +13,7 @@
 #include "commands/surfaces.h"
 #include "console/places.h"
 #include "number_text.h"
+#include "reports/told_losses.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/records/bake_record.h"
 
@@ -65,7 +66,8 @@ MeshFile read_from(const BakeArguments& arguments, Session& session) {
   ReadOptions options = input_limits();
   options.repeated_corners = true;  // needles are as good as any triangle
   MeshFile surface = read_surface(arguments.from, session, options);
-  keep_textures(surface);
+  tell_losses_of_reading(arguments.from, surface.notes, session.console);
+  keep_companions(surface);
   attach_data_files(surface, arguments.from, arguments.data, MissingValues::LeftOut, session);
   return surface;
 }
@@ -121,8 +123,9 @@ std::string bake_one(const BakeArguments& arguments, Session& session, Words& li
   std::vector<BakeRequest> images = bake_requests(arguments);
   const MappedMesh source = read_mesh(arguments, session);
   const BakeSettings settings = settings_of(arguments, source, session);
-  images = requests_of_mesh(std::move(images), arguments,
-                            settings.from ? *settings.from : source.file());
+  images =
+      requests_of_mesh(std::move(images), arguments, settings.from ? *settings.from : source.file(),
+                       !source.mapped_here() && arguments.sphere.empty());
   tell_longitudes(source, settings.convention, settings.fields.body.has_value(), session);
   const BakeReport baked = bake_for_user(source, images, settings, arguments, session.files);
   session.warn(baked.warnings);

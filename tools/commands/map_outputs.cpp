@@ -10,10 +10,13 @@
 #include "console/places.h"
 #include "number_text.h"
 #include "report/plots.h"
+#include "reports/told_losses.h"
 #include "sphparam/chart/chart_failure.h"
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/io/loop_file.h"
+#include "sphparam/io/losses.h"
 #include "sphparam/io/map_files.h"
+#include "sphparam/io/sphere_file.h"
 #include "sphparam/records/map_record.h"
 
 namespace sphparam::cli {
@@ -39,15 +42,31 @@ Provenance provenance(const MapOutcome& outcome) {
                        FileNumbers(outcome.source.file));
 }
 
+/// Values that are no map, under the names that a map's have.
+void add_replaced(std::vector<std::string>& losses, const MeshFile& file) {
+  if (has_map(file)) return;
+  std::vector<std::string> names;
+  for (const char* name : {"theta", "phi", "sx", "sy", "sz"})
+    if (file.find_vertex_property(name) != nullptr) names.emplace_back(name);
+  if (!names.empty()) add_loss(losses, enumerated(names) + " of vertices: the map's stand there");
+}
+
 /// The mesh gets its map where it stands: a copy of all its attributes would be the peak of memory.
 void add_map(const MapArguments& arguments, MapOutcome& outcome, Session& session) {
   const std::string& path = arguments.output;
   Provenance lines = provenance(outcome);
   if (!arguments.component.empty()) lines.emplace_back(component_key, arguments.component);
   MeshFile& file = outcome.source.file;
+  std::vector<std::string> losses;
+  add_polygon_loss(losses, file);
+  add_replaced(losses, file);
   file = attach_map(std::move(file), outcome.result.map, lines);
-  sphparam::add_map(session.files, path, file, outcome.topology(), outcome.verdict(),
-                    session.threads());
+  const std::vector<std::string> more = sphparam::add_map(
+      session.files, path, file, outcome.topology(), outcome.verdict(), session.threads());
+  losses.insert(losses.end(), more.begin(), more.end());
+  tell_losses(path, losses, session.console);
+  std::vector<std::string>& notes = outcome.source.notes;
+  notes.insert(notes.end(), losses.begin(), losses.end());
 }
 
 void add_sphere(const std::string& path, const MapArguments& arguments, const MapOutcome& outcome,

@@ -17,6 +17,7 @@
 #include "reports/told_losses.h"
 #include "sphparam/gltf/export.h"
 #include "sphparam/io/certified_files.h"
+#include "sphparam/io/losses.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/vertex_data.h"
 #include "sphparam/measure/measurable.h"
@@ -199,6 +200,9 @@ void add_meshes(const RemeshArguments& arguments, const RemeshRequests& requests
   if (requests.one_file) {
     add_glb(arguments, mapped, levels, session);
   } else if (!arguments.output.empty()) {
+    std::vector<std::string> left_behind;
+    add_sampling_losses(left_behind, mapped.file());
+    tell_losses(arguments.output, left_behind, session.console);
     for (size_t level = 0; level < levels.size(); ++level)
       tell_losses(requests.outputs[level],
                   add_mapped(session.files, requests.outputs[level], levels[level].mesh,

@@ -73,8 +73,8 @@ void tell_what_else(const RepairCommandArguments& arguments, RepairOptions wante
   const int component = std::exchange(wanted.component, 0);  // chosen already
   RepairTrial trial = try_repair_beyond(source, wanted);
   if (component > 0) trial.options.component = component;
-  const std::string command = "sphparam repair " + shell_word(arguments.input) + " " +
-                              options_line(trial.options) + " -o " + shell_word(arguments.output);
+  const std::string command = "sphparam repair " + shell_file(arguments.input) + " " +
+                              options_line(trial.options) + " -o " + shell_file(arguments.output);
   std::fputs(repair_advice(trial, arguments.input, command).c_str(), stderr);
 }
 

@@ -31,10 +31,13 @@ Words without_repairs(const Words& words) {
   return rest;
 }
 
+/// With the options before a `--`, behind which all are names of files.
 std::string typed(const Words& words, const std::string& repairs) {
-  std::string line = "sphparam";
-  for (const std::string& word : words) line += " " + shell_word(word);
-  return line + " " + repairs;
+  const auto end_of_options = std::ranges::find(words, "--");
+  std::string line = "sphparam", files;
+  for (auto word = words.begin(); word != end_of_options; ++word) line += " " + shell_word(*word);
+  for (auto word = end_of_options; word != words.end(); ++word) files += " " + shell_word(*word);
+  return line + " " + repairs + files;
 }
 
 /// Of one component among several: what is counted and chosen is of the file.

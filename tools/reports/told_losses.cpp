@@ -6,8 +6,13 @@
 namespace sphparam::cli {
 
 void tell_losses(const MeshSource& source, Console& console) {
-  for (const std::string& loss : losses_among(source.notes))
-    console.say("  " + display_name(source.path) + ": " + loss);
+  tell_losses_of_reading(source.path, source.notes, console);
+}
+
+void tell_losses_of_reading(const std::string& path, const std::vector<std::string>& notes,
+                            Console& console) {
+  for (const std::string& loss : losses_among(notes))
+    console.say("  " + display_name(path) + ": " + loss);
 }
 
 void tell_losses(const std::string& path, const std::vector<std::string>& losses,

@@ -8,6 +8,9 @@ namespace sphparam::cli {
 /// Says what the file carries and the mesh file does not, a line each. Every command whose outputs
 /// carry what a mesh carries calls it.
 void tell_losses(const MeshSource& source, Console& console);
+/// The same of notes of a reader.
+void tell_losses_of_reading(const std::string& path, const std::vector<std::string>& notes,
+                            Console& console);
 
 /// The same of a file that was written: what its format has no place for.
 void tell_losses(const std::string& path, const std::vector<std::string>& losses, Console& console);

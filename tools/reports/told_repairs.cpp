@@ -15,7 +15,7 @@ std::string kept_whole_line(const MeshSource& source) {
   const bool are_specks = parts.count > 0 && !parts.refused && parts.area_share < 1 &&
                           parts.area_share >= RepairOptions{}.least_kept;
   if (!are_specks) return "";
-  return "`sphparam asset " + shell_word(source.path) + " --keep 1` keeps that too, in a wrap";
+  return "`sphparam asset " + shell_file(source.path) + " --keep 1` keeps that too, in a wrap";
 }
 
 }  // namespace

@@ -103,6 +103,19 @@ std::vector<std::string> losses_of_writing(const MeshFile& written, const MeshFi
   return losses;
 }
 
+void add_polygon_loss(std::vector<std::string>& notes, const MeshFile& file) {
+  if (file.polygons == 0) return;
+  add_loss(notes, counted(file.polygons, "face of more than three corners, which is",
+                          "faces of more than three corners, which are") +
+                      " cut into triangles");
+}
+
+void add_sampling_losses(std::vector<std::string>& notes, const MeshFile& source) {
+  if (!source.base_colours.empty()) add_loss(notes, "colours and textures of materials");
+  if (source.second_texcoords) add_loss(notes, "second texture coordinates");
+  if (source.corner_tangents) add_loss(notes, "tangents");
+}
+
 void add_face_colour_loss(std::vector<std::string>& notes, const MeshFile& file) {
   const Property* const red = file.find_face_property("red");
   const Property* const green = file.find_face_property("green");

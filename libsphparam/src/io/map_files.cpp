@@ -6,6 +6,7 @@
 #include "io/files/read_back.h"
 #include "number_text.h"
 #include "sphparam/errors.h"
+#include "sphparam/io/losses.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/planetocentric.h"
@@ -100,13 +101,17 @@ Provenance provenance_of(const Parameterization& result, const MapOrigin& origin
   return lines;
 }
 
-void add_map(PendingFiles& files, const std::string& path, const MeshFile& with_map,
-             const Topology& topology, const std::string& verdict, int threads) {
+std::vector<std::string> add_map(PendingFiles& files, const std::string& path,
+                                 const MeshFile& with_map, const Topology& topology,
+                                 const std::string& verdict, int threads) {
+  std::vector<std::string> losses;
   files.add(path, serialise_mesh(path, with_map), [&](std::string_view written) {
     const MeshFile read = read_mesh(written, path, own_map);
     require_verdict(verdict, path,
                     certify_read_back(read, read_sphere(read).value(), topology, threads));
+    losses = losses_of_writing(with_map, read);
   });
+  return losses;
 }
 
 double add_sphere(PendingFiles& files, const std::string& path, const FinishedMap& finished,

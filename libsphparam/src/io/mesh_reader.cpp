@@ -163,7 +163,7 @@ void refuse_values(std::string_view bytes, const std::string& name, const ReadOp
   throw ReadError(name, "this is a file of values (" + data.format + "), numbers of " +
                             counted(data.vertex_count(), "vertex", "vertices") +
                             ", and no mesh: name its surface, and this beside it, as --data " +
-                            shell_word(name) + "; `sphparam info` says what it holds");
+                            shell_file(name) + "; `sphparam info` says what it holds");
 }
 
 }  // namespace

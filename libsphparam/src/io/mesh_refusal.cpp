@@ -175,11 +175,7 @@ MeshSource mended(MeshSource source, const RepairOptions& options) {
 }
 
 MeshFile written_as_mended(const MeshSource& source, std::vector<std::string>& losses) {
-  if (source.file.polygons > 0) {
-    add_loss(losses, counted(source.file.polygons, "face of more than three corners, which is",
-                             "faces of more than three corners, which are") +
-                         " cut into triangles");
-  }
+  add_polygon_loss(losses, source.file);
   if (source.repairs.empty() || !read_sphere(source.file)) return source.file;
   add_loss(losses, "its map, which is of the mesh before the repair");
   return without_map(source.file);

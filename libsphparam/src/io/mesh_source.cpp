@@ -44,7 +44,8 @@ MeshInspection inspect_welded(const MeshFile& file, const MeshInspection& as_ind
 
 }  // namespace
 
-void keep_textures(const MeshFile& file) {
+void keep_companions(const MeshFile& file) {
+  keep_from_outputs(file.companions);
   const auto keep = [](const MaterialTexture& texture) {
     if (texture.path.empty()) return;
     keep_from_outputs({(std::filesystem::path(texture.folder) / texture.path).string()});
@@ -58,7 +59,7 @@ MeshSource read_source(const std::string& path, const ReadOptions& options) {
   MeshSource source;
   source.path = path;
   source.file = read_mesh(path, options);
-  keep_textures(source.file);
+  keep_companions(source.file);
   source.inspection = inspect_as_read(source.file);
   source.notes = source.file.notes;
   MappableMesh mappable = make_mappable(std::move(source.file), &source.notes);

@@ -41,7 +41,7 @@ std::string reached_share(const KeptParts& parts) {
 /// which alone takes --all-components.
 std::string choice_lines(const KeptParts& parts, const std::string& path, bool in_map) {
   if (!parts.refused) return "";
-  const std::string mesh = shell_word(path);
+  const std::string mesh = shell_file(path);
   const std::string each =
       in_map ? "--all-components maps"
              : "`sphparam map " + mesh + " --all-components -o parts.sph.ply` maps";
@@ -78,7 +78,7 @@ std::string repair_advice(const RepairTrial& trial, const std::string& path,
   const auto closes = [](const RepairAction& done) { return done.kind == RepairKind::HoleFilled; };
   const bool fills = std::any_of(trial.actions.begin(), trial.actions.end(), closes);
   const std::string plain =
-      "sphparam map " + shell_word(path) + " " + options + " -o mended.sph.ply";
+      "sphparam map " + shell_file(path) + " " + options + " -o mended.sph.ply";
   return choice + "  " + options + " would mend it, as in `" + (command.empty() ? plain : command) +
          "`:\n" + share_line(trial) + message_lines(trial.actions) +
          handle_lines(trial.handles, "      ") + (kept.empty() ? "" : "    " + kept + "\n") +

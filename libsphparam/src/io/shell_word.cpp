@@ -17,4 +17,9 @@ std::string shell_word(const std::string& name) {
   return result + "'";
 }
 
+std::string shell_file(const std::string& path) {
+  const bool like_option = path.size() > 1 && path.starts_with('-');
+  return shell_word(like_option ? "./" + path : path);
+}
+
 }  // namespace sphparam

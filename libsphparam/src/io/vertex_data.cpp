@@ -87,6 +87,16 @@ std::string write_as(ValuesFormat format, const VertexData& data, const Points* 
   }
 }
 
+/// A name of GIFTI may say what is in it, and other programs believe it.
+void require_kind_of_name(const std::string& path, const VertexData& data) {
+  const auto says = [&](const std::string& ending) {
+    return path.ends_with(ending) || path.ends_with(ending + ".gz");
+  };
+  if (says(".label.gii")) require_labels(data, ".label.gii");
+  if (says(".shape.gii")) require_measures(data, ".shape.gii");
+  if (says(".func.gii")) require_measures(data, ".func.gii");
+}
+
 /// Without folder and endings.
 std::string name_of_data(const std::string& path) {
   const std::string name = parse_brain_name(path).what;
@@ -215,6 +225,7 @@ std::string serialise_vertex_data(const std::string& path, const VertexData& dat
   if (!format) throw WriteError(path, "values are written as " + written_data_names());
   if (data.columns.empty()) throw WriteError(path, "there are no values to write");
   try {
+    require_kind_of_name(path, data);
     std::string bytes = write_as(*format, data, surface);
     if (is_packed(path)) return zip(bytes);
     return bytes;

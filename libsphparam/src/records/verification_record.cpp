@@ -53,8 +53,8 @@ std::string roundness_warning(const VerifiedMap& map) {
   if (map.is_round()) return "";
   const bool is_gltf = !map.of_two_files && map.format.starts_with("glTF");
   return "these points are not on a sphere about the origin: their radius is " +
-         short_number(map.mean_length) + " up to a factor of " +
-         short_number(1 + map.length_deviation) + "; their directions are judged" +
+         short_number(map.mean_length) + " in the mean, and up to " +
+         percent(map.length_deviation) + " more or less; their directions are judged" +
          (is_gltf ? "; `sphparam export --theta-phi` writes the map into glTF, as the attribute "
                     "_THETA_PHI"
                   : "");

@@ -199,7 +199,7 @@ DrawnMesh load_drawn(const std::string& path, const std::string& sphere,
   MeshSource source;
   source.path = path;
   source.file = read_mesh(path, options);
-  keep_textures(source.file);
+  keep_companions(source.file);
   return drawn_mesh(std::move(source));
 }
 

@@ -106,7 +106,7 @@ void add_pictures(Page& page, const SurveyedMesh& mesh) {
 
 std::string line_of(const SurveyedWay& way, const std::string& path, const std::string& map) {
   const std::string command =
-      "sphparam map " + shell_word(path) + " " + way.options + " -o " + shell_word(map);
+      "sphparam map " + shell_file(path) + " " + way.options + " -o " + shell_file(map);
   const std::string outcome = way.certified ? "certified" : "not certified";
   return command + ": " + outcome + (way.told.empty() ? "" : "; " + way.told);
 }

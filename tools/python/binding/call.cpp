@@ -3,12 +3,15 @@
 #include <chrono>
 #include <vector>
 
+#include "sphparam/stopped_by.h"
+
 namespace sphparam::python {
 namespace {
 
 constexpr auto between_looks = std::chrono::milliseconds(50);
 
-/// Threads of calls that were left by Ctrl-C. They end at their next report of progress.
+/// Threads of calls that were left by Ctrl-C. They end at their next report of progress, or the
+/// next piece of a loop.
 class LeftCalls {
  public:
   void add(std::thread thread) {
@@ -47,6 +50,7 @@ bool CallState::note(std::string_view stage, double fraction) {
 }
 
 void CallState::run() {
+  const StoppedBy stop(cancelled_);
   try {
     work([this](std::string_view stage, double fraction) { return note(stage, fraction); });
   } catch (...) {

@@ -172,16 +172,22 @@ void save_sphere_file(const Mapped& mapped, const std::string& path, int threads
   });
 }
 
+/// Of a sphere seen from inside that of its mirror image, as of files (verify_map.h).
+Certificate certify_either_way(TriangleMesh mesh, const SphereMap& map, int threads) {
+  Certificate certificate = certify(Topology(mesh), map, threads);
+  if (!certificate.reversed) return certificate;
+  mesh.triangles.col(1).swap(mesh.triangles.col(2));
+  certificate = certify(Topology(mesh), map, threads);
+  certificate.reversed = true;
+  return certificate;
+}
+
 py::dict certify_points(const Source& source, const py::array& rays, int threads) {
   bool finite = true;
   const auto map = std::make_shared<const SphereMap>(SphereMap{points_of(rays, finite)});
   const auto mesh = std::make_shared<MeshSource>(source.mesh);
   return as_dict(call(py::none(), [=](const Progress&) {
-    if (auto topology = Topology::try_build(mesh->file.mesh.triangles,
-                                            static_cast<int>(mesh->file.mesh.vertex_count()))) {
-      return certify(*topology, *map, threads);
-    }
-    return certify(topology_of(*mesh), *map, threads);
+    return certify_either_way(mesh->file.mesh, *map, threads);
   }));
 }
 

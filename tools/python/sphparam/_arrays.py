@@ -15,23 +15,32 @@ if TYPE_CHECKING:
 _most_rows = 2**31 - 1
 
 
-def numbers(thing: Any, name: str) -> Array:
+def unmasked(thing: Any, name: str) -> Array:
+    """An array of anything: what a mask hides is nobody's number."""
+    if isinstance(thing, np.ma.MaskedArray) and np.ma.is_masked(thing):
+        raise ValueError(f"{name}: some of it is masked; fill or drop these rows first")
+    found: Array = np.asarray(thing)
+    return found
+
+
+def numbers(thing: Any, name: str, rounded_by: str = "float") -> Array:
     """An array of numbers; nothing is guessed from texts and objects."""
     if isinstance(thing, (str, bytes, dict, set)) or thing is None:
         raise TypeError(f"{name}: an array is needed, not {type(thing).__name__}")
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error")
-            array = np.asarray(thing)
+            array = unmasked(thing, name)
     except (ValueError, Warning) as error:
+        if str(error).startswith(name):
+            raise
         raise ValueError(f"{name}: no array can be made of it: {error}") from None
-    if isinstance(thing, np.ma.MaskedArray) and np.ma.is_masked(thing):
-        raise ValueError(f"{name}: some of it is masked; fill or drop these rows first")
     if array.dtype.kind not in "fiu":
         raise TypeError(f"{name}: numbers are needed, not {array.dtype}")
     if array.dtype.itemsize > 8:
-        raise TypeError(f"{name}: numbers of at most 64 bits are needed, not {array.dtype}; {name}.astype(float) rounds")
-    found: Array = array
+        raise TypeError(f"{name}: numbers of at most 64 bits are needed, not {array.dtype}; {name}.astype({rounded_by}) rounds")
+    # Of either order of bytes; the library has no halves.
+    found: Array = array.astype(np.float32) if array.dtype.kind == "f" and array.dtype.itemsize == 2 else array
     return found
 
 
@@ -51,8 +60,7 @@ def _three_columns(array: Array, name: str, what: str) -> Array:
 
 def points(thing: Any, name: str = "vertices") -> Array:
     """Three coordinates a row, as the module `_core` reads them; finiteness is told later."""
-    array = _three_columns(numbers(thing, name), name, "coordinates")
-    return array.astype(np.float32) if array.dtype == np.float16 else array
+    return _three_columns(numbers(thing, name), name, "coordinates")
 
 
 def finite_points(thing: Any, name: str, count: Optional[int] = None) -> Array:
@@ -77,7 +85,7 @@ def directions(thing: Any, name: str = "directions") -> Array:
 
 def triangles(thing: Any, name: str = "faces") -> Array:
     """Three indices a row; whether vertices of these numbers are there is told later."""
-    array = numbers(thing, name)
+    array = numbers(thing, name, "np.int64")
     if array.dtype.kind == "f":
         raise TypeError(
             f"{name}: whole numbers are needed, not {array.dtype}; "

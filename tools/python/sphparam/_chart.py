@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Dict
 
+from . import _arrays
 from ._numpy import np
 
 if TYPE_CHECKING:
@@ -50,12 +51,12 @@ class Chart:
 
     def carry(self, values: Any) -> Array:
         """Floating values of the mesh's vertices, (V,) or (V, k), at the refined vertices."""
-        table = np.asarray(values)
+        table = _arrays.unmasked(values, "values")
         if table.dtype.kind != "f":
             raise TypeError(f"values: floating numbers are needed, not {table.dtype}")
         corners = self._faces_of_mesh[self.surface_faces]
         weights = self.surface_weights.reshape(self.surface_weights.shape + (1,) * (table.ndim - 1))
-        carried: Array = np.where(weights == 0, 0, table[corners] * weights).sum(axis=1)
+        carried: Array = (np.where(weights == 0, 0, table[corners]) * weights).sum(axis=1)
         return carried
 
     def __repr__(self) -> str:

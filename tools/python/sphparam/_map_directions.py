@@ -40,7 +40,7 @@ class MapDirections(MapFacts):
         """Values of the vertices at directions.
 
         Floating numbers are interpolated linearly in each triangle; whole numbers and truth values are
-        labels: the one with the largest weight among the corners. NaN spreads to where it has weight.
+        labels: the one whose corners weigh most together. NaN spreads to where it has weight.
 
         Parameters
         ----------
@@ -51,7 +51,7 @@ class MapDirections(MapFacts):
         """
         if isinstance(values, str):
             values = self.vertices if values == "vertices" else self._named(values)
-        table = np.asarray(values)
+        table = _arrays.unmasked(values, "values")
         if table.dtype.kind not in "fiubc":
             raise TypeError(f"values: numbers are needed, not {table.dtype}")
         if table.ndim == 0 or len(table) != len(self.vertices):
@@ -62,7 +62,7 @@ class MapDirections(MapFacts):
         weights = weights.reshape(weights.shape + (1,) * (table.ndim - 1))
         if table.dtype.kind in "iub":
             return heaviest(table[corners], weights)
-        parts = np.where(weights == 0, 0, table[corners] * weights)
+        parts = np.where(weights == 0, 0, table[corners]) * weights
         mixed: Array = parts.sum(axis=1).astype(table.dtype, copy=False)
         return mixed
 

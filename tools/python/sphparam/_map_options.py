@@ -47,6 +47,8 @@ def _vertex_number(thing: Any, name: str) -> int:
 
 def _weight(balance: Union[str, float], weight: Optional[float]) -> Dict[str, Any]:
     """A word, or the number that it stands for."""
+    if weight is not None and balance != "balanced":
+        raise ValueError("balance and weight contradict each other")
     options: Dict[str, Any] = {"balance": balance} if isinstance(balance, str) else {"lambda": _arrays.real(balance, "balance")}
     if weight is not None:
         options["lambda"] = _arrays.real(weight, "weight")
@@ -92,6 +94,18 @@ def _paper(settings: Any) -> Dict[str, Any]:
     return dict(settings)
 
 
+def _require_of_method(method: str, *, settings: Tuple[Any, ...], centre: Any, align: Any, paper: Any, repair: bool) -> None:
+    """What only some methods read is not taken where it would do nothing."""
+    if method != "progressive" and settings != ("balanced", "normal", "angle-and-area"):
+        raise ValueError("balance, quality and energy are for method='progressive'")
+    if paper is not None and method != "paper":
+        raise ValueError("paper is for method='paper'")
+    if repair and method != "paper":
+        raise ValueError("repair_map is for method='paper'")
+    if centre is not None and method != "radial" and not (isinstance(align, str) and align == "body"):
+        raise ValueError("centre is for method='radial' and align='body'")
+
+
 def requested(
     *,
     method: str = "progressive",
@@ -113,6 +127,9 @@ def requested(
     threads: int = 0,
 ) -> Dict[str, Any]:
     """What :func:`map` was asked for."""
+    _require_of_method(
+        method, settings=(balance, quality, energy), centre=centre, align=align, paper=paper, repair=repair_map
+    )
     options: Dict[str, Any] = dict(
         method=_arrays.text(method, "method"), quality=_arrays.text(quality, "quality"),
         energy=_arrays.text(energy, "energy"), filler_share=filler_share, repair_map=repair_map,

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Any, Dict, Iterable, List, Tuple
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, Dict, Iterable, List, Mapping, Tuple
 
-from ._arrays import numbers
+from . import _arrays
 from ._numpy import np
 
 if TYPE_CHECKING:
@@ -68,11 +69,13 @@ def columns(name: Any, thing: Any, count: int, what: str = "vertex") -> Rows:
         raise ValueError(f"{label}: a name without blanks is needed")
     if name in _of_the_map:
         raise ValueError(f"{label}: the map's own names are {', '.join(sorted(_of_the_map))}")
-    bare = np.asarray(thing)
-    array = bare if bare.dtype.kind == "b" else numbers(thing, label)
+    bare = _arrays.unmasked(thing, label)
+    array = bare if bare.dtype.kind == "b" else _arrays.numbers(thing, label)
     if array.ndim not in (1, 2) or len(array) != count:
         shape = "×".join(str(n) for n in array.shape) or "a single number"
         raise ValueError(f"{label}: {count} rows are needed, one a {what}, not {shape}")
+    if array.ndim == 2 and array.shape[1] == 0:
+        raise ValueError(f"{label}: rows without a number")
     kind = _column_type(array, label)
     doubles = array.astype(np.float64)
     bad = np.flatnonzero(~np.isfinite(doubles.reshape(count, -1)).all(axis=1))
@@ -88,8 +91,8 @@ def columns(name: Any, thing: Any, count: int, what: str = "vertex") -> Rows:
     return [(n, kind, np.ascontiguousarray(table[:, k])) for k, n in enumerate(names)]
 
 
-def grouped(rows: Iterable[Tuple[str, Array]]) -> Dict[str, Array]:
-    """Columns as they were given: colours, normals and numbered columns side by side."""
+def grouped(rows: Iterable[Tuple[str, Array]]) -> Mapping[str, Array]:
+    """Columns as they were given: colours, normals and numbered columns side by side. Read-only: a mesh has its own."""
     left = {name: array for name, array in rows if name not in ("sx", "sy", "sz", "theta", "phi")}
     found: Dict[str, Array] = {}
     for group, names in _columns.items():
@@ -105,4 +108,6 @@ def grouped(rows: Iterable[Tuple[str, Array]]) -> Dict[str, Array]:
             parts.append(left.pop(f"{base}_{len(parts)}"))
         found[base] = np.column_stack(parts)
     found.update(left)
-    return found
+    for array in found.values():
+        array.flags.writeable = False
+    return MappingProxyType(found)

@@ -21,6 +21,13 @@ std::vector<std::string> losses_among(const std::vector<std::string>& notes);
 /// said of it are not among them. Cost: O(#V + #F) a property.
 std::vector<std::string> losses_of_writing(const MeshFile& written, const MeshFile& read);
 
+/// Adds that polygons are cut into triangles, where a mesh has others.
+void add_polygon_loss(std::vector<std::string>& notes, const MeshFile& file);
+
+/// Adds what a mesh that is sampled anew leaves with its source, and a mesh file could hold or
+/// name: what its materials show, second texture coordinates, tangents.
+void add_sampling_losses(std::vector<std::string>& notes, const MeshFile& source);
+
 /// Adds what is lost where a mesh becomes images, or is shown: colours of its faces, which nothing
 /// bakes or draws. Cost: O(#F log #F).
 void add_face_colour_loss(std::vector<std::string>& notes, const MeshFile& file);

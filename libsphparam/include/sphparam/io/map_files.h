@@ -33,10 +33,11 @@ Provenance provenance_of(const Parameterization& result, const MapOrigin& origin
                          const FileNumbers& numbers);
 
 /// Adds the mesh with its map, which `attach_map` gave it. What was written must have this verdict
-/// when it is read back. Requires: a name of a format that keeps maps.
-/// Throws: WriteError; NotCertifiedError.
-void add_map(PendingFiles& files, const std::string& path, const MeshFile& with_map,
-             const Topology& topology, const std::string& verdict, int threads = 0);
+/// when it is read back. Returns what the format had no place for (losses.h). Requires: a name of a
+/// format that keeps maps. Throws: WriteError; NotCertifiedError.
+std::vector<std::string> add_map(PendingFiles& files, const std::string& path,
+                                 const MeshFile& with_map, const Topology& topology,
+                                 const std::string& verdict, int threads = 0);
 
 struct SphereOptions {
   DistortionEnergy energy = {};  // where the map has to be made anew, what is minimised

@@ -47,6 +47,7 @@ struct MeshFile {
   std::vector<std::string> materials;              // names, in order of first use
   std::vector<MaterialTexture> base_colours = {};  // one a material, or none
   std::vector<MaterialChannels> channels = {};     // what they say besides; likewise
+  std::vector<std::string> companions = {};        // files beside it that it was read from, too
   std::vector<std::string> comments;               // of the header, without the keyword
   std::vector<std::string> notes;                  // what was odd about the file but harmless
   std::string format;                              // "PLY binary little-endian", "OBJ", …

@@ -29,9 +29,9 @@ struct MeshSource {
 /// Throws: ReadError. A mesh that is no sphere is returned all the same: see `inspection`.
 MeshSource read_source(const std::string& path, const ReadOptions& options = {});
 
-/// The textures that a file names are read too: from now on no output may replace them.
-/// `read_source` sees to it; whoever reads a mesh otherwise and shows its textures calls it.
-void keep_textures(const MeshFile& file);
+/// What a mesh names is read too (textures, libraries of materials, buffers): from now on no output
+/// may replace it. `read_source` sees to it; whoever reads a mesh otherwise calls it.
+void keep_companions(const MeshFile& file);
 
 /// What repair would do to a mesh, tried out: as it is; where that is not enough, with the
 /// component, the holes and the handles that it does not take unasked.

@@ -218,7 +218,7 @@ std::vector<std::string> names_in(const std::string& statement) {
 }
 
 void read_library(const std::string& statement, const fs::path& folder, const ReadOptions& options,
-                  std::map<std::string, Material>& known, std::vector<std::string>& problems) {
+                  std::map<std::string, Material>& known, ObjMaterials& result) {
   const std::vector<std::string> names = names_in(statement);
   for (const std::string& name : names) {
     try {
@@ -228,12 +228,20 @@ void read_library(const std::string& statement, const fs::path& folder, const Re
       Library({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name, folder,
               path.parent_path(), options, known)
           .read();
+      result.files.push_back((folder / path).string());
       if (name == statement) return;
     } catch (const std::runtime_error& error) {
       const bool may_be_several = name == statement && names.size() > 1;
-      if (!may_be_several) problems.push_back(sphparam::quoted(name) + " (" + error.what() + ")");
+      if (!may_be_several)
+        result.problems.push_back(sphparam::quoted(name) + " (" + error.what() + ")");
     }
   }
+}
+
+/// Its Kd says more than the grey that exporters write beside an image.
+bool tints_texture(const Material& material) {
+  const auto& [red, green, blue] = material.diffuse;
+  return !material.colour.image.empty() && (red != green || green != blue);
 }
 
 MaterialTexture finished(const Material& material) {
@@ -270,13 +278,14 @@ ObjMaterials read_obj_materials(const std::vector<std::string>& names,
   ObjMaterials result;
   std::map<std::string, Material> known;
   for (const std::string& statement : libraries)
-    read_library(statement, folder, options, known, result.problems);
+    read_library(statement, folder, options, known, result);
   const auto is_known = [&](const std::string& name) { return known.contains(name); };
   if (std::ranges::none_of(names, is_known)) return result;
   std::set<std::string> others;
   for (const std::string& name : names) {
     if (!is_known(name)) result.unknown.push_back(name);
-    const Material& material = known[name];
+    Material& material = known[name];
+    if (tints_texture(material)) material.others.insert("tints of textures (Kd beside map_Kd)");
     result.base_colours.push_back(finished(material));
     result.channels.push_back(finished_channels(material));
     result.with_others += !material.others.empty();

@@ -18,16 +18,17 @@ struct ObjMaterials {
   long with_others = 0;                       // materials that say such things
   std::vector<std::string> unknown;           // names that no library has
   std::vector<std::string> problems;          // libraries that could not be read, and why
+  std::vector<std::string> files;             // those that were
 };
 
 /// Reads them in their order from below `folder`: of Kd, d, Tr and map_Kd the base colour, of Ke
 /// and map_Ke the emission, of Pr, Pm and their maps roughness and metallic, of norm the normal
 /// map. Where there is an image, Kd and a black Ke are not multiplied with it: exporters write a
-/// grey there that nobody sees, and no Ke beside map_Ke. Kd and Ke are linear light. Below d 1
-/// alpha blends. Without Pr and Pm surfaces are rough and no metal. Names of images that lead
-/// elsewhere (absolute, Windows drives, `..`) are looked for beside the library. Images are not
-/// opened. Materials that no library has are white. Never throws for what the libraries hold: the
-/// mesh is there without them.
+/// grey there that nobody sees, and no Ke beside map_Ke; a Kd with a hue there is told. Kd and Ke
+/// are linear light. Below d 1 alpha blends. Without Pr and Pm surfaces are rough and no metal.
+/// Names of images that lead elsewhere (absolute, Windows drives, `..`) are looked for beside the
+/// library. Images are not opened. Materials that no library has are white. Never throws for what
+/// the libraries hold: the mesh is there without them.
 ObjMaterials read_obj_materials(const std::vector<std::string>& names,
                                 const std::vector<std::string>& libraries,
                                 const std::filesystem::path& folder, const ReadOptions& options);

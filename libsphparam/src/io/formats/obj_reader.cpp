@@ -386,6 +386,7 @@ class ObjReader {
     if (folder_) read = read_obj_materials(file_.materials, libraries, *folder_, options_);
     file_.base_colours = std::move(read.base_colours);
     file_.channels = std::move(read.channels);
+    file_.companions = std::move(read.files);
     for (std::size_t m = 0; m < file_.base_colours.size(); ++m)
       if (const std::string& image = file_.base_colours[m].image; !image.empty())
         file_.comments.push_back("base colour of " + file_.materials[m] + ": texture " + image);

@@ -30,6 +30,7 @@ struct BufferFiles {
   std::optional<std::filesystem::path> folder;
   std::uint64_t bytes_left = 0;
   std::size_t next = 0;
+  std::vector<std::string> read_from = {};
   std::string failure = {};
 
   static bool exists(const std::string&, void* self) {
@@ -45,7 +46,9 @@ struct BufferFiles {
     const std::string& uri = files.uris[files.next++];
     try {
       if (!files.folder) throw std::runtime_error("only a glTF read from a file may name files");
-      *bytes = read_below(*files.folder, path_of_uri(uri), files.bytes_left);
+      const std::filesystem::path path = path_of_uri(uri);
+      *bytes = read_below(*files.folder, path, files.bytes_left);
+      files.read_from.push_back((*files.folder / path).string());
       files.bytes_left -= bytes->size();
       return true;
     } catch (const std::runtime_error& error) {
@@ -211,6 +214,7 @@ GltfDocument load_gltf(std::string_view bytes, const std::string& name,
       compression.loadable_json.empty() ? "" : with_json(container, compression.loadable_json);
   tinygltf::Model model =
       parse(loadable.empty() ? container.whole : loadable, container.is_binary, files, name);
+  document.files = std::move(files.read_from);
   std::int64_t primitives = 0;
   for (const tinygltf::Mesh& mesh : model.meshes)
     primitives += static_cast<std::int64_t>(mesh.primitives.size());

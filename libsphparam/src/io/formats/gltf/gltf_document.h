@@ -81,6 +81,7 @@ struct GltfDocument {
   std::vector<std::vector<int>> scenes;  // root nodes
   int default_scene = -1;
   std::vector<Material> materials;
+  std::vector<std::string> files;  // that buffers were read from
   std::vector<std::string> notes;
 };
 

@@ -605,6 +605,7 @@ MeshFile read_gltf(std::string_view bytes, const std::string& name,
   if (!looks_like_gltf(bytes)) throw ReadError(name, "is no glTF");
   const GltfDocument document = load_gltf(bytes, name, folder, options, origin);
   MeshFile file = SceneReader(document, name, options, origin).read();
+  file.companions = document.files;
   file.format = bytes.starts_with("glTF") ? "glTF binary" : "glTF";
   file.position_type = ScalarType::Float32;
   note_up(file, {.direction = Vector3::UnitY()});
