@@ -123,7 +123,8 @@ std::string bake_one(const BakeArguments& arguments, Session& session, Words& li
   const BakeSettings settings = settings_of(arguments, source, session);
   images = requests_of_mesh(std::move(images), arguments,
                             settings.from ? *settings.from : source.file());
-  tell_longitudes(source, settings.convention, settings.fields.body.has_value(), session);
+  tell_longitudes(source, settings.convention, settings.fields.body.has_value(),
+                  settings.fields.centre, session);
   const BakeReport baked = bake_for_user(source, images, settings, arguments, session.files);
   session.warn(baked.warnings);
   if (!baked.coordinate_system.empty())

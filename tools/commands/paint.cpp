@@ -92,7 +92,7 @@ int run_paint(PaintArguments& arguments) {
   Session session(arguments);
   const MappedMesh source =
       read_mapped(arguments.input, arguments.sphere, session, arguments.repair);
-  tell_longitudes(source, arguments.convention, false, session);
+  tell_longitudes(source, arguments.convention, false, std::nullopt, session);
   if (arguments.atlas > 0 && !has_texcoords(source.file()))
     throw UsageMistake("--atlas: the mesh has no texture coordinates of its own");
   const EquirectangularImage image = read_picture(arguments, session.console);
