@@ -1,20 +1,20 @@
 #include "bake/georeference/body_places.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "bake/fields/body_fields.h"
 #include "bake/image_plan.h"
+#include "elementary.h"
 #include "sphparam/io/planetocentric.h"
 #include "sphparam/sphere/spherical_coordinates.h"
 
 namespace sphparam {
 namespace {
 
-/// From chords: cosines of small angles are 1.
+/// Of unit vectors; cosines of small angles are 1.
 double angle_between(const Vector3& a, const Vector3& b) {
-  return 2 * std::asin(std::min(1.0, (a - b).norm() / 2));
+  return 2 * elementary::atan2((a - b).norm(), (a + b).norm());
 }
 
 /// The largest angle between a texel's direction and that of what it shows, from the centre.
