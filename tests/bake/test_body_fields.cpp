@@ -278,6 +278,10 @@ TEST_CASE("body_of: names, radii and WKT, and what is none of them") {
   CHECK(given.name == "Ryugu");
   CHECK(given.semi_axes == Vector3(448, 448, 448));
   CHECK(given.positive_west);
+  const Body printed = body_of("\n  " + given.wkt + " \r\n");
+  CHECK(printed.wkt == given.wkt);
+  CHECK(body_of(" vesta\n").name == "Vesta");
+  CHECK(body_of(" 3,2,1 ").semi_axes == Vector3(3, 2, 1));
   const Body old = body_of(
       "GEOGCS[\"Mars\",DATUM[\"Mars\",SPHEROID[\"Mars\",3396190,169.894447223612]],"
       "PRIMEM[\"Airy-0\",0],UNIT[\"degree\",0.0174532925199433]]");
@@ -298,6 +302,7 @@ TEST_CASE("sidecars: coordinates, scale, offset and unit beside each image, or n
   BakeSettings settings;
   settings.width = 64;
   settings.convention = Convention::Gis;
+  settings.interpolation = Interpolation::Sphere;
   settings.fields.body = body_of("Vesta", 1000);
   TriangleMesh mesh = star_shaped(0, 4);
   mesh.positions *= 255;
@@ -324,6 +329,7 @@ TEST_CASE("sidecars: longitudes are called planetocentric only where they are") 
   BakeSettings settings;
   settings.width = 64;
   settings.convention = Convention::Gis;
+  settings.interpolation = Interpolation::Sphere;
   settings.fields.body = body_of("Eros", 1000);
   TriangleMesh mesh = star_shaped(0, 3);
   mesh.positions *= 17;
@@ -344,6 +350,84 @@ TEST_CASE("sidecars: longitudes are called planetocentric only where they are") 
   CHECK(system(mapped_radially(mesh)) == "Eros (2015) - Sphere / Ocentric, positive west");
   CHECK(element(text_of(folder / "r.tif.aux.xml"), "GeoTransform") ==
         "180, -5.625, 0, 90, 0, -5.625");
+}
+
+TEST_CASE("sidecars: a map that is radial about another centre has not the body's longitudes") {
+  const Folder folder;
+  const Vector3 centre(100, -50, 20);
+  TriangleMesh mesh = star_shaped(0, 3);
+  mesh.positions *= 17;
+  mesh.positions.rowwise() += centre.transpose();
+  const MappedMesh mapped = mapped_radially(mesh, centre);
+  BakeSettings settings;
+  settings.width = 64;
+  settings.convention = Convention::Gis;
+  settings.interpolation = Interpolation::Sphere;
+  settings.fields.body = body_of("Eros", 1000);
+  const auto baked_about = [&](std::optional<Vector3> given) {
+    settings.fields.centre = given;
+    return bake(mapped, {{"lon", folder / "l.tif"}}, settings);
+  };
+  CHECK(baked_about({}).coordinate_system == "Eros (2015) - Sphere / Ocentric");
+  const BakeReport typed = baked_about(centre + Vector3(1e-6, 0, -1e-6));
+  CHECK(typed.coordinate_system == "Eros (2015) - Sphere / Ocentric");
+  CHECK(typed.warnings.empty());
+  for (const Vector3& other : {Vector3(101, -50, 20), Vector3(100, -50, 20.01)}) {
+    const BakeReport report = baked_about(other);
+    CHECK(report.coordinate_system == "sphparam map of Eros");
+    REQUIRE(report.warnings.size() == 1);
+    CHECK_THAT(report.warnings.front(),
+               Contains("radial about (100, -50, 20)") && Contains("not about the body's centre"));
+    CHECK(text_of(folder / "l.tif.aux.xml").find("200043300") == std::string::npos);
+  }
+}
+
+TEST_CASE("sidecars: what is linear in (u, v) says by how much its longitudes are off") {
+  const Folder folder;
+  TriangleMesh mesh = star_shaped(2, 2);
+  mesh.positions *= 17;
+  const MappedMesh mapped = mapped_radially(mesh);
+  BakeSettings settings;
+  settings.width = 256;
+  settings.convention = Convention::Gis;
+  settings.interpolation = Interpolation::Uv;
+  settings.fields.body = body_of("Eros", 1000);
+  const std::string path = folder / "r.tif";
+  const std::string name = bake(mapped, {{"radius", path}}, settings).coordinate_system;
+  double off = 0;  // of latitudes alone
+  bake_values(mapped, {"lat"}, settings,
+              [&](size_t, const BakedField&, int first, int rows, const float* values) {
+                for (int i = 0; i < rows * settings.width; ++i) {
+                  const double row = first + i / settings.width + 0.5;
+                  off = std::max(off, std::abs(values[i] - (90 - row / 128 * 180)));
+                }
+              });
+  CHECK(off > 1);
+  INFO(name << ", latitudes " << off);
+  const size_t at = name.find("within ");
+  REQUIRE(at != std::string::npos);
+  const double told = std::stod(name.substr(at + 7));
+  CHECK(told >= 0.99 * off);
+  CHECK(told < 3 * off);
+  CHECK(text_of(path + ".aux.xml").find("200043300") == std::string::npos);
+  settings.interpolation = Interpolation::Sphere;
+  CHECK(bake(mapped, {{"radius", path}}, settings).coordinate_system ==
+        "Eros (2015) - Sphere / Ocentric");
+  settings.from = mapped.file();  // found along normals, not from the centre
+  CHECK_THAT(bake(mapped, {{"radius", path}}, settings).coordinate_system,
+             Contains("planetocentric within ") && Contains("another surface"));
+}
+
+TEST_CASE("lon: another surface on a radial map is seen from the centre of that, too") {
+  const Vector3 centre(100, -50, 20);
+  TriangleMesh mesh = icosphere(5);
+  mesh.positions.rowwise() += centre.transpose();
+  const MappedMesh mapped = mapped_radially(mesh, centre);
+  BakeSettings settings;
+  settings.from = mapped.file();
+  const Baked latitude = baked(mapped, "lat", settings, 64);
+  for (int row = 0; row < 32; ++row)
+    CHECK(latitude.at(row, 7) == Approx(90 - (row + 0.5) / 32 * 180).margin(1));
 }
 
 TEST_CASE("sidecars: what is odd is told: another unit, images without one, one left behind") {

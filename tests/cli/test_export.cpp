@@ -95,6 +95,44 @@ TEST_CASE("export: levels of detail, as files or in one") {
   CHECK_FALSE(bytes_of(egg.folder / "n1.glb").empty());
 }
 
+TEST_CASE("export: levels end where none is coarser, which is told, and none is there twice") {
+  const Egg egg;
+  const std::string report = egg.folder / "r.json";
+  const Ended ended = egg.run("a.glb", {"--lods", "8", "--json", report});
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  const Json json = Json::parse(bytes_of(report));
+  const int lods = json["lods"];
+  CHECK(json["lods_wanted"] == 8);
+  CHECK(lods > 1);
+  CHECK(lods < 8);
+  CHECK(json["levels"].size() == static_cast<size_t>(lods + 1));
+  CHECK_THAT(ended.err, Contains("--lods 8: " + std::to_string(lods) + " coarser meshes are") &&
+                            Contains("the last has 20 triangles"));
+  const auto level = [&](int n) { return egg.folder / ("a_lod" + std::to_string(n) + ".glb"); };
+  CHECK(bytes_of(level(lods)) != bytes_of(level(lods - 1)));
+  CHECK_FALSE(fs::exists(level(lods + 1)));
+  const Ended all = egg.run("b.glb", {"--lods", "1", "--json", report});
+  CHECK_THAT(all.err, !Contains("none is coarser"));
+  CHECK(Json::parse(bytes_of(report))["lods"] == 1);
+}
+
+TEST_CASE("export: with a kept topology and poles at vertices torn edges are listed") {
+  const Egg egg;
+  const std::string report = egg.folder / "r.json";
+  for (const char* name : {"a.glb", "a.obj"}) {
+    const Ended ended = egg.run(name, {"--keep-topology", "--json", report});
+    INFO(ended.err);
+    REQUIRE(ended.code == 0);
+    const Json torn = Json::parse(bytes_of(report))["levels"][0]["torn_as_stored"];
+    REQUIRE_FALSE(torn.empty());
+    CHECK_THAT(ended.err, Contains(std::to_string(torn.size()) + " edges torn, of triangles: "));
+    int least = torn[0].get<int>() / 3;
+    for (const Json& side : torn) least = std::min(least, side.get<int>() / 3);
+    CHECK_THAT(ended.err, Contains("of triangles: " + std::to_string(least) + " "));
+  }
+}
+
 TEST_CASE("export: with a kept topology what folds is told, and marked in the file") {
   Egg egg;
   const std::string map = egg.folder / "egg.sph.ply";  // ±z within faces

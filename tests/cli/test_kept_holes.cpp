@@ -111,10 +111,44 @@ TEST_CASE("kept holes: bake leaves their texels transparent, and has a mask of t
   CHECK(bytes_of(bowl.folder / "b_normal-object.png")[colour_type] == 6);
   CHECK(bytes_of(bowl.folder / "b_area.png")[colour_type] == 4);
   CHECK(bytes_of(bowl.folder / "b_mask.png")[colour_type] == 0);
-  const Ended jpeg =
-      sphparam_program({"bake", bowl.map, "--map", "normal-object", "-o", bowl.folder / "b.jpg"});
-  CHECK(jpeg.code == 2);
-  CHECK_THAT(jpeg.err, Contains("no alpha"));
+  for (const std::string map : {"normal-object", "area", "ao"}) {
+    INFO(map);
+    const Ended jpeg = sphparam_program(
+        {"bake", bowl.map, "--map", map, "--size", "64", "-o", bowl.folder / "b.jpg"});
+    CHECK(jpeg.code == 2);
+    CHECK_THAT(jpeg.err, Contains("jpeg images have no alpha, which " + map));
+    for (const char* name : {"b.tif", "b.exr"})
+      CHECK(sphparam_program(
+                {"bake", bowl.map, "--map", map, "--size", "64", "-o", bowl.folder / name})
+                .code == 0);
+  }
+  CHECK(sphparam_program(
+            {"bake", bowl.map, "--map", "mask", "--size", "64", "-o", bowl.folder / "m.jpg"})
+            .code == 0);
+}
+
+TEST_CASE("kept holes: paint colours the surface alone where a format has no place for the marks") {
+  const MappedBowl bowl;
+  const std::string image = bowl.folder / "axes.png";
+  REQUIRE(sphparam_program({"bake", bowl.map, "--map", "axes", "--size", "64", "-o", image}).code ==
+          0);
+  const auto painted = [&](const std::string& file) {
+    const Ended ended = sphparam_program({"paint", bowl.map, "--image", image, "-o", file});
+    INFO(ended.err);
+    REQUIRE(ended.code == 0);
+    const bool alone = ended.err.find("the surface alone: ") != std::string::npos &&
+                       ended.err.find("of holes left out") != std::string::npos;
+    return std::pair(alone, Json::parse(sphparam_program({"info", file, "--json", "-"}).out));
+  };
+  for (const char* name : {"p.obj", "p.off"}) {
+    const auto [alone, info] = painted(bowl.folder / name);
+    CHECK(alone);
+    CHECK(info["inspection"]["boundary_loops"] == 1);
+    CHECK(info["inspection"]["triangles"] == tests::bowl().face_count());
+  }
+  const auto [alone, info] = painted(bowl.folder / "p.ply");
+  CHECK_FALSE(alone);
+  CHECK(info["fillers"]["holes"] == 1);
 }
 
 TEST_CASE("kept holes: export has the surface alone") {

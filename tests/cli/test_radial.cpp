@@ -144,6 +144,47 @@ TEST_CASE("bake --convention gis: how far a map is from the body's is told of bo
   CHECK(told(body(), {}));
   CHECK_FALSE(told(body({5, 6, 7}), {}));  // seen from the origin it is none
   CHECK(told(body({5, 6, 7}), {"--body", "1"}));
+  CHECK(told(body({5, 6, 7}), {"--centre", "5,6,7"}));
+}
+
+TEST_CASE(
+    "bake: how far a map is from the body's is told about the given centre, as map tells it") {
+  const Folder folder;
+  const std::string mesh = folder / "body.obj", map = folder / "a.sph.ply",
+                    report = folder / "a.json";
+  write_bytes(mesh, body({5, 6, 7}));
+  REQUIRE(sphparam_program(
+              {"map", mesh, "-o", map, "--align", "body", "--centre", "5,6,7", "--json", report})
+              .code == 0);
+  const auto told = [&](const std::string& centre) {
+    const Ended ended = sphparam_program({"bake", map, "--body", "1", "--centre", centre, "--map",
+                                          "lon", "--size", "32", "-o", folder / "a.tif"});
+    INFO(ended.err);
+    REQUIRE(ended.code == 0);
+    CHECK_THAT(ended.err, Contains("with --centre " + centre));
+    const std::string before = "longitudes and latitudes are ";
+    const size_t at = ended.err.find(before);
+    REQUIRE(at != std::string::npos);
+    return std::stod(ended.err.substr(at + before.size()));
+  };
+  const double left = Json::parse(bytes_of(report))["alignment"];
+  CHECK(told("5,6,7") == Approx(left * 180 / 3.14159265358979).epsilon(0.01));
+  CHECK(told("5,6,7.5") > told("5,6,7"));
+}
+
+TEST_CASE("bake: a radial map about another centre than --centre is told, with how far it is off") {
+  const Folder folder;
+  const std::string map = folder / "r.sph.ply";
+  REQUIRE(sphparam_program({"map", "-", "-o", map, "--method", "radial", "--centre", "5,6,7"},
+                           body({5, 6, 7}))
+              .code == 0);
+  const Ended ended = sphparam_program({"bake", map, "--body", "eros", "--centre", "5.2,6,7",
+                                        "--map", "lon", "--size", "32", "-o", folder / "a.tif"});
+  INFO(ended.err);
+  CHECK(ended.code == 0);
+  CHECK_THAT(ended.err, Contains("it is radial about another centre") &&
+                            Contains("radial about (5, 6, 7), not about") &&
+                            Contains("longitude and latitude: sphparam map of Eros"));
 }
 
 }  // namespace sphparam::tests

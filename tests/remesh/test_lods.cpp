@@ -50,6 +50,10 @@ TEST_CASE("levels of detail: of any mesh, each with a quarter of the vertices, o
     finer = vertices;
   }
   CHECK(quartered_meshes(mapped, 0).empty());
+  const std::vector<MappedMesh> all = quartered_meshes(mapped, 8);
+  REQUIRE(all.size() == 4);
+  CHECK(all.back().mesh().vertex_count() == 12);
+  CHECK(quartered_meshes(all.back(), 2).empty());
 }
 
 TEST_CASE(

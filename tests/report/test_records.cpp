@@ -335,7 +335,7 @@ TEST_CASE("export_record: what is proved of each level, and the files") {
   chart.splits = 3;
   ExportRecord record{.input = "ball.ply", .charts = {chart}, .outputs = {{"ball.glb", 1234}}};
   Json json = Json::parse(to_json(record));
-  CHECK(keys_of(json) == "sphparam,command,input,levels,outputs,textures,seconds");
+  CHECK(keys_of(json) == "sphparam,command,input,levels,lods_wanted,lods,outputs,textures,seconds");
   CHECK(json["textures"].empty());
   CHECK(json["levels"][0]["splits"] == 3);
   CHECK(json["levels"][0]["chart_certified"] == false);

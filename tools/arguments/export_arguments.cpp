@@ -31,7 +31,9 @@ void declare_look(Declaration& command, LookOptions& look) {
 void declare_chart(Declaration& command, ExportOptions& options) {
   command.convention(options.convention)
       .flag("--keep-topology", options.keep_topology,
-            "Add no vertices on the surface: triangles fold at the poles, they are listed")
+            "Add no vertices on the surface: triangles fold at the poles, or edges are torn; they "
+            "are "
+            "listed")
       .refine_poles(
           options.refine_poles,
           "Cut each triangle at a pole into so many; images of `bake` must be baked for it")
@@ -56,7 +58,7 @@ void declare_buffers(Declaration& command, ExportArguments& arguments) {
       .flag("--compress", arguments.compress,
             "EXT_meshopt_compression of 16-bit numbers, in another order")
       .number("--lods", arguments.lods, "N", {0, 8},
-              "So many coarser meshes, each a quarter of the one before")
+              "So many coarser meshes, each a quarter of the one before, down to an icosahedron")
       .choice("--lod", arguments.lod_style, {{"files", LodStyle::Files}, {"msft", LodStyle::Msft}},
               "Files of their own, NAME_lod1 …, or one file (default: files)");
 }

@@ -126,7 +126,8 @@ std::string bake_one(const BakeArguments& arguments, Session& session, Words& li
   images =
       requests_of_mesh(std::move(images), arguments, settings.from ? *settings.from : source.file(),
                        !source.mapped_here() && arguments.sphere.empty());
-  tell_longitudes(source, settings.convention, settings.fields.body.has_value(), session);
+  tell_longitudes(source, settings.convention, settings.fields.body.has_value(),
+                  settings.fields.centre, session);
   const BakeReport baked = bake_for_user(source, images, settings, arguments, session.files);
   session.warn(baked.warnings);
   if (!baked.coordinate_system.empty())

@@ -135,6 +135,7 @@ class Exporter {
                           .transfer = look.vertex_colours ? Words{"color"} : Words{},
                           .threads = options_.threads,
                           .progress = options_.progress});
+    note_levels(mapped, coarser);
     if (arguments_.lod_style == LodStyle::Msft) std::swap(options_.coarser, coarser);
     add_asset_at(0, make_asset(mapped, look, options_));
     if (!coarser.empty() && look.normals_given) session_.console.warning(normals_left_out);
@@ -142,6 +143,17 @@ class Exporter {
     int level = 0;
     for (const MappedMesh& coarse : coarser)
       add_asset_at(++level, make_asset(coarse, coarse_look, options_));
+  }
+
+  void note_levels(const MappedMesh& mapped, const std::vector<MappedMesh>& coarser) {
+    record_.lods_wanted = arguments_.lods;
+    record_.lods = static_cast<int>(coarser.size());
+    if (record_.lods == record_.lods_wanted) return;
+    const MappedMesh& last = coarser.empty() ? mapped : coarser.back();
+    session_.console.warning(
+        "--lods " + std::to_string(record_.lods_wanted) + ": " +
+        counted(record_.lods, "coarser mesh is", "coarser meshes are") + " written; the last has " +
+        counted(last.mesh().face_count(), "triangle") + ", and none is coarser");
   }
 
   void add_asset_at(int level, const Asset& asset) {

@@ -8,7 +8,8 @@
 #include "console/places.h"
 #include "io/attributes/appearance.h"
 #include "number_text.h"
-#include "sphparam/io/mesh_writer.h"
+#include "reports/told_losses.h"
+#include "sphparam/io/certified_files.h"
 
 namespace sphparam::cli {
 
@@ -81,10 +82,12 @@ std::string atlas(const PaintArguments& arguments, const MappedMesh& source,
   throw UsageMistake(std::string("--atlas: ") + error.what());
 }
 
-std::string coloured_mesh(const std::string& path, const MappedMesh& source,
-                          const EquirectangularImage& image, Session& session) {
-  return serialise_mesh(path,
-                        paint_vertices(source, image, {session.threads(), session.progress()}));
+/// Adds the mesh with its colours. Returns what of it the format has no place for.
+Words add_coloured_mesh(const PaintArguments& arguments, const MappedMesh& source,
+                        const EquirectangularImage& image, Session& session) {
+  return add_mesh(session.files, arguments.output,
+                  paint_vertices(source, image, {session.threads(), session.progress()}),
+                  {.origin = arguments.input});
 }
 
 int run_paint(PaintArguments& arguments) {
@@ -92,14 +95,18 @@ int run_paint(PaintArguments& arguments) {
   Session session(arguments);
   const MappedMesh source =
       read_mapped(arguments.input, arguments.sphere, session, arguments.repair);
-  tell_longitudes(source, arguments.convention, false, session);
+  tell_longitudes(source, arguments.convention, false, std::nullopt, session);
   if (arguments.atlas > 0 && !has_texcoords(source.file()))
     throw UsageMistake("--atlas: the mesh has no texture coordinates of its own");
   const EquirectangularImage image = read_picture(arguments, session.console);
-  session.files.add(arguments.output,
-                    arguments.atlas > 0 ? atlas(arguments, source, image, session)
-                                        : coloured_mesh(arguments.output, source, image, session));
+  Words losses;
+  if (arguments.atlas > 0) {
+    session.files.add(arguments.output, atlas(arguments, source, image, session));
+  } else {
+    losses = add_coloured_mesh(arguments, source, image, session);
+  }
   session.publish();
+  tell_losses(arguments.output, losses, session.console);
   session.console.say(display_name(arguments.input) + ", " + display_name(arguments.image) + " → " +
                       output_name(arguments.output));
   return Ok;

@@ -12,6 +12,7 @@
 #include "sphparam/io/paths.h"
 #include "sphparam/io/planetocentric.h"
 #include "sphparam/io/sphere_file.h"
+#include "sphparam/remesh/resample.h"
 #include "sphparam/sphere/certificate.h"
 #include "sphparam/sphere/radial_directions.h"
 
@@ -88,25 +89,33 @@ bool is_like_body(const MappedMesh& mapped, const SphereMap& directions, int thr
          most_folded * static_cast<double>(mapped.mesh().face_count());
 }
 
+/// Why a map's longitudes are not those of a body about this centre, and what would have them.
+std::string why_off(const TriangleMesh& mesh, const std::optional<Planetocentric>& radial,
+                    const Vector3& centre) {
+  if (radial && is_about(*radial, centre, mesh)) return "it moved what folds";
+  const std::string why = radial ? "it is radial about another centre; " : "";
+  const std::string typed =
+      shortest(centre.x()) + "," + shortest(centre.y()) + "," + shortest(centre.z());
+  return why + "`sphparam map` --method radial has the body's, --align body comes near" +
+         (centre.isZero(0) ? "" : ", with --centre " + typed);
+}
+
 }  // namespace
 
 void tell_longitudes(const MappedMesh& mapped, Convention convention, bool named_as_body,
-                     Session& session) try {
+                     const std::optional<Vector3>& given_centre, Session& session) try {
   if (convention != Convention::Gis) return;
   constexpr double degrees = 180 / std::numbers::pi, nothing = 1e-4;
   const std::optional<Planetocentric> radial = planetocentric(mapped.provenance());
-  const SphereMap directions =
-      radial_directions(mapped.mesh(), radial ? radial->centre : Vector3(0, 0, 0));
+  const Vector3 centre = body_centre(radial, given_centre);
+  const SphereMap directions = radial_directions(mapped.mesh(), centre);
   if (!named_as_body && !radial && !is_like_body(mapped, directions, session.threads())) return;
-  const VectorX even = VectorX::Ones(mapped.mesh().vertex_count());
-  const double angle = degrees * rms_angle(mapped.map(), directions, even);
-  if (angle < nothing) return;
+  const double angle = degrees * rms_angle(mapped.map(), directions, vertex_areas(mapped.mesh()));
+  if (!(angle >= nothing)) return;
   session.console.say("  the map's longitudes and latitudes are " + short_number(angle) +
-                      "° from those of the body (RMS); " +
-                      (radial ? "it moved what folds"
-                              : "`sphparam map` --method radial has the body's, --align body comes "
-                                "near"));
-} catch (const VertexAtCentre&) {  // no body about the origin
+                      "° from those of the body (RMS over the surface); " +
+                      why_off(mapped.mesh(), radial, centre));
+} catch (const VertexAtCentre&) {  // no body about it
 }
 
 std::shared_ptr<const MeshTextures> read_shown_textures(const MeshFile& file,

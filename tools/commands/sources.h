@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "arguments/repair_arguments.h"
@@ -37,11 +38,11 @@ MappedMesh read_mapped(const std::string& path, const std::string& sphere, Sessi
                        const Words& data = {}, MissingValues missing = MissingValues::LeftOut);
 
 /// Of images for geographers: how far the map's longitudes and latitudes are from those of the body
-/// that the mesh is, seen from the centre of a radial map or the origin; nothing where they are the
-/// same, and of what is no body: neither named as one, nor mapped as one, nor star-shaped but for
-/// little.
+/// that the mesh is, seen from the given centre, else that of a radial map or the origin; nothing
+/// where they are the same, and of what is no body: neither named as one, nor mapped as one, nor
+/// star-shaped but for little.
 void tell_longitudes(const MappedMesh& mapped, Convention convention, bool named_as_body,
-                     Session& session);
+                     const std::optional<Vector3>& given_centre, Session& session);
 
 /// `shown_textures` with --texture IMAGE, if it is not empty; what stands against those of the file
 /// is told. `path`: of the mesh. Throws: UsageMistake where there is no place for the image.

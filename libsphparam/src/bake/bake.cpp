@@ -17,6 +17,7 @@
 #include "io/attributes/one_material.h"
 #include "mesh/box.h"
 #include "number_text.h"
+#include "sphparam/io/planetocentric.h"
 #include "sphparam/version.h"
 
 namespace sphparam {
@@ -36,6 +37,7 @@ BakeScene scene_for(const MappedMesh& source, BakeTarget target, bool with_textu
                     const BakeSettings& settings) {
   BakeScene scene{settings.from ? make_source(*settings.from) : make_source(source),
                   std::move(target), settings.fields, settings.threads};
+  scene.options.centre = body_centre(planetocentric(source.provenance()), settings.fields.centre);
   scene.calm_beyond = settings.from ? settings.calm_beyond : 0;
   scene.mirrored = info_of(settings.convention).turns < 0;
   if (with_textures) read_source_textures(settings, scene.source);
@@ -115,7 +117,7 @@ BakeReport bake(const MappedMesh& source, const std::vector<BakeRequest>& images
   find_ranges(plan, scene, settings);
   write_images(plan, scene, settings, texts_of_all(source, settings), files);
   for (const PlannedImage& image : plan) report.images.push_back(told(image));
-  add_sidecars(plan, source, settings, files, report);
+  add_sidecars(plan, source, scene, settings, files, report);
   return report;
 }
 

@@ -48,10 +48,10 @@ struct BakeTarget {
 struct BakeScene {
   BakeSource source;
   BakeTarget target;
-  FieldOptions options;
+  FieldOptions options;  // with the body's centre, where it is not the origin
   int threads = 0;
-  bool mirrored = false;        // u of the image runs against longitude: see `Convention`
-  double calm_beyond = 0;       // as in `BakeSettings`
+  bool mirrored = false;   // u of the image runs against longitude: see `Convention`
+  double calm_beyond = 0;  // as in `BakeSettings`
   std::shared_ptr<const CalmWalls> walls = nullptr;  // none: nothing is calm
   bool ids_as_colours = false;  // in integer images, which cannot hold large numbers
 };

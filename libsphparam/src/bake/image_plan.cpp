@@ -61,7 +61,9 @@ void require_exact_labels(const PlannedImage& image) {
 }
 
 void require_channels(const PlannedImage& image) {
-  if (image.field.channels <= most_channels(image.file.format)) return;
+  constexpr int colours_and_alpha = 4;
+  const bool has_alpha = image.field.channels % 2 == 0;  // of one channel, or of three
+  if (!has_alpha || most_channels(image.file.format) >= colours_and_alpha) return;
   throw BakeSettingError("path", std::string(name_of(image.file.format)) +
                                      " images have no alpha, which " + image.field.name +
                                      " has here; .png has");

@@ -11,7 +11,7 @@ namespace sphparam {
 std::string encode_vertices(const std::string& bytes, std::size_t count, std::size_t stride);
 
 /// Unit vectors, four floats a row, as four bytes each for the filter OCTAHEDRAL; the fourth
-/// number, of [−1, 1], is kept apart. Off by some 0.5° at most. Source: KHR and
+/// number, of [−1, 1], is kept apart. Off by less than 1°. Source: KHR and
 /// EXT_meshopt_compression, "Filters"; meshoptimizer.
 std::string octahedral(const std::vector<float>& rows);
 

@@ -55,4 +55,16 @@ std::optional<Planetocentric> planetocentric(const Provenance& provenance) {
   return Planetocentric{{(*c)[0], (*c)[1], (*c)[2]}, radians->front()};
 }
 
+Vector3 body_centre(const std::optional<Planetocentric>& radial,
+                    const std::optional<Vector3>& given) {
+  return given.value_or(radial ? radial->centre : Vector3(0, 0, 0));
+}
+
+bool is_about(const Planetocentric& radial, const Vector3& centre, const TriangleMesh& mesh) {
+  constexpr double rounding = 1e-6;  // of positions in float32, of centres as they are typed
+  const double radius =
+      (mesh.positions.rowwise() - radial.centre.transpose()).rowwise().norm().mean();
+  return (centre - radial.centre).norm() <= rounding * radius;
+}
+
 }  // namespace sphparam

@@ -16,6 +16,7 @@ std::string to_json(const ExportRecord& record) {
                       {"chart_certified", chart.chart.one_to_one()},
                       {"certified_as_stored", chart.stored.one_to_one()},
                       {"folded_as_stored", chart.stored.folded},
+                      {"torn_as_stored", chart.stored.torn},
                       {"around_pole", chart.chart.around_pole}});
     if (chart.sphere_folds >= 0) levels.back()["sphere_folds_as_stored"] = chart.sphere_folds;
   }
@@ -25,6 +26,8 @@ std::string to_json(const ExportRecord& record) {
                   {"command", "export"},
                   {"input", record.input},
                   {"levels", levels},
+                  {"lods_wanted", record.lods_wanted},
+                  {"lods", record.lods},
                   {"outputs", outputs},
                   {"textures", textures_json(record.textures)},
                   {"seconds", record.seconds}});

@@ -92,14 +92,16 @@ std::vector<GridSpec> coarser_grids(const GridSpec& finest, int count) {
 
 std::vector<MappedMesh> quartered_meshes(const MappedMesh& source, int count,
                                          const LevelOptions& options) {
-  const auto finest = static_cast<double>(source.mesh().vertex_count());
+  const Eigen::Index finest = source.mesh().vertex_count();
   LevelOptions unfitted = options;
   unfitted.subdivision = {};
   std::vector<MappedMesh> meshes;
   for (int level = 1; level <= count; ++level) {
     // An icosahedron whose edges are cut into N has 10·N² + 2 vertices.
-    const double vertices = std::ldexp(finest, -2 * level);
+    const double vertices = std::ldexp(static_cast<double>(finest), -2 * level);
     const int size = std::max(1, static_cast<int>(std::lround(std::sqrt(vertices / 10))));
+    const Eigen::Index before = meshes.empty() ? finest : meshes.back().mesh().vertex_count();
+    if (10 * Eigen::Index{size} * size + 2 >= before) break;
     report(options.progress, "level " + std::to_string(level - 1), 0);
     const SphereGrid grid =
         make_grid({GridKind::IcosahedronCut, size, 0}, {.threads = options.threads});

@@ -61,7 +61,7 @@ class MapGrids(MapFacts):
         return SphereMap._of(made)
 
     def levels(self, count: int, *, threads: int = 0, progress: Progress = None) -> List[SphereMap]:
-        """Levels of detail on icosahedra, the first with a quarter of the vertices, and so on."""
+        """Levels of detail on icosahedra, the first with a quarter of the vertices, and so on; fewer at 12."""
         from ._sphere_map import SphereMap
 
         _arrays.whole(count, "count", 0)

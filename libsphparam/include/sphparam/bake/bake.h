@@ -96,7 +96,9 @@ struct BakeReport {
 /// Images of heat maps have their scale beside them, as `scale_path` says; with a body
 /// (`FieldOptions::body`), images in Convention::Gis have what tells GDAL, QGIS and others their
 /// coordinates, scale, offset and unit beside them, as `sidecar_path` says. That calls longitudes
-/// planetocentric only where the map is one by Method::Radial that moved no vertex.
+/// planetocentric only where the map is one by Method::Radial about the body's centre that moved no
+/// vertex, and texels show what lies in their direction (Interpolation::Sphere, without `from`);
+/// else it says by how much they are off, measured, or that they are the map's.
 ///
 /// Ensures: the same bytes for any number of threads. Each file is read back before it gets its
 /// name.

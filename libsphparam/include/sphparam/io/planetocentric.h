@@ -22,6 +22,14 @@ Provenance planetocentric_lines(const Parameterization& result);
 /// What such lines say; nothing where there are none, or other things than numbers in them.
 std::optional<Planetocentric> planetocentric(const Provenance& provenance);
 
+/// The centre of the body that a mesh is: the given one, else that of a radial map, else the
+/// origin.
+Vector3 body_centre(const std::optional<Planetocentric>& radial,
+                    const std::optional<Vector3>& given);
+
+/// Whether a radial map is about this centre: to a millionth of the mean distance of the vertices.
+bool is_about(const Planetocentric& radial, const Vector3& centre, const TriangleMesh& mesh);
+
 /// Whether a line with this key is one of them: it goes where such a map is turned.
 bool is_planetocentric(const std::string& key);
 

@@ -11,6 +11,7 @@ namespace sphparam {
 struct ExportRecord {
   std::string input = {};                 // the file of the mesh
   std::vector<ChartFigures> charts = {};  // of the levels, finest first
+  int lods_wanted = 0, lods = 0;          // coarser levels, asked for and there
   WrittenFiles outputs = {};
   std::vector<TextureFigures> textures = {};  // of what is seen, and of the variants
   double seconds = 0;

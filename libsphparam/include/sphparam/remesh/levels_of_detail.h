@@ -56,8 +56,9 @@ std::vector<GridSpec> coarser_grids(const GridSpec& finest, int count);
 
 /// `count` meshes on icosahedra's grids, each with a quarter of the vertices of the one before, the
 /// first with a quarter of the mesh's: levels of detail of any mesh, on its sphere, which keep its
-/// name and provenance. Of `options`: sample, transfer, threads, progress.
-/// Throws: as `remesh`; Cancelled. Cost: that of `remesh`.
+/// name and provenance. Fewer where the icosahedron itself, of 12 vertices, is reached. Of
+/// `options`: sample, transfer, threads, progress. Throws: as `remesh`; Cancelled. Cost: that of
+/// `remesh`.
 std::vector<MappedMesh> quartered_meshes(const MappedMesh& source, int count,
                                          const LevelOptions& options = {});
 

@@ -8,19 +8,14 @@
 #include "number_text.h"
 #include "rays/flat_normal.h"
 #include "rays/interpolation.h"
-#include "sphparam/io/planetocentric.h"
 
 namespace sphparam {
 namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-/// Where it is said; else that of a radial map; else the origin.
 Vector3 centre_of(const BakeScene& scene) {
-  if (scene.options.centre) return *scene.options.centre;
-  if (!scene.source.mapped) return Vector3::Zero();
-  const auto radial = planetocentric(scene.source.mapped->provenance());
-  return radial ? radial->centre : Vector3::Zero();
+  return scene.options.centre.value_or(Vector3(0, 0, 0));
 }
 
 bool to_the_west(const BakeScene& scene) {
@@ -99,6 +94,14 @@ SurfaceField make_longitude_latitude(const BakeScene& scene, const std::string&)
                            out[0] = static_cast<float>(longitude(p, west));
                            out[1] = static_cast<float>(latitude(p));
                            out[2] = 0;
+                         });
+}
+
+SurfaceField directions_from_centre(const BakeScene& scene) {
+  return field_of_places({.name = "direction", .channels = 3, .kind = FieldKind::Place}, scene,
+                         [](Face, const Vector3& p, float* out) {
+                           const Vector3 direction = p.stableNormalized();
+                           for (int k = 0; k < 3; ++k) out[k] = static_cast<float>(direction[k]);
                          });
 }
 

@@ -13,6 +13,8 @@ SurfaceField make_longitude(const BakeScene& scene, const std::string&);
 SurfaceField make_latitude(const BakeScene& scene, const std::string&);
 /// Both, and 0.
 SurfaceField make_longitude_latitude(const BakeScene& scene, const std::string&);
+/// A unit vector, to measure by: no image is made of it.
+SurfaceField directions_from_centre(const BakeScene& scene);
 /// Distance from the centre, in the mesh's unit.
 SurfaceField make_radius(const BakeScene& scene, const std::string&);
 /// Degrees between the outward normal of the triangle and the direction from the centre: beyond 90

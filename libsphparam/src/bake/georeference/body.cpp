@@ -18,6 +18,14 @@ std::string lower(std::string_view text) {
   return result;
 }
 
+/// Programs that print WKT begin with an empty line.
+std::string trimmed(const std::string& text) {
+  const char* const blanks = " \n\t\r";
+  const size_t first = text.find_first_not_of(blanks);
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(blanks) + 1 - first);
+}
+
 /// The number that a text begins with, and what follows it.
 std::optional<std::pair<double, std::string_view>> leading_number(std::string_view text) {
   double value = 0;
@@ -111,8 +119,9 @@ Body of_wkt(const std::string& text, double unit) {
 
 }  // namespace
 
-Body body_of(const std::string& text, double unit) {
+Body body_of(const std::string& spaced_text, double unit) {
   require_length(unit, "the unit of the mesh");
+  const std::string text = trimmed(spaced_text);
   if (is_wkt(text)) return of_wkt(text, unit);
   if (const auto radii = numbers_of(text)) return with_radii(*radii, text, unit);
   std::vector<std::string> known;

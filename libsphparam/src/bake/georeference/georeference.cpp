@@ -6,16 +6,13 @@
 #include "bake/georeference/sidecar.h"
 #include "number_text.h"
 #include "sphparam/io/paths.h"
+#include "sphparam/io/planetocentric.h"
 
 namespace sphparam {
 namespace {
 
-/// Of the vertices, from the centre of a radial map or the origin.
-double mean_radius(const MappedMesh& source, const FieldOptions& options,
-                   const std::optional<Planetocentric>& radial) {
-  const Vector3 origin = radial ? radial->centre : Vector3(0, 0, 0);
-  const Vector3 centre = options.centre.value_or(origin);
-  return (source.mesh().positions.rowwise() - centre.transpose()).rowwise().norm().mean();
+double mean_radius(const TriangleMesh& mesh, const Vector3& centre) {
+  return (mesh.positions.rowwise() - centre.transpose()).rowwise().norm().mean();
 }
 
 /// Shape models are in kilometres or in metres, and none says so.
@@ -28,6 +25,19 @@ void warn_of_unit(double radius, const Body& body, BakeReport& report) {
                             short_number(wanted) + " m: the mesh is in another unit (--unit)");
 }
 
+/// With all digits: centres may differ in the last.
+std::string point_text(const Vector3& p) {
+  return "(" + shortest(p.x()) + ", " + shortest(p.y()) + ", " + shortest(p.z()) + ")";
+}
+
+void warn_of_centre(const MappedMesh& source, const Vector3& centre, BakeReport& report) {
+  const std::optional<Planetocentric> radial = planetocentric(source.provenance());
+  if (!radial || is_about(*radial, centre, source.mesh())) return;
+  report.warnings.push_back("longitudes and latitudes are the map's, which is radial about " +
+                            point_text(radial->centre) + ", not about the body's centre, " +
+                            point_text(centre));
+}
+
 void warn_of_stale(const std::string& image, BakeReport& report) {
   std::error_code none;
   if (is_stream(image) || !std::filesystem::exists(sidecar_path(image), none)) return;
@@ -38,17 +48,19 @@ void warn_of_stale(const std::string& image, BakeReport& report) {
 }  // namespace
 
 void add_sidecars(const std::vector<PlannedImage>& images, const MappedMesh& source,
-                  const BakeSettings& settings, PendingFiles& files, BakeReport& report) {
+                  const BakeScene& scene, const BakeSettings& settings, PendingFiles& files,
+                  BakeReport& report) {
   if (!settings.fields.body) {
     for (const PlannedImage& image : images) warn_of_stale(image.request.path, report);
     return;
   }
   const Body& body = *settings.fields.body;
-  const std::optional<Planetocentric> radial = planetocentric(source.provenance());
-  const CoordinateSystem system =
-      coordinate_system(body, radial, stem_of(source_name(source, settings)));
+  const Vector3& centre = *scene.options.centre;
+  const CoordinateSystem system = coordinate_system(body, body_places(source, scene, settings),
+                                                    stem_of(source_name(source, settings)));
   report.coordinate_system = system.name;
-  warn_of_unit(mean_radius(source, settings.fields, radial), body, report);
+  warn_of_centre(source, centre, report);
+  warn_of_unit(mean_radius(source.mesh(), centre), body, report);
   for (size_t i = 0; i < images.size(); ++i) {
     const std::string& path = images[i].request.path;
     if (is_stream(path) || !has_sidecar(path)) {

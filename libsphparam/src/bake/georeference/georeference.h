@@ -7,9 +7,11 @@
 namespace sphparam {
 
 /// Adds the sidecars of images of a body, and says in the report where they are, what they call
-/// longitude and latitude, and what looks wrong: a mesh in another unit than the body, images that
-/// geographic programs do not read, sidecars of an earlier image where none is written.
+/// longitude and latitude, and what looks wrong: a map that is radial about another centre than the
+/// body's, a mesh in another unit than the body, images that geographic programs do not read,
+/// sidecars of an earlier image where none is written.
 void add_sidecars(const std::vector<PlannedImage>& images, const MappedMesh& source,
-                  const BakeSettings& settings, PendingFiles& files, BakeReport& report);
+                  const BakeScene& scene, const BakeSettings& settings, PendingFiles& files,
+                  BakeReport& report);
 
 }  // namespace sphparam

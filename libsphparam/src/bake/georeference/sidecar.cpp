@@ -89,21 +89,21 @@ std::string band_name(const SurfaceField& field, int band) {
 
 }  // namespace
 
-CoordinateSystem coordinate_system(const Body& body, const std::optional<Planetocentric>& radial,
+CoordinateSystem coordinate_system(const Body& body, const std::optional<BodyPlaces>& places,
                                    const std::string& source) {
   const bool west = body.positive_west;
   const std::string whose = body.name.empty() ? source : body.name;
   const double radius = body.semi_axes.mean();
-  const bool exact = radial && radial->largest_movement == 0;
+  const bool exact = places && places->off == 0;
   if (exact && !body.wkt.empty()) return {body.name, body.wkt};
   std::string name = "sphparam map of " + whose, datum = name;
   if (exact) {
     datum = whose + (body.iau_code > 0 ? " (2015)" : "") + " - Sphere";
     name = datum + " / Ocentric" + (west ? ", positive west" : "");
-  } else if (radial) {
+  } else if (places) {
     constexpr double degrees = 180 / std::numbers::pi;
-    name = whose + ", planetocentric within " + short_number(radial->largest_movement * degrees) +
-           " degrees (sphparam radial map)";
+    name = whose + ", planetocentric within " + short_number(places->off * degrees) + " degrees (" +
+           places->how + ")";
     datum = name;
   }
   const long code = exact && !west ? body.iau_code : 0;

@@ -2,21 +2,21 @@
 
 #include <string>
 
+#include "bake/georeference/body_places.h"
 #include "bake/image_plan.h"
-#include "sphparam/io/planetocentric.h"
 
 namespace sphparam {
 
 /// What geographic programs call the longitude and latitude of images of a map: those of the body
-/// where the map is radial and nothing was moved; else it says that they are the map's, or how far
-/// they may be off.
+/// where the map is radial about its centre and nothing is off; else it says that they are the
+/// map's, or how far they may be off.
 struct CoordinateSystem {
   std::string name;  // "Vesta (2015) - Sphere / Ocentric", "sphparam map of Vesta"
   std::string wkt;   // of 2019
 };
-/// `radial`: of the map, as its provenance has it. `source`: the name of the mesh, for a body
+/// `places`: none where the longitudes are the map's. `source`: the name of the mesh, for a body
 /// without one.
-CoordinateSystem coordinate_system(const Body& body, const std::optional<Planetocentric>& radial,
+CoordinateSystem coordinate_system(const Body& body, const std::optional<BodyPlaces>& places,
                                    const std::string& source);
 
 /// The bytes of the file beside an image (GDAL's PAM) that says where on the body it lies, and of
