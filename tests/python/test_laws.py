@@ -138,9 +138,11 @@ def test_a_sphere_seen_from_inside_is_one_to_one_as_it_is_in_files(tmp_path):
     mirrored = vertices * (1, 1, -1)
     sp.write(tmp_path / "mesh.off", vertices, faces)
     sp.write(tmp_path / "mirrored.off", mirrored, faces)
-    told = sp.verify(vertices, faces, mirrored)
-    assert told == sp.verify(tmp_path / "mesh.off", points=tmp_path / "mirrored.off")
-    assert told.one_to_one and told.reversed
+    for told in (
+        sp.verify(vertices, faces, mirrored),
+        sp.verify(tmp_path / "mesh.off", points=tmp_path / "mirrored.off"),
+    ):
+        assert told.one_to_one and told.reversed and told.covering == 1 and len(told.folded) == 0
 
 
 def test_a_mesh_that_was_mapped_is_still_there():

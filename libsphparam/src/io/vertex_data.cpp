@@ -16,6 +16,7 @@
 #include "io/formats/values/curv.h"
 #include "io/formats/values/label_file.h"
 #include "io/formats/values/mgh.h"
+#include "io/formats/values/values_file.h"
 #include "number_text.h"
 #include "sphparam/io/brain_names.h"
 #include "sphparam/io/losses.h"

@@ -182,7 +182,8 @@ def verify(mesh: Any, faces: Any = None, points: Any = None, *, threads: int = 0
     """Proves a map again, ours or anybody's; what is not one-to-one is a value, not an exception.
 
     ``verify(vertices, faces, points)``, ``verify(mesh, points=points)``, a :class:`SphereMap`, or a
-    file: a written map, a bare sphere, or with ``points=FILE`` a mesh and its sphere.
+    file: a written map, a bare sphere, or with ``points=FILE`` a mesh and its sphere. A sphere seen from
+    inside is one-to-one too, and ``reversed``; :func:`load` and :func:`with_sphere` want it from outside.
     """
     count = _arrays.threads(threads)
     if isinstance(mesh, (str, os.PathLike)):

@@ -127,9 +127,6 @@ def requested(
     threads: int = 0,
 ) -> Dict[str, Any]:
     """What :func:`map` was asked for."""
-    _require_of_method(
-        method, settings=(balance, quality, energy), centre=centre, align=align, paper=paper, repair=repair_map
-    )
     options: Dict[str, Any] = dict(
         method=_arrays.text(method, "method"), quality=_arrays.text(quality, "quality"),
         energy=_arrays.text(energy, "energy"), filler_share=filler_share, repair_map=repair_map,
@@ -147,4 +144,7 @@ def requested(
         options.update(_alignment(align))
     if paper is not None:
         options.update(_paper(paper))
+    _require_of_method(
+        method, settings=(balance, quality, energy), centre=centre, align=align, paper=paper, repair=repair_map
+    )
     return options
