@@ -96,15 +96,16 @@ class Loop {
   /// A worker's own range, then what is left of the others'.
   void work(int worker) {
     const auto* const before = std::exchange(stop_of_thread(), stop_);  // of loops inside this one
+    bool goes_on = true;
     for (int i = 0; i < parts_; ++i) {
       Range& range = ranges_[(worker + i) % parts_];
-      for (std::int64_t chunk; (chunk = range.claim(i == 0)) >= 0;) run(chunk);
+      for (std::int64_t chunk; goes_on && (chunk = range.claim(i == 0)) >= 0;) goes_on = run(chunk);
     }
     stop_of_thread() = before;
   }
 
   void work_alone() {
-    for (std::int64_t chunk = 0; chunk < chunks_; ++chunk) run(chunk);
+    for (std::int64_t chunk = 0; chunk < chunks_ && run(chunk);) ++chunk;
   }
 
   /// Of the first chunk that threw: the same for any timing.
@@ -113,9 +114,11 @@ class Loop {
   }
 
  private:
-  void run(std::int64_t chunk) {
+  /// False: the loop was stopped, and that is its error.
+  bool run(std::int64_t chunk) {
+    const bool is_stopped = stop_ && *stop_;
     try {
-      if (stop_ && *stop_) throw Cancelled();
+      if (is_stopped) throw Cancelled();
       body_(chunk * grain_, std::min(count_, (chunk + 1) * grain_));
     } catch (...) {
       const std::lock_guard lock(mutex_);
@@ -124,6 +127,7 @@ class Loop {
         error_chunk_ = chunk;
       }
     }
+    return !is_stopped;
   }
 
   const std::int64_t count_, grain_, chunks_;
@@ -149,8 +153,9 @@ class Pool {
 
   /// False: another loop has it, nothing was done.
   bool run(Loop& loop, int helpers) {
-    const std::unique_lock one_loop_at_a_time(loop_mutex_, std::try_to_lock);
-    if (!one_loop_at_a_time) return false;
+    std::unique_lock one_loop_at_a_time(loop_mutex_, std::defer_lock);
+    look_out_for([&] { return one_loop_at_a_time.try_lock(); });
+    if (!one_loop_at_a_time.owns_lock()) return false;
     {
       const std::lock_guard lock(mutex_);
       while (static_cast<int>(workers_.size()) < helpers) {

@@ -95,7 +95,7 @@ TEST_CASE("bake: --map channels bakes the constants of two materials, and says w
   CHECK_THAT(sphparam_program(
                  {"bake", folder / "lost.obj", "--map", "channels", "-o", folder / "b_{map}.png"})
                  .err,
-             Contains("what its materials look like could not be read") &&
+             Contains("nothing that could be read says what its materials look like") &&
                  Contains("'lost.mtl' (No such file or directory)"));
 }
 

@@ -344,7 +344,7 @@ TEST_CASE("parts: all are baked and exported in one go, each with what is its ow
   const Ended lone = sphparam_program(
       {"bake", map, "--all-components", "--map", "axes", "-o", folder / "images/", "--size", "32"});
   CHECK(lone.code == 0);
-  CHECK_THAT(lone.err, Contains("--all-components: 1 of 2 parts: there is no " +
+  CHECK_THAT(lone.err, Contains("--all-components: 1 of 2 parts are there: no " +
                                 (folder / "two_0001.sph.ply")));
 }
 

@@ -192,7 +192,7 @@ TEST_CASE("match: surfaces that lie alike in space are matched so, and the recor
   write_bytes(other, obj_text(armed(3, 0.001)));
   const Ended anyhow = sphparam_program({"match", arms, other, "-o", creatures.out});
   CHECK_THAT(anyhow.err,
-             Contains("about as well") && Contains("say alike if both lie alike in space"));
+             Contains("about as well") && Contains("say --alike if both lie alike in space"));
   const Ended alike =
       sphparam_program({"match", arms, other, "--alike", "-o", creatures.out, "--json", "-"});
   REQUIRE(alike.code == 0);
@@ -217,7 +217,7 @@ TEST_CASE("match: where there are no ends a turn is found, with a confidence") {
   const Ended ball = creatures.match_without_landmarks();
   INFO(ball.err);
   CHECK(ball.code == 0);
-  CHECK_THAT(ball.err, Contains("after another turn") && Contains("or give landmarks"));
+  CHECK_THAT(ball.err, Contains("after another turn") && Contains("or give --landmarks"));
 }
 
 TEST_CASE("match: features come to lie on each other, from files and from properties") {

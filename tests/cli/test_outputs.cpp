@@ -204,6 +204,9 @@ TEST_CASE("outputs: libraries of materials and buffers are read too, and not rep
   write_bytes(folder / "b.mtl", "newmtl red\nKd 1 0 0\n");
   kept(folder / "b.mtl",
        {"export", folder / "a.obj", "--image-size", "16", "-o", folder / "b.obj"});
+  write_bytes(folder / "unused.obj", "mtllib b.mtl\n" + obj_text(icosphere(1)));
+  kept(folder / "b.mtl",
+       {"export", folder / "unused.obj", "--image-size", "16", "-o", folder / "b.obj"});
   kept(folder / "b.mtl",
        {"map", folder / "a.obj", "-o", folder / "a.sph.ply", "--json", folder / "b.mtl"});
   kept(folder / "b.mtl", {"bake", mapped.path, "--from", folder / "a.obj", "--map", "axes",
@@ -215,6 +218,32 @@ TEST_CASE("outputs: libraries of materials and buffers are read too, and not rep
   write_bytes(folder / "c.gltf", text.replace(text.find("c.bin"), 5, "d.bin"));
   kept(folder / "d.bin",
        {"export", folder / "c.gltf", "--image-size", "16", "-o", folder / "d.gltf"});
+}
+
+TEST_CASE(
+    "outputs: what the written mesh has no place for is told by map, remesh and bake --from") {
+  const Mapped mapped(100);
+  const Folder& folder = mapped.folder;
+  write_bytes(folder / "a.obj", "mtllib b.mtl\nusemtl red\n" + obj_text(icosphere(1)));
+  write_bytes(folder / "b.mtl", "newmtl red\nKd 1 0 0\n");
+  const Ended map = sphparam_program({"map", folder / "a.obj", "-o", folder / "a.sph.ply"});
+  CHECK_THAT(map.err, Contains("a.sph.ply: not carried: colours and textures of materials"));
+  CHECK_THAT(map.err, !Contains("material of faces"));
+  const Ended remesh =
+      sphparam_program({"remesh", folder / "a.obj", "--grid", "ico:1", "-o", folder / "r.ply"});
+  CHECK_THAT(remesh.err, Contains("r.ply: not carried: colours and textures of materials"));
+  write_bytes(folder / "b.mtl", "newmtl red\nKd 1 0 0\nmap_Kd red.png\n");
+  sphparam::write_image(folder / "red.png", sphparam::Image(4, 2, 3));
+  const Ended bake = sphparam_program({"bake", folder / "a.sph.ply", "--from", folder / "a.obj",
+                                       "--map", "axes", "--size", "16", "-o", folder / "a.png"});
+  CHECK_THAT(bake.err, Contains("a.obj: not carried: tints of textures"));
+  write_bytes(folder / "c.ply",
+              "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+              "property float z\nproperty float sx\nelement face 4\n"
+              "property list uchar int vertex_indices\nend_header\n0 0 0 5\n1 0 0 6\n0 1 0 7\n"
+              "0 0 1 8\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+  const Ended own = sphparam_program({"map", folder / "c.ply", "-o", folder / "c.sph.ply"});
+  CHECK_THAT(own.err, Contains("not carried: sx of vertices: the map's stand there"));
 }
 
 TEST_CASE("outputs: a file may be replaced again, and keeps its permissions") {

@@ -217,7 +217,7 @@ TEST_CASE("match: of arms that are alike places in space tell which is which, if
   const Match anyhow = match_surfaces(a, b, {.search = true});
   CHECK(anyhow.confidence < 0.15);
   REQUIRE_FALSE(anyhow.warnings.empty());
-  CHECK_THAT(anyhow.warnings[0], Catch::Contains("say alike if both lie alike in space"));
+  CHECK_THAT(anyhow.warnings[0], Catch::Contains("say --alike if both lie alike in space"));
   const Match match = match_surfaces(a, b, {.search = true, .alike = true});
   REQUIRE_FALSE(match.suggestions.empty());
   for (const LandmarkPair& pair : match.suggestions.front().landmarks) CHECK(pair.from == pair.to);

@@ -463,6 +463,13 @@ def test_a_handle_is_cut_or_filled():
         assert mended.handles[0].points.shape[1] == 3
 
 
+def test_what_was_read_may_be_written_anew(tmp_path):
+    made = sp.map(*octahedron())
+    made.export(tmp_path / "a.gltf", image_size=16)
+    sp.read(tmp_path / "a.gltf")
+    made.export(tmp_path / "a.gltf", image_size=16)  # and a.bin
+
+
 def test_a_map_of_somebodys_is_judged():
     vertices, faces = octahedron()
     assert sp.verify(vertices, faces, 7 * vertices).one_to_one

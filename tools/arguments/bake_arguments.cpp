@@ -293,9 +293,10 @@ std::vector<BakeRequest> requests_of_mesh(std::vector<BakeRequest> images,
   if (!images.empty()) return images;
   const std::string& name = arguments.from.empty() ? arguments.input : arguments.from;
   if (!is_map || !arguments.from.empty()) {
-    throw UsageMistake(name + (file.materials.empty()
-                                   ? ": has neither materials nor colours"
-                                   : ": what its materials look like could not be read"));
+    throw UsageMistake(name +
+                       (file.materials.empty()
+                            ? ": has neither materials nor colours"
+                            : ": nothing that could be read says what its materials look like"));
   }
   throw UsageMistake(name +
                      ": has neither materials nor colours. A map carries no materials: bake the "

@@ -32,8 +32,7 @@ void declare_chart(Declaration& command, ExportOptions& options) {
   command.convention(options.convention)
       .flag("--keep-topology", options.keep_topology,
             "Add no vertices on the surface: triangles fold at the poles, or edges are torn; they "
-            "are "
-            "listed")
+            "are listed")
       .refine_poles(
           options.refine_poles,
           "Cut each triangle at a pole into so many; images of `bake` must be baked for it")

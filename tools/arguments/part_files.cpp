@@ -11,7 +11,6 @@
 #include "console/exit_codes.h"
 #include "console/places.h"
 #include "sphparam/errors.h"
-#include "sphparam/io/losses.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/io/sphere_file.h"
@@ -67,12 +66,11 @@ void tell_missing(const std::string& path, const std::vector<int>& numbers, cons
   constexpr std::size_t skipped = std::string_view(" of ").size();
   int count = 0;
   if (run.size() > skipped) std::from_chars(run.data() + skipped, run.data() + run.size(), count);
-  std::vector<std::string> missing;
-  for (int number = 1; number <= count; ++number)
-    if (!std::ranges::binary_search(numbers, number)) missing.push_back(path_of_part(path, number));
-  if (missing.empty()) return;
+  int first = 1;  // that is missing
+  for (const int number : numbers) first += number == first;
+  if (first > count) return;
   console.say("  --all-components: " + std::to_string(numbers.size()) + " of " +
-              std::to_string(count) + " parts: there is no " + enumerated(missing));
+              std::to_string(count) + " parts are there: no " + path_of_part(path, first));
 }
 
 }  // namespace

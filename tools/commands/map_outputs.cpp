@@ -51,7 +51,8 @@ void add_replaced(std::vector<std::string>& losses, const MeshFile& file) {
   if (!names.empty()) add_loss(losses, enumerated(names) + " of vertices: the map's stand there");
 }
 
-/// The mesh gets its map where it stands: a copy of all its attributes would be the peak of memory.
+/// The mesh gets its map where it stands: one copy of all its attributes, as they are read back, is
+/// the peak of memory.
 void add_map(const MapArguments& arguments, MapOutcome& outcome, Session& session) {
   const std::string& path = arguments.output;
   Provenance lines = provenance(outcome);

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "console/exit_codes.h"
+#include "sphparam/io/companions.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/safe_file.h"
 
@@ -98,6 +99,7 @@ std::vector<std::string> files_read(const CLI::App& command) {
 void note_files_read(const CLI::App& command) {
   for (std::string& file : files_read(command)) noted_files().push_back(std::move(file));
   keep_from_outputs(noted_files());
+  guard_companions();
   for (const CLI::Option* option : command.get_options()) {
     if (!options_that_write().contains(option)) continue;
     for (const std::string& file : files_named(*option)) require_not_read(option->get_name(), file);

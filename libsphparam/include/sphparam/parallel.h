@@ -12,8 +12,8 @@ int resolve_threads(int threads);
 ///
 /// Every chunk but the last has `grain` items wherever it runs, so a reduction that keeps one
 /// partial result per chunk (index first / grain) and adds them in order gives the same bits for
-/// any number of threads. Runs on the calling thread alone when there is only one chunk, and while
-/// another thread's loop runs.
+/// any number of threads. Runs on the calling thread alone when there is only one chunk, or another
+/// thread's loop runs as it begins.
 /// Throws: the exception of the first chunk whose body threw, after all bodies have ended;
 /// Cancelled, see stopped_by.h.
 void parallel_for(std::int64_t count, std::int64_t grain, int threads,

@@ -218,8 +218,8 @@ class Matcher {
     if (confidence_ >= telling_confidence) return;
     warn(other + " about as well (confidence " + short_number(confidence_) +
          "): look at the result, " +
-         (options_.alike ? "" : "say alike if both lie alike in space, ") +
-         "or give landmarks");
+         (options_.alike ? "" : "say --alike if both lie alike in space, ") +
+         "or give --landmarks");
   }
 
   Match finished(SphereMap map) {

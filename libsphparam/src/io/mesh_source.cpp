@@ -1,9 +1,11 @@
 #include "sphparam/io/mesh_source.h"
 
+#include <atomic>
 #include <filesystem>
 
 #include "io/polygons/welding.h"
 #include "mesh/defect_places.h"
+#include "sphparam/io/companions.h"
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/safe_file.h"
@@ -42,9 +44,17 @@ MeshInspection inspect_welded(const MeshFile& file, const MeshInspection& as_ind
   return inspection;
 }
 
+std::atomic<bool>& companions_are_guarded() {
+  static std::atomic<bool> guarded = false;
+  return guarded;
+}
+
 }  // namespace
 
+void guard_companions() { companions_are_guarded() = true; }
+
 void keep_companions(const MeshFile& file) {
+  if (!companions_are_guarded()) return;
   keep_from_outputs(file.companions);
   const auto keep = [](const MaterialTexture& texture) {
     if (texture.path.empty()) return;

@@ -173,11 +173,15 @@ void save_sphere_file(const Mapped& mapped, const std::string& path, int threads
 }
 
 /// Of a sphere seen from inside that of its mirror image, as of files (verify_map.h).
-Certificate certify_either_way(TriangleMesh mesh, const SphereMap& map, int threads) {
-  Certificate certificate = certify(Topology(mesh), map, threads);
+Certificate certify_either_way(MeshSource& source, const SphereMap& map, int threads) {
+  Triangles triangles = source.file.mesh.triangles;
+  const auto vertices = static_cast<int>(source.file.mesh.vertex_count());
+  const auto built = Topology::try_build(triangles, vertices);
+  if (!built) return certify(topology_of(source), map, threads);  // throws, and says what helps
+  Certificate certificate = certify(*built, map, threads);
   if (!certificate.reversed) return certificate;
-  mesh.triangles.col(1).swap(mesh.triangles.col(2));
-  certificate = certify(Topology(mesh), map, threads);
+  triangles.col(1).swap(triangles.col(2));
+  certificate = certify(Topology::try_build(triangles, vertices).value(), map, threads);
   certificate.reversed = true;
   return certificate;
 }
@@ -186,9 +190,8 @@ py::dict certify_points(const Source& source, const py::array& rays, int threads
   bool finite = true;
   const auto map = std::make_shared<const SphereMap>(SphereMap{points_of(rays, finite)});
   const auto mesh = std::make_shared<MeshSource>(source.mesh);
-  return as_dict(call(py::none(), [=](const Progress&) {
-    return certify_either_way(mesh->file.mesh, *map, threads);
-  }));
+  return as_dict(
+      call(py::none(), [=](const Progress&) { return certify_either_way(*mesh, *map, threads); }));
 }
 
 py::dict verify_file(const std::string& path, const std::string& sphere, int threads) {

@@ -15,10 +15,15 @@ if TYPE_CHECKING:
 _most_rows = 2**31 - 1
 
 
-def unmasked(thing: Any, name: str) -> Array:
-    """An array of anything: what a mask hides is nobody's number."""
+def _require_unmasked(thing: Any, name: str) -> None:
+    """What a mask hides is nobody's number."""
     if isinstance(thing, np.ma.MaskedArray) and np.ma.is_masked(thing):
         raise ValueError(f"{name}: some of it is masked; fill or drop these rows first")
+
+
+def unmasked(thing: Any, name: str) -> Array:
+    """An array of anything."""
+    _require_unmasked(thing, name)
     found: Array = np.asarray(thing)
     return found
 
@@ -27,13 +32,12 @@ def numbers(thing: Any, name: str, rounded_by: str = "float") -> Array:
     """An array of numbers; nothing is guessed from texts and objects."""
     if isinstance(thing, (str, bytes, dict, set)) or thing is None:
         raise TypeError(f"{name}: an array is needed, not {type(thing).__name__}")
+    _require_unmasked(thing, name)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error")
-            array = unmasked(thing, name)
+            array = np.asarray(thing)
     except (ValueError, Warning) as error:
-        if str(error).startswith(name):
-            raise
         raise ValueError(f"{name}: no array can be made of it: {error}") from None
     if array.dtype.kind not in "fiu":
         raise TypeError(f"{name}: numbers are needed, not {array.dtype}")

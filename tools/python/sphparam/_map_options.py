@@ -47,7 +47,7 @@ def _vertex_number(thing: Any, name: str) -> int:
 
 def _weight(balance: Union[str, float], weight: Optional[float]) -> Dict[str, Any]:
     """A word, or the number that it stands for."""
-    if weight is not None and balance != "balanced":
+    if weight is not None and not (isinstance(balance, str) and balance == "balanced"):
         raise ValueError("balance and weight contradict each other")
     options: Dict[str, Any] = {"balance": balance} if isinstance(balance, str) else {"lambda": _arrays.real(balance, "balance")}
     if weight is not None:
@@ -94,12 +94,16 @@ def _paper(settings: Any) -> Dict[str, Any]:
     return dict(settings)
 
 
-def _require_of_method(method: str, *, settings: Tuple[Any, ...], centre: Any, align: Any, paper: Any, repair: bool) -> None:
+def _require_of_method(
+    method: str, *, settings: Tuple[Any, ...], weight: Any, centre: Any, align: Any, paper: Any, repair: bool
+) -> None:
     """What only some methods read is not taken where it would do nothing."""
     if method != "progressive" and settings != ("balanced", "normal", "angle-and-area"):
         raise ValueError("balance, quality and energy are for method='progressive'")
     if paper is not None and method != "paper":
         raise ValueError("paper is for method='paper'")
+    if weight is not None and method == "radial":
+        raise ValueError("weight is not for method='radial', which minimises nothing")
     if repair and method != "paper":
         raise ValueError("repair_map is for method='paper'")
     if centre is not None and method != "radial" and not (isinstance(align, str) and align == "body"):
@@ -145,6 +149,12 @@ def requested(
     if paper is not None:
         options.update(_paper(paper))
     _require_of_method(
-        method, settings=(balance, quality, energy), centre=centre, align=align, paper=paper, repair=repair_map
+        method,
+        settings=(balance, quality, energy),
+        weight=weight,
+        centre=centre,
+        align=align,
+        paper=paper,
+        repair=repair_map,
     )
     return options

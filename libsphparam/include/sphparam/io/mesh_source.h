@@ -29,8 +29,8 @@ struct MeshSource {
 /// Throws: ReadError. A mesh that is no sphere is returned all the same: see `inspection`.
 MeshSource read_source(const std::string& path, const ReadOptions& options = {});
 
-/// What a mesh names is read too (textures, libraries of materials, buffers): from now on no output
-/// may replace it. `read_source` sees to it; whoever reads a mesh otherwise calls it.
+/// What a mesh names is read too (textures, libraries of materials, buffers): in a program that
+/// asks for it (companions.h) no output may replace it from now on. `read_source` sees to it.
 void keep_companions(const MeshFile& file);
 
 /// What repair would do to a mesh, tried out: as it is; where that is not enough, with the

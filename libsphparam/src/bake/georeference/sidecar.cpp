@@ -101,9 +101,10 @@ CoordinateSystem coordinate_system(const Body& body, const std::optional<BodyPla
     datum = whose + (body.iau_code > 0 ? " (2015)" : "") + " - Sphere";
     name = datum + " / Ocentric" + (west ? ", positive west" : "");
   } else if (places) {
-    constexpr double degrees = 180 / std::numbers::pi;
-    name = whose + ", planetocentric within " + short_number(places->off * degrees) + " degrees (" +
-           places->how + ")";
+    constexpr double degrees = 180 / std::numbers::pi,
+                     up = 1.005;  // so that three digits are no less
+    name = whose + ", planetocentric within " + short_number(up * places->off * degrees) +
+           " degrees (" + places->how + ")";
     datum = name;
   }
   const long code = exact && !west ? body.iau_code : 0;

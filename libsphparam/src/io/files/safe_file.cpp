@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <mutex>
 #include <optional>
 #include <set>
 #include <utility>
@@ -56,7 +57,13 @@ std::vector<std::pair<dev_t, ino_t>>& kept_files() {
   return files;
 }
 
+std::mutex& kept_files_mutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
 bool is_kept(const struct stat& status) {
+  const std::lock_guard lock(kept_files_mutex());
   return std::ranges::count(kept_files(), std::pair(status.st_dev, status.st_ino)) > 0;
 }
 
@@ -108,6 +115,7 @@ void check_on_disk(const TemporaryFile& file, std::string bytes, const BytesChec
 }  // namespace
 
 void keep_from_outputs(const std::vector<std::string>& paths) {
+  const std::lock_guard lock(kept_files_mutex());
   for (const std::string& path : paths) {
     struct stat status {};
     if (::stat(path.c_str(), &status) == 0) kept_files().emplace_back(status.st_dev, status.st_ino);

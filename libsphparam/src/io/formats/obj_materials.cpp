@@ -218,7 +218,7 @@ std::vector<std::string> names_in(const std::string& statement) {
 }
 
 void read_library(const std::string& statement, const fs::path& folder, const ReadOptions& options,
-                  std::map<std::string, Material>& known, ObjMaterials& result) {
+                  std::map<std::string, Material>& known, std::vector<std::string>& problems) {
   const std::vector<std::string> names = names_in(statement);
   for (const std::string& name : names) {
     try {
@@ -228,12 +228,10 @@ void read_library(const std::string& statement, const fs::path& folder, const Re
       Library({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name, folder,
               path.parent_path(), options, known)
           .read();
-      result.files.push_back((folder / path).string());
       if (name == statement) return;
     } catch (const std::runtime_error& error) {
       const bool may_be_several = name == statement && names.size() > 1;
-      if (!may_be_several)
-        result.problems.push_back(sphparam::quoted(name) + " (" + error.what() + ")");
+      if (!may_be_several) problems.push_back(sphparam::quoted(name) + " (" + error.what() + ")");
     }
   }
 }
@@ -272,13 +270,26 @@ MaterialChannels finished_channels(const Material& material) {
 
 }  // namespace
 
+std::vector<std::string> library_files(const std::vector<std::string>& libraries,
+                                       const fs::path& folder) {
+  std::vector<std::string> files;
+  for (const std::string& statement : libraries) {
+    for (const std::string& name : names_in(statement)) {
+      std::error_code hidden;
+      const fs::path path = folder / path_below(name);
+      if (fs::is_regular_file(path, hidden)) files.push_back(path.string());
+    }
+  }
+  return files;
+}
+
 ObjMaterials read_obj_materials(const std::vector<std::string>& names,
                                 const std::vector<std::string>& libraries, const fs::path& folder,
                                 const ReadOptions& options) {
   ObjMaterials result;
   std::map<std::string, Material> known;
   for (const std::string& statement : libraries)
-    read_library(statement, folder, options, known, result);
+    read_library(statement, folder, options, known, result.problems);
   const auto is_known = [&](const std::string& name) { return known.contains(name); };
   if (std::ranges::none_of(names, is_known)) return result;
   std::set<std::string> others;

@@ -18,7 +18,6 @@ struct ObjMaterials {
   long with_others = 0;                       // materials that say such things
   std::vector<std::string> unknown;           // names that no library has
   std::vector<std::string> problems;          // libraries that could not be read, and why
-  std::vector<std::string> files;             // those that were
 };
 
 /// Reads them in their order from below `folder`: of Kd, d, Tr and map_Kd the base colour, of Ke
@@ -32,5 +31,9 @@ struct ObjMaterials {
 ObjMaterials read_obj_materials(const std::vector<std::string>& names,
                                 const std::vector<std::string>& libraries,
                                 const std::filesystem::path& folder, const ReadOptions& options);
+
+/// Those of the libraries that are there, read or not.
+std::vector<std::string> library_files(const std::vector<std::string>& libraries,
+                                       const std::filesystem::path& folder);
 
 }  // namespace sphparam

@@ -380,13 +380,13 @@ class ObjReader {
   /// Base colours from the libraries; what is not carried of them, or why they are not read.
   void add_libraries() {
     const std::vector<std::string>& libraries = names_["mtllib"].in_order;
+    if (folder_) file_.companions = library_files(libraries, *folder_);
     if (libraries.empty() || file_.materials.empty()) return;
     const std::string materials = counted(static_cast<long>(file_.materials.size()), "material");
     ObjMaterials read;
     if (folder_) read = read_obj_materials(file_.materials, libraries, *folder_, options_);
     file_.base_colours = std::move(read.base_colours);
     file_.channels = std::move(read.channels);
-    file_.companions = std::move(read.files);
     for (std::size_t m = 0; m < file_.base_colours.size(); ++m)
       if (const std::string& image = file_.base_colours[m].image; !image.empty())
         file_.comments.push_back("base colour of " + file_.materials[m] + ": texture " + image);
