@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import zlib
-from typing import TYPE_CHECKING, Any, Callable, Dict, List, Mapping, NoReturn, Optional, Tuple, Type, TypeVar
+from typing import TYPE_CHECKING, Any, Callable, Dict, List, NoReturn, Optional, Tuple, Type, TypeVar
 
 from . import _core, _values
 from ._figures import Action, Certificate, Distortion, FaceDistortion, HandleLoop, Radial, Stage
@@ -93,14 +93,14 @@ class MapFacts:
         return self._once("angles", lambda: _core.angles(self._mapped))[1]
 
     @property
-    def values(self) -> Mapping[str, Array]:
+    def values(self) -> Dict[str, Array]:
         """What vertices carry: name to (V,) or (V, k), in its own type, read-only."""
-        return self._once("values", lambda: _values.grouped(self._mapped.vertex_values()))
+        return dict(self._once("values", lambda: _values.grouped(self._mapped.vertex_values())))
 
     @property
-    def face_values(self) -> Mapping[str, Array]:
+    def face_values(self) -> Dict[str, Array]:
         """What faces carry: name to (F,) or (F, k), read-only."""
-        return self._once("face_values", lambda: _values.grouped(self._mapped.face_values()))
+        return dict(self._once("face_values", lambda: _values.grouped(self._mapped.face_values())))
 
     @property
     def polygons(self) -> Optional[List[Ints]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, List, Mapping, NoReturn, Optional, Tuple, Union
+from typing import TYPE_CHECKING, Any, Dict, List, Mapping, NoReturn, Optional, Tuple, Union
 
 from . import _arrays, _core, _values
 from ._errors import Defect, MeshError, WriteError
@@ -114,12 +114,12 @@ class Mesh:
         return self._source.faces
 
     @property
-    def values(self) -> Mapping[str, Array]:
+    def values(self) -> Dict[str, Array]:
         """What vertices carry: name to (V,) or (V, k), in its own type, read-only."""
         return _values.grouped(self._source.vertex_values())
 
     @property
-    def face_values(self) -> Mapping[str, Array]:
+    def face_values(self) -> Dict[str, Array]:
         """What faces carry: name to (F,) or (F, k), read-only."""
         return _values.grouped(self._source.face_values())
 

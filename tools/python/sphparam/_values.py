@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import re
-from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Dict, Iterable, List, Mapping, Tuple
+from typing import TYPE_CHECKING, Any, Dict, Iterable, List, Tuple
 
 from . import _arrays
 from ._numpy import np
@@ -91,8 +90,8 @@ def columns(name: Any, thing: Any, count: int, what: str = "vertex") -> Rows:
     return [(n, kind, np.ascontiguousarray(table[:, k])) for k, n in enumerate(names)]
 
 
-def grouped(rows: Iterable[Tuple[str, Array]]) -> Mapping[str, Array]:
-    """Columns as they were given: colours, normals and numbered columns side by side. Read-only: a mesh has its own."""
+def grouped(rows: Iterable[Tuple[str, Array]]) -> Dict[str, Array]:
+    """Columns as they were given: colours, normals and numbered columns side by side. Read-only arrays: a mesh has its own."""
     left = {name: array for name, array in rows if name not in ("sx", "sy", "sz", "theta", "phi")}
     found: Dict[str, Array] = {}
     for group, names in _columns.items():
@@ -110,4 +109,4 @@ def grouped(rows: Iterable[Tuple[str, Array]]) -> Mapping[str, Array]:
     found.update(left)
     for array in found.values():
         array.flags.writeable = False
-    return MappingProxyType(found)
+    return found
