@@ -31,7 +31,7 @@ TEST_CASE("progressive: protrusions, hubs and random connectivity are embedded w
 
 TEST_CASE("progressive: protrusions thousands of times longer than wide find room in the end") {
   // At λ = 1 some of these run out of doubles; more weight on areas keeps the tips apart.
-  for (const auto& [rings, around] : {std::pair{1000, 6}, {5000, 7}}) {
+  for (const auto& [rings, around] : {std::pair{1000, 7}, {4000, 6}}) {
     const TriangleMesh mesh = tube(rings, around);
     const Topology topology(mesh);
     const ProgressiveEmbedding embedding = embed_progressively(mesh, topology);
@@ -41,7 +41,7 @@ TEST_CASE("progressive: protrusions thousands of times longer than wide find roo
 }
 
 TEST_CASE("progressive: the same bits for 1, 2 and 4 threads, for both energies") {
-  const TriangleMesh mesh = tube(300, 8);
+  const TriangleMesh mesh = tube(120, 8);
   const Topology topology(mesh);
   for (const EnergyKind kind : {EnergyKind::AngleAndArea, EnergyKind::SymmetricDirichlet}) {
     const auto points = [&](int threads) {
@@ -276,7 +276,7 @@ TEST_CASE("kernel_placement: a ring without a kernel gets no point") {
 }
 
 TEST_CASE("progressive: shapes that have collapsed into three places are embedded all the same") {
-  for (unsigned seed = 0; seed < 30; ++seed) {
+  for (unsigned seed = 0; seed < 6; ++seed) {
     TriangleMesh mesh = random_sphere_mesh(600, seed);
     const Topology topology(mesh);
     std::mt19937 random(seed);
