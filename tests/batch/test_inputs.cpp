@@ -1,8 +1,10 @@
 #include <unistd.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "batch/tables.h"
 #include "sphparam/batch/inputs.h"
@@ -91,6 +93,40 @@ TEST_CASE("inputs: a table has ids and columns of its own") {
   CHECK_THROWS_WITH(tree.ids("t.csv"), Contains("no column `path`"));
   tree.write("t.csv", "path\n\"a.ply\n");
   CHECK_THROWS_WITH(tree.ids("t.csv"), Contains("quote that does not end"));
+}
+
+TEST_CASE("inputs: letters of any alphabet stay in ids, what is none is told apart by a hash") {
+  TreeOfFiles tree({"日本.off", "中国.off", "a b.off", "a_b.off", "é.off", "è.off"});
+  const Ids ids = tree.ids("");
+  REQUIRE(ids.size() == 6);
+  CHECK(std::set<std::string>(ids.begin(), ids.end()).size() == 6);
+  CHECK(std::ranges::count(ids, "a_b") == 1);
+  CHECK(std::ranges::count(ids, "日本") == 1);
+  CHECK(std::ranges::count_if(ids, [](const std::string& id) {
+          return id.starts_with("a_b_") && id.size() == 12;
+        }) == 1);
+}
+
+TEST_CASE("inputs: ids that no folder can be called by") {
+  const std::string name(230, 'n');
+  TreeOfFiles tree({name + ".off", "a.off"});
+  const Ids ids = tree.ids("");
+  CHECK(ids.front() == "a");
+  CHECK(ids.back().size() == 100);
+  CHECK(ids.back().starts_with("nnn"));
+  for (const std::string bad : {"b ü", "\"a,b\"", ".a", "a\xff", "a\u00a0b"}) {
+    tree.write("t.csv", "id,path\n" + bad + ",a.off\n");
+    CHECK_THROWS_WITH(tree.ids("t.csv"), Contains("names a folder"));
+  }
+  tree.write("t.csv", "id,path\nü-1.x,a.off\n");
+  CHECK(tree.ids("t.csv") == Ids{"ü-1.x"});
+}
+
+TEST_CASE("inputs: a folder that links lead to is looked into once, also where they go round") {
+  TreeOfFiles tree({"in/a.ply", "elsewhere/b.ply"});
+  std::filesystem::create_directory_symlink(".", tree.root / "in/loop");
+  std::filesystem::create_directory_symlink("../elsewhere", tree.root / "in/more");
+  CHECK(tree.ids("in") == Ids{"a", "b"});
 }
 
 TEST_CASE("inputs: patterns, and places where nothing is") {

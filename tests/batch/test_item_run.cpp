@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <csignal>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -35,6 +36,7 @@ class OneShape {
   OneShape& operator=(const OneShape&) = delete;
 
   ItemSetting setting() const { return {folder_, plan_, write_a_result}; }
+  ItemSetting without_room() const { return {folder_, plan_, lacks_room}; }
   const BatchItem& item() const { return plan_.items[0]; }
   std::string record() const { return small_file(folder_ + "/results/a/record.json").value_or(""); }
   bool has_failed() const { return fs::exists(folder_ + "/failed/a.json"); }
@@ -46,9 +48,15 @@ class OneShape {
     return 0;
   }
 
+  static int find_no_room(const BatchStep&, const BatchStepSetting&) {
+    std::fputs("sphparam: error: a.ply: cannot write: No space left on device\n", stderr);
+    return step_has_no_room;
+  }
+
   const std::string folder_ =
       (fs::temp_directory_path() / ("sphparam_item_" + std::to_string(::getpid()))).string();
   const std::function<int(const BatchStep&, const BatchStepSetting&)> write_a_result = write_result;
+  const std::function<int(const BatchStep&, const BatchStepSetting&)> lacks_room = find_no_room;
   BatchPlan plan_;
 };
 
@@ -76,6 +84,20 @@ TEST_CASE("item run: who is killed when his results are out has done his work, a
   CHECK_FALSE(fs::exists(shape.staged()));
   CHECK(run_in_a_process(shape) == ItemDoneElsewhere);
   CHECK(shape.record() == record);
+}
+
+TEST_CASE("item run: a machine without room is no failure of the item") {
+  const OneShape shape;
+  const int code = wait_for_child(start_child([&] {
+                     try {
+                       return static_cast<int>(run_item(shape.without_room(), shape.item()));
+                     } catch (const BatchMachineError& error) {
+                       return std::strstr(error.what(), "No space left") ? 42 : 43;
+                     }
+                   })).code;
+  CHECK(code == 42);
+  CHECK_FALSE(shape.has_failed());
+  CHECK_FALSE(fs::exists(shape.staged()));
 }
 
 }  // namespace sphparam::tests

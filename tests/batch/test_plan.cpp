@@ -36,6 +36,13 @@ TEST_CASE("steps: each takes the mesh that was left, and writes by its id") {
               {"export", "{id}_remesh.sph.ply", "--output=x.glb"}});
 }
 
+TEST_CASE("steps: a mesh without {id} in its name is taken by the next step, once") {
+  const Steps steps = complete_steps({{"map", "-o", "m.sph.ply"}, {"remesh", "--grid", "ico:2"}});
+  CHECK(steps == Steps{{"map", "{input}", "-o", "m.sph.ply"},
+                       {"remesh", "m.sph.ply", "--grid", "ico:2", "-o", "{id}_remesh.sph.ply"}});
+  CHECK(complete_steps(steps) == steps);
+}
+
 TEST_CASE("steps: what names its files is left alone") {
   const Steps steps = {{"map", "-o", "m.sph.ply", "{input}"},
                        {"bake", "{id}.sph.ply", "-o", "{id}_{map}.png"}};
@@ -70,6 +77,7 @@ TEST_CASE("manifest: what was planned comes back, and its name is that of its by
   CHECK(with_chunk(plan, 1).name == plan.name);
   CHECK(with_chunk(plan, 2).name != plan.name);
   CHECK(with_chunk(plan, 2).tasks() == 1);
+  CHECK_THROWS_AS(with_chunk(plan, 0), std::invalid_argument);
 }
 
 TEST_CASE("manifest: one that is cut off or another file is refused with the line") {

@@ -35,7 +35,7 @@ TEST_CASE("record: its head is read back, and nothing behind it is looked at") {
                  .repairs = "hole-filled 1",
                  .files = {{"a/b.ply", 12, "h1"}, {"c", 0, "h2"}}};
   const std::string json = to_json(record);
-  const BatchRecordHead head = read_head(json.substr(0, json.find("\"path\"")), "r");
+  const BatchRecordHead head = read_head(json.substr(0, json.find("\"path\""))).value();
   CHECK(head.outcome == BatchOutcome::Certified);
   CHECK(head.attempt == 3);
   CHECK(head.retry);
@@ -50,11 +50,11 @@ TEST_CASE("record: its head is read back, and nothing behind it is looked at") {
   CHECK(head.files[0].name == "a/b.ply");
   CHECK(head.files[0].size == 12);
   CHECK(head.files[1].hash == "h2");
-  CHECK_THROWS_WITH(read_head(json.substr(0, 40), "r"), Contains("no whole record"));
+  CHECK_FALSE(read_head(json.substr(0, 40)));
 }
 
 TEST_CASE("record: what stands in the lists of another key is no file") {
-  const BatchRecordHead head = read_head(R"({"stamp":[[{"files":3,"files":"a"}]],"id":"x"})", "r");
+  const BatchRecordHead head = read_head(R"({"stamp":[[{"files":3,"files":"a"}]],"id":"x"})").value();
   CHECK(head.files.empty());
 }
 

@@ -248,6 +248,55 @@ TEST_CASE("batch: an item that needs too much memory fails alone") {
   CHECK_THAT(shapes.batch("status").out, Contains("code 1: out of memory"));
 }
 
+TEST_CASE("batch: what is left of a record after a loss of power is no record, its item is open") {
+  const Shapes shapes(2);
+  shapes.plan();
+  shapes.batch("run");
+  const std::string record = shapes.work + "/results/ball0/record.json";
+  for (const std::size_t left : {0, 40, 700}) {
+    write_bytes(record, bytes_of(record).substr(0, left));
+    CHECK(shapes.status()["open"] == 1);
+    CHECK(shapes.batch("table", {"-o", "-", "-q"}).code == 0);
+    CHECK_THAT(shapes.batch("run").err, Contains("1 done, 0 failed, 1 done before"));
+    CHECK(shapes.record("ball0")["outcome"] == "certified");
+  }
+}
+
+TEST_CASE("batch: a file that every shape would write is told before anything is planned") {
+  const Shapes shapes(2);
+  const std::string shared = shapes.folder / "all.csv";
+  for (const std::string& path : {shared, std::string("../../all.csv")}) {
+    const Ended plan = shapes.plan({"map", "--", "spharm", "--csv", path});
+    CHECK(plan.code == 2);
+    CHECK_THAT(plan.err, Contains("every shape would write " + path));
+  }
+  CHECK(shapes.plan({"map", "--", "spharm", "--csv", shapes.folder / "{id}.csv"}).code == 0);
+}
+
+TEST_CASE("batch: the table has the columns of the one it was planned from, and .tsv has tabs") {
+  const Shapes shapes(2);
+  write_bytes(shapes.folder / "t.csv",
+              "path,age,code\nin/ball0.obj,7,x\nin/ball1.obj,\"8, or\t9\",y\n");
+  REQUIRE(sphparam_program({"batch", "plan", shapes.folder / "t.csv", "-o", shapes.work, "--chunk",
+                            "1", "--", "map", "--quality", "draft"})
+              .code == 0);
+  shapes.batch("run");
+  const std::string table = shapes.batch("table", {"-o", "-", "-q"}).out;
+  CHECK_THAT(table, Contains("repairs,age,table.code,") && Contains(",\"8, or\t9\",y,"));
+  REQUIRE(shapes.batch("table", {"-o", shapes.folder / "all.tsv"}).code == 0);
+  CHECK_THAT(bytes_of(shapes.folder / "all.tsv"), Contains("repairs\tage\ttable.code\t"));
+  CHECK(shapes.batch("table", {"-o", shapes.folder / "all.xlsx"}).code == 2);
+}
+
+TEST_CASE("batch: the page of a folder that takes no pictures says so") {
+  const Shapes shapes(1);
+  shapes.plan();
+  shapes.batch("run");
+  write_bytes(shapes.work + "/pictures", "where the folder should be");
+  REQUIRE(shapes.batch("report", {"-o", shapes.folder / "all.html"}).code == 0);
+  CHECK_THAT(bytes_of(shapes.folder / "all.html"), Contains("1 picture could not be drawn"));
+}
+
 TEST_CASE("batch: killed or stopped, nothing is lost, half or done twice") {
   const Shapes shapes(12);
   shapes.plan();

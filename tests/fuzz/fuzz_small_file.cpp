@@ -70,8 +70,10 @@ void read_as_manifest(std::string_view text) {
 }
 
 void read_as_record(std::string_view text) {
-  const BatchRecord record{.head = read_head(text, "fuzzed")};
-  const BatchRecordHead again = read_head(to_json(record), "again");
+  const auto head = read_head(text);
+  if (!head) return;
+  const BatchRecord record{.head = *head};
+  const BatchRecordHead again = read_head(to_json(record)).value();
   expect(again.outcome == record.head.outcome && again.code == record.head.code &&
              again.input == record.head.input && again.files.size() == record.head.files.size(),
          "a record survives writing and reading");

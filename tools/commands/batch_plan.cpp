@@ -7,6 +7,7 @@
 
 #include "arguments/leading_options.h"
 #include "arguments/numbers.h"
+#include "batch/steps.h"
 #include "commands/batch.h"
 #include "console/program.h"
 #include "number_text.h"
@@ -65,15 +66,18 @@ std::vector<BatchStep> given_steps() {
   return steps;
 }
 
-/// Steps run elsewhere: the files that they read are named from the root. Their words are those of
-/// the first shape; what differs between shapes is a column's business.
+/// Steps run elsewhere: the files that they read are named from the root, but for what a step of
+/// theirs leaves. Their words are those of the first shape; what differs between shapes is a column's
+/// business.
 std::vector<BatchStep> with_whole_paths(std::vector<BatchStep> steps, const BatchInputs& inputs) {
   const BatchPlan sample{.steps = steps, .columns = inputs.columns};
   const BatchInput& shape = inputs.shapes.front();
   const BatchItem item{.id = shape.id, .path = shape.path, .values = shape.values};
   const std::vector<BatchStep> words = steps_of(sample, item);
+  const std::vector<std::string> left = files_left_by(words);
   for (std::size_t k = 0; k < steps.size(); ++k) {
     for (const std::string& file : files_read_by(words[k])) {
+      if (std::ranges::count(left, file) > 0) continue;
       for (std::string& word : steps[k]) {
         if (word == file || word.ends_with("=" + file) || word.ends_with(":" + file))
           word.replace(word.size() - file.size(), file.size(), fs::absolute(file).string());
@@ -81,6 +85,33 @@ std::vector<BatchStep> with_whole_paths(std::vector<BatchStep> steps, const Batc
     }
   }
   return steps;
+}
+
+/// A path that leads out of the folder of an item, in a word or behind its equals sign; empty: none.
+std::string path_outside(const std::string& word) {
+  const std::size_t equals = word.starts_with('-') ? word.find('=') : std::string::npos;
+  const std::string value = equals == std::string::npos ? word : word.substr(equals + 1);
+  return value.starts_with('/') || value.starts_with("../") ? value : "";
+}
+
+/// A file that is not read is written, and each shape would write it anew.
+void require_outputs_apart(const std::vector<BatchStep>& steps, const BatchInputs& inputs) {
+  if (inputs.shapes.size() < 2) return;
+  const BatchInput& shape = inputs.shapes.front();
+  const BatchPlan sample{.steps = steps, .columns = inputs.columns};
+  const std::vector<BatchStep> words =
+      steps_of(sample, {.id = shape.id, .path = shape.path, .values = shape.values});
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    const std::vector<std::string> read = files_read_by(words[k]);
+    for (const std::string& word : steps[k]) {
+      const std::string path = path_outside(word);
+      const bool same_for_all = !path.empty() && placeholders_in(path).empty();
+      if (same_for_all && std::ranges::count(read, path) == 0)
+        throw UsageMistake("every shape would write " + path +
+                           ": without a folder it is one of its results, and {id} in it tells "
+                           "shapes apart");
+    }
+  }
 }
 
 /// Values of columns that name files beside the table or here, from the root too.
@@ -186,6 +217,7 @@ int run_plan(PlanArguments& arguments) try {
   Session session(arguments);
   BatchInputs inputs = find_batch_inputs(arguments.inputs, {.surface = arguments.surface});
   complete_values(inputs);
+  require_outputs_apart(steps, inputs);
   const bool automatic = arguments.chunk == "auto";
   session.hold_signals();
   BatchPlan plan = make_plan(inputs, {.steps = with_whole_paths(steps, inputs),
@@ -225,7 +257,8 @@ void declare_options(Declaration& command, PlanArguments& arguments) {
 }  // namespace
 
 int run_batch_step(const std::vector<std::string>& words, const std::string& report, int threads) {
-  return run_command_line(words, {{"--json", report}, {"--threads", std::to_string(threads)}});
+  return run_command_line(words, {{"--json", report}, {"--threads", std::to_string(threads)}},
+                          step_has_no_room);
 }
 
 Command declare_batch_plan(CLI::App& program) {

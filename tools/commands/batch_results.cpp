@@ -8,6 +8,7 @@
 #include "number_text.h"
 #include "sphparam/batch/results.h"
 #include "sphparam/batch/status.h"
+#include "sphparam/io/paths.h"
 
 namespace sphparam::cli {
 
@@ -94,11 +95,20 @@ int run_retry(ResultArguments& arguments) try {
   throw UsageMistake(error.what());
 }
 
+/// Standard output is commas too.
+char separator_of(const std::string& path) {
+  const std::string extension = is_stream(path) ? ".csv" : extension_of(path);
+  if (extension != ".csv" && extension != ".tsv")
+    throw UsageMistake("-o: the table is written as .csv or .tsv, not as " + path);
+  return extension == ".tsv" ? '\t' : ',';
+}
+
 int run_table(ResultArguments& arguments) {
+  const char separator = separator_of(arguments.output);
   Session session(arguments);
   check_places({{"-o", arguments.output}});
   const BatchPlan plan = load_plan(arguments.folder, arguments.plan);
-  session.files.add(arguments.output, batch_table(arguments.folder, plan, arguments.threads));
+  session.files.add(arguments.output, batch_table(arguments.folder, plan, arguments.threads, separator));
   session.publish();
   session.console.say(counted(static_cast<long>(plan.items.size()), "row") + " → " +
                       output_name(arguments.output));
@@ -144,7 +154,7 @@ void declare_retry_options(Declaration& command, ResultArguments& arguments) {
 
 void declare_table_options(Declaration& command, ResultArguments& arguments) {
   declare_batch_of(command, arguments)
-      .output(arguments.output, "FILE.csv", "The table; - for standard output")
+      .output(arguments.output, "FILE.csv", "The table, or .tsv; - for standard output")
       .threads(arguments)
       .console(arguments);
 }

@@ -15,6 +15,7 @@
 #include <exception>
 #include <map>
 #include <new>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -35,6 +36,7 @@
 #include "io/files/temporary_file.h"
 #include "sphparam/errors.h"
 #include "sphparam/io/mesh_reader.h"
+#include "sphparam/io/no_room_error.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/version.h"
@@ -247,6 +249,14 @@ std::vector<char*> with_subcommand(const CLI::App& program, int argc, char** arg
   return words;
 }
 
+/// What was asked for goes the way of all outputs: who cannot be told hears so.
+int tell(const CLI::App& app, const CLI::Success& help_or_version) {
+  std::ostringstream text;
+  const int code = app.exit(help_or_version, text, text);
+  write_file("-", text.str());
+  return code;
+}
+
 int run_program(int argc, char** argv) {
   Program program;
   try {
@@ -261,7 +271,7 @@ int run_program(int argc, char** argv) {
       return command->run();
     }
   } catch (const CLI::Success& help_or_version) {
-    return program.app.exit(help_or_version);
+    return tell(program.app, help_or_version);
   } catch (const CLI::ParseError& error) {
     return usage_error(program.app, explain(program.app, error));
   } catch (const UsageMistake& mistake) {
@@ -326,7 +336,8 @@ int mesh_error(const MeshError& error, const std::string& advice, bool repaired 
   return MeshUnusable;
 }
 
-int guarded_main(int argc, char** argv) {
+/// `no_room`: what a file that the machine has no room for is answered with.
+int guarded_main(int argc, char** argv, int no_room) {
   try {
     return run_program(argc, argv);
   } catch (const MeshRefusal& error) {
@@ -343,6 +354,9 @@ int guarded_main(int argc, char** argv) {
     return told(error, FileError);
   } catch (const ImageError& error) {
     return told(error, FileError);
+  } catch (const NoRoomError& error) {
+    told(error, FileError);
+    return no_room;
   } catch (const WriteError& error) {
     return told(error, FileError);
   } catch (const Cancelled&) {
@@ -361,9 +375,9 @@ int guarded_main(int argc, char** argv) {
 }
 
 /// The exit code, whatever happens.
-int run_to_the_end(int argc, char** argv) {
+int run_to_the_end(int argc, char** argv, int no_room) {
   try {
-    return guarded_main(argc, argv);
+    return guarded_main(argc, argv, no_room);
   } catch (...) {  // memory ran out, perhaps while another error was being told
     std::fputs(out_of_memory_message(), stderr);
     return InternalError;
@@ -373,7 +387,8 @@ int run_to_the_end(int argc, char** argv) {
 }  // namespace
 
 int run_command_line(std::vector<std::string> words,
-                     const std::vector<std::pair<std::string, std::string>>& presets) {
+                     const std::vector<std::pair<std::string, std::string>>& presets,
+                     int no_room) {
   {
     const Program program;
     const CLI::App* const command = subcommand_named(program.app, words.at(0));
@@ -389,7 +404,7 @@ int run_command_line(std::vector<std::string> words,
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
-  return run_to_the_end(static_cast<int>(words.size()), argv.data());
+  return run_to_the_end(static_cast<int>(words.size()), argv.data(), no_room);
 }
 
 std::vector<std::string> files_read_by(const std::vector<std::string>& words) {
@@ -412,7 +427,7 @@ int run_sphparam(int argc, char** argv) {
   end_on_interruption();
   turn_signals_into_errors();
   std::set_terminate(end_at_once);
-  return run_to_the_end(argc, argv);
+  return run_to_the_end(argc, argv, FileError);
 }
 
 }  // namespace sphparam::cli

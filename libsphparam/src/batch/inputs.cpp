@@ -10,6 +10,7 @@
 #include <map>
 #include <set>
 
+#include "batch/shape_id.h"
 #include "batch/tables.h"
 #include "io/files/file_bytes.h"
 #include "number_text.h"
@@ -30,22 +31,11 @@ std::string whole_path(const fs::path& path) {
 
 bool is_hidden(const fs::path& path) { return path.filename().string().starts_with('.'); }
 
-/// Only what may stand in the name of a folder everywhere.
-std::string safe_id(std::string text) {
-  for (char& c : text) {
-    const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                       c == '-' || c == '_' || c == '.';
-    if (!plain) c = '_';
-  }
-  if (text.empty() || text.front() == '.') text.insert(text.begin(), '_');
-  return text;
-}
-
 /// "sub-01_hemi-L_white" of "sub-01_hemi-L_white.surf.gii", "lh.white" of itself.
-std::string id_of_name(const std::string& path) {
+std::string name_of_shape(const std::string& path) {
   std::string name = is_mesh_name(path) ? stem_of(path) : fs::path(path).filename().string();
   if (name.ends_with(".surf")) name.resize(name.size() - 5);
-  return safe_id(name);
+  return name;
 }
 
 /// One shape, which has no id yet where nobody gave one.
@@ -61,8 +51,9 @@ class Finder {
 
   void look_at(const std::string& place) {
     const std::string extension = extension_of(place);
-    if (fs::is_directory(place)) return folder(place);
-    if (!is_stream(place) && !fs::exists(place)) return pattern(place);
+    std::error_code hidden;  // a name that is too long is none
+    if (fs::is_directory(place, hidden)) return folder(place);
+    if (!is_stream(place) && !fs::exists(place, hidden)) return pattern(place);
     if (extension == ".csv" || extension == ".tsv") return table(place);
     if (!is_stream(place) && is_mesh_name(place)) return add(place);
     list(place);
@@ -132,11 +123,19 @@ class Finder {
     std::vector<std::string> values(columns_.size());
     std::string id;
     for (std::size_t i = 0; i < header.size(); ++i) {
-      if (header[i] == "id") id = safe_id(row[i]);
+      if (header[i] == "id") id = id_of_row(place, row[i]);
       const auto column = std::ranges::find(columns_, header[i]);
       if (column != columns_.end()) values[column - columns_.begin()] = row[i];
     }
     add(named_in(place, row[path_column]), std::move(id), std::move(values));
+  }
+
+  /// Empty: the name of the file gives it. Another than the table's would be found in no other table.
+  static std::string id_of_row(const std::string& place, const std::string& id) {
+    if (id.empty() || is_shape_id(id)) return id;
+    throw BatchInputError(display_name(place) + ": the id '" + id +
+                          "' names a folder: letters, digits, '.', '_' and '-' are for it, no '.' "
+                          "at first, and 100 bytes at most");
   }
 
   void folder(const fs::path& place) {
@@ -163,7 +162,7 @@ class Finder {
         for (const std::string ending : {".surf.gii", ".gii", ""}) {
           const fs::path file = subject / "surf" / (name + ending);
           if (!fs::is_regular_file(file)) continue;
-          add(file, safe_id(subject.filename().string() + "_" + side + "_" + options_.surface));
+          add(file, shape_id_of(subject.filename().string() + "_" + side + "_" + options_.surface));
           any = true;
           break;
         }
@@ -188,23 +187,33 @@ class Finder {
 
   static std::vector<fs::path> sorted(const fs::path& place) {
     std::vector<fs::path> entries;
-    for (const auto& entry : fs::directory_iterator(place))
-      if (!is_hidden(entry.path())) entries.push_back(entry.path());
+    std::error_code error;
+    for (fs::directory_iterator at(place, error), end; !error && at != end; at.increment(error))
+      if (!is_hidden(at->path())) entries.push_back(at->path());
+    if (error) throw ReadError(place.string(), error.message());
     std::ranges::sort(entries);
     return entries;
   }
 
   static std::vector<fs::path> files_below(const fs::path& place) {
+    std::set<fs::path> seen;
     std::vector<fs::path> files;
+    add_files_below(place, seen, files);
+    return files;
+  }
+
+  /// `seen`: folders as they are called without links, which may lead back to where they lie.
+  static void add_files_below(const fs::path& place, std::set<fs::path>& seen,
+                              std::vector<fs::path>& files) {
+    if (!seen.insert(fs::canonical(place)).second) return;
     for (const fs::path& entry : sorted(place)) {
-      if (fs::is_directory(entry)) {
-        const std::vector<fs::path> more = files_below(entry);
-        files.insert(files.end(), more.begin(), more.end());
+      std::error_code leads_nowhere;
+      if (fs::is_directory(entry, leads_nowhere)) {
+        add_files_below(entry, seen, files);
       } else {
         files.push_back(entry);
       }
     }
-    return files;
   }
 
   const BatchInputOptions& options_;
@@ -212,29 +221,45 @@ class Finder {
   std::vector<Found> found_;
 };
 
-/// Names of files, and where one stands for several, with the names of folders before them, as many
-/// as it takes for all of these.
+/// The name of a file behind those of so many of the folders that it lies in.
+std::string name_with_folders(const std::string& path, int folders) {
+  std::string name = name_of_shape(path);
+  fs::path folder = fs::path(path).parent_path();
+  for (; folders > 0 && folder.has_relative_path(); --folders, folder = folder.parent_path())
+    name = folder.filename().string() + "_" + name;
+  return name;
+}
+
+/// Where two names would be one id, a name that is none itself gets its hash.
+std::string id_apart(const std::string& name, const std::map<std::string, int>& names_of_id) {
+  const std::string id = shape_id_of(name);
+  return names_of_id.at(id) > 1 && id != name ? shape_id_with_hash(name) : id;
+}
+
+/// Names of files that have one: with the names of folders before them, as many as it takes for all
+/// of these; without, where one folder has them.
+std::vector<std::string> names_apart(const std::vector<Found*>& files) {
+  std::vector<std::string> names(files.size(), name_of_shape(files.front()->path));
+  for (int folders = 1; files.size() > 1 && folders < 32; ++folders) {
+    std::vector<std::string> longer;
+    for (const Found* const file : files) longer.push_back(name_with_folders(file->path, folders));
+    if (std::set<std::string>(longer.begin(), longer.end()).size() == files.size()) return longer;
+  }
+  return names;
+}
+
 void name_apart(std::vector<Found>& found) {
   std::map<std::string, std::vector<Found*>> by_name;
-  for (Found& one : found) {
-    if (one.id.empty()) by_name[id_of_name(one.path)].push_back(&one);
+  for (Found& one : found)
+    if (one.id.empty()) by_name[name_of_shape(one.path)].push_back(&one);
+  std::vector<std::pair<Found*, std::string>> named;
+  for (const auto& [name, files] : by_name) {
+    const std::vector<std::string> names = names_apart(files);
+    for (std::size_t i = 0; i < files.size(); ++i) named.emplace_back(files[i], names[i]);
   }
-  for (auto& [name, group] : by_name) {
-    fs::path folder;
-    std::set<std::string> ids;
-    for (int depth = 0; depth < 32 && ids.size() < group.size(); ++depth) {
-      ids.clear();
-      for (Found* one : group) {
-        folder = fs::path(one->path).parent_path();
-        one->id = name;
-        for (int level = 0; level < depth && folder.has_relative_path(); ++level) {
-          one->id = safe_id(folder.filename().string()) + "_" + one->id;
-          folder = folder.parent_path();
-        }
-        ids.insert(one->id);
-      }
-    }
-  }
+  std::map<std::string, int> names_of_id;
+  for (const auto& [file, name] : named) ++names_of_id[shape_id_of(name)];
+  for (const auto& [file, name] : named) file->id = id_apart(name, names_of_id);
 }
 
 void require_distinct(const std::vector<Found>& found) {
@@ -245,7 +270,7 @@ void require_distinct(const std::vector<Found>& found) {
     throw BatchInputError(
         "two shapes have the id " + one.id + ": " + other->second->path + " and " + one.path +
         (other->second->path == one.path ? "; a shape belongs into a batch once"
-                                         : "; a table with a column `id` tells them apart"));
+                                         : "; ids of a table, in a column `id`, tell them apart"));
   }
 }
 

@@ -125,6 +125,7 @@ class ItemRun {
     for (const BatchStep& step : steps) {
       const int code = run_step(step);
       if (code == interrupted) return end(ItemInterrupted);
+      if (code == step_has_no_room) give_up();
       if (code != 0) return fail(code, "");
     }
     return succeed();
@@ -189,6 +190,12 @@ class ItemRun {
     record_.head.cpu_seconds = cpu_seconds_so_far();
     record_.head.ended = std::time(nullptr);
     record_.peak_bytes = peak_of_children();
+  }
+
+  [[noreturn]] void give_up() {
+    const std::string reason = reason_in(small_file(staged_ + "/log").value_or(""));
+    end(ItemMachineError);
+    throw BatchMachineError(reason);
   }
 
   ItemEnd end(ItemEnd how) {

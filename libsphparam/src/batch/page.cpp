@@ -17,6 +17,7 @@
 #include "report/svg.h"
 #include "sphparam/batch/results.h"
 #include "sphparam/batch/status.h"
+#include "sphparam/io/safe_file.h"
 #include "sphparam/parallel.h"
 #include "sphparam/version.h"
 
@@ -34,6 +35,7 @@ struct Shape {
   std::string outcome = "open", reason, repairs;
   std::string page;     // of its own; empty: none
   std::string picture;  // below the folder of the batch; empty: none
+  std::string unwritten_picture;  // why it could not be kept there
   int code = 0, attempt = 0;
   std::optional<double> area, angle, within_two, vertices, seconds;
 };
@@ -72,13 +74,16 @@ Shape shape_of(const std::string& folder, const BatchItem& item) {
   for (const BatchFile& file : stored->head.files) {
     if (shape.page.empty() && file.name.ends_with(".html")) shape.page = file.name;
   }
-  shape.picture = picture_of(folder, item.id, stored->head.files);
+  try {
+    shape.picture = picture_of(folder, item.id, stored->head.files);
+  } catch (const WriteError& error) {  // who may only read the folder gets a page all the same
+    shape.unwritten_picture = error.what();
+  }
   for (const Json& step : record.value("steps", Json::array())) take_figures(step["report"], shape);
   return shape;
 }
 
 std::vector<Shape> shapes_of(const std::string& folder, const BatchPlan& plan, int threads) {
-  fs::create_directories(fs::path(folder) / "pictures");
   std::vector<Shape> shapes(plan.items.size());
   constexpr std::int64_t grain = 16;
   parallel_for(std::ssize(shapes), grain, threads, [&](std::int64_t first, std::int64_t last) {
@@ -186,6 +191,14 @@ void add_failures(Page& page, const BatchStatus& status) {
   page.insert(html + "</tbody></table></div>\n");
 }
 
+void tell_unwritten_pictures(Page& page, const std::vector<Shape>& shapes) {
+  const auto lacks = [](const Shape& shape) { return !shape.unwritten_picture.empty(); };
+  const auto first = std::ranges::find_if(shapes, lacks);
+  if (first == shapes.end()) return;
+  page.paragraph(counted(std::ranges::count_if(shapes, lacks), "picture") +
+                 " could not be drawn into the folder of the batch: " + first->unwritten_picture);
+}
+
 std::string link_to_folder(const std::string& folder, const std::string& page_folder) {
   const fs::path from = fs::absolute(page_folder.empty() ? "." : page_folder).lexically_normal();
   const fs::path to = fs::absolute(folder).lexically_normal();
@@ -225,6 +238,7 @@ std::string batch_page(const std::string& folder, const BatchPlan& plan,
   angle.add_to(page, names);
   page.insert("</div>");
   page.heading("Shapes");
+  tell_unwritten_pictures(page, shapes);
   page.insert(
       "<noscript><p>The shapes are shown by a script. All figures are in the table that "
       "<code>sphparam batch table</code> writes.</p></noscript>\n<div id=\"shapes\"></div>");

@@ -33,11 +33,14 @@ const BatchFile* map_among(const std::vector<BatchFile>& files) {
 void write_picture(const fs::path& path, const std::string& bytes) {
   const fs::path temporary =
       path.parent_path() / ("." + path.filename().string() + "~" + std::to_string(::getpid()));
+  std::error_code error;
+  fs::create_directories(path.parent_path(), error);
   std::ofstream out(temporary, std::ios::binary);
   out << bytes;
   out.close();
   if (!out) throw WriteError(path.string(), std::strerror(errno));
-  fs::rename(temporary, path);
+  fs::rename(temporary, path, error);
+  if (error) throw WriteError(path.string(), error.message());
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "batch/manifest.h"
 #include "batch/options_hash.h"
 #include "batch/steps.h"
+#include "option_domain.h"
 #include "sphparam/errors.h"
 #include "sphparam/parallel.h"
 
@@ -60,6 +61,7 @@ void hash_inputs(BatchPlan& plan, const BatchPlanOptions& options) {
 }  // namespace
 
 BatchPlan make_plan(const BatchInputs& inputs, const BatchPlanOptions& options) {
+  require_at_least("chunk", options.chunk, 1);
   BatchPlan plan;
   plan.steps = complete_steps(options.steps);
   plan.columns = inputs.columns;
@@ -72,6 +74,7 @@ BatchPlan make_plan(const BatchInputs& inputs, const BatchPlanOptions& options) 
 }
 
 BatchPlan with_chunk(BatchPlan plan, int chunk) {
+  require_at_least("chunk", chunk, 1);
   plan.chunk = chunk;
   plan.name = content_hash(manifest_text(plan)).substr(0, 16);
   return plan;

@@ -23,6 +23,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t longest_list = 32;
+constexpr std::string_view last_of_record = "}\n";
 
 const char* name_of(BatchOutcome outcome) {
   switch (outcome) {
@@ -200,11 +201,10 @@ std::string to_json(const BatchRecord& record) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-BatchRecordHead read_head(std::string_view json, const std::string& file) {
+std::optional<BatchRecordHead> read_head(std::string_view json) {
   HeadReader reader;
   nlohmann::json::sax_parse(json.begin(), json.end(), &reader);
-  if (!reader.whole)
-    throw ReadError(file, "this is no whole record of a batch; removed, its item is run again");
+  if (!reader.whole) return std::nullopt;
   return std::move(reader.head);
 }
 
@@ -238,11 +238,11 @@ std::optional<StoredRecord> record_about(const std::string& folder, const BatchI
   for (std::string path :
        {result_folder(folder, item.id) + "/record.json", failure_path(folder, item.id)}) {
     std::optional<std::string> bytes = small_file(path);
-    if (!bytes) continue;
-    BatchRecordHead head = read_head(*bytes, path);
-    if (head.options != item.options || head.planned != item.input) continue;
-    if (!latest || head.attempt > latest->head.attempt)
-      latest = StoredRecord{std::move(head), std::move(*bytes), std::move(path)};
+    if (!bytes || !bytes->ends_with(last_of_record)) continue;
+    std::optional<BatchRecordHead> head = read_head(*bytes);
+    if (!head || head->options != item.options || head->planned != item.input) continue;
+    if (!latest || head->attempt > latest->head.attempt)
+      latest = StoredRecord{std::move(*head), std::move(*bytes), std::move(path)};
   }
   return latest;
 }

@@ -63,11 +63,12 @@ struct BatchRecord {
 /// lists of more than 32 entries are left out (coefficients, numbers of vertices).
 std::string to_json(const BatchRecord& record);
 
-/// Reads the beginning and no more. `file`: for messages. Throws: ReadError.
-BatchRecordHead read_head(std::string_view json, const std::string& file);
+/// Reads the beginning and no more. Nothing: this is no record, or less than its beginning.
+std::optional<BatchRecordHead> read_head(std::string_view json);
 
 /// What is known of an item: the record of its success or of its failure, whichever attempt was
-/// later; records with other options, or for another input than is planned, are none.
+/// later; records with other options, or for another input than is planned, are none, and so are
+/// those that are not whole, as a loss of power may leave them.
 struct StoredRecord {
   BatchRecordHead head;
   std::string bytes, path;

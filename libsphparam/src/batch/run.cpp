@@ -22,6 +22,7 @@
 #include "batch/item_run.h"
 #include "batch/publication.h"
 #include "batch/staging.h"
+#include "option_domain.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/parallel.h"
 #include "sphparam/stopwatch.h"
@@ -256,6 +257,9 @@ BatchRunSummary run_batch(const std::string& folder, const BatchPlan& plan,
   if (options.task < 0 || options.task > plan.tasks())
     throw BatchInputError("task " + std::to_string(options.task) + ": plan " + plan.name +
                           " has tasks 1 to " + std::to_string(plan.tasks()));
+  for (const std::size_t item : options.only)
+    require_between("only", static_cast<double>(item), 0,
+                    static_cast<double>(plan.items.size()) - 1);
   return BatchRun(folder, plan, options).run();
 }
 

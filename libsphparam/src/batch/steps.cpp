@@ -70,8 +70,10 @@ std::string written_to(const BatchStep& step, std::string_view option) {
   return "";
 }
 
-/// Does it say what it takes: {input} anywhere, or {id} in a word that is no option's value?
-bool takes_input(const BatchStep& step) {
+/// Does it say what it takes: {input} anywhere, {id} in a word that is no option's value, or the mesh
+/// that the steps before left?
+bool takes_input(const BatchStep& step, const std::string& mesh) {
+  if (step.size() > 1 && step[1] == mesh) return true;
   for (std::size_t i = 1; i < step.size(); ++i) {
     const bool is_value = i > 1 && step[i - 1].starts_with('-');
     if (has_placeholder(step[i], "input")) return true;
@@ -101,7 +103,7 @@ std::vector<BatchStep> complete_steps(std::vector<BatchStep> steps) {
     if (step.empty()) throw BatchInputError("a step without a subcommand: -- twice");
     if (std::ranges::count(not_in_batches, step.front()) > 0)
       throw BatchInputError(step.front() + " cannot be a step of a batch");
-    if (!takes_input(step)) step.insert(step.begin() + 1, mesh);
+    if (!takes_input(step, mesh)) step.insert(step.begin() + 1, mesh);
     const Subcommand* const subcommand = known(step.front());
     if (!subcommand) continue;
     const bool says_where = subcommand->option.empty() || has_option(step, subcommand->option);
@@ -112,6 +114,14 @@ std::vector<BatchStep> complete_steps(std::vector<BatchStep> steps) {
     if (subcommand->leaves_mesh) mesh = written_to(step, subcommand->option);
   }
   return steps;
+}
+
+std::vector<std::string> files_left_by(const std::vector<BatchStep>& steps) {
+  std::vector<std::string> files;
+  for (const BatchStep& step : steps)
+    if (const Subcommand* const subcommand = known(step.front()))
+      files.push_back(written_to(step, subcommand->option));
+  return files;
 }
 
 std::string substituted(const std::string& word, const BatchPlan& plan, const BatchItem& item,

@@ -27,6 +27,9 @@ std::string substituted(const std::string& word, const BatchPlan& plan, const Ba
 void add_options_of_row(std::vector<BatchStep>& steps, const BatchPlan& plan,
                         const BatchItem& item);
 
+/// What steps that are completed leave for the next or as their result, in their folder.
+std::vector<std::string> files_left_by(const std::vector<BatchStep>& steps);
+
 /// Words as shells split them, quotes and all but backslashes. Throws: BatchInputError.
 std::vector<std::string> words_of(const std::string& text);
 

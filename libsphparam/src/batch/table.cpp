@@ -1,7 +1,9 @@
 // Whatever a step's report says in single values is a column, by the way to it; lists have no place
 // in a row. What runs took stands in the last columns: all others are the same for every run.
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -66,9 +68,18 @@ struct Row {
   std::map<std::string, std::string> own;
 };
 
-Row row_of(const std::string& folder, const BatchItem& item) {
+/// A column of the table that the batch was planned from; another name where ours has it.
+std::string own_name(const std::string& column) {
+  const bool taken = std::ranges::count(first_columns, column) > 0 ||
+                     std::ranges::count(last_columns, column) > 0;
+  return taken ? "table." + column : column;
+}
+
+Row row_of(const std::string& folder, const BatchPlan& plan, const BatchItem& item) {
   Row row;
   row.own = {{"id", item.id}, {"path", item.path}, {"outcome", "open"}};
+  for (std::size_t i = 0; i < plan.columns.size(); ++i)
+    row.own[own_name(plan.columns[i])] = item.values[i];
   const auto stored = record_about(folder, item);
   if (!stored) return row;
   const Json record = Json::parse(stored->bytes, nullptr, false);
@@ -81,22 +92,27 @@ Row row_of(const std::string& folder, const BatchItem& item) {
   return row;
 }
 
-std::string line_of(const std::vector<std::string>& fields) {
+std::string line_of(const std::vector<std::string>& fields, char separator) {
   std::string line;
-  for (std::size_t i = 0; i < fields.size(); ++i) line += (i ? "," : "") + csv_field(fields[i]);
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    if (i > 0) line += separator;
+    line += csv_field(fields[i]);
+  }
   return line + "\r\n";
 }
 
 }  // namespace
 
-std::string batch_table(const std::string& folder, const BatchPlan& plan, int threads) {
+std::string batch_table(const std::string& folder, const BatchPlan& plan, int threads,
+                        char separator) {
   std::vector<Row> rows(plan.items.size());
   constexpr std::int64_t grain = 64;
   parallel_for(std::ssize(rows), grain, threads, [&](std::int64_t first, std::int64_t last) {
     for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
-      rows[i] = row_of(folder, plan.items[i]);
+      rows[i] = row_of(folder, plan, plan.items[i]);
   });
   std::vector<std::string> names = first_columns;
+  std::ranges::transform(plan.columns, std::back_inserter(names), own_name);
   std::map<std::string, std::size_t> place;
   for (std::size_t i = 0; i < names.size(); ++i) place[names[i]] = i;
   const auto column = [&](const std::string& name) {
@@ -107,12 +123,12 @@ std::string batch_table(const std::string& folder, const BatchPlan& plan, int th
   for (const Row& row : rows)
     for (const auto& [name, value] : row.cells) column(name);
   for (const std::string& name : last_columns) column(name);
-  std::string text = line_of(names);
+  std::string text = line_of(names, separator);
   for (const Row& row : rows) {
     std::vector<std::string> fields(names.size());
     for (const auto& [name, value] : row.own) fields[column(name)] = value;
     for (const auto& [name, value] : row.cells) fields[column(name)] = value;
-    text += line_of(fields);
+    text += line_of(fields, separator);
   }
   return text;
 }

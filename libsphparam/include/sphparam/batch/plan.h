@@ -53,7 +53,8 @@ std::vector<BatchStep> complete_steps(std::vector<BatchStep> steps);
 std::vector<BatchStep> steps_of(const BatchPlan& plan, const BatchItem& item);
 
 /// Reads and hashes all inputs. Words that name files are read as they are: they should be
-/// absolute. Throws: BatchInputError; ReadError; Cancelled. Cost: reads every input once.
+/// absolute. Throws: BatchInputError; ReadError; Cancelled; std::invalid_argument for a chunk below 1,
+/// as does `with_chunk`. Cost: reads every input once.
 BatchPlan make_plan(const BatchInputs& inputs, const BatchPlanOptions& options);
 
 /// The same with other tasks, and so another name.

@@ -16,6 +16,10 @@ class BatchMachineError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What a step ends with where the machine has no room for what it writes: that is no failure of its
+/// mesh, and the run ends.
+inline constexpr int step_has_no_room = 75;  // EX_TEMPFAIL of sysexits.h
+
 /// What a step gets beside its words, where they do not say it.
 struct BatchStepSetting {
   std::string report;  // where what --json tells is to go
@@ -24,7 +28,7 @@ struct BatchStepSetting {
 
 struct BatchRunOptions {
   /// Runs one step in the current folder, in a process of its own; returns its exit code, as
-  /// `sphparam` has them. What it says on standard error and output becomes the item's log.
+  /// `sphparam` has them, or `step_has_no_room`. What it says on standard error and output becomes the item's log.
   std::function<int(const BatchStep&, const BatchStepSetting&)> run_step = {};
   int task = 0;              // from 1; 0: all
   int workers = 0;           // items at once; 0: one a core
@@ -69,7 +73,8 @@ struct BatchRunSummary {
 /// takes it up; what is left below `staging` by processes of this machine that are no more is
 /// removed. The results are the same bytes for any number of workers, tasks and runs.
 ///
-/// Requires: no other thread in this process. Throws: BatchMachineError; ReadError.
+/// Requires: no other thread in this process. Throws: BatchMachineError; ReadError;
+/// BatchInputError for a task that is not there; std::invalid_argument for such a number in `only`.
 /// Cost: two forks and a rename an item, some milliseconds.
 BatchRunSummary run_batch(const std::string& folder, const BatchPlan& plan,
                           const BatchRunOptions& options);

@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "io/handed_on.h"
-#include "sphparam/io/safe_file.h"
+#include "sphparam/io/no_room_error.h"
 
 // Of a file under a temporary name, those who live hold a shared lock, and who finds it takes an
 // exclusive one before removing it. The lock lies beyond the end of the file, where no system's
@@ -48,8 +48,14 @@ void forget(const char* path) {
   }
 }
 
+bool is_want_of_room(int error) {
+  return error == ENOSPC || error == EDQUOT || error == EFBIG || error == EROFS || error == EIO;
+}
+
 [[noreturn]] void fail(const std::string& path, const std::string& doing) {
-  throw WriteError(path, doing + ": " + std::strerror(errno));
+  const std::string message = doing + ": " + std::strerror(errno);
+  if (is_want_of_room(errno)) throw NoRoomError(path, message);
+  throw WriteError(path, message);
 }
 
 /// The call, made again for as long as signals interrupt it.
