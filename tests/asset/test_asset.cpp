@@ -108,6 +108,36 @@ TEST_CASE("whole surface: a sphere is itself, one with holes is mended, a soup i
   CHECK(wrapped.mapped.mesh().positions.col(0).maxCoeff() > 2);
 }
 
+TEST_CASE("whole surface: options outside their domains, and no mesh at all, are refused") {
+  const MeshSource ball = source_of(icosphere(1));
+  for (const double share : {5.0, -1.0, std::nan("")})
+    CHECK_THROWS_WITH(whole_surface(ball, {.least_kept = share}),
+                      Catch::StartsWith("least_kept is "));
+  CHECK_THROWS_AS(whole_surface(MeshSource{}), MeshError);
+  MeshSource file_alone;
+  file_alone.file.mesh = icosphere(1);
+  CHECK(whole_surface(file_alone).by == WholeBy::Itself);
+}
+
+TEST_CASE("remake asset: what is done last is judged first") {
+  const auto complaint = [](RemakeOptions options) -> std::string {
+    bool worked = false;
+    options.whole.progress = [&](std::string_view, double) { return worked = true; };
+    PendingFiles files;
+    try {
+      remake_asset(source_of(icosphere(1)), ".", options, files);
+      return "";
+    } catch (const std::invalid_argument& error) {
+      CHECK_FALSE(worked);
+      return error.what();
+    }
+  };
+  CHECK_THAT(complaint({.webp_quality = 900}), Catch::StartsWith("webp_quality is 900"));
+  CHECK_THAT(complaint({.textures = TextureFormat(7)}), Catch::StartsWith("textures is 7"));
+  CHECK_FALSE(complaint({.width = 7}).empty());
+  CHECK_FALSE(complaint({.samples = 0}).empty());
+}
+
 TEST_CASE("whole surface: a repair that keeps too little is not taken") {
   WholeOptions options = coarse();
   options.least_kept = 0.4;  // one of two balls is half

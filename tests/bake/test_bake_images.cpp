@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -132,10 +133,53 @@ TEST_CASE("bake images: what is out of its domain is named, before any work") {
   CHECK(refused(png, {.fields = {.rays = 0}}) == "rays");
   CHECK(refused(png, {.fields = {.max_ray_distance = 0}}) == "max_ray_distance");
   CHECK(refused(png, {.refine_poles = 0}) == "refine_poles");
+  CHECK(refused(png, {.convention = Convention(99)}) == "convention");
+  CHECK(refused(png, {.convention = Convention(-1)}) == "convention");
+  CHECK(refused(png, {.interpolation = Interpolation(2)}) == "interpolation");
+  CHECK(refused(png, {.wrap = TextureWrap(3)}) == "wrap");
+  CHECK(refused(png, {.fields = {.filter = TextureFilter(3)}}) == "filter");
+  CHECK(refused(png, {.calm_beyond = -1}) == "calm_beyond");
+  CHECK(refused(png, {.calm_beyond = std::nan("")}) == "calm_beyond");
+  CHECK(refused(png, {.calm_beyond = HUGE_VAL}) == "calm_beyond");
+  CHECK(refused(png, {.fields = {.max_ray_distance = HUGE_VAL}}) == "max_ray_distance");
   CHECK(refused({"position", "x.gif"}, {}) == "path");
   CHECK_THROWS_AS(require_bakeable({png, png}, {}), BakeSettingError);
+  CHECK_THROWS_AS(require_bakeable({{"ao", "a.png"}, {"ao", "./a.png"}}, {}), BakeSettingError);
+  CHECK_THROWS_WITH(require_bakeable({png}, {.width = 70000}),
+                    "is 70000: it must be from 2 to 65536");
+  CHECK_THROWS_WITH(require_bakeable({png}, {.fields = {.max_ray_distance = -1}}),
+                    "is -1: it must be a finite number above 0");
   CHECK_THROWS_AS(require_bakeable({{"postion", "x.png"}}, {}), FieldError);
   CHECK_THROWS_AS(require_bakeable({{"axes:x", "x.png"}}, {}), FieldError);
+}
+
+TEST_CASE(
+    "bake images: a surface to bake from has its vertices, places and arrays, or is refused") {
+  const Folder folder;
+  const auto complaint = [&](auto&& change) -> std::string {
+    BakeSettings settings = small;
+    settings.from.emplace();
+    settings.from->mesh = icosphere(1);
+    change(*settings.from);
+    PendingFiles files;
+    try {
+      bake(egg(1), {{"position", folder / "x.png"}}, settings, files);
+      return "";
+    } catch (const BakeSettingError& error) {
+      return error.setting() + " " + error.what();
+    }
+  };
+  CHECK(complaint([](MeshFile&) {}).empty());
+  CHECK_THAT(complaint([](MeshFile& file) { file.mesh.triangles(3, 0) = 1 << 30; }),
+             Catch::StartsWith("from a triangle names"));
+  CHECK_THAT(complaint([](MeshFile& file) { file.mesh.triangles(3, 0) = -1; }),
+             Catch::StartsWith("from a triangle names"));
+  CHECK_THAT(complaint([](MeshFile& file) { file.mesh.positions(3, 0) = HUGE_VAL; }),
+             Catch::StartsWith("from a coordinate"));
+  CHECK_THAT(complaint([](MeshFile& file) {
+               file.set_vertex_property({"q", {}, {1, 2}});
+             }),
+             Catch::StartsWith("from vertex property 'q'"));
 }
 
 TEST_CASE("bake images: labels are whole in the samples that they get, or refused") {

@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <limits>
 #include <numbers>
 #include <set>
 
@@ -26,7 +27,8 @@ SphericalChart chart_of(const TriangleMesh& mesh, const SphereMap& map, int thre
 /// A map by one start, the finest level left as it comes beyond so many times an isometry's energy:
 /// triangles of limbs are thinner on it than on the map that is made of several.
 SphereMap embedded(const TriangleMesh& mesh, Quality quality, double demanding) {
-  return *embed_by_levels(mesh, Topology(mesh), {.quality = quality}, {}, {.demanding = demanding}).map;
+  return *embed_by_levels(mesh, Topology(mesh), {.quality = quality}, {}, {.demanding = demanding})
+              .map;
 }
 
 bool usable(const TriangleMesh& mesh, const SphereMap& map) {
@@ -333,6 +335,12 @@ TEST_CASE("chart: a map of another mesh, or one that covers no pole, is refused"
   SphereMap front{mesh.positions};
   front.points.col(0).setOnes();
   CHECK_THROWS_AS(chart_of(mesh, front), std::invalid_argument);
+  for (const double bad : {0.0, std::numeric_limits<double>::quiet_NaN()}) {
+    SphereMap map{mesh.positions};
+    map.points.row(2) *= bad;
+    CHECK_THROWS_AS(chart_of(mesh, map), std::invalid_argument);
+    CHECK_THROWS_AS(wrapped_chart(mesh, Topology(mesh), map), std::invalid_argument);
+  }
 }
 
 TEST_CASE("wrapped chart: no new vertices, u beyond 1 across the meridian, folds listed") {

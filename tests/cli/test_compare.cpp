@@ -65,6 +65,26 @@ TEST_CASE("compare: spheres of peers are added, the first method is the blue one
   CHECK_THAT(bytes_of(folder / "page/index.html"), Contains("curvilinear against two"));
 }
 
+TEST_CASE("compare: a sphere that is none is told, and a run that cannot write leaves no folder") {
+  const Folder folder;
+  TriangleMesh egg = icosphere(2);
+  write_bytes(folder / "ball.obj", obj_text(egg));
+  egg.positions.col(0) *= 2;
+  write_bytes(folder / "egg.obj", obj_text(egg));
+  const auto compare = [&](const std::string& name, const char* out) {
+    return sphparam_program({"compare", folder / "ball.obj", "--methods", "curvilinear", "--add",
+                             name + "=" + (folder / "egg.obj"), "--no-pictures", "-o",
+                             folder / out});
+  };
+  const Ended told = compare("egg", "page");
+  CHECK(told.code == 0);
+  CHECK_THAT(told.err, Contains("warning") &&
+                           Contains("egg: these points are not on a sphere about the origin"));
+  CHECK(Json::parse(bytes_of(folder / "page/compare.json"))["command"] == "compare");
+  CHECK(compare(std::string(250, 'x'), "new/page").code == 3);  // chart-… is no name of a file
+  CHECK(folder.names() == Names{"ball.obj", "egg.obj", "page"});
+}
+
 TEST_CASE("compare: what is wrong is said before any method runs, and nothing is written") {
   const Folder folder;
   const std::string ball = obj_text(icosphere(1));

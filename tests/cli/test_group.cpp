@@ -161,6 +161,45 @@ TEST_CASE("group: a template that is no shape does not count, and held maps stay
   CHECK(count(eggs.in_out("mean.sph.ply")) == count(other));
 }
 
+TEST_CASE("group: the record says which shapes had no map, also where maps are moved") {
+  const Eggs eggs;
+  const std::string mapped = eggs.folder / "mapped.sph.ply";
+  REQUIRE(sphparam_program({"map", eggs.paths[1], "-o", mapped}).code == 0);
+  for (const char* rounds : {"0", "1"}) {
+    const Ended ended =
+        sphparam_program({"group", eggs.paths[0], mapped, "--start", "rotation", "--rounds", rounds,
+                          "--grid", "ico:3", "--size", "0", "-o", eggs.out});
+    INFO(ended.err);
+    REQUIRE(ended.code == 0);
+    const Json shapes = Json::parse(bytes_of(eggs.in_out("group.json")))["shapes"];
+    CHECK(shapes[0]["mapped_now"] == true);
+    CHECK(shapes[1]["mapped_now"] == false);
+  }
+}
+
+TEST_CASE("group: a run that cannot write leaves no folder, and a wrong landmark costs no maps") {
+  const Eggs eggs;
+  const std::string long_name =
+      eggs.folder / (std::string(245, 'x') + ".obj");  // map_… is too long
+  fs::copy(eggs.paths[0], long_name);
+  const Ended unwritten = sphparam_program(
+      {"group", long_name, "--hold", "--grid", "ico:2", "--size", "0", "-o", eggs.out});
+  INFO(unwritten.err);
+  CHECK(unwritten.code == 3);
+  CHECK_FALSE(fs::exists(eggs.out));
+  fs::create_directory(eggs.out);
+  CHECK(sphparam_program(
+            {"group", long_name, "--hold", "--grid", "ico:2", "--size", "0", "-o", eggs.out})
+            .code == 3);
+  CHECK(fs::exists(eggs.out));  // which was there
+
+  write_bytes(eggs.paths[1], "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 3 2\n");  // it cannot be mapped
+  write_bytes(eggs.folder / "marks.txt", "100000\n");
+  const Ended ended = eggs.group({"--landmarks", eggs.folder / "marks.txt", "--size", "0"});
+  CHECK(ended.code == 3);
+  CHECK_THAT(ended.err, Contains("marks.txt:1: the mesh has no vertex 100000"));
+}
+
 TEST_CASE("group: of files that it does not write, those of an earlier run are told") {
   const Eggs eggs;
   const Ended first = eggs.group({"--size", "0", "--rounds", "0", "--modes", "2"});

@@ -58,6 +58,28 @@ TEST_CASE("report: maps of one mesh stand side by side, under names that differ"
             .code == 0);
 }
 
+TEST_CASE(
+    "report: what is no sphere about the origin is shown by its directions, and that is told") {
+  const Folder folder;
+  TriangleMesh ball = icosphere(2);
+  write_bytes(folder / "ball.obj", obj_text(ball));
+  ball.positions *= 100;
+  write_bytes(folder / "large.obj", obj_text(ball));
+  ball.positions.col(0) *= 2;
+  write_bytes(folder / "egg.obj", obj_text(ball));
+  const auto report = [&](const char* map) {
+    return sphparam_program({"report", folder / "ball.obj", folder / map, "--size", "64",
+                             "--no-viewer", "-o", folder / "page.html", "--json",
+                             folder / "page.json"});
+  };
+  const Ended egg = report("egg.obj");
+  CHECK(egg.code == 0);
+  CHECK_THAT(egg.err, Contains("egg: these points are not on a sphere about the origin") &&
+                          Contains("their directions are judged"));
+  CHECK_THAT(report("large.obj").err, !Contains("not on a sphere"));
+  CHECK(Json::parse(bytes_of(folder / "page.json"))["command"] == "report");
+}
+
 TEST_CASE("report: a program without the viewer says so and how to get it") {
   const Folder folder;
   write_bytes(folder / "ball.obj", obj_text(icosphere(1)));

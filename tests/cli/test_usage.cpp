@@ -227,8 +227,14 @@ TEST_CASE("program: -q leaves errors, also where a mesh or a map is refused") {
 TEST_CASE("program: standard output that cannot be written ends with 3") {
   if (!fs::exists("/dev/full")) return;
   const std::string ball = obj_text(icosphere(1));
-  for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{"info", "-"}, {"verify", "-"}, {"map", "-", "-o", "-"}}) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"info", "-"},
+                                                    {"verify", "-"},
+                                                    {"map", "-", "-o", "-"},
+                                                    {"--help"},
+                                                    {"map", "--help"},
+                                                    {"--version"},
+                                                    {"manual"}}) {
+    INFO(arguments.front());
     CHECK(sphparam_program(arguments, ball, "/dev/full").code == 3);
   }
 }

@@ -225,6 +225,9 @@ TEST_CASE("match by features: what says nothing is refused") {
                     Contains("columns"));
   CHECK_THROWS_WITH(attempt({some, some, 0}), Contains("weight"));
   CHECK_THROWS_WITH(attempt({some, some}, true), Contains("search"));
+  for (const double lambda : {-1.0, std::nan(""), 1e7})
+    CHECK_THROWS_WITH(match_surfaces(from, to, {.energy = {.lambda = lambda}}),
+                      Contains("lambda is "));
 }
 
 TEST_CASE(
@@ -277,6 +280,26 @@ TEST_CASE("feature files: columns of a file, or a property of the mesh") {
   CHECK_THROWS_WITH(read_features({path, "sulc"}, mesh, mesh),
                     Catch::Contains("2 columns") || Catch::Contains("1 column"));
   CHECK_THROWS_AS(read_features({path}, mesh, mesh), std::invalid_argument);
+}
+
+TEST_CASE("feature files: whole numbers are labels, and what is the same everywhere is refused") {
+  MeshFile mesh;
+  mesh.mesh = icosahedron();
+  Property lab{"lab", ScalarType::Int32, {}}, same{"same", ScalarType::Float32, {}};
+  Property sulc{"sulc", ScalarType::Float64, {}};
+  for (int v = 0; v < 12; ++v) {
+    lab.values.push_back(v % 3);
+    same.values.push_back(2);
+    sulc.values.push_back(v);
+  }
+  mesh.vertex_properties = {lab, same, sulc};
+  using Catch::Contains;
+  CHECK_THROWS_AS(read_features("lab", mesh), ReadError);
+  CHECK_THROWS_WITH(read_features("lab", mesh), Contains("lab") && Contains("labels"));
+  CHECK_THROWS_AS(read_features({"sulc", "same"}, mesh, mesh), ReadError);
+  CHECK_THROWS_WITH(read_features({"same", "sulc"}, mesh, mesh),
+                    Contains("same") && Contains("no two different numbers"));
+  CHECK(read_features({"sulc", "sulc"}, mesh, mesh).to.cols() == 1);
 }
 
 namespace {

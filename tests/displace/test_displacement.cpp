@@ -8,8 +8,10 @@
 #include "displace/interpolated_base.h"
 #include "displace/rebuild.h"
 #include "sphparam/measure/surface_distance.h"
+#include "sphparam/remesh/displacement.h"
 #include "sphparam/sphere/spherical_coordinates.h"
 #include "support/instruction_limit.h"
+#include "support/mapped.h"
 #include "support/test_meshes.h"
 
 using namespace sphparam;
@@ -344,4 +346,31 @@ TEST_CASE("displacement file: no displacement is told from one, and too large on
   level.image.pixels = {2, 2};
   const std::vector<char> bytes = encode_displacement(level, ImageDepth::Uint16, "ico:1", "loop");
   CHECK(decode_displacement({bytes.data(), bytes.size()}, "d").pixels == level.image.pixels);
+}
+
+TEST_CASE("displacement: sizes, names and layouts that do not fit are refused before any work") {
+  const TriangleMesh ball = tests::icosphere(2);
+  const MappedMesh source = tests::mapped(ball, {ball.positions});
+  const Remeshed control = remesh(source, parse_grid("ico:1"));
+  const SubdivisionFit fit = fit_subdivision(source, control.grid());
+  PendingFiles files;
+  const auto refused = [&](const DisplacementFiles& paths, DisplacementOptions options = {}) {
+    INFO(paths.image << " " << paths.rebuilt);
+    options.progress = [](std::string_view, double) { return false; };
+    CHECK_THROWS_AS(add_displacement(files, paths, source, control, fit, options),
+                    std::invalid_argument);
+  };
+  refused({.image = "d.jpg"});
+  refused({.image = "d.png", .depth = ImageDepth::Float});
+  refused({.image = "d.exr", .depth = ImageDepth::Uint16});
+  refused({.image = "d.exr", .rebuilt = "r.off"});
+  refused({.image = "d.exr"}, {.width = 0});
+  refused({.image = "d.exr"}, {.height = -1});
+  refused({.image = "d.exr"}, {.width = 1 << 20, .height = 1 << 20});
+  const Remeshed centres = remesh(source, parse_grid("healpix:2"));
+  const SubdivisionFit on_centres =
+      fit_subdivision(source, centres.grid(), {.scheme = Scheme::CatmullClark});
+  CHECK_THROWS_AS(add_displacement(files, {.image = "d.exr"}, source, centres, on_centres,
+                                   {.width = 64, .height = 32, .layout = DisplacementLayout::Grid}),
+                  std::invalid_argument);
 }

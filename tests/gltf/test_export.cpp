@@ -6,6 +6,8 @@
 #include "../chart/maps.h"
 #include "image/image_codec.h"
 #include "sphparam/bake/bake.h"
+#include "sphparam/bake/bake_errors.h"
+#include "sphparam/errors.h"
 #include "sphparam/gltf/export.h"
 #include "sphparam/io/mesh_reader.h"
 #include "support/glb_json.h"
@@ -260,6 +262,52 @@ TEST_CASE("export: what is certified as 16-bit numbers is written so") {
   options.quantise = true;
   write_asset(place / "q.glb", make_asset(mapped_egg(2), options));
   CHECK(json_of(bytes_of(place / "q.glb"))["extensionsUsed"][0] == "KHR_mesh_quantization");
+}
+
+/// (u, v) of a triangle that floats tell apart and 16-bit numbers do not.
+Asset with_a_tiny_triangle(Asset asset) {
+  Surface& surface = asset.levels.front();
+  FloatRows& uv = surface.texcoords.front();
+  const auto row = [&](std::size_t k) { return static_cast<Eigen::Index>(surface.indices[k]); };
+  constexpr float near = 0.250002F;
+  uv.row(row(0)) << 0.25F, 0.25F;
+  uv.row(row(1)) << 0.25F, near;
+  uv.row(row(2)) << near, 0.25F;
+  return asset;
+}
+
+TEST_CASE("export: 16-bit numbers that nobody certified are refused where they fold") {
+  const Place place;
+  const Asset asset = make_asset(mapped_egg(2), small);
+  write_asset(place / "fits.glb", asset, {.quantise = true});
+  const Asset tiny = with_a_tiny_triangle(asset);
+  CHECK_THROWS_AS(write_asset(place / "tiny.glb", tiny, {.quantise = true}), NotCertifiedError);
+  CHECK_THROWS_WITH(write_asset(place / "tiny.glb", tiny, {.quantise = true}),
+                    Catch::Contains("would fold in (u, v) as 16-bit numbers"));
+  write_asset(place / "floats.glb", tiny);
+  Asset told = tiny;
+  told.quantised = true;  // by whoever made it so, with a warning
+  write_asset(place / "told.glb", told);
+  CHECK(place.names() == Names{"fits.glb", "floats.glb", "told.glb"});
+}
+
+TEST_CASE("export: a coarser mesh on another sphere is no level") {
+  std::mt19937 random(4);
+  const MappedMesh low = mapped_egg(1);
+  ExportOptions options = small;
+  options.coarser = {low.with_map(rotated(low.map(), random_rotation(random)), {})};
+  CHECK_THROWS_AS(make_asset(mapped_egg(2), options), OtherSphereError);
+}
+
+TEST_CASE("export: an image that is made can be cancelled between its rows") {
+  ExportOptions options{.look = {.image_width = 1024}};
+  bool within = false;
+  options.progress = [&](std::string_view stage, double done) {
+    within = within || (stage == "image checker" && done > 0 && done < 1);
+    return !within;
+  };
+  CHECK_THROWS_AS(make_look(mapped_egg(1), options), Cancelled);
+  CHECK(within);
 }
 
 TEST_CASE("export: a compressed file is read back as the asset, in an order that is smaller") {

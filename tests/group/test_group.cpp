@@ -111,6 +111,26 @@ TEST_CASE("group: copies with maps of their own come into correspondence, and ha
   }
 }
 
+TEST_CASE("group: a start or an energy that there is not is refused by its name") {
+  const TriangleMesh mesh = icosphere(1);
+  const MappedMesh ball = mapped(mesh, {mesh.positions});
+  CHECK_THROWS_WITH(make_group({ball}, ball, {.start = GroupStart(9)}),
+                    Catch::StartsWith("start is 9"));
+  CHECK_THROWS_WITH(make_group({ball}, ball, {.energy = {.lambda = std::nan("")}}),
+                    Catch::Contains("lambda is nan"));
+}
+
+TEST_CASE("group: what is asked of a member, a mode or a vertex that there is not is refused") {
+  const TriangleMesh mesh = icosphere(1);
+  const MappedMesh ball = mapped(mesh, {mesh.positions});
+  const Group group = make_group({ball}, ball, {.hold = true, .grid = std::nullopt});
+  CHECK_THROWS_AS(aligned_shape(group, 1), std::out_of_range);
+  CHECK_THROWS_AS(group_shape(group, 0, 1), std::out_of_range);
+  CHECK_THROWS_AS(carried_to(group, 1, {0}), std::out_of_range);
+  CHECK_THROWS_AS(carried_to(group, 0, {static_cast<Vertex>(mesh.vertex_count())}),
+                  std::invalid_argument);
+}
+
 TEST_CASE("group: positions that a symmetry makes alike are no doubt") {
   std::vector<MappedMesh> shapes;
   for (const double length : {3.0, 3.3}) {

@@ -121,4 +121,21 @@ TEST_CASE("procrustes: shapes that do not fit are refused") {
   CHECK_THROWS_AS(align_by_procrustes({}, shape, weights), std::invalid_argument);
   CHECK_THROWS_AS(align_by_procrustes({shape.topRows(3)}, shape, weights), std::invalid_argument);
   CHECK_THROWS_AS(procrustes_distances({shape}, weights.head(3)), std::invalid_argument);
+  CHECK_THROWS_WITH(align_by_procrustes({shape}, shape, weights, {.tolerance = -1}),
+                    Catch::StartsWith("tolerance is -1"));
+}
+
+TEST_CASE("procrustes: weights that are negative or do not sum to 1 are refused") {
+  const Points shape = some_shape(1);
+  const VectorX weights = some_weights(shape.rows());
+  VectorX negative = weights, none = weights;
+  negative[0] -= 1;
+  negative[1] += 1;
+  none[2] = std::nan("");
+  for (const VectorX& bad : {negative, none, VectorX(2 * weights), VectorX(0 * weights)}) {
+    CHECK_THROWS_AS(align_by_procrustes({shape}, shape, bad), std::invalid_argument);
+    CHECK_THROWS_AS(procrustes_distances({shape}, bad), std::invalid_argument);
+  }
+  CHECK_THROWS_WITH(align_by_procrustes({shape}, shape, 2 * weights),
+                    Catch::Contains("sum to 2: it must be 1"));
 }

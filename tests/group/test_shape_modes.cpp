@@ -91,6 +91,8 @@ TEST_CASE("shape_modes: as many as asked for, none of one shape and of copies") 
                   std::invalid_argument);
   CHECK_THROWS_AS(shape_modes(family.shapes, family.mean.topRows(2), family.weights, 1),
                   std::invalid_argument);
+  CHECK_THROWS_AS(shape_modes(family.shapes, family.mean, 2 * family.weights, 1),
+                  std::invalid_argument);
 }
 
 TEST_CASE("shape_modes: the same bits for any number of threads") {

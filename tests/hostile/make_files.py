@@ -225,6 +225,7 @@ def make_ply():
         for line in t.replace("end_header", "property %s filler\nend_header" % kind).splitlines())
     ok("fillers_but_one", fillers("uchar", ["1", "1", "0", "1"]))
     ok("fillers_alone", fillers("uchar", ["1", "1", "1", "1"]))
+    ok("values_that_are_not_finite", fillers("float", ["nan", "1", "-inf", "1.#QNAN0"]))
     ok("fillers_of_odd_values", fillers("float", ["1", "0.5", "-1", "1e30"]))
     ok("empty_element", t.replace("end_header", "element edge 0\nproperty int a\nend_header"))
     ok("empty_element_without_properties", t.replace("end_header", "element edge 0\nend_header"))

@@ -1,12 +1,17 @@
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "image/image_writer.h"
 #include "image/meant_rows.h"
@@ -232,6 +237,44 @@ TEST_CASE("image writer: one that is given up writes no more") {
     const std::vector<char> before = bytes;
     writer.reset();
     CHECK(bytes == before);
+  }
+}
+
+namespace {
+
+/// What a work writes to standard error.
+template <class Work>
+std::string printed_by(const Work& work) {
+  std::FILE* const caught = std::tmpfile();
+  const int standard = dup(STDERR_FILENO);
+  std::fflush(stderr);
+  dup2(fileno(caught), STDERR_FILENO);
+  work();
+  std::fflush(stderr);
+  dup2(standard, STDERR_FILENO);
+  close(standard);
+  std::string text(static_cast<size_t>(lseek(fileno(caught), 0, SEEK_END)), '\0');
+  std::rewind(caught);
+  text.resize(std::fread(text.data(), 1, text.size(), caught));
+  std::fclose(caught);
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("image writer: nothing is printed where one is given up, however little was written") {
+  for (const ImageFormat format : every_format) {
+    for (const auto& [width, rows] : {std::pair{4096, 0}, {4096, 64}, {2, 1}, {2, 2}}) {
+      INFO(name_of(format) << " " << width << " " << rows);
+      const ImageFileOptions options = plain(format, width, width > 2 ? 2048 : 2, 3);
+      const std::vector<char> blank(samples_for(options, rows).size(), 0);
+      const std::string printed = printed_by([&] {
+        std::vector<char> bytes;
+        ImageWriter writer(options, in_memory(bytes));
+        if (rows > 0) writer.write_rows(blank.data(), rows);
+      });
+      CHECK(printed.empty());
+    }
   }
 }
 

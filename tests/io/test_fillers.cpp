@@ -127,8 +127,11 @@ TEST_CASE("fillers: a surface alone is refused for numbers that are not finite, 
   REQUIRE(all < file.mesh.vertex_count());
   file.vertex_properties[0].values.back() = infinity;
   says("'tens'" + last);
-  file.mesh.positions(file.mesh.vertex_count() - 1, 2) = infinity;
-  says("the position" + last);
+  MeshFile plain = without_fillers(file);
+  plain.mesh.positions(all - 1, 2) = infinity;
+  PendingFiles files;
+  CHECK_THROWS_WITH(add_mesh(files, folder.file("a.ply"), plain),
+                    Catch::Contains("a.ply: not written: the position" + last));
 }
 
 TEST_CASE("fillers: files of maps keep them marked, others get the surface alone") {

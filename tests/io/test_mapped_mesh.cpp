@@ -1,4 +1,7 @@
+#include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <filesystem>
 #include <thread>
 
@@ -91,6 +94,110 @@ TEST_CASE("mapped_mesh: a mesh with a hole is refused before its map is looked a
   MeshFile file = egg_file();
   file.mesh.triangles.conservativeResize(file.mesh.face_count() - 1, 3);
   CHECK_THROWS_AS(MappedMesh({.file = file, .map = identity()}), MeshError);
+}
+
+TEST_CASE("mapped_mesh: arrays that are not as long as the mesh has it are refused") {
+  const auto refuses = [](const char* what, auto&& change) {
+    INFO(what);
+    MeshFile file = egg_file();
+    file.materials = {"m"};
+    change(file);
+    CHECK_THROWS_AS(MappedMesh({.file = file, .map = identity()}), std::invalid_argument);
+    CHECK_THROWS_WITH(MappedMesh({.file = file, .map = identity()}), Catch::Contains(what));
+  };
+  const auto v = static_cast<size_t>(egg_file().mesh.vertex_count()), f = 2 * v - 4;
+  const auto row = static_cast<Eigen::Index>(f);
+  const auto values = [](size_t count) { return std::vector<double>(count, 0); };
+  refuses("'q' has 157", [&](MeshFile& file) {
+    file.set_vertex_property({"q", ScalarType::Uint8, values(v - 5)});
+  });
+  refuses("'q' has 163", [&](MeshFile& file) {
+    file.set_vertex_property({"q", ScalarType::Float64, values(v + 1)});
+  });
+  refuses("'nx'", [&](MeshFile& file) { file.set_vertex_property({"nx", {}, {}}); });
+  refuses("'patch'", [&](MeshFile& file) { file.set_face_property({"patch", {}, values(f - 1)}); });
+  refuses("corner_texcoords",
+          [](MeshFile& file) { file.corner_texcoords = CornerTexcoords(4, 2); });
+  refuses("corner_normals", [](MeshFile& file) { file.corner_normals = CornerNormals(4, 3); });
+  refuses("second_texcoords",
+          [](MeshFile& file) { file.second_texcoords = CornerTexcoords(0, 2); });
+  refuses("corner_tangents",
+          [&](MeshFile& file) { file.corner_tangents = CornerTangents(3 * row + 1, 4); });
+  refuses("base_colours", [](MeshFile& file) { file.base_colours.resize(2); });
+  refuses("channels", [](MeshFile& file) { file.channels.resize(2); });
+  for (const double id : {1.0, -2.0, std::nan("")})
+    refuses("'material'", [&](MeshFile& file) {
+      file.channels.resize(1);
+      file.set_face_property({"material", ScalarType::Float64, std::vector<double>(f, id)});
+    });
+}
+
+TEST_CASE("mapped_mesh: arrays of the right length are taken, with faces of no material") {
+  MeshFile file = egg_file();
+  const Eigen::Index faces = file.mesh.face_count();
+  file.materials = {"m"};
+  file.base_colours.resize(1);
+  file.channels.resize(1);
+  file.corner_texcoords = CornerTexcoords::Zero(3 * faces, 2);
+  Property material{"material", ScalarType::Int32, std::vector<double>(size_t(faces), -1)};
+  material.values.front() = 0;
+  file.set_face_property(std::move(material));
+  CHECK(MappedMesh({.file = file, .map = identity()}).certificate().bijective());
+}
+
+TEST_CASE("mapped_mesh: positions that are no finite numbers are refused by the mesh's name") {
+  for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+    MeshFile file = egg_file();
+    file.mesh.positions(3, 1) = bad;
+    CHECK_THROWS_AS(MappedMesh({.file = file, .map = identity()}), UnmeasurableMesh);
+    CHECK_THROWS_WITH(MappedMesh({.file = file, .map = identity(), .name = "egg.obj"}),
+                      Catch::StartsWith("egg.obj") && Catch::Contains("vertex 3"));
+  }
+}
+
+TEST_CASE("mapped_mesh: polygons are those of its triangles") {
+  const Box made = box();
+  const SphereMap map{made.file.mesh.positions};
+  const auto refuses = [&](auto&& change) {
+    Polygons polygons = made.polygons;
+    change(polygons);
+    CHECK_THROWS_AS(MappedMesh({.file = made.file, .map = map, .polygons = polygons}),
+                    std::invalid_argument);
+  };
+  refuses([](Polygons& polygons) { polygons.corners[5] = 8; });
+  refuses([](Polygons& polygons) { polygons.corners[5] = -1; });
+  refuses([](Polygons& polygons) { polygons.corners.pop_back(); });
+  refuses([](Polygons& polygons) { polygons.starts.pop_back(); });
+  refuses([](Polygons& polygons) { polygons = {}; });
+  refuses([](Polygons& polygons) { polygons.starts[1] = 9; });
+}
+
+TEST_CASE("mapped_mesh: a source of a file alone is looked at, and mapped or refused") {
+  MeshSource source;
+  source.file = egg_file();
+  CHECK(mapped_mesh(source).certificate().bijective());
+  source.file.mesh.triangles.conservativeResize(source.file.mesh.face_count() - 1, 3);
+  CHECK_THROWS_AS(mapped_mesh(source), MeshRefusal);
+  CHECK_THROWS_AS(mapped_mesh(MeshSource{}), MeshRefusal);
+  source.file = egg_file();
+  for (const char* ray : {"sx", "sy", "sz"})
+    source.file.set_vertex_property({ray, ScalarType::Float64, {1, 0, 0}});
+  CHECK_THROWS_AS(mapped_mesh(source), std::invalid_argument);
+}
+
+TEST_CASE("mapped_mesh: a map that is made says how it came about, as `map` does") {
+  MeshSource source;
+  source.file = egg_file();
+  LoadOptions options;
+  options.map.poles = Poles{5, 9};
+  options.map.meridian = 20;
+  const Provenance lines = mapped_mesh(source, options).provenance();
+  const auto has = [&](const char* key, const char* value) {
+    return std::ranges::count(lines, std::pair<std::string, std::string>(key, value)) == 1;
+  };
+  CHECK(has("poles", "5 9"));
+  CHECK(has("meridian", "20"));
+  CHECK(lines.back() == std::pair<std::string, std::string>("verdict", "one-to-one"));
 }
 
 TEST_CASE("mapped_mesh: two spheres are no sphere") {
@@ -262,4 +369,32 @@ TEST_CASE("mapped_mesh: progress may cancel the map that is made") {
   LoadOptions options;
   options.map.progress = [](std::string_view, double) { return false; };
   CHECK_THROWS_AS(load_mapped(folder.file("egg.obj"), options), Cancelled);
+}
+
+// The lines of docs/components/io.md, which a test of documents looks for here.
+TEST_CASE("mapped_mesh: vectors of a program become a mapped mesh with what its vertices carry") {
+  const sphparam::TriangleMesh ball = icosphere(1);
+  std::vector<std::array<double, 3>> points;
+  std::vector<std::array<int, 3>> faces;
+  for (const auto& p : ball.positions.rowwise()) points.push_back({p[0], p[1], 2 * p[2]});
+  for (const auto& f : ball.triangles.rowwise()) faces.push_back({f[0], f[1], f[2]});
+  const std::vector<double> thickness(points.size(), 2.5);
+
+  sphparam::MeshSource own;
+  auto& mesh = own.file.mesh;
+  mesh.positions.resize(std::ssize(points), 3);
+  for (int v = 0; v < std::ssize(points); ++v)
+    mesh.positions.row(v) << points[v][0], points[v][1], points[v][2];
+  mesh.triangles.resize(std::ssize(faces), 3);
+  for (int f = 0; f < std::ssize(faces); ++f)
+    mesh.triangles.row(f) << faces[f][0], faces[f][1], faces[f][2];
+  own.file.set_vertex_property({"thickness", sphparam::ScalarType::Float32, thickness});
+  const auto mapped = sphparam::mapped_mesh(std::move(own));
+
+  CHECK(mapped.certificate().bijective());
+  CHECK(mapped.mapped_here());
+  CHECK(mapped.mesh().positions.col(2) == 2 * ball.positions.col(2));
+  CHECK(mapped.mesh().triangles == ball.triangles);
+  REQUIRE(mapped.file().find_vertex_property("thickness"));
+  CHECK(mapped.file().find_vertex_property("thickness")->values == thickness);
 }

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstring>
 
 #include "reading.h"
@@ -325,6 +327,47 @@ TEST_CASE("ply_reader: numbers of a binary body must be finite") {
   const float infinite = std::numeric_limits<float>::infinity();
   std::memcpy(&file[body + 8], &infinite, 4);
   CHECK(contains(complaint(file), "not finite in vertex 0"));
+}
+
+TEST_CASE("ply_reader: a property with values that are not finite is left out and told") {
+  const std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+      "property float z\nproperty float depth\nproperty double kept\nelement face 4\n"
+      "property list uchar int vertex_indices\nproperty float quality\nend_header\n"
+      "0 0 0 nan 1\n1 0 0 -inf 2\n0 1 0 1.#QNAN0 3\n0 0 1 4 4\n"
+      "3 0 2 1 1\n3 0 1 3 inf\n3 1 2 3 1\n3 0 3 2 1\n";
+  const MeshFile file = read(text);
+  REQUIRE(file.vertex_properties.size() == 1);
+  CHECK(file.vertex_properties[0].name == "kept");
+  CHECK(file.vertex_properties[0].values == std::vector<double>{1, 2, 3, 4});
+  CHECK(file.face_properties.empty());
+  REQUIRE(file.notes.size() == 2);
+  CHECK(
+      contains(file.notes[0], "'depth' of element 'vertex': it has 3 values that are not finite"));
+  CHECK(contains(file.notes[1], "'quality' of element 'face': it has 1 value that is not finite"));
+  CHECK(contains(complaint(replaced(text, "1 0 0 -inf", "1 nan 0 -inf")), "expected a number"));
+  CHECK(contains(complaint(replaced(text, "float depth", "float sx")), "'sx'"));
+}
+
+TEST_CASE("ply_reader: values of a binary body that are not finite are left out and told") {
+  for (const bool big_endian : {false, true}) {
+    Bytes body(big_endian);
+    const float corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    for (const auto& corner : corners)
+      body.put(corner[0]).put(corner[1]).put(corner[2]).put(std::nanf("")).put<double>(7);
+    for (const auto& face : {std::array{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}})
+      body.put<std::uint8_t>(3).put(face[0]).put(face[1]).put(face[2]).put(HUGE_VAL);
+    const MeshFile file =
+        read(std::string("ply\nformat binary_") + (big_endian ? "big" : "little") +
+             "_endian 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+             "property float depth\nproperty double kept\nelement face 4\nproperty list uchar int "
+             "vertex_indices\nproperty double quality\nend_header\n" +
+             body.get());
+    REQUIRE(file.vertex_properties.size() == 1);
+    CHECK(file.vertex_properties[0].name == "kept");
+    CHECK(file.face_properties.empty());
+    CHECK(file.notes.size() == 2);
+  }
 }
 
 TEST_CASE("ply_reader: huge counts are refused before memory is spent") {

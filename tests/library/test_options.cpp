@@ -3,6 +3,7 @@
 #include <functional>
 #include <initializer_list>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
@@ -165,6 +166,22 @@ TEST_CASE("options: parameterize and repair_map refuse what is outside of a doma
       refused("pins: phi", [=](Options& o) { o.pins = {{0, {1, bad}}}; });
     }
   }
+}
+
+TEST_CASE("options: two pins in one direction are refused, however it is written") {
+  constexpr double turn = 2 * std::numbers::pi;
+  const TriangleMesh& mesh = shape().mesh;
+  using Places = std::array<SphericalCoordinates, 2>;
+  for (const Places& same : {Places{{{0, 1}, {0, 1}}}, Places{{{0, 1}, {turn, 1}}},
+                             Places{{{1, 1}, {1 + turn, 1}}}, Places{{{0, 1}, {turn / 2, -1}}},
+                             Places{{{1, 0}, {2, 0}}}, Places{{{1, turn / 2}, {2, turn / 2}}}}) {
+    CHECK_THROWS_WITH(
+        parameterize(mesh, {.pins = {{3, same[0]}, {4, same[1]}}, .progress = never()}),
+        "vertex 4 is pinned where another one is");
+  }
+  const Progress stop = [](std::string_view, double) { return false; };
+  CHECK_THROWS_AS(parameterize(mesh, {.pins = {{3, {0, 1}}, {4, {1e-14, 1}}}, .progress = stop}),
+                  Cancelled);
 }
 
 TEST_CASE("options: the embedding's functions refuse what is outside of a domain, by name") {

@@ -183,6 +183,12 @@ TEST_CASE("distance: nothing to measure, no samples, no area, and a word to stop
   TriangleMesh hollow = ball;
   hollow.positions(0, 0) = std::nan("");
   CHECK_THROWS_AS(measure_distance(ball, hollow), UnmeasurableSurface);
+  for (const Vertex beyond : {-1, static_cast<int>(ball.vertex_count()), 1 << 30}) {
+    TriangleMesh torn = ball;
+    torn.triangles(3, 1) = beyond;
+    CHECK_THROWS_AS(measure_distance(torn, ball), UnmeasurableSurface);
+    CHECK_THROWS_WITH(measure_distance(ball, torn), Catch::Contains("vertex that is not there"));
+  }
   const Progress stop = [](std::string_view stage, double) { return stage == "trees"; };
   CHECK_THROWS_AS(measure_distance(ball, ball, {.progress = stop}), Cancelled);
 }

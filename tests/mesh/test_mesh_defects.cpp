@@ -201,4 +201,7 @@ TEST_CASE("mesh_defects: an unused vertex is a remark, and the surface is still 
   CHECK(inspection.used_vertices == 42);
   REQUIRE(find(inspection, DefectKind::UnusedVertex));
   CHECK(find(inspection, DefectKind::UnusedVertex)->elements == std::vector<int>{42});
+  CHECK(find(inspection, DefectKind::UnusedVertex)->hint.find("in arrays remove them") !=
+        std::string::npos);
+  CHECK_THROWS_AS(require_sphere(mesh), MeshError);
 }

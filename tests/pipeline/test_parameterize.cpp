@@ -183,6 +183,17 @@ TEST_CASE("parameterize: the balance that was found is told, and what falls shor
   CHECK(uneven.warnings[0].starts_with("equal-area: the mean |log2 area ratio| is 0."));
 }
 
+TEST_CASE("parameterize: a balance that a method does not look for is told") {
+  const TriangleMesh mesh = icosphere(2);
+  for (const Method method : {Method::Curvilinear, Method::Radial}) {
+    const Parameterization result =
+        parameterize(mesh, {.method = method, .balance = Balance::EqualArea});
+    REQUIRE(result.warnings.size() == 1);
+    CHECK(result.warnings[0] ==
+          "equal-area: the map is not balanced: it was made by the " + result.made_by);
+  }
+}
+
 TEST_CASE("repair_map: the paper's method has one residual a pin, poles or not") {
   const TriangleMesh mesh = icosphere(3);
   SphereMap collapsed{mesh.positions};

@@ -179,6 +179,18 @@ TEST_CASE("documents: the ten lines of README.md are those that tests compile") 
   CHECK(count == 11);
 }
 
+TEST_CASE("documents: a mesh of vectors in docs/components/io.md is made as a test makes it") {
+  const std::string page = text_of("docs/components/io.md");
+  const std::string test = text_of("tests/io/test_mapped_mesh.cpp");
+  const size_t begin = page.find("sphparam::MeshSource own;");
+  REQUIRE(begin != std::string::npos);
+  std::istringstream lines(page.substr(begin, page.find("```", begin) - begin));
+  for (std::string line; std::getline(lines, line);) {
+    INFO(line);
+    CHECK(test.find("  " + line + "\n") != std::string::npos);
+  }
+}
+
 TEST_CASE("documents: every program that measures has its place in docs/results.md") {
   const std::string text = text_of("docs/results.md");
   const std::vector<std::string> programs =

@@ -352,6 +352,11 @@ TEST_CASE("ray scene: a mesh without triangles or with numbers that are none is 
   TriangleMesh ball = tetrahedron();
   ball.positions(1, 1) = std::nan("");
   CHECK_THROWS_AS(RayScene(ball), std::invalid_argument);
+  for (const Vertex beyond : {-1, 4}) {
+    ball = tetrahedron();
+    ball.triangles(2, 0) = beyond;
+    CHECK_THROWS_AS(RayScene(ball), std::invalid_argument);
+  }
 }
 
 }  // namespace sphparam

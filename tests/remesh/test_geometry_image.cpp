@@ -219,3 +219,23 @@ TEST_CASE("geometry images: a mesh comes back from its files, normals and colour
                   ImageError);
   std::filesystem::remove_all(folder);
 }
+
+TEST_CASE("geometry images: other grids, and names that say another format, are refused") {
+  const TriangleMesh ball = tests::icosphere(2);
+  const MappedMesh source = tests::mapped(ball, {ball.positions});
+  const Remeshed made = remesh(source, parse_grid("octa:5"));
+  PendingFiles files;
+  const auto refused = [&](const Remeshed& mesh, const std::string& path,
+                           std::optional<ImageDepth> depth = {}) {
+    INFO(path);
+    CHECK_THROWS_AS(add_geometry_image(files, path, mesh, "position", depth),
+                    std::invalid_argument);
+  };
+  refused(made, "g.jpg");
+  refused(made, "g");
+  refused(made, "g.exr", ImageDepth::Uint16);
+  for (const ImageDepth depth : {ImageDepth::Half, ImageDepth::Float})
+    refused(made, "g.png", depth);
+  refused(remesh(source, parse_grid("ico:1")), "g.exr");
+  refused(remesh(source, grid_of(source)), "g.exr");
+}

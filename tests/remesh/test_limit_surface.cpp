@@ -266,6 +266,10 @@ TEST_CASE("limit surface: what is none is refused") {
                     "face 0 has 4 corners, and Loop's scheme is for triangles");
   CHECK_THROWS_AS(LimitSurface(quads.faces, quads.directions.topRows(5), Scheme::CatmullClark),
                   std::invalid_argument);
+  const LimitSurface surface(quads.faces, quads.directions, Scheme::CatmullClark);
+  for (const int patch : {-1, surface.topology().patch_count()})
+    CHECK_THROWS_AS(surface.evaluate({patch, 0, 0}), std::invalid_argument);
+  CHECK_THROWS_AS(LimitSurface(nullptr, Points()), std::invalid_argument);
   const SphereGrid crowded = make_grid(parse_grid("uv:513x3"));
   CHECK_THROWS_AS(LimitSurface(crowded.faces, crowded.directions, Scheme::CatmullClark),
                   std::invalid_argument);

@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <stdexcept>
 
 #include "sphparam/io/fillers.h"
 #include "sphparam/remesh/levels_of_detail.h"
@@ -81,4 +82,14 @@ TEST_CASE(
   CHECK(distance(open, {}, 0).max < 0.5);  // nothing of the spike
   CHECK(distance(open, Scheme::Loop, 1).rms == Approx(distance(whole, Scheme::Loop, 1).rms));
   CHECK_FALSE(levels_of_detail(whole, grids, {.measure = false}).front().distance);
+}
+
+TEST_CASE("levels of detail: an unknown scheme is refused before any work") {
+  const TriangleMesh ball = tests::icosphere(1);
+  const MappedMesh source({.file = {.mesh = ball}, .map = {ball.positions}});
+  const std::vector<GridSpec> grids = {parse_grid("ico:1")};
+  CHECK_THROWS_AS(levels_of_detail(source, grids,
+                                   {.subdivision = static_cast<Scheme>(2),
+                                    .progress = [](std::string_view, double) { return false; }}),
+                  std::invalid_argument);
 }

@@ -6,6 +6,7 @@
 #include "io/formats/polygon_ply.h"
 #include "sphparam/io/mesh_reader.h"
 #include "sphparam/io/sphere_file.h"
+#include "sphparam/mesh/mesh_defects.h"
 #include "sphparam/mesh/topology.h"
 #include "sphparam/parameterize.h"
 #include "sphparam/remesh/remesh.h"
@@ -342,4 +343,39 @@ TEST_CASE("remesh: a callback that says no ends it") {
   RemeshOptions options;
   options.progress = [](std::string_view, double) { return false; };
   CHECK_THROWS_AS(remesh(source.mapped(), grid_named("ico:2"), options), Cancelled);
+}
+
+TEST_CASE("remesh: grids of one's own that are none are refused, saying what is wrong") {
+  const TriangleMesh ball = icosphere(1);
+  const MappedMesh source = mapped(ball, {ball.positions});
+  const SphereGrid sound = grid_named("ico:1");
+  for (const double bad : {0.0, std::nan("")}) {
+    SphereGrid grid = sound;
+    grid.directions.row(5) *= bad;
+    CHECK_THROWS_WITH(remesh(source, grid), "grid ico:1: direction 5 is zero or not finite");
+  }
+  SphereGrid torn = sound;
+  torn.faces.corners[7] = 42;
+  CHECK_THROWS_WITH(remesh(source, torn), Catch::Contains("names a vertex that does not exist"));
+  CHECK_THROWS_AS(remesh(source, torn), MeshError);
+  CHECK_THROWS_WITH(remesh(source, SphereGrid{}), Catch::Contains("the mesh has no faces"));
+  SphereGrid folded = sound;
+  folded.directions.row(0).swap(folded.directions.row(40));
+  CHECK_THROWS_AS(remesh(source, folded), NotCertifiedError);
+}
+
+TEST_CASE("remesh: areas below 0 or not numbers, and unknown ways of sampling, are refused") {
+  const TriangleMesh ball = icosphere(1);
+  const MappedMesh source = mapped(ball, {ball.positions});
+  const SphereGrid grid = grid_named("ico:1");
+  for (const double bad : {-1.0, std::nan("")}) {
+    const VectorX areas = VectorX::Constant(42, bad);
+    CHECK_THROWS_AS(
+        remesh(source, grid, {.sample = SampleMode::AdapBaryArea, .source_areas = areas}),
+        std::invalid_argument);
+    CHECK_THROWS_AS(remesh(source, grid, {.sample = SampleMode::AdapBaryArea, .grid_areas = areas}),
+                    std::invalid_argument);
+  }
+  CHECK_THROWS_AS(remesh(source, grid, {.sample = static_cast<SampleMode>(9)}),
+                  std::invalid_argument);
 }

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <stdexcept>
 
 #include "remesh/sample_density.h"
 #include "sphparam/measure/surface_distance.h"
@@ -87,4 +88,16 @@ TEST_CASE("The adapted map has the same bytes for any number of threads") {
   const MappedMesh source = mapped(mesh, parameterize(mesh).map);
   const SphereMap one = adapt_map(source, 642, {.threads = 1}).mapped.map();
   CHECK(adapt_map(source, 642, {.threads = 3}).mapped.map().points == one.points);
+}
+
+TEST_CASE("What a map cannot be adapted to is refused before any work") {
+  const TriangleMesh mesh = icosphere(1);
+  const MappedMesh source = mapped(mesh, {mesh.positions});
+  const Progress never = [](std::string_view, double) { return false; };
+  for (const std::int64_t samples : {0, -1})
+    CHECK_THROWS_AS(adapt_map(source, samples, {.progress = never}), std::invalid_argument);
+  for (const double lambda : {0.0, -1.0, 2e6, std::nan("")}) {
+    CHECK_THROWS_AS(adapt_map(source, 42, {.lambda = lambda, .progress = never}),
+                    std::invalid_argument);
+  }
 }

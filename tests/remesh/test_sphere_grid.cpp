@@ -194,6 +194,18 @@ TEST_CASE("grids: names that make no sense are refused") {
   CHECK(vertex_count(parse_grid("ico:10")) == 10'485'762);
 }
 
+TEST_CASE("grids: specs that no name stands for are refused before any work") {
+  for (const GridSpec& spec :
+       {GridSpec{GridKind::Icosahedron, -3}, GridSpec{GridKind::Icosahedron, 30},
+        GridSpec{GridKind::Octahedron, 4}, GridSpec{GridKind::Cube},
+        GridSpec{GridKind::Geographic, 12}, GridSpec{GridKind::Healpix, 1 << 20},
+        GridSpec{static_cast<GridKind>(9), 3}}) {
+    CHECK_THROWS_AS(make_grid(spec), std::invalid_argument);
+  }
+  CHECK_THROWS_WITH(make_grid({GridKind::Octahedron, 4}),
+                    "octa:4: expected octa:N, N odd and from 3, as in octa:129");
+}
+
 TEST_CASE("grids: a file's vertices about the origin are directions of any length, or refused") {
   std::string path = (std::filesystem::temp_directory_path() / "sphparam_grid_XXXXXX.off").string();
   REQUIRE(mkstemps(path.data(), 4) >= 0);

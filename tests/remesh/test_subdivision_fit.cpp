@@ -308,3 +308,17 @@ TEST_CASE("subdivision fit: it stops when asked, and refuses faces that a scheme
   CHECK_THROWS_AS(fit_subdivision(mapped(mesh, map), make_grid(parse_grid("cube:2"))),
                   std::invalid_argument);
 }
+
+TEST_CASE("subdivision fit: options outside of their domains are refused before any work") {
+  const TriangleMesh mesh = icosphere(1);
+  const MappedMesh source = mapped(mesh, SphereMap{mesh.positions});
+  const SphereGrid grid = make_grid(parse_grid("ico:1"));
+  const auto refused = [&](SubdivisionFitOptions options) {
+    options.progress = [](std::string_view, double) { return false; };
+    CHECK_THROWS_AS(fit_subdivision(source, grid, options), std::invalid_argument);
+  };
+  for (const double bad : {0.0, 1.0, 2.0, -1.0, std::nan("")}) refused({.reduction = bad});
+  refused({.rounds = -1});
+  for (const int bad : {-1, most_samples_along_edge + 1}) refused({.samples_along_edge = bad});
+  refused({.scheme = static_cast<Scheme>(2)});
+}

@@ -165,6 +165,16 @@ TEST_CASE("texture layout: the finest that fits, or a texel a vertex") {
   CHECK_FALSE(has_texture_layout(parse_grid("healpix:4")));
 }
 
+TEST_CASE("texture layout: grids that have none are refused") {
+  const TriangleMesh ball = tests::icosphere(2);
+  const MappedMesh source({.file = {.mesh = ball}, .map = {ball.positions}});
+  CHECK_THROWS_AS(texture_layout(parse_grid("healpix:2"), texels), std::invalid_argument);
+  CHECK_THROWS_AS(texture_layout({GridKind::Octahedron, 4}, texels), std::invalid_argument);
+  for (const Remeshed& made :
+       {remesh(source, parse_grid("healpix:2")), remesh(source, grid_of(source))})
+    CHECK_THROWS_AS(with_grid_texture(made, {}), std::invalid_argument);
+}
+
 TEST_CASE("texture layout: coarser grids by halves have the layout of the finer one") {
   for (const auto& [fine, coarse] :
        {std::pair("cube:16", "cube:8"), {"ico:3", "ico:2"}, {"octa:17", "octa:9"}}) {

@@ -78,6 +78,30 @@ TEST_CASE("with_legend: a scale may be as wide as all doubles, or a single value
   CHECK(with_legend(picture, single).height == expected.height);
 }
 
+TEST_CASE(
+    "with_legend: numbers that have no room beside one another are left out, never the ends") {
+  const auto numbers = [](int size, const HeatScale& scale) {
+    const Image image = with_legend(white(size, size), scale);
+    Image strip = white(size, text_height(1));
+    const int first = size + 3 * text_height(1) + 3;  // the row where they begin
+    std::copy_n(image.pixel(0, first), strip.pixels.size(), strip.pixels.begin());
+    return dark_pixels(strip);
+  };
+  const auto dots = [](const std::vector<std::string>& labels) {
+    Image image = white(1000, 20);
+    int at = 0;
+    for (const std::string& label : labels) draw_text(image, label, at += 100, 5, 1, Rgb::Zero());
+    return dark_pixels(image);
+  };
+  const HeatScale& area = heat_scale(Heat::Area);
+  CHECK(numbers(399, area) == dots({"1/8", "1/4", "1/2", "1", "2", "4", "8"}));
+  CHECK(numbers(200, area) == dots({"1/8", "1", "8"}));
+  CHECK(numbers(200, heat_scale(Heat::Angle)) == dots({"1", "2", "4", "8"}));
+  const HeatScale plain{"x", 0, 0.5}, wide{"x", 0.001234, 0.005678};
+  CHECK(numbers(200, plain) == dots({"0", "0.25", "0.5"}));
+  CHECK(numbers(160, wide) == dots({"0.00123", "0.00568"}));
+}
+
 TEST_CASE("draw_text: dots of the letters, as large as asked, cut off at the rim") {
   Image image = white(60, 20);
   draw_text(image, "1", 5, 5, 1, Rgb::Zero());

@@ -1,8 +1,11 @@
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <filesystem>
+#include <stdexcept>
 
+#include "image/image_codec.h"
 #include "sphparam/io/mesh_writer.h"
 #include "sphparam/io/sphere_file.h"
 #include "sphparam/render/coloured_values.h"
@@ -91,6 +94,42 @@ TEST_CASE(
   CHECK(sphere_from(file, Vector3(0, -1, 0.3)) == prime);
   file.comments = {"sphparam upright y, front z"};  // not as the file stands
   CHECK(sphere_from(file, Vector3(0, -1, 0.3)) != prime);
+}
+
+TEST_CASE("picture: at one height of the world a mesh of half the size is drawn half as large") {
+  MeshFile large = file_of(icosphere(3)), small = large;
+  small.mesh.positions *= 0.5;
+  small.mesh.positions.array() += 7;  // it is looked at wherever it is
+  const auto covered = [](const MeshFile& file, double height) {
+    const std::string png = draw_png(
+        file, std::nullopt, {.colouring = Colouring::Plain, .size = 100, .height = height});
+    const Image image = decode_image({png.begin(), png.end()}, "picture");
+    long count = 0;
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x) count += image.pixel(x, y)[0] < 0.99F;
+    return static_cast<double>(count);
+  };
+  const double height = height_to_see(large);
+  CHECK(height == Catch::Detail::Approx(2.12).epsilon(0.01));
+  CHECK(height_to_see(small) == Catch::Detail::Approx(height / 2));
+  CHECK(covered(large, 0) == covered(large, height));
+  CHECK(covered(small, 0) == Catch::Detail::Approx(covered(large, 0)).epsilon(0.01));
+  CHECK(covered(small, height) == Catch::Detail::Approx(covered(large, 0) / 4).epsilon(0.05));
+  CHECK(height_to_see(large, {.from = Vector3(1, 0, 0)}) > 2);
+  CHECK_THROWS_AS(height_to_see(large, {.from = Vector3(0, 0, 1)}), std::invalid_argument);
+}
+
+TEST_CASE("picture: options outside of their domains are refused") {
+  const MeshFile file = file_of(icosphere(1));
+  const auto refused = [&](const DrawingOptions& options) {
+    CHECK_THROWS_AS(draw_png(file, std::nullopt, options), std::invalid_argument);
+  };
+  for (const int bad : {8, 0, -1, 16385}) refused({.size = bad});
+  for (const double bad : {-1.0, std::nan("")}) refused({.size = 16, .height = bad});
+  for (const Vector3& bad : {Vector3(0, 0, 0), Vector3(std::nan(""), 0, 1)})
+    refused({.from = bad, .size = 16});
+  refused({.view = static_cast<View>(3), .size = 16});
+  refused({.colouring = static_cast<Colouring>(6), .size = 16});
 }
 
 TEST_CASE("coloured values: a property, colours, and a comment where one says what they are") {

@@ -410,8 +410,9 @@ TEST_CASE("comparison_record: maps side by side, also where there is none") {
   const std::vector<Entry> entries = {
       entry_of_map("peer", "peer.obj", source.file.mesh, {source.file.mesh.positions}, 0),
       Entry{.name = "none", .source = "A 1999", .seconds = 2, .iterations = 5}};
-  const Json json = Json::parse(to_json(ComparisonRecord{source, entries, 4}));
+  const Json json = Json::parse(to_json(ComparisonRecord{"report", source, entries, 4}));
   CHECK(keys_of(json) == "sphparam,command,input,maps,notes,seconds");
+  CHECK(json["command"] == "report");
   CHECK(json["maps"][0]["certificate"]["one_to_one"] == true);
   CHECK(json["maps"][0]["seconds"].is_null());
   CHECK(json["maps"][1]["has_map"] == false);

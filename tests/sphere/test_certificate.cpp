@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <limits>
 #include <random>
+#include <stdexcept>
 
 #include "sphparam/sphere/certificate.h"
 #include "support/test_meshes.h"
@@ -131,6 +132,12 @@ TEST_CASE("certificate: random rays agree with an overlap oracle") {
   }
   CHECK(accepted > 20);
   CHECK(accepted < 400);
+}
+
+TEST_CASE("certificate: a map of another number of rays is refused") {
+  const TriangleMesh mesh = icosphere(1);
+  for (const Points& rays : {Points(), Points(mesh.positions.topRows(41)), icosphere(2).positions})
+    CHECK_THROWS_AS(certify_rays(mesh, rays), std::invalid_argument);
 }
 
 TEST_CASE("certificate: the same for any number of threads") {

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <numbers>
 #include <random>
+#include <stdexcept>
 #include <vector>
 
 #include "sphparam/sphere/distortion.h"
@@ -270,4 +271,10 @@ TEST_CASE("distortion: degenerate triangles, of the source or of the image, neve
   CHECK_FALSE(std::isnan(image.quasi_conformal_mean));
   mesh.positions.setConstant(3);  // no area at all
   CHECK(measure_distortion(mesh, map).area_ratio.allFinite());
+}
+
+TEST_CASE("distortion: a map of another number of rays is refused") {
+  const TriangleMesh mesh = tests::icosphere(1);
+  CHECK_THROWS_AS(measure_distortion(mesh, {}), std::invalid_argument);
+  CHECK_THROWS_AS(summarise_distortion(mesh, {}), std::invalid_argument);
 }

@@ -77,6 +77,7 @@ TEST_CASE("float_rounding: a sphere of another radius is certified in the number
   }
   for (const double radius : {0.0, -1.0, 1e9, std::numeric_limits<double>::quiet_NaN()})
     CHECK_THROWS_AS(round_to_float(topology, {sphere.positions}, 0, radius), std::invalid_argument);
+  CHECK_THROWS_AS(round_to_float(topology, {}), std::invalid_argument);
 }
 
 TEST_CASE("float_rounding: one flat triangle costs one vertex a few ulps, not a smoothing") {

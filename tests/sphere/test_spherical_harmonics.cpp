@@ -204,3 +204,19 @@ TEST_CASE("spherical_harmonics: sizes that do not fit are refused, and work can 
                                 {.progress = [](std::string_view, double) { return false; }}),
                   Cancelled);
 }
+
+TEST_CASE("spherical_harmonics: directions that are not of unit length are refused, by number") {
+  const Functions coefficients = Functions::Ones(4, 1);
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(42);
+  for (const double bad : {2.0, 0.0, 1 + 1e-5, std::nan("")}) {
+    Points directions = icosphere(1).positions;
+    directions.row(7) *= bad;
+    CHECK_THROWS_WITH(synthesise(coefficients, directions),
+                      "spherical harmonics: direction 7 is not of unit length");
+    CHECK_THROWS_AS(analyse(1, directions, ones, Functions::Ones(42, 1)), std::invalid_argument);
+  }
+  const Points rounded = icosphere(1).positions.cast<float>().cast<double>();
+  CHECK_NOTHROW(synthesise(coefficients, rounded));
+  CHECK_THROWS_AS(first_order_ellipsoid(Functions::Ones(4, 2)), std::invalid_argument);
+  CHECK_THROWS_AS(first_order_ellipsoid(Functions::Ones(1, 3)), std::invalid_argument);
+}

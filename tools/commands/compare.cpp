@@ -9,9 +9,11 @@
 #include "commands/command.h"
 #include "commands/sources.h"
 #include "compare/comparison.h"
+#include "console/new_folder.h"
 #include "console/places.h"
 #include "number_text.h"
 #include "records/comparison_record.h"
+#include "sphparam/records/verification_record.h"
 #include "sphparam/words.h"
 
 namespace sphparam::cli {
@@ -95,16 +97,26 @@ void tell(const Entry& entry, Console& console) {
   if (!entry.statement.empty()) console.detail("  " + entry.statement);
 }
 
-void write_folder(const std::string& folder, FolderFiles files, Session& session) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw WriteError(folder, error.message());
+void write_files(const std::string& folder, FolderFiles files, Session& session) {
   for (auto& [name, bytes] : files)
     session.files.add((std::filesystem::path(folder) / name).string(), std::move(bytes));
   session.publish();
 }
 
+/// Spheres that are none are told before minutes go by.
+std::vector<NamedMap> load_added(const std::vector<std::pair<std::string, std::string>>& added,
+                                 const MeshSource& source, Session& session) {
+  std::vector<NamedMap> maps;
+  for (const auto& [name, path] : added) {
+    maps.push_back(load_named_map(name, path, source, input_limits(), "sphere"));
+    const std::string warning = roundness_warning(maps.back().map);
+    if (!warning.empty()) session.console.warning(name + ": " + warning);
+  }
+  return maps;
+}
+
 int run_compare(CompareArguments& arguments) {
+  NewFolder folder(arguments.folder);
   Session session(arguments);
   const Words methods = parse_methods(arguments.methods);
   const auto added = parse_added(arguments);
@@ -114,9 +126,7 @@ int run_compare(CompareArguments& arguments) {
   CompareOptions options = arguments.options;
   options.threads = session.threads();
   options.progress = session.progress();
-  std::vector<NamedMap> others;  // read first: a wrong file should not cost minutes
-  for (const auto& [name, path] : added)
-    others.push_back(load_named_map(name, path, source, input_limits(), "sphere"));
+  const std::vector<NamedMap> others = load_added(added, source, session);
   const std::vector<Entry> entries =
       make_entries(source.file, methods, others, options,
                    [&](const Entry& entry) { tell(entry, session.console); });
@@ -124,9 +134,10 @@ int run_compare(CompareArguments& arguments) {
     options.textures = read_shown_textures(source.file, arguments.input, "", session);
   FolderFiles files = comparison_files(stem_or(arguments.input, "standard input"), source.file,
                                        entries, comparison_options(source.file, options));
-  files.emplace_back("compare.json",
-                     to_json(ComparisonRecord{source, entries, session.stopwatch.seconds()}));
-  write_folder(arguments.folder, std::move(files), session);
+  files.emplace_back("compare.json", to_json(ComparisonRecord{"compare", source, entries,
+                                                              session.stopwatch.seconds()}));
+  folder.make();
+  write_files(arguments.folder, std::move(files), session);
   session.console.say("→ " + (std::filesystem::path(arguments.folder) / "index.html").string());
   return Ok;
 }

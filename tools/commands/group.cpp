@@ -9,6 +9,7 @@
 #include "commands/command.h"
 #include "commands/sources.h"
 #include "console/console.h"
+#include "console/new_folder.h"
 #include "console/places.h"
 #include "number_text.h"
 #include "sphparam/group/template_landmarks.h"
@@ -87,12 +88,6 @@ void require_other_files(const GroupArguments& arguments) {
   check_places(outputs, arguments.folder);
 }
 
-void make_folder(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw WriteError(folder, error.message());
-}
-
 /// Which file a refusal is about, which tells what is wrong with a mesh.
 MappedMesh read_shape(const std::string& path, const GroupArguments& arguments,
                       Session& session) try {
@@ -102,20 +97,25 @@ MappedMesh read_shape(const std::string& path, const GroupArguments& arguments,
   throw;
 }
 
-std::vector<MappedMesh> read_shapes(const GroupArguments& arguments, Session& session) {
+/// The template: a file of its own, or one of the shapes.
+const std::string& reference_of(const GroupArguments& arguments) {
+  return arguments.reference.empty() ? arguments.inputs.front() : arguments.reference;
+}
+
+std::vector<MappedMesh> read_shapes(const GroupArguments& arguments, const MappedMesh& reference,
+                                    Session& session) {
   std::vector<MappedMesh> shapes;
   for (const std::string& path : arguments.inputs)
-    shapes.push_back(read_shape(path, arguments, session));
+    shapes.push_back(is_same_place(path, reference_of(arguments))
+                         ? reference
+                         : read_shape(path, arguments, session));
   return shapes;
 }
 
-/// The template: a file of its own, or one of the shapes.
-MappedMesh read_reference(const GroupArguments& arguments, const std::vector<MappedMesh>& shapes,
-                          Session& session) {
-  for (size_t i = 0; i < shapes.size(); ++i)
-    if (arguments.reference.empty() || is_same_place(arguments.reference, arguments.inputs[i]))
-      return shapes[i];
-  return read_shape(arguments.reference, arguments, session);
+std::vector<bool> mapped_now(const std::vector<MappedMesh>& shapes) {
+  std::vector<bool> result;
+  for (const MappedMesh& shape : shapes) result.push_back(shape.mapped_here());
+  return result;
 }
 
 /// Whether a group is written in files of such names.
@@ -157,26 +157,27 @@ int run_group(GroupArguments& arguments) {
   require_sensible(arguments);
   require_folder(arguments.folder);
   require_other_files(arguments);
+  NewFolder folder(arguments.folder);
   Session session(arguments);
-  const std::vector<MappedMesh> shapes = read_shapes(arguments, session);
-  const MappedMesh reference = read_reference(arguments, shapes, session);
-  std::vector<TemplateLandmark> landmarks;
+  const MappedMesh reference = read_shape(reference_of(arguments), arguments, session);
+  std::vector<TemplateLandmark> landmarks;  // before all others: a slip should not cost hours
   if (!arguments.landmarks.empty())
     landmarks = read_template_landmarks(arguments.landmarks, FileNumbers(reference.file()));
+  const std::vector<MappedMesh> shapes = read_shapes(arguments, reference, session);
   GroupOptions options = arguments.options;
   options.threads = session.threads();
   options.progress = session.progress();
   const Group group = make_group(shapes, reference, options);
-  GroupRecord record{
-      .group = group,
-      .options = options,
-      .files = arguments.inputs,
-      .names = names_of_shapes(arguments.inputs),
-      .reference = arguments.reference.empty() ? arguments.inputs.front() : arguments.reference,
-      .landmarks = landmarks};
+  GroupRecord record{.group = group,
+                     .options = options,
+                     .files = arguments.inputs,
+                     .names = names_of_shapes(arguments.inputs),
+                     .mapped_now = mapped_now(shapes),
+                     .reference = reference_of(arguments),
+                     .landmarks = landmarks};
   session.warn(group_warnings(record));
   record.seconds = session.stopwatch.seconds();
-  make_folder(arguments.folder);
+  folder.make();
   record.outputs = add_group(session.files, arguments.folder, record,
                              {.up = arguments.up,
                               .size = arguments.size,

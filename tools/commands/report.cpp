@@ -112,6 +112,7 @@ std::string page_of(const ReportArguments& arguments, const MeshSource& source,
 
 void tell(const PageEntry& page_entry, Console& console) {
   const Entry& entry = page_entry.entry;
+  if (!page_entry.warning.empty()) console.warning(entry.name + ": " + page_entry.warning);
   std::string line = entry.name + ": " + short_verdict(entry);
   if (entry.figures) line += ", " + distortion_line(*entry.figures);
   console.say(line);
@@ -144,7 +145,7 @@ int run_report(ReportArguments& arguments) {
   session.add_report([&] {
     std::vector<Entry> compared;
     for (const PageEntry& shown : entries) compared.push_back(shown.entry);
-    return to_json(ComparisonRecord{source, compared, session.stopwatch.seconds()});
+    return to_json(ComparisonRecord{"report", source, compared, session.stopwatch.seconds()});
   });
   session.publish();
   session.console.say("→ " + output_name(arguments.output));

@@ -112,7 +112,8 @@ bool is_same_place(const std::string& one, const std::string& other) {
   const auto one_spelling = [](const std::string& path) {
     std::error_code hidden;
     const fs::path absolute = fs::absolute(path, hidden);
-    return fs::weakly_canonical(absolute, hidden);
+    const fs::path canonical = fs::weakly_canonical(absolute, hidden);
+    return hidden ? absolute.lexically_normal() : canonical;  // as of a name that is too long
   };
   return one_spelling(one) == one_spelling(other);
 }

@@ -13,6 +13,7 @@
 #include "io/attributes/one_material.h"
 #include "io/attributes/specular_glossiness.h"
 #include "mesh/box.h"
+#include "option_domain.h"
 #include "rays/flat_normal.h"
 #include "sphparam/io/certified_files.h"
 #include "sphparam/io/losses.h"
@@ -28,6 +29,13 @@ WholeOptions whole_options(const MeshSource& asset, const RemakeOptions& options
   WholeOptions whole = options.whole;
   whole.upright |= noted_up(asset.file) != Up{};
   return whole;
+}
+
+/// What is done last is judged first. Throws: BakeSettingError; std::invalid_argument.
+void require_domain(const RemakeOptions& options) {
+  require_bakeable({}, {.width = options.width, .samples = options.samples});
+  require_one_of("textures", options.textures, TextureFormat::WebpLossless);
+  require_between("webp_quality", options.webp_quality, 1, 100);
 }
 
 constexpr double walls_beyond = 2.5;  // voxels from the asset, which a wrap is one away from
@@ -220,6 +228,7 @@ void add_flat_normals(MeshFile& file) {
 
 RemadeAsset remake_asset(const MeshSource& asset, const std::string& folder,
                          const RemakeOptions& options, PendingFiles& files) {
+  require_domain(options);
   MeshSource usable = asset;
   std::vector<std::string> told = drop_unusable_images(usable.file);
   add_face_colour_loss(told, usable.file);

@@ -7,6 +7,7 @@
 
 #include "asset/asset_words.h"
 #include "asset/soup.h"
+#include "io/inspected_source.h"
 #include "mesh/box.h"
 #include "number_text.h"
 #include "option_domain.h"
@@ -133,6 +134,7 @@ class Chooser {
 
   WholeSurface wrapped() {
     const MeshFile file = with_places(asset_);
+    if (file.mesh.face_count() == 0) throw MeshError(inspect_mesh(file.mesh).defects);
     const Wrap wrap = wrap_soup(file.mesh, wrap_options(file.mesh));
     MeshFile bare;  // all that it carries is baked
     bare.mesh = file.mesh;
@@ -184,6 +186,8 @@ const char* word_of(WholeBy by) {
 WholeSurface whole_surface(const MeshSource& asset, const WholeOptions& options) {
   require_at_least("resolution", options.resolution, 8);
   require_at_least("faces", static_cast<double>(options.faces), 0);
+  require_between("least_kept", options.least_kept, 0, 1);
+  if (!is_inspected(asset)) return Chooser(inspected(asset), options).choose();
   return Chooser(asset, options).choose();
 }
 

@@ -4,6 +4,7 @@
 #include "sphparam/bake/bake.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "bake/baked_chart.h"
 #include "bake/calm_walls.h"
@@ -14,6 +15,7 @@
 #include "bake/make_scene.h"
 #include "bake/projected_surface.h"
 #include "bake/write_images.h"
+#include "io/attributes/array_lengths.h"
 #include "io/attributes/one_material.h"
 #include "mesh/box.h"
 #include "number_text.h"
@@ -22,6 +24,15 @@
 
 namespace sphparam {
 namespace {
+
+/// A surface to bake from that no reader made. Throws: BakeSettingError.
+void require_surface(const BakeSettings& settings) try {
+  if (!settings.from) return;
+  require_places(settings.from->mesh);
+  require_array_lengths(*settings.from);
+} catch (const std::invalid_argument& error) {
+  throw BakeSettingError("from", error.what());
+}
 
 void read_source_textures(const BakeSettings& settings, BakeSource& source) {
   report(settings.progress, "texture", 0);
@@ -100,6 +111,7 @@ BakedField told(const SurfaceField& field) { return {field.name, field.about, fi
 BakeReport bake(const MappedMesh& source, const std::vector<BakeRequest>& images,
                 const BakeSettings& settings, PendingFiles& files) {
   require_bakeable(images, settings);
+  require_surface(settings);
   ChosenTarget chosen = choose_target(source, settings);
   BakeReport report{
       .images = {}, .target_distance = chosen.distance, .warnings = std::move(chosen.warnings)};
@@ -133,6 +145,7 @@ std::vector<BakedField> bake_values(const MappedMesh& source, const std::vector<
                                     const BakeSettings& settings, const BakedRows& rows) {
   std::vector<BakeRequest> none;
   require_bakeable(none, settings);
+  require_surface(settings);
   BakeScene scene = scene_for(source, choose_target(source, settings).target,
                               std::ranges::any_of(names, needs_textures), settings);
   std::vector<SurfaceField> fields;

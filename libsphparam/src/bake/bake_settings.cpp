@@ -2,29 +2,49 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <filesystem>
 #include <set>
 
+#include "number_text.h"
 #include "sphparam/bake/bake.h"
 #include "sphparam/io/paths.h"
 
 namespace sphparam {
 namespace {
 
+[[noreturn]] void refuse(const char* setting, double value, const std::string& wanted) {
+  throw BakeSettingError(setting, "is " + shortest(value) + ": it must be " + wanted);
+}
+
 void require_between(const char* setting, double value, double least, double greatest) {
   if (value >= least && value <= greatest) return;
-  throw BakeSettingError(setting, "is " + std::to_string(value) + ", not between " +
-                                      std::to_string(least) + " and " + std::to_string(greatest));
+  refuse(setting, value, "from " + shortest(least) + " to " + shortest(greatest));
+}
+
+/// For what was cast from a number.
+template <class Enum>
+void require_one_of(const char* setting, Enum value, Enum last) {
+  require_between(setting, static_cast<int>(value), 0, static_cast<int>(last));
+}
+
+void require_known(const BakeSettings& settings) {
+  require_one_of("convention", settings.convention, Convention::Blender);
+  require_one_of("interpolation", settings.interpolation, Interpolation::Sphere);
+  require_one_of("wrap", settings.wrap, TextureWrap::Clamp);
+  require_one_of("filter", settings.fields.filter, TextureFilter::Bicubic);
 }
 
 void require_domains(const BakeSettings& settings) {
-  constexpr double any = std::numeric_limits<double>::max();
   require_between("width", settings.width, 2, 65536);
   require_between("samples", settings.samples, 1, 32);
   require_between("refine_poles", settings.refine_poles, 1, 1024);
   require_between("rays", settings.fields.rays, 1, 65536);
-  require_between("max_ray_distance", settings.fields.max_ray_distance,
-                  std::numeric_limits<double>::min(), any);
+  const double reach = settings.fields.max_ray_distance;
+  if (!(reach > 0 && std::isfinite(reach)))
+    refuse("max_ray_distance", reach, "a finite number above 0");
+  const double calm = settings.calm_beyond;
+  if (!(calm >= 0 && std::isfinite(calm)))
+    refuse("calm_beyond", calm, "a finite number, at least 0");
 }
 
 /// Half the width is the height; a quarter turn moves whole texels.
@@ -86,16 +106,18 @@ bool has_sidecar(const std::string& image) {
 }
 
 void require_bakeable(const std::vector<BakeRequest>& images, const BakeSettings& settings) {
+  require_known(settings);
   require_whole_texels(settings);
   require_domains(settings);
   if (settings.from && settings.target)
     throw BakeSettingError("from", "a surface to bake from and another mesh to bake for");
   require_body(settings);
-  std::set<std::string> paths;
+  std::set<std::filesystem::path> paths;
   for (const BakeRequest& image : images) {
     require_field_name(image.field);
     require_format(image.path, settings);
-    if (!paths.insert(image.path).second) {
+    // "./a.png" is a.png; links are seen when files get their names.
+    if (!paths.insert(std::filesystem::path(image.path).lexically_normal()).second) {
       throw BakeSettingError("path", "several images would go to " + image.path);
     }
   }

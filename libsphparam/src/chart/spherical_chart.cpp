@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "chart/flat_mesh.h"
@@ -26,9 +27,15 @@ constexpr std::int64_t some_few = 16;       // that are no matter however small 
 constexpr int most_doublings = 4;           // of twice the vertices, before they need not move
 constexpr double far = 0x1p-7;              // of a turn: moves that more splits are better than
 
-void check_sizes(const TriangleMesh& mesh, const Topology& topology, const SphereMap& map) {
+/// What lies in no direction has no (u, v) that a certificate of these could miss.
+void require_map(const TriangleMesh& mesh, const Topology& topology, const SphereMap& map) {
   if (map.points.rows() != topology.vertex_count() || mesh.face_count() != topology.face_count())
     throw std::invalid_argument("spherical_chart: the map is of another mesh");
+  for (Eigen::Index v = 0; v < map.points.rows(); ++v) {
+    if (map.points.row(v).allFinite() && !map.points.row(v).isZero(0)) continue;
+    throw std::invalid_argument("spherical_chart: the ray of vertex " + std::to_string(v) +
+                                " is zero or not finite");
+  }
 }
 
 void lay_out(FlatMesh& flat, int threads) {
@@ -253,7 +260,7 @@ Vertex find_pole(const RefinedMesh& mesh, const std::vector<Face>& faces, double
 SphericalChart spherical_chart(const TriangleMesh& mesh, const Topology& topology,
                                const SphereMap& map, int threads, const Progress& progress,
                                int splits_a_vertex) {
-  check_sizes(mesh, topology, map);
+  require_map(mesh, topology, map);
   require_at_least("splits_a_vertex", splits_a_vertex, 0);
   report(progress, "chart", 0);
   const std::int64_t most = std::int64_t{splits_a_vertex} * topology.vertex_count() + some_splits;
@@ -264,7 +271,7 @@ SphericalChart spherical_chart(const TriangleMesh& mesh, const Topology& topolog
 
 SphericalChart wrapped_chart(const TriangleMesh& mesh, const Topology& topology,
                              const SphereMap& map, int threads) {
-  check_sizes(mesh, topology, map);
+  require_map(mesh, topology, map);
   FlatMesh flat{RefinedMesh(topology, map, mesh.triangles, threads)};
   const std::vector<Face> around = faces_around_meridian(flat.mesh, threads);
   flat.north = find_pole(flat.mesh, around, 1);

@@ -6,6 +6,7 @@
 #include "correspondence/surface_area.h"
 #include "embedding/frame/nearest_rotation.h"
 #include "io/attributes/shading_normals.h"
+#include "option_domain.h"
 #include "sphparam/measure/surface_distance.h"
 #include "sphparam/parallel.h"
 
@@ -49,6 +50,7 @@ CarriedShape carried_shape(const SurfaceMap& map, int threads) {
 
 Similarity placement_on(const SurfaceMap& map, Placement placement, int threads) {
   Similarity result;
+  require_one_of("placement", placement, Placement::Scaled);
   if (placement == Placement::AsItIs) return result;
   require_area(map.from());
   require_area(map.to());

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "correspondence/feature_scales.h"
 #include "number_text.h"
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/io/vertex_data.h"
@@ -25,6 +26,21 @@ Functions columns_of(const MeshFile& mesh, const std::vector<std::string>& names
   return columns;
 }
 
+/// Whole numbers are keys, which are carried by the nearest and never averaged.
+void require_measure(const Property& property) {
+  if (is_floating(property.type)) return;
+  throw ReadError(property.name, "is of whole numbers (" + std::string(ply_name(property.type)) +
+                                     "), which are labels and no measure that could agree");
+}
+
+void require_varying(const std::string& name, const Functions& columns) {
+  for (Eigen::Index c = 0; c < columns.cols(); ++c) {
+    if (varies(columns.col(c))) continue;
+    throw ReadError(name, (columns.cols() > 1 ? "column " + std::to_string(c + 1) + " " : "") +
+                              "has no two different numbers: there is nothing that could agree");
+  }
+}
+
 Functions beside(const Functions& left, const Functions& right) {
   if (left.size() == 0) return right;
   Functions both(left.rows(), left.cols() + right.cols());
@@ -36,8 +52,12 @@ Functions beside(const Functions& left, const Functions& right) {
 
 Functions read_features(const std::string& file_or_property, const MeshFile& mesh,
                         const ReadOptions& options) {
-  if (!std::filesystem::exists(file_or_property) && property_of(mesh, file_or_property))
-    return columns_of(mesh, {file_or_property});
+  if (!std::filesystem::exists(file_or_property)) {
+    if (const Property* const property = property_of(mesh, file_or_property)) {
+      require_measure(*property);
+      return columns_of(mesh, {file_or_property});
+    }
+  }
   const VertexData data = read_vertex_data(file_or_property, vertices_of_file(mesh), options);
   if (data.kind == DataKind::Labels)
     throw ReadError(file_or_property, "labels are no measure that could agree: numbers are needed");
@@ -57,6 +77,8 @@ MatchFeatures read_features(const std::vector<std::string>& pairs, const MeshFil
   for (size_t i = 0; i < pairs.size(); i += 2) {
     const Functions one = read_features(pairs[i], from, options);
     const Functions other = read_features(pairs[i + 1], to, options);
+    require_varying(pairs[i], one);
+    require_varying(pairs[i + 1], other);
     if (one.cols() != other.cols())
       throw ReadError(pairs[i + 1], "has " + counted(other.cols(), "column", "columns") + ", and " +
                                         pairs[i] + " has " + std::to_string(one.cols()));

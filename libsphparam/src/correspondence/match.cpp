@@ -13,6 +13,7 @@
 #include "correspondence/own_map.h"
 #include "correspondence/surface_area.h"
 #include "correspondence/turned_starts.h"
+#include "embedding/energy/energy_domain.h"
 #include "number_text.h"
 #include "option_domain.h"
 #include "sphparam/version.h"
@@ -260,6 +261,7 @@ class Matcher {
 }  // namespace
 
 Match match_surfaces(const MappedMesh& from, const MappedMesh& to, const MatchOptions& options) {
+  require_domain(options.energy);
   require_landmarks(options, from, to);
   require_area(from);
   require_area(to);

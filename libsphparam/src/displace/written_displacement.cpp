@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 #include <tuple>
 #include <utility>
@@ -12,6 +14,7 @@
 #include "displace/displacement_file.h"
 #include "displace/rebuild.h"
 #include "io/formats/polygon_ply.h"
+#include "option_domain.h"
 #include "remesh/distance_on_grid.h"
 #include "remesh/image_file.h"
 #include "sphparam/io/certified_files.h"
@@ -58,10 +61,22 @@ struct Heights {
   }
 };
 
+void require_domain(const DisplacementFiles& paths, const DisplacementOptions& options) {
+  constexpr auto most = static_cast<double>(most_texels);
+  require_between("width", options.width, 1, most);
+  require_between("height", options.height, 1, most);
+  require_between("width times height", double{1} * options.width * options.height, 1, most);
+  require_one_of("layout", options.layout, DisplacementLayout::Grid);
+  const std::string& mesh = paths.rebuilt;
+  const std::string kind = is_stream(mesh) ? ".ply" : extension_of(mesh);
+  if (mesh.empty() || kind == ".ply" || kind == ".obj") return;
+  throw std::invalid_argument(mesh + ": the rebuilt mesh is written as .ply or .obj");
+}
+
 std::optional<TextureLattice> lattice_for(const Remeshed& control,
                                           const DisplacementOptions& options) {
   if (options.layout == DisplacementLayout::Equirectangular) return std::nullopt;
-  const GridSpec spec = control.spec().value();
+  const GridSpec spec = spec_with_layout(control);
   return TextureLattice(spec, control.grid(),
                         texture_layout(spec, std::int64_t{options.width} * options.height));
 }
@@ -118,6 +133,8 @@ WrittenDisplacement add_displacement(PendingFiles& files, const DisplacementFile
                                      const MappedMesh& source, const Remeshed& control,
                                      const SubdivisionFit& fit,
                                      const DisplacementOptions& options) {
+  const ImageDepth depth = depth_in(paths.image, paths.depth);
+  require_domain(paths, options);
   const Stopwatch stopwatch;
   const Scheme scheme = fit.topology->scheme();
   const DirectedBase base(control.grid(), fit.control, scheme, options.threads);
@@ -127,7 +144,6 @@ WrittenDisplacement add_displacement(PendingFiles& files, const DisplacementFile
           ? make_displacement(base, *heights.lattice, source.mesh(), source.topology(),
                               source.locator(), options)
           : make_displacement(base, source.mesh(), source.topology(), source.locator(), options);
-  const ImageDepth depth = paths.depth.value_or(usual_depth(paths.image));
   WrittenDisplacement result{
       .width = made.image.width, .height = made.image.height, .figures = made.figures};
   if (heights.lattice) result.layout = heights.lattice->layout();

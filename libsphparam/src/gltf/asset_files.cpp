@@ -8,14 +8,17 @@
 #include <stdexcept>
 
 #include "gltf/compact_order.h"
+#include "gltf/export_domain.h"
 #include "gltf/export_names.h"
 #include "gltf/fillers_left_out.h"
 #include "gltf/image_kind.h"
 #include "gltf/level.h"
+#include "gltf/stored_chart.h"
 #include "gltf/textured_mesh.h"
 #include "gltf/written_check.h"
 #include "io/attributes/finish_terms.h"
 #include "number_text.h"
+#include "sphparam/errors.h"
 #include "sphparam/gltf/export.h"
 #include "sphparam/io/certified_files.h"
 #include "sphparam/io/fillers.h"
@@ -85,6 +88,16 @@ std::string size_words(std::size_t bytes) {
                      : short_number(static_cast<double>(bytes) / 1e6) + " MB";
 }
 
+/// 16-bit numbers that nobody judged while the asset was made, and told the folds of.
+void require_quantisable(const std::string& path, const Asset& asset, const GltfOptions& options) {
+  if (!options.quantise || asset.quantised) return;
+  const long folds = folds_by_quantising(asset);
+  if (folds == 0) return;
+  throw NotCertifiedError(output_name(path) + ": " + counted(folds, "triangle", "triangles") +
+                          " would fold in (u, v) as 16-bit numbers: an asset made with "
+                          "ExportOptions::quantise says so");
+}
+
 /// Files added one after the other, with their sizes.
 class Adder {
  public:
@@ -135,6 +148,7 @@ std::vector<std::string> asset_files(const std::string& path, const Asset& asset
 WrittenFiles add_asset(PendingFiles& files, const std::string& path, const Asset& given_asset,
                        const GltfOptions& given) {
   const GltfOptions options = resolved(given, path, given_asset);
+  require_quantisable(path, given_asset, options);
   const std::optional<Asset> ordered =
       options.compress ? std::optional(in_compact_order(given_asset)) : std::nullopt;
   const Asset& asset = ordered ? *ordered : given_asset;
@@ -170,6 +184,7 @@ TexturedFiles add_textured_mesh(PendingFiles& files, const std::string& path,
                                 const MappedMesh& mapped, const Look& look,
                                 const ExportOptions& options) {
   const bool obj = is_obj(path);
+  require_export_domain(options);
   const ExportChart chart = chart_of_level(mapped, options);
   const FillerMarks fillers = fillers_of_chart(chart.chart, mapped.fillers());
   MeshFile textured = without_fillers(

@@ -11,6 +11,7 @@
 #include "gltf/packing.h"
 #include "io/attributes/finish_terms.h"
 #include "io/uri.h"
+#include "option_domain.h"
 #include "sphparam/version.h"
 
 // Buffers are packed, placed in the one buffer and described by JSON as they come; the container is
@@ -425,6 +426,7 @@ class Builder {
 }  // namespace
 
 GltfFiles write_gltf(const Asset& asset, const GltfOptions& options) {
+  require_one_of("container", options.container, GltfContainer::Embedded);
   return Builder(asset, options).build();
 }
 

@@ -10,6 +10,7 @@
 #include "bake/field_registry.h"
 #include "bake/fields/material_fields.h"
 #include "bake/make_scene.h"
+#include "gltf/export_domain.h"
 #include "gltf/export_names.h"
 #include "gltf/material_images.h"
 #include "gltf/painted_surfaces.h"
@@ -118,6 +119,7 @@ class LookMaker {
     }
     look_.materials.push_back(material_);
     for (const std::string& name : wanted_.variants) add_variant(name);
+    report(options_.progress, "images", 1);
     encode_textures(look_, wanted_, options_.threads);
     return std::move(look_);
   }
@@ -221,14 +223,15 @@ class LookMaker {
   }
 
   AssetImage drawn(TestImage image) const {
-    return test_asset_image(image, wanted_.image_width, options_.convention, options_.threads);
+    return test_asset_image(image, wanted_.image_width, options_.convention, options_.threads,
+                            options_.progress);
   }
 
   /// "baked", "area" or "angle".
   AssetImage baked(const std::string& name) {
     if (surfaces_.empty()) bake_surfaces();
     const auto found = std::ranges::find(surfaces_, name, &PaintedSurface::name);
-    return as_png(name, in_convention(found->image, options_.convention));
+    return as_png(name, in_convention(found->image, options_.convention), options_.progress);
   }
 
   void bake_surfaces() {
@@ -290,6 +293,7 @@ Look without_given_normals(Look look) {
 }
 
 Look make_look(const MappedMesh& mapped, const ExportOptions& options) {
+  require_look_domain(options);
   report(options.progress, "images", 0);
   return LookMaker(mapped, options).make();
 }

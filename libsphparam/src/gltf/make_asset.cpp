@@ -1,10 +1,14 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "bake/shared_sphere.h"
 #include "gltf/export_asset.h"
+#include "gltf/export_domain.h"
 #include "gltf/export_names.h"
 #include "gltf/fillers_left_out.h"
 #include "gltf/level.h"
+#include "number_text.h"
+#include "sphparam/bake/bake_errors.h"
 #include "sphparam/gltf/export.h"
 #include "sphparam/io/upright_frame.h"
 
@@ -42,6 +46,18 @@ void require_a_row_a_vertex(const std::vector<OtherShape>& shapes, const MappedM
     throw std::invalid_argument("the shape " + shape.name +
                                 " needs a position and a normal for each vertex of the mesh");
   }
+}
+
+/// A texture would show other places on it than on the finest.
+void require_one_sphere(const MappedMesh& mapped, const std::string& name, const MappedMesh& coarse,
+                        int threads, std::vector<std::string>& warnings) {
+  const double apart = disagreement(mapped, coarse, threads);
+  if (apart <= doubtful_disagreement) return;
+  const std::string far = "in the same directions, half of its surface is more than " +
+                          percent(apart) + " of the diagonal away from that of " + name;
+  if (apart > other_sphere_disagreement)
+    throw OtherSphereError(coarse.name() + ": is not on the same sphere: " + far);
+  warnings.push_back(coarse.name() + ": " + far);
 }
 
 /// How the mesh stood in its own file.
@@ -88,9 +104,12 @@ void add_level(Asset& asset, const MappedMesh& mapped, const std::string& name, 
 }  // namespace
 
 Asset make_asset(const MappedMesh& mapped, const Look& look, const ExportOptions& options) {
+  require_export_domain(options);
   require_a_row_a_vertex(options.others, mapped);
   Asset asset = without_levels(mapped, look, options);
   const std::string name = source_name(mapped, options);
+  for (const MappedMesh& coarse : options.coarser)
+    require_one_sphere(mapped, name, coarse, options.threads, asset.warnings);
   add_level(asset, mapped, name, look, options);
   if (options.coarser.empty()) return asset;
   if (look.normals_given) asset.warnings.emplace_back(normals_left_out);
@@ -103,6 +122,7 @@ Asset make_asset(const MappedMesh& mapped, const Look& look, const ExportOptions
 }
 
 Asset make_asset(const MappedMesh& mapped, const ExportOptions& options) {
+  require_export_domain(options);
   return make_asset(mapped, make_look(mapped, options), options);
 }
 

@@ -22,4 +22,8 @@ TextureCoordinates read_uv(const FloatRows& uv, const UvStorage& storage);
 ChartCertificate certify_stored(const SphericalChart& chart, const FloatRows& uv,
                                 const UvStorage& storage, int threads = 0);
 
+/// How many triangles of all levels fold or flatten in (u, v) as 16-bit numbers, but not as the
+/// floats that the asset has. Levels whose (u, v) leave [0, 1] stay floats and have none.
+long folds_by_quantising(const Asset& asset);
+
 }  // namespace sphparam

@@ -4,14 +4,17 @@
 
 #include "sphparam/gltf/asset.h"
 #include "sphparam/image/image.h"
+#include "sphparam/progress.h"
 #include "texture/test_images.h"
 
 namespace sphparam {
 
-AssetImage as_png(const std::string& name, const Image& image);
+/// `progress` is told of its rows as "image NAME". Throws: ImageError; Cancelled.
+AssetImage as_png(const std::string& name, const Image& image, const Progress& progress = {});
 
-/// A test image, `width` texels wide.
-AssetImage test_asset_image(TestImage image, int width, Convention convention, int threads = 0);
+/// A test image, `width` texels wide. Throws: as `as_png`.
+AssetImage test_asset_image(TestImage image, int width, Convention convention, int threads = 0,
+                            const Progress& progress = {});
 
 /// One white texel: the base colour image of a mesh whose colours are those of its vertices.
 /// Without an image bound, exporters and validators take texture coordinates for unused and drop

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "embedding/energy/energy_domain.h"
 #include "group/into_correspondence.h"
 #include "mesh/vertex_normals.h"
 #include "option_domain.h"
@@ -28,6 +29,8 @@ size_t at(std::int64_t i) { return static_cast<size_t>(i); }
 
 void require_sensible(const std::vector<MappedMesh>& shapes, const GroupOptions& options) {
   if (shapes.empty()) throw std::invalid_argument("a group has one shape at least");
+  require_one_of("start", options.start, GroupStart::Maps);
+  require_domain(options.energy);
   require_at_least("rounds", options.rounds, 0);
   require_at_least("modes", options.modes, 0);
   if (options.grid && has_quads(*options.grid))
@@ -288,15 +291,16 @@ MappedMesh group_shape(const Group& group, int mode, double deviations) {
 }
 
 MappedMesh aligned_shape(const Group& group, size_t member) {
-  return with_positions(group.mean, group.members[member].aligned,
-                        group.members[member].mapped.name());
+  const GroupMember& shape = group.members.at(member);
+  return with_positions(group.mean, shape.aligned, shape.mapped.name());
 }
 
 std::vector<SurfacePoint> carried_to(const Group& group, size_t member,
                                      const std::vector<Vertex>& vertices) {
+  const SphereLocator& locator = group.members.at(member).mapped.locator();
   std::vector<SurfacePoint> points;
-  for (const Vertex v : vertices)
-    points.push_back(group.members[member].mapped.locator().locate(group.reference.map().point(v)));
+  require_vertices("vertices", vertices, group.reference.mesh().vertex_count());
+  for (const Vertex v : vertices) points.push_back(locator.locate(group.reference.map().point(v)));
   return points;
 }
 

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "embedding/frame/nearest_rotation.h"
+#include "group/shape_weights.h"
 #include "option_domain.h"
 #include "sphparam/parallel.h"
 
@@ -22,6 +23,7 @@ void require_alike(const std::vector<Points>& shapes, const VectorX& weights) {
   for (const Points& shape : shapes)
     if (shape.rows() != weights.size())
       throw std::invalid_argument("Procrustes: not as many points in all shapes as weights");
+  require_weights(weights);
 }
 
 Vector3 centre_of(const Points& points, const VectorX& weights) {
@@ -80,6 +82,7 @@ Procrustes align_by_procrustes(const std::vector<Points>& shapes, const Points& 
   require_alike(shapes, weights);
   require_alike({reference}, weights);
   require_at_least("most_iterations", options.most_iterations, 1);
+  require_at_least("tolerance", options.tolerance, 0);
   Procrustes result;
   result.motions = placed(shapes, weights, options.scale);
   const Vector3 place = centre_of(reference, weights);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "group/shape_weights.h"
 #include "sphparam/parallel.h"
 
 // With Xᵢ = xᵢ − mean, G = ⟨Xᵢ, Xⱼ⟩ / (n − 1) = U Λ Uᵀ has the variances of the modes; mode k is
@@ -31,6 +32,7 @@ std::vector<Points> differences(const std::vector<Points>& shapes, const Points&
       throw std::invalid_argument("shape modes: not as many points in all shapes as weights");
     result.push_back(shape - mean);
   }
+  require_weights(weights);
   return result;
 }
 

@@ -7,15 +7,16 @@
 #include <stdexcept>
 #include <utility>
 
+#include "io/attributes/array_lengths.h"
+#include "io/inspected_source.h"
 #include "sphparam/errors.h"
 #include "sphparam/io/certified_files.h"
 #include "sphparam/io/fillers.h"
+#include "sphparam/io/map_files.h"
 #include "sphparam/io/paths.h"
-#include "sphparam/io/planetocentric.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/io/written_map.h"
 #include "sphparam/names.h"
-#include "sphparam/version.h"
 
 namespace sphparam {
 
@@ -63,13 +64,23 @@ WrittenMap made_map(const MeshSource& source, ParameterizeOptions options) {
     throw NotCertifiedError(display_name(source.path) +
                             ": no one-to-one map was found: " + verdict(result.certificate));
   }
-  Provenance lines = {{"version", version},
-                      {"method", name_of(options.method)},
-                      {"stage", result.made_by},
-                      {"options", options_line(options)}};
-  for (auto& line : planetocentric_lines(result)) lines.push_back(std::move(line));
-  lines.emplace_back("verdict", verdict(result.certificate));
+  const MapOrigin origin{.method = name_of(options.method),
+                         .options = options_line(options),
+                         .pins = options.pins.size(),
+                         .verdict = verdict(result.certificate)};
+  Provenance lines = provenance_of(result, origin, FileNumbers(source.file));
   return {{}, std::move(result.map), std::move(lines)};
+}
+
+/// All that uses of maps take for granted, and readers see to.
+void require_whole(const MappedMesh::Parts& parts) {
+  require_array_lengths(parts.file);
+  const Points& positions = parts.file.mesh.positions;
+  for (Vertex v = 0; v < positions.rows(); ++v) {
+    if (positions.row(v).allFinite()) continue;
+    throw UnmeasurableMesh(parts.name + ": the position of vertex " + std::to_string(v) +
+                           " is no finite number; is the mesh very large or small? scale it");
+  }
 }
 
 Topology topology_of(MappedMesh::Parts& parts, int threads) {
@@ -85,7 +96,9 @@ Topology topology_of(MappedMesh::Parts& parts, int threads) {
 }  // namespace
 
 MappedMesh::MappedMesh(Parts parts, int threads) {
+  require_whole(parts);
   Topology topology = topology_of(parts, threads);
+  if (parts.polygons) require_polygons_of(parts.file.mesh, *parts.polygons);
   shape_.reset(new Shape{std::move(parts.file), std::move(topology), std::move(parts.polygons),
                          std::move(parts.notes), std::move(parts.name), threads});
   prove(std::move(parts.map), std::move(parts.provenance), parts.mapped_here);
@@ -144,7 +157,9 @@ SphereMap unit_rays(SphereMap map) {
 }
 
 MappedMesh mapped_mesh(MeshSource source, const LoadOptions& options) {
+  require_array_lengths(source.file);
   if (options.repair) source = repaired(std::move(source), *options.repair);
+  if (!is_inspected(source)) source = inspected(std::move(source));
   require_mappable(source);
   std::optional<WrittenMap> written = written_map(source, options);
   const bool mapped_here = !written;

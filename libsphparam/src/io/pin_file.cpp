@@ -1,13 +1,12 @@
 #include "sphparam/io/pin_file.h"
 
 #include <algorithm>
-#include <array>
-#include <map>
 #include <numbers>
 #include <unordered_map>
 
 #include "io/files/file_bytes.h"
 #include "io/files/text_scanner.h"
+#include "sphere/distinct_directions.h"
 #include "sphparam/sphere/spherical_coordinates.h"
 
 namespace sphparam {
@@ -37,7 +36,7 @@ std::vector<Landmark> parse_pins(std::string_view text, const std::string& name,
   scanner.require_text();
   std::vector<Landmark> pins;
   std::unordered_map<Vertex, long> lines;
-  std::map<std::array<double, 3>, long> places;
+  DistinctDirections places;
   while (scanner.next_filled_line()) {
     const Landmark pin = parse_pin(scanner, numbers);
     const auto [earlier, is_new] = lines.emplace(pin.vertex, scanner.line_number());
@@ -45,12 +44,10 @@ std::vector<Landmark> parse_pins(std::string_view text, const std::string& name,
       scanner.fail("vertex " + std::to_string(numbers.number(pin.vertex)) +
                    " is pinned twice, first in line " + std::to_string(earlier->second));
     }
-    const Vector3 x = to_cartesian(pin.coordinates);
-    const auto [other, is_free] =
-        places.emplace(std::array{x.x(), x.y(), x.z()}, scanner.line_number());
-    if (!is_free) {
+    if (const auto other = places.add(to_cartesian(pin.coordinates))) {
       scanner.fail("vertex " + std::to_string(numbers.number(pin.vertex)) +
-                   " is pinned where that of line " + std::to_string(other->second) + " is");
+                   " is pinned where that of line " +
+                   std::to_string(lines.at(pins[static_cast<size_t>(*other)].vertex)) + " is");
     }
     pins.push_back(pin);
   }

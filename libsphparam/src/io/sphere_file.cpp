@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 #include <string_view>
 
 #include "io/formats/freesurfer_comments.h"
@@ -78,6 +79,8 @@ std::optional<SphereMap> read_sphere(const MeshFile& file) {
   for (int axis = 0; axis < 3; ++axis) {
     const Property* const ray = file.find_vertex_property(ray_names[axis]);
     if (!ray) return std::nullopt;
+    if (std::ssize(ray->values) != map.points.rows())
+      throw std::invalid_argument(std::string(ray_names[axis]) + ": a map has one ray a vertex");
     map.points.col(axis) = Eigen::Map<const VectorX>(ray->values.data(), file.mesh.vertex_count());
   }
   return map;

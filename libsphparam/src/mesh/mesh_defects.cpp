@@ -342,7 +342,7 @@ class Inspector {
     add_remark(DefectKind::UnusedVertex, places,
                counted(places.count, "vertex is", "vertices are") + " used by no face" +
                    list_of(RepairPlace::Vertices, places),
-               "");
+               "who reads a file need do nothing: they are dropped; in arrays remove them first");
   }
 
   void check_shape() {
@@ -445,8 +445,18 @@ bool is_connected(const Topology& topology) {
   throw MeshError(std::move(reasons));
 }
 
+/// Whether it would be one if only it were closed.
+bool has_places(const std::vector<MeshDefect>& defects) {
+  return defects.empty() ||
+         std::any_of(defects.begin(), defects.end(), [](const MeshDefect& defect) {
+           return defect.kind != DefectKind::Empty && defect.kind != DefectKind::IndexOutOfRange &&
+                  defect.kind != DefectKind::NonFinitePosition;
+         });
+}
+
 std::string joined_messages(const std::vector<MeshDefect>& defects) {
-  std::string text = "the mesh is not a closed genus-0 manifold";
+  std::string text =
+      has_places(defects) ? "the mesh is not a closed genus-0 manifold" : "the mesh cannot be used";
   for (const MeshDefect& defect : defects) text += "; " + defect.message;
   return text;
 }

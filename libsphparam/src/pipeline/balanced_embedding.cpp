@@ -137,7 +137,7 @@ bool press_fillers_again(MapInProgress& work, SphereMap& map, const std::vector<
 
 void warn_of_balance(MapInProgress& work) {
   const Balance wanted = work.options.balance;
-  if (work.options.method != Method::Progressive || wanted == Balance::Lambda) return;
+  if (wanted == Balance::Lambda) return;
   const std::string name = wanted == Balance::Conformal ? "conformal" : "equal-area";
   std::optional<BalanceRecord>& balance = work.result.balance;
   if (!balance) {

@@ -1,8 +1,6 @@
 #include "pipeline/required_options.h"
 
 #include <algorithm>
-#include <array>
-#include <numbers>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -10,6 +8,7 @@
 #include "curvilinear/harmonic.h"
 #include "embedding/energy/energy_domain.h"
 #include "option_domain.h"
+#include "sphere/distinct_directions.h"
 #include "sphere/required_directions.h"
 
 namespace sphparam {
@@ -33,7 +32,7 @@ void require_energy(const ParameterizeOptions& options) {
 
 void require_pins(const TriangleMesh& mesh, const ParameterizeOptions& options) {
   std::set<Vertex> seen;
-  std::set<std::array<double, 3>> points;
+  DistinctDirections directions;
   if (options.poles) seen = {options.poles->north, options.poles->south};
   for (const Landmark& pin : options.pins) {
     require_vertex("pins: vertex", pin.vertex, mesh.vertex_count());
@@ -42,8 +41,7 @@ void require_pins(const TriangleMesh& mesh, const ParameterizeOptions& options) 
     if (!seen.insert(pin.vertex).second) {
       throw std::invalid_argument("vertex " + std::to_string(pin.vertex) + " is pinned twice");
     }
-    const Vector3 x = to_cartesian(pin.coordinates);
-    if (!points.insert({x.x(), x.y(), x.z()}).second) {
+    if (directions.add(to_cartesian(pin.coordinates))) {
       throw std::invalid_argument("vertex " + std::to_string(pin.vertex) +
                                   " is pinned where another one is");
     }

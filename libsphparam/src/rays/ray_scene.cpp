@@ -117,6 +117,8 @@ struct Frame {
 
 Frame frame_of(const TriangleMesh& mesh) {
   if (mesh.face_count() == 0) throw std::invalid_argument("RayScene: no triangles");
+  if (mesh.triangles.minCoeff() < 0 || mesh.triangles.maxCoeff() >= mesh.vertex_count())
+    throw std::invalid_argument("RayScene: a triangle names a vertex that is not there");
   Vector3 lower = mesh.position(mesh.triangles(0, 0)), upper = lower;
   for (Eigen::Index i = 0; i < mesh.triangles.size(); ++i) {
     const Vector3 corner = mesh.position(mesh.triangles.data()[i]);

@@ -27,7 +27,7 @@ std::string to_json(const ComparisonRecord& record) {
   Json maps = Json::array();
   for (const Entry& c : record.entries) maps.push_back(entry_json(c));
   return text_of({{"sphparam", version},
-                  {"command", "compare"},
+                  {"command", record.command},
                   {"input", input_json(record.source)},
                   {"maps", maps},
                   {"notes", record.source.notes},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -50,7 +51,7 @@ Json member_json(const GroupRecord& record, size_t i) {
           {"file", record.files[i]},
           {"vertices", member.mapped.mesh().vertex_count()},
           {"triangles", member.mapped.mesh().face_count()},
-          {"mapped_now", member.mapped.mapped_here()},
+          {"mapped_now", record.mapped_now[i]},
           {"start", member.start},
           {"confidence", member.confidence},
           {"energy", member.energy > 0 ? Json(member.energy) : Json(nullptr)},
@@ -70,6 +71,20 @@ Json modes_json(const ShapeModes& modes) {
   for (Eigen::Index k = 0; k < modes.deviations.size(); ++k)
     all.push_back({{"standard_deviation", modes.deviations[k]}, {"share", modes.shares[k]}});
   return all;
+}
+
+/// The vertex of the file that is nearest to a point, by its number there, the first of equals. It
+/// need not be a corner of the triangle that holds the point: triangles may be long.
+long nearest_vertex(const TriangleMesh& mesh, const FileNumbers& numbers, const Vector3& point) {
+  long nearest = -1;
+  double least = std::numeric_limits<double>::infinity();
+  for (Vertex v = 0; v < mesh.vertex_count(); ++v) {
+    const double distance = (mesh.position(v) - point).squaredNorm();
+    if (distance >= least || numbers.number(v) < 0) continue;  // what repair added has no number
+    least = distance;
+    nearest = numbers.number(v);
+  }
+  return nearest;
 }
 
 /// Shapes whose energy is far above the others', of so many that this says something.
@@ -205,14 +220,12 @@ std::string landmarks_table(const GroupRecord& record) {
     for (size_t k = 0; k < points.size(); ++k) {
       const SurfacePoint& point = points[k];
       const Vector3 x = position(mapped.mesh(), point);
-      int nearest = 0;
-      point.barycentric.maxCoeff(&nearest);
       std::vector<std::string> cells{record.names[i], record.landmarks[k].name};
       for (int axis = 0; axis < 3; ++axis) cells.push_back(shortest(x[axis]));
       cells.push_back(std::to_string(point.face));
       for (int corner = 0; corner < 3; ++corner)
         cells.push_back(shortest(point.barycentric[corner]));
-      cells.push_back(std::to_string(numbers.number(mapped.mesh().triangles(point.face, nearest))));
+      cells.push_back(std::to_string(nearest_vertex(mapped.mesh(), numbers, x)));
       text += row(cells);
     }
   }

@@ -60,6 +60,15 @@ std::string roundness_warning(const VerifiedMap& map) {
                   : "");
 }
 
+std::string roundness_warning(const SphereMap& rays) {
+  const VectorX lengths = rays.points.rowwise().norm();
+  VerifiedMap map;
+  map.of_two_files = true;  // a sphere beside its mesh
+  map.mean_length = lengths.mean();
+  map.length_deviation = (lengths.array() / map.mean_length - 1).abs().maxCoeff();
+  return roundness_warning(map);
+}
+
 std::string to_json(const VerificationRecord& record) {
   const VerifiedMap& map = record.map;
   std::vector<std::string> notes = map.notes;

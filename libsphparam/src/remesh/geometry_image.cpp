@@ -10,7 +10,6 @@
 #include "mesh/vertex_normals.h"
 #include "remesh/image_file.h"
 #include "remesh/image_values.h"
-#include "sphparam/io/paths.h"
 #include "sphparam/version.h"
 
 namespace sphparam {
@@ -51,6 +50,11 @@ Channels channels_of(const MeshFile& file, const std::string& what) {
   if (what != "position" && what != "normal") return properties(file, what);
   const Points rows = what == "normal" ? vertex_normals(file.mesh) : file.mesh.positions;
   return {{rows.data(), rows.data() + rows.size()}, 3};
+}
+
+GridSpec spec_with_image(const Remeshed& mesh) {
+  if (mesh.spec() && has_image_layout(*mesh.spec())) return *mesh.spec();
+  throw std::invalid_argument("images are of octa and cube grids, not of " + mesh.name());
 }
 
 SampleType sample_type(ImageDepth depth) {
@@ -109,16 +113,13 @@ MeshFile mesh_of(const ImageContents& contents, const GeometryImageFiles& files,
 
 }  // namespace
 
-ImageDepth usual_depth(const std::string& path) {
-  return extension_of(path) == ".png" ? ImageDepth::Uint16 : ImageDepth::Float;
-}
-
 void add_geometry_image(PendingFiles& files, const std::string& path, const Remeshed& mesh,
                         const std::string& what, std::optional<ImageDepth> depth) {
-  const ImageDepth stored = depth.value_or(usual_depth(path));
+  const ImageDepth stored = depth_in(path, depth);
+  const GridSpec spec = spec_with_image(mesh);
   const Channels channels = channels_of(mesh.file(), what);
-  GeometryImage made = make_geometry_image(mesh.spec().value(), mesh.map().points, channels.values,
-                                           channels.count, stored);
+  GeometryImage made =
+      make_geometry_image(spec, mesh.map().points, channels.values, channels.count, stored);
   made.texts.emplace_back("sphparam:map", what);
   const std::vector<char> bytes =
       encode_image(made.image, stored == ImageDepth::Uint16 ? ImageFormat::Png : ImageFormat::Exr,

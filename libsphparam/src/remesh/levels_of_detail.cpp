@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "option_domain.h"
 #include "remesh/distance_on_grid.h"
 #include "remesh/shown_limit.h"
 #include "sphparam/measure/measurable.h"
@@ -13,6 +14,12 @@
 namespace sphparam {
 
 namespace {
+
+void require_domain(const MappedMesh& source, const LevelOptions& options) {
+  if (options.subdivision)
+    require_one_of("subdivision", *options.subdivision, Scheme::CatmullClark);
+  if (options.measure) require_measurable(source.mesh());
+}
 
 void fit_level(LevelOfDetail& level, const MappedMesh& source, const LevelOptions& options) {
   const SubdivisionFitOptions fitting{.scheme = options.subdivision.value(),
@@ -64,7 +71,7 @@ void add_levels(std::vector<LevelOfDetail>& levels, const MappedMesh& source,
 std::vector<LevelOfDetail> levels_of_detail(const MappedMesh& source,
                                             std::span<const GridSpec> grids,
                                             const LevelOptions& options) {
-  if (options.measure) require_measurable(source.mesh());
+  require_domain(source, options);
   std::vector<LevelOfDetail> levels;
   add_levels(levels, source, grids, options);
   return levels;
@@ -73,7 +80,7 @@ std::vector<LevelOfDetail> levels_of_detail(const MappedMesh& source,
 std::vector<LevelOfDetail> levels_of_detail(const MappedMesh& source, SphereGrid finest,
                                             std::span<const GridSpec> coarser,
                                             const LevelOptions& options) {
-  if (options.measure) require_measurable(source.mesh());
+  require_domain(source, options);
   std::vector<LevelOfDetail> levels;
   levels.push_back(make_level(source, std::move(finest), options));
   add_levels(levels, source, coarser, options);

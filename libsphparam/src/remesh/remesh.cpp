@@ -10,7 +10,9 @@
 #include <span>
 #include <utility>
 
+#include "option_domain.h"
 #include "remesh/cell_means.h"
+#include "remesh/grid_domain.h"
 #include "remesh/grid_holes.h"
 #include "remesh/resampling.h"
 #include "remesh/seams.h"
@@ -61,21 +63,6 @@ Points middles(const SphereGrid& grid) {
     result.row(f) = sum.normalized();
   }
   return result;
-}
-
-/// Any cut will do where only directions matter.
-Triangles as_triangles(const Polygons& faces) {
-  std::int64_t count = 0;
-  for (std::int64_t f = 0; f < faces.count(); ++f) count += faces.degree(f) - 2;
-  Triangles triangles(count, 3);
-  std::int64_t t = 0;
-  for (std::int64_t f = 0; f < faces.count(); ++f) {
-    const auto corners = faces.polygon(f);
-    for (size_t k = 2; k < corners.size(); ++k) {
-      triangles.row(t++) << corners[0], corners[k - 1], corners[k];
-    }
-  }
-  return triangles;
 }
 
 /// Rows of three numbers made unit, but for those of a source vertex as it is, and zeros.
@@ -310,6 +297,18 @@ class Transfer {
   Gather cells_;
 };
 
+void require_areas(const char* option, const VectorX& areas) {
+  for (const double area : areas) {
+    if (!(area >= 0)) refuse_option(option, area, "the area of a vertex, at least 0");
+  }
+}
+
+void require_domain(const RemeshOptions& options) {
+  require_one_of("sample", options.sample, SampleMode::AdapBaryArea);
+  require_areas("source_areas", options.source_areas);
+  require_areas("grid_areas", options.grid_areas);
+}
+
 Provenance provenance_of(const MappedMesh& source, const std::string& grid, SampleMode sample) {
   Provenance lines = {{"version", version},
                       {"method", "remesh"},
@@ -352,6 +351,8 @@ SphereGrid Remeshed::grid() const {
 }
 
 Remeshed remesh(const MappedMesh& source, SphereGrid grid, const RemeshOptions& options) {
+  require_domain(options);
+  require_domain(grid);
   MeshFile file;
   Remeshed::Figures figures;
   Transfer transfer(source, grid, options);

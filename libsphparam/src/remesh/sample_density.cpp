@@ -9,6 +9,7 @@
 #include "elementary.h"
 #include "embedding/energy/rest_areas.h"
 #include "embedding/newton/optimise.h"
+#include "option_domain.h"
 #include "sphparam/embedding/distortion_energy.h"
 #include "sphparam/mesh/curvature.h"
 #include "sphparam/remesh/adaptation.h"
@@ -62,6 +63,9 @@ VectorX sample_density(const TriangleMesh& mesh, const Topology& topology, std::
 
 Adaptation adapt_map(const MappedMesh& source, std::int64_t samples,
                      const AdaptationOptions& options) {
+  require_at_least("samples", static_cast<double>(samples), 1);
+  require_more_than("lambda", options.lambda, 0);
+  require_between("lambda", options.lambda, 0, greatest_lambda);
   report(options.progress, "sample density", 0);
   const Topology& topology = source.topology();
   const VectorX density = sample_density(source.mesh(), topology, samples, options.threads);

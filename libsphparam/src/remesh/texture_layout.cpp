@@ -3,6 +3,7 @@
 #include "sphparam/remesh/texture_layout.h"
 
 #include <array>
+#include <stdexcept>
 #include <utility>
 
 #include "remesh/grids/grid_family.h"
@@ -14,6 +15,8 @@ namespace {
 
 constexpr int gutter = 4;        // texels: two levels of detail of an image
 constexpr int most_levels = 20;  // of subdivision
+constexpr char no_layout[] =
+    " has no layout of its own: cube:N, octa:N, ico:L, ico:f=N and uv:WxH have";
 
 /// Of a layout with so many levels.
 TextureLayout with_levels(const ChartCells& cells, int levels) {
@@ -66,7 +69,14 @@ void put_coordinates(MeshFile& file, const Polygons& faces, const TextureLattice
 
 bool has_texture_layout(const GridSpec& spec) { return family_of(spec.kind).chart != nullptr; }
 
+GridSpec spec_with_layout(const Remeshed& mesh) {
+  if (mesh.spec() && has_texture_layout(*mesh.spec())) return *mesh.spec();
+  throw std::invalid_argument(mesh.name() + no_layout);
+}
+
 TextureLayout texture_layout(const GridSpec& spec, std::int64_t texels) {
+  require_grid(spec);
+  if (!has_texture_layout(spec)) throw std::invalid_argument(name_of(spec) + no_layout);
   const ChartCells cells = family_of(spec.kind).chart_cells(spec);
   int levels = 0;
   const auto fits = [&](int count) {
@@ -81,7 +91,7 @@ TextureLayout texture_layout(const GridSpec& spec, std::int64_t texels) {
 
 Remeshed with_grid_texture(const Remeshed& mesh, const TextureLayout& layout, int threads,
                            const std::vector<std::string>& comments) {
-  const TextureLattice lattice(mesh.spec().value(), mesh.grid(), layout);
+  const TextureLattice lattice(spec_with_layout(mesh), mesh.grid(), layout);
   MeshFile file = mesh.file();
   put_coordinates(file, mesh.faces(), lattice);
   file.comments.push_back(comment_of(name_of(*mesh.spec()), layout));

@@ -35,19 +35,54 @@ double value_at(const HeatScale& scale, double share) {
   return 2 * (scale.low / 2 + (scale.high / 2 - scale.low / 2) * share);
 }
 
-/// Every power of two, or the ends and the middle.
-std::vector<Tick> ticks(const HeatScale& scale) {
+/// Where a value is, in pixels from the low end of a scale so wide.
+int place_of(const HeatScale& scale, double value, int width) {
+  return static_cast<int>(share_of(scale, value) * (width - 1));
+}
+
+/// Every so manieth power of two from the low end on.
+std::vector<Tick> powers(const HeatScale& scale, int step) {
   std::vector<Tick> all;
-  if (scale.log_ratios) {
-    for (int k = static_cast<int>(std::ceil(scale.low)); k <= scale.high; ++k) {
-      all.push_back({static_cast<double>(k), ratio_label(k)});
-    }
-    return all;
-  }
-  for (const double value : {scale.low, value_at(scale, 0.5), scale.high}) {
-    all.push_back({value, short_number(value)});
-  }
+  for (int k = static_cast<int>(std::ceil(scale.low)); k <= scale.high; k += step)
+    all.push_back({static_cast<double>(k), ratio_label(k)});
   return all;
+}
+
+/// The ends and, where wanted, the middle.
+std::vector<Tick> ends(const HeatScale& scale, bool middle) {
+  std::vector<double> values{scale.low, scale.high};
+  if (middle) values.insert(values.begin() + 1, value_at(scale, 0.5));
+  std::vector<Tick> all;
+  for (const double value : values) all.push_back({value, short_number(value)});
+  return all;
+}
+
+/// Whether labels keep a letter's width from one another.
+bool fit(const std::vector<Tick>& ticks, const HeatScale& scale, int width, int dot) {
+  for (size_t i = 1; i < ticks.size(); ++i) {
+    const Tick &left = ticks[i - 1], &right = ticks[i];
+    const int apart = place_of(scale, right.value, width) - place_of(scale, left.value, width);
+    const int needed = (text_width(left.label, dot) + text_width(right.label, dot)) / 2;
+    if (apart < needed + text_width("1", dot)) return false;
+  }
+  return true;
+}
+
+/// Powers of two, all of them or so many that the ends and 1 are among them, or the ends and the
+/// middle: as many as have room.
+std::vector<Tick> ticks(const HeatScale& scale, int width, int dot) {
+  if (!scale.log_ratios) {
+    std::vector<Tick> all = ends(scale, true);
+    return fit(all, scale, width, dot) ? all : ends(scale, false);
+  }
+  const int low = static_cast<int>(std::ceil(scale.low));
+  const int high = static_cast<int>(std::floor(scale.high)), span = high - low;
+  for (int step = 1; step < span; ++step) {
+    if (low % step != 0 || high % step != 0) continue;
+    std::vector<Tick> some = powers(scale, step);
+    if (fit(some, scale, width, dot)) return some;
+  }
+  return powers(scale, std::max(1, span));
 }
 
 void fill_column(Image& image, int x, int top, int height, const Rgb& colour) {
@@ -64,8 +99,8 @@ void draw_scale(Image& image, const HeatScale& scale, int left, int top, int wid
   for (int x = 0; x < width; ++x) {
     fill_column(image, left + x, top, line, heat_colour(scale, value_at(scale, (x + 0.5) / width)));
   }
-  for (const Tick& tick : ticks(scale)) {
-    const int x = left + static_cast<int>(share_of(scale, tick.value) * (width - 1));
+  for (const Tick& tick : ticks(scale, width, dot)) {
+    const int x = left + place_of(scale, tick.value, width);
     fill_column(image, x, top, line + 2 * dot, ink);
     draw_text(image, tick.label, x - text_width(tick.label, dot) / 2, top + line + 3 * dot, dot,
               ink);

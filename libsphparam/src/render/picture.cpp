@@ -6,6 +6,7 @@
 
 #include "image/image_codec.h"
 #include "io/attributes/shading_normals.h"
+#include "option_domain.h"
 #include "render/added_outline.h"
 #include "render/drawing_size.h"
 #include "render/figure.h"
@@ -28,7 +29,8 @@ namespace sphparam {
 
 namespace {
 
-constexpr double margin = 1.06;  // of the picture around what is drawn
+constexpr double margin = 1.06;                    // of the picture around what is drawn
+constexpr int least_size = 16, most_size = 16384;  // pixels
 
 /// What a colouring measures, where it measures something.
 std::optional<Heat> heat_of(Colouring colouring) {
@@ -40,6 +42,34 @@ std::optional<Heat> heat_of(Colouring colouring) {
 /// Where the eye is: as asked for, or in front, to the right and above, whatever axis is up.
 Vector3 eye(const DrawingOptions& options, const UprightAxes& axes) {
   return options.from.value_or(axes.right() + 0.45 * axes.up + 0.6 * axes.front);
+}
+
+void require_domain(const DrawingOptions& options) {
+  if (options.view) require_one_of("view", *options.view, View::Both);
+  require_one_of("colouring", options.colouring, Colouring::Angle);
+  require_between("size", options.size, least_size, most_size);
+  require_at_least("height", options.height, 0);
+  if (!options.from) return;
+  for (const double coordinate : *options.from) require_finite("from", coordinate);
+  if (options.from->isZero(0)) throw std::invalid_argument("from: 0, 0, 0 is no direction");
+}
+
+/// Looks at the middle of what is seen from a unit direction, all of it in the picture.
+Camera framed(const Points& points, const Vector3& from, const Vector3& up) {
+  Camera camera;
+  camera.direction = from;
+  camera.up = up;
+  if (camera.up.cross(camera.direction).isZero())
+    throw std::invalid_argument("this is the direction that is up");
+  const Vector3 right = camera.up.cross(camera.direction).normalized();
+  const Vector3 above = camera.direction.cross(right);
+  Eigen::Matrix3d axes;  // columns
+  axes << right, above, camera.direction;
+  const Points seen = points * axes;
+  const Vector3 lower = seen.colwise().minCoeff(), upper = seen.colwise().maxCoeff();
+  camera.target = axes * (lower + upper) / 2;
+  camera.height = margin * (upper - lower).head<2>().maxCoeff();
+  return camera;
 }
 
 /// Of a sphere with any radius.
@@ -158,30 +188,20 @@ class Drawing {
     return object;
   }
 
-  /// Looks at the middle of what is seen from there, all of it in the picture. North is up on the
-  /// sphere: it is seen from where the mesh is once its axis has been turned to z, and what is in
-  /// front of it to θ = 0 where the map says so.
   Camera framing(Shape shape, const Points& points) const {
-    Camera camera;
-    camera.direction = eye(options_, axes_).normalized();
-    camera.up = axes_.up;
-    if (shape == Shape::Sphere) {
-      const Vector3 seen = upright_rotation(axes_) * camera.direction;  // right, up, front
-      camera.direction = map_is_upright(file_, axes_) ? Vector3(seen.z(), seen.x(), seen.y())
-                                                      : Vector3(seen.x(), -seen.z(), seen.y());
-      camera.up = Vector3::UnitZ();
-    }
-    if (camera.up.cross(camera.direction).isZero())
-      throw std::invalid_argument("this is the direction that is up");
-    const Vector3 right = camera.up.cross(camera.direction).normalized();
-    const Vector3 above = camera.direction.cross(right);
-    Eigen::Matrix3d axes;  // columns
-    axes << right, above, camera.direction;
-    const Points seen = points * axes;
-    const Vector3 lower = seen.colwise().minCoeff(), upper = seen.colwise().maxCoeff();
-    camera.target = axes * (lower + upper) / 2;
-    camera.height = margin * (upper - lower).head<2>().maxCoeff();
+    const Vector3 from = eye(options_, axes_).normalized();
+    if (shape == Shape::Sphere) return framed(points, beside_the_sphere(from), Vector3::UnitZ());
+    Camera camera = framed(points, from, axes_.up);
+    if (options_.height > 0) camera.height = options_.height;
     return camera;
+  }
+
+  /// North is up on the sphere: it is seen from where the mesh is once its axis has been turned to
+  /// z, and what is in front of it to θ = 0 where the map says so.
+  Vector3 beside_the_sphere(const Vector3& from) const {
+    const Vector3 seen = upright_rotation(axes_) * from;  // right, up, front
+    return map_is_upright(file_, axes_) ? Vector3(seen.z(), seen.x(), seen.y())
+                                        : Vector3(seen.x(), -seen.z(), seen.y());
   }
 
   const MeshFile& file_;
@@ -218,8 +238,15 @@ bool draws_without_map(const DrawingOptions& options) {
          options.colouring != Colouring::Checker && !heat_of(options.colouring);
 }
 
+double height_to_see(const MeshFile& file, const DrawingOptions& options) {
+  const UprightAxes axes = upright_axes(file, options.up);
+  const Vector3 from = eye(options, axes).normalized();
+  return framed(without_fillers(file).mesh.positions, from, axes.up).height;
+}
+
 std::string draw_png(const MeshFile& file, const std::optional<SphereMap>& map,
                      const DrawingOptions& options) {
+  require_domain(options);
   if (!map && !draws_without_map(options)) throw std::invalid_argument("this needs a map");
   if (!options.scalar.empty() && !file.find_vertex_property(options.scalar))
     throw std::invalid_argument("the mesh has no property '" + options.scalar + "'");

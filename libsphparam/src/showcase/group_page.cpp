@@ -1,7 +1,9 @@
 // The mean and its deviations, the modes from end to end, all shapes in the colours of the
 // correspondence, tables.
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "io/uri.h"
@@ -19,6 +21,7 @@ constexpr int panel_width = 220;             // least, on the page, in pixels
 constexpr size_t most_pictures = 100;        // of shapes
 constexpr Eigen::Index most_distances = 24;  // columns of a table that is read
 constexpr double shown_deviations = 2;
+constexpr char one_scale[] = "to one scale: the largest fills its picture";
 
 constexpr char style[] =
     "h1,h3,p,li{overflow-wrap:anywhere}"
@@ -70,10 +73,25 @@ class GroupPage {
   }
 
   /// The same place has the same colour on all shapes: that of where it is on the mean.
-  PageFigure in_correspondence(const MappedMesh& mesh, const std::string& caption) {
+  /// `height`: see `DrawingOptions`.
+  PageFigure in_correspondence(const MappedMesh& mesh, const std::string& caption,
+                               double height = 0) {
     MeshFile file = mesh.file();
     colour_by_place(group_.mean.mesh().positions, file);
-    return picture(with_file(std::move(file)), {.graticule = true}, caption);
+    return picture(with_file(std::move(file)), {.graticule = true, .height = height}, caption);
+  }
+
+  /// Shapes that are to be held against each other, sizes among what differs: the largest fills its
+  /// picture. Each is made twice, as there is no room for all of many.
+  std::vector<PageFigure> to_one_scale(const std::vector<std::string>& captions,
+                                       const std::function<MappedMesh(size_t)>& shape) {
+    double height = 0;
+    for (size_t i = 0; i < captions.size(); ++i)
+      height = std::max(height, height_to_see(shape(i).file(), {.up = options_.up}));
+    std::vector<PageFigure> figures;
+    for (size_t i = 0; i < captions.size(); ++i)
+      figures.push_back(in_correspondence(shape(i), captions[i], height));
+    return figures;
   }
 
   void add_summary() {
@@ -115,27 +133,31 @@ class GroupPage {
     const std::vector<std::string> lines = mode_lines(record_);
     if (lines.empty()) return;
     page_.heading("Modes");
+    if (options_.size > 0)
+      page_.paragraph(std::string("The pictures of a mode are ") + one_scale + ".");
+    const std::string ends = short_number(shown_deviations) + " deviations";
     for (size_t k = 0; k < lines.size(); ++k) {
       page_.subheading(lines[k]);
       if (options_.size == 0) continue;
-      std::vector<PageFigure> figures;
-      for (const double d : {-shown_deviations, 0.0, shown_deviations})
-        figures.push_back(in_correspondence(
-            group_shape(group_, static_cast<int>(k), d),
-            d == 0 ? "mean" : (d < 0 ? "− " : "+ ") + short_number(std::abs(d)) + " deviations"));
-      page_.figures(figures, panel_width);
+      page_.figures(to_one_scale({"− " + ends, "mean", "+ " + ends},
+                                 [&](size_t i) {
+                                   const double steps = static_cast<double>(i) - 1;
+                                   return group_shape(group_, static_cast<int>(k),
+                                                      steps * shown_deviations);
+                                 }),
+                    panel_width);
     }
   }
 
   void add_shapes() {
     page_.heading("Shapes");
-    page_.paragraph(
-        "Each as it lies on the mean. The same colour, and the same line, is the same place on "
-        "all.");
-    std::vector<PageFigure> figures;
-    for (size_t i = 0; i < std::min(record_.names.size(), most_pictures); ++i)
-      figures.push_back(in_correspondence(aligned_shape(group_, i), record_.names[i]));
-    page_.figures(figures, panel_width);
+    page_.paragraph(std::string("Each as it lies on the mean, ") +
+                    (record_.options.scale ? "brought to one size, " : "") + one_scale +
+                    ". The same colour, and the same line, is the same place on all.");
+    std::vector<std::string> captions = record_.names;
+    captions.resize(std::min(captions.size(), most_pictures));
+    page_.figures(to_one_scale(captions, [&](size_t i) { return aligned_shape(group_, i); }),
+                  panel_width);
     if (record_.names.size() > most_pictures)
       page_.paragraph("The first " + std::to_string(most_pictures) + " of " +
                       std::to_string(record_.names.size()) + "; the others are in the table.");

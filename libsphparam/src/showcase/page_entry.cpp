@@ -7,6 +7,7 @@
 #include "sphparam/io/fillers.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/names.h"
+#include "sphparam/records/verification_record.h"
 #include "sphparam/sphere/sphere_share.h"
 #include "sphparam/version.h"
 
@@ -60,8 +61,10 @@ PageEntry make_page_entry(Entry entry, Provenance provenance, const MeshFile& fi
 }
 
 PageEntry make_page_entry(const NamedMap& map, const MeshFile& file, int threads) {
-  return make_page_entry(entry_of_map(map.name, map.source, file.mesh, map.map, threads),
-                         map.provenance, file, threads);
+  PageEntry entry = make_page_entry(entry_of_map(map.name, map.source, file.mesh, map.map, threads),
+                                    map.provenance, file, threads);
+  entry.warning = roundness_warning(map.map);
+  return entry;
 }
 
 std::vector<PageEntry> load_page_entries(const MeshSource& mesh, const EntryFiles& files,

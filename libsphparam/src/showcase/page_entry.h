@@ -20,6 +20,7 @@ struct PageEntry {
   Provenance provenance;             // of the file, or of the map that was made here
   std::optional<BakeTarget> target;  // the chart of a map that is one-to-one
   std::optional<double> filler_share = std::nullopt;  // of the sphere, of a mesh with fillers
+  std::string warning = {};                           // `roundness_warning` of a file's rays
 
   const SphericalChart* chart() const { return target ? &target->chart : nullptr; }
 };

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "elementary.h"
+#include "sphere/required_rays.h"
 #include "sphere/solid_angle.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/orientation.h"
@@ -198,6 +199,7 @@ std::vector<Vertex> branch_vertices(const Topology& topology, const SphereMap& m
 }  // namespace
 
 Certificate certify(const Topology& topology, const SphereMap& map, int threads) {
+  require_rays("certify", map, topology.vertex_count());
   // 1. Points: finite, and how far from the sphere.
   Certificate certificate;
   const Vertex vertices = topology.vertex_count();

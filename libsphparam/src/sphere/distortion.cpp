@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "elementary.h"
+#include "sphere/required_rays.h"
 #include "sphere/solid_angle.h"
 #include "sphparam/parallel.h"
 
@@ -333,6 +334,7 @@ DistortionSummary summary_of(const Tally& total, VectorX area_ratio) {
 }  // namespace
 
 Distortion measure_distortion(const TriangleMesh& mesh, const SphereMap& map, int threads) {
+  require_rays("measure_distortion", map, mesh.vertex_count());
   const Eigen::Index faces = mesh.face_count();
   Distortion result{VectorX(faces), {}, VectorX(faces), VectorX(faces), VectorX(faces)};
   result.angle_ratio.resize(faces, 3);
@@ -370,6 +372,7 @@ DistortionSummary summarise(const Distortion& d, int threads) {
 
 DistortionSummary summarise_distortion(const TriangleMesh& mesh, const SphereMap& map,
                                        int threads) {
+  require_rays("summarise_distortion", map, mesh.vertex_count());
   const Eigen::Index faces = mesh.face_count();
   if (faces == 0) return {};
   const Measuring measuring(mesh, map, threads);

@@ -8,6 +8,7 @@
 
 #include "mesh/rings.h"
 #include "option_domain.h"
+#include "sphere/required_rays.h"
 #include "sphparam/parallel.h"
 #include "sphparam/sphere/orientation.h"
 
@@ -176,6 +177,7 @@ SphereMap mended(const Topology& topology, SphereMap exact, SphereMap rounded,
 FloatRounding round_to_float(const Topology& topology, const SphereMap& map, int threads,
                              double radius) {
   require_between("radius", radius, least_radius, most_radius);
+  require_rays("round_to_float", map, topology.vertex_count());
   SphereMap nearest = map;
   for (double& x : nearest.points.reshaped()) x = to_float(radius * x);
   FloatRounding result{nearest, certify(topology, nearest, threads)};

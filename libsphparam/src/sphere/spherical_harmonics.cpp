@@ -48,6 +48,17 @@ int degree_of(Eigen::Index rows) {
   return degree;
 }
 
+/// NaN is no direction.
+void require_unit(const Points& directions) {
+  constexpr double unit = 1e-6;  // what squared lengths may be off: some roundings of float32
+  for (Eigen::Index i = 0; i < directions.rows(); ++i) {
+    const double squared = directions.row(i).squaredNorm();
+    if (std::abs(squared - 1) <= unit) continue;
+    throw std::invalid_argument("spherical harmonics: direction " + std::to_string(i) +
+                                " is not of unit length");
+  }
+}
+
 /// P_lm = up x P_{l−1,m} − drop P_{l−2,m} for l > m.
 struct Recursion {
   double up, drop;
@@ -283,6 +294,7 @@ std::pair<double, double> gauss_legendre(int i, int n) {
 
 Functions synthesise(const Functions& coefficients, const Points& directions, int threads) {
   const Legendre legendre(degree_of(coefficients.rows()));
+  require_unit(directions);
   const Terms terms(legendre.degree(), coefficients);
   Functions values(directions.rows(), coefficients.cols());
   parallel_for(directions.rows(), 8 * block_size, threads,
@@ -308,6 +320,7 @@ Functions analyse(int degree, const Points& directions, const VectorX& weights,
   if (weights.size() != directions.rows() || values.rows() != directions.rows()) {
     throw std::invalid_argument("spherical harmonics: not one weight and one value a direction");
   }
+  require_unit(directions);
   const Legendre legendre(degree);
   const std::int64_t blocks = (directions.rows() + block_size - 1) / block_size;
   const std::int64_t chunk = block_size * ((blocks + most_chunks - 1) / most_chunks);
@@ -370,6 +383,8 @@ Functions power_per_degree(const Functions& coefficients) {
 }
 
 Vector3 first_order_ellipsoid(const Functions& coefficients) {
+  if (degree_of(coefficients.rows()) < 1 || coefficients.cols() != 3)
+    throw std::invalid_argument("first_order_ellipsoid: degree 1 of three functions is needed");
   const Eigen::Matrix3d axes =
       coefficients.middleRows(1, 3) * std::sqrt(3 / (4 * std::numbers::pi));
   return axes.jacobiSvd().singularValues();

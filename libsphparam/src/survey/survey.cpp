@@ -10,11 +10,10 @@
 #include "batch/record.h"
 #include "option_domain.h"
 #include "sphparam/errors.h"
-#include "sphparam/io/mesh_reader.h"
-#include "sphparam/io/paths.h"
 #include "sphparam/io/safe_file.h"
 #include "sphparam/mesh/mesh_repair.h"
 #include "survey/isolated_trial.h"
+#include "survey/mesh_files.h"
 #include "survey/survey_record.h"
 #include "survey/surveyor.h"
 
@@ -22,15 +21,6 @@ namespace sphparam {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// By its name. Folders hold other things that are packed by gzip, and of GIFTI files data, too.
-bool is_looked_at(const std::string& path) {
-  std::string name = path;
-  if (is_packed_name(name)) name.resize(name.size() - 3);
-  if (!is_mesh_name(name)) return false;
-  const std::string kind = extension_of(fs::path(name).stem().string());
-  return extension_of(name) != ".gii" || (kind != ".shape" && kind != ".func" && kind != ".label");
-}
 
 /// What decides besides the mesh whether its file is read.
 std::string limits_line(const ReadOptions& read) {
@@ -41,22 +31,6 @@ std::string limits_line(const ReadOptions& read) {
                            read.max_json_depth, read.max_json_values, read.max_json_objects})
     line += std::to_string(limit) + ' ';
   return line;
-}
-
-std::vector<std::string> mesh_files(const std::string& folder) {
-  std::error_code error;
-  std::vector<std::string> names;
-  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end;
-       at.increment(error)) {
-    std::error_code gone;  // between two looks: it is passed over
-    if (at->is_regular_file(gone) && is_looked_at(at->path().string()))
-      names.push_back(at->path().lexically_relative(folder).string());
-  }
-  if (error) throw ReadError(folder, error.message());
-  if (names.empty())
-    throw ReadError(folder, "holds no mesh files; " + readable_formats("and") + " files are such");
-  std::sort(names.begin(), names.end());
-  return names;
 }
 
 /// Ends that are the file's own.

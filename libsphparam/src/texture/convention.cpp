@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "option_domain.h"
+
 namespace sphparam {
 
 const std::vector<ConventionInfo>& all_conventions() {
@@ -15,6 +17,7 @@ const std::vector<ConventionInfo>& all_conventions() {
 }
 
 const ConventionInfo& info_of(Convention convention) {
+  require_one_of("convention", convention, Convention::Blender);
   return all_conventions()[static_cast<size_t>(convention)];
 }
 

@@ -15,8 +15,8 @@ namespace sphparam {
 
 struct RemakeOptions {
   WholeOptions whole = {};                        // its threads and progress serve all
-  int width = 2048;                               // texels a row of images
-  int samples = 1;                                // N × N a texel
+  int width = 2048;                               // texels a row of images; even, 2 to 65536
+  int samples = 1;                                // N × N a texel; 1 to 32
   bool occlusion = false;                         // ambient occlusion too, by rays
   bool compress = false;                          // the .glb: see `GltfOptions::compress`
   TextureFormat textures = TextureFormat::Given;  // its images; those beside it are PNG
@@ -44,7 +44,8 @@ struct RemadeAsset {
 /// exported. Adds to `files`, in `folder`: NAME.sph.ply, the mesh with its map; NAME_basecolor.png
 /// and so on, the images; NAME.glb, which has them all; NAME.html, a page that shows it beside what
 /// it was. NAME is that of the asset's file.
-/// Requires: the folder is there. Throws: as `whole_surface`, `bake`, `make_asset`; WriteError.
+/// Requires: the folder is there. Throws: as `whole_surface`, `bake`, `make_asset`, for options
+/// outside their domains before any work; WriteError.
 RemadeAsset remake_asset(const MeshSource& asset, const std::string& folder,
                          const RemakeOptions& options, PendingFiles& files);
 

@@ -20,7 +20,7 @@ enum class WholeBy {
 const char* word_of(WholeBy by);
 
 struct WholeOptions {
-  double least_kept = 0.98;  // of the area, for a repair to be preferred to a wrap
+  double least_kept = 0.98;  // of the area, for a repair to be preferred to a wrap; 0 to 1
   int resolution = 192;      // of a wrap: voxels along the longest side of the box
   long faces = 50'000;       // of a wrap, about; 0: all
   bool upright = false;      // `with_upright_frame`, as the asset's file says what is up
@@ -33,8 +33,8 @@ struct WholeSurface {
   MappedMesh mapped;
   WholeBy by = WholeBy::Itself;
   double area_kept = 1;                 // of the asset's; a wrap keeps all of it inside
-  std::vector<std::string> found = {};    // what stood in the way, in an artist's words, a line each
-  std::vector<std::string> done = {};     // what repair did, or how it was wrapped; so too
+  std::vector<std::string> found = {};  // what stood in the way, in an artist's words, a line each
+  std::vector<std::string> done = {};   // what repair did, or how it was wrapped; so too
   std::vector<std::string> details = {};  // both again with all figures, and where
 };
 

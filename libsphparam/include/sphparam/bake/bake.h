@@ -48,12 +48,12 @@ struct BakeSettings {
   std::optional<MappedMesh> target = {};
   // Another surface, about where the mesh lies, closed or not: fields are of it, images for the
   // mesh. Each point of the mesh shows what the line along its smooth normal meets near it, else
-  // the nearest point. Not together with `target`.
+  // the nearest point. Finite, with a triangle at least. Not together with `target`.
   std::optional<MeshFile> from = {};
   // Walls, which are farther than this from `from`, show a smooth mean of what stands about them,
   // not streaks of what is nearest: colours, what materials say; tangent normals a mean of the
   // mesh's own. What is masked out shows what lies less than twice as far behind it, where the mesh
-  // is about both and would have a hole. 0: neither.
+  // is about both and would have a hole. 0: neither; else finite and above.
   double calm_beyond = 0;
   int refine_poles = 1;          // the images are for that chart: see `refine_poles`; 1 to 1024
   std::string source_name = {};  // in metadata and messages; empty: the source's own

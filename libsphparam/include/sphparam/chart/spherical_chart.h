@@ -92,11 +92,11 @@ struct SphericalChart {
 ///          the refined map positive on the sphere; where rounding does not let it,
 ///          `certificate.inverted` lists the faces. Same bytes for any number of threads.
 /// Progress is told of "chart": the largest share so far of the splits allowed.
-/// Throws: std::invalid_argument for a map of wrong size or splits below 0, or where no face holds
-/// ±z; Cancelled. Our own; the need for it: Section 3 of the paper has the date line along edges,
-/// which a relaxed map leaves. Cost: a few passes, a tenth of the default map's time, half of it
-/// the certificate; and 1 to 3 µs a split: some 2 to 10 a fold, 10 to 75 where needles (1 : 1000)
-/// lie on each other by the thousand near ±z. Moves cost up to some seconds.
+/// Throws: std::invalid_argument for a map of wrong size or with a ray that is zero or not finite,
+/// splits below 0, or where no face holds ±z; Cancelled. Our own; the need for it: Section 3 of the
+/// paper has the date line along edges, which a relaxed map leaves. Cost: a few passes, a tenth of
+/// the default map's time, half of it the certificate; and 1 to 3 µs a split: some 2 to 10 a fold,
+/// 10 to 75 where needles (1 : 1000) lie on each other by the thousand near ±z; moves some seconds.
 SphericalChart spherical_chart(const TriangleMesh& mesh, const Topology& topology,
                                const SphereMap& map, int threads = 0, const Progress& progress = {},
                                int splits_a_vertex = 256);

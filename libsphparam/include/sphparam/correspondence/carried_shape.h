@@ -33,7 +33,8 @@ enum class Placement {
 /// What puts `to` to where `from` is: of all turns and shifts that with the least Σ area ·
 /// distance² between the vertices of `from` and their points. Placement::AsItIs: the identity.
 /// Ensures: no mirror image; same bits for any number of threads.
-/// Throws: UnmeasurableMesh where one has no area. Source: Kabsch (1976), as `nearest_rotation`.
+/// Throws: UnmeasurableMesh where one has no area; std::invalid_argument for no placement. Source:
+/// Kabsch (1976), as `nearest_rotation`.
 Similarity placement_on(const SurfaceMap& map, Placement placement, int threads = 0);
 
 /// How much of `to` the triangles of `from` show, whose corners lie on it. Lengths are parts of the

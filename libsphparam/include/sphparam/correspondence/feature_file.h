@@ -15,14 +15,14 @@ namespace sphparam {
 /// or dropped, those that are left have the values of their numbers in it.
 ///
 /// Throws: ReadError where there is neither, for another number of vertices, and for labels, which
-/// are no measure.
+/// are no measure: properties of whole numbers are such.
 Functions read_features(const std::string& file_or_property, const MeshFile& mesh,
                         const ReadOptions& options = {});
 
 /// Features of two meshes from pairs of such names, one of `from` and one of `to`: the columns of
 /// all, in this order.
-/// Throws: as above, also where one of a pair has more columns; std::invalid_argument for an odd
-/// number of names.
+/// Throws: as above, also where one of a pair has more columns, or a column no two different
+/// numbers; std::invalid_argument for an odd number of names.
 MatchFeatures read_features(const std::vector<std::string>& pairs, const MeshFile& from,
                             const MeshFile& to, const ReadOptions& options = {});
 

@@ -30,7 +30,8 @@ struct MatchOptions {
   /// none are given.
   bool search = false;
   /// `from` and `to` lie alike in space, as files of one rig or scanner do: a search is also judged
-  /// by how well places agree, in their coordinates; with features, the first turn is by that alone.
+  /// by how well places agree, in their coordinates; with features, the first turn is by that
+  /// alone.
   bool alike = false;
   /// What is to agree besides. Without landmarks the first map is turned so that it does, to begin
   /// with. Requires: no search.
@@ -84,7 +85,8 @@ class MirroredLandmarks : public std::runtime_error {
 ///
 /// Ensures: both maps are proved one-to-one; each landmark of `from` has exactly the direction of
 /// its partner. Same bits for any number of threads.
-/// Throws: std::invalid_argument for landmarks that are no vertices, or one twice;
+/// Throws: std::invalid_argument for options outside their domains, for landmarks that are no
+/// vertices, or one twice, and for a feature that is the same everywhere;
 /// UnreachableLandmarks; MirroredLandmarks; UnmeasurableMesh, with the name, for a surface without
 /// area; Cancelled.
 /// Cost: 0.1 ms a triangle. Source: our own; the energy is that of Schmidt et al., "Surface maps

@@ -61,8 +61,8 @@ enum class EnergyKind {
 struct DistortionEnergy {
   EnergyKind kind = EnergyKind::AngleAndArea;
   double lambda = 1;    // area against angle, 0 to `greatest_lambda`: conformal to equal-area
-  double epsilon = 0;   // > 0: regularised; finite
-  double pressure = 0;  // finite; times the image's area of what `optimise` presses
+  double epsilon = 0;   // from 0, finite; above 0: regularised, so another map; no record tells it
+  double pressure = 0;  // finite, in no record; times the image's area of what `optimise` presses
 };
 
 /// Beyond these weights of area against angle doubles forget one of the two.

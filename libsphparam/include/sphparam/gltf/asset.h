@@ -12,8 +12,9 @@
 
 namespace sphparam {
 
-/// Rows of float32 numbers, as a vertex buffer holds them.
-using FloatRows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+/// Rows of float32 numbers, as a vertex buffer holds them. They pass between the library and its
+/// users, so they come from malloc (`RowTable`).
+using FloatRows = RowTable<float, Eigen::Dynamic>;
 
 /// What a morph target adds to the vertices. `tangents` is empty where the surface has none.
 struct MorphTarget {

@@ -115,7 +115,8 @@ struct Look {
 /// follow. Of `options`: look, convention, refine_poles, source, threads, progress.
 /// Throws: LookError; ImageOfOtherChart; ImageError and ReadError for images that cannot be read;
 /// NotCertifiedError where something must be baked and (u, v) is not one-to-one;
-/// std::invalid_argument for more `refine_poles` than a chart can hold; Cancelled.
+/// std::invalid_argument, before any work, for options outside their domains, and for more
+/// `refine_poles` than a chart can hold; Cancelled.
 Look make_look(const MappedMesh& mapped, const ExportOptions& options = {});
 
 /// The look of a mesh that was made of `source`, on the same sphere: where it carries texture
@@ -136,8 +137,9 @@ inline constexpr char normals_left_out[] =
 /// any number of threads. Throws: as `make_look`; NotCertifiedError, named by the mesh's name,
 /// where the (u, v) of a level are not one-to-one, unless the topology is kept; std::range_error
 /// where a position is beyond float32; UnmeasurableMesh where the mesh is less than 1e-31 long, too
-/// small for it; std::invalid_argument where another shape has not a row a
-/// vertex, `keep_topology` and
+/// small for it; OtherSphereError where a coarser level is not on the same sphere, as `bake` does
+/// for a target: there is a warning where that is in doubt; std::invalid_argument for options
+/// outside their domains, where another shape has not a row a vertex, `keep_topology` and
 /// `refine_poles` are both wanted, more `refine_poles` than a chart can hold, or the texture
 /// coordinates of a mesh that has none. Cost: some 2 µs a triangle; images that are baked, as
 /// `bake`.
@@ -163,9 +165,10 @@ std::vector<std::string> asset_files(const std::string& path, const Asset& asset
 /// GltfContainer::Embedded alone. The path decides: container and stem of the options do not count
 /// otherwise; "-" is a .glb on standard output. Where it is compressed, triangles and vertices come
 /// in an order that makes it small, without vertices that no triangle has. What is on the disk is
-/// read back and compared number by number. Throws: WriteError; std::length_error where a .glb
-/// would be beyond 4 GiB; std::runtime_error where what was read back differs;
-/// std::invalid_argument for other endings.
+/// read back and compared number by number. Throws: WriteError; NotCertifiedError where 16-bit
+/// numbers are asked for here alone, not of `make_asset`, and fold triangles in (u, v) that do not
+/// fold in the asset; std::length_error where a .glb would be beyond 4 GiB; std::runtime_error
+/// where what was read back differs; std::invalid_argument for other endings.
 WrittenFiles add_asset(PendingFiles& files, const std::string& path, const Asset& asset,
                        const GltfOptions& options = {});
 

@@ -18,7 +18,9 @@ enum class GltfContainer {
 struct GltfOptions {
   GltfContainer container = GltfContainer::Binary;
   std::string stem = "mesh";  // of the names of files beside a .gltf
-  bool quantise = false;      // KHR_mesh_quantization, 16 bits; see `ExportOptions::quantise`
+  // KHR_mesh_quantization, 16 bits. Only an asset made with `ExportOptions::quantise` has (u, v)
+  // that are certified so, and is always written so; `add_asset` refuses another one that folds.
+  bool quantise = false;
   // EXT_meshopt_compression, which few viewers lack and many tools do; where quantised, normals and
   // tangents in 8 bits a component, off by 1° at most.
   bool compress = false;
@@ -38,7 +40,8 @@ using GltfFiles = std::vector<std::pair<std::string, std::string>>;
 /// Requires: finite numbers, unit normals and tangents; indices in range; levels share materials.
 /// Ensures: min and max are exact for the numbers stored; 16-bit indices for up to 65,535 vertices;
 /// the same bytes for the same asset.
-/// Throws: std::length_error where a .glb would be beyond 4 GiB.
+/// Throws: std::length_error where a .glb would be beyond 4 GiB; std::invalid_argument for a
+/// container that there is not.
 /// Source: glTF 2.0 and the extensions named, as the Khronos validator reads them.
 GltfFiles write_gltf(const Asset& asset, const GltfOptions& options = {});
 

@@ -81,14 +81,15 @@ Group make_group(const std::vector<MappedMesh>& shapes, const MappedMesh& refere
                  const GroupOptions& options = {});
 
 /// The mean and so many standard deviations of a mode, on the grid, with the mean's map.
-/// Requires: a mode that there is.
+/// Throws: std::out_of_range for a mode that there is not.
 MappedMesh group_shape(const Group& group, int mode, double deviations);
 
-/// A member's shape on the mean, on the grid.
+/// A member's shape on the mean, on the grid. Throws: std::out_of_range for no member.
 MappedMesh aligned_shape(const Group& group, size_t member);
 
 /// Where vertices of the template are on a member.
-/// Requires: vertices of it. Cost: a location each.
+/// Throws: std::out_of_range for no member; std::invalid_argument for no vertices of it. Cost: a
+/// location each.
 std::vector<SurfacePoint> carried_to(const Group& group, size_t member,
                                      const std::vector<Vertex>& vertices);
 

@@ -35,8 +35,8 @@ struct Procrustes {
 /// their mean is least. The mean lies as `reference`, a shape of the same points, does: with its
 /// centre, and turned to it. Rotations are proper: a mirror image stays one.
 /// Requires: at least one shape; as many points in all, and weights, which are at least 0 and sum
-/// to
-/// 1. Throws: std::invalid_argument if not. Ensures: the same bits for any number of threads.
+/// to 1 up to 1e-9. Throws: std::invalid_argument if not, and for options outside their domains.
+/// Ensures: the same bits for any number of threads.
 /// Source: Gower, "Generalized Procrustes analysis" (1975).
 Procrustes align_by_procrustes(const std::vector<Points>& shapes, const Points& reference,
                                const VectorX& weights, const ProcrustesOptions& options = {});

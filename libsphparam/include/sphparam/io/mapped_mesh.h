@@ -38,10 +38,10 @@ class MappedMesh {
 
   /// Proves the map, with the rays made unit where they are not: those of an earlier map keep their
   /// bits. Ensures: the certificate is of the rays as they are here.
-  /// Throws: MeshError unless the mesh is a closed manifold; NotCertifiedError, with the name and
-  /// the faces at fault, unless the map is one-to-one, which it is on genus 0 only;
-  /// std::invalid_argument unless there is a ray a vertex and a given topology is of the triangles.
-  /// Cost: the certificate's, about 0.1 µs a triangle; without a topology, as much again.
+  /// Throws: MeshError unless the mesh is a closed manifold; UnmeasurableMesh for positions that
+  /// are not finite; NotCertifiedError, with faces, unless one-to-one, as on genus 0 only;
+  /// std::invalid_argument unless map and arrays have a row a vertex, face or corner and topology,
+  /// polygons are of it. Cost: some 0.1 µs a triangle; without a topology, as much again.
   explicit MappedMesh(Parts parts, int threads = 0);
 
   /// The same mesh, shared, with another map, made here and proved as above.
@@ -93,12 +93,12 @@ struct LoadOptions {
 /// map is not one-to-one; std::invalid_argument for `map` as `parameterize`; Cancelled.
 MappedMesh load_mapped(const std::string& path, const LoadOptions& options = {});
 
-/// The same of a mesh that was read already.
+/// The same of a mesh that was read already, or of a source of which only `file` is filled.
 MappedMesh mapped_mesh(MeshSource source, const LoadOptions& options = {});
 
-/// Writes mesh and map as a .sph.ply; under a name of another format (`serialise_mesh`) the mesh
-/// alone, as these have no place for the map. All of it or nothing; what is on the disk is read
-/// back and the map proved on it before it gets its name. `threads`, 0: all cores.
+/// Writes mesh and map as a .ply, .vtk or .vtp; under a name of another format (`serialise_mesh`)
+/// the mesh alone, as these have no place for the map. All of it or nothing; what is on the disk is
+/// read back and the map proved on it before it gets its name. `threads`, 0: all cores.
 /// Throws: WriteError; UnmeasurableMesh for positions or values that are no finite numbers;
 /// NotCertifiedError.
 void save_mapped(const std::string& path, const MappedMesh& mapped, int threads = 0);

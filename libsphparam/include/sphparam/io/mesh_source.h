@@ -12,7 +12,7 @@
 
 namespace sphparam {
 
-/// A mesh file as the map takes it, and what was found on the way.
+/// A mesh file as the map takes it, and what `read_source` found on the way.
 struct MeshSource {
   std::string path;                  // as it was named
   MeshFile file;                     // welded where needed, without unused vertices

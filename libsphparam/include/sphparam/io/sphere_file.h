@@ -26,7 +26,7 @@ MeshFile without_map(MeshFile file);
 /// Whether there is a map in a file: rays, or positions that are the rays, as in a bare sphere.
 bool has_map(const MeshFile& file);
 
-/// The map that a mesh file carries in sx, sy, sz; nothing if one of them is missing.
+/// The map in sx, sy, sz; nothing if one is missing. Throws: std::invalid_argument for its length.
 std::optional<SphereMap> read_sphere(const MeshFile& file);
 
 /// The comments "sphparam KEY VALUE", in the order of the file.

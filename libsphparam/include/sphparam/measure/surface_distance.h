@@ -62,12 +62,12 @@ class UnmeasurableSurface : public std::invalid_argument {
 /// own coordinates counts as 0: a surface is no distance from itself. Source: the measures of Metro
 /// (Cignoni, Rocchini and Scopigno 1998), as MeshLab has them; the samples are stratified by area.
 /// Requires: some sample wanted, samples ≥ 1. Throws: std::invalid_argument if not;
-/// UnmeasurableSurface where there is no triangle, a coordinate is not finite, or what is to be
-/// sampled has no area or length; Cancelled. Ensures: the same bits for any number of threads.
-/// Cost: about 1 µs a sample and vertex, some times that among thin triangles, and with `extremes`
-/// up to 3 µs a sample for the bound; memory linear in the meshes, and up to 200 MB for the bound.
-/// A point that is equally far from many triangles, as a ball's centre is from the ball,
-/// asks all of them.
+/// UnmeasurableSurface where there is no triangle, one names a vertex that is not there, a
+/// coordinate is not finite, or what is to be sampled has no area or length; Cancelled. Ensures:
+/// the same bits for any number of threads. Cost: about 1 µs a sample and vertex, some times that
+/// among thin triangles, and with `extremes` up to 3 µs a sample for the bound; memory linear in
+/// the meshes, and up to 200 MB for the bound. A point that is equally far from many triangles, as
+/// a ball's centre is from the ball, asks all of them.
 SurfaceDistance measure_distance(const TriangleMesh& first, const TriangleMesh& second,
                                  const DistanceOptions& options = {});
 

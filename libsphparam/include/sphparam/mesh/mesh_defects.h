@@ -23,7 +23,7 @@ enum class DefectKind {
   SeveralComponents,
   WrongGenus,
   // Odd, but harmless; the mesh is mapped all the same:
-  UnusedVertex,
+  UnusedVertex,  // but this, which readers of files drop: arrays with it are refused
   ZeroAreaFace,
   CoincidentVertices,
   InsideOut,  // negative volume

@@ -15,6 +15,7 @@ struct GroupRecord {
   const GroupOptions& options;
   std::vector<std::string> files;  // of the shapes
   std::vector<std::string> names;  // of the shapes, each its own; see `names_of_shapes`
+  std::vector<bool> mapped_now;    // of the shapes: no file had its map
   std::string reference;           // the template's file
   std::vector<TemplateLandmark> landmarks = {};
   std::vector<std::string> outputs = {};  // names in the folder
@@ -38,7 +39,8 @@ std::string distances_table(const GroupRecord& record);
 /// along the normal.
 std::string vertices_table(const GroupRecord& record);
 /// A row a shape and landmark: where it is on the shape, in its file's coordinates, its triangle
-/// and weights, and the nearest corner of it by its number in the file.
+/// and weights of the corners, and the vertex of the file that is nearest to it in space, by its
+/// number there; −1 where repair left none. Cost: a pass over the vertices each.
 std::string landmarks_table(const GroupRecord& record);
 
 /// "ico:5", or "template".

@@ -25,5 +25,7 @@ std::string to_text(const VerificationRecord& record);
 
 /// Where the rays are no points of a sphere: what was judged instead, and the way out. Else empty.
 std::string roundness_warning(const VerifiedMap& map);
+/// The same of rays as a file has them. Requires: at least one.
+std::string roundness_warning(const SphereMap& rays);
 
 }  // namespace sphparam

@@ -15,7 +15,7 @@ namespace sphparam {
 constexpr double remeshing_lambda = 5;
 
 struct AdaptationOptions {
-  double lambda = remeshing_lambda;  // > 0
+  double lambda = remeshing_lambda;  // > 0, at most `greatest_lambda`
   int threads = 0;                   // 0: all cores
   Progress progress = {};
 };
@@ -29,9 +29,10 @@ struct Adaptation {
 
 /// Relaxes a map so that a grid of `samples` vertices has them where they do most good: where the
 /// surface bends, with curvature at the grid's scale to the power 0.8.
-/// Requires: samples ≥ 1. Ensures: one-to-one as before; the same bits for any number of threads;
-/// what is remeshed from it tells so in its provenance.
-/// Throws: SolveError as `measure_curvature`; NotCertifiedError; Cancelled.
+/// Ensures: one-to-one as before; the same bits for any number of threads; what is remeshed from it
+/// tells so in its provenance.
+/// Throws: std::invalid_argument for less than a sample and for an option outside of its domain,
+/// before any work; SolveError as `measure_curvature`; NotCertifiedError; Cancelled.
 /// Source: our own; tests/bench/sampling_study. Cost: some ten steps of `optimise`.
 Adaptation adapt_map(const MappedMesh& source, std::int64_t samples,
                      const AdaptationOptions& options = {});

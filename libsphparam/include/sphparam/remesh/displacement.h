@@ -92,11 +92,12 @@ struct WrittenDisplacement {
 ///
 /// The rebuilt mesh is as fine as the image; its directions are its map, where that is one-to-one.
 ///
-/// Requires: a fit on `control`'s grid; sizes as DisplacementOptions says; for the layout of the
-/// grid one that has it. Throws: std::range_error where the depth cannot hold the distances;
-/// ImageError; WriteError; UnmeasurableMesh where nothing of the mesh's area is left on the grid;
-/// Cancelled. Ensures: the same bytes for any number of threads. Cost: some 0.1 µs a texel, and 5
-/// µs a triangle of the rebuilt mesh.
+/// Requires: a fit on `control`'s grid. Throws: std::invalid_argument before any work for sizes
+/// that are not as DisplacementOptions says, for names that are not as DisplacementFiles says, and
+/// for the layout of a grid that has none; std::range_error where the depth cannot hold the
+/// distances; ImageError; WriteError; UnmeasurableMesh where nothing of the mesh's area is left on
+/// the grid; Cancelled. Ensures: the same bytes for any number of threads. Cost: some 0.1 µs a
+/// texel, and 5 µs a triangle of the rebuilt mesh.
 WrittenDisplacement add_displacement(PendingFiles& files, const DisplacementFiles& paths,
                                      const MappedMesh& source, const Remeshed& control,
                                      const SubdivisionFit& fit,

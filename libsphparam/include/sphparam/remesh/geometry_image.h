@@ -29,10 +29,10 @@ bool has_image_layout(const GridSpec& spec);
 /// property. The depth, if none is given: 16 bits in .png, else float; 16 bits hold the range from
 /// the least to the greatest of each channel in 65,535 steps. Texts in the image name grid, depth,
 /// `what` and range.
-/// Requires: a spec with an image layout; .exr for half and float, .png for 16 bits.
 /// Ensures: what is decoded is the nearest that the depth can hold.
-/// Throws: NoSuchProperty; std::range_error where half (65,504) or float has no such number;
-/// ImageError; WriteError.
+/// Throws: std::invalid_argument for a grid without an image layout, and for a name that is not
+/// .exr for half and float, .png for 16 bits; NoSuchProperty; std::range_error where half (65,504)
+/// or float has no such number; ImageError; WriteError.
 void add_geometry_image(PendingFiles& files, const std::string& path, const Remeshed& mesh,
                         const std::string& what, std::optional<ImageDepth> depth = {});
 

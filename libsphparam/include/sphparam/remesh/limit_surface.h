@@ -84,7 +84,7 @@ class LimitTopology {
 /// One patch of a limit surface, made ready: many evaluations of it cost little.
 class LimitPatch {
  public:
-  /// Both outlive the patch.
+  /// Both outlive the patch. Throws: std::invalid_argument for a patch that there is not.
   LimitPatch(const LimitTopology& topology, const Points& control, int patch);
   /// The same patch of a surface of the same topology with other control points, in less time.
   /// Requires: as many of them; they and the topology outlive the patch.
@@ -109,7 +109,7 @@ class LimitPatch {
 
   /// Of a polynomial, Σ coefficient · sⁱ tʲ: by Loop for i + j ≤ 4, i slow and j fast, 15 of them;
   /// by Catmull-Clark for i, j ≤ 3, 16 of them.
-  using Coefficients = Eigen::Matrix<double, 16, 3, Eigen::RowMajor>;
+  using Coefficients = Eigen::Matrix<double, 16, 3, Eigen::RowMajor | Eigen::DontAlign>;
   const Coefficients& coefficients() const { return coefficients_; }
 
  private:
@@ -134,7 +134,8 @@ class LimitPatch {
 /// OpenSubdiv's Bfr, polynomials read off it.
 class LimitSurface {
  public:
-  /// Requires: control.rows() is the topology's vertex count. Throws: std::invalid_argument.
+  /// Throws: std::invalid_argument where there is no topology, or not one control point for each of
+  /// its vertices.
   LimitSurface(std::shared_ptr<const LimitTopology> topology, Points control);
   LimitSurface(const Polygons& faces, Points control, Scheme scheme);
 
@@ -143,7 +144,7 @@ class LimitSurface {
   const Points& control() const { return control_; }
   LimitPatch patch(int index) const { return {*topology_, control_, index}; }
 
-  /// One by one; where many are wanted on a patch, ask for the patch.
+  /// One by one; where many are wanted on a patch, ask for the patch. Throws: as LimitPatch.
   LimitPoint evaluate(const LimitPlace& place) const;
   LimitCurvature curvature(const LimitPlace& place) const;
 

@@ -33,10 +33,10 @@ class NoSuchProperty : public std::invalid_argument {
 struct RemeshOptions {
   SampleMode sample = SampleMode::Point;
   /// With AdapBaryArea: the areas of vertices of the source and of the grid; empty: on the source,
-  /// and on what becomes of it on the grid.
+  /// and on what becomes of it on the grid. None is below 0.
   VectorX source_areas = {}, grid_areas = {};
-  /// What to carry besides positions: "all", "color", "normal", "uv", "material", or names of
-  /// properties; none: nothing.
+  /// What to carry besides positions: "all", "color", "normal", "uv", "material", where the source
+  /// has it, or names of properties, which it must have; none: nothing.
   std::vector<std::string> transfer = {"all"};
   int threads = 0;  // 0: all cores
   Progress progress = {};
@@ -77,8 +77,9 @@ class Remeshed : public MappedMesh {
 /// grid and how, and how the source was mapped. Ensures: the same bytes for any number of threads;
 /// a grid vertex in the direction of a source vertex gets that vertex's values, bit for bit.
 /// Throws: NoSuchProperty for a name in `transfer` that the source has not; MeshError and
-/// NotCertifiedError for a grid of one's own that is no sphere; std::invalid_argument for areas
-/// that are not one a vertex; Cancelled.
+/// NotCertifiedError for a grid of one's own that is no sphere; std::invalid_argument for a
+/// direction of it that is zero or not finite, for a spec as `make_grid`, for areas that are not
+/// one a vertex, and for an option outside of its domain; Cancelled.
 /// Cost: about 1 µs a vertex of the grid, one thread, and the source's locator, once.
 Remeshed remesh(const MappedMesh& source, SphereGrid grid, const RemeshOptions& options = {});
 Remeshed remesh(const MappedMesh& source, const GridSpec& grid, const RemeshOptions& options = {});

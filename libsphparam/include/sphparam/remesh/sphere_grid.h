@@ -79,8 +79,9 @@ struct GridOptions {
   int threads = 0;
 };
 
-/// Ensures: the same bytes for any number of threads.
-/// Cost: linear; subdivided topology is OpenSubdiv's, some 0.5 µs a vertex.
+/// Throws: std::invalid_argument for a spec that `parse_grid` makes of no text: a size that the
+/// family does not have, more than `most_grid_vertices`. Ensures: the same bytes for any number of
+/// threads. Cost: linear; subdivided topology is OpenSubdiv's, some 0.5 µs a vertex.
 SphereGrid make_grid(const GridSpec& spec, const GridOptions& options = {});
 
 /// The rays of a mapped mesh and its triangles as a grid, so that other meshes get its

@@ -23,12 +23,15 @@ class UnfittableGrid : public std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
+/// More of them on a patch would be some gigabytes each.
+constexpr int most_samples_along_edge = 1024;
+
 struct SubdivisionFitOptions {
   Scheme scheme = Scheme::Loop;
   /// n² samples on each patch; 0: as many as the source has triangles, 4² to 16² a patch.
-  int samples_along_edge = 0;
+  int samples_along_edge = 0;  // at most `most_samples_along_edge`
   /// How often samples look for the point of the source that they have come to lie nearest to.
-  int rounds = 3;
+  int rounds = 3;           // ≥ 0
   double reduction = 1e-2;  // of the last round's residual, by conjugate gradients; in (0, 1)
   int threads = 0;          // 0: all cores
   Progress progress = {};
@@ -67,9 +70,10 @@ struct SubdivisionFit {
 /// surface reconstruction" (1994); damped sliding: Wang, Pottmann, Liu, "Fitting B-spline curves to
 /// point clouds by curvature-based squared distance minimization" (2006).
 /// Ensures: the same bytes for any number of threads.
-/// Throws: UnfittableGrid for faces that are not for the scheme, and for vertices with more faces
-/// than LimitTopology takes; UnmeasurableMesh as `require_measurable`; SolveError; Cancelled.
-/// Cost: about 3 µs a sample and round, one thread.
+/// Throws: std::invalid_argument for an option outside of its domain; UnfittableGrid for faces that
+/// are not for the scheme, and for vertices with more faces than LimitTopology takes;
+/// UnmeasurableMesh as `require_measurable`; SolveError; Cancelled. Cost: about 3 µs a sample and
+/// round, one thread.
 SubdivisionFit fit_subdivision(const MappedMesh& source, const SphereGrid& grid,
                                const SubdivisionFitOptions& options = {});
 

@@ -35,12 +35,12 @@ struct TextureLayout {
 bool has_texture_layout(const GridSpec& spec);
 
 /// The finest layout that has no more texels, or that of a texel a vertex where even this has more.
-/// Requires: has_texture_layout(spec).
+/// Throws: std::invalid_argument unless there is such a grid and has_texture_layout(spec).
 TextureLayout texture_layout(const GridSpec& spec, std::int64_t texels);
 
 /// The mesh with texture coordinates in the layout of its grid, v upwards; those that it carried
 /// are gone. A comment says how they lie; `comments` follow it.
-/// Requires: a spec that has a layout; `layout` of this spec.
+/// Requires: `layout` of this spec. Throws: std::invalid_argument for a grid that has none.
 /// Ensures: all faces of the layout are counter-clockwise, no two overlap.
 Remeshed with_grid_texture(const Remeshed& mesh, const TextureLayout& layout, int threads = 0,
                            const std::vector<std::string>& comments = {});

@@ -48,8 +48,8 @@ struct DrawingOptions {
   std::optional<View> view = std::nullopt;  // nothing: both where there is a map
   Colouring colouring = Colouring::Own;
   std::string scalar = {};  // a number a vertex, shown instead of the colouring; empty: none
-  std::optional<Vector3> from = std::nullopt;  // where the eye is; nothing: a little to the right,
-                                               // and above
+  std::optional<Vector3> from = std::nullopt;  // where the eye is, finite, not 0; nothing: a little
+                                               // to the right, and above
   Up up = {};                                  // of the mesh; nothing: as its file says
   std::shared_ptr<const MeshTextures> textures = nullptr;  // see `shown_textures`; null: none
   bool wireframe = false;                                  // the edges of the triangles
@@ -59,18 +59,24 @@ struct DrawingOptions {
   bool legend = true;      // below area, angle and what is measured
   bool transparent = false;  // where nothing is drawn; else white. There is no legend then
   int size = 800;            // pixels, of each side of a picture; 16 to 16384
-  int threads = 0;           // 0: all cores
+  double height = 0;  // of the world that a picture of the mesh shows; 0: so much that all is seen
+  int threads = 0;    // 0: all cores
 };
 
 /// Does nothing of it need a map? Views of the sphere, some colourings and the graticule do.
 bool draws_without_map(const DrawingOptions& options);
 
+/// How much of the world, from bottom to top, a picture of the mesh shows where all of it is to be
+/// seen: `DrawingOptions::height` of pictures to one scale is the largest of theirs. The mesh is in
+/// the middle of each. Requires, throws: as `draw_png` of such a picture. Cost: one pass.
+double height_to_see(const MeshFile& file, const DrawingOptions& options = {});
+
 /// A mesh and its map as the bytes of a PNG. The map may have folds, and rays of any length.
 /// Requires: triangles; positions within doubles' powers (`at_drawing_size`); a ray a vertex.
 /// Ensures: the same bytes for any number of threads.
-/// Throws: std::invalid_argument where a map is needed and missing, and for `from` along the axis
-/// that is up, and for a `scalar` that is no property of the vertices; ImageError. Cost: some
-/// seconds at 800 pixels.
+/// Throws: std::invalid_argument for an option outside of its domain, where a map is needed and
+/// missing, for `from` along the axis that is up, and for a `scalar` that is no property of the
+/// vertices; ImageError. Cost: some seconds at 800 pixels.
 std::string draw_png(const MeshFile& file, const std::optional<SphereMap>& map,
                      const DrawingOptions& options = {});
 

@@ -32,7 +32,7 @@ struct Certificate {
 };
 
 /// Certifies a map. Cost: 4 signs a triangle, one pass.
-/// Requires: one ray a vertex. Same result for any number of threads.
+/// Throws: std::invalid_argument but for one ray a vertex. Same result for any number of threads.
 Certificate certify(const Topology& topology, const SphereMap& map, int threads = 0);
 
 /// "one-to-one", "folded N" (N faces are not positive), "unusable points N", or "degree N".

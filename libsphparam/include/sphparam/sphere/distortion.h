@@ -41,7 +41,7 @@ struct DistortionSummary {
 /// How a map distorts each triangle: angles, areas, stretch, against the mesh in space.
 /// Requires: one unit ray a vertex, finite. Ensures: same bits for any number of threads; finite
 /// values, but that an angle or σ_min of a collapsed image triangle may be 0.
-/// Cost: one pass; 0.15 µs a triangle on one thread.
+/// Throws: std::invalid_argument for another number of rays. Cost: one pass; 0.15 µs a triangle.
 Distortion measure_distortion(const TriangleMesh& mesh, const SphereMap& map, int threads = 0);
 
 /// Means and extremes of the distortion of all triangles.
@@ -50,7 +50,7 @@ Distortion measure_distortion(const TriangleMesh& mesh, const SphereMap& map, in
 DistortionSummary summarise(const Distortion& distortion, int threads = 0);
 
 /// The same of a mesh and its map, to the bit, in 8 bytes a triangle, not the 56 of a `Distortion`.
-/// Requires, Cost: as `measure_distortion`.
+/// Requires, Throws, Cost: as `measure_distortion`.
 DistortionSummary summarise_distortion(const TriangleMesh& mesh, const SphereMap& map,
                                        int threads = 0);
 

@@ -24,9 +24,10 @@ struct FloatRounding {
 /// already is rounded and nothing more. Requires: one unit ray a vertex, up to rounding; a radius
 /// from 1e-6 to 1e6, so that no coordinate that matters is near the ends of float32. Ensures: `map`
 /// has rays of that length, up to rounding, and equals its own float32 image; same bytes for any
-/// number of threads. Throws: std::invalid_argument for another radius. Cost: two passes; where
-/// something breaks, a few hundred visits of the vertices around it. Our own: what is certified in
-/// double is not in float32 (a cap shrunk by 1e-6 loses hundreds of triangles).
+/// number of threads. Throws: std::invalid_argument for another radius, and for another number of
+/// rays. Cost: two passes; where something breaks, a few hundred visits of the vertices around it.
+/// Our own: what is certified in double is not in float32 (a cap shrunk by 1e-6 loses hundreds of
+/// triangles).
 FloatRounding round_to_float(const Topology& topology, const SphereMap& map, int threads = 0,
                              double radius = 1);
 

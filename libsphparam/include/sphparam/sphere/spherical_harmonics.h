@@ -22,10 +22,10 @@ constexpr int greatest_harmonic_degree = 1000;
 ///   Y_l0 = N_l0 P_l(cosϕ),  Y_lm = √2 N_lm P_l^m(cosϕ) cos mθ,  Y_l,−m = √2 N_lm P_l^m(cosϕ) sin
 ///   mθ, N_lm² = (2l + 1)/4π · (l − m)!/(l + m)!,  P_l^m = (1 − x²)^{m/2} dᵐP_l/dxᵐ;
 /// so that x, y, z are √(4π/3) times Y_11, Y_1,−1, Y_10.
-/// Requires: unit directions; (L + 1)² rows of coefficients, 0 ≤ L ≤ greatest_harmonic_degree.
-/// Throws: std::invalid_argument if not. Cost: (1 + k) (L + 1)² multiplications a point.
-/// Source: the recursion of normalised Legendre functions: Holmes and Featherstone, "A unified
-/// approach to the Clenshaw summation …" (2002).
+/// Requires: unit directions, up to float32's rounding; (L + 1)² rows of coefficients, 0 ≤ L ≤
+/// greatest_harmonic_degree. Throws: std::invalid_argument if not. Cost: (1 + k) (L + 1)²
+/// multiplications a point. Source: the recursion of normalised Legendre functions: Holmes and
+/// Featherstone, "A unified approach to the Clenshaw summation …" (2002).
 Functions synthesise(const Functions& coefficients, const Points& directions, int threads = 0);
 
 /// Σ_i weights_i · values_i · Y(direction_i), (L + 1)²×k: where the weights are those of a
@@ -84,7 +84,7 @@ Functions turn_harmonics(const Functions& coefficients, const Eigen::Matrix3d& r
 Functions power_per_degree(const Functions& coefficients);
 
 /// Semi-axes of the ellipsoid that the degree-1 part of three functions x, y, z describes,
-/// descending. Requires: 3 columns, degree ≥ 1.
+/// descending. Requires: 3 columns, degree ≥ 1. Throws: std::invalid_argument if not.
 Vector3 first_order_ellipsoid(const Functions& coefficients);
 
 }  // namespace sphparam

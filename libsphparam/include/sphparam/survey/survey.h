@@ -62,9 +62,9 @@ struct SurveyOptions {
   /// Each file is tried in a process forked from this one, which must have no other thread then:
   /// whatever ends that process ends nothing else.
   bool isolated = false;
-  double longest = 0;   // seconds for a file, where files are isolated; 0: as long as it takes
-  std::string records;  // a folder: what is found is written to it, and taken from it; empty: none
-  int threads = 0;      // 0: all cores
+  double longest = 0;        // seconds for a file, where files are isolated; 0: as long as it takes
+  std::string records = {};  // a folder that keeps what is found, for the next time; empty: none
+  int threads = 0;           // 0: all cores
   Progress progress = {};
 };
 
@@ -74,8 +74,9 @@ struct Survey {
   long count(SurveyEnd end) const;
 };
 
-/// Tries every mesh file of a folder and the folders in it, told by its name; links to folders are
-/// not followed; data of vertices (.shape.gii, .func.gii, .label.gii) are no meshes. Each is read,
+/// Tries every mesh file of a folder and the folders in it, told by its name; links are followed, a
+/// folder is looked into once, and a link to nothing is a file that cannot be read; data of
+/// vertices (.shape.gii, .func.gii, .label.gii) are no meshes. Each is read,
 /// inspected, mended where that is needed, mapped and certified; none is written. Of open meshes
 /// also the way that keeps the holes is tried, and of meshes with several components each as a
 /// mesh; what stops one of these two ways is told as that way's. A file that stops one step is told

@@ -26,7 +26,7 @@ struct ConventionInfo {
 /// All conventions, in the order in which they are listed. Source: the viewers named, their u at
 /// the axes measured.
 const std::vector<ConventionInfo>& all_conventions();
-/// The row of a convention.
+/// The row of a convention. Throws: std::invalid_argument for what is none.
 const ConventionInfo& info_of(Convention convention);
 /// By its name on the command line; nothing for a name nobody knows.
 std::optional<Convention> convention_named(std::string_view name);

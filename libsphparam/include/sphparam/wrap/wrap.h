@@ -20,8 +20,9 @@ struct WrapOptions {
   double distance = 0;
   /// Of shells that are apart the one with the largest volume is kept; else all are joined.
   bool largest = false;
-  /// About so many triangles are left of the surface, the least visible vertices go first; 4 at
-  /// least. It is then only about as far from the soup, and may cut into it and itself. 0: all.
+  /// About so many triangles are left of the surface, never fewer than 4; the least visible
+  /// vertices go first. It is then only about as far from the soup, and may cut into it and itself.
+  /// 0: all.
   long faces = 0;
   int threads = 0;  // 0: all cores
   Progress progress = {};

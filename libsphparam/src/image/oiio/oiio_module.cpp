@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -12,7 +13,9 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <random>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "image/oiio/webp_codec.h"
@@ -180,6 +183,7 @@ struct OpenImage {
   std::unique_ptr<OIIO::ImageOutput> output;
   OIIO::ImageSpec spec;
   OIIO::TypeDesc type;  // of the rows that come
+  int next_row = 0;
 };
 
 template <class Codec, class Work>
@@ -253,6 +257,7 @@ void* open(const SphparamImageFile* file, SphparamBytesSink error, void* error_c
 int write_rows(void* handle, int first_row, int rows, const void* samples, SphparamBytesSink error,
                void* error_context) {
   auto& image = *static_cast<OpenImage*>(handle);
+  image.next_row = first_row + rows;
   return guarded(error, error_context, *image.output, [&] {
     return image.spec.tile_width > 0
                ? image.output->write_tiles(0, image.spec.width, first_row, first_row + rows, 0, 1,
@@ -270,8 +275,25 @@ int next_level(void* handle, int width, int height, SphparamBytesSink error, voi
   });
 }
 
+/// libpng prints to standard error where an image ends of which no data was written yet. Noise does
+/// not wait for more to be compressed with.
+bool write_noise(OpenImage& image) {
+  constexpr size_t enough = size_t{1} << 17;  // bytes: libpng and zlib keep less
+  const size_t row = image.spec.scanline_bytes(true);
+  const auto rows = std::min<std::int64_t>(image.spec.height - image.next_row,
+                                           static_cast<std::int64_t>(1 + enough / row));
+  if (rows <= 0) return true;
+  std::vector<unsigned char> noise(static_cast<size_t>(rows) * row);
+  std::minstd_rand random;
+  for (unsigned char& byte : noise) byte = static_cast<unsigned char>(random() >> 8);
+  return image.output->write_scanlines(image.next_row, image.next_row + static_cast<int>(rows), 0,
+                                       image.type, noise.data());
+}
+
 int close(void* handle, int give_up, SphparamBytesSink error, void* error_context) {
   const std::unique_ptr<OpenImage> image(static_cast<OpenImage*>(handle));
+  if (give_up && std::string_view(image->output->format_name()) == "png")
+    guarded(error, error_context, *image->output, [&] { return write_noise(*image); });
   const int failed =
       guarded(error, error_context, *image->output, [&] { return image->output->close(); });
   image->output.reset();

@@ -56,6 +56,9 @@ class TextScanner {
   double coordinate() { return number<double>("a number", of_coordinates()); }
   float coordinate32() { return number<float>("a number", of_coordinates()); }
   float real32() { return number<float>("a number"); }
+  /// The same of values that may be no finite numbers: whoever reads them leaves them out.
+  double any_real() { return number<double>("a number", NonFinite::Taken); }
+  float any_real32() { return number<float>("a number", NonFinite::Taken); }
 
   /// The next whole number. A token such as 3.0 is refused.
   long integer() {

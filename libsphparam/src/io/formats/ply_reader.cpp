@@ -63,6 +63,12 @@ class TextBody {
     return static_cast<double>(integer(type));
   }
 
+  double any_real(ScalarType type) {
+    if (type == ScalarType::Float64) return scanner_.any_real();
+    if (type == ScalarType::Float32) return static_cast<double>(scanner_.any_real32());
+    return static_cast<double>(integer(type));
+  }
+
   std::int64_t integer(ScalarType type) {
     const std::int64_t value = scanner_.integer();
     if (!holds_exactly(type, static_cast<double>(value)))
@@ -72,7 +78,7 @@ class TextBody {
 
   // One byte a number at least is still to come: the length needs no check of its own.
   void skip(ScalarType type, std::int64_t count) {
-    for (std::int64_t i = 0; i < count; ++i) real(type);
+    for (std::int64_t i = 0; i < count; ++i) any_real(type);
   }
 
   bool has_trailing_data() { return scanner_.next_filled_line(); }
@@ -105,6 +111,12 @@ class BinaryBody {
       const double value = static_cast<double>(this->template read<decltype(scalar)>());
       if (!std::isfinite(value)) fail_not_finite();
       return value;
+    });
+  }
+
+  double any_real(ScalarType type) {
+    return with_scalar(type, [this](auto scalar) {
+      return static_cast<double>(this->template read<decltype(scalar)>());
     });
   }
 
@@ -268,6 +280,7 @@ class PlyReader {
       read_record(element, targets, v);
       body_.end();
     }
+    leave_out_non_finite(file_.vertex_properties, element);
   }
 
   static ScalarType position_type(const PlyElement& element) {
@@ -303,8 +316,9 @@ class PlyReader {
       if (!targets[p].first)
         skip(property);
       else
-        targets[p].first[i * targets[p].stride] =
-            targets[p].is_coordinate ? body_.coordinate(property.type) : body_.real(property.type);
+        targets[p].first[i * targets[p].stride] = targets[p].is_coordinate
+                                                      ? body_.coordinate(property.type)
+                                                      : body_.any_real(property.type);
     }
   }
 
@@ -323,6 +337,26 @@ class PlyReader {
                           std::vector<double>(static_cast<std::size_t>(element.count))});
     }
     return result;
+  }
+
+  /// Programs say so of vertices and faces that have none. A map that lacks a ray is no map, and
+  /// must not be taken for a mesh without one.
+  void leave_out_non_finite(std::vector<Property>& properties, const PlyElement& element) {
+    static constexpr std::array<std::string_view, 3> of_rays = {"sx", "sy", "sz"};
+    std::erase_if(properties, [&](const Property& property) {
+      if (!is_floating(property.type)) return false;
+      const auto is_finite = [](double value) { return std::isfinite(value); };
+      const auto missing =
+          std::ssize(property.values) - std::ranges::count_if(property.values, is_finite);
+      if (missing == 0) return false;
+      const std::string what = "property " + quoted(property.name) + " of element " +
+                               quoted(element.name) + ": it has " +
+                               counted(missing, "value that is", "values that are") + " not finite";
+      if (&element == vertex_element_ && std::ranges::count(of_rays, property.name) > 0)
+        throw ReadError(name_, what);
+      add_loss(file_.notes, what);
+      return true;
+    });
   }
 
   // --- Faces ---
@@ -344,6 +378,7 @@ class PlyReader {
       read_face(element, f);
       body_.end();
     }
+    leave_out_non_finite(file_.face_properties, element);
   }
 
   void read_face(const PlyElement& element, std::int64_t f) {
@@ -359,7 +394,7 @@ class PlyReader {
         skip(property);
       else
         file_.face_properties[column++].values[static_cast<std::size_t>(f)] =
-            body_.real(property.type);
+            body_.any_real(property.type);
     }
     if (has_texcoords_) complete_list(texcoords_);
     if (has_normals_) complete_list(normals_);

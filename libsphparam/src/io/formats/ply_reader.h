@@ -17,8 +17,10 @@ bool looks_like_ply(std::string_view bytes);
 /// `texcoord` (two numbers a corner, as MeshLab writes them) and `normal` (three a corner, as
 /// serialise_ply writes them), comments, materials. Where there are no faces, the element
 /// `tristrips` is read in their stead, as Stanford's files have it: every other triangle of a strip
-/// is turned over, −1 starts a new one. Other lists and other elements are told as not carried.
-/// Throws: ReadError with the line, or with the byte in a binary body.
+/// is turned over, −1 starts a new one. Other lists and other elements are told as not carried, and
+/// so are scalar properties with values that are not finite.
+/// Throws: ReadError with the line, or with the byte in a binary body; with the property where a
+/// ray of a map (sx, sy, sz) is not finite.
 MeshFile read_ply(std::string_view bytes, const std::string& name, const ReadOptions& options = {});
 
 /// Comments of this form carry the names of MeshFile::materials, in order.

@@ -20,7 +20,7 @@ const GridFamily& family_of(GridKind kind) {
   for (const GridFamily* family : families) {
     if (family->kind == kind) return *family;
   }
-  throw std::logic_error("an unknown kind of grid");
+  throw std::invalid_argument("an unknown kind of grid");
 }
 
 ImageLayout::ImageLayout(const ImageSize& size)

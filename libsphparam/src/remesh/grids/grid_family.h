@@ -59,7 +59,11 @@ extern const GridFamily icosahedron_family, cut_icosahedron_family, octahedron_f
 /// All of them, in the order in which people are told of them.
 std::span<const GridFamily* const> grid_families();
 
-/// The family of a kind. Throws: std::logic_error for one that is not listed.
+/// The family of a kind. Throws: std::invalid_argument for one that is not listed.
 const GridFamily& family_of(GridKind kind);
+
+/// Throws: std::invalid_argument, naming the grid, for a kind or a size that there is not, and for
+/// more than `most_grid_vertices`.
+void require_grid(const GridSpec& spec);
 
 }  // namespace sphparam

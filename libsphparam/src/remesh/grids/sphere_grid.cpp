@@ -42,7 +42,19 @@ std::optional<GridSpec> read_size(const GridFamily& family, std::string_view tex
   const auto size = whole_number(text);
   if (!size) return std::nullopt;
   spec.size = *size;
-  return family.is_size(spec) ? std::optional(spec) : std::nullopt;
+  return spec;
+}
+
+std::string expected(const GridFamily& family) {
+  return std::string("expected ") + family.pattern + ", " + family.sizes;
+}
+
+/// Why there is no such grid; empty: there is one.
+std::string complaint_about(const GridSpec& spec) {
+  const GridFamily& family = family_of(spec.kind);
+  if (!family.is_size(spec)) return expected(family);
+  if (vertex_count(spec) <= most_grid_vertices) return "";
+  return "more than the " + std::to_string(most_grid_vertices) + " vertices that are allowed";
 }
 
 /// The family with the longest prefix that a text has; null where there is none.
@@ -72,13 +84,15 @@ GridSpec parse_grid(const std::string& text) {
   if (!family) throw std::invalid_argument("expected " + grid_patterns() + " or like:MESH");
   const auto spec =
       read_size(*family, std::string_view(text).substr(std::string_view(family->prefix).size()));
-  if (!spec)
-    throw std::invalid_argument(std::string("expected ") + family->pattern + ", " + family->sizes);
-  if (vertex_count(*spec) > most_grid_vertices) {
-    throw std::invalid_argument("more than the " + std::to_string(most_grid_vertices) +
-                                " vertices that are allowed");
-  }
+  if (!spec) throw std::invalid_argument(expected(*family));
+  const std::string complaint = complaint_about(*spec);
+  if (!complaint.empty()) throw std::invalid_argument(complaint);
   return *spec;
+}
+
+void require_grid(const GridSpec& spec) {
+  const std::string complaint = complaint_about(spec);
+  if (!complaint.empty()) throw std::invalid_argument(name_of(spec) + ": " + complaint);
 }
 
 std::string name_of(const GridSpec& spec) {
@@ -105,6 +119,7 @@ std::optional<GridSpec> coarser_grid(const GridSpec& spec, int halvings) {
 }
 
 SphereGrid make_grid(const GridSpec& spec, const GridOptions& options) {
+  require_grid(spec);
   SphereGrid grid = family_of(spec.kind).make(spec, options);
   grid.name = name_of(spec);
   grid.spec = spec;

@@ -207,6 +207,10 @@ struct LimitPatch::Irregular {
 
 LimitPatch::LimitPatch(const LimitTopology& topology, const Points& control, int patch)
     : patch_(patch), topology_(&topology) {
+  if (patch < 0 || patch >= topology.patch_count()) {
+    throw std::invalid_argument("LimitPatch: patch " + std::to_string(patch) + " of " +
+                                std::to_string(topology.patch_count()));
+  }
   const LimitTopology::Tables& tables = *topology.tables_;
   const int face = topology.face_of(patch);
   BfrSurface surface;

@@ -122,6 +122,7 @@ int LimitTopology::face_of(int patch) const {
 
 LimitSurface::LimitSurface(std::shared_ptr<const LimitTopology> topology, Points control)
     : topology_(std::move(topology)), control_(std::move(control)) {
+  if (!topology_) throw std::invalid_argument("LimitSurface: no topology");
   if (control_.rows() != topology_->vertex_count()) {
     throw std::invalid_argument("LimitSurface: " + std::to_string(control_.rows()) +
                                 " control points for " + std::to_string(topology_->vertex_count()) +

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "elementary.h"
+#include "option_domain.h"
 #include "rays/interpolation.h"
 #include "rays/ray_scene.h"
 #include "remesh/subdivision/limit_stencils.h"
@@ -135,10 +136,19 @@ std::shared_ptr<const LimitTopology> topology_of(const SphereGrid& grid, Scheme 
   throw UnfittableGrid(grid.name + ": " + error.what());
 }
 
+void require_domain(const SubdivisionFitOptions& options) {
+  require_one_of("scheme", options.scheme, Scheme::CatmullClark);
+  require_between("samples_along_edge", options.samples_along_edge, 0, most_samples_along_edge);
+  require_at_least("rounds", options.rounds, 0);
+  require_more_than("reduction", options.reduction, 0);
+  if (!(options.reduction < 1)) refuse_option("reduction", options.reduction, "below 1");
+}
+
 }  // namespace
 
 SubdivisionFit fit_subdivision(const MappedMesh& mapped, const SphereGrid& grid,
                                const SubdivisionFitOptions& options) {
+  require_domain(options);
   const TriangleMesh& source = mapped.mesh();
   require_measurable(source);
   const int threads = options.threads;
