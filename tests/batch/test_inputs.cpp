@@ -6,6 +6,7 @@
 #include <fstream>
 #include <set>
 
+#include "batch/shape_id.h"
 #include "batch/tables.h"
 #include "sphparam/batch/inputs.h"
 
@@ -114,6 +115,10 @@ TEST_CASE("inputs: ids that no folder can be called by") {
   CHECK(ids.front() == "a");
   CHECK(ids.back().size() == 100);
   CHECK(ids.back().starts_with("nnn"));
+  std::string wide = "甲乙丙";
+  for (int i = 0; i < 33; ++i) wide.insert(0, "一");
+  CHECK(shape_id_of(wide).find('_') != std::string::npos);
+  CHECK(shape_id_of("a\xE0\x81\x81z") == "a___z");
   for (const std::string bad : {"b ü", "\"a,b\"", ".a", "a\xff", "a\u00a0b"}) {
     tree.write("t.csv", "id,path\n" + bad + ",a.off\n");
     CHECK_THROWS_WITH(tree.ids("t.csv"), Contains("names a folder"));

@@ -54,7 +54,8 @@ TEST_CASE("record: its head is read back, and nothing behind it is looked at") {
 }
 
 TEST_CASE("record: what stands in the lists of another key is no file") {
-  const BatchRecordHead head = read_head(R"({"stamp":[[{"files":3,"files":"a"}]],"id":"x"})").value();
+  const BatchRecordHead head =
+      read_head(R"({"stamp":[[{"files":3,"files":"a"}]],"id":"x"})").value();
   CHECK(head.files.empty());
 }
 

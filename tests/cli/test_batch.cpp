@@ -271,18 +271,33 @@ TEST_CASE("batch: a file that every shape would write is told before anything is
     CHECK_THAT(plan.err, Contains("every shape would write " + path));
   }
   CHECK(shapes.plan({"map", "--", "spharm", "--csv", shapes.folder / "{id}.csv"}).code == 0);
+  CHECK(shapes.plan({"map", "--", "spharm", "--csv", "/dev/null"}).code == 0);
+}
+
+TEST_CASE("batch: files of a list between commas are named from the root, and hashed") {
+  const Shapes shapes(1);
+  std::string values;
+  for (int i = 0; i < 162; ++i) values += "1\n";
+  write_bytes(shapes.folder / "f1.txt", values);
+  write_bytes(shapes.folder / "f2.txt", values);
+  const std::string list = shapes.folder / "f1.txt" + "," + (shapes.folder / "f2.txt");
+  REQUIRE(shapes.plan({"map", "--", "remesh", "--grid", "ico:2", "--data", list}).code == 0);
+  CHECK_THAT(shapes.batch("run").err, Contains("1 done"));
+  write_bytes(shapes.folder / "f2.txt", values + "\n");
+  CHECK(shapes.plan({"map", "--", "remesh", "--grid", "ico:2", "--data", list}).code == 0);
+  CHECK_THAT(shapes.batch("run").err, Contains("0 done before"));
 }
 
 TEST_CASE("batch: the table has the columns of the one it was planned from, and .tsv has tabs") {
   const Shapes shapes(2);
   write_bytes(shapes.folder / "t.csv",
-              "path,age,code\nin/ball0.obj,7,x\nin/ball1.obj,\"8, or\t9\",y\n");
+              "path,age,code,map.quality\nin/ball0.obj,7,x,u\nin/ball1.obj,\"8, or\t9\",y,v\n");
   REQUIRE(sphparam_program({"batch", "plan", shapes.folder / "t.csv", "-o", shapes.work, "--chunk",
                             "1", "--", "map", "--quality", "draft"})
               .code == 0);
   shapes.batch("run");
   const std::string table = shapes.batch("table", {"-o", "-", "-q"}).out;
-  CHECK_THAT(table, Contains("repairs,age,table.code,") && Contains(",\"8, or\t9\",y,"));
+  CHECK_THAT(table, Contains("repairs,age,table.code,") && Contains(",\"8, or\t9\",y,v,"));
   REQUIRE(shapes.batch("table", {"-o", shapes.folder / "all.tsv"}).code == 0);
   CHECK_THAT(bytes_of(shapes.folder / "all.tsv"), Contains("repairs\tage\ttable.code\t"));
   CHECK(shapes.batch("table", {"-o", shapes.folder / "all.xlsx"}).code == 2);

@@ -297,6 +297,15 @@ TEST_CASE("map: a file of pins that makes no sense ends with 3 and its line") {
   CHECK(sphparam_program({"map", "-", "-o", "-", "--pin", folder / "none"}, ball).code == 3);
 }
 
+TEST_CASE("map: a pin where a pole goes is told before any work") {
+  const Folder folder;
+  write_bytes(folder / "pins.txt", "6 0.3 0\n");
+  const Ended ended = sphparam_program(
+      {"map", "-", "-o", "-", "--poles", "5,9", "--pin", folder / "pins.txt"}, ball);
+  CHECK(ended.code == 2);
+  CHECK_THAT(ended.err, Contains("--pin: vertex 6 is pinned where one of the --poles is"));
+}
+
 TEST_CASE("map: a GIFTI sphere that is mapped anew claims no poles, and may not lose a meridian") {
   const Folder folder;
   const std::string mesh = obj_text(gathered_sphere());

@@ -347,6 +347,11 @@ TEST_CASE("ply_reader: a property with values that are not finite is left out an
   CHECK(contains(file.notes[1], "'quality' of element 'face': it has 1 value that is not finite"));
   CHECK(contains(complaint(replaced(text, "1 0 0 -inf", "1 nan 0 -inf")), "expected a number"));
   CHECK(contains(complaint(replaced(text, "float depth", "float sx")), "'sx'"));
+  const MeshFile normals =
+      read(replaced(replaced(text, "float depth", "float nz"), "double kept", "double nx"));
+  CHECK(normals.vertex_properties.empty());
+  CHECK(contains(normals.notes[0], "'nz'"));
+  CHECK(contains(normals.notes[0], "nx, ny, nz go together"));
 }
 
 TEST_CASE("ply_reader: values of a binary body that are not finite are left out and told") {

@@ -177,8 +177,10 @@ TEST_CASE("options: two pins in one direction are refused, however it is written
                              Places{{{1, 0}, {2, 0}}}, Places{{{1, turn / 2}, {2, turn / 2}}}}) {
     CHECK_THROWS_WITH(
         parameterize(mesh, {.pins = {{3, same[0]}, {4, same[1]}}, .progress = never()}),
-        "vertex 4 is pinned where another one is");
+        "vertex 4 is pinned where another one, or one of the poles, is");
   }
+  CHECK_THROWS_AS(parameterize(mesh, {.poles = Poles{0, 1}, .pins = {{3, {1, 0}}}}),
+                  std::invalid_argument);
   const Progress stop = [](std::string_view, double) { return false; };
   CHECK_THROWS_AS(parameterize(mesh, {.pins = {{3, {0, 1}}, {4, {1e-14, 1}}}, .progress = stop}),
                   Cancelled);

@@ -215,7 +215,7 @@ UsageMistake as_mistake(const BakeSettingError& error) {
       {"centre", "--centre"}};
   const auto known = options.find(error.setting());
   const std::string option = known == options.end() ? error.setting() : known->second;
-  return UsageMistake(option + (option.ends_with(' ') ? "" : ": ") + error.what());
+  return UsageMistake(option + (option.ends_with(' ') ? "" : ": ") + error.reason());
 }
 
 UsageMistake as_mistake(const FieldError& error, const BakeSettings& settings) {

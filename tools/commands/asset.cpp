@@ -93,7 +93,7 @@ RemadeAsset remade(const MeshSource& asset, const std::string& folder,
   options.facts = {{"program", std::string("sphparam ") + version}};
   return remake_asset(asset, folder, options, session.files);
 } catch (const BakeSettingError& error) {
-  throw UsageMistake(std::string("--size: ") + error.what());
+  throw UsageMistake("--size: " + error.reason());
 } catch (const VoxelError& error) {
   // How fine a lattice can be the mesh decides: no domain of the option says so before.
   throw UsageMistake(std::string("--") + error.what());

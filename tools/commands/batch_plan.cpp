@@ -66,9 +66,22 @@ std::vector<BatchStep> given_steps() {
   return steps;
 }
 
+/// The word with the file named from the root, where it names it: alone, behind a sign that joins
+/// it to a name, or between commas.
+std::string with_whole_path(const std::string& word, const std::string& file) {
+  constexpr std::string_view before = "=:,";
+  for (std::size_t at = word.find(file); at != std::string::npos; at = word.find(file, at + 1)) {
+    const std::size_t end = at + file.size();
+    const bool begins = at == 0 || before.find(word[at - 1]) != std::string_view::npos;
+    if (begins && (end == word.size() || word[end] == ','))
+      return word.substr(0, at) + fs::absolute(file).string() + word.substr(end);
+  }
+  return word;
+}
+
 /// Steps run elsewhere: the files that they read are named from the root, but for what a step of
-/// theirs leaves. Their words are those of the first shape; what differs between shapes is a column's
-/// business.
+/// theirs leaves. Their words are those of the first shape; what differs between shapes is a
+/// column's business.
 std::vector<BatchStep> with_whole_paths(std::vector<BatchStep> steps, const BatchInputs& inputs) {
   const BatchPlan sample{.steps = steps, .columns = inputs.columns};
   const BatchInput& shape = inputs.shapes.front();
@@ -78,38 +91,34 @@ std::vector<BatchStep> with_whole_paths(std::vector<BatchStep> steps, const Batc
   for (std::size_t k = 0; k < steps.size(); ++k) {
     for (const std::string& file : files_read_by(words[k])) {
       if (std::ranges::count(left, file) > 0) continue;
-      for (std::string& word : steps[k]) {
-        if (word == file || word.ends_with("=" + file) || word.ends_with(":" + file))
-          word.replace(word.size() - file.size(), file.size(), fs::absolute(file).string());
-      }
+      for (std::string& word : steps[k]) word = with_whole_path(word, file);
     }
   }
   return steps;
 }
 
-/// A path that leads out of the folder of an item, in a word or behind its equals sign; empty: none.
-std::string path_outside(const std::string& word) {
-  const std::size_t equals = word.starts_with('-') ? word.find('=') : std::string::npos;
-  const std::string value = equals == std::string::npos ? word : word.substr(equals + 1);
-  return value.starts_with('/') || value.starts_with("../") ? value : "";
+/// What the step of a shape writes that is none of its results.
+std::vector<std::string> written_outside(const BatchPlan& plan, std::size_t step,
+                                         const BatchInput& shape) {
+  const BatchItem item{.id = shape.id, .path = shape.path, .values = shape.values};
+  std::vector<std::string> files = files_written_by(steps_of(plan, item)[step]);
+  std::erase_if(files, [](const std::string& path) {
+    return !path.starts_with('/') && !path.starts_with("../");
+  });
+  return files;
 }
 
-/// A file that is not read is written, and each shape would write it anew.
+/// One file of two shapes would be written by all of them, over and over.
 void require_outputs_apart(const std::vector<BatchStep>& steps, const BatchInputs& inputs) {
   if (inputs.shapes.size() < 2) return;
-  const BatchInput& shape = inputs.shapes.front();
-  const BatchPlan sample{.steps = steps, .columns = inputs.columns};
-  const std::vector<BatchStep> words =
-      steps_of(sample, {.id = shape.id, .path = shape.path, .values = shape.values});
+  const BatchPlan plan{.steps = steps, .columns = inputs.columns};
   for (std::size_t k = 0; k < steps.size(); ++k) {
-    const std::vector<std::string> read = files_read_by(words[k]);
-    for (const std::string& word : steps[k]) {
-      const std::string path = path_outside(word);
-      const bool same_for_all = !path.empty() && placeholders_in(path).empty();
-      if (same_for_all && std::ranges::count(read, path) == 0)
-        throw UsageMistake("every shape would write " + path +
-                           ": without a folder it is one of its results, and {id} in it tells "
-                           "shapes apart");
+    const std::vector<std::string> others = written_outside(plan, k, inputs.shapes.back());
+    for (const std::string& path : written_outside(plan, k, inputs.shapes.front())) {
+      if (std::ranges::count(others, path) == 0) continue;
+      throw UsageMistake("every shape would write " + path +
+                         ": without a folder it is one of its results, and {id} in it tells "
+                         "shapes apart");
     }
   }
 }

@@ -1,6 +1,9 @@
 // `sphparam batch status`, `retry`, `table` and `report`: what became of a batch, from its files.
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
+#include <string_view>
 
 #include "arguments/numbers.h"
 #include "commands/batch.h"
@@ -95,11 +98,12 @@ int run_retry(ResultArguments& arguments) try {
   throw UsageMistake(error.what());
 }
 
-/// Standard output is commas too.
+/// Commas for what is no table by its name, but for the names of other kinds.
 char separator_of(const std::string& path) {
-  const std::string extension = is_stream(path) ? ".csv" : extension_of(path);
-  if (extension != ".csv" && extension != ".tsv")
-    throw UsageMistake("-o: the table is written as .csv or .tsv, not as " + path);
+  constexpr std::array<std::string_view, 5> others = {".json", ".xlsx", ".xls", ".ods", ".html"};
+  const std::string extension = is_stream(path) ? "" : extension_of(path);
+  if (std::ranges::count(others, extension) > 0)
+    throw UsageMistake("-o: the table is written as .csv or .tsv, not as " + extension);
   return extension == ".tsv" ? '\t' : ',';
 }
 
@@ -108,7 +112,8 @@ int run_table(ResultArguments& arguments) {
   Session session(arguments);
   check_places({{"-o", arguments.output}});
   const BatchPlan plan = load_plan(arguments.folder, arguments.plan);
-  session.files.add(arguments.output, batch_table(arguments.folder, plan, arguments.threads, separator));
+  session.files.add(arguments.output,
+                    batch_table(arguments.folder, plan, arguments.threads, separator));
   session.publish();
   session.console.say(counted(static_cast<long>(plan.items.size()), "row") + " → " +
                       output_name(arguments.output));

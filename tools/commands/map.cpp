@@ -11,6 +11,7 @@
 #include "commands/map_parts.h"
 #include "commands/sources.h"
 #include "reports/map_wording.h"
+#include "sphere/distinct_directions.h"
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/io/fillers.h"
 #include "sphparam/io/mapped_mesh.h"
@@ -49,11 +50,16 @@ void settle_vertices(const std::string& pins, const MeshFile& file,
   const FileNumbers numbers(file);
   options = with_vertices_of_mesh(std::move(options), numbers);
   if (!pins.empty()) options.pins = read_pins(pins, numbers);
+  if (!options.poles) return;
+  DistinctDirections poles;
+  poles.add(Vector3::UnitZ());
+  poles.add(-Vector3::UnitZ());
   for (const Landmark& pin : options.pins) {
-    if (!options.poles) break;
-    if (pin.vertex != options.poles->north && pin.vertex != options.poles->south) continue;
-    throw UsageMistake("--pin: vertex " + std::to_string(numbers.number(pin.vertex)) +
-                       " is one of the --poles");
+    const std::string vertex = "--pin: vertex " + std::to_string(numbers.number(pin.vertex));
+    if (pin.vertex == options.poles->north || pin.vertex == options.poles->south)
+      throw UsageMistake(vertex + " is one of the --poles");
+    if (poles.add(to_cartesian(pin.coordinates)))
+      throw UsageMistake(vertex + " is pinned where one of the --poles is");
   }
 } catch (const NoSuchVertex& error) {
   throw UsageMistake("--" + error.whose() + ": " + error.what());

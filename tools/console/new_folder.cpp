@@ -13,11 +13,11 @@ NewFolder::~NewFolder() {
 
 void NewFolder::make() {
   std::error_code error;
-  fs::path missing = fs::path(path_) / "";  // however it was spelled
+  fs::path missing = (fs::path(path_) / "").lexically_normal();  // however it was spelled
   for (missing = missing.parent_path(); !missing.empty() && !fs::exists(missing, error);
        missing = missing.parent_path())
     made_.push_back(missing);
-  fs::create_directories(path_, error);
+  fs::create_directories(fs::path(path_).lexically_normal(), error);
   if (error) throw WriteError(path_, error.message());
 }
 

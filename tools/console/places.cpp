@@ -28,12 +28,22 @@ Names& noted_files() {
   return files;
 }
 
-/// The words that may name a file: all of it, and what follows a sign that joins it to a name.
+/// The words that may name a file: all of it, what follows a sign that joins it to a name, and what
+/// stands between commas.
 Names file_words(const std::string& text) {
   Names words = {text};
   for (size_t at = text.find_first_of("=:"); at != std::string::npos;
        at = text.find_first_of("=:", at + 1))
     words.push_back(text.substr(at + 1));
+  const Names joined = words;
+  for (const std::string& word : joined) {
+    if (word.find(',') == std::string::npos) continue;
+    for (size_t from = 0; from <= word.size();) {
+      const size_t comma = std::min(word.find(',', from), word.size());
+      words.push_back(word.substr(from, comma - from));
+      from = comma + 1;
+    }
+  }
   return words;
 }
 
@@ -92,6 +102,16 @@ std::vector<std::string> files_read(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
     if (options_that_write().contains(option)) continue;
     for (std::string& file : files_named(*option)) files.push_back(std::move(file));
+  }
+  return files;
+}
+
+std::vector<std::string> files_written(const CLI::App& command) {
+  Names files;
+  for (const CLI::Option* option : command.get_options()) {
+    if (!options_that_write().contains(option)) continue;
+    for (const std::string& path : option->results())
+      if (!is_stream(path) && holds_one_output(path)) files.push_back(path);
   }
   return files;
 }

@@ -27,6 +27,9 @@ void note_files_read(const CLI::App& command);
 /// Notes nothing: just names them, as they stand on the command line.
 std::vector<std::string> files_read(const CLI::App& command);
 
+/// What options say that they write, there or not; streams, devices and pipes are nothing.
+std::vector<std::string> files_written(const CLI::App& command);
+
 /// Do two paths, however spelled, name one place? Not where one of them is empty.
 bool is_same_place(const std::string& one, const std::string& other);
 

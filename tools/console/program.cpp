@@ -374,6 +374,20 @@ int guarded_main(int argc, char** argv, int no_room) {
   }
 }
 
+/// The options of a subcommand with what the words say. Throws: UsageMistake.
+const CLI::App& asked_by(const std::vector<std::string>& words, Program& program) {
+  try {
+    program.app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+  } catch (const CLI::Success&) {
+    throw UsageMistake(joined(words, " ") + " does nothing but show help");
+  } catch (const CLI::ParseError& error) {
+    throw UsageMistake(joined(words, " ") + ": " + explain(program.app, error));
+  }
+  const Command* const command = program.asked_for();
+  if (!command) throw UsageMistake("no subcommand in " + joined(words, " "));
+  return *command->options;
+}
+
 /// The exit code, whatever happens.
 int run_to_the_end(int argc, char** argv, int no_room) {
   try {
@@ -387,8 +401,7 @@ int run_to_the_end(int argc, char** argv, int no_room) {
 }  // namespace
 
 int run_command_line(std::vector<std::string> words,
-                     const std::vector<std::pair<std::string, std::string>>& presets,
-                     int no_room) {
+                     const std::vector<std::pair<std::string, std::string>>& presets, int no_room) {
   {
     const Program program;
     const CLI::App* const command = subcommand_named(program.app, words.at(0));
@@ -409,16 +422,12 @@ int run_command_line(std::vector<std::string> words,
 
 std::vector<std::string> files_read_by(const std::vector<std::string>& words) {
   Program program;
-  try {
-    program.app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
-  } catch (const CLI::Success&) {
-    throw UsageMistake(joined(words, " ") + " does nothing but show help");
-  } catch (const CLI::ParseError& error) {
-    throw UsageMistake(joined(words, " ") + ": " + explain(program.app, error));
-  }
-  const Command* const command = program.asked_for();
-  if (!command) throw UsageMistake("no subcommand in " + joined(words, " "));
-  return files_read(*command->options);
+  return files_read(asked_by(words, program));
+}
+
+std::vector<std::string> files_written_by(const std::vector<std::string>& words) {
+  Program program;
+  return files_written(asked_by(words, program));
 }
 
 int run_sphparam(int argc, char** argv) {

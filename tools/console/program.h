@@ -21,4 +21,7 @@ int run_command_line(std::vector<std::string> words,
 /// Throws: UsageMistake where the words make no sense.
 std::vector<std::string> files_read_by(const std::vector<std::string>& words);
 
+/// Those that it would write, there or not. Throws: as `files_read_by`.
+std::vector<std::string> files_written_by(const std::vector<std::string>& words);
+
 }  // namespace sphparam::cli

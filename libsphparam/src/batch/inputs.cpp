@@ -130,7 +130,8 @@ class Finder {
     add(named_in(place, row[path_column]), std::move(id), std::move(values));
   }
 
-  /// Empty: the name of the file gives it. Another than the table's would be found in no other table.
+  /// Empty: the name of the file gives it. Another than the table's would be found in no other
+  /// table.
   static std::string id_of_row(const std::string& place, const std::string& id) {
     if (id.empty() || is_shape_id(id)) return id;
     throw BatchInputError(display_name(place) + ": the id '" + id +

@@ -1,6 +1,7 @@
 #include "batch/options_hash.h"
 
 #include <filesystem>
+#include <sstream>
 
 #include "batch/content_hash.h"
 #include "batch/steps.h"
@@ -20,11 +21,20 @@ std::string OptionsHash::of(const BatchItem& item) {
   return content_hash(text);
 }
 
-/// Of the file that a word names with its whole path, alone or behind an equals sign or a colon.
+/// Of the files that a word names with their whole paths, alone or behind an equals sign or a
+/// colon; several have commas between them.
 std::string OptionsHash::content_of(const std::string& word) {
   const std::size_t joint = word.find_first_of("=:");
   const std::string path =
       word.starts_with('/') || joint == std::string::npos ? word : word.substr(joint + 1);
+  std::string contents = content_of_file(path);
+  if (!contents.empty()) return contents;
+  std::istringstream parts(path);
+  for (std::string part; std::getline(parts, part, ',');) contents += content_of_file(part);
+  return contents;
+}
+
+std::string OptionsHash::content_of_file(const std::string& path) {
   if (!path.starts_with('/')) return "";
   const auto [known, is_new] = contents_.emplace(path, "");
   std::error_code hidden;

@@ -18,9 +18,10 @@ class OptionsHash {
 
  private:
   std::string content_of(const std::string& word);
+  std::string content_of_file(const std::string& path);
 
   const BatchPlan& plan_;
-  std::map<std::string, std::string> contents_;  // by the word that names the file; empty: none
+  std::map<std::string, std::string> contents_;  // by the path of the file; empty: none
 };
 
 }  // namespace sphparam

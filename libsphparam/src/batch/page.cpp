@@ -33,8 +33,8 @@ constexpr std::size_t named_outliers = 8;
 /// What the page shows of an item; figures of its first step that has them.
 struct Shape {
   std::string outcome = "open", reason, repairs;
-  std::string page;     // of its own; empty: none
-  std::string picture;  // below the folder of the batch; empty: none
+  std::string page;               // of its own; empty: none
+  std::string picture;            // below the folder of the batch; empty: none
   std::string unwritten_picture;  // why it could not be kept there
   int code = 0, attempt = 0;
   std::optional<double> area, angle, within_two, vertices, seconds;

@@ -38,9 +38,12 @@ void write_picture(const fs::path& path, const std::string& bytes) {
   std::ofstream out(temporary, std::ios::binary);
   out << bytes;
   out.close();
-  if (!out) throw WriteError(path.string(), std::strerror(errno));
-  fs::rename(temporary, path, error);
-  if (error) throw WriteError(path.string(), error.message());
+  if (!out) error = std::error_code(errno, std::generic_category());
+  if (!error) fs::rename(temporary, path, error);
+  if (!error) return;
+  std::error_code hidden;
+  fs::remove(temporary, hidden);
+  throw WriteError(path.string(), error.message());
 }
 
 }  // namespace

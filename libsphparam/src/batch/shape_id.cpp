@@ -22,12 +22,14 @@ Character character_at(std::string_view text, std::size_t at) {
   const unsigned char lead = byte(at);
   if (lead < 0x80) return {1, lead, true};
   const std::size_t bytes = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
-  if (lead < 0xC2 || lead > 0xF4 || at + bytes > text.size()) return {};
+  if (at + bytes > text.size()) return {};
   std::uint32_t code = lead & (0x7Fu >> bytes);
   for (std::size_t i = at + 1; i < at + bytes; ++i) {
     if ((byte(i) & 0xC0) != 0x80) return {};
     code = code << 6 | (byte(i) & 0x3Fu);
   }
+  constexpr std::uint32_t least[] = {0x80, 0x800, 0x10000}, greatest = 0x10FFFF;
+  if (lead < 0xC0 || lead > 0xF4 || code < least[bytes - 2] || code > greatest) return {};
   return {bytes, code, true};
 }
 
@@ -51,7 +53,7 @@ std::string with_letters_only(std::string_view text, std::size_t most) {
   for (std::size_t at = 0; at < text.size();) {
     const Character character = character_at(text, at);
     const bool stays = character.valid && is_letter(character.code);
-    if (id.size() + (stays ? character.bytes : 1) > most) break;
+    if (most - id.size() < (stays ? character.bytes : 1)) break;
     id += stays ? text.substr(at, character.bytes) : "_";
     at += character.bytes;
   }
@@ -63,7 +65,7 @@ std::string with_letters_only(std::string_view text, std::size_t most) {
 bool is_shape_id(std::string_view text) { return !text.empty() && shape_id_of(text) == text; }
 
 std::string shape_id_of(std::string_view text) {
-  std::string id = with_letters_only(text, longest + 1);
+  std::string id = with_letters_only(text, std::string::npos);
   return id.size() > longest ? shape_id_with_hash(text) : id;
 }
 

@@ -70,8 +70,8 @@ std::string written_to(const BatchStep& step, std::string_view option) {
   return "";
 }
 
-/// Does it say what it takes: {input} anywhere, {id} in a word that is no option's value, or the mesh
-/// that the steps before left?
+/// Does it say what it takes: {input} anywhere, {id} in a word that is no option's value, or the
+/// mesh that the steps before left?
 bool takes_input(const BatchStep& step, const std::string& mesh) {
   if (step.size() > 1 && step[1] == mesh) return true;
   for (std::size_t i = 1; i < step.size(); ++i) {

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "batch/record.h"
 #include "batch/tables.h"
@@ -68,18 +68,9 @@ struct Row {
   std::map<std::string, std::string> own;
 };
 
-/// A column of the table that the batch was planned from; another name where ours has it.
-std::string own_name(const std::string& column) {
-  const bool taken = std::ranges::count(first_columns, column) > 0 ||
-                     std::ranges::count(last_columns, column) > 0;
-  return taken ? "table." + column : column;
-}
-
-Row row_of(const std::string& folder, const BatchPlan& plan, const BatchItem& item) {
+Row row_of(const std::string& folder, const BatchItem& item) {
   Row row;
   row.own = {{"id", item.id}, {"path", item.path}, {"outcome", "open"}};
-  for (std::size_t i = 0; i < plan.columns.size(); ++i)
-    row.own[own_name(plan.columns[i])] = item.values[i];
   const auto stored = record_about(folder, item);
   if (!stored) return row;
   const Json record = Json::parse(stored->bytes, nullptr, false);
@@ -101,6 +92,25 @@ std::string line_of(const std::vector<std::string>& fields, char separator) {
   return line + "\r\n";
 }
 
+/// What the columns of the table that the batch was planned from are called here: "table." as often
+/// before their names as it takes to be none of `taken`.
+std::vector<std::string> names_of_planned(const BatchPlan& plan, std::set<std::string> taken) {
+  std::vector<std::string> names;
+  for (std::string name : plan.columns) {
+    while (!taken.insert(name).second) name.insert(0, "table.");
+    names.push_back(std::move(name));
+  }
+  return names;
+}
+
+std::set<std::string> names_of_ours(const std::vector<Row>& rows) {
+  std::set<std::string> names(first_columns.begin(), first_columns.end());
+  names.insert(last_columns.begin(), last_columns.end());
+  for (const Row& row : rows)
+    for (const auto& [name, value] : row.cells) names.insert(name);
+  return names;
+}
+
 }  // namespace
 
 std::string batch_table(const std::string& folder, const BatchPlan& plan, int threads,
@@ -109,10 +119,11 @@ std::string batch_table(const std::string& folder, const BatchPlan& plan, int th
   constexpr std::int64_t grain = 64;
   parallel_for(std::ssize(rows), grain, threads, [&](std::int64_t first, std::int64_t last) {
     for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
-      rows[i] = row_of(folder, plan, plan.items[i]);
+      rows[i] = row_of(folder, plan.items[i]);
   });
   std::vector<std::string> names = first_columns;
-  std::ranges::transform(plan.columns, std::back_inserter(names), own_name);
+  const std::vector<std::string> planned = names_of_planned(plan, names_of_ours(rows));
+  names.insert(names.end(), planned.begin(), planned.end());
   std::map<std::string, std::size_t> place;
   for (std::size_t i = 0; i < names.size(); ++i) place[names[i]] = i;
   const auto column = [&](const std::string& name) {
@@ -124,8 +135,10 @@ std::string batch_table(const std::string& folder, const BatchPlan& plan, int th
     for (const auto& [name, value] : row.cells) column(name);
   for (const std::string& name : last_columns) column(name);
   std::string text = line_of(names, separator);
-  for (const Row& row : rows) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Row& row = rows[i];
     std::vector<std::string> fields(names.size());
+    std::ranges::copy(plan.items[i].values, fields.begin() + std::ssize(first_columns));
     for (const auto& [name, value] : row.own) fields[column(name)] = value;
     for (const auto& [name, value] : row.cells) fields[column(name)] = value;
     text += line_of(fields, separator);

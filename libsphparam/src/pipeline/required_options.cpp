@@ -33,7 +33,11 @@ void require_energy(const ParameterizeOptions& options) {
 void require_pins(const TriangleMesh& mesh, const ParameterizeOptions& options) {
   std::set<Vertex> seen;
   DistinctDirections directions;
-  if (options.poles) seen = {options.poles->north, options.poles->south};
+  if (options.poles) {
+    seen = {options.poles->north, options.poles->south};
+    directions.add(Vector3::UnitZ());
+    directions.add(-Vector3::UnitZ());
+  }
   for (const Landmark& pin : options.pins) {
     require_vertex("pins: vertex", pin.vertex, mesh.vertex_count());
     require_finite("pins: theta", pin.coordinates.theta);
@@ -43,7 +47,7 @@ void require_pins(const TriangleMesh& mesh, const ParameterizeOptions& options) 
     }
     if (directions.add(to_cartesian(pin.coordinates))) {
       throw std::invalid_argument("vertex " + std::to_string(pin.vertex) +
-                                  " is pinned where another one is");
+                                  " is pinned where another one, or one of the poles, is");
     }
   }
 }

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "mesh/vertex_normals.h"
 #include "number_text.h"
 #include "records/json_parts.h"
+#include "records/nearest_vertex.h"
 #include "sphparam/correspondence/surface_map.h"
 #include "sphparam/io/file_numbers.h"
 #include "sphparam/io/paths.h"
@@ -71,20 +71,6 @@ Json modes_json(const ShapeModes& modes) {
   for (Eigen::Index k = 0; k < modes.deviations.size(); ++k)
     all.push_back({{"standard_deviation", modes.deviations[k]}, {"share", modes.shares[k]}});
   return all;
-}
-
-/// The vertex of the file that is nearest to a point, by its number there, the first of equals. It
-/// need not be a corner of the triangle that holds the point: triangles may be long.
-long nearest_vertex(const TriangleMesh& mesh, const FileNumbers& numbers, const Vector3& point) {
-  long nearest = -1;
-  double least = std::numeric_limits<double>::infinity();
-  for (Vertex v = 0; v < mesh.vertex_count(); ++v) {
-    const double distance = (mesh.position(v) - point).squaredNorm();
-    if (distance >= least || numbers.number(v) < 0) continue;  // what repair added has no number
-    least = distance;
-    nearest = numbers.number(v);
-  }
-  return nearest;
 }
 
 /// Shapes whose energy is far above the others', of so many that this says something.
@@ -215,7 +201,7 @@ std::string landmarks_table(const GroupRecord& record) {
       row({"shape", "landmark", "x", "y", "z", "face", "w0", "w1", "w2", "nearest_vertex"});
   for (size_t i = 0; i < record.names.size(); ++i) {
     const MappedMesh& mapped = record.group.members[i].mapped;
-    const FileNumbers numbers(mapped.file());
+    const NearestVertex nearest(mapped.mesh(), FileNumbers(mapped.file()));
     const std::vector<SurfacePoint> points = carried_to(record.group, i, vertices);
     for (size_t k = 0; k < points.size(); ++k) {
       const SurfacePoint& point = points[k];
@@ -225,7 +211,7 @@ std::string landmarks_table(const GroupRecord& record) {
       cells.push_back(std::to_string(point.face));
       for (int corner = 0; corner < 3; ++corner)
         cells.push_back(shortest(point.barycentric[corner]));
-      cells.push_back(std::to_string(nearest_vertex(mapped.mesh(), numbers, x)));
+      cells.push_back(std::to_string(nearest.at(x)));
       text += row(cells);
     }
   }

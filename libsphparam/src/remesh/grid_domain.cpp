@@ -24,6 +24,11 @@ Triangles as_triangles(const Polygons& faces) {
 
 void require_domain(const SphereGrid& grid) {
   const Points& rays = grid.directions;
+  for (std::int64_t f = 0; f < grid.faces.count(); ++f) {
+    if (grid.faces.degree(f) >= 3) continue;
+    throw std::invalid_argument("grid " + grid.name + ": face " + std::to_string(f) +
+                                " has less than three corners");
+  }
   const bool joined = grid.faces.count() > 0 && std::ranges::all_of(grid.faces.corners, [&](int v) {
                         return v >= 0 && v < rays.rows();
                       });

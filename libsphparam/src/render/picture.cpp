@@ -239,6 +239,7 @@ bool draws_without_map(const DrawingOptions& options) {
 }
 
 double height_to_see(const MeshFile& file, const DrawingOptions& options) {
+  require_domain(options);
   const UprightAxes axes = upright_axes(file, options.up);
   const Vector3 from = eye(options, axes).normalized();
   return framed(without_fillers(file).mesh.positions, from, axes.up).height;

@@ -107,7 +107,7 @@ void declare_errors(py::module_&) {
       const std::string name = error.setting() == "width"  ? "size"
                                : error.setting() == "from" ? "surface"
                                                            : error.setting();
-      PyErr_SetString(PyExc_ValueError, (name + ": " + error.what()).c_str());
+      PyErr_SetString(PyExc_ValueError, (name + ": " + error.reason()).c_str());
     } catch (const FrontError& error) {
       PyErr_SetString(PyExc_ValueError, (std::string("front: ") + error.what()).c_str());
     } catch (const LookError& error) {

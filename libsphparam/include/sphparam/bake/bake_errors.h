@@ -11,13 +11,17 @@ namespace sphparam {
 class BakeSettingError : public std::invalid_argument {
  public:
   BakeSettingError(const char* setting, const std::string& message)
-      : std::invalid_argument(message), setting_(setting) {}
+      : std::invalid_argument(std::string(setting) + ": " + message),
+        setting_(setting),
+        reason_(message) {}
 
   /// The member of `BakeSettings` or `BakeRequest` that it is about: "width".
   const std::string& setting() const { return setting_; }
+  /// What is wrong with it: for who calls it by another name.
+  const std::string& reason() const { return reason_; }
 
  private:
-  std::string setting_;
+  std::string setting_, reason_;
 };
 
 /// A target on another sphere than the source's: every texel would show another place.

@@ -41,8 +41,8 @@ struct BatchInputOptions {
 ///   set (dataset_description.json; sub-*/**/*_white.surf.gii), else all meshes in it and below.
 /// Paths in lists and tables are relative to the file they stand in, or else to the current folder.
 /// An id is the table's, or else the name of the file without its endings, with the names of its
-/// folders before it where two have one name, '_' for what is no letter or digit, and a hash where two
-/// would be alike or one is too long. A folder that several links lead to is looked into once.
+/// folders before it where two have one name, '_' for what is no letter or digit, and a hash where
+/// two would be alike or one is too long. A folder that several links lead to is looked into once.
 /// Ensures: at least one shape, all files are there, ids are distinct. Throws: BatchInputError;
 /// ReadError for a list that cannot be read. Cost: a look at each file.
 BatchInputs find_batch_inputs(const std::vector<std::string>& places,

@@ -43,9 +43,9 @@ struct BatchPlanOptions {
 };
 
 /// Completes steps: one without {input}, and without {id} but in values of options, takes the mesh
-/// that the steps before left, the first the input; one that does not say where it writes gets {id} with the ending that its
-/// subcommand has (.sph.ply of `map`, .glb of `export`). Throws: BatchInputError for an empty step,
-/// or a subcommand that cannot be run in a batch.
+/// that the steps before left, the first the input; one that does not say where it writes gets {id}
+/// with the ending that its subcommand has (.sph.ply of `map`, .glb of `export`). Throws:
+/// BatchInputError for an empty step, or a subcommand that cannot be run in a batch.
 std::vector<BatchStep> complete_steps(std::vector<BatchStep> steps);
 
 /// The words that run for an item. Throws: BatchInputError for {NAME} that is neither input nor id
@@ -53,8 +53,8 @@ std::vector<BatchStep> complete_steps(std::vector<BatchStep> steps);
 std::vector<BatchStep> steps_of(const BatchPlan& plan, const BatchItem& item);
 
 /// Reads and hashes all inputs. Words that name files are read as they are: they should be
-/// absolute. Throws: BatchInputError; ReadError; Cancelled; std::invalid_argument for a chunk below 1,
-/// as does `with_chunk`. Cost: reads every input once.
+/// absolute. Throws: BatchInputError; ReadError; Cancelled; std::invalid_argument for a chunk below
+/// 1, as does `with_chunk`. Cost: reads every input once.
 BatchPlan make_plan(const BatchInputs& inputs, const BatchPlanOptions& options);
 
 /// The same with other tasks, and so another name.

@@ -16,8 +16,8 @@ class BatchMachineError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What a step ends with where the machine has no room for what it writes: that is no failure of its
-/// mesh, and the run ends.
+/// What a step ends with where the machine has no room for what it writes: that is no failure of
+/// its mesh, and the run ends.
 inline constexpr int step_has_no_room = 75;  // EX_TEMPFAIL of sysexits.h
 
 /// What a step gets beside its words, where they do not say it.
@@ -28,7 +28,8 @@ struct BatchStepSetting {
 
 struct BatchRunOptions {
   /// Runs one step in the current folder, in a process of its own; returns its exit code, as
-  /// `sphparam` has them, or `step_has_no_room`. What it says on standard error and output becomes the item's log.
+  /// `sphparam` has them, or `step_has_no_room`. What it says on standard error and output becomes
+  /// the item's log.
   std::function<int(const BatchStep&, const BatchStepSetting&)> run_step = {};
   int task = 0;              // from 1; 0: all
   int workers = 0;           // items at once; 0: one a core

@@ -34,7 +34,8 @@ struct BatchStatus {
 };
 
 /// How far a batch is, from its files alone: no input is read, no scheduler asked.
-/// Items whose record is not whole are open. Throws: ReadError for one that may not be read. Cost: reads the record of each item, 20 µs each.
+/// Items whose record is not whole are open. Throws: ReadError for one that may not be read. Cost:
+/// reads the record of each item, 20 µs each.
 BatchStatus batch_status(const std::string& folder, const BatchPlan& plan, int threads = 0);
 
 /// "17 s", "25 min", "3.1 h", "12 days".

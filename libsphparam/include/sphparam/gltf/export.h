@@ -137,8 +137,8 @@ inline constexpr char normals_left_out[] =
 /// any number of threads. Throws: as `make_look`; NotCertifiedError, named by the mesh's name,
 /// where the (u, v) of a level are not one-to-one, unless the topology is kept; std::range_error
 /// where a position is beyond float32; UnmeasurableMesh where the mesh is less than 1e-31 long, too
-/// small for it; OtherSphereError where a coarser level is not on the same sphere, as `bake` does
-/// for a target: there is a warning where that is in doubt; std::invalid_argument for options
+/// small for it, while a coarser level that seems to be on another sphere is but a warning;
+/// std::invalid_argument for options
 /// outside their domains, where another shape has not a row a vertex, `keep_topology` and
 /// `refine_poles` are both wanted, more `refine_poles` than a chart can hold, or the texture
 /// coordinates of a mesh that has none. Cost: some 2 µs a triangle; images that are baked, as

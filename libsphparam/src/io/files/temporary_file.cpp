@@ -53,8 +53,9 @@ bool is_want_of_room(int error) {
 }
 
 [[noreturn]] void fail(const std::string& path, const std::string& doing) {
-  const std::string message = doing + ": " + std::strerror(errno);
-  if (is_want_of_room(errno)) throw NoRoomError(path, message);
+  const int error = errno;
+  const std::string message = doing + ": " + std::strerror(error);
+  if (is_want_of_room(error)) throw NoRoomError(path, message);
   throw WriteError(path, message);
 }
 

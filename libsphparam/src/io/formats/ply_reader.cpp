@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "io/files/non_finite_advice.h"
@@ -185,6 +186,18 @@ struct CornerList {
   }
 };
 
+/// The properties that are one thing with this one, itself among them.
+std::vector<std::string> components_beside(const std::string& name) {
+  static const std::vector<std::vector<std::string>> vectors = {{"nx", "ny", "nz"},
+                                                                {"red", "green", "blue", "alpha"},
+                                                                {"s", "t"},
+                                                                {"u", "v"},
+                                                                {"texture_u", "texture_v"}};
+  const auto is_component = [&](const auto& names) { return std::ranges::count(names, name) > 0; };
+  const auto found = std::ranges::find_if(vectors, is_component);
+  return found == vectors.end() ? std::vector{name} : *found;
+}
+
 template <class Body>
 class PlyReader {
  public:
@@ -339,24 +352,32 @@ class PlyReader {
     return result;
   }
 
+  static std::ptrdiff_t count_non_finite(const Property& property) {
+    if (!is_floating(property.type)) return 0;
+    const auto is_finite = [](double value) { return std::isfinite(value); };
+    return std::ssize(property.values) - std::ranges::count_if(property.values, is_finite);
+  }
+
   /// Programs say so of vertices and faces that have none. A map that lacks a ray is no map, and
-  /// must not be taken for a mesh without one.
+  /// must not be taken for a mesh without one; a vector that lacks a component is none either.
   void leave_out_non_finite(std::vector<Property>& properties, const PlyElement& element) {
     static constexpr std::array<std::string_view, 3> of_rays = {"sx", "sy", "sz"};
-    std::erase_if(properties, [&](const Property& property) {
-      if (!is_floating(property.type)) return false;
-      const auto is_finite = [](double value) { return std::isfinite(value); };
-      const auto missing =
-          std::ssize(property.values) - std::ranges::count_if(property.values, is_finite);
-      if (missing == 0) return false;
+    std::set<std::string> left_out;
+    for (const Property& property : properties) {
+      const auto missing = count_non_finite(property);
+      if (missing == 0) continue;
       const std::string what = "property " + quoted(property.name) + " of element " +
                                quoted(element.name) + ": it has " +
                                counted(missing, "value that is", "values that are") + " not finite";
       if (&element == vertex_element_ && std::ranges::count(of_rays, property.name) > 0)
         throw ReadError(name_, what);
-      add_loss(file_.notes, what);
-      return true;
-    });
+      const std::vector<std::string> together = components_beside(property.name);
+      add_loss(file_.notes,
+               what + (together.size() > 1 ? "; " + joined(together) + " go together" : ""));
+      left_out.insert(together.begin(), together.end());
+    }
+    std::erase_if(properties,
+                  [&](const Property& property) { return left_out.contains(property.name); });
   }
 
   // --- Faces ---
