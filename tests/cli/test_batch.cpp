@@ -276,14 +276,17 @@ TEST_CASE("batch: a file that every shape would write is told before anything is
 
 TEST_CASE("batch: files of a list between commas are named from the root, and hashed") {
   const Shapes shapes(1);
-  std::string values;
-  for (int i = 0; i < 162; ++i) values += "1\n";
-  write_bytes(shapes.folder / "f1.txt", values);
-  write_bytes(shapes.folder / "f2.txt", values);
-  const std::string list = shapes.folder / "f1.txt" + "," + (shapes.folder / "f2.txt");
+  const auto label_of = [](const std::string& vertex) {
+    return "#!ascii label  , from subject x\n1\n" + vertex + " 0 0 0 1\n";
+  };
+  const std::string one = shapes.folder / "one.label", two = shapes.folder / "two.label";
+  write_bytes(one, label_of("1"));
+  write_bytes(two, label_of("2"));
+  const std::string list = one + "," + two;
   REQUIRE(shapes.plan({"map", "--", "remesh", "--grid", "ico:2", "--data", list}).code == 0);
   CHECK_THAT(shapes.batch("run").err, Contains("1 done"));
-  write_bytes(shapes.folder / "f2.txt", values + "\n");
+  CHECK_THAT(shapes.batch("run").err, Contains("1 done before"));
+  write_bytes(two, label_of("3"));
   CHECK(shapes.plan({"map", "--", "remesh", "--grid", "ico:2", "--data", list}).code == 0);
   CHECK_THAT(shapes.batch("run").err, Contains("0 done before"));
 }
