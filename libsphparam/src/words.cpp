@@ -59,7 +59,10 @@ std::string flat_images_words(const DistortionSummary& distortion) {
 
 std::string distortion_line(const DistortionSummary& distortion) {
   return "angle " + short_number(distortion.mean_abs_ln_angle) + flat_images_words(distortion) +
-         " area " + short_number(distortion.mean_abs_ln_area);
+         " area " + short_number(distortion.mean_abs_ln_area) +
+         (distortion.flat_faces == 0
+              ? ""
+              : " (without " + counted(distortion.flat_faces, "triangle") + " of no area)");
 }
 
 std::string radial_line(const RadialRecord& radial) {
@@ -74,9 +77,10 @@ std::string radial_line(const RadialRecord& radial) {
                             counted(radial.folds, "triangle folds", "triangles fold") + ", " +
                             percent(radial.folded_area) + " of the area";
   if (radial.moved == 0) return folds;
-  return folds + "; " + percent(radial.moved) + " of the vertices moved, by " +
-         short_number(radial.largest_movement * degrees) +
-         "° at most, the others are planetocentric";
+  const std::string most = ", by " + short_number(radial.largest_movement * degrees) + "° at most";
+  if (radial.moved == 1) return folds + "; all vertices moved" + most + ": none is planetocentric";
+  return folds + "; " + percent(radial.moved) + " of the vertices moved" + most +
+         ", the others are planetocentric";
 }
 
 std::string stage_line(const StageRecord& stage) {

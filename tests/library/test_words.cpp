@@ -64,8 +64,21 @@ TEST_CASE("words: a stage tells what was measured, and nothing else") {
   CHECK(stage_line(stage) == "harmonic: 0.125 s, 3 folds, " + distortion_line(*stage.distortion));
   CHECK(distortion_line(*stage.distortion) == "angle 0.55 area 0.591");
   stage.distortion->flat_images = 3;
-  CHECK(distortion_line(*stage.distortion) ==
-        "angle 0.55 (but for 3 triangles too thin on the sphere) area 0.591");
+  stage.distortion->flat_faces = 2;
+  CHECK(
+      distortion_line(*stage.distortion) ==
+      "angle 0.55 (but for 3 triangles too thin on the sphere) area 0.591 (without 2 triangles of "
+      "no area)");
+}
+
+TEST_CASE("words: of a radial map that was moved as a whole nothing is planetocentric") {
+  RadialRecord radial{.folds = 3, .moved = 0.25};
+  CHECK_THAT(radial_line(radial), Catch::Contains("25 % of the vertices moved") &&
+                                      Catch::Contains("the others are planetocentric"));
+  radial.moved = 1;
+  CHECK_THAT(radial_line(radial), Catch::Contains("all vertices moved") &&
+                                      Catch::Contains("none is planetocentric") &&
+                                      !Catch::Contains("others"));
 }
 
 TEST_CASE("names: repairs by their words, and what asks for more than the usual ones") {

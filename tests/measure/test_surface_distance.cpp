@@ -160,7 +160,8 @@ TEST_CASE("distance: what mean and RMS are taken over can be chosen") {
 TEST_CASE("distance: surfaces as large or as small as numbers go, and a shape far from another") {
   const TriangleMesh a = icosphere(2), b = scaled(icosphere(2), 1.5);
   const double expected = measure_distance(a, b, {.samples = 200}).rms();
-  for (const double scale : {1e-290, 1e290}) {
+  for (const double scale : {1e-290, 1e-90, 1e-79, 1e-61, 1e59, 1e79, 1e90, 1e100, 1e290}) {
+    INFO(scale);
     const SurfaceDistance distance =
         measure_distance(scaled(a, scale), scaled(b, scale), {.samples = 200});
     CHECK(distance.rms() / scale == Approx(expected));

@@ -396,6 +396,18 @@ def test_distortion_is_told_face_by_face(mapped):
     assert np.abs(np.log(faces.area_ratio)).mean() == pytest.approx(mapped.distortion.mean_abs_ln_area)
 
 
+def test_faces_without_area_are_in_no_figure(mapped):
+    vertices = V.copy()
+    vertices[F[7, 0]] = vertices[F[7, 1]]
+    m = sp.with_sphere((vertices, F), mapped.points)
+    faces, flat = m.face_distortion, m.face_distortion.source_area == 0
+    assert flat.sum() == m.distortion.flat_faces == 2 and faces.source_area.sum() == pytest.approx(1)
+    for ratios in (faces.area_ratio, faces.angle_ratio[:, 0], faces.sigma_max, faces.sigma_min):
+        assert (np.isnan(ratios) == flat).all()
+    assert np.abs(np.log(faces.area_ratio[~flat])).mean() == pytest.approx(m.distortion.mean_abs_ln_area)
+    assert m.distortion.symmetric_dirichlet < 100
+
+
 def test_the_distortion_is_what_the_program_tells(mapped, tmp_path):
     import json
 

@@ -136,6 +136,16 @@ TEST_CASE("histogram_plot: shares sum to one, infinities in the outer bars") {
   CHECK_THAT(svg, Contains("50 %") && Contains(">1/16<") && Contains(">16<") && Contains(">1/8<"));
 }
 
+TEST_CASE("plots: triangles without area are not in them, nor in their means") {
+  Distortion d = constant_distortion(4);
+  d.source_area[2] = 0;
+  d.area_ratio[1] = 5;
+  d.area_ratio[2] = d.angle_ratio(2, 0) = 1e9;
+  CHECK(plotted_ratios(PlotMeasure::Area, d) == std::vector<double>{1, 5, 1});
+  CHECK(plotted_ratios(PlotMeasure::Angle, d) == std::vector<double>(9, 1.0));
+  CHECK_THAT(polar_plot(PlotMeasure::Angle, {{"", &d}}), Contains("mean |ln ratio| 0,"));
+}
+
 TEST_CASE("write_plots: paths are made of directory and name, the same bytes each time") {
   const Distortion d = scattered_distortion(1000);
   const auto files = write_plots("out", "bunny", d);

@@ -244,7 +244,7 @@ TEST_CASE("summarise_distortion: every figure is that of the tables, to the bit"
     const DistortionSummary from_tables =
         summarise(measure_distortion(mesh, map, threads), threads);
     const DistortionSummary at_once = summarise_distortion(mesh, map, threads);
-    static_assert(sizeof(DistortionSummary) == 16 * sizeof(double));  // no gaps to compare
+    static_assert(sizeof(DistortionSummary) == 17 * sizeof(double));  // no gaps to compare
     CHECK(std::memcmp(&from_tables, &at_once, sizeof at_once) == 0);
     CHECK(at_once.mean_abs_ln_area > 0.01);
   }
@@ -254,6 +254,7 @@ TEST_CASE("summarise_distortion: every figure is that of the tables, to the bit"
 TEST_CASE("distortion: degenerate triangles, of the source or of the image, never give NaN") {
   TriangleMesh mesh = tests::icosphere(2);
   SphereMap map = normalised(mesh.positions);
+  const TriangleMesh round = mesh;
   mesh.positions.row(mesh.triangles(7, 0)) = mesh.positions.row(mesh.triangles(7, 1)).eval();
   const DistortionSummary source = summarise(measure_distortion(mesh, map));
   for (const double figure : {source.mean_abs_ln_area, source.mean_abs_ln_angle,
@@ -261,8 +262,10 @@ TEST_CASE("distortion: degenerate triangles, of the source or of the image, neve
     CHECK(std::isfinite(figure));
   }
   map.points.row(mesh.triangles(7, 0)) = map.points.row(mesh.triangles(7, 1)).eval();
-  const DistortionSummary image = summarise(measure_distortion(mesh, map));
+  const DistortionSummary image = summarise(measure_distortion(round, map));
   CHECK(source.flat_images == 0);
+  CHECK(source.flat_faces == 2);
+  CHECK(image.flat_faces == 0);
   CHECK(image.flat_images == 2);  // both that have the edge
   CHECK(std::isfinite(image.mean_abs_ln_angle));
   CHECK(image.angle_ratio_max == std::numeric_limits<double>::infinity());
@@ -270,7 +273,47 @@ TEST_CASE("distortion: degenerate triangles, of the source or of the image, neve
   CHECK_FALSE(std::isnan(image.stretch_l2));
   CHECK_FALSE(std::isnan(image.quasi_conformal_mean));
   mesh.positions.setConstant(3);  // no area at all
-  CHECK(measure_distortion(mesh, map).area_ratio.allFinite());
+  const Distortion none = measure_distortion(mesh, map);
+  CHECK(none.area_ratio.allFinite());
+  CHECK(none.source_area.isZero(0));
+  CHECK(summarise(none).flat_faces == mesh.face_count());
+  CHECK(std::isinf(summarise(none).symmetric_dirichlet));  // not 4: nothing is kept
+}
+
+TEST_CASE("distortion: faces without area are in no figure, and thin ones are") {
+  auto [mesh, map] = lumpy_case(3);
+  const Vertex moved = mesh.triangles(40, 0), onto = mesh.triangles(40, 1);
+  mesh.positions.row(moved) = mesh.positions.row(onto).eval();
+  // The same figures without them: the triangles that are left are no closed mesh, but measured.
+  std::vector<Eigen::Index> with_area;
+  for (Eigen::Index f = 0; f < mesh.face_count(); ++f) {
+    const auto corners = mesh.triangles.row(f).array();
+    if (!((corners == moved).any() && (corners == onto).any())) with_area.push_back(f);
+  }
+  TriangleMesh rest = mesh;
+  rest.triangles = mesh.triangles(with_area, Eigen::all).eval();
+  const DistortionSummary all = summarise_distortion(mesh, map);
+  DistortionSummary expected = summarise_distortion(rest, map);
+  CHECK(expected.flat_faces == 0);
+  CHECK(all.flat_faces == 2);
+  CHECK(all.symmetric_dirichlet == Approx(expected.symmetric_dirichlet).epsilon(1e-12));
+  CHECK(all.symmetric_dirichlet < 100);
+  CHECK(all.mean_abs_ln_area == Approx(expected.mean_abs_ln_area).epsilon(1e-12));
+  CHECK(all.mean_abs_ln_angle == Approx(expected.mean_abs_ln_angle).epsilon(1e-12));
+  CHECK(all.area_within_two == Approx(expected.area_within_two).epsilon(1e-12));
+  CHECK(all.area_ratio_p99 == Approx(expected.area_ratio_p99).epsilon(1e-12));
+  CHECK(all.area_ratio_max == Approx(expected.area_ratio_max).epsilon(1e-12));
+  CHECK(all.quasi_conformal_max == Approx(expected.quasi_conformal_max).epsilon(1e-12));
+  CHECK(all.stretch_linf == Approx(expected.stretch_linf).epsilon(1e-12));
+  CHECK(all.stretch_l2 == Approx(expected.stretch_l2).epsilon(1e-12));
+  const Distortion d = measure_distortion(mesh, map);
+  CHECK((d.source_area.array() == 0).count() == 2);
+  CHECK(d.source_area.sum() == Approx(1).epsilon(1e-12));
+  // A little apart they are thin, and count.
+  mesh.positions.row(moved) += 1e-9 * Vector3(1, 2, 3).transpose();
+  const DistortionSummary thin = summarise_distortion(mesh, map);
+  CHECK(thin.flat_faces == 0);
+  CHECK(thin.area_ratio_max > 1e6);
 }
 
 TEST_CASE("distortion: a map of another number of rays is refused") {

@@ -5,6 +5,7 @@
 
 #include "correspondence/composed_energy.h"
 #include "correspondence/target_surface.h"
+#include "mesh/flat_face.h"
 #include "mesh/triangle_geometry.h"
 #include "sphparam/embedding/distortion_energy.h"
 #include "sphparam/parallel.h"
@@ -87,11 +88,11 @@ Distortion measure_distortion(const SurfaceMap& map, int threads) {
       d.sigma_max[f] = most;
       d.sigma_min[f] = least;
       d.area_ratio[f] = triangle_area(after[0], after[1], after[2]) / triangle.area;
-      d.source_area[f] = triangle.area;
+      d.source_area[f] = is_flat(before[0], before[1], before[2]) ? 0 : triangle.area;
       for (int k = 0; k < 3; ++k) d.angle_ratio(f, k) = angle_at(after, k) / angle_at(before, k);
     }
   });
-  d.source_area /= d.source_area.sum();
+  if (const double total = d.source_area.sum(); total > 0) d.source_area /= total;
   return d;
 }
 

@@ -30,8 +30,9 @@ constexpr std::int64_t most_cuts =
 // a + u (b − a) + v (c − a) is off by at most some twenty roundings of the largest coordinate.
 constexpr double sample_rounding = 0x1p-48;
 
-// Beyond, coordinates are scaled by a power of two, so that their squares are numbers.
-constexpr double largest_unscaled = 1e100, smallest_unscaled = 1e-100;
+// Beyond, coordinates are scaled by a power of two, so that their squares are numbers,
+// and so that those of areas, fourth powers of lengths, are.
+constexpr double largest_unscaled = 1e60, smallest_unscaled = 1e-60;
 
 struct Tally {
   double max = -1, min = std::numeric_limits<double>::infinity(), sum = 0, squares = 0;

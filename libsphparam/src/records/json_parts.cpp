@@ -122,7 +122,8 @@ Json distortion_json(const std::optional<DistortionSummary>& distortion) {
           {"quasi_conformal_max", d.quasi_conformal_max},
           {"stretch_l2", d.stretch_l2},
           {"stretch_linf", d.stretch_linf},
-          {"flat_images", d.flat_images}};
+          {"flat_images", d.flat_images},
+          {"flat_faces", d.flat_faces}};
 }
 
 namespace {

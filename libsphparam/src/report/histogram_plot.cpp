@@ -27,16 +27,17 @@ struct Panel {
 };
 
 /// Shares of the ratios by bin; the ends hold what is beyond, infinities included.
-Shares shares(const double* ratios, long count, int reach) {
+Shares shares(const std::vector<double>& ratios, int reach) {
   std::array<long, bins> counts{};
-  for (long i = 0; i < count; ++i) {
-    const double place = (elementary::log2(ratios[i]) + reach) / (2 * reach) * (bins - 2) + 1;
+  for (const double ratio : ratios) {
+    const double place = (elementary::log2(ratio) + reach) / (2 * reach) * (bins - 2) + 1;
     const auto bin = static_cast<size_t>(std::clamp(place, 0.0, bins - 1.0));
     ++counts[bin];
   }
   Shares result{};
   for (size_t b = 0; b < bins; ++b) {
-    result[b] = static_cast<double>(counts[b]) / static_cast<double>(std::max(count, 1L));
+    result[b] =
+        static_cast<double>(counts[b]) / static_cast<double>(std::max<size_t>(ratios.size(), 1));
   }
   return result;
 }
@@ -93,10 +94,7 @@ std::string draw_panel(const Panel& panel, const std::vector<Shares>& all, doubl
 }
 
 Shares shares(PlotMeasure measure, const PlotSeries& series, const Panel& panel) {
-  const Distortion& d = *series.distortion;
-  return measure == PlotMeasure::Area
-             ? shares(d.area_ratio.data(), d.area_ratio.size(), panel.reach)
-             : shares(d.angle_ratio.data(), d.angle_ratio.size(), panel.reach);
+  return shares(plotted_ratios(measure, *series.distortion), panel.reach);
 }
 
 constexpr Panel area{64, 4, 1, "Area"}, angle{544, 3, 1, "Angle"};

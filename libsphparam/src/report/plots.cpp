@@ -2,6 +2,19 @@
 
 namespace sphparam {
 
+std::vector<double> plotted_ratios(PlotMeasure measure, const Distortion& distortion) {
+  std::vector<double> ratios;
+  for (Eigen::Index f = 0; f < distortion.source_area.size(); ++f) {
+    if (distortion.source_area[f] == 0) continue;
+    if (measure == PlotMeasure::Area) {
+      ratios.push_back(distortion.area_ratio[f]);
+    } else {
+      for (int k = 0; k < 3; ++k) ratios.push_back(distortion.angle_ratio(f, k));
+    }
+  }
+  return ratios;
+}
+
 std::vector<PlotFile> write_comparison_plots(const std::string& directory, const std::string& name,
                                              const std::vector<PlotSeries>& series) {
   const std::string base =

@@ -21,6 +21,10 @@ struct PlotFile {
 
 enum class PlotMeasure { Area, Angle };
 
+/// The ratios that a plot shows: triangle by triangle or corner by corner, of triangles that have
+/// an area.
+std::vector<double> plotted_ratios(PlotMeasure measure, const Distortion& distortion);
+
 /// The polar plot of the paper (its "polar chart"): the ratio is the radius, the triangle or corner
 /// index the polar angle, the optimum 1 a green circle; beside it a zoom on the optimal region [0,
 /// 2].

@@ -28,25 +28,23 @@ constexpr double caption_height = 3 * line_height + 9;  // of one series
 
 struct Values {
   std::string label;
-  const double* data;
-  long count;
+  std::vector<double> ratios;  // of triangles that have an area
 
-  double operator[](long i) const { return data[i]; }
+  long count() const { return std::ssize(ratios); }
+  double operator[](long i) const { return ratios[static_cast<size_t>(i)]; }
 };
 
 Values values_of(PlotMeasure measure, const PlotSeries& series) {
-  const Distortion& d = *series.distortion;
-  if (measure == PlotMeasure::Area) return {series.label, d.area_ratio.data(), d.area_ratio.size()};
-  return {series.label, d.angle_ratio.data(), d.angle_ratio.size()};
+  return {series.label, plotted_ratios(measure, *series.distortion)};
 }
 
 /// The rim of the full chart: a round number that 99.8 % of the values of every series reach.
 double rim_radius(const std::vector<Values>& all) {
   double reach = 0;
   for (const Values& values : all) {
-    if (values.count == 0) continue;
-    std::vector<double> sorted(values.data, values.data + values.count);
-    const auto rank = static_cast<long>(0.998 * static_cast<double>(values.count - 1));
+    if (values.count() == 0) continue;
+    std::vector<double> sorted = values.ratios;
+    const auto rank = static_cast<long>(0.998 * static_cast<double>(values.count() - 1));
     std::nth_element(sorted.begin(), sorted.begin() + rank, sorted.end());
     reach = std::max(reach, sorted[static_cast<size_t>(rank)]);
   }
@@ -163,7 +161,7 @@ class DotGrid {
   /// (ratio, index) in polar coordinates; y of the picture points down.
   std::array<double, 2> place(const Values& values, long i) const {
     const double angle =
-        2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(values.count);
+        2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(values.count());
     const double r = disk_.pixels(values[i]);
     return {disk_.centre_x + r * elementary::cos(angle), centre_y - r * elementary::sin(angle)};
   }
@@ -177,9 +175,9 @@ class DotGrid {
 std::string rim_marks(const Disk& disk, const Values& values, size_t series) {
   const double inner = radius + rim_gap + static_cast<double>(series) * (rim_gap + rim_mark);
   std::vector<char> marked(static_cast<size_t>(360 / rim_step) + 1, 0);
-  for (long i = 0; i < values.count; ++i) {
+  for (long i = 0; i < values.count(); ++i) {
     if (values[i] <= disk.rim) continue;
-    const double turn = static_cast<double>(i) / static_cast<double>(values.count);
+    const double turn = static_cast<double>(i) / static_cast<double>(values.count());
     marked[static_cast<size_t>(turn * 360 / rim_step)] = 1;
   }
   std::string path;
@@ -197,7 +195,7 @@ std::string rim_marks(const Disk& disk, const Values& values, size_t series) {
 
 std::string draw_series(const Disk& disk, const Values& values, size_t index, Shown& shown) {
   DotGrid grid(disk);
-  for (long i = 0; i < values.count; ++i) {
+  for (long i = 0; i < values.count(); ++i) {
     if (!(values[i] <= disk.rim)) {
       ++shown.beyond;
       continue;
@@ -228,7 +226,7 @@ const char* title_of(PlotMeasure measure) {
 /// What a reader must know to trust the picture: what is not to be seen.
 std::string account(const char* noun, const Values& values, const Shown& shown, double reach) {
   return grouped(shown.dots) + " dots for the " + grouped(shown.inside) + " of " +
-         grouped(values.count) + " " + noun + " up to " + decimal(reach, 1) + "; " +
+         grouped(values.count()) + " " + noun + " up to " + decimal(reach, 1) + "; " +
          grouped(shown.beyond) + " beyond, marked on the rim";
 }
 
@@ -236,13 +234,13 @@ std::string caption(const char* noun, const Values& values, size_t index, double
                     const Shown& full, const Shown& zoom, double y) {
   double sum = 0, smallest = INFINITY, largest = 0;
   long within = 0;
-  for (long i = 0; i < values.count; ++i) {
+  for (long i = 0; i < values.count(); ++i) {
     sum += std::abs(elementary::log(values[i]));
     smallest = std::min(smallest, values[i]);
     largest = std::max(largest, values[i]);
     within += values[i] >= 0.5 && values[i] <= 2 ? 1 : 0;
   }
-  const double count = static_cast<double>(std::max(values.count, 1L));
+  const double count = static_cast<double>(std::max(values.count(), 1L));
   const std::string name = values.label.empty() ? "" : values.label + ": ";
   std::string svg = key(index, y);
   svg += svg_text(58, y, "caption", "start",

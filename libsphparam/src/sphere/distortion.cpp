@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "elementary.h"
+#include "mesh/flat_face.h"
 #include "sphere/required_rays.h"
 #include "sphere/solid_angle.h"
 #include "sphparam/parallel.h"
@@ -21,7 +22,8 @@
 //   ‖J‖² = σ1² + σ2² = Σ cot_i |e_i|² / 2A      and      det J = σ1 σ2 = A_chord / A.
 // Two angles a triangle are computed, those at the ends of its longest side; the third, the
 // largest, is what is missing to π: cheaper, and exact to rounding because it is never small.
-// Arctangents and logarithms are made of some triangles at once.
+// Arctangents and logarithms are made of some triangles at once. A source triangle without area has
+// the share 0 of it, and with that counts in no figure; its ratios are those of the least area.
 
 namespace sphparam {
 namespace {
@@ -36,6 +38,10 @@ struct PlaneTriangle {
   std::array<double, 3> squared;  // |s_i|², side i faces corner i
   std::array<double, 3> dots;     // of the two sides that meet at corner i
   double doubled_area;
+
+  bool is_flat() const {
+    return doubled_area / 2 <= flat_area * *std::max_element(squared.begin(), squared.end());
+  }
 };
 
 PlaneTriangle plane_triangle(const Vector3& a, const Vector3& b, const Vector3& c) {
@@ -108,7 +114,10 @@ struct Source {
   double total_doubled_area(double floor, int threads) const {
     return parallel_sum(mesh.face_count(), threads, [&](std::int64_t first, std::int64_t last) {
       double sum = 0;
-      for (Eigen::Index f = first; f < last; ++f) sum += std::max(floor, triangle(f).doubled_area);
+      for (Eigen::Index f = first; f < last; ++f) {
+        const PlaneTriangle one = triangle(f);
+        if (!one.is_flat()) sum += std::max(floor, one.doubled_area);
+      }
       return sum;
     });
   }
@@ -123,6 +132,7 @@ struct TriangleDistortion {
 /// A triangle and its image while its angles are being made.
 struct Pair {
   PlaneTriangle source, chord;
+  bool has_area = true;  // of the source; its floor stands there where not
   Corners source_corners, chord_corners;
   static constexpr size_t angles = 5;  // two of each, and half the solid angle
 
@@ -154,7 +164,7 @@ TriangleDistortion distortion_of(const Pair& pair, Arctangents& arctangents, dou
   for (int k = 0; k < 3; ++k) result.angle_ratio[k] = after[k] / before[k];
 
   const double area = source.doubled_area * to_sphere / 2;
-  result.source_area = area / sphere_area;
+  result.source_area = pair.has_area ? area / sphere_area : 0;
   result.area_ratio = std::abs(2 * arctangents.next()) / area;
 
   // σ1 σ2 = A_chord / A
@@ -175,11 +185,12 @@ class Measuring {
  public:
   Measuring(const TriangleMesh& mesh, const SphereMap& map, int threads)
       : mesh_(mesh), map_(map), source_{mesh} {
-    // A mesh of no area at all still gets finite figures: every triangle the same.
-    const double mean =
-        source_.total_doubled_area(0, threads) / static_cast<double>(mesh.face_count());
+    const auto faces = static_cast<double>(mesh.face_count());
+    const double mean = source_.total_doubled_area(0, threads) / faces;
     floor_ = std::max(area_floor * mean, std::numeric_limits<double>::min());
-    to_sphere_ = sphere_area / (source_.total_doubled_area(floor_, threads) / 2);
+    // A mesh of no area at all still gets finite ratios: every triangle the same.
+    const double total = mean > 0 ? source_.total_doubled_area(floor_, threads) : floor_ * faces;
+    to_sphere_ = sphere_area / (total / 2);
   }
 
   static constexpr size_t most = 64;  // triangles at once
@@ -191,6 +202,7 @@ class Measuring {
     for (size_t i = 0; i < rows.size(); ++i) {
       const Eigen::Index f = first + static_cast<Eigen::Index>(i);
       pairs[i].source = source_.triangle(f);
+      pairs[i].has_area = !pairs[i].source.is_flat();
       pairs[i].source.doubled_area = std::max(pairs[i].source.doubled_area, floor_);
       const auto ray = [&](int k) { return map_.point(mesh_.triangles(f, k)); };
       pairs[i].ask(arctangents, ray(0), ray(1), ray(2));
@@ -210,7 +222,7 @@ class Measuring {
 /// Sums and extremes over some triangles; they merge in a fixed order.
 struct Tally {
   double ln_area = 0, ln_angle = 0, within_two = 0;
-  long flat_images = 0;
+  long flat_images = 0, flat_faces = 0;
   double log2_area = 0, dirichlet = 0, conformal = 0, stretch = 0, area = 0;
   double area_min = infinity, area_max = 0, angle_max = 1, conformal_max = 1, sigma_min = infinity;
 
@@ -230,6 +242,10 @@ struct Tally {
 
   void add(const TriangleDistortion& d, std::span<const double, 4> logs) {
     const double ratio = d.area_ratio, share = d.source_area;
+    if (share == 0) {
+      ++flat_faces;
+      return;
+    }
     const double ln_ratio = std::abs(logs[0]);
     ln_area += ln_ratio;
     within_two += ratio >= 0.5 && ratio <= 2 ? 1 : 0;
@@ -256,7 +272,7 @@ struct Tally {
 
   void merge(const Tally& other) {
     ln_area += other.ln_area, ln_angle += other.ln_angle, within_two += other.within_two;
-    flat_images += other.flat_images;
+    flat_images += other.flat_images, flat_faces += other.flat_faces;
     log2_area += other.log2_area, dirichlet += other.dirichlet, conformal += other.conformal;
     stretch += other.stretch, area += other.area;
     area_min = std::min(area_min, other.area_min), area_max = std::max(area_max, other.area_max);
@@ -307,7 +323,30 @@ std::array<double, 3> percentiles(VectorX v) {
   return {low, median, high};
 }
 
+/// What a mesh without any area has: there is nothing that any map could keep.
+DistortionSummary nothing_measured(long flat_faces) {
+  return {
+      .mean_abs_ln_area = infinity,
+      .mean_abs_ln_angle = infinity,
+      .area_ratio_p01 = infinity,
+      .area_ratio_p50 = infinity,
+      .area_ratio_p99 = infinity,
+      .area_ratio_min = infinity,
+      .area_ratio_max = infinity,
+      .angle_ratio_max = infinity,
+      .weighted_abs_log2_area = infinity,
+      .symmetric_dirichlet = infinity,
+      .quasi_conformal_mean = infinity,
+      .quasi_conformal_max = infinity,
+      .stretch_l2 = infinity,
+      .stretch_linf = infinity,
+      .flat_faces = flat_faces,
+  };
+}
+
+/// `area_ratio`: of the faces that have an area.
 DistortionSummary summary_of(const Tally& total, VectorX area_ratio) {
+  if (area_ratio.size() == 0) return nothing_measured(total.flat_faces);
   const auto faces = static_cast<double>(area_ratio.size());
   const double with_angles = faces - static_cast<double>(total.flat_images);
   const auto [p01, p50, p99] = percentiles(std::move(area_ratio));
@@ -328,7 +367,18 @@ DistortionSummary summary_of(const Tally& total, VectorX area_ratio) {
       .stretch_l2 = std::sqrt(total.stretch / total.area),
       .stretch_linf = 1 / total.sigma_min,
       .flat_images = total.flat_images,
+      .flat_faces = total.flat_faces,
   };
+}
+
+/// The ratios of the faces that have an area.
+VectorX with_area(const VectorX& area_ratio, const VectorX& source_area) {
+  VectorX kept(area_ratio.size());
+  Eigen::Index count = 0;
+  for (Eigen::Index f = 0; f < area_ratio.size(); ++f)
+    if (source_area[f] != 0) kept[count++] = area_ratio[f];
+  kept.conservativeResize(count);
+  return kept;
 }
 
 }  // namespace
@@ -367,7 +417,8 @@ DistortionSummary summarise(const Distortion& d, int threads) {
       ++f;
     }
   };
-  return summary_of(tally(d.area_ratio.size(), threads, copy), d.area_ratio);
+  return summary_of(tally(d.area_ratio.size(), threads, copy),
+                    with_area(d.area_ratio, d.source_area));
 }
 
 DistortionSummary summarise_distortion(const TriangleMesh& mesh, const SphereMap& map,
@@ -377,11 +428,15 @@ DistortionSummary summarise_distortion(const TriangleMesh& mesh, const SphereMap
   if (faces == 0) return {};
   const Measuring measuring(mesh, map, threads);
   VectorX area_ratio(faces);
+  constexpr double none = -1;  // of a face without area
   const Tally total =
       tally(faces, threads, [&](Eigen::Index f, std::span<TriangleDistortion> rows) {
         measuring.measure(f, rows);
-        for (const TriangleDistortion& d : rows) area_ratio[f++] = d.area_ratio;
+        for (const TriangleDistortion& d : rows)
+          area_ratio[f++] = d.source_area == 0 ? none : d.area_ratio;
       });
+  area_ratio.conservativeResize(std::remove(area_ratio.begin(), area_ratio.end(), none) -
+                                area_ratio.begin());
   return summary_of(total, std::move(area_ratio));
 }
 

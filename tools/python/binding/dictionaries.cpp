@@ -69,6 +69,7 @@ py::dict as_dict(const DistortionSummary& summary) {
   dict["stretch_l2"] = summary.stretch_l2;
   dict["stretch_linf"] = summary.stretch_linf;
   dict["flat_images"] = summary.flat_images;
+  dict["flat_faces"] = summary.flat_faces;
   return dict;
 }
 

@@ -41,6 +41,16 @@ py::tuple angles(const Mapped& mapped) {
   return py::make_tuple(owning(std::move(theta)), owning(std::move(phi)));
 }
 
+/// Of a face without area there are no ratios.
+void leave_out_flat_faces(Distortion& distortion) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  for (Eigen::Index f = 0; f < distortion.source_area.size(); ++f) {
+    if (distortion.source_area[f] != 0) continue;
+    distortion.area_ratio[f] = distortion.sigma_max[f] = distortion.sigma_min[f] = none;
+    distortion.angle_ratio.row(f).setConstant(none);
+  }
+}
+
 /// One row a face of the whole mesh: those of fillers are no numbers.
 template <class Table>
 Table on_all_faces(Table of_surface, const FillerMarks& fillers) {
@@ -59,6 +69,7 @@ py::dict distortion(const Mapped& mapped, int threads) {
   auto measured = call(py::none(), [mesh, threads](const Progress&) {
     Distortion found = measure_distortion(mesh.surface(), mesh.map(), threads);
     const DistortionSummary summary = summarise(found, threads);
+    leave_out_flat_faces(found);
     return std::pair(std::move(found), summary);
   });
   Distortion& found = measured.first;

@@ -40,7 +40,9 @@ class Certificate(NamedTuple):
 
 
 class Distortion(NamedTuple):
-    """How a map distorts. Ratios are sphere over surface, total areas made equal; 1 is perfect."""
+    """How a map distorts. Ratios of areas and angles are sphere over surface, ``stretch_*`` surface
+    over sphere, the surface first scaled to the area of the whole sphere; 1 is perfect. Faces without
+    area, and fillers of kept holes, are left out."""
 
     mean_abs_ln_area: float
     """Mean of |ln area ratio| over the triangles (the paper's measure)."""
@@ -74,10 +76,13 @@ class Distortion(NamedTuple):
     """L-infinity stretch: the largest 1/σ_min."""
     flat_images: int
     """Triangles too thin on the sphere for an angle, which the mean of angles leaves out."""
+    flat_faces: int
+    """Triangles of the surface without area, which all figures leave out."""
 
 
 class FaceDistortion(NamedTuple):
-    """Distortion face by face: see :class:`Distortion`."""
+    """Distortion face by face: see :class:`Distortion`. NaN of fillers, and ratios of faces without
+    area."""
 
     area_ratio: Floats
     """(F,) spherical area over source area."""
@@ -88,7 +93,7 @@ class FaceDistortion(NamedTuple):
     sigma_min: Floats
     """(F,) smaller singular value."""
     source_area: Floats
-    """(F,) share of the total area of the surface."""
+    """(F,) share of the total area of the surface; 0: the face has none."""
 
 
 class Stage(NamedTuple):
