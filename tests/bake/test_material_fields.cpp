@@ -6,6 +6,7 @@
 #include "bake/fields/material_fields.h"
 #include "bake/fields/normal_fields.h"
 #include "image/image_codec.h"
+#include "io/attributes/corner_colours.h"
 #include "scenes.h"
 #include "sphparam/chart/tangent_frame.h"
 #include "srgb_curves.h"
@@ -386,6 +387,49 @@ TEST_CASE("material fields: alpha counts only where a material says so") {
                                             {alpha_text, "mask 0.25"}, {sides_text, "1"}});
 }
 
+TEST_CASE("material fields: alpha of vertices is times that of a glTF's base colour") {
+  Cube cube;
+  for (const char* name : {"red", "green", "blue"})
+    cube.file.set_vertex_property({name, ScalarType::Float32, std::vector<double>(8, 1)});
+  cube.file.set_vertex_property({"alpha", ScalarType::Uint8, std::vector<double>(8, 51)});
+  for (MaterialTexture& colour : cube.file.base_colours) colour.factor = {1, 1, 1, 0.5};
+  const auto colour_of = [&](const char* field, Face f) {
+    auto scene = cube.scene();
+    scene->source.textures = read_textures(cube.file, 1);
+    return inside(make_field(field, *scene), f);
+  };
+  CHECK(colour_of("vcolor", 0).at(3) == Approx(0.2));
+  CHECK(colour_of("basecolor", 0).size() == 3);  // a format that gives alpha no meaning
+  cube.file.format = "glTF binary";
+  CHECK(colour_of("basecolor", 0).size() == 3);  // opaque
+  for (MaterialChannels& channels : cube.file.channels) channels.alpha_mode = AlphaMode::Blend;
+  CHECK(colour_of("basecolor", 0).at(3) == Approx(0.1));
+  cube.file.channels[1].alpha_mode = AlphaMode::Mask;
+  CHECK(colour_of("basecolor", 2).at(3) == Approx(0.1));
+  CHECK(colour_of("basecolor", 0).at(3) == 1);
+  cube.file.set_vertex_property({"alpha", ScalarType::Uint8, std::vector<double>(8, 255)});
+  CHECK(colour_of("vcolor", 0).size() == 3);
+}
+
+TEST_CASE("material fields: corners have their own colours where vertices have several") {
+  Cube cube;
+  for (const char* name : {"red", "green", "blue"})
+    cube.file.set_vertex_property({name, ScalarType::Uint8, std::vector<double>(8, 255)});
+  CornerColours colours = CornerColours::Constant(36, 4, 255);
+  colours.topRows(3).col(1).setZero();  // face 0 is magenta
+  set_corner_colours(cube.file, colours);
+  for (const bool is_gltf : {false, true}) {
+    if (is_gltf) cube.file.format = "glTF";
+    auto scene = cube.scene();
+    if (is_gltf) scene->source.textures = read_textures(cube.file, 1);
+    for (const char* field : {"vcolor", "basecolor"}) {
+      const SurfaceField made = make_field(field, *scene);
+      CHECK(inside(made, 0) == std::vector<float>{1, 0, 1});
+      CHECK(inside(made, 1) == std::vector<float>{1, 1, 1});
+    }
+  }
+}
+
 TEST_CASE("material fields: what is blended beside what is not is drawn over what lies behind") {
   // Of the cube's sides 1, 3 and 5 are half of red glass; opposite ones are green.
   Cube cube;
@@ -446,7 +490,8 @@ TEST_CASE("material fields: a mesh without materials, or without coordinates for
   cube.file.channels[0].roughness = texel("r", {1, 1, 1});
   cube.file.corner_texcoords.reset();
   const auto bare = cube.scene();
-  CHECK_THROWS_WITH(make_orm(*bare, ""), Catch::Contains("no texture coordinates"));
+  CHECK_THROWS_WITH(make_orm(*bare, ""), Catch::Contains("no texture coordinates") &&
+                                             Catch::Contains("`sphparam asset` leaves"));
   cube.file.channels.clear();
   const auto none = cube.scene();
   for (const char* name : {"emissive", "orm", "roughness", "metallic"})

@@ -3,9 +3,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "io/attributes/corner_colours.h"
+#include "io/polygons/welding.h"
 #include "io/repaired_file.h"
 #include "sphparam/io/fillers.h"
 #include "sphparam/io/loop_file.h"
+#include "sphparam/io/shared_places.h"
 #include "support/test_meshes.h"
 #include "support/volume_surface.h"
 
@@ -67,6 +70,30 @@ TEST_CASE("repaired_file: attributes go where their vertices, faces and corners 
   const RepairedMesh repaired = repair_mesh(mesh);
   REQUIRE(repaired.inspection.is_sphere());
   check_labels(file, repaired_file(file, repaired));
+}
+
+TEST_CASE("repaired_file: colours of corners go where their corners go") {
+  TriangleMesh mesh = icosphere(2);
+  mesh.triangles.conservativeResize(mesh.face_count() - 3, 3);
+  std::swap(mesh.triangles(7, 0), mesh.triangles(7, 1));
+  MeshFile file = labelled(mesh);
+  for (const char* name : {"red", "green", "blue"})
+    file.set_vertex_property(
+        {name, ScalarType::Float64, std::vector<double>(static_cast<size_t>(mesh.vertex_count()))});
+  CornerColours colours = CornerColours::Zero(mesh.triangles.size(), 4);
+  for (Eigen::Index i = 0; i < colours.rows(); ++i)
+    colours.row(i).head<3>() = mesh.positions.row(mesh.triangles.data()[i]);
+  set_corner_colours(file, colours);
+  const RepairedMesh repaired = repair_mesh(mesh);
+  const MeshFile after = repaired_file(file, repaired);
+  const auto carried = corner_colours(after);
+  REQUIRE(carried);
+  for (Face f = 0; f < after.mesh.face_count(); ++f) {
+    if (repaired.face_origin[static_cast<size_t>(f)] < 0) continue;
+    for (int k = 0; k < 3; ++k)
+      CHECK(carried->row(3 * f + k).head<3>() ==
+            after.mesh.positions.row(after.mesh.triangles(f, k)));
+  }
 }
 
 TEST_CASE("repaired_file: a created vertex has the mean of its neighbours and no source") {
@@ -230,6 +257,55 @@ TEST_CASE("repaired_file: caps of a handle that is cut have the texture of their
   const MeshFile mended = repaired_file(Atlas(mesh).file, repaired);
   CHECK(worst_corner(mended, [&](Face f) { return !is_new(repaired, f); }) < 1e-12);
   CHECK(worst_corner(mended, [&](Face f) { return is_new(repaired, f); }) < 1);
+}
+
+TEST_CASE(
+    "shared_places: rims of a handle that was cut lie on one another, told for what welds them") {
+  MeshSource source;
+  source.path = "a ring.ply";
+  source.file.mesh = bumped_torus(12, 30, 0.3, 0, 1);
+  source.inspection = inspect_mesh(source.file.mesh);
+  CHECK(shared_places(source.file.mesh).vertices == 0);
+  CHECK(shared_places_line(source).empty());
+  const MeshSource whole = repaired(source, {.longest_handle = 1});
+  REQUIRE(whole.handles.size() == 1);
+  // The loop is there twice. Each of its edges has two faces of the surface and one of each cap.
+  const long edges = std::ssize(whole.handles[0].vertices);
+  const SharedPlaces shared = shared_places(whole.file.mesh);
+  CHECK(shared.vertices == edges);
+  CHECK(shared.edges == edges);
+  CHECK_THAT(shared_places_line(whole),
+             Catch::StartsWith(std::to_string(edges) + " vertices lie exactly on others") &&
+                 Catch::Contains(std::to_string(edges) + " edges have more than two faces then") &&
+                 Catch::Contains("`sphparam wrap 'a ring.ply' -o wrapped.ply`"));
+  // So it is for a reader that welds.
+  const MeshInspection welded = inspect_mesh(weld_exact(whole.file).file.mesh);
+  REQUIRE_FALSE(welded.is_sphere());
+  const auto crowded =
+      std::ranges::find(welded.defects, DefectKind::NonManifoldEdge, &MeshDefect::kind);
+  REQUIRE(crowded != welded.defects.end());
+  CHECK(crowded->count == edges);
+}
+
+TEST_CASE("shared_places: sheets that touch in a vertex, and what was there before any repair") {
+  // Two tetrahedra with one vertex in common.
+  MeshSource source;
+  source.path = "two.ply";
+  source.file.mesh.positions =
+      Points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
+  source.file.mesh.triangles = Triangles{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3},
+                                         {0, 4, 5}, {0, 6, 4}, {0, 5, 6}, {4, 6, 5}};
+  source.inspection = inspect_mesh(source.file.mesh);
+  RepairOptions split = RepairOptions::none();
+  split.non_manifold = true;
+  const MeshSource apart = mended(source, split);
+  CHECK(shared_places(apart.file.mesh).vertices == 1);
+  CHECK(shared_places(apart.file.mesh).edges == 0);
+  CHECK_THAT(shared_places_line(apart), Catch::StartsWith("1 vertex lies exactly on another") &&
+                                            Catch::Contains("the surface touches itself then"));
+  MeshSource before = apart;  // as it would be read
+  before.repairs.clear();
+  CHECK(shared_places_line(before).empty());
 }
 
 TEST_CASE("repaired_file: a texture that goes once around is not swept through where it ends") {

@@ -1,7 +1,9 @@
 #include <catch2/catch.hpp>
 
+#include "io/attributes/corner_colours.h"
 #include "io/polygons/welding.h"
 #include "reading.h"
+#include "sphparam/io/losses.h"
 #include "sphparam/mesh/mesh_defects.h"
 #include "support/test_meshes.h"
 
@@ -115,6 +117,57 @@ TEST_CASE("welding: a closed mesh is never welded, an open one is, both are note
       read("v 7 7 7\nv 0 0 0\nv 1 0 0\nv 0 0 0\nv 0 1 0\nf 2 3 5\nf 4 5 3\n", "a.obj"), &notes);
   CHECK(values_of(both.find_vertex_property("source_vertex")) == std::vector<double>{1, 2, 4});
   CHECK(notes.size() == 3);
+}
+
+TEST_CASE("welding: where copies have several colours, corners keep their own") {
+  MeshFile file = soup(octahedron());
+  const auto count = static_cast<std::size_t>(file.mesh.vertex_count());
+  for (const char* name : {"red", "green", "blue"}) {
+    Property channel{name, ScalarType::Uint8, std::vector<double>(count, 255)};
+    file.vertex_properties.push_back(channel);
+  }
+  CHECK_FALSE(corner_colours(weld_exact(file).file));  // all alike
+  Property green = *file.find_vertex_property("green");
+  for (std::size_t i = 0; i < count; ++i) green.values[i] = static_cast<double>(i / 3 * 10);
+  file.set_vertex_property(green);
+  const MeshFile welded = weld_exact(file).file;
+  const auto colours = corner_colours(welded);
+  REQUIRE(colours);
+  for (Eigen::Index i = 0; i < colours->rows(); ++i)
+    CHECK(colours->row(i) == Eigen::RowVector4d(255, static_cast<double>(i / 3 * 10), 255, 0));
+  CHECK(values_of(welded.find_vertex_property("green")).size() == 6);
+  CHECK(welded.find_face_property("corner_green_2")->type == ScalarType::Uint8);
+  CHECK_FALSE(welded.find_face_property("corner_alpha_0"));
+  std::vector<std::string> losses;
+  add_sampling_losses(losses, welded);
+  CHECK(losses == std::vector<std::string>{"not carried: more than one colour of a vertex"});
+  MeshFile painted = welded;
+  painted.set_vertex_property(*welded.find_vertex_property("green"));
+  CHECK_FALSE(corner_colours(painted));
+}
+
+TEST_CASE("welding: a copy that no face uses wins nothing") {
+  // Two halves that both list all vertices.
+  const TriangleMesh mesh = octahedron();
+  const auto count = static_cast<int>(mesh.vertex_count());
+  MeshFile file;
+  file.mesh.positions.resize(Eigen::Index{2} * count, 3);
+  file.mesh.positions << mesh.positions, mesh.positions;
+  file.mesh.triangles = mesh.triangles;
+  file.mesh.triangles.bottomRows(mesh.face_count() / 2).array() += count;
+  std::vector<bool> in_first(static_cast<std::size_t>(count), false);
+  for (const Vertex v : mesh.triangles.topRows(mesh.face_count() / 2).reshaped())
+    in_first[static_cast<std::size_t>(v)] = true;
+  Property half{"half", ScalarType::Float32, std::vector<double>(2 * in_first.size(), 0)};
+  std::fill(half.values.begin() + count, half.values.end(), 1);
+  file.vertex_properties = {half};
+  const MeshFile welded = weld_exact(file).file;
+  REQUIRE(welded.mesh.vertex_count() == count);
+  for (std::size_t v = 0; v < in_first.size(); ++v) {
+    CHECK(values_of(welded.find_vertex_property("half"))[v] == (in_first[v] ? 0 : 1));
+    CHECK(values_of(welded.find_vertex_property("source_vertex"))[v] ==
+          static_cast<double>(v) + (in_first[v] ? 0 : count));
+  }
 }
 
 TEST_CASE("welding: a vertex of large valence costs no more than others") {

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "io/attributes/corner_colours.h"
 #include "io/attributes/weightiest_label.h"
 #include "sphparam/io/sphere_file.h"
 #include "sphparam/io/up_axis.h"
@@ -80,6 +81,10 @@ void reflect(MeshFile& file) {
     file.corner_normals->col(0) *= -1;
   }
   if (file.second_texcoords) turn_round(*file.second_texcoords);
+  if (auto colours = corner_colours(file)) {
+    turn_round(*colours);
+    set_corner_colours(file, *colours);
+  }
   if (file.corner_tangents) {
     turn_round(*file.corner_tangents);
     file.corner_tangents->col(0) *= -1;

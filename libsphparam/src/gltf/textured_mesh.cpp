@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/attributes/corner_colours.h"
 #include "io/attributes/shading_normals.h"
 #include "sphparam/chart/carry_attributes.h"
 #include "sphparam/chart/tangent_frame.h"
@@ -33,7 +34,7 @@ Property rounded(Property property) {
 template <class Carry>
 void carry(const std::vector<Property>& properties, std::vector<Property>& to, Carry&& carried) {
   for (const Property& property : properties) {
-    if (is_made_anew(property.name)) continue;
+    if (is_made_anew(property.name) || is_corner_colour(property.name)) continue;
     const Attributes values = Eigen::Map<const VectorX>(
         property.values.data(), static_cast<Eigen::Index>(property.values.size()));
     const Attributes refined = carried(values);

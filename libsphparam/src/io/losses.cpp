@@ -5,6 +5,7 @@
 #include <iterator>
 #include <set>
 
+#include "io/attributes/corner_colours.h"
 #include "number_text.h"
 #include "sphparam/io/file_numbers.h"
 
@@ -37,6 +38,7 @@ std::vector<std::string> gone(const std::vector<Property>& written,
   std::vector<std::string> names;
   for (const Property& property : written) {
     if (is_one_of(property.name, {"sx", "sy", "sz", "theta", "phi", "source_face"})) continue;
+    if (is_corner_colour(property.name)) continue;
     if (is_carried(property, read, file)) continue;
     const bool elsewhere = std::any_of(read.begin(), read.end(), [&](const Property& candidate) {
       return candidate.values == property.values;
@@ -88,6 +90,8 @@ std::vector<std::string> losses_of_writing(const MeshFile& written, const MeshFi
     add_loss(losses, "normals of corners");
   if (written.second_texcoords && !read.second_texcoords)
     add_loss(losses, "second texture coordinates");
+  if (corner_colours(written) && !corner_colours(read))
+    add_loss(losses, "more than one colour of a vertex");
   if (written.corner_tangents && !read.corner_tangents) add_loss(losses, "tangents");
   if (written.materials.size() > read.materials.size())
     add_loss(losses, counted(static_cast<long>(written.materials.size()), "material"));
@@ -113,6 +117,7 @@ void add_polygon_loss(std::vector<std::string>& notes, const MeshFile& file) {
 void add_sampling_losses(std::vector<std::string>& notes, const MeshFile& source) {
   if (!source.base_colours.empty()) add_loss(notes, "colours and textures of materials");
   if (source.second_texcoords) add_loss(notes, "second texture coordinates");
+  if (corner_colours(source)) add_loss(notes, "more than one colour of a vertex");
   if (source.corner_tangents) add_loss(notes, "tangents");
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "io/attributes/corner_colours.h"
+
 namespace sphparam {
 namespace {
 
@@ -35,6 +37,9 @@ const Property* MeshFile::find_face_property(const std::string& name) const {
 }
 
 void MeshFile::set_vertex_property(Property property) {
+  // A colour that is set is that of all corners.
+  if (property.name == "red" || property.name == "green" || property.name == "blue")
+    remove_corner_colours(*this);
   add_or_replace(vertex_properties, std::move(property));
 }
 

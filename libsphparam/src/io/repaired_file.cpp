@@ -3,6 +3,7 @@
 #include <cmath>
 #include <set>
 
+#include "io/attributes/corner_colours.h"
 #include "io/attributes/patched_texture.h"
 #include "io/attributes/weightiest_label.h"
 #include "io/mesh_part.h"
@@ -137,6 +138,13 @@ void gather_second_texcoords(MeshFile& result, const MeshFile& file, const Repai
   result.corner_texcoords.swap(result.second_texcoords);
 }
 
+void gather_corner_colours(MeshFile& result, const MeshFile& file, const RepairedMesh& repaired) {
+  std::optional<CornerColours> colours = corner_colours(file);
+  if (!colours) return;
+  gather_corners(colours, repaired);
+  set_corner_colours(result, *colours);
+}
+
 /// Those of before, and those of this repair. What closes a handle is surface.
 FillerMarks all_fillers(const MeshFile& gathered, const RepairedMesh& repaired) {
   FillerMarks fillers = fillers_of(gathered);
@@ -167,6 +175,7 @@ MeshFile repaired_file(const MeshFile& file, const RepairedMesh& repaired) {
   result.mesh = repaired.mesh;
   gather_texcoords(result, file, repaired);
   gather_second_texcoords(result, file, repaired);
+  gather_corner_colours(result, file, repaired);
   gather_corners(result.corner_tangents, repaired);
   make_unit(result.corner_tangents, repaired);
   if (!repaired.fillers.empty()) mark_fillers(result, all_fillers(result, repaired));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "io/attributes/corner_colours.h"
 #include "sphparam/remesh/remesh.h"
 
 namespace sphparam {
@@ -24,7 +25,8 @@ std::string list_of(const MeshFile& source) {
   std::string names = "position";
   for (const auto* properties : {&source.vertex_properties, &source.face_properties}) {
     for (const Property& property : *properties) {
-      if (!contains(not_carried, property.name)) names += ", " + property.name;
+      if (!contains(not_carried, property.name) && !is_corner_colour(property.name))
+        names += ", " + property.name;
     }
   }
   if (source.corner_texcoords) names += ", uv";
@@ -38,7 +40,7 @@ WantedValues::WantedValues(const Names& words, const MeshFile& source) : words_(
   const Names known = {"all", "none", "position", "color", "colour", "normal", "uv", "material"};
   for (const std::string& word : words) {
     if (contains(known, word) || source.find_vertex_property(word) ||
-        source.find_face_property(word)) {
+        (source.find_face_property(word) && !is_corner_colour(word))) {
       continue;
     }
     throw NoSuchProperty("no property " + word + " to transfer; there are " + list_of(source));
@@ -46,7 +48,7 @@ WantedValues::WantedValues(const Names& words, const MeshFile& source) : words_(
 }
 
 bool WantedValues::property(const std::string& name) const {
-  if (contains(not_carried, name)) return false;
+  if (contains(not_carried, name) || is_corner_colour(name)) return false;
   const auto group = [&](const Names& names, const char* word) {
     return contains(names, name) && contains(words_, word);
   };

@@ -114,6 +114,25 @@ SurfaceField owner_field(const BakeScene& scene, std::string name, std::vector<i
   return field;
 }
 
+std::shared_ptr<const CornerLight> light_of(const BakeScene& scene) {
+  auto light = corner_light(scene.source.file());
+  if (!light) {
+    throw FieldError("vcolor: the mesh has no colours at its vertices (red, green, blue)");
+  }
+  return std::make_shared<const CornerLight>(std::move(*light));
+}
+
+template <int channels>
+SurfaceField light_field(const BakeScene& scene, std::shared_ptr<const CornerLight> light) {
+  return linear_field<channels>(
+      {.name = "vcolor", .kind = FieldKind::Colour, .about = "colours of the vertices"},
+      [light = std::move(light), &triangles = scene.source.mesh().triangles](
+          Face f, int k, std::array<double, channels>& value) {
+        const Eigen::Index row = light->row(triangles, f, k);
+        for (int c = 0; c < channels; ++c) value[static_cast<size_t>(c)] = light->rows(row, c);
+      });
+}
+
 std::vector<int> materials_of(const MeshFile& file) {
   const Property* material = file.find_face_property("material");
   if (!material) {
@@ -139,16 +158,12 @@ SurfaceField make_position(const BakeScene& scene, const std::string&) {
 }
 
 SurfaceField make_vertex_colour(const BakeScene& scene, const std::string&) {
-  const auto colours = linear_colours(scene.source.file());
-  if (!colours) {
-    throw FieldError("vcolor: the mesh has no colours at its vertices (red, green, blue)");
-  }
-  const Triangles& triangles = scene.source.mesh().triangles;
-  return linear_field<3>(
-      {.name = "vcolor", .kind = FieldKind::Colour, .about = "colours of the vertices"},
-      [colours, &triangles](Face f, int k, std::array<double, 3>& value) {
-        for (size_t c = 0; c < 3; ++c) value[c] = (*colours)(triangles(f, k), static_cast<int>(c));
-      });
+  const auto light = light_of(scene);
+  return light->has_alpha() ? light_field<4>(scene, light) : light_field<3>(scene, light);
+}
+
+SurfaceField make_opaque_vertex_colour(const BakeScene& scene) {
+  return light_field<3>(scene, light_of(scene));
 }
 
 SurfaceField make_texcoords(const BakeScene& scene, const std::string&) {

@@ -7,8 +7,11 @@ namespace sphparam {
 /// What the mesh file says at its vertices, corners and faces. All throw FieldError where it has
 /// not what they need.
 SurfaceField make_position(const BakeScene& scene, const std::string&);
-/// Colours of vertices, linear light between them.
+/// Colours of vertices, or of their corners, linear light between them; and alpha where it says
+/// more than 1.
 SurfaceField make_vertex_colour(const BakeScene& scene, const std::string&);
+/// The same without alpha, which only materials give a meaning.
+SurfaceField make_opaque_vertex_colour(const BakeScene& scene);
 /// Texture coordinates of the source: (s, t, 0), t upwards.
 SurfaceField make_texcoords(const BakeScene& scene, const std::string&);
 /// A property of vertices or faces, by its name.

@@ -28,7 +28,7 @@ struct Painter {
   CornerTexcoords corners;
   TextureFilter filter;
   std::vector<bool> is_opaque;           // a texture: its alpha means nothing; empty: none is
-  std::optional<Points> colours;         // of the vertices, linear, that multiply the texture
+  std::optional<CornerLight> colours;    // of the vertices, that multiply the texture
   std::vector<SourceTexture> opacities;  // a texture: what its alpha is times; empty: 1
   std::vector<AlphaMode> modes;          // a texture; empty: what its alpha means is not said
   float cutoff = 0.5F;                   // of Mask, for all: alphas are scaled to it
@@ -136,16 +136,19 @@ struct Painter {
     for (int i = 0; i < run.count; ++i) values[4 * i + 3] *= texels[4 * static_cast<size_t>(i)];
   }
 
+  /// Alpha of vertices means what that of the texture does.
   void tint(const SurfaceRun& run, int channels, float* values) const {
-    std::vector<float> colour(3 * static_cast<size_t>(run.count));
-    fill_linear<3>(std::span(&run, 1), colour.data(),
-                   [this](Face f, int k, std::array<double, 3>& value) {
-                     for (size_t c = 0; c < 3; ++c)
-                       value[c] = (*colours)((*triangles)(f, k), static_cast<int>(c));
+    std::vector<float> colour(4 * static_cast<size_t>(run.count));
+    fill_linear<4>(std::span(&run, 1), colour.data(),
+                   [this](Face f, int k, std::array<double, 4>& value) {
+                     const Eigen::Index row = colours->row(*triangles, f, k);
+                     for (int c = 0; c < 4; ++c)
+                       value[static_cast<size_t>(c)] = colours->rows(row, c);
                    });
+    const int tinted = channels == 4 && !modes.empty() && !opaque(run.face) ? 4 : 3;
     for (int i = 0; i < run.count; ++i)
-      for (int c = 0; c < 3; ++c)
-        values[channels * i + c] *= colour[static_cast<size_t>(3 * i + c)];
+      for (int c = 0; c < tinted; ++c)
+        values[channels * i + c] *= colour[static_cast<size_t>(4 * i + c)];
   }
 
  public:
@@ -170,10 +173,12 @@ bool says_alpha(const BakeSource& source) {
 }
 
 bool has_alpha(const Painter& painter) {
+  const bool of_vertices =
+      painter.colours && !painter.modes.empty() && painter.colours->has_alpha();
   for (size_t i = 0; i < painter.textures.size(); ++i) {
     const SourceTexture& texture = painter.textures[i];
     const bool opaque = !painter.is_opaque.empty() && painter.is_opaque[i];
-    const bool fades = i < painter.opacities.size() && painter.opacities[i].image;
+    const bool fades = of_vertices || (i < painter.opacities.size() && painter.opacities[i].image);
     if (!opaque &&
         (texture.factor[3] < 1 || fades || (texture.image && texture.image->has_alpha())))
       return true;
@@ -189,7 +194,10 @@ void place_textures(const BakeScene& scene, Painter& painter) {
   if (auto corners = texcoords_of(file)) {
     painter.corners = std::move(*corners);
   } else if (any_image(painter.textures)) {
-    throw FieldError("basecolor: the mesh has no texture coordinates, so its texture has no place");
+    const bool own = !scene.source.one_texture_for_all;
+    throw FieldError(
+        std::string("basecolor: the mesh has no texture coordinates, so its texture has no place") +
+        (own ? leaves_images_out : ""));
   }
   if (const Property* material = file.find_face_property("material");
       material && !scene.source.one_texture_for_all) {
@@ -234,13 +242,13 @@ SurfaceField field_of(std::shared_ptr<const Painter> painter, const MeshFile& fi
 
 }  // namespace
 
-SurfaceField make_base_colour(const BakeScene& scene, const std::string& argument) {
+SurfaceField make_base_colour(const BakeScene& scene, const std::string&) {
   const MeshFile& file = scene.source.file();
   const std::vector<SourceTexture>& textures = scene.source.textures;
   // In glTF colours of vertices multiply what the material says; elsewhere they stand for it.
   const bool tints = file.format.starts_with("glTF") && !textures.empty();
   if (!any_image(textures) && !tints && linear_colours(file)) {
-    SurfaceField field = make_vertex_colour(scene, argument);
+    SurfaceField field = make_opaque_vertex_colour(scene);
     field.name = "basecolor";
     return field;
   }
@@ -249,7 +257,7 @@ SurfaceField make_base_colour(const BakeScene& scene, const std::string& argumen
   auto painter = std::make_shared<Painter>();
   place_textures(scene, *painter);
   if (says_alpha(scene.source)) set_alpha(scene, *painter);
-  if (tints) painter->colours = linear_colours(file);
+  if (tints) painter->colours = corner_light(file);
   return field_of(painter, file);
 }
 

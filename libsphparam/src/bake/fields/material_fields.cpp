@@ -51,7 +51,8 @@ void require_texcoords(const BakeScene& scene, const std::string& field,
                        const std::vector<SourceTexture>& textures) {
   const bool any = std::ranges::any_of(textures, [](const auto& t) { return t.image != nullptr; });
   if (any && !has_texcoords(scene.source.file()))
-    throw FieldError(field + ": the mesh has no texture coordinates, so its texture has no place");
+    throw FieldError(field + ": the mesh has no texture coordinates, so its texture has no place" +
+                     leaves_images_out);
 }
 
 /// One number of the materials.

@@ -24,6 +24,10 @@ SurfaceField make_material_occlusion(const BakeScene& scene, const std::string&)
 SurfaceField make_emissive(const BakeScene& scene, const std::string&);
 inline constexpr char strength_text[] = "sphparam:strength";
 
+/// What helps a mesh whose materials have images, and which has no place for them.
+inline constexpr char leaves_images_out[] =
+    "; `sphparam asset` leaves such images out, and its materials keep their factors";
+
 /// What images of the base colour say of alpha and sides, as metadata: "mask 0.5" or "blend" below
 /// sphparam:alpha, "1" below sphparam:double_sided; nothing of what is opaque and one-sided. Of
 /// alpha, finish and light what `one_material` has: factors below sphparam:finish, "1" below

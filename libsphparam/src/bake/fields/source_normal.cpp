@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "bake/fields/material_fields.h"
 #include "bake/fields/texture_line.h"
 #include "bake/source_tangents.h"
 #include "io/attributes/appearance.h"
@@ -81,7 +82,9 @@ SourceNormal::SourceNormal(const BakeScene& scene) : scene_(&scene) {
   auto corners = texcoords_of(file);
   if (!corners) {
     throw FieldError(
-        "normals: the mesh has no texture coordinates, so its normal map has no place");
+        std::string(
+            "normals: the mesh has no texture coordinates, so its normal map has no place") +
+        leaves_images_out);
   }
   maps->corners = std::move(*corners);
   maps->textures =

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <numeric>
 
+#include "io/attributes/corner_colours.h"
 #include "io/polygons/distinct_rows.h"
 #include "sphparam/io/file_numbers.h"
 
 // Both operations give every vertex a new id and keep one old vertex for every new id. Attributes
-// of a kind (normals, texture coordinates) that differ between an old vertex and the one kept for
-// it become attributes of corners before the ids change.
+// of a kind (normals, texture coordinates, colours) that differ between an old vertex and the one
+// kept for it become attributes of corners before the ids change.
 
 namespace sphparam {
 namespace {
@@ -45,7 +46,16 @@ MeshFile renumbered(MeshFile file, const Renumbering& renumbering) {
   return file;
 }
 
-Renumbering by_position(const Points& positions) {
+std::vector<bool> used_vertices(const TriangleMesh& mesh) {
+  std::vector<bool> used(static_cast<std::size_t>(mesh.vertex_count()), false);
+  for (const int v : mesh.triangles.reshaped()) used[v] = true;
+  return used;
+}
+
+/// Keeps the first copy that some face uses: what the others have is seen nowhere.
+Renumbering by_position(const TriangleMesh& mesh) {
+  const Points& positions = mesh.positions;
+  const std::vector<bool> used = used_vertices(mesh);
   Renumbering result;
   DistinctRows<double, 3> distinct(static_cast<std::size_t>(positions.rows()));
   result.new_vertex.reserve(static_cast<std::size_t>(positions.rows()));
@@ -54,6 +64,7 @@ Renumbering by_position(const Points& positions) {
     const int id =
         distinct.insert({positions(v, 0) + 0.0, positions(v, 1) + 0.0, positions(v, 2) + 0.0});
     if (id == static_cast<int>(result.kept.size())) result.kept.push_back(static_cast<int>(v));
+    if (used[v] && !used[result.kept[id]]) result.kept[id] = static_cast<int>(v);
     result.new_vertex.push_back(id);
   }
   return result;
@@ -90,6 +101,28 @@ bool move_to_corners(MeshFile& file, const std::vector<std::string>& names,
   return true;
 }
 
+/// Gives corners the colours of their copies where one has another than the copy that is kept.
+void keep_colours_at_corners(MeshFile& file, const Renumbering& renumbering) {
+  std::vector<const Property*> channels;
+  for (const char* name : {"red", "green", "blue"})
+    channels.push_back(file.find_vertex_property(name));
+  if (std::ranges::count(channels, nullptr) > 0 || corner_colours(file)) return;
+  if (const Property* alpha = file.find_vertex_property("alpha")) channels.push_back(alpha);
+  const Triangles& triangles = file.mesh.triangles;
+  const auto corners = triangles.reshaped<Eigen::RowMajor>();
+  const bool differ = std::ranges::any_of(channels, [&](const Property* channel) {
+    return std::ranges::any_of(corners, [&](Vertex v) {
+      return channel->values[v] != channel->values[renumbering.kept[renumbering.new_vertex[v]]];
+    });
+  });
+  if (!differ) return;
+  CornerColours colours = CornerColours::Zero(triangles.size(), 4);
+  for (Eigen::Index i = 0; i < colours.rows(); ++i)
+    for (std::size_t c = 0; c < channels.size(); ++c)
+      colours(i, static_cast<Eigen::Index>(c)) = channels[c]->values[triangles.data()[i]];
+  set_corner_colours(file, colours);
+}
+
 /// True when some edge has one face only. Edges are gathered by their smaller vertex, so that a
 /// mesh of any size costs little more than two passes (`inspect_mesh` would answer this too, but
 /// takes ten times as long for everything else it answers).
@@ -122,7 +155,7 @@ bool has_boundary(const Triangles& triangles, Eigen::Index vertex_count) {
 }  // namespace
 
 WeldResult weld_exact(const MeshFile& file) {
-  const Renumbering renumbering = by_position(file.mesh.positions);
+  const Renumbering renumbering = by_position(file.mesh);
   WeldResult result{file, renumbering.new_vertex,
                     static_cast<long>(renumbering.new_vertex.size() - renumbering.kept.size())};
   if (result.merged == 0) return result;
@@ -130,6 +163,7 @@ WeldResult weld_exact(const MeshFile& file) {
                   result.file.corner_texcoord_type);
   move_to_corners(result.file, {"nx", "ny", "nz"}, renumbering, result.file.corner_normals,
                   result.file.corner_normal_type);
+  keep_colours_at_corners(result.file, renumbering);
   result.file = renumbered(std::move(result.file), renumbering);
   return result;
 }

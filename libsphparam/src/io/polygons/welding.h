@@ -18,8 +18,9 @@ struct WeldResult {
 /// Makes vertices of the same position (bit for bit, −0 = +0) one vertex, in the order of the first
 /// copies.
 ///
-/// Normals and texture coordinates that differ between the copies move to the corners; of all other
-/// properties the first copy counts, and `source_vertex` names it. Faces stay, also those that now
+/// Normals and texture coordinates that differ between the copies move to the corners; colours are
+/// there too then (corner_colours.h). Of all other properties the first copy counts that a face
+/// uses, and `source_vertex` names it. Faces stay, also those that now
 /// name a vertex twice: `inspect_mesh` lists them.
 /// Cost: O(#V + #F), expected.
 WeldResult weld_exact(const MeshFile& file);
