@@ -64,7 +64,14 @@ TEST_CASE("one_material: what most of the area has, and the share of what has it
   file = two_materials(15);
   file.channels[1].finish.clearcoat = 1;
   CHECK(one_material(file).finish.clearcoat == 0);
-  CHECK(one_material(file).warnings.size() == 1);
+  CHECK(one_material(file).warnings ==
+        std::vector<std::string>{"materials become one: no KHR_materials_clearcoat, as the largest "
+                                 "part of the area has none; 25 % of the area has it"});
+  file.channels[0].finish.sheen = {1, 1, 1};
+  CHECK(one_material(file).warnings ==
+        std::vector<std::string>{
+            "materials become one: no KHR_materials_clearcoat and KHR_materials_sheen as the "
+            "largest part of the area has it; 25 % of the area has it otherwise"});
 
   file.channels[0].unlit = true;
   CHECK(one_material(file).unlit);

@@ -55,9 +55,15 @@ std::vector<std::string> disputed(const std::vector<MaterialFinish>& finishes) {
   return {names.begin(), names.end()};
 }
 
-std::string told(const std::string& what, double share) {
-  return "materials become one: " + what + " as the largest part of the area has it; " +
-         percent(1 - share) + " of the area has it otherwise";
+/// `had`: of `names`, those that the one material has.
+std::string told(std::vector<std::string> names, const std::vector<std::string>& had,
+                 double share) {
+  for (std::string& name : names)
+    if (std::ranges::find(had, name) == had.end()) name.insert(0, "no ");
+  const char* const as = had.empty() ? ", as the largest part of the area has none; "
+                                     : " as the largest part of the area has it; ";
+  return "materials become one: " + enumerated(names) + as + percent(1 - share) +
+         " of the area has it" + (had.empty() ? "" : " otherwise");
 }
 
 /// Faces without a material are opaque.
@@ -114,8 +120,11 @@ OneMaterial one_material(const MeshFile& file) {
   one.finish = finish;
   one.unlit = is_unlit;
   take_alpha(file, areas, one);
-  if (alike_lit < 1) one.warnings.push_back(told("KHR_materials_unlit", alike_lit));
-  if (alike < 1 && !one.unlit) one.warnings.push_back(told(enumerated(disputed(finishes)), alike));
+  const std::vector<std::string> unlit_name = {"KHR_materials_unlit"}, none;
+  if (alike_lit < 1)
+    one.warnings.push_back(told(unlit_name, is_unlit ? unlit_name : none, alike_lit));
+  if (alike < 1 && !one.unlit)
+    one.warnings.push_back(told(disputed(finishes), extensions_of(finish), alike));
   return one;
 }
 
