@@ -95,6 +95,36 @@ TEST_CASE("export: levels of detail, as files or in one") {
   CHECK_FALSE(bytes_of(egg.folder / "n1.glb").empty());
 }
 
+TEST_CASE("export: how far each level is from the mesh is told, in the report and in the files") {
+  const Egg egg;
+  const std::string report = egg.folder / "r.json";
+  const auto extras = [&](const char* name) {
+    return json_of(bytes_of(egg.folder / name))["asset"]["extras"]["sphparam"];
+  };
+  const Ended files = egg.run("a.glb", {"--lods", "2", "--json", report});
+  REQUIRE(files.code == 0);
+  const Json levels = Json::parse(bytes_of(report))["levels"];
+  CHECK_FALSE(levels[0].contains("rms"));
+  for (std::size_t i = 1; i < 3; ++i) {
+    const double rms = levels[i]["rms"], max = levels[i]["max"];
+    CHECK(rms > 0);
+    CHECK(rms < max);
+    CHECK(max < 1);
+    const std::string level = std::to_string(i);
+    CHECK_THAT(files.out + files.err, Contains("  level " + level + ", "));
+    const Json own = extras(("a_lod" + level + ".glb").c_str());
+    CHECK(std::stod(own["level_" + level + "_rms"].get<std::string>()) == Approx(rms));
+    CHECK(std::stod(own["level_" + level + "_max"].get<std::string>()) == Approx(max));
+  }
+  CHECK(levels[1]["rms"] < levels[2]["rms"]);
+  CHECK_FALSE(extras("a.glb").contains("level_1_rms"));
+  REQUIRE(egg.run("one.glb", {"--lods", "2", "--lod", "msft"}).code == 0);
+  for (const char* level : {"1", "2"})
+    CHECK(extras("one.glb")["level_" + std::string(level) + "_rms"] ==
+          extras(("a_lod" + std::string(level) + ".glb")
+                     .c_str())["level_" + std::string(level) + "_rms"]);
+}
+
 TEST_CASE("export: levels end where none is coarser, which is told, and none is there twice") {
   const Egg egg;
   const std::string report = egg.folder / "r.json";

@@ -50,6 +50,14 @@ TEST_CASE("levels of detail: of any mesh, each with a quarter of the vertices, o
     CHECK(mesh.provenance() == mapped.provenance());
     finer = vertices;
   }
+  const std::vector<LevelOfDetail> measured =
+      levels_of_detail(mapped, std::vector<GridSpec>{parse_grid("ico:3"), parse_grid("ico:2")});
+  for (const LevelOfDetail& level : measured) {
+    const LevelOfDetail::Distance distance = distance_of_level(mapped, level.mesh);
+    CHECK(distance.rms == level.distance->rms);
+    CHECK(distance.max == level.distance->max);
+  }
+  CHECK(distance_of_level(mapped, coarser[1]).rms > distance_of_level(mapped, coarser[0]).rms);
   CHECK(quartered_meshes(mapped, 0).empty());
   const std::vector<MappedMesh> all = quartered_meshes(mapped, 8);
   REQUIRE(all.size() == 4);

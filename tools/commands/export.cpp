@@ -17,6 +17,7 @@
 #include "io/attributes/appearance.h"
 #include "number_text.h"
 #include "sphparam/io/paths.h"
+#include "sphparam/measure/measurable.h"
 #include "sphparam/records/export_record.h"
 #include "sphparam/remesh/levels_of_detail.h"
 
@@ -112,6 +113,7 @@ class Exporter {
     Words told = {"  " + words_of(record_.outputs, image_bytes_)};
     if (options_.look.textures != TextureFormat::Given)
       told.push_back("  " + words_of(record_.textures));
+    for (const std::string& line : level_lines(record_)) told.push_back("  " + line);
     return told;
   }
 
@@ -136,13 +138,34 @@ class Exporter {
                           .threads = options_.threads,
                           .progress = options_.progress});
     note_levels(mapped, coarser);
+    measure(mapped, coarser);
     if (arguments_.lod_style == LodStyle::Msft) std::swap(options_.coarser, coarser);
-    add_asset_at(0, make_asset(mapped, look, options_));
+    Asset finest = make_asset(mapped, look, options_);
+    for (std::size_t level = 1; level < finest.levels.size(); ++level) add_error(finest, level);
+    add_asset_at(0, finest);
     if (!coarser.empty() && look.normals_given) session_.console.warning(normals_left_out);
     const Look coarse_look = without_given_normals(look);
     int level = 0;
-    for (const MappedMesh& coarse : coarser)
-      add_asset_at(++level, make_asset(coarse, coarse_look, options_));
+    for (const MappedMesh& coarse : coarser) {
+      Asset asset = make_asset(coarse, coarse_look, options_);
+      add_error(asset, static_cast<std::size_t>(++level));
+      add_asset_at(level, asset);
+    }
+  }
+
+  void measure(const MappedMesh& mapped, const std::vector<MappedMesh>& coarser) {
+    record_.diagonal = diagonal_of(mapped.mesh().positions);
+    for (const MappedMesh& mesh : coarser)
+      record_.distances.push_back(
+          distance_of_level(mapped, mesh, options_.threads, options_.progress));
+  }
+
+  /// Into the extras, by the names that `remesh` has.
+  void add_error(Asset& asset, std::size_t level) const {
+    const std::string name = "level_" + std::to_string(level);
+    const auto& [rms, max] = record_.distances.at(level - 1);
+    asset.extras.emplace_back(name + "_rms", short_number(rms, 6));
+    asset.extras.emplace_back(name + "_max", short_number(max, 6));
   }
 
   void note_levels(const MappedMesh& mapped, const std::vector<MappedMesh>& coarser) {

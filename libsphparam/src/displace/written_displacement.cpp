@@ -109,10 +109,11 @@ RebuildProof prove(PendingFiles& files, const std::string& path, const MappedMes
       cuts_for(base, vertices_to_rebuild(heights.image, source.mesh().vertex_count()));
   const Rebuilt rebuilt = heights.rebuild(base, heights.settled_cuts(base, least), options.threads);
   const auto error_of = [&](const TriangleMesh& mesh) {
-    const SurfaceDistance distance = distance_on_grid(source.mesh(), mesh, control.name(),
-                                                      {.samples = distance_samples(control.faces()),
-                                                       .threads = options.threads,
-                                                       .progress = options.progress});
+    const SurfaceDistance distance =
+        distance_on_grid(source.mesh(), mesh, control.name(),
+                         {.samples = distance_samples(control.faces().count()),
+                          .threads = options.threads,
+                          .progress = options.progress});
     return RebuildProof::Error{distance.rms(), distance.max()};
   };
   RebuildProof proof;

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "number_text.h"
+#include "records/error_words.h"
 #include "records/json_parts.h"
 #include "sphparam/io/paths.h"
 #include "sphparam/measure/measurable.h"
@@ -20,12 +21,6 @@ const std::string& output_of(const RemeshRecord& record, size_t level) {
 
 double source_diagonal(const RemeshRecord& record) {
   return diagonal_of(record.source.mesh().positions);
-}
-
-/// "RMS 0.1 %, at most 0.5 % of the diagonal"
-std::string error_words(double rms, double max, double diagonal) {
-  return "RMS " + percent(rms / diagonal) + ", at most " + percent(max / diagonal) +
-         " of the diagonal";
 }
 
 std::string fit_line(const SubdivisionFit& fit, double diagonal) {

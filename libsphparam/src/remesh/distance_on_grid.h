@@ -5,16 +5,15 @@
 #include <string>
 
 #include "sphparam/errors.h"
-#include "sphparam/io/polygons.h"
 #include "sphparam/measure/surface_distance.h"
 #include "sphparam/mesh/triangle_mesh.h"
 
 namespace sphparam {
 
 /// Samples of each side: enough for three digits, and no more than 16² on a face of the grid.
-inline std::int64_t distance_samples(const Polygons& grid) {
+inline std::int64_t distance_samples(std::int64_t faces) {
   constexpr std::int64_t enough = 250'000, of_a_face = 16 * 16;
-  return std::min<std::int64_t>(enough, of_a_face * grid.count());
+  return std::min<std::int64_t>(enough, of_a_face * faces);
 }
 
 /// How far a mesh made on a grid is from its source. Throws: UnmeasurableMesh where nothing of the

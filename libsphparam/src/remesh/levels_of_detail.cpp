@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "number_text.h"
 #include "option_domain.h"
 #include "remesh/distance_on_grid.h"
 #include "remesh/shown_limit.h"
@@ -44,16 +45,20 @@ LevelOfDetail make_level(const MappedMesh& source, SphereGrid grid, const LevelO
   return level;
 }
 
+LevelOfDetail::Distance distance_between(const TriangleMesh& source, const TriangleMesh& shown,
+                                         const std::string& grid, const DistanceOptions& options) {
+  const SurfaceDistance distance = distance_on_grid(source, shown, grid, options);
+  return {distance.rms(), distance.max()};
+}
+
 void measure(LevelOfDetail& level, const MappedMesh& source, const LevelOptions& options) {
   // A fit has no holes.
   const TriangleMesh& from = level.fit ? source.mesh() : source.surface();
   const TriangleMesh shown = level.fit ? shown_mesh(level, options.threads) : level.mesh.surface();
-  const SurfaceDistance distance =
-      distance_on_grid(from, shown, level.mesh.name(),
-                       {.samples = distance_samples(level.mesh.faces()),
-                        .threads = options.threads,
-                        .progress = options.progress});
-  level.distance = {distance.rms(), distance.max()};
+  level.distance = distance_between(from, shown, level.mesh.name(),
+                                    {.samples = distance_samples(level.mesh.faces().count()),
+                                     .threads = options.threads,
+                                     .progress = options.progress});
 }
 
 void add_levels(std::vector<LevelOfDetail>& levels, const MappedMesh& source,
@@ -121,6 +126,15 @@ std::vector<MappedMesh> quartered_meshes(const MappedMesh& source, int count,
                         options.threads);
   }
   return meshes;
+}
+
+LevelOfDetail::Distance distance_of_level(const MappedMesh& source, const MappedMesh& level,
+                                          int threads, const Progress& progress) {
+  require_measurable(source.mesh());
+  const Face faces = level.mesh().face_count();
+  return distance_between(
+      source.surface(), level.surface(), counted(faces, "triangle"),
+      {.samples = distance_samples(faces), .threads = threads, .progress = progress});
 }
 
 TriangleMesh shown_mesh(const LevelOfDetail& level, int threads) {

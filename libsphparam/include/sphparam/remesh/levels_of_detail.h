@@ -62,6 +62,12 @@ std::vector<GridSpec> coarser_grids(const GridSpec& finest, int count);
 std::vector<MappedMesh> quartered_meshes(const MappedMesh& source, int count,
                                          const LevelOptions& options = {});
 
+/// How far a level is from the mesh that it was made of, both ways, as `levels_of_detail` measures
+/// it: of what is surface. Throws: UnmeasurableMesh where that means nothing; Cancelled.
+/// Cost: some 0.5 s.
+LevelOfDetail::Distance distance_of_level(const MappedMesh& source, const MappedMesh& level,
+                                          int threads = 0, const Progress& progress = {});
+
 /// What a level shows and is measured by: of its limit surface, where one is fitted, a fine mesh;
 /// else its triangles.
 TriangleMesh shown_mesh(const LevelOfDetail& level, int threads = 0);
