@@ -2,6 +2,7 @@
 
 import copy
 import inspect
+import json
 import os
 import pickle
 import shutil
@@ -201,8 +202,31 @@ def test_an_image_that_does_not_fit_is_refused(mapped, low, tmp_path, monkeypatc
     with pytest.raises(ValueError, match="baked in the convention gis, and would be shown in sphparam"):
         mapped.export("a.glb", texture="gis.png")
     mapped.export("gis.glb", texture="gis.png", convention="gis")
+    mapped.bake_files({"normal-object": "o.png"}, size=32)
+    with pytest.raises(ValueError, match="o.png shows normal-object, and a normal map is of normal-tangent"):
+        mapped.export("a.glb", normal_map="o.png")
+    mapped.bake_files({"normal-tangent": "down.png"}, size=32, normal_y_down=True)
+    with pytest.raises(ValueError, match=r"\+Y down"):
+        mapped.export("a.glb", normal_map="down.png")
     low.export("a.glb", normal_map=normals, texture=plain)
     sp.map(V, F).export("b.glb", normal_map=mapped.bake("normal-tangent", size=32))  # the same mesh and map
+
+
+def test_alpha_of_strangers_is_seen_through_and_what_was_baked_says_it_itself(mapped, tmp_path):
+    def alpha_mode(texture):
+        mapped.export(tmp_path / "a.gltf", texture=texture)
+        return json.loads((tmp_path / "a.gltf").read_text())["materials"][0].get("alphaMode", "OPAQUE")
+
+    colours = np.full((16, 32, 4), 0.5)
+    assert alpha_mode(colours) == "BLEND"
+    colours[..., 3] = np.arange(32) > 4
+    assert alpha_mode(colours) == "MASK"
+    colours[..., 3] = 1
+    assert alpha_mode(colours) == "OPAQUE"
+    holed = sp.map(V, F[6:], repair=dict(keep_holes=True), values={"color": np.full((len(V), 3), 0.5)})
+    baked = holed.bake("vcolor", size=32)
+    assert baked.shape[2] == 4 and baked[..., 3].min() < 1
+    assert alpha_mode(baked) == "OPAQUE"
 
 
 # Errors that say what to type.

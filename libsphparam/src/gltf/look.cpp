@@ -13,10 +13,12 @@
 #include "gltf/export_domain.h"
 #include "gltf/export_names.h"
 #include "gltf/material_images.h"
+#include "gltf/normal_image.h"
 #include "gltf/painted_surfaces.h"
 #include "gltf/texture_format.h"
 #include "gltf/variant_images.h"
 #include "io/attributes/appearance.h"
+#include "io/attributes/corner_colours.h"
 #include "io/attributes/finish_terms.h"
 #include "io/attributes/one_material.h"
 #include "io/attributes/shading_normals.h"
@@ -60,9 +62,11 @@ double number_in(std::string_view text, double otherwise) {
 }
 
 /// How an image of the base colour says that its alpha and its surfaces are seen.
-void take_sides(Material& material, const ImageTexts& texts) {
+void take_sides(Material& material, const GivenImage& image) {
   constexpr std::string_view mask = "mask ";
+  const ImageTexts& texts = image.texts;
   const std::string_view alpha = baked_text(texts, alpha_text);
+  if (baked_text(texts, "sphparam:map").empty()) material.alpha_mode = alpha_mode_of(image.pixels);
   if (alpha == "blend") material.alpha_mode = AlphaMode::Blend;
   if (alpha.starts_with(mask)) {
     material.alpha_mode = AlphaMode::Mask;
@@ -107,9 +111,10 @@ class LookMaker {
     const BakedImages given = images_given(wanted_);
     choose_base_colour(given);
     if (given.base_colour.empty()) add_face_colour_loss(look_.warnings, mapped_.file());
-    if (!material_.unlit) {
-      material_.normal = add_file(given.normal, "normal");
-      look_.normals_given = material_.normal >= 0;
+    if (material_.unlit) {
+      tell_unlit(given);
+    } else {
+      add_normals(given.normal);
       material_.metallic_roughness = add_file(given.orm, "orm");
       material_.occlusion = given.occlusion.empty() ? material_.metallic_roughness
                                                     : add_file(given.occlusion, "occlusion");
@@ -125,35 +130,59 @@ class LookMaker {
   }
 
  private:
+  /// What the mesh's own materials do not show either is no loss.
+  void tell_unlit(const BakedImages& given) {
+    if (baked_unlit_) return;
+    std::vector<std::string> words;
+    for (const auto& [path, what] : {std::pair(&given.normal, "normals"),
+                                     {&given.occlusion, "occlusion"},
+                                     {&given.orm, "roughness and metallic"},
+                                     {&given.emissive, "emission"}})
+      if (!path->empty()) words.push_back(display_name(*path) + " (" + what + ")");
+    if (!words.empty())
+      add_loss(look_.warnings, enumerated(words) + ": without light, colours alone are shown");
+  }
+
   int add(AssetImage image) {
     look_.images.push_back(std::move(image));
     return static_cast<int>(look_.images.size()) - 1;
   }
 
-  void add_emission(const std::string& path) {
-    ImageTexts texts;
-    material_.emissive = add_file(path, "emissive", texts);
-    material_.emissive_strength = number_in(baked_text(texts, strength_text), 1);
-  }
-
   int add_file(const std::string& path, const std::string& name) {
-    ImageTexts texts;
-    return add_file(path, name, texts);
+    return path.empty() ? -1 : add(read(path, name).asset);
   }
 
-  int add_file(const std::string& path, const std::string& name, ImageTexts& texts) {
-    if (path.empty()) return -1;
-    AssetImage image = read_asset_image(path, name, texts, look_.warnings);
-    const std::optional<int> baked = pole_wedges_of(texts);
+  void add_emission(const std::string& path) {
+    if (path.empty()) return;
+    GivenImage given = read(path, "emissive");
+    material_.emissive = add(std::move(given.asset));
+    material_.emissive_strength = number_in(baked_text(given.texts, strength_text), 1);
+  }
+
+  void add_normals(const std::string& path) {
+    if (path.empty()) return;
+    GivenImage given = read(path, "normal");
+    require_tangent_normals(path, given);
+    std::string warning =
+        warning_of_other_mesh(path, given.texts, {source_name(mapped_, options_), mapped_.name()});
+    if (!warning.empty()) look_.warnings.push_back(std::move(warning));
+    material_.normal = add(std::move(given.asset));
+    look_.normals_given = true;
+  }
+
+  /// Refuses what was baked for another chart.
+  GivenImage read(const std::string& path, const std::string& name) {
+    GivenImage given = read_asset_image(path, name, look_.warnings);
+    const std::optional<int> baked = pole_wedges_of(given.texts);
     if (baked && *baked != options_.refine_poles) throw ImageOfOtherChart(path, *baked);
-    const std::optional<Convention> convention = baked_convention_of(texts);
+    const std::optional<Convention> convention = baked_convention_of(given.texts);
     if (convention && *convention != options_.convention) {
       const std::string baked_in = info_of(*convention).name;
       throw LookError(display_name(path) + " is baked in the convention " + baked_in +
                       ", and would be shown in " + info_of(options_.convention).name +
                       ": --convention " + baked_in + " shows it as it is");
     }
-    return add(std::move(image));
+    return given;
   }
 
   void choose_base_colour(const BakedImages& given) {
@@ -161,20 +190,23 @@ class LookMaker {
     material_.unlit = wanted_.unlit;
     material_.name = "baked";
     if (!given.base_colour.empty()) {
-      ImageTexts texts;
-      material_.base_colour = add_file(given.base_colour, "basecolor", texts);
-      take_sides(material_, texts);
+      GivenImage image = read(given.base_colour, "basecolor");
+      material_.base_colour = add(std::move(image.asset));
+      take_sides(material_, image);
       // Who names an image that light falls on wants light.
       const bool lit = !wanted_.normal.empty() || !wanted_.occlusion.empty() ||
                        !wanted_.orm.empty() || !wanted_.emissive.empty() || wanted_.tangents;
-      material_.unlit = material_.unlit || (!lit && baked_text(texts, unlit_text) == "1");
+      baked_unlit_ = baked_text(image.texts, unlit_text) == "1";
+      material_.unlit = material_.unlit || (!lit && baked_unlit_);
       return;
     }
     textures_ = read_textures(file, options_.threads);
     if (!textures_.empty()) take_one_material(given);
-    // Vertex colours would tint all variants: where there are some, they are baked too.
-    if (!textures_.empty() ||
-        (has_colours(file) && (wanted_.bake_colours || !wanted_.variants.empty()))) {
+    // Vertex colours would tint all variants: where there are some, they are baked too, as are
+    // those of vertices that have several.
+    const bool baked_colours =
+        wanted_.bake_colours || !wanted_.variants.empty() || corner_colours(file);
+    if (!textures_.empty() || (has_colours(file) && baked_colours)) {
       material_.base_colour = add(baked("baked"));
     } else if (has_colours(file)) {
       material_.name = "colours";
@@ -254,6 +286,7 @@ class LookMaker {
   const LookOptions& wanted_;
   Look look_;
   Material material_;
+  bool baked_unlit_ = false;  // what the base colour says
   std::vector<SourceTexture> textures_;
   std::vector<PaintedSurface> surfaces_;
 };

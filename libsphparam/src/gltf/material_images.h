@@ -8,11 +8,24 @@
 
 namespace sphparam {
 
-/// An image file: PNG, JPEG and WebP as they are, after they were decoded once; TIFF, BMP and TGA
-/// become PNG. Throws: ReadError, ImageError; also for EXR, whose numbers no viewer shows. `texts`
-/// gets the texts of its metadata, `warnings` one where it is not twice as wide as high.
-AssetImage read_asset_image(const std::string& path, const std::string& name, ImageTexts& texts,
+/// An image file as it is given, and as an asset has it.
+struct GivenImage {
+  AssetImage asset;
+  Image pixels;
+  ImageTexts texts;  // of its metadata
+};
+
+/// PNG, WebP and such JPEG as all viewers show stay as they are, after they were decoded once;
+/// other JPEG, TIFF, BMP and TGA become PNG. Throws: ReadError, ImageError; also for EXR, whose
+/// numbers no viewer shows, and for a JPEG that is cut off. `warnings` gets one where it is not
+/// twice as wide as high, and where a JPEG does not stay.
+GivenImage read_asset_image(const std::string& path, const std::string& name,
                             std::vector<std::string>& warnings);
+
+/// How alpha is meant in an image that does not say it, as those of strangers: as a mask where it
+/// is 0 or 1 everywhere, else blended. Opaque where there is none, where it is 1 everywhere, and
+/// where it is 0 everywhere, which many programs write without meaning it.
+AlphaMode alpha_mode_of(const Image& image);
 
 /// Images of a folder by the names that `bake` gives them: NAME.png or anything-NAME, -_ before it.
 struct BakedImages {

@@ -47,8 +47,8 @@ def _colours(image: Any, name: str) -> Bytes:
     return as_bytes(table)
 
 
-def png_of(colours: Bytes) -> bytes:
-    """The bytes of a PNG of an array (H, W, 3) or (H, W, 4) of bytes."""
+def png_of(colours: Bytes, field: str = "") -> bytes:
+    """The bytes of a PNG of an array (H, W, 3) or (H, W, 4) of bytes, and in it what it shows."""
     height, width, channels = colours.shape
     rows = np.concatenate([np.zeros((height, 1), np.uint8), colours.reshape(height, -1)], axis=1)
 
@@ -58,7 +58,8 @@ def png_of(colours: Bytes) -> bytes:
 
     head = struct.pack(">IIBBBBB", width, height, 8, 6 if channels == 4 else 2, 0, 0, 0)
     body = zlib.compress(rows.tobytes(), 6)
-    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", body) + chunk(b"IEND", b"")
+    told = chunk(b"tEXt", b"sphparam:map\0" + field.encode()) if field else b""
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + told + chunk(b"IDAT", body) + chunk(b"IEND", b"")
 
 
 @contextmanager
@@ -77,5 +78,5 @@ def as_file(image: Optional[Any], name: str, convention: str, refine_poles: Opti
         with tempfile.TemporaryDirectory(prefix="sphparam-") as folder:
             path = os.path.join(folder, f"{name}.png")
             with open(path, "wb") as file:
-                file.write(png_of(colours))
+                file.write(png_of(colours, image.field if isinstance(image, BakedImage) else ""))
             yield path

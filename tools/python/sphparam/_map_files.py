@@ -95,7 +95,8 @@ class MapFiles(MapFacts):
             Equirectangular images, twice as wide as high: files, or arrays (H, W) of greys or (H, W, 3 or 4),
             uint8 or floats from 0 to 1, in sRGB; or what :meth:`bake` made, which is turned into colours.
             That must be of the same ``convention`` and ``refine_poles``, a normal map ``"normal-tangent"``
-            and for this mesh.
+            and for this mesh; of files their metadata says so. Alpha of strangers' textures that is not 1
+            everywhere is a mask where it is 0 or 1, else blended.
         images
             A folder of the program's ``bake``: its base colour, normal map and occlusion.
         variants

@@ -75,7 +75,7 @@ struct ExportOptions {
 const std::vector<std::string>& variant_names();
 
 /// A look that the mesh cannot have: a variant that nobody knows, a texture of its own without
-/// texture coordinates. Says which.
+/// texture coordinates, a normal map that is none of glTF. Says which.
 class LookError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -107,8 +107,10 @@ struct Look {
 };
 
 /// Images that `bake` made say in their metadata how alpha is meant, whether surfaces are seen from
-/// both sides, without light, with which finish, and how strong emission is. Occlusion is that of
-/// `orm` where no other is given.
+/// both sides, without light, with which finish, and how strong emission is; alpha of others that
+/// is used is a mask where it is 0 or 1 everywhere, else blended. Normal maps that say of
+/// themselves that they show other things or have y down are refused, those for a mesh of another
+/// name told. Occlusion is that of `orm` where no other is given.
 ///
 /// What is seen: the images that are named; else the mesh's own textures, baked; else the colours
 /// of its vertices; else white under a normal or occlusion map, a checker without. The variants

@@ -1,0 +1,213 @@
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+
+#include "gltf/image_kind.h"
+#include "gltf/jpeg_head.h"
+#include "gltf/material_images.h"
+#include "gltf/normal_image.h"
+#include "image/image_codec.h"
+#include "io/files/base64.h"
+#include "sphparam/bake/bake.h"
+#include "sphparam/gltf/export.h"
+#include "support/test_meshes.h"
+
+/// Images that are given to an export.
+namespace sphparam::tests {
+
+namespace {
+
+using Catch::Contains;
+using Words = std::vector<std::string>;
+using namespace std::string_literals;
+using namespace std::string_view_literals;
+
+struct Place {
+  std::filesystem::path folder =
+      std::filesystem::temp_directory_path() /
+      ("sphparam_images_" + std::to_string(reinterpret_cast<std::uintptr_t>(this)));
+
+  Place() { std::filesystem::create_directories(folder); }
+  ~Place() { std::filesystem::remove_all(folder); }
+  Place(const Place&) = delete;
+  Place& operator=(const Place&) = delete;
+
+  std::string operator/(const std::string& name) const { return (folder / name).string(); }
+};
+
+void write(const std::string& path, std::string_view bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+/// 4 × 2 texels of orange, in four channels.
+std::string cmyk_jpeg() {
+  std::string bytes;
+  Base64Reader text(
+      "/9j/7gAOQWRvYmUAZAAAAAAA/9sAQwAQCwwODAoQDg0OEhEQExgoGhgWFhgxIyUdKDozPTw5Mzg3QEhcTkBEV0U3OFBt"
+      "UVdfYmdoZz5NcXlwZHhcZWdj/8AAFAgAAgAEBEMRAE0RAFkRAEsRAP/EABUAAQEAAAAAAAAAAAAAAAAAAAcB/8QAFBAB"
+      "AAAAAAAAAAAAAAAAAAAAAP/aAA4EQwBNAFkASwAAPwBAQfkB/9k=");
+  REQUIRE(text.read(text.most_remaining() - 3 - 1, bytes));
+  return bytes;
+}
+
+/// A JPEG of three channels, as we write it.
+std::string common_jpeg() {
+  const std::vector<char> bytes = encode_image(Image(16, 8, 3), ImageFormat::Jpeg);
+  return {bytes.begin(), bytes.end()};
+}
+
+Image with_alphas(std::initializer_list<float> alphas) {
+  Image image(static_cast<int>(alphas.size()), 1, 4);
+  for (std::size_t i = 0; i < alphas.size(); ++i) image.pixels[4 * i + 3] = alphas.begin()[i];
+  return image;
+}
+
+MappedMesh ball(int level, const std::string& name) {
+  MeshFile file;
+  file.mesh = icosphere(level);
+  const SphereMap map{file.mesh.positions};
+  return MappedMesh({.file = std::move(file), .map = map, .name = name});
+}
+
+Look with_normals(const MappedMesh& mesh, const std::string& path) {
+  return make_look(mesh, {.look = {.normal = path, .image_width = 64}});
+}
+
+}  // namespace
+
+TEST_CASE("jpeg_head: what is not common, also behind a thumbnail, and what is cut off") {
+  const std::string jpeg = common_jpeg();
+  const JpegHead head = jpeg_head(jpeg);
+  CHECK(head.is_common());
+  CHECK(head.is_whole);
+  CHECK(head.channels == 3);
+  CHECK_FALSE(jpeg_head(jpeg.substr(0, jpeg.size() - 2)).is_whole);
+  CHECK_FALSE(jpeg_head(cmyk_jpeg()).is_common());
+  CHECK(jpeg_head(cmyk_jpeg()).channels == 4);
+
+  const auto frame = [](char process, char bits, char channels) {
+    return "\xFF"s + process + "\0\x0B"s + bits + "\0\x02\0\x04"s + channels + "\xFF\xD9"s;
+  };
+  const std::string start = "\xFF\xD8\xFF\xE1\0\x06\xFF\xC0\xFF\xD9\xFF"s;  // a segment, filling
+  for (const auto& [process, bits, channels, common] : {std::tuple('\xC0', 8, 1, true),
+                                                        {'\xC2', 8, 3, true},
+                                                        {'\xC1', 8, 3, false},
+                                                        {'\xC3', 8, 3, false},
+                                                        {'\xC9', 8, 3, false},
+                                                        {'\xC1', 12, 1, false},
+                                                        {'\xC0', 8, 2, false}}) {
+    const JpegHead read =
+        jpeg_head(start + frame(process, static_cast<char>(bits), static_cast<char>(channels)));
+    CHECK(read.process == static_cast<unsigned char>(process) - 0xC0);
+    CHECK(read.bits == bits);
+    CHECK(read.channels == channels);
+    CHECK(read.is_common() == common);
+    CHECK(read.is_whole);
+  }
+  for (std::size_t size = 0; size < jpeg.size(); ++size)
+    CHECK_FALSE(jpeg_head(jpeg.substr(0, size)).is_whole);
+  CHECK_FALSE(jpeg_head("no image").is_common());
+}
+
+TEST_CASE("asset images: a JPEG of CMYK becomes PNG and is told, one that is cut off is refused") {
+  const Place place;
+  Words warnings;
+  write(place / "cmyk.jpg", cmyk_jpeg());
+  const GivenImage cmyk = read_asset_image(place / "cmyk.jpg", "basecolor", warnings);
+  CHECK(image_kind(cmyk.asset.bytes).name() == "png"sv);
+  REQUIRE(cmyk.pixels.channels == 3);
+  CHECK(cmyk.pixels.pixels[0] > 0.95);
+  CHECK(cmyk.pixels.pixels[1] == Approx(0.5).margin(0.03));
+  CHECK(cmyk.pixels.pixels[2] < 0.05);
+  CHECK(warnings == Words{"cmyk.jpg: becomes PNG, for glTF has no JPEG of 4 channels (CMYK)"});
+
+  warnings.clear();
+  const std::string jpeg = common_jpeg();
+  write(place / "a.png", jpeg);  // whatever it is called
+  CHECK(read_asset_image(place / "a.png", "basecolor", warnings).asset.bytes == jpeg);
+  CHECK(warnings.empty());
+  write(place / "cut.jpg", jpeg.substr(0, jpeg.size() - 2));
+  CHECK_THROWS_WITH(read_asset_image(place / "cut.jpg", "basecolor", warnings),
+                    Contains("cut.jpg: is cut off"));
+  write_image(place / "a.exr", Image(4, 2, 3), {.sample_type = SampleType::Float});
+  CHECK_THROWS_WITH(read_asset_image(place / "a.exr", "basecolor", warnings),
+                    Contains("glTF has no EXR: save it as .png"));
+}
+
+TEST_CASE("asset images: alpha of strangers is a mask, blended, or none") {
+  CHECK(alpha_mode_of(Image(4, 2, 3)) == AlphaMode::Opaque);
+  CHECK(alpha_mode_of(with_alphas({1, 1})) == AlphaMode::Opaque);
+  CHECK(alpha_mode_of(with_alphas({0, 0})) == AlphaMode::Opaque);  // as many programs leave it
+  CHECK(alpha_mode_of(with_alphas({0, 1})) == AlphaMode::Mask);
+  CHECK(alpha_mode_of(with_alphas({0, 0.5F, 1})) == AlphaMode::Blend);
+
+  const Place place;
+  const auto mode = [&](const ImageWriteOptions& metadata) {
+    write_image(place / "a.png", with_alphas({0.5F, 1}), metadata);
+    const ExportOptions options{.look = {.texture = place / "a.png"}};
+    return make_look(ball(1, "ball.ply"), options).materials.front().alpha_mode;
+  };
+  CHECK(mode({}) == AlphaMode::Blend);
+  // What was baked says it itself.
+  CHECK(mode({.metadata = {{"sphparam:map", "basecolor"}}}) == AlphaMode::Opaque);
+}
+
+TEST_CASE("asset images: what says that it is no normal map of glTF is refused") {
+  const Place place;
+  const MappedMesh mesh = ball(2, "ball.ply");
+  const auto bake_to = [&](const char* field, const char* name, bool down) {
+    BakeSettings settings{.width = 64};
+    settings.fields.normal_y_down = down;
+    bake(mesh, {{field, place / name}}, settings);
+    return place / name;
+  };
+  CHECK(with_normals(mesh, bake_to("normal-tangent", "n.png", false)).warnings.empty());
+  CHECK_THROWS_AS(with_normals(mesh, bake_to("normal-object", "o.png", false)), LookError);
+  CHECK_THROWS_WITH(with_normals(mesh, place / "o.png"),
+                    Contains("o.png shows normal-object") && Contains("--map normal-tangent"));
+  CHECK_THROWS_AS(with_normals(mesh, bake_to("normal-tangent", "d.png", true)), LookError);
+  CHECK_THROWS_WITH(with_normals(mesh, place / "d.png"),
+                    Contains("+Y down (DirectX)") && Contains("--normal-y gl"));
+  write_image(place / "grey.png", Image(64, 32, 1));
+  CHECK_THROWS_WITH(with_normals(mesh, place / "grey.png"),
+                    Contains("grey.png has 1 channel, and a normal map has x, y and z"));
+  write_image(place / "of_strangers.png", Image(64, 32, 3));
+  CHECK(with_normals(mesh, place / "of_strangers.png").normals_given);
+}
+
+TEST_CASE("asset images: a normal map that was baked for another mesh is told") {
+  const Place place;
+  const MappedMesh fine = ball(3, "fine.sph.ply"), low = ball(2, "low.ply");
+  bake(fine, {{"normal-tangent", place / "own.png"}}, {.width = 64, .source_name = "fine.glb"});
+  BakeSettings settings{.width = 64, .source_name = "fine.glb"};
+  settings.target = low;
+  bake(fine, {{"normal-tangent", place / "low.png"}}, settings);
+  CHECK(with_normals(fine, place / "own.png").warnings.empty());
+  CHECK(with_normals(low, place / "low.png").warnings.empty());
+  CHECK(with_normals(low, place / "own.png").warnings ==
+        Words{"own.png: baked for fine.glb, not for low.ply: light falls wrong where that is "
+              "another mesh or has another map, as a normal map is of one"});
+  REQUIRE(with_normals(fine, place / "low.png").warnings.size() == 1);
+  CHECK_THAT(with_normals(fine, place / "low.png").warnings[0], Contains("baked for low.ply, "));
+}
+
+TEST_CASE("look: images that light falls on are told where no light is wanted") {
+  const Place place;
+  write_image(place / "a_basecolor.png", Image(4, 2, 3));
+  write_image(place / "a_normal-tangent.png", Image(4, 2, 3));
+  write_image(place / "a_emissive.png", Image(4, 2, 3));
+  ExportOptions options;
+  options.look.folder = place.folder.string();
+  CHECK(make_look(ball(1, "ball.ply"), options).warnings.empty());
+  options.look.unlit = true;
+  const Look look = make_look(ball(1, "ball.ply"), options);
+  CHECK(look.images.size() == 1);
+  CHECK(look.warnings ==
+        Words{"not carried: a_normal-tangent.png (normals) and a_emissive.png (emission): without "
+              "light, colours alone are shown"});
+  // A mesh without light has none to lose.
+  write_image(place / "a_basecolor.png", Image(4, 2, 3), {.metadata = {{"sphparam:unlit", "1"}}});
+  CHECK(make_look(ball(1, "ball.ply"), options).warnings.empty());
+}
+
+}  // namespace sphparam::tests
